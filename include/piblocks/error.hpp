@@ -1,0 +1,78 @@
+// Every failure of the library is one of these exceptions.
+// In: the operation that failed, its object and the cause. Out: one line that names all three.
+// Library code never prints and never exits; the command line alone turns these into exit codes.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace piblocks {
+
+/// Base of every exception the library throws on purpose.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What was asked for cannot be done as asked: a value out of range, a scene that contradicts
+/// itself, an output that cannot be opened. Nothing has been written.
+class UsageError : public Error {
+ public:
+  explicit UsageError(const std::string& problem) : UsageError(std::vector{problem}) {}
+  /// @param problems at least one; each is a line of its own in what().
+  explicit UsageError(std::vector<std::string> problems)
+      : Error(join(problems)), problems_(std::move(problems)) {}
+
+  const std::vector<std::string>& problems() const noexcept { return problems_; }
+
+ private:
+  static std::string join(const std::vector<std::string>& problems) {
+    std::string text;
+    for (const std::string& problem : problems) {
+      if (!text.empty()) text += '\n';
+      text += problem;
+    }
+    return text;
+  }
+
+  std::vector<std::string> problems_;
+};
+
+/// A scene file or scene value is invalid; problems() lists everything that is wrong with it.
+class SceneError : public UsageError {
+ public:
+  using UsageError::UsageError;
+};
+
+/// The physics has no answer: a step limit was reached or a number left its range.
+class SimulationError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Painting failed: Cairo or FreeType reported an error.
+class DrawError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Encoding or muxing failed: a codec library reported an error.
+class MediaError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Reading or writing a file failed after it had been opened.
+class IoError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// The work was stopped on request, by a signal for example.
+class Interrupted : public Error {
+ public:
+  using Error::Error;
+};
+
+}  // namespace piblocks

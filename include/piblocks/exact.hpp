@@ -1,0 +1,46 @@
+// Exact numbers: what a user writes is what is computed with.
+// In: text such as "100^7", "1/3", "-2.5e-3". Out: GMP integers and rationals, never rounded.
+// Rounding to double happens once, at the border to floating point, by to_double().
+#pragma once
+
+#include <gmpxx.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace piblocks {
+
+/// A count of collisions or an index into a collision log: exact at any size.
+using Integer = mpz_class;
+/// A mass, length, velocity or time as the user gave it, in lowest terms.
+using Rational = mpq_class;
+
+/// Longest numerator or denominator that parse_rational() accepts, in bits.
+inline constexpr std::int64_t kMaxRationalBits = 4'000'000;
+
+/// Reads VALUE, VALUE/VALUE or VALUE^EXPONENT where VALUE is a decimal number with optional sign,
+/// fraction and power of ten, and EXPONENT an integer; the two forms combine: "100^7/3".
+/// @throws UsageError saying what is wrong with the text, or that it is longer than the limit.
+Rational parse_rational(std::string_view text);
+
+/// The exact value meant by a double that a user wrote as a decimal: the shortest decimal that
+/// reads back as `value`, so that 0.1 is 1/10.
+/// @throws UsageError if value is not finite.
+Rational rational_from_decimal(double value);
+
+/// Nearest double; overflows to infinity, underflows to zero.
+double to_double(const Rational& value);
+
+/// Smallest integer >= value.
+Integer ceil(const Rational& value);
+/// Largest integer <= value.
+Integer floor(const Rational& value);
+
+/// base^exponent for exponent >= 0.
+Rational power(const Rational& base, unsigned long exponent);
+
+/// The integer with a comma between groups of three digits: 3,141,592.
+std::string with_thousands_separators(const Integer& value);
+
+}  // namespace piblocks

@@ -1,0 +1,27 @@
+// Pixels in memory, seen but not owned.
+// In: a canvas or a decoded file. Out: what every sink and every comparison reads.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace piblocks {
+
+/// Largest width or height of a frame, in pixels.
+inline constexpr int kMaxSide_px = 16384;
+/// Largest number of pixels in a frame: 256 MiB at four bytes each.
+inline constexpr std::int64_t kMaxFrame_px = 64LL * 1024 * 1024;
+
+/// A read-only view of opaque 8-bit sRGB pixels, rows from the top.
+/// A pixel is one native-endian 32-bit word 0xFFRRGGBB (bytes B, G, R, FF on little-endian).
+/// The memory belongs to whoever made the view and must outlive it.
+struct ImageView {
+  const std::uint8_t* data = nullptr;
+  int width_px = 0;
+  int height_px = 0;
+  std::ptrdiff_t stride_bytes = 0;
+
+  const std::uint8_t* row(int y) const noexcept { return data + y * stride_bytes; }
+};
+
+}  // namespace piblocks

@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+#include <mpfr.h>
+#include <piblocks/error.hpp>
+#include <piblocks/exact.hpp>
+
+#include <charconv>
+#include <cmath>
+
+namespace piblocks {
+namespace {
+
+constexpr double kBitsPerDigit = 3.3219280948873626;  // log2(10)
+
+[[noreturn]] void fail_too_long() {
+  throw UsageError(fmt::format("number is longer than {} bits", kMaxRationalBits));
+}
+
+/// Reads `text` from the left; every step consumes what it understood.
+class NumberReader {
+ public:
+  explicit NumberReader(std::string_view text) : rest_(text) {}
+
+  Rational quotient() {
+    Rational value = factor();
+    if (take('/')) {
+      const Rational divisor = factor();
+      if (divisor == 0) throw UsageError("division by zero");
+      value /= divisor;
+    }
+    if (!rest_.empty()) throw UsageError("not a number");
+    return value;
+  }
+
+ private:
+  bool take(char wanted) {
+    if (rest_.empty() || rest_.front() != wanted) return false;
+    rest_.remove_prefix(1);
+    return true;
+  }
+
+  bool take_sign() {
+    if (take('-')) return true;
+    take('+');
+    return false;
+  }
+
+  std::string_view digits() {
+    std::size_t length = 0;
+    while (length < rest_.size() && rest_[length] >= '0' && rest_[length] <= '9') ++length;
+    const std::string_view found = rest_.substr(0, length);
+    rest_.remove_prefix(length);
+    return found;
+  }
+
+  long exponent() {
+    const bool negative = take_sign();
+    const std::string_view text = digits();
+    if (text.empty()) throw UsageError("not a number");
+    long value = 0;
+    const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (result.ec != std::errc{} || value > kMaxRationalBits) fail_too_long();
+    return negative ? -value : value;
+  }
+
+  Rational factor() {
+    const Rational base = decimal();
+    if (!take('^')) return base;
+    const long n = exponent();
+    if (base == 0 && n < 0) throw UsageError("division by zero");
+    const Rational raised = power(base, static_cast<unsigned long>(std::labs(n)));
+    return n < 0 ? Rational(1 / raised) : raised;
+  }
+
+  Rational decimal() {
+    const bool negative = take_sign();
+    std::string mantissa(digits());
+    long scale = 0;
+    if (take('.')) {
+      const std::string_view fraction = digits();
+      mantissa += fraction;
+      scale = -static_cast<long>(fraction.size());
+    }
+    if (mantissa.empty()) throw UsageError("not a number");
+    if (take('e') || take('E')) scale += exponent();
+    const auto length = static_cast<double>(mantissa.size()) + std::fabs(double(scale));
+    if (length * kBitsPerDigit > double(kMaxRationalBits)) fail_too_long();
+
+    Rational value{Integer(mantissa, 10)};
+    const Rational ten_power = power(10, static_cast<unsigned long>(std::labs(scale)));
+    if (scale < 0) value /= ten_power;
+    if (scale > 0) value *= ten_power;
+    return negative ? Rational(-value) : value;
+  }
+
+  std::string_view rest_;
+};
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+}  // namespace
+
+Rational parse_rational(std::string_view text) { return NumberReader(trimmed(text)).quotient(); }
+
+Rational rational_from_decimal(double value) {
+  if (!std::isfinite(value)) throw UsageError("not a finite number");
+  return parse_rational(fmt::format("{}", value));
+}
+
+double to_double(const Rational& value) {
+  // 192 bits before the last rounding: the result is the nearest double unless the value lies
+  // within 2^-138 of its relative size from the middle of two doubles.
+  mpfr_t wide;
+  mpfr_init2(wide, 192);
+  mpfr_set_q(wide, value.get_mpq_t(), MPFR_RNDN);
+  const double nearest = mpfr_get_d(wide, MPFR_RNDN);
+  mpfr_clear(wide);
+  return nearest;
+}
+
+Integer ceil(const Rational& value) {
+  Integer result;
+  mpz_cdiv_q(result.get_mpz_t(), value.get_num_mpz_t(), value.get_den_mpz_t());
+  return result;
+}
+
+Integer floor(const Rational& value) {
+  Integer result;
+  mpz_fdiv_q(result.get_mpz_t(), value.get_num_mpz_t(), value.get_den_mpz_t());
+  return result;
+}
+
+Rational power(const Rational& base, unsigned long exponent) {
+  const std::size_t base_bits = std::max(mpz_sizeinbase(base.get_num_mpz_t(), 2),
+                                         mpz_sizeinbase(base.get_den_mpz_t(), 2));
+  const bool is_unit = base == 0 || abs(base) == 1;
+  if (!is_unit && double(base_bits) * double(exponent) > double(kMaxRationalBits)) fail_too_long();
+  Rational result;
+  mpz_pow_ui(result.get_num_mpz_t(), base.get_num_mpz_t(), exponent);
+  mpz_pow_ui(result.get_den_mpz_t(), base.get_den_mpz_t(), exponent);
+  return result;  // powers of coprime numbers are coprime: still in lowest terms
+}
+
+std::string with_thousands_separators(const Integer& value) {
+  std::string text = value.get_str();
+  const std::size_t first = text.front() == '-' ? 1 : 0;
+  for (std::size_t end = text.size(); end > first + 3; end -= 3) text.insert(end - 3, 1, ',');
+  return text;
+}
+
+}  // namespace piblocks

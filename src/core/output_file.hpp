@@ -1,0 +1,73 @@
+// A file that appears under its name only when it is complete.
+// In: bytes, in order. Out: the file, synced and renamed by finish(), or no trace of it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace piblocks {
+
+/// Folders that had to be made for an output; removed again, if empty, unless kept.
+class MadeFolders {
+ public:
+  MadeFolders() = default;
+  /// Makes `folder` and its missing parents.
+  /// @throws UsageError if one cannot be made.
+  explicit MadeFolders(const std::filesystem::path& folder);
+  ~MadeFolders();
+  MadeFolders(const MadeFolders&) = delete;
+  MadeFolders& operator=(const MadeFolders&) = delete;
+  void keep() noexcept { made_.clear(); }
+
+ private:
+  std::vector<std::filesystem::path> made_;  // outermost first
+};
+
+/// A reserved temporary name beside `final_path`, in the same folder and so on the same device.
+/// Destroying it before commit() removes the file.
+class TemporaryFile {
+ public:
+  /// Makes an empty file that only this process knows; makes missing folders.
+  /// @throws UsageError if final_path is a folder or a device, or cannot be written there.
+  explicit TemporaryFile(std::filesystem::path final_path);
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  const std::filesystem::path& path() const noexcept { return path_; }
+  /// Syncs the file to its device and renames it to its final name.
+  /// @throws IoError if either fails.
+  void commit();
+
+ private:
+  std::filesystem::path final_path_;
+  MadeFolders folders_;
+  std::filesystem::path path_;
+};
+
+/// Bytes to a file (through a TemporaryFile) or, for the name "-", to standard output.
+class OutputFile {
+ public:
+  explicit OutputFile(const std::string& name);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// @throws IoError on a full disk, a closed pipe and the like.
+  void write(std::span<const std::uint8_t> bytes);
+  void write(std::string_view text);
+  /// Flushes, closes and renames. @throws IoError
+  void finish();
+
+ private:
+  std::string name_;
+  std::unique_ptr<TemporaryFile> temporary_;  // none for standard output
+  int descriptor_ = -1;
+};
+
+}  // namespace piblocks

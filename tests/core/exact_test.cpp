@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+#include <piblocks/exact.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace piblocks {
+namespace {
+
+TEST(ParseRational, ReadsEveryForm) {
+  EXPECT_EQ(parse_rational("42"), 42);
+  EXPECT_EQ(parse_rational(" -7 "), -7);
+  EXPECT_EQ(parse_rational("+.5"), Rational(1, 2));
+  EXPECT_EQ(parse_rational("2.50e-1"), Rational(1, 4));
+  EXPECT_EQ(parse_rational("1/3"), Rational(1, 3));
+  EXPECT_EQ(parse_rational("2/6"), Rational(1, 3));
+  EXPECT_EQ(parse_rational("100^2"), 10000);
+  EXPECT_EQ(parse_rational("2^-3"), Rational(1, 8));
+  EXPECT_EQ(parse_rational("100^3/7^2"), Rational(1000000, 49));
+  EXPECT_EQ(parse_rational("0^0"), 1);
+}
+
+TEST(ParseRational, IsExactWhereADoubleIsNot) {
+  EXPECT_EQ(parse_rational("100^16").get_str(), "1" + std::string(32, '0'));
+  EXPECT_EQ(parse_rational("0.1") * 10, 1);
+}
+
+TEST(ParseRational, RefusesWhatIsNoNumber) {
+  for (const char* text : {"", " ", "x", "1x", "1/", "/2", "1/0", "1//2", "^2", "2^", "2^0.5", "--1",
+                           "1e", "1e+", ".", "0^-1", "nan", "inf", "0x10", "1 2", "1/2/3"}) {
+    EXPECT_THROW(parse_rational(text), UsageError) << text;
+  }
+}
+
+TEST(ParseRational, RefusesToEatMemory) {
+  for (const char* text : {"10^999999999", "1e999999999", "1e-999999999", "9^9999999999999999999",
+                           "1e1000000^4000000"}) {
+    EXPECT_THROW(parse_rational(text), UsageError) << text;
+  }
+  EXPECT_EQ(parse_rational("1^4000000"), 1);
+}
+
+TEST(RationalFromDecimal, MeansTheShortestDecimal) {
+  EXPECT_EQ(rational_from_decimal(0.1), Rational(1, 10));
+  EXPECT_EQ(rational_from_decimal(-2.5), Rational(-5, 2));
+  EXPECT_EQ(rational_from_decimal(1e22), parse_rational("1e22"));
+  EXPECT_EQ(rational_from_decimal(5e-324), parse_rational("5e-324"));
+  EXPECT_THROW(rational_from_decimal(std::nan("")), UsageError);
+  EXPECT_THROW(rational_from_decimal(std::numeric_limits<double>::infinity()), UsageError);
+}
+
+TEST(ToDouble, IsNearest) {
+  EXPECT_EQ(to_double(Rational(1, 3)), 1.0 / 3.0);
+  EXPECT_EQ(to_double(parse_rational("0.1")), 0.1);
+  EXPECT_EQ(to_double(parse_rational("5e-324")), 5e-324);
+  EXPECT_EQ(to_double(parse_rational("1e-400")), 0.0);
+  EXPECT_EQ(to_double(parse_rational("-1e400")), -std::numeric_limits<double>::infinity());
+}
+
+TEST(Rounding, GoesTheRightWayOnBothSidesOfZero) {
+  EXPECT_EQ(ceil(Rational(7, 2)), 4);
+  EXPECT_EQ(ceil(Rational(-7, 2)), -3);
+  EXPECT_EQ(floor(Rational(-7, 2)), -4);
+  EXPECT_EQ(floor(Rational(6)), 6);
+}
+
+TEST(ThousandsSeparators, GroupFromTheRight) {
+  EXPECT_EQ(with_thousands_separators(0), "0");
+  EXPECT_EQ(with_thousands_separators(314), "314");
+  EXPECT_EQ(with_thousands_separators(3141), "3,141");
+  EXPECT_EQ(with_thousands_separators(-314159), "-314,159");
+  EXPECT_EQ(with_thousands_separators(Integer("31415926535897932384")),
+            "31,415,926,535,897,932,384");
+}
+
+}  // namespace
+}  // namespace piblocks

@@ -1,0 +1,81 @@
+#include "core/output_file.hpp"
+
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+
+#include <fstream>
+#include <iterator>
+
+namespace piblocks {
+namespace {
+namespace fs = std::filesystem;
+
+class OutputFileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "piblocks-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::size_t entries() const {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+  static std::string contents(const fs::path& path) {
+    std::ifstream in(path);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(OutputFileTest, AppearsOnlyWhenFinished) {
+  const fs::path path = folder_ / "out.txt";
+  OutputFile file(path);
+  file.write("hello");
+  EXPECT_FALSE(fs::exists(path));
+  file.finish();
+  EXPECT_EQ(contents(path), "hello");
+  EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(OutputFileTest, LeavesNoTraceWhenAbandoned) {
+  { OutputFile(folder_ / "a/b/out.txt").write("half"); }
+  EXPECT_EQ(entries(), 0u);
+}
+
+TEST_F(OutputFileTest, KeepsTheOldFileWhenAbandoned) {
+  const fs::path path = folder_ / "out.txt";
+  std::ofstream(path) << "old";
+  { OutputFile(path).write("new"); }
+  EXPECT_EQ(contents(path), "old");
+  EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(OutputFileTest, MakesMissingFoldersAndKeepsThem) {
+  OutputFile file(folder_ / "a/b/out.txt");
+  file.finish();
+  EXPECT_TRUE(fs::exists(folder_ / "a/b/out.txt"));
+}
+
+TEST_F(OutputFileTest, HasThePermissionsOfAnOrdinaryFile) {
+  OutputFile file(folder_ / "out.txt");
+  file.finish();
+  std::ofstream(folder_ / "plain.txt") << "x";
+  EXPECT_EQ(fs::status(folder_ / "out.txt").permissions(),
+            fs::status(folder_ / "plain.txt").permissions());
+}
+
+TEST_F(OutputFileTest, NamesWhatCannotBeOpened) {
+  fs::create_directory(folder_ / "taken");
+  EXPECT_THROW(OutputFile{folder_ / "taken"}, UsageError);
+  std::ofstream(folder_ / "file") << "x";
+  EXPECT_THROW(OutputFile{folder_ / "file/below.txt"}, UsageError);
+  EXPECT_THROW(OutputFile{"/dev/null"}, UsageError);
+  EXPECT_THROW(OutputFile{"/proc/no/such.txt"}, UsageError);
+}
+
+}  // namespace
+}  // namespace piblocks
