@@ -2,10 +2,10 @@
 // In: exact numbers from a user. Out: a value that every engine starts from.
 #pragma once
 
-#include <piblocks/exact.hpp>
-
 #include <string>
 #include <vector>
+
+#include <piblocks/exact.hpp>
 
 namespace piblocks {
 
@@ -40,7 +40,19 @@ inline constexpr int kMaxDigits = 100'000;
 /// @throws UsageError unless 1 <= digits <= kMaxDigits.
 BlockSystem article_system(int digits);
 
-/// What is wrong with a system, one line each, naming the key and the value; empty if nothing.
-std::vector<std::string> problems_of(const BlockSystem& system);
+/// What is wrong with one value of a scene.
+struct Problem {
+  std::string key;     ///< as in a scene file: "red.mass"
+  std::string reason;  ///< with the value: "= -1: must be greater than 0"
+};
+
+/// Everything that is wrong with a system; empty if nothing is.
+std::vector<Problem> problems_of(const BlockSystem& system);
+
+/// One line a problem: key and reason.
+std::vector<std::string> describe(const std::vector<Problem>& problems);
+
+/// Text of a value for messages: exact where that is short.
+std::string to_text(const Rational& value);
 
 }  // namespace piblocks

@@ -3,13 +3,12 @@
 // time. Stored and computed logs look alike.
 #pragma once
 
+#include <cstdint>
+#include <memory>
+
 #include <piblocks/blocks.hpp>
 #include <piblocks/exact.hpp>
 #include <piblocks/time.hpp>
-
-#include <cstdint>
-#include <memory>
-#include <string>
 
 namespace piblocks {
 
@@ -66,5 +65,9 @@ inline constexpr std::int64_t kMaxStoredCollisions = 20'000'000;
 /// @throws SimulationError if Engine::events passes kMaxStoredCollisions or loses its footing.
 std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system,
                                                  Engine engine = Engine::unfolded);
+
+/// Number of collisions of the whole run, decided beyond doubt at any mass ratio, without a log.
+/// @throws SceneError if problems_of(system) is not empty.
+Integer count_collisions(const BlockSystem& system);
 
 }  // namespace piblocks

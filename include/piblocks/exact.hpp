@@ -3,9 +3,8 @@
 // Rounding to double happens once, at the border to floating point, by to_double().
 #pragma once
 
-#include <gmpxx.h>
-
 #include <cstdint>
+#include <gmpxx.h>
 #include <string>
 #include <string_view>
 

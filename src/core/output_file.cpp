@@ -1,24 +1,21 @@
 #include "core/output_file.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <system_error>
 #include <unistd.h>
+#include <utility>
 
 #include <piblocks/error.hpp>
-
-#include <cerrno>
-#include <cstring>
-#include <system_error>
-#include <utility>
 
 namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
-std::string reason(int error_number) {
-  return std::generic_category().message(error_number);
-}
+std::string reason(int error_number) { return std::generic_category().message(error_number); }
 
 [[noreturn]] void fail_open(const fs::path& path, const std::string& why) {
   throw UsageError(fmt::format("output: cannot open '{}': {}", path.string(), why));

@@ -1,10 +1,10 @@
 #include "core/output_file.hpp"
 
-#include <gtest/gtest.h>
-#include <piblocks/error.hpp>
-
 #include <fstream>
+#include <gtest/gtest.h>
 #include <iterator>
+
+#include <piblocks/error.hpp>
 
 namespace piblocks {
 namespace {

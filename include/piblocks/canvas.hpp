@@ -1,0 +1,44 @@
+// Draw lists made visible.
+// In: a draw list. Out: pixels, or a vector file, from the same painter.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <piblocks/draw_list.hpp>
+#include <piblocks/image.hpp>
+
+namespace piblocks {
+
+/// Pixels that are painted again and again. Used by one thread at a time; different canvases
+/// are independent.
+class Canvas {
+ public:
+  /// @throws DrawError if there is no memory for it.
+  Canvas(int width_px, int height_px);
+  ~Canvas();
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  /// Replaces the whole picture. The list must be of the canvas's size.
+  /// @throws DrawError
+  void paint(const DrawList& list);
+  /// The picture; valid until the next paint().
+  ImageView view() const;
+
+ private:
+  struct Pixels;
+  std::unique_ptr<Pixels> pixels_;
+};
+
+/// The picture as an SVG file: text as outlines, one unit a pixel.
+std::vector<std::uint8_t> draw_svg(const DrawList& list);
+/// The picture as a PDF file of one page, one point a pixel; text stays text.
+std::vector<std::uint8_t> draw_pdf(const DrawList& list);
+
+/// Name and version of each drawing library that is linked, such as "cairo 1.16.0".
+std::vector<std::string> draw_library_versions();
+
+}  // namespace piblocks

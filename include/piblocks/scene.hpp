@@ -1,0 +1,87 @@
+// What is asked for: the system, the picture's frame, the span of time.
+// In: a scene file (TOML) and options of the same keys. Out: one valid value, or every problem
+// at once.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <piblocks/blocks.hpp>
+#include <piblocks/exact.hpp>
+
+namespace piblocks {
+
+/// Closed interval in scene units, low < high.
+struct Range {
+  Rational low;
+  Rational high;
+};
+
+/// What part of the plane a frame shows, and how many frames and pixels that takes.
+struct View {
+  Range x = {-1, 12};
+  Range y = {-1, 1};
+  int width_px = 1920;       ///< 1 … kMaxSide_px
+  int height_px = 1080;      ///< 1 … kMaxSide_px
+  Rational frame_rate = 60;  ///< frames per second of video, 0 < rate <= kMaxFrameRate
+};
+
+inline constexpr int kMaxFrameRate = 1000;
+
+/// The end of the animation: a time, or so long after the last collision.
+struct End {
+  bool after_last = true;
+  Rational offset = Rational(3, 2);  ///< after the last collision, or else after time 0
+};
+
+/// Which part of the run is shown, in simulation time.
+struct TimeSpan {
+  Rational from = 0;
+  End to;
+  Rational speed = 1;  ///< simulation time per second of video, > 0
+};
+
+struct Scene {
+  BlockSystem system;
+  View view;
+  TimeSpan time;
+};
+
+/// Collects a scene's values from a file and from options, remembering where each came from.
+/// The keys are those of the scene file: "wall.face"; "blue." and "red." with "mass",
+/// "position", "velocity", "width"; "view.x", "view.y", "view.size", "view.fps"; "time.from",
+/// "time.to", "time.speed".
+class SceneBuilder {
+ public:
+  /// Reads a scene file. Values set before it are overwritten, values set after it win.
+  /// @throws SceneError if it cannot be read or is no TOML; other problems wait for build().
+  void read_file(const std::string& path);
+  /// Sets one key from text, as an option of the command line does.
+  /// @param origin  named in messages, such as "--size".
+  void set(const std::string& origin, const std::string& key, const std::string& text);
+  /// Sets red.mass to this multiple of blue.mass, whatever the file says of red.mass.
+  void set_mass_ratio(const std::string& origin, const Rational& ratio);
+  /// @throws SceneError with every problem: origin, key, value and reason.
+  Scene build() const;
+
+ private:
+  void set_values(const std::string& origin, const std::string& key,
+                  const std::vector<std::string>& values);
+  void add_problem(const std::string& origin, const std::string& text);
+
+  Scene scene_;
+  std::optional<Rational> mass_ratio_;
+  std::map<std::string, std::string> origins_;  // by key
+  std::vector<std::string> problems_;
+};
+
+/// Everything that is wrong with a scene; empty if nothing is.
+std::vector<Problem> problems_of(const Scene& scene);
+
+/// Reads "12.5", "last" or "last+1.5". @throws UsageError
+End parse_end(std::string_view text);
+
+}  // namespace piblocks

@@ -1,0 +1,16 @@
+// The article's event loop in double precision, recorded.
+// In: a BlockSystem. Out: every collision from time 0 on, in the order met.
+#pragma once
+
+#include <vector>
+
+#include <piblocks/blocks.hpp>
+
+#include "physics/stored_log.hpp"
+
+namespace piblocks {
+
+/// @throws SimulationError past kMaxStoredCollisions, or where a number leaves its range.
+std::vector<StoredCollision> event_loop(const BlockSystem& system);
+
+}  // namespace piblocks

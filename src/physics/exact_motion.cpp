@@ -1,0 +1,122 @@
+#include "physics/exact_motion.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <optional>
+#include <utility>
+
+#include <piblocks/error.hpp>
+
+namespace piblocks {
+namespace {
+
+/// Largest numerator or denominator built to test whether a point lies on a ray, in bits.
+constexpr double kMaxRayBits = 16e6;
+
+std::size_t size_bits(const Rational& value) {
+  return mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
+}
+
+/// 1 + i sigma to the power n is A + i sigma B with rational A, B: the direction of ray n.
+struct RayDirection {
+  Rational a = 1;
+  Rational b = 0;
+
+  friend RayDirection multiply(const RayDirection& p, const RayDirection& q, const Rational& r) {
+    return {p.a * q.a - r * p.b * q.b, p.a * q.b + p.b * q.a};
+  }
+};
+
+RayDirection ray_direction(unsigned long n, const Rational& r) {
+  RayDirection result;
+  RayDirection square{1, 1};
+  for (; n != 0; n /= 2) {
+    if (n % 2 == 1) result = multiply(result, square, r);
+    square = multiply(square, square, r);
+  }
+  return result;
+}
+
+/// Whether (sigma x, y) lies on the line of ray n, exactly; nothing if that is too long to say.
+std::optional<bool> is_on_ray(const Integer& n, const Rational& x, const Rational& y,
+                              const Rational& r) {
+  if (!n.fits_slong_p()) return std::nullopt;
+  const long index = n.get_si();
+  if (std::abs(double(index)) * double(size_bits(r)) > kMaxRayBits) return std::nullopt;
+  const RayDirection ray = ray_direction(static_cast<unsigned long>(std::labs(index)), r);
+  return x * ray.a == (index < 0 ? Rational(-ray.b) : ray.b) * y;
+}
+
+/// Splits the phase at the floor of it, raising the precision until that is certain.
+/// `phase(bits)` is right to 2^(magnitude + 6) units of its last place, |phase| < 2^magnitude.
+/// (x, y) is a point with that phase, in the mirrored frame if the motion is mirrored.
+template <typename Phase>
+std::pair<DecidedPhase, bool> decide(long magnitude, const Phase& phase, const Rational& x,
+                                     const Rational& y, const Rational& r) {
+  for (mpfr_prec_t bits = magnitude + 128; bits <= kMaxDecisionBits; bits *= 2) {
+    const Real value = phase(bits);
+    const Real error = scaled(Real(bits, 1), magnitude + 6 - bits);
+    const Integer low = (value - error).floor();
+    const Integer high = (value + error).floor();
+    if (low == high) return {{low, (value - low).to_double()}, false};
+    if (is_on_ray(high, x, y, r).value_or(false)) return {{high, 0.0}, true};
+  }
+  throw SimulationError(fmt::format("count: {} bits do not decide whether a collision has happened",
+                                    kMaxDecisionBits));
+}
+
+}  // namespace
+
+ExactMotion::ExactMotion(const BlockSystem& system)
+    : ratio(system.blue.mass / system.red.mass),
+      y1(system.blue_gap()),
+      y2(system.blue_gap() + system.blocks_gap()),
+      u1(system.blue.velocity),
+      u2(system.red.velocity),
+      area(y2 * u1 - y1 * u2),
+      speed_squared(ratio * u1 * u1 + u2 * u2),
+      blocks_first(area > 0 || (area == 0 && u1 > u2)) {
+  if (!at_rest()) closest_approach = -(ratio * y1 * u1 + y2 * u2) / speed_squared;
+}
+
+long ExactMotion::magnitude() const {
+  // No phase of interest passes 3 pi/2, and theta >= min(sigma, 1) pi/4.
+  return 4 - std::min(sigma(64).exponent(), 0L);
+}
+
+Real ExactMotion::final_phase(const Real& sigma, const Real& theta) const {
+  const mpfr_prec_t bits = sigma.bits();
+  Real angle = atan2(sigma * Real(bits, u1), Real(bits, u2));
+  if (!blocks_first) return Real(bits, 0) - angle / theta;
+  if (angle.sign() < 0) angle = angle + scaled(Real::pi(bits), 1);
+  return angle / theta;
+}
+
+Integer ExactMotion::total() const {
+  if (at_rest()) return 0;
+  const auto phase = [this](mpfr_prec_t bits) {
+    const Real s = sigma(bits);
+    return final_phase(s, atan(s));
+  };
+  const auto [decided, on_ray] =
+      decide(magnitude(), phase, blocks_first ? u1 : Rational(-u1), u2, ratio);
+  // A ray that the line only reaches at infinity is not crossed.
+  const Integer last = on_ray ? decided.ray - 1 : decided.ray;
+  const Integer count = count_from_ray(last);
+  return count < 0 ? Integer(0) : count;
+}
+
+DecidedPhase ExactMotion::phase_at(const Rational& t) const {
+  const Rational along = (t - closest_approach) * speed_squared;  // |V|^2 tau
+  const auto phase = [&](mpfr_prec_t bits) {
+    const Real s = sigma(bits);
+    const Real theta = atan(s);
+    const Real to_go = atan2(s * Real(bits, abs(area)), Real(bits, along));
+    return final_phase(s, theta) - to_go / theta;
+  };
+  const Rational x = y1 + u1 * t;
+  return decide(magnitude(), phase, blocks_first ? x : Rational(-x), y2 + u2 * t, ratio).first;
+}
+
+}  // namespace piblocks

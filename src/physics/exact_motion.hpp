@@ -1,0 +1,63 @@
+// The unfolded motion in exact numbers: one straight line through a fan of rays.
+// In: a BlockSystem. Out: how many rays the line has crossed, decided beyond doubt.
+//
+// With the gaps y1 (blue to wall) and y2 (red, reduced by both widths, so that y1 = y2 at
+// contact), r = m_blue/m_red and sigma = sqrt(r), the point P = (sigma y1, y2) has a kinetic
+// energy that is its squared speed, so that collisions are mirror reflections (Galperin,
+// "Playing pool with pi", 2003). Measured from the y2 axis the wall is the ray at angle 0 and
+// the contact of the blocks the ray at theta = atan(sigma). Reflecting the fan instead of the
+// path makes the path the straight line P + V t, and the k-th collision its crossing of the ray
+// at k theta. The *phase* is the angle swept over theta; even rays are wall, odd ones blocks.
+#pragma once
+
+#include <piblocks/blocks.hpp>
+#include <piblocks/exact.hpp>
+
+#include "physics/real.hpp"
+
+namespace piblocks {
+
+/// A phase split where floor() has been decided.
+struct DecidedPhase {
+  Integer ray;      ///< index of the last ray crossed: floor(phase)
+  double fraction;  ///< phase - ray, in [0, 1]
+};
+
+/// All members are rational: nothing is rounded before a question is asked.
+struct ExactMotion {
+  explicit ExactMotion(const BlockSystem& system);
+
+  Rational ratio;             ///< r = m_blue / m_red
+  Rational y1, y2;            ///< gaps at time 0
+  Rational u1, u2;            ///< their rates: the velocities of blue and red
+  Rational area;              ///< L = y2 u1 - y1 u2: sigma L is twice the area swept a unit time
+  Rational speed_squared;     ///< |V|^2 = r u1^2 + u2^2
+  Rational closest_approach;  ///< time at which the line is nearest to the corner
+  bool blocks_first;          ///< turning from the blocks' ray on; otherwise mirrored, wall first
+
+  bool at_rest() const { return speed_squared == 0; }
+  /// The line goes through the corner: every collision happens at closest_approach.
+  /// By convention the blocks meet first, as in the limit of a later red block; the wall comes
+  /// first where the blocks arrive touching, and so cannot meet before.
+  bool through_corner() const { return area == 0; }
+
+  Real sigma(mpfr_prec_t bits) const { return sqrt(Real(bits, ratio)); }
+  /// Every phase is below 2^magnitude().
+  long magnitude() const;
+  /// q: the phase as t grows without bound; q - pi/theta is that of the infinite past.
+  Real final_phase(const Real& sigma, const Real& theta) const;
+  /// Collisions before the ray with this index is crossed and including it.
+  Integer count_from_ray(const Integer& ray) const { return blocks_first ? ray : ray + 1; }
+
+  /// Number of collisions at times >= 0: rays crossed at finite times.
+  /// @throws SimulationError if kMaxDecisionBits do not decide.
+  Integer total() const;
+  /// The phase at time t for a motion that is not through_corner().
+  /// @throws SimulationError as total().
+  DecidedPhase phase_at(const Rational& t) const;
+};
+
+/// Precision at which an undecided count is given up.
+inline constexpr mpfr_prec_t kMaxDecisionBits = 1 << 22;
+
+}  // namespace piblocks

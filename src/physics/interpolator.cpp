@@ -1,0 +1,33 @@
+#include <fmt/format.h>
+
+#include <piblocks/error.hpp>
+#include <piblocks/interpolator.hpp>
+
+namespace piblocks {
+namespace {
+
+double advanced(const Motion& motion, double duration) {
+  return motion.position + motion.velocity * duration;
+}
+
+}  // namespace
+
+BlockState state_at(const CollisionLog& log, const Rational& time) {
+  const FreeFlight flight = log.flight_at(time);
+  const Time t = to_time(time);
+  const double duration = (t.hi - flight.anchor.hi) + (t.lo - flight.anchor.lo);
+  return {flight.count,
+          {advanced(flight.blue, duration), flight.blue.velocity},
+          {advanced(flight.red, duration), flight.red.velocity}};
+}
+
+BlockState state_after(const CollisionLog& log, const Integer& index) {
+  if (index < 1 || index > log.size()) {
+    throw UsageError(fmt::format("collision #{}: the scene has collisions #1 to #{}",
+                                 index.get_str(), log.size().get_str()));
+  }
+  const Collision collision = log.at(index);
+  return {index, collision.blue, collision.red};
+}
+
+}  // namespace piblocks

@@ -1,0 +1,82 @@
+// Floating point of any precision.
+// In: exact rationals and a number of bits. Out: correctly rounded MPFR results.
+// A thin owner of one mpfr_t; only the operations that the unfolding needs.
+#pragma once
+
+#include <algorithm>
+#include <mpfr.h>
+
+#include <piblocks/exact.hpp>
+
+namespace piblocks {
+
+/// A number of `bits` bits of precision. A result has the precision of its longer operand.
+class Real {
+ public:
+  explicit Real(mpfr_prec_t bits) { mpfr_init2(value_, bits); }
+  Real(mpfr_prec_t bits, const Rational& exact) : Real(bits) {
+    mpfr_set_q(value_, exact.get_mpq_t(), MPFR_RNDN);
+  }
+  Real(const Real& other) : Real(other.bits()) { mpfr_set(value_, other.value_, MPFR_RNDN); }
+  Real& operator=(Real other) noexcept {
+    mpfr_swap(value_, other.value_);
+    return *this;
+  }
+  ~Real() { mpfr_clear(value_); }
+
+  static Real pi(mpfr_prec_t bits) {
+    Real result(bits);
+    mpfr_const_pi(result.value_, MPFR_RNDN);
+    return result;
+  }
+
+  mpfr_prec_t bits() const noexcept { return mpfr_get_prec(value_); }
+  int sign() const noexcept { return mpfr_sgn(value_); }
+  /// Nearest double; overflows to infinity.
+  double to_double() const { return mpfr_get_d(value_, MPFR_RNDN); }
+  /// The exponent e of |value| = m * 2^e with 1/2 <= m < 1; 0 for zero.
+  long exponent() const { return mpfr_zero_p(value_) != 0 ? 0 : mpfr_get_exp(value_); }
+  /// Largest integer <= value.
+  Integer floor() const {
+    Integer result;
+    mpfr_get_z(result.get_mpz_t(), value_, MPFR_RNDD);
+    return result;
+  }
+
+  friend Real operator+(const Real& a, const Real& b) { return binary(mpfr_add, a, b); }
+  friend Real operator-(const Real& a, const Real& b) { return binary(mpfr_sub, a, b); }
+  friend Real operator*(const Real& a, const Real& b) { return binary(mpfr_mul, a, b); }
+  friend Real operator/(const Real& a, const Real& b) { return binary(mpfr_div, a, b); }
+  friend Real atan2(const Real& y, const Real& x) { return binary(mpfr_atan2, y, x); }
+  friend Real operator-(const Real& a, const Integer& b) {
+    Real result(a.bits());
+    mpfr_sub_z(result.value_, a.value_, b.get_mpz_t(), MPFR_RNDN);
+    return result;
+  }
+  friend Real sqrt(const Real& a) { return unary(mpfr_sqrt, a); }
+  friend Real atan(const Real& a) { return unary(mpfr_atan, a); }
+  /// a * 2^exponent, exactly.
+  friend Real scaled(const Real& a, long exponent) {
+    Real result(a.bits());
+    mpfr_mul_2si(result.value_, a.value_, exponent, MPFR_RNDN);
+    return result;
+  }
+
+ private:
+  template <typename Operation>
+  static Real unary(Operation operation, const Real& a) {
+    Real result(a.bits());
+    operation(result.value_, a.value_, MPFR_RNDN);
+    return result;
+  }
+  template <typename Operation>
+  static Real binary(Operation operation, const Real& a, const Real& b) {
+    Real result(std::max(a.bits(), b.bits()));
+    operation(result.value_, a.value_, b.value_, MPFR_RNDN);
+    return result;
+  }
+
+  mpfr_t value_;
+};
+
+}  // namespace piblocks
