@@ -1,0 +1,68 @@
+#include <cmath>
+#include <fmt/format.h>
+
+#include <piblocks/error.hpp>
+#include <piblocks/image.hpp>
+#include <piblocks/scene.hpp>
+
+namespace piblocks {
+namespace {
+
+void check_range(const char* key, const Range& range, std::vector<Problem>& problems) {
+  if (range.low < range.high && std::isfinite(to_double(range.low)) &&
+      std::isfinite(to_double(range.high)) && to_double(range.high - range.low) > 0) {
+    return;
+  }
+  problems.push_back({key, fmt::format("= [{}, {}]: must be two finite numbers in rising order",
+                                       to_text(range.low), to_text(range.high))});
+}
+
+void check_size(const View& view, std::vector<Problem>& problems) {
+  const auto is_side = [](int side) { return side >= 1 && side <= kMaxSide_px; };
+  if (!is_side(view.width_px) || !is_side(view.height_px)) {
+    problems.push_back({"view.size", fmt::format("= {}x{}: each side must be from 1 to {} pixels",
+                                                 view.width_px, view.height_px, kMaxSide_px)});
+  } else if (std::int64_t{view.width_px} * view.height_px > kMaxFrame_px) {
+    problems.push_back(
+        {"view.size", fmt::format("= {}x{}: a frame must have at most {} pixels, as 8192x8192",
+                                  view.width_px, view.height_px, kMaxFrame_px)});
+  }
+}
+
+void check_frame_rate(const Rational& rate, std::vector<Problem>& problems) {
+  // Codecs and containers count time in 32-bit fractions.
+  constexpr long kMaxTerm = 1'000'000;
+  if (rate > 0 && rate <= kMaxFrameRate && rate.get_num() <= kMaxTerm &&
+      rate.get_den() <= kMaxTerm) {
+    return;
+  }
+  problems.push_back(
+      {"view.fps", fmt::format("= {}: must be greater than 0 and at most {}, as a fraction of "
+                               "numbers up to {}",
+                               to_text(rate), kMaxFrameRate, kMaxTerm)});
+}
+
+void check_time(const TimeSpan& time, std::vector<Problem>& problems) {
+  if (time.speed <= 0) {
+    problems.push_back(
+        {"time.speed", fmt::format("= {}: must be greater than 0", to_text(time.speed))});
+  }
+  if (!time.to.after_last && time.to.offset <= time.from) {
+    problems.push_back({"time.to", fmt::format("= {}: must be after time.from = {}",
+                                               to_text(time.to.offset), to_text(time.from))});
+  }
+}
+
+}  // namespace
+
+std::vector<Problem> problems_of(const Scene& scene) {
+  std::vector<Problem> problems = problems_of(scene.system);
+  check_range("view.x", scene.view.x, problems);
+  check_range("view.y", scene.view.y, problems);
+  check_size(scene.view, problems);
+  check_frame_rate(scene.view.frame_rate, problems);
+  check_time(scene.time, problems);
+  return problems;
+}
+
+}  // namespace piblocks

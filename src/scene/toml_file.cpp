@@ -1,0 +1,81 @@
+#include "scene/toml_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <fmt/format.h>
+#include <fstream>
+#include <optional>
+#include <system_error>
+#include <toml++/toml.h>
+
+#include <piblocks/error.hpp>
+
+namespace piblocks {
+namespace {
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text(kMaxSceneFile_bytes + 1, '\0');
+  if (file) file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!file.eof() && file.fail()) {
+    throw SceneError(
+        fmt::format("scene: cannot read '{}': {}", path, std::generic_category().message(errno)));
+  }
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > kMaxSceneFile_bytes) {
+    throw SceneError(fmt::format("scene: '{}' is longer than {} bytes", path, kMaxSceneFile_bytes));
+  }
+  return text;
+}
+
+std::optional<std::string> scalar_text(const toml::node& node) {
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
+  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+  return std::nullopt;
+}
+
+TomlEntry entry_of(const std::string& key, const toml::node& node) {
+  constexpr const char* kExpected = "must be a number, a string or a list of these";
+  TomlEntry entry{key, {}, node.source().begin.line, {}};
+  if (const auto text = scalar_text(node)) {
+    entry.values.push_back(*text);
+  } else if (const auto* list = node.as_array(); list != nullptr && !list->empty()) {
+    for (const toml::node& element : *list) {
+      const auto element_text = scalar_text(element);
+      if (!element_text) entry.problem = kExpected;
+      entry.values.push_back(element_text.value_or(""));
+    }
+  } else {
+    entry.problem = kExpected;
+  }
+  return entry;
+}
+
+}  // namespace
+
+std::vector<TomlEntry> read_toml(const std::string& path) {
+  toml::table root;
+  try {
+    root = toml::parse(read_text(path), path);
+  } catch (const toml::parse_error& error) {
+    throw SceneError(
+        fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
+  }
+  std::vector<TomlEntry> entries;
+  for (const auto& [table_name, node] : root) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) {
+      entries.push_back(entry_of(std::string(table_name.str()), node));
+      continue;
+    }
+    for (const auto& [name, value] : *table) {
+      entries.push_back(entry_of(fmt::format("{}.{}", table_name.str(), name.str()), value));
+    }
+  }
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const TomlEntry& a, const TomlEntry& b) { return a.line < b.line; });
+  return entries;
+}
+
+}  // namespace piblocks
