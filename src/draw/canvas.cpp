@@ -1,0 +1,97 @@
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <cassert>
+#include <fmt/format.h>
+#include <ft2build.h>
+
+#include <piblocks/canvas.hpp>
+
+#include "draw/cairo_handles.hpp"
+#include "draw/painter.hpp"
+#include FT_FREETYPE_H
+
+namespace piblocks {
+namespace {
+
+using MakeSurface = cairo_surface_t* (*)(cairo_write_func_t write, void* bytes, double width,
+                                         double height);
+
+cairo_status_t append_bytes(void* target, const unsigned char* data, unsigned int length) {
+  auto& bytes = *static_cast<std::vector<std::uint8_t>*>(target);
+  bytes.insert(bytes.end(), data, data + length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+cairo_surface_t* make_svg(cairo_write_func_t write, void* bytes, double width, double height) {
+  cairo_surface_t* surface = cairo_svg_surface_create_for_stream(write, bytes, width, height);
+  cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+  return surface;
+}
+
+cairo_surface_t* make_pdf(cairo_write_func_t write, void* bytes, double width, double height) {
+  cairo_surface_t* surface = cairo_pdf_surface_create_for_stream(write, bytes, width, height);
+  // Cairo would write the time of day: equal scenes would give different files.
+  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "1970-01-01T00:00:00Z");
+  return surface;
+}
+
+std::vector<std::uint8_t> draw_vector_file(const DrawList& list, MakeSurface make) {
+  std::vector<std::uint8_t> bytes;
+  const CairoSurfacePtr surface(make(append_bytes, &bytes, list.width_px, list.height_px));
+  const CairoPtr cr(cairo_create(surface.get()));
+  Painter().paint(*cr, list);
+  cairo_surface_finish(surface.get());
+  check_cairo(cairo_surface_status(surface.get()), "finish the vector file");
+  return bytes;
+}
+
+}  // namespace
+
+struct Canvas::Pixels {
+  CairoSurfacePtr surface;
+  CairoPtr cr;
+  Painter painter;
+};
+
+Canvas::Canvas(int width_px, int height_px) : pixels_(std::make_unique<Pixels>()) {
+  pixels_->surface.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, height_px));
+  check_cairo(cairo_surface_status(pixels_->surface.get()), "make a canvas");
+  pixels_->cr.reset(cairo_create(pixels_->surface.get()));
+}
+
+Canvas::~Canvas() = default;
+
+void Canvas::paint(const DrawList& list) {
+  assert(list.width_px == view().width_px && list.height_px == view().height_px);
+  pixels_->painter.paint(*pixels_->cr, list);
+  cairo_surface_flush(pixels_->surface.get());
+}
+
+ImageView Canvas::view() const {
+  cairo_surface_t* surface = pixels_->surface.get();
+  return {cairo_image_surface_get_data(surface), cairo_image_surface_get_width(surface),
+          cairo_image_surface_get_height(surface), cairo_image_surface_get_stride(surface)};
+}
+
+std::vector<std::uint8_t> draw_svg(const DrawList& list) {
+  return draw_vector_file(list, make_svg);
+}
+
+std::vector<std::uint8_t> draw_pdf(const DrawList& list) {
+  return draw_vector_file(list, make_pdf);
+}
+
+std::vector<std::string> draw_library_versions() {
+  FT_Library library = nullptr;
+  int major = 0;
+  int minor = 0;
+  int patch = 0;
+  if (FT_Init_FreeType(&library) == 0) {
+    FT_Library_Version(library, &major, &minor, &patch);
+    FT_Done_FreeType(library);
+  }
+  return {fmt::format("cairo {}", cairo_version_string()),
+          fmt::format("freetype {}.{}.{}", major, minor, patch)};
+}
+
+}  // namespace piblocks

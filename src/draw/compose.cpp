@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <string_view>
+
+#include <piblocks/compose.hpp>
+
+#include "draw/font.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr Color kBackground = {255, 255, 255};
+constexpr Color kWallEdge = {0, 0, 0};
+constexpr Color kBlue = {38, 84, 204};
+constexpr Color kBlueEdge = {22, 52, 134};
+constexpr Color kRed = {214, 48, 40};
+constexpr Color kRedEdge = {138, 24, 20};
+constexpr Color kLabel = {96, 96, 96};
+constexpr Color kCount = {16, 16, 16};
+
+constexpr std::string_view kLabelText = "Collisions:";
+
+// In parts of the frame's short measure, see short_measure().
+constexpr double kTextSize = 0.074;
+constexpr double kLineWidth = 0.0032;
+constexpr double kMargin = 0.045;
+// In ems of the label.
+constexpr double kCapHeight = 0.73;
+constexpr double kLabelGap = 1.0;  // between the label's baseline and the view
+constexpr double kWordSpace = 0.34;
+// In line widths.
+constexpr double kDash = 4;
+
+/// The length that type and lines are measured by: the frame's height, or less where the frame
+/// is narrow.
+double short_measure(const View& view) {
+  return std::min<double>(view.height_px, 0.75 * view.width_px);
+}
+
+double length(const Range& range) { return to_double(range.high - range.low); }
+
+Rectangle to_pixels(const Layout& layout, double x, double y, double width, double height) {
+  return {layout.origin.x + x * layout.scale, layout.origin.y - (y + height) * layout.scale,
+          width * layout.scale, height * layout.scale};
+}
+
+RectangleItem compose_wall(const Scene& scene, const Layout& layout) {
+  // The article's wall is a body of width 1 whose face is where blue turns back.
+  const double face = to_double(scene.system.wall_face);
+  const double bottom = to_double(scene.view.y.low);
+  return {ItemId::wall, to_pixels(layout, face - 1, bottom, 1, length(scene.view.y)), std::nullopt,
+          Stroke{kWallEdge, layout.line_px, kDash * layout.line_px}};
+}
+
+RectangleItem compose_block(ItemId id, const Block& block, const Motion& motion, Color fill,
+                            Color edge, const Layout& layout) {
+  const double side = to_double(block.width);
+  return {id, to_pixels(layout, motion.position - side / 2, -side / 2, side, side), fill,
+          Stroke{edge, layout.line_px, 0}};
+}
+
+}  // namespace
+
+Layout lay_out(const Scene& scene, const Integer& longest_count) {
+  const View& view = scene.view;
+  const double measure = short_measure(view);
+  const double margin = kMargin * measure;
+  const double inner_width = view.width_px - 2 * margin;
+
+  const Font font;
+  const double label_em = font.width_em(kLabelText) + kWordSpace;
+  const double line_em = label_em + font.width_em(with_thousands_separators(longest_count));
+
+  Layout layout;
+  layout.width_px = view.width_px;
+  layout.height_px = view.height_px;
+  layout.line_px = std::max(1.0, kLineWidth * measure);
+  layout.text_px = std::min(kTextSize * measure, inner_width / line_em);
+
+  // Label and view form one group, centred in the frame.
+  const double label_height = (kCapHeight + kLabelGap) * layout.text_px;
+  const double inner_height = view.height_px - 2 * margin - label_height;
+  layout.scale = std::min(inner_width / length(view.x), inner_height / length(view.y));
+  const double view_width = layout.scale * length(view.x);
+  const double view_height = layout.scale * length(view.y);
+  const double top = (view.height_px - view_height - label_height) / 2;
+  layout.origin = {(view.width_px - view_width) / 2 - to_double(view.x.low) * layout.scale,
+                   top + label_height + to_double(view.y.high) * layout.scale};
+  layout.label = {(view.width_px - line_em * layout.text_px) / 2,
+                  top + kCapHeight * layout.text_px};
+  layout.count_x = layout.label.x + label_em * layout.text_px;
+  return layout;
+}
+
+DrawList compose(const Scene& scene, const Layout& layout, const BlockState& state) {
+  const BlockSystem& system = scene.system;
+  return {layout.width_px,
+          layout.height_px,
+          kBackground,
+          {compose_wall(scene, layout),
+           compose_block(ItemId::red_block, system.red, state.red, kRed, kRedEdge, layout),
+           compose_block(ItemId::blue_block, system.blue, state.blue, kBlue, kBlueEdge, layout),
+           TextItem{ItemId::label, layout.label, std::string(kLabelText), layout.text_px, kLabel},
+           TextItem{ItemId::count,
+                    {layout.count_x, layout.label.y},
+                    with_thousands_separators(state.count),
+                    layout.text_px,
+                    kCount}}};
+}
+
+}  // namespace piblocks

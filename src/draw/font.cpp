@@ -1,0 +1,99 @@
+#include "draw/font.hpp"
+
+#include <cairo-ft.h>
+#include <fmt/format.h>
+#include <ft2build.h>
+#include <string>
+
+#include <piblocks/error.hpp>
+
+#include "draw/cairo_handles.hpp"
+#include FT_FREETYPE_H
+
+// Defined in font_data.S.
+extern "C" const unsigned char piblocks_font_begin[];
+extern "C" const unsigned char piblocks_font_end[];
+
+namespace piblocks {
+namespace {
+
+struct FtLibraryDeleter {
+  void operator()(FT_Library p) const { FT_Done_FreeType(p); }
+};
+using FtLibraryPtr = std::unique_ptr<FT_LibraryRec_, FtLibraryDeleter>;
+
+void check_freetype(FT_Error error, const char* operation) {
+  if (error != 0) throw DrawError(fmt::format("draw: {}: FreeType error {}", operation, error));
+}
+
+/// Called by Cairo when it forgets the face, which may be after the Font is gone: the library
+/// that the face belongs to is released with it.
+void release_face(void* data) {
+  const auto face = static_cast<FT_Face>(data);
+  const FtLibraryPtr library(face->glyph->library);
+  FT_Done_Face(face);
+}
+
+CairoFontOptionsPtr font_options() {
+  CairoFontOptionsPtr options(cairo_font_options_create());
+  cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
+  cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
+  return options;
+}
+
+FT_Face load_embedded_face() {
+  FT_Library created = nullptr;
+  check_freetype(FT_Init_FreeType(&created), "start FreeType");
+  FtLibraryPtr library(created);
+  FT_Face face = nullptr;
+  const auto size = static_cast<FT_Long>(piblocks_font_end - piblocks_font_begin);
+  check_freetype(FT_New_Memory_Face(library.get(), piblocks_font_begin, size, 0, &face),
+                 "load the embedded font");
+  library.release();  // release_face() finds it again through the face
+  return face;
+}
+
+CairoFontFacePtr make_cairo_face() {
+  static const cairo_user_data_key_t kFaceKey{};
+  const FT_Face face = load_embedded_face();
+  CairoFontFacePtr cairo_face(cairo_ft_font_face_create_for_ft_face(face, FT_LOAD_NO_HINTING));
+  const cairo_status_t status =
+      cairo_font_face_set_user_data(cairo_face.get(), &kFaceKey, face, release_face);
+  if (status != CAIRO_STATUS_SUCCESS) release_face(face);
+  check_cairo(status, "load the embedded font");
+  return cairo_face;
+}
+
+}  // namespace
+
+struct Font::Faces {
+  CairoFontOptionsPtr options = font_options();
+  CairoFontFacePtr face = make_cairo_face();
+};
+
+Font::Font() : faces_(std::make_unique<Faces>()) {}
+Font::~Font() = default;
+
+void Font::select(cairo_t& cr, double size_px) const {
+  cairo_set_font_face(&cr, faces_->face.get());
+  cairo_set_font_options(&cr, faces_->options.get());
+  cairo_set_font_size(&cr, size_px);
+}
+
+double Font::width_em(std::string_view utf8) const {
+  // Measured large: unhinted advances scale, but Cairo keeps them in 1/64 pixel.
+  constexpr double kMeasure_px = 1024;
+  cairo_matrix_t size;
+  cairo_matrix_t identity;
+  cairo_matrix_init_scale(&size, kMeasure_px, kMeasure_px);
+  cairo_matrix_init_identity(&identity);
+  const CairoScaledFontPtr scaled(
+      cairo_scaled_font_create(faces_->face.get(), &size, &identity, faces_->options.get()));
+  cairo_text_extents_t extents;
+  cairo_scaled_font_text_extents(scaled.get(), std::string(utf8).c_str(), &extents);
+  check_cairo(cairo_scaled_font_status(scaled.get()), "measure text");
+  return extents.x_advance / kMeasure_px;
+}
+
+}  // namespace piblocks

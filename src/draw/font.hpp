@@ -1,0 +1,30 @@
+// The one font: DejaVu Sans, embedded, loaded through FreeType.
+// In: nothing from the machine. Out: a Cairo font face that sets text alike everywhere.
+#pragma once
+
+#include <cairo.h>
+#include <memory>
+#include <string_view>
+
+namespace piblocks {
+
+/// Each Font has a FreeType library of its own: fonts of different threads share nothing.
+class Font {
+ public:
+  /// @throws DrawError if FreeType or Cairo refuses the font.
+  Font();
+  ~Font();
+  Font(const Font&) = delete;
+  Font& operator=(const Font&) = delete;
+
+  /// Makes it the font of `cr`, unhinted and antialiased in grey, at this size of the em.
+  void select(cairo_t& cr, double size_px) const;
+  /// Width of a line of text, in ems.
+  double width_em(std::string_view utf8) const;
+
+ private:
+  struct Faces;
+  std::unique_ptr<Faces> faces_;
+};
+
+}  // namespace piblocks

@@ -1,0 +1,77 @@
+#include "draw/painter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/cairo_handles.hpp"
+
+namespace piblocks {
+namespace {
+
+void set_color(cairo_t& cr, const Color& color) {
+  cairo_set_source_rgb(&cr, color.red / 255.0, color.green / 255.0, color.blue / 255.0);
+}
+
+/// Dashes along one side, fitted so that a dash ends in each corner and the pattern looks the
+/// same from both ends.
+void stroke_side(cairo_t& cr, const Point& from, const Point& to, double dash_px) {
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const double periods = std::max(1.0, std::round((length / dash_px - 1) / 2));
+  const double fitted = length / (2 * periods + 1);
+  cairo_set_dash(&cr, &fitted, 1, 0);
+  cairo_move_to(&cr, from.x, from.y);
+  cairo_line_to(&cr, to.x, to.y);
+  cairo_stroke(&cr);
+}
+
+void stroke_inside(cairo_t& cr, const Rectangle& bounds, const Stroke& stroke) {
+  const double inset = stroke.width_px / 2;
+  const double left = bounds.x + inset;
+  const double top = bounds.y + inset;
+  const double right = bounds.x + bounds.width - inset;
+  const double bottom = bounds.y + bounds.height - inset;
+  set_color(cr, stroke.color);
+  cairo_set_line_width(&cr, stroke.width_px);
+  if (stroke.dash_px <= 0) {
+    cairo_set_dash(&cr, nullptr, 0, 0);
+    cairo_rectangle(&cr, left, top, right - left, bottom - top);
+    cairo_stroke(&cr);
+    return;
+  }
+  cairo_set_line_cap(&cr, CAIRO_LINE_CAP_SQUARE);
+  stroke_side(cr, {left, top}, {right, top}, stroke.dash_px);
+  stroke_side(cr, {right, top}, {right, bottom}, stroke.dash_px);
+  stroke_side(cr, {right, bottom}, {left, bottom}, stroke.dash_px);
+  stroke_side(cr, {left, bottom}, {left, top}, stroke.dash_px);
+  cairo_set_line_cap(&cr, CAIRO_LINE_CAP_BUTT);
+}
+
+}  // namespace
+
+void Painter::paint(cairo_t& cr, const DrawList& list) {
+  set_color(cr, list.background);
+  cairo_paint(&cr);
+  for (const DrawItem& item : list.items) {
+    std::visit([&](const auto& shape) { paint(cr, shape); }, item);
+  }
+  check_cairo(cairo_status(&cr), "paint");
+}
+
+void Painter::paint(cairo_t& cr, const RectangleItem& item) const {
+  if (item.fill) {
+    set_color(cr, *item.fill);
+    cairo_rectangle(&cr, item.bounds.x, item.bounds.y, item.bounds.width, item.bounds.height);
+    cairo_fill(&cr);
+  }
+  if (item.stroke) stroke_inside(cr, item.bounds, *item.stroke);
+}
+
+void Painter::paint(cairo_t& cr, const TextItem& item) {
+  if (!font_) font_ = std::make_unique<Font>();
+  font_->select(cr, item.size_px);
+  set_color(cr, item.color);
+  cairo_move_to(&cr, item.origin.x, item.origin.y);
+  cairo_show_text(&cr, item.text.c_str());
+}
+
+}  // namespace piblocks
