@@ -1,0 +1,49 @@
+#include <fmt/format.h>
+
+#include <piblocks/blocks.hpp>
+#include <piblocks/canvas.hpp>
+#include <piblocks/collision_log.hpp>
+#include <piblocks/frame_sink.hpp>
+#include <piblocks/image.hpp>
+#include <piblocks/physics_versions.hpp>
+#include <piblocks/scene.hpp>
+#include <piblocks/timeline.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/text_output.hpp"
+#include "cli/version.hpp"
+
+namespace piblocks::cli {
+namespace {
+
+void run() {
+  TextOutput out("-");
+  out.format_line("piblocks {}", kVersion);
+  out.line("libraries:");
+  for (const std::string& library : physics_library_versions()) out.format_line("  {}", library);
+  for (const std::string& library : draw_library_versions()) out.format_line("  {}", library);
+  for (const std::string& library : media_library_versions()) out.format_line("  {}", library);
+  out.format_line("  fmt {}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
+                  FMT_VERSION % 100);
+  out.line("H.264 encoders, the default first:");
+  const std::vector<std::string> encoders = h264_encoders();
+  for (const std::string& encoder : encoders) out.format_line("  {}", encoder);
+  if (encoders.empty()) out.line("  none: MP4 cannot be written");
+  out.line("limits:");
+  out.format_line("  digits: {}", kMaxDigits);
+  out.format_line("  frame: {} pixels a side, {} in all", kMaxSide_px, kMaxFrame_px);
+  out.format_line("  frames per second: {}", kMaxFrameRate);
+  out.format_line("  frames of one rendering: {}", kMaxFrames);
+  out.format_line("  collisions stored by --engine events: {}", kMaxStoredCollisions);
+  out.finish();
+}
+
+}  // namespace
+
+void add_info(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("info", "Print versions of the libraries, encoders found, limits");
+  command->callback(run);
+}
+
+}  // namespace piblocks::cli

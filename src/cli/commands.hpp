@@ -1,0 +1,18 @@
+// The subcommands, one source file each.
+// In: an App to which a subcommand is added. Out: its options, and a callback that does the
+// work; failures leave it as exceptions.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <stop_token>
+
+namespace piblocks::cli {
+
+void add_render(CLI::App& app, const std::stop_token& stop);
+void add_still(CLI::App& app);
+void add_log(CLI::App& app, const std::stop_token& stop);
+void add_state(CLI::App& app);
+void add_count(CLI::App& app);
+void add_info(CLI::App& app);
+
+}  // namespace piblocks::cli

@@ -1,0 +1,80 @@
+#include "cli/progress.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+#include <string_view>
+#include <unistd.h>
+#include <utility>
+
+namespace piblocks::cli {
+namespace {
+
+constexpr std::chrono::milliseconds kBarInterval{100};
+constexpr std::chrono::seconds kLineInterval{5};
+constexpr std::string_view kClearLine = "\r\x1b[K";
+
+std::string minutes_and_seconds(double duration_s) {
+  const auto whole = static_cast<long>(std::lround(duration_s));
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+/// What is written, for people: not the name of a pipe.
+std::string subject(const std::string& output) {
+  return output == "-" ? "standard output" : output;
+}
+
+}  // namespace
+
+ProgressReport::ProgressReport(std::string output, bool quiet)
+    : output_(std::move(output)), quiet_(quiet), on_terminal_(isatty(STDERR_FILENO) == 1) {}
+
+ProgressReport::~ProgressReport() {
+  if (bar_visible_) fmt::print(stderr, "{}", kClearLine);
+}
+
+double ProgressReport::elapsed_s() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+void ProgressReport::update(const Progress& progress) {
+  progress_ = progress;
+  const auto now = Clock::now();
+  if (quiet_ || now - last_shown_ < (on_terminal_ ? Clock::duration(kBarInterval)
+                                                  : Clock::duration(kLineInterval))) {
+    return;
+  }
+  last_shown_ = now;
+  if (on_terminal_) {
+    draw_bar();
+    bar_visible_ = true;
+  } else {
+    print_line();
+  }
+}
+
+void ProgressReport::draw_bar() const {
+  constexpr int kWidth = 30;
+  const double share = double(progress_.frames_done) / double(progress_.frame_count);
+  const double rate = double(progress_.frames_done) / elapsed_s();
+  const double left_s = double(progress_.frame_count - progress_.frames_done) / rate;
+  const int filled = static_cast<int>(share * kWidth);
+  fmt::print(stderr, "{}[{:=<{}}{: <{}}] {:3.0f} %  {:.0f} frames/s  {} left", kClearLine, "",
+             filled, "", kWidth - filled, std::floor(100 * share), rate,
+             minutes_and_seconds(left_s));
+}
+
+void ProgressReport::print_line() const {
+  fmt::print(stderr, "{} of {} frames, {:.0f} frames/s\n", progress_.frames_done,
+             progress_.frame_count, double(progress_.frames_done) / elapsed_s());
+}
+
+void ProgressReport::finish() {
+  if (quiet_) return;
+  if (std::exchange(bar_visible_, false)) fmt::print(stderr, "{}", kClearLine);
+  const double duration_s = elapsed_s();
+  fmt::print(stderr, "{}: {} frames in {:.1f} s ({:.0f} frames/s)\n", subject(output_),
+             progress_.frame_count, duration_s, double(progress_.frame_count) / duration_s);
+}
+
+}  // namespace piblocks::cli

@@ -1,0 +1,40 @@
+// How far a rendering has come.
+// In: frame counts, as they grow. Out: on standard error a bar on a terminal, plain lines
+// otherwise, nothing when quiet.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include <piblocks/render.hpp>
+
+namespace piblocks::cli {
+
+class ProgressReport {
+ public:
+  ProgressReport(std::string output, bool quiet);
+  ~ProgressReport();
+  ProgressReport(const ProgressReport&) = delete;
+  ProgressReport& operator=(const ProgressReport&) = delete;
+
+  void update(const Progress& progress);
+  /// Says what has been written.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  double elapsed_s() const;
+  void draw_bar() const;
+  void print_line() const;
+
+  const std::string output_;
+  const bool quiet_;
+  const bool on_terminal_;
+  const Clock::time_point start_ = Clock::now();
+  Clock::time_point last_shown_ = start_;
+  Progress progress_;
+  bool bar_visible_ = false;
+};
+
+}  // namespace piblocks::cli

@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+#include <string_view>
+
+#include <piblocks/canvas.hpp>
+#include <piblocks/compose.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/png.hpp>
+#include <piblocks/render.hpp>
+
+#include "core/output_file.hpp"
+
+namespace piblocks {
+namespace {
+
+std::vector<std::uint8_t> draw_png(const DrawList& list) {
+  Canvas canvas(list.width_px, list.height_px);
+  canvas.paint(list);
+  return encode_png(canvas.view());
+}
+
+using Draw = std::vector<std::uint8_t>(const DrawList& list);
+
+Draw* drawing_for(std::string_view output) {
+  if (output == "-" || output.ends_with(".png")) return draw_png;
+  if (output.ends_with(".svg")) return draw_svg;
+  if (output.ends_with(".pdf")) return draw_pdf;
+  throw UsageError(fmt::format(
+      "still: '{}' has no known ending; use .png, .svg, .pdf, or - for PNG on standard output",
+      output));
+}
+
+}  // namespace
+
+void render_still(const Scene& scene, const Instant& instant, const std::string& output) {
+  Draw* const draw = drawing_for(output);
+  const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
+  const BlockState state = state_at(*log, instant).state;
+  const Layout layout = lay_out(scene, log->size());
+  OutputFile file(output);
+  file.write(draw(compose(scene, layout, state)));
+  file.finish();
+}
+
+}  // namespace piblocks
