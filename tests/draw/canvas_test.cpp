@@ -1,0 +1,89 @@
+#include <gtest/gtest.h>
+#include <piblocks/canvas.hpp>
+
+#include <cstring>
+#include <string>
+
+namespace piblocks {
+namespace {
+
+constexpr Color kWhite = {255, 255, 255};
+constexpr Color kGreen = {10, 200, 30};
+
+std::uint32_t pixel(const Canvas& canvas, int x, int y) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, canvas.view().row(y) + 4 * x, 4);
+  return value & 0xFFFFFF;
+}
+
+DrawList with_rectangle(const Rectangle& bounds) {
+  return {40, 30, kWhite, {RectangleItem{ItemId::blue_block, bounds, kGreen, std::nullopt}}};
+}
+
+std::string as_text(const std::vector<std::uint8_t>& bytes) { return {bytes.begin(), bytes.end()}; }
+
+TEST(Canvas, FillsExactlyTheRectangle) {
+  Canvas canvas(40, 30);
+  canvas.paint(with_rectangle({10, 5, 20, 10}));
+  EXPECT_EQ(pixel(canvas, 10, 5), 0x0AC81Eu);
+  EXPECT_EQ(pixel(canvas, 29, 14), 0x0AC81Eu);
+  EXPECT_EQ(pixel(canvas, 9, 5), 0xFFFFFFu);
+  EXPECT_EQ(pixel(canvas, 30, 14), 0xFFFFFFu);
+  EXPECT_EQ(pixel(canvas, 29, 15), 0xFFFFFFu);
+}
+
+TEST(Canvas, CoversPartialPixelsInProportion) {
+  Canvas canvas(40, 30);
+  canvas.paint(with_rectangle({10.25, 5, 20, 10}));
+  EXPECT_NEAR(pixel(canvas, 10, 7) & 0xFF, 255 - 0.75 * (255 - 30), 2);
+  EXPECT_NEAR(pixel(canvas, 30, 7) & 0xFF, 255 - 0.25 * (255 - 30), 2);
+}
+
+TEST(Canvas, AStrokeStaysInside) {
+  Canvas canvas(40, 30);
+  canvas.paint({40, 30, kWhite,
+                {RectangleItem{ItemId::wall, {10, 5, 20, 10}, std::nullopt, Stroke{kGreen, 2, 0}}}});
+  EXPECT_EQ(pixel(canvas, 9, 10), 0xFFFFFFu);
+  EXPECT_EQ(pixel(canvas, 10, 10), 0x0AC81Eu);
+  EXPECT_EQ(pixel(canvas, 11, 10), 0x0AC81Eu);
+  EXPECT_EQ(pixel(canvas, 12, 10), 0xFFFFFFu);
+}
+
+TEST(Canvas, DashesMeetInEveryCorner) {
+  Canvas canvas(40, 30);
+  canvas.paint({40, 30, kWhite,
+                {RectangleItem{ItemId::wall, {2, 3, 31, 23}, std::nullopt, Stroke{kGreen, 1, 3}}}});
+  for (const auto& [x, y] : {std::pair{2, 3}, {32, 3}, {2, 25}, {32, 25}}) {
+    EXPECT_EQ(pixel(canvas, x, y), 0x0AC81Eu) << x << ',' << y;
+  }
+}
+
+TEST(Canvas, APictureDoesNotDependOnTheOneBefore) {
+  const DrawList text{40, 30, kWhite, {TextItem{ItemId::count, {2, 20}, "31", 18, kGreen}}};
+  Canvas fresh(40, 30);
+  fresh.paint(text);
+  Canvas used(40, 30);
+  used.paint(with_rectangle({3, 3, 30, 20}));
+  used.paint(text);
+  for (int y = 0; y < 30; ++y) {
+    EXPECT_EQ(std::memcmp(fresh.view().row(y), used.view().row(y), 40 * 4), 0) << "row " << y;
+  }
+}
+
+TEST(VectorFiles, AreCompleteAndRepeatable) {
+  const DrawList list{40, 30, kWhite,
+                      {RectangleItem{ItemId::wall, {1, 1, 9, 9}, kGreen, std::nullopt},
+                       TextItem{ItemId::count, {2, 20}, "314", 9, kGreen}}};
+  const std::string svg = as_text(draw_svg(list));
+  EXPECT_NE(svg.find("width=\"40px\""), std::string::npos) << svg.substr(0, 300);
+  EXPECT_TRUE(svg.ends_with("</svg>\n"));
+  EXPECT_EQ(svg, as_text(draw_svg(list)));
+  const std::string pdf = as_text(draw_pdf(list));
+  EXPECT_TRUE(pdf.starts_with("%PDF-"));
+  EXPECT_TRUE(pdf.ends_with("%%EOF\n"));
+  EXPECT_NE(pdf.find("/MediaBox [ 0 0 40 30 ]"), std::string::npos);
+  EXPECT_EQ(pdf, as_text(draw_pdf(list)));
+}
+
+}  // namespace
+}  // namespace piblocks

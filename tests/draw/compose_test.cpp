@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+#include <piblocks/collision_log.hpp>
+#include <piblocks/compose.hpp>
+
+#include <cmath>
+
+#include "draw/font.hpp"
+
+namespace piblocks {
+namespace {
+
+Scene scene_of(int digits, int width_px, int height_px) {
+  Scene scene;
+  scene.system = article_system(digits);
+  scene.view.width_px = width_px;
+  scene.view.height_px = height_px;
+  return scene;
+}
+
+const RectangleItem& rectangle(const DrawList& list, ItemId id) {
+  for (const DrawItem& item : list.items) {
+    const auto* found = std::get_if<RectangleItem>(&item);
+    if (found != nullptr && found->id == id) return *found;
+  }
+  throw std::logic_error("no such rectangle");
+}
+
+const TextItem& text(const DrawList& list, ItemId id) {
+  for (const DrawItem& item : list.items) {
+    const auto* found = std::get_if<TextItem>(&item);
+    if (found != nullptr && found->id == id) return *found;
+  }
+  throw std::logic_error("no such text");
+}
+
+double right(const Rectangle& r) { return r.x + r.width; }
+
+TEST(Compose, BlocksTouchWhereTheyCollide) {
+  const Scene scene = scene_of(3, 1920, 1080);
+  const auto log = make_collision_log(scene.system);
+  const Layout layout = lay_out(scene, log->size());
+  const DrawList blocks = compose(scene, layout, state_after(*log, 1));
+  EXPECT_NEAR(right(rectangle(blocks, ItemId::blue_block).bounds),
+              rectangle(blocks, ItemId::red_block).bounds.x, 1e-9);
+  const DrawList wall = compose(scene, layout, state_after(*log, 2));
+  EXPECT_NEAR(right(rectangle(wall, ItemId::wall).bounds),
+              rectangle(wall, ItemId::blue_block).bounds.x, 1e-9);
+}
+
+TEST(Compose, CounterShowsTheExactCountWithSeparators) {
+  const Scene scene = scene_of(5, 1280, 720);
+  const auto log = make_collision_log(scene.system);
+  const Layout layout = lay_out(scene, log->size());
+  EXPECT_EQ(text(compose(scene, layout, state_at(*log, 0)), ItemId::count).text, "0");
+  EXPECT_EQ(text(compose(scene, layout, state_after(*log, 1234)), ItemId::count).text, "1,234");
+  EXPECT_EQ(text(compose(scene, layout, state_at(*log, 1000)), ItemId::count).text, "31,415");
+}
+
+TEST(Compose, NothingOverlapsOrLeavesTheFrameAtAnyAspect) {
+  const Font font;
+  for (const int digits : {1, 3, 9, 20, 40}) {
+    for (const auto& [width, height] : {std::pair{1920, 1080},
+                                        {1280, 720},
+                                        {3840, 2160},
+                                        {1080, 1920},
+                                        {1080, 1080},
+                                        {1440, 1080},
+                                        {1300, 200},
+                                        {200, 1300},
+                                        {64, 36},
+                                        {2, 2}}) {
+      const Scene scene = scene_of(digits, width, height);
+      const auto log = make_collision_log(scene.system);
+      const DrawList list =
+          compose(scene, lay_out(scene, log->size()), state_after(*log, log->size()));
+      const Rectangle wall = rectangle(list, ItemId::wall).bounds;
+      const TextItem& label = text(list, ItemId::label);
+      const TextItem& count = text(list, ItemId::count);
+      const double end = count.origin.x + font.width_em(count.text) * count.size_px;
+      EXPECT_GT(wall.width, 0);
+      EXPECT_GE(wall.x, 0);
+      EXPECT_LE(wall.y + wall.height, height);
+      EXPECT_GE(label.origin.x, 0);
+      EXPECT_LE(end, width);
+      EXPECT_GE(label.origin.y - label.size_px * 0.73, 0);
+      EXPECT_LT(label.origin.y, wall.y) << "the label ends above the view";
+      EXPECT_NEAR(label.origin.x, width - end, 1e-6) << "the longest line is centred";
+    }
+  }
+}
+
+TEST(Compose, NothingMovesButTheBlocksAndTheCount) {
+  const Scene scene = scene_of(6, 1920, 1080);
+  const auto log = make_collision_log(scene.system);
+  const Layout layout = lay_out(scene, log->size());
+  const DrawList start = compose(scene, layout, state_at(*log, 0));
+  const DrawList later = compose(scene, layout, state_at(*log, 4));
+  EXPECT_EQ(rectangle(start, ItemId::wall), rectangle(later, ItemId::wall));
+  EXPECT_EQ(text(start, ItemId::label), text(later, ItemId::label));
+  EXPECT_EQ(text(start, ItemId::count).origin, text(later, ItemId::count).origin);
+  EXPECT_NE(rectangle(start, ItemId::blue_block), rectangle(later, ItemId::blue_block));
+}
+
+TEST(Compose, EverythingScalesWithTheFrame) {
+  const Scene small = scene_of(3, 1280, 720);
+  const Scene large = scene_of(3, 3840, 2160);
+  const Layout a = lay_out(small, 314);
+  const Layout b = lay_out(large, 314);
+  EXPECT_NEAR(b.scale, 3 * a.scale, 1e-9);
+  EXPECT_NEAR(b.text_px, 3 * a.text_px, 1e-9);
+  EXPECT_NEAR(b.line_px, 3 * a.line_px, 1e-9);
+  EXPECT_NEAR(b.count_x, 3 * a.count_x, 1e-9);
+}
+
+TEST(Compose, FollowsTheScenesGeometry) {
+  Scene scene = scene_of(2, 1000, 500);
+  scene.system.wall_face = Rational(-1, 2);
+  scene.system.blue.width = Rational(1, 2);
+  scene.system.red.width = 2;
+  const auto log = make_collision_log(scene.system);
+  const Layout layout = lay_out(scene, log->size());
+  const DrawList list = compose(scene, layout, state_at(*log, 0));
+  const Rectangle wall = rectangle(list, ItemId::wall).bounds;
+  const Rectangle blue = rectangle(list, ItemId::blue_block).bounds;
+  const Rectangle red = rectangle(list, ItemId::red_block).bounds;
+  EXPECT_NEAR(blue.width, 0.5 * layout.scale, 1e-9);
+  EXPECT_NEAR(red.height, 2 * layout.scale, 1e-9);
+  EXPECT_NEAR(blue.x - right(wall), 2.25 * layout.scale, 1e-9);
+  EXPECT_NEAR(blue.y + blue.height / 2, red.y + red.height / 2, 1e-9);
+}
+
+}  // namespace
+}  // namespace piblocks

@@ -1,0 +1,223 @@
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+#include <piblocks/scene.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+namespace piblocks {
+namespace {
+namespace fs = std::filesystem;
+
+class SceneFileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "piblocks-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    path_ = (folder_ / "scene.toml").string();
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  Scene load(const std::string& text) {
+    std::ofstream(path_) << text;
+    SceneBuilder builder;
+    builder.read_file(path_);
+    return builder.build();
+  }
+
+  std::vector<std::string> problems(const std::string& text) {
+    try {
+      load(text);
+    } catch (const SceneError& error) {
+      return error.problems();
+    }
+    return {};
+  }
+
+  fs::path folder_;
+  std::string path_;
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(SceneFileTest, EmptyFileIsTheArticlesScene) {
+  const Scene scene = load("");
+  EXPECT_EQ(scene.system.red.mass, 10000);
+  EXPECT_EQ(scene.system.red.position, 5);
+  EXPECT_EQ(scene.system.red.velocity, -1);
+  EXPECT_EQ(scene.system.blue_gap(), Rational(3, 2));
+  EXPECT_EQ(scene.view.x.low, -1);
+  EXPECT_EQ(scene.view.x.high, 12);
+  EXPECT_EQ(scene.view.width_px, 1920);
+  EXPECT_EQ(scene.view.frame_rate, 60);
+  EXPECT_TRUE(scene.time.to.after_last);
+  EXPECT_EQ(scene.time.to.offset, Rational(3, 2));
+}
+
+TEST_F(SceneFileTest, ReadsEveryKey) {
+  const Scene scene = load(R"(
+    [wall]
+    face = -0.5
+    [blue]
+    mass = "1/3"
+    position = 2.25
+    velocity = 0.1
+    width = 0.5
+    [red]
+    mass = "100^16"
+    position = 7
+    velocity = "-3/2"
+    width = 2
+    [view]
+    x = [-2, "25/2"]
+    y = [-1.5, 1.5]
+    size = [1280, 720]
+    fps = "30000/1001"
+    [time]
+    from = 1
+    to = "last+0.25"
+    speed = "1/2"
+  )");
+  EXPECT_EQ(scene.system.wall_face, Rational(-1, 2));
+  EXPECT_EQ(scene.system.blue.mass, Rational(1, 3));
+  EXPECT_EQ(scene.system.blue.position, Rational(9, 4));
+  EXPECT_EQ(scene.system.blue.velocity, Rational(1, 10)) << "a decimal means the decimal";
+  EXPECT_EQ(scene.system.blue.width, Rational(1, 2));
+  EXPECT_EQ(scene.system.red.mass, parse_rational("1e32"));
+  EXPECT_EQ(scene.system.red.position, 7);
+  EXPECT_EQ(scene.system.red.velocity, Rational(-3, 2));
+  EXPECT_EQ(scene.system.red.width, 2);
+  EXPECT_EQ(scene.view.x.low, -2);
+  EXPECT_EQ(scene.view.x.high, Rational(25, 2));
+  EXPECT_EQ(scene.view.y.low, Rational(-3, 2));
+  EXPECT_EQ(scene.view.y.high, Rational(3, 2));
+  EXPECT_EQ(scene.view.width_px, 1280);
+  EXPECT_EQ(scene.view.height_px, 720);
+  EXPECT_EQ(scene.view.frame_rate, Rational(30000, 1001));
+  EXPECT_EQ(scene.time.from, 1);
+  EXPECT_TRUE(scene.time.to.after_last);
+  EXPECT_EQ(scene.time.to.offset, Rational(1, 4));
+  EXPECT_EQ(scene.time.speed, Rational(1, 2));
+}
+
+TEST_F(SceneFileTest, ReportsEveryProblemWithItsLine) {
+  const auto found = problems(
+      "[blue]\n"
+      "mass = 0\n"
+      "colour = 'green'\n"
+      "[red]\n"
+      "mass = true\n"
+      "position = 'far'\n"
+      "[vieww]\n"
+      "size = [1, 2]\n"
+      "[time]\n"
+      "speed = -1\n");
+  ASSERT_EQ(found.size(), 6u);
+  const auto has = [&](const std::string& place, const std::string& key, const std::string& why) {
+    return std::any_of(found.begin(), found.end(), [&](const std::string& line) {
+      return line.starts_with(path_ + ":" + place + ": " + key) && contains(line, why);
+    });
+  };
+  EXPECT_TRUE(has("2", "blue.mass", "= 0: must be greater than 0"));
+  EXPECT_TRUE(has("3", "blue.colour", "unknown key"));
+  EXPECT_TRUE(has("5", "red.mass", "must be a number"));
+  EXPECT_TRUE(has("6", "red.position = far", "not a number"));
+  EXPECT_TRUE(has("8", "vieww.size", "unknown key"));
+  EXPECT_TRUE(has("10", "time.speed", "= -1: must be greater than 0"));
+}
+
+TEST_F(SceneFileTest, RefusesInvalidValuesOneByOne) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"[red]\nmass = -1", "red.mass"},
+      {"[red]\nmass = nan", "red.mass"},
+      {"[blue]\nmass = inf", "blue.mass"},
+      {"[blue]\nwidth = 0", "blue.width"},
+      {"[blue]\nposition = 0.4", "into the wall"},
+      {"[red]\nposition = 2.9", "overlaps blue"},
+      {"[red]\nposition = '1e400'", "range of a double"},
+      {"[view]\nsize = [0, 10]", "view.size"},
+      {"[view]\nsize = [-5, 10]", "view.size"},
+      {"[view]\nsize = [16385, 10]", "view.size"},
+      {"[view]\nsize = [16384, 16384]", "view.size"},
+      {"[view]\nsize = [99999999999999999999, 2]", ""},
+      {"[view]\nsize = [10.5, 10]", "view.size"},
+      {"[view]\nsize = [10]", "view.size"},
+      {"[view]\nx = [2, 2]", "view.x"},
+      {"[view]\ny = [1, -1]", "view.y"},
+      {"[view]\nfps = 0", "view.fps"},
+      {"[view]\nfps = '1/0'", "view.fps"},
+      {"[view]\nfps = 1001", "view.fps"},
+      {"[view]\nfps = '1/3000000'", "view.fps"},
+      {"[time]\nspeed = 0", "time.speed"},
+      {"[time]\nfrom = 5\nto = 5", "time.to"},
+      {"[time]\nto = 'first'", "time.to"},
+      {"[time]\nto = 'last-1'", "time.to"},
+      {"[time]\nto = 'last+-1'", "time.to"},
+      {"[time]\nto = [1, 2]", "time.to"},
+      {"wall = 3", "wall"},
+      {"[wall]\nface = []", "wall.face"},
+      {"[wall]\nface = { x = 1 }", "wall.face"},
+      {"[wall]\nface = 2020-01-01", "wall.face"},
+  };
+  for (const auto& [text, expected] : cases) {
+    const auto found = problems(text);
+    ASSERT_EQ(found.size(), 1u) << text;
+    EXPECT_TRUE(contains(found.front(), expected)) << found.front();
+    EXPECT_TRUE(contains(found.front(), path_ + ":")) << found.front();
+  }
+}
+
+TEST_F(SceneFileTest, SyntaxErrorsNameTheirLine) {
+  const auto found = problems("[red]\nmass = = 3\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found.front().starts_with(path_ + ":2: ")) << found.front();
+}
+
+TEST_F(SceneFileTest, RefusesWhatItCannotRead) {
+  SceneBuilder builder;
+  EXPECT_THROW(builder.read_file((folder_ / "missing.toml").string()), SceneError);
+  EXPECT_THROW(builder.read_file(folder_.string()), SceneError);
+  EXPECT_THROW(load(std::string((1 << 20) + 1, '#')), SceneError);
+  EXPECT_THROW(load(std::string(100000, '[')), SceneError);
+}
+
+TEST_F(SceneFileTest, OptionsWinAndAreNamed) {
+  std::ofstream(path_) << "[view]\nsize = [640, 480]\n[red]\nmass = 7\n[blue]\nmass = 3\n";
+  SceneBuilder builder;
+  builder.read_file(path_);
+  builder.set("--size", "view.size", "1280x720");
+  builder.set_mass_ratio("--digits", 100);
+  const Scene scene = builder.build();
+  EXPECT_EQ(scene.view.width_px, 1280);
+  EXPECT_EQ(scene.view.height_px, 720);
+  EXPECT_EQ(scene.system.red.mass, 300) << "the ratio is to the blue mass of the file";
+
+  builder.set("--size", "view.size", "1280");
+  builder.set("--fps", "view.fps", "-1");
+  try {
+    builder.build();
+    FAIL();
+  } catch (const SceneError& error) {
+    ASSERT_EQ(error.problems().size(), 2u);
+    EXPECT_TRUE(error.problems()[0].starts_with("--size: view.size = 1280: "));
+    EXPECT_TRUE(error.problems()[1].starts_with("--fps: view.fps = -1: "));
+  }
+}
+
+TEST(ParseEnd, ReadsItsThreeForms) {
+  EXPECT_FALSE(parse_end("2.5").after_last);
+  EXPECT_EQ(parse_end("2.5").offset, Rational(5, 2));
+  EXPECT_TRUE(parse_end("last").after_last);
+  EXPECT_EQ(parse_end("last").offset, 0);
+  EXPECT_EQ(parse_end("last+1/3").offset, Rational(1, 3));
+  for (const char* text : {"", "lasst", "last1", "last+", "last+x", "last+-1"}) {
+    EXPECT_THROW(parse_end(text), UsageError) << text;
+  }
+}
+
+}  // namespace
+}  // namespace piblocks
