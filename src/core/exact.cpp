@@ -134,8 +134,8 @@ Integer floor(const Rational& value) {
 }
 
 Rational power(const Rational& base, unsigned long exponent) {
-  const std::size_t base_bits = std::max(mpz_sizeinbase(base.get_num_mpz_t(), 2),
-                                         mpz_sizeinbase(base.get_den_mpz_t(), 2));
+  const std::size_t base_bits =
+      std::max(mpz_sizeinbase(base.get_num_mpz_t(), 2), mpz_sizeinbase(base.get_den_mpz_t(), 2));
   const bool is_unit = base == 0 || abs(base) == 1;
   if (!is_unit && double(base_bits) * double(exponent) > double(kMaxRationalBits)) fail_too_long();
   Rational result;

@@ -2,10 +2,9 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <piblocks/error.hpp>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <piblocks/error.hpp>
 
 #include <cerrno>
 #include <cstring>
@@ -16,9 +15,7 @@ namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
-std::string reason(int error_number) {
-  return std::generic_category().message(error_number);
-}
+std::string reason(int error_number) { return std::generic_category().message(error_number); }
 
 [[noreturn]] void fail_open(const fs::path& path, const std::string& why) {
   throw UsageError(fmt::format("output: cannot open '{}': {}", path.string(), why));

@@ -27,8 +27,9 @@ TEST(ParseRational, IsExactWhereADoubleIsNot) {
 }
 
 TEST(ParseRational, RefusesWhatIsNoNumber) {
-  for (const char* text : {"", " ", "x", "1x", "1/", "/2", "1/0", "1//2", "^2", "2^", "2^0.5", "--1",
-                           "1e", "1e+", ".", "0^-1", "nan", "inf", "0x10", "1 2", "1/2/3"}) {
+  for (const char* text :
+       {"",    " ",  "x",   "1x", "1/",   "/2",  "1/0", "1//2", "^2",  "2^",   "2^0.5",
+        "--1", "1e", "1e+", ".",  "0^-1", "nan", "inf", "0x10", "1 2", "1/2/3"}) {
     EXPECT_THROW(parse_rational(text), UsageError) << text;
   }
 }
