@@ -2,10 +2,10 @@
 // In: exact numbers from a user. Out: a value that every engine starts from.
 #pragma once
 
+#include <piblocks/exact.hpp>
+
 #include <string>
 #include <vector>
-
-#include <piblocks/exact.hpp>
 
 namespace piblocks {
 

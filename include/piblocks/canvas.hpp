@@ -2,13 +2,13 @@
 // In: a draw list. Out: pixels, or a vector file, from the same painter.
 #pragma once
 
+#include <piblocks/draw_list.hpp>
+#include <piblocks/image.hpp>
+
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <piblocks/draw_list.hpp>
-#include <piblocks/image.hpp>
 
 namespace piblocks {
 

@@ -3,12 +3,12 @@
 // time. Stored and computed logs look alike.
 #pragma once
 
-#include <cstdint>
-#include <memory>
-
 #include <piblocks/blocks.hpp>
 #include <piblocks/exact.hpp>
 #include <piblocks/time.hpp>
+
+#include <cstdint>
+#include <memory>
 
 namespace piblocks {
 

@@ -3,8 +3,9 @@
 // Rounding to double happens once, at the border to floating point, by to_double().
 #pragma once
 
-#include <cstdint>
 #include <gmpxx.h>
+
+#include <cstdint>
 #include <string>
 #include <string_view>
 

@@ -3,14 +3,14 @@
 // written in order by one thread, that bears its final name only when it is complete.
 #pragma once
 
+#include <piblocks/exact.hpp>
+#include <piblocks/image.hpp>
+
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <piblocks/exact.hpp>
-#include <piblocks/image.hpp>
 
 namespace piblocks {
 

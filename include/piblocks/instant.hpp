@@ -2,11 +2,11 @@
 // In: "3.5", "last" or "#314". Out: the state at it.
 #pragma once
 
-#include <string_view>
-#include <variant>
-
 #include <piblocks/collision_log.hpp>
 #include <piblocks/interpolator.hpp>
+
+#include <string_view>
+#include <variant>
 
 namespace piblocks {
 

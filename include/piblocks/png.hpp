@@ -2,10 +2,10 @@
 // In: a view of opaque pixels. Out: the bytes of a valid PNG (8-bit RGB, sRGB).
 #pragma once
 
+#include <piblocks/image.hpp>
+
 #include <cstdint>
 #include <vector>
-
-#include <piblocks/image.hpp>
 
 namespace piblocks {
 

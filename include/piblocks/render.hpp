@@ -3,14 +3,14 @@
 // trace of it.
 #pragma once
 
+#include <piblocks/frame_sink.hpp>
+#include <piblocks/instant.hpp>
+#include <piblocks/scene.hpp>
+
 #include <cstdint>
 #include <functional>
 #include <stop_token>
 #include <string>
-
-#include <piblocks/frame_sink.hpp>
-#include <piblocks/instant.hpp>
-#include <piblocks/scene.hpp>
 
 namespace piblocks {
 

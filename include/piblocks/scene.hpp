@@ -3,14 +3,14 @@
 // at once.
 #pragma once
 
+#include <piblocks/blocks.hpp>
+#include <piblocks/exact.hpp>
+
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <piblocks/blocks.hpp>
-#include <piblocks/exact.hpp>
 
 namespace piblocks {
 

@@ -3,10 +3,10 @@
 // simulation time. Nothing is accumulated, so no frame depends on another.
 #pragma once
 
-#include <cstdint>
-
 #include <piblocks/collision_log.hpp>
 #include <piblocks/scene.hpp>
+
+#include <cstdint>
 
 namespace piblocks {
 

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-
 #include <piblocks/blocks.hpp>
 #include <piblocks/canvas.hpp>
 #include <piblocks/collision_log.hpp>

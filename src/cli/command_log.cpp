@@ -1,9 +1,9 @@
 #include <fmt/format.h>
+#include <piblocks/error.hpp>
+
 #include <map>
 #include <memory>
 #include <optional>
-
-#include <piblocks/error.hpp>
 
 #include "cli/commands.hpp"
 #include "cli/scene_options.hpp"

@@ -1,10 +1,10 @@
+#include <fmt/format.h>
+#include <piblocks/render.hpp>
+
 #include <chrono>
 #include <cstdio>
-#include <fmt/format.h>
 #include <memory>
 #include <thread>
-
-#include <piblocks/render.hpp>
 
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
+#include <piblocks/instant.hpp>
+
 #include <memory>
 #include <vector>
-
-#include <piblocks/instant.hpp>
 
 #include "cli/commands.hpp"
 #include "cli/scene_options.hpp"

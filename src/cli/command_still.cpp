@@ -1,6 +1,6 @@
-#include <memory>
-
 #include <piblocks/render.hpp>
+
+#include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/scene_options.hpp"

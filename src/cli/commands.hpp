@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+
 #include <stop_token>
 
 namespace piblocks::cli {

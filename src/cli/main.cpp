@@ -1,10 +1,10 @@
 // The command line: options in, exit code out. 0 done, 1 failed, 2 wrong usage.
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
 #include <csignal>
 #include <cstdio>
-#include <fmt/format.h>
 #include <new>
-
-#include <piblocks/error.hpp>
 
 #include "cli/commands.hpp"
 #include "cli/stop_on_signals.hpp"

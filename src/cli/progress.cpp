@@ -1,10 +1,11 @@
 #include "cli/progress.hpp"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <cmath>
 #include <cstdio>
-#include <fmt/format.h>
 #include <string_view>
-#include <unistd.h>
 #include <utility>
 
 namespace piblocks::cli {

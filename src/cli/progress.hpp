@@ -3,10 +3,10 @@
 // otherwise, nothing when quiet.
 #pragma once
 
+#include <piblocks/render.hpp>
+
 #include <chrono>
 #include <string>
-
-#include <piblocks/render.hpp>
 
 namespace piblocks::cli {
 

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/scene.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace piblocks::cli {
 

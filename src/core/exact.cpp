@@ -1,10 +1,10 @@
-#include <charconv>
-#include <cmath>
 #include <fmt/format.h>
 #include <mpfr.h>
-
 #include <piblocks/error.hpp>
 #include <piblocks/exact.hpp>
+
+#include <charconv>
+#include <cmath>
 
 namespace piblocks {
 namespace {

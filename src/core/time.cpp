@@ -1,7 +1,7 @@
-#include <cmath>
-
 #include <piblocks/error.hpp>
 #include <piblocks/time.hpp>
+
+#include <cmath>
 
 namespace piblocks {
 

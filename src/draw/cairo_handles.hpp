@@ -4,9 +4,9 @@
 
 #include <cairo.h>
 #include <fmt/format.h>
-#include <memory>
-
 #include <piblocks/error.hpp>
+
+#include <memory>
 
 namespace piblocks {
 

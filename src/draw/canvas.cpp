@@ -1,10 +1,10 @@
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
-#include <cassert>
 #include <fmt/format.h>
 #include <ft2build.h>
-
 #include <piblocks/canvas.hpp>
+
+#include <cassert>
 
 #include "draw/cairo_handles.hpp"
 #include "draw/painter.hpp"

@@ -1,7 +1,7 @@
+#include <piblocks/compose.hpp>
+
 #include <algorithm>
 #include <string_view>
-
-#include <piblocks/compose.hpp>
 
 #include "draw/font.hpp"
 

@@ -3,9 +3,9 @@
 #include <cairo-ft.h>
 #include <fmt/format.h>
 #include <ft2build.h>
-#include <string>
-
 #include <piblocks/error.hpp>
+
+#include <string>
 
 #include "draw/cairo_handles.hpp"
 #include FT_FREETYPE_H

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cairo.h>
+
 #include <memory>
 #include <string_view>
 

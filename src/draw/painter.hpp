@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cairo.h>
-#include <memory>
-
 #include <piblocks/draw_list.hpp>
+
+#include <memory>
 
 #include "draw/font.hpp"
 

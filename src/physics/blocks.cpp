@@ -1,8 +1,8 @@
-#include <cmath>
 #include <fmt/format.h>
-
 #include <piblocks/blocks.hpp>
 #include <piblocks/error.hpp>
+
+#include <cmath>
 
 namespace piblocks {
 namespace {

@@ -2,9 +2,9 @@
 // In: a BlockSystem. Out: every collision from time 0 on, in the order met.
 #pragma once
 
-#include <vector>
-
 #include <piblocks/blocks.hpp>
+
+#include <vector>
 
 #include "physics/stored_log.hpp"
 

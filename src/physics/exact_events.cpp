@@ -1,8 +1,8 @@
 #include "physics/exact_events.hpp"
 
-#include <optional>
-
 #include <piblocks/error.hpp>
+
+#include <optional>
 
 namespace piblocks {
 namespace {

@@ -2,9 +2,9 @@
 // In: a BlockSystem with m_red <= m_blue, or one at rest. Out: its collisions, rounded once.
 #pragma once
 
-#include <vector>
-
 #include <piblocks/blocks.hpp>
+
+#include <vector>
 
 #include "physics/stored_log.hpp"
 

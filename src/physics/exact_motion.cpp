@@ -1,12 +1,12 @@
 #include "physics/exact_motion.hpp"
 
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
 #include <algorithm>
 #include <cstdlib>
-#include <fmt/format.h>
 #include <optional>
 #include <utility>
-
-#include <piblocks/error.hpp>
 
 namespace piblocks {
 namespace {

@@ -1,9 +1,9 @@
-#include <Eigen/Core>
 #include <fmt/format.h>
 #include <gmp.h>
 #include <mpfr.h>
-
 #include <piblocks/physics_versions.hpp>
+
+#include <Eigen/Core>
 
 namespace piblocks {
 

@@ -3,10 +3,10 @@
 // A thin owner of one mpfr_t; only the operations that the unfolding needs.
 #pragma once
 
-#include <algorithm>
 #include <mpfr.h>
-
 #include <piblocks/exact.hpp>
+
+#include <algorithm>
 
 namespace piblocks {
 

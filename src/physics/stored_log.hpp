@@ -3,9 +3,9 @@
 // by time (binary search).
 #pragma once
 
-#include <vector>
-
 #include <piblocks/collision_log.hpp>
+
+#include <vector>
 
 namespace piblocks {
 

@@ -1,11 +1,11 @@
 #include "physics/unfolded_log.hpp"
 
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fmt/format.h>
-
-#include <piblocks/error.hpp>
 
 namespace piblocks {
 namespace {

@@ -1,12 +1,12 @@
 // The order of all stages: scene -> log -> state -> draw list -> pixels -> sink.
-#include <algorithm>
-
 #include <piblocks/canvas.hpp>
 #include <piblocks/collision_log.hpp>
 #include <piblocks/compose.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 #include <piblocks/timeline.hpp>
+
+#include <algorithm>
 
 #include "render/ordered_pool.hpp"
 

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
-#include <string_view>
-
 #include <piblocks/canvas.hpp>
 #include <piblocks/compose.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
+
+#include <string_view>
 
 #include "core/output_file.hpp"
 

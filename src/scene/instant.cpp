@@ -1,8 +1,8 @@
-#include <algorithm>
 #include <fmt/format.h>
-
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
+
+#include <algorithm>
 
 namespace piblocks {
 namespace {

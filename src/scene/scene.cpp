@@ -1,9 +1,9 @@
-#include <cmath>
 #include <fmt/format.h>
-
 #include <piblocks/error.hpp>
 #include <piblocks/image.hpp>
 #include <piblocks/scene.hpp>
+
+#include <cmath>
 
 namespace piblocks {
 namespace {

@@ -1,10 +1,10 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <piblocks/scene.hpp>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fmt/format.h>
-
-#include <piblocks/error.hpp>
-#include <piblocks/scene.hpp>
 
 #include "scene/toml_file.hpp"
 

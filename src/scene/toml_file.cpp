@@ -1,14 +1,14 @@
 #include "scene/toml_file.hpp"
 
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <toml++/toml.h>
+
 #include <algorithm>
 #include <cerrno>
-#include <fmt/format.h>
 #include <fstream>
 #include <optional>
 #include <system_error>
-#include <toml++/toml.h>
-
-#include <piblocks/error.hpp>
 
 namespace piblocks {
 namespace {

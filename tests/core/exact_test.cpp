@@ -1,9 +1,9 @@
-#include <cmath>
 #include <gtest/gtest.h>
-#include <limits>
-
 #include <piblocks/error.hpp>
 #include <piblocks/exact.hpp>
+
+#include <cmath>
+#include <limits>
 
 namespace piblocks {
 namespace {

@@ -1,10 +1,10 @@
 #include "core/output_file.hpp"
 
-#include <fstream>
 #include <gtest/gtest.h>
-#include <iterator>
-
 #include <piblocks/error.hpp>
+
+#include <fstream>
+#include <iterator>
 
 namespace piblocks {
 namespace {

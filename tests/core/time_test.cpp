@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
-#include <limits>
-
 #include <piblocks/error.hpp>
 #include <piblocks/time.hpp>
+
+#include <limits>
 
 namespace piblocks {
 namespace {

@@ -41,8 +41,11 @@ TEST(Canvas, CoversPartialPixelsInProportion) {
 
 TEST(Canvas, AStrokeStaysInside) {
   Canvas canvas(40, 30);
-  canvas.paint({40, 30, kWhite,
-                {RectangleItem{ItemId::wall, {10, 5, 20, 10}, std::nullopt, Stroke{kGreen, 2, 0}}}});
+  canvas.paint(
+      {40,
+       30,
+       kWhite,
+       {RectangleItem{ItemId::wall, {10, 5, 20, 10}, std::nullopt, Stroke{kGreen, 2, 0}}}});
   EXPECT_EQ(pixel(canvas, 9, 10), 0xFFFFFFu);
   EXPECT_EQ(pixel(canvas, 10, 10), 0x0AC81Eu);
   EXPECT_EQ(pixel(canvas, 11, 10), 0x0AC81Eu);
@@ -51,7 +54,9 @@ TEST(Canvas, AStrokeStaysInside) {
 
 TEST(Canvas, DashesMeetInEveryCorner) {
   Canvas canvas(40, 30);
-  canvas.paint({40, 30, kWhite,
+  canvas.paint({40,
+                30,
+                kWhite,
                 {RectangleItem{ItemId::wall, {2, 3, 31, 23}, std::nullopt, Stroke{kGreen, 1, 3}}}});
   for (const auto& [x, y] : {std::pair{2, 3}, {32, 3}, {2, 25}, {32, 25}}) {
     EXPECT_EQ(pixel(canvas, x, y), 0x0AC81Eu) << x << ',' << y;
@@ -71,7 +76,9 @@ TEST(Canvas, APictureDoesNotDependOnTheOneBefore) {
 }
 
 TEST(VectorFiles, AreCompleteAndRepeatable) {
-  const DrawList list{40, 30, kWhite,
+  const DrawList list{40,
+                      30,
+                      kWhite,
                       {RectangleItem{ItemId::wall, {1, 1, 9, 9}, kGreen, std::nullopt},
                        TextItem{ItemId::count, {2, 20}, "314", 9, kGreen}}};
   const std::string svg = as_text(draw_svg(list));
