@@ -1,10 +1,10 @@
 #include <libdeflate.h>
-#include <memory>
 #include <string_view>
 
 #include <piblocks/error.hpp>
 #include <piblocks/png.hpp>
 
+#include "media/png_encoder.hpp"
 #include "media/rgb24.hpp"
 
 namespace piblocks {
@@ -12,14 +12,9 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr int kCompressionLevel = 1;
-
-struct CompressorDeleter {
-  void operator()(libdeflate_compressor* compressor) const noexcept {
-    libdeflate_free_compressor(compressor);
-  }
-};
-using CompressorPtr = std::unique_ptr<libdeflate_compressor, CompressorDeleter>;
+/// libdeflate 1.14, one 1080p frame of blocks and text on an AMD EPYC: level 1 takes 15.5 ms for
+/// 71 kB, level 2 9.8 ms for 65 kB, levels 3 to 6 9.9 to 10.3 ms for 57 to 68 kB.
+constexpr int kCompressionLevel = 2;
 
 void put_u32(std::uint8_t* at, std::uint32_t value) {
   for (int i = 0; i < 4; ++i) at[i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
@@ -65,17 +60,41 @@ void append_header(Bytes& png, const ImageView& image) {
   end_chunk(png, colours);
 }
 
+}  // namespace
+
+void PngEncoder::CompressorDeleter::operator()(libdeflate_compressor* compressor) const noexcept {
+  libdeflate_free_compressor(compressor);
+}
+
+PngEncoder::PngEncoder() : compressor_(libdeflate_alloc_compressor(kCompressionLevel)) {
+  if (!compressor_) throw MediaError("png: cannot compress images: out of memory");
+}
+
+std::vector<std::uint8_t> PngEncoder::encode(const ImageView& image) {
+  filter_rows(image);
+  const std::size_t size = compress_rows();
+
+  Bytes png;
+  png.reserve(size + 128);
+  append_header(png, image);
+  const std::size_t pixels = begin_chunk(png, "IDAT");
+  png.insert(png.end(), compressed_.data(), compressed_.data() + size);
+  end_chunk(png, pixels);
+  end_chunk(png, begin_chunk(png, "IEND"));
+  return png;
+}
+
 /// The rows, each behind the number of its filter. Up (the difference from the row above) turns
 /// flat and vertical shapes into zeros; the first row has nothing above it.
-Bytes filtered_rows(const ImageView& image) {
+void PngEncoder::filter_rows(const ImageView& image) {
   constexpr std::uint8_t kNone = 0;
   constexpr std::uint8_t kUp = 2;
   const std::size_t row_bytes = static_cast<std::size_t>(image.width_px) * 3;
-  Bytes rows((row_bytes + 1) * static_cast<std::size_t>(image.height_px));
+  rows_.resize((row_bytes + 1) * static_cast<std::size_t>(image.height_px));
   Bytes above(row_bytes);
   Bytes current(row_bytes);
 
-  std::uint8_t* out = rows.data();
+  std::uint8_t* out = rows_.data();
   for (int y = 0; y < image.height_px; ++y) {
     pack_rgb24(image.row(y), image.width_px, current.data());
     *out++ = y == 0 ? kNone : kUp;
@@ -83,30 +102,14 @@ Bytes filtered_rows(const ImageView& image) {
     out += row_bytes;
     current.swap(above);
   }
-  return rows;
 }
 
-void append_compressed(Bytes& png, const Bytes& data) {
-  const CompressorPtr compressor(libdeflate_alloc_compressor(kCompressionLevel));
-  if (!compressor) throw MediaError("png: cannot compress image: out of memory");
-  const std::size_t bound = libdeflate_zlib_compress_bound(compressor.get(), data.size());
-  const std::size_t start = png.size();
-  png.resize(start + bound);
-  const std::size_t size = libdeflate_zlib_compress(compressor.get(), data.data(), data.size(),
-                                                    png.data() + start, bound);
-  png.resize(start + size);
+std::size_t PngEncoder::compress_rows() {
+  compressed_.resize(libdeflate_zlib_compress_bound(compressor_.get(), rows_.size()));
+  return libdeflate_zlib_compress(compressor_.get(), rows_.data(), rows_.size(), compressed_.data(),
+                                  compressed_.size());
 }
 
-}  // namespace
-
-std::vector<std::uint8_t> encode_png(const ImageView& image) {
-  Bytes png;
-  append_header(png, image);
-  const std::size_t pixels = begin_chunk(png, "IDAT");
-  append_compressed(png, filtered_rows(image));
-  end_chunk(png, pixels);
-  end_chunk(png, begin_chunk(png, "IEND"));
-  return png;
-}
+std::vector<std::uint8_t> encode_png(const ImageView& image) { return PngEncoder().encode(image); }
 
 }  // namespace piblocks

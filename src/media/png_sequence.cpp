@@ -9,11 +9,11 @@
 #include <utility>
 
 #include <piblocks/error.hpp>
-#include <piblocks/png.hpp>
 
 #include "core/output_file.hpp"
 #include "media/frame_pattern.hpp"
 #include "media/intra_chunk.hpp"
+#include "media/png_encoder.hpp"
 #include "media/sink_kinds.hpp"
 
 namespace piblocks {
@@ -101,8 +101,9 @@ PngSequence::~PngSequence() {
 }
 
 std::unique_ptr<ChunkEncoder> PngSequence::begin_chunk(std::int64_t first_frame) const {
-  const auto encode_frame = [](const ImageView& frame, std::int64_t /*number*/) {
-    return encode_png(frame);
+  const auto encode_frame = [encoder = std::make_shared<PngEncoder>()](const ImageView& frame,
+                                                                       std::int64_t /*number*/) {
+    return encoder->encode(frame);
   };
   return std::make_unique<IntraChunkEncoder>(format_, first_frame, encode_frame);
 }
