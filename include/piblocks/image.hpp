@@ -24,4 +24,14 @@ struct ImageView {
   const std::uint8_t* row(int y) const noexcept { return data + y * stride_bytes; }
 };
 
+/// A rectangle of whole pixels, from its top left corner.
+struct PixelRect {
+  int x_px = 0;
+  int y_px = 0;
+  int width_px = 0;
+  int height_px = 0;
+
+  friend bool operator==(const PixelRect&, const PixelRect&) = default;
+};
+
 }  // namespace piblocks

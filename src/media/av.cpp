@@ -1,0 +1,42 @@
+#include "media/av.hpp"
+
+#include <array>
+#include <cerrno>
+#include <fmt/format.h>
+
+#include <piblocks/error.hpp>
+
+extern "C" {
+#include <libavutil/log.h>
+}
+
+namespace piblocks {
+namespace {
+
+bool is_io_failure(int code) {
+  constexpr std::array kErrors = {EACCES, EDQUOT, EFBIG, EIO, ENOENT, ENOSPC, EPIPE, EROFS};
+  for (const int error : kErrors) {
+    if (code == AVERROR(error)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string av_error_text(int code) {
+  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
+  av_strerror(code, text.data(), text.size());
+  return text.data();
+}
+
+int check_av(int code, std::string_view operation, std::string_view object) {
+  if (code >= 0) return code;
+  const std::string message =
+      fmt::format("video: cannot {} '{}': {}", operation, object, av_error_text(code));
+  if (is_io_failure(code)) throw IoError(message);
+  throw MediaError(message);
+}
+
+void silence_av() { av_log_set_level(AV_LOG_QUIET); }
+
+}  // namespace piblocks

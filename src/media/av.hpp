@@ -1,0 +1,61 @@
+// libav's objects owned by C++, and its error codes as exceptions.
+// In: what libav's functions return. Out: typed owners that free it, or one exception.
+// Only this folder includes libav; pass AVFrame& and the like onward, never the owners.
+#pragma once
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/hash.h>
+}
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace piblocks {
+
+/// Frees through one of libav's functions that take the address of a pointer.
+template <auto Free>
+struct AvDeleter {
+  template <typename T>
+  void operator()(T* object) const noexcept {
+    Free(&object);
+  }
+};
+
+/// Closes the file of an output, if it is still open, and frees the muxer.
+struct AvOutputDeleter {
+  void operator()(AVFormatContext* muxer) const noexcept {
+    avio_closep(&muxer->pb);
+    avformat_free_context(muxer);
+  }
+};
+
+using AvFramePtr = std::unique_ptr<AVFrame, AvDeleter<av_frame_free>>;
+using AvPacketPtr = std::unique_ptr<AVPacket, AvDeleter<av_packet_free>>;
+using AvCodecContextPtr = std::unique_ptr<AVCodecContext, AvDeleter<avcodec_free_context>>;
+using AvHashPtr = std::unique_ptr<AVHashContext, AvDeleter<av_hash_freep>>;
+using AvOutputPtr = std::unique_ptr<AVFormatContext, AvOutputDeleter>;
+
+/// libav's words for an error code.
+std::string av_error_text(int code);
+
+/// Passes on what a call into libav returned.
+/// @param operation what was being done, such as "open encoder"; `object` what it was done to.
+/// @throws IoError if the code is the system's (disk full, pipe closed), MediaError if it is
+///         another error.
+int check_av(int code, std::string_view operation, std::string_view object);
+
+/// Owns what an allocating call returned.
+/// @throws MediaError if that is null, which libav returns when memory runs out.
+template <typename Owner>
+Owner own_av(typename Owner::pointer object, std::string_view name) {
+  if (object == nullptr) check_av(AVERROR(ENOMEM), "allocate", name);
+  return Owner(object);
+}
+
+/// Keeps libav from printing; its error codes carry the cause. Affects the whole process.
+void silence_av();
+
+}  // namespace piblocks

@@ -1,0 +1,81 @@
+#include "media/find_encoder.hpp"
+
+#include <fmt/format.h>
+
+#include <piblocks/error.hpp>
+#include <piblocks/frame_sink.hpp>
+
+namespace piblocks {
+namespace {
+
+bool takes_yuv420p(const AVCodec& codec) {
+  if (codec.pix_fmts == nullptr) return false;
+  for (const AVPixelFormat* format = codec.pix_fmts; *format != AV_PIX_FMT_NONE; ++format) {
+    if (*format == AV_PIX_FMT_YUV420P) return true;
+  }
+  return false;
+}
+
+bool suits_mp4(const AVCodec& codec) {
+  const AVOutputFormat* mp4 = av_guess_format("mp4", nullptr, nullptr);
+  return mp4 != nullptr && avformat_query_codec(mp4, codec.id, FF_COMPLIANCE_NORMAL) == 1;
+}
+
+/// Being registered is not enough: wrappers load what they wrap only when they are opened.
+bool can_be_opened(const AVCodec& codec) {
+  const auto context = own_av<AvCodecContextPtr>(avcodec_alloc_context3(&codec), codec.name);
+  context->width = 64;
+  context->height = 64;
+  context->pix_fmt = AV_PIX_FMT_YUV420P;
+  context->time_base = {1, 60};
+  context->thread_count = 1;
+  return avcodec_open2(context.get(), &codec, nullptr) >= 0;
+}
+
+bool is_software_h264(const AVCodec& codec) {
+  constexpr int kHardware = AV_CODEC_CAP_HARDWARE | AV_CODEC_CAP_HYBRID;
+  return av_codec_is_encoder(&codec) != 0 && codec.id == AV_CODEC_ID_H264 &&
+         (codec.capabilities & kHardware) == 0 && takes_yuv420p(codec);
+}
+
+}  // namespace
+
+std::vector<std::string> h264_encoders() {
+  silence_av();
+  std::vector<std::string> names;
+  void* position = nullptr;
+  while (const AVCodec* codec = av_codec_iterate(&position)) {
+    if (!is_software_h264(*codec) || !can_be_opened(*codec)) continue;
+    names.insert(codec->name == kX264 ? names.begin() : names.end(), codec->name);
+  }
+  return names;
+}
+
+const AVCodec& find_encoder(const std::optional<std::string>& name) {
+  // The usual case does not open every encoder there is.
+  if (!name) {
+    if (const AVCodec* x264 = avcodec_find_encoder_by_name(kX264.data())) return *x264;
+  }
+  const std::vector<std::string> found = h264_encoders();
+  if (!name && found.empty()) {
+    throw UsageError(
+        "video: cannot find an H.264 encoder in libavcodec; install Debian's package libavcodec59 "
+        "(or libavcodec-extra), which brings libx264, or write *.y4m or *.png");
+  }
+  const std::string& wanted = name ? *name : found.front();
+  const AVCodec* codec = avcodec_find_encoder_by_name(wanted.c_str());
+  const std::string usable = fmt::format("use one of: {}", fmt::join(found, ", "));
+  if (codec == nullptr) {
+    throw UsageError(fmt::format("video: cannot find encoder '{}'; {}", wanted, usable));
+  }
+  if (!takes_yuv420p(*codec)) {
+    throw UsageError(fmt::format("video: encoder '{}' does not take yuv420p; {}", wanted, usable));
+  }
+  if (!suits_mp4(*codec)) {
+    throw UsageError(
+        fmt::format("video: MP4 cannot hold the stream of encoder '{}'; {}", wanted, usable));
+  }
+  return *codec;
+}
+
+}  // namespace piblocks

@@ -1,0 +1,21 @@
+// The encoders that the linked libavcodec offers.
+// In: a name, or none. Out: an encoder that takes yuv420p and whose stream MP4 can hold.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "media/av.hpp"
+
+namespace piblocks {
+
+/// The encoder that is taken if there is a choice.
+inline constexpr std::string_view kX264 = "libx264";
+
+/// The encoder of that name, or the first of h264_encoders(). The object is libavcodec's and lives
+/// as long as the program.
+/// @throws UsageError if there is none, or it does not suit; the message says what to use instead.
+const AVCodec& find_encoder(const std::optional<std::string>& name);
+
+}  // namespace piblocks

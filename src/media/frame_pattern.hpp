@@ -1,0 +1,32 @@
+// The name of one image of a sequence.
+// In: a pattern such as "frames/%06d.png". Out: the file name of frame n.
+// The pattern is the user's text, so it is parsed here and never handed to printf.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace piblocks {
+
+/// One integer field, %d or %0Nd with N from 1 to 9, between literal texts; %% is a percent sign.
+class FramePattern {
+ public:
+  /// @throws UsageError saying what to write, if the text has no field, more than one, a field in
+  ///         a folder's name, or a percent sign followed by anything else.
+  explicit FramePattern(std::string_view text);
+
+  /// File name of frame `number` >= 0, without its folder. Longer numbers than the field has
+  /// digits for are written in full.
+  std::string name(std::int64_t number) const;
+  /// The folder the files go to; empty if the pattern names none.
+  const std::string& folder() const noexcept { return folder_; }
+
+ private:
+  std::string folder_;
+  std::string before_;
+  std::string after_;
+  int digits_ = 1;
+};
+
+}  // namespace piblocks

@@ -1,0 +1,28 @@
+// The chunk encoder of every output whose frames do not depend on each other.
+// In: a function from one frame to its bytes. Out: a chunk with one packet a frame.
+#pragma once
+
+#include <functional>
+
+#include <piblocks/frame_sink.hpp>
+
+namespace piblocks {
+
+/// The bytes of one frame; a function of its arguments alone.
+using EncodeFrame =
+    std::function<std::vector<std::uint8_t>(const ImageView& frame, std::int64_t number)>;
+
+class IntraChunkEncoder final : public ChunkEncoder {
+ public:
+  IntraChunkEncoder(const VideoFormat& format, std::int64_t first_frame, EncodeFrame encode);
+  void add(const ImageView& frame) override;
+  EncodedChunk finish() override;
+
+ private:
+  VideoFormat format_;
+  std::int64_t next_frame_;
+  EncodeFrame encode_;
+  EncodedChunk chunk_;
+};
+
+}  // namespace piblocks

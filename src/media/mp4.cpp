@@ -1,0 +1,122 @@
+#include <string>
+#include <utility>
+
+#include "core/output_file.hpp"
+#include "media/sink_kinds.hpp"
+#include "media/video_chunk.hpp"
+#include "media/video_encoder.hpp"
+
+extern "C" {
+#include <libavutil/dict.h>
+}
+
+namespace piblocks {
+namespace {
+
+using AvDictionaryPtr = std::unique_ptr<AVDictionary, AvDeleter<av_dict_free>>;
+
+class Mp4Sink final : public FrameSink {
+ public:
+  explicit Mp4Sink(const SinkRequest& request);
+
+  std::int64_t frames_per_chunk() const override { return encoder_.frames_per_chunk(); }
+  std::unique_ptr<ChunkEncoder> begin_chunk(std::int64_t first_frame) const override;
+  void append(const EncodedChunk& chunk) override;
+  void finish() override;
+
+ private:
+  void add_stream();
+  void write_header();
+  void write(const Packet& packet);
+
+  std::string name_;
+  VideoEncoder encoder_;
+  TemporaryFile file_;
+  AvOutputPtr muxer_;  // after file_: closed before the file is removed
+  AvPacketPtr packet_;
+  FrameCounter counter_;
+};
+
+/// A muxer that writes to `path`. The protocol's name keeps libav from taking a colon in the path
+/// for one.
+AvOutputPtr open_muxer(const std::string& path, const std::string& name) {
+  const std::string url = "file:" + path;
+  AVFormatContext* allocated = nullptr;
+  check_av(avformat_alloc_output_context2(&allocated, nullptr, "mp4", url.c_str()), "open", name);
+  AvOutputPtr muxer(allocated);
+  check_av(avio_open(&muxer->pb, url.c_str(), AVIO_FLAG_WRITE), "open", name);
+  return muxer;
+}
+
+Mp4Sink::Mp4Sink(const SinkRequest& request)
+    : name_(request.output),
+      encoder_(request.format, request.settings),
+      file_(request.output),
+      muxer_(open_muxer(file_.path(), name_)),
+      packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {
+  add_stream();
+  write_header();
+}
+
+void Mp4Sink::add_stream() {
+  AVStream* stream = avformat_new_stream(muxer_.get(), nullptr);
+  if (stream == nullptr) check_av(AVERROR(ENOMEM), "add a stream to", name_);
+  check_av(avcodec_parameters_copy(stream->codecpar, &encoder_.parameters()),
+           "describe the stream of", name_);
+  stream->time_base = av_inv_q(encoder_.frame_rate());
+  stream->avg_frame_rate = encoder_.frame_rate();
+  stream->r_frame_rate = encoder_.frame_rate();
+  stream->sample_aspect_ratio = {1, 1};
+}
+
+void Mp4Sink::write_header() {
+  // Neither the library's version nor the time of day: equal frames give equal bytes.
+  muxer_->flags |= AVFMT_FLAG_BITEXACT;
+  AVDictionary* set = nullptr;
+  check_av(av_dict_set(&set, "movflags", "+faststart", 0), "set up the muxer of", name_);
+  AvDictionaryPtr options(set);
+  AVDictionary* passed = options.release();
+  const int code = avformat_write_header(muxer_.get(), &passed);
+  options.reset(passed);
+  check_av(code, "write the header of", name_);
+}
+
+std::unique_ptr<ChunkEncoder> Mp4Sink::begin_chunk(std::int64_t first_frame) const {
+  return std::make_unique<VideoChunkEncoder>(encoder_, first_frame);
+}
+
+void Mp4Sink::append(const EncodedChunk& chunk) {
+  counter_.take(chunk);
+  for (const Packet& packet : chunk) write(packet);
+}
+
+void Mp4Sink::write(const Packet& packet) {
+  av_packet_unref(packet_.get());
+  // The muxer only reads what it is given without a reference count.
+  packet_->data = const_cast<std::uint8_t*>(packet.bytes.data());
+  packet_->size = static_cast<int>(packet.bytes.size());
+  packet_->pts = packet.pts;
+  packet_->dts = packet.dts;
+  packet_->duration = 1;
+  packet_->flags = packet.key_frame ? AV_PKT_FLAG_KEY : 0;
+  packet_->stream_index = 0;
+  av_packet_rescale_ts(packet_.get(), av_inv_q(encoder_.frame_rate()),
+                       muxer_->streams[0]->time_base);
+  check_av(av_write_frame(muxer_.get(), packet_.get()), "write to", name_);
+}
+
+void Mp4Sink::finish() {
+  check_av(av_write_trailer(muxer_.get()), "write the index of", name_);
+  avio_flush(muxer_->pb);
+  check_av(muxer_->pb->error, "write to", name_);
+  check_av(avio_closep(&muxer_->pb), "close", name_);
+  file_.commit();
+}
+
+}  // namespace
+
+std::unique_ptr<FrameSink> open_mp4(const SinkRequest& request) {
+  return std::make_unique<Mp4Sink>(request);
+}
+
+}  // namespace piblocks

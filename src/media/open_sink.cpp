@@ -1,0 +1,110 @@
+#include <array>
+#include <fmt/format.h>
+#include <libdeflate.h>
+#include <limits>
+#include <string_view>
+
+#include <piblocks/error.hpp>
+#include <piblocks/frame_sink.hpp>
+
+#include "media/av.hpp"
+#include "media/sink_kinds.hpp"
+
+namespace piblocks {
+namespace {
+
+/// A kind of output: a new one is one more entry of the table below.
+struct SinkKind {
+  std::string_view name;  // as a message lists it
+  bool (*matches)(std::string_view output);
+  bool takes_encoder_settings;
+  std::unique_ptr<FrameSink> (*open)(const SinkRequest& request);
+};
+
+constexpr std::array kSinkKinds = {
+    SinkKind{"*.mp4", [](std::string_view output) { return output.ends_with(".mp4"); }, true,
+             open_mp4},
+    SinkKind{"*.png with a number field such as %06d",
+             [](std::string_view output) { return output.ends_with(".png"); }, false,
+             open_png_sequence},
+    SinkKind{"*.y4m", [](std::string_view output) { return output.ends_with(".y4m"); }, false,
+             open_y4m},
+    SinkKind{"- (y4m on standard output)", [](std::string_view output) { return output == "-"; },
+             false, open_y4m},
+    SinkKind{"*.framehash", [](std::string_view output) { return output.ends_with(".framehash"); },
+             false, open_framehash},
+    SinkKind{"null", [](std::string_view output) { return output == "null"; }, false, open_null},
+};
+
+const SinkKind* find_kind(std::string_view output) {
+  for (const SinkKind& kind : kSinkKinds) {
+    if (kind.matches(output)) return &kind;
+  }
+  return nullptr;
+}
+
+std::string unknown_kind(const std::string& output) {
+  std::string known;
+  for (const SinkKind& kind : kSinkKinds) {
+    if (!known.empty()) known += ", ";
+    known += kind.name;
+  }
+  return fmt::format("output: cannot tell the kind of '{}' from its name; use one of: {}", output,
+                     known);
+}
+
+std::string size_problem(const VideoFormat& format) {
+  const auto fits = [](int side) { return side >= 1 && side <= kMaxSide_px; };
+  const std::int64_t pixels = std::int64_t{format.width_px} * format.height_px;
+  if (fits(format.width_px) && fits(format.height_px) && pixels <= kMaxFrame_px) return {};
+  return fmt::format(
+      "output: size {}x{} is out of range: use sides of 1 to {} and at most {} "
+      "pixels",
+      format.width_px, format.height_px, kMaxSide_px, kMaxFrame_px);
+}
+
+std::string frame_rate_problem(const Rational& rate) {
+  // libav's rationals, and so its time stamps, have 32-bit terms.
+  constexpr int kMaxTerm = std::numeric_limits<int>::max();
+  if (rate > 0 && rate.get_num() <= kMaxTerm && rate.get_den() <= kMaxTerm) return {};
+  return fmt::format(
+      "output: frame rate {} is out of range: use a number above 0 such as 60 or "
+      "30000/1001",
+      rate.get_str());
+}
+
+}  // namespace
+
+std::unique_ptr<FrameSink> open_sink(const std::string& output, const VideoFormat& format,
+                                     const EncoderSettings& settings) {
+  std::vector<std::string> problems;
+  const auto report = [&](std::string problem) {
+    if (!problem.empty()) problems.push_back(std::move(problem));
+  };
+  const SinkKind* kind = find_kind(output);
+  if (kind == nullptr) report(unknown_kind(output));
+  if (kind != nullptr && !kind->takes_encoder_settings &&
+      (settings.crf || settings.preset || settings.encoder)) {
+    report(
+        fmt::format("output: '{}' has no use for crf, preset or encoder; leave them out or "
+                    "write *.mp4",
+                    output));
+  }
+  report(size_problem(format));
+  report(frame_rate_problem(format.frame_rate));
+  if (!problems.empty()) throw UsageError(std::move(problems));
+
+  silence_av();
+  return kind->open({output, format, settings});
+}
+
+std::vector<std::string> media_library_versions() {
+  const auto version = [](std::string_view name, unsigned number) {
+    return fmt::format("{} {}.{}.{}", name, AV_VERSION_MAJOR(number), AV_VERSION_MINOR(number),
+                       AV_VERSION_MICRO(number));
+  };
+  return {version("libavformat", avformat_version()), version("libavcodec", avcodec_version()),
+          version("libavutil", avutil_version()), "libdeflate " LIBDEFLATE_VERSION_STRING};
+}
+
+}  // namespace piblocks

@@ -1,0 +1,165 @@
+#include <cerrno>
+#include <cstdlib>
+#include <fcntl.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <span>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+#include <piblocks/error.hpp>
+
+#include "core/output_file.hpp"
+#include "media/frame_pattern.hpp"
+#include "media/intra_chunk.hpp"
+#include "media/png_encoder.hpp"
+#include "media/sink_kinds.hpp"
+
+namespace piblocks {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::int64_t kFramesPerChunk = 8;
+/// Number of the first file, as that of FFmpeg's image2 muxer.
+constexpr std::int64_t kFirstNumber = 1;
+
+[[noreturn]] void fail(const char* operation, const fs::path& path, int error_number) {
+  throw IoError(fmt::format("output: cannot {} '{}': {}", operation, path.string(),
+                            std::generic_category().message(error_number)));
+}
+
+/// A new folder inside `parent`, and so on the same device.
+fs::path make_folder_in(const fs::path& parent) {
+  std::string name = parent / "frames.part-XXXXXX";
+  if (::mkdtemp(name.data()) != nullptr) return name;
+  throw UsageError(fmt::format("output: cannot write into '{}': {}", parent.string(),
+                               std::generic_category().message(errno)));
+}
+
+/// Owns an open file and closes it when an exception passes.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const noexcept { return number_; }
+  int close() noexcept { return ::close(std::exchange(number_, -1)); }
+
+ private:
+  int number_;
+};
+
+/// Writes a whole new file; not yet synced to its device.
+void write_file(const fs::path& path, std::span<const std::uint8_t> bytes) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (file.get() < 0) fail("make", path, errno);
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file.get(), bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("write", path, errno);
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+  if (file.close() != 0) fail("close", path, errno);
+}
+
+class PngSequence final : public FrameSink {
+ public:
+  explicit PngSequence(const SinkRequest& request)
+      : format_(request.format),
+        pattern_(request.output),
+        folder_(pattern_.folder().empty() ? "." : pattern_.folder()),
+        made_folders_(folder_),
+        temporary_(make_folder_in(folder_)) {}
+  ~PngSequence() override;
+
+  std::int64_t frames_per_chunk() const override { return kFramesPerChunk; }
+  std::unique_ptr<ChunkEncoder> begin_chunk(std::int64_t first_frame) const override;
+  void append(const EncodedChunk& chunk) override;
+  void finish() override;
+
+ private:
+  void sync() const;
+  void check_destinations() const;
+  void move_into_place();
+
+  VideoFormat format_;
+  FramePattern pattern_;
+  fs::path folder_;
+  MadeFolders made_folders_;
+  fs::path temporary_;  // holds the files until they take their names; empty afterwards
+  FrameCounter counter_;
+  std::int64_t files_ = 0;
+};
+
+PngSequence::~PngSequence() {
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
+}
+
+std::unique_ptr<ChunkEncoder> PngSequence::begin_chunk(std::int64_t first_frame) const {
+  const auto encode_frame = [encoder = std::make_shared<PngEncoder>()](const ImageView& frame,
+                                                                       std::int64_t /*number*/) {
+    return encoder->encode(frame);
+  };
+  return std::make_unique<IntraChunkEncoder>(format_, first_frame, encode_frame);
+}
+
+void PngSequence::append(const EncodedChunk& chunk) {
+  counter_.take(chunk);
+  for (const Packet& packet : chunk) {
+    write_file(temporary_ / pattern_.name(kFirstNumber + packet.pts), packet.bytes);
+    ++files_;
+  }
+}
+
+void PngSequence::finish() {
+  sync();
+  check_destinations();
+  move_into_place();
+  std::error_code error;
+  fs::remove(temporary_, error);
+  if (error) fail("remove", temporary_, error.value());
+  temporary_.clear();
+  made_folders_.keep();
+}
+
+/// One call for the whole file system: a sync for each of thousands of files takes far longer.
+void PngSequence::sync() const {
+  const Descriptor folder(::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder.get() < 0) fail("open", temporary_, errno);
+  if (::syncfs(folder.get()) != 0) fail("sync", temporary_, errno);
+}
+
+/// Finds what renaming would fail on before the first file is renamed.
+void PngSequence::check_destinations() const {
+  for (std::int64_t i = 0; i < files_; ++i) {
+    const fs::path to = folder_ / pattern_.name(kFirstNumber + i);
+    std::error_code none;
+    if (fs::is_directory(fs::symlink_status(to, none))) fail("replace", to, EISDIR);
+  }
+}
+
+void PngSequence::move_into_place() {
+  for (std::int64_t i = 0; i < files_; ++i) {
+    const std::string name = pattern_.name(kFirstNumber + i);
+    if (::rename((temporary_ / name).c_str(), (folder_ / name).c_str()) == 0) continue;
+    const int error_number = errno;
+    std::error_code ignored;
+    for (std::int64_t j = 0; j < i; ++j) {
+      fs::remove(folder_ / pattern_.name(kFirstNumber + j), ignored);
+    }
+    fail("rename", folder_ / name, error_number);
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<FrameSink> open_png_sequence(const SinkRequest& request) {
+  return std::make_unique<PngSequence>(request);
+}
+
+}  // namespace piblocks

@@ -1,0 +1,33 @@
+#include "media/sink_request.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include <piblocks/error.hpp>
+
+namespace piblocks {
+
+std::string odd_size_problem(const VideoFormat& format, const std::string& what) {
+  const int width = format.width_px;
+  const int height = format.height_px;
+  if (width % 2 == 0 && height % 2 == 0) return {};
+  const auto even = [](int side) { return std::max(2, side - side % 2); };
+  return fmt::format("output: size {}x{} is odd: {} needs even sides; use {}x{}", width, height,
+                     what, even(width), even(height));
+}
+
+void check_frame_size(const ImageView& frame, const VideoFormat& format) {
+  if (frame.width_px == format.width_px && frame.height_px == format.height_px) return;
+  throw MediaError(fmt::format("output: cannot add frame: it is {}x{}, the output {}x{}",
+                               frame.width_px, frame.height_px, format.width_px, format.height_px));
+}
+
+void FrameCounter::take(const EncodedChunk& chunk) {
+  if (!chunk.empty() && chunk.front().pts != next_frame_) {
+    throw MediaError(fmt::format("output: cannot append the chunk of frame {}: frame {} is next",
+                                 chunk.front().pts, next_frame_));
+  }
+  next_frame_ += static_cast<std::int64_t>(chunk.size());
+}
+
+}  // namespace piblocks

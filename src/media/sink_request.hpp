@@ -1,0 +1,36 @@
+// What a sink is opened with, and what every kind of sink checks.
+// In: the arguments of open_sink(), the frames and chunks given later. Out: nothing, or the error
+// that a wrong size, frame or order deserves.
+#pragma once
+
+#include <string>
+
+#include <piblocks/frame_sink.hpp>
+
+namespace piblocks {
+
+/// The arguments of open_sink(), already known to be in range.
+struct SinkRequest {
+  std::string output;
+  VideoFormat format;
+  EncoderSettings settings;
+};
+
+/// Empty if both sides are even, as 4:2:0 needs; else what is wrong and which size to use.
+/// @param what the thing that needs it, such as "H.264 in 4:2:0".
+std::string odd_size_problem(const VideoFormat& format, const std::string& what);
+
+/// @throws MediaError if the frame is not of the size that the output has.
+void check_frame_size(const ImageView& frame, const VideoFormat& format);
+
+/// Sees to it that an output gets every frame once and in order.
+class FrameCounter {
+ public:
+  /// @throws MediaError if the chunk does not start where the last one ended.
+  void take(const EncodedChunk& chunk);
+
+ private:
+  std::int64_t next_frame_ = 0;
+};
+
+}  // namespace piblocks

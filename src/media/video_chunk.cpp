@@ -1,0 +1,102 @@
+#include "media/video_chunk.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "media/sink_request.hpp"
+#include "media/yuv420.hpp"
+
+namespace piblocks {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+
+AvFramePtr allocate_picture(const AVCodecContext& context) {
+  auto picture = own_av<AvFramePtr>(av_frame_alloc(), "picture");
+  picture->width = context.width;
+  picture->height = context.height;
+  picture->format = context.pix_fmt;
+  picture->colorspace = context.colorspace;
+  picture->color_primaries = context.color_primaries;
+  picture->color_trc = context.color_trc;
+  picture->color_range = context.color_range;
+  picture->chroma_location = context.chroma_sample_location;
+  check_av(av_frame_get_buffer(picture.get(), 0), "allocate", "picture");
+  return picture;
+}
+
+YuvView view_of(AVFrame& picture) {
+  return {.y = picture.data[0],
+          .cb = picture.data[1],
+          .cr = picture.data[2],
+          .y_stride_bytes = picture.linesize[0],
+          .cb_stride_bytes = picture.linesize[1],
+          .cr_stride_bytes = picture.linesize[2]};
+}
+
+/// x264 signs the first picture of every encoder with 600 bytes on its version and options: a user
+/// data SEI before the slice (H.264, annex D.1.6). One copy in the video is enough.
+Bytes without_signature(Bytes access_unit) {
+  constexpr std::array<std::uint8_t, 3> kStartCode = {0, 0, 1};
+  constexpr std::uint8_t kSei = 6;
+  constexpr std::uint8_t kUserData = 5;
+  const auto next_unit = [&](Bytes::iterator from) {
+    return std::search(from, access_unit.end(), kStartCode.begin(), kStartCode.end());
+  };
+  const auto first = next_unit(access_unit.begin());
+  if (access_unit.end() - first < 5 || first[3] != kSei || first[4] != kUserData) {
+    return access_unit;
+  }
+  const auto second = next_unit(first + 3);
+  return second == access_unit.end() ? access_unit : Bytes(second, access_unit.end());
+}
+
+}  // namespace
+
+VideoChunkEncoder::VideoChunkEncoder(const VideoEncoder& encoder, std::int64_t first_frame)
+    : format_(encoder.format()),
+      first_frame_(first_frame),
+      context_(encoder.open()),
+      picture_(allocate_picture(*context_)),
+      packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {}
+
+void VideoChunkEncoder::add(const ImageView& frame) {
+  check_frame_size(frame, format_);
+  // Still writable if the encoder has copied the last picture, as libx264 does: no new memory then.
+  check_av(av_frame_make_writable(picture_.get()), "refill", "picture");
+  convert_to_yuv420(frame, {0, 0, frame.width_px, frame.height_px}, view_of(*picture_));
+  picture_->pict_type = frames_ == 0 ? AV_PICTURE_TYPE_I : AV_PICTURE_TYPE_NONE;
+  picture_->pts = frames_++;
+  send(picture_.get());
+}
+
+EncodedChunk VideoChunkEncoder::finish() {
+  send(nullptr);
+  return std::move(chunk_);
+}
+
+void VideoChunkEncoder::send(const AVFrame* picture) {
+  check_av(avcodec_send_frame(context_.get(), picture), "encode a frame with",
+           context_->codec->name);
+  take_packets();
+}
+
+void VideoChunkEncoder::take_packets() {
+  while (true) {
+    const int code = avcodec_receive_packet(context_.get(), packet_.get());
+    if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return;
+    check_av(code, "encode a frame with", context_->codec->name);
+
+    Bytes bytes(packet_->data, static_cast<std::size_t>(packet_->size));
+    const bool is_h264 = context_->codec_id == AV_CODEC_ID_H264;
+    if (is_h264 && first_frame_ > 0 && chunk_.empty()) bytes = without_signature(bytes);
+    chunk_.push_back({.bytes = {bytes.begin(), bytes.end()},
+                      .pts = first_frame_ + packet_->pts,
+                      .dts = first_frame_ + packet_->dts,
+                      .key_frame = (packet_->flags & AV_PKT_FLAG_KEY) != 0});
+    av_packet_unref(packet_.get());
+  }
+}
+
+}  // namespace piblocks

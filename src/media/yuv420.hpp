@@ -1,0 +1,32 @@
+// From a canvas's pixels to what video encoders and y4m take.
+// In: sRGB pixels and an even-aligned rectangle of them. Out: that part of a 4:2:0 picture with
+// the BT.709 matrix in limited range, chroma sited left (ITU-T H.273, matrix 1, location 0).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <piblocks/image.hpp>
+
+namespace piblocks {
+
+/// Writable planes of one 4:2:0 picture; the chroma planes have half the width and height.
+/// The memory belongs to whoever made the view.
+struct YuvView {
+  std::uint8_t* y = nullptr;
+  std::uint8_t* cb = nullptr;
+  std::uint8_t* cr = nullptr;
+  std::ptrdiff_t y_stride_bytes = 0;
+  std::ptrdiff_t cb_stride_bytes = 0;
+  std::ptrdiff_t cr_stride_bytes = 0;
+};
+
+/// Converts `rect` of `image` into the same place of `picture`; no other sample is written.
+/// Every sample is within 0.53 of the exact value (tests/media/yuv420_test.cpp), and the same
+/// whether it was converted alone or with the whole frame. Chroma reads one column left of the
+/// rectangle: a change at column x of the image can change chroma from column x-1 to x+1.
+/// @param image of even width and height.
+/// @param rect inside the image; all its numbers are even.
+void convert_to_yuv420(const ImageView& image, const PixelRect& rect, const YuvView& picture);
+
+}  // namespace piblocks
