@@ -4,7 +4,9 @@
 #include <ft2build.h>
 #include <piblocks/canvas.hpp>
 
+#include <algorithm>
 #include <cassert>
+#include <string_view>
 
 #include "draw/cairo_handles.hpp"
 #include "draw/painter.hpp"
@@ -45,6 +47,18 @@ std::vector<std::uint8_t> draw_vector_file(const DrawList& list, MakeSurface mak
   return bytes;
 }
 
+/// Cairo 1.16 names the picture's group by a counter of the process, "surface12": equal draw lists
+/// would give different files.
+std::vector<std::uint8_t> with_fixed_id(std::vector<std::uint8_t> svg) {
+  constexpr std::string_view kCounted = "<g id=\"surface";
+  constexpr std::string_view kFixed = "<g id=\"picture";
+  const auto begin = std::search(svg.begin(), svg.end(), kCounted.begin(), kCounted.end());
+  if (begin == svg.end()) return svg;
+  const auto end = std::find(begin + kCounted.size(), svg.end(), '"');
+  svg.insert(svg.erase(begin, end), kFixed.begin(), kFixed.end());
+  return svg;
+}
+
 }  // namespace
 
 struct Canvas::Pixels {
@@ -74,7 +88,7 @@ ImageView Canvas::view() const {
 }
 
 std::vector<std::uint8_t> draw_svg(const DrawList& list) {
-  return draw_vector_file(list, make_svg);
+  return with_fixed_id(draw_vector_file(list, make_svg));
 }
 
 std::vector<std::uint8_t> draw_pdf(const DrawList& list) {

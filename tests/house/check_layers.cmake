@@ -18,8 +18,9 @@ set(cli_may ${layers})
 
 # The layer of each header in include/piblocks.
 set(core_headers color error exact geometry image time)
-set(physics_headers blocks collision_log event_simulator interpolator particle)
-set(scene_headers scene timeline)
+set(physics_headers blocks collision_log event_simulator interpolator particle
+    physics_versions)
+set(scene_headers instant scene timeline)
 set(draw_headers canvas compose draw_list)
 set(media_headers frame_sink png)
 set(render_headers render)
