@@ -1,6 +1,7 @@
 #include <piblocks/compose.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "draw/font.hpp"
@@ -23,6 +24,11 @@ constexpr std::string_view kLabelText = "Collisions:";
 constexpr double kTextSize = 0.074;
 constexpr double kLineWidth = 0.0032;
 constexpr double kMargin = 0.045;
+constexpr double kUsualAspect = 16.0 / 9;
+constexpr double kMaxBannerText = 2.2;
+// A unit of the scene at least this large is rounded to an even number of pixels, so that edges
+// that do not move are sharp, and so are the upper and lower edges of blocks of width 1.
+constexpr double kMinRounded_px = 16;
 // In ems of the label.
 constexpr double kCapHeight = 0.73;
 constexpr double kLabelGap = 1.0;  // between the label's baseline and the view
@@ -34,6 +40,12 @@ constexpr double kDash = 4;
 /// is narrow.
 double short_measure(const View& view) {
   return std::min<double>(view.height_px, 0.75 * view.width_px);
+}
+
+/// Size of type: a banner has little height and much width, and its text may have more of it.
+double text_size(const View& view) {
+  const double aspect = double(view.width_px) / view.height_px;
+  return kTextSize * short_measure(view) * std::clamp(aspect / kUsualAspect, 1.0, kMaxBannerText);
 }
 
 double length(const Range& range) { return to_double(range.high - range.low); }
@@ -73,20 +85,24 @@ Layout lay_out(const Scene& scene, const Integer& longest_count) {
   Layout layout;
   layout.width_px = view.width_px;
   layout.height_px = view.height_px;
-  layout.line_px = std::max(1.0, kLineWidth * measure);
-  layout.text_px = std::min(kTextSize * measure, inner_width / line_em);
+  layout.line_px = std::max(1.0, std::round(kLineWidth * measure));
+  layout.text_px = std::min(text_size(view), inner_width / line_em);
 
   // Label and view form one group, centred in the frame.
   const double label_height = (kCapHeight + kLabelGap) * layout.text_px;
   const double inner_height = view.height_px - 2 * margin - label_height;
   layout.scale = std::min(inner_width / length(view.x), inner_height / length(view.y));
+  const bool rounded = layout.scale >= kMinRounded_px;
+  const auto to_pixel = [&](double px) { return rounded ? std::round(px) : px; };
+  if (rounded) layout.scale = 2 * std::floor(layout.scale / 2);
   const double view_width = layout.scale * length(view.x);
   const double view_height = layout.scale * length(view.y);
   const double top = (view.height_px - view_height - label_height) / 2;
-  layout.origin = {(view.width_px - view_width) / 2 - to_double(view.x.low) * layout.scale,
-                   top + label_height + to_double(view.y.high) * layout.scale};
+  layout.origin = {
+      to_pixel((view.width_px - view_width) / 2 - to_double(view.x.low) * layout.scale),
+      to_pixel(top + label_height + to_double(view.y.high) * layout.scale)};
   layout.label = {(view.width_px - line_em * layout.text_px) / 2,
-                  top + kCapHeight * layout.text_px};
+                  to_pixel(top + kCapHeight * layout.text_px)};
   layout.count_x = layout.label.x + label_em * layout.text_px;
   return layout;
 }

@@ -106,10 +106,24 @@ TEST(Compose, EverythingScalesWithTheFrame) {
   const Scene large = scene_of(3, 3840, 2160);
   const Layout a = lay_out(small, 314);
   const Layout b = lay_out(large, 314);
-  EXPECT_NEAR(b.scale, 3 * a.scale, 1e-9);
+  EXPECT_NEAR(b.scale, 3 * a.scale, 6) << "to even pixels";
   EXPECT_NEAR(b.text_px, 3 * a.text_px, 1e-9);
-  EXPECT_NEAR(b.line_px, 3 * a.line_px, 1e-9);
+  EXPECT_NEAR(b.line_px, 3 * a.line_px, 1.5) << "to whole pixels";
   EXPECT_NEAR(b.count_x, 3 * a.count_x, 1e-9);
+}
+
+TEST(Compose, EdgesThatDoNotMoveAreSharp) {
+  const auto is_whole = [](double px) { return px == std::floor(px); };
+  for (const auto& [width, height] :
+       {std::pair{1920, 1080}, {1280, 720}, {3840, 2160}, {854, 480}}) {
+    const Scene scene = scene_of(3, width, height);
+    const auto log = make_collision_log(scene.system);
+    const DrawList list = compose(scene, lay_out(scene, log->size()), state_at(*log, 4));
+    const Rectangle wall = rectangle(list, ItemId::wall).bounds;
+    const Rectangle blue = rectangle(list, ItemId::blue_block).bounds;
+    EXPECT_TRUE(is_whole(wall.x) && is_whole(wall.y) && is_whole(right(wall)));
+    EXPECT_TRUE(is_whole(blue.y) && is_whole(blue.height));
+  }
 }
 
 TEST(Compose, FollowsTheScenesGeometry) {

@@ -1,0 +1,155 @@
+// Whole frames against pictures that a person has looked at, pixel for pixel.
+// PIBLOCKS_APPROVE_GOLDEN=1 replaces the references by what is drawn now: look at every one.
+#include <cairo.h>
+#include <gtest/gtest.h>
+#include <piblocks/canvas.hpp>
+#include <piblocks/compose.hpp>
+#include <piblocks/instant.hpp>
+#include <piblocks/png.hpp>
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace piblocks {
+namespace {
+namespace fs = std::filesystem;
+
+struct GoldenFrame {
+  const char* name;
+  int digits;
+  const char* instant;
+  std::vector<std::pair<const char*, const char*>> keys;
+};
+
+void PrintTo(const GoldenFrame& frame, std::ostream* out) { *out << frame.name; }
+
+const std::vector<GoldenFrame> kFrames{
+    {"article-start", 3, "0", {{"view.size", "640x360"}}},
+    {"article-first-collision", 3, "#1", {{"view.size", "640x360"}}},
+    {"article-turn", 3, "3.5", {{"view.size", "640x360"}}},
+    {"article-last", 3, "last", {{"view.size", "640x360"}}},
+    {"article-odd-size", 3, "4", {{"view.size", "333x187"}}},
+    {"portrait-20-digits", 20, "last", {{"view.size", "270x480"}}},
+    {"square-9-digits", 9, "3.75", {{"view.size", "320x320"}}},
+    {"banner", 5, "4.5", {{"view.size", "640x100"}}},
+    {"before-the-start", 3, "-4", {{"view.size", "320x180"}}},
+    {"other-geometry",
+     2,
+     "#7",
+     {{"view.size", "480x270"},
+      {"wall.face", "1/2"},
+      {"blue.width", "0.6"},
+      {"blue.position", "2.2"},
+      {"red.width", "1.5"}}},
+};
+
+DrawList draw_list_of(const GoldenFrame& frame) {
+  SceneBuilder builder;
+  builder.set_mass_ratio("digits", power(100, static_cast<unsigned long>(frame.digits - 1)));
+  for (const auto& [key, value] : frame.keys) builder.set("golden", key, value);
+  const Scene scene = builder.build();
+  const auto log = make_collision_log(scene.system);
+  return compose(scene, lay_out(scene, log->size()),
+                 state_at(*log, parse_instant(frame.instant)).state);
+}
+
+struct SurfaceDeleter {
+  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+};
+
+/// Decoded by Cairo and libpng: not by what wrote it.
+class ReferencePicture {
+ public:
+  explicit ReferencePicture(const fs::path& path)
+      : surface_(cairo_image_surface_create_from_png(path.c_str())) {}
+  bool is_valid() const { return cairo_surface_status(surface_.get()) == CAIRO_STATUS_SUCCESS; }
+  ImageView view() const {
+    return {cairo_image_surface_get_data(surface_.get()),
+            cairo_image_surface_get_width(surface_.get()),
+            cairo_image_surface_get_height(surface_.get()),
+            cairo_image_surface_get_stride(surface_.get())};
+  }
+
+ private:
+  std::unique_ptr<cairo_surface_t, SurfaceDeleter> surface_;
+};
+
+std::uint32_t rgb_at(const ImageView& image, int x, int y) {
+  std::uint32_t pixel = 0;
+  std::memcpy(&pixel, image.row(y) + 4 * x, 4);
+  return pixel & 0xFFFFFF;
+}
+
+/// Where two pictures of one size differ, for people; empty if nowhere.
+std::string difference(const ImageView& expected, const ImageView& actual) {
+  std::int64_t count = 0;
+  std::string first;
+  for (int y = 0; y < expected.height_px; ++y) {
+    for (int x = 0; x < expected.width_px; ++x) {
+      if (rgb_at(expected, x, y) == rgb_at(actual, x, y)) continue;
+      if (count++ == 0) first = "first at (" + std::to_string(x) + ", " + std::to_string(y) + ")";
+    }
+  }
+  return count == 0 ? "" : std::to_string(count) + " pixels differ, " + first;
+}
+
+void write_file(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
+  fs::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+}
+
+class GoldenFrames : public testing::TestWithParam<GoldenFrame> {};
+
+TEST_P(GoldenFrames, AreUnchanged) {
+  const std::string file = std::string(GetParam().name) + ".png";
+  const fs::path reference = fs::path(PIBLOCKS_GOLDEN_FRAMES) / file;
+  const DrawList list = draw_list_of(GetParam());
+  Canvas canvas(list.width_px, list.height_px);
+  canvas.paint(list);
+  if (std::getenv("PIBLOCKS_APPROVE_GOLDEN") != nullptr) {
+    write_file(reference, encode_png(canvas.view()));
+    GTEST_SKIP() << "approved " << reference;
+  }
+  const ReferencePicture expected(reference);
+  ASSERT_TRUE(expected.is_valid()) << reference << " is missing or no PNG";
+  ASSERT_EQ(expected.view().width_px, list.width_px);
+  ASSERT_EQ(expected.view().height_px, list.height_px);
+  const std::string differs = difference(expected.view(), canvas.view());
+  if (differs.empty()) return;
+  const fs::path actual = fs::path("golden-failures") / file;
+  write_file(actual, encode_png(canvas.view()));
+  FAIL() << differs << "\nexpected " << reference << "\nactual   " << fs::absolute(actual);
+}
+
+std::string test_name(const testing::TestParamInfo<GoldenFrame>& info) {
+  std::string name = info.param.name;
+  for (char& c : name) {
+    if (c == '-') c = '_';
+  }
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, GoldenFrames, testing::ValuesIn(kFrames), test_name);
+
+TEST(GoldenComparison, SeesOnePixelOfOneDigit) {
+  Canvas expected(64, 36);
+  Canvas actual(64, 36);
+  const auto with_digit = [](const char* digit) {
+    return DrawList{64, 36, {255, 255, 255}, {TextItem{ItemId::count, {20, 20}, digit, 7, {}}}};
+  };
+  expected.paint(with_digit("3"));
+  actual.paint(with_digit("8"));
+  EXPECT_NE(difference(expected.view(), actual.view()), "");
+  actual.paint(with_digit("3"));
+  EXPECT_EQ(difference(expected.view(), actual.view()), "");
+}
+
+}  // namespace
+}  // namespace piblocks
