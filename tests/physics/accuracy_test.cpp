@@ -1,0 +1,165 @@
+// The library against an oracle that shares nothing with it.
+#include <gtest/gtest.h>
+#include <piblocks/collision_log.hpp>
+#include <piblocks/interpolator.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "support/oracle.hpp"
+#include "support/property.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr double kUnitRoundoff = 0x1p-53;
+
+/// R and ell of the a-priori bounds |dy1| <= 8 u (R + ell), |dy2| <= 8 u R.
+struct Distances {
+  double from_corner;
+  double closest;
+};
+
+Distances distances(const BlockSystem& s, const oracle::ExactState& state) {
+  const Rational r = s.blue.mass / s.red.mass;
+  const double y1 = to_double(state.blue.position - s.blue.width / 2 - s.wall_face);
+  const double y2 = to_double(state.red.position - s.wall_face - s.blue.width - s.red.width / 2);
+  const Rational y1_start = s.blue_gap();
+  const Rational y2_start = s.blue_gap() + s.blocks_gap();
+  const Rational area = y2_start * s.blue.velocity - y1_start * s.red.velocity;
+  const Rational speed_squared =
+      r * s.blue.velocity * s.blue.velocity + s.red.velocity * s.red.velocity;
+  return {std::hypot(std::sqrt(to_double(r)) * y1, y2),
+          to_double(abs(area)) / std::sqrt(to_double(speed_squared))};
+}
+
+/// The state is the oracle's, to the a-priori bound and the rounding of the coordinates.
+void expect_accurate(const BlockSystem& system, const CollisionLog& log, const Rational& t) {
+  const BlockState state = state_at(log, t);
+  const oracle::ExactState exact = oracle::high_precision_state(system, t);
+  const Distances d = distances(system, exact);
+  EXPECT_EQ(state.count, exact.count) << "t = " << t;
+  const double blue_bound = 8 * kUnitRoundoff * (d.from_corner + d.closest) +
+                            4 * kUnitRoundoff * std::fabs(state.blue.position);
+  const double red_bound =
+      8 * kUnitRoundoff * d.from_corner + 4 * kUnitRoundoff * std::fabs(state.red.position);
+  EXPECT_LE(std::fabs(to_double(Rational(state.blue.position) - exact.blue.position)), blue_bound)
+      << "t = " << t;
+  EXPECT_LE(std::fabs(to_double(Rational(state.red.position) - exact.red.position)), red_bound)
+      << "t = " << t;
+  // sigma v_blue and v_red are the two parts of a velocity of constant length.
+  const double speed = std::hypot(
+      to_double(exact.red.velocity),
+      to_double(exact.blue.velocity) * std::sqrt(to_double(system.blue.mass / system.red.mass)));
+  EXPECT_NEAR(state.red.velocity, to_double(exact.red.velocity), 1e-14 * speed) << "t = " << t;
+}
+
+TEST(Accuracy, OfTheArticlesSystemAtAnyNumberOfDigits) {
+  for (int digits = 1; digits <= 20; ++digits) {
+    const BlockSystem system = article_system(digits);
+    const auto log = make_collision_log(system);
+    for (const char* text : {"0", "3.5", "4", "6", "3.4999999", "3.50000001", "15"}) {
+      const Rational t = parse_rational(text);
+      expect_accurate(system, *log, t);
+      const BlockState state = state_at(*log, t);
+      const oracle::ExactState exact = oracle::high_precision_state(system, t);
+      EXPECT_NEAR(to_double(Rational(state.blue.position) - exact.blue.position), 0, 1e-13);
+      EXPECT_NEAR(to_double(Rational(state.red.position) - exact.red.position), 0, 1e-13);
+    }
+  }
+}
+
+TEST(Accuracy, AtRandomTimes) {
+  Random random(314159);
+  SCOPED_TRACE(random.trace());
+  for (int digits : {1, 2, 3, 5, 9, 12, 17, 25, 40, 100}) {
+    const BlockSystem system = article_system(digits);
+    const auto log = make_collision_log(system);
+    for (int i = 0; i < 40; ++i) {
+      // Half of the times close in on the turning point at every scale.
+      const Rational t =
+          i % 2 == 0 ? Rational(random.uniform(-5, 20))
+                     : Rational(3.5) +
+                           Rational(std::ldexp(random.uniform(-1, 1), -int(random.integer(0, 60))));
+      expect_accurate(system, *log, t);
+    }
+  }
+}
+
+TEST(Accuracy, OfRandomSystems) {
+  Random random(271828);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 400; ++i) {
+    BlockSystem system;
+    system.blue.mass = random.rational(1, 50, 7);
+    system.red.mass = system.blue.mass * Rational(std::exp(random.uniform(-8, 25)));
+    system.wall_face = random.rational(-3, 3, 4);
+    system.blue.width = random.rational(1, 3, 5);
+    system.red.width = random.rational(1, 3, 5);
+    system.blue.position = system.wall_face + system.blue.width / 2 + random.rational(0, 4, 9);
+    system.red.position = system.blue.position + (system.blue.width + system.red.width) / 2 +
+                          random.rational(0, 4, 9) + Rational(1, 11);
+    system.blue.velocity = random.rational(-3, 3, 8);
+    system.red.velocity = random.rational(-3, 3, 8);
+    if (system.red.velocity == 0) system.red.velocity = -1;
+    const auto log = make_collision_log(system);
+    EXPECT_EQ(log->size(), oracle::high_precision_total(system));
+    for (int j = 0; j < 4; ++j) expect_accurate(system, *log, random.rational(-10, 20, 1000));
+  }
+}
+
+TEST(Accuracy, OfTheWholeLog) {
+  for (int digits = 1; digits <= 3; ++digits) {
+    const BlockSystem system = article_system(digits);
+    const auto log = make_collision_log(system);
+    const std::vector<oracle::ExactEvent> run = oracle::exact_run(system, 1000);
+    ASSERT_EQ(log->size(), run.size());
+    for (std::size_t i = 0; i < run.size(); ++i) {
+      const Collision collision = log->at(Integer(i + 1));
+      EXPECT_EQ(collision.kind, run[i].kind);
+      EXPECT_LE(abs(to_rational(collision.time) - run[i].time), run[i].time * Rational(4e-16));
+      EXPECT_NEAR(collision.blue.position, to_double(run[i].blue.position), 4e-15);
+      EXPECT_NEAR(collision.red.position, to_double(run[i].red.position), 4e-15);
+      EXPECT_NEAR(collision.blue.velocity, to_double(run[i].blue.velocity), 4e-13);
+      EXPECT_NEAR(collision.red.velocity, to_double(run[i].red.velocity), 4e-15);
+    }
+  }
+}
+
+TEST(Accuracy, LogAndStatesAreOneMotion) {
+  // A little after each collision the state is the collision's, moved on.
+  const auto log = make_collision_log(article_system(6));
+  for (long k = 1; k < 314159; k += 997) {
+    const Collision now = log->at(k);
+    const Collision next = log->at(k + 1);
+    const Rational middle = (to_rational(now.time) + to_rational(next.time)) / 2;
+    const BlockState state = state_at(*log, middle);
+    const double half = to_double(middle - to_rational(now.time));
+    EXPECT_EQ(state.count, k);
+    EXPECT_NEAR(state.blue.position, now.blue.position + half * now.blue.velocity, 1e-13);
+    EXPECT_NEAR(state.red.position, now.red.position + half * now.red.velocity, 1e-13);
+    EXPECT_NEAR(state.blue.velocity, now.blue.velocity, 1e-10);
+  }
+}
+
+TEST(Accuracy, EnergyAndMomentumAreKept) {
+  const BlockSystem system = article_system(7);
+  const auto log = make_collision_log(system);
+  const double ratio = to_double(system.blue.mass / system.red.mass);
+  for (long k = 1; k <= 3141592; k += 10007) {
+    const Collision c = log->at(k);
+    const double energy =
+        ratio * c.blue.velocity * c.blue.velocity + c.red.velocity * c.red.velocity;
+    EXPECT_NEAR(energy, 1, 1e-15);
+    if (c.kind == CollisionKind::blocks) {
+      const Collision before = log->at(Integer(std::max(1L, k - 1)));
+      if (k == 1) continue;
+      EXPECT_NEAR(ratio * c.blue.velocity + c.red.velocity,
+                  ratio * before.blue.velocity + before.red.velocity, 1e-15);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace piblocks

@@ -1,0 +1,229 @@
+#include <gtest/gtest.h>
+#include <piblocks/collision_log.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/interpolator.hpp>
+
+#include <cmath>
+#include <string>
+
+namespace piblocks {
+namespace {
+
+constexpr const char* kDigitsOfPi = "31415926535897932384626433832795028841971693993751";
+
+/// A system by its gaps: wall face at 0, unit blocks.
+struct Start {
+  const char* ratio;
+  const char* blue_gap;
+  const char* blocks_gap;
+  const char* blue_velocity;
+  const char* red_velocity;
+
+  BlockSystem system() const {
+    BlockSystem s;
+    s.blue.mass = 1;
+    s.red.mass = parse_rational(ratio);
+    s.blue.position = parse_rational(blue_gap) + Rational(1, 2);
+    s.red.position = s.blue.position + 1 + parse_rational(blocks_gap);
+    s.blue.velocity = parse_rational(blue_velocity);
+    s.red.velocity = parse_rational(red_velocity);
+    return s;
+  }
+};
+
+Integer total(const Start& start) {
+  const Integer size = make_collision_log(start.system())->size();
+  EXPECT_EQ(count_collisions(start.system()), size);
+  return size;
+}
+
+TEST(Count, IsTheFirstDigitsOfPi) {
+  for (int digits = 1; digits <= 50; ++digits) {
+    const Integer expected(std::string(kDigitsOfPi).substr(0, static_cast<std::size_t>(digits)));
+    EXPECT_EQ(make_collision_log(article_system(digits))->size(), expected);
+    EXPECT_EQ(count_collisions(article_system(digits)), expected);
+  }
+  EXPECT_TRUE(count_collisions(article_system(2000)).get_str().starts_with(kDigitsOfPi));
+}
+
+TEST(Count, DoesNotDependOnTheStartingGaps) {
+  for (const char* gap : {"1e-100", "0.001", "1", "1e15", "1e100"}) {
+    EXPECT_EQ(total({"10000", gap, "2", "0", "-1"}), 314);
+    EXPECT_EQ(total({"10000", "3/2", gap, "0", "-1"}), 314);
+  }
+}
+
+TEST(Count, DoesNotDependOnTheScaleOfVelocitiesAndMasses) {
+  for (const char* speed : {"-5e-324", "-1e-300", "-1", "-1e155", "-1e300"}) {
+    EXPECT_EQ(total({"10000", "3/2", "2", "0", speed}), 314) << speed;
+  }
+  for (const char* unit : {"1e-320", "1e-200", "1e154", "1e300"}) {
+    BlockSystem system = article_system(3);
+    system.blue.mass *= parse_rational(unit);
+    system.red.mass *= parse_rational(unit);
+    EXPECT_EQ(count_collisions(system), 314) << unit;
+  }
+}
+
+TEST(Count, IsRightAtAndBesideTheExactRatios) {
+  // pi/theta is whole only for the ratios 1/3, 1 and 3 (Niven): the last ray is never reached.
+  EXPECT_EQ(total({"1/3", "3/2", "2", "0", "-1"}), 2);
+  EXPECT_EQ(total({"1", "3/2", "2", "0", "-1"}), 3);
+  EXPECT_EQ(total({"3", "3/2", "2", "0", "-1"}), 5);
+  const auto beside = [](double ratio) {
+    BlockSystem system;
+    system.red.mass = Rational(ratio);
+    return count_collisions(system);
+  };
+  EXPECT_EQ(beside(std::nextafter(1.0, 0.0)), 3);
+  EXPECT_EQ(beside(std::nextafter(1.0, 2.0)), 4);
+  EXPECT_EQ(beside(std::nextafter(3.0, 0.0)), 5);
+  EXPECT_EQ(beside(std::nextafter(3.0, 4.0)), 6);
+}
+
+TEST(Count, IsRightWhereSimpleFormulasFail) {
+  EXPECT_EQ(total({"2", "3/2", "2", "0", "-1"}), 5);
+  EXPECT_EQ(total({"10", "3/2", "2", "0", "-1"}), 10);
+  EXPECT_EQ(total({"1e-32", "3/2", "2", "0", "-1"}), 2);
+  EXPECT_EQ(total({"0.1", "3/2", "2", "0", "-1"}), 2);
+  EXPECT_EQ(total({"1e32", "3/2", "2", "0", "-1"}), Integer("31415926535897932"))
+      << "the nearest double to 1e32 gives another count";
+}
+
+TEST(Count, KnowsMovingBlueBlocks) {
+  EXPECT_EQ(total({"1", "1", "1", "-1", "-2"}), 4);
+  EXPECT_EQ(total({"3", "1", "1", "-1", "-2"}), 6);
+  EXPECT_EQ(total({"100", "1", "1", "-1", "-2"}), 32);
+  EXPECT_EQ(total({"100", "3/2", "2", "-1", "-1"}), 31);
+  EXPECT_EQ(total({"100", "3/2", "2", "1e-300", "0"}), 15);
+  EXPECT_EQ(total({"100", "3/2", "2", "-1e-300", "0"}), 16);
+}
+
+TEST(Count, IsZeroWhereNothingMeets) {
+  EXPECT_EQ(total({"100", "3/2", "2", "1", "1"}), 0);
+  EXPECT_EQ(total({"100", "3/2", "2", "0", "1"}), 0);
+  EXPECT_EQ(total({"100", "3/2", "2", "0", "0"}), 0);
+  EXPECT_EQ(total({"0.01", "3/2", "2", "0", "0"}), 0);
+  EXPECT_EQ(total({"100", "0", "0", "0", "0"}), 0);
+}
+
+TEST(Count, FollowsTheConventionAtCorners) {
+  // Blue rests on the wall: the blocks meet first, as for a wall a hair further away.
+  EXPECT_EQ(total({"100", "0", "3/2", "0", "-1"}), 31);
+  EXPECT_EQ(total({"10000", "0", "3/2", "0", "-1"}), 314);
+  // They arrive touching and together: the wall comes first.
+  EXPECT_EQ(total({"100", "3/2", "0", "-1", "-1"}), 31);
+  // Both gaps closed, red pushing: everything happens at time 0.
+  EXPECT_EQ(total({"100", "0", "0", "0", "-1"}), 31);
+  EXPECT_EQ(state_at(*make_collision_log(Start{"100", "0", "0", "0", "-1"}.system()), 0).count, 31);
+}
+
+TEST(Count, KnowsStartsInContact) {
+  EXPECT_EQ(total({"100", "3/2", "0", "0", "-1"}), 31) << "approaching";
+  EXPECT_EQ(total({"100", "3/2", "0", "-1", "0"}), 16) << "separating";
+  EXPECT_EQ(total({"100", "0", "3/2", "-1", "-1"}), 31) << "into the wall";
+  EXPECT_EQ(total({"100", "0", "3/2", "1", "-1"}), 30) << "off the wall";
+}
+
+TEST(Flights, AreHalfOpen) {
+  // The blocks meet at t = 2/(3/10) = 20/3, a time that no double can hold.
+  const auto log = make_collision_log(Start{"100", "3/2", "2", "0", "-0.3"}.system());
+  const Rational meeting(20, 3);
+  EXPECT_EQ(state_at(*log, meeting).count, 1);
+  EXPECT_EQ(state_at(*log, meeting - parse_rational("1e-40")).count, 0);
+  EXPECT_EQ(state_at(*log, meeting + parse_rational("1e-40")).count, 1);
+}
+
+TEST(Flights, CountACollisionAtTimeZero) {
+  EXPECT_EQ(state_at(*make_collision_log(Start{"100", "3/2", "0", "0", "-1"}.system()), 0).count,
+            1);
+  EXPECT_EQ(state_at(*make_collision_log(Start{"100", "3/2", "0", "0", "1"}.system()), 0).count, 0);
+  EXPECT_EQ(state_at(*make_collision_log(Start{"100", "0", "2", "-1", "0"}.system()), 0).count, 1);
+  EXPECT_EQ(state_at(*make_collision_log(Start{"100", "0", "2", "1", "0"}.system()), 0).count, 0);
+  EXPECT_EQ(state_at(*make_collision_log(Start{"0.5", "3/2", "0", "0", "-1"}.system()), 0).count,
+            1);
+}
+
+TEST(Flights, GoOnBeforeTheFirstAndAfterTheLastCollision) {
+  for (const Engine engine : {Engine::unfolded, Engine::events}) {
+    const auto log = make_collision_log(article_system(3), engine);
+    EXPECT_NEAR(state_at(*log, -1000).red.position, 1005, 1e-10);
+    EXPECT_NEAR(state_at(*log, -1000).blue.position, 2, 1e-10);
+    const BlockState last = state_after(*log, 314);
+    const double duration = 1000 - log->at(314).time.hi;
+    const BlockState later = state_at(*log, 1000);
+    EXPECT_NEAR(later.blue.position, last.blue.position + duration * last.blue.velocity, 1e-9);
+    EXPECT_NEAR(later.red.position, last.red.position + duration * last.red.velocity, 1e-9);
+  }
+}
+
+TEST(Flights, CountBackwardsBeforeTimeZero) {
+  // Blue comes off the wall, which it must have met before.
+  for (const char* ratio : {"100", "1", "0.5"}) {
+    const auto log = make_collision_log(Start{ratio, "1", "3", "1", "-1"}.system());
+    EXPECT_EQ(state_at(*log, 0).count, 0) << ratio;
+    EXPECT_EQ(state_at(*log, Rational(-3, 2)).count, -1) << ratio;
+    EXPECT_NEAR(state_at(*log, Rational(-3, 2)).blue.position, 1, 1e-14) << ratio;
+    EXPECT_NEAR(state_at(*log, Rational(-3, 2)).blue.velocity, -1, 1e-14) << ratio;
+  }
+}
+
+TEST(Log, AlternatesAndBeginsWithTheBlocks) {
+  for (const Engine engine : {Engine::unfolded, Engine::events}) {
+    const auto log = make_collision_log(article_system(3), engine);
+    double before = 0;
+    for (long k = 1; k <= 314; ++k) {
+      const Collision c = log->at(k);
+      EXPECT_EQ(c.index, k);
+      EXPECT_EQ(c.kind, k % 2 == 1 ? CollisionKind::blocks : CollisionKind::wall);
+      EXPECT_GT(c.time.hi, before);
+      before = c.time.hi;
+      if (c.kind == CollisionKind::wall) {
+        EXPECT_GT(c.blue.velocity, 0);
+        EXPECT_NEAR(c.blue.position, 0.5, 1e-10);
+      } else {
+        EXPECT_NEAR(c.red.position - c.blue.position, 1, 1e-10);
+      }
+    }
+  }
+}
+
+TEST(Log, EnginesAgree) {
+  for (int digits = 1; digits <= 5; ++digits) {
+    const auto unfolded = make_collision_log(article_system(digits), Engine::unfolded);
+    const auto events = make_collision_log(article_system(digits), Engine::events);
+    ASSERT_EQ(unfolded->size(), events->size());
+    for (long k = 1; k <= unfolded->size(); ++k) {
+      const Collision a = unfolded->at(k);
+      const Collision b = events->at(k);
+      ASSERT_EQ(a.kind, b.kind);
+      ASSERT_NEAR(a.time.hi, b.time.hi, 1e-9 * a.time.hi) << digits << " #" << k;
+      ASSERT_NEAR(a.blue.position, b.blue.position, 1e-8);
+      ASSERT_NEAR(a.red.position, b.red.position, 1e-8);
+    }
+  }
+}
+
+TEST(Log, RefusesInvalidSystems) {
+  BlockSystem overlapping;
+  overlapping.red.position = Rational(29, 10);
+  EXPECT_THROW(make_collision_log(overlapping), SceneError);
+  EXPECT_THROW(count_collisions(overlapping), SceneError);
+  EXPECT_THROW(article_system(0), UsageError);
+  EXPECT_THROW(article_system(kMaxDigits + 1), UsageError);
+}
+
+TEST(Log, RefusesRatiosBeyondItsRange) {
+  EXPECT_THROW(make_collision_log(article_system(400)), UsageError);
+  EXPECT_EQ(make_collision_log(article_system(300))->size().get_str().size(), 300u);
+}
+
+TEST(StateAfter, RefusesWhatHasNotHappened) {
+  const auto log = make_collision_log(article_system(3));
+  EXPECT_THROW(state_after(*log, 0), UsageError);
+  EXPECT_THROW(state_after(*log, 315), UsageError);
+  EXPECT_EQ(state_after(*log, 314).count, 314);
+}
+
+}  // namespace
+}  // namespace piblocks

@@ -1,0 +1,49 @@
+// Random inputs for property tests, the same in every run.
+// In: a seed, by default the test's own; the environment variable PIBLOCKS_SEED overrides it.
+// Out: numbers, and a line that says how to repeat the run: SCOPED_TRACE(random.trace()).
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <random>
+#include <string>
+
+#include <piblocks/exact.hpp>
+
+namespace piblocks {
+
+class Random {
+ public:
+  explicit Random(std::uint64_t default_seed) : seed_(chosen_seed(default_seed)), engine_(seed_) {}
+
+  std::string trace() const { return "repeat with PIBLOCKS_SEED=" + std::to_string(seed_); }
+
+  /// An integer of [first, last], each nearly equally likely.
+  std::int64_t integer(std::int64_t first, std::int64_t last) {
+    const auto span = static_cast<std::uint64_t>(last - first) + 1;
+    return first + static_cast<std::int64_t>(engine_() % span);
+  }
+
+  /// A double of [low, high).
+  double uniform(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+  }
+
+  /// A multiple of 1/denominator in [low, high].
+  Rational rational(std::int64_t low, std::int64_t high, std::int64_t denominator) {
+    Rational value(Integer(integer(low * denominator, high * denominator)), Integer(denominator));
+    value.canonicalize();
+    return value;
+  }
+
+ private:
+  static std::uint64_t chosen_seed(std::uint64_t default_seed) {
+    const char* text = std::getenv("PIBLOCKS_SEED");
+    return text != nullptr ? std::strtoull(text, nullptr, 10) : default_seed;
+  }
+
+  std::uint64_t seed_;
+  std::mt19937_64 engine_;
+};
+
+}  // namespace piblocks
