@@ -58,11 +58,13 @@ enum class Engine {
   events     ///< the article's event loop in double precision, stored
 };
 
-/// Most collisions that Engine::events stores.
-inline constexpr std::int64_t kMaxStoredCollisions = 20'000'000;
+/// Most collisions that Engine::events stores, at 56 bytes each: seven digits of pi.
+inline constexpr std::int64_t kMaxStoredCollisions = 5'000'000;
 
 /// @throws SceneError if problems_of(system) is not empty.
-/// @throws SimulationError if Engine::events passes kMaxStoredCollisions or loses its footing.
+/// @throws UsageError if Engine::events would have to store more than kMaxStoredCollisions, or the
+///         closed form is asked for a mass ratio beyond 2^2000.
+/// @throws SimulationError if a number of the event loop leaves its range.
 std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system,
                                                  Engine engine = Engine::unfolded);
 

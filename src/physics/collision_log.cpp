@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
 
@@ -35,11 +36,23 @@ void check(const BlockSystem& system) {
   if (!problems.empty()) throw SceneError(describe(problems));
 }
 
+void check_storable(const BlockSystem& system) {
+  const Integer count = ExactMotion(system).total();
+  if (count <= kMaxStoredCollisions) return;
+  throw UsageError(fmt::format(
+      "event loop: {} collisions are more than the limit of {}; use the closed form (--engine "
+      "unfolded)",
+      with_thousands_separators(count), with_thousands_separators(kMaxStoredCollisions)));
+}
+
 }  // namespace
 
 std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system, Engine engine) {
   check(system);
-  if (engine == Engine::events) return store(system, event_loop);
+  if (engine == Engine::events) {
+    check_storable(system);
+    return store(system, event_loop);
+  }
   // At theta >= pi/4 the closed form has nothing to skip, and would lose a very light red block
   // in the rounding of its phase.
   if (system.red.mass <= system.blue.mass || is_at_rest(system)) return store(system, exact_events);

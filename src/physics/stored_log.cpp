@@ -1,7 +1,7 @@
 #include "physics/stored_log.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 namespace piblocks {
 namespace {
@@ -14,43 +14,49 @@ Time negated(const Time& time) { return {-time.hi, -time.lo}; }
 
 Motion reversed(const Motion& motion) { return {motion.position, -motion.velocity}; }
 
-}  // namespace
-
-StoredLog::StoredLog(const FreeFlight& initial, const std::vector<StoredCollision>& forward,
-                     const std::vector<StoredCollision>& backward)
-    : initial_(backward.size()), size_(forward.size()) {
-  flights_.reserve(backward.size() + 1 + forward.size());
-  // Seen forwards, the flight after the reversed run's i-th collision ends there and begins at
-  // its next one.
-  for (std::size_t i = backward.size(); i-- > 0;) {
-    const StoredCollision& end = backward[i];
-    const bool is_first = i + 1 == backward.size();
-    flights_.push_back({is_first ? Time{} : negated(backward[i + 1].time),
-                        is_first ? CollisionKind{} : backward[i + 1].kind, negated(end.time),
-                        reversed(end.blue), reversed(end.red)});
-  }
-  flights_.push_back({backward.empty() ? Time{} : negated(backward.front().time),
-                      backward.empty() ? CollisionKind{} : backward.front().kind, initial.anchor,
-                      initial.blue, initial.red});
-  for (const StoredCollision& collision : forward) {
-    flights_.push_back(
-        {collision.time, collision.kind, collision.time, collision.blue, collision.red});
-  }
-  flights_.front().start = {-std::numeric_limits<double>::infinity(), 0};
+/// Number of collisions at or before `time`.
+std::size_t count_until(const std::vector<StoredCollision>& collisions, const Time& time) {
+  const auto next = std::upper_bound(
+      collisions.begin(), collisions.end(), time,
+      [](const Time& t, const StoredCollision& c) { return is_before(t, c.time); });
+  return static_cast<std::size_t>(next - collisions.begin());
 }
 
+/// Number of collisions before `time`.
+std::size_t count_before(const std::vector<StoredCollision>& collisions, const Time& time) {
+  const auto next = std::lower_bound(
+      collisions.begin(), collisions.end(), time,
+      [](const StoredCollision& c, const Time& t) { return is_before(c.time, t); });
+  return static_cast<std::size_t>(next - collisions.begin());
+}
+
+}  // namespace
+
+StoredLog::StoredLog(const FreeFlight& initial, std::vector<StoredCollision> forward,
+                     std::vector<StoredCollision> backward)
+    : initial_(initial),
+      forward_(std::move(forward)),
+      backward_(std::move(backward)),
+      size_(forward_.size()) {}
+
 Collision StoredLog::at(const Integer& index) const {
-  const Flight& flight = flights_[initial_ + index.get_ui()];
-  return {index, flight.start, flight.kind, flight.blue, flight.red};
+  const StoredCollision& c = forward_[index.get_ui() - 1];
+  return {index, c.time, c.kind, c.blue, c.red};
 }
 
 FreeFlight StoredLog::flight_at(const Rational& time) const {
-  const auto next = std::upper_bound(
-      flights_.begin(), flights_.end(), to_time(time),
-      [](const Time& t, const Flight& flight) { return is_before(t, flight.start); });
-  const Flight& flight = *std::prev(next);
-  const std::ptrdiff_t count = (next - flights_.begin()) - 1 - std::ptrdiff_t(initial_);
-  return {Integer(long(count)), flight.anchor, flight.blue, flight.red};
+  const Time t = to_time(time);
+  if (const std::size_t happened = count_until(forward_, t); happened > 0) {
+    const StoredCollision& c = forward_[happened - 1];
+    return {Integer(happened), c.time, c.blue, c.red};
+  }
+  // Seen forwards, what the reversed run does after a collision ends with that collision; one
+  // exactly at `time` has happened.
+  if (const std::size_t to_come = count_before(backward_, negated(t)); to_come > 0) {
+    const StoredCollision& c = backward_[to_come - 1];
+    return {-Integer(to_come), negated(c.time), reversed(c.blue), reversed(c.red)};
+  }
+  return initial_;
 }
 
 }  // namespace piblocks

@@ -23,24 +23,17 @@ class StoredLog final : public CollisionLog {
   /// @param forward   collisions at times >= 0, in order.
   /// @param backward  collisions of the run with all velocities reversed, in its order and with
   ///                  its times and velocities.
-  StoredLog(const FreeFlight& initial, const std::vector<StoredCollision>& forward,
-            const std::vector<StoredCollision>& backward);
+  StoredLog(const FreeFlight& initial, std::vector<StoredCollision> forward,
+            std::vector<StoredCollision> backward);
 
   const Integer& size() const override { return size_; }
   Collision at(const Integer& index) const override;
   FreeFlight flight_at(const Rational& time) const override;
 
  private:
-  struct Flight {
-    Time start;          // of the half-open interval it holds for
-    CollisionKind kind;  // of the collision at start
-    Time anchor;
-    Motion blue;
-    Motion red;
-  };
-
-  std::vector<Flight> flights_;  // ordered by start; the first has none
-  std::size_t initial_ = 0;      // the flight whose count is 0
+  FreeFlight initial_;
+  std::vector<StoredCollision> forward_;
+  std::vector<StoredCollision> backward_;
   Integer size_;
 };
 
