@@ -69,7 +69,8 @@ class Painter {
         const double x = left + upto(14);
         const double y = top + upto(10);
         fill(x, y, x + 3.3, y + 14 + upto(16), kBlack);
-        fill(left, y + upto(20), left + 17, y + 22.7, kBlack);
+        const double bar = top + upto(36);
+        fill(left, bar, left + 17, bar + 2.7, kBlack);
       }
     }
   }

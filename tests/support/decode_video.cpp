@@ -144,7 +144,7 @@ DecodedStream decode_video(const std::filesystem::path& path,
   };
   while (av_read_frame(input.get(), packet.get()) >= 0) {
     if (packet->stream_index == index) {
-      result.packets.push_back({packet->dts, static_cast<std::size_t>(packet->size),
+      result.packets.push_back({packet->pts, packet->dts, static_cast<std::size_t>(packet->size),
                                 (packet->flags & AV_PKT_FLAG_KEY) != 0});
       check_av(avcodec_send_packet(decoder.get(), packet.get()), "decode", path.string());
       take_frames();

@@ -33,7 +33,8 @@ struct DecodedFrame {
 };
 
 struct DecodedPacket {
-  std::int64_t dts = 0;  ///< in units of the stream's time base
+  std::int64_t pts = 0;  ///< in units of the stream's time base
+  std::int64_t dts = 0;
   std::size_t size_bytes = 0;
   bool key_frame = false;
 };
