@@ -186,8 +186,7 @@ TEST(PngSequence, IsNumberedFromOneAndHoldsTheFrames) {
   EXPECT_FALSE(fs::exists(folder / "f00.png"));
   EXPECT_FALSE(fs::exists(folder / "f11.png"));
   for (int i = 0; i < 10; ++i) {
-    char name[16];
-    std::snprintf(name, sizeof name, "f%02d.png", i + 1);
+    const std::string name = (i < 9 ? "f0" : "f") + std::to_string(i + 1) + ".png";
     const auto png = encode_png(paint(i).view());
     EXPECT_EQ(file_contents(folder / name), std::string(png.begin(), png.end())) << name;
   }
