@@ -23,9 +23,9 @@ struct VideoFormat {
 
 /// What may be said to a video encoder; unset means the measured default.
 struct EncoderSettings {
-  std::optional<double> crf;           ///< constant rate factor, 0 (lossless) … 51
-  std::optional<std::string> preset;   ///< the encoder's own name for a speed
-  std::optional<std::string> encoder;  ///< libavcodec's name of the encoder
+  std::optional<double> crf = {};           ///< constant rate factor, 0 (lossless) … 51
+  std::optional<std::string> preset = {};   ///< the encoder's own name for a speed
+  std::optional<std::string> encoder = {};  ///< libavcodec's name of the encoder
 };
 
 /// A piece of encoded output: one video frame, one image file, one line of text.
@@ -70,6 +70,8 @@ class FrameSink {
 /// Opens the output whose kind `output` names:
 /// `*.mp4`, `*.png` with one integer field such as `%06d`, `*.y4m`, `-` (y4m on standard
 /// output), `*.framehash`, or the word `null`.
+/// PNG files are numbered from 1, as FFmpeg numbers them; the rest counts frames from 0. Settings
+/// are for `*.mp4` alone. Silences libav's log for the whole process.
 /// @throws UsageError if the name has no known kind, the format does not suit the kind, no
 ///         encoder is there, or the output cannot be opened; nothing is left behind then.
 std::unique_ptr<FrameSink> open_sink(const std::string& output, const VideoFormat& format,

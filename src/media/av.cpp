@@ -1,10 +1,10 @@
 #include "media/av.hpp"
 
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
 #include <array>
 #include <cerrno>
-#include <fmt/format.h>
-
-#include <piblocks/error.hpp>
 
 extern "C" {
 #include <libavutil/log.h>

@@ -1,7 +1,6 @@
 #include "media/find_encoder.hpp"
 
 #include <fmt/format.h>
-
 #include <piblocks/error.hpp>
 #include <piblocks/frame_sink.hpp>
 

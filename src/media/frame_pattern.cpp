@@ -1,9 +1,9 @@
 #include "media/frame_pattern.hpp"
 
 #include <fmt/format.h>
-#include <optional>
-
 #include <piblocks/error.hpp>
+
+#include <optional>
 
 namespace piblocks {
 namespace {

@@ -1,5 +1,6 @@
-#include <array>
 #include <fmt/format.h>
+
+#include <array>
 
 #include "media/av.hpp"
 #include "media/rgb24.hpp"

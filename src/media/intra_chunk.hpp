@@ -2,9 +2,9 @@
 // In: a function from one frame to its bytes. Out: a chunk with one packet a frame.
 #pragma once
 
-#include <functional>
-
 #include <piblocks/frame_sink.hpp>
+
+#include <functional>
 
 namespace piblocks {
 

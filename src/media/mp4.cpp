@@ -7,13 +7,11 @@
 #include "media/video_encoder.hpp"
 
 extern "C" {
-#include <libavutil/dict.h>
+#include <libavutil/opt.h>
 }
 
 namespace piblocks {
 namespace {
-
-using AvDictionaryPtr = std::unique_ptr<AVDictionary, AvDeleter<av_dict_free>>;
 
 class Mp4Sink final : public FrameSink {
  public:
@@ -72,13 +70,9 @@ void Mp4Sink::add_stream() {
 void Mp4Sink::write_header() {
   // Neither the library's version nor the time of day: equal frames give equal bytes.
   muxer_->flags |= AVFMT_FLAG_BITEXACT;
-  AVDictionary* set = nullptr;
-  check_av(av_dict_set(&set, "movflags", "+faststart", 0), "set up the muxer of", name_);
-  AvDictionaryPtr options(set);
-  AVDictionary* passed = options.release();
-  const int code = avformat_write_header(muxer_.get(), &passed);
-  options.reset(passed);
-  check_av(code, "write the header of", name_);
+  check_av(av_opt_set(muxer_->priv_data, "movflags", "+faststart", 0), "set up the muxer of",
+           name_);
+  check_av(avformat_write_header(muxer_.get(), nullptr), "write the header of", name_);
 }
 
 std::unique_ptr<ChunkEncoder> Mp4Sink::begin_chunk(std::int64_t first_frame) const {

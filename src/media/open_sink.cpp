@@ -1,11 +1,11 @@
-#include <array>
 #include <fmt/format.h>
 #include <libdeflate.h>
-#include <limits>
-#include <string_view>
-
 #include <piblocks/error.hpp>
 #include <piblocks/frame_sink.hpp>
+
+#include <array>
+#include <limits>
+#include <string_view>
 
 #include "media/av.hpp"
 #include "media/sink_kinds.hpp"

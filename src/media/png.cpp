@@ -1,8 +1,8 @@
 #include <libdeflate.h>
-#include <string_view>
-
 #include <piblocks/error.hpp>
 #include <piblocks/png.hpp>
+
+#include <string_view>
 
 #include "media/png_encoder.hpp"
 #include "media/rgb24.hpp"

@@ -2,11 +2,11 @@
 // In: views of opaque pixels. Out: the bytes of a PNG file each.
 #pragma once
 
+#include <piblocks/image.hpp>
+
 #include <cstdint>
 #include <memory>
 #include <vector>
-
-#include <piblocks/image.hpp>
 
 struct libdeflate_compressor;
 

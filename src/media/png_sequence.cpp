@@ -1,14 +1,14 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdlib>
-#include <fcntl.h>
 #include <filesystem>
-#include <fmt/format.h>
 #include <span>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
-
-#include <piblocks/error.hpp>
 
 #include "core/output_file.hpp"
 #include "media/frame_pattern.hpp"

@@ -1,9 +1,9 @@
 #include "media/sink_request.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
-
 #include <piblocks/error.hpp>
+
+#include <algorithm>
 
 namespace piblocks {
 

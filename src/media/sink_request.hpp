@@ -3,9 +3,9 @@
 // that a wrong size, frame or order deserves.
 #pragma once
 
-#include <string>
-
 #include <piblocks/frame_sink.hpp>
+
+#include <string>
 
 namespace piblocks {
 

@@ -73,6 +73,11 @@ void VideoChunkEncoder::add(const ImageView& frame) {
 
 EncodedChunk VideoChunkEncoder::finish() {
   send(nullptr);
+  // These are what libx264 sets for a chunk with B-frames, unless the chunk is shorter than the
+  // delay they cause: it then starts late, and the packet before it would seem to last for several
+  // frames.
+  std::int64_t dts = first_frame_ - context_->has_b_frames;
+  for (Packet& packet : chunk_) packet.dts = dts++;
   return std::move(chunk_);
 }
 
@@ -93,7 +98,6 @@ void VideoChunkEncoder::take_packets() {
     if (is_h264 && first_frame_ > 0 && chunk_.empty()) bytes = without_signature(bytes);
     chunk_.push_back({.bytes = {bytes.begin(), bytes.end()},
                       .pts = first_frame_ + packet_->pts,
-                      .dts = first_frame_ + packet_->dts,
                       .key_frame = (packet_->flags & AV_PKT_FLAG_KEY) != 0});
     av_packet_unref(packet_.get());
   }

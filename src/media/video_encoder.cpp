@@ -1,12 +1,11 @@
 #include "media/video_encoder.hpp"
 
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <fmt/format.h>
 #include <span>
-
-#include <piblocks/error.hpp>
 
 #include "media/find_encoder.hpp"
 #include "media/sink_request.hpp"
@@ -170,9 +169,17 @@ void VideoEncoder::apply_settings(AVCodecContext& context) const {
     context.bit_rate = static_cast<std::int64_t>(kBitsPerPixel * format_.width_px *
                                                  format_.height_px * av_q2d(frame_rate_));
   }
-  // A chunk is one group of pictures: no key frame but the first.
+  // A chunk is one group of pictures: no key frame but the first, however much a picture differs
+  // from the last. libx264 takes 0 for that, libavcodec's own encoders their largest value.
   if (has_option(*codec_, "sc_threshold")) {
-    check_av(av_opt_set_int(options, "sc_threshold", 0, 0), "set up encoder", codec_->name);
+    check_av(av_opt_set_int(options, "sc_threshold", is_x264 ? 0 : 1'000'000'000, 0),
+             "set up encoder", codec_->name);
+  }
+  // With libx264 r3095's macroblock tree, equal frames of 64x48 gave up to four different chunks,
+  // depending on what memory held before (not without its vector code). Without the tree the bytes
+  // depend on the frames alone; src/media/README.md has what it costs.
+  if (has_option(*codec_, "mbtree")) {
+    check_av(av_opt_set_int(options, "mbtree", 0, 0), "set up encoder", codec_->name);
   }
   if (has_option(*codec_, "forced-idr")) {
     check_av(av_opt_set_int(options, "forced-idr", 1, 0), "set up encoder", codec_->name);

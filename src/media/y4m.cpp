@@ -1,7 +1,7 @@
-#include <cstring>
 #include <fmt/format.h>
-
 #include <piblocks/error.hpp>
+
+#include <cstring>
 
 #include "media/sink_kinds.hpp"
 #include "media/stream_sink.hpp"

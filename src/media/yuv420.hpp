@@ -3,10 +3,10 @@
 // the BT.709 matrix in limited range, chroma sited left (ITU-T H.273, matrix 1, location 0).
 #pragma once
 
+#include <piblocks/image.hpp>
+
 #include <cstddef>
 #include <cstdint>
-
-#include <piblocks/image.hpp>
 
 namespace piblocks {
 

@@ -1,9 +1,9 @@
+#include <piblocks/error.hpp>
+
 #include <algorithm>
 #include <cassert>
 #include <optional>
 #include <string>
-
-#include <piblocks/error.hpp>
 
 #include "support/oracle.hpp"
 

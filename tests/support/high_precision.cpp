@@ -1,6 +1,7 @@
 #include <boost/multiprecision/mpfr.hpp>
-#include <cstdlib>
 #include <mpfr.h>
+
+#include <cstdlib>
 #include <optional>
 
 #include "support/oracle.hpp"

@@ -3,12 +3,12 @@
 // Slow, and meant to be: clarity and certainty are all that counts here.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include <piblocks/blocks.hpp>
 #include <piblocks/collision_log.hpp>
 #include <piblocks/exact.hpp>
+
+#include <cstdint>
+#include <vector>
 
 namespace piblocks::oracle {
 

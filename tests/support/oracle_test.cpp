@@ -1,7 +1,6 @@
 #include "support/oracle.hpp"
 
 #include <gtest/gtest.h>
-
 #include <piblocks/error.hpp>
 
 #include "support/property.hpp"

@@ -3,12 +3,12 @@
 // Out: numbers, and a line that says how to repeat the run: SCOPED_TRACE(random.trace()).
 #pragma once
 
+#include <piblocks/exact.hpp>
+
 #include <cstdint>
 #include <cstdlib>
 #include <random>
 #include <string>
-
-#include <piblocks/exact.hpp>
 
 namespace piblocks {
 

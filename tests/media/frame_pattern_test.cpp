@@ -1,0 +1,58 @@
+#include "media/frame_pattern.hpp"
+
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+
+namespace piblocks {
+namespace {
+
+TEST(FramePattern, WritesTheNumberWithTheFieldsDigits) {
+  EXPECT_EQ(FramePattern("%d.png").name(7), "7.png");
+  EXPECT_EQ(FramePattern("a%06d.png").name(7), "a000007.png");
+  EXPECT_EQ(FramePattern("a%01d.png").name(123), "a123.png");
+}
+
+TEST(FramePattern, WritesLongNumbersInFull) {
+  EXPECT_EQ(FramePattern("%02d.png").name(12345), "12345.png");
+  EXPECT_EQ(FramePattern("%09d.png").name(9'000'000'000), "9000000000.png");
+}
+
+TEST(FramePattern, TakesTwoPercentSignsForOne) {
+  EXPECT_EQ(FramePattern("100%%_%03d%%.png").name(1), "100%_001%.png");
+  EXPECT_EQ(FramePattern("%%d%d.png").name(1), "%d1.png");
+}
+
+TEST(FramePattern, TellsTheFolderApart) {
+  EXPECT_EQ(FramePattern("%d.png").folder(), "");
+  EXPECT_EQ(FramePattern("/%d.png").folder(), "/");
+  const FramePattern pattern("a/50%%/f%d.png");
+  EXPECT_EQ(pattern.folder(), "a/50%/");
+  EXPECT_EQ(pattern.name(2), "f2.png");
+}
+
+TEST(FramePattern, LeavesBracesAlone) {
+  EXPECT_EQ(FramePattern("{}%d{0}.png").name(3), "{}3{0}.png");
+}
+
+class BadPattern : public testing::TestWithParam<const char*> {};
+
+TEST_P(BadPattern, IsRefusedWithAnExample) {
+  try {
+    FramePattern pattern(GetParam());
+    FAIL() << GetParam() << " was taken";
+  } catch (const UsageError& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find(GetParam()), std::string::npos) << what;
+    EXPECT_NE(what.find("frames/%06d.png"), std::string::npos) << what;
+    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadPattern,
+                         testing::Values("a.png", "%%.png", "%d%d.png", "%03d_%d.png", "%s.png",
+                                         "%n.png", "%5d.png", "%0d.png", "%00d.png", "%010d.png",
+                                         "%03i.png", "%ld.png", "%-3d.png", "%", "%0", "%03", "a%",
+                                         "%d/a.png", "%03d/%%.png", "% d.png", "%%%.png"));
+
+}  // namespace
+}  // namespace piblocks

@@ -1,0 +1,206 @@
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+#include <piblocks/frame_sink.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "media/write_frames.hpp"
+#include "support/decode_video.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace piblocks {
+namespace {
+using testing_support::ColourTags;
+using testing_support::decode_video;
+using testing_support::DecodedPacket;
+using testing_support::DecodedVideo;
+using testing_support::file_contents;
+using testing_support::Pixels;
+using testing_support::TemporaryFolder;
+
+const VideoFormat kFormat = {
+    .width_px = 322, .height_px = 180, .frame_rate = Rational("30000/1001")};
+constexpr std::int64_t kFramesPerChunk = 59;  // floor(2 * 29.97)
+
+class Mp4Test : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (h264_encoders().empty()) GTEST_SKIP() << "libavcodec has no H.264 encoder";
+  }
+
+  DecodedVideo written_and_read(const EncoderSettings& settings, std::int64_t frames,
+                                const VideoFormat& format = kFormat) const {
+    write_frames(folder_ / "out.mp4", format, settings, frames, article_frames(format));
+    return decode_video(folder_ / "out.mp4");
+  }
+
+  std::string problem(const EncoderSettings& settings) const {
+    try {
+      open_sink(folder_ / "out.mp4", kFormat, settings);
+    } catch (const UsageError& error) {
+      EXPECT_TRUE(folder_.is_empty());
+      return error.what();
+    }
+    return "none";
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Mp4Test, ShowsEveryFrameAtItsExactTime) {
+  constexpr std::int64_t kFrames = 2 * kFramesPerChunk + 1;  // the last chunk has one frame
+  const DecodedVideo video = written_and_read({}, kFrames);
+  EXPECT_EQ(video.codec, "h264");
+  EXPECT_EQ(video.width_px, kFormat.width_px);
+  EXPECT_EQ(video.height_px, kFormat.height_px);
+  EXPECT_EQ(video.frame_rate, kFormat.frame_rate);
+  EXPECT_EQ(video.duration_s, Rational(kFrames) / kFormat.frame_rate);
+  ASSERT_EQ(video.frames.size(), std::size_t{kFrames});
+  for (std::int64_t i = 0; i < kFrames; ++i) {
+    EXPECT_EQ(video.frames[static_cast<std::size_t>(i)].time_s, Rational(i) / kFormat.frame_rate);
+  }
+}
+
+TEST_F(Mp4Test, EveryChunkAndNothingElseStartsWithAKeyFrame) {
+  const DecodedVideo video = written_and_read({}, 3 * kFramesPerChunk);
+  for (std::size_t i = 0; i < video.frames.size(); ++i) {
+    EXPECT_EQ(video.frames[i].key_frame, i % kFramesPerChunk == 0) << i;
+  }
+}
+
+TEST_F(Mp4Test, TellsItsColoursInTheContainerAndInThePictures) {
+  const DecodedVideo video = written_and_read({}, 2);
+  EXPECT_EQ(video.container.matrix, "bt709");
+  EXPECT_EQ(video.container.primaries, "bt709");
+  EXPECT_EQ(video.container.transfer, "bt709");
+  EXPECT_EQ(video.container.range, "tv");
+  const ColourTags expected = {.matrix = "bt709",
+                               .primaries = "bt709",
+                               .transfer = "bt709",
+                               .range = "tv",
+                               .chroma_location = "left"};
+  EXPECT_EQ(video.pictures, expected);
+}
+
+TEST_F(Mp4Test, LooksLikeWhatWasDrawn) {
+  const VideoFormat format = {.width_px = 1280, .height_px = 720, .frame_rate = 10};
+  const DecodedVideo video = written_and_read({}, 22, format);
+  ASSERT_EQ(video.frames.size(), 22u);
+  for (std::size_t i = 0; i < video.frames.size(); ++i) {
+    const Pixels drawn = article_frames(format)(static_cast<std::int64_t>(i));
+    const double error = testing_support::rgb_mean_squared_error(drawn, video.frames[i].rgb);
+    EXPECT_GT(testing_support::psnr_db(error), 45) << i;
+  }
+}
+
+TEST_F(Mp4Test, StartsWithItsIndex) {
+  written_and_read({}, 10);
+  const std::string bytes = file_contents(folder_ / "out.mp4");
+  EXPECT_LT(bytes.find("moov"), bytes.find("mdat"));
+}
+
+TEST_F(Mp4Test, IsTheSameEachTime) {
+  written_and_read({}, 70);
+  const std::string first = file_contents(folder_ / "out.mp4");
+  written_and_read({}, 70);
+  EXPECT_TRUE(first == file_contents(folder_ / "out.mp4"));
+}
+
+TEST_F(Mp4Test, EqualFramesGiveEqualChunksWhateverMemoryHeld) {
+  const VideoFormat format = {.width_px = 64, .height_px = 48, .frame_rate = 10};
+  const auto sink = open_sink(folder_ / "out.mp4", format, {});
+  std::vector<EncodedChunk> chunks(16);
+  for (std::size_t pair = 0; pair < chunks.size(); pair += 2) {
+    const auto encode = [&](std::size_t i) {
+      chunks[i] = encode_chunk(*sink, 20, 40, article_frames(format));
+    };
+    const std::jthread other(encode, pair);
+    encode(pair + 1);
+  }
+  for (const EncodedChunk& chunk : chunks) {
+    EXPECT_TRUE(std::ranges::equal(chunk, chunks.front(), {}, &Packet::bytes, &Packet::bytes));
+  }
+}
+
+TEST_F(Mp4Test, HoldsOneSignatureOfTheEncoder) {
+  if (h264_encoders().front() != "libx264") GTEST_SKIP() << "only libx264 signs";
+  written_and_read({}, 3 * kFramesPerChunk);
+  const std::string bytes = file_contents(folder_ / "out.mp4");
+  const std::size_t first = bytes.find("x264 - core");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(bytes.find("x264 - core", first + 1), std::string::npos);
+}
+
+TEST_F(Mp4Test, TimeStampsIncreaseAcrossChunksAlsoWithBFrames) {
+  if (h264_encoders().front() != "libx264") GTEST_SKIP() << "presets are libx264's";
+  for (const char* preset : {"ultrafast", "medium", "veryslow"}) {
+    const DecodedVideo video = written_and_read({.preset = preset}, 2 * kFramesPerChunk + 2);
+    EXPECT_TRUE(std::ranges::is_sorted(video.packets, std::less_equal<>(), &DecodedPacket::dts));
+    EXPECT_EQ(video.packets.front().pts, 0);
+    const bool reordered = std::ranges::any_of(
+        video.packets, [](const DecodedPacket& packet) { return packet.pts != packet.dts; });
+    EXPECT_EQ(reordered, preset != std::string("ultrafast")) << preset;
+    for (std::size_t i = 0; i < video.frames.size(); ++i) {
+      EXPECT_EQ(video.frames[i].time_s, Rational(i) / kFormat.frame_rate) << preset;
+    }
+  }
+}
+
+TEST_F(Mp4Test, TakesUnusualFrameRates) {
+  for (const char* rate : {"1/3", "1", "24000/1001", "12345/67", "1000", "2000000000/1"}) {
+    const VideoFormat format = {.width_px = 64, .height_px = 36, .frame_rate = Rational(rate)};
+    const DecodedVideo video = written_and_read({}, 5, format);
+    ASSERT_EQ(video.frames.size(), 5u) << rate;
+    EXPECT_EQ(video.frames[4].time_s, 4 / format.frame_rate) << rate;
+  }
+}
+
+TEST_F(Mp4Test, BetterQualityTakesMoreBytes) {
+  written_and_read({.crf = 12}, 30);
+  const std::size_t good = file_contents(folder_ / "out.mp4").size();
+  written_and_read({.crf = 40}, 30);
+  EXPECT_LT(file_contents(folder_ / "out.mp4").size(), good);
+}
+
+TEST_F(Mp4Test, TakesAPathThatLooksLikeAProtocol) {
+  write_frames(folder_ / "pipe:1.mp4", kFormat, {}, 2, article_frames(kFormat));
+  EXPECT_EQ(decode_video(folder_ / "pipe:1.mp4").frames.size(), 2u);
+}
+
+TEST_F(Mp4Test, NamesTheSettingThatIsWrong) {
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  if (h264_encoders().front() != "libx264") GTEST_SKIP() << "the settings are libx264's";
+  EXPECT_TRUE(has(problem({.crf = 51.5}), "crf 51.5"));
+  EXPECT_TRUE(has(problem({.crf = -1}), "crf -1"));
+  EXPECT_TRUE(has(problem({.crf = std::nan("")}), "crf nan"));
+  EXPECT_TRUE(has(problem({.preset = "fastest"}), "'fastest'; use one of: ultrafast"));
+  EXPECT_TRUE(has(problem({.preset = ""}), "''"));
+  EXPECT_TRUE(has(problem({.encoder = "libx263"}), "'libx263'; use one of: libx264"));
+  EXPECT_TRUE(has(problem({.encoder = "libx264rgb"}), "does not take yuv420p"));
+  EXPECT_TRUE(has(problem({.encoder = "ffv1"}), "MP4 cannot hold"));
+  EXPECT_TRUE(has(problem({.crf = 20, .encoder = "mpeg4"}), "'mpeg4' has no crf"));
+  EXPECT_TRUE(has(problem({.preset = "fast", .encoder = "mpeg4"}), "'mpeg4' has no presets"));
+  EXPECT_TRUE(has(problem({.crf = 99, .preset = "x"}),
+                  "crf 99 is out of range; use 0 (lossless) "
+                  "to 51\nvideo: encoder 'libx264' has no"));
+}
+
+TEST_F(Mp4Test, TakesAnotherEncoderByName) {
+  const DecodedVideo video = written_and_read({.encoder = "mpeg4"}, 5);
+  EXPECT_EQ(video.codec, "mpeg4");
+  EXPECT_EQ(video.frames.size(), 5u);
+}
+
+TEST(H264Encoders, AreOnesThatCanBeOpened) {
+  for (const std::string& name : h264_encoders()) {
+    const TemporaryFolder folder;
+    EXPECT_NO_THROW(open_sink(folder / "out.mp4", kFormat, {.encoder = name})) << name;
+  }
+}
+
+}  // namespace
+}  // namespace piblocks

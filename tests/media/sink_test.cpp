@@ -1,0 +1,303 @@
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+#include <piblocks/frame_sink.hpp>
+#include <piblocks/png.hpp>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+
+#include "media/write_frames.hpp"
+#include "media/yuv420.hpp"
+#include "support/decode_video.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace piblocks {
+namespace {
+namespace fs = std::filesystem;
+using testing_support::file_contents;
+using testing_support::Pixels;
+using testing_support::TemporaryFolder;
+
+const VideoFormat kSmall = {.width_px = 64, .height_px = 36, .frame_rate = 10};
+
+/// What opening says, or "" if it works.
+std::string opening_error(const std::string& output, const VideoFormat& format,
+                          const EncoderSettings& settings = {}) {
+  try {
+    open_sink(output, format, settings);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+testing::AssertionResult has(const std::string& text, const std::string& part) {
+  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "'" << part << "' is not in: " << text;
+}
+
+TEST(OpenSink, ListsTheKindsWhenANameHasNone) {
+  for (const char* output : {"out.mov", "out", "", "mp4", "null.txt", "./null", "out.mp4/"}) {
+    const std::string what = opening_error(output, kSmall);
+    EXPECT_TRUE(has(what, std::string("'") + output + "'"));
+    for (const char* kind : {"*.mp4", "*.png", "%06d", "*.y4m", "- (", "*.framehash", "null"}) {
+      EXPECT_TRUE(has(what, kind));
+    }
+    EXPECT_EQ(std::ranges::count(what, '\n'), 0) << what;
+  }
+}
+
+TEST(OpenSink, ReportsAllProblemsAtOnce) {
+  try {
+    open_sink("out.mov", {0, 20000, -1}, {});
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_EQ(error.problems().size(), 3u) << error.what();
+  }
+}
+
+TEST(OpenSink, RefusesFramesThatDoNotFitInMemoryOrTime) {
+  EXPECT_TRUE(has(opening_error("null", {16384, 16384, 60}), "16384x16384"));
+  EXPECT_TRUE(has(opening_error("null", {10, 10, 0}), "30000/1001"));
+  EXPECT_TRUE(has(opening_error("null", {10, 10, Rational("1/9000000000")}), "out of range"));
+  EXPECT_EQ(opening_error("null", {16384, 4096, 60}), "");
+}
+
+TEST(OpenSink, RefusesEncoderSettingsThatWouldBeIgnored) {
+  EXPECT_TRUE(has(opening_error("out.y4m", kSmall, {.crf = 20}), "has no use for"));
+  EXPECT_TRUE(has(opening_error("%d.png", kSmall, {.preset = "slow"}), "*.mp4"));
+}
+
+TEST(OpenSink, SaysWhichEvenSizeToUse) {
+  const TemporaryFolder folder;
+  for (const char* name : {"out.mp4", "out.y4m"}) {
+    EXPECT_TRUE(has(opening_error(folder / name, {1921, 1081, 60}), "use 1920x1080"));
+    EXPECT_TRUE(has(opening_error(folder / name, {1, 10, 60}), "use 2x10"));
+  }
+  EXPECT_TRUE(folder.is_empty());
+  EXPECT_EQ(opening_error(folder / "%d.png", {1921, 1081, 60}), "");
+  EXPECT_EQ(opening_error(folder / "out.framehash", {1921, 1081, 60}), "");
+}
+
+class EveryFile : public testing::TestWithParam<const char*> {};
+
+TEST_P(EveryFile, DoesNotDependOnWhoEncodesWhat) {
+  const TemporaryFolder one;
+  const TemporaryFolder many;
+  constexpr std::int64_t kFrames = 70;
+  fs::create_directory(one / "a");
+  write_frames(one / GetParam(), kSmall, {}, kFrames, article_frames(kSmall));
+  write_frames_by_threads(many / GetParam(), kSmall, {}, kFrames, article_frames(kSmall));
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(many / GetParam()).parent_path())) {
+    ++files;
+    const fs::path twin = fs::path(one / GetParam()).parent_path() / entry.path().filename();
+    EXPECT_TRUE(file_contents(entry.path()) == file_contents(twin)) << twin;
+  }
+  EXPECT_EQ(files, std::string(GetParam()).ends_with(".png") ? kFrames : 1);
+}
+
+TEST_P(EveryFile, LeavesNoTraceWhenAbandoned) {
+  const TemporaryFolder folder;
+  {
+    const auto sink = open_sink(folder / GetParam(), kSmall, {});
+    sink->append(encode_chunk(*sink, 0, 1000, article_frames(kSmall)));
+    EXPECT_FALSE(folder.is_empty());
+  }
+  EXPECT_TRUE(folder.is_empty());
+}
+
+TEST_P(EveryFile, CannotBeBelowAFile) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "a") << "not a folder";
+  EXPECT_TRUE(has(opening_error(folder / GetParam(), kSmall), folder / "a"));
+  EXPECT_EQ(file_contents(folder / "a"), "not a folder");
+}
+
+TEST_P(EveryFile, NeedsAFolderThatCanBeWritten) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "a");
+  fs::permissions(folder / "a", fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_TRUE(has(opening_error(folder / GetParam(), kSmall), "Permission denied"));
+}
+
+TEST_P(EveryFile, RefusesAFrameOfAnotherSize) {
+  const TemporaryFolder folder;
+  const auto sink = open_sink(folder / GetParam(), kSmall, {});
+  EXPECT_THROW(sink->begin_chunk(0)->add(Pixels(66, 36).view()), MediaError);
+}
+
+TEST_P(EveryFile, RefusesAChunkOutOfOrder) {
+  const TemporaryFolder folder;
+  const auto sink = open_sink(folder / GetParam(), kSmall, {});
+  const EncodedChunk second =
+      encode_chunk(*sink, sink->frames_per_chunk(), 1000, article_frames(kSmall));
+  EXPECT_THROW(sink->append(second), MediaError);
+}
+
+/// Lets files grow to so many bytes only, as a full disk would.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST_P(EveryFile, ReportsAFullDisk) {
+  const TemporaryFolder folder;
+  const std::string output = folder / GetParam();
+  {
+    const FileSizeLimit limit(2000);
+    EXPECT_THROW(write_frames(output, kSmall, {}, 70, random_frames(kSmall)), IoError);
+  }
+  EXPECT_TRUE(folder.is_empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryFile,
+                         testing::Values("a/out.mp4", "a/%03d.png", "a/out.y4m",
+                                         "a/out.framehash"));
+
+TEST(NullSink, KeepsNothing) {
+  const auto sink = open_sink("null", kSmall, {});
+  EXPECT_TRUE(encode_chunk(*sink, 0, 100, article_frames(kSmall)).empty());
+  sink->finish();
+}
+
+TEST(PngSequence, IsNumberedFromOneAndHoldsTheFrames) {
+  const TemporaryFolder folder;
+  const PaintFrame paint = article_frames(kSmall);
+  write_frames(folder / "f%02d.png", kSmall, {}, 10, paint);
+  EXPECT_FALSE(fs::exists(folder / "f00.png"));
+  EXPECT_FALSE(fs::exists(folder / "f11.png"));
+  for (int i = 0; i < 10; ++i) {
+    const std::string name = (i < 9 ? "f0" : "f") + std::to_string(i + 1) + ".png";
+    const auto png = encode_png(paint(i).view());
+    EXPECT_EQ(file_contents(folder / name), std::string(png.begin(), png.end())) << name;
+  }
+}
+
+TEST(PngSequence, ReplacesFilesOnlyWhenItIsComplete) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "1.png") << "old";
+  const auto sink = open_sink(folder / "%d.png", kSmall, {});
+  sink->append(encode_chunk(*sink, 0, 3, article_frames(kSmall)));
+  EXPECT_EQ(file_contents(folder / "1.png"), "old");
+  EXPECT_FALSE(fs::exists(folder / "2.png"));
+  sink->finish();
+  EXPECT_NE(file_contents(folder / "1.png"), "old");
+  EXPECT_TRUE(fs::exists(folder / "3.png"));
+}
+
+TEST(PngSequence, ReplacesNothingIfOneNameIsTakenByAFolder) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "1.png") << "old";
+  fs::create_directory(folder / "2.png");
+  EXPECT_THROW(write_frames(folder / "%d.png", kSmall, {}, 3, article_frames(kSmall)), IoError);
+  EXPECT_EQ(file_contents(folder / "1.png"), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 2);
+}
+
+TEST(Y4m, HasTheHeaderAndThePlanesOfEveryFrame) {
+  const TemporaryFolder folder;
+  const VideoFormat format = {
+      .width_px = 20, .height_px = 10, .frame_rate = Rational("30000/1001")};
+  const PaintFrame paint = random_frames(format);
+  write_frames(folder / "out.y4m", format, {}, 6, paint);
+
+  std::string expected = "YUV4MPEG2 W20 H10 F30000:1001 Ip A1:1 C420mpeg2 XCOLORRANGE=LIMITED\n";
+  for (int i = 0; i < 6; ++i) {
+    std::vector<std::uint8_t> planes(300);
+    convert_to_yuv420(paint(i).view(), {0, 0, 20, 10},
+                      {planes.data(), planes.data() + 200, planes.data() + 250, 20, 10, 10});
+    expected += "FRAME\n" + std::string(planes.begin(), planes.end());
+  }
+  EXPECT_TRUE(file_contents(folder / "out.y4m") == expected);
+}
+
+/// Sends standard output to a descriptor while it lives.
+class RedirectedOutput {
+ public:
+  explicit RedirectedOutput(int descriptor) {
+    std::fflush(stdout);
+    saved_ = ::dup(STDOUT_FILENO);
+    ::dup2(descriptor, STDOUT_FILENO);
+  }
+  ~RedirectedOutput() {
+    std::fflush(stdout);
+    ::dup2(saved_, STDOUT_FILENO);
+    ::close(saved_);
+  }
+  RedirectedOutput(const RedirectedOutput&) = delete;
+  RedirectedOutput& operator=(const RedirectedOutput&) = delete;
+
+ private:
+  int saved_ = -1;
+};
+
+TEST(Y4m, GoesToStandardOutputAsToAFile) {
+  const TemporaryFolder folder;
+  write_frames(folder / "out.y4m", kSmall, {}, 5, article_frames(kSmall));
+  std::FILE* file = std::fopen((folder / "stdout").c_str(), "wb");
+  {
+    const RedirectedOutput redirected(::fileno(file));
+    write_frames("-", kSmall, {}, 5, article_frames(kSmall));
+  }
+  std::fclose(file);
+  EXPECT_TRUE(file_contents(folder / "out.y4m") == file_contents(folder / "stdout"));
+}
+
+TEST(Y4m, AClosedPipeIsAnError) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  ::close(ends[0]);
+  const auto handler = std::signal(SIGPIPE, SIG_IGN);  // as the command line does
+  {
+    const RedirectedOutput redirected(ends[1]);
+    EXPECT_THROW(write_frames("-", kSmall, {}, 5, article_frames(kSmall)), IoError);
+  }
+  std::signal(SIGPIPE, handler);
+  ::close(ends[1]);
+}
+
+TEST(Framehash, IsWhatFfmpegSaysOfTheSameFrames) {
+  if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "the command ffmpeg is not installed";
+  }
+  const TemporaryFolder folder;
+  const VideoFormat format = {
+      .width_px = 51, .height_px = 37, .frame_rate = Rational("30000/1001")};
+  write_frames(folder / "%d.png", format, {}, 40, article_frames(format));
+  write_frames(folder / "ours.framehash", format, {}, 40, article_frames(format));
+  const std::string command =
+      std::string("ffmpeg -loglevel error -nostdin -framerate 30000/1001 -i ") +
+      (folder / "%d.png") + " -pix_fmt rgb24 -f framehash -hash murmur3 -fflags +bitexact " +
+      (folder / "theirs.framehash");
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(file_contents(folder / "ours.framehash"), file_contents(folder / "theirs.framehash"));
+}
+
+TEST(MediaLibraries, TellTheirVersions) {
+  const auto versions = media_library_versions();
+  ASSERT_EQ(versions.size(), 4u);
+  EXPECT_TRUE(has(versions[1], "libavcodec "));
+  EXPECT_TRUE(has(versions[3], "libdeflate 1."));
+}
+
+}  // namespace
+}  // namespace piblocks

@@ -1,0 +1,164 @@
+#include "media/yuv420.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "support/article_frames.hpp"
+
+namespace piblocks {
+namespace {
+using testing_support::Pixels;
+using testing_support::random_frame;
+
+/// How far a sample may be from the exact value; half of it is rounding to a whole number.
+constexpr long double kTolerance = 0.53L;
+
+struct Picture {
+  Picture(int width, int height, std::uint8_t filling = 0)
+      : width_px(width),
+        height_px(height),
+        y(static_cast<std::size_t>(width * height), filling),
+        cb(y.size() / 4, filling),
+        cr(y.size() / 4, filling) {}
+
+  YuvView view() { return {y.data(), cb.data(), cr.data(), width_px, width_px / 2, width_px / 2}; }
+  std::size_t luma_index(int x, int row) const {
+    return static_cast<std::size_t>(row * width_px + x);
+  }
+  std::size_t chroma_index(int x, int row) const {
+    return static_cast<std::size_t>(row / 2 * (width_px / 2) + x / 2);
+  }
+
+  int width_px;
+  int height_px;
+  std::vector<std::uint8_t> y, cb, cr;
+};
+
+Picture converted(const Pixels& pixels) {
+  Picture picture(pixels.width_px, pixels.height_px);
+  convert_to_yuv420(pixels.view(), {0, 0, pixels.width_px, pixels.height_px}, picture.view());
+  return picture;
+}
+
+struct Exact {
+  long double y, cb, cr;
+};
+
+/// ITU-R BT.709-6, 3.2 to 3.4, of levels 0 to 255.
+Exact bt709(long double red, long double green, long double blue) {
+  const long double luma = 0.2126L * red + 0.7152L * green + 0.0722L * blue;
+  return {16 + luma * 219 / 255, 128 + (blue - luma) / 1.8556L * 224 / 255,
+          128 + (red - luma) / 1.5748L * 224 / 255};
+}
+
+Exact bt709(std::uint32_t pixel) {
+  return bt709((pixel >> 16) & 0xff, (pixel >> 8) & 0xff, pixel & 0xff);
+}
+
+TEST(Yuv420, LumaIsRightForEveryColour) {
+  Pixels pixels(4096, 4096);
+  for (std::uint32_t i = 0; i < pixels.words.size(); ++i) pixels.words[i] = 0xff000000 | i;
+  const Picture picture = converted(pixels);
+  long double worst = 0;
+  for (std::uint32_t i = 0; i < pixels.words.size(); ++i) {
+    worst = std::max(worst, std::abs(picture.y[i] - bt709(i).y));
+  }
+  EXPECT_LE(worst, kTolerance);
+}
+
+TEST(Yuv420, ChromaIsRightForFlatColours) {
+  // Blocks of 4x2 pixels: the chroma sample on a block's third column sees that block alone.
+  constexpr int kLevels = 52;  // 0, 5, …, 255
+  Pixels pixels(4 * kLevels, 2 * kLevels * kLevels);
+  const auto colour = [](int column, int row) {
+    return static_cast<std::uint32_t>(
+        0xff000000u | static_cast<unsigned>(5 * (row / kLevels)) << 16 |
+        static_cast<unsigned>(5 * (row % kLevels)) << 8 | static_cast<unsigned>(5 * column));
+  };
+  for (int y = 0; y < pixels.height_px; ++y) {
+    for (int x = 0; x < pixels.width_px; ++x) pixels.at(x, y) = colour(x / 4, y / 2);
+  }
+  const Picture picture = converted(pixels);
+  long double worst = 0;
+  for (int row = 0; row < kLevels * kLevels; ++row) {
+    for (int column = 0; column < kLevels; ++column) {
+      const Exact exact = bt709(colour(column, row));
+      const std::size_t at = picture.chroma_index(4 * column + 2, 2 * row);
+      worst = std::max(
+          {worst, std::abs(picture.cb[at] - exact.cb), std::abs(picture.cr[at] - exact.cr)});
+    }
+  }
+  EXPECT_LE(worst, kTolerance);
+}
+
+TEST(Yuv420, GreysHaveNoColour) {
+  for (std::uint32_t level = 0; level < 256; ++level) {
+    Pixels pixels(2, 2);
+    std::ranges::fill(pixels.words, 0xff000000 | level * 0x010101);
+    const Picture picture = converted(pixels);
+    EXPECT_EQ(picture.cb[0], 128) << level;
+    EXPECT_EQ(picture.cr[0], 128) << level;
+  }
+  EXPECT_EQ(converted(Pixels(2, 2)).y[0], 235);
+}
+
+TEST(Yuv420, ChromaIsSitedLeft) {
+  for (const int width : {2, 4, 510, 512, 514, 1030}) {  // about the length of a strip
+    const Pixels pixels = random_frame(width, 6, 17);
+    const Picture picture = converted(pixels);
+    long double worst = 0;
+    for (int y = 0; y < pixels.height_px; y += 2) {
+      for (int x = 0; x < width; x += 2) {
+        std::array<long double, 3> mean = {0, 0, 0};  // blue, green, red
+        for (const int dy : {0, 1}) {
+          for (const int dx : {-1, 0, 1}) {
+            const std::uint32_t pixel = pixels.at(std::max(0, x + dx), y + dy);
+            const long double weight = dx == 0 ? 0.25L : 0.125L;
+            for (unsigned i = 0; i < 3; ++i) mean[i] += weight * ((pixel >> (8 * i)) & 0xff);
+          }
+        }
+        const Exact exact = bt709(mean[2], mean[1], mean[0]);
+        const std::size_t at = picture.chroma_index(x, y);
+        worst = std::max(
+            {worst, std::abs(picture.cb[at] - exact.cb), std::abs(picture.cr[at] - exact.cr)});
+      }
+    }
+    EXPECT_LE(worst, kTolerance) << width;
+  }
+}
+
+TEST(Yuv420, ARectangleIsConvertedAsInTheWholeFrame) {
+  const Pixels pixels = random_frame(1200, 40, 3);
+  const Picture whole = converted(pixels);
+  for (const PixelRect rect : {PixelRect{0, 0, 2, 2}, PixelRect{2, 4, 600, 8},
+                               PixelRect{510, 38, 690, 2}, PixelRect{1198, 0, 2, 40}}) {
+    constexpr std::uint8_t kUntouched = 7;
+    Picture part(1200, 40, kUntouched);
+    convert_to_yuv420(pixels.view(), rect, part.view());
+    for (int y = 0; y < pixels.height_px; ++y) {
+      for (int x = 0; x < pixels.width_px; ++x) {
+        const bool inside = x >= rect.x_px && x < rect.x_px + rect.width_px && y >= rect.y_px &&
+                            y < rect.y_px + rect.height_px;
+        const std::size_t luma = whole.luma_index(x, y);
+        const std::size_t chroma = whole.chroma_index(x, y);
+        ASSERT_EQ(part.y[luma], inside ? whole.y[luma] : kUntouched) << x << ' ' << y;
+        ASSERT_EQ(part.cb[chroma], inside ? whole.cb[chroma] : kUntouched) << x << ' ' << y;
+        ASSERT_EQ(part.cr[chroma], inside ? whole.cr[chroma] : kUntouched) << x << ' ' << y;
+      }
+    }
+  }
+}
+
+TEST(Yuv420, TakesNoRectangleForNothing) {
+  const Pixels pixels(4, 4);
+  Picture picture(4, 4, 7);
+  convert_to_yuv420(pixels.view(), {2, 2, 0, 0}, picture.view());
+  EXPECT_EQ(picture.y, std::vector<std::uint8_t>(16, 7));
+}
+
+}  // namespace
+}  // namespace piblocks
