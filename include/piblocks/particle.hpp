@@ -21,10 +21,10 @@ struct Particle {
   static_assert(Dim >= 1, "a particle needs a space of fixed dimension");
   using Vector = Eigen::Matrix<Scalar, Dim, 1>;
 
-  Scalar mass = Scalar(1);            ///< > 0; may be kInfiniteMass
-  Scalar radius = Scalar(1);          ///< > 0, finite; half the width of a block
-  Vector position = Vector::Zero();   ///< of the centre, finite
-  Vector velocity = Vector::Zero();   ///< finite
+  Scalar mass = Scalar(1);           ///< > 0; may be kInfiniteMass
+  Scalar radius = Scalar(1);         ///< > 0, finite; half the width of a block
+  Vector position = Vector::Zero();  ///< of the centre, finite
+  Vector velocity = Vector::Zero();  ///< finite
 
   bool is_immovable() const { return mass == kInfiniteMass<Scalar>; }
 };
@@ -48,11 +48,14 @@ Eigen::Matrix<Scalar, Dim, 1> direction(const Eigen::Matrix<Scalar, Dim, 1>& v) 
 }
 
 /// other / (own + other), the part of a collision's velocity change that falls to the body with
-/// mass `own`. The quotient saturates harmlessly at 0 and infinity, so any two masses will do of
-/// which at most one is infinite.
+/// mass `own`. At most one mass is infinite.
 template <typename Scalar>
 Scalar share_of_change(const Scalar& own, const Scalar& other) {
-  return Scalar(Scalar(1) / (Scalar(1) + own / other));
+  using std::isinf;
+  const Scalar sum = own + other;
+  // This quotient saturates at 0 and infinity where it should, but rounds once more.
+  if (isinf(sum)) return Scalar(Scalar(1) / (Scalar(1) + own / other));
+  return Scalar(other / sum);
 }
 
 }  // namespace detail

@@ -1,0 +1,146 @@
+#include <gtest/gtest.h>
+#include <piblocks/canvas.hpp>
+#include <piblocks/compose.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/render.hpp>
+#include <piblocks/timeline.hpp>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "support/decode_video.hpp"
+
+namespace piblocks {
+namespace {
+namespace fs = std::filesystem;
+using testing_support::decode_video;
+using testing_support::DecodedVideo;
+using testing_support::Pixels;
+
+class RenderTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "piblocks-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const char* name) const { return (folder_ / name).string(); }
+
+  static Scene scene(const char* from, const char* to) {
+    SceneBuilder builder;
+    builder.set("test", "view.size", "320x180");
+    builder.set("test", "time.from", from);
+    builder.set("test", "time.to", to);
+    return builder.build();
+  }
+
+  static std::string contents(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  fs::path folder_;
+};
+
+Pixels painted(const Scene& scene, const BlockState& state) {
+  const auto log = make_collision_log(scene.system);
+  Canvas canvas(scene.view.width_px, scene.view.height_px);
+  canvas.paint(compose(scene, lay_out(scene, log->size()), state));
+  Pixels pixels(scene.view.width_px, scene.view.height_px);
+  for (int y = 0; y < pixels.height_px; ++y) {
+    std::memcpy(&pixels.at(0, y), canvas.view().row(y), std::size_t(pixels.width_px) * 4);
+  }
+  return pixels;
+}
+
+double error_between(const Pixels& a, const Pixels& b) {
+  return testing_support::rgb_mean_squared_error(a, b);
+}
+
+TEST_F(RenderTest, EveryVideoFrameShowsItsInstant) {
+  const Scene article = scene("3.4", "last+0.05");
+  RenderJob job{article, path("out.mp4"), {}, 2};
+  const std::int64_t frames = render(job, [](const Progress&) {});
+  const DecodedVideo video = decode_video(job.output);
+  const auto log = make_collision_log(article.system);
+  const Timeline timeline(article, *log);
+  ASSERT_EQ(std::int64_t(video.frames.size()), frames);
+  ASSERT_EQ(frames, timeline.frame_count());
+  for (std::int64_t k = 0; k < frames; ++k) {
+    const Pixels expected = painted(article, state_at(*log, timeline.time_of(k)));
+    const double mse = error_between(video.frames[std::size_t(k)].rgb, expected);
+    EXPECT_GT(testing_support::psnr_db(mse), 38) << "frame " << k;
+  }
+}
+
+TEST_F(RenderTest, TheLastFrameReads314) {
+  const Scene article = scene("12.2", "last");
+  render({article, path("out.mp4"), {}, 2}, [](const Progress&) {});
+  const DecodedVideo video = decode_video(path("out.mp4"));
+  const auto log = make_collision_log(article.system);
+  const Timeline timeline(article, *log);
+  BlockState state = state_at(*log, timeline.time_of(timeline.frame_count() - 1));
+  ASSERT_EQ(state.count, 314);
+  const double as_314 = error_between(video.frames.back().rgb, painted(article, state));
+  for (const int other : {313, 315, 214, 324}) {
+    state.count = other;
+    EXPECT_GT(error_between(video.frames.back().rgb, painted(article, state)), 4 * as_314) << other;
+  }
+}
+
+TEST_F(RenderTest, BytesDoNotDependOnTheNumberOfJobs) {
+  for (const char* name : {"out.mp4", "out.y4m", "out.framehash"}) {
+    std::string first;
+    for (const int jobs : {1, 2, 3, 7}) {
+      render({scene("3", "last"), path(name), {}, jobs}, [](const Progress&) {});
+      const std::string bytes = contents(path(name));
+      if (first.empty()) first = bytes;
+      EXPECT_EQ(bytes == first, true) << name << " with " << jobs << " jobs";
+    }
+  }
+}
+
+TEST_F(RenderTest, ReportsProgressUpToTheEnd) {
+  std::int64_t last = 0;
+  const std::int64_t frames =
+      render({scene("0", "3"), path("out.framehash"), {}, 2}, [&](const Progress& progress) {
+        EXPECT_GT(progress.frames_done, last);
+        last = progress.frames_done;
+        EXPECT_EQ(progress.frame_count, 180);
+      });
+  EXPECT_EQ(last, frames);
+}
+
+TEST_F(RenderTest, StoppingLeavesNoTrace) {
+  for (const char* name : {"out.mp4", "out.y4m", "out.framehash", "frames/%04d.png"}) {
+    std::stop_source stop;
+    const auto stop_soon = [&](const Progress& progress) {
+      if (progress.frames_done > 50) stop.request_stop();
+    };
+    EXPECT_THROW(render({scene("0", "1000"), path(name), {}, 2}, stop_soon, stop.get_token()),
+                 Interrupted);
+    EXPECT_TRUE(fs::is_empty(folder_)) << name;
+  }
+}
+
+TEST_F(RenderTest, FailingLeavesNoTrace) {
+  EXPECT_THROW(render({scene("0", "1"), path("out.avi"), {}, 2}, [](const Progress&) {}),
+               UsageError);
+  EXPECT_THROW(render_still(scene("0", "1"), LastCollision{}, path("out.jpg")), UsageError);
+  EXPECT_THROW(render_still(scene("0", "1"), NthCollision{315}, path("out.png")), UsageError);
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(RenderTest, AStillIsTheFrameOfItsInstant) {
+  const Scene article = scene("3.5", "3.51");
+  render({article, path("frame%d.png"), {}, 1}, [](const Progress&) {});
+  render_still(article, Rational(7, 2), path("still.png"));
+  EXPECT_EQ(contents(path("frame1.png")), contents(path("still.png")));
+}
+
+}  // namespace
+}  // namespace piblocks
