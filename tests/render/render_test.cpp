@@ -62,7 +62,7 @@ double error_between(const Pixels& a, const Pixels& b) {
 }
 
 TEST_F(RenderTest, EveryVideoFrameShowsItsInstant) {
-  const Scene article = scene("3.4", "last+0.05");
+  const Scene article = scene("3.4", "4.4");
   RenderJob job{article, path("out.mp4"), {}, 2};
   const std::int64_t frames = render(job, [](const Progress&) {});
   const DecodedVideo video = decode_video(job.output);
