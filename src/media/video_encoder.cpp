@@ -18,8 +18,8 @@ namespace piblocks {
 namespace {
 
 // Chosen from the table in src/media/README.md.
-constexpr const char* kX264Preset = "veryfast";
-constexpr double kX264Crf = 18;
+constexpr const char* kX264Preset = "ultrafast";
+constexpr double kX264Crf = 21;
 
 /// Where an encoder knows no constant quality: bits per pixel of average video, generous for flat
 /// shapes.
@@ -175,7 +175,7 @@ void VideoEncoder::apply_settings(AVCodecContext& context) const {
     check_av(av_opt_set_int(options, "sc_threshold", is_x264 ? 0 : 1'000'000'000, 0),
              "set up encoder", codec_->name);
   }
-  // With libx264 r3095's macroblock tree, equal frames of 64x48 gave up to four different chunks,
+  // With libx264 r3095's macroblock tree, equal frames of 64x48 gave up to three different chunks,
   // depending on what memory held before (not without its vector code). Without the tree the bytes
   // depend on the frames alone; src/media/README.md has what it costs.
   if (has_option(*codec_, "mbtree")) {

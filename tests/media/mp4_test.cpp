@@ -110,7 +110,8 @@ TEST_F(Mp4Test, IsTheSameEachTime) {
 
 TEST_F(Mp4Test, EqualFramesGiveEqualChunksWhateverMemoryHeld) {
   const VideoFormat format = {.width_px = 64, .height_px = 48, .frame_rate = 10};
-  const auto sink = open_sink(folder_ / "out.mp4", format, {});
+  if (h264_encoders().front() != "libx264") GTEST_SKIP() << "presets are libx264's";
+  const auto sink = open_sink(folder_ / "out.mp4", format, {.preset = "veryfast"});
   std::vector<EncodedChunk> chunks(16);
   for (std::size_t pair = 0; pair < chunks.size(); pair += 2) {
     const auto encode = [&](std::size_t i) {
