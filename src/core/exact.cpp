@@ -63,7 +63,7 @@ class NumberReader {
   }
 
   Rational factor() {
-    const Rational base = decimal();
+    Rational base = decimal();
     if (!take('^')) return base;
     const long n = exponent();
     if (base == 0 && n < 0) throw UsageError("division by zero");
