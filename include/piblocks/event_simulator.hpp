@@ -3,6 +3,9 @@
 // Between collisions every particle flies straight, so nothing is stepped and nothing is missed.
 #pragma once
 
+#include <piblocks/error.hpp>
+#include <piblocks/particle.hpp>
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -11,9 +14,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <piblocks/error.hpp>
-#include <piblocks/particle.hpp>
 
 namespace piblocks {
 

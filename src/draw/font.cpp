@@ -11,8 +11,10 @@
 #include FT_FREETYPE_H
 
 // Defined in font_data.S.
+// NOLINTBEGIN(readability-identifier-naming): symbols of the assembler are global.
 extern "C" const unsigned char piblocks_font_begin[];
 extern "C" const unsigned char piblocks_font_end[];
+// NOLINTEND(readability-identifier-naming)
 
 namespace piblocks {
 namespace {
@@ -26,10 +28,12 @@ void check_freetype(FT_Error error, const char* operation) {
   if (error != 0) throw DrawError(fmt::format("draw: {}: FreeType error {}", operation, error));
 }
 
+constexpr cairo_user_data_key_t kFaceKey{};
+
 /// Called by Cairo when it forgets the face, which may be after the Font is gone: the library
 /// that the face belongs to is released with it.
 void release_face(void* data) {
-  const auto face = static_cast<FT_Face>(data);
+  auto* const face = static_cast<FT_Face>(data);
   const FtLibraryPtr library(face->glyph->library);
   FT_Done_Face(face);
 }
@@ -50,12 +54,11 @@ FT_Face load_embedded_face() {
   const auto size = static_cast<FT_Long>(piblocks_font_end - piblocks_font_begin);
   check_freetype(FT_New_Memory_Face(library.get(), piblocks_font_begin, size, 0, &face),
                  "load the embedded font");
-  library.release();  // release_face() finds it again through the face
+  static_cast<void>(library.release());  // release_face() finds it again through the face
   return face;
 }
 
 CairoFontFacePtr make_cairo_face() {
-  static const cairo_user_data_key_t kFaceKey{};
   const FT_Face face = load_embedded_face();
   CairoFontFacePtr cairo_face(cairo_ft_font_face_create_for_ft_face(face, FT_LOAD_NO_HINTING));
   const cairo_status_t status =

@@ -46,18 +46,7 @@ void stroke_inside(cairo_t& cr, const Rectangle& bounds, const Stroke& stroke) {
   cairo_set_line_cap(&cr, CAIRO_LINE_CAP_BUTT);
 }
 
-}  // namespace
-
-void Painter::paint(cairo_t& cr, const DrawList& list) {
-  set_color(cr, list.background);
-  cairo_paint(&cr);
-  for (const DrawItem& item : list.items) {
-    std::visit([&](const auto& shape) { paint(cr, shape); }, item);
-  }
-  check_cairo(cairo_status(&cr), "paint");
-}
-
-void Painter::paint(cairo_t& cr, const RectangleItem& item) const {
+void paint_rectangle(cairo_t& cr, const RectangleItem& item) {
   if (item.fill) {
     set_color(cr, *item.fill);
     cairo_rectangle(&cr, item.bounds.x, item.bounds.y, item.bounds.width, item.bounds.height);
@@ -66,7 +55,19 @@ void Painter::paint(cairo_t& cr, const RectangleItem& item) const {
   if (item.stroke) stroke_inside(cr, item.bounds, *item.stroke);
 }
 
-void Painter::paint(cairo_t& cr, const TextItem& item) {
+}  // namespace
+
+void Painter::paint(cairo_t& cr, const DrawList& list) {
+  set_color(cr, list.background);
+  cairo_paint(&cr);
+  for (const DrawItem& item : list.items) {
+    if (const auto* rectangle = std::get_if<RectangleItem>(&item)) paint_rectangle(cr, *rectangle);
+    if (const auto* text = std::get_if<TextItem>(&item)) paint_text(cr, *text);
+  }
+  check_cairo(cairo_status(&cr), "paint");
+}
+
+void Painter::paint_text(cairo_t& cr, const TextItem& item) {
   if (!font_) font_ = std::make_unique<Font>();
   font_->select(cr, item.size_px);
   set_color(cr, item.color);

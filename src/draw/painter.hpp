@@ -18,8 +18,7 @@ class Painter {
   void paint(cairo_t& cr, const DrawList& list);
 
  private:
-  void paint(cairo_t& cr, const RectangleItem& item) const;
-  void paint(cairo_t& cr, const TextItem& item);
+  void paint_text(cairo_t& cr, const TextItem& item);
 
   std::unique_ptr<Font> font_;
 };

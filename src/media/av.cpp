@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 
@@ -15,10 +16,7 @@ namespace {
 
 bool is_io_failure(int code) {
   constexpr std::array kErrors = {EACCES, EDQUOT, EFBIG, EIO, ENOENT, ENOSPC, EPIPE, EROFS};
-  for (const int error : kErrors) {
-    if (code == AVERROR(error)) return true;
-  }
-  return false;
+  return std::ranges::any_of(kErrors, [&](int error) { return code == AVERROR(error); });
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 
 namespace piblocks {
 
-IntraChunkEncoder::IntraChunkEncoder(const VideoFormat& format, std::int64_t first_frame,
+IntraChunkEncoder::IntraChunkEncoder(VideoFormat format, std::int64_t first_frame,
                                      EncodeFrame encode)
-    : format_(format), next_frame_(first_frame), encode_(std::move(encode)) {}
+    : format_(std::move(format)), next_frame_(first_frame), encode_(std::move(encode)) {}
 
 void IntraChunkEncoder::add(const ImageView& frame) {
   check_frame_size(frame, format_);

@@ -14,7 +14,7 @@ using EncodeFrame =
 
 class IntraChunkEncoder final : public ChunkEncoder {
  public:
-  IntraChunkEncoder(const VideoFormat& format, std::int64_t first_frame, EncodeFrame encode);
+  IntraChunkEncoder(VideoFormat format, std::int64_t first_frame, EncodeFrame encode);
   void add(const ImageView& frame) override;
   EncodedChunk finish() override;
 

@@ -75,6 +75,8 @@ class PngSequence final : public FrameSink {
         made_folders_(folder_),
         temporary_(make_folder_in(folder_)) {}
   ~PngSequence() override;
+  PngSequence(const PngSequence&) = delete;
+  PngSequence& operator=(const PngSequence&) = delete;
 
   std::int64_t frames_per_chunk() const override { return kFramesPerChunk; }
   std::unique_ptr<ChunkEncoder> begin_chunk(std::int64_t first_frame) const override;

@@ -6,7 +6,7 @@ namespace piblocks {
 
 void pack_rgb24(const std::uint8_t* __restrict row, int width_px, std::uint8_t* __restrict bytes) {
   for (int x = 0; x < width_px; ++x) {
-    std::uint32_t pixel;
+    std::uint32_t pixel = 0;
     std::memcpy(&pixel, row + 4 * x, sizeof pixel);
     bytes[3 * x] = static_cast<std::uint8_t>(pixel >> 16);
     bytes[3 * x + 1] = static_cast<std::uint8_t>(pixel >> 8);

@@ -112,7 +112,6 @@ std::span<const std::uint8_t> extradata(const AVCodecParameters& parameters) {
 VideoEncoder::VideoEncoder(const VideoFormat& format, const EncoderSettings& settings)
     : format_(format),
       settings_(settings),
-      codec_(nullptr),
       frame_rate_(to_av(format.frame_rate)),
       frames_per_chunk_(frames_in_two_seconds(format.frame_rate)),
       parameters_(own_av<AvParametersPtr>(avcodec_parameters_alloc(), "stream parameters")) {

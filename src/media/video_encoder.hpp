@@ -36,7 +36,7 @@ class VideoEncoder {
 
   VideoFormat format_;
   EncoderSettings settings_;
-  const AVCodec* codec_;
+  const AVCodec* codec_ = nullptr;
   AVRational frame_rate_;
   int frames_per_chunk_;
   AvParametersPtr parameters_;

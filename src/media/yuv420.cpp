@@ -119,11 +119,12 @@ void convert_strip(const ImageView& image, int x, int y, int count, const YuvVie
   convert_luma(upper, count, luma);
   convert_luma(lower, count, luma + picture.y_stride_bytes);
 
-  ColumnSums sums;
+  ColumnSums sums;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled where it is read
   const int left = x > 0 ? 1 : 0;  // at the edge the first column stands for its neighbour
   add_rows(upper - left, lower - left, 1, sums.red_blue.data(), sums.green.data());
   add_rows(upper, lower, count, sums.red_blue.data() + 1, sums.green.data() + 1);
-  convert_chroma(sums, count / 2, picture.cb + y / 2 * picture.cb_stride_bytes + x / 2,
+  convert_chroma(sums, count / 2,
+                 picture.cb + std::ptrdiff_t{y / 2} * picture.cb_stride_bytes + x / 2,
                  picture.cr + y / 2 * picture.cr_stride_bytes + x / 2);
 }
 

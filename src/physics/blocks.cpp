@@ -59,6 +59,7 @@ std::vector<Problem> problems_of(const BlockSystem& system) {
 
 std::vector<std::string> describe(const std::vector<Problem>& problems) {
   std::vector<std::string> lines;
+  lines.reserve(problems.size());
   for (const Problem& problem : problems) lines.push_back(problem.key + " " + problem.reason);
   return lines;
 }

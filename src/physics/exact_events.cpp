@@ -3,6 +3,7 @@
 #include <piblocks/error.hpp>
 
 #include <optional>
+#include <utility>
 
 namespace piblocks {
 namespace {
@@ -17,7 +18,7 @@ std::optional<Rational> closing_time(const Rational& gap, const Rational& rate) 
 
 class ExactLoop {
  public:
-  explicit ExactLoop(const BlockSystem& system) : now_(system) {}
+  explicit ExactLoop(BlockSystem system) : now_(std::move(system)) {}
 
   std::optional<StoredCollision> step() {
     const auto to_wall = closing_time(now_.blue_gap(), now_.blue.velocity);

@@ -76,7 +76,7 @@ class Real {
     return result;
   }
 
-  mpfr_t value_;
+  mpfr_t value_{};
 };
 
 }  // namespace piblocks

@@ -32,9 +32,9 @@ std::size_t count_before(const std::vector<StoredCollision>& collisions, const T
 
 }  // namespace
 
-StoredLog::StoredLog(const FreeFlight& initial, std::vector<StoredCollision> forward,
+StoredLog::StoredLog(FreeFlight initial, std::vector<StoredCollision> forward,
                      std::vector<StoredCollision> backward)
-    : initial_(initial),
+    : initial_(std::move(initial)),
       forward_(std::move(forward)),
       backward_(std::move(backward)),
       size_(forward_.size()) {}

@@ -23,7 +23,7 @@ class StoredLog final : public CollisionLog {
   /// @param forward   collisions at times >= 0, in order.
   /// @param backward  collisions of the run with all velocities reversed, in its order and with
   ///                  its times and velocities.
-  StoredLog(const FreeFlight& initial, std::vector<StoredCollision> forward,
+  StoredLog(FreeFlight initial, std::vector<StoredCollision> forward,
             std::vector<StoredCollision> backward);
 
   const Integer& size() const override { return size_; }

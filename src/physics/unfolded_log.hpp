@@ -43,7 +43,7 @@ class UnfoldedLog final : public CollisionLog {
     bool decided = false;
   };
 
-  Sighting sight(const Time& scaled_time) const;
+  Sighting sight(const Time& t) const;  // in scaled time
   DecidedPhase decide(const Sighting& seen, const Rational& time) const;
   void set_velocities(const End& end, const Integer& ray, FreeFlight& flight) const;
   void set_positions(const Integer& ray, double fraction, double distance,

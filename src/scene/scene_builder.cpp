@@ -97,7 +97,7 @@ void SceneBuilder::set_mass_ratio(const std::string& origin, const Rational& rat
 
 void SceneBuilder::set_values(const std::string& origin, const std::string& key,
                               const Values& values) {
-  const auto found =
+  const auto* const found =
       std::find_if(kKeys.begin(), kKeys.end(), [&](const Key& k) { return key == k.name; });
   if (found == kKeys.end()) {
     add_problem(origin, fmt::format("{}: unknown key", key));

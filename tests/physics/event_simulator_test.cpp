@@ -1,11 +1,11 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
-#include <cmath>
 #include <gtest/gtest.h>
-#include <limits>
-
 #include <piblocks/error.hpp>
 #include <piblocks/event_simulator.hpp>
+
+#include <cmath>
+#include <limits>
 
 #include "support/property.hpp"
 
