@@ -87,8 +87,8 @@ void Mp4Sink::append(const EncodedChunk& chunk) {
 void Mp4Sink::write(const Packet& packet) {
   av_packet_unref(packet_.get());
   // The muxer only reads what it is given without a reference count.
-  packet_->data = const_cast<std::uint8_t*>(
-      packet.bytes.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
+  packet_->data = const_cast<std::uint8_t*>(packet.bytes.data());
   packet_->size = static_cast<int>(packet.bytes.size());
   packet_->pts = packet.pts;
   packet_->dts = packet.dts;
