@@ -96,7 +96,7 @@ TEST_F(RenderTest, BytesDoNotDependOnTheNumberOfJobs) {
   for (const char* name : {"out.mp4", "out.y4m", "out.framehash"}) {
     std::string first;
     for (const int jobs : {1, 2, 3, 7}) {
-      render({scene("3", "last"), path(name), {}, jobs}, [](const Progress&) {});
+      render({scene("1", "6"), path(name), {}, jobs}, [](const Progress&) {});
       const std::string bytes = contents(path(name));
       if (first.empty()) first = bytes;
       EXPECT_EQ(bytes == first, true) << name << " with " << jobs << " jobs";
