@@ -43,4 +43,7 @@ Rational power(const Rational& base, unsigned long exponent);
 /// The integer with a comma between groups of three digits: 3,141,592.
 std::string with_thousands_separators(const Integer& value);
 
+/// The integer for a message: with separators, or as a power of ten if that would fill the line.
+std::string readable(const Integer& value);
+
 }  // namespace piblocks

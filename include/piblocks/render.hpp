@@ -27,7 +27,7 @@ struct Progress {
 };
 
 /// Renders every frame of the scene's span of time.
-/// @param on_progress  called by the calling thread, now and then and at the end.
+/// @param on_progress  called by the calling thread: at the start, now and then, at the end.
 /// @param stop         asks to give up: Interrupted is thrown soon after.
 /// @return the number of frames.
 /// @throws UsageError, DrawError, MediaError, IoError, SimulationError, Interrupted
@@ -35,7 +35,9 @@ std::int64_t render(const RenderJob& job, const std::function<void(const Progres
                     const std::stop_token& stop = {});
 
 /// Renders one instant to a `.png`, `.svg` or `.pdf` file, or to standard output as PNG for "-".
-/// @throws UsageError, DrawError, MediaError, IoError, SimulationError
-void render_still(const Scene& scene, const Instant& instant, const std::string& output);
+/// @param stop  asks to give up: Interrupted is thrown when the picture is drawn.
+/// @throws UsageError, DrawError, MediaError, IoError, SimulationError, Interrupted
+void render_still(const Scene& scene, const Instant& instant, const std::string& output,
+                  const std::stop_token& stop = {});
 
 }  // namespace piblocks

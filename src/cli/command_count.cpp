@@ -1,7 +1,3 @@
-#include <fmt/format.h>
-
-#include <memory>
-
 #include "cli/commands.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/text_output.hpp"
@@ -10,11 +6,14 @@ namespace piblocks::cli {
 
 void add_count(CLI::App& app) {
   CLI::App* command = app.add_subcommand("count", "Print the total number of collisions");
-  auto options = std::make_shared<SceneOptions>();
-  options->add_system(*command);
-  command->callback([options] {
+  const SceneOptions scene(*command);
+  command->footer(
+      "Examples:\n"
+      "  piblocks count --digits 12\n"
+      "  piblocks count --mass-ratio 1/3");
+  command->callback([scene] {
     TextOutput out("-");
-    out.line(count_collisions(options->scene().system).get_str());
+    out.line(count_collisions(scene.scene().system).get_str());
     out.finish();
   });
 }

@@ -1,64 +1,85 @@
-#include <fmt/format.h>
 #include <piblocks/render.hpp>
 
-#include <chrono>
-#include <cstdio>
-#include <memory>
+#include <algorithm>
 #include <thread>
 
 #include "cli/commands.hpp"
+#include "cli/options.hpp"
 #include "cli/progress.hpp"
+#include "cli/refuse_terminal.hpp"
 #include "cli/scene_options.hpp"
+#include "cli/stop_on_signals.hpp"
 
 namespace piblocks::cli {
 namespace {
 
 struct RenderOptions {
   SceneOptions scene;
-  std::string output;
-  EncoderSettings encoder;
-  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  bool quiet = false;
+  const CLI::Option* output;
+  const CLI::Option* crf;
+  const CLI::Option* preset;
+  const CLI::Option* encoder;
+  const CLI::Option* jobs;
+  const CLI::Option* quiet;
 };
 
-void add_encoder_options(CLI::App& command, EncoderSettings& encoder) {
-  command.add_option("--crf", encoder.crf, "Video quality, 0 (lossless) to 51 (worst)")
-      ->type_name("Q");
-  command.add_option("--preset", encoder.preset, "The encoder's speed preset, such as veryfast")
-      ->type_name("P");
-  command.add_option("--encoder", encoder.encoder, "Video encoder; 'piblocks info' lists them")
-      ->type_name("NAME");
+int parse_jobs(const std::string& text) {
+  constexpr int kMaxJobs = 256;
+  return static_cast<int>(parse_whole_number(text, 1, Integer(kMaxJobs)).get_si());
 }
 
-void run(const RenderOptions& options, const std::stop_token& stop) {
-  const RenderJob job{options.scene.scene(), options.output, options.encoder, options.jobs};
-  ProgressReport report(options.output, options.quiet);
+double parse_crf(const std::string& text) { return to_double(parse_rational(text)); }
+
+RenderJob job_of(const RenderOptions& options) {
+  const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
+  return {options.scene.scene(), *text_of(*options.output),
+          EncoderSettings{value_of(*options.crf, parse_crf), text_of(*options.preset),
+                          text_of(*options.encoder)},
+          value_of(*options.jobs, parse_jobs).value_or(static_cast<int>(processors))};
+}
+
+void run(const RenderOptions& options) {
+  const StopOnSignals signals;
+  refuse_terminal(*options.output);
+  const RenderJob job = job_of(options);
+  ProgressReport report(job.output, options.quiet->count() > 0);
   render(
-      job, [&](const Progress& progress) { report.update(progress); }, stop);
+      job, [&](const Progress& progress) { report.update(progress); }, signals.token());
   report.finish();
+}
+
+RenderOptions add_options(CLI::App& command) {
+  SceneOptions scene(command);
+  const CLI::Option& output =
+      *add_value_option(command, "-o,--output", "OUT",
+                        "What to write: NAME.mp4, FRAMES/%06d.png, NAME.y4m,\n"
+                        "- (y4m on standard output), NAME.framehash, or null")
+           .required();
+  scene.add_size();
+  scene.add_timing();
+  const CLI::Option& crf =
+      add_value_option(command, "--crf", "Q", "Video quality of MP4, 0 (lossless) to 51 (worst)");
+  const CLI::Option& preset =
+      add_value_option(command, "--preset", "P", "The encoder's speed preset, such as veryfast");
+  const CLI::Option& encoder =
+      add_value_option(command, "--encoder", "NAME", "Video encoder; 'piblocks info' lists them");
+  const CLI::Option& jobs = add_value_option(
+      command, "--jobs", "N", "Threads (default: one a processor); changes no byte of the output");
+  const CLI::Option& quiet = *command.add_flag("--quiet")->description("Print nothing but errors");
+  return {scene, &output, &crf, &preset, &encoder, &jobs, &quiet};
 }
 
 }  // namespace
 
-void add_render(CLI::App& app, const std::stop_token& stop) {
+void add_render(CLI::App& app) {
   CLI::App* command = app.add_subcommand("render", "Render a video or a sequence of frames");
-  auto options = std::make_shared<RenderOptions>();
-  options->scene.add_system(*command);
-  command
-      ->add_option("-o,--output", options->output,
-                   "What to write: NAME.mp4, FRAMES/%06d.png, NAME.y4m, - (y4m on standard "
-                   "output), NAME.framehash, or null")
-      ->required()
-      ->type_name("OUT");
-  options->scene.add_size(*command);
-  options->scene.add_timing(*command);
-  add_encoder_options(*command, options->encoder);
-  constexpr int kMaxJobs = 256;
-  command->add_option("--jobs", options->jobs, "Threads (default: one a processor)")
-      ->check(CLI::Range(1, kMaxJobs))
-      ->type_name("N");
-  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
-  command->callback([options, stop] { run(*options, stop); });
+  const RenderOptions options = add_options(*command);
+  command->footer(
+      "Examples:\n"
+      "  piblocks render -o pi.mp4\n"
+      "  piblocks render --digits 5 --speed 1/2 --size 1280x720 -o frames/%06d.png\n"
+      "  piblocks render scene.toml --to last+3 -o - | ffplay -");
+  command->callback([options] { run(options); });
 }
 
 }  // namespace piblocks::cli

@@ -1,37 +1,33 @@
-#include <fmt/format.h>
 #include <piblocks/instant.hpp>
 
-#include <memory>
+#include <algorithm>
+#include <string>
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/options.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/text_output.hpp"
 
 namespace piblocks::cli {
 namespace {
 
-struct StateOptions {
-  SceneOptions scene;
-  std::vector<std::string> instants;
-  Engine engine = Engine::unfolded;
-};
-
-void run(const StateOptions& options) {
+std::vector<Instant> parse_instants(const std::string& text) {
   std::vector<Instant> instants;
-  for (const std::string& text : options.instants) {
-    instants.push_back(parse_option("--at", text, parse_instant));
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    instants.push_back(parse_instant(text.substr(begin, end - begin)));
+    begin = end + 1;
   }
-  const auto log = make_collision_log(options.scene.scene().system, options.engine);
-  TextOutput out("-");
-  for (const Instant& instant : instants) {
-    const auto [time, state] = state_at(*log, instant);
-    out.format_line(R"({{"time":{},"collisions":"{}","blue":{{"position":{},"velocity":{}}},)"
-                    R"("red":{{"position":{},"velocity":{}}}}})",
-                    time.hi, state.count.get_str(), state.blue.position, state.blue.velocity,
-                    state.red.position, state.red.velocity);
-  }
-  out.finish();
+  return instants;
+}
+
+void write(const TimedState& at, TextOutput& out) {
+  const auto& [time, state] = at;
+  out.format_line(R"({{"time":{},"collisions":"{}","blue":{{"position":{},"velocity":{}}},)"
+                  R"("red":{{"position":{},"velocity":{}}}}})",
+                  shown(time.hi), state.count.get_str(), shown(state.blue.position),
+                  shown(state.blue.velocity), shown(state.red.position), shown(state.red.velocity));
 }
 
 }  // namespace
@@ -39,16 +35,22 @@ void run(const StateOptions& options) {
 void add_state(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("state", "Print positions, velocities and count, one JSON object a line");
-  auto options = std::make_shared<StateOptions>();
-  options->scene.add_system(*command);
-  command
-      ->add_option("--at", options->instants,
-                   "Instants, separated by commas: times, 'last', or '#K'")
-      ->required()
-      ->delimiter(',')
-      ->type_name("S[,S...]");
-  add_engine(*command, options->engine);
-  command->callback([options] { run(*options); });
+  const SceneOptions scene(*command);
+  const CLI::Option* at = add_value_option(*command, "--at", "S[,S...]",
+                                           "Instants: times, 'last', or '#K', the K-th collision")
+                              .required();
+  const CLI::Option* engine = &add_engine(*command);
+  command->footer(
+      "Examples:\n"
+      "  piblocks state --at 0,3.5,last\n"
+      "  piblocks state --digits 20 --at '#15707963267948966192'");
+  command->callback([=] {
+    const std::vector<Instant> instants = *value_of(*at, parse_instants);
+    const auto log = make_log(scene.scene().system, *engine);
+    TextOutput out("-");
+    for (const Instant& instant : instants) write(state_at(*log, instant), out);
+    out.finish();
+  });
 }
 
 }  // namespace piblocks::cli

@@ -1,42 +1,35 @@
 #include <piblocks/render.hpp>
 
-#include <memory>
-
 #include "cli/commands.hpp"
+#include "cli/options.hpp"
+#include "cli/refuse_terminal.hpp"
 #include "cli/scene_options.hpp"
+#include "cli/stop_on_signals.hpp"
 
 namespace piblocks::cli {
-namespace {
-
-struct StillOptions {
-  SceneOptions scene;
-  std::string instant;
-  std::string output;
-};
-
-void run(const StillOptions& options) {
-  const Instant instant = parse_option("--at", options.instant, parse_instant);
-  render_still(options.scene.scene(), instant, options.output);
-}
-
-}  // namespace
 
 void add_still(CLI::App& app) {
   CLI::App* command = app.add_subcommand("still", "Render one instant as a picture");
-  auto options = std::make_shared<StillOptions>();
-  options->scene.add_system(*command);
-  command
-      ->add_option("--at", options->instant,
-                   "Instant: a time, 'last', or '#K', that of the K-th collision")
-      ->required()
-      ->type_name("S|last|#K");
-  command
-      ->add_option("-o,--output", options->output,
-                   "NAME.png, NAME.svg, NAME.pdf, or - (PNG on standard output)")
-      ->required()
-      ->type_name("OUT");
-  options->scene.add_size(*command);
-  command->callback([options] { run(*options); });
+  SceneOptions scene(*command);
+  const CLI::Option* instant =
+      add_value_option(*command, "--at", "S|last|#K",
+                       "Instant: a time, the last collision, or the K-th one")
+          .required();
+  const CLI::Option* output =
+      add_value_option(*command, "-o,--output", "OUT",
+                       "NAME.png, NAME.svg, NAME.pdf, or - (PNG on standard output)")
+          .required();
+  scene.add_size();
+  command->footer(
+      "Examples:\n"
+      "  piblocks still --at 3.5 -o turn.svg\n"
+      "  piblocks still scene.toml --at '#10' --size 640x360 -o tenth.png");
+  command->callback([=] {
+    const StopOnSignals signals;
+    refuse_terminal(*output);
+    render_still(scene.scene(), *value_of(*instant, parse_instant), *text_of(*output),
+                 signals.token());
+  });
 }
 
 }  // namespace piblocks::cli

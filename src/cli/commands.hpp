@@ -5,13 +5,11 @@
 
 #include <CLI/CLI.hpp>
 
-#include <stop_token>
-
 namespace piblocks::cli {
 
-void add_render(CLI::App& app, const std::stop_token& stop);
+void add_render(CLI::App& app);
 void add_still(CLI::App& app);
-void add_log(CLI::App& app, const std::stop_token& stop);
+void add_log(CLI::App& app);
 void add_state(CLI::App& app);
 void add_count(CLI::App& app);
 void add_info(CLI::App& app);

@@ -4,10 +4,13 @@
 
 #include <csignal>
 #include <cstdio>
+#include <iostream>
+#include <memory>
 #include <new>
 
 #include "cli/commands.hpp"
-#include "cli/stop_on_signals.hpp"
+#include "cli/help_formatter.hpp"
+#include "cli/usage_message.hpp"
 #include "cli/version.hpp"
 
 namespace {
@@ -20,32 +23,58 @@ int fail(const char* message, int exit_code) {
   return exit_code;
 }
 
-}  // namespace
+int fail(const piblocks::UsageError& error) {
+  for (const std::string& problem : error.problems()) fail(problem.c_str(), kWrongUsage);
+  return kWrongUsage;
+}
 
-int main(int argc, char** argv) {
+/// What CLI11 throws when it stops early: --help and --version, or an error.
+int finish(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() != 0) {
+    return fail(piblocks::cli::usage_message(app, error).c_str(), kWrongUsage);
+  }
+  app.exit(error);
+  std::cout.flush();
+  return std::cout ? 0 : fail("cannot write to standard output", kFailed);
+}
+
+void add_commands(CLI::App& app) {
   using namespace piblocks;
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a failed write, with a message
-  const cli::StopOnSignals signals;
-
-  CLI::App app("Renders two sliding blocks and a wall whose collisions count the digits of pi.",
-               "piblocks");
-  app.set_version_flag("--version", cli::kVersion);
+  const std::string version = fmt::format("piblocks {}", cli::kVersion);
+  app.formatter(std::make_shared<cli::HelpFormatter>());
+  app.set_help_flag("-h,--help", "Print this text and exit");
   app.require_subcommand(1);
-  cli::add_render(app, signals.token());
+  cli::add_render(app);
   cli::add_still(app);
-  cli::add_log(app, signals.token());
+  cli::add_log(app);
   cli::add_state(app);
   cli::add_count(app);
   cli::add_info(app);
+  app.set_version_flag("--version", version, "Print the version and exit");
+  for (CLI::App* command : app.get_subcommands({})) {
+    command->group("Commands");
+    command->set_version_flag("--version", version, "Print the version and exit");
+  }
+  app.get_formatter()->label("Positionals", "Arguments");
+  app.footer(
+      "'piblocks COMMAND --help' explains a command.\n"
+      "Exit codes: 0 done, 1 failed, 2 wrong usage.");
+}
 
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a failed write, with a message
+  CLI::App app("Renders two sliding blocks and a wall whose collisions count the digits of pi.",
+               "piblocks");
+  add_commands(app);
   try {
     app.parse(argc, argv);
     return 0;
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return fail(error.what(), kWrongUsage);
-  } catch (const UsageError& error) {
-    return fail(error.what(), kWrongUsage);
+    return finish(app, error);
+  } catch (const piblocks::UsageError& error) {
+    return fail(error);
   } catch (const std::bad_alloc&) {
     return fail("out of memory", kFailed);
   } catch (const std::exception& error) {

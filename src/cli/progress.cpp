@@ -41,10 +41,9 @@ double ProgressReport::elapsed_s() const {
 void ProgressReport::update(const Progress& progress) {
   progress_ = progress;
   const auto now = Clock::now();
-  if (quiet_ || now - last_shown_ < (on_terminal_ ? Clock::duration(kBarInterval)
-                                                  : Clock::duration(kLineInterval))) {
-    return;
-  }
+  const Clock::duration interval = on_terminal_ ? Clock::duration(kBarInterval) : kLineInterval;
+  const bool is_first_bar = on_terminal_ && !bar_visible_;
+  if (quiet_ || (!is_first_bar && now - last_shown_ < interval)) return;
   last_shown_ = now;
   if (on_terminal_) {
     draw_bar();
@@ -57,12 +56,13 @@ void ProgressReport::update(const Progress& progress) {
 void ProgressReport::draw_bar() const {
   constexpr int kWidth = 30;
   const double share = double(progress_.frames_done) / double(progress_.frame_count);
+  const int filled = static_cast<int>(share * kWidth);
+  fmt::print(stderr, "{}[{:=<{}}{: <{}}] {:3.0f} %", kClearLine, "", filled, "", kWidth - filled,
+             std::floor(100 * share));
+  if (progress_.frames_done == 0) return;  // no rate to judge by yet
   const double rate = double(progress_.frames_done) / elapsed_s();
   const double left_s = double(progress_.frame_count - progress_.frames_done) / rate;
-  const int filled = static_cast<int>(share * kWidth);
-  fmt::print(stderr, "{}[{:=<{}}{: <{}}] {:3.0f} %  {:.0f} frames/s  {} left", kClearLine, "",
-             filled, "", kWidth - filled, std::floor(100 * share), rate,
-             minutes_and_seconds(left_s));
+  fmt::print(stderr, "  {:.0f} frames/s  {} left", rate, minutes_and_seconds(left_s));
 }
 
 void ProgressReport::print_line() const {
@@ -74,8 +74,9 @@ void ProgressReport::finish() {
   if (quiet_) return;
   if (std::exchange(bar_visible_, false)) fmt::print(stderr, "{}", kClearLine);
   const double duration_s = elapsed_s();
-  fmt::print(stderr, "{}: {} frames in {:.1f} s ({:.0f} frames/s)\n", subject(output_),
-             progress_.frame_count, duration_s, double(progress_.frame_count) / duration_s);
+  fmt::print(stderr, "{}: {} {} in {:.2f} s ({:.0f} frames/s)\n", subject(output_),
+             progress_.frame_count, progress_.frame_count == 1 ? "frame" : "frames", duration_s,
+             double(progress_.frame_count) / duration_s);
 }
 
 }  // namespace piblocks::cli

@@ -1,19 +1,12 @@
 #include "cli/scene_options.hpp"
 
 #include <fmt/format.h>
+#include <piblocks/error.hpp>
 
-#include <map>
+#include "cli/options.hpp"
 
 namespace piblocks::cli {
 namespace {
-
-int parse_digits(const std::string& text) {
-  const Rational value = parse_rational(text);
-  if (value.get_den() != 1 || value < 1 || value > kMaxDigits) {
-    throw UsageError(fmt::format("must be a whole number from 1 to {}", kMaxDigits));
-  }
-  return static_cast<int>(value.get_num().get_si());
-}
 
 Rational parse_mass_ratio(const std::string& text) {
   const Rational value = parse_rational(text);
@@ -21,71 +14,78 @@ Rational parse_mass_ratio(const std::string& text) {
   return value;
 }
 
+/// The mass ratio that counts so many digits.
+Rational parse_digits(const std::string& text) {
+  const Integer digits = parse_whole_number(text, 1, Integer(kMaxDigits));
+  return power(100, digits.get_ui() - 1);
+}
+
 }  // namespace
 
-void SceneOptions::add_system(CLI::App& command) {
-  command.add_option("scene", file_, "Scene file (TOML); without it, the article's scene")
-      ->type_name("SCENE.toml");
-  auto* digits = command.add_option("--digits", digits_,
-                                    "Count this many digits of pi: m_red = 100^(D-1) m_blue");
-  digits->type_name("D");
-  command.add_option("--mass-ratio", mass_ratio_, "m_red / m_blue, exactly: 16, 2.5, 1/3, 100^7")
-      ->type_name("R")
-      ->excludes(digits);
+SceneOptions::SceneOptions(CLI::App& command)
+    : command_(&command),
+      file_(&add_value_option(command, "SCENE.toml", "",
+                              "Scene file; without it, the article's scene: three digits")),
+      digits_(&add_value_option(command, "--digits", "D",
+                                "Count this many digits of pi: m_red = 100^(D-1) m_blue")),
+      mass_ratio_(&add_value_option(command, "--mass-ratio", "R",
+                                    "m_red / m_blue, exactly: 16, 2.5, 1/3, 100^7")) {}
+
+void SceneOptions::add_key(const std::string& key, const std::string& option,
+                           const std::string& placeholder, const std::string& help) {
+  keys_.emplace_back(key, &add_value_option(*command_, option, placeholder, help));
 }
 
-void SceneOptions::add_key(CLI::App& command, const std::string& option, const std::string& key,
-                           const std::string& help) {
-  keys_.push_back(std::make_unique<KeyOption>(KeyOption{option, key, {}, false}));
-  KeyOption& slot = *keys_.back();
-  command
-      .add_option_function<std::string>(
-          option,
-          [&slot](const std::string& text) {
-            slot.text = text;
-            slot.given = true;
-          },
-          help)
-      ->type_name("");
+void SceneOptions::add_size() {
+  add_key("view.size", "--size", "WxH", "Frame size in pixels (default 1920x1080)");
 }
 
-void SceneOptions::add_size(CLI::App& command) {
-  add_key(command, "--size", "view.size", "Frame size in pixels, WxH (default 1920x1080)");
-}
-
-void SceneOptions::add_timing(CLI::App& command) {
-  add_key(command, "--fps", "view.fps", "Frames per second, N or N/D (default 60)");
-  add_key(command, "--from", "time.from", "First instant shown, in simulation time (default 0)");
-  add_key(command, "--to", "time.to",
-          "End: a time, 'last' (collision) or 'last+S' (default last+1.5)");
-  add_key(command, "--speed", "time.speed", "Simulation time per second of video (default 1)");
+void SceneOptions::add_timing() {
+  add_key("view.fps", "--fps", "N|N/D", "Frames per second (default 60)");
+  add_key("time.from", "--from", "S", "First instant shown, in simulation time (default 0)");
+  add_key("time.to", "--to", "S|last|last+S",
+          "End: a time, the last collision, or so long after it\n(default last+1.5)");
+  add_key("time.speed", "--speed", "X", "Simulation time per second of video (default 1)");
 }
 
 Scene SceneOptions::scene() const {
+  if (digits_->count() > 0 && mass_ratio_->count() > 0) {
+    throw UsageError("--digits and --mass-ratio both set the mass of red; give one of them");
+  }
   SceneBuilder builder;
-  if (!file_.empty()) builder.read_file(file_);
-  for (const auto& key : keys_) {
-    if (key->given) builder.set(key->option, key->key, key->text);
+  if (const auto file = text_of(*file_)) builder.read_file(*file);
+  for (const auto& [key, option] : keys_) {
+    if (const auto text = text_of(*option)) builder.set(option->get_name(), key, *text);
   }
-  if (!mass_ratio_.empty()) {
-    builder.set_mass_ratio("--mass-ratio",
-                           parse_option("--mass-ratio", mass_ratio_, parse_mass_ratio));
+  if (const auto ratio = value_of(*mass_ratio_, parse_mass_ratio)) {
+    builder.set_mass_ratio(mass_ratio_->get_name(), *ratio);
   }
-  if (!digits_.empty()) {
-    const int digits = parse_option("--digits", digits_, parse_digits);
-    builder.set_mass_ratio("--digits", power(100, static_cast<unsigned long>(digits - 1)));
+  if (const auto ratio = value_of(*digits_, parse_digits)) {
+    builder.set_mass_ratio(digits_->get_name(), *ratio);
   }
   return builder.build();
 }
 
-void add_engine(CLI::App& command, Engine& engine) {
-  static const std::map<std::string, Engine> kEngines{{"unfolded", Engine::unfolded},
-                                                      {"events", Engine::events}};
-  command
-      .add_option("--engine", engine,
-                  "unfolded: closed form (default); events: the event loop, in double precision")
-      ->transform(CLI::CheckedTransformer(kEngines).description(""))
-      ->type_name("NAME");
+CLI::Option& add_engine(CLI::App& command) {
+  return add_value_option(command, "--engine", "NAME",
+                          "unfolded: closed form (default);\n"
+                          "events: the event loop, in double precision");
+}
+
+std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const CLI::Option& engine) {
+  const auto parse_engine = [](const std::string& text) {
+    return parse_choice<Engine>(text, {{"unfolded", Engine::unfolded}, {"events", Engine::events}});
+  };
+  const Engine chosen = value_of(engine, parse_engine).value_or(Engine::unfolded);
+  if (chosen == Engine::events) {  // what it cannot hold it would find out after seconds
+    const Integer count = count_collisions(system);
+    if (count > kMaxStoredCollisions) {
+      throw UsageError(fmt::format(
+          "--engine events: stores at most {} collisions, and the scene has {}; use unfolded",
+          readable(kMaxStoredCollisions), readable(count)));
+    }
+  }
+  return make_collision_log(system, chosen);
 }
 
 }  // namespace piblocks::cli

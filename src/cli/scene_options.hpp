@@ -1,59 +1,48 @@
 // Options that describe a scene, shared by the subcommands.
-// In: the command line. Out: a valid scene.
+// In: the command line. Out: a valid scene, and the log of its collisions.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <piblocks/collision_log.hpp>
-#include <piblocks/error.hpp>
 #include <piblocks/scene.hpp>
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace piblocks::cli {
 
-/// Must stay where it is while the App it was added to is in use.
+/// Refers to options of the App it was made for, and is valid as long as that.
 class SceneOptions {
  public:
-  /// [SCENE.toml], --digits, --mass-ratio.
-  void add_system(CLI::App& command);
-  /// --size.
-  void add_size(CLI::App& command);
-  /// --fps, --from, --to, --speed.
-  void add_timing(CLI::App& command);
+  /// Adds [SCENE.toml], --digits and --mass-ratio.
+  explicit SceneOptions(CLI::App& command);
+  /// Adds --size.
+  void add_size();
+  /// Adds --fps, --from, --to and --speed.
+  void add_timing();
 
   /// @throws SceneError, UsageError
   Scene scene() const;
 
  private:
-  void add_key(CLI::App& command, const std::string& option, const std::string& key,
+  /// Adds an option that sets a key of the scene file.
+  void add_key(const std::string& key, const std::string& option, const std::string& placeholder,
                const std::string& help);
 
-  struct KeyOption {
-    std::string option;
-    std::string key;
-    std::string text;
-    bool given = false;
-  };
-
-  std::string file_;
-  std::string digits_;
-  std::string mass_ratio_;
-  std::vector<std::unique_ptr<KeyOption>> keys_;  // addresses are held by the App
+  CLI::App* command_;
+  CLI::Option* file_;
+  CLI::Option* digits_;
+  CLI::Option* mass_ratio_;
+  std::vector<std::pair<std::string, CLI::Option*>> keys_;
 };
 
-/// --engine for the commands that offer both.
-void add_engine(CLI::App& command, Engine& engine);
+/// Adds --engine, for the commands that offer both engines.
+CLI::Option& add_engine(CLI::App& command);
 
-/// `text` read by `parse`; a failure names the option and the text.
-template <typename Parse>
-auto parse_option(const std::string& option, const std::string& text, const Parse& parse) {
-  try {
-    return parse(text);
-  } catch (const UsageError& error) {
-    throw UsageError(option + " " + text + ": " + error.what());
-  }
-}
+/// The system's log, made by the engine that the option names.
+/// @throws UsageError if that engine would have to store too many collisions.
+std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const CLI::Option& engine);
 
 }  // namespace piblocks::cli

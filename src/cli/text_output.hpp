@@ -3,7 +3,9 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <piblocks/error.hpp>
 
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,6 +13,15 @@
 #include "core/output_file.hpp"
 
 namespace piblocks::cli {
+
+/// A number as it is printed: zero without a sign, which nobody asked about.
+/// @throws SimulationError if it is not finite; JSON could not tell.
+inline double shown(double value) {
+  if (!std::isfinite(value)) {
+    throw SimulationError("output: a number is beyond the range of a double (about 1.8e308)");
+  }
+  return value == 0 ? 0 : value;
+}
 
 class TextOutput {
  public:

@@ -151,4 +151,11 @@ std::string with_thousands_separators(const Integer& value) {
   return text;
 }
 
+std::string readable(const Integer& value) {
+  constexpr std::size_t kMaxDigitsShown = 30;
+  const std::string digits = Integer(abs(value)).get_str();
+  if (digits.size() <= kMaxDigitsShown) return with_thousands_separators(value);
+  return fmt::format("about {}10^{}", value < 0 ? "-" : "", digits.size() - 1);
+}
+
 }  // namespace piblocks

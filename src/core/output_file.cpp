@@ -77,6 +77,7 @@ MadeFolders::~MadeFolders() {
 
 TemporaryFile::TemporaryFile(fs::path final_path)
     : final_path_(std::move(final_path)), folders_(final_path_.parent_path()) {
+  if (final_path_.empty()) throw UsageError("output: the name is empty");
   std::error_code error;
   const fs::file_status status = fs::status(final_path_, error);
   if (fs::is_directory(status)) fail_open(final_path_, reason(EISDIR));

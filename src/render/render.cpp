@@ -49,6 +49,7 @@ std::int64_t render(const RenderJob& job, const std::function<void(const Progres
     };
   };
 
+  on_progress({0, chunks.frame_count});
   OrderedPool<EncodedChunk> pool(chunks.count(), job.jobs, make_worker);
   for (std::int64_t chunk = 0; const auto encoded = pool.take(stop); ++chunk) {
     sink->append(*encoded);

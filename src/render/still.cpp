@@ -31,13 +31,16 @@ Draw* drawing_for(std::string_view output) {
 
 }  // namespace
 
-void render_still(const Scene& scene, const Instant& instant, const std::string& output) {
+void render_still(const Scene& scene, const Instant& instant, const std::string& output,
+                  const std::stop_token& stop) {
   Draw* const draw = drawing_for(output);
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const BlockState state = state_at(*log, instant).state;
   const Layout layout = lay_out(scene, log->size());
   OutputFile file(output);
-  file.write(draw(compose(scene, layout, state)));
+  const std::vector<std::uint8_t> picture = draw(compose(scene, layout, state));
+  if (stop.stop_requested()) throw Interrupted("still: interrupted");
+  file.write(picture);
   file.finish();
 }
 

@@ -42,7 +42,15 @@ void check_frame_rate(const Rational& rate, std::vector<Problem>& problems) {
                                to_text(rate), kMaxFrameRate, kMaxTerm)});
 }
 
+void check_finite(const char* key, const Rational& value, std::vector<Problem>& problems) {
+  if (std::isfinite(to_double(value))) return;
+  problems.push_back({key, "is beyond the range of a double (about 1.8e308)"});
+}
+
 void check_time(const TimeSpan& time, std::vector<Problem>& problems) {
+  check_finite("time.from", time.from, problems);
+  check_finite("time.to", time.to.offset, problems);
+  check_finite("time.speed", time.speed, problems);
   if (time.speed <= 0) {
     problems.push_back(
         {"time.speed", fmt::format("= {}: must be greater than 0", to_text(time.speed))});

@@ -25,10 +25,10 @@ Timeline::Timeline(const Scene& scene, const CollisionLog& log)
   }
   const Integer frames = ceil((end - from_) / step_) + (scene.time.to.after_last ? 1 : 0);
   if (frames > kMaxFrames) {
-    throw UsageError(fmt::format(
-        "time: {} frames are more than the limit of {}; narrow them with --from and --to, or "
-        "raise --speed",
-        with_thousands_separators(frames), with_thousands_separators(kMaxFrames)));
+    throw UsageError(
+        fmt::format("time: {} frames are more than {}; narrow them with --from and --to, or "
+                    "raise --speed",
+                    readable(frames), readable(kMaxFrames)));
   }
   frame_count_ = frames.get_si();
 }

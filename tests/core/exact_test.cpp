@@ -75,5 +75,13 @@ TEST(ThousandsSeparators, GroupFromTheRight) {
             "31,415,926,535,897,932,384");
 }
 
+TEST(Readable, ShortensWhatFillsTheLine) {
+  EXPECT_EQ(readable(31415926), "31,415,926");
+  EXPECT_EQ(readable(Integer("1" + std::string(29, '0'))),
+            "100,000,000,000,000,000,000,000,000,000");
+  EXPECT_EQ(readable(Integer("7" + std::string(400, '0'))), "about 10^400");
+  EXPECT_EQ(readable(-Integer("7" + std::string(400, '0'))), "about -10^400");
+}
+
 }  // namespace
 }  // namespace piblocks

@@ -6,29 +6,23 @@
 #include <fstream>
 #include <iterator>
 
+#include "support/temporary_folder.hpp"
+
 namespace piblocks {
 namespace {
 namespace fs = std::filesystem;
 
+using testing_support::file_contents;
+using testing_support::TemporaryFolder;
+
 class OutputFileTest : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "piblocks-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::size_t entries() const {
     return static_cast<std::size_t>(
-        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
-  }
-  static std::string contents(const fs::path& path) {
-    std::ifstream in(path);
-    return {std::istreambuf_iterator<char>(in), {}};
+        std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
   }
 
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(OutputFileTest, AppearsOnlyWhenFinished) {
@@ -37,7 +31,7 @@ TEST_F(OutputFileTest, AppearsOnlyWhenFinished) {
   file.write("hello");
   EXPECT_FALSE(fs::exists(path));
   file.finish();
-  EXPECT_EQ(contents(path), "hello");
+  EXPECT_EQ(file_contents(path), "hello");
   EXPECT_EQ(entries(), 1u);
 }
 
@@ -50,7 +44,7 @@ TEST_F(OutputFileTest, KeepsTheOldFileWhenAbandoned) {
   const fs::path path = folder_ / "out.txt";
   std::ofstream(path) << "old";
   { OutputFile(path).write("new"); }
-  EXPECT_EQ(contents(path), "old");
+  EXPECT_EQ(file_contents(path), "old");
   EXPECT_EQ(entries(), 1u);
 }
 
@@ -75,6 +69,7 @@ TEST_F(OutputFileTest, NamesWhatCannotBeOpened) {
   EXPECT_THROW(OutputFile{folder_ / "file/below.txt"}, UsageError);
   EXPECT_THROW(OutputFile{"/dev/null"}, UsageError);
   EXPECT_THROW(OutputFile{"/proc/no/such.txt"}, UsageError);
+  EXPECT_THROW(OutputFile{""}, UsageError);
 }
 
 }  // namespace

@@ -3,23 +3,15 @@
 #include <piblocks/scene.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
+
+#include "support/temporary_folder.hpp"
 
 namespace piblocks {
 namespace {
-namespace fs = std::filesystem;
 
 class SceneFileTest : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "piblocks-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    path_ = (folder_ / "scene.toml").string();
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   Scene load(const std::string& text) {
     std::ofstream(path_) << text;
     SceneBuilder builder;
@@ -36,8 +28,8 @@ class SceneFileTest : public testing::Test {
     return {};
   }
 
-  fs::path folder_;
-  std::string path_;
+  testing_support::TemporaryFolder folder_;
+  std::string path_ = folder_ / "scene.toml";
 };
 
 bool contains(const std::string& text, const std::string& part) {
@@ -179,8 +171,8 @@ TEST_F(SceneFileTest, SyntaxErrorsNameTheirLine) {
 
 TEST_F(SceneFileTest, RefusesWhatItCannotRead) {
   SceneBuilder builder;
-  EXPECT_THROW(builder.read_file((folder_ / "missing.toml").string()), SceneError);
-  EXPECT_THROW(builder.read_file(folder_.string()), SceneError);
+  EXPECT_THROW(builder.read_file(folder_ / "missing.toml"), SceneError);
+  EXPECT_THROW(builder.read_file(folder_.path().string()), SceneError);
   EXPECT_THROW(load(std::string((1 << 20) + 1, '#')), SceneError);
   EXPECT_THROW(load(std::string(100000, '[')), SceneError);
 }

@@ -1,0 +1,36 @@
+#include "cli/options.hpp"
+
+namespace piblocks::cli {
+namespace {
+
+/// Nothing if the text is no whole number.
+std::optional<Integer> whole_number(const std::string& text) {
+  try {
+    const Rational value = parse_rational(text);
+    if (value.get_den() == 1) return value.get_num();
+  } catch (const UsageError&) {  // the caller says better what is wanted
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+CLI::Option& add_value_option(CLI::App& command, const std::string& name,
+                              const std::string& placeholder, const std::string& help) {
+  return *command.add_option(name, help)->option_text(placeholder);
+}
+
+std::optional<std::string> text_of(const CLI::Option& option) {
+  if (option.count() == 0) return std::nullopt;
+  return option.results().front();
+}
+
+Integer parse_whole_number(const std::string& text, const Integer& low,
+                           const std::optional<Integer>& high) {
+  const std::optional<Integer> value = whole_number(text);
+  if (value && *value >= low && (!high || *value <= *high)) return *value;
+  const std::string upper = high ? "to " + high->get_str() : "on";
+  throw UsageError(fmt::format("must be a whole number from {} {}", low.get_str(), upper));
+}
+
+}  // namespace piblocks::cli

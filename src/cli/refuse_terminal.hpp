@@ -1,0 +1,17 @@
+// Keeps frames off the screen.
+// In: the option that says where output goes. Out: nothing, or a UsageError.
+#pragma once
+
+#include <unistd.h>
+
+#include "cli/options.hpp"
+
+namespace piblocks::cli {
+
+/// @throws UsageError if the output is "-" and standard output is a terminal.
+inline void refuse_terminal(const CLI::Option& output) {
+  if (text_of(output) != "-" || isatty(STDOUT_FILENO) == 0) return;
+  throw UsageError("--output -: standard output is a terminal; pipe it or redirect it to a file");
+}
+
+}  // namespace piblocks::cli

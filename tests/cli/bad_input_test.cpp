@@ -1,0 +1,215 @@
+// Wrong usage: exit code 2, a line for each problem that names the culprit, nothing written.
+#include "cli/cli_fixture.hpp"
+
+namespace piblocks {
+namespace {
+
+struct BadInput {
+  Arguments arguments;
+  std::string message;     ///< part of what is said
+  std::string scene = {};  ///< contents of scene.toml, if there is to be one
+};
+
+std::ostream& operator<<(std::ostream& out, const BadInput& bad) {
+  if (bad.arguments.empty()) return out << "nothing";
+  for (const std::string& argument : bad.arguments) out << argument << ' ';
+  return out << bad.scene;
+}
+
+class BadInputTest : public CliFixture, public testing::WithParamInterface<BadInput> {};
+
+TEST_P(BadInputTest, IsRefused) {
+  if (!GetParam().scene.empty()) write("scene.toml", GetParam().scene);
+  const auto before = entries();
+  const CommandResult result = piblocks(GetParam().arguments);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(result.err.starts_with("piblocks: ")) << result.err;
+  EXPECT_NE(result.err.find(GetParam().message), std::string::npos) << result.err;
+  EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
+  EXPECT_EQ(entries(), before);
+}
+
+Arguments render(const Arguments& more) { return Arguments{"render", "-o", "a.mp4"} + more; }
+Arguments still(const Arguments& more) { return Arguments{"still", "-o", "a.png"} + more; }
+
+INSTANTIATE_TEST_SUITE_P(
+    Commands, BadInputTest,
+    testing::Values(
+        BadInput{{}, "no command: use one of render, still, log, state, count, info"},
+        BadInput{{"frobnicate"}, "unknown command 'frobnicate'"},
+        BadInput{{"-x"}, "unknown option '-x'"},
+        BadInput{{"--digits", "3"}, "unknown option '--digits'"},
+        BadInput{{"count", "--frames", "3"}, "count: unknown option '--frames'"},
+        BadInput{{"still", "--at", "1", "--fps", "60", "-o", "a.png"}, "unknown option '--fps'"},
+        BadInput{{"render", "--ouput", "a.mp4"}, "render: unknown option '--ouput'"},
+        BadInput{{"count", "a.toml", "b.toml"}, "count: unexpected argument 'b.toml'"},
+        BadInput{{"info", "everything"}, "info: unexpected argument 'everything'"},
+        BadInput{{"render"}, "render: missing -o,--output OUT"},
+        BadInput{{"still"}, "still: missing --at S|last|#K and -o,--output OUT"},
+        BadInput{{"still", "-o", "a.png"}, "still: missing --at S|last|#K;"},
+        BadInput{{"state"}, "state: missing --at"},
+        BadInput{{"count", "--digits"}, "--digits needs a value: --digits D"},
+        BadInput{{"render", "-o"}, "--output needs a value: --output OUT"},
+        BadInput{{"render", "-o", "null", "--size"}, "--size needs a value: --size WxH"},
+        BadInput{{"count", "--digits", "1", "--digits", "2"}, "--digits is given more than once"},
+        BadInput{{"count", "--digits", "2", "--mass-ratio", "3"}, "--digits and --mass-ratio"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    System, BadInputTest,
+    testing::Values(BadInput{{"count", "--digits", "0"}, "--digits 0: must be a whole number"},
+                    BadInput{{"count", "--digits", "-1"}, "--digits -1: must be a whole number"},
+                    BadInput{{"count", "--digits", "1.5"}, "--digits 1.5: must be a whole number"},
+                    BadInput{{"count", "--digits", "abc"}, "--digits abc: must be a whole number"},
+                    BadInput{{"count", "--digits", "1e9"}, "--digits 1e9: must be a whole number"},
+                    BadInput{{"count", "--digits", ""}, "--digits : must be a whole number"},
+                    BadInput{{"count", "--mass-ratio", "0"}, "--mass-ratio 0: must be greater"},
+                    BadInput{{"count", "--mass-ratio", "-2"}, "--mass-ratio -2: must be greater"},
+                    BadInput{{"count", "--mass-ratio", "inf"}, "--mass-ratio inf: not a number"},
+                    BadInput{{"count", "--mass-ratio", "nan"}, "--mass-ratio nan: not a number"},
+                    BadInput{{"count", "--mass-ratio", "1/0"}, "--mass-ratio 1/0: division by"},
+                    BadInput{{"count", "--mass-ratio", ""}, "--mass-ratio : not a number"},
+                    BadInput{{"count", "--mass-ratio", "9^99999999"}, "longer than"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Scene, BadInputTest,
+    testing::Values(
+        BadInput{{"count", "missing.toml"}, "cannot read 'missing.toml': No such file"},
+        BadInput{{"count", "/"}, "cannot read '/': Is a directory"},
+        BadInput{{"count", "scene.toml"}, "scene.toml:2: ", "[red]\nmass = = 3\n"},
+        BadInput{{"count", "scene.toml"}, "scene.toml:2: red.mas: unknown key", "[red]\nmas = 3\n"},
+        BadInput{{"count", "scene.toml"}, "scene.toml:2: red.mass = 0: must be", "[red]\nmass = 0"},
+        BadInput{{"count", "scene.toml"}, "blue.mass = -1", "[blue]\nmass = -1"},
+        BadInput{{"count", "scene.toml"}, "blue.mass = inf", "[blue]\nmass = inf"},
+        BadInput{{"count", "scene.toml"}, "blue.velocity = nan", "[blue]\nvelocity = nan"},
+        BadInput{{"count", "scene.toml"}, "red.width = 0", "[red]\nwidth = 0"},
+        BadInput{{"count", "scene.toml"}, "red overlaps blue", "[red]\nposition = 2.5"},
+        BadInput{{"count", "scene.toml"}, "into the wall", "[blue]\nposition = 0"},
+        BadInput{{"count", "scene.toml"}, "view.fps = -1", "[view]\nfps = -1"},
+        BadInput{{"count", "scene.toml"}, "time.speed = inf", "[time]\nspeed = inf"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Picture, BadInputTest,
+    testing::Values(
+        BadInput{render({"--size", "0x36"}), "view.size = 0x36: each side must be from 1 to 16384"},
+        BadInput{render({"--size", "-64x36"}), "view.size = -64x36: each side"},
+        BadInput{render({"--size", "16386x2"}), "view.size = 16386x2: each side"},
+        BadInput{render({"--size", "16384x16384"}), "view.size = 16384x16384: a frame must have"},
+        BadInput{render({"--size", "wide"}), "view.size = wide: must be two whole numbers"},
+        BadInput{render({"--size", "64"}), "view.size = 64: must be two whole numbers"},
+        BadInput{render({"--size", "64x36x3"}), "view.size = 64x36x3: must be two whole numbers"},
+        BadInput{render({"--size", ""}), "--size: view.size = : must be two whole numbers"},
+        BadInput{render({"--size", "65x36"}),
+                 "size 65x36 is odd: H.264 in 4:2:0 needs even sides; "
+                 "use 64x36"},
+        BadInput{{"render", "--size", "64x35", "-o", "a.y4m"}, "size 64x35 is odd"},
+        BadInput{{"render", "--size", "64x35", "-o", "-"}, "use 64x34"},
+        BadInput{render({"--fps", "0"}), "view.fps = 0: must be greater than 0"},
+        BadInput{render({"--fps", "-60"}), "view.fps = -60"},
+        BadInput{render({"--fps", "nan"}), "view.fps = nan: not a number"},
+        BadInput{render({"--fps", "30/0"}), "view.fps = 30/0: division by zero"},
+        BadInput{render({"--fps", "1001"}), "at most 1000"},
+        BadInput{still({"--at", "1", "--size", "0x0"}), "view.size = 0x0"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Times, BadInputTest,
+    testing::Values(
+        BadInput{render({"--speed", "0"}), "time.speed = 0: must be greater than 0"},
+        BadInput{render({"--speed", "-1"}), "time.speed = -1: must be greater than 0"},
+        BadInput{render({"--speed", "inf"}), "time.speed = inf: not a number"},
+        BadInput{render({"--speed", "1e400"}), "time.speed is beyond the range of a double"},
+        BadInput{render({"--from", "5", "--to", "3"}), "time.to = 3: must be after time.from = 5"},
+        BadInput{render({"--from", "3", "--to", "3"}), "time.to = 3: must be after time.from = 3"},
+        BadInput{render({"--from", "30"}), "time.from = 30: is not before the end"},
+        BadInput{render({"--from", "last"}), "time.from = last: not a number"},
+        BadInput{render({"--to", "first"}), "time.to = first: not a number"},
+        BadInput{render({"--to", "last-1"}), "must be a time, 'last' or 'last+S'"},
+        BadInput{render({"--to", "last+-1"}), "must not be before the last collision"},
+        BadInput{render({"--to", "1e9"}), "60,000,000,000 frames are more than 1,000,000; narrow"},
+        BadInput{render({"--speed", "1e-400"}), "frames are more than 1,000,000"},
+        BadInput{still({"--at", "noon"}), "--at noon: not a number; must be a time, 'last'"},
+        BadInput{still({"--at", ""}), "--at : not a number"},
+        BadInput{still({"--at", "1e400"}), "--at 1e400: is beyond the range of a double"},
+        BadInput{still({"--at", "#0"}), "#0: the scene has collisions #1 to #314"},
+        BadInput{still({"--at", "#315"}), "#315: the scene has collisions #1 to #314"},
+        BadInput{still({"--at", "#"}), "--at #: must be a time"},
+        BadInput{still({"--at", "#-1"}), "--at #-1: must be a time"},
+        BadInput{{"state", "--at", "1,#999"}, "#999: the scene has collisions"},
+        BadInput{{"state", "--at", "1,,2"}, "--at 1,,2: not a number"},
+        BadInput{{"state", "--at", "1,"}, "--at 1,: not a number"},
+        BadInput{{"state", "--at", "1", "2"}, "cannot read '2'"},
+        BadInput{{"state", "--at", "1", "--at", "2"}, "--at is given more than once"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Output, BadInputTest,
+    testing::Values(
+        BadInput{{"render", "-o", "a.avi"}, "cannot tell the kind of 'a.avi'"},
+        BadInput{{"render", "-o", ""}, "cannot tell the kind of ''"},
+        BadInput{{"render", "-o", "/tmp"}, "cannot tell the kind of '/tmp'"},
+        BadInput{{"render", "-o", "a.png"}, "cannot use 'a.png': an image sequence needs a number"},
+        BadInput{{"render", "-o", "%d%d.png"}, "two number fields"},
+        BadInput{{"render", "-o", "/proc/a.mp4"}, "cannot open '/proc/a.mp4'"},
+        BadInput{{"render", "-o", "/proc/%d.png"}, "cannot write into '/proc/'"},
+        BadInput{{"render", "-o", "/dev/null/a.y4m"}, "'/dev/null/a.y4m': Not a directory"},
+        BadInput{{"still", "--at", "1", "-o", "a.jpg"}, "'a.jpg' has no known ending"},
+        BadInput{{"still", "--at", "1", "-o", "/proc/a.png"}, "cannot open '/proc/a.png'"},
+        BadInput{{"log", "-o", "/"}, "cannot open '/': Is a directory"},
+        BadInput{{"log", "-o", "/dev/full"}, "cannot open '/dev/full': not a file"},
+        BadInput{{"log", "-o", ""}, "the name is empty"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Encoder, BadInputTest,
+    testing::Values(
+        BadInput{render({"--crf", "abc"}), "--crf abc: not a number"},
+        BadInput{render({"--crf", "-1"}), "crf -1 is out of range; use 0 (lossless) to 51"},
+        BadInput{render({"--crf", "52"}), "crf 52 is out of range"},
+        BadInput{render({"--preset", "warp"}), "no preset 'warp'; use one of: ultrafast"},
+        BadInput{render({"--encoder", "nope"}), "cannot find encoder 'nope'; use one of"},
+        BadInput{render({"--encoder", "aac"}), "encoder 'aac' does not take yuv420p"},
+        BadInput{{"render", "--crf", "20", "-o", "a.y4m"}, "'a.y4m' has no use for crf"},
+        BadInput{render({"--jobs", "0"}), "--jobs 0: must be a whole number from 1 to 256"},
+        BadInput{render({"--jobs", "257"}), "--jobs 257: must be"},
+        BadInput{render({"--jobs", "abc"}), "--jobs abc: must be"},
+        BadInput{render({"--jobs", "1.5"}), "--jobs 1.5: must be"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Log, BadInputTest,
+    testing::Values(
+        BadInput{{"log", "--from", "5", "--to", "3"}, "--to 3: is before --from 5"},
+        BadInput{{"log", "--from", "soon"}, "--from soon: not a number"},
+        BadInput{{"log", "--from", ""}, "--from : not a number"},
+        BadInput{{"log", "--first", "0"}, "--first 0: must be a whole number from 1 on"},
+        BadInput{{"log", "--first", "315"}, "--first 315: the scene has 314 collisions"},
+        BadInput{{"log", "--limit", "0"}, "--limit 0: must be a whole number from 1 on"},
+        BadInput{{"log", "--limit", "many"}, "--limit many: must be a whole number"},
+        BadInput{{"log", "--format", "xml"}, "--format xml: must be csv or jsonl"},
+        BadInput{{"log", "--engine", "magic"}, "--engine magic: must be unfolded or events"},
+        BadInput{{"log", "--engine", "1"}, "--engine 1: must be unfolded or events"},
+        BadInput{{"log", "--digits", "12"}, "314,159,265,358 rows are more than 100,000,000"},
+        BadInput{{"log", "--digits", "8", "--engine", "events"},
+                 "stores at most 20,000,000 collisions, and the scene has 31,415,926"}));
+
+using BadInputsTest = CliFixture;
+
+TEST_F(BadInputsTest, EachProblemOfASceneHasItsLine) {
+  write("scene.toml", "[blue]\nmass = 0\n[red]\nmas = 1\n[view]\nfps = 0\n");
+  const CommandResult result = piblocks({"render", "scene.toml", "--speed", "0", "-o", "a.mp4"});
+  EXPECT_EQ(result.exit_code, 2);
+  const auto problems = lines(result.err);
+  ASSERT_EQ(problems.size(), 4u) << result.err;
+  EXPECT_TRUE(problems[0].starts_with("piblocks: scene.toml:4: red.mas: unknown key"));
+  EXPECT_TRUE(problems[1].starts_with("piblocks: scene.toml:2: blue.mass = 0: "));
+  EXPECT_TRUE(problems[2].starts_with("piblocks: scene.toml:6: view.fps = 0: "));
+  EXPECT_TRUE(problems[3].starts_with("piblocks: --speed: time.speed = 0: "));
+  EXPECT_EQ(entries(), (std::vector<std::string>{"scene.toml"}));
+}
+
+TEST_F(BadInputsTest, AFolderIsNotReplaced) {
+  std::filesystem::create_directory(folder_ / "a.mp4");
+  const CommandResult result = piblocks(render({"--to", "1"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err, "piblocks: output: cannot open 'a.mp4': Is a directory\n");
+}
+
+}  // namespace
+}  // namespace piblocks

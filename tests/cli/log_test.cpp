@@ -1,0 +1,140 @@
+// log: rows, their selection and their form.
+#include <cmath>
+
+#include "cli/cli_fixture.hpp"
+
+namespace piblocks {
+namespace {
+
+using LogTest = CliFixture;
+
+constexpr const char* kHeader = "index,time,kind,x_blue,x_red,v_blue,v_red";
+
+/// The first column of CSV text.
+std::vector<std::string> indices(const std::string& csv) {
+  std::vector<std::string> found;
+  for (const std::string& line : lines(csv)) found.push_back(split(line, ',').front());
+  found.erase(found.begin());  // the header
+  return found;
+}
+
+TEST_F(LogTest, PrintsTheCollisionsOfEqualMasses) {
+  EXPECT_EQ(output_of({"log", "--digits", "1"}), std::string(kHeader) +
+                                                     "\n1,2,blocks,2,3,-1,0"
+                                                     "\n2,3.5,wall,0.5,3,1,0"
+                                                     "\n3,5,blocks,2,3,0,1\n");
+}
+
+TEST_F(LogTest, HasARowForEveryCollision) {
+  const auto rows = lines(output_of({"log", "--digits", "4"}));
+  ASSERT_EQ(rows.size(), 1u + 3141u);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto fields = split(rows[i], ',');
+    ASSERT_EQ(fields.size(), 7u) << rows[i];
+    EXPECT_EQ(fields[0], std::to_string(i));
+    EXPECT_EQ(fields[2], i % 2 == 1 ? "blocks" : "wall");
+  }
+}
+
+TEST_F(LogTest, JsonLinesSayTheSameAsCsv) {
+  const auto csv = lines(output_of({"log", "--digits", "2"}));
+  const auto jsonl = lines(output_of({"log", "--digits", "2", "--format", "jsonl"}));
+  ASSERT_EQ(csv.size(), jsonl.size() + 1);
+  const auto names = split(kHeader, ',');
+  for (std::size_t row = 0; row < jsonl.size(); ++row) {
+    const auto fields = split(csv[row + 1], ',');
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      EXPECT_EQ(json_value(jsonl[row], {names[i]}), fields[i]) << jsonl[row];
+    }
+  }
+}
+
+class EnginesLogTest : public CliFixture, public testing::WithParamInterface<int> {};
+
+/// Velocities and positions compare with the largest that the run has: near the turning point
+/// the event loop has lost the small ones.
+TEST_P(EnginesLogTest, EnginesAgree) {
+  const Arguments log{"log", "--digits", std::to_string(GetParam()), "--engine"};
+  const auto unfolded = lines(output_of(log + Arguments{"unfolded"}));
+  const auto events = lines(output_of(log + Arguments{"events"}));
+  ASSERT_EQ(unfolded.size(), events.size());
+  const double largest_velocity = std::pow(10.0, GetParam() - 1);
+  const std::vector<double> scales{10, 0, 10, 10, largest_velocity, 1};  // from "time" on
+  for (std::size_t row = 1; row < unfolded.size(); ++row) {
+    const auto a = split(unfolded[row], ',');
+    const auto b = split(events[row], ',');
+    ASSERT_EQ(a[0], b[0]);
+    ASSERT_EQ(a[2], b[2]) << "row " << row;
+    for (const std::size_t column : {1U, 3U, 4U, 5U, 6U}) {
+      ASSERT_NEAR(std::stod(a[column]), std::stod(b[column]), 1e-9 * scales[column - 1])
+          << "row " << row << ", column " << column;
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Digits, EnginesLogTest, testing::Range(1, 6));
+
+TEST_F(LogTest, BoundsOfTimeIncludeWhatHappensAtThem) {
+  using Rows = std::vector<std::string>;
+  const auto rows = [&](const Arguments& selection) {
+    return indices(output_of(Arguments{"log", "--digits", "1"} + selection));
+  };
+  EXPECT_EQ(rows({"--from", "2", "--to", "5"}), (Rows{"1", "2", "3"}));
+  EXPECT_EQ(rows({"--from", "2.0000001", "--to", "4.9999999"}), (Rows{"2"}));
+  EXPECT_EQ(rows({"--from", "7/2", "--to", "7/2"}), (Rows{"2"}));
+  EXPECT_EQ(rows({"--from", "3.6", "--to", "3.7"}), (Rows{}));
+  EXPECT_EQ(rows({"--from", "-9"}), (Rows{"1", "2", "3"}));
+  EXPECT_EQ(rows({"--to", "-9"}), (Rows{}));
+  EXPECT_EQ(rows({"--from", "1e300"}), (Rows{}));
+}
+
+TEST_F(LogTest, SelectsByIndexAndLimit) {
+  using Rows = std::vector<std::string>;
+  const auto rows = [&](const Arguments& selection) {
+    return indices(output_of(Arguments{"log"} + selection));
+  };
+  EXPECT_EQ(rows({"--limit", "2"}), (Rows{"1", "2"}));
+  EXPECT_EQ(rows({"--first", "313"}), (Rows{"313", "314"}));
+  EXPECT_EQ(rows({"--first", "313", "--limit", "1"}), (Rows{"313"}));
+  EXPECT_EQ(rows({"--first", "314", "--limit", "99"}), (Rows{"314"}));
+  EXPECT_EQ(rows({"--first", "1", "--from", "5", "--limit", "1"}), (Rows{"314"}));
+  EXPECT_EQ(rows({"--first", "314", "--to", "3"}), (Rows{}));
+}
+
+TEST_F(LogTest, ReachesTheMiddleOfTwentyDigits) {
+  const auto rows = lines(
+      output_of({"log", "--digits", "20", "--first", "15707963267948966190", "--limit", "5"}));
+  ASSERT_EQ(rows.size(), 6u);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto fields = split(rows[i], ',');
+    EXPECT_EQ(fields[0], std::to_string(15707963267948966189ULL + i));
+    EXPECT_EQ(fields[1], "3.5");
+    EXPECT_EQ(fields[2], i % 2 == 1 ? "wall" : "blocks");
+    EXPECT_EQ(std::fabs(std::stod(fields[5])), 1e19);
+  }
+}
+
+TEST_F(LogTest, WritesAFile) {
+  const std::string rows = output_of({"log", "--digits", "2"});
+  EXPECT_EQ(output_of({"log", "--digits", "2", "-o", "a/log.csv"}), "");
+  EXPECT_EQ(contents("a/log.csv"), rows);
+  EXPECT_EQ(entries(), (std::vector<std::string>{"a", "a/log.csv"}));
+}
+
+/// A row of the closed form is computed when it is written: none is kept.
+TEST_F(LogTest, MemoryDoesNotGrowWithTheRows) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers keep freed memory";
+#else
+  const auto memory_KiB = [&](const char* limit) {
+    const CommandResult result = piblocks({"log", "--digits", "9", "--limit", limit, "-o", "x"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.max_memory_KiB;
+  };
+  const long few = memory_KiB("10");
+  EXPECT_LT(memory_KiB("300000"), few + 4096);
+  EXPECT_LT(few, 100 * 1024);
+#endif
+}
+
+}  // namespace
+}  // namespace piblocks

@@ -1,0 +1,117 @@
+// render: every kind of output, and that it depends on nothing but the scene.
+#include <fmt/format.h>
+
+#include "cli/cli_fixture.hpp"
+
+namespace piblocks {
+namespace {
+
+using RenderTest = CliFixture;
+using Names = std::vector<std::string>;
+
+constexpr std::size_t kFrame_bytes = 6 + 64 * 36 * 3 / 2;  // "FRAME\n" and 4:2:0
+
+std::size_t y4m_frames(const std::string& y4m) {
+  const std::size_t header = y4m.find('\n') + 1;
+  EXPECT_EQ((y4m.size() - header) % kFrame_bytes, 0u);
+  return (y4m.size() - header) / kFrame_bytes;
+}
+
+/// So many frames at 10 frames per second.
+Arguments frames(int count) {
+  return {"render", "--quiet", "--size", "64x36",
+          "--fps",  "10",      "--to",   fmt::format("{}/10", count)};
+}
+
+TEST_F(RenderTest, WritesEveryKind) {
+  const Arguments two = frames(2);
+  EXPECT_EQ(output_of(two + Arguments{"-o", "a.mp4"}), "");
+  EXPECT_EQ(output_of(two + Arguments{"-o", "new/folder/%06d.png"}), "");
+  EXPECT_EQ(output_of(two + Arguments{"-o", "a.y4m"}), "");
+  EXPECT_EQ(output_of(two + Arguments{"-o", "a.framehash"}), "");
+  EXPECT_EQ(output_of(two + Arguments{"-o", "null"}), "");
+  EXPECT_EQ(entries(), (Names{"a.framehash", "a.mp4", "a.y4m", "new", "new/folder",
+                              "new/folder/000001.png", "new/folder/000002.png"}));
+  EXPECT_EQ(contents("a.mp4").substr(4, 4), "ftyp");
+  EXPECT_TRUE(contents("new/folder/000001.png").starts_with("\x89PNG"));
+  EXPECT_TRUE(contents("a.y4m").starts_with("YUV4MPEG2 W64 H36 F10:1 "));
+  EXPECT_EQ(y4m_frames(contents("a.y4m")), 2u);
+  EXPECT_NE(contents("a.framehash").find("#dimensions 0: 64x36"), std::string::npos);
+}
+
+TEST_F(RenderTest, StandardOutputGetsTheBytesOfTheFile) {
+  output_of(frames(3) + Arguments{"-o", "a.y4m"});
+  EXPECT_EQ(output_of(frames(3) + Arguments{"-o", "-"}), contents("a.y4m"));
+}
+
+class RepeatedRenderTest : public CliFixture, public testing::WithParamInterface<const char*> {};
+
+TEST_P(RepeatedRenderTest, BytesDependOnNothingButTheScene) {
+  // Longer than one chunk of any kind, and no multiple of its length.
+  const Arguments many{"render", "--quiet", "--size", "320x180", "--fps",
+                       "4",      "--to",    "10",     "-o",      GetParam()};
+  const auto render = [&](const Arguments& jobs) {
+    output_of(many + jobs);
+    std::string bytes;
+    for (const std::string& name : entries()) {
+      bytes += name + contents(name);
+      std::filesystem::remove(folder_ / name);
+    }
+    return bytes;
+  };
+  const std::string first = render({});
+  EXPECT_GT(first.size(), 1000u);
+  EXPECT_TRUE(render({}) == first) << "a second time";
+  for (const char* jobs : {"1", "2", "7"}) {
+    EXPECT_TRUE(render({"--jobs", jobs}) == first) << "--jobs " << jobs;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Kinds, RepeatedRenderTest,
+                         testing::Values("a.mp4", "%04d.png", "a.y4m", "a.framehash"));
+
+TEST_F(RenderTest, LastsUntilAWhileAfterTheLastCollision) {
+  // One digit: the last of three collisions is at 5.
+  const auto count = [&](const Arguments& times) {
+    return y4m_frames(output_of(Arguments{"render", "--quiet", "--size", "64x36", "--digits", "1",
+                                          "--fps", "2", "-o", "-"} +
+                                times));
+  };
+  EXPECT_EQ(count({}), 14u) << "0, 1/2, ... 13/2";
+  EXPECT_EQ(count({"--to", "last"}), 11u);
+  EXPECT_EQ(count({"--to", "last+1/2"}), 12u);
+  EXPECT_EQ(count({"--to", "5"}), 10u) << "the end itself is not shown";
+  EXPECT_EQ(count({"--from", "-1", "--to", "1"}), 4u);
+  EXPECT_EQ(count({"--to", "5", "--speed", "1/2"}), 20u);
+}
+
+TEST_F(RenderTest, ReadsTheSceneFileAndLetsOptionsWin) {
+  write("scene.toml", "[view]\nsize = [128, 72]\nfps = 5\n[time]\nto = 1\n");
+  const std::string from_file = output_of({"render", "scene.toml", "--quiet", "-o", "-"});
+  EXPECT_TRUE(from_file.starts_with("YUV4MPEG2 W128 H72 F5:1 "));
+  const std::string smaller = output_of({"render", "scene.toml", "--quiet", "--size", "64x36",
+                                         "--fps", "30000/1001", "--to", "0.1", "-o", "-"});
+  EXPECT_TRUE(smaller.starts_with("YUV4MPEG2 W64 H36 F30000:1001 "));
+  EXPECT_EQ(y4m_frames(smaller), 3u);
+}
+
+TEST_F(RenderTest, EncoderOptionsReachTheEncoder) {
+  const Arguments two = frames(2);
+  output_of(two + Arguments{"--crf", "0", "-o", "lossless.mp4"});
+  output_of(two + Arguments{"--crf", "51", "-o", "worst.mp4"});
+  EXPECT_GT(contents("lossless.mp4").size(), contents("worst.mp4").size());
+  output_of(two + Arguments{"--preset", "ultrafast", "--encoder", "libx264", "-o", "fast.mp4"});
+  EXPECT_NE(contents("fast.mp4"), contents("lossless.mp4"));
+}
+
+TEST_F(RenderTest, SaysWhatItWroteUnlessQuiet) {
+  const Arguments render{"render", "--size", "64x36", "--fps", "10", "-o", "null"};
+  const CommandResult two = piblocks(render + Arguments{"--to", "0.2"});
+  EXPECT_EQ(two.exit_code, 0);
+  EXPECT_TRUE(two.err.starts_with("null: 2 frames in ")) << two.err;
+  EXPECT_EQ(lines(two.err).size(), 1u);
+  EXPECT_TRUE(piblocks(render + Arguments{"--to", "0.1"}).err.starts_with("null: 1 frame in "));
+  EXPECT_EQ(piblocks(render + Arguments{"--to", "0.2", "--quiet"}).err, "");
+}
+
+}  // namespace
+}  // namespace piblocks

@@ -1,0 +1,57 @@
+// What a person at a terminal sees of a rendering, and what a log file gets.
+#include "cli/cli_fixture.hpp"
+
+namespace piblocks {
+namespace {
+
+using TerminalTest = CliFixture;
+
+const Arguments kRender{"render", "--size", "640x360", "--to", "last", "-o", "null"};
+
+TEST_F(TerminalTest, ShowsABarThatMakesWayForTheSummary) {
+  const CommandResult result =
+      RunningCommand(kRender, {.folder = folder_.path(), .err_is_terminal = true}).wait();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("\r\x1b[K[                              ]   0 %"), std::string::npos);
+  const std::size_t last_clear = result.err.rfind("\r\x1b[K");
+  ASSERT_NE(last_clear, std::string::npos);
+  const std::string summary = result.err.substr(last_clear + 4);
+  EXPECT_TRUE(summary.starts_with("null: 742 frames in ")) << summary;
+  EXPECT_TRUE(summary.ends_with(" frames/s)\r\n")) << summary;
+}
+
+TEST_F(TerminalTest, TheBarTellsRateAndTimeLeft) {
+  const Arguments slow{"render", "--size", "1920x1080", "--jobs", "1",
+                       "--to",   "last",   "-o",        "null"};
+  const CommandResult result =
+      RunningCommand(slow, {.folder = folder_.path(), .err_is_terminal = true}).wait();
+  EXPECT_NE(result.err.find(" frames/s  "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find(" left"), std::string::npos) << result.err;
+}
+
+TEST_F(TerminalTest, AnErrorDoesNotStandBesideTheBar) {
+  std::filesystem::create_directory(folder_ / "1.png");
+  const Arguments render{"render", "--size", "64x36", "--fps", "10", "--to", "1", "-o", "%d.png"};
+  const CommandResult result =
+      RunningCommand(render, {.folder = folder_.path(), .err_is_terminal = true}).wait();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("\r\x1b[Kpiblocks: output: "), std::string::npos) << result.err;
+}
+
+TEST_F(TerminalTest, IsLeftAloneWhenQuiet) {
+  const CommandResult result = RunningCommand(kRender + Arguments{"--quiet"},
+                                              {.folder = folder_.path(), .err_is_terminal = true})
+                                   .wait();
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(TerminalTest, AFileGetsPlainLines) {
+  const CommandResult result = piblocks(kRender);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err.find('\r'), std::string::npos);
+  EXPECT_EQ(result.err.find('\x1b'), std::string::npos);
+  EXPECT_TRUE(lines(result.err).back().starts_with("null: 742 frames in ")) << result.err;
+}
+
+}  // namespace
+}  // namespace piblocks

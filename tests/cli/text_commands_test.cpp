@@ -1,0 +1,103 @@
+// count, state, info, help and version.
+#include "cli/cli_fixture.hpp"
+
+namespace piblocks {
+namespace {
+
+using TextCommandsTest = CliFixture;
+
+constexpr const char* kPi = "314159265358979323846264338327950288";
+
+TEST_F(TextCommandsTest, CountPrintsTheDigitsOfPi) {
+  for (const std::size_t digits : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 10U, 11U, 12U, 20U, 36U}) {
+    EXPECT_EQ(output_of({"count", "--digits", std::to_string(digits)}),
+              std::string(kPi).substr(0, digits) + "\n");
+  }
+}
+
+TEST_F(TextCommandsTest, CountTakesAnyMassRatioExactly) {
+  EXPECT_EQ(output_of({"count", "--mass-ratio", "1"}), "3\n");
+  EXPECT_EQ(output_of({"count", "--mass-ratio", "1/3"}), "2\n");
+  EXPECT_EQ(output_of({"count", "--mass-ratio", "100^7"}), "31415926\n");
+  EXPECT_EQ(output_of({"count", "--mass-ratio=1e14"}), "31415926\n");
+}
+
+TEST_F(TextCommandsTest, OptionsWinOverTheSceneFile) {
+  write("scene.toml", "[red]\nmass = 7\n[blue]\nmass = 2\n");
+  EXPECT_EQ(output_of({"count", "scene.toml", "--digits", "4"}), "3141\n");
+  EXPECT_EQ(output_of({"count", "--digits", "4", "scene.toml"}), "3141\n");
+  EXPECT_NE(output_of({"count", "scene.toml"}), "3141\n");
+}
+
+TEST_F(TextCommandsTest, StatePrintsOneObjectALine) {
+  const auto objects = lines(output_of({"state", "--at", "0,2,7/2,last,#314"}));
+  ASSERT_EQ(objects.size(), 5u);
+  EXPECT_EQ(objects[0], R"({"time":0,"collisions":"0","blue":{"position":2,"velocity":0},)"
+                        R"("red":{"position":5,"velocity":-1}})");
+  EXPECT_EQ(json_value(objects[1], {"collisions"}), "1") << "a collision at the instant is counted";
+  EXPECT_EQ(json_value(objects[2], {"time"}), "3.5");
+  EXPECT_EQ(json_value(objects[3], {"collisions"}), "314");
+  EXPECT_EQ(objects[3], objects[4]);
+}
+
+TEST_F(TextCommandsTest, StateFollowsTheLawsOfMotion) {
+  for (const std::string& object :
+       lines(output_of({"state", "--digits", "2", "--at", "0,2.5,3,3.4,3.5,4,last,100"}))) {
+    const double v_blue = json_number(object, {"blue", "velocity"});
+    const double v_red = json_number(object, {"red", "velocity"});
+    EXPECT_NEAR(v_blue * v_blue + 100 * v_red * v_red, 100, 1e-9) << object;
+    EXPECT_GE(json_number(object, {"blue", "position"}), 0.5) << object;
+  }
+}
+
+TEST_F(TextCommandsTest, StateGoesBackBeforeTimeZeroWithoutNegativeZeros) {
+  const std::string state = output_of({"state", "--at", "-3"});
+  EXPECT_EQ(json_value(state, {"blue", "velocity"}), "0");
+  EXPECT_EQ(json_value(state, {"red", "position"}), "8");
+  EXPECT_EQ(json_value(state, {"collisions"}), "0");
+}
+
+TEST_F(TextCommandsTest, StateLeavesTheSceneFileAlone) {
+  write("scene.toml", "[red]\nmass = 100\n");
+  EXPECT_EQ(json_value(output_of({"state", "--at", "last", "scene.toml"}), {"collisions"}), "31");
+}
+
+TEST_F(TextCommandsTest, EnginesAgreeOnStates) {
+  const Arguments state{"state", "--digits", "2", "--at", "0,2.5,3.3,4,100"};
+  const auto unfolded = lines(output_of(state + Arguments{"--engine", "unfolded"}));
+  const auto events = lines(output_of(state + Arguments{"--engine", "events"}));
+  ASSERT_EQ(unfolded.size(), events.size());
+  for (std::size_t i = 0; i < unfolded.size(); ++i) {
+    EXPECT_EQ(json_value(unfolded[i], {"collisions"}), json_value(events[i], {"collisions"}));
+    for (const char* block : {"blue", "red"}) {
+      for (const char* quantity : {"position", "velocity"}) {
+        EXPECT_NEAR(json_number(unfolded[i], {block, quantity}),
+                    json_number(events[i], {block, quantity}), 1e-9);
+      }
+    }
+  }
+}
+
+TEST_F(TextCommandsTest, InfoNamesVersionLibrariesAndLimits) {
+  const std::string info = output_of({"info"});
+  for (const char* part : {"piblocks ", "Eigen ", "GMP ", "MPFR ", "cairo ", "freetype ",
+                           "libavcodec ", "libdeflate ", "fmt ", "libx264", "limits:"}) {
+    EXPECT_NE(info.find(part), std::string::npos) << part;
+  }
+}
+
+TEST_F(TextCommandsTest, EveryCommandHasHelpAndVersion) {
+  const std::string version = output_of({"--version"});
+  EXPECT_TRUE(version.starts_with("piblocks ")) << version;
+  for (const char* command : {"render", "still", "log", "state", "count", "info"}) {
+    EXPECT_NE(output_of({"--help"}).find(std::string("  ") + command), std::string::npos);
+    EXPECT_EQ(output_of({command, "--version"}), version);
+    const std::string help = output_of({command, "--help"});
+    EXPECT_EQ(output_of({command, "-h"}), help);
+    EXPECT_NE(help.find(std::string("Usage: piblocks ") + command), std::string::npos) << help;
+    for (const std::string& line : lines(help)) EXPECT_LE(line.size(), 100u) << line;
+  }
+}
+
+}  // namespace
+}  // namespace piblocks

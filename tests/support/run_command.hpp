@@ -1,0 +1,61 @@
+// The program as a user runs it: a process with arguments, streams and signals.
+// In: arguments, a working folder. Out: exit code, what it printed, the memory it took.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace piblocks::testing_support {
+
+struct CommandOptions {
+  std::filesystem::path folder = {};  ///< working folder; the caller's if empty
+  std::string out_file = {};          ///< where standard output goes instead, such as /dev/full
+  bool err_is_terminal = false;       ///< standard error is a terminal of its own
+};
+
+struct CommandResult {
+  int exit_code = 0;  ///< minus the signal's number if one ended it
+  std::string out;
+  std::string err;
+  long max_memory_KiB = 0;  ///< largest resident set
+};
+
+/// A running piblocks; killed if it is still running when this object goes.
+class RunningCommand {
+ public:
+  explicit RunningCommand(const std::vector<std::string>& arguments,
+                          const CommandOptions& options = {});
+  ~RunningCommand();
+  RunningCommand(const RunningCommand&) = delete;
+  RunningCommand& operator=(const RunningCommand&) = delete;
+
+  void send(int signal) const;
+  bool has_ended() const;
+  /// Reads one byte of standard output, then closes the pipe, as `head -c 1` does.
+  void close_output_after_one_byte();
+  /// Reads what is printed until the process ends. Before, nothing but the pipes' buffers takes
+  /// its output.
+  /// @throws std::runtime_error, having killed it, if that takes longer than `timeout`.
+  CommandResult wait(std::chrono::seconds timeout = std::chrono::seconds(120));
+
+ private:
+  void read_streams(CommandResult& result, std::chrono::steady_clock::time_point deadline);
+
+  pid_t pid_ = -1;  // -1 when it has been waited for
+  int out_ = -1;
+  int err_ = -1;
+};
+
+CommandResult run_command(const std::vector<std::string>& arguments,
+                          const CommandOptions& options = {});
+
+/// Polls until `condition` holds. False if it does not within `timeout`.
+bool wait_until(const std::function<bool()>& condition,
+                std::chrono::milliseconds timeout = std::chrono::seconds(30));
+
+}  // namespace piblocks::testing_support
