@@ -76,16 +76,7 @@ std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const CLI::Opt
   const auto parse_engine = [](const std::string& text) {
     return parse_choice<Engine>(text, {{"unfolded", Engine::unfolded}, {"events", Engine::events}});
   };
-  const Engine chosen = value_of(engine, parse_engine).value_or(Engine::unfolded);
-  if (chosen == Engine::events) {  // what it cannot hold it would find out after seconds
-    const Integer count = count_collisions(system);
-    if (count > kMaxStoredCollisions) {
-      throw UsageError(fmt::format(
-          "--engine events: stores at most {} collisions, and the scene has {}; use unfolded",
-          readable(kMaxStoredCollisions), readable(count)));
-    }
-  }
-  return make_collision_log(system, chosen);
+  return make_collision_log(system, value_of(engine, parse_engine).value_or(Engine::unfolded));
 }
 
 }  // namespace piblocks::cli

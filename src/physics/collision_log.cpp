@@ -42,7 +42,7 @@ void check_storable(const BlockSystem& system) {
   throw UsageError(fmt::format(
       "event loop: {} collisions are more than the limit of {}; use the closed form (--engine "
       "unfolded)",
-      with_thousands_separators(count), with_thousands_separators(kMaxStoredCollisions)));
+      readable(count), readable(kMaxStoredCollisions)));
 }
 
 }  // namespace

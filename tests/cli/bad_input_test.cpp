@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"log", "--engine", "1"}, "--engine 1: must be unfolded or events"},
         BadInput{{"log", "--digits", "12"}, "314,159,265,358 rows are more than 100,000,000"},
         BadInput{{"log", "--digits", "8", "--engine", "events"},
-                 "stores at most 20,000,000 collisions, and the scene has 31,415,926"}));
+                 "31,415,926 collisions are more than the limit of 5,000,000"}));
 
 using BadInputsTest = CliFixture;
 

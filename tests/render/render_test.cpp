@@ -105,7 +105,7 @@ TEST_F(RenderTest, BytesDoNotDependOnTheNumberOfJobs) {
 }
 
 TEST_F(RenderTest, ReportsProgressUpToTheEnd) {
-  std::int64_t last = 0;
+  std::int64_t last = -1;
   const std::int64_t frames =
       render({scene("0", "3"), path("out.framehash"), {}, 2}, [&](const Progress& progress) {
         EXPECT_GT(progress.frames_done, last);
