@@ -6,29 +6,21 @@
 #include <piblocks/timeline.hpp>
 
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "support/decode_video.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace piblocks {
 namespace {
-namespace fs = std::filesystem;
 using testing_support::decode_video;
 using testing_support::DecodedVideo;
+using testing_support::file_contents;
 using testing_support::Pixels;
+using testing_support::TemporaryFolder;
 
 class RenderTest : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "piblocks-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const char* name) const { return (folder_ / name).string(); }
+  std::string path(const char* name) const { return folder_ / name; }
 
   static Scene scene(const char* from, const char* to) {
     SceneBuilder builder;
@@ -38,12 +30,7 @@ class RenderTest : public testing::Test {
     return builder.build();
   }
 
-  static std::string contents(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 Pixels painted(const Scene& scene, const BlockState& state) {
@@ -97,7 +84,7 @@ TEST_F(RenderTest, BytesDoNotDependOnTheNumberOfJobs) {
     std::string first;
     for (const int jobs : {1, 2, 3, 7}) {
       render({scene("1", "6"), path(name), {}, jobs}, [](const Progress&) {});
-      const std::string bytes = contents(path(name));
+      const std::string bytes = file_contents(path(name));
       if (first.empty()) first = bytes;
       EXPECT_EQ(bytes == first, true) << name << " with " << jobs << " jobs";
     }
@@ -123,7 +110,7 @@ TEST_F(RenderTest, StoppingLeavesNoTrace) {
     };
     EXPECT_THROW(render({scene("0", "1000"), path(name), {}, 2}, stop_soon, stop.get_token()),
                  Interrupted);
-    EXPECT_TRUE(fs::is_empty(folder_)) << name;
+    EXPECT_TRUE(folder_.is_empty()) << name;
   }
 }
 
@@ -132,14 +119,14 @@ TEST_F(RenderTest, FailingLeavesNoTrace) {
                UsageError);
   EXPECT_THROW(render_still(scene("0", "1"), LastCollision{}, path("out.jpg")), UsageError);
   EXPECT_THROW(render_still(scene("0", "1"), NthCollision{315}, path("out.png")), UsageError);
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_TRUE(folder_.is_empty());
 }
 
 TEST_F(RenderTest, AStillIsTheFrameOfItsInstant) {
   const Scene article = scene("3.5", "3.51");
   render({article, path("frame%d.png"), {}, 1}, [](const Progress&) {});
   render_still(article, Rational(7, 2), path("still.png"));
-  EXPECT_EQ(contents(path("frame1.png")), contents(path("still.png")));
+  EXPECT_EQ(file_contents(path("frame1.png")), file_contents(path("still.png")));
 }
 
 }  // namespace
