@@ -16,6 +16,7 @@ class Random {
  public:
   explicit Random(std::uint64_t default_seed) : seed_(chosen_seed(default_seed)), engine_(seed_) {}
 
+  std::uint64_t seed() const { return seed_; }
   std::string trace() const { return "repeat with PIBLOCKS_SEED=" + std::to_string(seed_); }
 
   /// An integer of [first, last], each nearly equally likely.

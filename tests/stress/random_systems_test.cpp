@@ -1,0 +1,120 @@
+// Random systems without number: invariants of every log, and the oracle's answers.
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "stress/cases.hpp"
+#include "stress/log_checks.hpp"
+#include "stress/random_system.hpp"
+#include "support/oracle.hpp"
+
+namespace piblocks::stress {
+namespace {
+
+/// The first, the last, one between of any magnitude, and those in the middle.
+std::vector<Integer> some_indices(Random& random, const Integer& size) {
+  if (size <= 3) {
+    std::vector<Integer> all;
+    for (Integer k = 1; k <= size; ++k) all.push_back(k);
+    return all;
+  }
+  const auto bits = static_cast<std::int64_t>(mpz_sizeinbase(size.get_mpz_t(), 2));
+  Integer between = Integer(random.uniform(1, 2) * 0x1p52) << 2000;
+  between >>= static_cast<mp_bitcnt_t>(2052 - random.integer(0, bits - 2));
+  if (random.integer(0, 1) == 0) between = size - between;
+  return {1, size, size / 2, between};
+}
+
+/// Times at every scale before, about and after the turning point.
+std::vector<Rational> some_times(Random& random, const CollisionLog& log) {
+  std::vector<Rational> times = {0};
+  const auto scattered = [&] {
+    return Rational(random.uniform(-1, 1) * std::pow(10.0, random.uniform(-8, 8)));
+  };
+  if (log.size() == 0) return {0, scattered(), scattered()};
+  const Rational middle = to_rational(log.at((log.size() + 1) / 2).time);
+  const Rational last = to_rational(log.at(log.size()).time);
+  times.push_back(middle);
+  times.push_back(middle + (last - middle) * scattered());
+  times.push_back(last * scattered());
+  times.push_back(middle + last * Rational(random.uniform(-1, 1) * 1e-16));
+  return times;
+}
+
+void expect_invariants(Random& random, const BlockSystem& system, const CollisionLog& log) {
+  const Bounds bounds(system);
+  for (const Integer& index : some_indices(random, log.size())) {
+    expect_consistent(system, log, index, bounds);
+  }
+  for (const Rational& time : some_times(random, log)) {
+    const BlockState state = state_at(log, time);
+    expect_possible(system, state, bounds, time);
+    expect_energy_kept(state, bounds);
+    EXPECT_LE(state.count, log.size());
+    EXPECT_TRUE(time >= 0 ? state.count >= 0 : state.count <= 0) << state.count;
+  }
+}
+
+TEST(RandomSystems, KeepEveryInvariant) {
+  for_each_case(100'000, 1'000'000, [](Random& random) {
+    const BlockSystem system = random_system(random);
+    SCOPED_TRACE(describe(system));
+    const auto log = make_collision_log(system);
+    expect_invariants(random, system, *log);
+  });
+}
+
+TEST(RandomSystems, HaveTheOraclesTotals) {
+  for_each_case(5'000, 2'000'000, [](Random& random) {
+    const BlockSystem system = random_system(random);
+    SCOPED_TRACE(describe(system));
+    const Integer total = oracle::high_precision_total(system);
+    EXPECT_EQ(count_collisions(system), total);
+    EXPECT_EQ(make_collision_log(system)->size(), total);
+  });
+}
+
+TEST(RandomSystems, AreWhereTheOracleSays) {
+  for_each_case(2'000, 3'000'000, [](Random& random) {
+    const BlockSystem system = random_system(random);
+    SCOPED_TRACE(describe(system));
+    const auto log = make_collision_log(system);
+    const Bounds bounds(system);
+    for (const Rational& time : some_times(random, *log)) {
+      expect_oracles_state(system, *log, time, bounds);
+    }
+  });
+}
+
+// Beyond the range of a double there may be no answer, but never a wrong one.
+TEST(RandomSystems, OfAnySizeGiveFiniteNumbersOrSayWhyNot) {
+  std::int64_t answered = 0;
+  for_each_case(10'000, 4'000'000, [&](Random& random) {
+    const BlockSystem system = random_system_of_any_size(random);
+    SCOPED_TRACE(describe(system));
+    try {
+      expect_invariants(random, system, *make_collision_log(system));
+      ++answered;
+    } catch (const SimulationError&) {
+    }
+  });
+  EXPECT_GT(answered, 0);
+}
+
+TEST(RandomSystems, BeyondTheClosedFormAreCountedAndRefused) {
+  for_each_case(100, 5'000'000, [](Random& random) {
+    BlockSystem system = random_system(random);
+    SCOPED_TRACE(describe(system));
+    system.red.mass =
+        system.blue.mass * power(2, static_cast<unsigned long>(random.integer(2002, 4000)));
+    if (system.blue.velocity == 0 && system.red.velocity == 0) return;
+    EXPECT_EQ(count_collisions(system), oracle::high_precision_total(system));
+    EXPECT_THROW(make_collision_log(system), UsageError);
+  });
+}
+
+}  // namespace
+}  // namespace piblocks::stress
