@@ -104,6 +104,7 @@ class UnfoldedLine {
   }
 
   bool meets_corner() const { return swirl_ == 0; }
+  bool is_in_corner_at(const Rational& t) const { return meets_corner() && corner_time() == t; }
 
  private:
   Gaps gaps_at(const Rational& t) const {
@@ -211,6 +212,7 @@ ExactState high_precision_state(const BlockSystem& system, const Rational& t,
   const PrecisionScope precision(bits_for(system, extra_bits));
   const UnfoldedLine line(system);
   if (t >= 0 || !line.meets_corner()) return line.state(t);
+  if (line.is_in_corner_at(t)) return line.state(t);  // and the collisions have happened
   // Which of the corner's two limits is meant depends on the direction of time.
   ExactState state = UnfoldedLine(reversed(system)).state(-t);
   state.count = -state.count;
