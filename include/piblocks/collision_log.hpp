@@ -47,9 +47,11 @@ class CollisionLog {
   /// Number of collisions of the whole run.
   virtual const Integer& size() const = 0;
   /// The collision with 1 <= index <= size().
+  /// @throws SimulationError if its time or state is beyond the range of a double.
   virtual Collision at(const Integer& index) const = 0;
   /// The flight that holds at `time`. Flights are half-open, t_i <= time < t_{i+1}: a collision
   /// exactly at `time` has happened.
+  /// @throws SimulationError as at().
   virtual FreeFlight flight_at(const Rational& time) const = 0;
 };
 
@@ -64,7 +66,7 @@ inline constexpr std::int64_t kMaxStoredCollisions = 5'000'000;
 /// @throws SceneError if problems_of(system) is not empty.
 /// @throws UsageError if Engine::events would have to store more than kMaxStoredCollisions, or the
 ///         closed form is asked for a mass ratio beyond 2^2000.
-/// @throws SimulationError if a number of the event loop leaves its range.
+/// @throws SimulationError if a number of an event loop leaves the range of a double.
 std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system,
                                                  Engine engine = Engine::unfolded);
 

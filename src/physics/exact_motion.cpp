@@ -76,7 +76,7 @@ ExactMotion::ExactMotion(const BlockSystem& system)
       u2(system.red.velocity),
       area(y2 * u1 - y1 * u2),
       speed_squared(ratio * u1 * u1 + u2 * u2),
-      blocks_first(area > 0 || (area == 0 && u1 > u2)) {
+      blocks_first(area > 0 || (area == 0 && (u1 > u2 || (u1 == u2 && u1 > 0)))) {
   if (!at_rest()) closest_approach = -(ratio * y1 * u1 + y2 * u2) / speed_squared;
 }
 
@@ -105,6 +105,15 @@ Integer ExactMotion::total() const {
   const Integer last = on_ray ? decided.ray - 1 : decided.ray;
   const Integer count = count_from_ray(last);
   return count < 0 ? Integer(0) : count;
+}
+
+Integer ExactMotion::ray_before_corner() const {
+  const auto phase = [this](mpfr_prec_t bits) {
+    const Real s = sigma(bits);
+    const Real theta = atan(s);
+    return final_phase(s, theta) - Real::pi(bits) / theta;
+  };
+  return decide(magnitude(), phase, blocks_first ? u1 : Rational(-u1), u2, ratio).first.ray;
 }
 
 DecidedPhase ExactMotion::phase_at(const Rational& t) const {

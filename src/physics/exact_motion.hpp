@@ -38,7 +38,8 @@ struct ExactMotion {
   bool at_rest() const { return speed_squared == 0; }
   /// The line goes through the corner: every collision happens at closest_approach.
   /// By convention the blocks meet first, as in the limit of a later red block; the wall comes
-  /// first where the blocks arrive touching, and so cannot meet before.
+  /// first where the blocks arrive touching, and so cannot meet before. Seen backwards the same
+  /// holds for a line that comes out of the corner.
   bool through_corner() const { return area == 0; }
 
   Real sigma(mpfr_prec_t bits) const { return sqrt(Real(bits, ratio)); }
@@ -52,6 +53,9 @@ struct ExactMotion {
   /// Number of collisions at times >= 0: rays crossed at finite times.
   /// @throws SimulationError if kMaxDecisionBits do not decide.
   Integer total() const;
+  /// The last ray crossed before closest_approach, for a motion that is through_corner().
+  /// @throws SimulationError as total().
+  Integer ray_before_corner() const;
   /// The phase at time t for a motion that is not through_corner().
   /// @throws SimulationError as total().
   DecidedPhase phase_at(const Rational& t) const;

@@ -26,6 +26,14 @@ Rational scaled(const Rational& value, long exponent) {
 
 double scaled(double value, long exponent) { return std::scalbln(value, exponent); }
 
+void require_finite(const FreeFlight& flight) {
+  for (const double number : {flight.anchor.hi, flight.blue.position, flight.blue.velocity,
+                              flight.red.position, flight.red.velocity}) {
+    if (std::isfinite(number)) continue;
+    throw SimulationError("closed form: a time, position or velocity is beyond a double's range");
+  }
+}
+
 }  // namespace
 
 UnfoldedLog::UnfoldedLog(const BlockSystem& system) : exact_(system), size_(exact_.total()) {
@@ -35,6 +43,10 @@ UnfoldedLog::UnfoldedLog(const BlockSystem& system) : exact_(system), size_(exac
         "masses: the ratio is beyond 2^{}; positions can be computed up to it, the count alone "
         "at any size",
         kMaxRatioExponent));
+  }
+  if (exact_.through_corner()) {
+    ray_before_corner_ = exact_.ray_before_corner();
+    ray_after_corner_ = ray_of(size_);
   }
   const mpfr_prec_t bits = 192 + ratio_exponent;
   const Real sigma = exact_.sigma(bits);
@@ -55,30 +67,25 @@ UnfoldedLog::UnfoldedLog(const BlockSystem& system) : exact_(system), size_(exac
   red_offset_ = to_double(system.wall_face + system.blue.width + system.red.width / 2);
 }
 
-UnfoldedLog::Sighting UnfoldedLog::sight(const Time& t) const {
-  const Time difference = two_sum(t.hi, -closest_approach_.hi);
+UnfoldedLog::Sighting UnfoldedLog::sight(const Rational& time) const {
+  // The difference is exact: far from the start two doubles would not hold a time near the turn.
   Sighting seen;
-  seen.tau = difference.hi + (difference.lo + (t.lo - closest_approach_.lo));
+  seen.tau = to_double(scaled(Rational(time - exact_.closest_approach), -time_exponent_));
   const double along = speed_ * seen.tau;
   seen.distance = std::hypot(impact_, along);
   seen.end = seen.tau < 0 ? &past_ : &future_;
   const double to_go = std::atan2(impact_, std::fabs(along)) / theta_;
   seen.phase = seen.end->fraction - seen.end->sign * to_go;
 
-  // Six roundings in to_go and two in the sum; what tau lost to two_sum's second part turns the
-  // line of sight by that length over the distance, times the sine of the angle to go.
-  const double tau_error = 0x1p-103 * (std::fabs(t.hi) + std::fabs(closest_approach_.hi));
-  const double sine = seen.distance > 0 ? impact_ / seen.distance : 1;
-  const double turn = speed_ * tau_error / seen.distance * sine / theta_;
-  const double error = 8 * kUnitRoundoff * (to_go + 1) + turn;
+  // Seven roundings in to_go and two in the sum.
+  const double error = 8 * kUnitRoundoff * (to_go + 1);
   seen.decided = std::floor(seen.phase - error) == std::floor(seen.phase + error);
   return seen;
 }
 
 DecidedPhase UnfoldedLog::decide(const Sighting& seen, const Rational& time) const {
   if (exact_.through_corner()) {
-    const Integer count = time < exact_.closest_approach ? Integer(0) : size_;
-    const Integer ray = exact_.blocks_first ? count : count - 1;
+    const Integer& ray = time < exact_.closest_approach ? ray_before_corner_ : ray_after_corner_;
     return {ray, Integer(seen.end->whole - ray).get_d() + seen.end->fraction};
   }
   if (!seen.decided) return exact_.phase_at(time);
@@ -87,18 +94,19 @@ DecidedPhase UnfoldedLog::decide(const Sighting& seen, const Rational& time) con
 }
 
 FreeFlight UnfoldedLog::flight_at(const Rational& time) const {
-  const Sighting seen = sight(to_time(scaled(time, -time_exponent_)));
+  const Sighting seen = sight(time);
   const DecidedPhase phase = decide(seen, time);
   FreeFlight flight;
   flight.count = exact_.count_from_ray(phase.ray);
   flight.anchor = to_time(time);
   set_positions(phase.ray, phase.fraction, seen.distance, flight);
   set_velocities(*seen.end, phase.ray, flight);
+  require_finite(flight);
   return flight;
 }
 
 Collision UnfoldedLog::at(const Integer& index) const {
-  const Integer ray = exact_.blocks_first ? index : index - 1;
+  const Integer ray = ray_of(index);
   const double from_past = Integer(ray - past_.whole).get_d() - past_.fraction;
   const double to_future = Integer(future_.whole - ray).get_d() + future_.fraction;
   const End& end = to_future < from_past ? future_ : past_;
@@ -114,11 +122,10 @@ Collision UnfoldedLog::at(const Integer& index) const {
   set_velocities(end, ray, flight);
   Time time = two_sum(closest_approach_.hi, tau);
   time = two_sum(time.hi, time.lo + closest_approach_.lo);
-  return {index,
-          {scaled(time.hi, time_exponent_), scaled(time.lo, time_exponent_)},
-          is_odd(ray) ? CollisionKind::blocks : CollisionKind::wall,
-          flight.blue,
-          flight.red};
+  flight.anchor = {scaled(time.hi, time_exponent_), scaled(time.lo, time_exponent_)};
+  require_finite(flight);
+  return {index, flight.anchor, is_odd(ray) ? CollisionKind::blocks : CollisionKind::wall,
+          flight.blue, flight.red};
 }
 
 void UnfoldedLog::set_positions(const Integer& ray, double fraction, double distance,

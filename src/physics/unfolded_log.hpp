@@ -43,7 +43,8 @@ class UnfoldedLog final : public CollisionLog {
     bool decided = false;
   };
 
-  Sighting sight(const Time& t) const;  // in scaled time
+  Sighting sight(const Rational& time) const;
+  Integer ray_of(const Integer& index) const { return exact_.blocks_first ? index : index - 1; }
   DecidedPhase decide(const Sighting& seen, const Rational& time) const;
   void set_velocities(const End& end, const Integer& ray, FreeFlight& flight) const;
   void set_positions(const Integer& ray, double fraction, double distance,
@@ -51,6 +52,8 @@ class UnfoldedLog final : public CollisionLog {
 
   ExactMotion exact_;
   Integer size_;
+  Integer ray_before_corner_;  // last ray crossed before and after a line through_corner()
+  Integer ray_after_corner_;
   // Time is counted in units of 2^time_exponent_, which makes the speed about 1.
   long time_exponent_ = 0;
   double sigma_ = 0;
