@@ -31,7 +31,7 @@ void choose_masses(Random& random, BlockSystem& system) {
   } else if (span == 1) {
     system.red.mass = system.blue.mass;
   } else if (span == 2) {
-    const Rational hair = sign(random) * power_of_two(-random.integer(1, 200));
+    const Rational hair = sign(random) * power_of_two(-random.integer(1, 100));
     system.red.mass = system.blue.mass * (1 + hair / 2);
   } else if (span == 3) {
     const auto digits = static_cast<unsigned long>(random.integer(0, 60));
