@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/mpfr_thread_cache.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -113,6 +115,7 @@ Rational rational_from_decimal(double value) {
 double to_double(const Rational& value) {
   // 192 bits before the last rounding: the result is the nearest double unless the value lies
   // within 2^-138 of its relative size from the middle of two doubles.
+  free_mpfr_cache_with_thread();
   mpfr_t wide;
   mpfr_init2(wide, 192);
   mpfr_set_q(wide, value.get_mpq_t(), MPFR_RNDN);

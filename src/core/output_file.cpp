@@ -56,7 +56,8 @@ void sync_to_device(const fs::path& path) {
 
 MadeFolders::MadeFolders(const fs::path& folder) {
   std::vector<fs::path> missing;
-  for (fs::path at = folder; !at.empty() && !fs::exists(at); at = at.parent_path()) {
+  std::error_code unknown;  // below a folder that may not be searched: making it will say so
+  for (fs::path at = folder; !at.empty() && !fs::exists(at, unknown); at = at.parent_path()) {
     missing.push_back(at);
   }
   for (auto at = missing.rbegin(); at != missing.rend(); ++at) {

@@ -8,12 +8,17 @@
 
 #include <algorithm>
 
+#include "core/mpfr_thread_cache.hpp"
+
 namespace piblocks {
 
 /// A number of `bits` bits of precision. A result has the precision of its longer operand.
 class Real {
  public:
-  explicit Real(mpfr_prec_t bits) { mpfr_init2(value_, bits); }
+  explicit Real(mpfr_prec_t bits) {
+    free_mpfr_cache_with_thread();
+    mpfr_init2(value_, bits);
+  }
   Real(mpfr_prec_t bits, const Rational& exact) : Real(bits) {
     mpfr_set_q(value_, exact.get_mpq_t(), MPFR_RNDN);
   }

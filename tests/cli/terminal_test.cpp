@@ -4,7 +4,12 @@
 namespace piblocks {
 namespace {
 
-using TerminalTest = CliFixture;
+class TerminalTest : public CliFixture {
+ protected:
+  void SetUp() override {
+    if (!testing_support::has_pseudo_terminals()) GTEST_SKIP() << "no pseudo-terminals here";
+  }
+};
 
 const Arguments kRender{"render", "--size", "640x360", "--to", "last", "-o", "null"};
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "support/ordinary_user.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace piblocks {
@@ -70,6 +71,15 @@ TEST_F(OutputFileTest, NamesWhatCannotBeOpened) {
   EXPECT_THROW(OutputFile{"/dev/null"}, UsageError);
   EXPECT_THROW(OutputFile{"/proc/no/such.txt"}, UsageError);
   EXPECT_THROW(OutputFile{""}, UsageError);
+}
+
+TEST_F(OutputFileTest, NamesAFolderThatMayNotBeSearched) {
+  fs::permissions(folder_.path(), fs::perms::none);
+  for (const char* name : {"out.txt", "a/out.txt", "a/b/out.txt"}) {
+    const testing_support::OrdinaryUser user;
+    EXPECT_THROW(OutputFile{folder_ / name}, UsageError) << name;
+  }
+  fs::permissions(folder_.path(), fs::perms::owner_all);
 }
 
 }  // namespace

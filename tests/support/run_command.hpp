@@ -54,6 +54,9 @@ class RunningCommand {
 CommandResult run_command(const std::vector<std::string>& arguments,
                           const CommandOptions& options = {});
 
+/// Whether err_is_terminal can be had: a container may have no /dev/pts.
+bool has_pseudo_terminals();
+
 /// Polls until `condition` holds. False if it does not within `timeout`.
 bool wait_until(const std::function<bool()>& condition,
                 std::chrono::milliseconds timeout = std::chrono::seconds(30));
