@@ -2,7 +2,6 @@
 
 #include <piblocks/error.hpp>
 
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -32,11 +31,7 @@ class ExactLoop {
     } else {
       now_.blue.velocity = -now_.blue.velocity;
     }
-    const Time time = to_time(time_);
-    if (!std::isfinite(time.hi)) {
-      throw SimulationError("exact events: a collision's time is beyond the range of a double");
-    }
-    return StoredCollision{time, blocks ? CollisionKind::blocks : CollisionKind::wall,
+    return StoredCollision{to_time(time_), blocks ? CollisionKind::blocks : CollisionKind::wall,
                            motion_of(now_.blue), motion_of(now_.red)};
   }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -20,8 +21,8 @@ inline std::int64_t many(std::int64_t ordinary) {
 /// The command that runs one case of the running test again.
 inline std::string repeat_command(std::uint64_t seed) {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  return "repeat with PIBLOCKS_SEED=" + std::to_string(seed) + " ctest --preset release -R '^" +
-         test->test_suite_name() + "\\." + test->name() + "$'";
+  return "repeat with PIBLOCKS_SEED=" + std::to_string(seed) + " " + program_invocation_name +
+         " --gtest_filter=" + test->test_suite_name() + "." + test->name();
 }
 
 /// Calls check(random) with a seed of its own for each of many(ordinary) cases, up to the first

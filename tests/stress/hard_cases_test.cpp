@@ -132,8 +132,6 @@ TEST(HardNumbers, TimesBeyondADoubleAreAnError) {
   EXPECT_EQ(log->size(), 314);
   EXPECT_THROW(log->at(1), SimulationError);
   EXPECT_THROW(log->flight_at(power(10, 400)), SimulationError);
-  system.red.mass = 1;
-  EXPECT_THROW(make_collision_log(system), SimulationError);
 }
 
 }  // namespace
