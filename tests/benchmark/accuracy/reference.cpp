@@ -50,7 +50,8 @@ void check_with_oracle(const BlockSystem& system, const LoggedEvent& event) {
   const oracle::ExactState after = oracle::high_precision_state(system, time + little);
   const Rational off = abs(after.blue.position - to_rational(event.blue)) +
                        abs(after.red.position - to_rational(event.red));
-  if (before.count == event.index - 1 && after.count == event.index && off < 1'000'000'000 * little) return;
+  if (before.count == event.index - 1 && after.count == event.index && off < 1'000'000'000 * little)
+    return;
   throw SimulationError(
       fmt::format("reference: event {} is not where the oracle has it", event.index));
 }
