@@ -1,0 +1,56 @@
+#include <piblocks/collision_log.hpp>
+
+#include "accuracy/log_writer.hpp"
+#include "accuracy/methods.hpp"
+
+namespace piblocks::benchmark {
+namespace {
+
+/// The program's log, through the interface that its users have.
+class Product final : public Method {
+ public:
+  Product() : Method({"piblocks::CollisionLog", kScalarName<double>, ""}) {}
+
+  bool answers(Question) const override { return true; }
+
+  WholeLog whole_log(const BlockSystem& system, std::span<const std::int64_t> wanted,
+                     const Deadline& deadline) const override {
+    const auto log = make_collision_log(system);
+    LogWriter<double> writer(wanted, deadline);
+    for (Integer k = 1; k <= log->size(); ++k) {
+      const Collision collision = log->at(k);
+      writer.push(collision.time.hi, collision.blue.position, collision.red.position);
+    }
+    return writer.finish();
+  }
+
+  std::vector<LoggedEvent> single_events(const BlockSystem& system,
+                                         std::span<const std::int64_t> wanted) const override {
+    const auto log = make_collision_log(system);
+    std::vector<LoggedEvent> events;
+    for (const std::int64_t k : wanted) {
+      const Collision collision = log->at(k);
+      events.push_back({k, collision.time.hi, collision.blue.position, collision.red.position});
+    }
+    return events;
+  }
+
+  Numbers blue_at(const BlockSystem& system, std::span<const double> times,
+                  const Deadline&) const override {
+    const auto log = make_collision_log(system);
+    std::vector<double> blue;
+    blue.reserve(times.size());
+    for (const double time : times) blue.push_back(log->flight_at(Rational(time)).blue.position);
+    return blue;
+  }
+
+  Integer count(const BlockSystem& system, const Deadline&) const override {
+    return count_collisions(system);
+  }
+};
+
+}  // namespace
+
+MethodPtr product() { return std::make_unique<Product>(); }
+
+}  // namespace piblocks::benchmark
