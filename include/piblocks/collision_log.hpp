@@ -7,12 +7,15 @@
 #include <piblocks/exact.hpp>
 #include <piblocks/time.hpp>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 namespace piblocks {
 
-enum class CollisionKind {
+enum class CollisionKind : std::uint8_t {
   wall,   ///< blue meets the wall
   blocks  ///< blue meets red
 };
@@ -40,6 +43,37 @@ struct FreeFlight {
   Motion red;
 };
 
+/// Consecutive collisions in columns, for those who read millions of them. 24 KiB of numbers: a
+/// batch stays in the first-level cache between its producer and its consumer.
+struct CollisionBatch {
+  static constexpr std::size_t kCapacity = 512;
+  using Column = std::array<double, kCapacity>;
+
+  Integer first;         ///< index of row 0
+  std::size_t size = 0;  ///< rows in use
+  std::array<CollisionKind, kCapacity> kind;
+  Column time_hi;  ///< as Time
+  Column time_lo;
+  Column blue_position;
+  Column blue_velocity;  ///< just after the collision, as in Collision
+  Column red_position;
+  Column red_velocity;
+};
+
+/// Reads a range of a log from its first collision to its last. Must not outlive the log.
+class CollisionStream {
+ public:
+  virtual ~CollisionStream() = default;
+  /// Fills `batch` with the next collisions; false, and no rows, if there are no more.
+  virtual bool read(CollisionBatch& batch) = 0;
+};
+
+/// What positions may be off by at most, in units of length.
+struct PositionBounds {
+  double blue = 0;
+  double red = 0;
+};
+
 /// A log's collisions are those from time 0 on. Const members are thread-safe.
 class CollisionLog {
  public:
@@ -49,10 +83,16 @@ class CollisionLog {
   /// The collision with 1 <= index <= size().
   /// @throws SimulationError if its time or state is beyond the range of a double.
   virtual Collision at(const Integer& index) const = 0;
+  /// Collisions first … last, where 1 <= first and last <= size(); none if last < first.
+  /// @throws SimulationError as at().
+  virtual std::unique_ptr<CollisionStream> stream(const Integer& first,
+                                                  const Integer& last) const = 0;
   /// The flight that holds at `time`. Flights are half-open, t_i <= time < t_{i+1}: a collision
   /// exactly at `time` has happened.
   /// @throws SimulationError as at().
   virtual FreeFlight flight_at(const Rational& time) const = 0;
+  /// How exact the positions at `time` are; nothing if the engine cannot say beforehand.
+  virtual std::optional<PositionBounds> bounds_at(const Rational& time) const = 0;
 };
 
 enum class Engine {
@@ -73,5 +113,18 @@ std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system,
 /// Number of collisions of the whole run, decided beyond doubt at any mass ratio, without a log.
 /// @throws SceneError if problems_of(system) is not empty.
 Integer count_collisions(const BlockSystem& system);
+
+/// A run whose collisions all happen at once, in the corner of wall and blocks. How many there are
+/// depends on who is taken to meet first.
+struct Corner {
+  Rational time;        ///< of all collisions
+  bool blocks_first;    ///< the convention; the wall where the blocks arrive touching
+  Integer count;        ///< collisions by the convention
+  Integer other_count;  ///< collisions if the others had met first
+};
+
+/// The corner of a system that has collisions and has them all at once.
+/// @throws SceneError if problems_of(system) is not empty.
+std::optional<Corner> corner_of(const BlockSystem& system);
 
 }  // namespace piblocks

@@ -6,6 +6,7 @@
 #include <gmpxx.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -28,6 +29,9 @@ Rational parse_rational(std::string_view text);
 /// reads back as `value`, so that 0.1 is 1/10.
 /// @throws UsageError if value is not finite.
 Rational rational_from_decimal(double value);
+
+/// The integer as a double where that needs no rounding and is far from the end of its range.
+std::optional<double> exact_double(const Integer& value);
 
 /// Nearest double; overflows to infinity, underflows to zero.
 double to_double(const Rational& value);

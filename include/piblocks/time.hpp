@@ -6,6 +6,8 @@
 
 #include <piblocks/exact.hpp>
 
+#include <cmath>
+
 namespace piblocks {
 
 /// hi + lo, in the scene's unit of time, with |lo| <= ulp(hi)/2.
@@ -22,6 +24,12 @@ constexpr Time two_sum(double a, double b) noexcept {
   const double b_part = sum - a;
   const double a_part = sum - b_part;
   return {sum, (a - a_part) + (b - b_part)};
+}
+
+/// a * b as hi + lo without rounding error, unless lo underflows.
+inline Time two_product(double a, double b) noexcept {
+  const double product = a * b;
+  return {product, std::fma(a, b, -product)};
 }
 
 /// Nearest double-double to an exact time.

@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "core/mpfr_thread_cache.hpp"
 
@@ -112,7 +113,25 @@ Rational rational_from_decimal(double value) {
   return parse_rational(fmt::format("{}", value));
 }
 
+std::optional<double> exact_double(const Integer& value) {
+  constexpr std::size_t kPrecision_bits = 53;
+  constexpr std::size_t kMaxSize_bits = 1000;
+  if (mpz_size(value.get_mpz_t()) <= 1) {  // nearly all: a shortcut
+    const mp_limb_t limb = mpz_getlimbn(value.get_mpz_t(), 0);
+    if (limb >> kPrecision_bits == 0) return value < 0 ? -double(limb) : double(limb);
+  }
+  const std::size_t size = mpz_sizeinbase(value.get_mpz_t(), 2);
+  const bool fits =
+      size <= kPrecision_bits ||
+      (size <= kMaxSize_bits && size - mpz_scan1(value.get_mpz_t(), 0) <= kPrecision_bits);
+  if (!fits) return std::nullopt;
+  return value.get_d();
+}
+
 double to_double(const Rational& value) {
+  const auto numerator = exact_double(value.get_num());
+  const auto denominator = exact_double(value.get_den());
+  if (numerator && denominator) return *numerator / *denominator;
   // 192 bits before the last rounding: the result is the nearest double unless the value lies
   // within 2^-138 of its relative size from the middle of two doubles.
   free_mpfr_cache_with_thread();

@@ -6,6 +6,13 @@
 namespace piblocks {
 
 Time to_time(const Rational& exact) {
+  const auto numerator = exact_double(exact.get_num());
+  const auto denominator = exact_double(exact.get_den());
+  if (numerator && denominator) {
+    const double quotient = *numerator / *denominator;
+    const double remainder = std::fma(-quotient, *denominator, *numerator);  // exact
+    return {quotient, remainder / *denominator};
+  }
   const double hi = to_double(exact);
   if (!std::isfinite(hi)) return {hi, 0};
   return {hi, to_double(exact - Rational(hi))};

@@ -3,7 +3,7 @@
 #include <piblocks/error.hpp>
 
 #include "physics/event_loop.hpp"
-#include "physics/exact_events.hpp"
+#include "physics/exact_log.hpp"
 #include "physics/stored_log.hpp"
 #include "physics/unfolded_log.hpp"
 
@@ -55,13 +55,29 @@ std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system, Engi
   }
   // At theta >= pi/4 the closed form has nothing to skip, and would lose a very light red block
   // in the rounding of its phase.
-  if (system.red.mass <= system.blue.mass || is_at_rest(system)) return store(system, exact_events);
+  if (system.red.mass <= system.blue.mass || is_at_rest(system))
+    return std::make_unique<ExactLog>(system);
   return std::make_unique<UnfoldedLog>(system);
 }
 
 Integer count_collisions(const BlockSystem& system) {
   check(system);
   return ExactMotion(system).total();
+}
+
+std::optional<Corner> corner_of(const BlockSystem& system) {
+  check(system);
+  ExactMotion motion(system);
+  // The line comes into the corner between the rays of wall and blocks; otherwise, starting in it,
+  // only one of the two can be first.
+  const bool comes_in = motion.u2 < 0 && motion.u1 <= 0 && motion.u2 <= motion.u1;
+  if (motion.at_rest() || !motion.through_corner() || !comes_in || motion.closest_approach < 0) {
+    return std::nullopt;
+  }
+  Corner corner{motion.closest_approach, motion.blocks_first, motion.total(), 0};
+  motion.blocks_first = !motion.blocks_first;
+  corner.other_count = motion.total();
+  return corner;
 }
 
 }  // namespace piblocks

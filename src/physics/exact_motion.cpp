@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <optional>
-#include <utility>
 
 namespace piblocks {
 namespace {
@@ -48,19 +47,26 @@ std::optional<bool> is_on_ray(const Integer& n, const Rational& x, const Rationa
   return x * ray.a == (index < 0 ? Rational(-ray.b) : ray.b) * y;
 }
 
-/// Splits the phase at the floor of it, raising the precision until that is certain.
+/// Splits a phase at the floor of it, raising the precision until that is certain, and until what
+/// is left has a relative error below 2^-relative_bits.
 /// `phase(bits)` is right to 2^(magnitude + 6) units of its last place, |phase| < 2^magnitude.
-/// (x, y) is a point with that phase, in the mirrored frame if the motion is mirrored.
+/// (x, y) is a point on its ray, in the frame in which the phase grows.
 template <typename Phase>
-std::pair<DecidedPhase, bool> decide(long magnitude, const Phase& phase, const Rational& x,
-                                     const Rational& y, const Rational& r) {
-  for (mpfr_prec_t bits = magnitude + 128; bits <= kMaxDecisionBits; bits *= 2) {
+Asymptote split(const Phase& phase, long magnitude, long relative_bits, const Rational& x,
+                const Rational& y, const Rational& r) {
+  for (mpfr_prec_t bits = magnitude + 64 + std::max(relative_bits, 64L); bits <= kMaxDecisionBits;
+       bits *= 2) {
     const Real value = phase(bits);
     const Real error = scaled(Real(bits, 1), magnitude + 6 - bits);
     const Integer low = (value - error).floor();
     const Integer high = (value + error).floor();
-    if (low == high) return {{low, (value - low).to_double()}, false};
-    if (is_on_ray(high, x, y, r).value_or(false)) return {{high, 0.0}, true};
+    const bool certain = low == high;
+    if (certain) {
+      const Real rest = value - low;
+      if (rest.exponent() - error.exponent() > relative_bits) return {low, rest};
+    }
+    if (certain && relative_bits == 0) return {low, value - low};
+    if (is_on_ray(high, x, y, r).value_or(false)) return {high, Real(bits, 0)};
   }
   throw SimulationError(fmt::format("count: {} bits do not decide whether a collision has happened",
                                     kMaxDecisionBits));
@@ -87,10 +93,41 @@ long ExactMotion::magnitude() const {
 
 Real ExactMotion::final_phase(const Real& sigma, const Real& theta) const {
   const mpfr_prec_t bits = sigma.bits();
-  Real angle = atan2(sigma * Real(bits, u1), Real(bits, u2));
-  if (!blocks_first) return Real(bits, 0) - angle / theta;
-  if (angle.sign() < 0) angle = angle + scaled(Real::pi(bits), 1);
+  Real angle = atan2(sigma * Real(bits, turned(u1)), Real(bits, u2));
+  // A line that turns from the blocks' ray on ends at 0 to pi + theta; a mirrored one, from the
+  // wall on, at -theta to pi.
+  if (blocks_first && angle.sign() < 0) angle = angle + scaled(Real::pi(bits), 1);
   return angle / theta;
+}
+
+Fan ExactMotion::fan(mpfr_prec_t bits) const {
+  const long size = magnitude();
+  Real s(MPFR_PREC_MIN);  // not computed yet
+  Real theta(MPFR_PREC_MIN);
+  Real q(MPFR_PREC_MIN);
+  const auto final = [&](mpfr_prec_t wanted) {
+    if (wanted == q.bits()) return q;
+    s = sigma(wanted);
+    theta = atan(s);
+    q = final_phase(s, theta);
+    return q;
+  };
+  Asymptote future = split(final, size, bits, turned(u1), u2, ratio);
+  // Backwards in time phases fall: -(q - pi/theta) is what grows.
+  const auto first = [&](mpfr_prec_t wanted) {
+    final(wanted);
+    return Real::pi(wanted) / theta - q;
+  };
+  Asymptote past = split(first, size, bits, turned(u1), Rational(-u2), ratio);
+  past.ray = -past.ray;
+  return {s, theta, past, future};
+}
+
+Integer ExactMotion::total(const Asymptote& future) const {
+  // A ray that the line only reaches at infinity is not crossed.
+  const Integer last = future.beyond.sign() == 0 ? Integer(future.ray - 1) : future.ray;
+  const Integer count = count_from_ray(last);
+  return count < 0 ? Integer(0) : count;
 }
 
 Integer ExactMotion::total() const {
@@ -99,21 +136,7 @@ Integer ExactMotion::total() const {
     const Real s = sigma(bits);
     return final_phase(s, atan(s));
   };
-  const auto [decided, on_ray] =
-      decide(magnitude(), phase, blocks_first ? u1 : Rational(-u1), u2, ratio);
-  // A ray that the line only reaches at infinity is not crossed.
-  const Integer last = on_ray ? decided.ray - 1 : decided.ray;
-  const Integer count = count_from_ray(last);
-  return count < 0 ? Integer(0) : count;
-}
-
-Integer ExactMotion::ray_before_corner() const {
-  const auto phase = [this](mpfr_prec_t bits) {
-    const Real s = sigma(bits);
-    const Real theta = atan(s);
-    return final_phase(s, theta) - Real::pi(bits) / theta;
-  };
-  return decide(magnitude(), phase, blocks_first ? u1 : Rational(-u1), u2, ratio).first.ray;
+  return total(split(phase, magnitude(), 0, turned(u1), u2, ratio));
 }
 
 DecidedPhase ExactMotion::phase_at(const Rational& t) const {
@@ -124,8 +147,9 @@ DecidedPhase ExactMotion::phase_at(const Rational& t) const {
     const Real to_go = atan2(s * Real(bits, abs(area)), Real(bits, along));
     return final_phase(s, theta) - to_go / theta;
   };
-  const Rational x = y1 + u1 * t;
-  return decide(magnitude(), phase, blocks_first ? x : Rational(-x), y2 + u2 * t, ratio).first;
+  const Asymptote at =
+      split(phase, magnitude(), 0, turned(y1 + u1 * t), Rational(y2 + u2 * t), ratio);
+  return {at.ray, at.beyond.to_double()};
 }
 
 }  // namespace piblocks

@@ -23,6 +23,20 @@ struct DecidedPhase {
   double fraction;  ///< phase - ray, in [0, 1]
 };
 
+/// Where the line goes in the end: an end of time has a direction, but is never reached.
+struct Asymptote {
+  Integer ray;  ///< the ray next to it on the finite side
+  Real beyond;  ///< how far its phase is past that ray, in [0, 1); 0 if the line is parallel to it
+};
+
+/// The wedge and both ends of the line in it, all to one precision.
+struct Fan {
+  Real sigma;
+  Real theta;
+  Asymptote past;
+  Asymptote future;
+};
+
 /// All members are rational: nothing is rounded before a question is asked.
 struct ExactMotion {
   explicit ExactMotion(const BlockSystem& system);
@@ -45,20 +59,27 @@ struct ExactMotion {
   Real sigma(mpfr_prec_t bits) const { return sqrt(Real(bits, ratio)); }
   /// Every phase is below 2^magnitude().
   long magnitude() const;
-  /// q: the phase as t grows without bound; q - pi/theta is that of the infinite past.
-  Real final_phase(const Real& sigma, const Real& theta) const;
   /// Collisions before the ray with this index is crossed and including it.
   Integer count_from_ray(const Integer& ray) const { return blocks_first ? ray : ray + 1; }
+
+  /// All of it with a relative error below 2^-bits, also what is beyond the last rays.
+  /// @throws SimulationError as total().
+  Fan fan(mpfr_prec_t bits) const;
+  /// Number of collisions at times >= 0, by what comes after them.
+  Integer total(const Asymptote& future) const;
 
   /// Number of collisions at times >= 0: rays crossed at finite times.
   /// @throws SimulationError if kMaxDecisionBits do not decide.
   Integer total() const;
-  /// The last ray crossed before closest_approach, for a motion that is through_corner().
-  /// @throws SimulationError as total().
-  Integer ray_before_corner() const;
   /// The phase at time t for a motion that is not through_corner().
   /// @throws SimulationError as total().
   DecidedPhase phase_at(const Rational& t) const;
+
+ private:
+  /// q: the phase as t grows without bound; q - pi/theta is that of the infinite past.
+  Real final_phase(const Real& sigma, const Real& theta) const;
+  /// x of a point in the frame in which the phase grows.
+  Rational turned(const Rational& x) const { return blocks_first ? x : Rational(-x); }
 };
 
 /// Precision at which an undecided count is given up.

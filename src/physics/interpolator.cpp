@@ -2,6 +2,8 @@
 #include <piblocks/error.hpp>
 #include <piblocks/interpolator.hpp>
 
+#include <cmath>
+
 namespace piblocks {
 namespace {
 
@@ -15,9 +17,13 @@ BlockState state_at(const CollisionLog& log, const Rational& time) {
   const FreeFlight flight = log.flight_at(time);
   const Time t = to_time(time);
   const double duration = (t.hi - flight.anchor.hi) + (t.lo - flight.anchor.lo);
-  return {flight.count,
-          {advanced(flight.blue, duration), flight.blue.velocity},
-          {advanced(flight.red, duration), flight.red.velocity}};
+  BlockState state{flight.count,
+                   {advanced(flight.blue, duration), flight.blue.velocity},
+                   {advanced(flight.red, duration), flight.red.velocity}};
+  if (!std::isfinite(state.blue.position) || !std::isfinite(state.red.position)) {
+    throw SimulationError("state: a position is beyond a double's range");
+  }
+  return state;
 }
 
 BlockState state_after(const CollisionLog& log, const Integer& index) {

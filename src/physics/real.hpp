@@ -58,6 +58,11 @@ class Real {
     mpfr_sub_z(result.value_, a.value_, b.get_mpz_t(), MPFR_RNDN);
     return result;
   }
+  friend Real operator-(const Real& a, double b) {
+    Real result(a.bits());
+    mpfr_sub_d(result.value_, a.value_, b, MPFR_RNDN);
+    return result;
+  }
   friend Real sqrt(const Real& a) { return unary(mpfr_sqrt, a); }
   friend Real atan(const Real& a) { return unary(mpfr_atan, a); }
   /// a * 2^exponent, exactly.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "physics/indexed_stream.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -42,6 +44,11 @@ StoredLog::StoredLog(FreeFlight initial, std::vector<StoredCollision> forward,
 Collision StoredLog::at(const Integer& index) const {
   const StoredCollision& c = forward_[index.get_ui() - 1];
   return {index, c.time, c.kind, c.blue, c.red};
+}
+
+std::unique_ptr<CollisionStream> StoredLog::stream(const Integer& first,
+                                                   const Integer& last) const {
+  return std::make_unique<IndexedStream>(*this, first, last);
 }
 
 FreeFlight StoredLog::flight_at(const Rational& time) const {

@@ -28,7 +28,9 @@ class StoredLog final : public CollisionLog {
 
   const Integer& size() const override { return size_; }
   Collision at(const Integer& index) const override;
+  std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const override;
   FreeFlight flight_at(const Rational& time) const override;
+  std::optional<PositionBounds> bounds_at(const Rational&) const override { return std::nullopt; }
 
  private:
   FreeFlight initial_;

@@ -7,145 +7,164 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "physics/require_finite.hpp"
+#include "physics/unfolded_stream.hpp"
+
 namespace piblocks {
 namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
 
+/// Relative precision of what the doubles of the closed form are rounded from: two doubles'.
+constexpr mpfr_prec_t kFan_bits = 110;
+
+/// Stands for all greater times: the angle to go is then far below anything that matters.
+constexpr double kFarAway = 0x1p1000;
+
 bool is_odd(const Integer& n) { return mpz_odd_p(n.get_mpz_t()) != 0; }
 
-Rational scaled(const Rational& value, long exponent) {
-  Rational result;
-  if (exponent >= 0) {
-    mpq_mul_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
-  } else {
-    mpq_div_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
-  }
-  return result;
-}
-
-double scaled(double value, long exponent) { return std::scalbln(value, exponent); }
-
-void require_finite(const FreeFlight& flight) {
-  for (const double number : {flight.anchor.hi, flight.blue.position, flight.blue.velocity,
-                              flight.red.position, flight.red.velocity}) {
-    if (std::isfinite(number)) continue;
-    throw SimulationError("closed form: a time, position or velocity is beyond a double's range");
-  }
-}
-
-}  // namespace
-
-UnfoldedLog::UnfoldedLog(const BlockSystem& system) : exact_(system), size_(exact_.total()) {
-  const long ratio_exponent = std::labs(Real(64, exact_.ratio).exponent());
-  if (ratio_exponent > kMaxRatioExponent) {
+ExactMotion checked(const BlockSystem& system) {
+  ExactMotion motion(system);
+  if (std::labs(Real(64, motion.ratio).exponent()) > kMaxRatioExponent) {
     throw UsageError(fmt::format(
         "masses: the ratio is beyond 2^{}; positions can be computed up to it, the count alone "
         "at any size",
         kMaxRatioExponent));
   }
-  if (exact_.through_corner()) {
-    ray_before_corner_ = exact_.ray_before_corner();
-    ray_after_corner_ = ray_of(size_);
-  }
-  const mpfr_prec_t bits = 192 + ratio_exponent;
-  const Real sigma = exact_.sigma(bits);
-  const Real theta = atan(sigma);
-  const Real speed = sqrt(Real(bits, exact_.speed_squared));
-  const Real future = exact_.final_phase(sigma, theta);
-  const Real past = future - Real::pi(bits) / theta;
-  future_ = {future.floor(), (future - future.floor()).to_double(), +1};
-  past_ = {past.floor(), (past - past.floor()).to_double(), -1};
-
-  time_exponent_ = -speed.exponent();
-  sigma_ = sigma.to_double();
-  theta_ = theta.to_double();
-  impact_ = (sigma * Real(bits, abs(exact_.area)) / speed).to_double();
-  speed_ = scaled(speed, time_exponent_).to_double();
-  closest_approach_ = to_time(scaled(exact_.closest_approach, -time_exponent_));
-  blue_offset_ = to_double(system.wall_face + system.blue.width / 2);
-  red_offset_ = to_double(system.wall_face + system.blue.width + system.red.width / 2);
+  return motion;
 }
 
-UnfoldedLog::Sighting UnfoldedLog::sight(const Rational& time) const {
-  // The difference is exact: far from the start two doubles would not hold a time near the turn.
-  Sighting seen;
-  seen.tau = to_double(scaled(Rational(time - exact_.closest_approach), -time_exponent_));
-  const double along = speed_ * seen.tau;
-  seen.distance = std::hypot(impact_, along);
-  seen.end = seen.tau < 0 ? &past_ : &future_;
-  const double to_go = std::atan2(impact_, std::fabs(along)) / theta_;
-  seen.phase = seen.end->fraction - seen.end->sign * to_go;
+}  // namespace
 
-  // Seven roundings in to_go and two in the sum.
-  const double error = 8 * kUnitRoundoff * (to_go + 1);
+UnfoldedLog::UnfoldedLog(const BlockSystem& system) : UnfoldedLog(system, checked(system)) {}
+
+UnfoldedLog::UnfoldedLog(const BlockSystem& system, ExactMotion motion)
+    : UnfoldedLog(system, motion, motion.fan(kFan_bits)) {}
+
+UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion, const Fan& fan)
+    : exact_(motion), form_(system, motion, fan), size_(motion.total(fan.future)) {}
+
+double UnfoldedLog::tau_at(const Rational& time, const Time& t) const {
+  const Time& turn = form_.closest_approach;
+  const double hi = t.hi / form_.time_unit;
+  const Time difference = two_sum(hi, -turn.hi);
+  const double tau = difference.hi + (difference.lo + (t.lo / form_.time_unit - turn.lo));
+
+  // Both times are right to 2^-106 of them. Where the difference is so small that this would
+  // matter beside the time that passing the corner takes, it is taken of the exact times.
+  const double error = 0x1p-104 * (std::fabs(hi) + std::fabs(turn.hi));
+  const double passage = form_.sigma * form_.ell_over_speed;
+  if (error <= 0x1p-56 * (std::fabs(tau) + passage)) return tau;
+  return to_double((time - exact_.closest_approach) / Rational(form_.time_unit));
+}
+
+UnfoldedLog::Sighting UnfoldedLog::sight(double tau) const {
+  // The view of the line from the corner in units of ell, in which it passes at sigma.
+  const bool corner = exact_.through_corner();
+  const double ahead =
+      corner ? kFarAway : std::min(std::fabs(tau) * form_.speed_over_ell, kFarAway);
+  const double range = std::hypot(form_.sigma, ahead);
+
+  Sighting seen;
+  seen.end = tau < 0 ? &form_.past : &form_.future;
+  seen.distance = std::hypot(form_.impact, form_.speed * tau);
+  seen.sine = form_.sigma / range;
+  seen.cosine = ahead / range;
+  const double to_go = std::atan2(form_.sigma, ahead) / form_.theta.hi;
+  seen.phase = seen.end->sign * (seen.end->beyond.hi - to_go);
+
+  // Eleven roundings at most in to_go, and three in the difference.
+  const double error = 16 * kUnitRoundoff * (to_go + 1);
   seen.decided = std::floor(seen.phase - error) == std::floor(seen.phase + error);
   return seen;
 }
 
-DecidedPhase UnfoldedLog::decide(const Sighting& seen, const Rational& time) const {
+UnfoldedLog::Place UnfoldedLog::place(const Sighting& seen, const Rational& time) const {
+  const End& end = *seen.end;
   if (exact_.through_corner()) {
-    const Integer& ray = time < exact_.closest_approach ? ray_before_corner_ : ray_after_corner_;
-    return {ray, Integer(seen.end->whole - ray).get_d() + seen.end->fraction};
+    // All rays are crossed at once: the line keeps the direction of the nearer end.
+    const bool on_ray = end.beyond.hi == 0;
+    if (time < exact_.closest_approach) {
+      return on_ray ? Place{0, end.ray} : Place{1 - end.beyond.hi, end.ray - 1};
+    }
+    return on_ray ? Place{1, end.ray - 1} : Place{end.beyond.hi, end.ray};
   }
-  if (!seen.decided) return exact_.phase_at(time);
+  if (!seen.decided) {
+    const DecidedPhase exact = exact_.phase_at(time);
+    return {exact.fraction, exact.ray};
+  }
   const double whole = std::floor(seen.phase);
-  return {seen.end->whole + Integer(whole), seen.phase - whole};
+  Place result{seen.phase - whole, Integer(whole)};
+  result.ray += end.ray;
+  return result;
 }
 
 FreeFlight UnfoldedLog::flight_at(const Rational& time) const {
-  const Sighting seen = sight(time);
-  const DecidedPhase phase = decide(seen, time);
+  const Time rounded = to_time(time);
+  const Sighting seen = sight(tau_at(time, rounded));
+  Place at = place(seen, time);
+  // Folded back by the even number of rays next to it, the place is at this angle to the wall: an
+  // odd ray leaves it on the other side, and one reflection of the velocity.
+  const bool odd = is_odd(at.ray);
+  const double angle = (odd ? 1 - at.fraction : at.fraction) * form_.theta.hi;
+  const double sine = std::sin(angle);
+  const double cosine = std::cos(angle);
+  const double y2 = seen.distance * cosine;
+  const double y1 = std::min(seen.distance * sine / form_.sigma, y2);  // never past contact
+
+  // The line's direction is the place's and the angle to go.
+  const int sign = seen.end->sign;
+  const double side = odd ? -sign : sign;
+  const double ahead_sine = seen.sine * cosine + side * (seen.cosine * sine);
+  const double ahead_cosine = seen.cosine * cosine - side * (seen.sine * sine);
   FreeFlight flight;
-  flight.count = exact_.count_from_ray(phase.ray);
-  flight.anchor = to_time(time);
-  set_positions(phase.ray, phase.fraction, seen.distance, flight);
-  set_velocities(*seen.end, phase.ray, flight);
-  require_finite(flight);
+  flight.count = exact_.blocks_first ? std::move(at.ray) : Integer(at.ray + 1);
+  flight.anchor = rounded;
+  flight.blue = {form_.blue_offset + y1, (odd ? -1 : 1) * (form_.blue_speed * ahead_sine)};
+  flight.red = {form_.red_offset + y2, sign * (form_.red_speed * ahead_cosine)};
+  require_finite(flight, "closed form");
   return flight;
 }
 
 Collision UnfoldedLog::at(const Integer& index) const {
   const Integer ray = ray_of(index);
-  const double from_past = Integer(ray - past_.whole).get_d() - past_.fraction;
-  const double to_future = Integer(future_.whole - ray).get_d() + future_.fraction;
-  const End& end = to_future < from_past ? future_ : past_;
-  const double angle = std::min(from_past, to_future) * theta_;
-
-  // b = 0: every collision is at the corner, at the moment of closest approach.
-  const bool corner = exact_.through_corner();
-  const double distance = corner ? 0 : impact_ / std::sin(angle);
-  const double tau = corner ? 0 : end.sign * (impact_ / speed_) / std::tan(angle);
-
-  FreeFlight flight;
-  set_positions(ray, 0, distance, flight);
-  set_velocities(end, ray, flight);
-  Time time = two_sum(closest_approach_.hi, tau);
-  time = two_sum(time.hi, time.lo + closest_approach_.lo);
-  flight.anchor = {scaled(time.hi, time_exponent_), scaled(time.lo, time_exponent_)};
-  require_finite(flight);
-  return {index, flight.anchor, is_odd(ray) ? CollisionKind::blocks : CollisionKind::wall,
-          flight.blue, flight.red};
-}
-
-void UnfoldedLog::set_positions(const Integer& ray, double fraction, double distance,
-                                FreeFlight& flight) const {
-  const double angle = (is_odd(ray) ? 1 - fraction : fraction) * theta_;
-  const double y2 = distance * std::cos(angle);
-  const double y1 = std::min(distance * std::sin(angle) / sigma_, y2);  // never past contact
-  flight.blue.position = blue_offset_ + y1;
-  flight.red.position = red_offset_ + y2;
-}
-
-void UnfoldedLog::set_velocities(const End& end, const Integer& ray, FreeFlight& flight) const {
-  // The direction of the line, folded back by the even number of rays next to it: reflecting
-  // twice is turning by 2 theta, and an odd ray leaves one reflection of y1.
+  const DoubleDouble from_past = form_.past.steps_from(ray);
+  const DoubleDouble to_future = form_.future.steps_from(ray);
+  const bool late = to_future.hi < from_past.hi;
+  const End& end = late ? form_.future : form_.past;
   const bool odd = is_odd(ray);
-  const Integer turned = (odd ? ray + 1 : ray) - end.whole;
-  const double angle = (end.fraction - turned.get_d()) * theta_;
-  const double speed = end.sign * scaled(speed_, -time_exponent_);
-  flight.blue.velocity = (odd ? -1 : 1) * speed * std::sin(angle) / sigma_;
-  flight.red.velocity = speed * std::cos(angle);
+  const Direction seen = form_.direction(late ? to_future : from_past, end.beyond);
+  const Direction step{-end.sign * form_.step.sine, form_.step.cosine};
+  const CollisionNumbers now =
+      form_.collision(end.sign, seen, odd ? seen + step : seen, form_.kind(odd));
+  FreeFlight flight{index,
+                    {now.time_hi, now.time_lo},
+                    {now.blue_position, now.blue_velocity},
+                    {now.red_position, now.red_velocity}};
+  require_finite(flight, "closed form");
+  return {index, flight.anchor, odd ? CollisionKind::blocks : CollisionKind::wall, flight.blue,
+          flight.red};
+}
+
+std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,
+                                                     const Integer& last) const {
+  // Times and distances are greatest at the ends of a range: nothing between is out of range if
+  // they are not.
+  if (first <= last) {
+    at(first);
+    at(last);
+  }
+  return std::make_unique<UnfoldedStream>(form_, ray_of(first), ray_of(last), first);
+}
+
+std::optional<PositionBounds> UnfoldedLog::bounds_at(const Rational& time) const {
+  const double distance = std::hypot(form_.impact, form_.speed * tau_at(time, to_time(time)));
+  // An offset is rounded once, and once more in the sum.
+  const auto bound = [&](double gap, double offset) {
+    return kUnitRoundoff * (8 * gap + 2 * std::fabs(offset) + distance);
+  };
+  return PositionBounds{bound(distance + form_.ell, form_.blue_offset),
+                        bound(distance, form_.red_offset)};
 }
 
 }  // namespace piblocks

@@ -1,0 +1,136 @@
+#include "physics/exact_log.hpp"
+
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "physics/indexed_stream.hpp"
+#include "physics/require_finite.hpp"
+
+namespace piblocks {
+namespace {
+
+/// With theta >= pi/4 there are at most a handful.
+constexpr int kMaxEvents = 16;
+
+constexpr double kUnitRoundoff = 0x1p-53;
+
+/// Time until a gap that changes at `rate` is closed, if ever.
+std::optional<Rational> closing_time(const Rational& gap, const Rational& rate) {
+  if (rate >= 0) return std::nullopt;
+  return Rational(-gap / rate);
+}
+
+void advance(BlockSystem& system, const Rational& duration) {
+  system.blue.position += system.blue.velocity * duration;
+  system.red.position += system.red.velocity * duration;
+}
+
+void reverse(BlockSystem& system) {
+  system.blue.velocity = -system.blue.velocity;
+  system.red.velocity = -system.red.velocity;
+}
+
+/// The relative velocity is reversed, the centre of mass keeps its own.
+void collide_blocks(BlockSystem& system) {
+  Block& blue = system.blue;
+  Block& red = system.red;
+  const Rational centre =
+      (blue.mass * blue.velocity + red.mass * red.velocity) / (blue.mass + red.mass);
+  blue.velocity = 2 * centre - blue.velocity;
+  red.velocity = 2 * centre - red.velocity;
+}
+
+/// Performs the next collision.
+std::optional<ExactCollision> next_after(const Rational& time, BlockSystem now) {
+  const auto to_wall = closing_time(now.blue_gap(), now.blue.velocity);
+  const auto to_blocks = closing_time(now.blocks_gap(), now.red.velocity - now.blue.velocity);
+  if (!to_wall && !to_blocks) return std::nullopt;
+  const bool blocks = to_blocks && (!to_wall || *to_blocks <= *to_wall);
+  const Rational& wait = blocks ? *to_blocks : *to_wall;
+  advance(now, wait);
+  if (blocks) {
+    collide_blocks(now);
+  } else {
+    now.blue.velocity = -now.blue.velocity;
+  }
+  return ExactCollision{time + wait, blocks ? CollisionKind::blocks : CollisionKind::wall,
+                        std::move(now)};
+}
+
+std::vector<ExactCollision> run(const BlockSystem& system) {
+  std::vector<ExactCollision> events;
+  for (auto event = next_after(0, system); event;
+       event = next_after(events.back().time, events.back().after)) {
+    if (events.size() == kMaxEvents) {
+      throw SimulationError("exact events: more collisions than a light red block can have");
+    }
+    events.push_back(*event);
+  }
+  return events;
+}
+
+BlockSystem reversed(BlockSystem system) {
+  reverse(system);
+  return system;
+}
+
+Motion motion_of(const Block& block) {
+  return {to_double(block.position), to_double(block.velocity)};
+}
+
+FreeFlight flight(const Integer& count, const Rational& time, const BlockSystem& system) {
+  FreeFlight result{count, to_time(time), motion_of(system.blue), motion_of(system.red)};
+  require_finite(result, "exact events");
+  return result;
+}
+
+}  // namespace
+
+ExactLog::ExactLog(const BlockSystem& system)
+    : initial_(system),
+      forward_(run(system)),
+      backward_(run(reversed(system))),
+      size_(forward_.size()) {}
+
+Collision ExactLog::at(const Integer& index) const {
+  const ExactCollision& event = forward_[index.get_ui() - 1];
+  const FreeFlight after = flight(index, event.time, event.after);
+  return {index, after.anchor, event.kind, after.blue, after.red};
+}
+
+std::unique_ptr<CollisionStream> ExactLog::stream(const Integer& first, const Integer& last) const {
+  return std::make_unique<IndexedStream>(*this, first, last);
+}
+
+FreeFlight ExactLog::flight_at(const Rational& time) const {
+  Integer count = 0;
+  Rational since = time;
+  BlockSystem now = initial_;
+  for (const ExactCollision& event : forward_) {
+    if (event.time > time) break;
+    ++count;
+    since = time - event.time;
+    now = event.after;
+  }
+  // Seen forwards, what the reversed run does after a collision ends with that collision; one
+  // exactly at `time` has happened.
+  for (const ExactCollision& event : backward_) {
+    if (-event.time <= time) break;
+    --count;
+    since = time + event.time;
+    now = reversed(event.after);
+  }
+  advance(now, since);
+  return flight(count, time, now);
+}
+
+std::optional<PositionBounds> ExactLog::bounds_at(const Rational& time) const {
+  const FreeFlight now = flight_at(time);
+  return PositionBounds{kUnitRoundoff * std::fabs(now.blue.position),
+                        kUnitRoundoff * std::fabs(now.red.position)};
+}
+
+}  // namespace piblocks

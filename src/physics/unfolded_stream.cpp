@@ -1,0 +1,139 @@
+#include "physics/unfolded_stream.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/vector_clones.hpp"
+
+namespace piblocks {
+namespace {
+
+bool is_odd(const Integer& n) { return mpz_odd_p(n.get_mpz_t()) != 0; }
+
+Integer middle(const Integer& a, const Integer& b) {
+  Integer result;
+  mpz_fdiv_q_2exp(result.get_mpz_t(), Integer(a + b).get_mpz_t(), 1);
+  return result;
+}
+
+/// Row i of the table is ray i of a block that ends or begins with the anchor.
+RayTable make_table(const ClosedForm& form, int sign, bool anchor_is_odd) {
+  RayTable table;
+  for (std::size_t step = 0; step < kBlockRays; ++step) {
+    const std::size_t row = sign < 0 ? step : kBlockRays - 1 - step;
+    const Direction ray = form.direction({double(step), 0}, {});
+    const bool odd = (step % 2 == 1) != anchor_is_odd;
+    // The ray after an odd one is a step further from the past, and a step nearer to the future.
+    const Direction even = odd ? ray + Direction{-sign * form.step.sine, form.step.cosine} : ray;
+    const RayKind kind = form.kind(odd);
+    table.sine[row] = ray.sine;
+    table.cosine[row] = ray.cosine;
+    table.even_sine[row] = even.sine;
+    table.even_cosine[row] = even.cosine;
+    table.blue_reach[row] = kind.blue_reach;
+    table.red_reach[row] = kind.red_reach;
+    table.side[row] = kind.side;
+  }
+  return table;
+}
+
+/// The rows of a batch that one block fills.
+struct Rows {
+  double* time_hi;
+  double* time_lo;
+  double* blue_position;
+  double* blue_velocity;
+  double* red_position;
+  double* red_velocity;
+};
+
+/// @param skip  rows of the table before the first that is used
+PIBLOCKS_VECTOR_CLONES
+void fill_rows(const ClosedForm form, double sign, const Direction anchor, const RayTable& table,
+               std::size_t skip, std::size_t count, const Rows rows) {
+  const double* sine = table.sine.data() + skip;
+  const double* cosine = table.cosine.data() + skip;
+  const double* even_sine = table.even_sine.data() + skip;
+  const double* even_cosine = table.even_cosine.data() + skip;
+  const double* blue_reach = table.blue_reach.data() + skip;
+  const double* red_reach = table.red_reach.data() + skip;
+  const double* side = table.side.data() + skip;
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < count; ++i) {
+    const CollisionNumbers row = form.collision(sign, anchor + Direction{sine[i], cosine[i]},
+                                                anchor + Direction{even_sine[i], even_cosine[i]},
+                                                {blue_reach[i], red_reach[i], side[i]});
+    rows.time_hi[i] = row.time_hi;
+    rows.time_lo[i] = row.time_lo;
+    rows.blue_position[i] = row.blue_position;
+    rows.blue_velocity[i] = row.blue_velocity;
+    rows.red_position[i] = row.red_position;
+    rows.red_velocity[i] = row.red_velocity;
+  }
+}
+
+/// wall, blocks, wall, …: the kinds of consecutive rays from an even one on.
+constexpr auto kKinds = [] {
+  std::array<CollisionKind, CollisionBatch::kCapacity + 1> kinds{};
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    kinds[i] = i % 2 == 0 ? CollisionKind::wall : CollisionKind::blocks;
+  }
+  return kinds;
+}();
+
+}  // namespace
+
+UnfoldedStream::UnfoldedStream(const Unfolding& form, Integer first, Integer last, Integer index)
+    : form_(form),
+      next_(std::move(first)),
+      last_(std::move(last)),
+      index_(std::move(index)),
+      last_of_past_(middle(form.past.ray, form.future.ray)) {}
+
+bool UnfoldedStream::read(CollisionBatch& batch) {
+  const Integer left = last_ - next_ + 1;
+  batch.first = index_;
+  batch.size = left <= 0 ? 0
+                         : static_cast<std::size_t>(
+                               std::min<Integer>(left, long(CollisionBatch::kCapacity)).get_ui());
+  std::copy_n(kKinds.begin() + (is_odd(next_) ? 1 : 0), batch.size, batch.kind.begin());
+  const Integer of_past = last_of_past_ - next_ + 1;
+  const std::size_t turn =
+      of_past <= 0
+          ? 0
+          : static_cast<std::size_t>(std::min<Integer>(of_past, long(batch.size)).get_ui());
+  fill(form_.past, 0, turn, batch);
+  fill(form_.future, turn, batch.size - turn, batch);
+  next_ += static_cast<unsigned long>(batch.size);
+  index_ += static_cast<unsigned long>(batch.size);
+  return batch.size > 0;
+}
+
+/// Rows begin … begin + rows - 1 of the batch, which are the rays from next_ + begin on.
+void UnfoldedStream::fill(const End& end, std::size_t begin, std::size_t rows,
+                          CollisionBatch& batch) {
+  if (rows == 0) return;
+  const Integer first = next_ + static_cast<unsigned long>(begin);
+  const DoubleDouble first_steps = end.steps_from(first);
+  for (std::size_t done = 0; done < rows;) {
+    const std::size_t count = std::min(rows - done, kBlockRays);
+    const std::size_t anchor = done + (end.sign < 0 ? 0 : count - 1);
+    DoubleDouble steps = two_sum(first_steps.hi, -end.sign * double(anchor));
+    steps.lo += first_steps.lo;
+    const bool anchor_is_odd = is_odd(first) != (anchor % 2 == 1);
+    const std::size_t row = begin + done;
+    fill_rows(form_, end.sign, form_.direction(steps, end.beyond), table(end.sign, anchor_is_odd),
+              end.sign < 0 ? 0 : kBlockRays - count, count,
+              {&batch.time_hi[row], &batch.time_lo[row], &batch.blue_position[row],
+               &batch.blue_velocity[row], &batch.red_position[row], &batch.red_velocity[row]});
+    done += count;
+  }
+}
+
+const RayTable& UnfoldedStream::table(int sign, bool anchor_is_odd) {
+  auto& made = tables_[sign < 0 ? 0 : 1][anchor_is_odd ? 1 : 0];
+  if (!made) made = std::make_unique<RayTable>(make_table(form_, sign, anchor_is_odd));
+  return *made;
+}
+
+}  // namespace piblocks

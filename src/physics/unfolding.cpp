@@ -1,0 +1,71 @@
+#include "physics/unfolding.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+
+namespace piblocks {
+namespace {
+
+/// Least distance from the corner that is computed with; what is nearer would be a denormal.
+constexpr double kMinEll = 0x1p-1000;
+
+DoubleDouble to_double_double(const Real& value) {
+  const double hi = value.to_double();
+  return {hi, (value - hi).to_double()};
+}
+
+End to_end(const Asymptote& asymptote, int sign) {
+  return {asymptote.ray, to_double_double(asymptote.beyond), sign};
+}
+
+/// Power of two that makes the speed about 1, within the range of a double.
+long unit_exponent(const Real& speed) { return std::clamp(-speed.exponent(), -1000L, 1000L); }
+
+}  // namespace
+
+DoubleDouble End::steps_from(const Integer& other) const {
+  constexpr long kNoOverflow = 1L << 62;
+  if (mpz_cmpabs_ui(ray.get_mpz_t(), kNoOverflow) < 0 &&
+      mpz_cmpabs_ui(other.get_mpz_t(), kNoOverflow) < 0) {  // a shortcut
+    const long steps = sign * (ray.get_si() - other.get_si());
+    const auto rounded = static_cast<double>(steps >> 11 << 11);
+    return two_sum(rounded, static_cast<double>(steps & 2047));
+  }
+  const Integer steps = sign > 0 ? Integer(ray - other) : Integer(other - ray);
+  if (const auto exact = exact_double(steps)) return {*exact, 0};
+  return to_time(Rational(steps));
+}
+
+Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact, const Fan& fan)
+    : past(to_end(fan.past, -1)), future(to_end(fan.future, +1)) {
+  const mpfr_prec_t bits = fan.sigma.bits();
+  const Real exact_speed = sqrt(Real(bits, exact.speed_squared));
+  const Real exact_ell = Real(bits, abs(exact.area)) / exact_speed;
+  const long exponent = unit_exponent(exact_speed);
+  const Real scaled_speed = scaled(exact_speed, exponent);
+
+  sigma = fan.sigma.to_double();
+  theta = to_double_double(fan.theta);
+  step = direction({1, 0}, {});
+  ell = exact_ell.to_double();
+  impact = (fan.sigma * exact_ell).to_double();
+  speed = scaled_speed.to_double();
+  ell_over_speed = (exact_ell / scaled_speed).to_double();
+  speed_over_ell = exact.through_corner() ? 0 : (scaled_speed / exact_ell).to_double();
+  if (!exact.through_corner() && ell < kMinEll) {
+    throw SimulationError(
+        fmt::format("closed form: the blocks miss the corner by {:.0e} only; a double tells no "
+                    "less than {:.0e}",
+                    ell, kMinEll));
+  }
+  time_unit = std::scalbln(1.0, exponent);
+  closest_approach = to_time(exact.closest_approach / Rational(time_unit));
+  red_speed = speed / time_unit;
+  blue_speed = red_speed / sigma;
+  blue_offset = to_double(system.wall_face + system.blue.width / 2);
+  red_offset = to_double(system.wall_face + system.blue.width + system.red.width / 2);
+}
+
+}  // namespace piblocks

@@ -1,0 +1,121 @@
+// The closed form's numbers, rounded from exact ones, and its formulas.
+// In: an ExactMotion. Out: the directions of rays as seen from the corner, and the collisions on
+// them. Notation and error bounds: README.md.
+#pragma once
+
+#include <piblocks/time.hpp>
+
+#include <cmath>
+
+#include "physics/exact_motion.hpp"
+
+namespace piblocks {
+
+/// Largest |log2(m_red/m_blue)| for which positions can be computed: beyond it the wedge angle
+/// leaves the range of a double.
+inline constexpr long kMaxRatioExponent = 2000;
+
+/// A number as hi + lo; what Time is for instants.
+using DoubleDouble = Time;
+
+/// One end of time. Its phase is beyond that of `ray`: past it for the infinite future, before it
+/// for the infinite past.
+struct End {
+  Integer ray;
+  DoubleDouble beyond;
+  int sign = 1;  ///< of t
+
+  /// Rays from `other` to `ray`: 0 or positive if it is crossed.
+  DoubleDouble steps_from(const Integer& other) const;
+};
+
+/// Sine and cosine of an angle.
+struct Direction {
+  double sine;
+  double cosine;
+
+  friend Direction operator+(const Direction& a, const Direction& b) {
+    return {a.sine * b.cosine + a.cosine * b.sine, a.cosine * b.cosine - a.sine * b.sine};
+  }
+};
+
+/// What the parity of a ray says: on an even one blue meets the wall, on an odd one red.
+struct RayKind {
+  double blue_reach;  ///< y1/R
+  double red_reach;   ///< y2/R
+  double side;        ///< 1, or -1 if the reflected blue block moves the other way
+};
+
+/// A Collision but for its index and kind.
+struct CollisionNumbers {
+  double time_hi;
+  double time_lo;
+  double blue_position;
+  double blue_velocity;
+  double red_position;
+  double red_velocity;
+};
+
+/// What every collision is computed from. Scaled time is t/time_unit, which makes the speed
+/// about 1.
+struct ClosedForm {
+  double sigma;
+  DoubleDouble theta;
+  Direction step;                 ///< of theta
+  double ell;                     ///< |L|/|V|
+  double impact;                  ///< b = sigma ell: distance of the line from the corner
+  double speed;                   ///< |V| in scaled time
+  double ell_over_speed;          ///< in scaled time
+  double speed_over_ell;          ///< 0 for a line through the corner
+  DoubleDouble closest_approach;  ///< in scaled time
+  double time_unit;               ///< a power of two
+  double red_speed;               ///< |V|
+  double blue_speed;              ///< |V|/sigma
+  double blue_offset;             ///< x_blue - y1
+  double red_offset;              ///< x_red - y2
+
+  /// The direction of a ray, as an angle from the end of time that is `steps` and `beyond` away.
+  /// With theta and the phase to twice a double's precision only the last roundings count.
+  Direction direction(const DoubleDouble& steps, const DoubleDouble& beyond) const {
+    DoubleDouble phase = two_sum(steps.hi, beyond.hi);
+    phase.lo += steps.lo + beyond.lo;
+    DoubleDouble angle = two_product(phase.hi, theta.hi);
+    angle.lo += phase.hi * theta.lo + phase.lo * theta.hi;
+    const double sine = std::sin(angle.hi);
+    const double cosine = std::cos(angle.hi);
+    return {sine + cosine * angle.lo, cosine - sine * angle.lo};
+  }
+
+  RayKind kind(bool odd) const {
+    return odd ? RayKind{step.cosine, step.cosine, -1} : RayKind{0, 1, 1};
+  }
+
+  /// The collision on a ray.
+  /// @param sign  of the end of time
+  /// @param ray   direction of the ray, from that end
+  /// @param even  direction of the next ray with an even index, from that end
+  CollisionNumbers collision(double sign, const Direction& ray, const Direction& even,
+                             const RayKind& kind) const {
+    const double reach = sigma / ray.sine;  // R/ell
+    const double distance = ell * reach;
+    const DoubleDouble sum =
+        two_sum(closest_approach.hi, sign * ell_over_speed * (reach * ray.cosine));
+    const DoubleDouble time = two_sum(sum.hi, sum.lo + closest_approach.lo);
+    return {time.hi * time_unit,
+            time.lo * time_unit,
+            blue_offset + kind.blue_reach * distance,
+            kind.side * (blue_speed * even.sine),
+            red_offset + kind.red_reach * distance,
+            sign * (red_speed * even.cosine)};
+  }
+};
+
+struct Unfolding : ClosedForm {
+  /// @throws SimulationError if ell is too small for a double, but not 0.
+  Unfolding(const BlockSystem& system, const ExactMotion& exact, const Fan& fan);
+
+  End past;
+  End future;
+};
+
+}  // namespace piblocks
