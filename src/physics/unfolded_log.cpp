@@ -110,7 +110,7 @@ FreeFlight UnfoldedLog::flight_at(const Rational& time) const {
   const double sine = std::sin(angle);
   const double cosine = std::cos(angle);
   const double y2 = seen.distance * cosine;
-  const double y1 = std::min(seen.distance * sine / form_.sigma, y2);  // never past contact
+  const double y1 = std::min(seen.distance * (sine / form_.sigma), y2);  // never past contact
 
   // The line's direction is the place's and the angle to go.
   const int sign = seen.end->sign;

@@ -1,6 +1,5 @@
 #include "physics/unfolding.hpp"
 
-#include <fmt/format.h>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
@@ -8,8 +7,9 @@
 namespace piblocks {
 namespace {
 
-/// Least distance from the corner that is computed with; what is nearer would be a denormal.
-constexpr double kMinEll = 0x1p-1000;
+/// Nothing is computed from less: far enough from the denormal numbers for a full relative
+/// precision.
+constexpr double kLeast = 0x1p-1010;
 
 DoubleDouble to_double_double(const Real& value) {
   const double hi = value.to_double();
@@ -20,8 +20,17 @@ End to_end(const Asymptote& asymptote, int sign) {
   return {asymptote.ray, to_double_double(asymptote.beyond), sign};
 }
 
-/// Power of two that makes the speed about 1, within the range of a double.
-long unit_exponent(const Real& speed) { return std::clamp(-speed.exponent(), -1000L, 1000L); }
+/// Exponent of a unit of time in which the line takes about 1 to pass ell, or to reach the corner,
+/// so that neither the parts of a double-double near the turn nor the time to the far ends leave a
+/// double's range.
+long unit_exponent(const ExactMotion& exact, const Real& ell, const Real& speed) {
+  constexpr long kMaxExponent = 500;  // both ways: there is as much room beyond
+  const Real to_corner(ell.bits(), exact.closest_approach);
+  const long exponent = !exact.through_corner() ? ell.exponent() - speed.exponent()
+                        : to_corner.sign() != 0 ? to_corner.exponent()
+                                                : -speed.exponent();
+  return std::clamp(exponent, -kMaxExponent, kMaxExponent);
+}
 
 }  // namespace
 
@@ -43,7 +52,7 @@ Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact, const 
   const mpfr_prec_t bits = fan.sigma.bits();
   const Real exact_speed = sqrt(Real(bits, exact.speed_squared));
   const Real exact_ell = Real(bits, abs(exact.area)) / exact_speed;
-  const long exponent = unit_exponent(exact_speed);
+  const long exponent = unit_exponent(exact, exact_ell, exact_speed);
   const Real scaled_speed = scaled(exact_speed, exponent);
 
   sigma = fan.sigma.to_double();
@@ -54,11 +63,14 @@ Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact, const 
   speed = scaled_speed.to_double();
   ell_over_speed = (exact_ell / scaled_speed).to_double();
   speed_over_ell = exact.through_corner() ? 0 : (scaled_speed / exact_ell).to_double();
-  if (!exact.through_corner() && ell < kMinEll) {
+  // In the chosen unit of time the speed is a typical length.
+  const double passage = sigma * ell_over_speed;
+  const double least = exact.through_corner() ? speed : std::min({ell, speed, passage});
+  if (least < kLeast) {
     throw SimulationError(
-        fmt::format("closed form: the blocks miss the corner by {:.0e} only; a double tells no "
-                    "less than {:.0e}",
-                    ell, kMinEll));
+        "closed form: lengths or times are so short that doubles cannot tell where the blocks "
+        "turn; "
+        "use greater units");
   }
   time_unit = std::scalbln(1.0, exponent);
   closest_approach = to_time(exact.closest_approach / Rational(time_unit));

@@ -111,7 +111,7 @@ struct ClosedForm {
 };
 
 struct Unfolding : ClosedForm {
-  /// @throws SimulationError if ell is too small for a double, but not 0.
+  /// @throws SimulationError if ell, or the time it takes, is too small for a double, but not 0.
   Unfolding(const BlockSystem& system, const ExactMotion& exact, const Fan& fan);
 
   End past;

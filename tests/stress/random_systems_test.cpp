@@ -3,6 +3,7 @@
 #include <piblocks/error.hpp>
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -44,6 +45,37 @@ std::vector<Rational> some_times(Random& random, const CollisionLog& log) {
   return times;
 }
 
+/// Whether there are collisions that no double can place: where the masses are far apart the last
+/// one may be 1e400 s away, because the heavier block is so slow when all is over.
+bool leaves_doubles(const BlockSystem& system) {
+  if (system.red.mass > system.blue.mass) {
+    const Bounds bounds(system);
+    return bounds.last_time() * (1 + bounds.speed()) > 1e290L;
+  }
+  const Rational limit = Rational(std::numeric_limits<double>::max()) / power(10, 20);
+  for (const BlockSystem& run : {system, oracle::reversed(system)}) {
+    for (const oracle::ExactEvent& event : oracle::exact_run(run, 16)) {
+      for (const Rational& number : {event.time, event.blue.position, event.red.position}) {
+        if (abs(number) > limit) return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Calls check(log) for a system that has answers, or is rightly refused one.
+template <typename Check>
+void for_answers(const BlockSystem& system, const Check& check) {
+  SCOPED_TRACE(describe(system));
+  const auto log = make_collision_log(system);
+  EXPECT_EQ(log->size(), count_collisions(system));
+  try {
+    check(*log);
+  } catch (const SimulationError& error) {
+    EXPECT_TRUE(leaves_doubles(system)) << error.what();
+  }
+}
+
 void expect_invariants(Random& random, const BlockSystem& system, const CollisionLog& log) {
   const Bounds bounds(system);
   for (const Integer& index : some_indices(random, log.size())) {
@@ -51,7 +83,7 @@ void expect_invariants(Random& random, const BlockSystem& system, const Collisio
   }
   for (const Rational& time : some_times(random, log)) {
     const BlockState state = state_at(log, time);
-    expect_possible(system, state, bounds, time);
+    expect_possible(system, state);
     expect_energy_kept(state, bounds);
     EXPECT_LE(state.count, log.size());
     EXPECT_TRUE(time >= 0 ? state.count >= 0 : state.count <= 0) << state.count;
@@ -61,9 +93,7 @@ void expect_invariants(Random& random, const BlockSystem& system, const Collisio
 TEST(RandomSystems, KeepEveryInvariant) {
   for_each_case(100'000, 1'000'000, [](Random& random) {
     const BlockSystem system = random_system(random);
-    SCOPED_TRACE(describe(system));
-    const auto log = make_collision_log(system);
-    expect_invariants(random, system, *log);
+    for_answers(system, [&](const CollisionLog& log) { expect_invariants(random, system, log); });
   });
 }
 
@@ -80,12 +110,12 @@ TEST(RandomSystems, HaveTheOraclesTotals) {
 TEST(RandomSystems, AreWhereTheOracleSays) {
   for_each_case(2'000, 3'000'000, [](Random& random) {
     const BlockSystem system = random_system(random);
-    SCOPED_TRACE(describe(system));
-    const auto log = make_collision_log(system);
-    const Bounds bounds(system);
-    for (const Rational& time : some_times(random, *log)) {
-      expect_oracles_state(system, *log, time, bounds);
-    }
+    for_answers(system, [&](const CollisionLog& log) {
+      const Bounds bounds(system);
+      for (const Rational& time : some_times(random, log)) {
+        expect_oracles_state(system, log, time, bounds);
+      }
+    });
   });
 }
 
