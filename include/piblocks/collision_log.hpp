@@ -96,15 +96,17 @@ class CollisionLog {
 };
 
 enum class Engine {
-  unfolded,  ///< closed form; any number of collisions at the price of one
-  events     ///< the article's event loop in double precision, stored
+  unfolded,   ///< closed form; any number of collisions at the price of one
+  events,     ///< the article's event loop in double precision, stored
+  velocities  ///< a loop over velocities alone in double precision, stored
 };
 
-/// Most collisions that Engine::events stores, at 56 bytes each: seven digits of pi.
+/// Most collisions that Engine::events and Engine::velocities store, at 56 bytes each: seven digits
+/// of pi.
 inline constexpr std::int64_t kMaxStoredCollisions = 5'000'000;
 
 /// @throws SceneError if problems_of(system) is not empty.
-/// @throws UsageError if Engine::events would have to store more than kMaxStoredCollisions, or the
+/// @throws UsageError if an engine would have to store more than kMaxStoredCollisions, or the
 ///         closed form is asked for a mass ratio beyond 2^2000.
 /// @throws SimulationError if a number of an event loop leaves the range of a double.
 std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system,

@@ -69,12 +69,15 @@ Scene SceneOptions::scene() const {
 CLI::Option& add_engine(CLI::App& command) {
   return add_value_option(command, "--engine", "NAME",
                           "unfolded: closed form (default);\n"
-                          "events: the event loop, in double precision");
+                          "events: the event loop, in double precision;\n"
+                          "velocities: a loop over velocities alone, in double precision");
 }
 
 std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const CLI::Option& engine) {
   const auto parse_engine = [](const std::string& text) {
-    return parse_choice<Engine>(text, {{"unfolded", Engine::unfolded}, {"events", Engine::events}});
+    return parse_choice<Engine>(text, {{"unfolded", Engine::unfolded},
+                                       {"events", Engine::events},
+                                       {"velocities", Engine::velocities}});
   };
   return make_collision_log(system, value_of(engine, parse_engine).value_or(Engine::unfolded));
 }

@@ -2,6 +2,8 @@
 #include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
 
+#include <algorithm>
+
 #include "physics/event_loop.hpp"
 #include "physics/exact_log.hpp"
 #include "physics/stored_log.hpp"
@@ -36,22 +38,24 @@ void check(const BlockSystem& system) {
   if (!problems.empty()) throw SceneError(describe(problems));
 }
 
-void check_storable(const BlockSystem& system) {
-  const Integer count = ExactMotion(system).total();
+void check_storable(const BlockSystem& system, Engine engine) {
+  const Integer count =
+      std::max(ExactMotion(system).total(), ExactMotion(reversed(system)).total());
   if (count <= kMaxStoredCollisions) return;
   throw UsageError(fmt::format(
-      "event loop: {} collisions are more than the limit of {}; use the closed form (--engine "
+      "{} loop: {} collisions are more than the limit of {}; use the closed form (--engine "
       "unfolded)",
-      readable(count), readable(kMaxStoredCollisions)));
+      engine == Engine::events ? "event" : "velocity", readable(count),
+      readable(kMaxStoredCollisions)));
 }
 
 }  // namespace
 
 std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system, Engine engine) {
   check(system);
-  if (engine == Engine::events) {
-    check_storable(system);
-    return store(system, event_loop);
+  if (engine != Engine::unfolded) {
+    check_storable(system, engine);
+    return store(system, engine == Engine::events ? event_loop : velocity_loop);
   }
   // At theta >= pi/4 the closed form has nothing to skip, and would lose a very light red block
   // in the rounding of its phase.

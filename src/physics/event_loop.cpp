@@ -4,6 +4,12 @@
 #include <piblocks/error.hpp>
 #include <piblocks/event_simulator.hpp>
 
+#include <utility>
+
+#include "physics/exact_motion.hpp"
+#include "physics/require_finite.hpp"
+#include "physics/velocity_loop.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -33,24 +39,77 @@ Simulator::Body wall_of(const BlockSystem& system) {
 
 Motion motion_of(const Simulator::Body& body) { return {body.position[0], body.velocity[0]}; }
 
+/// Records a collision. An engine that finds many more than there are is lost, and stopped.
+class Recorder {
+ public:
+  Recorder(const char* engine, const BlockSystem& system)
+      : engine_(engine),
+        collisions_(ExactMotion(system).total()),
+        limit_(2 * collisions_.get_ui() + 100) {}
+
+  void record(const StoredCollision& collision) {
+    if (log_.size() == limit_) {
+      throw SimulationError(
+          fmt::format("{}: {} collisions and more in double precision, where there are {}; use the "
+                      "closed form (--engine unfolded)",
+                      engine_, limit_, collisions_.get_str()));
+    }
+    require_finite({0, collision.time, collision.blue, collision.red}, engine_);
+    log_.push_back(collision);
+  }
+  std::vector<StoredCollision> take() { return std::move(log_); }
+
+ private:
+  const char* engine_;
+  Integer collisions_;
+  std::size_t limit_;
+  std::vector<StoredCollision> log_;
+};
+
+/// A power of two that makes the speed about 1: its square is then no danger.
+Rational unit_of_time(const ExactMotion& motion) {
+  const long exponent = sqrt(Real(64, motion.speed_squared)).exponent();
+  return exponent > 0 ? Rational(1 / power(2, static_cast<unsigned long>(exponent)))
+                      : power(2, static_cast<unsigned long>(-exponent));
+}
+
 }  // namespace
 
 std::vector<StoredCollision> event_loop(const BlockSystem& system) {
   Simulator simulator({body_of(system.blue), body_of(system.red), wall_of(system)});
-  std::vector<StoredCollision> log;
+  Recorder recorder("event loop", system);
   while (const auto event = simulator.step()) {
-    if (std::int64_t(log.size()) == kMaxStoredCollisions) {
-      throw SimulationError(fmt::format(
-          "event loop: more than {} collisions; use the closed form (--engine unfolded)",
-          kMaxStoredCollisions));
-    }
     const bool blocks = event->second == kRed;
-    log.push_back({{event->time, 0},
-                   blocks ? CollisionKind::blocks : CollisionKind::wall,
-                   motion_of(simulator.particles()[kBlue]),
-                   motion_of(simulator.particles()[kRed])});
+    recorder.record({{event->time, 0},
+                     blocks ? CollisionKind::blocks : CollisionKind::wall,
+                     motion_of(simulator.particles()[kBlue]),
+                     motion_of(simulator.particles()[kRed])});
   }
-  return log;
+  return recorder.take();
+}
+
+std::vector<StoredCollision> velocity_loop(const BlockSystem& system) {
+  if (ExactMotion(system).at_rest()) return {};
+  const Rational unit = unit_of_time(ExactMotion(system));
+  BlockSystem scaled = system;
+  scaled.blue.velocity *= unit;
+  scaled.red.velocity *= unit;
+  const ExactMotion motion(scaled);
+  VelocityLoop<double> loop(motion, to_double);
+  const double unit_s = to_double(unit);
+  const Time turn = to_time(motion.closest_approach);
+  const double blue_offset = to_double(system.wall_face + system.blue.width / 2);
+  const double red_offset = to_double(system.wall_face + system.blue.width + system.red.width / 2);
+  Recorder recorder("velocity loop", system);
+  while (loop.step()) {
+    Time time = two_sum(turn.hi, loop.tau());
+    time = two_sum(time.hi, time.lo + turn.lo);
+    recorder.record({{time.hi * unit_s, time.lo * unit_s},
+                     loop.met_blocks() ? CollisionKind::blocks : CollisionKind::wall,
+                     {blue_offset + loop.y1(), loop.u1() / unit_s},
+                     {red_offset + loop.y2(), loop.u2() / unit_s}});
+  }
+  return recorder.take();
 }
 
 }  // namespace piblocks

@@ -1,4 +1,4 @@
-// The article's event loop in double precision, recorded.
+// Engines that go from collision to collision in double precision, recorded.
 // In: a BlockSystem. Out: every collision from time 0 on, in the order met.
 #pragma once
 
@@ -10,7 +10,13 @@
 
 namespace piblocks {
 
-/// @throws SimulationError past kMaxStoredCollisions, or where a number leaves its range.
+/// The article's event loop: positions are advanced to the next collision of any pair.
+/// @throws SimulationError where a number leaves its range, or the rounding of double precision
+///         more than doubles the number of collisions.
 std::vector<StoredCollision> event_loop(const BlockSystem& system);
+
+/// VelocityLoop.
+/// @throws SimulationError as event_loop().
+std::vector<StoredCollision> velocity_loop(const BlockSystem& system);
 
 }  // namespace piblocks

@@ -101,12 +101,13 @@ struct ClosedForm {
     const DoubleDouble sum =
         two_sum(closest_approach.hi, sign * ell_over_speed * (reach * ray.cosine));
     const DoubleDouble time = two_sum(sum.hi, sum.lo + closest_approach.lo);
-    return {time.hi * time_unit,
-            time.lo * time_unit,
-            blue_offset + kind.blue_reach * distance,
-            kind.side * (blue_speed * even.sine),
-            red_offset + kind.red_reach * distance,
-            sign * (red_speed * even.cosine)};
+    const double hi = time.hi * time_unit;
+    const double lo = time.lo * time_unit;
+    // A log begins at time 0: what is before can only be the rounding of a collision then.
+    return {hi < 0 ? 0.0 : hi,
+            hi < 0 ? 0.0 : lo,
+            blue_offset + kind.blue_reach * distance, kind.side * (blue_speed * even.sine),
+            red_offset + kind.red_reach * distance,   sign * (red_speed * even.cosine)};
   }
 };
 

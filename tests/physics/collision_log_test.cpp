@@ -3,7 +3,9 @@
 #include <piblocks/error.hpp>
 #include <piblocks/interpolator.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 namespace piblocks {
@@ -145,7 +147,7 @@ TEST(Flights, CountACollisionAtTimeZero) {
 }
 
 TEST(Flights, GoOnBeforeTheFirstAndAfterTheLastCollision) {
-  for (const Engine engine : {Engine::unfolded, Engine::events}) {
+  for (const Engine engine : {Engine::unfolded, Engine::events, Engine::velocities}) {
     const auto log = make_collision_log(article_system(3), engine);
     EXPECT_NEAR(state_at(*log, -1000).red.position, 1005, 1e-10);
     EXPECT_NEAR(state_at(*log, -1000).blue.position, 2, 1e-10);
@@ -169,7 +171,7 @@ TEST(Flights, CountBackwardsBeforeTimeZero) {
 }
 
 TEST(Log, AlternatesAndBeginsWithTheBlocks) {
-  for (const Engine engine : {Engine::unfolded, Engine::events}) {
+  for (const Engine engine : {Engine::unfolded, Engine::events, Engine::velocities}) {
     const auto log = make_collision_log(article_system(3), engine);
     double before = 0;
     for (long k = 1; k <= 314; ++k) {
@@ -188,19 +190,108 @@ TEST(Log, AlternatesAndBeginsWithTheBlocks) {
   }
 }
 
+/// Collision k of both to `tolerance`.
+void expect_same(const Collision& a, const Collision& b, double tolerance) {
+  SCOPED_TRACE("collision " + a.index.get_str());
+  EXPECT_EQ(a.index, b.index);
+  EXPECT_EQ(a.kind, b.kind);
+  EXPECT_NEAR(a.time.hi, b.time.hi, tolerance * (1 + std::fabs(a.time.hi)));
+  EXPECT_GE(a.time.hi, 0);
+  EXPECT_NEAR(a.blue.position, b.blue.position, tolerance);
+  EXPECT_NEAR(a.red.position, b.red.position, tolerance);
+  EXPECT_NEAR(a.blue.velocity, b.blue.velocity, tolerance * (1 + std::fabs(a.blue.velocity)));
+  EXPECT_NEAR(a.red.velocity, b.red.velocity, tolerance);
+}
+
 TEST(Log, EnginesAgree) {
-  for (int digits = 1; digits <= 5; ++digits) {
-    const auto unfolded = make_collision_log(article_system(digits), Engine::unfolded);
-    const auto events = make_collision_log(article_system(digits), Engine::events);
-    ASSERT_EQ(unfolded->size(), events->size());
-    for (long k = 1; k <= unfolded->size(); ++k) {
-      const Collision a = unfolded->at(k);
-      const Collision b = events->at(k);
-      ASSERT_EQ(a.kind, b.kind);
-      ASSERT_NEAR(a.time.hi, b.time.hi, 1e-9 * a.time.hi) << digits << " #" << k;
-      ASSERT_NEAR(a.blue.position, b.blue.position, 1e-8);
-      ASSERT_NEAR(a.red.position, b.red.position, 1e-8);
+  for (const Engine engine : {Engine::events, Engine::velocities}) {
+    for (int digits = 1; digits <= 5; ++digits) {
+      const auto unfolded = make_collision_log(article_system(digits), Engine::unfolded);
+      const auto stepped = make_collision_log(article_system(digits), engine);
+      ASSERT_EQ(unfolded->size(), stepped->size());
+      for (long k = 1; k <= unfolded->size(); ++k) {
+        expect_same(unfolded->at(k), stepped->at(k), 1e-8);
+        ASSERT_FALSE(HasFailure());
+      }
     }
+  }
+}
+
+TEST(Log, EnginesAgreeOnEveryKindOfStart) {
+  for (const Engine engine : {Engine::events, Engine::velocities}) {
+    for (const Start& start :
+         {Start{"100", "1", "1", "-1", "-2"}, Start{"100", "1", "1", "2", "-1"},
+          Start{"0.5", "1", "3", "1", "-1"}, Start{"1", "3/2", "2", "0", "-1"},
+          Start{"100", "3/2", "0", "-1", "-1"}, Start{"100", "0", "0", "0", "-1"},
+          Start{"100", "3/2", "2", "0", "1"}, Start{"7", "0", "2", "-1", "-1/3"}}) {
+      const auto unfolded = make_collision_log(start.system());
+      const auto stepped = make_collision_log(start.system(), engine);
+      ASSERT_EQ(unfolded->size(), stepped->size());
+      for (long k = 1; k <= unfolded->size(); ++k) {
+        expect_same(unfolded->at(k), stepped->at(k), 1e-13);
+      }
+    }
+  }
+}
+
+/// The row of a batch as the collision that at() gives.
+Collision row_of(const CollisionBatch& batch, std::size_t row) {
+  return {batch.first + static_cast<unsigned long>(row),
+          {batch.time_hi[row], batch.time_lo[row]},
+          batch.kind[row],
+          {batch.blue_position[row], batch.blue_velocity[row]},
+          {batch.red_position[row], batch.red_velocity[row]}};
+}
+
+/// The stream from `first` to `last` has exactly the collisions of at(), to a few ulp.
+void expect_streamed(const CollisionLog& log, const Integer& first, const Integer& last) {
+  const auto batch = std::make_unique<CollisionBatch>();
+  const auto stream = log.stream(first, last);
+  Integer next = first;
+  while (stream->read(*batch)) {
+    ASSERT_EQ(batch->first, next);
+    ASSERT_GT(batch->size, 0U);
+    for (std::size_t row = 0; row < batch->size; ++row) {
+      expect_same(log.at(next), row_of(*batch, row), 2e-15);
+      ++next;
+    }
+  }
+  EXPECT_EQ(next, std::max<Integer>(first, last + 1));
+  EXPECT_EQ(batch->size, 0U);
+  EXPECT_FALSE(stream->read(*batch)) << "an ended stream stays ended";
+}
+
+TEST(Stream, HasEveryCollisionOfAnyRange) {
+  for (const Engine engine : {Engine::unfolded, Engine::events}) {
+    for (const int digits : {1, 2, 3, 4}) {
+      const auto log = make_collision_log(article_system(digits), engine);
+      expect_streamed(*log, 1, log->size());
+    }
+    const auto log = make_collision_log(article_system(4), engine);
+    for (const long first : {1L, 2L, 63L, 64L, 1500L, 1571L, 2000L, 3141L}) {
+      for (const long length : {0L, 1L, 2L, 63L, 64L, 65L, 511L, 513L, 1000L}) {
+        expect_streamed(*log, first, std::min<Integer>(log->size(), first + length - 1));
+      }
+    }
+  }
+}
+
+TEST(Stream, StartsAnywhereInALogOfAnySize) {
+  for (const int digits : {9, 16, 20, 40, 150}) {
+    const auto log = make_collision_log(article_system(digits));
+    const Integer middle = log->size() / 2;
+    for (const Integer& first : {Integer(1), Integer(middle - 700), Integer(log->size() - 1200)}) {
+      expect_streamed(*log, first, first + 1100);
+    }
+  }
+}
+
+TEST(Stream, KnowsMirroredAndLightSystems) {
+  for (const Start& start :
+       {Start{"1000", "0", "3/2", "-1", "-1"}, Start{"0.5", "1", "3", "1", "-1"},
+        Start{"100", "3/2", "0", "-1", "-1"}, Start{"100", "3/2", "2", "0", "0"}}) {
+    const auto log = make_collision_log(start.system());
+    expect_streamed(*log, 1, log->size());
   }
 }
 
@@ -211,6 +302,12 @@ TEST(Log, RefusesInvalidSystems) {
   EXPECT_THROW(count_collisions(overlapping), SceneError);
   EXPECT_THROW(article_system(0), UsageError);
   EXPECT_THROW(article_system(kMaxDigits + 1), UsageError);
+}
+
+TEST(Log, RefusesToStoreTooMuch) {
+  for (const Engine engine : {Engine::events, Engine::velocities}) {
+    EXPECT_THROW(make_collision_log(article_system(8), engine), UsageError);
+  }
 }
 
 TEST(Log, RefusesRatiosBeyondItsRange) {
