@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "support/oracle.hpp"
@@ -34,25 +36,35 @@ Distances distances(const BlockSystem& s, const oracle::ExactState& state) {
           to_double(abs(area)) / std::sqrt(to_double(speed_squared))};
 }
 
-/// The state is the oracle's, to the a-priori bound and the rounding of the coordinates.
+/// 8 u (R + ell) and 8 u R, and the rounding of the coordinates.
+PositionBounds a_priori_bounds(const BlockSystem& system, const oracle::ExactState& exact) {
+  const Distances d = distances(system, exact);
+  const double blue = 2 * std::fabs(to_double(exact.blue.position)) + d.from_corner;
+  const double red = 4 * std::fabs(to_double(exact.red.position)) + d.from_corner;
+  return {kUnitRoundoff * (8 * (d.from_corner + d.closest) + blue),
+          kUnitRoundoff * (8 * d.from_corner + red)};
+}
+
+/// The state is the oracle's, to the bound that the log gives and to ours.
 void expect_accurate(const BlockSystem& system, const CollisionLog& log, const Rational& t) {
+  SCOPED_TRACE("t = " + t.get_str());
   const BlockState state = state_at(log, t);
   const oracle::ExactState exact = oracle::high_precision_state(system, t);
-  const Distances d = distances(system, exact);
-  EXPECT_EQ(state.count, exact.count) << "t = " << t;
-  const double blue_bound = 8 * kUnitRoundoff * (d.from_corner + d.closest) +
-                            4 * kUnitRoundoff * std::fabs(state.blue.position);
-  const double red_bound =
-      8 * kUnitRoundoff * d.from_corner + 4 * kUnitRoundoff * std::fabs(state.red.position);
-  EXPECT_LE(std::fabs(to_double(Rational(state.blue.position) - exact.blue.position)), blue_bound)
-      << "t = " << t;
-  EXPECT_LE(std::fabs(to_double(Rational(state.red.position) - exact.red.position)), red_bound)
-      << "t = " << t;
+  EXPECT_EQ(state.count, exact.count);
+  const PositionBounds ours = a_priori_bounds(system, exact);
+  const PositionBounds given = log.bounds_at(t).value();
+  const double blue_error =
+      std::fabs(to_double(Rational(state.blue.position) - exact.blue.position));
+  const double red_error = std::fabs(to_double(Rational(state.red.position) - exact.red.position));
+  EXPECT_LE(blue_error, ours.blue);
+  EXPECT_LE(red_error, ours.red);
+  EXPECT_LE(blue_error, given.blue);
+  EXPECT_LE(red_error, given.red);
   // sigma v_blue and v_red are the two parts of a velocity of constant length.
   const double speed = std::hypot(
       to_double(exact.red.velocity),
       to_double(exact.blue.velocity) * std::sqrt(to_double(system.blue.mass / system.red.mass)));
-  EXPECT_NEAR(state.red.velocity, to_double(exact.red.velocity), 1e-14 * speed) << "t = " << t;
+  EXPECT_NEAR(state.red.velocity, to_double(exact.red.velocity), 24 * kUnitRoundoff * speed);
 }
 
 TEST(Accuracy, OfTheArticlesSystemAtAnyNumberOfDigits) {
@@ -109,6 +121,20 @@ TEST(Accuracy, OfRandomSystems) {
   }
 }
 
+/// Worst relative error of a time that is allowed: that of two roundings.
+constexpr double kTimeError = 4e-16;
+
+void expect_event(const oracle::ExactEvent& exact, CollisionKind kind, const Time& time,
+                  const Motion& blue, const Motion& red) {
+  EXPECT_EQ(kind, exact.kind);
+  EXPECT_LE(abs(to_rational(time) - exact.time), exact.time * Rational(kTimeError));
+  EXPECT_NEAR(blue.position, to_double(exact.blue.position), 2e-15);
+  EXPECT_NEAR(red.position, to_double(exact.red.position), 2e-15);
+  EXPECT_NEAR(blue.velocity, to_double(exact.blue.velocity),
+              4e-15 * (1 + std::fabs(blue.velocity)));
+  EXPECT_NEAR(red.velocity, to_double(exact.red.velocity), 2e-15);
+}
+
 TEST(Accuracy, OfTheWholeLog) {
   for (int digits = 1; digits <= 3; ++digits) {
     const BlockSystem system = article_system(digits);
@@ -116,14 +142,30 @@ TEST(Accuracy, OfTheWholeLog) {
     const std::vector<oracle::ExactEvent> run = oracle::exact_run(system, 1000);
     ASSERT_EQ(log->size(), run.size());
     for (std::size_t i = 0; i < run.size(); ++i) {
-      const Collision collision = log->at(Integer(i + 1));
-      EXPECT_EQ(collision.kind, run[i].kind);
-      EXPECT_LE(abs(to_rational(collision.time) - run[i].time), run[i].time * Rational(4e-16));
-      EXPECT_NEAR(collision.blue.position, to_double(run[i].blue.position), 4e-15);
-      EXPECT_NEAR(collision.red.position, to_double(run[i].red.position), 4e-15);
-      EXPECT_NEAR(collision.blue.velocity, to_double(run[i].blue.velocity), 4e-13);
-      EXPECT_NEAR(collision.red.velocity, to_double(run[i].red.velocity), 4e-15);
+      SCOPED_TRACE("collision " + std::to_string(i + 1));
+      const Collision c = log->at(Integer(i + 1));
+      expect_event(run[i], c.kind, c.time, c.blue, c.red);
     }
+  }
+}
+
+TEST(Accuracy, OfTheStreamedLog) {
+  for (int digits = 1; digits <= 4; ++digits) {
+    const BlockSystem system = article_system(digits);
+    const auto log = make_collision_log(system);
+    const std::vector<oracle::ExactEvent> run = oracle::exact_run(system, 4000);
+    const auto batch = std::make_unique<CollisionBatch>();
+    const auto stream = log->stream(1, log->size());
+    std::size_t i = 0;
+    while (stream->read(*batch)) {
+      for (std::size_t row = 0; row < batch->size; ++row, ++i) {
+        SCOPED_TRACE("collision " + std::to_string(i + 1));
+        expect_event(run[i], batch->kind[row], {batch->time_hi[row], batch->time_lo[row]},
+                     {batch->blue_position[row], batch->blue_velocity[row]},
+                     {batch->red_position[row], batch->red_velocity[row]});
+      }
+    }
+    EXPECT_EQ(i, run.size());
   }
 }
 
@@ -140,6 +182,12 @@ TEST(Accuracy, LogAndStatesAreOneMotion) {
     EXPECT_NEAR(state.blue.position, now.blue.position + half * now.blue.velocity, 1e-13);
     EXPECT_NEAR(state.red.position, now.red.position + half * now.red.velocity, 1e-13);
     EXPECT_NEAR(state.blue.velocity, now.blue.velocity, 1e-10);
+  }
+}
+
+TEST(Accuracy, NoBoundIsClaimedForAnEngineThatSteps) {
+  for (const Engine engine : {Engine::events, Engine::velocities}) {
+    EXPECT_FALSE(make_collision_log(article_system(2), engine)->bounds_at(3).has_value());
   }
 }
 
