@@ -74,8 +74,8 @@ Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact, const 
   }
   time_unit = std::scalbln(1.0, exponent);
   closest_approach = to_time(exact.closest_approach / Rational(time_unit));
-  red_speed = speed / time_unit;
-  blue_speed = red_speed / sigma;
+  red_speed = exact_speed.to_double();
+  blue_speed = (exact_speed / fan.sigma).to_double();
   blue_offset = to_double(system.wall_face + system.blue.width / 2);
   red_offset = to_double(system.wall_face + system.blue.width + system.red.width / 2);
 }

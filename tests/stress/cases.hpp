@@ -18,6 +18,9 @@ inline std::int64_t many(std::int64_t ordinary) {
   return std::getenv("PIBLOCKS_STRESS_LONG") != nullptr ? 20 * ordinary : ordinary;
 }
 
+/// Whether one case is run again, alone.
+inline bool is_repetition() { return std::getenv("PIBLOCKS_SEED") != nullptr; }
+
 /// The command that runs one case of the running test again.
 inline std::string repeat_command(std::uint64_t seed) {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
@@ -29,7 +32,7 @@ inline std::string repeat_command(std::uint64_t seed) {
 /// that fails. If PIBLOCKS_SEED is set there is one case, with that seed.
 template <typename Check>
 void for_each_case(std::int64_t ordinary, std::uint64_t first_seed, const Check& check) {
-  const std::int64_t cases = std::getenv("PIBLOCKS_SEED") != nullptr ? 1 : many(ordinary);
+  const std::int64_t cases = is_repetition() ? 1 : many(ordinary);
   for (std::int64_t i = 0; i < cases; ++i) {
     Random random(first_seed + static_cast<std::uint64_t>(i));
     SCOPED_TRACE(repeat_command(random.seed()));

@@ -24,6 +24,16 @@ Wide error_of(double value, const Rational& exact) {
   return std::fabs(to_wide(Rational(value) - exact));
 }
 
+Rational to_rational(Wide value) {
+  mpfr_t wide;
+  mpfr_init2(wide, 64);
+  mpfr_set_ld(wide, value, MPFR_RNDN);
+  Rational result;
+  mpfr_get_q(result.get_mpq_t(), wide);
+  mpfr_clear(wide);
+  return result;
+}
+
 void expect_near(const char* what, Wide value, Wide wanted, Wide tolerance) {
   EXPECT_LE(std::fabs(value - wanted), tolerance) << what << ": " << value << ", not " << wanted;
 }
@@ -62,7 +72,7 @@ Bounds::Bounds(const BlockSystem& system)
   const Rational area = y2 * system.blue.velocity - y1 * system.red.velocity;
   const Rational squared = speed_squared(system);
   ell_ = root(area * area / squared);
-  passage_ = Rational(double(std::min(sigma_ * ell_ / speed_, Wide(1e300))));
+  passage_ = to_rational(sigma_ * ell_ / speed_);
   closest_approach_ =
       -(mass_ratio(system) * y1 * system.blue.velocity + y2 * system.red.velocity) / squared;
 }
