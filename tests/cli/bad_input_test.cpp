@@ -184,9 +184,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"log", "--first", "315"}, "--first 315: the scene has 314 collisions"},
         BadInput{{"log", "--limit", "0"}, "--limit 0: must be a whole number from 1 on"},
         BadInput{{"log", "--limit", "many"}, "--limit many: must be a whole number"},
-        BadInput{{"log", "--format", "xml"}, "--format xml: must be csv or jsonl"},
+        BadInput{{"log", "--format", "xml"}, "--format xml: must be csv or jsonl or npy"},
         BadInput{{"log", "--engine", "magic"}, "--engine magic: must be unfolded or events"},
         BadInput{{"log", "--engine", "1"}, "--engine 1: must be unfolded or events"},
+        BadInput{{"log", "--format", "npy", "--digits", "20", "--first", "9223372036854775808",
+                  "--limit", "1"},
+                 "--format npy: index 9,223,372,036,854,775,808 does not fit in 64 bits; use csv "
+                 "or jsonl"},
         BadInput{{"log", "--digits", "12"}, "314,159,265,358 rows are more than 100,000,000"},
         BadInput{{"log", "--digits", "8", "--engine", "events"},
                  "31,415,926 collisions are more than the limit of 5,000,000"}));
