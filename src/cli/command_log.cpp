@@ -160,6 +160,7 @@ void write(CollisionStream& collisions, const Format& format, OutputFile& file,
 void run(const LogOptions& options) {
   const Format format = value_of(*options.format, parse_format).value_or(parse_format("csv"));
   if (!format.is_text) refuse_terminal(*options.output);
+  options.scene.refuse_as_output(*options.output);
   const auto log = make_log(options.scene.scene().system, *options.engine);
   const Rows rows = select_rows(options, *log);
   const std::string header = format.header(rows);

@@ -41,6 +41,7 @@ RenderJob job_of(const RenderOptions& options) {
 void run(const RenderOptions& options) {
   const StopOnSignals signals;
   refuse_terminal(*options.output);
+  options.scene.refuse_as_output(*options.output);
   const RenderJob job = job_of(options);
   ProgressReport report(job.output, options.quiet->count() > 0);
   render(

@@ -27,6 +27,7 @@ void add_still(CLI::App& app) {
   command->callback([=] {
     const StopOnSignals signals;
     refuse_terminal(*output);
+    scene.refuse_as_output(*output);
     render_still(scene.scene(), *value_of(*instant, parse_instant), *text_of(*output),
                  signals.token());
   });

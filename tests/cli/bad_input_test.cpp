@@ -210,6 +210,38 @@ TEST_F(BadInputsTest, EachProblemOfASceneHasItsLine) {
   EXPECT_EQ(entries(), (std::vector<std::string>{"scene.toml"}));
 }
 
+/// However it is called, and whatever its name ends with.
+TEST_F(BadInputsTest, TheSceneThatIsReadIsNotReplaced) {
+  const std::string scene = "[red]\nmass = 100\n";
+  const auto expect_refused = [&](const std::string& file, const std::string& output,
+                                  const Arguments& command) {
+    write(file, scene);
+    const auto before = entries();
+    const CommandResult result = piblocks(command + Arguments{file, "-o", output});
+    EXPECT_EQ(result.exit_code, 2) << output;
+    EXPECT_EQ(result.err, "piblocks: --output " + output +
+                              ": is the scene file that is read; choose another name for the "
+                              "output\n");
+    EXPECT_EQ(contents(file), scene);
+    EXPECT_EQ(entries(), before);
+  };
+  expect_refused("scene.toml", "scene.toml", {"log"});
+  expect_refused("scene.toml", "./scene.toml", {"log", "--format", "npy"});
+  expect_refused("scene.toml", folder_ / "scene.toml", {"log"});
+  std::filesystem::create_symlink("scene.toml", folder_ / "link.csv");
+  expect_refused("scene.toml", "link.csv", {"log"});
+  expect_refused("scene.png", "scene.png", {"still", "--at", "1"});
+  expect_refused("scene.mp4", "scene.mp4", {"render", "--to", "1"});
+  expect_refused("scene.y4m", "./scene.y4m", {"render", "--to", "1"});
+}
+
+TEST_F(BadInputsTest, AnotherFileIsReplaced) {
+  write("scene.toml", "[red]\nmass = 100\n");
+  write("log.csv", "old");
+  EXPECT_EQ(output_of({"log", "scene.toml", "-o", "log.csv"}), "");
+  EXPECT_EQ(lines(contents("log.csv")).size(), 32u);
+}
+
 TEST_F(BadInputsTest, AFolderIsNotReplaced) {
   std::filesystem::create_directory(folder_ / "a.mp4");
   const CommandResult result = piblocks(render({"--to", "1"}));
