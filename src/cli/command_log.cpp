@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/commands.hpp"
+#include "cli/convention_note.hpp"
 #include "cli/decimal_counter.hpp"
 #include "cli/npy.hpp"
 #include "cli/options.hpp"
@@ -161,7 +162,8 @@ void run(const LogOptions& options) {
   const Format format = value_of(*options.format, parse_format).value_or(parse_format("csv"));
   if (!format.is_text) refuse_terminal(*options.output);
   options.scene.refuse_as_output(*options.output);
-  const auto log = make_log(options.scene.scene().system, *options.engine);
+  const BlockSystem system = options.scene.scene().system;
+  const auto log = make_log(system, *options.engine);
   const Rows rows = select_rows(options, *log);
   const std::string header = format.header(rows);
   const StopOnSignals signals;
@@ -169,6 +171,7 @@ void run(const LogOptions& options) {
   file.write(header);
   write(*log->stream(rows.first, rows.last), format, file, signals.token());
   file.finish();
+  note_convention(system);
 }
 
 LogOptions add_options(CLI::App& command) {

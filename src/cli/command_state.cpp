@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/convention_note.hpp"
 #include "cli/options.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/text_output.hpp"
@@ -56,7 +57,8 @@ struct StateOptions {
 
 void run(const StateOptions& options) {
   const std::vector<Instant> instants = *value_of(*options.at, parse_instants);
-  const auto log = make_log(options.scene.scene().system, *options.engine);
+  const BlockSystem system = options.scene.scene().system;
+  const auto log = make_log(system, *options.engine);
   TextOutput out("-");
   for (const Instant& instant : instants) {
     const TimedState at = state_at(*log, instant);
@@ -65,6 +67,7 @@ void run(const StateOptions& options) {
     write(at, bounds, out);
   }
   out.finish();
+  note_convention(system);
 }
 
 }  // namespace
