@@ -111,7 +111,9 @@ void append_rows(const CollisionBatch& batch, const CompiledFormat& format,
   out.resize(static_cast<std::size_t>(end - out.data()));
 }
 
-std::string csv_header(const Rows&) { return "index,time,kind,x_blue,x_red,v_blue,v_red\n"; }
+std::string csv_header(const Rows& /*rows*/) {
+  return "index,time,kind,x_blue,x_red,v_blue,v_red\n";
+}
 
 void append_csv(const CollisionBatch& batch, fmt::memory_buffer& out) {
   append_rows(batch, FMT_COMPILE("{},{},{},{},{},{},{}\n"), out);
@@ -124,7 +126,7 @@ void append_jsonl(const CollisionBatch& batch, fmt::memory_buffer& out) {
               out);
 }
 
-std::string no_header(const Rows&) { return {}; }
+std::string no_header(const Rows& /*rows*/) { return {}; }
 
 std::string npy_header_of(const Rows& rows) {
   if (rows.count() > 0 && rows.last > kMaxNpyIndex) {
@@ -151,7 +153,7 @@ Format parse_format(const std::string& text) {
 void write(CollisionStream& collisions, const Format& format, OutputFile& file,
            const std::stop_token& stop) {
   fmt::memory_buffer rows;
-  for (CollisionBatch batch; collisions.read(batch); rows.clear()) {
+  for (CollisionBatch batch{}; collisions.read(batch); rows.clear()) {
     if (stop.stop_requested()) throw Interrupted("log: interrupted");
     format.append(batch, rows);
     file.write(std::string_view(rows.data(), rows.size()));

@@ -12,7 +12,7 @@ namespace piblocks::cli {
 namespace {
 
 Rational parse_mass_ratio(const std::string& text) {
-  const Rational value = parse_rational(text);
+  Rational value = parse_rational(text);
   if (value <= 0) throw UsageError("must be greater than 0");
   return value;
 }

@@ -1,8 +1,6 @@
 // count, state, info, help and version.
 #include <piblocks/blocks.hpp>
 
-#include <regex>
-
 #include "cli/cli_fixture.hpp"
 #include "support/oracle.hpp"
 
@@ -118,11 +116,18 @@ TEST_F(TextCommandsTest, StateBoundsCollisions) {
   }
 }
 
+/// The text without its position bounds.
+std::string without_bounds(std::string text) {
+  const std::string key = ",\"position_bound\":";
+  for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key)) {
+    text.erase(at, text.find(',', at + key.size()) - at);
+  }
+  return text;
+}
+
 TEST_F(TextCommandsTest, StateBoundsAreAddedToTheSameState) {
   const Arguments state{"state", "--at", "0,7/2,#100"};
-  const std::regex bound(",\"position_bound\":[^,]+");
-  EXPECT_EQ(std::regex_replace(output_of(state + Arguments{"--bounds"}), bound, ""),
-            output_of(state));
+  EXPECT_EQ(without_bounds(output_of(state + Arguments{"--bounds"})), output_of(state));
 }
 
 TEST_F(TextCommandsTest, InfoNamesVersionLibrariesAndLimits) {
