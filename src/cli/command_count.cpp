@@ -1,4 +1,5 @@
 #include "cli/commands.hpp"
+#include "cli/convention_note.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/text_output.hpp"
 
@@ -13,8 +14,10 @@ void add_count(CLI::App& app) {
       "  piblocks count --mass-ratio 1/3");
   command->callback([scene] {
     TextOutput out("-");
-    out.line(count_collisions(scene.scene().system).get_str());
+    const BlockSystem system = scene.scene().system;
+    out.line(count_collisions(system).get_str());
     out.finish();
+    note_convention(system);
   });
 }
 

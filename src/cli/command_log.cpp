@@ -1,13 +1,19 @@
+#include <fmt/compile.h>
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
 
 #include "cli/commands.hpp"
+#include "cli/convention_note.hpp"
+#include "cli/decimal_counter.hpp"
+#include "cli/npy.hpp"
 #include "cli/options.hpp"
+#include "cli/refuse_terminal.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
+#include "core/output_file.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -30,6 +36,8 @@ struct LogOptions {
 struct Rows {
   Integer first;
   Integer last;
+
+  Integer count() const { return last < first ? Integer(0) : Integer(last - first + 1); }
 };
 
 Integer parse_positive(const std::string& text) { return parse_whole_number(text, 1); }
@@ -75,56 +83,97 @@ Rows select_rows(const LogOptions& options, const CollisionLog& log) {
   if (const auto limit = value_of(*options.limit, parse_positive)) {
     rows.last = std::min<Integer>(rows.last, rows.first + *limit - 1);
   }
-  const Integer count = rows.last - rows.first + 1;
-  if (count > kMaxRows && options.limit->count() == 0) {
+  if (rows.count() > kMaxRows && options.limit->count() == 0) {
     throw UsageError(fmt::format(
         "log: {} rows are more than {}; narrow them with --from, --to or --first, or allow them "
         "with --limit",
-        readable(count), readable(kMaxRows)));
+        readable(rows.count()), readable(kMaxRows)));
   }
   return rows;
 }
 
 const char* name_of(CollisionKind kind) { return kind == CollisionKind::wall ? "wall" : "blocks"; }
 
-void write_csv(const Collision& c, TextOutput& out) {
-  out.format_line("{},{},{},{},{},{},{}", c.index.get_str(), shown(c.time.hi), name_of(c.kind),
-                  shown(c.blue.position), shown(c.red.position), shown(c.blue.velocity),
-                  shown(c.red.velocity));
+/// Appends a row each, its text as `format` says: index, time, kind, positions, velocities.
+template <typename CompiledFormat>
+void append_rows(const CollisionBatch& batch, const CompiledFormat& format,
+                 fmt::memory_buffer& out) {
+  DecimalCounter index(batch.first);
+  constexpr std::size_t kMaxRest_bytes = 256;  // five numbers of at most 24 bytes, and names
+  const std::size_t begin = out.size();
+  out.resize(begin + batch.size * (index.text().size() + 1 + kMaxRest_bytes));
+  char* end = out.data() + begin;  // fmt writes to a plain pointer a fifth faster
+  for (std::size_t i = 0; i < batch.size; ++i, index.increment()) {
+    end = fmt::format_to(end, format, index.text(), shown(batch.time_hi[i]), name_of(batch.kind[i]),
+                         shown(batch.blue_position[i]), shown(batch.red_position[i]),
+                         shown(batch.blue_velocity[i]), shown(batch.red_velocity[i]));
+  }
+  out.resize(static_cast<std::size_t>(end - out.data()));
 }
 
-void write_jsonl(const Collision& c, TextOutput& out) {
-  out.format_line(
-      R"({{"index":"{}","time":{},"kind":"{}","x_blue":{},"x_red":{},"v_blue":{},"v_red":{}}})",
-      c.index.get_str(), shown(c.time.hi), name_of(c.kind), shown(c.blue.position),
-      shown(c.red.position), shown(c.blue.velocity), shown(c.red.velocity));
+std::string csv_header(const Rows& /*rows*/) {
+  return "index,time,kind,x_blue,x_red,v_blue,v_red\n";
+}
+
+void append_csv(const CollisionBatch& batch, fmt::memory_buffer& out) {
+  append_rows(batch, FMT_COMPILE("{},{},{},{},{},{},{}\n"), out);
+}
+
+void append_jsonl(const CollisionBatch& batch, fmt::memory_buffer& out) {
+  append_rows(batch,
+              FMT_COMPILE("{{\"index\":\"{}\",\"time\":{},\"kind\":\"{}\",\"x_blue\":{},"
+                          "\"x_red\":{},\"v_blue\":{},\"v_red\":{}}}\n"),
+              out);
+}
+
+std::string no_header(const Rows& /*rows*/) { return {}; }
+
+std::string npy_header_of(const Rows& rows) {
+  if (rows.count() > 0 && rows.last > kMaxNpyIndex) {
+    throw UsageError(fmt::format("--format npy: index {} does not fit in 64 bits; use csv or jsonl",
+                                 readable(rows.last)));
+  }
+  return npy_header(rows.count());
 }
 
 /// How a log is written.
 struct Format {
-  const char* header;  // a line before the rows, if any
-  void (*write)(const Collision& collision, TextOutput& out);
+  bool is_text;
+  std::string (*header)(const Rows& rows);  // bytes before the rows
+  void (*append)(const CollisionBatch& batch, fmt::memory_buffer& out);
 };
 
 Format parse_format(const std::string& text) {
-  return parse_choice<Format>(text,
-                              {{"csv", {"index,time,kind,x_blue,x_red,v_blue,v_red", write_csv}},
-                               {"jsonl", {nullptr, write_jsonl}}});
+  return parse_choice<Format>(text, {{"csv", {true, csv_header, append_csv}},
+                                     {"jsonl", {true, no_header, append_jsonl}},
+                                     {"npy", {false, npy_header_of, append_npy}}});
+}
+
+/// @throws Interrupted soon after the token asks for it.
+void write(CollisionStream& collisions, const Format& format, OutputFile& file,
+           const std::stop_token& stop) {
+  fmt::memory_buffer rows;
+  for (CollisionBatch batch{}; collisions.read(batch); rows.clear()) {
+    if (stop.stop_requested()) throw Interrupted("log: interrupted");
+    format.append(batch, rows);
+    file.write(std::string_view(rows.data(), rows.size()));
+  }
 }
 
 void run(const LogOptions& options) {
   const Format format = value_of(*options.format, parse_format).value_or(parse_format("csv"));
-  const auto log = make_log(options.scene.scene().system, *options.engine);
+  if (!format.is_text) refuse_terminal(*options.output);
+  options.scene.refuse_as_output(*options.output);
+  const BlockSystem system = options.scene.scene().system;
+  const auto log = make_log(system, *options.engine);
   const Rows rows = select_rows(options, *log);
+  const std::string header = format.header(rows);
   const StopOnSignals signals;
-  const std::stop_token stop = signals.token();
-  TextOutput out(text_of(*options.output).value_or("-"));
-  if (format.header != nullptr) out.line(format.header);
-  for (Integer index = rows.first; index <= rows.last; ++index) {
-    if (stop.stop_requested()) throw Interrupted("log: interrupted");
-    format.write(log->at(index), out);
-  }
-  out.finish();
+  OutputFile file(text_of(*options.output).value_or("-"));
+  file.write(header);
+  write(*log->stream(rows.first, rows.last), format, file, signals.token());
+  file.finish();
+  note_convention(system);
 }
 
 LogOptions add_options(CLI::App& command) {
@@ -135,7 +184,8 @@ LogOptions add_options(CLI::App& command) {
           &add_value_option(command, "--to", "S", "Leave out collisions after this time"),
           &add_value_option(command, "--first", "K", "Start with this collision, from 1"),
           &add_value_option(command, "--limit", "N", "Print at most so many rows"),
-          &add_value_option(command, "--format", "NAME", "csv (default) or jsonl"),
+          &add_value_option(command, "--format", "NAME",
+                            "csv (default), jsonl, or npy, which numpy.load() reads"),
           &add_value_option(command, "-o,--output", "FILE",
                             "File to write (default: standard output)")};
 }
@@ -148,6 +198,7 @@ void add_log(CLI::App& app) {
   command->footer(
       "Examples:\n"
       "  piblocks log --from 3 --to 4 --format jsonl\n"
+      "  piblocks log --digits 7 --format npy -o log.npy\n"
       "  piblocks log --digits 20 --first 15707963267948966190 --limit 5 -o turn.csv");
   command->callback([options] { run(options); });
 }

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "cli/commands.hpp"
+#include "cli/convention_note.hpp"
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/refuse_terminal.hpp"
@@ -41,11 +42,14 @@ RenderJob job_of(const RenderOptions& options) {
 void run(const RenderOptions& options) {
   const StopOnSignals signals;
   refuse_terminal(*options.output);
+  options.scene.refuse_as_output(*options.output);
   const RenderJob job = job_of(options);
-  ProgressReport report(job.output, options.quiet->count() > 0);
+  const bool quiet = options.quiet->count() > 0;
+  ProgressReport report(job.output, quiet);
   render(
       job, [&](const Progress& progress) { report.update(progress); }, signals.token());
   report.finish();
+  if (!quiet) note_convention(job.scene.system);
 }
 
 RenderOptions add_options(CLI::App& command) {

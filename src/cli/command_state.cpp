@@ -1,10 +1,14 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/convention_note.hpp"
 #include "cli/options.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/text_output.hpp"
@@ -22,12 +26,48 @@ std::vector<Instant> parse_instants(const std::string& text) {
   return instants;
 }
 
-void write(const TimedState& at, TextOutput& out) {
+/// @throws UsageError if the engine cannot say.
+PositionBounds bounds_at(const CollisionLog& log, const Time& time) {
+  if (const auto bounds = log.bounds_at(to_rational(time))) return *bounds;
+  throw UsageError("--bounds: the event loop cannot say how exact it is; use --engine unfolded");
+}
+
+std::string described(const Motion& motion, const std::optional<double>& position_bound) {
+  const std::string bound =
+      position_bound ? fmt::format(R"(,"position_bound":{})", shown(*position_bound)) : "";
+  return fmt::format(R"({{"position":{}{},"velocity":{}}})", shown(motion.position), bound,
+                     shown(motion.velocity));
+}
+
+void write(const TimedState& at, const std::optional<PositionBounds>& bounds, TextOutput& out) {
   const auto& [time, state] = at;
-  out.format_line(R"({{"time":{},"collisions":"{}","blue":{{"position":{},"velocity":{}}},)"
-                  R"("red":{{"position":{},"velocity":{}}}}})",
-                  shown(time.hi), state.count.get_str(), shown(state.blue.position),
-                  shown(state.blue.velocity), shown(state.red.position), shown(state.red.velocity));
+  const auto blue_bound = bounds ? std::optional(bounds->blue) : std::nullopt;
+  const auto red_bound = bounds ? std::optional(bounds->red) : std::nullopt;
+  out.format_line(R"({{"time":{},"collisions":"{}","blue":{},"red":{}}})", shown(time.hi),
+                  state.count.get_str(), described(state.blue, blue_bound),
+                  described(state.red, red_bound));
+}
+
+struct StateOptions {
+  SceneOptions scene;
+  const CLI::Option* at;
+  const CLI::Option* bounds;
+  const CLI::Option* engine;
+};
+
+void run(const StateOptions& options) {
+  const std::vector<Instant> instants = *value_of(*options.at, parse_instants);
+  const BlockSystem system = options.scene.scene().system;
+  const auto log = make_log(system, *options.engine);
+  TextOutput out("-");
+  for (const Instant& instant : instants) {
+    const TimedState at = state_at(*log, instant);
+    std::optional<PositionBounds> bounds;
+    if (options.bounds->count() > 0) bounds = bounds_at(*log, at.time);
+    write(at, bounds, out);
+  }
+  out.finish();
+  note_convention(system);
 }
 
 }  // namespace
@@ -39,18 +79,16 @@ void add_state(CLI::App& app) {
   const CLI::Option* at = add_value_option(*command, "--at", "S[,S...]",
                                            "Instants: times, 'last', or '#K', the K-th collision")
                               .required();
+  const CLI::Option* bounds =
+      command->add_flag("--bounds")
+          ->description("Add position_bound: how far a position may be from the truth at most");
   const CLI::Option* engine = &add_engine(*command);
   command->footer(
       "Examples:\n"
       "  piblocks state --at 0,3.5,last\n"
-      "  piblocks state --digits 20 --at '#15707963267948966192'");
-  command->callback([=] {
-    const std::vector<Instant> instants = *value_of(*at, parse_instants);
-    const auto log = make_log(scene.scene().system, *engine);
-    TextOutput out("-");
-    for (const Instant& instant : instants) write(state_at(*log, instant), out);
-    out.finish();
-  });
+      "  piblocks state --digits 20 --at '#15707963267948966192' --bounds");
+  const StateOptions options{scene, at, bounds, engine};
+  command->callback([options] { run(options); });
 }
 
 }  // namespace piblocks::cli

@@ -1,6 +1,7 @@
 #include <piblocks/render.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/convention_note.hpp"
 #include "cli/options.hpp"
 #include "cli/refuse_terminal.hpp"
 #include "cli/scene_options.hpp"
@@ -27,8 +28,10 @@ void add_still(CLI::App& app) {
   command->callback([=] {
     const StopOnSignals signals;
     refuse_terminal(*output);
-    render_still(scene.scene(), *value_of(*instant, parse_instant), *text_of(*output),
-                 signals.token());
+    scene.refuse_as_output(*output);
+    const Scene shown = scene.scene();
+    render_still(shown, *value_of(*instant, parse_instant), *text_of(*output), signals.token());
+    note_convention(shown.system);
   });
 }
 

@@ -1,4 +1,4 @@
-// Keeps frames off the screen.
+// Keeps frames and other bytes off the screen.
 // In: the option that says where output goes. Out: nothing, or a UsageError.
 #pragma once
 
@@ -8,9 +8,10 @@
 
 namespace piblocks::cli {
 
-/// @throws UsageError if the output is "-" and standard output is a terminal.
+/// @throws UsageError if the output is "-", as it is where the option is not given, and standard
+/// output is a terminal.
 inline void refuse_terminal(const CLI::Option& output) {
-  if (text_of(output) != "-" || isatty(STDOUT_FILENO) == 0) return;
+  if (text_of(output).value_or("-") != "-" || isatty(STDOUT_FILENO) == 0) return;
   throw UsageError("--output -: standard output is a terminal; pipe it or redirect it to a file");
 }
 

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
+#include <filesystem>
+#include <system_error>
+
 #include "cli/options.hpp"
 
 namespace piblocks::cli {
 namespace {
 
 Rational parse_mass_ratio(const std::string& text) {
-  const Rational value = parse_rational(text);
+  Rational value = parse_rational(text);
   if (value <= 0) throw UsageError("must be greater than 0");
   return value;
 }
@@ -64,6 +67,17 @@ Scene SceneOptions::scene() const {
     builder.set_mass_ratio(digits_->get_name(), *ratio);
   }
   return builder.build();
+}
+
+void SceneOptions::refuse_as_output(const CLI::Option& output) const {
+  const auto scene = text_of(*file_);
+  const auto name = text_of(output);
+  if (!scene || !name || name == "-") return;
+  std::error_code missing;  // what is not there yet is another file
+  if (!std::filesystem::equivalent(*scene, *name, missing)) return;
+  throw UsageError(
+      fmt::format("{} {}: is the scene file that is read; choose another name for the output",
+                  output.get_name(), *name));
 }
 
 CLI::Option& add_engine(CLI::App& command) {

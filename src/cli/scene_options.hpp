@@ -25,6 +25,8 @@ class SceneOptions {
 
   /// @throws SceneError, UsageError
   Scene scene() const;
+  /// @throws UsageError if the option names the scene file as the output.
+  void refuse_as_output(const CLI::Option& output) const;
 
  private:
   /// Adds an option that sets a key of the scene file.

@@ -137,6 +137,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"state", "--at", "1,#999"}, "#999: the scene has collisions"},
         BadInput{{"state", "--at", "1,,2"}, "--at 1,,2: not a number"},
         BadInput{{"state", "--at", "1,"}, "--at 1,: not a number"},
+        BadInput{{"state", "--at", "1,last", "--bounds", "--engine", "events"},
+                 "--bounds: the event loop cannot say how exact it is; use --engine unfolded"},
         BadInput{{"state", "--at", "1", "2"}, "cannot read '2'"},
         BadInput{{"state", "--at", "1", "--at", "2"}, "--at is given more than once"}));
 
@@ -182,9 +184,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"log", "--first", "315"}, "--first 315: the scene has 314 collisions"},
         BadInput{{"log", "--limit", "0"}, "--limit 0: must be a whole number from 1 on"},
         BadInput{{"log", "--limit", "many"}, "--limit many: must be a whole number"},
-        BadInput{{"log", "--format", "xml"}, "--format xml: must be csv or jsonl"},
+        BadInput{{"log", "--format", "xml"}, "--format xml: must be csv or jsonl or npy"},
         BadInput{{"log", "--engine", "magic"}, "--engine magic: must be unfolded or events"},
         BadInput{{"log", "--engine", "1"}, "--engine 1: must be unfolded or events"},
+        BadInput{{"log", "--format", "npy", "--digits", "20", "--first", "9223372036854775808",
+                  "--limit", "1"},
+                 "--format npy: index 9,223,372,036,854,775,808 does not fit in 64 bits; use csv "
+                 "or jsonl"},
         BadInput{{"log", "--digits", "12"}, "314,159,265,358 rows are more than 100,000,000"},
         BadInput{{"log", "--digits", "8", "--engine", "events"},
                  "31,415,926 collisions are more than the limit of 5,000,000"}));
@@ -202,6 +208,38 @@ TEST_F(BadInputsTest, EachProblemOfASceneHasItsLine) {
   EXPECT_TRUE(problems[2].starts_with("piblocks: scene.toml:6: view.fps = 0: "));
   EXPECT_TRUE(problems[3].starts_with("piblocks: --speed: time.speed = 0: "));
   EXPECT_EQ(entries(), (std::vector<std::string>{"scene.toml"}));
+}
+
+/// However it is called, and whatever its name ends with.
+TEST_F(BadInputsTest, TheSceneThatIsReadIsNotReplaced) {
+  const std::string scene = "[red]\nmass = 100\n";
+  const auto expect_refused = [&](const std::string& file, const std::string& output,
+                                  const Arguments& command) {
+    write(file, scene);
+    const auto before = entries();
+    const CommandResult result = piblocks(command + Arguments{file, "-o", output});
+    EXPECT_EQ(result.exit_code, 2) << output;
+    EXPECT_EQ(result.err, "piblocks: --output " + output +
+                              ": is the scene file that is read; choose another name for the "
+                              "output\n");
+    EXPECT_EQ(contents(file), scene);
+    EXPECT_EQ(entries(), before);
+  };
+  expect_refused("scene.toml", "scene.toml", {"log"});
+  expect_refused("scene.toml", "./scene.toml", {"log", "--format", "npy"});
+  expect_refused("scene.toml", folder_ / "scene.toml", {"log"});
+  std::filesystem::create_symlink("scene.toml", folder_ / "link.csv");
+  expect_refused("scene.toml", "link.csv", {"log"});
+  expect_refused("scene.png", "scene.png", {"still", "--at", "1"});
+  expect_refused("scene.mp4", "scene.mp4", {"render", "--to", "1"});
+  expect_refused("scene.y4m", "./scene.y4m", {"render", "--to", "1"});
+}
+
+TEST_F(BadInputsTest, AnotherFileIsReplaced) {
+  write("scene.toml", "[red]\nmass = 100\n");
+  write("log.csv", "old");
+  EXPECT_EQ(output_of({"log", "scene.toml", "-o", "log.csv"}), "");
+  EXPECT_EQ(lines(contents("log.csv")).size(), 32u);
 }
 
 TEST_F(BadInputsTest, AFolderIsNotReplaced) {

@@ -1,5 +1,6 @@
 // log: rows, their selection and their form.
 #include <cmath>
+#include <utility>
 
 #include "cli/cli_fixture.hpp"
 
@@ -110,6 +111,32 @@ TEST_F(LogTest, ReachesTheMiddleOfTwentyDigits) {
     EXPECT_EQ(fields[1], "3.5");
     EXPECT_EQ(fields[2], i % 2 == 1 ? "wall" : "blocks");
     EXPECT_EQ(std::fabs(std::stod(fields[5])), 1e19);
+  }
+}
+
+TEST_F(LogTest, CountsOnWhereTheNumberGrowsADigit) {
+  const Arguments nines{"log", "--digits", "20", "--first", "9999999999999999998", "--limit"};
+  EXPECT_EQ(indices(output_of(nines + Arguments{"4"})),
+            (std::vector<std::string>{"9999999999999999998", "9999999999999999999",
+                                      "10000000000000000000", "10000000000000000001"}));
+}
+
+/// Runs of any length are the rows of the whole: batches leave no trace.
+TEST_F(LogTest, ARunOfRowsIsAPartOfTheWhole) {
+  const auto all = lines(output_of({"log", "--digits", "4"}));
+  const std::vector<std::pair<int, int>> runs{
+      {1, 1}, {512, 3}, {513, 1}, {1024, 1025}, {1570, 600}};
+  for (const auto& [first, count] : runs) {
+    const auto run = lines(output_of({"log", "--digits", "4", "--first", std::to_string(first),
+                                      "--limit", std::to_string(count)}));
+    ASSERT_EQ(run.size(), 1U + static_cast<unsigned>(count));
+    for (std::size_t i = 1; i < run.size(); ++i) {
+      const auto a = split(run[i], ',');
+      const auto b = split(all[static_cast<unsigned>(first) + i - 1], ',');
+      ASSERT_EQ(a[0], b[0]);
+      ASSERT_EQ(a[2], b[2]);
+      ASSERT_NEAR(std::stod(a[1]), std::stod(b[1]), 1e-14);
+    }
   }
 }
 

@@ -50,6 +50,23 @@ TEST_F(TerminalTest, IsLeftAloneWhenQuiet) {
   EXPECT_EQ(result.err, "");
 }
 
+TEST_F(TerminalTest, GetsTextButNoBytes) {
+  const auto on_terminal = [&](const Arguments& arguments) {
+    return RunningCommand(arguments, {.folder = folder_.path(), .out_is_terminal = true}).wait();
+  };
+  for (const Arguments& arguments :
+       {Arguments{"log", "--format", "npy"}, Arguments{"log", "--format", "npy", "-o", "-"},
+        Arguments{"still", "--at", "1", "-o", "-"}, Arguments{"render", "--to", "1", "-o", "-"}}) {
+    const CommandResult result = on_terminal(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments.front();
+    EXPECT_EQ(result.out, "") << arguments.front();
+    EXPECT_EQ(result.err,
+              "piblocks: --output -: standard output is a terminal; pipe it or redirect it to a "
+              "file\n");
+  }
+  EXPECT_EQ(lines(on_terminal({"log", "--digits", "1"}).out).size(), 4u);
+}
+
 TEST_F(TerminalTest, AFileGetsPlainLines) {
   const CommandResult result = piblocks(kRender);
   EXPECT_EQ(result.exit_code, 0);

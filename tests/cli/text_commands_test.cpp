@@ -1,5 +1,8 @@
 // count, state, info, help and version.
+#include <piblocks/blocks.hpp>
+
 #include "cli/cli_fixture.hpp"
+#include "support/oracle.hpp"
 
 namespace piblocks {
 namespace {
@@ -7,6 +10,15 @@ namespace {
 using TextCommandsTest = CliFixture;
 
 constexpr const char* kPi = "314159265358979323846264338327950288";
+
+/// A printed position is within its bound of the truth, and the bound is a useful one.
+void expect_within_bound(const std::string& state, const char* block, const Rational& truth) {
+  const double bound = json_number(state, {block, "position_bound"});
+  EXPECT_GT(bound, 0) << state;
+  EXPECT_LT(bound, 1e-13) << state;
+  EXPECT_LE(abs(Rational(json_number(state, {block, "position"})) - truth), Rational(bound))
+      << state;
+}
 
 TEST_F(TextCommandsTest, CountPrintsTheDigitsOfPi) {
   for (const std::size_t digits : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 10U, 11U, 12U, 20U, 36U}) {
@@ -76,6 +88,46 @@ TEST_F(TextCommandsTest, EnginesAgreeOnStates) {
       }
     }
   }
+}
+
+TEST_F(TextCommandsTest, StateBoundsItsErrors) {
+  for (const int digits : {3, 20}) {
+    const BlockSystem system = article_system(digits);
+    for (const char* text : {"0", "2.5", "3.4999999", "3.5", "4", "100/7"}) {
+      const std::string state =
+          output_of({"state", "--digits", std::to_string(digits), "--at", text, "--bounds"});
+      const oracle::ExactState truth = oracle::high_precision_state(system, parse_rational(text));
+      expect_within_bound(state, "blue", truth.blue.position);
+      expect_within_bound(state, "red", truth.red.position);
+    }
+  }
+}
+
+TEST_F(TextCommandsTest, StateBoundsCollisions) {
+  // The blocks meet where blue has its start: red has come as far as blue's edge.
+  const auto states =
+      lines(output_of({"state", "--digits", "20", "--at", "#1,#3,last", "--bounds"}));
+  ASSERT_EQ(states.size(), 3u);
+  expect_within_bound(states[0], "blue", 2);
+  expect_within_bound(states[0], "red", 3);
+  for (const std::string& state : states) {
+    EXPECT_GT(json_number(state, {"blue", "position_bound"}), 0) << state;
+    EXPECT_LT(json_number(state, {"blue", "position_bound"}), 1e-13) << state;
+  }
+}
+
+/// The text without its position bounds.
+std::string without_bounds(std::string text) {
+  const std::string key = ",\"position_bound\":";
+  for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key)) {
+    text.erase(at, text.find(',', at + key.size()) - at);
+  }
+  return text;
+}
+
+TEST_F(TextCommandsTest, StateBoundsAreAddedToTheSameState) {
+  const Arguments state{"state", "--at", "0,7/2,#100"};
+  EXPECT_EQ(without_bounds(output_of(state + Arguments{"--bounds"})), output_of(state));
 }
 
 TEST_F(TextCommandsTest, InfoNamesVersionLibrariesAndLimits) {

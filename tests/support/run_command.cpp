@@ -95,7 +95,7 @@ void read_some(int& descriptor, std::string& text) {
 
 RunningCommand::RunningCommand(const std::vector<std::string>& arguments,
                                const CommandOptions& options) {
-  Stream out = make_pipe();
+  Stream out = options.out_is_terminal ? make_terminal() : make_pipe();
   Stream err = options.err_is_terminal ? make_terminal() : make_pipe();
   out_ = out.ours;
   err_ = err.ours;

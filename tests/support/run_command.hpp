@@ -15,6 +15,7 @@ namespace piblocks::testing_support {
 struct CommandOptions {
   std::filesystem::path folder = {};  ///< working folder; the caller's if empty
   std::string out_file = {};          ///< where standard output goes instead, such as /dev/full
+  bool out_is_terminal = false;       ///< standard output is a terminal of its own
   bool err_is_terminal = false;       ///< standard error is a terminal of its own
 };
 
@@ -54,7 +55,7 @@ class RunningCommand {
 CommandResult run_command(const std::vector<std::string>& arguments,
                           const CommandOptions& options = {});
 
-/// Whether err_is_terminal can be had: a container may have no /dev/pts.
+/// Whether terminals can be had: a container may have no /dev/pts.
 bool has_pseudo_terminals();
 
 /// Polls until `condition` holds. False if it does not within `timeout`.

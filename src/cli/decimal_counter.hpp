@@ -1,0 +1,33 @@
+// A number that counts up, as text.
+// In: where to start, of any size. Out: its digits, without a division or a big number each time.
+#pragma once
+
+#include <piblocks/exact.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace piblocks::cli {
+
+class DecimalCounter {
+ public:
+  /// @param first  >= 0
+  explicit DecimalCounter(const Integer& first) : digits_(first.get_str()) {}
+
+  std::string_view text() const { return digits_; }
+  void increment() {
+    for (auto digit = digits_.rbegin(); digit != digits_.rend(); ++digit) {
+      if (*digit != '9') {
+        ++*digit;
+        return;
+      }
+      *digit = '0';
+    }
+    digits_.insert(0, 1, '1');
+  }
+
+ private:
+  std::string digits_;
+};
+
+}  // namespace piblocks::cli
