@@ -61,10 +61,7 @@ void add_commands(CLI::App& app) {
       "Exit codes: 0 done, 1 failed, 2 wrong usage.");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a failed write, with a message
+int run(int argc, char** argv) {
   CLI::App app("Renders two sliding blocks and a wall whose collisions count the digits of pi.",
                "piblocks");
   add_commands(app);
@@ -79,5 +76,16 @@ int main(int argc, char** argv) {
     return fail("out of memory", kFailed);
   } catch (const std::exception& error) {
     return fail(error.what(), kFailed);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a failed write, with a message
+  try {
+    return run(argc, argv);
+  } catch (...) {  // not even a message can be written
+    return kFailed;
   }
 }

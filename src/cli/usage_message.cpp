@@ -25,7 +25,7 @@ std::string without_command(const CLI::App& app) {
 }
 
 std::string about_extra(const CLI::App& command, const std::string& extra) {
-  const std::string name = command.get_name();
+  const std::string& name = command.get_name();
   const char* what =
       extra.starts_with('-') && extra.size() > 1 ? "unknown option" : "unexpected argument";
   return fmt::format("{}: {} '{}'; see 'piblocks {} --help'", name, what, extra, name);

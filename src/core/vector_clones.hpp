@@ -10,3 +10,10 @@
 #else
 #define PIBLOCKS_VECTOR_CLONES
 #endif
+
+// Says of the loop that follows that its iterations do not read what others write.
+#if defined(__GNUC__) && !defined(__clang__)
+#define PIBLOCKS_INDEPENDENT_ITERATIONS _Pragma("GCC ivdep")
+#else
+#define PIBLOCKS_INDEPENDENT_ITERATIONS
+#endif

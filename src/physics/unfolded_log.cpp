@@ -38,7 +38,7 @@ ExactMotion checked(const BlockSystem& system) {
 
 UnfoldedLog::UnfoldedLog(const BlockSystem& system) : UnfoldedLog(system, checked(system)) {}
 
-UnfoldedLog::UnfoldedLog(const BlockSystem& system, ExactMotion motion)
+UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion)
     : UnfoldedLog(system, motion, motion.fan(kFan_bits)) {}
 
 UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion, const Fan& fan)
@@ -53,8 +53,7 @@ double UnfoldedLog::tau_at(const Rational& time, const Time& t) const {
   // Both times are right to 2^-106 of them. Where the difference is so small that this would
   // matter beside the time that passing the corner takes, it is taken of the exact times.
   const double error = 0x1p-104 * (std::fabs(hi) + std::fabs(turn.hi));
-  const double passage = form_.sigma * form_.ell_over_speed;
-  if (error <= 0x1p-56 * (std::fabs(tau) + passage)) return tau;
+  if (error <= 0x1p-56 * (std::fabs(tau) + form_.passage)) return tau;
   return to_double((time - exact_.closest_approach) / Rational(form_.time_unit));
 }
 

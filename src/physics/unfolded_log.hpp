@@ -28,7 +28,7 @@ class UnfoldedLog final : public CollisionLog {
   std::optional<PositionBounds> bounds_at(const Rational& time) const override;
 
  private:
-  UnfoldedLog(const BlockSystem& system, ExactMotion motion);
+  UnfoldedLog(const BlockSystem& system, const ExactMotion& motion);
   UnfoldedLog(const BlockSystem& system, const ExactMotion& motion, const Fan& fan);
 
   /// A point on the line as the nearer end of time sees it.

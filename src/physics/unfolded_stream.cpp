@@ -18,7 +18,7 @@ Integer middle(const Integer& a, const Integer& b) {
 
 /// Row i of the table is ray i of a block that ends or begins with the anchor.
 RayTable make_table(const ClosedForm& form, int sign, bool anchor_is_odd) {
-  RayTable table;
+  RayTable table{};
   for (std::size_t step = 0; step < kBlockRays; ++step) {
     const std::size_t row = sign < 0 ? step : kBlockRays - 1 - step;
     const Direction ray = form.direction({double(step), 0}, {});
@@ -37,20 +37,11 @@ RayTable make_table(const ClosedForm& form, int sign, bool anchor_is_odd) {
   return table;
 }
 
-/// The rows of a batch that one block fills.
-struct Rows {
-  double* time_hi;
-  double* time_lo;
-  double* blue_position;
-  double* blue_velocity;
-  double* red_position;
-  double* red_velocity;
-};
-
+/// Fills rows of a batch from `row` on with the rays of one block.
 /// @param skip  rows of the table before the first that is used
 PIBLOCKS_VECTOR_CLONES
 void fill_rows(const ClosedForm form, double sign, const Direction anchor, const RayTable& table,
-               std::size_t skip, std::size_t count, const Rows rows) {
+               std::size_t skip, std::size_t count, CollisionBatch& batch, std::size_t row) {
   const double* sine = table.sine.data() + skip;
   const double* cosine = table.cosine.data() + skip;
   const double* even_sine = table.even_sine.data() + skip;
@@ -58,17 +49,23 @@ void fill_rows(const ClosedForm form, double sign, const Direction anchor, const
   const double* blue_reach = table.blue_reach.data() + skip;
   const double* red_reach = table.red_reach.data() + skip;
   const double* side = table.side.data() + skip;
-#pragma GCC ivdep
+  double* time_hi = batch.time_hi.data() + row;
+  double* time_lo = batch.time_lo.data() + row;
+  double* blue_position = batch.blue_position.data() + row;
+  double* blue_velocity = batch.blue_velocity.data() + row;
+  double* red_position = batch.red_position.data() + row;
+  double* red_velocity = batch.red_velocity.data() + row;
+  PIBLOCKS_INDEPENDENT_ITERATIONS
   for (std::size_t i = 0; i < count; ++i) {
-    const CollisionNumbers row = form.collision(sign, anchor + Direction{sine[i], cosine[i]},
+    const CollisionNumbers now = form.collision(sign, anchor + Direction{sine[i], cosine[i]},
                                                 anchor + Direction{even_sine[i], even_cosine[i]},
                                                 {blue_reach[i], red_reach[i], side[i]});
-    rows.time_hi[i] = row.time_hi;
-    rows.time_lo[i] = row.time_lo;
-    rows.blue_position[i] = row.blue_position;
-    rows.blue_velocity[i] = row.blue_velocity;
-    rows.red_position[i] = row.red_position;
-    rows.red_velocity[i] = row.red_velocity;
+    time_hi[i] = now.time_hi;
+    time_lo[i] = now.time_lo;
+    blue_position[i] = now.blue_position;
+    blue_velocity[i] = now.blue_velocity;
+    red_position[i] = now.red_position;
+    red_velocity[i] = now.red_velocity;
   }
 }
 
@@ -113,6 +110,7 @@ bool UnfoldedStream::read(CollisionBatch& batch) {
 void UnfoldedStream::fill(const End& end, std::size_t begin, std::size_t rows,
                           CollisionBatch& batch) {
   if (rows == 0) return;
+  const ClosedForm& form = form_;
   const Integer first = next_ + static_cast<unsigned long>(begin);
   const DoubleDouble first_steps = end.steps_from(first);
   for (std::size_t done = 0; done < rows;) {
@@ -121,11 +119,8 @@ void UnfoldedStream::fill(const End& end, std::size_t begin, std::size_t rows,
     DoubleDouble steps = two_sum(first_steps.hi, -end.sign * double(anchor));
     steps.lo += first_steps.lo;
     const bool anchor_is_odd = is_odd(first) != (anchor % 2 == 1);
-    const std::size_t row = begin + done;
-    fill_rows(form_, end.sign, form_.direction(steps, end.beyond), table(end.sign, anchor_is_odd),
-              end.sign < 0 ? 0 : kBlockRays - count, count,
-              {&batch.time_hi[row], &batch.time_lo[row], &batch.blue_position[row],
-               &batch.blue_velocity[row], &batch.red_position[row], &batch.red_velocity[row]});
+    fill_rows(form, end.sign, form.direction(steps, end.beyond), table(end.sign, anchor_is_odd),
+              end.sign < 0 ? 0 : kBlockRays - count, count, batch, begin + done);
     done += count;
   }
 }

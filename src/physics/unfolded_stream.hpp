@@ -30,7 +30,7 @@ struct RayTable {
 
 /// Near the past a block's anchor is its first ray, near the future its last one: the angles of the
 /// others are then a sum of two positive ones, with sines that nothing cancels in.
-/// Every ray costs two rotations, one division and some thirty multiplications and additions, all
+/// Every ray costs two rotations, two divisions and some thirty multiplications and additions, all
 /// without branches, so that the compiler makes vectors of them.
 class UnfoldedStream final : public CollisionStream {
  public:

@@ -61,10 +61,9 @@ Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact, const 
   ell = exact_ell.to_double();
   impact = (fan.sigma * exact_ell).to_double();
   speed = scaled_speed.to_double();
-  ell_over_speed = (exact_ell / scaled_speed).to_double();
+  passage = (fan.sigma * exact_ell / scaled_speed).to_double();
   speed_over_ell = exact.through_corner() ? 0 : (scaled_speed / exact_ell).to_double();
   // In the chosen unit of time the speed is a typical length.
-  const double passage = sigma * ell_over_speed;
   const double least = exact.through_corner() ? speed : std::min({ell, speed, passage});
   if (least < kLeast) {
     throw SimulationError(

@@ -56,23 +56,22 @@ struct CollisionNumbers {
   double red_velocity;
 };
 
-/// What every collision is computed from. Scaled time is t/time_unit, which makes the speed
-/// about 1.
+/// What every collision is computed from. Scaled time is t/time_unit, in which ell takes about 1.
 struct ClosedForm {
-  double sigma;
+  double sigma = 0;
   DoubleDouble theta;
-  Direction step;                 ///< of theta
-  double ell;                     ///< |L|/|V|
-  double impact;                  ///< b = sigma ell: distance of the line from the corner
-  double speed;                   ///< |V| in scaled time
-  double ell_over_speed;          ///< in scaled time
-  double speed_over_ell;          ///< 0 for a line through the corner
+  Direction step{};               ///< of theta
+  double ell = 0;                 ///< |L|/|V|
+  double impact = 0;              ///< b = sigma ell: distance of the line from the corner
+  double speed = 0;               ///< |V| in scaled time
+  double passage = 0;             ///< b/|V| in scaled time: what the turn takes
+  double speed_over_ell = 0;      ///< 0 for a line through the corner
   DoubleDouble closest_approach;  ///< in scaled time
-  double time_unit;               ///< a power of two
-  double red_speed;               ///< |V|
-  double blue_speed;              ///< |V|/sigma
-  double blue_offset;             ///< x_blue - y1
-  double red_offset;              ///< x_red - y2
+  double time_unit = 0;           ///< a power of two
+  double red_speed = 0;           ///< |V|
+  double blue_speed = 0;          ///< |V|/sigma
+  double blue_offset = 0;         ///< x_blue - y1
+  double red_offset = 0;          ///< x_red - y2
 
   /// The direction of a ray, as an angle from the end of time that is `steps` and `beyond` away.
   /// With theta and the phase to twice a double's precision only the last roundings count.
@@ -99,15 +98,17 @@ struct ClosedForm {
     const double reach = sigma / ray.sine;  // R/ell
     const double distance = ell * reach;
     const DoubleDouble sum =
-        two_sum(closest_approach.hi, sign * ell_over_speed * (reach * ray.cosine));
+        two_sum(closest_approach.hi, sign * (passage * (ray.cosine / ray.sine)));
     const DoubleDouble time = two_sum(sum.hi, sum.lo + closest_approach.lo);
     const double hi = time.hi * time_unit;
     const double lo = time.lo * time_unit;
     // A log begins at time 0: what is before can only be the rounding of a collision then.
     return {hi < 0 ? 0.0 : hi,
             hi < 0 ? 0.0 : lo,
-            blue_offset + kind.blue_reach * distance, kind.side * (blue_speed * even.sine),
-            red_offset + kind.red_reach * distance,   sign * (red_speed * even.cosine)};
+            blue_offset + kind.blue_reach * distance,
+            kind.side * (blue_speed * even.sine),
+            red_offset + kind.red_reach * distance,
+            sign * (red_speed * even.cosine)};
   }
 };
 
