@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "accuracy/compare.hpp"
 #include "accuracy/methods.hpp"
 #include "accuracy/report.hpp"
 
@@ -16,13 +17,15 @@ namespace {
 
 struct Options {
   int max_digits = 9;
-  double budget_s = 2;
+  double budget_s = 7;
+  int pairs = 0;
   std::string commit = "unknown";
 };
 
 /// A method that was too slow once is not tried with more digits.
 void run(const Options& options) {
   const Circumstances circumstances{.commit = options.commit};
+  if (options.pairs > 0) return compare_whole_logs(circumstances, options.pairs);
   const std::vector<MethodPtr> methods = all_methods();
   std::map<std::pair<const Method*, Question>, bool> too_slow;
   print_header();
@@ -53,6 +56,10 @@ int main(int argc, char** argv) {
   app.add_option("--budget", options.budget_s, "Processor time for one run, in seconds")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_option("--compare", options.pairs,
+                 "Compare the program's whole logs with those of loops, in N runs in turn")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
   app.add_option("--commit", options.commit, "Name of the version, for the table");
   CLI11_PARSE(app, argc, argv);
   try {
