@@ -27,12 +27,6 @@ Timed timed_log(const Method& method, const BlockSystem& system) {
   return {events, thread_seconds() - start_s};
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 void compare(const Circumstances& circumstances, int digits, int pairs, const Method& loop) {
   const BlockSystem system = article_system(digits);
   const MethodPtr program = product();
@@ -50,8 +44,8 @@ void compare(const Circumstances& circumstances, int digits, int pairs, const Me
   }
   const auto [least, greatest] = std::ranges::minmax(ratios);
   fmt::print("{},{},{},{},{},{},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g}\n", circumstances.fields(),
-             digits, events, loop.label().method, loop.label().scalar, pairs, median(program_s),
-             median(loop_s), median(loop_s) / median(program_s), least, greatest);
+             digits, events, loop.label().method, loop.label().scalar, pairs, *median(program_s),
+             *median(loop_s), *median(loop_s) / *median(program_s), least, greatest);
   std::fflush(stdout);
 }
 

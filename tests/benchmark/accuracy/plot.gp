@@ -57,7 +57,7 @@ do for [n=1:2] {
   set logscale xy
   set xrange [1e-50:1e2]
   set yrange [2e-6:4e1]
-  set xtics 1e-50, 1e10
+  set xtics 1e-40, 1e10
   set ytics 1e-6, 10
   set mxtics 1
   set mytics 1
