@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <vector>
 
@@ -27,26 +26,34 @@ Timed timed_log(const Method& method, const BlockSystem& system) {
   return {events, thread_seconds() - start_s};
 }
 
-void compare(const Circumstances& circumstances, int digits, int pairs, const Method& loop) {
-  const BlockSystem system = article_system(digits);
-  const MethodPtr program = product();
+/// The program and a loop on one system.
+struct Match {
+  int digits;
+  MethodPtr loop;
   std::int64_t events = 0;
   std::vector<double> program_s;
   std::vector<double> loop_s;
   std::vector<double> ratios;
-  for (int i = 0; i < pairs; ++i) {
-    const Timed one = timed_log(*program, system);
-    const Timed other = timed_log(loop, system);
-    events = one.events;
-    program_s.push_back(one.seconds);
-    loop_s.push_back(other.seconds);
-    ratios.push_back(other.seconds / one.seconds);
-  }
-  const auto [least, greatest] = std::ranges::minmax(ratios);
+};
+
+void run_pair(const Method& program, Match& match) {
+  const BlockSystem system = article_system(match.digits);
+  const Timed one = timed_log(program, system);
+  const Timed other = timed_log(*match.loop, system);
+  match.events = one.events;
+  match.program_s.push_back(one.seconds);
+  match.loop_s.push_back(other.seconds);
+  match.ratios.push_back(other.seconds / one.seconds);
+}
+
+void print_match(const Circumstances& circumstances, const Match& match) {
+  const auto [least, greatest] = std::ranges::minmax(match.ratios);
+  const double program_s = *median(match.program_s);
+  const double loop_s = *median(match.loop_s);
+  const Label& label = match.loop->label();
   fmt::print("{},{},{},{},{},{},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g}\n", circumstances.fields(),
-             digits, events, loop.label().method, loop.label().scalar, pairs, *median(program_s),
-             *median(loop_s), *median(loop_s) / *median(program_s), least, greatest);
-  std::fflush(stdout);
+             match.digits, match.events, label.method, label.scalar, match.ratios.size(), program_s,
+             loop_s, loop_s / program_s, least, greatest);
 }
 
 }  // namespace
@@ -55,13 +62,19 @@ void compare_whole_logs(const Circumstances& circumstances, int pairs) {
   fmt::print(
       "date,commit,cpu,compiler,digits,events,loop,scalar,pairs,program_seconds,loop_seconds,ratio,"
       "least_ratio,greatest_ratio\n");
-  std::vector<MethodPtr> loops;
-  loops.push_back(event_loop<ArticleLoop<double>>("article's loop"));
-  loops.push_back(event_loop<GapLoop<double>>("gap loop"));
-  loops.push_back(event_loop<VelocityStepper<double>>("velocity-only loop"));
+  std::vector<Match> matches;
   for (const int digits : {6, 7}) {
-    for (const MethodPtr& loop : loops) compare(circumstances, digits, pairs, *loop);
+    matches.push_back(
+        {.digits = digits, .loop = event_loop<ArticleLoop<double>>("article's loop")});
+    matches.push_back({.digits = digits, .loop = event_loop<GapLoop<double>>("gap loop")});
+    matches.push_back(
+        {.digits = digits, .loop = event_loop<VelocityStepper<double>>("velocity-only loop")});
   }
+  const MethodPtr program = product();
+  for (int i = 0; i < pairs; ++i) {
+    for (Match& match : matches) run_pair(*program, match);
+  }
+  for (const Match& match : matches) print_match(circumstances, match);
 }
 
 }  // namespace piblocks::benchmark
