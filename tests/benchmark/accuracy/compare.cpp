@@ -31,9 +31,9 @@ struct Match {
   int digits;
   MethodPtr loop;
   std::int64_t events = 0;
-  std::vector<double> program_s;
-  std::vector<double> loop_s;
-  std::vector<double> ratios;
+  std::vector<double> program_s{};
+  std::vector<double> loop_s{};
+  std::vector<double> ratios{};
 };
 
 void run_pair(const Method& program, Match& match) {
@@ -64,11 +64,9 @@ void compare_whole_logs(const Circumstances& circumstances, int pairs) {
       "least_ratio,greatest_ratio\n");
   std::vector<Match> matches;
   for (const int digits : {6, 7}) {
-    matches.push_back(
-        {.digits = digits, .loop = event_loop<ArticleLoop<double>>("article's loop")});
-    matches.push_back({.digits = digits, .loop = event_loop<GapLoop<double>>("gap loop")});
-    matches.push_back(
-        {.digits = digits, .loop = event_loop<VelocityStepper<double>>("velocity-only loop")});
+    matches.push_back({digits, event_loop<ArticleLoop<double>>("article's loop")});
+    matches.push_back({digits, event_loop<GapLoop<double>>("gap loop")});
+    matches.push_back({digits, event_loop<VelocityStepper<double>>("velocity-only loop")});
   }
   const MethodPtr program = product();
   for (int i = 0; i < pairs; ++i) {
