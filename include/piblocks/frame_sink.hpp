@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,8 +46,15 @@ class ChunkEncoder {
  public:
   virtual ~ChunkEncoder() = default;
   /// The view need only be valid during the call.
+  /// @param changed  rectangles that cover every pixel in which the frame differs from the one
+  ///                 added before. A chunk's first frame is taken whole.
   /// @throws MediaError if the encoder refuses the frame.
-  virtual void add(const ImageView& frame) = 0;
+  virtual void add(const ImageView& frame, std::span<const PixelRect> changed) = 0;
+  /// The same for a frame that may differ everywhere.
+  void add(const ImageView& frame) {
+    const PixelRect whole{0, 0, frame.width_px, frame.height_px};
+    add(frame, {&whole, 1});
+  }
   /// The chunk's packets; call once, after the last add().
   virtual EncodedChunk finish() = 0;
 };

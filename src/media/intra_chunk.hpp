@@ -15,7 +15,7 @@ using EncodeFrame =
 class IntraChunkEncoder final : public ChunkEncoder {
  public:
   IntraChunkEncoder(VideoFormat format, std::int64_t first_frame, EncodeFrame encode);
-  void add(const ImageView& frame) override;
+  void add(const ImageView& frame, std::span<const PixelRect> changed) override;
   EncodedChunk finish() override;
 
  private:
