@@ -82,7 +82,7 @@ Motion motion_of(const Block& block) {
 }
 
 FreeFlight flight(const Integer& count, const Rational& time, const BlockSystem& system) {
-  FreeFlight result{count, to_time(time), motion_of(system.blue), motion_of(system.red)};
+  FreeFlight result{count, to_time(time), 0, motion_of(system.blue), motion_of(system.red)};
   require_finite(result, "exact events");
   return result;
 }

@@ -3,6 +3,7 @@
 #include <piblocks/interpolator.hpp>
 
 #include <cmath>
+#include <utility>
 
 namespace piblocks {
 namespace {
@@ -14,12 +15,10 @@ double advanced(const Motion& motion, double duration) {
 }  // namespace
 
 BlockState state_at(const CollisionLog& log, const Rational& time) {
-  const FreeFlight flight = log.flight_at(time);
-  const Time t = to_time(time);
-  const double duration = (t.hi - flight.anchor.hi) + (t.lo - flight.anchor.lo);
-  BlockState state{flight.count,
-                   {advanced(flight.blue, duration), flight.blue.velocity},
-                   {advanced(flight.red, duration), flight.red.velocity}};
+  FreeFlight flight = log.flight_at(time);
+  BlockState state{std::move(flight.count),
+                   {advanced(flight.blue, flight.age), flight.blue.velocity},
+                   {advanced(flight.red, flight.age), flight.red.velocity}};
   if (!std::isfinite(state.blue.position) || !std::isfinite(state.red.position)) {
     throw SimulationError("state: a position is beyond a double's range");
   }

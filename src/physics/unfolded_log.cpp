@@ -138,6 +138,7 @@ Collision UnfoldedLog::at(const Integer& index) const {
       form_.collision(end.sign, seen, odd ? seen + step : seen, form_.kind(odd));
   FreeFlight flight{index,
                     {now.time_hi, now.time_lo},
+                    0,
                     {now.blue_position, now.blue_velocity},
                     {now.red_position, now.red_velocity}};
   require_finite(flight, "closed form");

@@ -177,12 +177,12 @@ class ClosedForm final : public Method {
     return events;
   }
 
-  Numbers blue_at(const BlockSystem& system, std::span<const double> times,
+  Numbers blue_at(const BlockSystem& system, const Instants& instants,
                   const Deadline&) const override {
     const Formula formula(system);
     std::vector<Scalar> blue;
-    blue.reserve(times.size());
-    for (const double time : times) blue.push_back(formula.blue_at(time));
+    blue.reserve(instants.seconds.size());
+    for (const double time : instants.seconds) blue.push_back(formula.blue_at(time));
     return blue;
   }
 

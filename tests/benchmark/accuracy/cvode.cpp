@@ -154,12 +154,12 @@ class Cvode final : public Method {
   }
 
   /// Without events the solver would step over them unseen, so they are found here as well.
-  Numbers blue_at(const BlockSystem& system, std::span<const double> times,
+  Numbers blue_at(const BlockSystem& system, const Instants& instants,
                   const Deadline& deadline) const override {
     Integration run(system, tolerance_);
     std::vector<double> blue;
-    blue.reserve(times.size());
-    for (const double time : times) {
+    blue.reserve(instants.seconds.size());
+    for (const double time : instants.seconds) {
       while (run.advance_to(time)) deadline.check();
       blue.push_back(run.blue());
     }

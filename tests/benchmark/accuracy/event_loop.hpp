@@ -50,15 +50,15 @@ class EventLoop final : public Method {
     return writer.finish();
   }
 
-  Numbers blue_at(const BlockSystem& system, std::span<const double> times,
+  Numbers blue_at(const BlockSystem& system, const Instants& instants,
                   const Deadline& deadline) const override {
     Stepper stepper = make_(system);
     Flight<Scalar> flight = stepper.start();
     Flight<Scalar> next = flight;
     bool more = stepper.next(next);
     std::vector<Scalar> blue;
-    blue.reserve(times.size());
-    for (std::uint32_t steps = 0; const double time : times) {
+    blue.reserve(instants.seconds.size());
+    for (std::uint32_t steps = 0; const double time : instants.seconds) {
       while (more && next.time <= time) {
         flight = next;
         more = stepper.next(next);
@@ -80,7 +80,7 @@ class EventLoop final : public Method {
   }
 
  private:
-  static constexpr std::uint32_t kStepsPerCheck = 1024;
+  static constexpr std::uint32_t kStepsPerCheck = 1 << 14;
 
   MakeStepper make_;
 };

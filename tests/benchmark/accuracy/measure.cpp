@@ -4,28 +4,12 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <functional>
+#include <limits>
 
 namespace piblocks::benchmark {
 namespace {
 
-constexpr std::size_t kMinRuns = 3;
-constexpr double kMinSpent_s = 0.2;
-constexpr std::size_t kMaxRuns = 10'000;
-
-double median_seconds(const std::function<void()>& run) {
-  std::vector<double> seconds;
-  for (double spent_s = 0;
-       seconds.size() < kMinRuns || (spent_s < kMinSpent_s && seconds.size() < kMaxRuns);) {
-    const double start_s = thread_seconds();
-    run();
-    seconds.push_back(thread_seconds() - start_s);
-    spent_s += seconds.back();
-  }
-  const auto middle = seconds.begin() + std::ssize(seconds) / 2;
-  std::ranges::nth_element(seconds, middle);
-  return *middle;
-}
+constexpr double kRound_s = 0.07;
 
 /// Keeps NaN, which std::max would drop.
 void raise(double& worst, const Reference& error) {
@@ -53,20 +37,15 @@ void compare_events(const std::vector<LoggedEvent>& events, const ReferenceRun& 
   if (events.size() < reference.events.size()) result.note = "errors of the events it has";
 }
 
-void measure_whole_log(const Method& method, const ReferenceRun& reference, double budget_s,
-                       Measurement& result) {
+void judge_whole_log(const Method& method, const ReferenceRun& reference, double budget_s,
+                     Measurement& result) {
   const WholeLog log = method.whole_log(reference.system, reference.indices, Deadline(budget_s));
   result.count = Integer(log.count);
   compare_events(log.kept, reference, result);
-  result.seconds =
-      median_seconds([&] { method.whole_log(reference.system, {}, Deadline(budget_s)); });
 }
 
-void measure_instants(const Method& method, const ReferenceRun& reference, double budget_s,
-                      Measurement& result) {
-  const auto run = [&] {
-    return method.blue_at(reference.system, reference.instants, Deadline(budget_s));
-  };
+void judge_instants(const Method& method, const ReferenceRun& reference, double budget_s,
+                    Measurement& result) {
   double worst = 0;
   std::visit(
       [&](const auto& blue) {
@@ -74,41 +53,68 @@ void measure_instants(const Method& method, const ReferenceRun& reference, doubl
           raise(worst, Reference(blue[i]) - reference.blue[i]);
         }
       },
-      run());
+      method.blue_at(reference.system, reference.instants, Deadline(budget_s)));
   result.worst_position_error = worst;
-  result.seconds = median_seconds([&] { run(); });
 }
 
-void measure_count(const Method& method, const ReferenceRun& reference, double budget_s,
-                   Measurement& result) {
-  result.count = method.count(reference.system, Deadline(budget_s));
-  result.seconds =
-      median_seconds([&] { (void)method.count(reference.system, Deadline(budget_s)); });
+/// The answer is thrown away.
+void ask(const Method& method, Question question, const ReferenceRun& reference) {
+  const Deadline none(std::numeric_limits<double>::infinity());
+  switch (question) {
+    case Question::whole_log:
+      method.whole_log(reference.system, {}, none);
+      break;
+    case Question::instants:
+      method.blue_at(reference.system, reference.instants, none);
+      break;
+    case Question::count:
+      (void)method.count(reference.system, none);
+      break;
+  }
 }
 
 }  // namespace
 
-Measurement measure(const Method& method, Question question, const ReferenceRun& reference,
-                    double budget_s) {
+Measurement judge(const Method& method, Question question, const ReferenceRun& reference,
+                  double budget_s) {
   Measurement result;
   try {
     switch (question) {
       case Question::whole_log:
-        measure_whole_log(method, reference, budget_s, result);
+        judge_whole_log(method, reference, budget_s, result);
         break;
       case Question::instants:
-        measure_instants(method, reference, budget_s, result);
+        judge_instants(method, reference, budget_s, result);
         break;
       case Question::count:
-        measure_count(method, reference, budget_s, result);
+        result.count = method.count(reference.system, Deadline(budget_s));
         break;
     }
+    result.answered = true;
   } catch (const OutOfBudget&) {
     return skip(method, question, reference);
   } catch (const std::runtime_error& failure) {  // of the method, or of the engine it tries
     result.note = failure.what();
   }
   return result;
+}
+
+void time_round(const Method& method, Question question, const ReferenceRun& reference,
+                std::vector<double>& seconds) {
+  double spent_s = 0;
+  do {
+    const double start_s = thread_seconds();
+    ask(method, question, reference);
+    seconds.push_back(thread_seconds() - start_s);
+    spent_s += seconds.back();
+  } while (spent_s < kRound_s);
+}
+
+std::optional<double> median(std::vector<double> seconds) {
+  if (seconds.empty()) return std::nullopt;
+  const auto middle = seconds.begin() + std::ssize(seconds) / 2;
+  std::ranges::nth_element(seconds, middle);
+  return *middle;
 }
 
 Measurement skip(const Method& method, Question question, const ReferenceRun& reference) {

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "accuracy/method.hpp"
 #include "accuracy/reference.hpp"
@@ -16,12 +17,19 @@ struct Measurement {
   std::optional<double> worst_position_error;
   std::optional<Integer> count;
   std::string note;
+  bool answered = false;
   bool out_of_budget = false;
 };
 
-/// At least three runs, and more until 0.2 s are spent; the budget is for each run.
-Measurement measure(const Method& method, Question question, const ReferenceRun& reference,
-                    double budget_s);
+/// The method's errors and count, not timed yet. Where they take more than the budget, skip().
+Measurement judge(const Method& method, Question question, const ReferenceRun& reference,
+                  double budget_s);
+
+/// How long each of the next runs takes: at least one, and more until 0.07 s are spent.
+void time_round(const Method& method, Question question, const ReferenceRun& reference,
+                std::vector<double>& seconds);
+
+std::optional<double> median(std::vector<double> seconds);
 
 /// The row of a method that was too slow for fewer digits: not timed, errors where it has random
 /// access.

@@ -12,7 +12,7 @@ std::vector<LoggedEvent> Method::single_events(const BlockSystem&,
   throw NotRun("not run: has no random access");
 }
 
-Numbers Method::blue_at(const BlockSystem&, std::span<const double>, const Deadline&) const {
+Numbers Method::blue_at(const BlockSystem&, const Instants&, const Deadline&) const {
   throw NotRun("not run: has no positions");
 }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "accuracy/deadline.hpp"
+#include "accuracy/instants.hpp"
 #include "accuracy/number.hpp"
 
 namespace piblocks::benchmark {
@@ -63,8 +64,8 @@ class Method {
   /// the budget. @throws NotRun by default: there is no way but through all events.
   virtual std::vector<LoggedEvent> single_events(const BlockSystem& system,
                                                  std::span<const std::int64_t> wanted) const;
-  /// Blue's position at each of the `times`, ascending. @throws NotRun
-  virtual Numbers blue_at(const BlockSystem& system, std::span<const double> times,
+  /// Blue's position at each of the instants, ascending. @throws NotRun
+  virtual Numbers blue_at(const BlockSystem& system, const Instants& instants,
                           const Deadline& deadline) const;
   /// @throws NotRun
   virtual Integer count(const BlockSystem& system, const Deadline& deadline) const;

@@ -35,8 +35,8 @@ std::vector<MethodPtr> all_methods() {
   methods.push_back(closed_form<OneSided<Quad>>("closed form, one-sided"));
   methods.push_back(closed_form<OneSided<Decimal50>>("closed form, one-sided"));
   methods.push_back(multiprecision());
-  methods.push_back(event_loop<VelocityLoop<double>>("velocity-only loop"));
-  methods.push_back(event_loop<VelocityLoop<long double>>("velocity-only loop"));
+  methods.push_back(event_loop<VelocityStepper<double>>("velocity-only loop"));
+  methods.push_back(event_loop<VelocityStepper<long double>>("velocity-only loop"));
   methods.push_back(event_loop<GapLoop<double>>("gap loop"));
   methods.push_back(event_loop<GapLoop<long double>>("gap loop"));
   methods.push_back(event_loop<ArticleLoop<double>>("article's loop"));

@@ -11,13 +11,13 @@ class Multiprecision final : public Method {
 
   bool answers(Question question) const override { return question != Question::whole_log; }
 
-  Numbers blue_at(const BlockSystem& system, std::span<const double> times,
+  Numbers blue_at(const BlockSystem& system, const Instants& instants,
                   const Deadline& deadline) const override {
     std::vector<Reference> blue;
-    blue.reserve(times.size());
-    for (const double time : times) {
+    blue.reserve(instants.exact.size());
+    for (const Rational& time : instants.exact) {
       deadline.check();
-      const oracle::ExactState state = oracle::high_precision_state(system, Rational(time));
+      const oracle::ExactState state = oracle::high_precision_state(system, time);
       blue.push_back(to_reference(state.blue.position));
     }
     return blue;

@@ -57,7 +57,7 @@ do for [n=1:2] {
   set logscale xy
   set xrange [1e-50:1e2]
   set yrange [2e-6:4e1]
-  set xtics 1e-50, 1e10
+  set xtics 1e-40, 1e10
   set ytics 1e-6, 10
   set mxtics 1
   set mytics 1
@@ -73,7 +73,7 @@ do for [n=1:2] {
     if (p == 0) { set ylabel "processor time, s" } else { unset ylabel; set format y "" }
     unset label
     if (n == 1 && d == 9) {
-      set label "top edge: over the budget, not timed" at graph 0.04, 0.9 font ",11"
+      set label "top edge: over the budget" at graph 0.04, 0.9 font ",11"
     }
     plot for [i=1:10] csv \
       using (comparable(at_digits(asked[n], i, d, error('worst_position_error')))) \

@@ -1,4 +1,8 @@
 #include <piblocks/collision_log.hpp>
+#include <piblocks/interpolator.hpp>
+
+#include <memory>
+#include <span>
 
 #include "accuracy/log_writer.hpp"
 #include "accuracy/methods.hpp"
@@ -16,10 +20,15 @@ class Product final : public Method {
   WholeLog whole_log(const BlockSystem& system, std::span<const std::int64_t> wanted,
                      const Deadline& deadline) const override {
     const auto log = make_collision_log(system);
+    const auto stream = log->stream(1, log->size());
     LogWriter<double> writer(wanted, deadline);
-    for (Integer k = 1; k <= log->size(); ++k) {
-      const Collision collision = log->at(k);
-      writer.push(collision.time.hi, collision.blue.position, collision.red.position);
+    const auto batch = std::make_unique<CollisionBatch>();
+    const auto rows = [&](const CollisionBatch::Column& column) {
+      return std::span(column).first(batch->size);
+    };
+    while (stream->read(*batch)) {
+      writer.push_columns(rows(batch->time_hi), rows(batch->blue_position),
+                          rows(batch->red_position));
     }
     return writer.finish();
   }
@@ -35,12 +44,12 @@ class Product final : public Method {
     return events;
   }
 
-  Numbers blue_at(const BlockSystem& system, std::span<const double> times,
+  Numbers blue_at(const BlockSystem& system, const Instants& instants,
                   const Deadline&) const override {
     const auto log = make_collision_log(system);
     std::vector<double> blue;
-    blue.reserve(times.size());
-    for (const double time : times) blue.push_back(log->flight_at(Rational(time)).blue.position);
+    blue.reserve(instants.exact.size());
+    for (const Rational& time : instants.exact) blue.push_back(state_at(*log, time).blue.position);
     return blue;
   }
 

@@ -7,15 +7,14 @@
 #include <set>
 
 #include "accuracy/closed_form.hpp"
-#include "accuracy/instants.hpp"
 #include "support/oracle.hpp"
 
 namespace piblocks::benchmark {
 namespace {
 
 constexpr int kMaxDigitsWithEveryEvent = 5;
-constexpr std::int64_t kEvenlySpaced = 2000;
-constexpr std::int64_t kNeighbours = 500;  // on each side of the turn, and at both ends
+constexpr std::int64_t kEvenlySpaced = 20'000;
+constexpr std::int64_t kNeighbours = 5'000;  // on each side of the turn, and at both ends
 constexpr std::size_t kCheckedEvents = 20;
 
 std::vector<std::int64_t> selected_indices(int digits, std::int64_t count) {
@@ -74,8 +73,8 @@ ReferenceRun reference_run(int digits) {
     check_with_oracle(run.system, run.events[i]);
   }
   run.instants = random_instants();
-  for (const double time : run.instants) {
-    const oracle::ExactState state = oracle::high_precision_state(run.system, Rational(time));
+  for (const Rational& time : run.instants.exact) {
+    const oracle::ExactState state = oracle::high_precision_state(run.system, time);
     run.blue.push_back(to_reference(state.blue.position));
   }
   return run;

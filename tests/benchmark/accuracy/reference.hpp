@@ -16,14 +16,14 @@ struct ReferenceRun {
   std::int64_t count = 0;
   std::vector<std::int64_t> indices;  ///< of `events`, ascending
   std::vector<LoggedEvent> events;
-  std::vector<double> instants;
+  Instants instants;
   std::vector<Reference> blue;  ///< at the instants
 
   bool has_every_event() const { return std::ssize(events) == count; }
 };
 
 /// Events come from the closed form in a hundred digits: every one up to five digits of pi,
-/// beyond it a selection. Some of them, and all positions at instants, are from the oracle.
+/// beyond it some 39,000. Some of them, and all positions at instants, are from the oracle.
 /// @throws SimulationError if the closed form and the oracle disagree.
 ReferenceRun reference_run(int digits);
 

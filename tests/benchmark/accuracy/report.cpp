@@ -35,6 +35,10 @@ std::string cell(std::string text) {
 
 }  // namespace
 
+std::string Circumstances::fields() const {
+  return fmt::format("{},{},{},GCC {}", date, cell(commit), cell(cpu), __VERSION__);
+}
+
 std::string Circumstances::today() {
   return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
 }
@@ -65,8 +69,7 @@ void print_row(const Circumstances& circumstances, Question question, const Labe
     count = measured.count->get_str();
     right = *measured.count == reference.count ? "yes" : "no";
   }
-  fmt::print("{},{},{},GCC {},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", circumstances.date,
-             cell(circumstances.commit), cell(circumstances.cpu), __VERSION__, name(question),
+  fmt::print("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", circumstances.fields(), name(question),
              cell(label.method), cell(label.scalar), cell(label.parameter), reference.digits,
              reference.count, cell(measured.seconds), cell(ns_per_event),
              cell(measured.worst_time_error), cell(measured.worst_position_error), count, right,

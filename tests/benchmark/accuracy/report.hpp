@@ -14,6 +14,8 @@ struct Circumstances {
   std::string date = today();
   std::string cpu = cpu_name();
 
+  /// The first fields of a row: date, commit, cpu, compiler.
+  std::string fields() const;
   static std::string today();
   static std::string cpu_name();
 };
