@@ -1,7 +1,7 @@
 #include <fmt/format.h>
-#include <libdeflate.h>
 #include <piblocks/error.hpp>
 #include <piblocks/frame_sink.hpp>
+#include <zlib.h>
 
 #include <array>
 #include <limits>
@@ -104,7 +104,7 @@ std::vector<std::string> media_library_versions() {
                        AV_VERSION_MICRO(number));
   };
   return {version("libavformat", avformat_version()), version("libavcodec", avcodec_version()),
-          version("libavutil", avutil_version()), "libdeflate " LIBDEFLATE_VERSION_STRING};
+          version("libavutil", avutil_version()), std::string("zlib ") + zlibVersion()};
 }
 
 }  // namespace piblocks
