@@ -79,7 +79,7 @@ class FrameSink {
 /// `*.mp4`, `*.png` with one integer field such as `%06d`, `*.y4m`, `-` (y4m on standard
 /// output), `*.framehash`, or the word `null`.
 /// PNG files are numbered from 1, as FFmpeg numbers them; the rest counts frames from 0. Settings
-/// are for `*.mp4` alone. Silences libav's log for the whole process.
+/// are for `*.mp4` alone.
 /// @throws UsageError if the name has no known kind, the format does not suit the kind, no
 ///         encoder is there, or the output cannot be opened; nothing is left behind then.
 std::unique_ptr<FrameSink> open_sink(const std::string& output, const VideoFormat& format,
