@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,13 @@ class Canvas {
   /// Replaces the whole picture. The list must be of the canvas's size.
   /// @throws DrawError
   void paint(const DrawList& list);
-  /// The picture; valid until the next paint().
+  /// Makes the picture what paint() would make it, but paints only where it may differ from the
+  /// last list.
+  /// @returns rectangles that cover every pixel that has changed; valid until the next call. The
+  ///          whole frame if nothing was painted before.
+  /// @throws DrawError
+  std::span<const PixelRect> update(const DrawList& list);
+  /// The picture; valid until the next paint() or update().
   ImageView view() const;
 
  private:

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,8 +46,15 @@ class ChunkEncoder {
  public:
   virtual ~ChunkEncoder() = default;
   /// The view need only be valid during the call.
+  /// @param changed  rectangles that cover every pixel in which the frame differs from the one
+  ///                 added before. A chunk's first frame is taken whole.
   /// @throws MediaError if the encoder refuses the frame.
-  virtual void add(const ImageView& frame) = 0;
+  virtual void add(const ImageView& frame, std::span<const PixelRect> changed) = 0;
+  /// The same for a frame that may differ everywhere.
+  void add(const ImageView& frame) {
+    const PixelRect whole{0, 0, frame.width_px, frame.height_px};
+    add(frame, {&whole, 1});
+  }
   /// The chunk's packets; call once, after the last add().
   virtual EncodedChunk finish() = 0;
 };
@@ -71,7 +79,7 @@ class FrameSink {
 /// `*.mp4`, `*.png` with one integer field such as `%06d`, `*.y4m`, `-` (y4m on standard
 /// output), `*.framehash`, or the word `null`.
 /// PNG files are numbered from 1, as FFmpeg numbers them; the rest counts frames from 0. Settings
-/// are for `*.mp4` alone. Silences libav's log for the whole process.
+/// are for `*.mp4` alone.
 /// @throws UsageError if the name has no known kind, the format does not suit the kind, no
 ///         encoder is there, or the output cannot be opened; nothing is left behind then.
 std::unique_ptr<FrameSink> open_sink(const std::string& output, const VideoFormat& format,

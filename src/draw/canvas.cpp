@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <string_view>
 
 #include "draw/cairo_handles.hpp"
+#include "draw/damage.hpp"
 #include "draw/painter.hpp"
 #include FT_FREETYPE_H
 
@@ -41,7 +43,7 @@ std::vector<std::uint8_t> draw_vector_file(const DrawList& list, MakeSurface mak
   std::vector<std::uint8_t> bytes;
   const CairoSurfacePtr surface(make(append_bytes, &bytes, list.width_px, list.height_px));
   const CairoPtr cr(cairo_create(surface.get()));
-  Painter().paint(*cr, list);
+  Painter(TextSetting::lines).paint(*cr, list);
   cairo_surface_finish(surface.get());
   check_cairo(cairo_surface_status(surface.get()), "finish the vector file");
   return bytes;
@@ -63,22 +65,56 @@ std::vector<std::uint8_t> with_fixed_id(std::vector<std::uint8_t> svg) {
 
 struct Canvas::Pixels {
   CairoSurfacePtr surface;
-  CairoPtr cr;
-  Painter painter;
+  Painter painter{TextSetting::glyphs};
+  std::optional<DrawList> shown;
+  std::vector<PixelRect> changed;
+
+  void paint(const DrawList& list, const PixelRect& rect);
 };
+
+/// A part is painted as a picture of its own that shares the memory of the whole. Under a clip
+/// Cairo would take other paths, and its antialiased edges come out a step lighter or darker there.
+void Canvas::Pixels::paint(const DrawList& list, const PixelRect& rect) {
+  cairo_surface_flush(surface.get());
+  const int stride_bytes = cairo_image_surface_get_stride(surface.get());
+  unsigned char* const corner = cairo_image_surface_get_data(surface.get()) +
+                                std::ptrdiff_t{rect.y_px} * stride_bytes + 4 * rect.x_px;
+  const CairoSurfacePtr part(cairo_image_surface_create_for_data(
+      corner, CAIRO_FORMAT_RGB24, rect.width_px, rect.height_px, stride_bytes));
+  cairo_surface_set_device_offset(part.get(), -rect.x_px, -rect.y_px);
+  const CairoPtr cr(cairo_create(part.get()));
+  painter.paint(*cr, list);
+  cairo_surface_finish(part.get());
+  cairo_surface_mark_dirty(surface.get());
+}
 
 Canvas::Canvas(int width_px, int height_px) : pixels_(std::make_unique<Pixels>()) {
   pixels_->surface.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, height_px));
   check_cairo(cairo_surface_status(pixels_->surface.get()), "make a canvas");
-  pixels_->cr.reset(cairo_create(pixels_->surface.get()));
 }
 
 Canvas::~Canvas() = default;
 
 void Canvas::paint(const DrawList& list) {
   assert(list.width_px == view().width_px && list.height_px == view().height_px);
-  pixels_->painter.paint(*pixels_->cr, list);
-  cairo_surface_flush(pixels_->surface.get());
+  pixels_->paint(list, {0, 0, list.width_px, list.height_px});
+  pixels_->shown = list;
+}
+
+std::span<const PixelRect> Canvas::update(const DrawList& list) {
+  std::vector<PixelRect>& changed = pixels_->changed;
+  if (!pixels_->shown) {
+    paint(list);
+    changed = {{0, 0, list.width_px, list.height_px}};
+    return changed;
+  }
+  const auto width_em = [this](std::string_view text) {
+    return pixels_->painter.font().width_em(text);
+  };
+  changed = damage(*pixels_->shown, list, width_em);
+  for (const PixelRect& rect : changed) pixels_->paint(list, rect);
+  pixels_->shown = list;
+  return changed;
 }
 
 ImageView Canvas::view() const {

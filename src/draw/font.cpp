@@ -84,6 +84,19 @@ void Font::select(cairo_t& cr, double size_px) const {
   cairo_set_font_size(&cr, size_px);
 }
 
+std::vector<cairo_glyph_t> Font::glyphs(cairo_t& cr, const Point& origin,
+                                        std::string_view utf8) const {
+  cairo_glyph_t* found = nullptr;
+  int count = 0;
+  check_cairo(cairo_scaled_font_text_to_glyphs(cairo_get_scaled_font(&cr), origin.x, origin.y,
+                                               utf8.data(), static_cast<int>(utf8.size()), &found,
+                                               &count, nullptr, nullptr, nullptr),
+              "set text");
+  std::vector<cairo_glyph_t> glyphs(found, found + count);
+  cairo_glyph_free(found);
+  return glyphs;
+}
+
 double Font::width_em(std::string_view utf8) const {
   // Measured large: unhinted advances scale, but Cairo keeps them in 1/64 pixel.
   constexpr double kMeasure_px = 1024;

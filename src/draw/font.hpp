@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cairo.h>
+#include <piblocks/draw_list.hpp>
 
 #include <memory>
 #include <string_view>
+#include <vector>
 
 namespace piblocks {
 
@@ -20,6 +22,8 @@ class Font {
 
   /// Makes it the font of `cr`, unhinted and antialiased in grey, at this size of the em.
   void select(cairo_t& cr, double size_px) const;
+  /// The glyphs of a line of text that starts at `origin`, in a context where select() was called.
+  std::vector<cairo_glyph_t> glyphs(cairo_t& cr, const Point& origin, std::string_view utf8) const;
   /// Width of a line of text, in ems.
   double width_em(std::string_view utf8) const;
 

@@ -25,14 +25,16 @@ void stroke_side(cairo_t& cr, const Point& from, const Point& to, double dash_px
 }
 
 void stroke_inside(cairo_t& cr, const Rectangle& bounds, const Stroke& stroke) {
-  const double inset = stroke.width_px / 2;
+  // A shape thinner than its stroke is all stroke.
+  const double width_px = std::min({stroke.width_px, bounds.width, bounds.height});
+  const double inset = width_px / 2;
   const double left = bounds.x + inset;
   const double top = bounds.y + inset;
   const double right = bounds.x + bounds.width - inset;
   const double bottom = bounds.y + bounds.height - inset;
   set_color(cr, stroke.color);
-  cairo_set_line_width(&cr, stroke.width_px);
-  if (stroke.dash_px <= 0) {
+  cairo_set_line_width(&cr, width_px);
+  if (stroke.dash_px <= 0 || width_px < stroke.width_px) {
     cairo_set_dash(&cr, nullptr, 0, 0);
     cairo_rectangle(&cr, left, top, right - left, bottom - top);
     cairo_stroke(&cr);
@@ -67,12 +69,22 @@ void Painter::paint(cairo_t& cr, const DrawList& list) {
   check_cairo(cairo_status(&cr), "paint");
 }
 
-void Painter::paint_text(cairo_t& cr, const TextItem& item) {
+const Font& Painter::font() {
   if (!font_) font_ = std::make_unique<Font>();
-  font_->select(cr, item.size_px);
+  return *font_;
+}
+
+void Painter::paint_text(cairo_t& cr, const TextItem& item) {
+  font().select(cr, item.size_px);
   set_color(cr, item.color);
-  cairo_move_to(&cr, item.origin.x, item.origin.y);
-  cairo_show_text(&cr, item.text.c_str());
+  if (setting_ == TextSetting::lines) {
+    cairo_move_to(&cr, item.origin.x, item.origin.y);
+    cairo_show_text(&cr, item.text.c_str());
+    return;
+  }
+  for (const cairo_glyph_t& glyph : font().glyphs(cr, item.origin, item.text)) {
+    cairo_show_glyphs(&cr, &glyph, 1);
+  }
 }
 
 }  // namespace piblocks

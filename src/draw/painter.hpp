@@ -11,15 +11,27 @@
 
 namespace piblocks {
 
+/// How text is set. Of overlapping glyphs of one line Cairo blends all in another way than others,
+/// and whether they overlap it asks only of those in view: a part of a picture would differ from
+/// the whole by a step of grey.
+enum class TextSetting {
+  lines,  ///< at once, so that it stays text in a file
+  glyphs  ///< each glyph by itself, so that its pixels depend on nothing else
+};
+
 /// Holds the font, which is loaded when the first text is met.
 class Painter {
  public:
+  explicit Painter(TextSetting setting) : setting_(setting) {}
+
   /// Paints the background and every item. @throws DrawError
   void paint(cairo_t& cr, const DrawList& list);
+  const Font& font();
 
  private:
   void paint_text(cairo_t& cr, const TextItem& item);
 
+  TextSetting setting_;
   std::unique_ptr<Font> font_;
 };
 

@@ -37,4 +37,13 @@ int check_av(int code, std::string_view operation, std::string_view object) {
 
 void silence_av() { av_log_set_level(AV_LOG_QUIET); }
 
+std::vector<std::string> av_library_versions() {
+  const auto version = [](std::string_view name, unsigned number) {
+    return fmt::format("{} {}.{}.{}", name, AV_VERSION_MAJOR(number), AV_VERSION_MINOR(number),
+                       AV_VERSION_MICRO(number));
+  };
+  return {version("libavformat", avformat_version()), version("libavcodec", avcodec_version()),
+          version("libavutil", avutil_version())};
+}
+
 }  // namespace piblocks

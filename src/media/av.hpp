@@ -12,6 +12,7 @@ extern "C" {
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace piblocks {
 
@@ -57,5 +58,8 @@ Owner own_av(typename Owner::pointer object, std::string_view name) {
 
 /// Keeps libav from printing; its error codes carry the cause. Affects the whole process.
 void silence_av();
+
+/// Name and version of each of libav's libraries that is used.
+std::vector<std::string> av_library_versions();
 
 }  // namespace piblocks

@@ -39,7 +39,7 @@ bool is_software_h264(const AVCodec& codec) {
 
 }  // namespace
 
-std::vector<std::string> h264_encoders() {
+std::vector<std::string> usable_h264_encoders() {
   silence_av();
   std::vector<std::string> names;
   void* position = nullptr;
@@ -55,7 +55,7 @@ const AVCodec& find_encoder(const std::optional<std::string>& name) {
   if (!name) {
     if (const AVCodec* x264 = avcodec_find_encoder_by_name(kX264.data())) return *x264;
   }
-  const std::vector<std::string> found = h264_encoders();
+  const std::vector<std::string> found = usable_h264_encoders();
   if (!name && found.empty()) {
     throw UsageError(
         "video: cannot find an H.264 encoder in libavcodec; install Debian's package libavcodec59 "

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "media/av.hpp"
 
@@ -13,8 +14,11 @@ namespace piblocks {
 /// The encoder that is taken if there is a choice.
 inline constexpr std::string_view kX264 = "libx264";
 
-/// The encoder of that name, or the first of h264_encoders(). The object is libavcodec's and lives
-/// as long as the program.
+/// What h264_encoders() gives.
+std::vector<std::string> usable_h264_encoders();
+
+/// The encoder of that name, or the first of usable_h264_encoders(). The object is libavcodec's and
+/// lives as long as the program.
 /// @throws UsageError if there is none, or it does not suit; the message says what to use instead.
 const AVCodec& find_encoder(const std::optional<std::string>& name);
 

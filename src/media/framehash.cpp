@@ -50,8 +50,9 @@ std::string frame_line(const ImageView& frame, std::int64_t number) {
 }  // namespace
 
 std::unique_ptr<FrameSink> open_framehash(const SinkRequest& request) {
-  const auto encode_frame = [header = file_header(request.format)](const ImageView& frame,
-                                                                   std::int64_t number) {
+  const auto encode_frame = [header = file_header(request.format)](
+                                const ImageView& frame, std::span<const PixelRect> /*changed*/,
+                                std::int64_t number) {
     const std::string text = (number == 0 ? header : "") + frame_line(frame, number);
     return std::vector<std::uint8_t>(text.begin(), text.end());
   };

@@ -8,14 +8,15 @@
 
 namespace piblocks {
 
-/// The bytes of one frame; a function of its arguments alone.
-using EncodeFrame =
-    std::function<std::vector<std::uint8_t>(const ImageView& frame, std::int64_t number)>;
+/// The bytes of one frame, which depend on its pixels and number alone. What has changed since the
+/// frame before can save work; for the first of a chunk it says nothing.
+using EncodeFrame = std::function<std::vector<std::uint8_t>(
+    const ImageView& frame, std::span<const PixelRect> changed, std::int64_t number)>;
 
 class IntraChunkEncoder final : public ChunkEncoder {
  public:
   IntraChunkEncoder(VideoFormat format, std::int64_t first_frame, EncodeFrame encode);
-  void add(const ImageView& frame) override;
+  void add(const ImageView& frame, std::span<const PixelRect> changed) override;
   EncodedChunk finish() override;
 
  private:

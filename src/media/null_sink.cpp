@@ -5,7 +5,7 @@ namespace {
 
 class NullChunkEncoder final : public ChunkEncoder {
  public:
-  void add(const ImageView& /*frame*/) override {}
+  void add(const ImageView& /*frame*/, std::span<const PixelRect> /*changed*/) override {}
   EncodedChunk finish() override { return {}; }
 };
 

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
-#include <libdeflate.h>
 #include <piblocks/error.hpp>
 #include <piblocks/frame_sink.hpp>
+#include <zlib.h>
 
 #include <array>
 #include <limits>
 #include <string_view>
 
-#include "media/av.hpp"
+#include "media/av_module.hpp"
 #include "media/sink_kinds.hpp"
 
 namespace piblocks {
@@ -23,7 +23,7 @@ struct SinkKind {
 
 constexpr std::array kSinkKinds = {
     SinkKind{"*.mp4", [](std::string_view output) { return output.ends_with(".mp4"); }, true,
-             open_mp4},
+             [](const SinkRequest& request) { return av_module().open_mp4(request); }},
     SinkKind{"*.png with a number field such as %06d",
              [](std::string_view output) { return output.ends_with(".png"); }, false,
              open_png_sequence},
@@ -32,7 +32,7 @@ constexpr std::array kSinkKinds = {
     SinkKind{"- (y4m on standard output)", [](std::string_view output) { return output == "-"; },
              false, open_y4m},
     SinkKind{"*.framehash", [](std::string_view output) { return output.ends_with(".framehash"); },
-             false, open_framehash},
+             false, [](const SinkRequest& request) { return av_module().open_framehash(request); }},
     SinkKind{"null", [](std::string_view output) { return output == "null"; }, false, open_null},
 };
 
@@ -94,17 +94,13 @@ std::unique_ptr<FrameSink> open_sink(const std::string& output, const VideoForma
   report(frame_rate_problem(format.frame_rate));
   if (!problems.empty()) throw UsageError(std::move(problems));
 
-  silence_av();
   return kind->open({output, format, settings});
 }
 
 std::vector<std::string> media_library_versions() {
-  const auto version = [](std::string_view name, unsigned number) {
-    return fmt::format("{} {}.{}.{}", name, AV_VERSION_MAJOR(number), AV_VERSION_MINOR(number),
-                       AV_VERSION_MICRO(number));
-  };
-  return {version("libavformat", avformat_version()), version("libavcodec", avcodec_version()),
-          version("libavutil", avutil_version()), "libdeflate " LIBDEFLATE_VERSION_STRING};
+  std::vector<std::string> versions = av_module().av_library_versions();
+  versions.push_back(std::string("zlib ") + zlibVersion());
+  return versions;
 }
 
 }  // namespace piblocks

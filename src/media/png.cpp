@@ -1,7 +1,8 @@
-#include <libdeflate.h>
 #include <piblocks/error.hpp>
 #include <piblocks/png.hpp>
 
+#include <algorithm>
+#include <cstring>
 #include <string_view>
 
 #include "media/png_encoder.hpp"
@@ -11,10 +12,16 @@ namespace piblocks {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
+using ByteSpan = std::span<const std::uint8_t>;
 
-/// libdeflate 1.14, one 1080p frame of blocks and text on an AMD EPYC: level 1 takes 15.5 ms for
-/// 71 kB, level 2 9.8 ms for 65 kB, levels 3 to 6 9.9 to 10.3 ms for 57 to 68 kB.
-constexpr int kCompressionLevel = 2;
+// Rows in a strip, and how they are compressed, are chosen from the table in README.md: runs of
+// equal bytes are all that filter Up leaves of flat shapes.
+constexpr int kStripRows = 8;
+constexpr int kLevel = 1;
+constexpr int kStrategy = Z_RLE;
+
+constexpr int kRawDeflate = -15;
+constexpr int kMemoryLevel = 8;
 
 void put_u32(std::uint8_t* at, std::uint32_t value) {
   for (int i = 0; i < 4; ++i) at[i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
@@ -43,15 +50,15 @@ void end_chunk(Bytes& png, std::size_t start) {
   const std::uint8_t* type = png.data() + start + 4;
   const std::size_t length = png.size() - start - 8;
   put_u32(png.data() + start, static_cast<std::uint32_t>(length));
-  append_u32(png, libdeflate_crc32(0, type, length + 4));
+  append_u32(png, static_cast<std::uint32_t>(crc32_z(0, type, length + 4)));
 }
 
-void append_header(Bytes& png, const ImageView& image) {
+void append_header(Bytes& png, int width_px, int height_px) {
   append(png, "\x89PNG\r\n\x1a\n");
 
   const std::size_t header = begin_chunk(png, "IHDR");
-  append_u32(png, static_cast<std::uint32_t>(image.width_px));
-  append_u32(png, static_cast<std::uint32_t>(image.height_px));
+  append_u32(png, static_cast<std::uint32_t>(width_px));
+  append_u32(png, static_cast<std::uint32_t>(height_px));
   append(png, {"\x08\x02\0\0\0", 5});  // 8 bits a sample, colour type 2 (RGB)
   end_chunk(png, header);
 
@@ -62,52 +69,126 @@ void append_header(Bytes& png, const ImageView& image) {
 
 }  // namespace
 
-void PngEncoder::CompressorDeleter::operator()(libdeflate_compressor* compressor) const noexcept {
-  libdeflate_free_compressor(compressor);
+void PngEncoder::StreamDeleter::operator()(z_stream* stream) const noexcept {
+  deflateEnd(stream);
+  delete stream;
 }
 
-PngEncoder::PngEncoder() : compressor_(libdeflate_alloc_compressor(kCompressionLevel)) {
-  if (!compressor_) throw MediaError("png: cannot compress images: out of memory");
+PngEncoder::PngEncoder() : stream_(new z_stream{}) {
+  const int code =
+      deflateInit2(stream_.get(), kLevel, Z_DEFLATED, kRawDeflate, kMemoryLevel, kStrategy);
+  if (code != Z_OK) throw MediaError("png: cannot compress images: out of memory");
 }
 
-std::vector<std::uint8_t> PngEncoder::encode(const ImageView& image) {
-  filter_rows(image);
-  const std::size_t size = compress_rows();
-
-  Bytes png;
-  png.reserve(size + 128);
-  append_header(png, image);
-  const std::size_t pixels = begin_chunk(png, "IDAT");
-  png.insert(png.end(), compressed_.data(), compressed_.data() + size);
-  end_chunk(png, pixels);
-  end_chunk(png, begin_chunk(png, "IEND"));
-  return png;
+Bytes PngEncoder::encode(const ImageView& image) {
+  const PixelRect whole{0, 0, image.width_px, image.height_px};
+  return encode(image, {&whole, 1});
 }
 
-/// The rows, each behind the number of its filter. Up (the difference from the row above) turns
-/// flat and vertical shapes into zeros; the first row has nothing above it.
-void PngEncoder::filter_rows(const ImageView& image) {
-  constexpr std::uint8_t kNone = 0;
+Bytes PngEncoder::encode(const ImageView& image, std::span<const PixelRect> changed) {
+  const PixelRect whole{0, 0, image.width_px, image.height_px};
+  if (image.width_px != width_px_ || image.height_px != height_px_) {
+    resize(image);
+    changed = {&whole, 1};
+  }
+  for (const PixelRect& rect : changed) filter(image, rect);
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    if (strips_[i].stale) compress(i);
+  }
+  return assemble();
+}
+
+void PngEncoder::resize(const ImageView& image) {
   constexpr std::uint8_t kUp = 2;
-  const std::size_t row_bytes = static_cast<std::size_t>(image.width_px) * 3;
-  rows_.resize((row_bytes + 1) * static_cast<std::size_t>(image.height_px));
-  Bytes above(row_bytes);
-  Bytes current(row_bytes);
+  width_px_ = image.width_px;
+  height_px_ = image.height_px;
+  row_bytes_ = static_cast<std::size_t>(width_px_) * 3 + 1;
+  rows_.assign(row_bytes_ * static_cast<std::size_t>(height_px_), 0);
+  for (std::size_t at = 0; at < rows_.size(); at += row_bytes_) rows_[at] = kUp;
+  strips_.assign(static_cast<std::size_t>((height_px_ + kStripRows - 1) / kStripRows), {});
+}
 
-  std::uint8_t* out = rows_.data();
-  for (int y = 0; y < image.height_px; ++y) {
-    pack_rgb24(image.row(y), image.width_px, current.data());
-    *out++ = y == 0 ? kNone : kUp;
-    subtract_bytes(current.data(), above.data(), row_bytes, out);
-    out += row_bytes;
+/// Up is the difference from the row above, so that the row below the rectangle changes too. Above
+/// the first row all is zero.
+void PngEncoder::filter(const ImageView& image, const PixelRect& rect) {
+  const std::size_t bytes = static_cast<std::size_t>(rect.width_px) * 3;
+  Bytes above(bytes);
+  Bytes current(bytes);
+  const auto pack = [&](int y, Bytes& row) {
+    pack_rgb24(image.row(y) + std::ptrdiff_t{4} * rect.x_px, rect.width_px, row.data());
+  };
+  if (rect.y_px > 0) pack(rect.y_px - 1, above);
+  const int end = std::min(rect.y_px + rect.height_px + 1, height_px_);
+  for (int y = rect.y_px; y < end; ++y) {
+    pack(y, current);
+    filter_row(y, rect.x_px, current, above);
     current.swap(above);
   }
 }
 
-std::size_t PngEncoder::compress_rows() {
-  compressed_.resize(libdeflate_zlib_compress_bound(compressor_.get(), rows_.size()));
-  return libdeflate_zlib_compress(compressor_.get(), rows_.data(), rows_.size(), compressed_.data(),
-                                  compressed_.size());
+void PngEncoder::filter_row(int y, int x, ByteSpan row, ByteSpan above) {
+  std::uint8_t* const filtered =
+      rows_.data() + static_cast<std::size_t>(y) * row_bytes_ + 1 + static_cast<std::size_t>(x) * 3;
+  Strip& strip = strips_[static_cast<std::size_t>(y / kStripRows)];
+  if (!strip.stale) {
+    Bytes difference(row.size());
+    subtract_bytes(row.data(), above.data(), row.size(), difference.data());
+    if (std::memcmp(difference.data(), filtered, row.size()) == 0) return;
+    strip.stale = true;
+  }
+  subtract_bytes(row.data(), above.data(), row.size(), filtered);
+}
+
+ByteSpan PngEncoder::rows_of(std::size_t strip) const {
+  const std::size_t bytes = kStripRows * row_bytes_;
+  const std::size_t begin = strip * bytes;
+  return {rows_.data() + begin, std::min(bytes, rows_.size() - begin)};
+}
+
+/// A stream without end, cut where a byte ends: such pieces can be put behind each other. The first
+/// has the header of the whole before it.
+void PngEncoder::compress(std::size_t index) {
+  const ByteSpan rows = rows_of(index);
+  z_stream& stream = *stream_;
+  deflateReset(&stream);
+  // Beside the bound, what a flush adds.
+  compressed_.resize(deflateBound(&stream, rows.size()) + 16);
+  stream.next_in = const_cast<std::uint8_t*>(rows.data());  // NOLINT: zlib does not write to it
+  stream.avail_in = static_cast<uInt>(rows.size());
+  stream.next_out = compressed_.data();
+  stream.avail_out = static_cast<uInt>(compressed_.size());
+  if (deflate(&stream, Z_SYNC_FLUSH) != Z_OK || stream.avail_in != 0) {
+    throw MediaError("png: cannot compress the image");
+  }
+
+  Strip& strip = strips_[index];
+  strip.chunk.clear();
+  const std::size_t start = begin_chunk(strip.chunk, "IDAT");
+  if (index == 0) append(strip.chunk, "\x78\x01");  // a zlib stream, compressed fast (RFC 1950)
+  strip.chunk.insert(strip.chunk.end(), compressed_.data(), stream.next_out);
+  end_chunk(strip.chunk, start);
+  strip.checksum = static_cast<std::uint32_t>(adler32_z(1, rows.data(), rows.size()));
+  strip.stale = false;
+}
+
+Bytes PngEncoder::assemble() const {
+  std::size_t size = 128;
+  for (const Strip& strip : strips_) size += strip.chunk.size();
+  Bytes png;
+  png.reserve(size);
+  append_header(png, width_px_, height_px_);
+  uLong checksum = 1;
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    png.insert(png.end(), strips_[i].chunk.begin(), strips_[i].chunk.end());
+    checksum =
+        adler32_combine(checksum, strips_[i].checksum, static_cast<z_off_t>(rows_of(i).size()));
+  }
+  const std::size_t last = begin_chunk(png, "IDAT");
+  append(png, {"\x03\x00", 2});  // an empty last block (RFC 1951, 3.2.6)
+  append_u32(png, static_cast<std::uint32_t>(checksum));
+  end_chunk(png, last);
+  end_chunk(png, begin_chunk(png, "IEND"));
+  return png;
 }
 
 std::vector<std::uint8_t> encode_png(const ImageView& image) { return PngEncoder().encode(image); }

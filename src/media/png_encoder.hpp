@@ -1,37 +1,59 @@
-// Compresses one image after another, without new memory for each.
+// Compresses one image after another, and of each only what differs from the one before.
 // In: views of opaque pixels. Out: the bytes of a PNG file each.
+//
+// A file is cut into strips of rows. Each is compressed by itself and stored as a chunk of its own,
+// so that its bytes depend on its rows alone: strips that stay as they were are copied. Filter Up
+// leaves of a shape that moves sideways only its upper and lower edge, so few strips change.
 #pragma once
 
 #include <piblocks/image.hpp>
+#include <zlib.h>
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
-
-struct libdeflate_compressor;
 
 namespace piblocks {
 
-/// What encode_png() does, for sequences: at 1080p its buffers cost 6 ms to make. The bytes depend
-/// on the image alone. Used by one thread at a time.
+/// What encode_png() does, for sequences. The bytes depend on the image alone. Used by one thread
+/// at a time.
 class PngEncoder {
  public:
   /// @throws MediaError if memory for the compressor runs out.
   PngEncoder();
+
   std::vector<std::uint8_t> encode(const ImageView& image);
+  /// The same for an image that is equal to the last one outside of `changed`. An image of another
+  /// size, or the first, is taken whole.
+  std::vector<std::uint8_t> encode(const ImageView& image, std::span<const PixelRect> changed);
 
  private:
-  struct CompressorDeleter {
-    void operator()(libdeflate_compressor* compressor) const noexcept;
+  struct StreamDeleter {
+    void operator()(z_stream* stream) const noexcept;
+  };
+  /// Some rows of a file, filtered and compressed.
+  struct Strip {
+    std::vector<std::uint8_t> chunk;
+    std::uint32_t checksum = 0;  // Adler-32 of the filtered rows
+    bool stale = true;
   };
 
-  void filter_rows(const ImageView& image);
-  /// @return how many bytes of compressed_ are the filtered rows, compressed.
-  std::size_t compress_rows();
+  void resize(const ImageView& image);
+  void filter(const ImageView& image, const PixelRect& rect);
+  void filter_row(int y, int x, std::span<const std::uint8_t> row,
+                  std::span<const std::uint8_t> above);
+  void compress(std::size_t index);
+  std::span<const std::uint8_t> rows_of(std::size_t strip) const;
+  std::vector<std::uint8_t> assemble() const;
 
-  std::unique_ptr<libdeflate_compressor, CompressorDeleter> compressor_;
-  std::vector<std::uint8_t> rows_;
-  std::vector<std::uint8_t> compressed_;
+  std::unique_ptr<z_stream, StreamDeleter> stream_;
+  int width_px_ = 0;
+  int height_px_ = 0;
+  std::size_t row_bytes_ = 0;             // with the byte that names the filter
+  std::vector<std::uint8_t> rows_;        // filtered
+  std::vector<std::uint8_t> compressed_;  // room for one strip
+  std::vector<Strip> strips_;
 };
 
 }  // namespace piblocks

@@ -61,11 +61,15 @@ VideoChunkEncoder::VideoChunkEncoder(const VideoEncoder& encoder, std::int64_t f
       picture_(allocate_picture(*context_)),
       packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {}
 
-void VideoChunkEncoder::add(const ImageView& frame) {
+void VideoChunkEncoder::add(const ImageView& frame, std::span<const PixelRect> changed) {
   check_frame_size(frame, format_);
   // Still writable if the encoder has copied the last picture, as libx264 does: no new memory then.
   check_av(av_frame_make_writable(picture_.get()), "refill", "picture");
-  convert_to_yuv420(frame, {0, 0, frame.width_px, frame.height_px}, view_of(*picture_));
+  const PixelRect whole{0, 0, frame.width_px, frame.height_px};
+  if (frames_ == 0) changed = {&whole, 1};
+  for (const PixelRect& rect : changed) {
+    convert_to_yuv420(frame, chroma_aligned(rect, frame), view_of(*picture_));
+  }
   picture_->pict_type = frames_ == 0 ? AV_PICTURE_TYPE_I : AV_PICTURE_TYPE_NONE;
   picture_->pts = frames_++;
   send(picture_.get());

@@ -12,7 +12,7 @@ class VideoChunkEncoder final : public ChunkEncoder {
  public:
   /// @throws MediaError if the encoder cannot be opened.
   VideoChunkEncoder(const VideoEncoder& encoder, std::int64_t first_frame);
-  void add(const ImageView& frame) override;
+  void add(const ImageView& frame, std::span<const PixelRect> changed) override;
   EncodedChunk finish() override;
 
  private:

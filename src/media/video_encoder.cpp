@@ -123,7 +123,7 @@ VideoEncoder::VideoEncoder(const VideoFormat& format, const EncoderSettings& set
              "describe the stream of", codec_->name);
   } catch (const Error& error) {
     throw UsageError(
-        fmt::format("{}; usable here: {}", error.what(), fmt::join(h264_encoders(), ", ")));
+        fmt::format("{}; usable here: {}", error.what(), fmt::join(usable_h264_encoders(), ", ")));
   }
 }
 

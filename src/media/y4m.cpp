@@ -45,7 +45,8 @@ std::unique_ptr<FrameSink> open_y4m(const SinkRequest& request) {
   if (!problem.empty()) throw UsageError(problem);
 
   const auto encode_frame = [first_header = file_header(request.format) + "FRAME\n"](
-                                const ImageView& frame, std::int64_t number) {
+                                const ImageView& frame, std::span<const PixelRect> /*changed*/,
+                                std::int64_t number) {
     return encode(frame, number == 0 ? first_header : "FRAME\n");
   };
   return std::make_unique<StreamSink>(request, kFramesPerChunk, encode_frame);

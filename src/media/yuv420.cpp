@@ -130,6 +130,16 @@ void convert_strip(const ImageView& image, int x, int y, int count, const YuvVie
 
 }  // namespace
 
+PixelRect chroma_aligned(const PixelRect& rect, const ImageView& image) {
+  // A chroma sample is made of the two rows of its pair, and of three columns: those at its place,
+  // right of it and left of it.
+  const int left = rect.x_px & ~1;
+  const int top = rect.y_px & ~1;
+  const int right = std::min((rect.x_px + rect.width_px + 2) & ~1, image.width_px);
+  const int bottom = (rect.y_px + rect.height_px + 1) & ~1;
+  return {left, top, right - left, bottom - top};
+}
+
 void convert_to_yuv420(const ImageView& image, const PixelRect& rect, const YuvView& picture) {
   assert((image.width_px | image.height_px) % 2 == 0);
   assert((rect.x_px | rect.y_px | rect.width_px | rect.height_px) % 2 == 0);

@@ -21,6 +21,10 @@ struct YuvView {
   std::ptrdiff_t cr_stride_bytes = 0;
 };
 
+/// The least rectangle to convert if pixels of `rect` have changed: even, and with the chroma
+/// samples that see a changed column from beside it.
+PixelRect chroma_aligned(const PixelRect& rect, const ImageView& image);
+
 /// Converts `rect` of `image` into the same place of `picture`; no other sample is written.
 /// Every sample is within 0.53 of the exact value (tests/media/yuv420_test.cpp), and the same
 /// whether it was converted alone or with the whole frame. Chroma reads one column left of the

@@ -42,8 +42,8 @@ std::int64_t render(const RenderJob& job, const std::function<void(const Progres
       for (std::int64_t frame = chunks.begin(chunk); frame < chunks.end(chunk); ++frame) {
         if (halt.stop_requested()) throw Interrupted("render: interrupted");
         const BlockState state = state_at(*log, timeline.time_of(frame));
-        canvas->paint(compose(scene, layout, state));
-        encoder->add(canvas->view());
+        const auto changed = canvas->update(compose(scene, layout, state));
+        encoder->add(canvas->view(), changed);
       }
       return encoder->finish();
     };

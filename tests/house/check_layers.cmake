@@ -27,7 +27,7 @@ set(render_headers render)
 set(cli_headers)
 
 # Libraries: the form of their headers and the layers that may include them.
-set(libraries GMP MPFR Eigen tomlplusplus Cairo FreeType libav libdeflate CLI11 fmt)
+set(libraries GMP MPFR Eigen tomlplusplus Cairo FreeType libav zlib CLI11 fmt)
 set(GMP_form "gmp(xx)?\\.h")
 set(GMP_users core physics)
 set(MPFR_form "mpfr\\.h")
@@ -42,8 +42,8 @@ set(FreeType_form "ft2build\\.h|freetype/.+|FT_[A-Z_]+_H")
 set(FreeType_users draw)
 set(libav_form "libav(codec|format|util)/.+")
 set(libav_users media)
-set(libdeflate_form "libdeflate\\.h")
-set(libdeflate_users media)
+set(zlib_form "zlib\\.h")
+set(zlib_users media)
 set(CLI11_form "CLI/.+")
 set(CLI11_users cli)
 set(fmt_form "fmt/.+")
@@ -54,7 +54,7 @@ set(public_libraries GMP Eigen)
 set(standard_form "[a-z_0-9]+")
 # POSIX and the processor's vector instructions: anywhere but in a public header.
 string(CONCAT system_form
-  "(dirent|fcntl|poll|pthread|sched|signal|spawn|stdlib|termios|unistd)\\.h|sys/[a-z_]+\\.h"
+  "(dirent|dlfcn|fcntl|poll|pthread|sched|signal|spawn|stdlib|termios|unistd)\\.h|sys/[a-z_]+\\.h"
   "|[a-z0-9]+intrin\\.h")
 
 

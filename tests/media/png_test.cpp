@@ -1,10 +1,15 @@
 #include <gtest/gtest.h>
 #include <piblocks/png.hpp>
 
+#include <cstdlib>
 #include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "media/png_encoder.hpp"
 #include "support/decode_video.hpp"
+#include "support/property.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace piblocks {
@@ -58,6 +63,52 @@ TEST(Png, DoesNotDependOnWhatWasEncodedBefore) {
   const Pixels image = article_frame(160, 90, 0);
   encoder.encode(random_frame(300, 200, 5).view());
   EXPECT_EQ(encoder.encode(image.view()), encode_png(image.view()));
+}
+
+/// Changes some pixels of a rectangle, or none.
+PixelRect change(Random& random, Pixels& image) {
+  const auto x = static_cast<int>(random.integer(0, image.width_px - 1));
+  const auto y = static_cast<int>(random.integer(0, image.height_px - 1));
+  const PixelRect rect{x, y, static_cast<int>(random.integer(1, image.width_px - x)),
+                       static_cast<int>(random.integer(1, image.height_px - y))};
+  const auto kind = random.integer(0, 2);
+  if (kind == 0) return rect;
+  const auto flat = static_cast<std::uint32_t>(random.integer(0, 0xffffff)) | 0xff000000;
+  for (int row = y; row < y + rect.height_px; ++row) {
+    for (int column = x; column < x + rect.width_px; ++column) {
+      image.at(column, row) =
+          kind == 1 ? flat : static_cast<std::uint32_t>(random.integer(0, 0xffffff)) | 0xff000000;
+    }
+  }
+  return rect;
+}
+
+TEST(Png, AnUpdateGivesTheBytesOfTheImageAlone) {
+  Random random(8);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 60; ++i) {
+    Pixels image = random_frame(static_cast<int>(random.integer(1, 40)),
+                                static_cast<int>(random.integer(1, 60)), static_cast<unsigned>(i));
+    PngEncoder encoder;
+    encoder.encode(image.view());
+    for (int step = 0; step < 10; ++step) {
+      const std::vector<PixelRect> changed = {change(random, image), change(random, image)};
+      ASSERT_EQ(encoder.encode(image.view(), changed), encode_png(image.view())) << step;
+    }
+    expect_same_pixels(image);
+  }
+}
+
+TEST(Png, IsWhatPngcheckAccepts) {
+  const TemporaryFolder folder;
+  for (const auto& [width, height] : {std::pair{1, 1}, {640, 363}}) {
+    const auto png = encode_png(article_frame(width, height, 1.5).view());
+    std::ofstream(folder / "image.png", std::ios::binary)
+        .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+    const std::string command = "pngcheck -q '" + (folder / "image.png") + "'";
+    if (std::system("command -v pngcheck > /dev/null") != 0) GTEST_SKIP() << "no pngcheck here";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+  }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "support/article_frames.hpp"
+#include "support/property.hpp"
 
 namespace piblocks {
 namespace {
@@ -150,6 +151,31 @@ TEST(Yuv420, ARectangleIsConvertedAsInTheWholeFrame) {
         ASSERT_EQ(part.cr[chroma], inside ? whole.cr[chroma] : kUntouched) << x << ' ' << y;
       }
     }
+  }
+}
+
+TEST(Yuv420, AChangeReachesNoSampleOutsideOfItsAlignedRectangle) {
+  Random random(420);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 300; ++i) {
+    const int width = 2 * static_cast<int>(random.integer(1, 12));
+    const int height = 2 * static_cast<int>(random.integer(1, 5));
+    Pixels pixels = random_frame(width, height, static_cast<unsigned>(i));
+    Picture picture = converted(pixels);
+    const auto x = static_cast<int>(random.integer(0, width - 1));
+    const auto y = static_cast<int>(random.integer(0, height - 1));
+    const PixelRect changed{x, y, static_cast<int>(random.integer(1, width - x)),
+                            static_cast<int>(random.integer(1, height - y))};
+    for (int row = y; row < y + changed.height_px; ++row) {
+      for (int column = x; column < x + changed.width_px; ++column) {
+        pixels.words[static_cast<std::size_t>(row * width + column)] ^= 0x00ffffff;
+      }
+    }
+    convert_to_yuv420(pixels.view(), chroma_aligned(changed, pixels.view()), picture.view());
+    const Picture whole = converted(pixels);
+    ASSERT_EQ(picture.y, whole.y);
+    ASSERT_EQ(picture.cb, whole.cb);
+    ASSERT_EQ(picture.cr, whole.cr);
   }
 }
 

@@ -1,0 +1,24 @@
+// What changes from one picture to the next.
+// In: two draw lists. Out: the rectangles outside of which their pixels are equal.
+// Knows items, not scenes: whatever is drawn with stable ids is compared in the same way.
+#pragma once
+
+#include <piblocks/draw_list.hpp>
+#include <piblocks/image.hpp>
+
+#include <functional>
+#include <string_view>
+#include <vector>
+
+namespace piblocks {
+
+/// Width of a line of text, in ems.
+using MeasureText = std::function<double(std::string_view utf8)>;
+
+/// Rectangles of whole pixels, inside the frame, that cover every pixel in which the pictures may
+/// differ. They may overlap. One for the whole frame if the lists are not of the same items in the
+/// same order.
+std::vector<PixelRect> damage(const DrawList& before, const DrawList& after,
+                              const MeasureText& width_em);
+
+}  // namespace piblocks

@@ -1,0 +1,31 @@
+// Everything that needs libav, loaded when it is asked for.
+// libavcodec and libavformat bring some 130 libraries with them, which take 30 ms to load: a still,
+// a count or a PNG sequence can do without.
+#pragma once
+
+#include <piblocks/frame_sink.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "media/sink_request.hpp"
+
+namespace piblocks {
+
+/// What the module offers: the functions of these names in sink_kinds.hpp and find_encoder.hpp.
+struct AvModule {
+  std::unique_ptr<FrameSink> (*open_mp4)(const SinkRequest& request);
+  std::unique_ptr<FrameSink> (*open_framehash)(const SinkRequest& request);
+  std::vector<std::string> (*usable_h264_encoders)();
+  std::vector<std::string> (*av_library_versions)();
+};
+
+/// The name of the module's one symbol, a function that returns const AvModule*.
+inline constexpr const char* kAvModuleEntry = "piblocks_av_module";
+
+/// Loads the module; once for the process. Thread-safe.
+/// @throws MediaError if it is not there.
+const AvModule& av_module();
+
+}  // namespace piblocks

@@ -1,0 +1,197 @@
+// Updating a picture against painting it anew: every byte must be equal, and no pixel may change
+// outside of the rectangles that are said to have changed.
+#include <gtest/gtest.h>
+#include <piblocks/canvas.hpp>
+#include <piblocks/compose.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "support/property.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr Color kWhite = {255, 255, 255};
+constexpr Color kGreen = {10, 200, 30};
+constexpr Color kBlack = {0, 0, 0};
+
+std::uint32_t pixel(const ImageView& image, int x, int y) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, image.row(y) + 4 * x, 4);
+  return value & 0xFFFFFF;
+}
+
+bool contains(const PixelRect& r, int x, int y) {
+  return x >= r.x_px && x < r.x_px + r.width_px && y >= r.y_px && y < r.y_px + r.height_px;
+}
+
+std::vector<std::uint32_t> pixels_of(const Canvas& canvas) {
+  std::vector<std::uint32_t> pixels;
+  const ImageView image = canvas.view();
+  for (int y = 0; y < image.height_px; ++y) {
+    for (int x = 0; x < image.width_px; ++x) pixels.push_back(pixel(image, x, y));
+  }
+  return pixels;
+}
+
+/// Updates `canvas`, and checks it against a fresh one.
+void expect_update(Canvas& canvas, const DrawList& list) {
+  const std::vector<std::uint32_t> before = pixels_of(canvas);
+  const auto span = canvas.update(list);
+  const std::vector<PixelRect> changed(span.begin(), span.end());
+  Canvas fresh(list.width_px, list.height_px);
+  fresh.paint(list);
+  const std::vector<std::uint32_t> after = pixels_of(canvas);
+  const std::vector<std::uint32_t> wanted = pixels_of(fresh);
+  const auto wrong = std::ranges::mismatch(after, wanted).in1 - after.begin();
+  ASSERT_EQ(wrong, std::ssize(after)) << "an update is not what painting gives, first at pixel "
+                                      << wrong % list.width_px << ", " << wrong / list.width_px;
+  for (int y = 0; y < list.height_px; ++y) {
+    for (int x = 0; x < list.width_px; ++x) {
+      const auto at = static_cast<std::size_t>(y * list.width_px + x);
+      if (before[at] == after[at]) continue;
+      ASSERT_TRUE(std::ranges::any_of(changed, [&](const auto& r) { return contains(r, x, y); }))
+          << "pixel " << x << ", " << y << " has changed, and nobody was told";
+    }
+  }
+}
+
+double area(std::span<const PixelRect> rects) {
+  double sum = 0;
+  for (const PixelRect& r : rects) sum += double(r.width_px) * r.height_px;
+  return sum;
+}
+
+DrawList frame(Scene& scene, const Layout& layout, const CollisionLog& log, const Rational& time) {
+  return compose(scene, layout, state_at(log, time));
+}
+
+TEST(Damage, OfWholeScenesIsExact) {
+  for (const auto& [width, height] : {std::pair{320, 180}, {101, 75}, {64, 240}}) {
+    Scene scene = SceneBuilder().build();
+    scene.view.width_px = width;
+    scene.view.height_px = height;
+    const auto log = make_collision_log(scene.system);
+    const Layout layout = lay_out(scene, log->size());
+    Canvas canvas(width, height);
+    for (int i = 0; i < 120; ++i) {
+      expect_update(canvas, frame(scene, layout, *log, Rational(i) / 12));
+      ASSERT_FALSE(HasFailure()) << "frame " << i << " of " << width << "x" << height;
+    }
+  }
+}
+
+TEST(Damage, OfAScenesFrameIsSmall) {
+  Scene scene = SceneBuilder().build();
+  scene.view.width_px = 1280;
+  scene.view.height_px = 720;
+  const auto log = make_collision_log(scene.system);
+  const Layout layout = lay_out(scene, log->size());
+  Canvas canvas(1280, 720);
+  EXPECT_EQ(area(canvas.update(frame(scene, layout, *log, 1))), 1280 * 720);
+  EXPECT_TRUE(canvas.update(frame(scene, layout, *log, 1)).empty()) << "nothing has changed";
+  EXPECT_LT(area(canvas.update(frame(scene, layout, *log, Rational(61, 60)))), 0.005 * 1280 * 720);
+}
+
+/// A number of pixels in or around a frame of size `end`; half of them whole.
+double anywhere(Random& random, int end) {
+  const double position = random.uniform(-0.3 * end, 1.3 * end);
+  return random.integer(0, 1) == 0 ? position : std::round(position);
+}
+
+Color any_color(Random& random) {
+  const auto part = [&] { return static_cast<std::uint8_t>(random.integer(0, 255)); };
+  return {part(), part(), part()};
+}
+
+std::string any_text(Random& random) {
+  const std::string text = "3,141,592 Collisions: \xc3\x84\xc3\xb6j\xcf\x80";
+  std::size_t length = static_cast<std::size_t>(random.integer(0, std::int64_t(text.size())));
+  while (length < text.size() && (static_cast<unsigned char>(text[length]) & 0xc0) == 0x80)
+    ++length;
+  return text.substr(0, length);
+}
+
+DrawItem any_item(Random& random, ItemId id, int width, int height) {
+  if (id == ItemId::label || id == ItemId::count) {
+    return TextItem{id,
+                    {anywhere(random, width), anywhere(random, height)},
+                    any_text(random),
+                    random.uniform(4, 30),
+                    any_color(random)};
+  }
+  RectangleItem item{id,
+                     {anywhere(random, width), anywhere(random, height), random.uniform(1, width),
+                      random.uniform(1, height)},
+                     std::nullopt,
+                     std::nullopt};
+  if (random.integer(0, 3) != 0) item.fill = any_color(random);
+  if (random.integer(0, 2) != 0) {
+    item.stroke = Stroke{any_color(random), random.uniform(0.5, 4),
+                         random.integer(0, 2) == 0 ? random.uniform(1, 6) : 0};
+  }
+  return item;
+}
+
+/// Moves, resizes, recolours or rewrites one item, or a few, or none.
+void change(Random& random, DrawList& list) {
+  for (DrawItem& item : list.items) {
+    const auto kind = random.integer(0, 5);
+    if (kind == 0) {
+      item = any_item(random, std::visit([](const auto& any) { return any.id; }, item),
+                      list.width_px, list.height_px);
+    } else if (auto* rectangle = std::get_if<RectangleItem>(&item); rectangle && kind < 3) {
+      rectangle->bounds.x += random.uniform(-5, 5);
+    } else if (auto* text = std::get_if<TextItem>(&item); text && kind < 3) {
+      text->text = any_text(random);
+    }
+  }
+}
+
+TEST(Damage, OfRandomPicturesIsExact) {
+  Random random(271);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 400; ++i) {
+    const int width = static_cast<int>(random.integer(1, 90));
+    const int height = static_cast<int>(random.integer(1, 70));
+    DrawList list{width, height, any_color(random), {}};
+    for (const ItemId id :
+         {ItemId::wall, ItemId::red_block, ItemId::blue_block, ItemId::label, ItemId::count}) {
+      list.items.push_back(any_item(random, id, width, height));
+    }
+    Canvas canvas(width, height);
+    for (int step = 0; step < 20; ++step) {
+      expect_update(canvas, list);
+      ASSERT_FALSE(HasFailure()) << "picture " << i << ", step " << step;
+      change(random, list);
+    }
+  }
+}
+
+TEST(Damage, OfOtherItemsIsTheWholeFrame) {
+  const RectangleItem wall{ItemId::wall, {1, 1, 5, 5}, kGreen, std::nullopt};
+  const TextItem count{ItemId::count, {2, 20}, "31", 18, kBlack};
+  Canvas canvas(40, 30);
+  expect_update(canvas, {40, 30, kWhite, {wall, count}});
+  EXPECT_EQ(area(canvas.update({40, 30, kWhite, {count, wall}})), 40 * 30);
+  EXPECT_EQ(area(canvas.update({40, 30, kWhite, {count}})), 40 * 30);
+  EXPECT_EQ(area(canvas.update({40, 30, kBlack, {count}})), 40 * 30);
+}
+
+TEST(Damage, OfACounterStartsAtTheFirstNewDigit) {
+  const auto list = [](const char* text) {
+    return DrawList{200, 40, kWhite, {TextItem{ItemId::count, {10, 30}, text, 20, kBlack}}};
+  };
+  Canvas canvas(200, 40);
+  canvas.update(list("3,141,591"));
+  const double one_digit = area(canvas.update(list("3,141,592")));
+  const double all_digits = area(canvas.update(list("4,141,592")));
+  EXPECT_LT(one_digit, 0.4 * all_digits);
+}
+
+}  // namespace
+}  // namespace piblocks
