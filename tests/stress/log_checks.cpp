@@ -198,7 +198,7 @@ void expect_consistent(const BlockSystem& system, const CollisionLog& log, const
 }
 
 /// Beyond those that the ratio of the masses asks for: lengths and velocities differ as much.
-constexpr std::int64_t kOracle_bits = 2000;
+constexpr std::int64_t kOracle_bits = 1000;
 
 void expect_oracles_state(const BlockSystem& system, const CollisionLog& log, const Rational& time,
                           const Bounds& bounds) {

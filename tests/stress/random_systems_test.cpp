@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -99,7 +100,7 @@ TEST(RandomSystems, KeepEveryInvariant) {
 }
 
 TEST(RandomSystems, HaveTheOraclesTotals) {
-  for_each_case(5'000, 2'000'000, [](Random& random) {
+  for_each_case(100'000, 2'000'000, [](Random& random) {
     const BlockSystem system = random_system(random);
     SCOPED_TRACE(describe(system));
     const Integer total = oracle::high_precision_total(system);
@@ -109,13 +110,13 @@ TEST(RandomSystems, HaveTheOraclesTotals) {
 }
 
 TEST(RandomSystems, AreWhereTheOracleSays) {
-  for_each_case(2'000, 3'000'000, [](Random& random) {
+  for_each_case(100'000, 3'000'000, [](Random& random) {
     const BlockSystem system = random_system(random);
     for_answers(system, [&](const CollisionLog& log) {
-      const Bounds bounds(system);
-      for (const Rational& time : some_times(random, log)) {
-        expect_oracles_state(system, log, time, bounds);
-      }
+      // One time each: the oracle is slow.
+      const std::vector<Rational> times = some_times(random, log);
+      const auto chosen = static_cast<std::size_t>(random.integer(0, std::ssize(times) - 1));
+      expect_oracles_state(system, log, times[chosen], Bounds(system));
     });
   });
 }
