@@ -62,7 +62,7 @@ RenderOptions add_options(CLI::App& command) {
   scene.add_size();
   scene.add_timing();
   const CLI::Option& crf =
-      add_value_option(command, "--crf", "Q", "Video quality of MP4, 0 (lossless) to 51 (worst)");
+      add_value_option(command, "--crf", "Q", "Rate factor of MP4, 0 (lossless) to 51 (worst)");
   const CLI::Option& preset =
       add_value_option(command, "--preset", "P", "The encoder's speed preset, such as veryfast");
   const CLI::Option& encoder =

@@ -19,6 +19,9 @@ namespace {
 
 // Chosen from the table in src/media/README.md.
 constexpr const char* kX264Preset = "ultrafast";
+constexpr std::int64_t kX264Qp = 15;
+/// Where a preset is given without a quality: slower presets need the rate factor's analysis
+/// anyway.
 constexpr double kX264Crf = 21;
 
 /// Where an encoder knows no constant quality: bits per pixel of average video, generous for flat
@@ -155,10 +158,15 @@ void VideoEncoder::apply_settings(AVCodecContext& context) const {
   const bool is_x264 = codec_->name == kX264;
   std::optional<double> crf = settings_.crf;
   std::optional<std::string> preset = settings_.preset;
-  if (is_x264 && !crf) crf = kX264Crf;
+  const bool constant_quantiser = is_x264 && !crf && !preset;
+  if (is_x264 && !crf && !constant_quantiser) crf = kX264Crf;
   if (is_x264 && !preset) preset = kX264Preset;
 
   void* options = context.priv_data;
+  // Without a rate to control libx264 does not look at a small copy of every frame first.
+  if (constant_quantiser) {
+    check_av(av_opt_set_int(options, "qp", kX264Qp, 0), "set qp of encoder", codec_->name);
+  }
   if (crf) check_av(av_opt_set_double(options, "crf", *crf, 0), "set crf of encoder", codec_->name);
   if (preset) {
     check_av(av_opt_set(options, "preset", preset->c_str(), 0),
