@@ -19,7 +19,7 @@ namespace {
 
 // Chosen from the table in src/media/README.md.
 constexpr const char* kX264Preset = "ultrafast";
-constexpr std::int64_t kX264Qp = 15;
+constexpr std::int64_t kX264Qp = 14;
 /// Where a preset is given without a quality: slower presets need the rate factor's analysis
 /// anyway.
 constexpr double kX264Crf = 21;
