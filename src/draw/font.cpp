@@ -84,8 +84,7 @@ void Font::select(cairo_t& cr, double size_px) const {
   cairo_set_font_size(&cr, size_px);
 }
 
-std::vector<cairo_glyph_t> Font::glyphs(cairo_t& cr, const Point& origin,
-                                        std::string_view utf8) const {
+std::vector<cairo_glyph_t> Font::glyphs(cairo_t& cr, const Point& origin, std::string_view utf8) {
   cairo_glyph_t* found = nullptr;
   int count = 0;
   check_cairo(cairo_scaled_font_text_to_glyphs(cairo_get_scaled_font(&cr), origin.x, origin.y,

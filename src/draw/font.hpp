@@ -23,7 +23,7 @@ class Font {
   /// Makes it the font of `cr`, unhinted and antialiased in grey, at this size of the em.
   void select(cairo_t& cr, double size_px) const;
   /// The glyphs of a line of text that starts at `origin`, in a context where select() was called.
-  std::vector<cairo_glyph_t> glyphs(cairo_t& cr, const Point& origin, std::string_view utf8) const;
+  static std::vector<cairo_glyph_t> glyphs(cairo_t& cr, const Point& origin, std::string_view utf8);
   /// Width of a line of text, in ems.
   double width_em(std::string_view utf8) const;
 

@@ -82,7 +82,7 @@ void Painter::paint_text(cairo_t& cr, const TextItem& item) {
     cairo_show_text(&cr, item.text.c_str());
     return;
   }
-  for (const cairo_glyph_t& glyph : font().glyphs(cr, item.origin, item.text)) {
+  for (const cairo_glyph_t& glyph : Font::glyphs(cr, item.origin, item.text)) {
     cairo_show_glyphs(&cr, &glyph, 1);
   }
 }

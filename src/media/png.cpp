@@ -71,7 +71,7 @@ void append_header(Bytes& png, int width_px, int height_px) {
 
 void PngEncoder::StreamDeleter::operator()(z_stream* stream) const noexcept {
   deflateEnd(stream);
-  delete stream;
+  delete stream;  // NOLINT(cppcoreguidelines-owning-memory): the owner is the pointer it belongs to
 }
 
 PngEncoder::PngEncoder() : stream_(new z_stream{}) {
