@@ -217,6 +217,20 @@ TEST(Log, EnginesAgree) {
   }
 }
 
+// With equal masses the last ray would be parallel to the line; a hair heavier, red lets blue catch
+// up with the wall again, after about 1e90 s.
+TEST(Log, KeepsAHairBetweenTheMasses) {
+  BlockSystem system = article_system(1);
+  system.red.mass = 1 + 1 / power(2, 300);
+  const auto log = make_collision_log(system);
+  EXPECT_EQ(log->size(), 4);
+  const Collision last = log->at(4);
+  EXPECT_EQ(last.kind, CollisionKind::wall);
+  EXPECT_GT(last.time.hi, 1e89);
+  EXPECT_LT(last.time.hi, 1e92);
+  EXPECT_EQ(last.blue.position, to_double(system.wall_face + system.blue.width / 2));
+}
+
 TEST(Log, EnginesAgreeOnEveryKindOfStart) {
   for (const Engine engine : {Engine::events, Engine::velocities}) {
     for (const Start& start :
