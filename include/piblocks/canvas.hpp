@@ -31,7 +31,7 @@ class Canvas {
   /// @returns rectangles that cover every pixel that has changed; valid until the next call. The
   ///          whole frame if nothing was painted before.
   /// @throws DrawError
-  std::span<const PixelRect> update(const DrawList& list);
+  std::span<const PixelRect> update(DrawList list);
   /// The picture; valid until the next paint() or update().
   ImageView view() const;
 

@@ -38,8 +38,7 @@ struct Collision {
 /// Uniform motion between two collisions, known at one instant of it.
 struct FreeFlight {
   Integer count;   ///< collisions since time 0; negative before it, where the motion runs back
-  Time anchor;     ///< when the blocks are where blue and red say
-  double age = 0;  ///< of the flight at the time asked for: time since the anchor
+  double age = 0;  ///< time from when the blocks are where blue and red say to the time asked for
   Motion blue;
   Motion red;
 };

@@ -29,7 +29,8 @@ std::vector<Instant> parse_instants(const std::string& text) {
 /// @throws UsageError if the engine cannot say.
 PositionBounds bounds_at(const CollisionLog& log, const Time& time) {
   if (const auto bounds = log.bounds_at(to_rational(time))) return *bounds;
-  throw UsageError("--bounds: the event loop cannot say how exact it is; use --engine unfolded");
+  throw UsageError(
+      "--bounds: engines that step cannot say how exact they are; use --engine unfolded");
 }
 
 std::string described(const Motion& motion, const std::optional<double>& position_bound) {

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "draw/cairo_handles.hpp"
 #include "draw/damage.hpp"
@@ -101,7 +102,7 @@ void Canvas::paint(const DrawList& list) {
   pixels_->shown = list;
 }
 
-std::span<const PixelRect> Canvas::update(const DrawList& list) {
+std::span<const PixelRect> Canvas::update(DrawList list) {
   std::vector<PixelRect>& changed = pixels_->changed;
   if (!pixels_->shown) {
     paint(list);
@@ -113,7 +114,7 @@ std::span<const PixelRect> Canvas::update(const DrawList& list) {
   };
   changed = damage(*pixels_->shown, list, width_em);
   for (const PixelRect& rect : changed) pixels_->paint(list, rect);
-  pixels_->shown = list;
+  pixels_->shown = std::move(list);
   return changed;
 }
 

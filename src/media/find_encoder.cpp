@@ -40,7 +40,6 @@ bool is_software_h264(const AVCodec& codec) {
 }  // namespace
 
 std::vector<std::string> usable_h264_encoders() {
-  silence_av();
   std::vector<std::string> names;
   void* position = nullptr;
   while (const AVCodec* codec = av_codec_iterate(&position)) {

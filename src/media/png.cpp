@@ -129,14 +129,11 @@ void PngEncoder::filter(const ImageView& image, const PixelRect& rect) {
 void PngEncoder::filter_row(int y, int x, ByteSpan row, ByteSpan above) {
   std::uint8_t* const filtered =
       rows_.data() + static_cast<std::size_t>(y) * row_bytes_ + 1 + static_cast<std::size_t>(x) * 3;
-  Strip& strip = strips_[static_cast<std::size_t>(y / kStripRows)];
-  if (!strip.stale) {
-    Bytes difference(row.size());
-    subtract_bytes(row.data(), above.data(), row.size(), difference.data());
-    if (std::memcmp(difference.data(), filtered, row.size()) == 0) return;
-    strip.stale = true;
-  }
-  subtract_bytes(row.data(), above.data(), row.size(), filtered);
+  difference_.resize(row.size());
+  subtract_bytes(row.data(), above.data(), row.size(), difference_.data());
+  if (std::memcmp(difference_.data(), filtered, row.size()) == 0) return;
+  std::memcpy(filtered, difference_.data(), row.size());
+  strips_[static_cast<std::size_t>(y / kStripRows)].stale = true;
 }
 
 ByteSpan PngEncoder::rows_of(std::size_t strip) const {

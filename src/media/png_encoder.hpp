@@ -52,6 +52,7 @@ class PngEncoder {
   int height_px_ = 0;
   std::size_t row_bytes_ = 0;             // with the byte that names the filter
   std::vector<std::uint8_t> rows_;        // filtered
+  std::vector<std::uint8_t> difference_;  // room for one row
   std::vector<std::uint8_t> compressed_;  // room for one strip
   std::vector<Strip> strips_;
 };

@@ -25,7 +25,7 @@ Motion motion_of(const Block& block) {
 }
 
 std::unique_ptr<CollisionLog> store(const BlockSystem& system, Simulate* simulate) {
-  const FreeFlight initial{0, {}, 0, motion_of(system.blue), motion_of(system.red)};
+  const FreeFlight initial{0, 0, motion_of(system.blue), motion_of(system.red)};
   return std::make_unique<StoredLog>(initial, simulate(system), simulate(reversed(system)));
 }
 

@@ -54,7 +54,7 @@ class Recorder {
                       "closed form (--engine unfolded)",
                       engine_, limit_, collisions_.get_str()));
     }
-    require_finite({0, collision.time, 0, collision.blue, collision.red}, engine_);
+    require_finite(collision.time, collision.blue, collision.red, engine_);
     log_.push_back(collision);
   }
   std::vector<StoredCollision> take() { return std::move(log_); }

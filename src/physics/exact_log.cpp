@@ -81,9 +81,16 @@ Motion motion_of(const Block& block) {
   return {to_double(block.position), to_double(block.velocity)};
 }
 
-FreeFlight flight(const Integer& count, const Rational& time, const BlockSystem& system) {
-  FreeFlight result{count, to_time(time), 0, motion_of(system.blue), motion_of(system.red)};
-  require_finite(result, "exact events");
+/// The blocks as the nearest doubles.
+struct Rounded {
+  Time time;
+  Motion blue;
+  Motion red;
+};
+
+Rounded rounded(const Rational& time, const BlockSystem& system) {
+  const Rounded result{to_time(time), motion_of(system.blue), motion_of(system.red)};
+  require_finite(result.time, result.blue, result.red, "exact events");
   return result;
 }
 
@@ -97,8 +104,8 @@ ExactLog::ExactLog(const BlockSystem& system)
 
 Collision ExactLog::at(const Integer& index) const {
   const ExactCollision& event = forward_[index.get_ui() - 1];
-  const FreeFlight after = flight(index, event.time, event.after);
-  return {index, after.anchor, event.kind, after.blue, after.red};
+  const Rounded after = rounded(event.time, event.after);
+  return {index, after.time, event.kind, after.blue, after.red};
 }
 
 std::unique_ptr<CollisionStream> ExactLog::stream(const Integer& first, const Integer& last) const {
@@ -124,7 +131,8 @@ FreeFlight ExactLog::flight_at(const Rational& time) const {
     now = reversed(event.after);
   }
   advance(now, since);
-  return flight(count, time, now);
+  const Rounded at = rounded(time, now);
+  return {count, 0, at.blue, at.red};
 }
 
 std::optional<PositionBounds> ExactLog::bounds_at(const Rational& time) const {

@@ -1,5 +1,5 @@
 // Numbers that a double cannot hold are an error, never an infinity in somebody's frame.
-// In: a flight. Out: nothing, or an exception.
+// In: what is known of one instant. Out: nothing, or an exception.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,10 +11,10 @@
 namespace piblocks {
 
 /// @param engine  who computed it, for the message
-/// @throws SimulationError if a number of the flight is not finite.
-inline void require_finite(const FreeFlight& flight, const char* engine) {
-  for (const double number : {flight.anchor.hi, flight.blue.position, flight.blue.velocity,
-                              flight.red.position, flight.red.velocity}) {
+/// @throws SimulationError if a number is not finite.
+inline void require_finite(const Time& time, const Motion& blue, const Motion& red,
+                           const char* engine) {
+  for (const double number : {time.hi, blue.position, blue.velocity, red.position, red.velocity}) {
     if (std::isfinite(number)) continue;
     throw SimulationError(
         fmt::format("{}: a time, position or velocity is beyond the range of a double (about "

@@ -54,16 +54,19 @@ std::unique_ptr<CollisionStream> StoredLog::stream(const Integer& first,
 FreeFlight StoredLog::flight_at(const Rational& time) const {
   const Time t = to_time(time);
   FreeFlight flight = initial_;
+  Time since;  // when it was where it says
   if (const std::size_t happened = count_until(forward_, t); happened > 0) {
     const StoredCollision& c = forward_[happened - 1];
-    flight = {Integer(happened), c.time, 0, c.blue, c.red};
+    since = c.time;
+    flight = {Integer(happened), 0, c.blue, c.red};
   } else if (const std::size_t to_come = count_before(backward_, negated(t)); to_come > 0) {
     // Seen forwards, what the reversed run does after a collision ends with that collision; one
     // exactly at `time` has happened.
     const StoredCollision& c = backward_[to_come - 1];
-    flight = {-Integer(to_come), negated(c.time), 0, reversed(c.blue), reversed(c.red)};
+    since = negated(c.time);
+    flight = {-Integer(to_come), 0, reversed(c.blue), reversed(c.red)};
   }
-  flight.age = (t.hi - flight.anchor.hi) + (t.lo - flight.anchor.lo);
+  flight.age = (t.hi - since.hi) + (t.lo - since.lo);
   return flight;
 }
 

@@ -118,10 +118,9 @@ FreeFlight UnfoldedLog::flight_at(const Rational& time) const {
   const double ahead_cosine = seen.cosine * cosine - side * (seen.sine * sine);
   FreeFlight flight;
   flight.count = exact_.blocks_first ? std::move(at.ray) : Integer(at.ray + 1);
-  flight.anchor = rounded;
   flight.blue = {form_.blue_offset + y1, (odd ? -1 : 1) * (form_.blue_speed * ahead_sine)};
   flight.red = {form_.red_offset + y2, sign * (form_.red_speed * ahead_cosine)};
-  require_finite(flight, "closed form");
+  require_finite(rounded, flight.blue, flight.red, "closed form");
   return flight;
 }
 
@@ -136,14 +135,13 @@ Collision UnfoldedLog::at(const Integer& index) const {
   const Direction step{-end.sign * form_.step.sine, form_.step.cosine};
   const CollisionNumbers now =
       form_.collision(end.sign, seen, odd ? seen + step : seen, form_.kind(odd));
-  FreeFlight flight{index,
-                    {now.time_hi, now.time_lo},
-                    0,
-                    {now.blue_position, now.blue_velocity},
-                    {now.red_position, now.red_velocity}};
-  require_finite(flight, "closed form");
-  return {index, flight.anchor, odd ? CollisionKind::blocks : CollisionKind::wall, flight.blue,
-          flight.red};
+  const Collision collision{index,
+                            {now.time_hi, now.time_lo},
+                            odd ? CollisionKind::blocks : CollisionKind::wall,
+                            {now.blue_position, now.blue_velocity},
+                            {now.red_position, now.red_velocity}};
+  require_finite(collision.time, collision.blue, collision.red, "closed form");
+  return collision;
 }
 
 std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,

@@ -5,7 +5,7 @@
 #include <piblocks/collision_log.hpp>
 
 #include <array>
-#include <optional>
+#include <memory>
 
 #include "physics/unfolding.hpp"
 

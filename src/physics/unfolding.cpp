@@ -67,9 +67,8 @@ Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact, const 
   const double least = exact.through_corner() ? speed : std::min({ell, speed, passage});
   if (least < kLeast) {
     throw SimulationError(
-        "closed form: lengths or times are so short that doubles cannot tell where the blocks "
-        "turn; "
-        "use greater units");
+        "closed form: lengths or times are so short that doubles cannot tell where the "
+        "blocks turn; use greater units");
   }
   time_unit = std::scalbln(1.0, exponent);
   closest_approach = to_time(exact.closest_approach / Rational(time_unit));
