@@ -40,33 +40,44 @@ struct Packet {
 /// The packets of one chunk, in the order they are to be written.
 using EncodedChunk = std::vector<Packet>;
 
-/// Turns consecutive frames into packets. Knows no other chunk, so the bytes it makes do not
-/// depend on what else is being encoded. Used by one thread at a time.
+/// Turns consecutive frames into packets, one chunk after another. A chunk's bytes depend on its
+/// frames and their numbers alone, not on the chunks before. Used by one thread at a time.
 class ChunkEncoder {
  public:
+  explicit ChunkEncoder(const VideoFormat& format)
+      : width_px_(format.width_px), height_px_(format.height_px) {}
   virtual ~ChunkEncoder() = default;
-  /// The view need only be valid during the call.
+  ChunkEncoder(const ChunkEncoder&) = delete;
+  ChunkEncoder& operator=(const ChunkEncoder&) = delete;
+
+  /// Starts the chunk whose first frame has this number.
+  /// @throws MediaError if the encoder cannot be opened.
+  virtual void begin(std::int64_t first_frame) = 0;
+  /// Brings the encoder's own picture, which it keeps from frame to frame, up to date. The view
+  /// need only be valid during the call.
   /// @param changed  rectangles that cover every pixel in which the frame differs from the one
-  ///                 added before. A chunk's first frame is taken whole.
-  /// @throws MediaError if the encoder refuses the frame.
-  virtual void add(const ImageView& frame, std::span<const PixelRect> changed) = 0;
-  /// The same for a frame that may differ everywhere.
-  void add(const ImageView& frame) {
-    const PixelRect whole{0, 0, frame.width_px, frame.height_px};
-    add(frame, {&whole, 1});
-  }
-  /// The chunk's packets; call once, after the last add().
+  ///                 taken before, in this chunk or the last. The very first is taken whole.
+  /// @throws MediaError if the frame is not of the size of the output.
+  void take(const ImageView& frame, std::span<const PixelRect> changed);
+  /// Encodes that picture as the chunk's next frame.
+  /// @throws MediaError if the encoder refuses it.
+  virtual void encode() = 0;
+  /// The chunk's packets.
   virtual EncodedChunk finish() = 0;
+
+ protected:
+  virtual void convert(const ImageView& frame, std::span<const PixelRect> rects) = 0;
+
+ private:
+  int width_px_;
+  int height_px_;
+  bool is_empty_ = true;
 };
 
-/// One output being written. Destroying it before finish() removes every trace of it.
+/// An output being written. Destroying it before finish() removes every trace of it.
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
-  /// Frames in every chunk but the last: how far frames of this output depend on each other.
-  virtual std::int64_t frames_per_chunk() const = 0;
-  /// An encoder for the chunk that starts at frame `first_frame`. Thread-safe.
-  virtual std::unique_ptr<ChunkEncoder> begin_chunk(std::int64_t first_frame) const = 0;
   /// Writes the next chunk; chunks must come in the order of their frames.
   /// @throws IoError, MediaError if it cannot be written.
   virtual void append(const EncodedChunk& chunk) = 0;
@@ -75,15 +86,31 @@ class FrameSink {
   virtual void finish() = 0;
 };
 
-/// Opens the output whose kind `output` names:
+/// What is to be made: how its frames become packets, and where they go.
+class Output {
+ public:
+  virtual ~Output() = default;
+  /// Frames that are encoded together: how far frames of this output depend on each other.
+  virtual std::int64_t frames_per_chunk() const = 0;
+  /// One for each worker; it must not outlive the output. Thread-safe.
+  virtual std::unique_ptr<ChunkEncoder> make_encoder() const = 0;
+  /// The kind, what makes the bytes, and its version, in one line: packets of outputs with the same
+  /// format, settings and signature can be mixed.
+  virtual std::string signature() const = 0;
+  /// The sink must not outlive the output.
+  /// @throws UsageError if it cannot be opened; nothing is left behind then.
+  virtual std::unique_ptr<FrameSink> open() const = 0;
+};
+
+/// Sets up the output whose kind `name` tells:
 /// `*.mp4`, `*.png` with one integer field such as `%06d`, `*.y4m`, `-` (y4m on standard
 /// output), `*.framehash`, or the word `null`.
 /// PNG files are numbered from 1, as FFmpeg numbers them; the rest counts frames from 0. Settings
 /// are for `*.mp4` alone.
-/// @throws UsageError if the name has no known kind, the format does not suit the kind, no
-///         encoder is there, or the output cannot be opened; nothing is left behind then.
-std::unique_ptr<FrameSink> open_sink(const std::string& output, const VideoFormat& format,
-                                     const EncoderSettings& settings);
+/// @throws UsageError if the name has no known kind, the format does not suit the kind, or no
+///         encoder is there.
+std::unique_ptr<Output> set_up_output(const std::string& name, const VideoFormat& format,
+                                      const EncoderSettings& settings);
 
 /// Names of the H.264 encoders that the linked libavcodec offers for MP4, the default first.
 std::vector<std::string> h264_encoders();

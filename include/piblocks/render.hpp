@@ -1,24 +1,56 @@
 // The whole program: a scene becomes a video, a sequence or a still.
-// In: a scene and the name of an output. Out: the output, complete, or an exception and no
-// trace of it.
+// In: a scene and the name of an output, or parts of one. Out: the output, complete, or an
+// exception and no trace of it.
 #pragma once
 
 #include <piblocks/frame_sink.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/scene.hpp>
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 namespace piblocks {
 
+/// One of several equal shares of a rendering.
+struct Part {
+  int number = 1;  ///< 1 … count
+  int count = 1;
+
+  friend bool operator==(const Part&, const Part&) = default;
+};
+
 struct RenderJob {
   Scene scene;
-  std::string output;  ///< as open_sink() takes it
-  EncoderSettings encoder;
+  std::string output;  ///< as set_up_output() takes it
+  EncoderSettings encoder = {};
   int jobs = 1;  ///< frames painted and encoded at the same time, >= 1; does not change a byte
+  /// Renders this share only, to the file part_name().
+  std::optional<Part> part = {};
+  bool profile = false;  ///< whether to measure what each stage costs
+};
+
+/// What the work on a frame consists of, in this order.
+enum class Stage { compose, paint, convert, encode, mux, write };
+inline constexpr std::array<const char*, 6> kStageNames = {"compose", "paint", "convert",
+                                                           "encode",  "mux",   "write"};
+
+/// Seconds of processor time by stage.
+using StageSeconds = std::array<double, kStageNames.size()>;
+
+struct Profile {
+  StageSeconds stages{};  ///< of all threads together
+  double total_s = 0;     ///< of the process since its start; more than the stages
+};
+
+struct Rendered {
+  std::int64_t frame_count = 0;
+  Profile profile;  ///< zero unless asked for
 };
 
 struct Progress {
@@ -26,13 +58,23 @@ struct Progress {
   std::int64_t frame_count = 0;
 };
 
-/// Renders every frame of the scene's span of time.
+/// Renders every frame of the scene's span of time, or of a part of it.
 /// @param on_progress  called by the calling thread: at the start, now and then, at the end.
 /// @param stop         asks to give up: Interrupted is thrown soon after.
-/// @return the number of frames.
 /// @throws UsageError, DrawError, MediaError, IoError, SimulationError, Interrupted
-std::int64_t render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
-                    const std::stop_token& stop = {});
+Rendered render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
+                const std::stop_token& stop = {});
+
+/// The file a part is rendered to: "OUTPUT.part-2-of-3".
+std::string part_name(const std::string& output, const Part& part);
+
+/// Joins parts, in any order, to the output that one rendering would have made, byte for byte.
+/// @param output  of the same kind as the parts were rendered for; none of them.
+/// @return the number of frames.
+/// @throws UsageError if a part is missing, given twice or of another job; MediaError, IoError,
+///         Interrupted
+std::int64_t join(const std::vector<std::string>& parts, const std::string& output,
+                  const std::stop_token& stop = {});
 
 /// Renders one instant to a `.png`, `.svg` or `.pdf` file, or to standard output as PNG for "-".
 /// @param stop  asks to give up: Interrupted is thrown when the picture is drawn.

@@ -7,10 +7,10 @@
 #include <piblocks/physics_versions.hpp>
 #include <piblocks/scene.hpp>
 #include <piblocks/timeline.hpp>
+#include <piblocks/version.hpp>
 
 #include "cli/commands.hpp"
 #include "cli/text_output.hpp"
-#include "cli/version.hpp"
 
 namespace piblocks::cli {
 namespace {

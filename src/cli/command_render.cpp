@@ -6,6 +6,7 @@
 #include "cli/commands.hpp"
 #include "cli/convention_note.hpp"
 #include "cli/options.hpp"
+#include "cli/profile_report.hpp"
 #include "cli/progress.hpp"
 #include "cli/refuse_terminal.hpp"
 #include "cli/scene_options.hpp"
@@ -21,6 +22,8 @@ struct RenderOptions {
   const CLI::Option* preset;
   const CLI::Option* encoder;
   const CLI::Option* jobs;
+  const CLI::Option* part;
+  const CLI::Option* profile;
   const CLI::Option* quiet;
 };
 
@@ -29,14 +32,27 @@ int parse_jobs(const std::string& text) {
   return static_cast<int>(parse_whole_number(text, 1, Integer(kMaxJobs)).get_si());
 }
 
+/// "2/3", the second of three.
+Part parse_part(const std::string& text) {
+  constexpr int kMaxParts = 100'000;
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) throw UsageError("must be I/N, such as 2/3");
+  const Integer count = parse_whole_number(text.substr(slash + 1), 1, Integer(kMaxParts));
+  const Integer number = parse_whole_number(text.substr(0, slash), 1, count);
+  return {static_cast<int>(number.get_si()), static_cast<int>(count.get_si())};
+}
+
 double parse_crf(const std::string& text) { return to_double(parse_rational(text)); }
 
 RenderJob job_of(const RenderOptions& options) {
   const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
-  return {options.scene.scene(), *text_of(*options.output),
+  return {options.scene.scene(),
+          *text_of(*options.output),
           EncoderSettings{value_of(*options.crf, parse_crf), text_of(*options.preset),
                           text_of(*options.encoder)},
-          value_of(*options.jobs, parse_jobs).value_or(static_cast<int>(processors))};
+          value_of(*options.jobs, parse_jobs).value_or(static_cast<int>(processors)),
+          value_of(*options.part, parse_part),
+          options.profile->count() > 0};
 }
 
 void run(const RenderOptions& options) {
@@ -45,10 +61,11 @@ void run(const RenderOptions& options) {
   options.scene.refuse_as_output(*options.output);
   const RenderJob job = job_of(options);
   const bool quiet = options.quiet->count() > 0;
-  ProgressReport report(job.output, quiet);
-  render(
+  ProgressReport report(job.part ? part_name(job.output, *job.part) : job.output, quiet);
+  const Rendered rendered = render(
       job, [&](const Progress& progress) { report.update(progress); }, signals.token());
   report.finish();
+  if (job.profile) print_profile(rendered);
   if (!quiet) note_convention(job.scene.system);
 }
 
@@ -69,8 +86,13 @@ RenderOptions add_options(CLI::App& command) {
       add_value_option(command, "--encoder", "NAME", "Video encoder; 'piblocks info' lists them");
   const CLI::Option& jobs = add_value_option(
       command, "--jobs", "N", "Threads (default: one a processor); changes no byte of the output");
+  const CLI::Option& part =
+      add_value_option(command, "--part", "I/N",
+                       "Render the I-th of N shares to OUT.part-I-of-N,\nfor 'piblocks join'");
+  const CLI::Option& profile =
+      *command.add_flag("--profile")->description("Print what each stage cost, on standard error");
   const CLI::Option& quiet = *command.add_flag("--quiet")->description("Print nothing but errors");
-  return {scene, &output, &crf, &preset, &encoder, &jobs, &quiet};
+  return {scene, &output, &crf, &preset, &encoder, &jobs, &part, &profile, &quiet};
 }
 
 }  // namespace

@@ -13,9 +13,11 @@ std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) con
   std::string usage = "Usage: " + name;
   if (app->get_require_subcommand_min() > 0) return usage + " COMMAND [OPTIONS]\n";
   for (const CLI::Option* option : app->get_options()) {
-    if (option->get_positional()) usage += " [" + option->get_name() + "]";
-    if (!option->get_required()) continue;
-    usage += " " + shortest_name(*option) + " " + option->get_option_text();
+    if (option->get_required()) {
+      usage += " " + shortest_name(*option) + " " + option->get_option_text();
+    } else if (option->get_positional()) {
+      usage += " [" + option->get_name() + "]";
+    }
   }
   return usage + " [OPTIONS]\n";
 }

@@ -1,6 +1,7 @@
 // The command line: options in, exit code out. 0 done, 1 failed, 2 wrong usage.
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
+#include <piblocks/version.hpp>
 
 #include <csignal>
 #include <cstdio>
@@ -11,7 +12,6 @@
 #include "cli/commands.hpp"
 #include "cli/help_formatter.hpp"
 #include "cli/usage_message.hpp"
-#include "cli/version.hpp"
 
 namespace {
 
@@ -40,11 +40,12 @@ int finish(const CLI::App& app, const CLI::ParseError& error) {
 
 void add_commands(CLI::App& app) {
   using namespace piblocks;
-  const std::string version = fmt::format("piblocks {}", cli::kVersion);
+  const std::string version = fmt::format("piblocks {}", kVersion);
   app.formatter(std::make_shared<cli::HelpFormatter>());
   app.set_help_flag("-h,--help", "Print this text and exit");
   app.require_subcommand(1);
   cli::add_render(app);
+  cli::add_join(app);
   cli::add_still(app);
   cli::add_log(app);
   cli::add_state(app);

@@ -55,7 +55,8 @@ void ProgressReport::update(const Progress& progress) {
 
 void ProgressReport::draw_bar() const {
   constexpr int kWidth = 30;
-  const double share = double(progress_.frames_done) / double(progress_.frame_count);
+  const bool is_done = progress_.frames_done == progress_.frame_count;
+  const double share = is_done ? 1 : double(progress_.frames_done) / double(progress_.frame_count);
   const int filled = static_cast<int>(share * kWidth);
   fmt::print(stderr, "{}[{:=<{}}{: <{}}] {:3.0f} %", kClearLine, "", filled, "", kWidth - filled,
              std::floor(100 * share));

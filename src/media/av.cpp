@@ -37,13 +37,15 @@ int check_av(int code, std::string_view operation, std::string_view object) {
 
 void silence_av() { av_log_set_level(AV_LOG_QUIET); }
 
+std::string version_text(unsigned number) {
+  return fmt::format("{}.{}.{}", AV_VERSION_MAJOR(number), AV_VERSION_MINOR(number),
+                     AV_VERSION_MICRO(number));
+}
+
 std::vector<std::string> av_library_versions() {
-  const auto version = [](std::string_view name, unsigned number) {
-    return fmt::format("{} {}.{}.{}", name, AV_VERSION_MAJOR(number), AV_VERSION_MINOR(number),
-                       AV_VERSION_MICRO(number));
-  };
-  return {version("libavformat", avformat_version()), version("libavcodec", avcodec_version()),
-          version("libavutil", avutil_version())};
+  return {"libavformat " + version_text(avformat_version()),
+          "libavcodec " + version_text(avcodec_version()),
+          "libavutil " + version_text(avutil_version())};
 }
 
 }  // namespace piblocks

@@ -59,6 +59,9 @@ Owner own_av(typename Owner::pointer object, std::string_view name) {
 /// Keeps libav from printing; its error codes carry the cause. Affects the whole process.
 void silence_av();
 
+/// "59.37.100" of what one of libav's functions such as avcodec_version() returned.
+std::string version_text(unsigned number);
+
 /// Name and version of each of libav's libraries that is used.
 std::vector<std::string> av_library_versions();
 

@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "media/sink_request.hpp"
+#include "media/output_request.hpp"
 
 namespace piblocks {
 
-/// What the module offers: the functions of these names in sink_kinds.hpp and find_encoder.hpp.
+/// What the module offers: the functions of these names in output_kinds.hpp and find_encoder.hpp.
 struct AvModule {
-  std::unique_ptr<FrameSink> (*open_mp4)(const SinkRequest& request);
-  std::unique_ptr<FrameSink> (*open_framehash)(const SinkRequest& request);
+  std::unique_ptr<Output> (*mp4_output)(const OutputRequest& request);
+  std::unique_ptr<Output> (*framehash_output)(const OutputRequest& request);
   std::vector<std::string> (*usable_h264_encoders)();
   std::vector<std::string> (*av_library_versions)();
 };

@@ -2,11 +2,11 @@
 #include "media/av.hpp"
 #include "media/av_module.hpp"
 #include "media/find_encoder.hpp"
-#include "media/sink_kinds.hpp"
+#include "media/output_kinds.hpp"
 
 extern "C" const piblocks::AvModule* piblocks_av_module() {
   using namespace piblocks;
-  static constexpr AvModule kModule = {open_mp4, open_framehash, usable_h264_encoders,
+  static constexpr AvModule kModule = {mp4_output, framehash_output, usable_h264_encoders,
                                        av_library_versions};
   silence_av();
   return &kModule;

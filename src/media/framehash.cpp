@@ -3,8 +3,9 @@
 #include <array>
 
 #include "media/av.hpp"
+#include "media/intra_encoder.hpp"
+#include "media/output_kinds.hpp"
 #include "media/rgb24.hpp"
-#include "media/sink_kinds.hpp"
 #include "media/stream_sink.hpp"
 
 namespace piblocks {
@@ -25,38 +26,77 @@ std::string file_header(const VideoFormat& format) {
       format.width_px, format.height_px);
 }
 
-std::string rgb24_hash(const ImageView& frame) {
+AvHashPtr allocate_hash() {
   AVHashContext* allocated = nullptr;
   check_av(av_hash_alloc(&allocated, kHash), "allocate hash", kHash);
-  const AvHashPtr hash(allocated);
+  return AvHashPtr(allocated);
+}
 
-  av_hash_init(hash.get());
-  std::vector<std::uint8_t> row(static_cast<std::size_t>(frame.width_px) * 3);
-  for (int y = 0; y < frame.height_px; ++y) {
-    pack_rgb24(frame.row(y), frame.width_px, row.data());
-    av_hash_update(hash.get(), row.data(), row.size());
+class FramehashEncoder final : public IntraEncoder {
+ public:
+  explicit FramehashEncoder(const VideoFormat& format)
+      : IntraEncoder(format),
+        file_header_(file_header(format)),
+        hash_(allocate_hash()),
+        row_bytes_(std::size_t(format.width_px) * 3),
+        rgb_(row_bytes_ * std::size_t(format.height_px)) {}
+
+ private:
+  void convert(const ImageView& frame, std::span<const PixelRect> rects) override;
+  std::vector<std::uint8_t> encode_picture(std::int64_t number) override;
+  std::string hash_of_picture();
+
+  std::string file_header_;
+  AvHashPtr hash_;
+  std::size_t row_bytes_;
+  std::vector<std::uint8_t> rgb_;
+};
+
+void FramehashEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
+  for (const PixelRect& rect : rects) {
+    const std::size_t left = std::size_t(rect.x_px) * 3;
+    for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
+      pack_rgb24(frame.row(y) + std::ptrdiff_t{4} * rect.x_px, rect.width_px,
+                 rgb_.data() + std::size_t(y) * row_bytes_ + left);
+    }
   }
+}
+
+std::string FramehashEncoder::hash_of_picture() {
+  av_hash_init(hash_.get());
+  av_hash_update(hash_.get(), rgb_.data(), rgb_.size());
   std::array<std::uint8_t, 2 * AV_HASH_MAX_SIZE + 1> text{};
-  av_hash_final_hex(hash.get(), text.data(), static_cast<int>(text.size()));
+  av_hash_final_hex(hash_.get(), text.data(), static_cast<int>(text.size()));
   return reinterpret_cast<const char*>(text.data());
 }
 
-std::string frame_line(const ImageView& frame, std::int64_t number) {
-  const std::int64_t size_bytes = std::int64_t{3} * frame.width_px * frame.height_px;
-  return fmt::format("0, {0:10}, {0:10}, {1:8}, {2:8}, {3}\n", number, 1, size_bytes,
-                     rgb24_hash(frame));
+std::vector<std::uint8_t> FramehashEncoder::encode_picture(std::int64_t number) {
+  const std::string text =
+      (number == 0 ? file_header_ : "") + fmt::format("0, {0:10}, {0:10}, {1:8}, {2:8}, {3}\n",
+                                                      number, 1, rgb_.size(), hash_of_picture());
+  return {text.begin(), text.end()};
 }
+
+class FramehashOutput final : public Output {
+ public:
+  explicit FramehashOutput(const OutputRequest& request) : request_(request) {}
+  std::int64_t frames_per_chunk() const override { return kFramesPerChunk; }
+  std::unique_ptr<ChunkEncoder> make_encoder() const override {
+    return std::make_unique<FramehashEncoder>(request_.format);
+  }
+  std::string signature() const override { return std::string("framehash by ") + kHash; }
+  std::unique_ptr<FrameSink> open() const override {
+    return std::make_unique<StreamSink>(request_.name);
+  }
+
+ private:
+  OutputRequest request_;
+};
 
 }  // namespace
 
-std::unique_ptr<FrameSink> open_framehash(const SinkRequest& request) {
-  const auto encode_frame = [header = file_header(request.format)](
-                                const ImageView& frame, std::span<const PixelRect> /*changed*/,
-                                std::int64_t number) {
-    const std::string text = (number == 0 ? header : "") + frame_line(frame, number);
-    return std::vector<std::uint8_t>(text.begin(), text.end());
-  };
-  return std::make_unique<StreamSink>(request, kFramesPerChunk, encode_frame);
+std::unique_ptr<Output> framehash_output(const OutputRequest& request) {
+  return std::make_unique<FramehashOutput>(request);
 }
 
 }  // namespace piblocks

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "core/output_file.hpp"
-#include "media/sink_kinds.hpp"
+#include "media/output_kinds.hpp"
 #include "media/video_chunk.hpp"
 #include "media/video_encoder.hpp"
 
@@ -15,10 +15,8 @@ namespace {
 
 class Mp4Sink final : public FrameSink {
  public:
-  explicit Mp4Sink(const SinkRequest& request);
+  Mp4Sink(const std::string& name, const VideoEncoder& encoder);
 
-  std::int64_t frames_per_chunk() const override { return encoder_.frames_per_chunk(); }
-  std::unique_ptr<ChunkEncoder> begin_chunk(std::int64_t first_frame) const override;
   void append(const EncodedChunk& chunk) override;
   void finish() override;
 
@@ -28,7 +26,7 @@ class Mp4Sink final : public FrameSink {
   void write(const Packet& packet);
 
   std::string name_;
-  VideoEncoder encoder_;
+  const VideoEncoder& encoder_;
   TemporaryFile file_;
   AvOutputPtr muxer_;  // after file_: closed before the file is removed
   AvPacketPtr packet_;
@@ -46,10 +44,10 @@ AvOutputPtr open_muxer(const std::string& path, const std::string& name) {
   return muxer;
 }
 
-Mp4Sink::Mp4Sink(const SinkRequest& request)
-    : name_(request.output),
-      encoder_(request.format, request.settings),
-      file_(request.output),
+Mp4Sink::Mp4Sink(const std::string& name, const VideoEncoder& encoder)
+    : name_(name),
+      encoder_(encoder),
+      file_(name),
       muxer_(open_muxer(file_.path(), name_)),
       packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {
   add_stream();
@@ -73,10 +71,6 @@ void Mp4Sink::write_header() {
   check_av(av_opt_set(muxer_->priv_data, "movflags", "+faststart", 0), "set up the muxer of",
            name_);
   check_av(avformat_write_header(muxer_.get(), nullptr), "write the header of", name_);
-}
-
-std::unique_ptr<ChunkEncoder> Mp4Sink::begin_chunk(std::int64_t first_frame) const {
-  return std::make_unique<VideoChunkEncoder>(encoder_, first_frame);
 }
 
 void Mp4Sink::append(const EncodedChunk& chunk) {
@@ -108,10 +102,28 @@ void Mp4Sink::finish() {
   file_.commit();
 }
 
+class Mp4Output final : public Output {
+ public:
+  explicit Mp4Output(const OutputRequest& request)
+      : name_(request.name), encoder_(request.format, request.settings) {}
+  std::int64_t frames_per_chunk() const override { return encoder_.frames_per_chunk(); }
+  std::unique_ptr<ChunkEncoder> make_encoder() const override {
+    return std::make_unique<VideoChunkEncoder>(encoder_);
+  }
+  std::string signature() const override { return "mp4 by " + encoder_.signature(); }
+  std::unique_ptr<FrameSink> open() const override {
+    return std::make_unique<Mp4Sink>(name_, encoder_);
+  }
+
+ private:
+  std::string name_;
+  VideoEncoder encoder_;
+};
+
 }  // namespace
 
-std::unique_ptr<FrameSink> open_mp4(const SinkRequest& request) {
-  return std::make_unique<Mp4Sink>(request);
+std::unique_ptr<Output> mp4_output(const OutputRequest& request) {
+  return std::make_unique<Mp4Output>(request);
 }
 
 }  // namespace piblocks

@@ -80,20 +80,18 @@ PngEncoder::PngEncoder() : stream_(new z_stream{}) {
   if (code != Z_OK) throw MediaError("png: cannot compress images: out of memory");
 }
 
-Bytes PngEncoder::encode(const ImageView& image) {
-  const PixelRect whole{0, 0, image.width_px, image.height_px};
-  return encode(image, {&whole, 1});
-}
-
-Bytes PngEncoder::encode(const ImageView& image, std::span<const PixelRect> changed) {
+void PngEncoder::filter(const ImageView& image, std::span<const PixelRect> changed) {
   const PixelRect whole{0, 0, image.width_px, image.height_px};
   if (image.width_px != width_px_ || image.height_px != height_px_) {
     resize(image);
     changed = {&whole, 1};
   }
-  for (const PixelRect& rect : changed) filter(image, rect);
+  for (const PixelRect& rect : changed) filter_rect(image, rect);
+}
+
+Bytes PngEncoder::compress() {
   for (std::size_t i = 0; i < strips_.size(); ++i) {
-    if (strips_[i].stale) compress(i);
+    if (strips_[i].stale) compress_strip(i);
   }
   return assemble();
 }
@@ -110,7 +108,7 @@ void PngEncoder::resize(const ImageView& image) {
 
 /// Up is the difference from the row above, so that the row below the rectangle changes too. Above
 /// the first row all is zero.
-void PngEncoder::filter(const ImageView& image, const PixelRect& rect) {
+void PngEncoder::filter_rect(const ImageView& image, const PixelRect& rect) {
   const std::size_t bytes = static_cast<std::size_t>(rect.width_px) * 3;
   Bytes above(bytes);
   Bytes current(bytes);
@@ -144,7 +142,7 @@ ByteSpan PngEncoder::rows_of(std::size_t strip) const {
 
 /// A stream without end, cut where a byte ends: such pieces can be put behind each other. The first
 /// has the header of the whole before it.
-void PngEncoder::compress(std::size_t index) {
+void PngEncoder::compress_strip(std::size_t index) {
   const ByteSpan rows = rows_of(index);
   z_stream& stream = *stream_;
   deflateReset(&stream);
@@ -188,6 +186,10 @@ Bytes PngEncoder::assemble() const {
   return png;
 }
 
-std::vector<std::uint8_t> encode_png(const ImageView& image) { return PngEncoder().encode(image); }
+std::vector<std::uint8_t> encode_png(const ImageView& image) {
+  PngEncoder encoder;
+  encoder.filter(image, {});
+  return encoder.compress();
+}
 
 }  // namespace piblocks

@@ -23,10 +23,11 @@ class PngEncoder {
   /// @throws MediaError if memory for the compressor runs out.
   PngEncoder();
 
-  std::vector<std::uint8_t> encode(const ImageView& image);
-  /// The same for an image that is equal to the last one outside of `changed`. An image of another
-  /// size, or the first, is taken whole.
-  std::vector<std::uint8_t> encode(const ImageView& image, std::span<const PixelRect> changed);
+  /// Takes an image of the size of the last one and equal to it outside of `changed`. The first,
+  /// or one of another size, is taken whole.
+  void filter(const ImageView& image, std::span<const PixelRect> changed);
+  /// The file of the image that was taken last.
+  std::vector<std::uint8_t> compress();
 
  private:
   struct StreamDeleter {
@@ -40,10 +41,10 @@ class PngEncoder {
   };
 
   void resize(const ImageView& image);
-  void filter(const ImageView& image, const PixelRect& rect);
+  void filter_rect(const ImageView& image, const PixelRect& rect);
   void filter_row(int y, int x, std::span<const std::uint8_t> row,
                   std::span<const std::uint8_t> above);
-  void compress(std::size_t index);
+  void compress_strip(std::size_t index);
   std::span<const std::uint8_t> rows_of(std::size_t strip) const;
   std::vector<std::uint8_t> assemble() const;
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <cerrno>
 #include <cstdlib>
@@ -12,16 +13,16 @@
 
 #include "core/output_file.hpp"
 #include "media/frame_pattern.hpp"
-#include "media/intra_chunk.hpp"
+#include "media/intra_encoder.hpp"
+#include "media/output_kinds.hpp"
 #include "media/png_encoder.hpp"
-#include "media/sink_kinds.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
-/// The first frame of a chunk is compressed whole, some 3 ms at 1080p; the others a tenth of it.
-constexpr std::int64_t kFramesPerChunk = 32;
+/// Few frames wait for their turn to be written, and the workers end at nearly the same time.
+constexpr std::int64_t kFramesPerChunk = 16;
 /// Number of the first file, as that of FFmpeg's image2 muxer.
 constexpr std::int64_t kFirstNumber = 1;
 
@@ -67,11 +68,25 @@ void write_file(const fs::path& path, std::span<const std::uint8_t> bytes) {
   if (file.close() != 0) fail("close", path, errno);
 }
 
+class PngFrameEncoder final : public IntraEncoder {
+ public:
+  using IntraEncoder::IntraEncoder;
+
+ private:
+  void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
+    png_.filter(frame, rects);
+  }
+  std::vector<std::uint8_t> encode_picture(std::int64_t /*number*/) override {
+    return png_.compress();
+  }
+
+  PngEncoder png_;
+};
+
 class PngSequence final : public FrameSink {
  public:
-  explicit PngSequence(const SinkRequest& request)
-      : format_(request.format),
-        pattern_(request.output),
+  explicit PngSequence(const FramePattern& pattern)
+      : pattern_(pattern),
         folder_(pattern_.folder().empty() ? "." : pattern_.folder()),
         made_folders_(folder_),
         temporary_(make_folder_in(folder_)) {}
@@ -79,8 +94,6 @@ class PngSequence final : public FrameSink {
   PngSequence(const PngSequence&) = delete;
   PngSequence& operator=(const PngSequence&) = delete;
 
-  std::int64_t frames_per_chunk() const override { return kFramesPerChunk; }
-  std::unique_ptr<ChunkEncoder> begin_chunk(std::int64_t first_frame) const override;
   void append(const EncodedChunk& chunk) override;
   void finish() override;
 
@@ -89,7 +102,6 @@ class PngSequence final : public FrameSink {
   void check_destinations() const;
   void move_into_place();
 
-  VideoFormat format_;
   FramePattern pattern_;
   fs::path folder_;
   MadeFolders made_folders_;
@@ -101,15 +113,6 @@ class PngSequence final : public FrameSink {
 PngSequence::~PngSequence() {
   std::error_code ignored;
   if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
-}
-
-std::unique_ptr<ChunkEncoder> PngSequence::begin_chunk(std::int64_t first_frame) const {
-  const auto encode_frame = [encoder = std::make_shared<PngEncoder>()](
-                                const ImageView& frame, std::span<const PixelRect> changed,
-                                std::int64_t /*number*/) {
-    return encoder->encode(frame, changed);
-  };
-  return std::make_unique<IntraChunkEncoder>(format_, first_frame, encode_frame);
 }
 
 void PngSequence::append(const EncodedChunk& chunk) {
@@ -160,10 +163,28 @@ void PngSequence::move_into_place() {
   }
 }
 
+class PngOutput final : public Output {
+ public:
+  explicit PngOutput(const OutputRequest& request)
+      : format_(request.format), pattern_(request.name) {}
+  std::int64_t frames_per_chunk() const override { return kFramesPerChunk; }
+  std::unique_ptr<ChunkEncoder> make_encoder() const override {
+    return std::make_unique<PngFrameEncoder>(format_);
+  }
+  std::string signature() const override { return fmt::format("png by zlib {}", zlibVersion()); }
+  std::unique_ptr<FrameSink> open() const override {
+    return std::make_unique<PngSequence>(pattern_);
+  }
+
+ private:
+  VideoFormat format_;
+  FramePattern pattern_;
+};
+
 }  // namespace
 
-std::unique_ptr<FrameSink> open_png_sequence(const SinkRequest& request) {
-  return std::make_unique<PngSequence>(request);
+std::unique_ptr<Output> png_output(const OutputRequest& request) {
+  return std::make_unique<PngOutput>(request);
 }
 
 }  // namespace piblocks

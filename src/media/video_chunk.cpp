@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
-#include "media/sink_request.hpp"
 #include "media/yuv420.hpp"
 
 namespace piblocks {
@@ -12,16 +12,16 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-AvFramePtr allocate_picture(const AVCodecContext& context) {
+AvFramePtr allocate_picture(const AVCodecParameters& stream) {
   auto picture = own_av<AvFramePtr>(av_frame_alloc(), "picture");
-  picture->width = context.width;
-  picture->height = context.height;
-  picture->format = context.pix_fmt;
-  picture->colorspace = context.colorspace;
-  picture->color_primaries = context.color_primaries;
-  picture->color_trc = context.color_trc;
-  picture->color_range = context.color_range;
-  picture->chroma_location = context.chroma_sample_location;
+  picture->width = stream.width;
+  picture->height = stream.height;
+  picture->format = stream.format;
+  picture->colorspace = stream.color_space;
+  picture->color_primaries = stream.color_primaries;
+  picture->color_trc = stream.color_trc;
+  picture->color_range = stream.color_range;
+  picture->chroma_location = stream.chroma_location;
   check_av(av_frame_get_buffer(picture.get(), 0), "allocate", "picture");
   return picture;
 }
@@ -54,22 +54,27 @@ Bytes without_signature(Bytes access_unit) {
 
 }  // namespace
 
-VideoChunkEncoder::VideoChunkEncoder(const VideoEncoder& encoder, std::int64_t first_frame)
-    : format_(encoder.format()),
-      first_frame_(first_frame),
-      context_(encoder.open()),
-      picture_(allocate_picture(*context_)),
+VideoChunkEncoder::VideoChunkEncoder(const VideoEncoder& encoder)
+    : ChunkEncoder(encoder.format()),
+      encoder_(encoder),
+      picture_(allocate_picture(encoder.parameters())),
       packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {}
 
-void VideoChunkEncoder::add(const ImageView& frame, std::span<const PixelRect> changed) {
-  check_frame_size(frame, format_);
+void VideoChunkEncoder::begin(std::int64_t first_frame) {
+  context_ = encoder_.open();
+  first_frame_ = first_frame;
+  frames_ = 0;
+}
+
+void VideoChunkEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
   // Still writable if the encoder has copied the last picture, as libx264 does: no new memory then.
   check_av(av_frame_make_writable(picture_.get()), "refill", "picture");
-  const PixelRect whole{0, 0, frame.width_px, frame.height_px};
-  if (frames_ == 0) changed = {&whole, 1};
-  for (const PixelRect& rect : changed) {
+  for (const PixelRect& rect : rects) {
     convert_to_yuv420(frame, chroma_aligned(rect, frame), view_of(*picture_));
   }
+}
+
+void VideoChunkEncoder::encode() {
   picture_->pict_type = frames_ == 0 ? AV_PICTURE_TYPE_I : AV_PICTURE_TYPE_NONE;
   picture_->pts = frames_++;
   send(picture_.get());
@@ -82,7 +87,8 @@ EncodedChunk VideoChunkEncoder::finish() {
   // frames.
   std::int64_t dts = first_frame_ - context_->has_b_frames;
   for (Packet& packet : chunk_) packet.dts = dts++;
-  return std::move(chunk_);
+  context_.reset();
+  return std::exchange(chunk_, {});
 }
 
 void VideoChunkEncoder::send(const AVFrame* picture) {

@@ -1,4 +1,4 @@
-// One chunk of a video: a closed group of pictures from an encoder of its own.
+// The chunks of a video: closed groups of pictures, each from an encoder of its own.
 // In: frames. Out: packets with the time stamps they have in the whole video.
 #pragma once
 
@@ -10,20 +10,21 @@ namespace piblocks {
 
 class VideoChunkEncoder final : public ChunkEncoder {
  public:
-  /// @throws MediaError if the encoder cannot be opened.
-  VideoChunkEncoder(const VideoEncoder& encoder, std::int64_t first_frame);
-  void add(const ImageView& frame, std::span<const PixelRect> changed) override;
+  explicit VideoChunkEncoder(const VideoEncoder& encoder);
+  void begin(std::int64_t first_frame) override;
+  void encode() override;
   EncodedChunk finish() override;
 
  private:
+  void convert(const ImageView& frame, std::span<const PixelRect> rects) override;
   void send(const AVFrame* picture);
   void take_packets();
 
-  VideoFormat format_;
-  std::int64_t first_frame_;
-  std::int64_t frames_ = 0;
+  const VideoEncoder& encoder_;
+  AvFramePtr picture_;  // kept for good: a frame changes little of it
   AvCodecContextPtr context_;
-  AvFramePtr picture_;
+  std::int64_t first_frame_ = 0;
+  std::int64_t frames_ = 0;
   AvPacketPtr packet_;
   EncodedChunk chunk_;
 };

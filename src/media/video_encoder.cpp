@@ -8,7 +8,7 @@
 #include <span>
 
 #include "media/find_encoder.hpp"
-#include "media/sink_request.hpp"
+#include "media/output_request.hpp"
 
 extern "C" {
 #include <libavutil/opt.h>
@@ -29,7 +29,7 @@ constexpr double kX264Crf = 21;
 constexpr double kBitsPerPixel = 0.1;
 
 constexpr double kMaxCrf = 51;
-constexpr int kMaxFramesPerChunk = 600;
+constexpr int kMaxFramesPerChunk = 300;
 
 bool has_option(const AVCodec& codec, const char* name) {
   if (codec.priv_class == nullptr) return false;
@@ -43,8 +43,8 @@ AVRational to_av(const Rational& value) {
 
 /// At least two: of two IDR pictures in a row with equal headers a decoder cannot tell that they
 /// are two (H.264, 7.4.1.2.4).
-int frames_in_two_seconds(const Rational& frame_rate) {
-  const Integer frames = floor(2 * frame_rate);
+int frames_in_a_second(const Rational& frame_rate) {
+  const Integer frames = floor(frame_rate);
   if (frames > kMaxFramesPerChunk) return kMaxFramesPerChunk;
   return std::max(2, static_cast<int>(frames.get_si()));
 }
@@ -116,7 +116,7 @@ VideoEncoder::VideoEncoder(const VideoFormat& format, const EncoderSettings& set
     : format_(format),
       settings_(settings),
       frame_rate_(to_av(format.frame_rate)),
-      frames_per_chunk_(frames_in_two_seconds(format.frame_rate)),
+      frames_per_chunk_(frames_in_a_second(format.frame_rate)),
       parameters_(own_av<AvParametersPtr>(avcodec_parameters_alloc(), "stream parameters")) {
   std::vector<std::string> problems = problems_of(format, settings, codec_);
   if (!problems.empty()) throw UsageError(std::move(problems));
@@ -128,6 +128,11 @@ VideoEncoder::VideoEncoder(const VideoFormat& format, const EncoderSettings& set
     throw UsageError(
         fmt::format("{}; usable here: {}", error.what(), fmt::join(usable_h264_encoders(), ", ")));
   }
+}
+
+std::string VideoEncoder::signature() const {
+  return fmt::format("{}, libavcodec {}, {:02x}", codec_->name, version_text(avcodec_version()),
+                     fmt::join(extradata(*parameters_), ""));
 }
 
 AvCodecContextPtr VideoEncoder::open() const {
@@ -144,7 +149,8 @@ AvCodecContextPtr VideoEncoder::open_unchecked() const {
   set_picture_format(*context, format_);
   context->framerate = frame_rate_;
   context->time_base = av_inv_q(frame_rate_);
-  context->gop_size = frames_per_chunk_;
+  // Never reached: the last chunk of a video may be half as long again as the others.
+  context->gop_size = 2 * frames_per_chunk_;
   // Threads inside an encoder may change its output; chunks are what runs in parallel.
   context->thread_count = 1;
   context->flags = static_cast<int>(AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_CLOSED_GOP |

@@ -18,13 +18,16 @@ class VideoEncoder {
   ///         no encoder is there.
   VideoEncoder(const VideoFormat& format, const EncoderSettings& settings);
 
-  /// Frames in two seconds. A chunk is one closed group of pictures: two seconds let a viewer jump
-  /// about in the video and cost little.
+  /// Frames in a second. A chunk is one closed group of pictures: a second lets a viewer jump about
+  /// in the video, costs little, and spreads short videos over all workers.
   int frames_per_chunk() const noexcept { return frames_per_chunk_; }
   const VideoFormat& format() const noexcept { return format_; }
   AVRational frame_rate() const noexcept { return frame_rate_; }
   /// What the stream's header says; the same for every encoder that open() returns.
   const AVCodecParameters& parameters() const noexcept { return *parameters_; }
+  /// The encoder's name, libavcodec's version and, in hexadecimal digits, what the encoder itself
+  /// wrote into the header, such as the parameter sets of H.264.
+  std::string signature() const;
 
   /// A fresh encoder for one chunk; time stamps are counted in frames. Thread-safe.
   /// @throws MediaError if it cannot be opened, or its headers differ from parameters().

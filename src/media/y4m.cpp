@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
-#include <cstring>
-
-#include "media/sink_kinds.hpp"
+#include "media/intra_encoder.hpp"
+#include "media/output_kinds.hpp"
 #include "media/stream_sink.hpp"
 #include "media/yuv420.hpp"
 
@@ -13,6 +12,8 @@ namespace {
 /// A frame is 3 MB at 1080p: few of them wait for their turn to be written.
 constexpr std::int64_t kFramesPerChunk = 4;
 
+constexpr std::string_view kFrameHeader = "FRAME\n";
+
 /// 420mpeg2 is 4:2:0 with chroma sited left. There is no tag for the matrix; readers take BT.709
 /// for HD sizes.
 std::string file_header(const VideoFormat& format) {
@@ -21,35 +22,69 @@ std::string file_header(const VideoFormat& format) {
                      format.frame_rate.get_den().get_str());
 }
 
-std::vector<std::uint8_t> encode(const ImageView& frame, const std::string& header) {
-  const std::ptrdiff_t width = frame.width_px;
-  const std::ptrdiff_t pixels = width * frame.height_px;
-  std::vector<std::uint8_t> bytes(header.size() + static_cast<std::size_t>(pixels / 2 * 3));
-  std::memcpy(bytes.data(), header.data(), header.size());
+class Y4mEncoder final : public IntraEncoder {
+ public:
+  explicit Y4mEncoder(const VideoFormat& format)
+      : IntraEncoder(format),
+        file_header_(file_header(format)),
+        width_px_(format.width_px),
+        luma_bytes_(std::size_t(format.width_px) * std::size_t(format.height_px)),
+        planes_(luma_bytes_ / 2 * 3) {}
 
-  std::uint8_t* y = bytes.data() + header.size();
+ private:
+  void convert(const ImageView& frame, std::span<const PixelRect> rects) override;
+  std::vector<std::uint8_t> encode_picture(std::int64_t number) override;
+
+  std::string file_header_;
+  std::ptrdiff_t width_px_;
+  std::size_t luma_bytes_;
+  std::vector<std::uint8_t> planes_;  // Y, Cb, Cr
+};
+
+void Y4mEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
+  std::uint8_t* const y = planes_.data();
   const YuvView picture{.y = y,
-                        .cb = y + pixels,
-                        .cr = y + pixels + pixels / 4,
-                        .y_stride_bytes = width,
-                        .cb_stride_bytes = width / 2,
-                        .cr_stride_bytes = width / 2};
-  convert_to_yuv420(frame, {0, 0, frame.width_px, frame.height_px}, picture);
+                        .cb = y + luma_bytes_,
+                        .cr = y + luma_bytes_ / 4 * 5,
+                        .y_stride_bytes = width_px_,
+                        .cb_stride_bytes = width_px_ / 2,
+                        .cr_stride_bytes = width_px_ / 2};
+  for (const PixelRect& rect : rects) {
+    convert_to_yuv420(frame, chroma_aligned(rect, frame), picture);
+  }
+}
+
+std::vector<std::uint8_t> Y4mEncoder::encode_picture(std::int64_t number) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(file_header_.size() + kFrameHeader.size() + planes_.size());
+  if (number == 0) bytes.insert(bytes.end(), file_header_.begin(), file_header_.end());
+  bytes.insert(bytes.end(), kFrameHeader.begin(), kFrameHeader.end());
+  bytes.insert(bytes.end(), planes_.begin(), planes_.end());
   return bytes;
 }
 
+class Y4mOutput final : public Output {
+ public:
+  explicit Y4mOutput(const OutputRequest& request) : request_(request) {}
+  std::int64_t frames_per_chunk() const override { return kFramesPerChunk; }
+  std::unique_ptr<ChunkEncoder> make_encoder() const override {
+    return std::make_unique<Y4mEncoder>(request_.format);
+  }
+  std::string signature() const override { return "y4m"; }
+  std::unique_ptr<FrameSink> open() const override {
+    return std::make_unique<StreamSink>(request_.name);
+  }
+
+ private:
+  OutputRequest request_;
+};
+
 }  // namespace
 
-std::unique_ptr<FrameSink> open_y4m(const SinkRequest& request) {
+std::unique_ptr<Output> y4m_output(const OutputRequest& request) {
   const std::string problem = odd_size_problem(request.format, "y4m in 4:2:0");
   if (!problem.empty()) throw UsageError(problem);
-
-  const auto encode_frame = [first_header = file_header(request.format) + "FRAME\n"](
-                                const ImageView& frame, std::span<const PixelRect> /*changed*/,
-                                std::int64_t number) {
-    return encode(frame, number == 0 ? first_header : "FRAME\n");
-  };
-  return std::make_unique<StreamSink>(request, kFramesPerChunk, encode_frame);
+  return std::make_unique<Y4mOutput>(request);
 }
 
 }  // namespace piblocks

@@ -1,4 +1,5 @@
-// The order of all stages: scene -> log -> state -> draw list -> pixels -> sink.
+// The order of all stages: scene -> log -> state -> draw list -> pixels -> packets -> sink.
+#include <fmt/format.h>
 #include <piblocks/canvas.hpp>
 #include <piblocks/collision_log.hpp>
 #include <piblocks/compose.hpp>
@@ -6,58 +7,154 @@
 #include <piblocks/render.hpp>
 #include <piblocks/timeline.hpp>
 
-#include <algorithm>
-
+#include "media/part_file.hpp"
+#include "render/chunks.hpp"
+#include "render/job_description.hpp"
 #include "render/ordered_pool.hpp"
+#include "render/stage_clock.hpp"
 
 namespace piblocks {
 namespace {
 
-/// Consecutive frames that are encoded together, by number alone.
-struct Chunks {
-  std::int64_t frame_count;
-  std::int64_t frames_per_chunk;
+/// Everything that decides what the frames show and how they are encoded.
+struct Film {
+  explicit Film(const RenderJob& job)
+      : scene(job.scene),
+        log(make_collision_log(scene.system)),
+        timeline(scene, *log),
+        layout(lay_out(scene, log->size())),
+        output(set_up_output(job.output,
+                             {scene.view.width_px, scene.view.height_px, scene.view.frame_rate},
+                             job.encoder)),
+        chunks{timeline.frame_count(), output->frames_per_chunk()} {}
 
-  std::int64_t count() const { return (frame_count + frames_per_chunk - 1) / frames_per_chunk; }
-  std::int64_t begin(std::int64_t chunk) const { return chunk * frames_per_chunk; }
-  std::int64_t end(std::int64_t chunk) const { return std::min(begin(chunk + 1), frame_count); }
+  const Scene& scene;
+  std::unique_ptr<CollisionLog> log;
+  Timeline timeline;
+  Layout layout;
+  std::unique_ptr<Output> output;
+  Chunks chunks;
 };
+
+struct EncodedWork {
+  EncodedChunk chunk;
+  StageSeconds spent{};
+};
+
+/// What one thread works with, chunk after chunk.
+class Worker {
+ public:
+  Worker(const Film& film, bool profile)
+      : film_(film),
+        profile_(profile),
+        canvas_(film.scene.view.width_px, film.scene.view.height_px),
+        encoder_(film.output->make_encoder()) {}
+
+  EncodedWork work(std::int64_t chunk, const std::stop_token& stop) {
+    StageClock clock(profile_, Stage::encode);
+    encoder_->begin(film_.chunks.begin(chunk));
+    for (auto frame = film_.chunks.begin(chunk); frame < film_.chunks.end(chunk); ++frame) {
+      if (stop.stop_requested()) throw Interrupted("render: interrupted");
+      add_frame(frame, clock);
+    }
+    EncodedChunk encoded = encoder_->finish();
+    return {std::move(encoded), clock.spent()};
+  }
+
+ private:
+  void add_frame(std::int64_t frame, StageClock& clock) {
+    clock.enter(Stage::compose);
+    const BlockState state = state_at(*film_.log, film_.timeline.time_of(frame));
+    DrawList list = compose(film_.scene, film_.layout, state);
+    clock.enter(Stage::paint);
+    const std::span<const PixelRect> changed = canvas_.update(std::move(list));
+    clock.enter(Stage::convert);
+    encoder_->take(canvas_.view(), changed);
+    clock.enter(Stage::encode);
+    encoder_->encode();
+  }
+
+  const Film& film_;
+  bool profile_;
+  Canvas canvas_;
+  std::unique_ptr<ChunkEncoder> encoder_;
+};
+
+/// A half-open range of chunks.
+struct Share {
+  std::int64_t begin;
+  std::int64_t end;
+};
+
+Share share_of(const std::optional<Part>& part, std::int64_t chunks) {
+  if (!part) return {0, chunks};
+  return {chunks * (part->number - 1) / part->count, chunks * part->number / part->count};
+}
+
+std::unique_ptr<FrameSink> open_sink(const RenderJob& job, const Film& film) {
+  if (!job.part) return film.output->open();
+  PartHeader header = describe(job, *film.output, film.chunks);
+  header.emplace_back("part", fmt::format("{}/{}", job.part->number, job.part->count));
+  return open_part(part_name(job.output, *job.part), header);
+}
+
+void check_part(const RenderJob& job) {
+  if (!job.part) return;
+  if (job.part->number < 1 || job.part->number > job.part->count) {
+    throw UsageError(fmt::format("part {} of {}: the number must be from 1 to the count",
+                                 job.part->number, job.part->count));
+  }
+  if (job.output == "-" || job.output == "null") {
+    throw UsageError(
+        fmt::format("part: there are no parts of output '{}'; name a file that the "
+                    "parts are to be joined to",
+                    job.output));
+  }
+}
+
+void add(StageSeconds& sum, const StageSeconds& spent) {
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += spent[i];
+}
 
 }  // namespace
 
-std::int64_t render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
-                    const std::stop_token& stop) {
-  const Scene& scene = job.scene;
-  const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
-  const Timeline timeline(scene, *log);
-  const Layout layout = lay_out(scene, log->size());
-  const VideoFormat format{scene.view.width_px, scene.view.height_px, scene.view.frame_rate};
-  const std::unique_ptr<FrameSink> sink = open_sink(job.output, format, job.encoder);
-  const Chunks chunks{timeline.frame_count(), sink->frames_per_chunk()};
-
+Rendered render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
+                const std::stop_token& stop) {
+  check_part(job);
+  const Film film(job);
+  const Share share = share_of(job.part, film.chunks.count());
+  const std::unique_ptr<FrameSink> sink = open_sink(job, film);
+  const auto frames_until = [&](std::int64_t chunk) {
+    return film.chunks.begin(chunk) - film.chunks.begin(share.begin);
+  };
   const auto make_worker = [&] {
-    const auto canvas = std::make_shared<Canvas>(format.width_px, format.height_px);
-    return [&, canvas](std::int64_t chunk, const std::stop_token& halt) {
-      const std::unique_ptr<ChunkEncoder> encoder = sink->begin_chunk(chunks.begin(chunk));
-      for (std::int64_t frame = chunks.begin(chunk); frame < chunks.end(chunk); ++frame) {
-        if (halt.stop_requested()) throw Interrupted("render: interrupted");
-        const BlockState state = state_at(*log, timeline.time_of(frame));
-        const auto changed = canvas->update(compose(scene, layout, state));
-        encoder->add(canvas->view(), changed);
-      }
-      return encoder->finish();
+    const auto worker = std::make_shared<Worker>(film, job.profile);
+    return [worker, &share](std::int64_t task, const std::stop_token& halt) {
+      return worker->work(share.begin + task, halt);
     };
   };
 
-  on_progress({0, chunks.frame_count});
-  OrderedPool<EncodedChunk> pool(chunks.count(), job.jobs, make_worker);
-  for (std::int64_t chunk = 0; const auto encoded = pool.take(stop); ++chunk) {
-    sink->append(*encoded);
-    on_progress({chunks.end(chunk), chunks.frame_count});
+  Rendered rendered{frames_until(share.end), {}};
+  on_progress({0, rendered.frame_count});
+  StageClock clock(job.profile, Stage::mux);
+  OrderedPool<EncodedWork> pool(share.end - share.begin, job.jobs, make_worker);
+  for (std::int64_t chunk = share.begin; const auto work = pool.take(stop); ++chunk) {
+    sink->append(work->chunk);
+    add(rendered.profile.stages, work->spent);
+    on_progress({frames_until(chunk + 1), rendered.frame_count});
   }
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
+  clock.enter(Stage::write);
   sink->finish();
-  return chunks.frame_count;
+  if (job.profile) {
+    add(rendered.profile.stages, clock.spent());
+    rendered.profile.total_s = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
+  }
+  return rendered;
+}
+
+std::string part_name(const std::string& output, const Part& part) {
+  return fmt::format("{}.part-{}-of-{}", output, part.number, part.count);
 }
 
 }  // namespace piblocks

@@ -8,6 +8,7 @@
 #include <piblocks/frame_sink.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -52,21 +53,25 @@ Pixels frame_at(std::int64_t number) {
 /// @return seconds spent in the encoder.
 double encode(const fs::path& path, const EncoderSettings& settings, std::int64_t frames) {
   const VideoFormat format = {kWidth_px, kHeight_px, kFramesPerSecond};
-  const auto sink = open_sink(path, format, settings);
+  const auto output = set_up_output(path, format, settings);
+  const auto encoder = output->make_encoder();
+  const auto sink = output->open();
+  const std::array whole = {PixelRect{0, 0, kWidth_px, kHeight_px}};
   double spent_s = 0;
-  for (std::int64_t first = 0; first < frames; first += sink->frames_per_chunk()) {
-    const std::int64_t end = std::min(frames, first + sink->frames_per_chunk());
+  for (std::int64_t first = 0; first < frames; first += output->frames_per_chunk()) {
+    const std::int64_t end = std::min(frames, first + output->frames_per_chunk());
     double start_s = thread_seconds();
-    const auto chunk = sink->begin_chunk(first);
+    encoder->begin(first);
     spent_s += thread_seconds() - start_s;
     for (std::int64_t number = first; number < end; ++number) {
       const Pixels frame = frame_at(number);
       start_s = thread_seconds();
-      chunk->add(frame.view());
+      encoder->take(frame.view(), whole);
+      encoder->encode();
       spent_s += thread_seconds() - start_s;
     }
     start_s = thread_seconds();
-    const EncodedChunk encoded = chunk->finish();
+    const EncodedChunk encoded = encoder->finish();
     spent_s += thread_seconds() - start_s;
     sink->append(encoded);
   }

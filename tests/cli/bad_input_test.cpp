@@ -36,7 +36,7 @@ Arguments still(const Arguments& more) { return Arguments{"still", "-o", "a.png"
 INSTANTIATE_TEST_SUITE_P(
     Commands, BadInputTest,
     testing::Values(
-        BadInput{{}, "no command: use one of render, still, log, state, count, info"},
+        BadInput{{}, "no command: use one of render, join, still, log, state, count, info"},
         BadInput{{"frobnicate"}, "unknown command 'frobnicate'"},
         BadInput{{"-x"}, "unknown option '-x'"},
         BadInput{{"--digits", "3"}, "unknown option '--digits'"},
@@ -46,6 +46,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"count", "a.toml", "b.toml"}, "count: unexpected argument 'b.toml'"},
         BadInput{{"info", "everything"}, "info: unexpected argument 'everything'"},
         BadInput{{"render"}, "render: missing -o,--output OUT"},
+        BadInput{{"join", "a.part-1-of-1"}, "join: missing -o,--output OUT"},
+        BadInput{{"join", "-o", "a.mp4"}, "join: missing PART ..."},
+        BadInput{{"join", "none", "-o", "a.mp4"}, "part: cannot open 'none': No such file"},
+        BadInput{{"join", ".", "-o", "a.mp4"}, "part: cannot open '.': Is a directory"},
+        BadInput{{"join", "scene.toml", "-o", "a.mp4"},
+                 "part: 'scene.toml' is no part file",
+                 "red.mass = 3"},
         BadInput{{"still"}, "still: missing --at S|last|#K and -o,--output OUT"},
         BadInput{{"still", "-o", "a.png"}, "still: missing --at S|last|#K;"},
         BadInput{{"state"}, "state: missing --at"},
@@ -54,6 +61,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"render", "-o", "null", "--size"}, "--size needs a value: --size WxH"},
         BadInput{{"count", "--digits", "1", "--digits", "2"}, "--digits is given more than once"},
         BadInput{{"count", "--digits", "2", "--mass-ratio", "3"}, "--digits and --mass-ratio"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Parts, BadInputTest,
+    testing::Values(BadInput{render({"--part", "0/3"}), "--part 0/3: must be a whole number"},
+                    BadInput{render({"--part", "4/3"}), "--part 4/3: must be a whole number"},
+                    BadInput{render({"--part", "1/0"}), "--part 1/0: must be a whole number"},
+                    BadInput{render({"--part", "1"}), "--part 1: must be I/N, such as 2/3"},
+                    BadInput{render({"--part", "1/2/3"}), "--part 1/2/3: must be a whole number"},
+                    BadInput{render({"--part", "-1/3"}), "--part -1/3: must be a whole number"},
+                    BadInput{{"render", "--part", "1/2", "-o", "null"},
+                             "no parts of output 'null'"},
+                    BadInput{{"render", "--part", "1/2", "-o", "-"}, "no parts of output '-'"}));
 
 INSTANTIATE_TEST_SUITE_P(
     System, BadInputTest,

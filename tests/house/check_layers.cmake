@@ -17,7 +17,7 @@ set(render_may core physics scene draw media render)
 set(cli_may ${layers})
 
 # The layer of each header in include/piblocks.
-set(core_headers color error exact geometry image time)
+set(core_headers color error exact geometry image time version)
 set(physics_headers blocks collision_log event_simulator interpolator particle
     physics_versions)
 set(scene_headers instant scene timeline)

@@ -22,7 +22,7 @@ using testing_support::TemporaryFolder;
 
 const VideoFormat kFormat = {
     .width_px = 322, .height_px = 180, .frame_rate = Rational("30000/1001")};
-constexpr std::int64_t kFramesPerChunk = 59;  // floor(2 * 29.97)
+constexpr std::int64_t kFramesPerChunk = 29;  // floor(29.97)
 
 class Mp4Test : public testing::Test {
  protected:
@@ -38,7 +38,7 @@ class Mp4Test : public testing::Test {
 
   std::string problem(const EncoderSettings& settings) const {
     try {
-      open_sink(folder_ / "out.mp4", kFormat, settings);
+      set_up_output(folder_ / "out.mp4", kFormat, settings);
     } catch (const UsageError& error) {
       EXPECT_TRUE(folder_.is_empty());
       return error.what();
@@ -111,11 +111,11 @@ TEST_F(Mp4Test, IsTheSameEachTime) {
 TEST_F(Mp4Test, EqualFramesGiveEqualChunksWhateverMemoryHeld) {
   const VideoFormat format = {.width_px = 64, .height_px = 48, .frame_rate = 10};
   if (h264_encoders().front() != "libx264") GTEST_SKIP() << "presets are libx264's";
-  const auto sink = open_sink(folder_ / "out.mp4", format, {.preset = "veryfast"});
+  const auto output = set_up_output(folder_ / "out.mp4", format, {.preset = "veryfast"});
   std::vector<EncodedChunk> chunks(16);
   for (std::size_t pair = 0; pair < chunks.size(); pair += 2) {
     const auto encode = [&](std::size_t i) {
-      chunks[i] = encode_chunk(*sink, 20, 40, article_frames(format));
+      chunks[i] = encode_chunk(*output, 10, 20, article_frames(format));
     };
     const std::jthread other(encode, pair);
     encode(pair + 1);
@@ -199,7 +199,7 @@ TEST_F(Mp4Test, TakesAnotherEncoderByName) {
 TEST(H264Encoders, AreOnesThatCanBeOpened) {
   for (const std::string& name : h264_encoders()) {
     const TemporaryFolder folder;
-    EXPECT_NO_THROW(open_sink(folder / "out.mp4", kFormat, {.encoder = name})) << name;
+    EXPECT_NO_THROW(set_up_output(folder / "out.mp4", kFormat, {.encoder = name})) << name;
   }
 }
 

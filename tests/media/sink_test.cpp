@@ -26,10 +26,10 @@ using testing_support::TemporaryFolder;
 const VideoFormat kSmall = {.width_px = 64, .height_px = 36, .frame_rate = 10};
 
 /// What opening says, or "" if it works.
-std::string opening_error(const std::string& output, const VideoFormat& format,
+std::string opening_error(const std::string& name, const VideoFormat& format,
                           const EncoderSettings& settings = {}) {
   try {
-    open_sink(output, format, settings);
+    set_up_output(name, format, settings)->open();
   } catch (const UsageError& error) {
     return error.what();
   }
@@ -41,7 +41,7 @@ testing::AssertionResult has(const std::string& text, const std::string& part) {
   return testing::AssertionFailure() << "'" << part << "' is not in: " << text;
 }
 
-TEST(OpenSink, ListsTheKindsWhenANameHasNone) {
+TEST(SetUpOutput, ListsTheKindsWhenANameHasNone) {
   for (const char* output : {"out.mov", "out", "", "mp4", "null.txt", "./null", "out.mp4/"}) {
     const std::string what = opening_error(output, kSmall);
     EXPECT_TRUE(has(what, std::string("'") + output + "'"));
@@ -52,28 +52,28 @@ TEST(OpenSink, ListsTheKindsWhenANameHasNone) {
   }
 }
 
-TEST(OpenSink, ReportsAllProblemsAtOnce) {
+TEST(SetUpOutput, ReportsAllProblemsAtOnce) {
   try {
-    open_sink("out.mov", {0, 20000, -1}, {});
+    set_up_output("out.mov", {0, 20000, -1}, {});
     FAIL();
   } catch (const UsageError& error) {
     EXPECT_EQ(error.problems().size(), 3u) << error.what();
   }
 }
 
-TEST(OpenSink, RefusesFramesThatDoNotFitInMemoryOrTime) {
+TEST(SetUpOutput, RefusesFramesThatDoNotFitInMemoryOrTime) {
   EXPECT_TRUE(has(opening_error("null", {16384, 16384, 60}), "16384x16384"));
   EXPECT_TRUE(has(opening_error("null", {10, 10, 0}), "30000/1001"));
   EXPECT_TRUE(has(opening_error("null", {10, 10, Rational("1/9000000000")}), "out of range"));
   EXPECT_EQ(opening_error("null", {16384, 4096, 60}), "");
 }
 
-TEST(OpenSink, RefusesEncoderSettingsThatWouldBeIgnored) {
+TEST(SetUpOutput, RefusesEncoderSettingsThatWouldBeIgnored) {
   EXPECT_TRUE(has(opening_error("out.y4m", kSmall, {.crf = 20}), "has no use for"));
   EXPECT_TRUE(has(opening_error("%d.png", kSmall, {.preset = "slow"}), "*.mp4"));
 }
 
-TEST(OpenSink, SaysWhichEvenSizeToUse) {
+TEST(SetUpOutput, SaysWhichEvenSizeToUse) {
   const TemporaryFolder folder;
   for (const char* name : {"out.mp4", "out.y4m"}) {
     EXPECT_TRUE(has(opening_error(folder / name, {1921, 1081, 60}), "use 1920x1080"));
@@ -105,8 +105,9 @@ TEST_P(EveryFile, DoesNotDependOnWhoEncodesWhat) {
 TEST_P(EveryFile, LeavesNoTraceWhenAbandoned) {
   const TemporaryFolder folder;
   {
-    const auto sink = open_sink(folder / GetParam(), kSmall, {});
-    sink->append(encode_chunk(*sink, 0, 1000, article_frames(kSmall)));
+    const auto output = set_up_output(folder / GetParam(), kSmall, {});
+    const auto sink = output->open();
+    sink->append(encode_chunk(*output, 0, 1000, article_frames(kSmall)));
     EXPECT_FALSE(folder.is_empty());
   }
   EXPECT_TRUE(folder.is_empty());
@@ -131,15 +132,16 @@ TEST_P(EveryFile, NeedsAFolderThatCanBeWritten) {
 
 TEST_P(EveryFile, RefusesAFrameOfAnotherSize) {
   const TemporaryFolder folder;
-  const auto sink = open_sink(folder / GetParam(), kSmall, {});
-  EXPECT_THROW(sink->begin_chunk(0)->add(Pixels(66, 36).view()), MediaError);
+  const auto output = set_up_output(folder / GetParam(), kSmall, {});
+  EXPECT_THROW(output->make_encoder()->take(Pixels(66, 36).view(), {}), MediaError);
 }
 
 TEST_P(EveryFile, RefusesAChunkOutOfOrder) {
   const TemporaryFolder folder;
-  const auto sink = open_sink(folder / GetParam(), kSmall, {});
+  const auto output = set_up_output(folder / GetParam(), kSmall, {});
+  const auto sink = output->open();
   const EncodedChunk second =
-      encode_chunk(*sink, sink->frames_per_chunk(), 1000, article_frames(kSmall));
+      encode_chunk(*output, output->frames_per_chunk(), 1000, article_frames(kSmall));
   EXPECT_THROW(sink->append(second), MediaError);
 }
 
@@ -178,8 +180,9 @@ INSTANTIATE_TEST_SUITE_P(All, EveryFile,
                                          "a/out.framehash"));
 
 TEST(NullSink, KeepsNothing) {
-  const auto sink = open_sink("null", kSmall, {});
-  EXPECT_TRUE(encode_chunk(*sink, 0, 100, article_frames(kSmall)).empty());
+  const auto output = set_up_output("null", kSmall, {});
+  const auto sink = output->open();
+  EXPECT_TRUE(encode_chunk(*output, 0, 100, article_frames(kSmall)).empty());
   sink->finish();
 }
 
@@ -199,8 +202,9 @@ TEST(PngSequence, IsNumberedFromOneAndHoldsTheFrames) {
 TEST(PngSequence, ReplacesFilesOnlyWhenItIsComplete) {
   const TemporaryFolder folder;
   std::ofstream(folder / "1.png") << "old";
-  const auto sink = open_sink(folder / "%d.png", kSmall, {});
-  sink->append(encode_chunk(*sink, 0, 3, article_frames(kSmall)));
+  const auto output = set_up_output(folder / "%d.png", kSmall, {});
+  const auto sink = output->open();
+  sink->append(encode_chunk(*output, 0, 3, article_frames(kSmall)));
   EXPECT_EQ(file_contents(folder / "1.png"), "old");
   EXPECT_FALSE(fs::exists(folder / "2.png"));
   sink->finish();

@@ -1,5 +1,5 @@
 // Drives a sink as the renderer does.
-// In: a sink and a function that paints frame n. Out: the complete output.
+// In: an output and a function that paints frame n. Out: the complete output.
 #pragma once
 
 #include <piblocks/frame_sink.hpp>
@@ -30,36 +30,52 @@ inline PaintFrame random_frames(const VideoFormat& format) {
   };
 }
 
-inline EncodedChunk encode_chunk(const FrameSink& sink, std::int64_t first, std::int64_t frames,
-                                 const PaintFrame& paint) {
-  const auto encoder = sink.begin_chunk(first);
-  const std::int64_t end = std::min(frames, first + sink.frames_per_chunk());
-  for (std::int64_t number = first; number < end; ++number) encoder->add(paint(number).view());
-  return encoder->finish();
+/// Takes the frame as if all of it had changed, and encodes it.
+inline void add(ChunkEncoder& encoder, const ImageView& frame) {
+  const PixelRect whole{0, 0, frame.width_px, frame.height_px};
+  encoder.take(frame, {&whole, 1});
+  encoder.encode();
 }
 
-/// One thread, chunk after chunk.
-inline void write_frames(const std::string& output, const VideoFormat& format,
+inline EncodedChunk encode_chunk(const Output& output, ChunkEncoder& encoder, std::int64_t first,
+                                 std::int64_t frames, const PaintFrame& paint) {
+  encoder.begin(first);
+  const std::int64_t end = std::min(frames, first + output.frames_per_chunk());
+  for (std::int64_t number = first; number < end; ++number) add(encoder, paint(number).view());
+  return encoder.finish();
+}
+
+inline EncodedChunk encode_chunk(const Output& output, std::int64_t first, std::int64_t frames,
+                                 const PaintFrame& paint) {
+  return encode_chunk(output, *output.make_encoder(), first, frames, paint);
+}
+
+/// One thread and one encoder, chunk after chunk.
+inline void write_frames(const std::string& name, const VideoFormat& format,
                          const EncoderSettings& settings, std::int64_t frames,
                          const PaintFrame& paint) {
-  const auto sink = open_sink(output, format, settings);
-  for (std::int64_t first = 0; first < frames; first += sink->frames_per_chunk()) {
-    sink->append(encode_chunk(*sink, first, frames, paint));
+  const auto output = set_up_output(name, format, settings);
+  const auto encoder = output->make_encoder();
+  const auto sink = output->open();
+  for (std::int64_t first = 0; first < frames; first += output->frames_per_chunk()) {
+    sink->append(encode_chunk(*output, *encoder, first, frames, paint));
   }
   sink->finish();
 }
 
-/// A thread for each chunk, the last chunk started first, all of them at work at once.
-inline void write_frames_by_threads(const std::string& output, const VideoFormat& format,
+/// A thread and an encoder for each chunk, the last chunk started first, all of them at work at
+/// once.
+inline void write_frames_by_threads(const std::string& name, const VideoFormat& format,
                                     const EncoderSettings& settings, std::int64_t frames,
                                     const PaintFrame& paint) {
-  const auto sink = open_sink(output, format, settings);
-  const std::int64_t length = sink->frames_per_chunk();
+  const auto output = set_up_output(name, format, settings);
+  const auto sink = output->open();
+  const std::int64_t length = output->frames_per_chunk();
   std::vector<EncodedChunk> chunks(static_cast<std::size_t>((frames + length - 1) / length));
   std::vector<std::jthread> threads;
   for (std::size_t i = chunks.size(); i-- > 0;) {
     threads.emplace_back([&, i] {
-      chunks[i] = encode_chunk(*sink, static_cast<std::int64_t>(i) * length, frames, paint);
+      chunks[i] = encode_chunk(*output, static_cast<std::int64_t>(i) * length, frames, paint);
     });
   }
   threads.clear();

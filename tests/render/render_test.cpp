@@ -51,7 +51,7 @@ double error_between(const Pixels& a, const Pixels& b) {
 TEST_F(RenderTest, EveryVideoFrameShowsItsInstant) {
   const Scene article = scene("3.4", "4.4");
   RenderJob job{article, path("out.mp4"), {}, 2};
-  const std::int64_t frames = render(job, [](const Progress&) {});
+  const std::int64_t frames = render(job, [](const Progress&) {}).frame_count;
   const DecodedVideo video = decode_video(job.output);
   const auto log = make_collision_log(article.system);
   const Timeline timeline(article, *log);
@@ -93,13 +93,14 @@ TEST_F(RenderTest, BytesDoNotDependOnTheNumberOfJobs) {
 
 TEST_F(RenderTest, ReportsProgressUpToTheEnd) {
   std::int64_t last = -1;
-  const std::int64_t frames =
-      render({scene("0", "3"), path("out.framehash"), {}, 2}, [&](const Progress& progress) {
-        EXPECT_GT(progress.frames_done, last);
-        last = progress.frames_done;
-        EXPECT_EQ(progress.frame_count, 180);
-      });
-  EXPECT_EQ(last, frames);
+  const auto on_progress = [&](const Progress& progress) {
+    EXPECT_GT(progress.frames_done, last);
+    last = progress.frames_done;
+    EXPECT_EQ(progress.frame_count, 180);
+  };
+  const Rendered rendered = render({scene("0", "3"), path("out.framehash"), {}, 2}, on_progress);
+  EXPECT_EQ(rendered.frame_count, 180);
+  EXPECT_EQ(last, 180);
 }
 
 TEST_F(RenderTest, StoppingLeavesNoTrace) {

@@ -1,4 +1,4 @@
-#include "media/sink_request.hpp"
+#include "media/output_request.hpp"
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
@@ -16,10 +16,14 @@ std::string odd_size_problem(const VideoFormat& format, const std::string& what)
                      what, even(width), even(height));
 }
 
-void check_frame_size(const ImageView& frame, const VideoFormat& format) {
-  if (frame.width_px == format.width_px && frame.height_px == format.height_px) return;
-  throw MediaError(fmt::format("output: cannot add frame: it is {}x{}, the output {}x{}",
-                               frame.width_px, frame.height_px, format.width_px, format.height_px));
+void ChunkEncoder::take(const ImageView& frame, std::span<const PixelRect> changed) {
+  if (frame.width_px != width_px_ || frame.height_px != height_px_) {
+    throw MediaError(fmt::format("output: cannot take frame: it is {}x{}, the output {}x{}",
+                                 frame.width_px, frame.height_px, width_px_, height_px_));
+  }
+  const PixelRect whole{0, 0, width_px_, height_px_};
+  convert(frame, is_empty_ ? std::span(&whole, 1) : changed);
+  is_empty_ = false;
 }
 
 void FrameCounter::take(const EncodedChunk& chunk) {

@@ -8,36 +8,37 @@
 #include <string_view>
 
 #include "media/av_module.hpp"
-#include "media/sink_kinds.hpp"
+#include "media/output_kinds.hpp"
 
 namespace piblocks {
 namespace {
 
 /// A kind of output: a new one is one more entry of the table below.
-struct SinkKind {
+struct OutputKind {
   std::string_view name;  // as a message lists it
   bool (*matches)(std::string_view output);
   bool takes_encoder_settings;
-  std::unique_ptr<FrameSink> (*open)(const SinkRequest& request);
+  std::unique_ptr<Output> (*set_up)(const OutputRequest& request);
 };
 
-constexpr std::array kSinkKinds = {
-    SinkKind{"*.mp4", [](std::string_view output) { return output.ends_with(".mp4"); }, true,
-             [](const SinkRequest& request) { return av_module().open_mp4(request); }},
-    SinkKind{"*.png with a number field such as %06d",
-             [](std::string_view output) { return output.ends_with(".png"); }, false,
-             open_png_sequence},
-    SinkKind{"*.y4m", [](std::string_view output) { return output.ends_with(".y4m"); }, false,
-             open_y4m},
-    SinkKind{"- (y4m on standard output)", [](std::string_view output) { return output == "-"; },
-             false, open_y4m},
-    SinkKind{"*.framehash", [](std::string_view output) { return output.ends_with(".framehash"); },
-             false, [](const SinkRequest& request) { return av_module().open_framehash(request); }},
-    SinkKind{"null", [](std::string_view output) { return output == "null"; }, false, open_null},
+constexpr std::array kOutputKinds = {
+    OutputKind{"*.mp4", [](std::string_view output) { return output.ends_with(".mp4"); }, true,
+               [](const OutputRequest& request) { return av_module().mp4_output(request); }},
+    OutputKind{"*.png with a number field such as %06d",
+               [](std::string_view output) { return output.ends_with(".png"); }, false, png_output},
+    OutputKind{"*.y4m", [](std::string_view output) { return output.ends_with(".y4m"); }, false,
+               y4m_output},
+    OutputKind{"- (y4m on standard output)", [](std::string_view output) { return output == "-"; },
+               false, y4m_output},
+    OutputKind{"*.framehash",
+               [](std::string_view output) { return output.ends_with(".framehash"); }, false,
+               [](const OutputRequest& request) { return av_module().framehash_output(request); }},
+    OutputKind{"null", [](std::string_view output) { return output == "null"; }, false,
+               null_output},
 };
 
-const SinkKind* find_kind(std::string_view output) {
-  for (const SinkKind& kind : kSinkKinds) {
+const OutputKind* find_kind(std::string_view output) {
+  for (const OutputKind& kind : kOutputKinds) {
     if (kind.matches(output)) return &kind;
   }
   return nullptr;
@@ -45,7 +46,7 @@ const SinkKind* find_kind(std::string_view output) {
 
 std::string unknown_kind(const std::string& output) {
   std::string known;
-  for (const SinkKind& kind : kSinkKinds) {
+  for (const OutputKind& kind : kOutputKinds) {
     if (!known.empty()) known += ", ";
     known += kind.name;
   }
@@ -75,26 +76,26 @@ std::string frame_rate_problem(const Rational& rate) {
 
 }  // namespace
 
-std::unique_ptr<FrameSink> open_sink(const std::string& output, const VideoFormat& format,
-                                     const EncoderSettings& settings) {
+std::unique_ptr<Output> set_up_output(const std::string& name, const VideoFormat& format,
+                                      const EncoderSettings& settings) {
   std::vector<std::string> problems;
   const auto report = [&](std::string problem) {
     if (!problem.empty()) problems.push_back(std::move(problem));
   };
-  const SinkKind* kind = find_kind(output);
-  if (kind == nullptr) report(unknown_kind(output));
+  const OutputKind* kind = find_kind(name);
+  if (kind == nullptr) report(unknown_kind(name));
   if (kind != nullptr && !kind->takes_encoder_settings &&
       (settings.crf || settings.preset || settings.encoder)) {
     report(
         fmt::format("output: '{}' has no use for crf, preset or encoder; leave them out or "
                     "write *.mp4",
-                    output));
+                    name));
   }
   report(size_problem(format));
   report(frame_rate_problem(format.frame_rate));
   if (!problems.empty()) throw UsageError(std::move(problems));
 
-  return kind->open({output, format, settings});
+  return kind->set_up({name, format, settings});
 }
 
 std::vector<std::string> media_library_versions() {

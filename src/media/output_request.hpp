@@ -1,6 +1,6 @@
-// What a sink is opened with, and what every kind of sink checks.
-// In: the arguments of open_sink(), the frames and chunks given later. Out: nothing, or the error
-// that a wrong size, frame or order deserves.
+// What an output is set up with, and what every kind of output checks.
+// In: the arguments of set_up_output(), the chunks given later. Out: nothing, or the error that a
+// wrong size or order deserves.
 #pragma once
 
 #include <piblocks/frame_sink.hpp>
@@ -9,9 +9,9 @@
 
 namespace piblocks {
 
-/// The arguments of open_sink(), already known to be in range.
-struct SinkRequest {
-  std::string output;
+/// The arguments of set_up_output(), already known to be in range.
+struct OutputRequest {
+  std::string name;
   VideoFormat format;
   EncoderSettings settings;
 };
@@ -19,9 +19,6 @@ struct SinkRequest {
 /// Empty if both sides are even, as 4:2:0 needs; else what is wrong and which size to use.
 /// @param what the thing that needs it, such as "H.264 in 4:2:0".
 std::string odd_size_problem(const VideoFormat& format, const std::string& what);
-
-/// @throws MediaError if the frame is not of the size that the output has.
-void check_frame_size(const ImageView& frame, const VideoFormat& format);
 
 /// Sees to it that an output gets every frame once and in order.
 class FrameCounter {

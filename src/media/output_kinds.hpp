@@ -1,0 +1,30 @@
+// The kinds of output there are, one function each; set_up_output.cpp holds the table of them.
+// In: a request whose name the kind matches. Out: the output, set up but not opened.
+#pragma once
+
+#include <memory>
+
+#include "media/output_request.hpp"
+
+namespace piblocks {
+
+/// H.264 (or another encoder's video) in MP4: BT.709 in limited range, converted and tagged.
+/// @throws UsageError if the size is odd, or a setting or the encoder is no good.
+std::unique_ptr<Output> mp4_output(const OutputRequest& request);
+
+/// One PNG file a frame, numbered from 1. The files take their names together, in finish().
+/// @throws UsageError if the pattern is no good.
+std::unique_ptr<Output> png_output(const OutputRequest& request);
+
+/// Uncompressed 4:2:0 video for other programs (YUV4MPEG2): BT.709 in limited range.
+/// @throws UsageError if a side is odd.
+std::unique_ptr<Output> y4m_output(const OutputRequest& request);
+
+/// A line of text a frame with the hash of its RGB bytes, exactly as FFmpeg's framehash muxer
+/// writes it for rawvideo rgb24 without its #software line.
+std::unique_ptr<Output> framehash_output(const OutputRequest& request);
+
+/// Takes frames and keeps nothing: what rendering costs without any output.
+std::unique_ptr<Output> null_output(const OutputRequest& request);
+
+}  // namespace piblocks

@@ -1,0 +1,29 @@
+// How the frames of a rendering are cut into pieces.
+// In: how many frames there are, and how many are encoded together. Out: where each piece begins
+// and ends, whoever works on it.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace piblocks {
+
+/// Consecutive frames that are encoded together. Chunk k begins at frame k * frames_per_chunk; the
+/// last has from half of that length to one and a half, so that no worker is left with a mere few
+/// frames.
+struct Chunks {
+  std::int64_t frame_count;
+  std::int64_t frames_per_chunk;
+
+  std::int64_t count() const {
+    if (frame_count == 0) return 0;
+    return std::max<std::int64_t>(1, (frame_count + frames_per_chunk / 2) / frames_per_chunk);
+  }
+  /// The first frame of a chunk; of the one after the last, the number of frames.
+  std::int64_t begin(std::int64_t chunk) const {
+    return chunk == count() ? frame_count : chunk * frames_per_chunk;
+  }
+  std::int64_t end(std::int64_t chunk) const { return begin(chunk + 1); }
+};
+
+}  // namespace piblocks

@@ -1,0 +1,87 @@
+#include "render/job_description.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/canvas.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/timeline.hpp>
+#include <piblocks/version.hpp>
+
+#include <algorithm>
+
+namespace piblocks {
+namespace {
+
+void describe(const std::string& name, const Block& block, PartHeader& header) {
+  header.emplace_back(name + ".mass", block.mass.get_str());
+  header.emplace_back(name + ".position", block.position.get_str());
+  header.emplace_back(name + ".velocity", block.velocity.get_str());
+  header.emplace_back(name + ".width", block.width.get_str());
+}
+
+void describe(const Scene& scene, PartHeader& header) {
+  const auto range = [](const Range& r) { return r.low.get_str() + ' ' + r.high.get_str(); };
+  header.emplace_back("wall.face", scene.system.wall_face.get_str());
+  describe("blue", scene.system.blue, header);
+  describe("red", scene.system.red, header);
+  header.emplace_back("view.x", range(scene.view.x));
+  header.emplace_back("view.y", range(scene.view.y));
+  header.emplace_back("view.width", std::to_string(scene.view.width_px));
+  header.emplace_back("view.height", std::to_string(scene.view.height_px));
+  header.emplace_back("view.fps", scene.view.frame_rate.get_str());
+  header.emplace_back("time.from", scene.time.from.get_str());
+  header.emplace_back("time.speed", scene.time.speed.get_str());
+}
+
+/// Settings that were not given are not named.
+void describe(const EncoderSettings& settings, PartHeader& header) {
+  if (settings.crf) header.emplace_back("crf", rational_from_decimal(*settings.crf).get_str());
+  if (settings.preset) header.emplace_back("preset", *settings.preset);
+  if (settings.encoder) header.emplace_back("encoder", *settings.encoder);
+}
+
+std::optional<std::string> find(const PartReader& part, const std::string& name) {
+  const auto at = std::ranges::find(part.header(), name, &PartHeader::value_type::first);
+  if (at == part.header().end()) return std::nullopt;
+  return at->second;
+}
+
+/// @throws UsageError unless the value is a whole number from 1 to `high`.
+std::int64_t number(const PartReader& part, const std::string& name, std::int64_t high) {
+  const Rational value = parse_rational(value_of(part, name));
+  if (value.get_den() == 1 && value >= 1 && value <= high) return value.get_num().get_si();
+  throw UsageError(fmt::format("join: '{}' says {}: {}", part.path(), name, to_text(value)));
+}
+
+}  // namespace
+
+PartHeader describe(const RenderJob& job, const Output& output, const Chunks& chunks) {
+  PartHeader header;
+  header.emplace_back("piblocks", kVersion);
+  describe(job.scene, header);
+  header.emplace_back("frames", std::to_string(chunks.frame_count));
+  describe(job.encoder, header);
+  header.emplace_back("painter", fmt::format("{}", fmt::join(draw_library_versions(), ", ")));
+  header.emplace_back("output", output.signature());
+  return header;
+}
+
+const std::string& value_of(const PartReader& part, const std::string& name) {
+  const auto at = std::ranges::find(part.header(), name, &PartHeader::value_type::first);
+  if (at != part.header().end()) return at->second;
+  throw UsageError(fmt::format("join: '{}' does not say its '{}'", part.path(), name));
+}
+
+JobDescription read_description(const PartReader& part) {
+  JobDescription job;
+  job.format.width_px = static_cast<int>(number(part, "view.width", kMaxSide_px));
+  job.format.height_px = static_cast<int>(number(part, "view.height", kMaxSide_px));
+  job.format.frame_rate = parse_rational(value_of(part, "view.fps"));
+  if (const auto crf = find(part, "crf")) job.encoder.crf = to_double(parse_rational(*crf));
+  job.encoder.preset = find(part, "preset");
+  job.encoder.encoder = find(part, "encoder");
+  job.signature = value_of(part, "output");
+  job.frame_count = number(part, "frames", kMaxFrames);
+  return job;
+}
+
+}  // namespace piblocks

@@ -1,0 +1,34 @@
+// What the bytes of a rendering depend on, written into its parts.
+// In: a job, and what came of it so far. Out: names and values that are equal for all parts of one
+// job, and from them what is needed to set up its output again.
+#pragma once
+
+#include <piblocks/render.hpp>
+
+#include <cstdint>
+#include <string>
+
+#include "media/part_file.hpp"
+#include "render/chunks.hpp"
+
+namespace piblocks {
+
+/// Everything but the number of the part.
+PartHeader describe(const RenderJob& job, const Output& output, const Chunks& chunks);
+
+/// What joining needs of a description.
+struct JobDescription {
+  VideoFormat format;
+  EncoderSettings encoder;
+  std::string signature;
+  std::int64_t frame_count = 0;
+};
+
+/// @throws UsageError if a value is missing or cannot be read.
+JobDescription read_description(const PartReader& part);
+
+/// The value of that name in the part's header.
+/// @throws UsageError if there is none.
+const std::string& value_of(const PartReader& part, const std::string& name);
+
+}  // namespace piblocks

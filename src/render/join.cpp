@@ -1,0 +1,128 @@
+// Parts of a rendering, made anywhere, become the one output.
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <piblocks/render.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include "media/part_file.hpp"
+#include "render/job_description.hpp"
+
+namespace piblocks {
+namespace {
+
+/// "2/3" as render() wrote it.
+Part number_of(const PartReader& part) {
+  const std::string& text = value_of(part, "part");
+  const char* const end = text.data() + text.size();
+  Part result;
+  auto read = std::from_chars(text.data(), end, result.number);
+  if (read.ec == std::errc() && read.ptr != end && *read.ptr == '/') {
+    read = std::from_chars(read.ptr + 1, end, result.count);
+    const bool is_whole = read.ec == std::errc() && read.ptr == end;
+    if (is_whole && result.number >= 1 && result.number <= result.count) return result;
+  }
+  throw UsageError(fmt::format("join: '{}' says part: {}", part.path(), text));
+}
+
+struct NumberedPart {
+  Part number;
+  PartReader reader;
+};
+
+std::vector<NumberedPart> open_in_order(const std::vector<std::string>& paths) {
+  std::vector<NumberedPart> parts;
+  for (const std::string& path : paths) {
+    PartReader reader(path);
+    const Part number = number_of(reader);
+    parts.push_back({number, std::move(reader)});
+  }
+  std::ranges::stable_sort(parts, {}, [](const NumberedPart& part) { return part.number.number; });
+  return parts;
+}
+
+/// The first name whose value differs or that one of them lacks; empty if there is none.
+std::string difference(const PartHeader& one, const PartHeader& other) {
+  const auto [a, b] = std::ranges::mismatch(one, other, [](const auto& left, const auto& right) {
+    return left == right || (left.first == "part" && right.first == "part");
+  });
+  if (a != one.end()) return a->first;
+  return b != other.end() ? b->first : std::string();
+}
+
+void check_same_job(const std::vector<NumberedPart>& parts) {
+  const PartReader& first = parts.front().reader;
+  for (const auto& [number, reader] : parts) {
+    std::string name = difference(first.header(), reader.header());
+    if (name.empty() && number.count != parts.front().number.count) name = "number of parts";
+    if (name.empty()) continue;
+    throw UsageError(fmt::format("join: '{}' and '{}' are of different jobs: they differ in {}",
+                                 first.path(), reader.path(), name));
+  }
+}
+
+void check_all_there(const std::vector<NumberedPart>& parts) {
+  std::vector<std::string> problems;
+  auto next = parts.begin();
+  const int count = parts.front().number.count;
+  for (int number = 1; number <= count; ++number) {
+    if (next == parts.end() || next->number.number != number) {
+      problems.push_back(fmt::format("join: part {} of {} is missing", number, count));
+      // So many that nobody wants to read them.
+      if (problems.size() == 10) break;
+      continue;
+    }
+    const auto& path = next->reader.path();
+    for (++next; next != parts.end() && next->number.number == number; ++next) {
+      problems.push_back(fmt::format("join: '{}' and '{}' are both part {} of {}", path,
+                                     next->reader.path(), number, count));
+    }
+  }
+  if (!problems.empty()) throw UsageError(std::move(problems));
+}
+
+void check_output(const std::vector<NumberedPart>& parts, const std::string& name,
+                  const Output& output, const JobDescription& job) {
+  for (const auto& [number, reader] : parts) {
+    std::error_code missing;  // what is not there yet is another file
+    if (!std::filesystem::equivalent(reader.path(), name, missing)) continue;
+    throw UsageError(fmt::format("join: output '{}' is one of the parts", name));
+  }
+  if (output.signature() == job.signature) return;
+  throw UsageError(
+      fmt::format("join: the parts were made for another output than '{}' is here: '{}', not '{}'",
+                  name, job.signature, output.signature()));
+}
+
+}  // namespace
+
+std::int64_t join(const std::vector<std::string>& paths, const std::string& output_name,
+                  const std::stop_token& stop) {
+  if (paths.empty()) throw UsageError("join: no parts are given");
+  std::vector<NumberedPart> parts = open_in_order(paths);
+  check_same_job(parts);
+  check_all_there(parts);
+  const JobDescription job = read_description(parts.front().reader);
+  const auto output = set_up_output(output_name, job.format, job.encoder);
+  check_output(parts, output_name, *output, job);
+
+  const auto sink = output->open();
+  std::int64_t frames = 0;
+  for (auto& [number, reader] : parts) {
+    while (const auto chunk = reader.next()) {
+      if (stop.stop_requested()) throw Interrupted("join: interrupted");
+      sink->append(*chunk);
+      frames += static_cast<std::int64_t>(chunk->size());
+    }
+  }
+  if (frames != job.frame_count) {
+    throw IoError(fmt::format("join: the parts have {} frames, the whole {}; render them again",
+                              frames, job.frame_count));
+  }
+  sink->finish();
+  return frames;
+}
+
+}  // namespace piblocks

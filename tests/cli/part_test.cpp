@@ -1,0 +1,99 @@
+// render --part and join: pieces made apart, and the same bytes in the end.
+#include <fmt/format.h>
+
+#include "cli/cli_fixture.hpp"
+
+namespace piblocks {
+namespace {
+
+using PartTest = CliFixture;
+using Names = std::vector<std::string>;
+
+const Arguments kRender{"render", "--size", "64x36", "--fps", "24", "--to", "5", "-o", "a.mp4"};
+
+TEST_F(PartTest, JoinsToTheFileOfASingleRun) {
+  output_of(kRender + Arguments{"--quiet"});
+  const std::string whole = contents("a.mp4");
+  for (const char* part : {"1/3", "2/3", "3/3"}) {
+    const CommandResult result = piblocks(kRender + Arguments{"--part", part});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_TRUE(result.err.starts_with(fmt::format("a.mp4.part-{}-of-3: ", part[0])));
+  }
+  EXPECT_EQ(entries(),
+            (Names{"a.mp4", "a.mp4.part-1-of-3", "a.mp4.part-2-of-3", "a.mp4.part-3-of-3"}));
+  EXPECT_TRUE(contents("a.mp4") == whole);
+  const CommandResult joined = piblocks(
+      {"join", "a.mp4.part-3-of-3", "a.mp4.part-1-of-3", "a.mp4.part-2-of-3", "-o", "b.mp4"});
+  EXPECT_EQ(joined.exit_code, 0);
+  EXPECT_EQ(joined.err, "b.mp4: 120 frames from 3 parts\n");
+  EXPECT_TRUE(contents("b.mp4") == whole);
+}
+
+TEST_F(PartTest, JoinsToStandardOutput) {
+  Arguments render = kRender + Arguments{"--quiet"};
+  *std::ranges::find(render, "a.mp4") = "a.y4m";
+  output_of(render);
+  output_of(render + Arguments{"--part", "1/1"});
+  EXPECT_TRUE(output_of({"join", "--quiet", "a.y4m.part-1-of-1", "-o", "-"}) == contents("a.y4m"));
+}
+
+TEST_F(PartTest, AShareMayBeEmpty) {
+  const Arguments few{"render", "--size", "64x36", "--to", "0.1", "-o", "a.y4m", "--profile"};
+  for (const char* part : {"1/4", "2/4", "3/4", "4/4"}) {
+    const CommandResult result = piblocks(few + Arguments{"--part", part});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err.find("nan"), std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("inf"), std::string::npos) << result.err;
+  }
+  output_of({"join", "--quiet", "a.y4m.part-1-of-4", "a.y4m.part-2-of-4", "a.y4m.part-3-of-4",
+             "a.y4m.part-4-of-4", "-o", "b.y4m"});
+  output_of({"render", "--quiet", "--size", "64x36", "--to", "0.1", "-o", "c.y4m"});
+  EXPECT_TRUE(contents("b.y4m") == contents("c.y4m"));
+}
+
+TEST_F(PartTest, ADamagedPartFailsAndLeavesTheOldFile) {
+  output_of(kRender + Arguments{"--quiet", "--part", "1/1"});
+  const std::string part = contents("a.mp4.part-1-of-1");
+  write("a.mp4.part-1-of-1", part.substr(0, part.size() / 2));
+  write("b.mp4", "old");
+  const CommandResult result = piblocks({"join", "a.mp4.part-1-of-1", "-o", "b.mp4"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err,
+            "piblocks: part: 'a.mp4.part-1-of-1' is damaged or cut off; render it again\n");
+  EXPECT_EQ(entries(), (Names{"a.mp4.part-1-of-1", "b.mp4"}));
+  EXPECT_EQ(contents("b.mp4"), "old");
+}
+
+/// The line of the table that starts with this name, cut into words.
+std::vector<std::string> row(const std::string& table, const std::string& name) {
+  for (const std::string& line : lines(table)) {
+    std::istringstream words(line);
+    std::vector<std::string> row{std::istream_iterator<std::string>(words), {}};
+    if (!row.empty() && row.front() == name) return row;
+  }
+  return {};
+}
+
+TEST_F(PartTest, AProfileAddsUp) {
+  const CommandResult result = piblocks(kRender + Arguments{"--profile", "--quiet"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, "");
+  double spent_s = 0;
+  double share = 0;
+  for (const char* stage : {"compose", "paint", "convert", "encode", "mux", "write", "other"}) {
+    const auto words = row(result.err, stage);
+    ASSERT_EQ(words.size(), 7u) << result.err;
+    EXPECT_GE(std::stod(words[1]), 0);
+    spent_s += std::stod(words[1]);
+    share += std::stod(words[5]);
+  }
+  const auto total = row(result.err, "total");
+  ASSERT_EQ(total.size(), 7u) << result.err;
+  EXPECT_NEAR(std::stod(total[1]), spent_s, 0.0041);
+  EXPECT_NEAR(share, 100, 0.41);
+  EXPECT_GT(std::stod(row(result.err, "encode")[1]), 0);
+}
+
+}  // namespace
+}  // namespace piblocks

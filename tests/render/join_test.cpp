@@ -1,0 +1,182 @@
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+#include <piblocks/render.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "support/decode_video.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace piblocks {
+namespace {
+namespace fs = std::filesystem;
+using testing_support::file_contents;
+using testing_support::TemporaryFolder;
+
+class JoinTest : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return folder_ / name; }
+
+  /// Five seconds of video, with one thing changed.
+  static Scene scene(const std::string& key = "time.from", const std::string& value = "1") {
+    SceneBuilder builder;
+    builder.set("test", "view.size", "64x36");
+    builder.set("test", "view.fps", "24");
+    builder.set("test", "time.to", "6");
+    builder.set("test", key, value);
+    return builder.build();
+  }
+
+  std::string rendered_part(const Part& part, const RenderJob& job) const {
+    RenderJob share = job;
+    share.part = part;
+    render(share, [](const Progress&) {});
+    return part_name(job.output, part);
+  }
+
+  std::vector<std::string> rendered_parts(int count, const RenderJob& job) const {
+    std::vector<std::string> parts;
+    for (int i = 1; i <= count; ++i) parts.push_back(rendered_part({i, count}, job));
+    return parts;
+  }
+
+  std::string problem(const std::vector<std::string>& parts, const std::string& output) const {
+    try {
+      join(parts, path(output));
+    } catch (const UsageError& error) {
+      EXPECT_FALSE(fs::exists(path(output)));
+      return error.what();
+    }
+    return "none";
+  }
+
+  TemporaryFolder folder_;
+};
+
+/// Names and contents of the files in a folder.
+std::map<std::string, std::string> files_in(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    files[entry.path().filename()] = file_contents(entry.path());
+  }
+  return files;
+}
+
+TEST_F(JoinTest, GivesTheBytesOfASingleRun) {
+  for (const std::string name : {"a.mp4", "a.y4m", "a.framehash", "%03d.png"}) {
+    render({scene(), path("whole/" + name)}, [](const Progress&) {});
+    for (const int count : {1, 2, 3, 7, 40}) {
+      RenderJob job{scene(), path("parts/" + name)};
+      job.jobs = count % 3 + 1;
+      std::vector<std::string> parts = rendered_parts(count, job);
+      std::ranges::rotate(parts, parts.begin() + count / 2);
+      EXPECT_EQ(join(parts, path("joined/" + name)), 120);
+      EXPECT_EQ(files_in(path("joined")) == files_in(path("whole")), true) << name << ' ' << count;
+      fs::remove_all(path("joined"));
+    }
+    fs::remove_all(path("whole"));
+  }
+}
+
+TEST_F(JoinTest, NeedsEveryPartOnce) {
+  const auto parts = rendered_parts(3, {scene(), path("a.mp4")});
+  EXPECT_EQ(problem({}, "b.mp4"), "join: no parts are given");
+  EXPECT_EQ(problem({parts[2], parts[0]}, "b.mp4"), "join: part 2 of 3 is missing");
+  EXPECT_EQ(problem({parts[1]}, "b.mp4"),
+            "join: part 1 of 3 is missing\njoin: part 3 of 3 is missing");
+  EXPECT_NE(problem({parts[0], parts[1], parts[2], parts[0]}, "b.mp4").find("both part 1 of 3"),
+            std::string::npos);
+}
+
+TEST_F(JoinTest, RefusesPartsOfDifferentJobs) {
+  const RenderJob job{scene(), path("a.mp4")};
+  const std::string one = rendered_part({1, 2}, job);
+  const auto difference = [&](RenderJob other) {
+    other.output = path("b.mp4");
+    return problem({one, rendered_part({2, 2}, other)}, "c.mp4");
+  };
+  EXPECT_EQ(difference(job), "none");
+  fs::remove(path("c.mp4"));
+  const auto ends_with = [&](const RenderJob& other, const std::string& what) {
+    const std::string said = difference(other);
+    return said.ends_with("they differ in " + what) ? testing::AssertionSuccess()
+                                                    : testing::AssertionFailure() << said;
+  };
+  EXPECT_TRUE(ends_with({scene("red.mass", "10001"), {}}, "red.mass"));
+  EXPECT_TRUE(ends_with({scene("view.size", "66x36"), {}}, "view.width"));
+  EXPECT_TRUE(ends_with({scene("wall.face", "1/2"), {}}, "wall.face"));
+  EXPECT_TRUE(ends_with({scene("time.from", "2"), {}}, "time.from"));
+  EXPECT_TRUE(ends_with({scene("time.to", "7"), {}}, "frames"));
+  EXPECT_TRUE(ends_with({scene(), {}, {.crf = 20}}, "crf"));
+  EXPECT_NE(problem({one, rendered_part({2, 3}, job)}, "c.mp4").find("number of parts"),
+            std::string::npos);
+}
+
+TEST_F(JoinTest, RefusesAnotherKindOfOutput) {
+  const auto parts = rendered_parts(2, {scene(), path("a.y4m")});
+  EXPECT_NE(problem(parts, "a.mp4").find("another output than"), std::string::npos);
+  EXPECT_NE(problem(parts, "a.framehash").find("'y4m'"), std::string::npos);
+}
+
+TEST_F(JoinTest, RefusesToReplaceAPart) {
+  const auto parts = rendered_parts(1, {scene(), path("a.y4m")});
+  fs::rename(parts[0], path("part.y4m"));
+  const std::string before = file_contents(path("part.y4m"));
+  EXPECT_THROW(join({path("part.y4m")}, path("part.y4m")), UsageError);
+  EXPECT_TRUE(file_contents(path("part.y4m")) == before);
+}
+
+TEST_F(JoinTest, LeavesNoTraceOfADamagedPart) {
+  const auto parts = rendered_parts(2, {scene(), path("a.mp4")});
+  fs::resize_file(parts[1], fs::file_size(parts[1]) / 2);
+  EXPECT_THROW(join(parts, path("new/a.mp4")), IoError);
+  EXPECT_FALSE(fs::exists(path("new")));
+}
+
+TEST_F(JoinTest, RefusesNumbersThatMakeNoSense) {
+  const std::string part = rendered_parts(1, {scene(), path("a.y4m")}).front();
+  const std::string whole = file_contents(part);
+  const auto with = [&](const std::string& line, const std::string& other) {
+    std::string text = whole;
+    text.replace(text.find(line), line.size(), other);
+    std::ofstream(path("changed"), std::ios::binary) << text;
+    return problem({path("changed")}, "b.y4m");
+  };
+  for (const std::string other : {"0/1", "2/1", "1/0", "-1/1", "1", "1/", "/1", "1/1x", ""}) {
+    EXPECT_EQ(with("part: 1/1", "part: " + other),
+              "join: '" + path("changed") + "' says part: " + other);
+  }
+  for (const std::string other : {"0", "-64", "64/3", "99999999999999999999"}) {
+    EXPECT_NE(with("view.width: 64", "view.width: " + other), "none");
+  }
+  EXPECT_NE(with("view.fps: 24", "view.fps: 0"), "none");
+  EXPECT_NE(with("frames: 120", "frames: many"), "none");
+  EXPECT_NE(with("frames: 120\n", ""), "none");
+}
+
+TEST_F(JoinTest, NoticesAPartWithoutItsLastChunks) {
+  const std::string part = rendered_parts(1, {scene(), path("a.framehash")}).front();
+  std::string text = file_contents(part);
+  text.replace(text.find("frames: 120"), 11, "frames: 121");
+  std::ofstream(path("changed"), std::ios::binary) << text;
+  EXPECT_THROW(join({path("changed")}, path("b.framehash")), IoError);
+}
+
+TEST_F(JoinTest, APartMustBeOneOfItsCount) {
+  RenderJob job{scene(), path("a.y4m")};
+  for (const Part part : {Part{0, 3}, Part{4, 3}, Part{-1, -1}, Part{1, 0}}) {
+    job.part = part;
+    EXPECT_THROW(render(job, [](const Progress&) {}), UsageError);
+  }
+  for (const char* name : {"-", "null"}) {
+    const RenderJob nameless{scene(), name, {}, 1, Part{1, 1}};
+    EXPECT_THROW(render(nameless, [](const Progress&) {}), UsageError);
+  }
+  EXPECT_TRUE(folder_.is_empty());
+}
+
+}  // namespace
+}  // namespace piblocks
