@@ -32,17 +32,19 @@ void describe(const Scene& scene, PartHeader& header) {
   header.emplace_back("time.speed", scene.time.speed.get_str());
 }
 
-/// Settings that were not given are not named.
+/// Stands for a setting that was not given.
+constexpr const char* kDefault = "default";
+
 void describe(const EncoderSettings& settings, PartHeader& header) {
-  if (settings.crf) header.emplace_back("crf", rational_from_decimal(*settings.crf).get_str());
-  if (settings.preset) header.emplace_back("preset", *settings.preset);
-  if (settings.encoder) header.emplace_back("encoder", *settings.encoder);
+  const auto& crf = settings.crf;
+  header.emplace_back("crf", crf ? rational_from_decimal(*crf).get_str() : kDefault);
+  header.emplace_back("preset", settings.preset.value_or(kDefault));
+  header.emplace_back("encoder", settings.encoder.value_or(kDefault));
 }
 
-std::optional<std::string> find(const PartReader& part, const std::string& name) {
-  const auto at = std::ranges::find(part.header(), name, &PartHeader::value_type::first);
-  if (at == part.header().end()) return std::nullopt;
-  return at->second;
+std::optional<std::string> setting(const PartReader& part, const std::string& name) {
+  const std::string& value = value_of(part, name);
+  return value == kDefault ? std::nullopt : std::optional(value);
 }
 
 /// @throws UsageError unless the value is a whole number from 1 to `high`.
@@ -76,9 +78,9 @@ JobDescription read_description(const PartReader& part) {
   job.format.width_px = static_cast<int>(number(part, "view.width", kMaxSide_px));
   job.format.height_px = static_cast<int>(number(part, "view.height", kMaxSide_px));
   job.format.frame_rate = parse_rational(value_of(part, "view.fps"));
-  if (const auto crf = find(part, "crf")) job.encoder.crf = to_double(parse_rational(*crf));
-  job.encoder.preset = find(part, "preset");
-  job.encoder.encoder = find(part, "encoder");
+  if (const auto crf = setting(part, "crf")) job.encoder.crf = to_double(parse_rational(*crf));
+  job.encoder.preset = setting(part, "preset");
+  job.encoder.encoder = setting(part, "encoder");
   job.signature = value_of(part, "output");
   job.frame_count = number(part, "frames", kMaxFrames);
   return job;
