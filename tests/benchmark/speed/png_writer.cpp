@@ -14,6 +14,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -42,14 +43,15 @@ void write_with_cairo(const ImageView& image, const std::string& path) {
 }
 
 /// Without a jump target of its own libpng ends the program where it fails.
-void write_with_libpng(const ImageView& image, const std::string& path, int level, int filters) {
+void write_with_libpng(const ImageView& image, const std::string& path, int level,
+                       std::optional<int> filter) {
   const FilePtr file(std::fopen(path.c_str(), "wb"), &std::fclose);
   if (!file) throw IoError(fmt::format("cannot open {}", path));
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
   png_init_io(png, file.get());
   png_set_compression_level(png, level);
-  if (filters != PNG_NO_FILTERS) png_set_filter(png, PNG_FILTER_TYPE_BASE, filters);
+  if (filter) png_set_filter(png, PNG_FILTER_TYPE_BASE, *filter);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width_px),
                static_cast<png_uint_32>(image.height_px), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
@@ -61,10 +63,10 @@ void write_with_libpng(const ImageView& image, const std::string& path, int leve
   png_destroy_write_struct(&png, &info);
 }
 
-/// @param filters  PNG_NO_FILTERS leaves the choice to libpng, which then tries all on every row.
-Write libpng_at(int level, int filters = PNG_NO_FILTERS) {
-  return [level, filters](const ImageView& image, const std::string& path) {
-    write_with_libpng(image, path, level, filters);
+/// @param filter  without one libpng tries all of them on every row.
+Write libpng_at(int level, std::optional<int> filter = {}) {
+  return [level, filter](const ImageView& image, const std::string& path) {
+    write_with_libpng(image, path, level, filter);
   };
 }
 

@@ -6,7 +6,7 @@
 namespace piblocks::benchmark {
 namespace {
 
-TEST(Profile, HasEveryStageInItsOrder) {
+TEST(BenchmarkProfile, HasEveryStageInItsOrder) {
   const auto stages = parse_profile(
       "  compose      0.012 s   0.014 ms/frame   0.8 %\n"
       "  paint        0.031 s   0.037 ms/frame   2.1 %\n"
@@ -20,7 +20,7 @@ TEST(Profile, HasEveryStageInItsOrder) {
   EXPECT_DOUBLE_EQ(stages[2].cpu_seconds, 12.5);
 }
 
-TEST(Profile, IsFoundAmongOtherLines) {
+TEST(BenchmarkProfile, IsFoundAmongOtherLines) {
   const auto stages = parse_profile(
       "pi-3.mp4: 832 frames in 0:01\n"
       "processor time:\n"
@@ -31,7 +31,7 @@ TEST(Profile, IsFoundAmongOtherLines) {
   EXPECT_EQ(stages[0].stage, "encode");
 }
 
-TEST(Profile, IsEmptyForLinesOfAnotherForm) {
+TEST(BenchmarkProfile, IsEmptyForLinesOfAnotherForm) {
   EXPECT_TRUE(parse_profile("").empty());
   EXPECT_TRUE(parse_profile("paint 0.031 s 0.037 ms/frame 2.1 %\n").empty());
   EXPECT_TRUE(parse_profile("  paint 0.031 s 0.037 ms/frame\n").empty());
