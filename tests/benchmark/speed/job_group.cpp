@@ -15,6 +15,7 @@ struct Peer {
   const char* name;
   const char* script;
   int share;  ///< it renders the first 1/share of the frames
+  const char* option = nullptr;
 };
 
 constexpr Peer kPeers[] = {
@@ -22,6 +23,7 @@ constexpr Peer kPeers[] = {
     {"OpenCV VideoWriter", "opencv_writer.py", 1},
     {"Pillow into ffmpeg", "pillow_pipe.py", 2},
     {"matplotlib FuncAnimation", "matplotlib_animation.py", 2},
+    {"the same with axes", "matplotlib_animation.py", 4, "--axes"},
     {"gnuplot and ffmpeg", "gnuplot_frames.py", 8},
 };
 
@@ -47,7 +49,7 @@ Command ffmpeg_command(const std::string& y4m, const std::string& output) {
   return {"ffmpeg",    "-y",         "-loglevel",    "error",
           "-i",        y4m,          "-c:v",         "libx264",
           "-preset",   "ultrafast",  "-qp",          "14",
-          "-g",        "120",        "-x264-params", "mbtree=0:scenecut=0",
+          "-g",        "60",         "-x264-params", "mbtree=0:scenecut=0",
           "-movflags", "+faststart", output};
 }
 
@@ -59,6 +61,7 @@ void add_peer(const Workbench& bench, const Peer& peer, std::int64_t all_frames,
   Command version = script;
   version.emplace_back("--version");
   Command command = script;
+  if (peer.option != nullptr) command.emplace_back(peer.option);
   command.insert(command.end(), {"--frames", std::to_string(frames), bench.output("peer.mp4")});
   add(bench, peer.name, frames, version, command, contenders);
 }

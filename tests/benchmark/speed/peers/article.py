@@ -27,11 +27,13 @@ RED, RED_EDGE = (214, 48, 40), (138, 24, 20)
 TEXT = (16, 16, 16)
 
 
-def arguments(version):
-    """--frames and the output; `--version` names the libraries and ends."""
+def arguments(version, *flags):
+    """--frames, the output and flags; `--version` names the libraries and ends."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--version", action="version", version=version)
     parser.add_argument("--frames", type=int, required=True)
+    for flag in flags:
+        parser.add_argument(flag, action="store_true")
     parser.add_argument("output")
     return parser.parse_args()
 

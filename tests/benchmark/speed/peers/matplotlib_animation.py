@@ -1,4 +1,7 @@
-"""Draws with matplotlib: FuncAnimation with blit, saved by its ffmpeg writer."""
+"""Draws with matplotlib: FuncAnimation with blit, saved by its ffmpeg writer.
+
+With --axes as its manual shows it: axes in sight, and the encoder's own preset.
+"""
 
 import matplotlib
 
@@ -29,10 +32,11 @@ def add_block(axes, position, fill, edge):
 
 
 def main():
-    options = article.arguments(f"matplotlib {matplotlib.__version__}")
+    options = article.arguments(f"matplotlib {matplotlib.__version__}", "--axes")
     figure = pyplot.figure(figsize=(article.WIDTH / DPI, article.HEIGHT / DPI), dpi=DPI)
-    axes = figure.add_axes([0, 0, 1, 1])
-    axes.set_axis_off()
+    axes = figure.add_axes([0.05, 0.1, 0.93, 0.85] if options.axes else [0, 0, 1, 1])
+    if not options.axes:
+        axes.set_axis_off()
     axes.set_xlim(0, article.WIDTH)
     axes.set_ylim(article.HEIGHT, 0)
 
@@ -52,8 +56,9 @@ def main():
 
     animation = FuncAnimation(figure, update, frames=article.states(options.frames),
                               save_count=options.frames, blit=True)
+    preset = [] if options.axes else ["-preset", "ultrafast"]
     writer = FFMpegWriter(fps=article.FPS, codec="libx264",
-                          extra_args=["-preset", "ultrafast", "-pix_fmt", "yuv420p"])
+                          extra_args=preset + ["-pix_fmt", "yuv420p"])
     animation.save(options.output, writer=writer, dpi=DPI)
 
 
