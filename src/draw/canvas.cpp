@@ -84,7 +84,7 @@ void Canvas::Pixels::paint(const DrawList& list, const PixelRect& rect) {
       corner, CAIRO_FORMAT_RGB24, rect.width_px, rect.height_px, stride_bytes));
   cairo_surface_set_device_offset(part.get(), -rect.x_px, -rect.y_px);
   const CairoPtr cr(cairo_create(part.get()));
-  painter.paint(*cr, list);
+  painter.paint(*cr, list, rect);
   cairo_surface_finish(part.get());
   cairo_surface_mark_dirty(surface.get());
 }

@@ -17,19 +17,35 @@ constexpr double kOverhang = 0.15;
 /// Cairo rounds every coordinate to 1/256 pixel, and some sums of them again.
 constexpr double kFixedPoint = 1.0 / 64;
 
+/// Where something may have painted, in pixels but not whole ones.
+struct Extent {
+  double left;
+  double top;
+  double right;
+  double bottom;
+};
+
+Extent extent_of(const Rectangle& r) { return {r.x, r.y, r.x + r.width, r.y + r.height}; }
+
+/// Of the characters of a line of text between two distances from its origin.
+Extent extent_of(const TextItem& text, double left_em, double right_em) {
+  const double em = text.size_px;
+  return {text.origin.x + (left_em - kOverhang) * em, text.origin.y - kAscent * em,
+          text.origin.x + (right_em + kOverhang) * em, text.origin.y + kDescent * em};
+}
+
 /// Collects rectangles and cuts them to whole pixels of the frame.
 class Damage {
  public:
   explicit Damage(const DrawList& list) : width_px_(list.width_px), height_px_(list.height_px) {}
 
-  void add(double left, double top, double right, double bottom) {
-    const int x = to_pixel(std::floor(left - kFixedPoint), width_px_);
-    const int y = to_pixel(std::floor(top - kFixedPoint), height_px_);
-    const int end_x = to_pixel(std::ceil(right + kFixedPoint), width_px_);
-    const int end_y = to_pixel(std::ceil(bottom + kFixedPoint), height_px_);
+  void add(const Extent& extent) {
+    const int x = to_pixel(std::floor(extent.left - kFixedPoint), width_px_);
+    const int y = to_pixel(std::floor(extent.top - kFixedPoint), height_px_);
+    const int end_x = to_pixel(std::ceil(extent.right + kFixedPoint), width_px_);
+    const int end_y = to_pixel(std::ceil(extent.bottom + kFixedPoint), height_px_);
     if (x < end_x && y < end_y) rects_.push_back({x, y, end_x - x, end_y - y});
   }
-  void add(const Rectangle& r) { add(r.x, r.y, r.x + r.width, r.y + r.height); }
   void add_frame() { rects_ = {{0, 0, width_px_, height_px_}}; }
 
   std::vector<PixelRect> take() { return std::move(rects_); }
@@ -56,15 +72,15 @@ void compare(const RectangleItem& before, const RectangleItem& after, Damage& da
   const Rectangle& a = before.bounds;
   const Rectangle& b = after.bounds;
   if (!slides(before, after)) {
-    damage.add(a);
-    damage.add(b);
+    damage.add(extent_of(a));
+    damage.add(extent_of(b));
     return;
   }
   const double line = before.stroke ? before.stroke->width_px : 0;
   const auto [first_left, last_left] = std::minmax({a.x, b.x});
   const auto [first_right, last_right] = std::minmax({a.x + a.width, b.x + b.width});
-  damage.add(first_left, a.y, last_left + line, a.y + a.height);
-  damage.add(first_right - line, a.y, last_right, a.y + a.height);
+  damage.add({first_left, a.y, last_left + line, a.y + a.height});
+  damage.add({first_right - line, a.y, last_right, a.y + a.height});
 }
 
 /// Bytes that both texts begin with, whole characters only.
@@ -78,13 +94,6 @@ std::size_t common_prefix(std::string_view a, std::string_view b) {
   return length;
 }
 
-/// From a character on, `left_em` from the origin.
-void add_text(const TextItem& item, double left_em, const MeasureText& width_em, Damage& damage) {
-  const double em = item.size_px;
-  damage.add(item.origin.x + (left_em - kOverhang) * em, item.origin.y - kAscent * em,
-             item.origin.x + (width_em(item.text) + kOverhang) * em, item.origin.y + kDescent * em);
-}
-
 /// Every glyph is painted by itself: what the lines have in common keeps its pixels.
 void compare(const TextItem& before, const TextItem& after, const MeasureText& width_em,
              Damage& damage) {
@@ -92,8 +101,8 @@ void compare(const TextItem& before, const TextItem& after, const MeasureText& w
                          before.color == after.color;
   const std::size_t common = set_alike ? common_prefix(before.text, after.text) : 0;
   const double left = common > 0 ? width_em(std::string_view(after.text).substr(0, common)) : 0;
-  add_text(before, left, width_em, damage);
-  add_text(after, left, width_em, damage);
+  damage.add(extent_of(before, left, width_em(before.text)));
+  damage.add(extent_of(after, left, width_em(after.text)));
 }
 
 ItemId id_of(const DrawItem& item) {
@@ -109,6 +118,18 @@ bool have_same_items(const DrawList& before, const DrawList& after) {
 }
 
 }  // namespace
+
+bool reaches(const DrawItem& item, const PixelRect& rect) {
+  // A line is taken as endless rather than measured.
+  constexpr double kEndless_em = 1e6;
+  const auto* const text = std::get_if<TextItem>(&item);
+  const Extent extent = text != nullptr ? extent_of(*text, 0, kEndless_em)
+                                        : extent_of(std::get<RectangleItem>(item).bounds);
+  return extent.left - kFixedPoint < rect.x_px + rect.width_px &&
+         extent.right + kFixedPoint > rect.x_px &&
+         extent.top - kFixedPoint < rect.y_px + rect.height_px &&
+         extent.bottom + kFixedPoint > rect.y_px;
+}
 
 std::vector<PixelRect> damage(const DrawList& before, const DrawList& after,
                               const MeasureText& width_em) {

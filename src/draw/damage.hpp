@@ -1,5 +1,6 @@
-// What changes from one picture to the next.
-// In: two draw lists. Out: the rectangles outside of which their pixels are equal.
+// What changes from one picture to the next, and what that takes to paint.
+// In: two draw lists. Out: the rectangles outside of which their pixels are equal, and which items
+// show in them.
 // Knows items, not scenes: whatever is drawn with stable ids is compared in the same way.
 #pragma once
 
@@ -20,5 +21,8 @@ using MeasureText = std::function<double(std::string_view utf8)>;
 /// same order.
 std::vector<PixelRect> damage(const DrawList& before, const DrawList& after,
                               const MeasureText& width_em);
+
+/// Whether the item may have painted something into the rectangle; no promise that it has.
+bool reaches(const DrawItem& item, const PixelRect& rect);
 
 }  // namespace piblocks

@@ -68,11 +68,24 @@ CairoFontFacePtr make_cairo_face() {
   return cairo_face;
 }
 
+/// Large: unhinted advances scale, but Cairo keeps them in 1/64 pixel.
+constexpr double kMeasure_px = 1024;
+
+CairoScaledFontPtr scaled_for_measuring(cairo_font_face_t& face,
+                                        const cairo_font_options_t& options) {
+  cairo_matrix_t size;
+  cairo_matrix_t identity;
+  cairo_matrix_init_scale(&size, kMeasure_px, kMeasure_px);
+  cairo_matrix_init_identity(&identity);
+  return CairoScaledFontPtr(cairo_scaled_font_create(&face, &size, &identity, &options));
+}
+
 }  // namespace
 
 struct Font::Faces {
   CairoFontOptionsPtr options = font_options();
   CairoFontFacePtr face = make_cairo_face();
+  CairoScaledFontPtr measure = scaled_for_measuring(*face, *options);
 };
 
 Font::Font() : faces_(std::make_unique<Faces>()) {}
@@ -97,17 +110,9 @@ std::vector<cairo_glyph_t> Font::glyphs(cairo_t& cr, const Point& origin, std::s
 }
 
 double Font::width_em(std::string_view utf8) const {
-  // Measured large: unhinted advances scale, but Cairo keeps them in 1/64 pixel.
-  constexpr double kMeasure_px = 1024;
-  cairo_matrix_t size;
-  cairo_matrix_t identity;
-  cairo_matrix_init_scale(&size, kMeasure_px, kMeasure_px);
-  cairo_matrix_init_identity(&identity);
-  const CairoScaledFontPtr scaled(
-      cairo_scaled_font_create(faces_->face.get(), &size, &identity, faces_->options.get()));
   cairo_text_extents_t extents;
-  cairo_scaled_font_text_extents(scaled.get(), std::string(utf8).c_str(), &extents);
-  check_cairo(cairo_scaled_font_status(scaled.get()), "measure text");
+  cairo_scaled_font_text_extents(faces_->measure.get(), std::string(utf8).c_str(), &extents);
+  check_cairo(cairo_scaled_font_status(faces_->measure.get()), "measure text");
   return extents.x_advance / kMeasure_px;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "draw/cairo_handles.hpp"
+#include "draw/damage.hpp"
 
 namespace piblocks {
 namespace {
@@ -60,13 +61,21 @@ void paint_rectangle(cairo_t& cr, const RectangleItem& item) {
 }  // namespace
 
 void Painter::paint(cairo_t& cr, const DrawList& list) {
+  paint(cr, list, {0, 0, list.width_px, list.height_px});
+}
+
+void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& part) {
   set_color(cr, list.background);
   cairo_paint(&cr);
   for (const DrawItem& item : list.items) {
-    if (const auto* rectangle = std::get_if<RectangleItem>(&item)) paint_rectangle(cr, *rectangle);
-    if (const auto* text = std::get_if<TextItem>(&item)) paint_text(cr, *text);
+    if (reaches(item, part)) paint_item(cr, item);
   }
   check_cairo(cairo_status(&cr), "paint");
+}
+
+void Painter::paint_item(cairo_t& cr, const DrawItem& item) {
+  if (const auto* rectangle = std::get_if<RectangleItem>(&item)) paint_rectangle(cr, *rectangle);
+  if (const auto* text = std::get_if<TextItem>(&item)) paint_text(cr, *text);
 }
 
 const Font& Painter::font() {

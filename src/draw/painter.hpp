@@ -4,6 +4,7 @@
 
 #include <cairo.h>
 #include <piblocks/draw_list.hpp>
+#include <piblocks/image.hpp>
 
 #include <memory>
 
@@ -26,9 +27,12 @@ class Painter {
 
   /// Paints the background and every item. @throws DrawError
   void paint(cairo_t& cr, const DrawList& list);
+  /// The same where nothing but this part of the picture is seen.
+  void paint(cairo_t& cr, const DrawList& list, const PixelRect& part);
   const Font& font();
 
  private:
+  void paint_item(cairo_t& cr, const DrawItem& item);
   void paint_text(cairo_t& cr, const TextItem& item);
 
   TextSetting setting_;

@@ -9,8 +9,8 @@
 namespace piblocks {
 namespace {
 
-/// A frame is 3 MB at 1080p: few of them wait for their turn to be written.
-constexpr std::int64_t kFramesPerChunk = 4;
+/// A frame is 3 MB at 1080p: as few as possible wait for their turn to be written.
+constexpr std::int64_t kFramesPerChunk = 1;
 
 constexpr std::string_view kFrameHeader = "FRAME\n";
 

@@ -16,6 +16,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "circumstances.hpp"
 #include "media/yuv420.hpp"
 #include "support/article_frames.hpp"
 #include "support/decode_video.hpp"
@@ -122,18 +123,10 @@ Result measure(const fs::path& path, const EncoderSettings& settings, std::int64
   return result;
 }
 
-std::string cpu_name() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  }
-  return "unknown";
-}
-
 void run(std::int64_t frames) {
   const fs::path path =
       fs::temp_directory_path() / fmt::format("encoder_settings-{}.mp4", std::time(nullptr));
-  const std::string cpu = cpu_name();
+  const std::string cpu = benchmark::Circumstances::cpu_name();
   fmt::print("date,cpu,x264,preset,crf,frames_per_s,bytes,psnr_y_db,psnr_rgb_db\n");
   for (const char* preset : {"ultrafast", "superfast", "veryfast", "faster", "medium"}) {
     for (const double crf : {12, 15, 18, 21, 23}) {

@@ -11,6 +11,10 @@
 #include "support/property.hpp"
 
 namespace piblocks {
+
+void convert_to_yuv420_scalar(const ImageView& image, const PixelRect& rect,
+                              const YuvView& picture);
+
 namespace {
 using testing_support::Pixels;
 using testing_support::random_frame;
@@ -151,6 +155,18 @@ TEST(Yuv420, ARectangleIsConvertedAsInTheWholeFrame) {
         ASSERT_EQ(part.cr[chroma], inside ? whole.cr[chroma] : kUntouched) << x << ' ' << y;
       }
     }
+  }
+}
+
+TEST(Yuv420, VectorInstructionsChangeNoSample) {
+  for (const int width : {2, 14, 16, 18, 30, 34, 62, 66, 126, 510, 512, 514, 1030, 1920}) {
+    const Pixels pixels = random_frame(width, 20, static_cast<unsigned>(width));
+    const Picture fast = converted(pixels);
+    Picture slow(width, 20);
+    convert_to_yuv420_scalar(pixels.view(), {0, 0, width, 20}, slow.view());
+    EXPECT_EQ(fast.y, slow.y) << width;
+    EXPECT_EQ(fast.cb, slow.cb) << width;
+    EXPECT_EQ(fast.cr, slow.cr) << width;
   }
 }
 

@@ -10,6 +10,7 @@
 #include "accuracy/gap_loop.hpp"
 #include "accuracy/methods.hpp"
 #include "accuracy/velocity_loop.hpp"
+#include "median.hpp"
 
 namespace piblocks::benchmark {
 namespace {

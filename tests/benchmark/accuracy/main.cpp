@@ -13,6 +13,7 @@
 #include "accuracy/compare.hpp"
 #include "accuracy/methods.hpp"
 #include "accuracy/report.hpp"
+#include "median.hpp"
 
 namespace piblocks::benchmark {
 namespace {

@@ -110,13 +110,6 @@ void time_round(const Method& method, Question question, const ReferenceRun& ref
   } while (spent_s < kRound_s);
 }
 
-std::optional<double> median(std::vector<double> seconds) {
-  if (seconds.empty()) return std::nullopt;
-  const auto middle = seconds.begin() + std::ssize(seconds) / 2;
-  std::ranges::nth_element(seconds, middle);
-  return *middle;
-}
-
 Measurement skip(const Method& method, Question question, const ReferenceRun& reference) {
   Measurement result;
   result.out_of_budget = true;

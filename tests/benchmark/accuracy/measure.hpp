@@ -29,8 +29,6 @@ Measurement judge(const Method& method, Question question, const ReferenceRun& r
 void time_round(const Method& method, Question question, const ReferenceRun& reference,
                 std::vector<double>& seconds);
 
-std::optional<double> median(std::vector<double> seconds);
-
 /// The row of a method that was too slow for fewer digits: not timed, errors where it has random
 /// access.
 Measurement skip(const Method& method, Question question, const ReferenceRun& reference);

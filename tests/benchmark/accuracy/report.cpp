@@ -1,12 +1,8 @@
 #include "accuracy/report.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <ctime>
-#include <fstream>
 
 namespace piblocks::benchmark {
 namespace {
@@ -27,29 +23,7 @@ std::string cell(const std::optional<double>& value) {
   return value ? fmt::format("{:.3g}", *value) : std::string();
 }
 
-std::string cell(std::string text) {
-  std::ranges::replace(text, ',', ';');
-  std::ranges::replace(text, '\n', ' ');
-  return text;
-}
-
 }  // namespace
-
-std::string Circumstances::fields() const {
-  return fmt::format("{},{},{},GCC {}", date, cell(commit), cell(cpu), __VERSION__);
-}
-
-std::string Circumstances::today() {
-  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
-}
-
-std::string Circumstances::cpu_name() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  }
-  return "unknown";
-}
 
 void print_header() {
   fmt::print(
@@ -70,10 +44,10 @@ void print_row(const Circumstances& circumstances, Question question, const Labe
     right = *measured.count == reference.count ? "yes" : "no";
   }
   fmt::print("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", circumstances.fields(), name(question),
-             cell(label.method), cell(label.scalar), cell(label.parameter), reference.digits,
-             reference.count, cell(measured.seconds), cell(ns_per_event),
+             csv_text(label.method), csv_text(label.scalar), csv_text(label.parameter),
+             reference.digits, reference.count, cell(measured.seconds), cell(ns_per_event),
              cell(measured.worst_time_error), cell(measured.worst_position_error), count, right,
-             cell(measured.note));
+             csv_text(measured.note));
   std::fflush(stdout);
 }
 

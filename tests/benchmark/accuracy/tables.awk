@@ -1,12 +1,8 @@
-# The tables of README.md, from the CSVs of accuracy_benchmark.
-# In: accuracy.csv, accuracy-ratio.csv, README.md. Out: README.md with new tables between its marks,
-# "<!-- table NAME -->" and "<!-- end of table -->"; fails where a mark is unknown or missing.
-# awk -f tables.awk accuracy.csv accuracy-ratio.csv README.md
+# The tables of tests/benchmark/README.md, from the CSVs of accuracy_benchmark.
+# awk -f page.awk -f accuracy/tables.awk accuracy.csv accuracy-ratio.csv README.md
 BEGIN {
-  FS = ","
   names = "measured whole-log instants count front-whole-log front-instants front-count"
   names = names " limits ratio"
-  dash = "–"
   # What one machine repeats no better: the last digits of an error are luck, and other programs
   # share the caches.
   time_slack = 1.1
@@ -14,50 +10,10 @@ BEGIN {
   max_digits = 9
 }
 
-function fail(message) {
-  print "tables.awk: " message > "/dev/stderr"
-  failed = 1
-  exit 1
-}
-
-FNR == 1 { ++file }
-
-# The CSVs: header and rows.
-file <= 2 && FNR == 1 {
-  for (i = 1; i <= NF; ++i) column[file, $i] = i
-  next
-}
 file == 1 { read_measurement() }
 file == 2 {
   ++ratios
   for (i = 1; i <= NF; ++i) ratio_field[ratios, i] = $i
-}
-
-# README.md.
-file == 3 && /^<!-- table / {
-  print
-  table = $0
-  gsub(/^<!-- table | -->$/, "", table)
-  if (index(" " names " ", " " table " ") == 0) fail("unknown table: " table)
-  ++made
-  print ""
-  print_table(table)
-  print ""
-  skipping = 1
-  next
-}
-file == 3 && /^<!-- end of table -->$/ { skipping = 0 }
-file == 3 && !skipping { print }
-
-END {
-  if (failed) exit 1
-  if (skipping) fail("a table has no end")
-  if (made != split(names, unused, " ")) fail("README.md has " made + 0 " tables of: " names)
-}
-
-function value(name) {
-  if (!((1, name) in column)) fail("no column " name)
-  return $column[1, name]
 }
 
 # Rows are known by question, curve point and digits: seconds[question, point, digits].
@@ -79,8 +35,6 @@ function read_measurement(    question, point, d) {
     " `release`, commit " value("commit")
 }
 
-function article(cpu) { return (cpu ~ /^[AEIOU]/ ? "an " : "a ") cpu }
-
 function print_table(name) {
   if (name == "measured") print "Measured " measured "."
   else if (name == "whole-log") print_whole_log()
@@ -94,11 +48,6 @@ function print_table(name) {
 }
 
 # Numbers as one reads them.
-function time_text(s) {
-  if (s == "") return dash
-  if (s < 1e-3) return sprintf("%.3g µs", s * 1e6)
-  return s < 1 ? sprintf("%.3g ms", s * 1e3) : sprintf("%.3g s", s)
-}
 function error_text(e,    text) {
   if (e == "") return dash
   if (exact(e) == 0) return "0"
@@ -121,12 +70,6 @@ function type_of(point,    part) {
   return part[3] == "" ? part[2] : part[2] ", " part[3]
 }
 function is_reference(point) { return point ~ /^closed form; oracle/ }
-
-function print_rule(columns, rights,    line) {
-  for (line = "|"; columns-- > 0;) line = line "---|"
-  while (rights-- > 0) line = line "---:|"
-  print line
-}
 
 function print_whole_log(    i, d, p, line) {
   line = "| Method | Number type |"

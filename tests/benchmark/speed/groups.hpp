@@ -1,0 +1,18 @@
+// The groups of measurements; README.md of this folder says what each is for.
+// In: a workbench. Out: rows of the results.
+#pragma once
+
+#include "speed/workbench.hpp"
+
+namespace piblocks::benchmark {
+
+/// The whole video, by the program and by what else a lecturer would use.
+void measure_job(const Workbench& bench);
+/// Numbered pictures, by the program and by the usual ways to write PNG.
+void measure_png(const Workbench& bench);
+/// Where the program's processor time goes.
+void measure_stages(const Workbench& bench);
+/// What digits, frame size, threads and duration do to time and memory.
+void measure_scaling(const Workbench& bench);
+
+}  // namespace piblocks::benchmark

@@ -1,0 +1,86 @@
+#include <unistd.h>
+
+#include "speed/contest.hpp"
+#include "speed/groups.hpp"
+
+namespace piblocks::benchmark {
+namespace {
+
+constexpr int kDigits = 3;
+/// Debian's, which finds Debian's modules, whatever other one the path has.
+constexpr const char* kPython = "/usr/bin/python3";
+
+/// A script of the folder peers.
+struct Peer {
+  const char* name;
+  const char* script;
+  int share;  ///< it renders the first 1/share of the frames
+  const char* option = nullptr;
+};
+
+constexpr Peer kPeers[] = {
+    {"pycairo into ffmpeg", "pycairo_pipe.py", 1},
+    {"OpenCV VideoWriter", "opencv_writer.py", 1},
+    {"Pillow into ffmpeg", "pillow_pipe.py", 2},
+    {"matplotlib FuncAnimation", "matplotlib_animation.py", 2},
+    {"the same with axes", "matplotlib_animation.py", 4, "--axes"},
+    {"gnuplot and ffmpeg", "gnuplot_frames.py", 8},
+};
+
+Subject subject_of(const std::string& name, const std::string& version, std::int64_t frames) {
+  return {"job", "mp4", std::to_string(kDigits), name, version, frames};
+}
+
+/// The first line without what follows the version.
+std::string short_version(const std::string& text) {
+  const std::string line = text.substr(0, text.find('\n'));
+  return line.substr(0, line.find(" Copyright"));
+}
+
+void add(const Workbench& bench, const std::string& name, std::int64_t frames,
+         const Command& version_command, Command command, std::vector<Contender>& contenders) {
+  const Finished version = bench.runner.try_run(version_command);
+  if (version.exit_code != 0) return print_skipped(name, last_line(version.err));
+  contenders.push_back({subject_of(name, short_version(version.out), frames), std::move(command)});
+}
+
+/// Nothing but encoding: the program's own frames and settings.
+Command ffmpeg_command(const std::string& y4m, const std::string& output) {
+  return {"ffmpeg",    "-y",         "-loglevel",    "error",
+          "-i",        y4m,          "-c:v",         "libx264",
+          "-preset",   "ultrafast",  "-qp",          "14",
+          "-g",        "60",         "-x264-params", "mbtree=0:scenecut=0",
+          "-movflags", "+faststart", output};
+}
+
+void add_peer(const Workbench& bench, const Peer& peer, std::int64_t all_frames,
+              std::vector<Contender>& contenders) {
+  const std::int64_t frames = all_frames / peer.share;
+  // Without -B, Python would leave its compiled modules in the source tree.
+  const Command script = {kPython, "-B", std::string(PEERS_FOLDER "/") + peer.script};
+  Command version = script;
+  version.emplace_back("--version");
+  Command command = script;
+  if (peer.option != nullptr) command.emplace_back(peer.option);
+  command.insert(command.end(), {"--frames", std::to_string(frames), bench.output("peer.mp4")});
+  add(bench, peer.name, frames, version, command, contenders);
+}
+
+}  // namespace
+
+void measure_job(const Workbench& bench) {
+  const std::int64_t frames = article_frames(kDigits);
+  const std::string y4m = bench.kept("frames.y4m");
+  bench.runner.run(bench.render(kDigits, y4m));
+  sync();  // gigabytes that are still to be written would slow the first rounds
+
+  std::vector<Contender> contenders = {{subject_of("piblocks", bench.program_version(), frames),
+                                        bench.render(kDigits, bench.output("program.mp4"))}};
+  add(bench, "ffmpeg from y4m", frames, {"ffmpeg", "-version"},
+      ffmpeg_command(y4m, bench.output("ffmpeg.mp4")), contenders);
+  for (const Peer& peer : kPeers) add_peer(bench, peer, frames, contenders);
+  hold_contest(bench, contenders, bench.rounds);
+  std::filesystem::remove(y4m);
+}
+
+}  // namespace piblocks::benchmark

@@ -1,0 +1,47 @@
+"""Draws with OpenCV and writes with its VideoWriter, which encodes H.264 at its own settings."""
+
+import cv2
+import numpy
+
+import article
+
+
+def bgr(colour):
+    return colour[::-1]
+
+
+def rectangle(frame, left, top, width, height, colour, thickness):
+    low = (round(left), round(top))
+    high = (round(left + width), round(top + height))
+    cv2.rectangle(frame, low, high, bgr(colour), thickness)
+
+
+def draw_block(frame, position, fill, edge):
+    left, top, side = article.block(position)
+    rectangle(frame, left, top, side, side, fill, cv2.FILLED)
+    rectangle(frame, left, top, side, side, edge, article.LINE)
+
+
+def draw(frame, blue, red, count):
+    frame[:] = 255
+    rectangle(frame, *article.wall(), article.BLACK, article.LINE)
+    draw_block(frame, red, article.RED, article.RED_EDGE)
+    draw_block(frame, blue, article.BLUE, article.BLUE_EDGE)
+    cv2.putText(frame, article.label(count), (article.TEXT_X, article.TEXT_Y),
+                cv2.FONT_HERSHEY_SIMPLEX, 2.7, bgr(article.TEXT), 5, cv2.LINE_AA)
+
+
+def main():
+    options = article.arguments(f"OpenCV {cv2.__version__}")
+    frame = numpy.empty((article.HEIGHT, article.WIDTH, 3), numpy.uint8)
+    writer = cv2.VideoWriter(options.output, cv2.VideoWriter_fourcc(*"avc1"), article.FPS,
+                             (article.WIDTH, article.HEIGHT))
+    if not writer.isOpened():
+        raise SystemExit("OpenCV cannot write H.264")
+    for state in article.states(options.frames):
+        draw(frame, *state)
+        writer.write(frame)
+    writer.release()
+
+
+main()

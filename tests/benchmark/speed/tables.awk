@@ -1,0 +1,155 @@
+# The tables of speed/README.md, and the short one of the project's README.md, from the CSV of
+# speed_benchmark.
+# awk -f page.awk -f speed/tables.awk speed.csv README.md
+BEGIN {
+  if (page == "README.md") allowed = "speed-short"
+  else names = "measured job png stages digits size jobs duration null still"
+}
+
+# Rows are known by number: field[row, column's name].
+{
+  ++rows
+  for (key in column) {
+    split(key, part, SUBSEP)
+    field[rows, part[2]] = value(part[2])
+  }
+}
+
+function print_table(name) {
+  if (name == "measured") print_measured()
+  else if (name == "job") print_job()
+  else if (name == "png") print_png()
+  else if (name == "stages") print_stages()
+  else if (name == "digits") print_scaling("digits", "Digits")
+  else if (name == "size") print_scaling("size", "Frame size")
+  else if (name == "jobs") print_scaling("jobs", "Threads")
+  else if (name == "duration") print_scaling("duration", "Simulated time, s")
+  else if (name == "null") print_scaling("null", "Digits")
+  else if (name == "still") print_still()
+  else print_short()
+}
+
+function get(row, name) {
+  if (!((row, name) in field)) fail("no column " name)
+  return field[row, name]
+}
+function is(row, group, series) {
+  return get(row, "group") == group && get(row, "series") == series
+}
+
+# Numbers as one reads them.
+function number_text(x) {
+  if (x == "") return dash
+  return x >= 100 ? sprintf("%.0f", x) : sprintf("%.3g", x)
+}
+function memory_text(row) { return number_text(get(row, "peak_MB")) " MB" }
+function per_frame(row, name) { return get(row, name) / get(row, "frames") }
+function ratio_text(row,    least, greatest) {
+  least = number_text(get(row, "least_ratio"))
+  greatest = number_text(get(row, "greatest_ratio"))
+  return number_text(get(row, "ratio")) (least == greatest ? "" : " (" least " … " greatest ")")
+}
+# What all rows of programs have in common.
+function speed_cells(row) {
+  return get(row, "frames") " | " time_text(get(row, "seconds")) " | " \
+    number_text(get(row, "frames_per_second")) " | " \
+    time_text(per_frame(row, "cpu_seconds")) " | " memory_text(row)
+}
+function speed_head() { return "Frames | Time | Frames/s | Processor time a frame | Memory" }
+
+function print_measured(    row, versions, version) {
+  for (row = 1; row <= rows; ++row) {
+    version = get(row, "version")
+    if (index(versions ", ", ", " version ", ") == 0) versions = versions ", " version
+  }
+  print "Measured " get(1, "date") " on " article(get(1, "cpu")) ", " \
+    get(1, "processors") " processors, " get(1, "compiler") ", preset `release`, commit " \
+    get(1, "commit") ": " substr(versions, 3) "."
+}
+
+function print_job(    row) {
+  print "| Program | " speed_head() " | kB a second of video | Time a frame, piblocks = 1 |"
+  print_rule(1, 7)
+  for (row = 1; row <= rows; ++row) {
+    if (!is(row, "job", "mp4")) continue
+    print "| " get(row, "name") " | " speed_cells(row) " | " \
+      number_text(per_frame(row, "output_MB") * 60 * 1000) " | " ratio_text(row) " |"
+  }
+}
+
+function print_png(    row) {
+  print "| Program | Threads | " speed_head() " | kB a file | Time a frame, piblocks = 1 |"
+  print_rule(1, 8)
+  for (row = 1; row <= rows; ++row) {
+    if (!is(row, "png", "png")) continue
+    print "| " get(row, "name") " | " get(row, "value") " | " speed_cells(row) " | " \
+      number_text(per_frame(row, "output_MB") * 1000) " | " ratio_text(row) " |"
+  }
+}
+
+# One line a stage, two columns an output.
+function print_stages(    row, stage, stages, order, output, outputs, line, i, j) {
+  outputs = split("mp4 png null", output, " ")
+  for (row = 1; row <= rows; ++row) {
+    if (get(row, "group") != "stages") continue
+    stage = get(row, "name")
+    if (!((stage, "known") in order)) {
+      order[stage, "known"] = 1
+      order[++stages] = stage
+    }
+    cost[stage, get(row, "series")] = per_frame(row, "cpu_seconds")
+  }
+  if (!stages) {
+    print "Not measured: this version does not know `--profile`."
+    return
+  }
+  line = "| Stage |"
+  for (j = 1; j <= outputs; ++j) line = line " " output[j] ": processor time a frame | share |"
+  print line
+  print_rule(1, 2 * outputs)
+  for (i = 1; i <= stages; ++i) {
+    line = "| " order[i] " |"
+    for (j = 1; j <= outputs; ++j) line = line stage_cells(order[i], output[j])
+    print line
+  }
+}
+function stage_cells(stage, output,    total) {
+  total = cost["total", output]
+  if (!((stage, output) in cost) || total == 0) return " " dash " | " dash " |"
+  return " " time_text(cost[stage, output]) " | " \
+    sprintf("%.1f %%", 100 * cost[stage, output] / total) " |"
+}
+
+function print_scaling(series, title,    row) {
+  print "| " title " | " speed_head() " | Time a frame, first row = 1 |"
+  print_rule(0, 7)
+  for (row = 1; row <= rows; ++row) {
+    if (!is(row, "scaling", series)) continue
+    print "| " value_text(row) " | " speed_cells(row) " | " ratio_text(row) " |"
+  }
+}
+function value_text(row,    text) {
+  text = get(row, "value")
+  sub(/x/, "×", text)
+  return text
+}
+
+function print_still(    row) {
+  print "| Digits | Time | Processor time | Memory |"
+  print_rule(0, 4)
+  for (row = 1; row <= rows; ++row) {
+    if (!is(row, "scaling", "still")) continue
+    print "| " get(row, "value") " | " time_text(get(row, "seconds")) " | " \
+      time_text(get(row, "cpu_seconds")) " | " memory_text(row) " |"
+  }
+}
+
+function print_short(    row) {
+  print "| Program | Frames/s | Time a frame, piblocks = 1 |"
+  print_rule(1, 2)
+  for (row = 1; row <= rows; ++row) {
+    if (!is(row, "job", "mp4")) continue
+    print "| " get(row, "name") " | " number_text(get(row, "frames_per_second")) " | " \
+      number_text(get(row, "ratio")) " |"
+  }
+}

@@ -1,0 +1,39 @@
+// What all groups of measurements work with.
+// In: options. Out: commands run in an orderly place, and rows of the results.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "circumstances.hpp"
+#include "speed/process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace piblocks::benchmark {
+
+struct Workbench {
+  Circumstances circumstances;
+  std::string program;
+  int rounds = 1;
+  testing_support::TemporaryFolder folder{};
+  ProcessRunner runner{folder.path()};
+
+  /// A file that stays until the end.
+  std::string kept(const std::string& name) const { return folder / name; }
+  /// A file of the next run, gone before the one after it.
+  std::string output(const std::string& name) const { return folder.path() / "output" / name; }
+  /// Removes what the last run has written.
+  void clear_output() const;
+  /// Size of what the last run has written.
+  double output_MB() const;
+
+  /// "render" with the article's scene.
+  Command render(int digits, const std::string& output) const;
+  std::string program_version() const;
+};
+
+/// Frames of the article's scene at 60 frames a second.
+/// @param to  as the option --to takes it.
+std::int64_t article_frames(int digits, const std::string& to = "last+1.5");
+
+}  // namespace piblocks::benchmark
