@@ -18,8 +18,8 @@ require_number() {
   [[ $2 =~ ^[1-9][0-9]{0,4}$ ]] || refuse "$1: '$2' is no number from 1 to 99999"
 }
 
-# read_rendering OPTION…: sets `output` to the value of -o, from which the names of the parts follow,
-# and `quiet` to the option --quiet, if it is there.
+# read_rendering OPTION…: sets `output` to the value of -o, from which the names of the parts
+# follow, and `quiet` to the option --quiet, if it is there.
 read_rendering() {
   output=
   quiet=()

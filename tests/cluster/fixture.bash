@@ -80,8 +80,8 @@ wait_until_all_gone() {
   while read -r process _; do wait_until is_gone "$process"; done <"$work/notes"
 }
 
-# expect_failure WHAT MESSAGE COMMAND…: it fails with MESSAGE among its errors, and leaves neither an
-# output nor a process.
+# expect_failure WHAT MESSAGE COMMAND…: it fails with MESSAGE among its errors, and leaves neither
+# an output nor a process.
 expect_failure() {
   local status=0
   : >"$work/notes"
