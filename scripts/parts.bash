@@ -1,5 +1,5 @@
 # What the scripts that render in parts share. To be sourced; `me` is the script's name in messages.
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2034 # what is set here is used there
 
 fail() {
   echo "${me:?}: $*" >&2
