@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
 #include "media/av.hpp"
 #include "media/intra_encoder.hpp"
@@ -79,7 +80,7 @@ std::vector<std::uint8_t> FramehashEncoder::encode_picture(std::int64_t number) 
 
 class FramehashOutput final : public Output {
  public:
-  explicit FramehashOutput(const OutputRequest& request) : request_(request) {}
+  explicit FramehashOutput(OutputRequest request) : request_(std::move(request)) {}
   std::int64_t frames_per_chunk() const override { return kFramesPerChunk; }
   std::unique_ptr<ChunkEncoder> make_encoder() const override {
     return std::make_unique<FramehashEncoder>(request_.format);

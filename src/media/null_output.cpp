@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "media/output_kinds.hpp"
 
 namespace piblocks {
@@ -22,7 +24,7 @@ class NullSink final : public FrameSink {
 
 class NullOutput final : public Output {
  public:
-  explicit NullOutput(const VideoFormat& format) : format_(format) {}
+  explicit NullOutput(VideoFormat format) : format_(std::move(format)) {}
   std::int64_t frames_per_chunk() const override { return 64; }
   std::unique_ptr<ChunkEncoder> make_encoder() const override {
     return std::make_unique<NullEncoder>(format_);

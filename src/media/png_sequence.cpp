@@ -85,8 +85,8 @@ class PngFrameEncoder final : public IntraEncoder {
 
 class PngSequence final : public FrameSink {
  public:
-  explicit PngSequence(const FramePattern& pattern)
-      : pattern_(pattern),
+  explicit PngSequence(FramePattern pattern)
+      : pattern_(std::move(pattern)),
         folder_(pattern_.folder().empty() ? "." : pattern_.folder()),
         made_folders_(folder_),
         temporary_(make_folder_in(folder_)) {}

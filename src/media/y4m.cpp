@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
+#include <string_view>
+#include <utility>
+
 #include "media/intra_encoder.hpp"
 #include "media/output_kinds.hpp"
 #include "media/stream_sink.hpp"
@@ -65,7 +68,7 @@ std::vector<std::uint8_t> Y4mEncoder::encode_picture(std::int64_t number) {
 
 class Y4mOutput final : public Output {
  public:
-  explicit Y4mOutput(const OutputRequest& request) : request_(request) {}
+  explicit Y4mOutput(OutputRequest request) : request_(std::move(request)) {}
   std::int64_t frames_per_chunk() const override { return kFramesPerChunk; }
   std::unique_ptr<ChunkEncoder> make_encoder() const override {
     return std::make_unique<Y4mEncoder>(request_.format);

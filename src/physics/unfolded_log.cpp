@@ -135,11 +135,11 @@ Collision UnfoldedLog::at(const Integer& index) const {
   const Direction step{-end.sign * form_.step.sine, form_.step.cosine};
   const CollisionNumbers now =
       form_.collision(end.sign, seen, odd ? seen + step : seen, form_.kind(odd));
-  const Collision collision{index,
-                            {now.time_hi, now.time_lo},
-                            odd ? CollisionKind::blocks : CollisionKind::wall,
-                            {now.blue_position, now.blue_velocity},
-                            {now.red_position, now.red_velocity}};
+  Collision collision{index,
+                      {now.time_hi, now.time_lo},
+                      odd ? CollisionKind::blocks : CollisionKind::wall,
+                      {now.blue_position, now.blue_velocity},
+                      {now.red_position, now.red_velocity}};
   require_finite(collision.time, collision.blue, collision.red, "closed form");
   return collision;
 }

@@ -98,19 +98,19 @@ void check_output(const std::vector<NumberedPart>& parts, const std::string& nam
 
 }  // namespace
 
-std::int64_t join(const std::vector<std::string>& paths, const std::string& output_name,
+std::int64_t join(const std::vector<std::string>& parts, const std::string& output,
                   const std::stop_token& stop) {
-  if (paths.empty()) throw UsageError("join: no parts are given");
-  std::vector<NumberedPart> parts = open_in_order(paths);
-  check_same_job(parts);
-  check_all_there(parts);
-  const JobDescription job = read_description(parts.front().reader);
-  const auto output = set_up_output(output_name, job.format, job.encoder);
-  check_output(parts, output_name, *output, job);
+  if (parts.empty()) throw UsageError("join: no parts are given");
+  std::vector<NumberedPart> in_order = open_in_order(parts);
+  check_same_job(in_order);
+  check_all_there(in_order);
+  const JobDescription job = read_description(in_order.front().reader);
+  const auto joined = set_up_output(output, job.format, job.encoder);
+  check_output(in_order, output, *joined, job);
 
-  const auto sink = output->open();
+  const auto sink = joined->open();
   std::int64_t frames = 0;
-  for (auto& [number, reader] : parts) {
+  for (auto& [number, reader] : in_order) {
     while (const auto chunk = reader.next()) {
       if (stop.stop_requested()) throw Interrupted("join: interrupted");
       sink->append(*chunk);
