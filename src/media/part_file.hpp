@@ -31,7 +31,6 @@ class PartReader {
   /// @throws UsageError if the file cannot be opened or is no part file.
   explicit PartReader(std::string path);
 
-  const std::string& path() const noexcept { return path_; }
   const PartHeader& header() const noexcept { return header_; }
   /// The next chunk; nothing after the last.
   /// @throws IoError if the file is damaged or cut off.

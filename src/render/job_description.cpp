@@ -42,16 +42,16 @@ void describe(const EncoderSettings& settings, PartHeader& header) {
   header.emplace_back("encoder", settings.encoder.value_or(kDefault));
 }
 
-std::optional<std::string> setting(const PartReader& part, const std::string& name) {
+std::optional<std::string> setting(const PartInfo& part, const std::string& name) {
   const std::string& value = value_of(part, name);
   return value == kDefault ? std::nullopt : std::optional(value);
 }
 
 /// @throws UsageError unless the value is a whole number from 1 to `high`.
-std::int64_t number(const PartReader& part, const std::string& name, std::int64_t high) {
+std::int64_t number(const PartInfo& part, const std::string& name, std::int64_t high) {
   const Rational value = parse_rational(value_of(part, name));
   if (value.get_den() == 1 && value >= 1 && value <= high) return value.get_num().get_si();
-  throw UsageError(fmt::format("join: '{}' says {}: {}", part.path(), name, to_text(value)));
+  throw UsageError(fmt::format("join: '{}' says {}: {}", part.path, name, to_text(value)));
 }
 
 }  // namespace
@@ -67,13 +67,13 @@ PartHeader describe(const RenderJob& job, const Output& output, const Chunks& ch
   return header;
 }
 
-const std::string& value_of(const PartReader& part, const std::string& name) {
-  const auto at = std::ranges::find(part.header(), name, &PartHeader::value_type::first);
-  if (at != part.header().end()) return at->second;
-  throw UsageError(fmt::format("join: '{}' does not say its '{}'", part.path(), name));
+const std::string& value_of(const PartInfo& part, const std::string& name) {
+  const auto at = std::ranges::find(part.header, name, &PartHeader::value_type::first);
+  if (at != part.header.end()) return at->second;
+  throw UsageError(fmt::format("join: '{}' does not say its '{}'", part.path, name));
 }
 
-JobDescription read_description(const PartReader& part) {
+JobDescription read_description(const PartInfo& part) {
   JobDescription job;
   job.format.width_px = static_cast<int>(number(part, "view.width", kMaxSide_px));
   job.format.height_px = static_cast<int>(number(part, "view.height", kMaxSide_px));

@@ -24,11 +24,17 @@ struct JobDescription {
   std::int64_t frame_count = 0;
 };
 
+/// The header of a part file, and the file's name for messages.
+struct PartInfo {
+  std::string path;
+  PartHeader header;
+};
+
 /// @throws UsageError if a value is missing or cannot be read.
-JobDescription read_description(const PartReader& part);
+JobDescription read_description(const PartInfo& part);
 
 /// The value of that name in the part's header.
 /// @throws UsageError if there is none.
-const std::string& value_of(const PartReader& part, const std::string& name);
+const std::string& value_of(const PartInfo& part, const std::string& name);
 
 }  // namespace piblocks

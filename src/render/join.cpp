@@ -14,7 +14,7 @@ namespace piblocks {
 namespace {
 
 /// "2/3" as render() wrote it.
-Part number_of(const PartReader& part) {
+Part number_of(const PartInfo& part) {
   const std::string& text = value_of(part, "part");
   const char* const end = text.data() + text.size();
   Part result;
@@ -24,20 +24,21 @@ Part number_of(const PartReader& part) {
     const bool is_whole = read.ec == std::errc() && read.ptr == end;
     if (is_whole && result.number >= 1 && result.number <= result.count) return result;
   }
-  throw UsageError(fmt::format("join: '{}' says part: {}", part.path(), text));
+  throw UsageError(fmt::format("join: '{}' says part: {}", part.path, text));
 }
 
 struct NumberedPart {
   Part number;
-  PartReader reader;
+  PartInfo info;
 };
 
-std::vector<NumberedPart> open_in_order(const std::vector<std::string>& paths) {
+/// Closes each file again: there may be more than a process can have open.
+std::vector<NumberedPart> read_headers(const std::vector<std::string>& paths) {
   std::vector<NumberedPart> parts;
   for (const std::string& path : paths) {
-    PartReader reader(path);
-    const Part number = number_of(reader);
-    parts.push_back({number, std::move(reader)});
+    PartInfo info{path, PartReader(path).header()};
+    const Part number = number_of(info);
+    parts.push_back({number, std::move(info)});
   }
   std::ranges::stable_sort(parts, {}, [](const NumberedPart& part) { return part.number.number; });
   return parts;
@@ -53,13 +54,13 @@ std::string difference(const PartHeader& one, const PartHeader& other) {
 }
 
 void check_same_job(const std::vector<NumberedPart>& parts) {
-  const PartReader& first = parts.front().reader;
-  for (const auto& [number, reader] : parts) {
-    std::string name = difference(first.header(), reader.header());
+  const PartInfo& first = parts.front().info;
+  for (const auto& [number, info] : parts) {
+    std::string name = difference(first.header, info.header);
     if (name.empty() && number.count != parts.front().number.count) name = "number of parts";
     if (name.empty()) continue;
     throw UsageError(fmt::format("join: '{}' and '{}' are of different jobs: they differ in {}",
-                                 first.path(), reader.path(), name));
+                                 first.path, info.path, name));
   }
 }
 
@@ -74,10 +75,10 @@ void check_all_there(const std::vector<NumberedPart>& parts) {
       if (problems.size() == 10) break;
       continue;
     }
-    const auto& path = next->reader.path();
+    const auto& path = next->info.path;
     for (++next; next != parts.end() && next->number.number == number; ++next) {
       problems.push_back(fmt::format("join: '{}' and '{}' are both part {} of {}", path,
-                                     next->reader.path(), number, count));
+                                     next->info.path, number, count));
     }
   }
   if (!problems.empty()) throw UsageError(std::move(problems));
@@ -85,9 +86,9 @@ void check_all_there(const std::vector<NumberedPart>& parts) {
 
 void check_output(const std::vector<NumberedPart>& parts, const std::string& name,
                   const Output& output, const JobDescription& job) {
-  for (const auto& [number, reader] : parts) {
+  for (const auto& [number, info] : parts) {
     std::error_code missing;  // what is not there yet is another file
-    if (!std::filesystem::equivalent(reader.path(), name, missing)) continue;
+    if (!std::filesystem::equivalent(info.path, name, missing)) continue;
     throw UsageError(fmt::format("join: output '{}' is one of the parts", name));
   }
   if (output.signature() == job.signature) return;
@@ -101,16 +102,17 @@ void check_output(const std::vector<NumberedPart>& parts, const std::string& nam
 std::int64_t join(const std::vector<std::string>& parts, const std::string& output,
                   const std::stop_token& stop) {
   if (parts.empty()) throw UsageError("join: no parts are given");
-  std::vector<NumberedPart> in_order = open_in_order(parts);
+  const std::vector<NumberedPart> in_order = read_headers(parts);
   check_same_job(in_order);
   check_all_there(in_order);
-  const JobDescription job = read_description(in_order.front().reader);
+  const JobDescription job = read_description(in_order.front().info);
   const auto joined = set_up_output(output, job.format, job.encoder);
   check_output(in_order, output, *joined, job);
 
   const auto sink = joined->open();
   std::int64_t frames = 0;
-  for (auto& [number, reader] : in_order) {
+  for (const auto& [number, info] : in_order) {
+    PartReader reader(info.path);
     while (const auto chunk = reader.next()) {
       if (stop.stop_requested()) throw Interrupted("join: interrupted");
       sink->append(*chunk);

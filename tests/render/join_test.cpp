@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -79,6 +80,16 @@ TEST_F(JoinTest, GivesTheBytesOfASingleRun) {
     }
     fs::remove_all(path("whole"));
   }
+}
+
+TEST_F(JoinTest, TakesMoreFilesThanMayBeOpen) {
+  const auto parts = rendered_parts(40, {scene(), path("a.y4m")});
+  rlimit before{};
+  ::getrlimit(RLIMIT_NOFILE, &before);
+  const rlimit few{20, before.rlim_max};
+  ::setrlimit(RLIMIT_NOFILE, &few);
+  EXPECT_EQ(join(parts, path("b.y4m")), 120);
+  ::setrlimit(RLIMIT_NOFILE, &before);
 }
 
 TEST_F(JoinTest, NeedsEveryPartOnce) {
