@@ -23,12 +23,29 @@ constexpr Peer kPeers[] = {
     {"OpenCV VideoWriter", "opencv_writer.py", 1},
     {"Pillow into ffmpeg", "pillow_pipe.py", 2},
     {"matplotlib FuncAnimation", "matplotlib_animation.py", 2},
-    {"the same with axes", "matplotlib_animation.py", 4, "--axes"},
+    {"matplotlib with axes", "matplotlib_animation.py", 4, "--axes"},
     {"gnuplot and ffmpeg", "gnuplot_frames.py", 8},
 };
 
-Subject subject_of(const std::string& name, const std::string& version, std::int64_t frames) {
-  return {"job", "mp4", std::to_string(kDigits), name, version, frames};
+/// The program and others, the program first.
+struct Contest {
+  const char* series;
+  std::int64_t frames;
+  std::vector<Contender> contenders{};
+};
+
+void add(Contest& contest, const std::string& name, const std::string& version, std::int64_t frames,
+         Command command) {
+  contest.contenders.push_back(
+      {{"job", contest.series, std::to_string(kDigits), name, version, frames},
+       std::move(command)});
+}
+
+Contest contest_of_program(const Workbench& bench, const char* series) {
+  Contest contest{series, article_frames(kDigits)};
+  add(contest, "piblocks", bench.program_version(), contest.frames,
+      bench.render(kDigits, bench.output("program.mp4")));
+  return contest;
 }
 
 /// The first line without what follows the version.
@@ -37,11 +54,11 @@ std::string short_version(const std::string& text) {
   return line.substr(0, line.find(" Copyright"));
 }
 
-void add(const Workbench& bench, const std::string& name, std::int64_t frames,
-         const Command& version_command, Command command, std::vector<Contender>& contenders) {
+void add_if_there(const Workbench& bench, Contest& contest, const std::string& name,
+                  std::int64_t frames, const Command& version_command, Command command) {
   const Finished version = bench.runner.try_run(version_command);
   if (version.exit_code != 0) return print_skipped(name, last_line(version.err));
-  contenders.push_back({subject_of(name, short_version(version.out), frames), std::move(command)});
+  add(contest, name, short_version(version.out), frames, std::move(command));
 }
 
 /// Nothing but encoding: the program's own frames and settings.
@@ -53,9 +70,8 @@ Command ffmpeg_command(const std::string& y4m, const std::string& output) {
           "-movflags", "+faststart", output};
 }
 
-void add_peer(const Workbench& bench, const Peer& peer, std::int64_t all_frames,
-              std::vector<Contender>& contenders) {
-  const std::int64_t frames = all_frames / peer.share;
+void add_peer(const Workbench& bench, Contest& contest, const Peer& peer) {
+  const std::int64_t frames = contest.frames / peer.share;
   // Without -B, Python would leave its compiled modules in the source tree.
   const Command script = {kPython, "-B", std::string(PEERS_FOLDER "/") + peer.script};
   Command version = script;
@@ -63,24 +79,29 @@ void add_peer(const Workbench& bench, const Peer& peer, std::int64_t all_frames,
   Command command = script;
   if (peer.option != nullptr) command.emplace_back(peer.option);
   command.insert(command.end(), {"--frames", std::to_string(frames), bench.output("peer.mp4")});
-  add(bench, peer.name, frames, version, command, contenders);
+  add_if_there(bench, contest, peer.name, frames, version, command);
+}
+
+/// By themselves: the other programs would drive gigabytes of frames out of the cache.
+void measure_encoding(const Workbench& bench) {
+  constexpr int kRepetitions = 3;
+  const std::string y4m = bench.kept("frames.y4m");
+  bench.runner.run(bench.render(kDigits, y4m));
+  sync();  // what is still to be written would slow the first rounds
+  Contest contest = contest_of_program(bench, "encoding");
+  add_if_there(bench, contest, "ffmpeg from y4m", contest.frames, {"ffmpeg", "-version"},
+               ffmpeg_command(y4m, bench.output("ffmpeg.mp4")));
+  hold_contest(bench, contest.contenders, kRepetitions * bench.rounds);
+  std::filesystem::remove(y4m);
 }
 
 }  // namespace
 
 void measure_job(const Workbench& bench) {
-  const std::int64_t frames = article_frames(kDigits);
-  const std::string y4m = bench.kept("frames.y4m");
-  bench.runner.run(bench.render(kDigits, y4m));
-  sync();  // gigabytes that are still to be written would slow the first rounds
-
-  std::vector<Contender> contenders = {{subject_of("piblocks", bench.program_version(), frames),
-                                        bench.render(kDigits, bench.output("program.mp4"))}};
-  add(bench, "ffmpeg from y4m", frames, {"ffmpeg", "-version"},
-      ffmpeg_command(y4m, bench.output("ffmpeg.mp4")), contenders);
-  for (const Peer& peer : kPeers) add_peer(bench, peer, frames, contenders);
-  hold_contest(bench, contenders, bench.rounds);
-  std::filesystem::remove(y4m);
+  measure_encoding(bench);
+  Contest contest = contest_of_program(bench, "drawing");
+  for (const Peer& peer : kPeers) add_peer(bench, contest, peer);
+  hold_contest(bench, contest.contenders, bench.rounds);
 }
 
 }  // namespace piblocks::benchmark

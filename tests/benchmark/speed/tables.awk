@@ -37,6 +37,12 @@ function is(row, group, series) {
   return get(row, "group") == group && get(row, "series") == series
 }
 
+# The program runs in both series, and is shown once.
+function is_job(row) {
+  return is(row, "job", "encoding") || \
+    is(row, "job", "drawing") && get(row, "name") != "piblocks"
+}
+
 # Numbers as one reads them.
 function number_text(x) {
   if (x == "") return dash
@@ -71,7 +77,7 @@ function print_job(    row) {
   print "| Program | " speed_head() " | kB a second of video | Time a frame, piblocks = 1 |"
   print_rule(1, 7)
   for (row = 1; row <= rows; ++row) {
-    if (!is(row, "job", "mp4")) continue
+    if (!is_job(row)) continue
     print "| " get(row, "name") " | " speed_cells(row) " | " \
       number_text(per_frame(row, "output_MB") * 60 * 1000) " | " ratio_text(row) " |"
   }
@@ -148,7 +154,7 @@ function print_short(    row) {
   print "| Program | Frames/s | Time a frame, piblocks = 1 |"
   print_rule(1, 2)
   for (row = 1; row <= rows; ++row) {
-    if (!is(row, "job", "mp4")) continue
+    if (!is_job(row)) continue
     print "| " get(row, "name") " | " number_text(get(row, "frames_per_second")) " | " \
       number_text(get(row, "ratio")) " |"
   }
