@@ -18,7 +18,7 @@ struct Entrant {
 };
 
 Usage run(const Workbench& bench, const Contender& contender) {
-  bench.clear_output();
+  bench.renew_output();
   return bench.runner.run(contender.command).usage;
 }
 
@@ -74,7 +74,7 @@ void hold_contest(const Workbench& bench, const std::vector<Contender>& contende
   for (int round = 0; round < rounds; ++round) {
     for (Entrant& entrant : entrants) entrant.runs.push_back(run(bench, *entrant.contender));
   }
-  bench.clear_output();
+  bench.remove_outputs();
   for (const Entrant& entrant : entrants) {
     print_row(bench.circumstances, entrant.contender->subject, result_of(entrant, entrants[0]));
   }

@@ -20,7 +20,7 @@ struct Profiled {
 };
 
 Finished run(const Workbench& bench, const std::string& output) {
-  bench.clear_output();
+  bench.renew_output();
   Command command = bench.render(kDigits, output);
   command.emplace_back("--profile");
   return bench.runner.try_run(command);
@@ -62,6 +62,7 @@ void measure_stages(const Workbench& bench) {
   measure(bench, {"mp4", bench.output("program.mp4")});
   measure(bench, {"png", bench.output("%06d.png")});
   measure(bench, {"null", "null"});
+  bench.remove_outputs();
 }
 
 }  // namespace piblocks::benchmark

@@ -1,20 +1,33 @@
 #include "speed/workbench.hpp"
 
+#include <fmt/format.h>
 #include <piblocks/collision_log.hpp>
 #include <piblocks/scene.hpp>
 #include <piblocks/timeline.hpp>
 
 namespace piblocks::benchmark {
+namespace fs = std::filesystem;
 
-void Workbench::clear_output() const {
-  const std::filesystem::path path = folder.path() / "output";
-  std::filesystem::remove_all(path);
-  std::filesystem::create_directory(path);
+void Workbench::renew_output() const {
+  const fs::path path = folder.path() / "output";
+  for (int number = 0; fs::exists(path); ++number) {
+    const fs::path old = folder.path() / fmt::format("output-{}", number);
+    if (!fs::exists(old)) fs::rename(path, old);
+  }
+  fs::create_directory(path);
+}
+
+void Workbench::remove_outputs() const {
+  fs::remove_all(folder.path() / "output");
+  for (int number = 0;; ++number) {
+    const fs::path old = folder.path() / fmt::format("output-{}", number);
+    if (fs::remove_all(old) == 0) return;
+  }
 }
 
 double Workbench::output_MB() const {
   double bytes = 0;
-  for (const auto& file : std::filesystem::directory_iterator(folder.path() / "output")) {
+  for (const auto& file : fs::directory_iterator(folder.path() / "output")) {
     bytes += static_cast<double>(file.file_size());
   }
   return bytes / 1e6;

@@ -20,10 +20,12 @@ struct Workbench {
 
   /// A file that stays until the end.
   std::string kept(const std::string& name) const { return folder / name; }
-  /// A file of the next run, gone before the one after it.
+  /// A file of the next run; the one after it has its place to itself.
   std::string output(const std::string& name) const { return folder.path() / "output" / name; }
-  /// Removes what the last run has written.
-  void clear_output() const;
+  /// Moves out of the way what the last run has written. It is not removed yet: for some seconds
+  /// ext4 does not use the inodes of removed files again, and looks long for others.
+  void renew_output() const;
+  void remove_outputs() const;
   /// Size of what the last run has written.
   double output_MB() const;
 
