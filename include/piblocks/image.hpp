@@ -1,9 +1,10 @@
-// Pixels in memory, seen but not owned.
+// Pixels in memory, seen or owned.
 // In: a canvas or a decoded file. Out: what every sink and every comparison reads.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace piblocks {
 
@@ -22,6 +23,18 @@ struct ImageView {
   std::ptrdiff_t stride_bytes = 0;
 
   const std::uint8_t* row(int y) const noexcept { return data + y * stride_bytes; }
+};
+
+/// An image that owns its pixels: words 0xAARRGGBB, or with other samples in these places.
+struct Image {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<std::uint32_t> words = {};  ///< row by row
+
+  ImageView view() const noexcept {
+    return {reinterpret_cast<const std::uint8_t*>(words.data()), width_px, height_px,
+            std::ptrdiff_t{4} * width_px};
+  }
 };
 
 /// A rectangle of whole pixels, from its top left corner.

@@ -14,7 +14,8 @@ std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) con
   if (app->get_require_subcommand_min() > 0) return usage + " COMMAND [OPTIONS]\n";
   for (const CLI::Option* option : app->get_options()) {
     if (option->get_required()) {
-      usage += " " + shortest_name(*option) + " " + option->get_option_text();
+      usage += " " + shortest_name(*option);
+      if (option->get_option_text() != kNoText) usage += " " + option->get_option_text();
     } else if (option->get_positional()) {
       usage += " [" + option->get_name() + "]";
     }

@@ -8,6 +8,9 @@
 
 namespace piblocks::cli {
 
+/// The text of an option whose name says all: an empty one would be replaced by CLI11.
+inline constexpr const char* kNoText = " ";
+
 /// CLI11's form, but for lean descriptions and a usage line that shows what has to be given.
 class HelpFormatter : public CLI::Formatter {
  public:

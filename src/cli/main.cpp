@@ -10,6 +10,7 @@
 #include <new>
 
 #include "cli/commands.hpp"
+#include "cli/exit_code.hpp"
 #include "cli/help_formatter.hpp"
 #include "cli/usage_message.hpp"
 
@@ -50,6 +51,7 @@ void add_commands(CLI::App& app) {
   cli::add_log(app);
   cli::add_state(app);
   cli::add_count(app);
+  cli::add_compare(app);
   cli::add_info(app);
   app.set_version_flag("--version", version, "Print the version and exit");
   for (CLI::App* command : app.get_subcommands({})) {
@@ -73,6 +75,8 @@ int run(int argc, char** argv) {
     return finish(app, error);
   } catch (const piblocks::UsageError& error) {
     return fail(error);
+  } catch (const piblocks::cli::ExitCode& exit) {
+    return *exit.what() == '\0' ? exit.code() : fail(exit.what(), exit.code());
   } catch (const std::bad_alloc&) {
     return fail("out of memory", kFailed);
   } catch (const std::exception& error) {

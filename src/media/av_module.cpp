@@ -27,6 +27,10 @@ const AvModule& av_module() {
   return module;
 }
 
+std::unique_ptr<FrameReader> read_video(const std::string& path) {
+  return av_module().decode_video_file(path);
+}
+
 std::vector<std::string> h264_encoders() { return av_module().usable_h264_encoders(); }
 
 }  // namespace piblocks

@@ -9,14 +9,17 @@
 #include <string>
 #include <vector>
 
+#include "media/frame_reader.hpp"
 #include "media/output_request.hpp"
 
 namespace piblocks {
 
-/// What the module offers: the functions of these names in output_kinds.hpp and find_encoder.hpp.
+/// What the module offers: the functions of these names in output_kinds.hpp, video_reader.hpp and
+/// find_encoder.hpp.
 struct AvModule {
   std::unique_ptr<Output> (*mp4_output)(const OutputRequest& request);
   std::unique_ptr<Output> (*framehash_output)(const OutputRequest& request);
+  std::unique_ptr<FrameReader> (*decode_video_file)(const std::string& path);
   std::vector<std::string> (*usable_h264_encoders)();
   std::vector<std::string> (*av_library_versions)();
 };

@@ -3,11 +3,12 @@
 #include "media/av_module.hpp"
 #include "media/find_encoder.hpp"
 #include "media/output_kinds.hpp"
+#include "media/video_reader.hpp"
 
 extern "C" const piblocks::AvModule* piblocks_av_module() {
   using namespace piblocks;
-  static constexpr AvModule kModule = {mp4_output, framehash_output, usable_h264_encoders,
-                                       av_library_versions};
+  static constexpr AvModule kModule = {mp4_output, framehash_output, decode_video_file,
+                                       usable_h264_encoders, av_library_versions};
   silence_av();
   return &kModule;
 }

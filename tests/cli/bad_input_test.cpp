@@ -36,7 +36,8 @@ Arguments still(const Arguments& more) { return Arguments{"still", "-o", "a.png"
 INSTANTIATE_TEST_SUITE_P(
     Commands, BadInputTest,
     testing::Values(
-        BadInput{{}, "no command: use one of render, join, still, log, state, count, info"},
+        BadInput{{},
+                 "no command: use one of render, join, still, log, state, count, compare, info"},
         BadInput{{"frobnicate"}, "unknown command 'frobnicate'"},
         BadInput{{"-x"}, "unknown option '-x'"},
         BadInput{{"--digits", "3"}, "unknown option '--digits'"},

@@ -5,7 +5,7 @@ cmake_minimum_required(VERSION 3.25)
 
 # Layers, which are the folders of src, and the layers whose headers each may include. An entry
 # LAYER/HEADER admits one public header of a layer.
-set(layers core physics scene draw media render cli)
+set(layers core physics scene draw media golden render cli)
 set(core_may core)
 set(physics_may core physics)
 set(scene_may core physics scene)
@@ -13,6 +13,7 @@ set(scene_may core physics scene)
 set(draw_may core physics/collision_log physics/interpolator scene draw)
 # Sinks know pixels and packets, nothing of blocks.
 set(media_may core media)
+set(golden_may core media golden)
 set(render_may core physics scene draw media render)
 set(cli_may ${layers})
 
@@ -23,11 +24,12 @@ set(physics_headers blocks collision_log event_simulator interpolator particle
 set(scene_headers instant scene timeline)
 set(draw_headers canvas compose draw_list)
 set(media_headers frame_sink png)
+set(golden_headers compare compare_files)
 set(render_headers render)
 set(cli_headers)
 
 # Libraries: the form of their headers and the layers that may include them.
-set(libraries GMP MPFR Eigen tomlplusplus Cairo FreeType libav zlib CLI11 fmt)
+set(libraries GMP MPFR Eigen tomlplusplus Cairo FreeType libav libpng zlib CLI11 fmt)
 set(GMP_form "gmp(xx)?\\.h")
 set(GMP_users core physics)
 set(MPFR_form "mpfr\\.h")
@@ -40,8 +42,10 @@ set(Cairo_form "cairo.*\\.h")
 set(Cairo_users draw)
 set(FreeType_form "ft2build\\.h|freetype/.+|FT_[A-Z_]+_H")
 set(FreeType_users draw)
-set(libav_form "libav(codec|format|util)/.+")
+set(libav_form "lib(av(codec|format|util)|swscale)/.+")
 set(libav_users media)
+set(libpng_form "png\\.h")
+set(libpng_users media)
 set(zlib_form "zlib\\.h")
 set(zlib_users media)
 set(CLI11_form "CLI/.+")

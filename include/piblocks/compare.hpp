@@ -1,0 +1,59 @@
+// Two images, sample by sample.
+// In: two views of one size, what may differ, what is left out. Out: how many pixels differ, by how
+// much, and where: enough to find one wrong digit in a frame of 4K.
+#pragma once
+
+#include <piblocks/image.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace piblocks {
+
+/// A square that is moved over the whole image.
+struct Window {
+  int side_px = 16;             ///< >= 1
+  std::int64_t max_pixels = 0;  ///< of any place of the window
+};
+
+/// What is accepted: all of it has to hold. The default accepts nothing but equality.
+struct Tolerance {
+  int max_delta = 0;            ///< a pixel is off if one of its samples differs by more, 0 … 255
+  std::int64_t max_pixels = 0;  ///< that are off in the whole image
+  int hard_delta = 255;         ///< no sample of any pixel may differ by more, 0 … 255
+  std::optional<Window> window = {};  ///< bounds the pixels that are off in one place
+
+  /// Whether anything but equality may be accepted.
+  bool is_exact() const noexcept { return max_delta == 0 && max_pixels == 0; }
+};
+
+/// A sample: 0 to 3 are the bytes of 0xAARRGGBB from red to alpha, or of whatever else they hold.
+struct SamplePlace {
+  int x_px = 0;
+  int y_px = 0;
+  int channel = 0;
+
+  friend bool operator==(const SamplePlace&, const SamplePlace&) = default;
+};
+
+struct Difference {
+  std::int64_t different_pixels = 0;  ///< in which any sample differs
+  std::int64_t off_pixels = 0;        ///< of these, by more than the tolerance's max_delta
+  int largest_delta = 0;
+  SamplePlace first = {};  ///< that differs, row by row; of no meaning if none does
+  PixelRect densest = {};  ///< the first of the places of the window with the most pixels off
+  std::int64_t densest_off = 0;
+  bool is_accepted = true;
+
+  bool is_equal() const noexcept { return different_pixels == 0; }
+};
+
+/// Compares all four bytes of every pixel that is in none of the masks. Without a window in the
+/// tolerance, the densest of 16x16 pixels is looked for.
+/// @throws UsageError if the images are not of one size, or the tolerance is out of range.
+Difference compare(const ImageView& reference, const ImageView& actual,
+                   const Tolerance& tolerance = {}, std::span<const PixelRect> masks = {});
+
+}  // namespace piblocks

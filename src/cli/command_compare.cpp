@@ -1,0 +1,219 @@
+#include <piblocks/compare_files.hpp>
+
+#include <memory>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "cli/exit_code.hpp"
+#include "cli/help_formatter.hpp"
+#include "cli/options.hpp"
+#include "cli/stop_on_signals.hpp"
+#include "golden/describe.hpp"
+#include "golden/reports.hpp"
+
+namespace piblocks::cli {
+namespace {
+
+constexpr int kDifferent = 1;
+constexpr int kMissingReference = 3;
+constexpr int kMismatch = 4;
+constexpr int kUnreadable = 5;
+
+/// Of more frames nobody reads the lines.
+constexpr int kMaxLines = 20;
+
+struct CompareOptions {
+  const CLI::Option* reference;
+  const CLI::Option* actual;
+  const CLI::Option* max_delta;
+  const CLI::Option* max_pixels;
+  const CLI::Option* hard_delta;
+  const CLI::Option* max_window;
+  const CLI::Option* masks;
+  const CLI::Option* diff;
+  const CLI::Option* html;
+  const CLI::Option* junit;
+  const CLI::Option* quiet;
+};
+
+int parse_level(const std::string& text) {
+  return static_cast<int>(parse_whole_number(text, 0, Integer(255)).get_si());
+}
+
+std::int64_t parse_pixels(const std::string& text) {
+  return parse_whole_number(text, 0, Integer(kMaxFrame_px)).get_si();
+}
+
+/// "16:40", at most 40 pixels in any square of 16x16.
+Window parse_window(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) throw UsageError("must be N:K, such as 16:40");
+  const Integer side = parse_whole_number(text.substr(0, colon), 1, Integer(kMaxSide_px));
+  return {static_cast<int>(side.get_si()), parse_pixels(text.substr(colon + 1))};
+}
+
+/// "640x80+100+20", from the left and the top.
+PixelRect parse_mask(const std::string& text) {
+  const std::size_t x = text.find('x');
+  const std::size_t left = text.find('+');
+  const std::size_t top = text.find('+', left + 1);
+  if (x == std::string::npos || left == std::string::npos || top == std::string::npos || x > left) {
+    throw UsageError("must be WxH+X+Y, such as 640x80+100+20");
+  }
+  const auto number = [&](std::size_t begin, std::size_t end, int low) {
+    const std::string digits = text.substr(begin, end - begin);
+    return static_cast<int>(parse_whole_number(digits, low, Integer(kMaxSide_px)).get_si());
+  };
+  return {number(left + 1, top, 0), number(top + 1, std::string::npos, 0), number(0, x, 1),
+          number(x + 1, left, 1)};
+}
+
+Tolerance tolerance_of(const CompareOptions& options) {
+  Tolerance tolerance;
+  tolerance.max_delta = value_of(*options.max_delta, parse_level).value_or(0);
+  tolerance.hard_delta = value_of(*options.hard_delta, parse_level).value_or(255);
+  tolerance.window = value_of(*options.max_window, parse_window);
+  // Who bounds the pixels of any place need not bound those of the whole frame.
+  const std::int64_t otherwise = tolerance.window ? kMaxFrame_px : 0;
+  tolerance.max_pixels = value_of(*options.max_pixels, parse_pixels).value_or(otherwise);
+  return tolerance;
+}
+
+ComparisonJob job_of(const CompareOptions& options) {
+  ComparisonJob job{
+      *text_of(*options.reference), *text_of(*options.actual), tolerance_of(options), {}};
+  for (const std::string& mask : options.masks->results()) {
+    try {
+      job.masks.push_back(parse_mask(mask));
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("--mask {}: {}", mask, error.what()));
+    }
+  }
+  return job;
+}
+
+std::vector<std::unique_ptr<Report>> reports_of(const CompareOptions& options) {
+  std::vector<std::unique_ptr<Report>> reports;
+  if (const auto name = text_of(*options.diff)) reports.push_back(diff_folder(*name));
+  if (const auto name = text_of(*options.html)) reports.push_back(html_report(*name));
+  if (const auto name = text_of(*options.junit)) reports.push_back(junit_report(*name));
+  return reports;
+}
+
+/// Prints a line for every frame that differs, and what all of it comes to.
+class Printer {
+ public:
+  explicit Printer(bool quiet) : quiet_(quiet) {}
+
+  void add(const FrameComparison& frame) {
+    const bool is_equal = frame.difference ? frame.difference->is_equal() : frame.is_accepted;
+    if (quiet_ || is_equal || ++lines_ > kMaxLines) return;
+    fmt::print("{}: {}\n", frame.name, describe(frame));
+  }
+
+  void finish(const ComparisonResult& result) const {
+    if (quiet_) return;
+    if (lines_ > kMaxLines) fmt::print("… and {} more\n", lines_ - kMaxLines);
+    if (!result.mismatch.empty()) fmt::print("mismatch: {}\n", result.mismatch);
+    fmt::print("{}: {} of {} frames differ", verdict(result.verdict), result.different_frames,
+               result.frames);
+    if (result.different_frames != result.refused_frames) {
+      fmt::print(", {} beyond tolerance", result.refused_frames);
+    }
+    fmt::print("\n");
+  }
+
+ private:
+  static const char* verdict(Verdict verdict) {
+    switch (verdict) {
+      case Verdict::equal:
+        return "equal";
+      case Verdict::accepted:
+        return "equal within tolerance";
+      case Verdict::different:
+        return "different";
+      case Verdict::mismatch:
+        return "not comparable";
+    }
+    return "";
+  }
+
+  bool quiet_;
+  int lines_ = 0;
+};
+
+ComparisonResult run_comparison(const CompareOptions& options, const ComparisonJob& job) {
+  const StopOnSignals signals;
+  const auto reports = reports_of(options);
+  Printer printer(options.quiet->count() > 0);
+  const auto on_frame = [&](const FrameComparison& frame) {
+    printer.add(frame);
+    for (const auto& report : reports) report->add(frame);
+  };
+  const ComparisonResult result = compare_files(job, on_frame, signals.token());
+  for (const auto& report : reports) report->finish(job, result);
+  printer.finish(result);
+  return result;
+}
+
+void run(const CompareOptions& options) {
+  const ComparisonJob job = job_of(options);
+  if (!frames_exist(job.reference)) {
+    throw ExitCode(kMissingReference,
+                   fmt::format("compare: there is no reference '{}'", job.reference));
+  }
+  Verdict verdict{};
+  try {
+    verdict = run_comparison(options, job).verdict;
+  } catch (const IoError& error) {
+    throw ExitCode(kUnreadable, error.what());
+  } catch (const MediaError& error) {
+    throw ExitCode(kUnreadable, error.what());
+  }
+  if (verdict == Verdict::different) throw ExitCode(kDifferent);
+  if (verdict == Verdict::mismatch) throw ExitCode(kMismatch);
+}
+
+CompareOptions add_options(CLI::App& command) {
+  const auto input = [&](const char* name, const char* help) {
+    return command.add_option(name)->description(help)->required()->option_text(kNoText);
+  };
+  const auto option = [&](const char* name, const char* placeholder, const char* help) {
+    return &add_value_option(command, name, placeholder, help);
+  };
+  return {input("REFERENCE",
+                "What is expected: a PNG file, a folder of them, FRAMES/%06d.png,\n"
+                "a video, or hashes (*.framehash)"),
+          input("ACTUAL", "What is to be judged: the same; a video may be compared with pictures"),
+          option("--max-delta", "D", "Accept samples that differ by up to D, 0 to 255"),
+          option("--max-pixels", "N", "Accept up to N pixels of a frame that differ by more"),
+          option("--hard-delta", "D", "Accept no sample at all that differs by more than D"),
+          option("--max-window", "N:K", "Accept up to K such pixels in any square of NxN"),
+          option("--mask", "WxH+X+Y", "Leave this rectangle out; may be given again")
+              ->allow_extra_args(false)
+              ->expected(1, -1),
+          option("--diff", "DIR",
+                 "Write expected, difference and actual, side by side, of each\n"
+                 "frame that is not accepted (the first hundred)"),
+          option("--report", "FILE.html", "Write a page to look at the differences"),
+          option("--junit", "FILE.xml", "Write a list of tests, one a frame"),
+          command.add_flag("--quiet")->description("Print nothing but errors")};
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("compare", "Compare pictures, sequences or videos");
+  const CompareOptions options = add_options(*command);
+  command->footer(
+      "Every sample has to be equal unless a tolerance is given; of several, all have to hold.\n"
+      "Exit codes: 0 equal or accepted, 1 different, 2 wrong usage, 3 no reference, 4 sizes or\n"
+      "numbers of frames differ, 5 cannot be read.\n\n"
+      "Examples:\n"
+      "  piblocks compare expected.png actual.png --diff differences\n"
+      "  piblocks compare golden/%06d.png frames/%06d.png --report report.html\n"
+      "  piblocks compare pi.mp4 frames --max-delta 96");
+  command->callback([options] { run(options); });
+}
+
+}  // namespace piblocks::cli

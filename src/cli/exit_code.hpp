@@ -1,0 +1,22 @@
+// An end with an exit code of its own.
+// In: thrown by a command whose exit codes say more than done, failed or wrong usage. Out: the
+// code.
+#pragma once
+
+#include <piblocks/error.hpp>
+
+#include <string>
+
+namespace piblocks::cli {
+
+class ExitCode : public Error {
+ public:
+  /// @param message  for standard error; empty if all has been said.
+  explicit ExitCode(int code, const std::string& message = {}) : Error(message), code_(code) {}
+  int code() const noexcept { return code_; }
+
+ private:
+  int code_;
+};
+
+}  // namespace piblocks::cli

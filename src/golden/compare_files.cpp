@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+#include <piblocks/compare_files.hpp>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <future>
+#include <memory>
+
+#include "golden/frame_source.hpp"
+#include "golden/framehash_file.hpp"
+
+namespace piblocks {
+namespace {
+
+using OnFrame = std::function<void(const FrameComparison&)>;
+
+bool is_framehash(const std::string& name) {
+  return name.ends_with(".framehash") || name.ends_with(".framemd5");
+}
+
+/// Counts what every frame comes to.
+void take(const FrameComparison& frame, ComparisonResult& result) {
+  const bool is_equal = frame.difference ? frame.difference->is_equal() : frame.is_accepted;
+  ++result.frames;
+  result.different_frames += is_equal ? 0 : 1;
+  result.refused_frames += frame.is_accepted ? 0 : 1;
+}
+
+Verdict verdict_of(const ComparisonResult& result) {
+  if (!result.mismatch.empty()) return Verdict::mismatch;
+  if (result.refused_frames > 0) return Verdict::different;
+  return result.different_frames > 0 ? Verdict::accepted : Verdict::equal;
+}
+
+std::string count_mismatch(std::int64_t reference, std::int64_t actual) {
+  return fmt::format("the reference has {} frames, the other {}", reference, actual);
+}
+
+class PictureComparison {
+ public:
+  explicit PictureComparison(const ComparisonJob& job)
+      : job_(job), reference_(open_frames(job.reference)), actual_(open_frames(job.actual)) {}
+
+  ComparisonResult run(const OnFrame& on_frame, const std::stop_token& stop) {
+    while (true) {
+      if (stop.stop_requested()) throw Interrupted("compare: interrupted");
+      // Reading is nearly all of the work.
+      auto reading = std::async(std::launch::async, [this] { return reference_->next(); });
+      const bool has_actual = actual_->next();
+      const bool has_reference = reading.get();
+      if (has_reference != has_actual) {
+        result_.mismatch = count_mismatch(result_.frames + frames_left(*reference_, has_reference),
+                                          result_.frames + frames_left(*actual_, has_actual));
+      }
+      if (!has_reference || !has_actual || !compare_frame(on_frame)) break;
+    }
+    result_.verdict = verdict_of(result_);
+    return result_;
+  }
+
+ private:
+  static std::int64_t frames_left(FrameReader& reader, bool has_frame) {
+    std::int64_t count = has_frame ? 1 : 0;
+    while (has_frame && reader.next()) ++count;
+    return count;
+  }
+
+  /// False if the sizes do not fit.
+  bool compare_frame(const OnFrame& on_frame) {
+    const bool is_exact = reference_->layout() == actual_->layout();
+    const Image a = is_exact ? reference_->samples() : reference_->rgb();
+    const Image b = is_exact ? actual_->samples() : actual_->rgb();
+    if (a.width_px != b.width_px || a.height_px != b.height_px) {
+      result_.mismatch =
+          fmt::format("{} is {}x{} in the reference, {}x{} in the other", reference_->name(),
+                      a.width_px, a.height_px, b.width_px, b.height_px);
+      return false;
+    }
+    FrameComparison frame;
+    frame.number = result_.frames;
+    frame.name = reference_->name();
+    frame.is_yuv = is_exact && reference_->layout() != "rgba";
+    frame.difference = compare(a.view(), b.view(), job_.tolerance, job_.masks);
+    frame.is_accepted = frame.difference->is_accepted;
+    frame.reference = [&] { return frame.is_yuv ? reference_->rgb() : a; };
+    frame.actual = [&] { return frame.is_yuv ? actual_->rgb() : b; };
+    take(frame, result_);
+    on_frame(frame);
+    return true;
+  }
+
+  const ComparisonJob& job_;
+  std::unique_ptr<FrameReader> reference_;
+  std::unique_ptr<FrameReader> actual_;
+  ComparisonResult result_;
+};
+
+ComparisonResult compare_hashes(const ComparisonJob& job, const OnFrame& on_frame) {
+  if (!is_framehash(job.reference) || !is_framehash(job.actual)) {
+    throw UsageError("compare: hashes of frames can be compared with hashes only");
+  }
+  if (!job.tolerance.is_exact() || !job.masks.empty()) {
+    throw UsageError("compare: hashes of frames know no tolerance and no masks");
+  }
+  const FramehashFile reference = read_framehash(job.reference);
+  const FramehashFile actual = read_framehash(job.actual);
+  ComparisonResult result;
+  const auto differs = std::ranges::mismatch(reference.header, actual.header);
+  if (differs.in1 != reference.header.end() || differs.in2 != actual.header.end()) {
+    const auto line = [](auto at, const auto& header) {
+      return at == header.end() ? std::string("nothing") : "'" + *at + "'";
+    };
+    result.mismatch =
+        fmt::format("the headers differ: {} and {}", line(differs.in1, reference.header),
+                    line(differs.in2, actual.header));
+  } else if (reference.frames.size() != actual.frames.size()) {
+    result.mismatch = count_mismatch(static_cast<std::int64_t>(reference.frames.size()),
+                                     static_cast<std::int64_t>(actual.frames.size()));
+  }
+  const std::size_t common = std::min(reference.frames.size(), actual.frames.size());
+  for (std::size_t i = 0; i < common; ++i) {
+    FrameComparison frame;
+    frame.number = static_cast<std::int64_t>(i);
+    frame.name = fmt::format("frame {}", i);
+    frame.is_accepted = reference.frames[i] == actual.frames[i];
+    take(frame, result);
+    on_frame(frame);
+  }
+  result.verdict = verdict_of(result);
+  return result;
+}
+
+}  // namespace
+
+ComparisonResult compare_files(const ComparisonJob& job, const OnFrame& on_frame,
+                               const std::stop_token& stop) {
+  if (is_framehash(job.reference) || is_framehash(job.actual)) return compare_hashes(job, on_frame);
+  return PictureComparison(job).run(on_frame, stop);
+}
+
+}  // namespace piblocks

@@ -1,0 +1,109 @@
+#include "golden/frame_source.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/compare_files.hpp>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include "media/frame_pattern.hpp"
+
+namespace piblocks {
+namespace fs = std::filesystem;
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// The number that `text` begins with, without its leading zeros; removed from `text`.
+std::string_view take_number(std::string_view& text) {
+  std::size_t end = 0;
+  while (end < text.size() && is_digit(text[end])) ++end;
+  std::string_view number = text.substr(0, end);
+  text.remove_prefix(end);
+  number.remove_prefix(std::min(number.find_first_not_of('0'), number.size()));
+  return number;
+}
+
+/// frame2 before frame10.
+bool comes_before(const fs::path& one, const fs::path& other) {
+  const std::string one_name = one.filename();
+  const std::string other_name = other.filename();
+  std::string_view a = one_name;
+  std::string_view b = other_name;
+  while (!a.empty() && !b.empty()) {
+    if (is_digit(a.front()) && is_digit(b.front())) {
+      const std::string_view m = take_number(a);
+      const std::string_view n = take_number(b);
+      if (m.size() != n.size()) return m.size() < n.size();
+      if (m != n) return m < n;
+      continue;
+    }
+    if (a.front() != b.front()) return a.front() < b.front();
+    a.remove_prefix(1);
+    b.remove_prefix(1);
+  }
+  return a.size() != b.size() ? a.empty() : one_name < other_name;
+}
+
+std::vector<fs::path> png_files_in(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    if (at->path().extension() == ".png") paths.push_back(at->path());
+  }
+  if (error) {
+    throw IoError(fmt::format("compare: cannot read '{}': {}", folder.string(), error.message()));
+  }
+  if (paths.empty()) {
+    throw IoError(fmt::format("compare: there is no PNG file in '{}'", folder.string()));
+  }
+  std::ranges::sort(paths, comes_before);
+  return paths;
+}
+
+fs::path numbered(const FramePattern& pattern, std::int64_t number) {
+  return fs::path(pattern.folder()) / pattern.name(number);
+}
+
+/// FFmpeg counts from 0 or from 1.
+std::optional<std::int64_t> first_number(const FramePattern& pattern) {
+  for (const std::int64_t number : {0, 1}) {
+    if (fs::exists(numbered(pattern, number))) return number;
+  }
+  return std::nullopt;
+}
+
+std::vector<fs::path> png_files_of(const std::string& name) {
+  const FramePattern pattern(name);
+  std::vector<fs::path> paths;
+  for (std::int64_t number = first_number(pattern).value_or(0);; ++number) {
+    fs::path path = numbered(pattern, number);
+    if (!fs::exists(path)) break;
+    paths.push_back(std::move(path));
+  }
+  if (paths.empty()) throw IoError(fmt::format("compare: there is no file of '{}'", name));
+  return paths;
+}
+
+/// A file may have a percent sign in its name.
+bool is_pattern(const std::string& name) {
+  return name.ends_with(".png") && name.find('%') != std::string::npos && !fs::exists(name);
+}
+
+}  // namespace
+
+bool frames_exist(const std::string& name) {
+  return is_pattern(name) ? first_number(FramePattern(name)).has_value() : fs::exists(name);
+}
+
+std::unique_ptr<FrameReader> open_frames(const std::string& name) {
+  if (is_pattern(name)) return read_png_files(png_files_of(name));
+  if (fs::is_directory(name)) return read_png_files(png_files_in(name));
+  if (name.ends_with(".png")) return read_png_files({name});
+  return read_video(name);
+}
+
+}  // namespace piblocks

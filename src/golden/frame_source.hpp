@@ -1,0 +1,17 @@
+// What a name on the command line stands for.
+// In: a file, a folder, or a pattern such as frames/%06d.png. Out: its frames, one after the other.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "media/frame_reader.hpp"
+
+namespace piblocks {
+
+/// A PNG file; the PNG files of a folder, in the order of the numbers in their names; those of a
+/// pattern, from number 0 or 1 on; or else a video.
+/// @throws IoError, MediaError if it cannot be read; UsageError if the pattern is no good.
+std::unique_ptr<FrameReader> open_frames(const std::string& name);
+
+}  // namespace piblocks

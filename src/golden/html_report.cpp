@@ -1,0 +1,150 @@
+#include <fmt/format.h>
+#include <piblocks/png.hpp>
+
+#include <span>
+#include <string_view>
+
+#include "core/output_file.hpp"
+#include "golden/describe.hpp"
+#include "golden/diff_picture.hpp"
+#include "golden/reports.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr int kMaxPictures = 40;
+
+constexpr std::string_view kHead = R"(<!DOCTYPE html>
+<html lang="en">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width">
+<style>
+:root { color-scheme: light dark; font: 16px/1.5 system-ui, sans-serif; }
+body { max-width: 76rem; margin: 2rem auto; padding: 0 1rem; }
+h1 { font-size: 1.4rem; }
+h2 { font-size: 1.1rem; margin: 0; }
+section { border-top: 1px solid #8888; padding: 1rem 0; }
+section.refused h2::before { content: "\2717  "; color: #c62828; }
+section.accepted h2::before { content: "\2713  "; color: #2e7d32; }
+p { margin: .3rem 0; }
+.controls { display: flex; gap: 1.5rem; flex-wrap: wrap; position: sticky; top: 0; z-index: 1;
+  padding: .5rem 0; background: Canvas; }
+.pictures { position: relative; line-height: 0; border: 1px solid #8888; }
+.pictures img { width: 100%; }
+.pictures img + img { position: absolute; inset: 0; }
+.actual { clip-path: inset(0 0 0 var(--split, 50%)); }
+.difference { visibility: hidden; }
+.show-difference .difference { visibility: visible; }
+input[type=range] { width: 100%; margin: .5rem 0; }
+</style>
+)";
+
+constexpr std::string_view kScript = R"(<script>
+const filter = document.getElementById("filter");
+const refused = document.getElementById("refused");
+const difference = document.getElementById("difference");
+const sections = document.querySelectorAll("section");
+function update() {
+  for (const section of sections) {
+    const matches = section.textContent.toLowerCase().includes(filter.value.toLowerCase());
+    section.hidden = !matches || (refused.checked && !section.classList.contains("refused"));
+  }
+  document.body.classList.toggle("show-difference", difference.checked);
+}
+for (const control of [filter, refused, difference]) control.addEventListener("input", update);
+for (const slider of document.querySelectorAll("input[type=range]")) {
+  slider.addEventListener("input", () =>
+    slider.previousElementSibling.style.setProperty("--split", slider.value + "%"));
+}
+update();
+</script>
+)";
+
+/// RFC 4648, section 4.
+std::string base64(std::span<const std::uint8_t> bytes) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (k < count ? bytes[i + k] : 0U);
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= count ? kDigits[(word >> (18 - 6 * k)) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+std::string picture(const Image& image, std::string_view kind) {
+  return fmt::format("<img class=\"{0}\" alt=\"{0}\" src=\"data:image/png;base64,{1}\">", kind,
+                     base64(encode_png(image.view())));
+}
+
+/// What is left of the slider is expected, what is right of it was found.
+std::string pictures_of(const FrameComparison& frame) {
+  const Image reference = frame.reference();
+  const Image actual = frame.actual();
+  return fmt::format(
+      "<div class=\"pictures\">{}{}{}</div>"
+      "<input type=\"range\" value=\"50\" aria-label=\"expected on the left, actual on the "
+      "right\">\n",
+      picture(reference, "expected"), picture(actual, "actual"),
+      picture(difference_picture(reference, actual), "difference"));
+}
+
+std::string summary_of(const ComparisonResult& result) {
+  if (!result.mismatch.empty()) return "Not comparable: " + result.mismatch + ".";
+  return fmt::format("{} of {} frames differ, {} beyond what is accepted.", result.different_frames,
+                     result.frames, result.refused_frames);
+}
+
+class HtmlReport final : public Report {
+ public:
+  explicit HtmlReport(const std::string& path) : file_(path) {}
+
+  void add(const FrameComparison& frame) override {
+    const bool is_equal = frame.difference ? frame.difference->is_equal() : frame.is_accepted;
+    if (is_equal) return;
+    sections_ += fmt::format("<section class=\"{}\">\n<h2>{}</h2>\n<p>{}</p>\n",
+                             frame.is_accepted ? "accepted" : "refused", escaped(frame.name),
+                             escaped(describe(frame)));
+    if (frame.difference && pictures_ < kMaxPictures) {
+      ++pictures_;
+      sections_ += pictures_of(frame);
+    }
+    sections_ += "</section>\n";
+  }
+
+  void finish(const ComparisonJob& job, const ComparisonResult& result) override {
+    file_.write(kHead);
+    file_.write(fmt::format(
+        "<title>{1} against {0}</title>\n<h1>{1} against {0}</h1>\n<p>{2}</p>\n"
+        "<div class=\"controls\">\n"
+        "<label>Show frames with <input id=\"filter\" type=\"search\"></label>\n"
+        "<label><input id=\"refused\" type=\"checkbox\"> only what is not accepted</label>\n"
+        "<label><input id=\"difference\" type=\"checkbox\"> differences in red</label>\n"
+        "</div>\n",
+        escaped(job.reference), escaped(job.actual), escaped(summary_of(result))));
+    file_.write(sections_);
+    if (pictures_ == kMaxPictures) {
+      file_.write(fmt::format("<p>Pictures are shown of the first {} frames.</p>\n", pictures_));
+    }
+    file_.write(kScript);
+    file_.finish();
+  }
+
+ private:
+  OutputFile file_;
+  std::string sections_;
+  int pictures_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Report> html_report(const std::string& path) {
+  return std::make_unique<HtmlReport>(path);
+}
+
+}  // namespace piblocks

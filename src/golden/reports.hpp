@@ -1,0 +1,37 @@
+// What a comparison leaves behind for people and for other programs.
+// In: the comparison of every frame, in order. Out: a folder of pictures, a page, a list of tests.
+#pragma once
+
+#include <piblocks/compare_files.hpp>
+
+#include <memory>
+#include <string>
+
+namespace piblocks {
+
+class Report {
+ public:
+  virtual ~Report() = default;
+  virtual void add(const FrameComparison& frame) = 0;
+  /// Completes the report. @throws IoError
+  virtual void finish(const ComparisonJob& job, const ComparisonResult& result) = 0;
+};
+
+/// A PNG file of every frame that is not accepted, up to a hundred: expected, difference, actual.
+/// @throws UsageError if the folder cannot be made.
+std::unique_ptr<Report> diff_folder(const std::string& folder);
+
+/// One HTML file that needs nothing else: every frame that is not equal, with the pictures of the
+/// first forty to be laid over each other.
+/// @throws UsageError if it cannot be written.
+std::unique_ptr<Report> html_report(const std::string& path);
+
+/// A test case for every frame, in the XML of JUnit.
+/// @throws UsageError if it cannot be written.
+std::unique_ptr<Report> junit_report(const std::string& path);
+
+/// Text as HTML and XML have it, in attributes too; what XML does not allow becomes a question
+/// mark.
+std::string escaped(const std::string& text);
+
+}  // namespace piblocks

@@ -1,0 +1,15 @@
+// The module's side of read_video().
+// In: a file. Out: its frames, decoded by libavcodec.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "media/frame_reader.hpp"
+
+namespace piblocks {
+
+/// @throws IoError, MediaError
+std::unique_ptr<FrameReader> decode_video_file(const std::string& path);
+
+}  // namespace piblocks

@@ -1,0 +1,174 @@
+// compare: what it says, its exit codes, and what it leaves behind.
+#include "cli/cli_fixture.hpp"
+
+namespace piblocks {
+namespace {
+namespace fs = std::filesystem;
+
+class CompareTest : public CliFixture {
+ protected:
+  /// A second of 12 frames, unless the options say otherwise.
+  void render(const std::string& output, const Arguments& more = {}) const {
+    Arguments arguments = Arguments{"render", "--quiet", "--size", "160x90", "-o", output} + more;
+    for (const auto& [option, value] : {std::pair{"--fps", "12"}, {"--to", "1"}}) {
+      if (std::ranges::find(more, option) != more.end()) continue;
+      arguments = arguments + Arguments{option, value};
+    }
+    output_of(arguments);
+  }
+  void still(const std::string& output, const std::string& instant) const {
+    output_of({"still", "--size", "160x90", "--at", instant, "-o", output});
+  }
+  CommandResult compare(const Arguments& arguments) const {
+    return piblocks(Arguments{"compare"} + arguments);
+  }
+  std::string verdict(const Arguments& arguments, int exit_code) const {
+    const CommandResult result = compare(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << result.out << result.err;
+    const auto said = lines(result.out);
+    return said.empty() ? std::string() : said.back();
+  }
+  std::string complaint(const Arguments& arguments, int exit_code) const {
+    const CommandResult result = compare(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << result.out;
+    EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
+    return result.err;
+  }
+};
+
+TEST_F(CompareTest, EveryKindEqualsItself) {
+  for (const std::string name : {"a.mp4", "a.y4m", "a.framehash"}) {
+    render(name);
+    EXPECT_EQ(verdict({name, name}, 0), "equal: 0 of 12 frames differ") << name;
+  }
+  render("f/%04d.png");
+  EXPECT_EQ(verdict({"f", "f/%04d.png"}, 0), "equal: 0 of 12 frames differ");
+  EXPECT_EQ(verdict({"f/0003.png", "f/0003.png"}, 0), "equal: 0 of 1 frames differ");
+}
+
+TEST_F(CompareTest, NamesTheFrameThatDiffers) {
+  render("a/%04d.png");
+  fs::copy(folder_ / "a", folder_ / "b");
+  still("b/0007.png", "0.51");
+  const CommandResult result = compare({"a", "b"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, "");
+  ASSERT_EQ(lines(result.out).size(), 2U) << result.out;
+  EXPECT_TRUE(result.out.starts_with("0007.png: ")) << result.out;
+  EXPECT_NE(result.out.find(" pixels differ, largest delta "), std::string::npos);
+  EXPECT_NE(result.out.find(", first at x="), std::string::npos);
+  EXPECT_NE(result.out.find(", densest 16x16 window at x="), std::string::npos);
+  EXPECT_TRUE(result.out.ends_with("different: 1 of 12 frames differ\n"));
+  EXPECT_EQ(verdict({"a", "b", "--max-delta", "255"}, 0),
+            "equal within tolerance: 1 of 12 frames differ, 0 beyond tolerance");
+  EXPECT_EQ(verdict({"a", "b", "--mask", "160x90+0+0"}, 0), "equal: 0 of 12 frames differ");
+  EXPECT_EQ(compare({"a", "b", "--quiet"}).out, "");
+}
+
+TEST_F(CompareTest, FindsAnotherVideoAndOtherHashes) {
+  render("a.mp4");
+  render("b.mp4", {"--from", "1/100"});
+  EXPECT_EQ(verdict({"a.mp4", "b.mp4"}, 1), "different: 12 of 12 frames differ");
+  EXPECT_NE(compare({"a.mp4", "b.mp4"}).out.find("frame 0: "), std::string::npos);
+  render("a.framehash");
+  render("b.framehash");
+  std::string text = contents("b.framehash");
+  text.replace(text.rfind(", ") + 2, 1, "x");
+  write("b.framehash", text);
+  const CommandResult result = compare({"a.framehash", "b.framehash"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, "frame 11: different hashes\ndifferent: 1 of 12 frames differ\n");
+}
+
+TEST_F(CompareTest, AVideoShowsItsPicturesWithinTolerance) {
+  render("a.mp4");
+  render("a/%04d.png");
+  EXPECT_EQ(compare({"a.mp4", "a"}).exit_code, 1);
+  EXPECT_EQ(verdict({"a.mp4", "a", "--max-delta", "100"}, 0),
+            "equal within tolerance: 12 of 12 frames differ, 0 beyond tolerance");
+  render("b/%04d.png", {"--digits", "2", "--from", "2", "--to", "3"});
+  EXPECT_EQ(compare({"a.mp4", "b", "--max-delta", "100"}).exit_code, 1);
+}
+
+TEST_F(CompareTest, FilesAreInTheOrderOfTheirNumbers) {
+  render("a/%d.png");
+  render("b/%06d.png");
+  EXPECT_EQ(verdict({"a", "b"}, 0), "equal: 0 of 12 frames differ");
+}
+
+TEST_F(CompareTest, ASizeOrACountThatDoesNotFitHasItsOwnCode) {
+  render("a/%04d.png");
+  render("b/%04d.png", {"--from", "1/2"});
+  render("c/%04d.png", {"--fps", "24"});
+  EXPECT_EQ(verdict({"a", "b"}, 4), "not comparable: 6 of 6 frames differ, 6 beyond tolerance");
+  const CommandResult result = compare({"a/0001.png", "a"});
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_TRUE(result.out.starts_with("mismatch: the reference has 1 frames, the other 12\n"));
+  output_of({"still", "--size", "158x90", "--at", "0", "-o", "small.png"});
+  EXPECT_TRUE(compare({"a/0001.png", "small.png"})
+                  .out.starts_with("mismatch: 0001.png is 160x90 in the reference, 158x90"));
+  EXPECT_EQ(compare({"a/0001.png", "small.png"}).exit_code, 4);
+}
+
+TEST_F(CompareTest, MissingAndUnreadableInputsHaveTheirOwnCodes) {
+  render("a/%04d.png");
+  write("no.png", "no picture");
+  write("no.mp4", "no video");
+  write("no.framehash", "no hashes");
+  EXPECT_EQ(complaint({"none.png", "a"}, 3),
+            "piblocks: compare: there is no reference 'none.png'\n");
+  EXPECT_EQ(complaint({"none/%d.png", "a"}, 3),
+            "piblocks: compare: there is no reference 'none/%d.png'\n");
+  EXPECT_NE(complaint({"a", "none.png"}, 5).find("cannot read 'none.png'"), std::string::npos);
+  EXPECT_NE(complaint({"a", "none/%d.png"}, 5).find("no file of 'none/%d.png'"), std::string::npos);
+  EXPECT_NE(complaint({"a/0001.png", "no.png"}, 5).find("cannot read 'no.png'"), std::string::npos);
+  EXPECT_NE(complaint({"a", "no.mp4"}, 5).find("cannot read 'no.mp4'"), std::string::npos);
+  EXPECT_NE(complaint({"no.framehash", "no.framehash"}, 5).find("line 1 is no hash"),
+            std::string::npos);
+  fs::create_directory(folder_ / "empty");
+  EXPECT_NE(complaint({"a", "empty"}, 5).find("no PNG file in 'empty'"), std::string::npos);
+}
+
+TEST_F(CompareTest, WrongUsageIsToldFromDifference) {
+  render("a/%04d.png");
+  render("a.framehash");
+  for (const Arguments& wrong :
+       {Arguments{"a"}, Arguments{"a", "a", "a"}, Arguments{"a", "a", "--max-delta", "256"},
+        Arguments{"a", "a", "--max-delta", "-1"}, Arguments{"a", "a", "--max-window", "16"},
+        Arguments{"a", "a", "--max-window", "0:3"}, Arguments{"a", "a", "--mask", "10x10"},
+        Arguments{"a", "a", "--mask", "0x10+1+1"}, Arguments{"a", "a", "--max-pixels", "many"},
+        Arguments{"a", "a.framehash"},
+        Arguments{"a.framehash", "a.framehash", "--max-delta", "1"}}) {
+    EXPECT_TRUE(complaint(wrong, 2).starts_with("piblocks: "));
+  }
+}
+
+TEST_F(CompareTest, LeavesPicturesAPageAndAListOfTests) {
+  render("a/%04d.png");
+  fs::copy(folder_ / "a", folder_ / "b");
+  still("b/0003.png", "0.2");
+  still("b/0007.png", "0.51");
+  const CommandResult result = compare({"a", "b", "--diff", "d/e", "--report", "r.html", "--junit",
+                                        "r.xml", "--mask", "1x1+0+0", "--mask", "1x1+1+1"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_TRUE(contents("d/e/000002.png").starts_with("\x89PNG"));
+  EXPECT_TRUE(contents("d/e/000006.png").starts_with("\x89PNG"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "d/e"), {}), 2);
+  const std::string page = contents("r.html");
+  EXPECT_NE(page.find("<h2>0003.png</h2>"), std::string::npos);
+  EXPECT_NE(page.find("data:image/png;base64,iVBOR"), std::string::npos);
+  EXPECT_EQ(page.find("http"), std::string::npos);
+  const std::string tests = contents("r.xml");
+  EXPECT_NE(tests.find("tests=\"12\" failures=\"2\""), std::string::npos);
+  EXPECT_NE(tests.find("name=\"0007.png\">\n      <failure message=\""), std::string::npos);
+}
+
+TEST_F(CompareTest, NoPicturesAreLeftOfWhatIsEqual) {
+  render("a/%04d.png");
+  EXPECT_EQ(compare({"a", "a", "--diff", "d", "--junit", "r.xml"}).exit_code, 0);
+  EXPECT_TRUE(fs::is_empty(folder_ / "d"));
+  EXPECT_NE(contents("r.xml").find("tests=\"12\" failures=\"0\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace piblocks

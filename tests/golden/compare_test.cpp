@@ -1,0 +1,179 @@
+// compare() against a comparison that looks at every window by itself.
+#include <gtest/gtest.h>
+#include <piblocks/canvas.hpp>
+#include <piblocks/compare.hpp>
+#include <piblocks/compose.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/instant.hpp>
+
+#include <cstdlib>
+
+#include "support/property.hpp"
+
+namespace piblocks {
+namespace {
+
+Image flat(int width_px, int height_px, std::uint32_t word) {
+  return {width_px, height_px,
+          std::vector<std::uint32_t>(std::size_t(width_px) * std::size_t(height_px), word)};
+}
+
+std::uint32_t& at(Image& image, int x, int y) {
+  return image.words.at(std::size_t(y) * std::size_t(image.width_px) + std::size_t(x));
+}
+
+Difference compared(const Image& a, const Image& b, const Tolerance& tolerance = {},
+                    const std::vector<PixelRect>& masks = {}) {
+  return compare(a.view(), b.view(), tolerance, masks);
+}
+
+TEST(Compare, EqualImagesAreEqual) {
+  const Image image = flat(7, 5, 0xff123456);
+  const Difference difference = compared(image, image);
+  EXPECT_TRUE(difference.is_equal());
+  EXPECT_TRUE(difference.is_accepted);
+  EXPECT_EQ(difference.densest_off, 0);
+}
+
+TEST(Compare, NamesThePlaceOfTheLeastChange) {
+  for (int channel = 0; channel < 4; ++channel) {
+    const Image reference = flat(40, 30, 0xff808080);
+    Image actual = reference;
+    constexpr std::array kShifts = {16, 8, 0, 24};
+    at(actual, 33, 21) -= 1U << kShifts.at(std::size_t(channel));
+    const Difference difference = compared(reference, actual);
+    EXPECT_EQ(difference.different_pixels, 1);
+    EXPECT_EQ(difference.off_pixels, 1);
+    EXPECT_EQ(difference.largest_delta, 1);
+    EXPECT_EQ(difference.first, (SamplePlace{33, 21, channel}));
+    EXPECT_EQ(difference.densest_off, 1);
+    EXPECT_EQ(difference.densest, (PixelRect{18, 6, 16, 16}));
+    EXPECT_FALSE(difference.is_accepted);
+  }
+}
+
+TEST(Compare, EveryBoundHasToHold) {
+  const Image reference = flat(50, 50, 0xff646464);
+  Image actual = reference;
+  for (int x = 0; x < 10; ++x) at(actual, x, 3) += 3;  // blue by 3
+  at(actual, 49, 49) += 9 << 16;                       // red by 9
+  const auto accepts = [&](const Tolerance& tolerance) {
+    return compared(reference, actual, tolerance).is_accepted;
+  };
+  EXPECT_FALSE(accepts({}));
+  EXPECT_FALSE(accepts({.max_delta = 8}));
+  EXPECT_TRUE(accepts({.max_delta = 9}));
+  EXPECT_FALSE(accepts({.max_delta = 2, .max_pixels = 10}));
+  EXPECT_TRUE(accepts({.max_delta = 2, .max_pixels = 11}));
+  EXPECT_TRUE(accepts({.max_delta = 3, .max_pixels = 1}));
+  EXPECT_FALSE(accepts({.max_delta = 3, .max_pixels = 1, .hard_delta = 8}));
+  EXPECT_TRUE(accepts({.max_delta = 3, .max_pixels = 1, .hard_delta = 9}));
+  EXPECT_FALSE(accepts({.max_delta = 2, .max_pixels = 99, .window = Window{8, 7}}));
+  EXPECT_TRUE(accepts({.max_delta = 2, .max_pixels = 99, .window = Window{8, 8}}));
+  EXPECT_FALSE(accepts({.max_delta = 2, .max_pixels = 10, .window = Window{8, 8}}));
+}
+
+TEST(Compare, DoesNotLookBehindMasks) {
+  const Image reference = flat(20, 20, 0xff000000);
+  Image actual = reference;
+  at(actual, 4, 4) = 0xffffffff;
+  at(actual, 10, 12) = 0xff000001;
+  EXPECT_EQ(compared(reference, actual, {}, {{4, 4, 1, 1}}).first, (SamplePlace{10, 12, 2}));
+  EXPECT_TRUE(compared(reference, actual, {}, {{0, 0, 5, 5}, {10, 0, 1, 20}}).is_equal());
+  EXPECT_TRUE(compared(reference, actual, {}, {{0, 0, 16384, 16384}}).is_equal());
+  EXPECT_FALSE(compared(reference, actual, {}, {{5, 4, 5, 16}}).is_equal());
+}
+
+TEST(Compare, RefusesWhatMakesNoSense) {
+  const Image a = flat(3, 4, 0);
+  EXPECT_THROW(compared(a, flat(4, 3, 0)), UsageError);
+  EXPECT_THROW(compared(a, a, {.max_delta = 256}), UsageError);
+  EXPECT_THROW(compared(a, a, {.max_pixels = -1}), UsageError);
+  EXPECT_THROW(compared(a, a, {.hard_delta = -1}), UsageError);
+  EXPECT_THROW(compared(a, a, {.window = Window{0, 0}}), UsageError);
+}
+
+/// Pixels that are off in a window, one by one.
+std::int64_t off_in(const Image& a, const Image& b, const PixelRect& window, int max_delta) {
+  std::int64_t count = 0;
+  for (int y = window.y_px; y < window.y_px + window.height_px; ++y) {
+    for (int x = window.x_px; x < window.x_px + window.width_px; ++x) {
+      const std::size_t i = std::size_t(y) * std::size_t(a.width_px) + std::size_t(x);
+      bool is_off = false;
+      for (const int shift : {0, 8, 16, 24}) {
+        const auto level = [&](const Image& image) {
+          return static_cast<int>((image.words[i] >> shift) & 0xff);
+        };
+        is_off |= std::abs(level(a) - level(b)) > max_delta;
+      }
+      count += is_off ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+TEST(Compare, FindsTheDensestWindow) {
+  Random random(21);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 300; ++i) {
+    Image a = flat(static_cast<int>(random.integer(1, 24)), static_cast<int>(random.integer(1, 24)),
+                   0xff404040);
+    Image b = a;
+    for (auto changes = random.integer(0, 30); changes > 0; --changes) {
+      const auto x = static_cast<int>(random.integer(0, a.width_px - 1));
+      const auto y = static_cast<int>(random.integer(0, a.height_px - 1));
+      at(b, x, y) += static_cast<std::uint32_t>(random.integer(0, 9)) << 8;
+    }
+    const int side = static_cast<int>(random.integer(1, 30));
+    const int max_delta = static_cast<int>(random.integer(0, 4));
+    const Difference found = compared(a, b, {.max_delta = max_delta, .window = Window{side, 0}});
+    const int width = std::min(side, a.width_px);
+    const int height = std::min(side, a.height_px);
+    std::int64_t most = 0;
+    for (int y = 0; y + height <= a.height_px; ++y) {
+      for (int x = 0; x + width <= a.width_px; ++x) {
+        most = std::max(most, off_in(a, b, {x, y, width, height}, max_delta));
+      }
+    }
+    ASSERT_EQ(found.densest_off, most);
+    ASSERT_EQ(off_in(a, b, found.densest, max_delta), most);
+    ASSERT_EQ(found.off_pixels, off_in(a, b, {0, 0, a.width_px, a.height_px}, max_delta));
+  }
+}
+
+Image painted(const Scene& scene, const BlockState& state) {
+  Canvas canvas(scene.view.width_px, scene.view.height_px);
+  canvas.paint(compose(scene, lay_out(scene, 314), state));
+  Image image{scene.view.width_px, scene.view.height_px, {}};
+  for (int y = 0; y < image.height_px; ++y) {
+    const auto* row = reinterpret_cast<const std::uint32_t*>(canvas.view().row(y));
+    image.words.insert(image.words.end(), row, row + image.width_px);
+  }
+  return image;
+}
+
+TEST(Compare, OneDigitOfACounterCannotHideInAFrameOf4K) {
+  Scene scene;
+  scene.view.width_px = 3840;
+  scene.view.height_px = 2160;
+  const auto log = make_collision_log(scene.system);
+  BlockState state = state_at(*log, LastCollision{}).state;
+  const Image right = painted(scene, state);
+  for (const int wrong : {313, 315, 304, 374, 214}) {
+    state.count = wrong;
+    const Image other = painted(scene, state);
+    const Difference exact = compared(right, other);
+    EXPECT_FALSE(exact.is_accepted) << wrong;
+    // A thousandth of the frame may be anything; no place of 16x16 may be wrong in half of it.
+    const Difference tolerant =
+        compared(right, other, {.max_delta = 64, .max_pixels = 8294, .window = Window{16, 128}});
+    EXPECT_LE(tolerant.off_pixels, 8294) << wrong;
+    EXPECT_FALSE(tolerant.is_accepted) << wrong;
+    // The count is in the upper half, right of its label.
+    EXPECT_LT(tolerant.densest.y_px, 1080);
+    EXPECT_GT(tolerant.densest.x_px, 1920);
+  }
+}
+
+}  // namespace
+}  // namespace piblocks
