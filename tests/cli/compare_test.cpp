@@ -73,7 +73,7 @@ TEST_F(CompareTest, FindsAnotherVideoAndOtherHashes) {
   render("a.framehash");
   render("b.framehash");
   std::string text = contents("b.framehash");
-  text.replace(text.rfind(", ") + 2, 1, "x");
+  text[text.rfind(", ") + 2] = 'x';
   write("b.framehash", text);
   const CommandResult result = compare({"a.framehash", "b.framehash"});
   EXPECT_EQ(result.exit_code, 1);
@@ -100,7 +100,7 @@ TEST_F(CompareTest, ASizeOrACountThatDoesNotFitHasItsOwnCode) {
   render("a/%04d.png");
   render("b/%04d.png", {"--from", "1/2"});
   render("c/%04d.png", {"--fps", "24"});
-  EXPECT_EQ(verdict({"a", "b"}, 4), "not comparable: 6 of 6 frames differ, 6 beyond tolerance");
+  EXPECT_EQ(verdict({"a", "b"}, 4), "not comparable: 6 of 6 frames differ");
   const CommandResult result = compare({"a/0001.png", "a"});
   EXPECT_EQ(result.exit_code, 4);
   EXPECT_TRUE(result.out.starts_with("mismatch: the reference has 1 frames, the other 12\n"));
