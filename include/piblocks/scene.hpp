@@ -44,10 +44,19 @@ struct TimeSpan {
   Rational speed = 1;  ///< simulation time per second of video, > 0
 };
 
+/// What is kept of a scene to compare later renderings with.
+struct Golden {
+  /// Instants as parse_instant() takes them, each kept as a picture; hashes are kept of all frames.
+  std::vector<std::string> frames = {"0", "last"};
+  /// Size of all of them; without it the view's, reduced to a longer side of 480 pixels.
+  std::optional<View> size = {};
+};
+
 struct Scene {
   BlockSystem system;
   View view;
   TimeSpan time;
+  Golden golden = {};
 };
 
 /// Collects a scene's values from a file and from options, remembering where each came from.

@@ -14,6 +14,7 @@ void add_log(CLI::App& app);
 void add_state(CLI::App& app);
 void add_count(CLI::App& app);
 void add_compare(CLI::App& app);
+void add_golden(CLI::App& app);
 void add_info(CLI::App& app);
 
 }  // namespace piblocks::cli

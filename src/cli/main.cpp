@@ -52,6 +52,7 @@ void add_commands(CLI::App& app) {
   cli::add_state(app);
   cli::add_count(app);
   cli::add_compare(app);
+  cli::add_golden(app);
   cli::add_info(app);
   app.set_version_flag("--version", version, "Print the version and exit");
   for (CLI::App* command : app.get_subcommands({})) {

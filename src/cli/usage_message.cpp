@@ -15,20 +15,33 @@ std::string command_names(const CLI::App& app) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::string without_command(const CLI::App& app) {
-  const std::vector<std::string> extras = app.remaining();
-  const std::string advice =
-      fmt::format("use one of {}; see 'piblocks --help'", command_names(app));
-  if (extras.empty()) return "no command: " + advice;
+/// "golden check", without the program's own name.
+std::string full_name(const CLI::App& command) {
+  const CLI::App* const parent = command.get_parent();
+  if (parent == nullptr) return {};
+  const std::string before = full_name(*parent);
+  return before.empty() ? command.get_name() : before + ' ' + command.get_name();
+}
+
+std::string help_of(const CLI::App& command) {
+  const std::string name = full_name(command);
+  return fmt::format("see 'piblocks {}--help'", name.empty() ? name : name + ' ');
+}
+
+/// @param extras  what nobody knew, if anything.
+std::string without_command(const CLI::App& app, const std::vector<std::string>& extras) {
+  const std::string name = full_name(app);
+  const std::string who = name.empty() ? name : name + ": ";
+  const std::string advice = fmt::format("use one of {}; {}", command_names(app), help_of(app));
+  if (extras.empty()) return fmt::format("{}no command: {}", who, advice);
   const char* what = extras.front().starts_with('-') ? "option" : "command";
-  return fmt::format("unknown {} '{}': {}", what, extras.front(), advice);
+  return fmt::format("{}unknown {} '{}': {}", who, what, extras.front(), advice);
 }
 
 std::string about_extra(const CLI::App& command, const std::string& extra) {
-  const std::string& name = command.get_name();
   const char* what =
       extra.starts_with('-') && extra.size() > 1 ? "unknown option" : "unexpected argument";
-  return fmt::format("{}: {} '{}'; see 'piblocks {} --help'", name, what, extra, name);
+  return fmt::format("{}: {} '{}'; {}", full_name(command), what, extra, help_of(command));
 }
 
 std::string about_missing(const CLI::App& command) {
@@ -38,8 +51,8 @@ std::string about_missing(const CLI::App& command) {
     missing.push_back(
         fmt::format("{} {}", option->get_name(false, true), option->get_option_text()));
   }
-  return fmt::format("{}: missing {}; see 'piblocks {} --help'", command.get_name(),
-                     fmt::join(missing, " and "), command.get_name());
+  return fmt::format("{}: missing {}; {}", full_name(command), fmt::join(missing, " and "),
+                     help_of(command));
 }
 
 /// An option without its value, or more than once. Only the exception's text knows which:
@@ -55,16 +68,14 @@ std::string about_count(const CLI::App& command, const std::string& text) {
 }  // namespace
 
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
-  if (app.get_subcommands().empty()) return without_command(app);
-  const CLI::App& command = *app.get_subcommands().front();
+  const CLI::App* last = &app;  // of the commands on the command line
+  while (!last->get_subcommands().empty()) last = last->get_subcommands().front();
+  const CLI::App& command = *last;
+  const std::vector<std::string> extras = app.remaining(true);
+  if (command.get_require_subcommand_min() > 0) return without_command(command, extras);
   if (error.get_name() == "ArgumentMismatch") return about_count(command, error.what());
   // A misspelt option is the likely reason why another one is missing.
-  if (const auto extras = command.remaining(); !extras.empty()) {
-    return about_extra(command, extras.front());
-  }
-  if (const auto extras = app.remaining(); !extras.empty()) {
-    return about_extra(command, extras.front());
-  }
+  if (!extras.empty()) return about_extra(command, extras.front());
   if (error.get_name() == "RequiredError") return about_missing(command);
   return error.what();
 }

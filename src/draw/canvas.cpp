@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <ft2build.h>
 #include <piblocks/canvas.hpp>
+#include <pixman.h>
 
 #include <algorithm>
 #include <cassert>
@@ -142,7 +143,8 @@ std::vector<std::string> draw_library_versions() {
     FT_Done_FreeType(library);
   }
   return {fmt::format("cairo {}", cairo_version_string()),
-          fmt::format("freetype {}.{}.{}", major, minor, patch)};
+          std::string("pixman ") + pixman_version_string(),
+          fmt::format("freetype {}.{}.{}", major, minor, patch), "font " PIBLOCKS_FONT_NAME};
 }
 
 }  // namespace piblocks

@@ -29,6 +29,7 @@ section.accepted h2::before { content: "\2713  "; color: #2e7d32; }
 p { margin: .3rem 0; }
 .controls { display: flex; gap: 1.5rem; flex-wrap: wrap; position: sticky; top: 0; z-index: 1;
   padding: .5rem 0; background: Canvas; }
+.sides { display: flex; justify-content: space-between; opacity: .7; }
 .pictures { position: relative; line-height: 0; border: 1px solid #8888; }
 .pictures img { width: 100%; }
 .pictures img + img { position: absolute; inset: 0; }
@@ -87,6 +88,7 @@ std::string pictures_of(const FrameComparison& frame) {
   const Image reference = frame.reference();
   const Image actual = frame.actual();
   return fmt::format(
+      "<div class=\"sides\"><span>expected</span><span>actual</span></div>"
       "<div class=\"pictures\">{}{}{}</div>"
       "<input type=\"range\" value=\"50\" aria-label=\"expected on the left, actual on the "
       "right\">\n",

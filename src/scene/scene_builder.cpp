@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
+#include <piblocks/instant.hpp>
 #include <piblocks/scene.hpp>
 
 #include <algorithm>
@@ -45,12 +46,28 @@ void set_size(View& view, const Values& values) {
   view.height_px = parse_side(sides[1]);
 }
 
+void set_golden_size(Golden& golden, const Values& values) {
+  golden.size = View{};
+  set_size(*golden.size, values);
+}
+
+void set_golden_frames(Golden& golden, const Values& values) {
+  for (const std::string& value : values) {
+    try {
+      parse_instant(value);
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("'{}' {}", value, error.what()));
+    }
+  }
+  golden.frames = values;
+}
+
 struct Key {
   const char* name;
   void (*set)(Scene& scene, const Values& values);
 };
 
-constexpr std::array<Key, 16> kKeys{{
+constexpr std::array<Key, 18> kKeys{{
     {"wall.face", [](Scene& s, const Values& v) { set_number(s.system.wall_face, v); }},
     {"blue.mass", [](Scene& s, const Values& v) { set_number(s.system.blue.mass, v); }},
     {"blue.position", [](Scene& s, const Values& v) { set_number(s.system.blue.position, v); }},
@@ -67,6 +84,8 @@ constexpr std::array<Key, 16> kKeys{{
     {"time.from", [](Scene& s, const Values& v) { set_number(s.time.from, v); }},
     {"time.to", [](Scene& s, const Values& v) { s.time.to = parse_end(single(v)); }},
     {"time.speed", [](Scene& s, const Values& v) { set_number(s.time.speed, v); }},
+    {"golden.frames", [](Scene& s, const Values& v) { set_golden_frames(s.golden, v); }},
+    {"golden.size", [](Scene& s, const Values& v) { set_golden_size(s.golden, v); }},
 }};
 
 std::string joined(const Values& values) {

@@ -37,7 +37,8 @@ INSTANTIATE_TEST_SUITE_P(
     Commands, BadInputTest,
     testing::Values(
         BadInput{{},
-                 "no command: use one of render, join, still, log, state, count, compare, info"},
+                 "no command: use one of render, join, still, log, state, count, compare, "
+                 "golden, info"},
         BadInput{{"frobnicate"}, "unknown command 'frobnicate'"},
         BadInput{{"-x"}, "unknown option '-x'"},
         BadInput{{"--digits", "3"}, "unknown option '--digits'"},
@@ -53,6 +54,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"join", ".", "-o", "a.mp4"}, "part: cannot open '.': Is a directory"},
         BadInput{{"join", "scene.toml", "-o", "a.mp4"},
                  "part: 'scene.toml' is no part file",
+                 "red.mass = 3"},
+        BadInput{{"golden"},
+                 "golden: no command: use one of record, check, approve; see 'piblocks "
+                 "golden --help'"},
+        BadInput{{"golden", "forget"}, "golden: unknown command 'forget': use one of record,"},
+        BadInput{{"golden", "check"},
+                 "golden check: missing SCENE ... and --dir DIR; see 'piblocks "
+                 "golden check --help'"},
+        BadInput{{"golden", "check", "--dri", "a"}, "golden check: unknown option '--dri'"},
+        BadInput{{"golden", "check", "--dir", "a", "none.toml"}, "cannot read 'none.toml'"},
+        BadInput{{"golden", "check", "--dir", "a", "scene.toml", "scene.toml"},
+                 "golden: two scenes have the name 'scene'",
                  "red.mass = 3"},
         BadInput{{"still"}, "still: missing --at S|last|#K and -o,--output OUT"},
         BadInput{{"still", "-o", "a.png"}, "still: missing --at S|last|#K;"},

@@ -14,7 +14,7 @@ set(draw_may core physics/collision_log physics/interpolator scene draw)
 # Sinks know pixels and packets, nothing of blocks.
 set(media_may core media)
 set(golden_may core media golden)
-set(render_may core physics scene draw media render)
+set(render_may core physics scene draw media golden render)
 set(cli_may ${layers})
 
 # The layer of each header in include/piblocks.
@@ -38,7 +38,7 @@ set(Eigen_form "Eigen/.+")
 set(Eigen_users physics)
 set(tomlplusplus_form "toml(\\.hpp|\\+\\+/.+)")
 set(tomlplusplus_users scene)
-set(Cairo_form "cairo.*\\.h")
+set(Cairo_form "(cairo.*|pixman)\\.h")
 set(Cairo_users draw)
 set(FreeType_form "ft2build\\.h|freetype/.+|FT_[A-Z_]+_H")
 set(FreeType_users draw)

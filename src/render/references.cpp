@@ -1,0 +1,100 @@
+#include "render/references.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/canvas.hpp>
+#include <piblocks/instant.hpp>
+#include <piblocks/render.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <utility>
+
+#include "core/output_file.hpp"
+
+namespace piblocks {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view kSoftware = "#software: ";
+
+/// An instant as a part of a file's name.
+std::string file_part(std::string instant) {
+  std::ranges::replace(instant, '/', '_');
+  if (instant.starts_with('#')) instant = "collision-" + instant.substr(1);
+  return instant;
+}
+
+View golden_view(const Scene& scene) {
+  View view = scene.view;
+  if (scene.golden.size) {
+    view.width_px = scene.golden.size->width_px;
+    view.height_px = scene.golden.size->height_px;
+    return view;
+  }
+  constexpr int kLongerSide_px = 480;
+  const double scale = double(kLongerSide_px) / std::max(view.width_px, view.height_px);
+  if (scale >= 1) return view;
+  view.width_px = std::max(1, static_cast<int>(view.width_px * scale));
+  view.height_px = std::max(1, static_cast<int>(view.height_px * scale));
+  return view;
+}
+
+std::string contents_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Where FFmpeg has this line: behind the name of the hash.
+void add_fingerprint(const fs::path& hashes) {
+  std::string text = contents_of(hashes);
+  const std::size_t line = text.find("#tb ");
+  text.insert(line, fmt::format("{}{}\n", kSoftware, painter_fingerprint()));
+  OutputFile file(hashes);
+  file.write(text);
+  file.finish();
+}
+
+}  // namespace
+
+std::string painter_fingerprint() {
+  return fmt::format("{}", fmt::join(draw_library_versions(), ", "));
+}
+
+References::References(const std::string& scene_path, fs::path folder)
+    : name_(fs::path(scene_path).stem()), folder_(std::move(folder)) {
+  SceneBuilder builder;
+  builder.read_file(scene_path);
+  scene_ = builder.build();
+  scene_.view = golden_view(scene_);
+}
+
+std::vector<std::string> References::files() const {
+  std::vector<std::string> files = {name_ + ".framehash"};
+  for (const std::string& instant : scene_.golden.frames) {
+    files.push_back(fmt::format("{}-{}.png", name_, file_part(instant)));
+  }
+  return files;
+}
+
+bool References::exist() const { return fs::exists(folder_ / files().front()); }
+
+std::string References::fingerprint() const {
+  std::ifstream file(folder_ / files().front());
+  for (std::string line; std::getline(file, line) && line.starts_with('#');) {
+    if (line.starts_with(kSoftware)) return line.substr(kSoftware.size());
+  }
+  return {};
+}
+
+void References::render_into(const fs::path& folder, int jobs, const std::stop_token& stop) const {
+  const std::vector<std::string> names = files();
+  const fs::path hashes = folder / names.front();
+  render(
+      {scene_, hashes, {}, jobs}, [](const Progress&) {}, stop);
+  add_fingerprint(hashes);
+  for (std::size_t i = 0; i < scene_.golden.frames.size(); ++i) {
+    render_still(scene_, parse_instant(scene_.golden.frames[i]), folder / names[i + 1], stop);
+  }
+}
+
+}  // namespace piblocks

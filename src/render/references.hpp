@@ -1,0 +1,45 @@
+// What a scene has to look like, kept in a folder.
+// In: a scene file. Out: NAME.framehash, a hash of every frame, and NAME-INSTANT.png, some
+// pictures; later, what a rendering has that differs from them.
+//
+// The hashes are a file as FFmpeg's framehash muxer writes it; its "#software" line tells what
+// painted the frames.
+#pragma once
+
+#include <piblocks/compare_files.hpp>
+#include <piblocks/scene.hpp>
+
+#include <filesystem>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace piblocks {
+
+/// What may change pixels, in one line: versions of the painter's libraries and of the font.
+std::string painter_fingerprint();
+
+/// The references of one scene.
+class References {
+ public:
+  /// @throws SceneError if the scene file is no good.
+  References(const std::string& scene_path, std::filesystem::path folder);
+
+  const std::string& name() const noexcept { return name_; }
+  /// The files of the references, without the folder; hashes first.
+  std::vector<std::string> files() const;
+  bool exist() const;
+  /// What painted the references; empty if they do not say.
+  std::string fingerprint() const;
+
+  /// Renders all of them into another folder, which is to be empty.
+  void render_into(const std::filesystem::path& folder, int jobs,
+                   const std::stop_token& stop) const;
+
+ private:
+  std::string name_;
+  std::filesystem::path folder_;
+  Scene scene_;
+};
+
+}  // namespace piblocks

@@ -1,0 +1,95 @@
+// golden: references are recorded, held to, and replaced only by approval.
+#include "cli/cli_fixture.hpp"
+
+namespace piblocks {
+namespace {
+namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
+
+class GoldenTest : public CliFixture {
+ protected:
+  void SetUp() override {
+    write("scene.toml",
+          "[red]\nmass = 100\n[view]\nfps = 4\n[golden]\nsize = [160, 90]\n"
+          "frames = [0, \"last\", \"#7\", \"7/2\"]\n");
+  }
+  CommandResult golden(const char* action, const Arguments& more = {}) const {
+    return piblocks(Arguments{"golden", action, "scene.toml", "--dir", "refs"} + more);
+  }
+  void expect(const CommandResult& result, int exit_code, const std::string& last_line) const {
+    EXPECT_EQ(result.exit_code, exit_code) << result.out << result.err;
+    ASSERT_FALSE(lines(result.out).empty()) << result.err;
+    EXPECT_EQ(lines(result.out).back(), last_line) << result.out;
+  }
+  Names references() const {
+    Names names;
+    for (const auto& entry : fs::directory_iterator(folder_ / "refs")) {
+      names.push_back(entry.path().filename());
+    }
+    std::ranges::sort(names);
+    return names;
+  }
+  void make_red_heavier() const {
+    std::string text = contents("scene.toml");
+    text.replace(text.find("mass = 100"), 10, "mass = 101");
+    write("scene.toml", text);
+  }
+};
+
+TEST_F(GoldenTest, KeepsHashesAndTheNamedPictures) {
+  expect(golden("record"), 0, "scene: recorded");
+  EXPECT_EQ(references(), (Names{"scene-0.png", "scene-7_2.png", "scene-collision-7.png",
+                                 "scene-last.png", "scene.framehash"}));
+  EXPECT_NE(contents("refs/scene.framehash").find("#software: cairo 1."), std::string::npos);
+  EXPECT_NE(contents("refs/scene.framehash").find("#dimensions 0: 160x90"), std::string::npos);
+  expect(golden("check"), 0, "scene: equal");
+}
+
+TEST_F(GoldenTest, FindsWhatHasChangedAndChangesNothing) {
+  golden("record");
+  const std::string hashes = contents("refs/scene.framehash");
+  make_red_heavier();
+  const CommandResult result = golden("check", {"--diff", "d"});
+  expect(result, 1, "scene: different");
+  EXPECT_NE(result.out.find("scene.framehash: frame "), std::string::npos);
+  EXPECT_NE(result.out.find("scene-last.png: scene-last.png: "), std::string::npos);
+  EXPECT_EQ(contents("refs/scene.framehash"), hashes);
+  EXPECT_TRUE(contents("d/scene-last/000000.png").starts_with("\x89PNG"));
+}
+
+TEST_F(GoldenTest, ReplacesReferencesByApprovalOnly) {
+  golden("record");
+  make_red_heavier();
+  const CommandResult again = golden("record");
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.err.find("golden approve"), std::string::npos);
+  const CommandResult approved = golden("approve");
+  expect(approved, 0, "scene: replaced");
+  EXPECT_NE(approved.out.find("scene-last.png: "), std::string::npos);
+  expect(golden("check"), 0, "scene: equal");
+  expect(golden("approve"), 0, "scene: equal");
+  EXPECT_EQ(references().size(), 5U);
+}
+
+TEST_F(GoldenTest, MissesReferencesWithACodeOfItsOwn) {
+  const CommandResult none = golden("check");
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_NE(none.err.find("there is no reference 'refs/scene.framehash'"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "refs"));
+  golden("record");
+  fs::remove(folder_ / "refs/scene-last.png");
+  EXPECT_EQ(golden("check").exit_code, 3);
+}
+
+TEST_F(GoldenTest, SaysWhatElsePaintedTheReferences) {
+  golden("record");
+  std::string text = contents("refs/scene.framehash");
+  text.replace(text.find("cairo 1."), 8, "cairo 9.");
+  write("refs/scene.framehash", text);
+  const CommandResult result = golden("check");
+  expect(result, 0, "scene: equal");
+  EXPECT_NE(result.out.find("scene: the references were painted by cairo 9."), std::string::npos);
+}
+
+}  // namespace
+}  // namespace piblocks
