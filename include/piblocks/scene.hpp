@@ -59,6 +59,9 @@ struct Scene {
   Golden golden = {};
 };
 
+/// Longest scene file that is read.
+inline constexpr std::size_t kMaxSceneFile_bytes = 1 << 20;
+
 /// Collects a scene's values from a file and from options, remembering where each came from.
 /// The keys are those of the scene file: "wall.face"; "blue." and "red." with "mass",
 /// "position", "velocity", "width"; "view.x", "view.y", "view.size", "view.fps"; "time.from",

@@ -29,6 +29,7 @@ void run() {
   for (const std::string& encoder : encoders) out.format_line("  {}", encoder);
   if (encoders.empty()) out.line("  none: MP4 cannot be written");
   out.line("limits:");
+  out.format_line("  scene file: {} bytes", kMaxSceneFile_bytes);
   out.format_line("  digits: {}", kMaxDigits);
   out.format_line("  frame: {} pixels a side, {} in all", kMaxSide_px, kMaxFrame_px);
   out.format_line("  frames per second: {}", kMaxFrameRate);

@@ -7,9 +7,6 @@
 
 namespace piblocks {
 
-/// Longest scene file that is read.
-inline constexpr std::size_t kMaxSceneFile_bytes = 1 << 20;
-
 struct TomlEntry {
   std::string key;                  ///< "red.mass"
   std::vector<std::string> values;  ///< numbers as their shortest decimal text
