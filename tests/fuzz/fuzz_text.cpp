@@ -33,7 +33,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text(reinterpret_cast<const char*>(data), size);
   try_to([&] {
     const Rational number = parse_rational(text);
-    if (parse_rational(number.get_str()) != number) std::abort();
+    constexpr std::size_t kLong = 10'000;  // bits; printing millions takes its time
+    const bool is_short = mpz_sizeinbase(number.get_num_mpz_t(), 2) < kLong &&
+                          mpz_sizeinbase(number.get_den_mpz_t(), 2) < kLong;
+    if (is_short && parse_rational(number.get_str()) != number) std::abort();
   });
   try_to([&] { parse_instant(text); });
   try_to([&] { parse_end(text); });
