@@ -31,7 +31,7 @@ inline std::string name_of(const testing::TestParamInfo<OutputKind>& test) {
 
 inline Arguments small_render(const Arguments& output) {
   return Arguments{"render", "--quiet", "--size", "160x90", "--fps",
-                   "25",     "--to",    "2",      "--jobs", "2"} +
+                   "12",     "--to",    "2",      "--jobs", "2"} +
          output;
 }
 

@@ -59,8 +59,14 @@ TEST_P(EveryKindTest, OnAFullDiskFailsAndLeavesWhatWasThere) {
   put_old_files(complete);
   EXPECT_EQ(run(GetParam().arguments).exit_code, 0);
   EXPECT_TRUE(files() == complete);
-  RecordProperty("sizes", tried);
+  fmt::print("{} sizes were too small\n", tried);
 }
+/// Large enough for the disk to be full in the header, between frames, or at the index.
+const OutputKind kLongMp4{
+    "LongMp4",
+    {"render", "--quiet", "--size", "640x360", "--crf", "0", "--to", "2", "-o", "a.mp4"}};
+const OutputKind kLongLog{"LongLog", {"log", "--digits", "4", "-o", "a.csv"}};
+INSTANTIATE_TEST_SUITE_P(FullDiskLong, EveryKindTest, testing::Values(kLongMp4, kLongLog), name_of);
 INSTANTIATE_TEST_SUITE_P(FullDisk, EveryKindTest, testing::ValuesIn(every_kind()), name_of);
 
 }  // namespace
