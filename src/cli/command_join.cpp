@@ -3,6 +3,7 @@
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "cli/refuse_terminal.hpp"
+#include "cli/say.hpp"
 #include "cli/stop_on_signals.hpp"
 
 namespace piblocks::cli {
@@ -21,8 +22,8 @@ void run(const JoinOptions& options) {
   const std::string output = *text_of(*options.output);
   const std::int64_t frames = join(parts, output, signals.token());
   if (options.quiet->count() > 0) return;
-  fmt::print(stderr, "{}: {} {} from {} {}\n", output == "-" ? "standard output" : output, frames,
-             frames == 1 ? "frame" : "frames", parts.size(), parts.size() == 1 ? "part" : "parts");
+  say("{}: {} {} from {} {}\n", output == "-" ? "standard output" : output, frames,
+      frames == 1 ? "frame" : "frames", parts.size(), parts.size() == 1 ? "part" : "parts");
 }
 
 }  // namespace

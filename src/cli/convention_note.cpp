@@ -1,18 +1,15 @@
 #include "cli/convention_note.hpp"
 
-#include <fmt/format.h>
 #include <piblocks/collision_log.hpp>
 
-#include <cstdio>
+#include "cli/say.hpp"
 
 namespace piblocks::cli {
 
 void note_convention(const BlockSystem& system) {
   const auto corner = corner_of(system);
   if (!corner) return;
-  fmt::print(
-      stderr,
-      "piblocks: note: all collisions happen at once, at t = {}, when blue touches both wall "
+  say("piblocks: note: all collisions happen at once, at t = {}, when blue touches both wall "
       "and red: by convention {}, which makes {} ({} first: {})\n",
       to_text(corner->time),
       corner->blocks_first ? "the blocks meet first" : "blue meets the wall first",

@@ -1,10 +1,11 @@
 // The command line: options in, exit code out. 0 done, 1 failed, 2 wrong usage.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/version.hpp>
+#include <unistd.h>
 
 #include <csignal>
-#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <new>
@@ -12,7 +13,9 @@
 #include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/help_formatter.hpp"
+#include "cli/say.hpp"
 #include "cli/usage_message.hpp"
+#include "core/gmp_memory.hpp"
 
 namespace {
 
@@ -20,7 +23,7 @@ constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
 
 int fail(const char* message, int exit_code) {
-  fmt::print(stderr, "piblocks: {}\n", message);
+  piblocks::cli::say("piblocks: {}\n", message);
   return exit_code;
 }
 
@@ -28,6 +31,9 @@ int fail(const piblocks::UsageError& error) {
   for (const std::string& problem : error.problems()) fail(problem.c_str(), kWrongUsage);
   return kWrongUsage;
 }
+
+/// Where nothing can be passed on: below GMP, or out of a destructor.
+[[noreturn]] void end_without_memory() { _exit(fail("out of memory", kFailed)); }
 
 /// What CLI11 throws when it stops early: --help and --version, or an error.
 int finish(const CLI::App& app, const CLI::ParseError& error) {
@@ -74,6 +80,32 @@ int run(int argc, char** argv) {
     return 0;
   } catch (const CLI::ParseError& error) {
     return finish(app, error);
+  }
+}
+
+/// A file that is opened takes the lowest free number: were a standard stream closed, it could take
+/// the stream's, and messages would end up in a video. Reading only, so that writing still fails.
+void fill_closed_streams() {
+  int opened = 0;
+  while (opened >= 0 && opened <= STDERR_FILENO) opened = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  ::close(opened);
+}
+
+/// So that a failed write is an error with a message, and does not end the process.
+void ignore_signals_of_writing() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file longer than ulimit -f allows
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  fill_closed_streams();
+  ignore_signals_of_writing();
+  piblocks::end_when_gmp_has_no_memory(end_without_memory);
+  std::set_terminate(end_without_memory);
+  try {
+    return run(argc, argv);
   } catch (const piblocks::UsageError& error) {
     return fail(error);
   } catch (const piblocks::cli::ExitCode& exit) {
@@ -82,16 +114,5 @@ int run(int argc, char** argv) {
     return fail("out of memory", kFailed);
   } catch (const std::exception& error) {
     return fail(error.what(), kFailed);
-  }
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a failed write, with a message
-  try {
-    return run(argc, argv);
-  } catch (...) {  // not even a message can be written
-    return kFailed;
   }
 }

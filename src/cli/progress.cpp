@@ -4,9 +4,10 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 #include <utility>
+
+#include "cli/say.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -31,7 +32,7 @@ ProgressReport::ProgressReport(std::string output, bool quiet)
     : output_(std::move(output)), quiet_(quiet), on_terminal_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressReport::~ProgressReport() {
-  if (bar_visible_) fmt::print(stderr, "{}", kClearLine);
+  if (bar_visible_) say("{}", kClearLine);
 }
 
 double ProgressReport::elapsed_s() const {
@@ -58,26 +59,26 @@ void ProgressReport::draw_bar() const {
   const bool is_done = progress_.frames_done == progress_.frame_count;
   const double share = is_done ? 1 : double(progress_.frames_done) / double(progress_.frame_count);
   const int filled = static_cast<int>(share * kWidth);
-  fmt::print(stderr, "{}[{:=<{}}{: <{}}] {:3.0f} %", kClearLine, "", filled, "", kWidth - filled,
-             std::floor(100 * share));
+  say("{}[{:=<{}}{: <{}}] {:3.0f} %", kClearLine, "", filled, "", kWidth - filled,
+      std::floor(100 * share));
   if (progress_.frames_done == 0) return;  // no rate to judge by yet
   const double rate = double(progress_.frames_done) / elapsed_s();
   const double left_s = double(progress_.frame_count - progress_.frames_done) / rate;
-  fmt::print(stderr, "  {:.0f} frames/s  {} left", rate, minutes_and_seconds(left_s));
+  say("  {:.0f} frames/s  {} left", rate, minutes_and_seconds(left_s));
 }
 
 void ProgressReport::print_line() const {
-  fmt::print(stderr, "{} of {} frames, {:.0f} frames/s\n", progress_.frames_done,
-             progress_.frame_count, double(progress_.frames_done) / elapsed_s());
+  say("{} of {} frames, {:.0f} frames/s\n", progress_.frames_done, progress_.frame_count,
+      double(progress_.frames_done) / elapsed_s());
 }
 
 void ProgressReport::finish() {
   if (quiet_) return;
-  if (std::exchange(bar_visible_, false)) fmt::print(stderr, "{}", kClearLine);
+  if (std::exchange(bar_visible_, false)) say("{}", kClearLine);
   const double duration_s = elapsed_s();
-  fmt::print(stderr, "{}: {} {} in {:.2f} s ({:.0f} frames/s)\n", subject(output_),
-             progress_.frame_count, progress_.frame_count == 1 ? "frame" : "frames", duration_s,
-             double(progress_.frame_count) / duration_s);
+  say("{}: {} {} in {:.2f} s ({:.0f} frames/s)\n", subject(output_), progress_.frame_count,
+      progress_.frame_count == 1 ? "frame" : "frames", duration_s,
+      double(progress_.frame_count) / duration_s);
 }
 
 }  // namespace piblocks::cli

@@ -5,10 +5,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/descriptor.hpp"
+#include "core/unfinished.hpp"
 
 namespace piblocks {
 
@@ -28,18 +32,15 @@ class MadeFolders {
   std::vector<std::filesystem::path> made_;  // outermost first
 };
 
-/// A reserved temporary name beside `final_path`, in the same folder and so on the same device.
-/// Destroying it before commit() removes the file.
+/// A file that is written under a temporary name beside `final_path`. Destroying it before commit()
+/// removes the file.
 class TemporaryFile {
  public:
   /// Makes an empty file that only this process knows; makes missing folders.
   /// @throws UsageError if final_path is a folder or a device, or cannot be written there.
   explicit TemporaryFile(std::filesystem::path final_path);
-  ~TemporaryFile();
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  const std::filesystem::path& path() const noexcept { return path_; }
+  std::filesystem::path path() const { return file_->path(); }
   /// Syncs the file to its device and renames it to its final name.
   /// @throws IoError if either fails.
   void commit();
@@ -47,27 +48,24 @@ class TemporaryFile {
  private:
   std::filesystem::path final_path_;
   MadeFolders folders_;
-  std::filesystem::path path_;
+  std::optional<Unfinished> file_;
 };
 
 /// Bytes to a file (through a TemporaryFile) or, for the name "-", to standard output.
 class OutputFile {
  public:
   explicit OutputFile(const std::string& name);
-  ~OutputFile();
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
 
   /// @throws IoError on a full disk, a closed pipe and the like.
   void write(std::span<const std::uint8_t> bytes);
   void write(std::string_view text);
-  /// Flushes, closes and renames. @throws IoError
+  /// Closes, syncs and renames. @throws IoError
   void finish();
 
  private:
   std::string name_;
   std::unique_ptr<TemporaryFile> temporary_;  // none for standard output
-  int descriptor_ = -1;
+  Descriptor descriptor_;
 };
 
 }  // namespace piblocks

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <new>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -22,9 +23,14 @@ namespace {
 using MakeSurface = cairo_surface_t* (*)(cairo_write_func_t write, void* bytes, double width,
                                          double height);
 
+/// Called by Cairo, which no exception may pass through.
 cairo_status_t append_bytes(void* target, const unsigned char* data, unsigned int length) {
   auto& bytes = *static_cast<std::vector<std::uint8_t>*>(target);
-  bytes.insert(bytes.end(), data, data + length);
+  try {
+    bytes.insert(bytes.end(), data, data + length);
+  } catch (const std::bad_alloc&) {
+    return CAIRO_STATUS_NO_MEMORY;
+  }
   return CAIRO_STATUS_SUCCESS;
 }
 

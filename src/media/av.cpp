@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <new>
 
 extern "C" {
 #include <libavutil/log.h>
@@ -29,6 +30,7 @@ std::string av_error_text(int code) {
 
 int check_av(int code, std::string_view operation, std::string_view object) {
   if (code >= 0) return code;
+  if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
   const std::string message =
       fmt::format("video: cannot {} '{}': {}", operation, object, av_error_text(code));
   if (is_io_failure(code)) throw IoError(message);

@@ -44,12 +44,13 @@ std::string av_error_text(int code);
 
 /// Passes on what a call into libav returned.
 /// @param operation what was being done, such as "open encoder"; `object` what it was done to.
-/// @throws IoError if the code is the system's (disk full, pipe closed), MediaError if it is
-///         another error.
+/// @throws IoError if the code is the system's (disk full, pipe closed), std::bad_alloc if memory
+/// ran
+///         out, MediaError if it is another error.
 int check_av(int code, std::string_view operation, std::string_view object);
 
 /// Owns what an allocating call returned.
-/// @throws MediaError if that is null, which libav returns when memory runs out.
+/// @throws std::bad_alloc if that is null, which libav returns when memory runs out.
 template <typename Owner>
 Owner own_av(typename Owner::pointer object, std::string_view name) {
   if (object == nullptr) check_av(AVERROR(ENOMEM), "allocate", name);

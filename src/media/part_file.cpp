@@ -112,6 +112,7 @@ std::optional<std::string> PartReader::read_line(std::size_t max_bytes) {
   std::string line;
   while (left_bytes_ > 0 && line.size() <= max_bytes) {
     const int byte = file_.get();
+    if (!file_) fail_to_read();
     --left_bytes_;
     if (byte == '\n') return line;
     line.push_back(static_cast<char>(byte));
@@ -144,9 +145,14 @@ Bytes PartReader::read(std::uint64_t count) {
   if (count > left_bytes_) fail_damaged();
   Bytes bytes(count);
   file_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
-  if (!file_) fail_damaged();
+  if (!file_) fail_to_read();
   left_bytes_ -= count;
   return bytes;
+}
+
+void PartReader::fail_to_read() const {
+  const std::string reason = std::generic_category().message(errno);
+  throw IoError(fmt::format("part: cannot read '{}': {}", path_, reason));
 }
 
 void PartReader::fail_damaged() const {

@@ -41,6 +41,7 @@ class PartReader {
   /// A line without its end; nothing if it is longer or the file ends in it.
   std::optional<std::string> read_line(std::size_t max_bytes);
   std::vector<std::uint8_t> read(std::uint64_t count);
+  [[noreturn]] void fail_to_read() const;
   [[noreturn]] void fail_damaged() const;
 
   std::string path_;

@@ -1,17 +1,21 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
+#include "core/descriptor.hpp"
 #include "core/output_file.hpp"
+#include "core/unfinished.hpp"
 #include "media/frame_pattern.hpp"
 #include "media/intra_encoder.hpp"
 #include "media/output_kinds.hpp"
@@ -31,41 +35,12 @@ constexpr std::int64_t kFirstNumber = 1;
                             std::generic_category().message(error_number)));
 }
 
-/// A new folder inside `parent`, and so on the same device.
-fs::path make_folder_in(const fs::path& parent) {
-  std::string name = parent / "frames.part-XXXXXX";
-  if (::mkdtemp(name.data()) != nullptr) return name;
-  throw UsageError(fmt::format("output: cannot write into '{}': {}", parent.string(),
-                               std::generic_category().message(errno)));
-}
-
-/// Owns an open file and closes it when an exception passes.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const noexcept { return number_; }
-  int close() noexcept { return ::close(std::exchange(number_, -1)); }
-
- private:
-  int number_;
-};
-
 /// Writes a whole new file; not yet synced to its device.
 void write_file(const fs::path& path, std::span<const std::uint8_t> bytes) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  if (file.get() < 0) fail("make", path, errno);
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file.get(), bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail("write", path, errno);
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-  }
-  if (file.close() != 0) fail("close", path, errno);
+  if (!file.is_open()) fail("make", path, errno);
+  if (const int error = file.write(bytes)) fail("write", path, error);
+  if (const int error = file.close()) fail("close", path, error);
 }
 
 class PngFrameEncoder final : public IntraEncoder {
@@ -89,10 +64,7 @@ class PngSequence final : public FrameSink {
       : pattern_(std::move(pattern)),
         folder_(pattern_.folder().empty() ? "." : pattern_.folder()),
         made_folders_(folder_),
-        temporary_(make_folder_in(folder_)) {}
-  ~PngSequence() override;
-  PngSequence(const PngSequence&) = delete;
-  PngSequence& operator=(const PngSequence&) = delete;
+        temporary_(folder_ / "frames", Unfinished::Kind::folder) {}
 
   void append(const EncodedChunk& chunk) override;
   void finish() override;
@@ -100,26 +72,20 @@ class PngSequence final : public FrameSink {
  private:
   void sync() const;
   void check_destinations() const;
-  void move_into_place();
-
+  void move_into_place() const;
   FramePattern pattern_;
   fs::path folder_;
   MadeFolders made_folders_;
-  fs::path temporary_;  // holds the files until they take their names; empty afterwards
+  Unfinished temporary_;  // holds the files until they take their names
   FrameCounter counter_;
-  std::int64_t files_ = 0;
+  std::vector<std::string> names_;
 };
-
-PngSequence::~PngSequence() {
-  std::error_code ignored;
-  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
-}
 
 void PngSequence::append(const EncodedChunk& chunk) {
   counter_.take(chunk);
   for (const Packet& packet : chunk) {
-    write_file(temporary_ / pattern_.name(kFirstNumber + packet.pts), packet.bytes);
-    ++files_;
+    names_.push_back(pattern_.name(kFirstNumber + packet.pts));
+    write_file(temporary_.path() / names_.back(), packet.bytes);
   }
 }
 
@@ -127,39 +93,73 @@ void PngSequence::finish() {
   sync();
   check_destinations();
   move_into_place();
-  std::error_code error;
-  fs::remove(temporary_, error);
-  if (error) fail("remove", temporary_, error.value());
-  temporary_.clear();
   made_folders_.keep();
+  std::error_code error;
+  fs::remove_all(temporary_.path(), error);
+  if (error) fail("remove", temporary_.path(), error.value());
+  temporary_.release();
+  sync_folder(folder_);
 }
 
 /// One call for the whole file system: a sync for each of thousands of files takes far longer.
 void PngSequence::sync() const {
-  const Descriptor folder(::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (folder.get() < 0) fail("open", temporary_, errno);
-  if (::syncfs(folder.get()) != 0) fail("sync", temporary_, errno);
+  if (::syncfs(temporary_.descriptor()) != 0) fail("sync", temporary_.path(), errno);
 }
 
 /// Finds what renaming would fail on before the first file is renamed.
 void PngSequence::check_destinations() const {
-  for (std::int64_t i = 0; i < files_; ++i) {
-    const fs::path to = folder_ / pattern_.name(kFirstNumber + i);
+  for (const std::string& name : names_) {
+    const fs::path to = folder_ / name;
     std::error_code none;
     if (fs::is_directory(fs::symlink_status(to, none))) fail("replace", to, EISDIR);
   }
 }
 
-void PngSequence::move_into_place() {
-  for (std::int64_t i = 0; i < files_; ++i) {
-    const std::string name = pattern_.name(kFirstNumber + i);
-    if (::rename((temporary_ / name).c_str(), (folder_ / name).c_str()) == 0) continue;
-    const int error_number = errno;
-    std::error_code ignored;
-    for (std::int64_t j = 0; j < i; ++j) {
-      fs::remove(folder_ / pattern_.name(kFirstNumber + j), ignored);
-    }
-    fail("rename", folder_ / name, error_number);
+/// All files take their names, or none does. What else has a name waits among the old ones until
+/// all are done. Needs no new memory once it has begun.
+class Renaming {
+ public:
+  Renaming(const fs::path& from, const fs::path& to, const fs::path& old)
+      : from_(open_folder(from)), to_(open_folder(to)), old_(open_folder(old)) {}
+
+  /// @return 0, or an errno, and the name is as it was.
+  int place(const char* name) const noexcept {
+    if (move(to_, old_, name) != 0 && errno != ENOENT) return errno;
+    if (move(from_, to_, name) == 0) return 0;
+    const int error = errno;
+    move(old_, to_, name);
+    return error;
+  }
+  void take_back(const char* name) const noexcept {
+    move(to_, from_, name);
+    move(old_, to_, name);
+  }
+
+ private:
+  /// For naming files in it only: that needs no right to read it.
+  static Descriptor open_folder(const fs::path& path) {
+    Descriptor folder(::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+    if (!folder.is_open()) fail("open", path, errno);
+    return folder;
+  }
+  static int move(const Descriptor& from, const Descriptor& to, const char* name) noexcept {
+    return ::renameat(from.get(), name, to.get(), name);
+  }
+
+  Descriptor from_;
+  Descriptor to_;
+  Descriptor old_;
+};
+
+void PngSequence::move_into_place() const {
+  const fs::path old = temporary_.path() / "old";
+  if (::mkdir(old.c_str(), 0777) != 0) fail("make", old, errno);
+  const Renaming renaming(temporary_.path(), folder_, old);
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    const int error = renaming.place(names_[i].c_str());
+    if (error == 0) continue;
+    for (std::size_t j = 0; j < i; ++j) renaming.take_back(names_[j].c_str());
+    fail("rename to", folder_ / names_[i], error);
   }
 }
 

@@ -185,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"render", "-o", "a.png"}, "cannot use 'a.png': an image sequence needs a number"},
         BadInput{{"render", "-o", "%d%d.png"}, "two number fields"},
         BadInput{{"render", "-o", "/proc/a.mp4"}, "cannot open '/proc/a.mp4'"},
-        BadInput{{"render", "-o", "/proc/%d.png"}, "cannot write into '/proc/'"},
+        BadInput{{"render", "-o", "/proc/%d.png"}, "cannot write into '/proc'"},
         BadInput{{"render", "-o", "/dev/null/a.y4m"}, "'/dev/null/a.y4m': Not a directory"},
         BadInput{{"still", "--at", "1", "-o", "a.jpg"}, "'a.jpg' has no known ending"},
         BadInput{{"still", "--at", "1", "-o", "/proc/a.png"}, "cannot open '/proc/a.png'"},

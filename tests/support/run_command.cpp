@@ -47,6 +47,14 @@ void check_spawn(int error, const char* call) {
   if (error != 0) throw std::system_error(error, std::generic_category(), call);
 }
 
+/// Ends with a null pointer, as exec() wants it.
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
 pid_t spawn(const std::vector<std::string>& arguments, const CommandOptions& options, int out,
             int err) {
   posix_spawn_file_actions_t actions;
@@ -62,14 +70,19 @@ pid_t spawn(const std::vector<std::string>& arguments, const CommandOptions& opt
                                      O_WRONLY | O_CREAT | O_TRUNC, 0666);
   }
   posix_spawn_file_actions_adddup2(&actions, err, STDERR_FILENO);
+  for (const int descriptor : options.closed) {
+    posix_spawn_file_actions_addclose(&actions, descriptor);
+  }
 
   std::vector<std::string> words{PIBLOCKS_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
+  std::vector<std::string> environment = options.environment;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    environment.emplace_back(*variable);
+  }
   pid_t pid = -1;
-  const int error = posix_spawn(&pid, PIBLOCKS_PROGRAM, &actions, nullptr, argv.data(), environ);
+  const int error = posix_spawn(&pid, PIBLOCKS_PROGRAM, &actions, nullptr, pointers(words).data(),
+                                pointers(environment).data());
   posix_spawn_file_actions_destroy(&actions);
   check_spawn(error, "posix_spawn");
   return pid;
@@ -114,10 +127,14 @@ RunningCommand::~RunningCommand() {
 
 void RunningCommand::send(int signal) const { check(::kill(pid_, signal) == 0, "kill"); }
 
-bool RunningCommand::has_ended() const {
+bool RunningCommand::has_ended() const { return is_in_state(WEXITED); }
+
+bool RunningCommand::has_stopped() const { return is_in_state(WSTOPPED); }
+
+bool RunningCommand::is_in_state(int state) const {
   siginfo_t info{};
   const auto id = static_cast<id_t>(pid_);
-  check(::waitid(P_PID, id, &info, WEXITED | WNOHANG | WNOWAIT) == 0, "waitid");
+  check(::waitid(P_PID, id, &info, state | WNOHANG | WNOWAIT) == 0, "waitid");
   return info.si_pid == pid_;
 }
 
@@ -126,6 +143,8 @@ void RunningCommand::close_output_after_one_byte() {
   check(::read(out_, &byte, 1) == 1, "read");
   close_once(out_);
 }
+
+void RunningCommand::close_errors() { close_once(err_); }
 
 void RunningCommand::read_streams(CommandResult& result,
                                   std::chrono::steady_clock::time_point deadline) {

@@ -15,8 +15,10 @@ namespace piblocks::testing_support {
 struct CommandOptions {
   std::filesystem::path folder = {};  ///< working folder; the caller's if empty
   std::string out_file = {};          ///< where standard output goes instead, such as /dev/full
-  bool out_is_terminal = false;       ///< standard output is a terminal of its own
-  bool err_is_terminal = false;       ///< standard error is a terminal of its own
+  std::vector<std::string> environment = {};  ///< "NAME=VALUE" each, beside the caller's
+  std::vector<int> closed = {};               ///< descriptors that the program starts without
+  bool out_is_terminal = false;               ///< standard output is a terminal of its own
+  bool err_is_terminal = false;               ///< standard error is a terminal of its own
 };
 
 struct CommandResult {
@@ -37,8 +39,12 @@ class RunningCommand {
 
   void send(int signal) const;
   bool has_ended() const;
+  /// By SIGSTOP.
+  bool has_stopped() const;
   /// Reads one byte of standard output, then closes the pipe, as `head -c 1` does.
   void close_output_after_one_byte();
+  /// As a terminal that is closed.
+  void close_errors();
   /// Reads what is printed until the process ends. Before, nothing but the pipes' buffers takes
   /// its output.
   /// @throws std::runtime_error, having killed it, if that takes longer than `timeout`.
@@ -46,6 +52,8 @@ class RunningCommand {
 
  private:
   void read_streams(CommandResult& result, std::chrono::steady_clock::time_point deadline);
+
+  bool is_in_state(int state) const;
 
   pid_t pid_ = -1;  // -1 when it has been waited for
   int out_ = -1;

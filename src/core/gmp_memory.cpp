@@ -1,0 +1,30 @@
+#include "core/gmp_memory.hpp"
+
+#include <gmp.h>
+
+#include <cstdlib>
+
+namespace piblocks {
+namespace {
+
+void (*end_process)() = std::abort;
+
+void* checked(void* memory) {
+  if (memory == nullptr) end_process();
+  return memory;
+}
+
+void* allocate(std::size_t bytes) { return checked(std::malloc(bytes)); }
+void* reallocate(void* memory, std::size_t, std::size_t bytes) {
+  return checked(std::realloc(memory, bytes));
+}
+void release(void* memory, std::size_t) { std::free(memory); }
+
+}  // namespace
+
+void end_when_gmp_has_no_memory(void (*end)()) {
+  end_process = end;
+  ::mp_set_memory_functions(allocate, reallocate, release);
+}
+
+}  // namespace piblocks

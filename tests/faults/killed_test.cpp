@@ -1,0 +1,123 @@
+// Signals at random moments, also those that no program can answer.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <thread>
+
+#include "core/unfinished.hpp"
+#include "faults/fault_fixture.hpp"
+#include "support/property.hpp"
+
+namespace piblocks {
+namespace {
+
+namespace fs = std::filesystem;
+
+double seconds(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Each file that has a final name is as before, or complete.
+testing::AssertionResult is_before_or_complete(const Files& now, const Files& before,
+                                               const Files& complete) {
+  const auto is_in = [](const Files& files, const auto& file) {
+    const auto found = files.find(file.first);
+    return found != files.end() && found->second == file.second;
+  };
+  for (const auto& file : now) {
+    if (is_in(before, file) || is_in(complete, file)) continue;
+    return testing::AssertionFailure() << file.first << " is neither as before nor complete";
+  }
+  return testing::AssertionSuccess();
+}
+
+class KilledTest : public EveryKindTest {
+ protected:
+  /// A run that gets the signal after a while.
+  CommandResult interrupt(int signal, double after_s) const {
+    RunningCommand command(GetParam().arguments, {.folder = out()});
+    std::this_thread::sleep_for(std::chrono::duration<double>(after_s));
+    command.send(signal);
+    return command.wait();
+  }
+
+  void judge(const CommandResult& result, int signal, const Files& before,
+             const Files& complete) const {
+    const Files now = finished();
+    EXPECT_TRUE(is_before_or_complete(now, before, complete));
+    EXPECT_LE(std::distance(fs::directory_iterator(out()), fs::directory_iterator()),
+              std::ptrdiff_t(now.size()) + 1)
+        << "what an earlier run left is still there";
+    if (result.exit_code == 0) {
+      EXPECT_TRUE(files() == complete);
+    }
+    if (result.exit_code == 1) {
+      EXPECT_EQ(result.err, "piblocks: " + GetParam().arguments.front() + ": interrupted\n");
+      EXPECT_TRUE(files() == before) << testing::PrintToString(names(files()));
+    }
+    // Before it has work to give up, any signal ends the process.
+    if (result.exit_code < 0) {
+      EXPECT_EQ(result.exit_code, -signal);
+      EXPECT_TRUE(signal == SIGKILL || now == before);
+    }
+  }
+};
+
+/// A round leaves to the next what it left: that has to remove it.
+TEST_P(KilledTest, AtRandomMomentsLeavesNoHalfFile) {
+  constexpr int kRounds = 40;
+  Random random(20261121);
+  SCOPED_TRACE(random.trace());
+  const Files complete = undisturbed(GetParam());
+  const auto run_once = [&] { run(GetParam().arguments); };
+  const double whole_s = std::min(seconds(run_once), seconds(run_once));
+
+  int interrupted = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    for (const auto& [name, contents] : finished()) fs::remove(out() / name);
+    const bool has_old = random.integer(0, 1) == 1;
+    if (has_old) put_old_files(complete);
+    const Files before = finished();
+    const int signal = std::array{SIGINT, SIGTERM, SIGKILL}[std::size_t(random.integer(0, 2))];
+    const double after_s = random.uniform(0, whole_s);
+    SCOPED_TRACE(fmt::format("round {}: signal {} after {} s", round, signal, after_s));
+    const CommandResult result = interrupt(signal, after_s);
+    judge(result, signal, before, complete);
+    if (result.exit_code != 0) ++interrupted;
+  }
+  fmt::print("{} of {} runs interrupted; {}\n", interrupted, kRounds, random.trace());
+  put_old_files(complete);
+  EXPECT_EQ(run(GetParam().arguments).exit_code, 0);
+  EXPECT_TRUE(files() == complete) << testing::PrintToString(names(files()));
+}
+INSTANTIATE_TEST_SUITE_P(Every, KilledTest, testing::ValuesIn(every_kind()), name_of);
+
+class AbandonedTest : public EveryKindTest {};
+
+TEST_P(AbandonedTest, IsRemovedByTheNextRunUnlessItsOwnerLives) {
+  const Files complete = undisturbed(GetParam());
+  const bool is_sequence = complete.size() > 1;
+  const auto kind = is_sequence ? Unfinished::Kind::folder : Unfinished::Kind::file;
+  const fs::path name = out() / (is_sequence ? "frames" : complete.begin()->first);
+  const Unfinished of_a_living_process(name, kind);
+  const fs::path dead = name.string() + ".unfinished-abcdef";
+  kind == Unfinished::Kind::folder ? void(fs::create_directory(dead)) : void(std::ofstream(dead));
+  const fs::path other = out() / "b.mp4.unfinished-abcdef";  // of another name
+  std::ofstream{other};
+  const fs::path part = name.string() + ".part-1-of-200000";
+  std::ofstream{part};
+
+  EXPECT_EQ(run(GetParam().arguments).exit_code, 0);
+  EXPECT_FALSE(fs::exists(dead));
+  EXPECT_TRUE(fs::exists(of_a_living_process.path()));
+  EXPECT_TRUE(fs::exists(other));
+  EXPECT_TRUE(fs::exists(part));
+}
+INSTANTIATE_TEST_SUITE_P(Every, AbandonedTest, testing::ValuesIn(every_kind()), name_of);
+
+}  // namespace
+}  // namespace piblocks
