@@ -109,8 +109,7 @@ class FrameRenderer {
   /// @param stride_bytes  from a row to the next, at least four times the width in pixels.
   /// @throws UsageError as frame(), or if the buffer or the stride is too small; nothing is written
   ///         then. SimulationError, DrawError
-  void copy_frame(std::int64_t number, std::span<std::uint8_t> buffer,
-                  std::ptrdiff_t stride_bytes);
+  void copy_frame(std::int64_t number, std::span<std::uint8_t> buffer, std::ptrdiff_t stride_bytes);
 
  private:
   struct State;
