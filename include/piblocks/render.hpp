@@ -97,6 +97,8 @@ class FrameRenderer {
   ~FrameRenderer();
   FrameRenderer(FrameRenderer&& other) noexcept;
   FrameRenderer& operator=(FrameRenderer&& other) noexcept;
+  FrameRenderer(const FrameRenderer&) = delete;
+  FrameRenderer& operator=(const FrameRenderer&) = delete;
 
   /// Frames of the scene's span of time.
   std::int64_t frame_count() const noexcept;

@@ -6,7 +6,6 @@
 #include <piblocks/error.hpp>
 #include <piblocks/version.hpp>
 
-#include <array>
 #include <filesystem>
 #include <string_view>
 
@@ -15,7 +14,7 @@ namespace {
 
 constexpr const char* kFile = "libpiblocks_av.so";
 
-/// The program or shared library that this code was linked into.
+/// The program or shared library that this code was linked into; empty if the system does not say.
 std::filesystem::path own_binary() {
   Dl_info info{};
   void* extra = nullptr;
@@ -29,16 +28,17 @@ std::filesystem::path own_binary() {
 }
 
 /// Where the module may be, best first.
-std::array<std::string, 3> candidates() {
+std::vector<std::string> candidates() {
   const std::filesystem::path folder = PIBLOCKS_MODULE_FOLDER;
-  return {
-      // As the search path of the binary says: the program's own, the build's, or the one that
-      // the library's users are linked with.
-      kFile,
-      // For those who link without it, or have moved since.
-      own_binary().parent_path() / ".." / folder / kFile,
-      std::filesystem::path(PIBLOCKS_PREFIX) / folder / kFile,
-  };
+  // As the search path of the binary says: the program's own, the build's, or the one that the
+  // library's users are linked with.
+  std::vector<std::string> files = {kFile};
+  // For those who are linked without it, or have moved since. Never from the working folder, which
+  // is anybody's.
+  const std::filesystem::path binary = own_binary();
+  if (binary.is_absolute()) files.push_back(binary.parent_path() / ".." / folder / kFile);
+  files.push_back(std::filesystem::path(PIBLOCKS_PREFIX) / folder / kFile);
+  return files;
 }
 
 /// The module in this file; nothing, and one more of the reasons, if it cannot be used.
