@@ -1,16 +1,20 @@
 // The whole program: a scene becomes a video, a sequence or a still.
 // In: a scene and the name of an output, or parts of one. Out: the output, complete, or an
-// exception and no trace of it.
+// exception and no trace of it. Or, frame by frame, pixels in memory.
 #pragma once
 
 #include <piblocks/frame_sink.hpp>
+#include <piblocks/image.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/scene.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -81,5 +85,37 @@ std::int64_t join(const std::vector<std::string>& parts, const std::string& outp
 /// @throws UsageError, DrawError, MediaError, IoError, SimulationError, Interrupted
 void render_still(const Scene& scene, const Instant& instant, const std::string& output,
                   const std::stop_token& stop = {});
+
+/// The frames of a scene as pixels, in any order. Only what differs from the frame painted before
+/// is painted; the pixels are those that render() encodes. Used by one thread at a time; different
+/// renderers are independent. A renderer that was moved from can only be assigned to or destroyed.
+class FrameRenderer {
+ public:
+  /// @throws SceneError if problems_of(scene) is not empty.
+  /// @throws UsageError as Timeline and make_collision_log(); SimulationError, DrawError
+  explicit FrameRenderer(const Scene& scene);
+  ~FrameRenderer();
+  FrameRenderer(FrameRenderer&& other) noexcept;
+  FrameRenderer& operator=(FrameRenderer&& other) noexcept;
+  FrameRenderer(const FrameRenderer&) = delete;
+  FrameRenderer& operator=(const FrameRenderer&) = delete;
+
+  /// Frames of the scene's span of time.
+  std::int64_t frame_count() const noexcept;
+  /// The frame with this number, which shows the instant that Timeline says.
+  /// @returns a picture of the size of the scene's view; valid until the next call.
+  /// @throws UsageError unless 0 <= number < frame_count(); SimulationError, DrawError
+  ImageView frame(std::int64_t number);
+  /// The same, into memory of the caller's: pixels as ImageView has them, rows from the top.
+  /// Bytes between a row's end and the next row stay as they are.
+  /// @param stride_bytes  from a row to the next, at least four times the width in pixels.
+  /// @throws UsageError as frame(), or if the buffer or the stride is too small; nothing is written
+  ///         then. SimulationError, DrawError
+  void copy_frame(std::int64_t number, std::span<std::uint8_t> buffer, std::ptrdiff_t stride_bytes);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace piblocks

@@ -2,22 +2,66 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 #include <piblocks/error.hpp>
+#include <piblocks/version.hpp>
+
+#include <filesystem>
+#include <string_view>
 
 namespace piblocks {
 namespace {
 
 constexpr const char* kFile = "libpiblocks_av.so";
 
-const AvModule& load() {
-  // Found where the program's own search path says: beside the build, or in its library folder.
-  void* const module = ::dlopen(kFile, RTLD_NOW | RTLD_LOCAL);
-  void* const entry = module == nullptr ? nullptr : ::dlsym(module, kAvModuleEntry);
+/// The program or shared library that this code was linked into; empty if the system does not say.
+std::filesystem::path own_binary() {
+  Dl_info info{};
+  void* extra = nullptr;
+  const void* here = reinterpret_cast<const void*>(&own_binary);
+  const bool is_known = ::dladdr1(here, &info, &extra, RTLD_DL_LINKMAP) != 0;
+  const std::string_view name = is_known ? static_cast<const link_map*>(extra)->l_name : "";
+  if (!name.empty()) return name;
+  // A program has no name there.
+  std::error_code unreadable;
+  return std::filesystem::read_symlink("/proc/self/exe", unreadable);
+}
+
+/// Where the module may be, best first.
+std::vector<std::string> candidates() {
+  const std::filesystem::path folder = PIBLOCKS_MODULE_FOLDER;
+  // As the search path of the binary says: the program's own, the build's, or the one that the
+  // library's users are linked with.
+  std::vector<std::string> files = {kFile};
+  // For those who are linked without it, or have moved since. Never from the working folder, which
+  // is anybody's.
+  const std::filesystem::path binary = own_binary();
+  if (binary.is_absolute()) files.push_back(binary.parent_path() / ".." / folder / kFile);
+  files.push_back(std::filesystem::path(PIBLOCKS_PREFIX) / folder / kFile);
+  return files;
+}
+
+/// The module in this file; nothing, and one more of the reasons, if it cannot be used.
+const AvModule* load(const std::string& file, std::string& reasons) {
+  void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* const entry = library == nullptr ? nullptr : ::dlsym(library, kAvModuleEntry);
   if (entry == nullptr) {
-    throw MediaError(fmt::format("output: cannot load the encoders: {}; is piblocks whole?",
-                                 ::dlerror()));  // NOLINT(concurrency-mt-unsafe): once
+    reasons += fmt::format("; {}", ::dlerror());  // NOLINT(concurrency-mt-unsafe): once
+    return nullptr;
   }
-  return *reinterpret_cast<const AvModule* (*)()>(entry)();
+  const AvModule* const module = reinterpret_cast<const AvModule* (*)()>(entry)();
+  if (std::string_view(module->version) == kVersion) return module;
+  reasons += fmt::format("; {} is of version {}, not {}", file, module->version, kVersion);
+  ::dlclose(library);
+  return nullptr;
+}
+
+const AvModule& load() {
+  std::string reasons;
+  for (const std::string& file : candidates()) {
+    if (const AvModule* const module = load(file, reasons)) return *module;
+  }
+  throw MediaError("output: cannot load the encoders: is piblocks whole?" + reasons);
 }
 
 }  // namespace

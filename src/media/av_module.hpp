@@ -17,6 +17,7 @@ namespace piblocks {
 /// What the module offers: the functions of these names in output_kinds.hpp, video_reader.hpp and
 /// find_encoder.hpp.
 struct AvModule {
+  const char* version;  ///< kVersion of the build; of another, nothing else here may be touched
   std::unique_ptr<Output> (*mp4_output)(const OutputRequest& request);
   std::unique_ptr<Output> (*framehash_output)(const OutputRequest& request);
   std::unique_ptr<FrameReader> (*decode_video_file)(const std::string& path);
@@ -28,7 +29,9 @@ struct AvModule {
 inline constexpr const char* kAvModuleEntry = "piblocks_av_module";
 
 /// Loads the module; once for the process. Thread-safe.
-/// @throws MediaError if it is not there.
+/// It may be where the binary's own search path says, where it is installed beside the binary that
+/// this code is part of, or where the build was configured to install it.
+/// @throws MediaError if it is in none of these places, or of another version.
 const AvModule& av_module();
 
 }  // namespace piblocks

@@ -1,4 +1,6 @@
 // The module's side of av_module.hpp.
+#include <piblocks/version.hpp>
+
 #include "media/av.hpp"
 #include "media/av_module.hpp"
 #include "media/find_encoder.hpp"
@@ -7,8 +9,9 @@
 
 extern "C" const piblocks::AvModule* piblocks_av_module() {
   using namespace piblocks;
-  static constexpr AvModule kModule = {mp4_output, framehash_output, decode_video_file,
-                                       usable_h264_encoders, av_library_versions};
+  static constexpr AvModule kModule = {
+      kVersion,          mp4_output,           framehash_output,
+      decode_video_file, usable_h264_encoders, av_library_versions};
   silence_av();
   return &kModule;
 }

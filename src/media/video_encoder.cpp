@@ -194,6 +194,11 @@ void VideoEncoder::apply_settings(AVCodecContext& context) const {
   if (has_option(*codec_, "mbtree")) {
     check_av(av_opt_set_int(options, "mbtree", 0, 0), "set up encoder", codec_->name);
   }
+  // Unless told not to, libx264 analyses a picture in another way where a processor lacks SSSE3.
+  if (has_option(*codec_, "x264-params")) {
+    check_av(av_opt_set(options, "x264-params", "cpu-independent=1", 0), "set up encoder",
+             codec_->name);
+  }
   if (has_option(*codec_, "forced-idr")) {
     check_av(av_opt_set_int(options, "forced-idr", 1, 0), "set up encoder", codec_->name);
   }

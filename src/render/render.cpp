@@ -1,14 +1,12 @@
 // The order of all stages: scene -> log -> state -> draw list -> pixels -> packets -> sink.
 #include <fmt/format.h>
 #include <piblocks/canvas.hpp>
-#include <piblocks/collision_log.hpp>
-#include <piblocks/compose.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/timeline.hpp>
 
 #include "media/part_file.hpp"
 #include "render/chunks.hpp"
+#include "render/film.hpp"
 #include "render/job_description.hpp"
 #include "render/ordered_pool.hpp"
 #include "render/stage_clock.hpp"
@@ -17,21 +15,15 @@ namespace piblocks {
 namespace {
 
 /// Everything that decides what the frames show and how they are encoded.
-struct Film {
-  explicit Film(const RenderJob& job)
-      : scene(job.scene),
-        log(make_collision_log(scene.system)),
-        timeline(scene, *log),
-        layout(lay_out(scene, log->size())),
+struct Plan {
+  explicit Plan(const RenderJob& job)
+      : film(job.scene),
         output(set_up_output(job.output,
-                             {scene.view.width_px, scene.view.height_px, scene.view.frame_rate},
+                             {film.view().width_px, film.view().height_px, film.view().frame_rate},
                              job.encoder)),
-        chunks{timeline.frame_count(), output->frames_per_chunk()} {}
+        chunks{film.frame_count(), output->frames_per_chunk()} {}
 
-  const Scene& scene;
-  std::unique_ptr<CollisionLog> log;
-  Timeline timeline;
-  Layout layout;
+  Film film;
   std::unique_ptr<Output> output;
   Chunks chunks;
 };
@@ -44,16 +36,16 @@ struct EncodedWork {
 /// What one thread works with, chunk after chunk.
 class Worker {
  public:
-  Worker(const Film& film, bool profile)
-      : film_(film),
+  Worker(const Plan& plan, bool profile)
+      : plan_(plan),
         profile_(profile),
-        canvas_(film.scene.view.width_px, film.scene.view.height_px),
-        encoder_(film.output->make_encoder()) {}
+        canvas_(plan.film.view().width_px, plan.film.view().height_px),
+        encoder_(plan.output->make_encoder()) {}
 
   EncodedWork work(std::int64_t chunk, const std::stop_token& stop) {
     StageClock clock(profile_, Stage::encode);
-    encoder_->begin(film_.chunks.begin(chunk));
-    for (auto frame = film_.chunks.begin(chunk); frame < film_.chunks.end(chunk); ++frame) {
+    encoder_->begin(plan_.chunks.begin(chunk));
+    for (auto frame = plan_.chunks.begin(chunk); frame < plan_.chunks.end(chunk); ++frame) {
       if (stop.stop_requested()) throw Interrupted("render: interrupted");
       add_frame(frame, clock);
     }
@@ -64,8 +56,7 @@ class Worker {
  private:
   void add_frame(std::int64_t frame, StageClock& clock) {
     clock.enter(Stage::compose);
-    const BlockState state = state_at(*film_.log, film_.timeline.time_of(frame));
-    DrawList list = compose(film_.scene, film_.layout, state);
+    DrawList list = plan_.film.frame(frame);
     clock.enter(Stage::paint);
     const std::span<const PixelRect> changed = canvas_.update(std::move(list));
     clock.enter(Stage::convert);
@@ -74,7 +65,7 @@ class Worker {
     encoder_->encode();
   }
 
-  const Film& film_;
+  const Plan& plan_;
   bool profile_;
   Canvas canvas_;
   std::unique_ptr<ChunkEncoder> encoder_;
@@ -91,9 +82,9 @@ Share share_of(const std::optional<Part>& part, std::int64_t chunks) {
   return {chunks * (part->number - 1) / part->count, chunks * part->number / part->count};
 }
 
-std::unique_ptr<FrameSink> open_sink(const RenderJob& job, const Film& film) {
-  if (!job.part) return film.output->open();
-  PartHeader header = describe(job, *film.output, film.chunks);
+std::unique_ptr<FrameSink> open_sink(const RenderJob& job, const Plan& plan) {
+  if (!job.part) return plan.output->open();
+  PartHeader header = describe(job, *plan.output, plan.chunks);
   header.emplace_back("part", fmt::format("{}/{}", job.part->number, job.part->count));
   return open_part(part_name(job.output, *job.part), header);
 }
@@ -121,14 +112,14 @@ void add(StageSeconds& sum, const StageSeconds& spent) {
 Rendered render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
                 const std::stop_token& stop) {
   check_part(job);
-  const Film film(job);
-  const Share share = share_of(job.part, film.chunks.count());
-  const std::unique_ptr<FrameSink> sink = open_sink(job, film);
+  const Plan plan(job);
+  const Share share = share_of(job.part, plan.chunks.count());
+  const std::unique_ptr<FrameSink> sink = open_sink(job, plan);
   const auto frames_until = [&](std::int64_t chunk) {
-    return film.chunks.begin(chunk) - film.chunks.begin(share.begin);
+    return plan.chunks.begin(chunk) - plan.chunks.begin(share.begin);
   };
   const auto make_worker = [&] {
-    const auto worker = std::make_shared<Worker>(film, job.profile);
+    const auto worker = std::make_shared<Worker>(plan, job.profile);
     return [worker, &share](std::int64_t task, const std::stop_token& halt) {
       return worker->work(share.begin + task, halt);
     };

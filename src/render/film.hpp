@@ -1,0 +1,46 @@
+// What every frame of a scene shows.
+// In: a scene, once, and the number of a frame. Out: its draw list.
+#pragma once
+
+#include <piblocks/collision_log.hpp>
+#include <piblocks/compose.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/timeline.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace piblocks {
+
+/// Const members are thread-safe.
+class Film {
+ public:
+  /// @throws SceneError if problems_of(scene) is not empty; UsageError, SimulationError, DrawError
+  explicit Film(const Scene& scene)
+      : scene_(checked(scene)),
+        log_(make_collision_log(scene_.system)),
+        timeline_(scene_, *log_),
+        layout_(lay_out(scene_, log_->size())) {}
+
+  const View& view() const noexcept { return scene_.view; }
+  std::int64_t frame_count() const noexcept { return timeline_.frame_count(); }
+  /// @param number  from 0 to frame_count() - 1.
+  DrawList frame(std::int64_t number) const {
+    return compose(scene_, layout_, state_at(*log_, timeline_.time_of(number)));
+  }
+
+ private:
+  /// Whoever fills in a Scene by hand has not been told what is wrong with it.
+  static const Scene& checked(const Scene& scene) {
+    const std::vector<Problem> problems = problems_of(scene);
+    if (!problems.empty()) throw SceneError(describe(problems));
+    return scene;
+  }
+
+  Scene scene_;
+  std::unique_ptr<CollisionLog> log_;
+  Timeline timeline_;
+  Layout layout_;
+};
+
+}  // namespace piblocks
