@@ -24,6 +24,7 @@ constexpr int kMissingReference = 3;
 struct GoldenOptions {
   const CLI::Option* scenes;
   const CLI::Option* folder;
+  const CLI::Option* frames;
   const CLI::Option* diff;
 };
 
@@ -57,7 +58,7 @@ std::vector<References> references_of(const GoldenOptions& options) {
   std::vector<std::string> problems;
   for (const std::string& scene : options.scenes->results()) {
     try {
-      all.emplace_back(scene, *text_of(*options.folder));
+      all.emplace_back(scene, *text_of(*options.folder), text_of(*options.frames).value_or(""));
     } catch (const UsageError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -176,6 +177,8 @@ GoldenOptions add_options(CLI::App& command, bool with_diff) {
               ->allow_extra_args()
               ->option_text("..."),
           add_value_option(command, "--dir", "DIR", "The folder of the references").required(),
+          &add_value_option(command, "--frames", "T,…",
+                            "Instants kept as pictures, instead of the scene's: times, last, #K"),
           with_diff ? &add_value_option(command, "--diff", "DIR",
                                         "Write expected, difference and actual of pictures")
                     : nullptr};

@@ -60,10 +60,11 @@ std::string painter_fingerprint() {
   return fmt::format("{}", fmt::join(draw_library_versions(), ", "));
 }
 
-References::References(const std::string& scene_path, fs::path folder)
+References::References(const std::string& scene_path, fs::path folder, const std::string& frames)
     : name_(fs::path(scene_path).stem()), folder_(std::move(folder)) {
   SceneBuilder builder;
   builder.read_file(scene_path);
+  if (!frames.empty()) builder.set("--frames", "golden.frames", frames);
   scene_ = builder.build();
   scene_.view = golden_view(scene_);
 }

@@ -22,8 +22,10 @@ std::string painter_fingerprint();
 /// The references of one scene.
 class References {
  public:
-  /// @throws SceneError if the scene file is no good.
-  References(const std::string& scene_path, std::filesystem::path folder);
+  /// @param frames  instead of the scene's, if not empty: instants, separated by commas.
+  /// @throws SceneError if the scene file or an instant is no good.
+  References(const std::string& scene_path, std::filesystem::path folder,
+             const std::string& frames = {});
 
   const std::string& name() const noexcept { return name_; }
   /// The files of the references, without the folder; hashes first.

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <sstream>
+#include <utility>
 
 #include "scene/toml_file.hpp"
 
@@ -51,7 +53,13 @@ void set_golden_size(Golden& golden, const Values& values) {
   set_size(*golden.size, values);
 }
 
-void set_golden_frames(Golden& golden, const Values& values) {
+/// A list, or one text with commas.
+void set_golden_frames(Golden& golden, Values values) {
+  if (values.size() == 1) {
+    std::istringstream text(values.front());
+    values.clear();
+    for (std::string value; std::getline(text, value, ',');) values.push_back(value);
+  }
   for (const std::string& value : values) {
     try {
       parse_instant(value);
@@ -59,7 +67,7 @@ void set_golden_frames(Golden& golden, const Values& values) {
       throw UsageError(fmt::format("'{}' {}", value, error.what()));
     }
   }
-  golden.frames = values;
+  golden.frames = std::move(values);
 }
 
 struct Key {

@@ -45,6 +45,16 @@ TEST_F(GoldenTest, KeepsHashesAndTheNamedPictures) {
   expect(golden("check"), 0, "scene: equal");
 }
 
+TEST_F(GoldenTest, KeepsOtherPicturesWhereTheCommandLineSaysSo) {
+  expect(golden("record", {"--frames", "1,#2"}), 0, "scene: recorded");
+  EXPECT_EQ(references(), (Names{"scene-1.png", "scene-collision-2.png", "scene.framehash"}));
+  expect(golden("check", {"--frames", "1,#2"}), 0, "scene: equal");
+  EXPECT_EQ(golden("check").exit_code, 3);
+  const CommandResult wrong = golden("check", {"--frames", "1,,2"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("--frames: golden.frames = 1,,2: '' "), std::string::npos) << wrong.err;
+}
+
 TEST_F(GoldenTest, FindsWhatHasChangedAndChangesNothing) {
   golden("record");
   const std::string hashes = contents("refs/scene.framehash");
