@@ -7,6 +7,10 @@
 namespace piblocks {
 namespace {
 
+// GMP asks for functions like those of C, which know nothing but what they are handed.
+// NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables, cppcoreguidelines-no-malloc,
+//             cppcoreguidelines-owning-memory)
+
 void (*end_process)() = std::abort;
 
 void* checked(void* memory) {
@@ -15,10 +19,13 @@ void* checked(void* memory) {
 }
 
 void* allocate(std::size_t bytes) { return checked(std::malloc(bytes)); }
-void* reallocate(void* memory, std::size_t, std::size_t bytes) {
+void* reallocate(void* memory, std::size_t /*old_bytes*/, std::size_t bytes) {
   return checked(std::realloc(memory, bytes));
 }
-void release(void* memory, std::size_t) { std::free(memory); }
+void release(void* memory, std::size_t /*bytes*/) { std::free(memory); }
+
+// NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables, cppcoreguidelines-no-malloc,
+//           cppcoreguidelines-owning-memory)
 
 }  // namespace
 

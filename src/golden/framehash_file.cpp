@@ -34,9 +34,9 @@ FramehashFile read_framehash(const std::string& path) {
                               std::generic_category().message(errno)));
   }
   FramehashFile result;
-  std::string line(kMaxLine, '\0');
+  std::vector<char> line(kMaxLine);
   for (std::size_t number = 1; file.getline(line.data(), kMaxLine); ++number) {
-    const std::string text = without_blanks({line.data()});
+    const std::string text = without_blanks(line.data());
     if (text.starts_with("#software")) continue;
     const bool is_header = text.empty() || text.front() == '#';
     if (number > kMaxLines || (!is_header && !is_frame(text))) {

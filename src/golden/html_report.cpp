@@ -79,7 +79,7 @@ std::string base64(std::span<const std::uint8_t> bytes) {
 }
 
 std::string picture(const Image& image, std::string_view kind) {
-  return fmt::format("<img class=\"{0}\" alt=\"{0}\" src=\"data:image/png;base64,{1}\">", kind,
+  return fmt::format(R"(<img class="{0}" alt="{0}" src="data:image/png;base64,{1}">)", kind,
                      base64(encode_png(image.view())));
 }
 
