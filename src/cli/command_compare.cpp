@@ -14,11 +14,6 @@
 namespace piblocks::cli {
 namespace {
 
-constexpr int kDifferent = 1;
-constexpr int kMissingReference = 3;
-constexpr int kMismatch = 4;
-constexpr int kUnreadable = 5;
-
 /// Of more frames nobody reads the lines.
 constexpr int kMaxLines = 20;
 

@@ -18,9 +18,6 @@ namespace piblocks::cli {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kDifferent = 1;
-constexpr int kMissingReference = 3;
-
 struct GoldenOptions {
   const CLI::Option* scenes;
   const CLI::Option* folder;

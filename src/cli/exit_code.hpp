@@ -9,6 +9,12 @@
 
 namespace piblocks::cli {
 
+// Those of comparisons.
+inline constexpr int kDifferent = 1;
+inline constexpr int kMissingReference = 3;
+inline constexpr int kMismatch = 4;
+inline constexpr int kUnreadable = 5;
+
 class ExitCode : public Error {
  public:
   /// @param message  for standard error; empty if all has been said.
