@@ -47,5 +47,7 @@ std::vector<std::uint8_t> draw_pdf(const DrawList& list);
 
 /// Name and version of each drawing library that is linked, such as "cairo 1.16.0".
 std::vector<std::string> draw_library_versions();
+/// All that may change a pixel, in one line: versions of these libraries and the font.
+std::string painter_fingerprint();
 
 }  // namespace piblocks

@@ -32,6 +32,8 @@ struct FrameComparison {
   /// The pictures as they are shown; empty functions where only hashes are known.
   std::function<Image()> reference;
   std::function<Image()> actual;
+
+  bool is_equal() const noexcept { return difference ? difference->is_equal() : is_accepted; }
 };
 
 enum class Verdict { equal, accepted, different, mismatch };

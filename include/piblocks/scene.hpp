@@ -44,12 +44,17 @@ struct TimeSpan {
   Rational speed = 1;  ///< simulation time per second of video, > 0
 };
 
+struct FrameSize {
+  int width_px = 0;   ///< 1 … kMaxSide_px
+  int height_px = 0;  ///< 1 … kMaxSide_px
+};
+
 /// What is kept of a scene to compare later renderings with.
 struct Golden {
   /// Instants as parse_instant() takes them, each kept as a picture; hashes are kept of all frames.
   std::vector<std::string> frames = {"0", "last"};
   /// Size of all of them; without it the view's, reduced to a longer side of 480 pixels.
-  std::optional<View> size = {};
+  std::optional<FrameSize> size = {};
 };
 
 struct Scene {

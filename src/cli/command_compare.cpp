@@ -101,8 +101,7 @@ class Printer {
   explicit Printer(bool quiet) : quiet_(quiet) {}
 
   void add(const FrameComparison& frame) {
-    const bool is_equal = frame.difference ? frame.difference->is_equal() : frame.is_accepted;
-    if (quiet_ || is_equal || ++lines_ > kMaxLines) return;
+    if (quiet_ || frame.is_equal() || ++lines_ > kMaxLines) return;
     fmt::print("{}: {}\n", frame.name, describe(frame));
   }
 

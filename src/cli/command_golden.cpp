@@ -1,6 +1,6 @@
 #include <fmt/format.h>
+#include <piblocks/canvas.hpp>
 #include <piblocks/compare_files.hpp>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -10,6 +10,8 @@
 #include "cli/exit_code.hpp"
 #include "cli/options.hpp"
 #include "cli/stop_on_signals.hpp"
+#include "core/output_file.hpp"
+#include "core/unfinished.hpp"
 #include "golden/describe.hpp"
 #include "golden/reports.hpp"
 #include "render/references.hpp"
@@ -23,29 +25,6 @@ struct GoldenOptions {
   const CLI::Option* folder;
   const CLI::Option* frames;
   const CLI::Option* diff;
-};
-
-/// Renderings that are not references yet; removed with all that is in it.
-class ScratchFolder {
- public:
-  explicit ScratchFolder(const fs::path& parent) {
-    fs::create_directories(parent);
-    std::string name = parent / "golden.unfinished-XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr) {
-      throw UsageError(fmt::format("golden: cannot write into '{}'", parent.string()));
-    }
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const fs::path& path() const noexcept { return path_; }
-
- private:
-  fs::path path_;
 };
 
 int processors() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
@@ -98,7 +77,7 @@ void note_fingerprint(const References& references) {
 bool check(const References& references, const GoldenOptions& options,
            const std::stop_token& stop) {
   const fs::path folder = *text_of(*options.folder);
-  const ScratchFolder scratch(fs::temp_directory_path());
+  const Unfinished scratch(fs::temp_directory_path() / "piblocks-golden", Unfinished::Kind::folder);
   references.render_into(scratch.path(), processors(), stop);
   const auto diff = text_of(*options.diff);
   bool is_equal = true;
@@ -125,8 +104,13 @@ void run_check(const GoldenOptions& options) {
   if (!is_equal) throw ExitCode(kDifferent);
 }
 
+/// Hashes come last: where they are, all is.
 void replace(const References& references, const fs::path& folder, const fs::path& scratch) {
-  for (const std::string& file : references.files()) fs::rename(scratch / file, folder / file);
+  const std::vector<std::string> files = references.files();
+  for (auto file = files.rbegin(); file != files.rend(); ++file) {
+    fs::rename(scratch / *file, folder / *file);
+  }
+  sync_folder(folder);
 }
 
 void run_record(const GoldenOptions& options) {
@@ -140,10 +124,12 @@ void run_record(const GoldenOptions& options) {
                     "approve'",
                     references.name()));
   }
+  MadeFolders made(folder);
   for (const References& references : all) {
-    const ScratchFolder scratch(folder);
+    const Unfinished scratch(folder / "golden", Unfinished::Kind::folder);
     references.render_into(scratch.path(), processors(), signals.token());
     replace(references, folder, scratch.path());
+    made.keep();
     fmt::print("{}: recorded\n", references.name());
   }
 }
@@ -151,8 +137,10 @@ void run_record(const GoldenOptions& options) {
 void run_approve(const GoldenOptions& options) {
   const StopOnSignals signals;
   const fs::path folder = *text_of(*options.folder);
-  for (const References& references : references_of(options)) {
-    const ScratchFolder scratch(folder);
+  const std::vector<References> all = references_of(options);
+  MadeFolders made(folder);
+  for (const References& references : all) {
+    const Unfinished scratch(folder / "golden", Unfinished::Kind::folder);
     references.render_into(scratch.path(), processors(), signals.token());
     bool is_equal = true;
     for (const std::string& file : references.files()) {
@@ -162,6 +150,7 @@ void run_approve(const GoldenOptions& options) {
     }
     note_fingerprint(references);
     replace(references, folder, scratch.path());
+    made.keep();
     fmt::print("{}: {}\n", references.name(), is_equal ? "equal" : "replaced");
   }
 }

@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <memory>
 #include <new>
@@ -32,8 +34,21 @@ int fail(const piblocks::UsageError& error) {
   return kWrongUsage;
 }
 
-/// Where nothing can be passed on: below GMP, or out of a destructor.
+/// Where nothing can be passed on: below GMP.
 [[noreturn]] void end_without_memory() { _exit(fail("out of memory", kFailed)); }
+
+/// An exception in a destructor, for one. Of memory the user is to be told; all else is a fault of
+/// the program.
+[[noreturn]] void end_of_exception() {
+  try {
+    if (const auto exception = std::current_exception()) std::rethrow_exception(exception);
+  } catch (const std::bad_alloc&) {
+    end_without_memory();
+  } catch (...) {
+    std::abort();
+  }
+  std::abort();
+}
 
 /// What CLI11 throws when it stops early: --help and --version, or an error.
 int finish(const CLI::App& app, const CLI::ParseError& error) {
@@ -103,7 +118,7 @@ int main(int argc, char** argv) {
   fill_closed_streams();
   ignore_signals_of_writing();
   piblocks::end_when_gmp_has_no_memory(end_without_memory);
-  std::set_terminate(end_without_memory);
+  std::set_terminate(end_of_exception);
   try {
     return run(argc, argv);
   } catch (const piblocks::UsageError& error) {

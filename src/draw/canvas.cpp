@@ -153,4 +153,8 @@ std::vector<std::string> draw_library_versions() {
           fmt::format("freetype {}.{}.{}", major, minor, patch), "font " PIBLOCKS_FONT_NAME};
 }
 
+std::string painter_fingerprint() {
+  return fmt::format("{}", fmt::join(draw_library_versions(), ", "));
+}
+
 }  // namespace piblocks

@@ -107,8 +107,7 @@ class HtmlReport final : public Report {
   explicit HtmlReport(const std::string& path) : file_(path) {}
 
   void add(const FrameComparison& frame) override {
-    const bool is_equal = frame.difference ? frame.difference->is_equal() : frame.is_accepted;
-    if (is_equal) return;
+    if (frame.is_equal()) return;
     sections_ += fmt::format("<section class=\"{}\">\n<h2>{}</h2>\n<p>{}</p>\n",
                              frame.is_accepted ? "accepted" : "refused", escaped(frame.name),
                              escaped(describe(frame)));

@@ -78,26 +78,11 @@ std::vector<std::uint8_t> FramehashEncoder::encode_picture(std::int64_t number) 
   return {text.begin(), text.end()};
 }
 
-class FramehashOutput final : public Output {
- public:
-  explicit FramehashOutput(OutputRequest request) : request_(std::move(request)) {}
-  std::int64_t frames_per_chunk() const override { return kFramesPerChunk; }
-  std::unique_ptr<ChunkEncoder> make_encoder() const override {
-    return std::make_unique<FramehashEncoder>(request_.format);
-  }
-  std::string signature() const override { return std::string("framehash by ") + kHash; }
-  std::unique_ptr<FrameSink> open() const override {
-    return std::make_unique<StreamSink>(request_.name);
-  }
-
- private:
-  OutputRequest request_;
-};
-
 }  // namespace
 
 std::unique_ptr<Output> framehash_output(const OutputRequest& request) {
-  return std::make_unique<FramehashOutput>(request);
+  return std::make_unique<StreamOutput<FramehashEncoder>>(request, kFramesPerChunk,
+                                                          std::string("framehash by ") + kHash);
 }
 
 }  // namespace piblocks

@@ -1,8 +1,11 @@
-// A sink whose output is the packets' bytes one after another.
+// Outputs that are the packets' bytes one after another.
 // In: chunks in order. Out: one file, or standard output.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "core/output_file.hpp"
 #include "media/output_request.hpp"
@@ -20,6 +23,30 @@ class StreamSink final : public FrameSink {
  private:
   FrameCounter counter_;
   OutputFile file_;
+};
+
+/// @tparam Encoder  a ChunkEncoder, made from the format.
+template <typename Encoder>
+class StreamOutput final : public Output {
+ public:
+  StreamOutput(OutputRequest request, std::int64_t frames_per_chunk, std::string signature)
+      : request_(std::move(request)),
+        frames_per_chunk_(frames_per_chunk),
+        signature_(std::move(signature)) {}
+
+  std::int64_t frames_per_chunk() const override { return frames_per_chunk_; }
+  std::unique_ptr<ChunkEncoder> make_encoder() const override {
+    return std::make_unique<Encoder>(request_.format);
+  }
+  std::string signature() const override { return signature_; }
+  std::unique_ptr<FrameSink> open() const override {
+    return std::make_unique<StreamSink>(request_.name);
+  }
+
+ private:
+  OutputRequest request_;
+  std::int64_t frames_per_chunk_;
+  std::string signature_;
 };
 
 }  // namespace piblocks

@@ -87,11 +87,12 @@ int matrix_of(const AVFrame& frame) {
   return frame.height >= kHdLines ? AVCOL_SPC_BT709 : AVCOL_SPC_SMPTE170M;
 }
 
-Image converted_to_rgb(const AVFrame& frame) {
+/// @param sws  of the last picture, used again if it suits this one.
+Image converted_to_rgb(const AVFrame& frame, SwsPtr& sws) {
   constexpr int kFlags = SWS_BILINEAR | SWS_FULL_CHR_H_INT | SWS_ACCURATE_RND | SWS_BITEXACT;
-  const SwsPtr sws(sws_getContext(
-      frame.width, frame.height, static_cast<AVPixelFormat>(frame.format), frame.width,
-      frame.height, AV_PIX_FMT_BGRA, kFlags, nullptr, nullptr, nullptr));
+  sws.reset(sws_getCachedContext(sws.release(), frame.width, frame.height,
+                                 static_cast<AVPixelFormat>(frame.format), frame.width,
+                                 frame.height, AV_PIX_FMT_BGRA, kFlags, nullptr, nullptr, nullptr));
   if (!sws) throw MediaError("video: cannot convert the pictures to RGB");
   const int* const matrix = sws_getCoefficients(matrix_of(frame));
   constexpr int kOne = 1 << 16;
@@ -127,7 +128,7 @@ class VideoReader final : public FrameReader {
     const AVPixFmtDescriptor& format = descriptor_of(*frame_);
     return is_plain_yuv(format) ? repeated_planes(*frame_, format) : rgb();
   }
-  Image rgb() override { return converted_to_rgb(*frame_); }
+  Image rgb() override { return converted_to_rgb(*frame_, sws_); }
   std::string name() const override { return fmt::format("frame {}", frames_ - 1); }
 
  private:
@@ -139,6 +140,7 @@ class VideoReader final : public FrameReader {
   AvCodecContextPtr decoder_;
   AvPacketPtr packet_;
   AvFramePtr frame_;
+  SwsPtr sws_;
   std::int64_t frames_ = 0;
 };
 

@@ -66,28 +66,12 @@ std::vector<std::uint8_t> Y4mEncoder::encode_picture(std::int64_t number) {
   return bytes;
 }
 
-class Y4mOutput final : public Output {
- public:
-  explicit Y4mOutput(OutputRequest request) : request_(std::move(request)) {}
-  std::int64_t frames_per_chunk() const override { return kFramesPerChunk; }
-  std::unique_ptr<ChunkEncoder> make_encoder() const override {
-    return std::make_unique<Y4mEncoder>(request_.format);
-  }
-  std::string signature() const override { return "y4m"; }
-  std::unique_ptr<FrameSink> open() const override {
-    return std::make_unique<StreamSink>(request_.name);
-  }
-
- private:
-  OutputRequest request_;
-};
-
 }  // namespace
 
 std::unique_ptr<Output> y4m_output(const OutputRequest& request) {
   const std::string problem = odd_size_problem(request.format, "y4m in 4:2:0");
   if (!problem.empty()) throw UsageError(problem);
-  return std::make_unique<Y4mOutput>(request);
+  return std::make_unique<StreamOutput<Y4mEncoder>>(request, kFramesPerChunk, "y4m");
 }
 
 }  // namespace piblocks

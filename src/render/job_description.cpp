@@ -62,7 +62,7 @@ PartHeader describe(const RenderJob& job, const Output& output, const Chunks& ch
   describe(job.scene, header);
   header.emplace_back("frames", std::to_string(chunks.frame_count));
   describe(job.encoder, header);
-  header.emplace_back("painter", fmt::format("{}", fmt::join(draw_library_versions(), ", ")));
+  header.emplace_back("painter", painter_fingerprint());
   header.emplace_back("output", output.signature());
   return header;
 }

@@ -56,10 +56,6 @@ void add_fingerprint(const fs::path& hashes) {
 
 }  // namespace
 
-std::string painter_fingerprint() {
-  return fmt::format("{}", fmt::join(draw_library_versions(), ", "));
-}
-
 References::References(const std::string& scene_path, fs::path folder, const std::string& frames)
     : name_(fs::path(scene_path).stem()), folder_(std::move(folder)) {
   SceneBuilder builder;

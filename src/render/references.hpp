@@ -16,9 +16,6 @@
 
 namespace piblocks {
 
-/// What may change pixels, in one line: versions of the painter's libraries and of the font.
-std::string painter_fingerprint();
-
 /// The references of one scene.
 class References {
  public:

@@ -17,15 +17,15 @@ void check_range(const char* key, const Range& range, std::vector<Problem>& prob
                                        to_text(range.low), to_text(range.high))});
 }
 
-void check_size(const char* key, const View& view, std::vector<Problem>& problems) {
+void check_size(const char* key, const FrameSize& size, std::vector<Problem>& problems) {
   const auto is_side = [](int side) { return side >= 1 && side <= kMaxSide_px; };
-  if (!is_side(view.width_px) || !is_side(view.height_px)) {
+  if (!is_side(size.width_px) || !is_side(size.height_px)) {
     problems.push_back({key, fmt::format("= {}x{}: each side must be from 1 to {} pixels",
-                                         view.width_px, view.height_px, kMaxSide_px)});
-  } else if (std::int64_t{view.width_px} * view.height_px > kMaxFrame_px) {
+                                         size.width_px, size.height_px, kMaxSide_px)});
+  } else if (std::int64_t{size.width_px} * size.height_px > kMaxFrame_px) {
     problems.push_back(
         {key, fmt::format("= {}x{}: a frame must have at most {} pixels, as 8192x8192",
-                          view.width_px, view.height_px, kMaxFrame_px)});
+                          size.width_px, size.height_px, kMaxFrame_px)});
   }
 }
 
@@ -67,7 +67,7 @@ std::vector<Problem> problems_of(const Scene& scene) {
   std::vector<Problem> problems = problems_of(scene.system);
   check_range("view.x", scene.view.x, problems);
   check_range("view.y", scene.view.y, problems);
-  check_size("view.size", scene.view, problems);
+  check_size("view.size", {scene.view.width_px, scene.view.height_px}, problems);
   if (scene.golden.size) check_size("golden.size", *scene.golden.size, problems);
   check_frame_rate(scene.view.frame_rate, problems);
   check_time(scene.time, problems);

@@ -37,20 +37,20 @@ int parse_side(std::string_view text) {
   return side;
 }
 
-void set_size(View& view, const Values& values) {
+FrameSize parse_size(const Values& values) {
   Values sides = values;
   if (const auto cross = values.front().find('x');
       values.size() == 1 && cross != std::string::npos) {
     sides = {values.front().substr(0, cross), values.front().substr(cross + 1)};
   }
   if (sides.size() != 2) throw UsageError("must be two whole numbers of pixels, as 1920x1080");
-  view.width_px = parse_side(sides[0]);
-  view.height_px = parse_side(sides[1]);
+  return {parse_side(sides[0]), parse_side(sides[1])};
 }
 
-void set_golden_size(Golden& golden, const Values& values) {
-  golden.size = View{};
-  set_size(*golden.size, values);
+void set_size(View& view, const Values& values) {
+  const FrameSize size = parse_size(values);
+  view.width_px = size.width_px;
+  view.height_px = size.height_px;
 }
 
 /// A list, or one text with commas.
@@ -61,6 +61,10 @@ void set_golden_frames(Golden& golden, Values values) {
     for (std::string value; std::getline(text, value, ',');) values.push_back(value);
   }
   for (const std::string& value : values) {
+    // Each has a file of its own.
+    if (std::ranges::count(values, value) > 1) {
+      throw UsageError(fmt::format("'{}' is named more than once", value));
+    }
     try {
       parse_instant(value);
     } catch (const UsageError& error) {
@@ -93,7 +97,7 @@ constexpr std::array<Key, 18> kKeys{{
     {"time.to", [](Scene& s, const Values& v) { s.time.to = parse_end(single(v)); }},
     {"time.speed", [](Scene& s, const Values& v) { set_number(s.time.speed, v); }},
     {"golden.frames", [](Scene& s, const Values& v) { set_golden_frames(s.golden, v); }},
-    {"golden.size", [](Scene& s, const Values& v) { set_golden_size(s.golden, v); }},
+    {"golden.size", [](Scene& s, const Values& v) { s.golden.size = parse_size(v); }},
 }};
 
 std::string joined(const Values& values) {

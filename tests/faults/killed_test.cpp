@@ -90,6 +90,7 @@ TEST_P(KilledTest, AtRandomMomentsLeavesNoHalfFile) {
     if (result.exit_code != 0) ++interrupted;
   }
   fmt::print("{} of {} runs interrupted; {}\n", interrupted, kRounds, random.trace());
+  EXPECT_GE(interrupted, kRounds / 8) << "the signals come too late";
   put_old_files(complete);
   EXPECT_EQ(run(GetParam().arguments).exit_code, 0);
   EXPECT_TRUE(files() == complete) << testing::PrintToString(names(files()));
