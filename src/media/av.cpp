@@ -22,6 +22,14 @@ bool is_io_failure(int code) {
 
 }  // namespace
 
+AvInputPtr open_av_input(const std::string& path) {
+  AVFormatContext* allocated = nullptr;
+  // The protocol's name keeps libav from taking a colon in the path for one.
+  const std::string url = "file:" + path;
+  check_av(avformat_open_input(&allocated, url.c_str(), nullptr, nullptr), "read", path);
+  return AvInputPtr(allocated);
+}
+
 std::string av_error_text(int code) {
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
   av_strerror(code, text.data(), text.size());

@@ -33,20 +33,24 @@ struct AvOutputDeleter {
   }
 };
 
+using AvInputPtr = std::unique_ptr<AVFormatContext, AvDeleter<avformat_close_input>>;
 using AvFramePtr = std::unique_ptr<AVFrame, AvDeleter<av_frame_free>>;
 using AvPacketPtr = std::unique_ptr<AVPacket, AvDeleter<av_packet_free>>;
 using AvCodecContextPtr = std::unique_ptr<AVCodecContext, AvDeleter<avcodec_free_context>>;
 using AvHashPtr = std::unique_ptr<AVHashContext, AvDeleter<av_hash_freep>>;
 using AvOutputPtr = std::unique_ptr<AVFormatContext, AvOutputDeleter>;
 
+/// Opens a media file for reading.
+/// @throws as check_av()
+AvInputPtr open_av_input(const std::string& path);
+
 /// libav's words for an error code.
 std::string av_error_text(int code);
 
 /// Passes on what a call into libav returned.
 /// @param operation what was being done, such as "open encoder"; `object` what it was done to.
-/// @throws IoError if the code is the system's (disk full, pipe closed), std::bad_alloc if memory
-/// ran
-///         out, MediaError if it is another error.
+/// @throws IoError if the code is the system's (disk full, pipe closed), std::bad_alloc if
+///         memory ran out, MediaError if it is another error.
 int check_av(int code, std::string_view operation, std::string_view object);
 
 /// Owns what an allocating call returned.

@@ -1,3 +1,8 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -24,6 +29,7 @@ class Mp4Sink final : public FrameSink {
   void add_stream();
   void write_header();
   void write(const Packet& packet);
+  void check_index() const;
 
   std::string name_;
   const VideoEncoder& encoder_;
@@ -31,6 +37,7 @@ class Mp4Sink final : public FrameSink {
   AvOutputPtr muxer_;  // after file_: closed before the file is removed
   AvPacketPtr packet_;
   FrameCounter counter_;
+  std::int64_t packets_ = 0;
 };
 
 /// A muxer that writes to `path`. The protocol's name keeps libav from taking a colon in the path
@@ -92,6 +99,51 @@ void Mp4Sink::write(const Packet& packet) {
   av_packet_rescale_ts(packet_.get(), av_inv_q(encoder_.frame_rate()),
                        muxer_->streams[0]->time_base);
   check_av(av_write_frame(muxer_.get(), packet_.get()), "write to", name_);
+  ++packets_;
+}
+
+/// Where the pictures begin, if boxes fill the file and those of the pictures are the last.
+/// ISO/IEC 14496-12, 4.2: a box begins with its size, four letters, and the size in 64 bits if 1
+/// stands in place of it.
+std::optional<std::int64_t> start_of_pictures(AVIOContext& file) {
+  const std::int64_t end = avio_size(&file);
+  std::int64_t at = 0;
+  for (int boxes = 0; boxes < 8 && avio_seek(&file, at, SEEK_SET) == at; ++boxes) {
+    std::int64_t size = avio_rb32(&file);
+    const bool is_last = avio_rl32(&file) == MKTAG('m', 'd', 'a', 't');
+    if (size == 1) size = static_cast<std::int64_t>(avio_rb64(&file));
+    if (is_last) return at + size == end ? std::optional(avio_tell(&file)) : std::nullopt;
+    if (size < 8 || size > end - at) return std::nullopt;
+    at += size;
+  }
+  return std::nullopt;
+}
+
+/// Whether the index names that many packets, one after the other from there to the end.
+bool is_complete(AVStream* stream, std::int64_t packets, std::int64_t start, std::int64_t end) {
+  if (avformat_index_get_entries_count(stream) != packets) return false;
+  for (int i = 0; i < packets; ++i) {
+    const AVIndexEntry* const entry = avformat_index_get_entry(stream, i);
+    if (entry->pos != start) return false;
+    start += entry->size;
+  }
+  return start == end;
+}
+
+/// Reads the index back: short of memory, libavformat may leave something out of it and report
+/// nothing.
+void Mp4Sink::check_index() const {
+  const AvInputPtr file = open_av_input(file_.path());
+  const AVCodecParameters& written = encoder_.parameters();
+  const auto is_ours = [&](const AVCodecParameters& read) {
+    return read.codec_id == written.codec_id &&
+           (read.extradata_size > 0) == (written.extradata_size > 0);
+  };
+  const auto start = start_of_pictures(*file->pb);
+  if (!start || file->nb_streams != 1 || !is_ours(*file->streams[0]->codecpar) ||
+      !is_complete(file->streams[0], packets_, *start, avio_size(file->pb))) {
+    throw MediaError(fmt::format("video: the index of '{}' was not written whole", name_));
+  }
 }
 
 void Mp4Sink::finish() {
@@ -99,6 +151,7 @@ void Mp4Sink::finish() {
   avio_flush(muxer_->pb);
   check_av(muxer_->pb->error, "write to", name_);
   check_av(avio_closep(&muxer_->pb), "close", name_);
+  check_index();
   file_.commit();
 }
 

@@ -16,19 +16,13 @@ extern "C" {
 namespace piblocks {
 namespace {
 
-using AvInputPtr = std::unique_ptr<AVFormatContext, AvDeleter<avformat_close_input>>;
-
 struct SwsDeleter {
   void operator()(SwsContext* context) const noexcept { sws_freeContext(context); }
 };
 using SwsPtr = std::unique_ptr<SwsContext, SwsDeleter>;
 
 AvInputPtr open_input(const std::string& path) {
-  AVFormatContext* allocated = nullptr;
-  // The protocol's name keeps libav from taking a colon in the path for one.
-  const std::string url = "file:" + path;
-  check_av(avformat_open_input(&allocated, url.c_str(), nullptr, nullptr), "read", path);
-  AvInputPtr input(allocated);
+  AvInputPtr input = open_av_input(path);
   check_av(avformat_find_stream_info(input.get(), nullptr), "read", path);
   return input;
 }
