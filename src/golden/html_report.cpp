@@ -27,17 +27,30 @@ section { border-top: 1px solid #8888; padding: 1rem 0; }
 section.refused h2::before { content: "\2717  "; color: #c62828; }
 section.accepted h2::before { content: "\2713  "; color: #2e7d32; }
 p { margin: .3rem 0; }
-.controls { display: flex; gap: 1.5rem; flex-wrap: wrap; position: sticky; top: 0; z-index: 1;
+.controls { display: flex; gap: 0 1.5rem; flex-wrap: wrap; position: sticky; top: 0; z-index: 1;
   padding: .5rem 0; background: Canvas; }
+.frame { max-width: calc(80vh * var(--shape)); margin: auto; }
 .sides { display: flex; justify-content: space-between; opacity: .7; }
 .pictures { position: relative; line-height: 0; border: 1px solid #8888; }
 .pictures img { width: 100%; }
 .pictures img + img { position: absolute; inset: 0; }
 .actual { clip-path: inset(0 0 0 var(--split, 50%)); }
 .difference { visibility: hidden; }
+.pictures::after { content: ""; position: absolute; inset: 0 auto 0 var(--split, 50%);
+  border-left: 1px solid #888; }
 .show-difference .difference { visibility: visible; }
-input[type=range] { width: 100%; margin: .5rem 0; }
+.show-difference :is(.sides, input[type=range]), .show-difference .pictures::after {
+  visibility: hidden; }
+body:not(:has(img)) label:has(#difference) { display: none; }
+input[type=range] { width: calc(100% + 1rem); margin: .5rem -.5rem; }
 </style>
+)";
+
+constexpr std::string_view kControls = R"(<div class="controls">
+<label>Show frames named <input id="filter" type="search" autocomplete="off"></label>
+<label><input id="refused" type="checkbox" autocomplete="off"> only what is not accepted</label>
+<label><input id="difference" type="checkbox" autocomplete="off"> differences in red</label>
+</div>
 )";
 
 constexpr std::string_view kScript = R"(<script>
@@ -47,7 +60,8 @@ const difference = document.getElementById("difference");
 const sections = document.querySelectorAll("section");
 function update() {
   for (const section of sections) {
-    const matches = section.textContent.toLowerCase().includes(filter.value.toLowerCase());
+    const name = section.querySelector("h2").textContent.toLowerCase();
+    const matches = name.includes(filter.value.toLowerCase());
     section.hidden = !matches || (refused.checked && !section.classList.contains("refused"));
   }
   document.body.classList.toggle("show-difference", difference.checked);
@@ -88,12 +102,13 @@ std::string pictures_of(const FrameComparison& frame) {
   const Image reference = frame.reference();
   const Image actual = frame.actual();
   return fmt::format(
+      "<div class=\"frame\" style=\"--shape: {} / {}\">"
       "<div class=\"sides\"><span>expected</span><span>actual</span></div>"
       "<div class=\"pictures\">{}{}{}</div>"
-      "<input type=\"range\" value=\"50\" aria-label=\"expected on the left, actual on the "
-      "right\">\n",
-      picture(reference, "expected"), picture(actual, "actual"),
-      picture(difference_picture(reference, actual), "difference"));
+      "<input type=\"range\" value=\"50\" autocomplete=\"off\" "
+      "aria-label=\"expected on the left, actual on the right\"></div>\n",
+      reference.width_px, reference.height_px, picture(reference, "expected"),
+      picture(actual, "actual"), picture(difference_picture(reference, actual), "difference"));
 }
 
 std::string summary_of(const ComparisonResult& result) {
@@ -120,23 +135,23 @@ class HtmlReport final : public Report {
 
   void finish(const ComparisonJob& job, const ComparisonResult& result) override {
     file_.write(kHead);
-    file_.write(fmt::format(
-        "<title>{1} against {0}</title>\n<h1>{1} against {0}</h1>\n<p>{2}</p>\n"
-        "<div class=\"controls\">\n"
-        "<label>Show frames with <input id=\"filter\" type=\"search\"></label>\n"
-        "<label><input id=\"refused\" type=\"checkbox\"> only what is not accepted</label>\n"
-        "<label><input id=\"difference\" type=\"checkbox\"> differences in red</label>\n"
-        "</div>\n",
-        escaped(job.reference), escaped(job.actual), escaped(summary_of(result))));
+    file_.write(
+        fmt::format("<title>{1} against {0}</title>\n<h1>{1} against {0}</h1>\n<p>{2}</p>\n",
+                    escaped(job.reference), escaped(job.actual), escaped(summary_of(result))));
+    if (!sections_.empty()) write_sections();
+    file_.finish();
+  }
+
+ private:
+  void write_sections() {
+    file_.write(kControls);
     file_.write(sections_);
     if (pictures_ == kMaxPictures) {
       file_.write(fmt::format("<p>Pictures are shown of the first {} frames.</p>\n", pictures_));
     }
     file_.write(kScript);
-    file_.finish();
   }
 
- private:
   OutputFile file_;
   std::string sections_;
   int pictures_ = 0;
