@@ -5,6 +5,7 @@
 #include <piblocks/compare.hpp>
 #include <piblocks/image.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -13,6 +14,9 @@
 #include <vector>
 
 namespace piblocks {
+
+/// Longest file of hashes that is read, in lines.
+inline constexpr std::size_t kMaxHashes = 2'000'000;
 
 struct ComparisonJob {
   std::string reference;  ///< a PNG file, a folder of them, a pattern, a video, or a framehash file

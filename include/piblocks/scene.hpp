@@ -66,6 +66,8 @@ struct Scene {
 
 /// Longest scene file that is read.
 inline constexpr std::size_t kMaxSceneFile_bytes = 1 << 20;
+/// Deepest lists and tables in it.
+inline constexpr int kMaxSceneNesting = 256;
 
 /// Collects a scene's values from a file and from options, remembering where each came from.
 /// The keys are those of the scene file: "wall.face"; "blue." and "red." with "mass",

@@ -2,6 +2,8 @@
 #include <piblocks/blocks.hpp>
 #include <piblocks/canvas.hpp>
 #include <piblocks/collision_log.hpp>
+#include <piblocks/compare_files.hpp>
+#include <piblocks/exact.hpp>
 #include <piblocks/frame_sink.hpp>
 #include <piblocks/image.hpp>
 #include <piblocks/physics_versions.hpp>
@@ -10,10 +12,27 @@
 #include <piblocks/version.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/limits.hpp"
 #include "cli/text_output.hpp"
 
 namespace piblocks::cli {
 namespace {
+
+void print_limits(TextOutput& out) {
+  out.line("limits:");
+  out.format_line("  scene file: {} bytes, lists nested {} deep", kMaxSceneFile_bytes,
+                  kMaxSceneNesting);
+  out.format_line("  digits: {}", kMaxDigits);
+  out.format_line("  numerator or denominator of a number: {} bits", kMaxRationalBits);
+  out.format_line("  frame: {} pixels a side, {} in all", kMaxSide_px, kMaxFrame_px);
+  out.format_line("  frames per second: {}", kMaxFrameRate);
+  out.format_line("  frames of one rendering: {}", kMaxFrames);
+  out.format_line("  parts of one rendering: {}", kMaxParts);
+  out.format_line("  threads: {}", kMaxJobs);
+  out.format_line("  rows of a log: {}, more with --limit", kMaxRows);
+  out.format_line("  collisions stored by --engine events: {}", kMaxStoredCollisions);
+  out.format_line("  lines of a framehash file: {}", kMaxHashes);
+}
 
 void run() {
   TextOutput out("-");
@@ -28,13 +47,7 @@ void run() {
   const std::vector<std::string> encoders = h264_encoders();
   for (const std::string& encoder : encoders) out.format_line("  {}", encoder);
   if (encoders.empty()) out.line("  none: MP4 cannot be written");
-  out.line("limits:");
-  out.format_line("  scene file: {} bytes", kMaxSceneFile_bytes);
-  out.format_line("  digits: {}", kMaxDigits);
-  out.format_line("  frame: {} pixels a side, {} in all", kMaxSide_px, kMaxFrame_px);
-  out.format_line("  frames per second: {}", kMaxFrameRate);
-  out.format_line("  frames of one rendering: {}", kMaxFrames);
-  out.format_line("  collisions stored by --engine events: {}", kMaxStoredCollisions);
+  print_limits(out);
   out.finish();
 }
 

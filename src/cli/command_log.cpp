@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/convention_note.hpp"
 #include "cli/decimal_counter.hpp"
+#include "cli/limits.hpp"
 #include "cli/npy.hpp"
 #include "cli/options.hpp"
 #include "cli/refuse_terminal.hpp"
@@ -17,9 +18,6 @@
 
 namespace piblocks::cli {
 namespace {
-
-/// Most rows that are written unless --limit asks for more.
-constexpr long kMaxRows = 100'000'000;
 
 struct LogOptions {
   SceneOptions scene;

@@ -5,6 +5,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/convention_note.hpp"
+#include "cli/limits.hpp"
 #include "cli/options.hpp"
 #include "cli/profile_report.hpp"
 #include "cli/progress.hpp"
@@ -28,13 +29,11 @@ struct RenderOptions {
 };
 
 int parse_jobs(const std::string& text) {
-  constexpr int kMaxJobs = 256;
   return static_cast<int>(parse_whole_number(text, 1, Integer(kMaxJobs)).get_si());
 }
 
 /// "2/3", the second of three.
 Part parse_part(const std::string& text) {
-  constexpr int kMaxParts = 100'000;
   const std::size_t slash = text.find('/');
   if (slash == std::string::npos) throw UsageError("must be I/N, such as 2/3");
   const Integer count = parse_whole_number(text.substr(slash + 1), 1, Integer(kMaxParts));

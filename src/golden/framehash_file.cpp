@@ -1,6 +1,7 @@
 #include "golden/framehash_file.hpp"
 
 #include <fmt/format.h>
+#include <piblocks/compare_files.hpp>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
@@ -13,7 +14,6 @@ namespace {
 
 /// More than a line of the longest hash has.
 constexpr std::size_t kMaxLine = 4096;
-constexpr std::size_t kMaxLines = 10'000'000;
 
 /// Stream, dts, pts, duration, size, hash.
 bool is_frame(const std::string& line) {
@@ -39,8 +39,11 @@ FramehashFile read_framehash(const std::string& path) {
     const std::string text = without_blanks(line.data());
     if (text.starts_with("#software")) continue;
     const bool is_header = text.empty() || text.front() == '#';
-    if (number > kMaxLines || (!is_header && !is_frame(text))) {
+    if (!is_header && !is_frame(text)) {
       throw IoError(fmt::format("framehash: '{}': line {} is no hash of a frame", path, number));
+    }
+    if (number > kMaxHashes) {
+      throw IoError(fmt::format("framehash: '{}' has more than {} lines", path, kMaxHashes));
     }
     if (!text.empty()) (is_header ? result.header : result.frames).push_back(text);
   }

@@ -14,6 +14,8 @@
 namespace piblocks {
 namespace {
 
+static_assert(TOML_MAX_NESTED_VALUES == kMaxSceneNesting);
+
 std::string read_text(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text(kMaxSceneFile_bytes + 1, '\0');

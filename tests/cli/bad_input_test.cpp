@@ -121,6 +121,19 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"count", "scene.toml"}, "view.fps = -1", "[view]\nfps = -1"},
         BadInput{{"count", "scene.toml"}, "time.speed = inf", "[time]\nspeed = inf"}));
 
+/// One more than each limit that `piblocks info` names; those of a picture are below.
+INSTANTIATE_TEST_SUITE_P(
+    Limits, BadInputTest,
+    testing::Values(
+        BadInput{{"count", "--digits", "100001"}, "--digits 100001: must be a whole number from 1"},
+        BadInput{{"count", "--mass-ratio", "2^4000001"}, "longer than"},
+        BadInput{{"count", "scene.toml"}, "longer than 1048576 bytes", std::string(1048577, '#')},
+        BadInput{{"count", "scene.toml"}, "scene.toml:1: ", "a = " + std::string(257, '[')},
+        BadInput{render({"--part", "1/100001"}), "--part 1/100001: must be a whole number"},
+        BadInput{render({"--jobs", "257"}), "--jobs 257: must be a whole number from 1 to 256"},
+        BadInput{{"log", "--digits", "10"}, "3,141,592,653 rows are more than 100,000,000"},
+        BadInput{{"log", "--digits", "8", "--engine", "events"}, "5,000,000"}));
+
 INSTANTIATE_TEST_SUITE_P(
     Picture, BadInputTest,
     testing::Values(

@@ -125,6 +125,11 @@ TEST_F(CompareTest, MissingAndUnreadableInputsHaveTheirOwnCodes) {
   EXPECT_NE(complaint({"a", "no.mp4"}, 5).find("cannot read 'no.mp4'"), std::string::npos);
   EXPECT_NE(complaint({"no.framehash", "no.framehash"}, 5).find("line 1 is no hash"),
             std::string::npos);
+  std::string longer = "#format: frame checksums\n";
+  for (int line = 0; line < 2'000'000; ++line) longer += "0,0,0,1,1,0\n";
+  write("long.framehash", longer);
+  EXPECT_NE(complaint({"long.framehash", "long.framehash"}, 5).find("more than 2000000 lines"),
+            std::string::npos);
   fs::create_directory(folder_ / "empty");
   EXPECT_NE(complaint({"a", "empty"}, 5).find("no PNG file in 'empty'"), std::string::npos);
 }
