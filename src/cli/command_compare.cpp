@@ -144,7 +144,7 @@ ComparisonResult run_comparison(const CompareOptions& options, const ComparisonJ
     printer.add(frame);
     for (const auto& report : reports) report->add(frame);
   };
-  const ComparisonResult result = compare_files(job, on_frame, signals.token());
+  ComparisonResult result = compare_files(job, on_frame, signals.token());
   for (const auto& report : reports) report->finish(job, result);
   printer.finish(result);
   return result;

@@ -7,9 +7,8 @@
 namespace piblocks {
 namespace {
 
-// GMP asks for functions like those of C, which know nothing but what they are handed.
-// NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables, cppcoreguidelines-no-malloc,
-//             cppcoreguidelines-owning-memory)
+// NOLINTBEGIN(cppcoreguidelines-*): GMP asks for functions like those of C, which know nothing but
+// what they are handed.
 
 void (*end_process)() = std::abort;
 
@@ -24,8 +23,7 @@ void* reallocate(void* memory, std::size_t /*old_bytes*/, std::size_t bytes) {
 }
 void release(void* memory, std::size_t /*bytes*/) { std::free(memory); }
 
-// NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables, cppcoreguidelines-no-malloc,
-//           cppcoreguidelines-owning-memory)
+// NOLINTEND(cppcoreguidelines-*)
 
 }  // namespace
 

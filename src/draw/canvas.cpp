@@ -64,6 +64,7 @@ std::vector<std::uint8_t> with_fixed_id(std::vector<std::uint8_t> svg) {
   constexpr std::string_view kFixed = "<g id=\"picture";
   const auto begin = std::search(svg.begin(), svg.end(), kCounted.begin(), kCounted.end());
   if (begin == svg.end()) return svg;
+  // cppcheck-suppress derefInvalidIteratorRedundantCheck ; at the end this has returned
   const auto end = std::find(begin + kCounted.size(), svg.end(), '"');
   svg.insert(svg.erase(begin, end), kFixed.begin(), kFixed.end());
   return svg;

@@ -11,7 +11,7 @@
 #include FT_FREETYPE_H
 
 // Defined in font_data.S.
-// NOLINTBEGIN(readability-identifier-naming): symbols of the assembler are global.
+// NOLINTBEGIN(readability-identifier-naming): no constants, but symbols of the assembler
 extern "C" const unsigned char piblocks_font_begin[];
 extern "C" const unsigned char piblocks_font_end[];
 // NOLINTEND(readability-identifier-naming)
@@ -51,6 +51,7 @@ FT_Face load_embedded_face() {
   check_freetype(FT_Init_FreeType(&created), "start FreeType");
   FtLibraryPtr library(created);
   FT_Face face = nullptr;
+  // cppcheck-suppress comparePointers ; begin and end of one object, which the assembler lays out
   const auto size = static_cast<FT_Long>(piblocks_font_end - piblocks_font_begin);
   check_freetype(FT_New_Memory_Face(library.get(), piblocks_font_begin, size, 0, &face),
                  "load the embedded font");

@@ -7,6 +7,7 @@
 #include <piblocks/version.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <string_view>
 
 namespace piblocks {
@@ -41,19 +42,26 @@ std::vector<std::string> candidates() {
   return files;
 }
 
+struct LibraryCloser {
+  void operator()(void* library) const { ::dlclose(library); }
+};
+using Library = std::unique_ptr<void, LibraryCloser>;
+
 /// The module in this file; nothing, and one more of the reasons, if it cannot be used.
 const AvModule* load(const std::string& file, std::string& reasons) {
-  void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  void* const entry = library == nullptr ? nullptr : ::dlsym(library, kAvModuleEntry);
+  Library library(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL));
+  void* const entry = library ? ::dlsym(library.get(), kAvModuleEntry) : nullptr;
   if (entry == nullptr) {
-    reasons += fmt::format("; {}", ::dlerror());  // NOLINT(concurrency-mt-unsafe): once
+    reasons += fmt::format("; {}", ::dlerror());
     return nullptr;
   }
   const AvModule* const module = reinterpret_cast<const AvModule* (*)()>(entry)();
-  if (std::string_view(module->version) == kVersion) return module;
-  reasons += fmt::format("; {} is of version {}, not {}", file, module->version, kVersion);
-  ::dlclose(library);
-  return nullptr;
+  if (std::string_view(module->version) != kVersion) {
+    reasons += fmt::format("; {} is of version {}, not {}", file, module->version, kVersion);
+    return nullptr;
+  }
+  static_cast<void>(library.release());  // its code is called until the program ends
+  return module;
 }
 
 const AvModule& load() {

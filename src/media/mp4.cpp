@@ -2,6 +2,7 @@
 #include <piblocks/error.hpp>
 
 #include <cstdint>
+#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -63,7 +64,7 @@ Mp4Sink::Mp4Sink(const std::string& name, const VideoEncoder& encoder)
 
 void Mp4Sink::add_stream() {
   AVStream* stream = avformat_new_stream(muxer_.get(), nullptr);
-  if (stream == nullptr) check_av(AVERROR(ENOMEM), "add a stream to", name_);
+  if (stream == nullptr) throw std::bad_alloc();
   check_av(avcodec_parameters_copy(stream->codecpar, &encoder_.parameters()),
            "describe the stream of", name_);
   stream->time_base = av_inv_q(encoder_.frame_rate());
@@ -87,8 +88,7 @@ void Mp4Sink::append(const EncodedChunk& chunk) {
 
 void Mp4Sink::write(const Packet& packet) {
   av_packet_unref(packet_.get());
-  // The muxer only reads what it is given without a reference count.
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): the muxer only reads what has no owner
   packet_->data = const_cast<std::uint8_t*>(packet.bytes.data());
   packet_->size = static_cast<int>(packet.bytes.size());
   packet_->pts = packet.pts;

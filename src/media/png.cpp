@@ -148,7 +148,8 @@ void PngEncoder::compress_strip(std::size_t index) {
   deflateReset(&stream);
   // Beside the bound, what a flush adds.
   compressed_.resize(deflateBound(&stream, rows.size()) + 16);
-  stream.next_in = const_cast<std::uint8_t*>(rows.data());  // NOLINT: zlib does not write to it
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): zlib does not write to it
+  stream.next_in = const_cast<std::uint8_t*>(rows.data());
   stream.avail_in = static_cast<uInt>(rows.size());
   stream.next_out = compressed_.data();
   stream.avail_out = static_cast<uInt>(compressed_.size());

@@ -40,7 +40,7 @@ RayTable make_table(const ClosedForm& form, int sign, bool anchor_is_odd) {
 /// Fills rows of a batch from `row` on with the rays of one block.
 /// @param skip  rows of the table before the first that is used
 PIBLOCKS_VECTOR_CLONES
-void fill_rows(const ClosedForm form, double sign, const Direction anchor, const RayTable& table,
+void fill_rows(const ClosedForm& form, double sign, const Direction anchor, const RayTable& table,
                std::size_t skip, std::size_t count, CollisionBatch& batch, std::size_t row) {
   const double* sine = table.sine.data() + skip;
   const double* cosine = table.cosine.data() + skip;
@@ -70,7 +70,7 @@ void fill_rows(const ClosedForm form, double sign, const Direction anchor, const
 }
 
 /// wall, blocks, wall, …: the kinds of consecutive rays from an even one on.
-constexpr auto kKinds = [] {
+constexpr auto kKinds = []() {
   std::array<CollisionKind, CollisionBatch::kCapacity + 1> kinds{};
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     kinds[i] = i % 2 == 0 ? CollisionKind::wall : CollisionKind::blocks;

@@ -49,6 +49,7 @@ class OrderedPool {
     ++next_to_take_;
     lock.unlock();
     changed_.notify_all();
+    // cppcheck-suppress returnStdMoveLocal ; a reference into the node, not a local object
     return std::move(node.mapped());
   }
 

@@ -1,7 +1,7 @@
 # What the checks of this folder share. To be sourced, after `me` and `program` are set: makes a
 # folder, whose path needs quoting, for the check to work in. In the end all that was started is
 # stopped, and the folder is gone.
-# shellcheck shell=bash disable=SC2034
+# shellcheck shell=bash disable=SC2034 # what is set here is used there
 
 clean_up() {
   local log
