@@ -26,7 +26,7 @@ AvInputPtr open_av_input(const std::string& path) {
   AVFormatContext* allocated = nullptr;
   // The protocol's name keeps libav from taking a colon in the path for one.
   const std::string url = "file:" + path;
-  check_av(avformat_open_input(&allocated, url.c_str(), nullptr, nullptr), "read", path);
+  check_av_read(avformat_open_input(&allocated, url.c_str(), nullptr, nullptr), "read", path);
   return AvInputPtr(allocated);
 }
 
@@ -37,8 +37,12 @@ std::string av_error_text(int code) {
 }
 
 int check_av(int code, std::string_view operation, std::string_view object) {
-  if (code >= 0) return code;
   if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
+  return check_av_read(code, operation, object);
+}
+
+int check_av_read(int code, std::string_view operation, std::string_view object) {
+  if (code >= 0) return code;
   const std::string message =
       fmt::format("video: cannot {} '{}': {}", operation, object, av_error_text(code));
   if (is_io_failure(code)) throw IoError(message);

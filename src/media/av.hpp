@@ -41,7 +41,7 @@ using AvHashPtr = std::unique_ptr<AVHashContext, AvDeleter<av_hash_freep>>;
 using AvOutputPtr = std::unique_ptr<AVFormatContext, AvOutputDeleter>;
 
 /// Opens a media file for reading.
-/// @throws as check_av()
+/// @throws IoError, MediaError if it cannot be read.
 AvInputPtr open_av_input(const std::string& path);
 
 /// libav's words for an error code.
@@ -52,6 +52,11 @@ std::string av_error_text(int code);
 /// @throws IoError if the code is the system's (disk full, pipe closed), std::bad_alloc if
 ///         memory ran out, MediaError if it is another error.
 int check_av(int code, std::string_view operation, std::string_view object);
+
+/// The same for what is read: there, running out of memory is a fault of a file that asks for too
+/// much of it.
+/// @throws IoError, MediaError
+int check_av_read(int code, std::string_view operation, std::string_view object);
 
 /// Owns what an allocating call returned.
 /// @throws std::bad_alloc if that is null, which libav returns when memory runs out.

@@ -23,7 +23,7 @@ using SwsPtr = std::unique_ptr<SwsContext, SwsDeleter>;
 
 AvInputPtr open_input(const std::string& path) {
   AvInputPtr input = open_av_input(path);
-  check_av(avformat_find_stream_info(input.get(), nullptr), "read", path);
+  check_av_read(avformat_find_stream_info(input.get(), nullptr), "read", path);
   return input;
 }
 
@@ -34,11 +34,11 @@ AvCodecContextPtr open_decoder(const AVStream& stream, const std::string& path) 
                                  avcodec_get_name(stream.codecpar->codec_id)));
   }
   auto context = own_av<AvCodecContextPtr>(avcodec_alloc_context3(codec), codec->name);
-  check_av(avcodec_parameters_to_context(context.get(), stream.codecpar), "decode", path);
+  check_av_read(avcodec_parameters_to_context(context.get(), stream.codecpar), "decode", path);
   context->max_pixels = kMaxFrame_px;
   context->err_recognition = AV_EF_EXPLODE;
   context->thread_count = 0;  // as many as there are processors; the pictures are the same
-  check_av(avcodec_open2(context.get(), codec, nullptr), "decode", path);
+  check_av_read(avcodec_open2(context.get(), codec, nullptr), "decode", path);
   return context;
 }
 
@@ -97,7 +97,7 @@ Image converted_to_rgb(const AVFrame& frame, SwsPtr& sws) {
                      static_cast<std::size_t>(frame.height));
   const std::array<std::uint8_t*, 1> data = {reinterpret_cast<std::uint8_t*>(image.words.data())};
   const std::array<int, 1> stride = {4 * frame.width};
-  check_av(
+  check_av_read(
       sws_scale(sws.get(), frame.data, frame.linesize, 0, frame.height, data.data(), stride.data()),
       "convert", "picture");
   return image;
@@ -108,8 +108,9 @@ class VideoReader final : public FrameReader {
   explicit VideoReader(const std::string& path)
       : path_(path),
         input_(open_input(path)),
-        stream_(check_av(av_find_best_stream(input_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0),
-                         "find a video in", path)),
+        stream_(
+            check_av_read(av_find_best_stream(input_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0),
+                          "find a video in", path)),
         decoder_(open_decoder(*input_->streams[stream_], path)),
         packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")),
         frame_(own_av<AvFramePtr>(av_frame_alloc(), "frame")) {}
@@ -146,7 +147,7 @@ bool VideoReader::next() {
       feed();
       continue;
     }
-    check_av(code, "decode", path_);
+    check_av_read(code, "decode", path_);
     ++frames_;
     return true;
   }
@@ -157,15 +158,15 @@ void VideoReader::feed() {
   while (true) {
     const int code = av_read_frame(input_.get(), packet_.get());
     if (code == AVERROR_EOF) break;
-    check_av(code, "read", path_);
+    check_av_read(code, "read", path_);
     const bool is_video = packet_->stream_index == stream_;
     if (is_video) {
-      check_av(avcodec_send_packet(decoder_.get(), packet_.get()), "decode", path_);
+      check_av_read(avcodec_send_packet(decoder_.get(), packet_.get()), "decode", path_);
     }
     av_packet_unref(packet_.get());
     if (is_video) return;
   }
-  check_av(avcodec_send_packet(decoder_.get(), nullptr), "decode", path_);
+  check_av_read(avcodec_send_packet(decoder_.get(), nullptr), "decode", path_);
 }
 
 }  // namespace
