@@ -1,0 +1,35 @@
+// What surrounds a piece of an H.264 stream.
+// In: an RBSP. Out: a NAL unit with a start code (ITU-T H.264, 7.3.1 and annex B), and back.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace piblocks::h264 {
+
+/// nal_unit_type, table 7-1.
+enum class UnitType : std::uint8_t {
+  slice = 1,
+  idr_slice = 5,
+  sei = 6,
+  sequence_parameters = 7,
+  picture_parameters = 8
+};
+
+/// Appends a start code of four bytes, the header and the RBSP, in which 3 stands after two zeros
+/// wherever a start code could be seen (7.4.1).
+/// @param importance  nal_ref_idc, from 0 to 3.
+/// @param rbsp  with its trailing bits; only whole words of zeros may follow them.
+void append_unit(UnitType type, int importance, std::span<const std::uint8_t> rbsp,
+                 std::vector<std::uint8_t>& stream);
+
+struct Unit {
+  int type;
+  std::vector<std::uint8_t> rbsp;
+};
+
+/// The units of a stream with start codes of three or four bytes, without the inserted threes.
+std::vector<Unit> read_units(std::span<const std::uint8_t> stream);
+
+}  // namespace piblocks::h264
