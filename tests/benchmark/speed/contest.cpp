@@ -14,6 +14,7 @@ namespace {
 struct Entrant {
   const Contender* contender;
   double output_MB = 0;
+  Quality quality{};
   std::vector<Usage> runs{};
 };
 
@@ -27,7 +28,8 @@ std::vector<Entrant> warm_up(const Workbench& bench, const std::vector<Contender
   for (const Contender& contender : contenders) {
     try {
       run(bench, contender);
-      entrants.push_back({&contender, bench.output_MB()});
+      entrants.push_back(
+          {&contender, bench.output_MB(), contender.judge ? contender.judge() : Quality{}});
     } catch (const Interrupted&) {
       throw;
     } catch (const Error& error) {
@@ -62,6 +64,7 @@ Result result_of(const Entrant& entrant, const Entrant& first) {
           .cpu_seconds = median(column(entrant, &Usage::cpu_seconds)),
           .peak_MB = median(column(entrant, &Usage::peak_MB)),
           .output_MB = entrant.output_MB,
+          .quality = entrant.quality,
           .ratio = median(ratios),
           .least_ratio = std::ranges::min(ratios),
           .greatest_ratio = std::ranges::max(ratios)};

@@ -2,6 +2,7 @@
 // In: contenders, the first of which the others are compared with. Out: one row for each.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "speed/process.hpp"
@@ -13,6 +14,8 @@ namespace piblocks::benchmark {
 struct Contender {
   Subject subject;
   Command command;
+  /// Looks at what the command has written.
+  std::function<Quality()> judge = {};
 };
 
 /// A warm-up of all, then `rounds` rounds over all. Who fails in the warm-up is left out, with a

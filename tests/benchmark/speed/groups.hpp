@@ -8,6 +8,8 @@ namespace piblocks::benchmark {
 
 /// The whole video, by the program and by what else a lecturer would use.
 void measure_job(const Workbench& bench);
+/// Both of the program's ways to an MP4, and ffmpeg's, at several sizes.
+void measure_encoders(const Workbench& bench);
 /// Numbered pictures, by the program and by the usual ways to write PNG.
 void measure_png(const Workbench& bench);
 /// Where the program's processor time goes.

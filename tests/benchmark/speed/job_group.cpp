@@ -61,15 +61,6 @@ void add_if_there(const Workbench& bench, Contest& contest, const std::string& n
   add(contest, name, short_version(version.out), frames, std::move(command));
 }
 
-/// Nothing but encoding: the program's own frames and settings.
-Command ffmpeg_command(const std::string& y4m, const std::string& output) {
-  return {"ffmpeg",    "-y",         "-loglevel",    "error",
-          "-i",        y4m,          "-c:v",         "libx264",
-          "-preset",   "ultrafast",  "-qp",          "14",
-          "-g",        "60",         "-x264-params", "mbtree=0:scenecut=0",
-          "-movflags", "+faststart", output};
-}
-
 void add_peer(const Workbench& bench, Contest& contest, const Peer& peer) {
   const std::int64_t frames = contest.frames / peer.share;
   // Without -B, Python would leave its compiled modules in the source tree.
@@ -90,7 +81,7 @@ void measure_encoding(const Workbench& bench) {
   sync();  // what is still to be written would slow the first rounds
   Contest contest = contest_of_program(bench, "encoding");
   add_if_there(bench, contest, "ffmpeg from y4m", contest.frames, {"ffmpeg", "-version"},
-               ffmpeg_command(y4m, bench.output("ffmpeg.mp4")));
+               ffmpeg_ultrafast(y4m, bench.output("ffmpeg.mp4")));
   hold_contest(bench, contest.contenders, kRepetitions * bench.rounds);
   std::filesystem::remove(y4m);
 }

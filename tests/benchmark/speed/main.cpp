@@ -22,7 +22,8 @@ struct Options {
 };
 
 using Measure = void (*)(const Workbench&);
-constexpr std::array<std::pair<const char*, Measure>, 4> kGroups = {{{"job", measure_job},
+constexpr std::array<std::pair<const char*, Measure>, 5> kGroups = {{{"job", measure_job},
+                                                                     {"encoders", measure_encoders},
                                                                      {"png", measure_png},
                                                                      {"stages", measure_stages},
                                                                      {"scaling", measure_scaling}}};
@@ -48,8 +49,8 @@ int main(int argc, char** argv) {
   app.add_option("--rounds", options.rounds, "Rounds over all programs, after one to warm up")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--only", options.only, "Measure one group: job, png, stages or scaling")
-      ->check(CLI::IsMember({"job", "png", "stages", "scaling"}));
+  app.add_option("--only", options.only, "Measure one group: job, encoders, png, stages or scaling")
+      ->check(CLI::IsMember({"job", "encoders", "png", "stages", "scaling"}));
   CLI11_PARSE(app, argc, argv);
   try {
     piblocks::benchmark::run(options);

@@ -12,12 +12,19 @@ namespace piblocks::benchmark {
 
 /// What is measured.
 struct Subject {
-  std::string group;    ///< job, png, stages, scaling
+  std::string group;    ///< job, encoders, png, stages, scaling
   std::string series;   ///< rows that are compared with each other
   std::string value;    ///< what varies in the series: threads, digits, a frame size
   std::string name;     ///< of the program, or of the stage
   std::string version;  ///< of the program or library that does the work
   std::int64_t frames = 0;
+};
+
+/// How near a video is to what was drawn, in 4:2:0.
+struct Quality {
+  std::optional<double> psnr_dB = {};        ///< of all samples of all frames
+  std::optional<double> least_psnr_dB = {};  ///< of the worst frame
+  std::optional<double> ssim = {};           ///< of all planes
 };
 
 /// What it came to; medians, where nothing else is said.
@@ -29,6 +36,7 @@ struct Result {
   std::optional<double> cpu_seconds = {};
   std::optional<double> peak_MB = {};
   std::optional<double> output_MB = {};
+  Quality quality = {};
   /// Seconds a frame, as a multiple of the series' first row in the same round.
   std::optional<double> ratio = {};
   std::optional<double> least_ratio = {};

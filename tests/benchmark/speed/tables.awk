@@ -3,7 +3,7 @@
 # awk -f page.awk -f speed/tables.awk speed.csv README.md
 BEGIN {
   if (page == "README.md") allowed = "speed-short"
-  else names = "measured job png stages digits size jobs duration null still"
+  else names = "measured job encoders png stages digits size jobs duration null still"
 }
 
 # Rows are known by number: field[row, column's name].
@@ -18,6 +18,7 @@ BEGIN {
 function print_table(name) {
   if (name == "measured") print_measured()
   else if (name == "job") print_job()
+  else if (name == "encoders") print_encoders()
   else if (name == "png") print_png()
   else if (name == "stages") print_stages()
   else if (name == "digits") print_scaling("digits", "Digits")
@@ -80,6 +81,18 @@ function print_job(    row) {
     if (!is_job(row)) continue
     print "| " get(row, "name") " | " speed_cells(row) " | " \
       number_text(per_frame(row, "output_MB") * 60 * 1000) " | " ratio_text(row) " |"
+  }
+}
+
+function print_encoders(    row) {
+  print "| Frame size | Encoder | " speed_head() " | kB a second of video | PSNR, dB | Worst frame, dB" \
+    " | SSIM | Time, piblocks = 1 |"
+  print "|---:|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|"
+  for (row = 1; row <= rows; ++row) {
+    if (get(row, "group") != "encoders") continue
+    print "| " value_text(row) " | " get(row, "name") " | " speed_cells(row) " | " \
+      number_text(per_frame(row, "output_MB") * 60 * 1000) " | " get(row, "psnr_dB") " | " \
+      get(row, "least_psnr_dB") " | " get(row, "ssim") " | " ratio_text(row) " |"
   }
 }
 

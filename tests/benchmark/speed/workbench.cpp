@@ -41,6 +41,14 @@ std::string Workbench::program_version() const {
   return last_line(runner.run({program, "--version"}).out);
 }
 
+Command ffmpeg_ultrafast(const std::string& y4m, const std::string& output) {
+  return {"ffmpeg",    "-y",         "-loglevel",    "error",
+          "-i",        y4m,          "-c:v",         "libx264",
+          "-preset",   "ultrafast",  "-qp",          "14",
+          "-g",        "60",         "-x264-params", "mbtree=0:scenecut=0",
+          "-movflags", "+faststart", output};
+}
+
 std::int64_t article_frames(int digits, const std::string& to) {
   Scene scene;
   scene.system = article_system(digits);

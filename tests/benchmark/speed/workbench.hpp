@@ -34,6 +34,9 @@ struct Workbench {
   std::string program_version() const;
 };
 
+/// Nothing but encoding, by the settings that the program's libx264 has.
+Command ffmpeg_ultrafast(const std::string& y4m, const std::string& output);
+
 /// Frames of the article's scene at 60 frames a second.
 /// @param to  as the option --to takes it.
 std::int64_t article_frames(int digits, const std::string& to = "last+1.5");
