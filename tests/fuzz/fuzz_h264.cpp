@@ -1,0 +1,89 @@
+// The encoder of H.264 on pictures and changes that the bytes say. libavcodec has to show every
+// picture as the encoder believes it is shown.
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "media/h264/random_pictures.hpp"
+#include "media/h264/stream_fixture.hpp"
+
+namespace {
+
+using namespace piblocks::h264;
+
+/// Numbers from the bytes of an input, and the least that are asked for after its end.
+class Numbers {
+ public:
+  explicit Numbers(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  bool has_more() const { return !bytes_.empty(); }
+  int integer(int first, int last) {
+    if (bytes_.empty()) return first;
+    const int byte = bytes_.front();
+    bytes_ = bytes_.subspan(1);
+    return first + byte % (last - first + 1);
+  }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+};
+
+/// Says at the end how many pictures were compared.
+struct Counter {
+  ~Counter() { std::fprintf(stderr, "fuzz_h264: %lld pictures were compared\n", pictures); }
+  long long pictures = 0;
+} counter;
+
+/// libx264 takes longer to open than all the rest: once for each size.
+const StreamHeaders& headers_of(int number) {
+  constexpr std::array<std::array<int, 2>, 8> kSizes = {
+      {{2, 2}, {16, 16}, {18, 14}, {34, 18}, {64, 16}, {2, 50}, {48, 46}, {80, 64}}};
+  static std::array<std::unique_ptr<const StreamHeaders>, kSizes.size()> headers;
+  const auto i = static_cast<std::size_t>(number) % kSizes.size();
+  if (!headers[i]) {
+    piblocks::silence_av();
+    const auto [width, height] = kSizes[i];
+    headers[i] = std::make_unique<const StreamHeaders>(
+        piblocks::VideoFormat{.width_px = width, .height_px = height});
+  }
+  return *headers[i];
+}
+
+void check(const Picture& decoded, const std::optional<ShownPicture>& shown) {
+  std::string found = "no picture";
+  // Samples that are cut off have to be right too: others are predicted from them.
+  if (shown && shown->width == 16 * decoded.width_mb() &&
+      shown->height == 16 * decoded.height_mb()) {
+    found = difference(decoded, *shown);
+  }
+  ++counter.pictures;
+  if (found.empty()) return;
+  std::fprintf(stderr, "fuzz_h264: %s\n", found.c_str());
+  std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  constexpr int kMostFrames = 16;
+  constexpr int kOneKeyFrameIn = 10;
+  Numbers numbers({data, size});
+  const StreamHeaders& headers = headers_of(numbers.integer(0, 7));
+  PictureEncoder encoder(headers.sets, numbers.integer(0, kMaxQp));
+  RandomPictures pictures(headers.sets.width_mb, headers.sets.height_mb, numbers);
+  StrictDecoder decoder(headers.bytes);
+  check(encoder.decoded(), decoder.decode(encoder.encode_whole(pictures.picture())));
+  for (int frame = 1; frame < kMostFrames && numbers.has_more(); ++frame) {
+    pictures.advance();
+    const bool is_key_frame = numbers.integer(1, kOneKeyFrameIn) == kOneKeyFrameIn;
+    const auto unit = is_key_frame ? encoder.encode_whole(pictures.picture())
+                                   : encoder.encode_changes(pictures.picture(), pictures.changed());
+    check(encoder.decoded(), decoder.decode(unit));
+  }
+  return 0;
+}
