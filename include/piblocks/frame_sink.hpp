@@ -24,9 +24,10 @@ struct VideoFormat {
 
 /// What may be said to a video encoder; unset means the measured default.
 struct EncoderSettings {
-  std::optional<double> crf = {};           ///< constant rate factor, 0 (lossless) … 51
-  std::optional<std::string> preset = {};   ///< the encoder's own name for a speed
-  std::optional<std::string> encoder = {};  ///< libavcodec's name of the encoder
+  std::optional<double> crf = {};          ///< constant rate factor, 0 (lossless) … 51
+  std::optional<std::string> preset = {};  ///< the encoder's own name for a speed
+  /// libavcodec's name of the encoder; or "damage", by which nothing but what changes is coded.
+  std::optional<std::string> encoder = {};
 };
 
 /// A piece of encoded output: one video frame, one image file, one line of text.
@@ -64,6 +65,8 @@ class ChunkEncoder {
   virtual void encode() = 0;
   /// The chunk's packets.
   virtual EncodedChunk finish() = 0;
+  /// How the chunk that was finished last was encoded, where an encoder has several ways.
+  virtual std::string method() const { return {}; }
 
  protected:
   virtual void convert(const ImageView& frame, std::span<const PixelRect> rects) = 0;
@@ -112,7 +115,7 @@ class Output {
 std::unique_ptr<Output> set_up_output(const std::string& name, const VideoFormat& format,
                                       const EncoderSettings& settings);
 
-/// Names of the H.264 encoders that the linked libavcodec offers for MP4, the default first.
+/// Names of the encoders that MP4 may be made with, the default first.
 std::vector<std::string> h264_encoders();
 
 /// Name and version of each codec library that is linked, such as "libavcodec 59.37.100".

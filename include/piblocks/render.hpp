@@ -50,6 +50,8 @@ using StageSeconds = std::array<double, kStageNames.size()>;
 struct Profile {
   StageSeconds stages{};  ///< of all threads together
   double total_s = 0;     ///< of the process since its start; more than the stages
+  /// ChunkEncoder::method() of each chunk.
+  std::vector<std::string> chunk_methods = {};
 };
 
 struct Rendered {

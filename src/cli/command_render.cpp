@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 
 #include <algorithm>
@@ -22,6 +24,7 @@ struct RenderOptions {
   const CLI::Option* crf;
   const CLI::Option* preset;
   const CLI::Option* encoder;
+  const CLI::Option* smallest;
   const CLI::Option* jobs;
   const CLI::Option* part;
   const CLI::Option* profile;
@@ -43,12 +46,26 @@ Part parse_part(const std::string& text) {
 
 double parse_crf(const std::string& text) { return to_double(parse_rational(text)); }
 
+/// Under half the size, and many times the time (src/media/README.md).
+EncoderSettings smallest_file() { return {.crf = 18, .preset = "slower", .encoder = "libx264"}; }
+
+EncoderSettings settings_of(const RenderOptions& options) {
+  if (options.smallest->count() == 0) {
+    return {value_of(*options.crf, parse_crf), text_of(*options.preset), text_of(*options.encoder)};
+  }
+  for (const CLI::Option* option : {options.crf, options.preset, options.encoder}) {
+    if (option->count() == 0) continue;
+    throw UsageError(fmt::format("--smallest chooses the encoder and its settings; leave out {}",
+                                 option->get_name()));
+  }
+  return smallest_file();
+}
+
 RenderJob job_of(const RenderOptions& options) {
   const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
   return {options.scene.scene(),
           *text_of(*options.output),
-          EncoderSettings{value_of(*options.crf, parse_crf), text_of(*options.preset),
-                          text_of(*options.encoder)},
+          settings_of(options),
           value_of(*options.jobs, parse_jobs).value_or(static_cast<int>(processors)),
           value_of(*options.part, parse_part),
           options.profile->count() > 0};
@@ -83,6 +100,9 @@ RenderOptions add_options(CLI::App& command) {
       add_value_option(command, "--preset", "P", "The encoder's speed preset, such as veryfast");
   const CLI::Option& encoder =
       add_value_option(command, "--encoder", "NAME", "Video encoder; 'piblocks info' lists them");
+  const CLI::Option& smallest =
+      *command.add_flag("--smallest")
+           ->description("Smallest MP4, by libx264: under half the size, takes many times as long");
   const CLI::Option& jobs = add_value_option(
       command, "--jobs", "N", "Threads (default: one a processor); changes no byte of the output");
   const CLI::Option& part =
@@ -91,7 +111,7 @@ RenderOptions add_options(CLI::App& command) {
   const CLI::Option& profile =
       *command.add_flag("--profile")->description("Print what each stage cost, on standard error");
   const CLI::Option& quiet = *command.add_flag("--quiet")->description("Print nothing but errors");
-  return {scene, &output, &crf, &preset, &encoder, &jobs, &part, &profile, &quiet};
+  return {scene, &output, &crf, &preset, &encoder, &smallest, &jobs, &part, &profile, &quiet};
 }
 
 }  // namespace

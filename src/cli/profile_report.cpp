@@ -8,6 +8,21 @@
 
 namespace piblocks::cli {
 
+namespace {
+
+/// Chunks in a row that were encoded alike share a line.
+void print_methods(const std::vector<std::string>& methods) {
+  for (auto begin = methods.begin(); begin != methods.end();) {
+    const auto end = std::find_if(begin, methods.end(), [&](const auto& m) { return m != *begin; });
+    if (!begin->empty()) {
+      say("  chunks {} to {} by {}\n", begin - methods.begin() + 1, end - methods.begin(), *begin);
+    }
+    begin = end;
+  }
+}
+
+}  // namespace
+
 void print_profile(const Rendered& rendered) {
   const Profile& profile = rendered.profile;
   const double frames = double(std::max<std::int64_t>(1, rendered.frame_count));
@@ -20,6 +35,7 @@ void print_profile(const Rendered& rendered) {
   const double staged_s = std::accumulate(profile.stages.begin(), profile.stages.end(), 0.0);
   print("other", profile.total_s - staged_s);  // start-up and set-up
   print("total", profile.total_s);
+  print_methods(profile.chunk_methods);
 }
 
 }  // namespace piblocks::cli

@@ -4,6 +4,8 @@
 #include <piblocks/error.hpp>
 #include <piblocks/frame_sink.hpp>
 
+#include <algorithm>
+
 namespace piblocks {
 namespace {
 
@@ -37,9 +39,8 @@ bool is_software_h264(const AVCodec& codec) {
          (codec.capabilities & kHardware) == 0 && takes_yuv420p(codec);
 }
 
-}  // namespace
-
-std::vector<std::string> usable_h264_encoders() {
+/// libavcodec's, the default first.
+std::vector<std::string> software_h264_encoders() {
   std::vector<std::string> names;
   void* position = nullptr;
   while (const AVCodec* codec = av_codec_iterate(&position)) {
@@ -49,30 +50,41 @@ std::vector<std::string> usable_h264_encoders() {
   return names;
 }
 
-const AVCodec& find_encoder(const std::optional<std::string>& name) {
-  // The usual case does not open every encoder there is.
-  if (!name) {
-    if (const AVCodec* x264 = avcodec_find_encoder_by_name(kX264.data())) return *x264;
-  }
-  const std::vector<std::string> found = usable_h264_encoders();
-  if (!name && found.empty()) {
+const AVCodec& first_encoder() {
+  const std::vector<std::string> found = software_h264_encoders();
+  if (found.empty()) {
     throw UsageError(
         "video: cannot find an H.264 encoder in libavcodec; install Debian's package libavcodec59 "
         "(or libavcodec-extra), which brings libx264, or write *.y4m or *.png");
   }
-  const std::string& wanted = name ? *name : found.front();
-  const AVCodec* codec = avcodec_find_encoder_by_name(wanted.c_str());
-  const std::string usable = fmt::format("use one of: {}", fmt::join(found, ", "));
-  if (codec == nullptr) {
-    throw UsageError(fmt::format("video: cannot find encoder '{}'; {}", wanted, usable));
+  return *avcodec_find_encoder_by_name(found.front().c_str());
+}
+
+/// @param problem  with a place for the name.
+[[noreturn]] void refuse(const char* problem, const std::string& name) {
+  throw UsageError(fmt::format("video: {}; use one of: {}",
+                               fmt::format(fmt::runtime(problem), name),
+                               fmt::join(usable_h264_encoders(), ", ")));
+}
+
+}  // namespace
+
+std::vector<std::string> usable_h264_encoders() {
+  std::vector<std::string> names = software_h264_encoders();
+  if (std::ranges::count(names, kX264) > 0) names.emplace(names.begin(), kDamage);
+  return names;
+}
+
+const AVCodec& find_encoder(const std::optional<std::string>& name) {
+  // The usual case does not open every encoder there is.
+  if (!name) {
+    if (const AVCodec* x264 = avcodec_find_encoder_by_name(kX264.data())) return *x264;
+    return first_encoder();
   }
-  if (!takes_yuv420p(*codec)) {
-    throw UsageError(fmt::format("video: encoder '{}' does not take yuv420p; {}", wanted, usable));
-  }
-  if (!suits_mp4(*codec)) {
-    throw UsageError(
-        fmt::format("video: MP4 cannot hold the stream of encoder '{}'; {}", wanted, usable));
-  }
+  const AVCodec* codec = avcodec_find_encoder_by_name(name->c_str());
+  if (codec == nullptr) refuse("cannot find encoder '{}'", *name);
+  if (!takes_yuv420p(*codec)) refuse("encoder '{}' does not take yuv420p", *name);
+  if (!suits_mp4(*codec)) refuse("MP4 cannot hold the stream of encoder '{}'", *name);
   return *codec;
 }
 

@@ -13,11 +13,13 @@ namespace piblocks {
 
 /// The encoder that is taken if there is a choice.
 inline constexpr std::string_view kX264 = "libx264";
+/// Our own, which codes what changes; its stream has the headers of libx264.
+inline constexpr std::string_view kDamage = "damage";
 
 /// What h264_encoders() gives.
 std::vector<std::string> usable_h264_encoders();
 
-/// The encoder of that name, or the first of usable_h264_encoders(). The object is libavcodec's and
+/// libavcodec's encoder of that name, or the first of its own. The object is libavcodec's and
 /// lives as long as the program.
 /// @throws UsageError if there is none, or it does not suit; the message says what to use instead.
 const AVCodec& find_encoder(const std::optional<std::string>& name);

@@ -6,8 +6,11 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/output_file.hpp"
+#include "media/damage_chunk.hpp"
+#include "media/find_encoder.hpp"
 #include "media/output_kinds.hpp"
 #include "media/video_chunk.hpp"
 #include "media/video_encoder.hpp"
@@ -155,15 +158,56 @@ void Mp4Sink::finish() {
   file_.commit();
 }
 
+/// What it quantises by; src/media/README.md has the measurements.
+constexpr int kQp = 14;
+
+/// Those of the encoder whose headers the stream has.
+/// @throws UsageError if something else is said to an encoder of our own.
+EncoderSettings settings_of_stream(const EncoderSettings& settings) {
+  if (settings.encoder != kDamage) return settings;
+  std::vector<std::string> problems;
+  if (settings.crf) problems.emplace_back("video: encoder 'damage' has no crf; leave it out");
+  if (settings.preset) {
+    problems.emplace_back("video: encoder 'damage' has no presets; leave the preset out");
+  }
+  if (!problems.empty()) throw UsageError(std::move(problems));
+  return {};
+}
+
+/// What slices of our own have to fit, if the stream is to have such.
+/// @throws UsageError if it is to, but cannot.
+std::optional<h264::ParameterSets> sets_for_damage(const VideoEncoder& encoder,
+                                                   const EncoderSettings& settings) {
+  const bool is_asked_for = settings.encoder == kDamage;
+  if (!is_asked_for && (settings.encoder || settings.crf || settings.preset)) return std::nullopt;
+  const AVCodecParameters& stream = encoder.parameters();
+  try {
+    return h264::read_parameter_sets(
+        {stream.extradata, static_cast<std::size_t>(stream.extradata_size)});
+  } catch (const MediaError& error) {
+    if (is_asked_for) throw UsageError(error.what());
+    return std::nullopt;
+  }
+}
+
 class Mp4Output final : public Output {
  public:
   explicit Mp4Output(const OutputRequest& request)
-      : name_(request.name), encoder_(request.format, request.settings) {}
+      : name_(request.name),
+        encoder_(request.format, settings_of_stream(request.settings)),
+        sets_(sets_for_damage(encoder_, request.settings)),
+        when_too_much_(request.settings.encoder == kDamage ? WhenTooMuch::go_on
+                                                           : WhenTooMuch::leave_to_stream_encoder) {
+  }
   std::int64_t frames_per_chunk() const override { return encoder_.frames_per_chunk(); }
   std::unique_ptr<ChunkEncoder> make_encoder() const override {
+    if (sets_) return std::make_unique<DamageChunkEncoder>(encoder_, *sets_, kQp, when_too_much_);
     return std::make_unique<VideoChunkEncoder>(encoder_);
   }
-  std::string signature() const override { return "mp4 by " + encoder_.signature(); }
+  std::string signature() const override {
+    const std::string stream = "mp4 by " + encoder_.signature();
+    return sets_ ? fmt::format("{}, changes at QP {}", stream, kQp) : stream;
+  }
   std::unique_ptr<FrameSink> open() const override {
     return std::make_unique<Mp4Sink>(name_, encoder_);
   }
@@ -171,6 +215,8 @@ class Mp4Output final : public Output {
  private:
   std::string name_;
   VideoEncoder encoder_;
+  std::optional<h264::ParameterSets> sets_;
+  WhenTooMuch when_too_much_;
 };
 
 }  // namespace

@@ -22,6 +22,8 @@ class VideoEncoder {
   /// in the video, costs little, and spreads short videos over all workers.
   int frames_per_chunk() const noexcept { return frames_per_chunk_; }
   const VideoFormat& format() const noexcept { return format_; }
+  /// libavcodec's.
+  const char* name() const noexcept { return codec_->name; }
   AVRational frame_rate() const noexcept { return frame_rate_; }
   /// What the stream's header says; the same for every encoder that open() returns.
   const AVCodecParameters& parameters() const noexcept { return *parameters_; }

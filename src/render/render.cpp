@@ -30,6 +30,7 @@ struct Plan {
 
 struct EncodedWork {
   EncodedChunk chunk;
+  std::string method = {};
   StageSeconds spent{};
 };
 
@@ -50,7 +51,7 @@ class Worker {
       add_frame(frame, clock);
     }
     EncodedChunk encoded = encoder_->finish();
-    return {std::move(encoded), clock.spent()};
+    return {std::move(encoded), encoder_->method(), clock.spent()};
   }
 
  private:
@@ -131,6 +132,7 @@ Rendered render(const RenderJob& job, const std::function<void(const Progress&)>
   OrderedPool<EncodedWork> pool(share.end - share.begin, job.jobs, make_worker);
   for (std::int64_t chunk = share.begin; const auto work = pool.take(stop); ++chunk) {
     sink->append(work->chunk);
+    if (job.profile) rendered.profile.chunk_methods.push_back(work->method);
     add(rendered.profile.stages, work->spent);
     on_progress({frames_until(chunk + 1), rendered.frame_count});
   }

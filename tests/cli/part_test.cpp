@@ -75,6 +75,14 @@ std::vector<std::string> row(const std::string& table, const std::string& name) 
   return {};
 }
 
+TEST_F(PartTest, AProfileNamesTheEncoderOfEachChunk) {
+  const auto profile = [this](const Arguments& arguments) {
+    return piblocks(kRender + arguments + Arguments{"--profile", "--quiet"}).err;
+  };
+  EXPECT_NE(profile({}).find("by damage\n"), std::string::npos) << profile({});
+  EXPECT_EQ(profile({"--encoder", "libx264"}).find("chunks"), std::string::npos);
+}
+
 TEST_F(PartTest, AProfileAddsUp) {
   const CommandResult result = piblocks(kRender + Arguments{"--profile", "--quiet"});
   EXPECT_EQ(result.exit_code, 0);

@@ -101,6 +101,12 @@ TEST_F(RenderTest, EncoderOptionsReachTheEncoder) {
   EXPECT_GT(contents("lossless.mp4").size(), contents("worst.mp4").size());
   output_of(two + Arguments{"--preset", "ultrafast", "--encoder", "libx264", "-o", "fast.mp4"});
   EXPECT_NE(contents("fast.mp4"), contents("lossless.mp4"));
+  output_of(two + Arguments{"--encoder", "damage", "-o", "damage.mp4"});
+  output_of(two + Arguments{"-o", "default.mp4"});
+  EXPECT_EQ(contents("damage.mp4"), contents("default.mp4"));
+  EXPECT_NE(contents("damage.mp4"), contents("fast.mp4"));
+  output_of(two + Arguments{"--smallest", "-o", "smallest.mp4"});
+  EXPECT_NE(contents("smallest.mp4").find("x264 - core"), std::string::npos);
 }
 
 TEST_F(RenderTest, SaysWhatItWroteUnlessQuiet) {

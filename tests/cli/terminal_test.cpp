@@ -26,8 +26,8 @@ TEST_F(TerminalTest, ShowsABarThatMakesWayForTheSummary) {
 }
 
 TEST_F(TerminalTest, TheBarTellsRateAndTimeLeft) {
-  const Arguments slow{"render", "--size", "1280x720", "--jobs",  "1",
-                       "--to",   "last",   "-o",       "slow.mp4"};
+  const Arguments slow{"render", "--size",    "1280x720", "--jobs", "1",       "--to",
+                       "last",   "--encoder", "libx264",  "-o",     "slow.mp4"};
   const CommandResult result =
       RunningCommand(slow, {.folder = folder_.path(), .err_is_terminal = true}).wait();
   EXPECT_NE(result.err.find(" frames/s  "), std::string::npos) << result.err;

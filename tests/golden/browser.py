@@ -1,0 +1,128 @@
+"""A page in Chromium, for checks of what it shows.
+
+In: what a person would do by mouse and keyboard, and scripts. Out: what is seen, and what scripts say.
+"""
+
+import base64
+import json
+import os
+import subprocess
+import sys
+
+
+class Browser:
+    """Chromium with one page, by the DevTools protocol over two pipes."""
+
+    def __init__(self, folder, *options):
+        commands, self._commands = os.pipe()
+        answers, written_answers = os.pipe()
+        self._answers = os.fdopen(answers, "rb")
+        self._process = subprocess.Popen(
+            ["bash", "-c", f'exec "$@" 3<&{commands} 4>&{written_answers}', "bash"]
+            + ["chromium", "--headless", "--no-sandbox", "--disable-dev-shm-usage"]
+            + ["--hide-scrollbars", "--force-color-profile=srgb", "--remote-debugging-pipe"]
+            + [f"--user-data-dir={folder}", *options, "about:blank"],
+            pass_fds=(commands, written_answers),
+            stderr=subprocess.DEVNULL,
+        )
+        os.close(commands)
+        os.close(written_answers)
+        self._session = {}
+        self._number = 0
+        self.events = []
+        target = self.call("Target.createTarget", url="about:blank")["targetId"]
+        session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        self._session = {"sessionId": session}
+        for domain in ("Page", "Runtime", "Log", "Network"):
+            self.call(domain + ".enable")
+
+    def close(self):
+        self._process.terminate()
+        self._process.wait()
+
+    def _next_message(self):
+        message = bytearray()
+        while not message.endswith(b"\0"):
+            byte = self._answers.read(1)
+            if not byte:
+                sys.exit("browser: Chromium has ended")
+            message += byte
+        return json.loads(message[:-1])
+
+    def call(self, method, **parameters):
+        self._number += 1
+        command = {"id": self._number, "method": method, "params": parameters, **self._session}
+        os.write(self._commands, json.dumps(command).encode() + b"\0")
+        while True:
+            message = self._next_message()
+            if message.get("id") == self._number:
+                if "error" in message:
+                    sys.exit(f"browser: {method}: {message['error']}")
+                return message["result"]
+            self.events.append(message)
+
+    def show(self, path):
+        self._load("Page.navigate", url=path.as_uri())
+
+    def reload(self):
+        self._load("Page.reload")
+
+    def _load(self, method, **parameters):
+        """All events are then of this page."""
+        self.events.clear()
+        self.call(method, **parameters)
+        while not any(event["method"] == "Page.loadEventFired" for event in self.events):
+            self.events.append(self._next_message())
+
+    def resize(self, width, height):
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
+                  deviceScaleFactor=1, mobile=False)
+
+    def value(self, script):
+        """What JavaScript says, promises kept."""
+        answer = self.call("Runtime.evaluate", expression=script, awaitPromise=True,
+                           returnByValue=True)
+        if "exceptionDetails" in answer:
+            sys.exit(f"browser: {script}: {answer['exceptionDetails']}")
+        return answer["result"].get("value")
+
+    def place(self, element):
+        """Left, top, width, height in the window, after it has been scrolled to."""
+        return self.value(f"""(() => {{
+            const element = {element};
+            element.scrollIntoView({{block: "center"}});
+            const r = element.getBoundingClientRect();
+            return [r.x, r.y, r.width, r.height]; }})()""")
+
+    def mouse(self, kind, x, y):
+        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=1,
+                  clickCount=1)
+
+    def click(self, element):
+        left, top, width, height = self.place(element)
+        for kind in ("mousePressed", "mouseReleased"):
+            self.mouse(kind, left + width / 2, top + height / 2)
+
+    def drag(self, start, end):
+        self.mouse("mousePressed", *start)
+        self.mouse("mouseMoved", *end)
+        self.mouse("mouseReleased", *end)
+
+    def type(self, element, text):
+        """Instead of what is there."""
+        self.click(element)
+        self.value(f"{element}.select()")
+        if text:
+            self.call("Input.insertText", text=text)
+        else:
+            for kind in ("keyDown", "keyUp"):
+                self.call("Input.dispatchKeyEvent", type=kind, key="Delete", code="Delete",
+                          windowsVirtualKeyCode=46)
+
+    def save_picture(self, element, path):
+        """What is seen where this element is."""
+        left, top, width, height = (round(x) for x in self.place(element))
+        scrolled = self.value("scrollY")
+        clip = {"x": left, "y": top + scrolled, "width": width, "height": height, "scale": 1}
+        data = self.call("Page.captureScreenshot", format="png", clip=clip)["data"]
+        path.write_bytes(base64.b64decode(data))
