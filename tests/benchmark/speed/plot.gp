@@ -24,7 +24,7 @@ number(x) = sprintf(x < 100 ? "%.3g" : "%.0f", x)
 # Bars from the top down, one for each row that is asked for; n counts them.
 next(condition) = condition ? (n = n + 1, n) : NaN
 left_end = 8
-right_end = 8000
+right_end = 30000
 half = 0.34
 
 set grid lc rgb "#DDDDDD" lw 0.6
