@@ -6,19 +6,9 @@
 #include <utility>
 
 #include "media/find_encoder.hpp"
-#include "media/yuv420.hpp"
 
 namespace piblocks {
 namespace {
-
-YuvView view_of(h264::Picture& picture) {
-  return {.y = picture.plane(0),
-          .cb = picture.plane(1),
-          .cr = picture.plane(2),
-          .y_stride_bytes = picture.stride_bytes(0),
-          .cb_stride_bytes = picture.stride_bytes(1),
-          .cr_stride_bytes = picture.stride_bytes(2)};
-}
 
 /// Repeats the last column and the last row of a plane up to whole macroblocks, which costs fewer
 /// bits than anything else there.
@@ -43,6 +33,15 @@ void extend(h264::Picture& picture, const VideoFormat& format) {
 }
 
 }  // namespace
+
+YuvView view_of(h264::Picture& picture) {
+  return {.y = picture.plane(0),
+          .cb = picture.plane(1),
+          .cr = picture.plane(2),
+          .y_stride_bytes = picture.stride_bytes(0),
+          .cb_stride_bytes = picture.stride_bytes(1),
+          .cr_stride_bytes = picture.stride_bytes(2)};
+}
 
 DamageChunkEncoder::DamageChunkEncoder(const VideoEncoder& encoder, const h264::ParameterSets& sets,
                                        int qp, WhenTooMuch when_too_much)
@@ -70,29 +69,36 @@ bool DamageChunkEncoder::has_too_much() const {
 }
 
 void DamageChunkEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
-  bool reaches_edge = false;
-  for (const PixelRect& rect : rects) {
-    const PixelRect whole = chroma_aligned(rect, frame);
-    convert_to_yuv420(frame, whole, view_of(picture_));
-    changed_.add(whole.x_px, whole.y_px, whole.width_px, whole.height_px);
-    reaches_edge = reaches_edge || whole.x_px + whole.width_px == frame.width_px ||
-                   whole.y_px + whole.height_px == frame.height_px;
-  }
-  if (reaches_edge) extend(picture_, encoder_.format());
+  const PixelRect whole{0, 0, frame.width_px, frame.height_px};
+  const std::span<const PixelRect> all(&whole, 1);
   if (is_left_) {
     stream_encoder_->take(frame, rects);
   } else if (has_too_much()) {
-    leave(frame);
+    leave();
+    stream_encoder_->take(frame, all);
+  } else {
+    convert_here(frame, std::exchange(is_behind_, false) ? all : rects);
   }
 }
 
-/// From this frame on, which becomes a key frame.
-void DamageChunkEncoder::leave(const ImageView& frame) {
+void DamageChunkEncoder::convert_here(const ImageView& frame, std::span<const PixelRect> rects) {
+  bool reaches_edge = false;
+  for (const PixelRect& rect : rects) {
+    const PixelRect aligned = chroma_aligned(rect, frame);
+    convert_to_yuv420(frame, aligned, view_of(picture_));
+    changed_.add(aligned.x_px, aligned.y_px, aligned.width_px, aligned.height_px);
+    reaches_edge = reaches_edge || aligned.x_px + aligned.width_px == frame.width_px ||
+                   aligned.y_px + aligned.height_px == frame.height_px;
+  }
+  if (reaches_edge) extend(picture_, encoder_.format());
+}
+
+/// The next frame becomes a key frame.
+void DamageChunkEncoder::leave() {
   is_left_ = true;
+  is_behind_ = true;
   if (!stream_encoder_) stream_encoder_.emplace(encoder_);
   stream_encoder_->begin(next_frame_);
-  const PixelRect whole{0, 0, frame.width_px, frame.height_px};
-  stream_encoder_->take(frame, {&whole, 1});
 }
 
 void DamageChunkEncoder::encode() {

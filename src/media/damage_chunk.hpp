@@ -12,8 +12,12 @@
 #include "media/h264/picture_encoder.hpp"
 #include "media/video_chunk.hpp"
 #include "media/video_encoder.hpp"
+#include "media/yuv420.hpp"
 
 namespace piblocks {
+
+/// To convert into.
+YuvView view_of(h264::Picture& picture);
 
 /// Whether a chunk that is mostly new is left to the stream's own encoder.
 enum class WhenTooMuch { leave_to_stream_encoder, go_on };
@@ -30,7 +34,8 @@ class DamageChunkEncoder final : public ChunkEncoder {
 
  private:
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override;
-  void leave(const ImageView& frame);
+  void convert_here(const ImageView& frame, std::span<const PixelRect> rects);
+  void leave();
   bool has_too_much() const;
 
   const VideoEncoder& encoder_;
@@ -43,6 +48,7 @@ class DamageChunkEncoder final : public ChunkEncoder {
   /// Macroblocks of the chunk, but for its first picture, that had to be transformed.
   std::int64_t transformed_ = 0;
   bool is_left_ = false;
+  bool is_behind_ = false;  // picture_, after frames that the stream's encoder alone has taken
   std::optional<VideoChunkEncoder> stream_encoder_;  // made when it is needed first
 };
 

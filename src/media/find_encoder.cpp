@@ -60,11 +60,9 @@ const AVCodec& first_encoder() {
   return *avcodec_find_encoder_by_name(found.front().c_str());
 }
 
-/// @param problem  with a place for the name.
-[[noreturn]] void refuse(const char* problem, const std::string& name) {
-  throw UsageError(fmt::format("video: {}; use one of: {}",
-                               fmt::format(fmt::runtime(problem), name),
-                               fmt::join(usable_h264_encoders(), ", ")));
+[[noreturn]] void refuse(const std::string& problem) {
+  throw UsageError(
+      fmt::format("video: {}; use one of: {}", problem, fmt::join(usable_h264_encoders(), ", ")));
 }
 
 }  // namespace
@@ -82,9 +80,9 @@ const AVCodec& find_encoder(const std::optional<std::string>& name) {
     return first_encoder();
   }
   const AVCodec* codec = avcodec_find_encoder_by_name(name->c_str());
-  if (codec == nullptr) refuse("cannot find encoder '{}'", *name);
-  if (!takes_yuv420p(*codec)) refuse("encoder '{}' does not take yuv420p", *name);
-  if (!suits_mp4(*codec)) refuse("MP4 cannot hold the stream of encoder '{}'", *name);
+  if (codec == nullptr) refuse(fmt::format("cannot find encoder '{}'", *name));
+  if (!takes_yuv420p(*codec)) refuse(fmt::format("encoder '{}' does not take yuv420p", *name));
+  if (!suits_mp4(*codec)) refuse(fmt::format("MP4 cannot hold the stream of encoder '{}'", *name));
   return *codec;
 }
 

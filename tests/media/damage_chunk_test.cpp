@@ -8,7 +8,6 @@
 
 #include "media/h264/stream_fixture.hpp"
 #include "media/write_frames.hpp"
-#include "media/yuv420.hpp"
 #include "support/decode_video.hpp"
 #include "support/property.hpp"
 #include "support/temporary_folder.hpp"
@@ -56,13 +55,7 @@ PaintFrame random_then_article(const VideoFormat& format) {
 /// The largest difference of a sample that is shown from the one that was drawn.
 int largest_error(const Pixels& drawn, const h264::ShownPicture& shown) {
   h264::Picture wanted((drawn.width_px + 15) / 16, (drawn.height_px + 15) / 16);
-  convert_to_yuv420(drawn.view(), {0, 0, drawn.width_px, drawn.height_px},
-                    {.y = wanted.plane(0),
-                     .cb = wanted.plane(1),
-                     .cr = wanted.plane(2),
-                     .y_stride_bytes = wanted.stride_bytes(0),
-                     .cb_stride_bytes = wanted.stride_bytes(1),
-                     .cr_stride_bytes = wanted.stride_bytes(2)});
+  convert_to_yuv420(drawn.view(), {0, 0, drawn.width_px, drawn.height_px}, view_of(wanted));
   int largest = 0;
   for (int plane = 0; plane < 3; ++plane) {
     const auto at = static_cast<std::size_t>(plane);

@@ -110,10 +110,6 @@ void put_runs(const Coefficients& block, BitWriter& bits) {
 
 }  // namespace
 
-int count_levels(std::span<const std::int16_t> levels) {
-  return static_cast<int>(levels.size() - std::size_t(std::ranges::count(levels, 0)));
-}
-
 bool write_levels(std::span<const std::int16_t> levels, int total, int context, BitWriter& bits) {
   assert(levels.size() == 15 || levels.size() == kMaxLevels || levels.size() == kChromaDcLevels);
   assert((context == kChromaDc) == (levels.size() == kChromaDcLevels));

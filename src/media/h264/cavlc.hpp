@@ -13,11 +13,8 @@ namespace piblocks::h264 {
 /// In place of nC for the DC levels of a chroma plane (9.2.1).
 inline constexpr int kChromaDc = -1;
 
-/// Levels that are not zero: TotalCoeff.
-int count_levels(std::span<const std::int16_t> levels);
-
 /// @param levels  4 of chroma DC, 15 of AC, or 16.
-/// @param total  count_levels() of them.
+/// @param total  TotalCoeff: how many of them are not zero.
 /// @param context  nC, from 0 to 16, or kChromaDc.
 /// @return false if a level is too large for the profiles without long escapes (9.2.2.1); what has
 ///         been written is then of no use.

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 
 #include "media/h264/bit_writer.hpp"
 #include "media/h264/intra_prediction.hpp"

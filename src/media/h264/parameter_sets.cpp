@@ -119,8 +119,8 @@ ParameterSets read_picture(std::span<const std::uint8_t> rbsp, const Sequence& s
   sets.initial_qp = 26 + in_range(bits.get_signed(), -26, 25, "pic_init_qp_minus26");
   in_range(bits.get_signed(), -26, 25, "pic_init_qs_minus26");
   sets.chroma_qp_offset = in_range(bits.get_signed(), -12, 12, "chroma_qp_index_offset");
-  sets.controls_deblocking = bits.get_flag();
-  refuse_if(!sets.controls_deblocking, "deblocking that slices cannot switch off");
+  const bool controls_deblocking = bits.get_flag();
+  refuse_if(!controls_deblocking, "deblocking that slices cannot switch off");
   refuse_if(bits.get_flag(), "constrained intra prediction");
   refuse_if(bits.get_flag(), "redundant pictures");
   if (bits.has_more_data()) read_picture_extension(bits, sets.chroma_qp_offset);

@@ -16,9 +16,8 @@ struct ParameterSets {
   unsigned picture_parameter_set_id;
   /// Whether slices have to say that they have one reference picture.
   bool overrides_reference_count;
-  bool controls_deblocking;  ///< deblocking_filter_control_present_flag
-  int initial_qp;            ///< 26 + pic_init_qp_minus26
-  int chroma_qp_offset;      ///< chroma_qp_index_offset
+  int initial_qp;        ///< 26 + pic_init_qp_minus26
+  int chroma_qp_offset;  ///< chroma_qp_index_offset
 };
 
 /// Reads one sequence and one picture parameter set, in this order, from a stream with start codes.

@@ -1,7 +1,6 @@
 #include "media/h264/picture.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 
 namespace piblocks::h264 {

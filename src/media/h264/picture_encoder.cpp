@@ -1,7 +1,6 @@
 #include "media/h264/picture_encoder.hpp"
 
 #include <cassert>
-#include <utility>
 
 #include "media/h264/nal_unit.hpp"
 
@@ -47,7 +46,8 @@ std::vector<std::uint8_t> PictureEncoder::encode_changes(const Picture& source,
 }
 
 void PictureEncoder::begin_slice(SliceKind slice) {
-  for (const int address : std::exchange(coded_, {})) states_[address] = {};
+  for (const int address : coded_) states_[address] = {};
+  coded_.clear();
   bits_.clear();
   transformed_ = 0;
   next_address_ = 0;
@@ -73,7 +73,7 @@ void PictureEncoder::write_slice_header(SliceKind slice) {
     bits_.put_flag(false);  // adaptive_ref_pic_marking_mode_flag
   }
   bits_.put_signed(qp_ - sets_.initial_qp);
-  if (sets_.controls_deblocking) bits_.put_unsigned(1);  // disable_deblocking_filter_idc
+  bits_.put_unsigned(1);  // disable_deblocking_filter_idc
 }
 
 void PictureEncoder::add(int address, const Picture& source) {

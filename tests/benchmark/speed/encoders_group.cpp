@@ -42,16 +42,15 @@ Quality quality_of(const Workbench& bench, const std::string& video, const std::
 }
 
 void measure_size(const Workbench& bench, const Size& size) {
-  const auto render = [&](const std::string& output, const char* encoder) {
+  const auto render = [&](const std::string& output, const Command& options = {}) {
     Command command = bench.render(kDigits, output);
     command.insert(command.end(), {"--size", size.text, "--from", std::to_string(size.from_s),
-                                   "--to", std::to_string(size.to_s), "--encoder", encoder});
+                                   "--to", std::to_string(size.to_s)});
+    command.insert(command.end(), options.begin(), options.end());
     return command;
   };
   const std::string drawn = bench.kept("drawn.y4m");
-  Command draw = render(drawn, "");
-  draw.resize(draw.size() - 2);
-  bench.runner.run(draw);
+  bench.runner.run(render(drawn));
   sync();  // what is still to be written would slow the first rounds
 
   const std::string video = bench.output("video.mp4");
@@ -64,8 +63,8 @@ void measure_size(const Workbench& bench, const Size& size) {
   };
   const std::string version = bench.program_version();
   hold_contest(bench,
-               {contender("piblocks by damage", version, render(video, "damage")),
-                contender("piblocks by libx264", version, render(video, "libx264")),
+               {contender("piblocks by damage", version, render(video, {"--encoder", "damage"})),
+                contender("piblocks by libx264", version, render(video, {"--encoder", "libx264"})),
                 contender("ffmpeg from y4m", "ffmpeg", ffmpeg_ultrafast(drawn, video))},
                bench.rounds);
   std::filesystem::remove(drawn);

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "media/damage_chunk.hpp"
 #include "media/h264/bit_reader.hpp"
 #include "media/h264/nal_unit.hpp"
 #include "media/h264/random_pictures.hpp"
 #include "media/h264/stream_fixture.hpp"
-#include "media/yuv420.hpp"
 #include "support/article_frames.hpp"
 #include "support/property.hpp"
 
@@ -38,13 +38,7 @@ void fill(Picture& picture, MacroblockSet& changed, const PixelRect& rect, std::
 }
 
 void convert(const Pixels& pixels, Picture& picture) {
-  convert_to_yuv420(pixels.view(), {0, 0, pixels.width_px, pixels.height_px},
-                    {.y = picture.plane(0),
-                     .cb = picture.plane(1),
-                     .cr = picture.plane(2),
-                     .y_stride_bytes = picture.stride_bytes(0),
-                     .cb_stride_bytes = picture.stride_bytes(1),
-                     .cr_stride_bytes = picture.stride_bytes(2)});
+  convert_to_yuv420(pixels.view(), {0, 0, pixels.width_px, pixels.height_px}, view_of(picture));
 }
 
 struct Error {
