@@ -20,7 +20,7 @@ class SceneOptions {
   explicit SceneOptions(CLI::App& command);
   /// Adds --size.
   void add_size();
-  /// Adds --fps, --from, --to and --speed.
+  /// Adds --fps, --from, --to, --speed and what else says how time runs in the video.
   void add_timing();
 
   /// @throws SceneError, UsageError
@@ -32,6 +32,11 @@ class SceneOptions {
   /// Adds an option that sets a key of the scene file.
   void add_key(const std::string& key, const std::string& option, const std::string& placeholder,
                const std::string& help);
+  /// Adds an option without a value that sets a key to true.
+  void add_flag(const std::string& key, const std::string& option, const std::string& help);
+  void add_pacing();
+  /// @throws UsageError if both options are given; `what` they set.
+  void refuse_both(const std::string& first, const std::string& second, const char* what) const;
 
   CLI::App* command_;
   CLI::Option* file_;
