@@ -3,12 +3,15 @@
 #pragma once
 
 #include <piblocks/collision_log.hpp>
-#include <piblocks/compose.hpp>
+#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/timeline.hpp>
 
 #include <memory>
+#include <utility>
 #include <vector>
+
+#include "render/logo.hpp"
 
 namespace piblocks {
 
@@ -20,13 +23,15 @@ class Film {
       : scene_(checked(scene)),
         log_(make_collision_log(scene_.system)),
         timeline_(scene_, *log_),
-        layout_(lay_out(scene_, log_->size())) {}
+        composition_(scene_, *log_, read_logo(scene_)) {}
 
   const View& view() const noexcept { return scene_.view; }
   std::int64_t frame_count() const noexcept { return timeline_.frame_count(); }
   /// @param number  from 0 to frame_count() - 1.
   DrawList frame(std::int64_t number) const {
-    return compose(scene_, layout_, state_at(*log_, timeline_.time_of(number)));
+    FrameTime shown = timeline_.at(number);
+    BlockState state = state_at(*log_, shown.time);
+    return composition_.frame({std::move(state), std::move(shown.time), std::move(shown.slower)});
   }
 
  private:
@@ -40,7 +45,7 @@ class Film {
   Scene scene_;
   std::unique_ptr<CollisionLog> log_;
   Timeline timeline_;
-  Layout layout_;
+  Composition composition_;
 };
 
 }  // namespace piblocks

@@ -1,13 +1,15 @@
 #include <fmt/format.h>
 #include <piblocks/canvas.hpp>
-#include <piblocks/compose.hpp>
+#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
 
 #include <string_view>
+#include <utility>
 
 #include "core/output_file.hpp"
+#include "render/logo.hpp"
 
 namespace piblocks {
 namespace {
@@ -35,10 +37,11 @@ void render_still(const Scene& scene, const Instant& instant, const std::string&
                   const std::stop_token& stop) {
   Draw* const draw = drawing_for(output);
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
-  const BlockState state = state_at(*log, instant).state;
-  const Layout layout = lay_out(scene, log->size());
+  TimedState at = state_at(*log, instant);
+  const Composition composition(scene, *log, read_logo(scene));
   OutputFile file(output);
-  const std::vector<std::uint8_t> picture = draw(compose(scene, layout, state));
+  const std::vector<std::uint8_t> picture =
+      draw(composition.frame({std::move(at.state), to_rational(at.time)}));
   if (stop.stop_requested()) throw Interrupted("still: interrupted");
   file.write(picture);
   file.finish();
