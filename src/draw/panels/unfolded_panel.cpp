@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "draw/number_text.hpp"
 #include "draw/panels/gaps.hpp"
 #include "draw/panels/panels.hpp"
 
@@ -17,9 +18,7 @@ constexpr double kBelow_em = 0.6;
 
 /// 1, 10, 100, …: every how many-th ray is drawn.
 double ray_stride(double between_px) {
-  double stride = 1;
-  while (stride * between_px < kLeastBetween_px) stride *= 10;
-  return stride;
+  return std::pow(10, std::max(0.0, std::ceil(std::log10(kLeastBetween_px / between_px))));
 }
 
 /// Reflected again and again instead of the path, the wedge fills the half-plane, and the path is a
@@ -72,7 +71,7 @@ class UnfoldedPanel final : public Part {
   }
 
   void add_rays() {
-    stride_ = ray_stride(std::max(gaps_.theta, 1e-15) * radius_);
+    stride_ = ray_stride(gaps_.theta * radius_);
     const double step = stride_ * gaps_.theta;
     std::vector<Point> rays;
     for (double k = 0; k * step <= std::numbers::pi * (1 + 1e-12); ++k) {
@@ -87,7 +86,7 @@ class UnfoldedPanel final : public Part {
     sheet_.path(std::move(rim), true, std::nullopt,
                 Stroke{sheet_.palette().muted, sheet_.line_px()});
     if (stride_ > 1) {
-      sheet_.text(fmt::format("every {:.0f}th ray", stride_),
+      sheet_.text(fmt::format("1 ray in {}", short_text(Rational(stride_))),
                   {sheet_.inside().x + sheet_.inside().width, sheet_.inside().y}, 1,
                   sheet_.palette().muted);
     }
