@@ -107,8 +107,8 @@ class SceneBuilder {
   std::vector<std::string> problems_;
 };
 
-/// Red's width where widths tell masses: blue's, and a quarter more for every factor of a hundred
-/// in mass, from half of blue's to twice as wide, so that any ratio can be drawn.
+/// Red's width where widths tell masses: blue's, and an eighth more for every factor of a hundred
+/// in mass, from half of blue's to half as wide again, so that any ratio can be drawn.
 Rational width_by_mass(const BlockSystem& system);
 
 /// Everything that is wrong with a scene; empty if nothing is.

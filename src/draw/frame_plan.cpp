@@ -125,6 +125,11 @@ FramePlan plan_frame(const Scene& scene, const Palette& palette, const Font& fon
     left.y = plan.title->origin.y + (kDescent + kBelowTitle) * kTitleSize * measure;
     left.height -= left.y;
   }
+  if (show.title.empty() && !show.panels.empty()) {
+    // Else the counter would stick to the upper edge.
+    left.y += margin / 2;
+    left.height -= margin / 2;
+  }
   double foot = 0;
   Rectangle caption_line = line;
   if (!show.logo.empty()) {

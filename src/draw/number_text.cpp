@@ -35,6 +35,15 @@ std::string fixed_text(double value, int decimals) {
   return (value < 0 && !is_zero ? std::string(kMinus) : "") + with_commas(digits);
 }
 
+std::string rounded_text(double value) {
+  constexpr double kMostFixed = 1e5;
+  if (std::abs(value) < kMostFixed || !std::isfinite(value)) return fixed_text(value, 2);
+  const std::string digits = fmt::format("{:.2e}", std::abs(value));
+  const std::size_t e = digits.find('e');
+  return fmt::format("{}{}×10{}", value < 0 ? kMinus : "", digits.substr(0, e),
+                     superscript(std::stol(digits.substr(e + 1))));
+}
+
 std::string superscript(long exponent) {
   constexpr std::array<std::string_view, 10> kDigits{"⁰", "¹", "²", "³", "⁴",
                                                      "⁵", "⁶", "⁷", "⁸", "⁹"};

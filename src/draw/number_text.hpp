@@ -19,6 +19,9 @@ Magnitude magnitude_of(const Rational& value);
 /// sign.
 std::string fixed_text(double value, int decimals);
 
+/// With two decimals; from 100,000 on as "−1.23×10⁹".
+std::string rounded_text(double value);
+
 /// "⁻¹²" for -12.
 std::string superscript(long exponent);
 

@@ -23,6 +23,8 @@ constexpr double kMinRounded_px = 16;
 constexpr double kCapHeight = 0.73;
 constexpr double kLabelGap = 1.0;  // between the label's baseline and the view
 constexpr double kWordSpace = 0.34;
+// In parts of a block's height: from the edge to the first bar, and from bar to bar.
+constexpr double kBarStep = 0.1;
 // In line widths.
 constexpr double kDash = 4;
 
@@ -91,7 +93,8 @@ Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle
   layout.label = {area.x + (area.width - line_em * layout.text_px) / 2,
                   to_pixel(top + kCapHeight * layout.text_px)};
   layout.count_x = layout.label.x + label_em * layout.text_px;
-  layout.bottom = top + label_height + view_height;
+  layout.above_px = kLabelGap * layout.text_px / 2;
+  layout.below_px = area.y + area.height - (top + label_height + view_height);
   return layout;
 }
 
@@ -109,10 +112,11 @@ void Stage::add_block(ItemId id, double side, const Motion& motion, const BlockC
                       std::vector<DrawItem>& items) const {
   const Rectangle bounds = to_pixels(layout_, motion.position - side / 2, -side / 2, side, side);
   items.emplace_back(RectangleItem{id, bounds, colors.fill, Stroke{colors.edge, layout_.line_px}});
-  // Bars between equal gaps, as high as the edge is wide.
-  const double height = std::min(2 * layout_.line_px, bounds.height / (2 * colors.bars + 1));
+  const double height = std::min(2 * layout_.line_px, kBarStep * bounds.height / 2);
   for (int bar = 1; bar <= colors.bars; ++bar) {
-    const double centre = std::round(bounds.y + bounds.height * bar / (colors.bars + 1));
+    const bool is_upper = 2 * bar <= colors.bars;
+    const double down = kBarStep * (is_upper ? bar : bar - colors.bars - 1);
+    const double centre = std::round(bounds.y + bounds.height * (is_upper ? down : 1 + down));
     items.emplace_back(RectangleItem{nth(id, static_cast<std::size_t>(bar)),
                                      {bounds.x, centre - height / 2, bounds.width, height},
                                      colors.edge,

@@ -23,9 +23,10 @@ struct Layout {
   Point origin;      ///< pixel position of the scene's (0, 0)
   double line_px = 1;
   double text_px = 16;
-  Point label;         ///< baseline of "Collisions: "
-  double count_x = 0;  ///< where the count starts on that baseline
-  double bottom = 0;   ///< where the view ends
+  Point label;          ///< baseline of "Collisions: "
+  double count_x = 0;   ///< where the count starts on that baseline
+  double above_px = 0;  ///< room between label and view, half of it
+  double below_px = 0;  ///< room from the view to the area's end
 
   /// Pixel position of a point of the scene.
   Point at(double x, double y) const noexcept {

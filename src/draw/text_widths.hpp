@@ -26,6 +26,6 @@ class TextWidths {
 std::size_t first_character(std::string_view text);
 
 /// All that numbers are written with in pictures.
-inline constexpr std::string_view kNumberCharacters = "0123456789,.−";
+inline constexpr std::string_view kNumberCharacters = "0123456789,.−×⁰¹²³⁴⁵⁶⁷⁸⁹";
 
 }  // namespace piblocks

@@ -12,7 +12,9 @@ struct BlockColors {
   Color fill;
   Color edge;
   Color text;  ///< of what is written on the block
-  /// Bars across the block in its edge's colour: what tells it from the other without colours.
+  Color line;  ///< of its path in diagrams
+  /// Bars across the block in its edge's colour, half of them near the upper edge and half near the
+  /// lower one: what tells it from the other without colours.
   int bars = 0;
 };
 

@@ -91,7 +91,7 @@ Rational width_by_mass(const BlockSystem& system) {
   const long exponent = bits(ratio.get_num()) - bits(ratio.get_den());
   constexpr double kBitsOfHundred = 6.643856189774724;
   const double hundreds = static_cast<double>(exponent) / kBitsOfHundred;
-  const double factor = std::clamp(1 + hundreds / 4, 0.5, 2.0);
+  const double factor = std::clamp(1 + hundreds / 8, 0.5, 1.5);
   return system.blue.width * Rational(Integer(std::lround(factor * 100))) / 100;
 }
 

@@ -39,14 +39,15 @@ class Ruler final : public Part {
     const BlockSystem& system = setting.scene.system;
     const View& view = setting.scene.view;
     const double foot = -to_double(std::max(system.blue.width, system.red.width)) / 2;
-    const double room_px = (foot - to_double(view.y.low)) * layout.scale;
+    const double room_px =
+        (foot - to_double(view.y.low)) * layout.scale + std::min(layout.below_px, setting.text_px);
     if (room_px < kLeastRoom_px) {
       throw UsageError(
           fmt::format("show.overlays: the ruler needs {} pixels below the blocks, and there are "
                       "{:.0f}; lower the lower end of view.y, or make the frame larger",
                       kLeastRoom_px, std::max(0.0, room_px)));
     }
-    const double size_px = kTextSize * room_px;
+    const double size_px = std::min(kTextSize * room_px, setting.text_px);
     const double left = to_double(std::max(view.x.low, system.wall_face));
     const double right = to_double(view.x.high);
     const double axis = std::round(layout.at(0, foot).y + kAxis * room_px);

@@ -40,7 +40,8 @@ class VelocityArrows final : public Part {
         line_px_(setting.line_px) {
     const BlockSystem& system = setting.scene.system;
     top_ = to_double(std::max(system.blue.width, system.red.width)) / 2;
-    room_px_ = (to_double(setting.scene.view.y.high) - top_) * layout_.scale;
+    room_px_ = (to_double(setting.scene.view.y.high) - top_) * layout_.scale + layout_.above_px;
+    text_px_ = std::min(kTextSize * room_px_, setting.text_px);
     if (room_px_ < kLeastRoom_px) {
       throw UsageError(fmt::format(
           "show.overlays: the velocities need {} pixels above the blocks, and there are {:.0f}; "
@@ -78,13 +79,12 @@ class VelocityArrows final : public Part {
                                   std::vector<Point>{{tip, y}, {neck, y - head}, {neck, y + head}},
                                   true, color, Stroke{edge, line_px_}});
     }
-    const std::string text = fixed_text(motion.velocity, 2);
-    const double size_px = kTextSize * room_px_;
+    const std::string text = rounded_text(motion.velocity);
     items.emplace_back(
         TextItem{nth(ItemId::velocities, n + 2),
-                 {foot.x - widths_.width_em(text) * size_px / 2, foot.y - kBaseline * room_px_},
+                 {foot.x - widths_.width_em(text) * text_px_ / 2, foot.y - kBaseline * room_px_},
                  text,
-                 size_px,
+                 text_px_,
                  palette_.text});
   }
 
@@ -95,6 +95,7 @@ class VelocityArrows final : public Part {
   double line_px_;
   double top_ = 0;
   double room_px_ = 0;
+  double text_px_ = 0;
 };
 
 }  // namespace

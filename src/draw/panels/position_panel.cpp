@@ -84,8 +84,8 @@ class PositionPanel final : public Part {
     const Point far = at({most_, most_});
     sheet_.text("wall", {(corner_.x + far.x) / 2, corner_.y + 1.2 * em}, 0.5,
                 sheet_.palette().muted);
-    const Point middle = at({most_ / 2, most_ / 2});
-    sheet_.text("contact", {middle.x - 0.6 * em, middle.y - 0.4 * em}, 1, sheet_.palette().muted);
+    const Point beside = at({0.85 * most_, 0.85 * most_});
+    sheet_.text("contact", {beside.x - 0.6 * em, beside.y}, 1, sheet_.palette().muted);
   }
 
   Gaps gaps_;

@@ -13,11 +13,12 @@ namespace {
 /// As wide as this a column is seen as a bar.
 constexpr double kColumn_px = 3;
 constexpr double kBetweenTicks_em = 1.8;
+constexpr double kFigures_em = 2.6;  // of room for powers of ten, left of the bars
 
 class RatePanel final : public Part {
  public:
   RatePanel(const Setting& setting, const PanelPlace& place)
-      : sheet_(setting, place, "Collisions per unit of time"), axis_(setting, sheet_) {
+      : sheet_(setting, place, "Collisions per unit of time"), axis_(setting, sheet_, kFigures_em) {
     const int columns = axis_.columns(kColumn_px);
     const Rational width = (axis_.to() - axis_.from()) / columns;
     std::vector<Rational> rates;
@@ -72,9 +73,9 @@ class RatePanel final : public Part {
     const double step = std::max(1.0, std::ceil((high_ - low_) / std::max(1.0, fit)));
     for (double power = low_ + step; power <= high_; power += step) {
       const double y = y_of(power);
-      sheet_.line({{axis_.left(), y}, {axis_.left() + 0.4 * em, y}}, sheet_.palette().muted);
-      sheet_.text("10" + superscript(std::lround(power)), {axis_.left() + 0.6 * em, y + 0.35 * em},
-                  0, sheet_.palette().muted);
+      sheet_.line({{axis_.left() - 0.4 * em, y}, {axis_.left(), y}}, sheet_.palette().muted);
+      sheet_.text("10" + superscript(std::lround(power)),
+                  {axis_.left() - kFigures_em * em, y + 0.35 * em}, 0, sheet_.palette().muted);
     }
   }
 

@@ -19,11 +19,13 @@ constexpr double kBetweenTicks = 4;
 
 }  // namespace
 
-TimeAxis::TimeAxis(const Setting& setting, const PanelSheet& sheet)
+TimeAxis::TimeAxis(const Setting& setting, const PanelSheet& sheet, double indent_em)
     : from_(setting.scene.time.from), to_(end_of(setting.scene, setting.log)) {
   if (to_ <= from_) throw UsageError("show.panels: the scene ends before it begins");
   plot_ = sheet.inside();
   plot_.height -= kBelow * sheet.text_px();
+  plot_.x += indent_em * sheet.text_px();
+  plot_.width -= indent_em * sheet.text_px();
   low_ = to_double(from_);
   scale_ = plot_.width / to_double(to_ - from_);
 }

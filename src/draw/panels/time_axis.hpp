@@ -9,7 +9,8 @@ namespace piblocks {
 class TimeAxis {
  public:
   /// From the scene's beginning to its end.
-  TimeAxis(const Setting& setting, const PanelSheet& sheet);
+  /// @param indent_em  room left of it.
+  TimeAxis(const Setting& setting, const PanelSheet& sheet, double indent_em);
 
   const Rational& from() const noexcept { return from_; }
   const Rational& to() const noexcept { return to_; }

@@ -18,7 +18,7 @@ class TimePanel final : public Part {
   TimePanel(const Setting& setting, const PanelPlace& place)
       : sheet_(setting, place, "Distance from the wall"),
         gaps_(setting.scene.system),
-        axis_(setting, sheet_) {
+        axis_(setting, sheet_, 0) {
     const auto pieces =
         trajectory_of(setting.log, gaps_, axis_.from(), axis_.to(), axis_.columns(kColumn_px));
     for (const TrajectoryPiece& piece : pieces) make_room(piece);
@@ -34,8 +34,8 @@ class TimePanel final : public Part {
     if (!axis_.shows(x)) return;
     const GapPoint gaps = gaps_.of(shown.state);
     items.emplace_back(axis_.cursor(sheet_, x));
-    items.emplace_back(sheet_.dot(1, {x, y_of(gaps.y2)}, sheet_.palette().red.fill));
-    items.emplace_back(sheet_.dot(2, {x, y_of(gaps.y1)}, sheet_.palette().blue.edge));
+    items.emplace_back(sheet_.dot(1, {x, y_of(gaps.y2)}, sheet_.palette().red.line));
+    items.emplace_back(sheet_.dot(2, {x, y_of(gaps.y1)}, sheet_.palette().blue.line));
   }
 
  private:
@@ -52,7 +52,7 @@ class TimePanel final : public Part {
   Point at(double time, double gap) const { return {axis_.x_of(time), y_of(gap)}; }
 
   void add_blue(const TrajectoryPiece& piece) {
-    const Color color = sheet_.palette().blue.edge;
+    const Color color = sheet_.palette().blue.line;
     std::vector<Point> points;
     for (const TimedGaps& corner : piece.corners) {
       points.push_back(at(corner.time, corner.gaps.y1));
@@ -76,7 +76,7 @@ class TimePanel final : public Part {
       }
       for (const Band& band : piece.bands) points.push_back(at(band.to.time, band.to.gaps.y2));
     }
-    sheet_.line(std::move(points), sheet_.palette().red.fill, 1.5);
+    sheet_.line(std::move(points), sheet_.palette().red.line, 2);
   }
 
   PanelSheet sheet_;

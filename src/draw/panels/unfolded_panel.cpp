@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLeastBetween_px = 6;  // between rays, at their ends
 constexpr double kRimStep = 0.05;       // radians
-constexpr double kBelow_em = 0.6;
+constexpr double kBelow_em = 1.5;
 
 /// 1, 10, 100, …: every how many-th ray is drawn.
 double ray_stride(double between_px) {
@@ -87,8 +87,7 @@ class UnfoldedPanel final : public Part {
                 Stroke{sheet_.palette().muted, sheet_.line_px()});
     if (stride_ > 1) {
       sheet_.text(fmt::format("1 ray in {}", short_text(Rational(stride_))),
-                  {sheet_.inside().x + sheet_.inside().width, sheet_.inside().y}, 1,
-                  sheet_.palette().muted);
+                  {corner_.x, corner_.y + 1.2 * sheet_.text_px()}, 0.5, sheet_.palette().muted);
     }
   }
 

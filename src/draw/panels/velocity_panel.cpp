@@ -9,9 +9,10 @@ namespace piblocks {
 namespace {
 
 constexpr double kCircleStep = 0.05;  // radians between points of a circle: 0.03 % of its radius
-constexpr double kMargin_em = 1.4;    // for the axes' names
+constexpr double kMargin_em = 0.8;
 /// Sectors are drawn one by one while there are at most so many, and otherwise in groups.
 constexpr long kMostSectors = 120;
+constexpr double kLeastApart_px = 5;
 
 std::vector<Point> arc(const Point& centre, double radius, double from, double to) {
   std::vector<Point> points;
@@ -29,15 +30,15 @@ std::vector<Point> arc(const Point& centre, double radius, double from, double t
 class VelocityPanel final : public Part {
  public:
   VelocityPanel(const Setting& setting, const PanelPlace& place)
-      : sheet_(setting, place, "Velocities √m·v"), gaps_(setting.scene.system) {
+      : sheet_(setting, place, "Velocities √m·v (red →, blue ↑)"), gaps_(setting.scene.system) {
     const BlockSystem& system = setting.scene.system;
     const Point start = point_of(to_double(system.blue.velocity), to_double(system.red.velocity));
     speed_ = std::hypot(start.x, start.y);
     start_angle_ = speed_ > 0 ? std::abs(std::atan2(start.y, start.x)) : 0;
     const Rectangle& inside = sheet_.inside();
-    const double margin = kMargin_em * sheet_.text_px();
+    const double em = sheet_.text_px();
     centre_ = {inside.x + inside.width / 2, inside.y + inside.height / 2};
-    radius_ = std::min(inside.width, inside.height) / 2 - margin;
+    radius_ = std::min(inside.width, inside.height) / 2 - kMargin_em * em;
     make_sectors(setting.log);
     add_axes();
   }
@@ -71,14 +72,15 @@ class VelocityPanel final : public Part {
     return {red_velocity, gaps_.sigma * blue_velocity};
   }
 
-  /// From the start's angle down to where no sector fits, above the axis or below it.
-  std::vector<Sector> sectors_of(long count, double side) const {
-    const long group = std::max(1L, (count + kMostSectors - 1) / kMostSectors);
+  /// From the start's angle down, above the axis or below it: one for each of `count` collisions,
+  /// or as many as can be told apart.
+  std::vector<Sector> sectors_of(const Integer& count, double side) const {
+    const double swept = std::min(2 * gaps_.theta * count.get_d(), start_angle_);
+    const long shown = count <= kMostSectors ? count.get_si() : kMostSectors;
     std::vector<Sector> sectors;
-    const double width = 2 * gaps_.theta * static_cast<double>(group);
-    for (long k = 0; k < (count + group - 1) / group; ++k) {
-      const double from = start_angle_ - width * static_cast<double>(k);
-      const double to = std::max(0.0, from - width);
+    for (long k = 0; k < shown; ++k) {
+      const double from = start_angle_ - swept * static_cast<double>(k) / double(shown);
+      const double to = start_angle_ - swept * static_cast<double>(k + 1) / double(shown);
       std::vector<Point> outline = arc(centre_, radius_, side * from, side * to);
       outline.push_back(centre_);
       sectors.push_back({to, std::move(outline)});
@@ -88,12 +90,10 @@ class VelocityPanel final : public Part {
 
   void make_sectors(const CollisionLog& log) {
     if (!(speed_ > 0)) return;
-    // In groups of at least this width one cannot be told from the next: 2 theta may be tiny.
-    const double fit = std::min(start_angle_ / (2 * gaps_.theta), 1e9);
-    const long collisions = log.size() < 2'000'000'000 ? log.size().get_si() : 2'000'000'000;
-    const long half = std::min(static_cast<long>(std::ceil(fit)), (collisions + 1) / 2);
-    above_ = sectors_of(half, 1);
-    below_ = sectors_of(std::min(half, collisions / 2), -1);
+    above_ = sectors_of((log.size() + 1) / 2, 1);
+    below_ = sectors_of(log.size() / 2, -1);
+    is_apart_ = !above_.empty() &&
+                start_angle_ / static_cast<double>(above_.size()) * radius_ > kLeastApart_px;
   }
 
   void add_axes() {
@@ -104,8 +104,6 @@ class VelocityPanel final : public Part {
     sheet_.line({{centre_.x, centre_.y - reach}, {centre_.x, centre_.y + reach}}, palette.grid);
     sheet_.path(arc(centre_, radius_, 0, 2 * std::numbers::pi), true, std::nullopt,
                 Stroke{palette.muted, sheet_.line_px()});
-    sheet_.text("red", {centre_.x + reach + 0.2 * em, centre_.y + 0.35 * em}, 0, palette.muted);
-    sheet_.text("blue", {centre_.x + 0.4 * em, centre_.y - radius_ - 0.35 * em}, 0, palette.muted);
   }
 
   void add_lit(double angle, const std::vector<Sector>& sectors, std::size_t first,
@@ -113,9 +111,9 @@ class VelocityPanel final : public Part {
     const double slack = gaps_.theta / 2;  // of rounding: what is reached is reached by all of it
     for (std::size_t k = 0; k < sectors.size(); ++k) {
       if (angle > sectors[k].end_angle + slack) return;
+      const Color& edge = is_apart_ ? sheet_.palette().grid : sheet_.palette().shade;
       items.emplace_back(PathItem{sheet_.moving(first + k), sectors[k].outline, true,
-                                  sheet_.palette().shade,
-                                  Stroke{sheet_.palette().grid, sheet_.line_px()}});
+                                  sheet_.palette().shade, Stroke{edge, sheet_.line_px()}});
     }
   }
 
@@ -127,6 +125,7 @@ class VelocityPanel final : public Part {
   double radius_ = 0;
   std::vector<Sector> above_;
   std::vector<Sector> below_;
+  bool is_apart_ = false;  ///< whether sectors are wide enough for lines between them
 };
 
 }  // namespace
