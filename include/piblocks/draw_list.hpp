@@ -151,7 +151,23 @@ struct ImageItem {
   friend bool operator==(const ImageItem&, const ImageItem&) = default;
 };
 
-using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem>;
+struct Sheet;
+
+/// Items that never change, as one: a canvas paints them once and keeps their picture. Equal if it
+/// is the same sheet in memory.
+struct SheetItem {
+  ItemId id = ItemId::wall;
+  Rectangle bounds;  ///< in whole pixels; nothing of the sheet is seen outside
+  std::shared_ptr<const Sheet> sheet;
+
+  friend bool operator==(const SheetItem&, const SheetItem&) = default;
+};
+
+using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, SheetItem>;
+
+struct Sheet {
+  std::vector<DrawItem> items;  ///< from back to front
+};
 
 struct DrawList {
   int width_px = 0;

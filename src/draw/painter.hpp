@@ -7,7 +7,9 @@
 #include <piblocks/image.hpp>
 
 #include <memory>
+#include <vector>
 
+#include "draw/cairo_handles.hpp"
 #include "draw/font.hpp"
 
 namespace piblocks {
@@ -20,7 +22,7 @@ enum class TextSetting {
   glyphs  ///< each glyph by itself, so that its pixels depend on nothing else
 };
 
-/// Holds the font, which is loaded when the first text is met.
+/// Holds the font, which is loaded when the first text is met, and the pictures of sheets.
 class Painter {
  public:
   explicit Painter(TextSetting setting) : setting_(setting) {}
@@ -34,9 +36,17 @@ class Painter {
  private:
   void paint_item(cairo_t& cr, const DrawItem& item);
   void paint_text(cairo_t& cr, const TextItem& item);
+  void paint_sheet(cairo_t& cr, const SheetItem& item);
+  cairo_surface_t& picture_of(const SheetItem& item);
 
   TextSetting setting_;
   std::unique_ptr<Font> font_;
+  /// The sheet is kept too, so that no other one can come to be in its place in memory.
+  struct SheetPicture {
+    std::shared_ptr<const Sheet> sheet;
+    CairoSurfacePtr picture;
+  };
+  std::vector<SheetPicture> pictures_;
 };
 
 }  // namespace piblocks

@@ -41,10 +41,11 @@ class VelocityPanel final : public Part {
     radius_ = std::min(inside.width, inside.height) / 2 - kMargin_em * em;
     make_sectors(setting.log);
     add_axes();
+    sheet_.finish();
   }
 
   void add(const Shown& shown, std::vector<DrawItem>& items) const override {
-    sheet_.add_to(items);
+    items.emplace_back(sheet_.item());
     if (!(speed_ > 0)) return;
     const Point velocity = point_of(shown.state.blue.velocity, shown.state.red.velocity);
     // The last point above the axis is as far along as the present one. So is the last one below it
