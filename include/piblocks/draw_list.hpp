@@ -75,8 +75,8 @@ using DrawItem = std::variant<RectangleItem, TextItem>;
 struct DrawList {
   int width_px = 0;
   int height_px = 0;
-  Color background = {255, 255, 255};
-  std::vector<DrawItem> items;  ///< from back to front
+  std::optional<Color> background = Color{255, 255, 255};  ///< transparent without
+  std::vector<DrawItem> items;                             ///< from back to front
 
   friend bool operator==(const DrawList&, const DrawList&) = default;
 };

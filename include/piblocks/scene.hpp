@@ -6,6 +6,7 @@
 #include <piblocks/blocks.hpp>
 #include <piblocks/exact.hpp>
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,6 +21,9 @@ struct Range {
   Rational high;
 };
 
+/// What is behind everything: a colour, or nothing, so that another picture can be put there.
+enum class Background : std::uint8_t { opaque, transparent };
+
 /// What part of the plane a frame shows, and how many frames and pixels that takes.
 struct View {
   Range x = {-1, 12};
@@ -27,6 +31,7 @@ struct View {
   int width_px = 1920;       ///< 1 … kMaxSide_px
   int height_px = 1080;      ///< 1 … kMaxSide_px
   Rational frame_rate = 60;  ///< frames per second of video, 0 < rate <= kMaxFrameRate
+  Background background = Background::opaque;
 };
 
 inline constexpr int kMaxFrameRate = 1000;
@@ -71,8 +76,8 @@ inline constexpr int kMaxSceneNesting = 256;
 
 /// Collects a scene's values from a file and from options, remembering where each came from.
 /// The keys are those of the scene file: "wall.face"; "blue." and "red." with "mass",
-/// "position", "velocity", "width"; "view.x", "view.y", "view.size", "view.fps"; "time.from",
-/// "time.to", "time.speed".
+/// "position", "velocity", "width"; "view.x", "view.y", "view.size", "view.fps",
+/// "view.background"; "time.from", "time.to", "time.speed".
 class SceneBuilder {
  public:
   /// Reads a scene file. Values set before it are overwritten, values set after it win.

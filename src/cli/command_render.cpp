@@ -92,7 +92,7 @@ RenderOptions add_options(CLI::App& command) {
                         "What to write: NAME.mp4, FRAMES/%06d.png, NAME.y4m,\n"
                         "- (y4m on standard output), NAME.framehash, or null")
            .required();
-  scene.add_size();
+  scene.add_picture();
   scene.add_timing();
   const CLI::Option& crf =
       add_value_option(command, "--crf", "Q", "Rate factor of MP4, 0 (lossless) to 51 (worst)");

@@ -39,8 +39,10 @@ void SceneOptions::add_key(const std::string& key, const std::string& option,
   keys_.emplace_back(key, &add_value_option(*command_, option, placeholder, help));
 }
 
-void SceneOptions::add_size() {
+void SceneOptions::add_picture() {
   add_key("view.size", "--size", "WxH", "Frame size in pixels (default 1920x1080)");
+  transparent_ = command_->add_flag("--transparent")
+                     ->description("No background: another picture can be put behind");
 }
 
 void SceneOptions::add_timing() {
@@ -59,6 +61,9 @@ Scene SceneOptions::scene() const {
   if (const auto file = text_of(*file_)) builder.read_file(*file);
   for (const auto& [key, option] : keys_) {
     if (const auto text = text_of(*option)) builder.set(option->get_name(), key, *text);
+  }
+  if (transparent_ != nullptr && transparent_->count() > 0) {
+    builder.set(transparent_->get_name(), "view.background", "transparent");
   }
   if (const auto ratio = value_of(*mass_ratio_, parse_mass_ratio)) {
     builder.set_mass_ratio(mass_ratio_->get_name(), *ratio);

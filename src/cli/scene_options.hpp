@@ -18,8 +18,8 @@ class SceneOptions {
  public:
   /// Adds [SCENE.toml], --digits and --mass-ratio.
   explicit SceneOptions(CLI::App& command);
-  /// Adds --size.
-  void add_size();
+  /// Adds --size and --transparent.
+  void add_picture();
   /// Adds --fps, --from, --to and --speed.
   void add_timing();
 
@@ -37,6 +37,7 @@ class SceneOptions {
   CLI::Option* file_;
   CLI::Option* digits_;
   CLI::Option* mass_ratio_;
+  CLI::Option* transparent_ = nullptr;
   std::vector<std::pair<std::string, CLI::Option*>> keys_;
 };
 

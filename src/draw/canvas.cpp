@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 #include <new>
 #include <optional>
 #include <string_view>
@@ -70,9 +71,24 @@ std::vector<std::uint8_t> with_fixed_id(std::vector<std::uint8_t> svg) {
   return svg;
 }
 
+/// By hand: of a surface that Cairo itself has cleared it knows that, and paints on it in other
+/// ways.
+void clear(unsigned char* corner, const PixelRect& rect, int stride_bytes) {
+  for (int y = 0; y < rect.height_px; ++y) {
+    std::memset(corner + std::ptrdiff_t{y} * stride_bytes, 0, std::size_t(rect.width_px) * 4);
+  }
+}
+
 }  // namespace
 
 struct Canvas::Pixels {
+  Pixels(int width_px, int height_px, Ground ground)
+      : format(ground == Ground::transparent ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24),
+        surface(cairo_image_surface_create(format, width_px, height_px)) {
+    check_cairo(cairo_surface_status(surface.get()), "make a canvas");
+  }
+
+  cairo_format_t format;
   CairoSurfacePtr surface;
   Painter painter{TextSetting::glyphs};
   std::optional<DrawList> shown;
@@ -88,8 +104,9 @@ void Canvas::Pixels::paint(const DrawList& list, const PixelRect& rect) {
   const int stride_bytes = cairo_image_surface_get_stride(surface.get());
   unsigned char* const corner = cairo_image_surface_get_data(surface.get()) +
                                 std::ptrdiff_t{rect.y_px} * stride_bytes + 4 * rect.x_px;
-  const CairoSurfacePtr part(cairo_image_surface_create_for_data(
-      corner, CAIRO_FORMAT_RGB24, rect.width_px, rect.height_px, stride_bytes));
+  if (!list.background) clear(corner, rect, stride_bytes);
+  const CairoSurfacePtr part(cairo_image_surface_create_for_data(corner, format, rect.width_px,
+                                                                 rect.height_px, stride_bytes));
   cairo_surface_set_device_offset(part.get(), -rect.x_px, -rect.y_px);
   const CairoPtr cr(cairo_create(part.get()));
   painter.paint(*cr, list, rect);
@@ -97,15 +114,14 @@ void Canvas::Pixels::paint(const DrawList& list, const PixelRect& rect) {
   cairo_surface_mark_dirty(surface.get());
 }
 
-Canvas::Canvas(int width_px, int height_px) : pixels_(std::make_unique<Pixels>()) {
-  pixels_->surface.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, height_px));
-  check_cairo(cairo_surface_status(pixels_->surface.get()), "make a canvas");
-}
+Canvas::Canvas(int width_px, int height_px, Ground ground)
+    : pixels_(std::make_unique<Pixels>(width_px, height_px, ground)) {}
 
 Canvas::~Canvas() = default;
 
 void Canvas::paint(const DrawList& list) {
   assert(list.width_px == view().width_px && list.height_px == view().height_px);
+  assert(list.background || view().has_alpha);
   pixels_->paint(list, {0, 0, list.width_px, list.height_px});
   pixels_->shown = list;
 }
@@ -129,7 +145,8 @@ std::span<const PixelRect> Canvas::update(DrawList list) {
 ImageView Canvas::view() const {
   cairo_surface_t* surface = pixels_->surface.get();
   return {cairo_image_surface_get_data(surface), cairo_image_surface_get_width(surface),
-          cairo_image_surface_get_height(surface), cairo_image_surface_get_stride(surface)};
+          cairo_image_surface_get_height(surface), cairo_image_surface_get_stride(surface),
+          pixels_->format == CAIRO_FORMAT_ARGB32};
 }
 
 std::vector<std::uint8_t> draw_svg(const DrawList& list) {

@@ -70,6 +70,11 @@ RectangleItem compose_block(ItemId id, const Block& block, const Motion& motion,
           Stroke{edge, layout.line_px, 0}};
 }
 
+std::optional<Color> background_of(const View& view) {
+  if (view.background == Background::transparent) return std::nullopt;
+  return kBackground;
+}
+
 }  // namespace
 
 Layout lay_out(const Scene& scene, const Integer& longest_count) {
@@ -111,7 +116,7 @@ DrawList compose(const Scene& scene, const Layout& layout, const BlockState& sta
   const BlockSystem& system = scene.system;
   return {layout.width_px,
           layout.height_px,
-          kBackground,
+          background_of(scene.view),
           {compose_wall(scene, layout),
            compose_block(ItemId::red_block, system.red, state.red, kRed, kRedEdge, layout),
            compose_block(ItemId::blue_block, system.blue, state.blue, kBlue, kBlueEdge, layout),

@@ -65,8 +65,10 @@ void Painter::paint(cairo_t& cr, const DrawList& list) {
 }
 
 void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& part) {
-  set_color(cr, list.background);
-  cairo_paint(&cr);
+  if (list.background) {
+    set_color(cr, *list.background);
+    cairo_paint(&cr);
+  }
   for (const DrawItem& item : list.items) {
     if (reaches(item, part)) paint_item(cr, item);
   }

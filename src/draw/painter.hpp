@@ -25,7 +25,7 @@ class Painter {
  public:
   explicit Painter(TextSetting setting) : setting_(setting) {}
 
-  /// Paints the background and every item. @throws DrawError
+  /// Paints the background, if there is one, and every item. @throws DrawError
   void paint(cairo_t& cr, const DrawList& list);
   /// The same where nothing but this part of the picture is seen.
   void paint(cairo_t& cr, const DrawList& list, const PixelRect& part);

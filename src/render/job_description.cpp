@@ -11,6 +11,8 @@
 namespace piblocks {
 namespace {
 
+constexpr const char* kTransparent = "transparent";
+
 void describe(const std::string& name, const Block& block, PartHeader& header) {
   header.emplace_back(name + ".mass", block.mass.get_str());
   header.emplace_back(name + ".position", block.position.get_str());
@@ -28,6 +30,8 @@ void describe(const Scene& scene, PartHeader& header) {
   header.emplace_back("view.width", std::to_string(scene.view.width_px));
   header.emplace_back("view.height", std::to_string(scene.view.height_px));
   header.emplace_back("view.fps", scene.view.frame_rate.get_str());
+  header.emplace_back("view.background",
+                      scene.view.background == Background::transparent ? kTransparent : "opaque");
   header.emplace_back("time.from", scene.time.from.get_str());
   header.emplace_back("time.speed", scene.time.speed.get_str());
 }
@@ -78,6 +82,7 @@ JobDescription read_description(const PartInfo& part) {
   job.format.width_px = static_cast<int>(number(part, "view.width", kMaxSide_px));
   job.format.height_px = static_cast<int>(number(part, "view.height", kMaxSide_px));
   job.format.frame_rate = parse_rational(value_of(part, "view.fps"));
+  job.format.has_alpha = value_of(part, "view.background") == kTransparent;
   if (const auto crf = setting(part, "crf")) job.encoder.crf = to_double(parse_rational(*crf));
   job.encoder.preset = setting(part, "preset");
   job.encoder.encoder = setting(part, "encoder");

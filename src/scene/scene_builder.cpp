@@ -53,6 +53,12 @@ void set_size(View& view, const Values& values) {
   view.height_px = size.height_px;
 }
 
+void set_background(View& view, const Values& values) {
+  const std::string& name = single(values);
+  if (name != "opaque" && name != "transparent") throw UsageError("must be opaque or transparent");
+  view.background = name == "opaque" ? Background::opaque : Background::transparent;
+}
+
 /// A list, or one text with commas.
 void set_golden_frames(Golden& golden, Values values) {
   if (values.size() == 1) {
@@ -79,7 +85,7 @@ struct Key {
   void (*set)(Scene& scene, const Values& values);
 };
 
-constexpr std::array<Key, 18> kKeys{{
+constexpr std::array<Key, 19> kKeys{{
     {"wall.face", [](Scene& s, const Values& v) { set_number(s.system.wall_face, v); }},
     {"blue.mass", [](Scene& s, const Values& v) { set_number(s.system.blue.mass, v); }},
     {"blue.position", [](Scene& s, const Values& v) { set_number(s.system.blue.position, v); }},
@@ -93,6 +99,7 @@ constexpr std::array<Key, 18> kKeys{{
     {"view.y", [](Scene& s, const Values& v) { set_range(s.view.y, v); }},
     {"view.size", [](Scene& s, const Values& v) { set_size(s.view, v); }},
     {"view.fps", [](Scene& s, const Values& v) { set_number(s.view.frame_rate, v); }},
+    {"view.background", [](Scene& s, const Values& v) { set_background(s.view, v); }},
     {"time.from", [](Scene& s, const Values& v) { set_number(s.time.from, v); }},
     {"time.to", [](Scene& s, const Values& v) { s.time.to = parse_end(single(v)); }},
     {"time.speed", [](Scene& s, const Values& v) { set_number(s.time.speed, v); }},
