@@ -43,28 +43,45 @@ void SceneOptions::add_picture() {
   add_key("view.size", "--size", "WxH", "Frame size in pixels (default 1920x1080)");
   transparent_ = command_->add_flag("--transparent")
                      ->description("No background: another picture can be put behind");
+  opaque_ = command_->add_flag("--opaque")
+                ->description("A background, also where the scene or --for wants none");
+}
+
+void SceneOptions::add_span() {
+  add_key("time.from", "--from", "S", "First instant shown, in simulation time (default 0)");
+  add_key("time.to", "--to", "S|last|last+S",
+          "End: a time, the last collision, or so long after it\n(default last+1.5)");
 }
 
 void SceneOptions::add_timing() {
   add_key("view.fps", "--fps", "N|N/D", "Frames per second (default 60)");
-  add_key("time.from", "--from", "S", "First instant shown, in simulation time (default 0)");
-  add_key("time.to", "--to", "S|last|last+S",
-          "End: a time, the last collision, or so long after it\n(default last+1.5)");
+  add_span();
   add_key("time.speed", "--speed", "X", "Simulation time per second of video (default 1)");
 }
 
-Scene SceneOptions::scene() const {
+void SceneOptions::set_background(SceneBuilder& builder) const {
+  if (transparent_ == nullptr) return;
+  if (transparent_->count() > 0 && opaque_->count() > 0) {
+    throw UsageError("--transparent and --opaque contradict each other; give one of them");
+  }
+  if (transparent_->count() > 0) {
+    builder.set(transparent_->get_name(), "view.background", "transparent");
+  }
+  if (opaque_->count() > 0) builder.set(opaque_->get_name(), "view.background", "opaque");
+}
+
+Scene SceneOptions::scene(const std::vector<SceneDefault>& defaults,
+                          const std::string& origin) const {
   if (digits_->count() > 0 && mass_ratio_->count() > 0) {
     throw UsageError("--digits and --mass-ratio both set the mass of red; give one of them");
   }
   SceneBuilder builder;
   if (const auto file = text_of(*file_)) builder.read_file(*file);
+  for (const auto& [key, text] : defaults) builder.set(origin, key, text);
   for (const auto& [key, option] : keys_) {
     if (const auto text = text_of(*option)) builder.set(option->get_name(), key, *text);
   }
-  if (transparent_ != nullptr && transparent_->count() > 0) {
-    builder.set(transparent_->get_name(), "view.background", "transparent");
-  }
+  set_background(builder);
   if (const auto ratio = value_of(*mass_ratio_, parse_mass_ratio)) {
     builder.set_mass_ratio(mass_ratio_->get_name(), *ratio);
   }

@@ -13,18 +13,28 @@
 
 namespace piblocks::cli {
 
+/// The value of a key of the scene file.
+struct SceneDefault {
+  std::string key;
+  std::string text;
+};
+
 /// Refers to options of the App it was made for, and is valid as long as that.
 class SceneOptions {
  public:
   /// Adds [SCENE.toml], --digits and --mass-ratio.
   explicit SceneOptions(CLI::App& command);
-  /// Adds --size and --transparent.
+  /// Adds --size, --transparent and --opaque.
   void add_picture();
-  /// Adds --fps, --from, --to and --speed.
+  /// Adds --from and --to.
+  void add_span();
+  /// Adds --fps and --speed beside these.
   void add_timing();
 
+  /// @param defaults  win over the scene file, but not over options.
+  /// @param origin    of these, named in messages.
   /// @throws SceneError, UsageError
-  Scene scene() const;
+  Scene scene(const std::vector<SceneDefault>& defaults = {}, const std::string& origin = {}) const;
   /// @throws UsageError if the option names the scene file as the output.
   void refuse_as_output(const CLI::Option& output) const;
 
@@ -32,12 +42,14 @@ class SceneOptions {
   /// Adds an option that sets a key of the scene file.
   void add_key(const std::string& key, const std::string& option, const std::string& placeholder,
                const std::string& help);
+  void set_background(SceneBuilder& builder) const;
 
   CLI::App* command_;
   CLI::Option* file_;
   CLI::Option* digits_;
   CLI::Option* mass_ratio_;
   CLI::Option* transparent_ = nullptr;
+  CLI::Option* opaque_ = nullptr;
   std::vector<std::pair<std::string, CLI::Option*>> keys_;
 };
 

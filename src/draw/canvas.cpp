@@ -1,14 +1,10 @@
-#include <cairo-pdf.h>
-#include <cairo-svg.h>
 #include <fmt/format.h>
 #include <ft2build.h>
 #include <piblocks/canvas.hpp>
 #include <pixman.h>
 
-#include <algorithm>
 #include <cassert>
 #include <cstring>
-#include <new>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -16,60 +12,11 @@
 #include "draw/cairo_handles.hpp"
 #include "draw/damage.hpp"
 #include "draw/painter.hpp"
+#include "draw/vector_file.hpp"
 #include FT_FREETYPE_H
 
 namespace piblocks {
 namespace {
-
-using MakeSurface = cairo_surface_t* (*)(cairo_write_func_t write, void* bytes, double width,
-                                         double height);
-
-/// Called by Cairo, which no exception may pass through.
-cairo_status_t append_bytes(void* target, const unsigned char* data, unsigned int length) {
-  auto& bytes = *static_cast<std::vector<std::uint8_t>*>(target);
-  try {
-    bytes.insert(bytes.end(), data, data + length);
-  } catch (const std::bad_alloc&) {
-    return CAIRO_STATUS_NO_MEMORY;
-  }
-  return CAIRO_STATUS_SUCCESS;
-}
-
-cairo_surface_t* make_svg(cairo_write_func_t write, void* bytes, double width, double height) {
-  cairo_surface_t* surface = cairo_svg_surface_create_for_stream(write, bytes, width, height);
-  cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
-  return surface;
-}
-
-cairo_surface_t* make_pdf(cairo_write_func_t write, void* bytes, double width, double height) {
-  cairo_surface_t* surface = cairo_pdf_surface_create_for_stream(write, bytes, width, height);
-  // Cairo would write the time of day: equal scenes would give different files.
-  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "1970-01-01T00:00:00Z");
-  return surface;
-}
-
-std::vector<std::uint8_t> draw_vector_file(const DrawList& list, MakeSurface make) {
-  std::vector<std::uint8_t> bytes;
-  const CairoSurfacePtr surface(make(append_bytes, &bytes, list.width_px, list.height_px));
-  const CairoPtr cr(cairo_create(surface.get()));
-  Painter(TextSetting::lines).paint(*cr, list);
-  cairo_surface_finish(surface.get());
-  check_cairo(cairo_surface_status(surface.get()), "finish the vector file");
-  return bytes;
-}
-
-/// Cairo 1.16 names the picture's group by a counter of the process, "surface12": equal draw lists
-/// would give different files.
-std::vector<std::uint8_t> with_fixed_id(std::vector<std::uint8_t> svg) {
-  constexpr std::string_view kCounted = "<g id=\"surface";
-  constexpr std::string_view kFixed = "<g id=\"picture";
-  const auto begin = std::search(svg.begin(), svg.end(), kCounted.begin(), kCounted.end());
-  if (begin == svg.end()) return svg;
-  // cppcheck-suppress derefInvalidIteratorRedundantCheck ; at the end this has returned
-  const auto end = std::find(begin + kCounted.size(), svg.end(), '"');
-  svg.insert(svg.erase(begin, end), kFixed.begin(), kFixed.end());
-  return svg;
-}
 
 /// By hand: of a surface that Cairo itself has cleared it knows that, and paints on it in other
 /// ways.
@@ -150,11 +97,13 @@ ImageView Canvas::view() const {
 }
 
 std::vector<std::uint8_t> draw_svg(const DrawList& list) {
-  return with_fixed_id(draw_vector_file(list, make_svg));
+  return write_svg(list.width_px, list.height_px,
+                   [&](cairo_t& cr) { Painter(TextSetting::lines).paint(cr, list); });
 }
 
 std::vector<std::uint8_t> draw_pdf(const DrawList& list) {
-  return draw_vector_file(list, make_pdf);
+  return write_pdf(list.width_px, list.height_px,
+                   [&](cairo_t& cr) { Painter(TextSetting::lines).paint(cr, list); });
 }
 
 std::vector<std::string> draw_library_versions() {

@@ -124,7 +124,8 @@ void ApngEncoder::append_frame_control(Bytes& bytes, std::int64_t number,
   end_png_chunk(bytes, control);
 }
 
-/// By filter Up, as in a sequence of PNG files: it leaves zeros wherever a row equals the one above.
+/// By filter Up, as in a sequence of PNG files: it leaves zeros wherever a row equals the one
+/// above.
 void ApngEncoder::filter(const PixelRect& rect) {
   constexpr std::uint8_t kUp = 2;
   const std::size_t row_bytes = std::size_t(rect.width_px) * (format_.has_alpha ? 4 : 3);

@@ -30,8 +30,8 @@ constexpr int kMaxDelay_cs = 65535;
 constexpr std::size_t kMaxColors = 256;
 constexpr std::uint8_t kTrailer = 0x3b;
 
-/// When frame `number` is shown first, rounded to the nearest hundredth of a second. What is rounded
-/// is the time, not the delay: no frame is more than half a hundredth late or early.
+/// When frame `number` is shown first, rounded to the nearest hundredth of a second. What is
+/// rounded is the time, not the delay: no frame is more than half a hundredth late or early.
 Integer time_cs(std::int64_t number, const Rational& frame_rate) {
   return floor(Rational(number) * 100 / frame_rate + Rational(1, 2));
 }
@@ -90,8 +90,7 @@ int append_bytes(GifFileType* file, const GifByteType* data, int count) {
   return count;
 }
 
-GifWriter::GifWriter(const VideoFormat& format)
-    : file_(EGifOpen(&bytes_, append_bytes, nullptr)) {
+GifWriter::GifWriter(const VideoFormat& format) : file_(EGifOpen(&bytes_, append_bytes, nullptr)) {
   if (file_ == nullptr) throw std::bad_alloc();
   try {
     put_screen(format);
@@ -215,13 +214,15 @@ void GifEncoder::put_image(const PixelRect& rect, int transparent) {
 
 std::string frame_rate_problem(const Rational& rate) {
   if (rate > kMaxFrameRate_gif) {
-    return fmt::format("gif: frame rate {} is too high: the shortest delay is a fiftieth of a "
-                       "second; use --fps 50 or 25",
-                       rate.get_str());
+    return fmt::format(
+        "gif: frame rate {} is too high: the shortest delay is a fiftieth of a "
+        "second; use --fps 50 or 25",
+        rate.get_str());
   }
   if (100 / rate <= kMaxDelay_cs) return {};
-  return fmt::format("gif: frame rate {} is too low: the longest delay is {} hundredths of a second",
-                     rate.get_str(), kMaxDelay_cs);
+  return fmt::format(
+      "gif: frame rate {} is too low: the longest delay is {} hundredths of a second",
+      rate.get_str(), kMaxDelay_cs);
 }
 
 }  // namespace

@@ -125,9 +125,8 @@ CodecChoice h264_choice(const VideoFormat& format, const EncoderSettings& settin
   return {.codec = codec,
           .pixel_format = AV_PIX_FMT_YUV420P,
           .frames_per_chunk = frames_in_a_second(format.frame_rate),
-          .set_up = [codec, settings](AVCodecContext& context) {
-            apply_settings(context, *codec, settings);
-          },
+          .set_up = [codec, settings](
+                        AVCodecContext& context) { apply_settings(context, *codec, settings); },
           .usable = usable_h264_encoders};
 }
 

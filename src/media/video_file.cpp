@@ -122,8 +122,8 @@ void VideoFile::add_stream() {
 void VideoFile::write_header() {
   // Neither the library's version nor the time of day: equal frames give equal bytes.
   muxer_->flags |= AVFMT_FLAG_BITEXACT;
-  check_av(av_opt_set(muxer_->priv_data, container_.index_option, container_.index_value, 0), "set up the muxer of",
-           name_);
+  check_av(av_opt_set(muxer_->priv_data, container_.index_option, container_.index_value, 0),
+           "set up the muxer of", name_);
   check_av(avformat_write_header(muxer_.get(), nullptr), "write the header of", name_);
 }
 
@@ -155,8 +155,8 @@ void VideoFile::write(const Packet& packet) {
 }
 
 void VideoFile::add_alpha(std::span<const std::uint8_t> alpha) {
-  std::uint8_t* const data = av_packet_new_side_data(
-      packet_.get(), AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, alpha.size());
+  std::uint8_t* const data =
+      av_packet_new_side_data(packet_.get(), AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, alpha.size());
   if (data == nullptr) throw std::bad_alloc();
   std::ranges::copy(alpha, data);
 }

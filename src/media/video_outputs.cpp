@@ -54,8 +54,7 @@ class H264Output final : public Output {
   H264Output(const OutputRequest& request, const Container& container)
       : name_(request.name),
         container_(container),
-        encoder_(request.format,
-                 h264_choice(request.format, settings_of_stream(request.settings))),
+        encoder_(request.format, h264_choice(request.format, settings_of_stream(request.settings))),
         sets_(sets_for_damage(encoder_, request.settings)),
         when_too_much_(request.settings.encoder == kDamage ? WhenTooMuch::go_on
                                                            : WhenTooMuch::leave_to_stream_encoder) {
@@ -85,9 +84,7 @@ class H264Output final : public Output {
 class EncodedOutput final : public Output {
  public:
   EncodedOutput(const OutputRequest& request, const Container& container, CodecChoice choice)
-      : name_(request.name),
-        container_(container),
-        encoder_(request.format, std::move(choice)) {}
+      : name_(request.name), container_(container), encoder_(request.format, std::move(choice)) {}
   std::int64_t frames_per_chunk() const override { return encoder_.frames_per_chunk(); }
   std::unique_ptr<ChunkEncoder> make_encoder() const override {
     return std::make_unique<VideoChunkEncoder>(encoder_);

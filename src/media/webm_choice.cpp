@@ -73,8 +73,7 @@ std::vector<std::string> problems_of(const VideoFormat& format, const EncoderSet
   }
   if (encoder == nullptr) {
     report(fmt::format("video: cannot find encoder '{}' for *.webm; use one of: {}",
-                       settings.encoder.value_or("vp9"),
-                       fmt::join(usable_webm_encoders(), ", ")));
+                       settings.encoder.value_or("vp9"), fmt::join(usable_webm_encoders(), ", ")));
     return problems;
   }
   if (format.has_alpha && !encoder->has_alpha) {
@@ -128,9 +127,8 @@ CodecChoice webm_choice(const VideoFormat& format, const EncoderSettings& settin
   return {.codec = codec_of(*encoder),
           .pixel_format = format.has_alpha ? AV_PIX_FMT_YUVA420P : AV_PIX_FMT_YUV420P,
           .frames_per_chunk = frames_in_a_second(format.frame_rate),
-          .set_up = [encoder, settings](AVCodecContext& context) {
-            piblocks::set_up(context, *encoder, settings);
-          },
+          .set_up = [encoder, settings](
+                        AVCodecContext& context) { piblocks::set_up(context, *encoder, settings); },
           .usable = usable_webm_encoders};
 }
 

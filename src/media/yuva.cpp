@@ -6,8 +6,8 @@
 namespace piblocks {
 namespace {
 
-// BT.709 in ten thousandths (ITU-R BT.709-6, 3.2); blue minus luma is at most 9278 of them, red minus
-// luma 7874.
+// BT.709 in ten thousandths (ITU-R BT.709-6, 3.2); blue minus luma is at most 9278 of them, red
+// minus luma 7874.
 constexpr std::int64_t kRed = 2126;
 constexpr std::int64_t kGreen = 7152;
 constexpr std::int64_t kBlue = 722;
@@ -39,15 +39,13 @@ std::int64_t luma(const Sums& c, std::int64_t steps) {
 /// Limited range: `steps` of chroma from one end to the other.
 std::int64_t chroma_blue(const Sums& c, std::int64_t steps) {
   if (c.alpha == 0) return 0;
-  const std::int64_t difference =
-      (kOne - kBlue) * c.blue - kRed * c.red - kGreen * c.green;
+  const std::int64_t difference = (kOne - kBlue) * c.blue - kRed * c.red - kGreen * c.green;
   return rounded_quotient(steps * difference, 2 * (kOne - kBlue) * c.alpha);
 }
 
 std::int64_t chroma_red(const Sums& c, std::int64_t steps) {
   if (c.alpha == 0) return 0;
-  const std::int64_t difference =
-      (kOne - kRed) * c.red - kGreen * c.green - kBlue * c.blue;
+  const std::int64_t difference = (kOne - kRed) * c.red - kGreen * c.green - kBlue * c.blue;
   return rounded_quotient(steps * difference, 2 * (kOne - kRed) * c.alpha);
 }
 

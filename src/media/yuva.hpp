@@ -38,8 +38,8 @@ struct Yuva420View {
   PlaneView<std::uint8_t> y, cb, cr, alpha;
 };
 
-/// A chroma sample is the mean of the pixels around it weighted by their alpha as well: what cannot be
-/// seen does not colour the edge of what can.
+/// A chroma sample is the mean of the pixels around it weighted by their alpha as well: what cannot
+/// be seen does not colour the edge of what can.
 /// @param image of even width and height.
 /// @param rect  inside the image; all its numbers are even. Chroma reads one column left of it.
 void convert_to_yuva420(const ImageView& image, const PixelRect& rect, const Yuva420View& picture);

@@ -22,7 +22,7 @@ set(core_headers color error exact geometry image time version)
 set(physics_headers blocks collision_log event_simulator interpolator particle
     physics_versions)
 set(scene_headers instant scene timeline)
-set(draw_headers canvas compose draw_list)
+set(draw_headers canvas compose draw_list sheet)
 set(media_headers frame_sink png)
 set(golden_headers compare compare_files)
 set(render_headers render)
