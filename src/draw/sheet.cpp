@@ -19,7 +19,7 @@ constexpr Color kCaption = {32, 32, 32};
 // In parts of the page's shorter side.
 constexpr double kMargin = 0.05;
 constexpr double kGap = 0.025;
-constexpr double kLargestText = 0.02;
+constexpr double kLargestText = 0.018;
 // In ems of the caption.
 constexpr double kBaseline = 1.25;  // below the picture
 constexpr double kCaptionHeight = 1.6;
@@ -72,8 +72,10 @@ void paint_picture(cairo_t& cr, Painter& painter, const PlacedPicture& placed) {
 
 void paint(cairo_t& cr, const Sheet& sheet, TextSetting setting) {
   Painter painter(setting);
-  painter.paint(cr, sheet.page);
+  const DrawList& page = sheet.page;
+  painter.paint(cr, {page.width_px, page.height_px, page.background, {}});
   for (const PlacedPicture& placed : sheet.pictures) paint_picture(cr, painter, placed);
+  painter.paint(cr, {page.width_px, page.height_px, std::nullopt, page.items});
 }
 
 }  // namespace
@@ -96,16 +98,16 @@ Sheet arrange(std::vector<CaptionedPicture> pictures, int width_px, int height_p
   const double top = (height_px - grid.rows * step_y + gap) / 2;
 
   Sheet sheet{{}, {width_px, height_px, kPaper, {}}};
-  // Of half a thousandth of the page's side, outside of the picture.
-  const Stroke line{kFrame, std::max(0.5, side / 2000), 0};
+  // Half inside the picture, half outside.
+  const Stroke line{kFrame, std::max(0.5, side / 1200), 0};
   for (int i = 0; i < static_cast<int>(pictures.size()); ++i) {
     CaptionedPicture& source = pictures[static_cast<std::size_t>(i)];
     const Rectangle place{left + i % grid.columns * step_x, top + i / grid.columns * step_y,
                           grid.width, grid.height};
     sheet.page.items.emplace_back(
         RectangleItem{ItemId::wall,
-                      {place.x - line.width_px, place.y - line.width_px,
-                       place.width + 2 * line.width_px, place.height + 2 * line.width_px},
+                      {place.x - line.width_px / 2, place.y - line.width_px / 2,
+                       place.width + line.width_px, place.height + line.width_px},
                       std::nullopt,
                       line});
     sheet.page.items.emplace_back(caption_below(place, source.caption, text_px, font));

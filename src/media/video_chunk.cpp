@@ -15,20 +15,6 @@ namespace {
 using Bytes = std::span<const std::uint8_t>;
 using ConvertRect = void (*)(const ImageView& frame, const PixelRect& rect, AVFrame& picture);
 
-AvFramePtr allocate_picture(const AVCodecParameters& stream) {
-  auto picture = own_av<AvFramePtr>(av_frame_alloc(), "picture");
-  picture->width = stream.width;
-  picture->height = stream.height;
-  picture->format = stream.format;
-  picture->colorspace = stream.color_space;
-  picture->color_primaries = stream.color_primaries;
-  picture->color_trc = stream.color_trc;
-  picture->color_range = stream.color_range;
-  picture->chroma_location = stream.chroma_location;
-  check_av(av_frame_get_buffer(picture.get(), 0), "allocate", "picture");
-  return picture;
-}
-
 YuvView view_of(AVFrame& picture) {
   return {.y = picture.data[0],
           .cb = picture.data[1],

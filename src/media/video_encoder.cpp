@@ -4,6 +4,7 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <new>
 #include <span>
 #include <utility>
 
@@ -37,6 +38,20 @@ std::span<const std::uint8_t> extradata(const AVCodecParameters& parameters) {
 
 }  // namespace
 
+AvFramePtr allocate_picture(const AVCodecParameters& stream) {
+  auto picture = own_av<AvFramePtr>(av_frame_alloc(), "picture");
+  picture->width = stream.width;
+  picture->height = stream.height;
+  picture->format = stream.format;
+  picture->colorspace = stream.color_space;
+  picture->color_primaries = stream.color_primaries;
+  picture->color_trc = stream.color_trc;
+  picture->color_range = stream.color_range;
+  picture->chroma_location = stream.chroma_location;
+  check_av(av_frame_get_buffer(picture.get(), 0), "allocate", "picture");
+  return picture;
+}
+
 VideoEncoder::VideoEncoder(const VideoFormat& format, CodecChoice choice)
     : format_(format),
       choice_(std::move(choice)),
@@ -46,10 +61,36 @@ VideoEncoder::VideoEncoder(const VideoFormat& format, CodecChoice choice)
     const AvCodecContextPtr first = open_unchecked();
     check_av(avcodec_parameters_from_context(parameters_.get(), first.get()),
              "describe the stream of", name());
+    if (first->codec_id == AV_CODEC_ID_AV1 && first->extradata_size == 0) take_headers(*first);
   } catch (const Error& error) {
     throw UsageError(
         fmt::format("{}; usable here: {}", error.what(), fmt::join(choice_.usable(), ", ")));
   }
+}
+
+/// libaom says what belongs into the header of the file beside its first packet, not before.
+void VideoEncoder::take_headers(AVCodecContext& context) {
+  const AvFramePtr picture = allocate_picture(*parameters_);
+  for (int plane = 0; plane < 3; ++plane) {
+    const int rows = plane == 0 ? picture->height : picture->height / 2;
+    std::fill_n(picture->data[plane], std::ptrdiff_t{rows} * picture->linesize[plane], 128);
+  }
+  picture->pts = 0;
+  const auto packet = own_av<AvPacketPtr>(av_packet_alloc(), "packet");
+  check_av(avcodec_send_frame(&context, picture.get()), "encode a frame with", name());
+  check_av(avcodec_send_frame(&context, nullptr), "encode a frame with", name());
+  check_av(avcodec_receive_packet(&context, packet.get()), "encode a frame with", name());
+  std::size_t size = 0;
+  const std::uint8_t* const headers =
+      av_packet_get_side_data(packet.get(), AV_PKT_DATA_NEW_EXTRADATA, &size);
+  if (headers == nullptr) {
+    throw MediaError(fmt::format("video: encoder '{}' does not tell its headers", name()));
+  }
+  void* const copy = av_mallocz(size + AV_INPUT_BUFFER_PADDING_SIZE);
+  if (copy == nullptr) throw std::bad_alloc();
+  parameters_->extradata = static_cast<std::uint8_t*>(copy);
+  parameters_->extradata_size = static_cast<int>(size);
+  std::copy_n(headers, size, parameters_->extradata);
 }
 
 std::string VideoEncoder::signature() const {
@@ -59,7 +100,8 @@ std::string VideoEncoder::signature() const {
 
 AvCodecContextPtr VideoEncoder::open() const {
   AvCodecContextPtr context = open_unchecked();
-  if (!std::ranges::equal(extradata(*context), extradata(*parameters_))) {
+  if (context->extradata_size > 0 &&
+      !std::ranges::equal(extradata(*context), extradata(*parameters_))) {
     throw MediaError(
         fmt::format("video: cannot join the chunks of encoder '{}': their headers differ", name()));
   }

@@ -12,6 +12,9 @@ namespace piblocks {
 
 using AvParametersPtr = std::unique_ptr<AVCodecParameters, AvDeleter<avcodec_parameters_free>>;
 
+/// Room for a picture of the stream, with the stream's tags.
+AvFramePtr allocate_picture(const AVCodecParameters& stream);
+
 /// An encoder that is known to be there and to open with its settings.
 class VideoEncoder {
  public:
@@ -37,6 +40,7 @@ class VideoEncoder {
 
  private:
   AvCodecContextPtr open_unchecked() const;
+  void take_headers(AVCodecContext& context);
 
   VideoFormat format_;
   CodecChoice choice_;

@@ -32,19 +32,17 @@ struct WebmEncoder {
 
 // No look ahead and no pictures that are not shown: a packet is a frame.
 constexpr std::array<Option, 6> kVp9Options = {{{"deadline", "realtime"},
-                                                {"cpu-used", "8"},
+                                                {"cpu-used", "6"},
                                                 {"lag-in-frames", "0"},
                                                 {"auto-alt-ref", "0"},
                                                 {"row-mt", "0"},
                                                 {"tune-content", "screen"}}};
-constexpr std::array<Option, 2> kSvtOptions = {{{"preset", "10"}, {"svtav1-params", "lp=1"}}};
 constexpr std::array<Option, 4> kAomOptions = {
-    {{"usage", "realtime"}, {"cpu-used", "9"}, {"lag-in-frames", "0"}, {"row-mt", "0"}}};
+    {{"usage", "realtime"}, {"cpu-used", "6"}, {"lag-in-frames", "0"}, {"row-mt", "0"}}};
 
-/// The default first; of two with one short name the better first.
-constexpr std::array kEncoders = {WebmEncoder{"libvpx-vp9", "vp9", true, 15, kVp9Options},
-                                  WebmEncoder{"libsvtav1", "av1", false, 20, kSvtOptions},
-                                  WebmEncoder{"libaom-av1", "av1", false, 20, kAomOptions}};
+/// The default first.
+constexpr std::array kEncoders = {WebmEncoder{"libvpx-vp9", "vp9", true, 10, kVp9Options},
+                                  WebmEncoder{"libaom-av1", "av1", false, 5, kAomOptions}};
 constexpr double kMaxCrf = 63;
 
 const AVCodec* codec_of(const WebmEncoder& encoder) {
