@@ -126,7 +126,7 @@ TEST(Gif, OfTooManyColoursKeepsThoseOfFlatAreas) {
 TEST(ColorTable, GivesEveryColourTheNearestThatIsKept) {
   Random random(256);
   SCOPED_TRACE(random.trace());
-  for (const std::size_t room : {1, 7, 255, 256}) {
+  for (const std::size_t room : {1U, 7U, 255U, 256U}) {
     ColorTable table;
     std::vector<std::uint32_t> colors;
     for (int i = 0; i < 600; ++i) {
