@@ -4,6 +4,7 @@
 
 #include <piblocks/exact.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,11 @@ struct BlockSystem {
     return red.position - red.width / 2 - (blue.position + blue.width / 2);
   }
 };
+
+/// When the blocks are nearest to the corner of wall and blocks, as the plane with axes
+/// (sqrt(m) x gap) measures it: the middle of all collisions. It may be before time 0. Nothing if
+/// neither block moves.
+std::optional<Rational> turn_of(const BlockSystem& system);
 
 /// Most digits that article_system() accepts.
 inline constexpr int kMaxDigits = 100'000;

@@ -2,9 +2,16 @@
 // In: composition. Out: what the canvas paints and what two frames are compared by.
 #pragma once
 
+#include <piblocks/image.hpp>
+
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -38,7 +45,8 @@ struct Rectangle {
   friend bool operator==(const Rectangle&, const Rectangle&) = default;
 };
 
-/// A line drawn inside the outline, so that a shape is exactly as large as it says.
+/// A line. On a rectangle it is drawn inside the outline, so that the shape is exactly as large as
+/// it says; on a path and on a disk it is centred on the outline.
 struct Stroke {
   Color color;
   double width_px = 1;
@@ -47,8 +55,15 @@ struct Stroke {
   friend bool operator==(const Stroke&, const Stroke&) = default;
 };
 
-/// What an item shows, the same from frame to frame.
-enum class ItemId : std::uint8_t { wall, red_block, blue_block, label, count };
+/// What an item shows, the same from frame to frame. Where several items show one thing, nth()
+/// tells them apart. Lists whose ids rise from back to front may gain and lose items from frame to
+/// frame, and only these are painted.
+enum class ItemId : std::uint32_t { wall, red_block, blue_block, label, count };
+
+/// The n-th of the items that show one thing, n < 65,536.
+constexpr ItemId nth(ItemId thing, std::size_t n) {
+  return ItemId{(static_cast<std::uint32_t>(thing) << 16) + static_cast<std::uint32_t>(n)};
+}
 
 struct RectangleItem {
   ItemId id = ItemId::wall;
@@ -70,7 +85,55 @@ struct TextItem {
   friend bool operator==(const TextItem&, const TextItem&) = default;
 };
 
-using DrawItem = std::variant<RectangleItem, TextItem>;
+/// Points that may be many and are shared by all frames in which they are the same.
+class Points {
+ public:
+  Points() = default;
+  Points(std::vector<Point> points)
+      : points_(std::make_shared<const std::vector<Point>>(std::move(points))) {}
+
+  std::span<const Point> view() const noexcept {
+    return points_ ? std::span<const Point>(*points_) : std::span<const Point>();
+  }
+  friend bool operator==(const Points& a, const Points& b) {
+    return a.points_ == b.points_ || std::ranges::equal(a.view(), b.view());
+  }
+
+ private:
+  std::shared_ptr<const std::vector<Point>> points_;
+};
+
+/// Straight lines from point to point, with round joints.
+struct PathItem {
+  ItemId id = ItemId::wall;
+  Points points;
+  bool closed = false;
+  std::optional<Color> fill;  ///< of the closed path, by the non-zero rule
+  std::optional<Stroke> stroke;
+
+  friend bool operator==(const PathItem&, const PathItem&) = default;
+};
+
+struct DiskItem {
+  ItemId id = ItemId::wall;
+  Point centre;
+  double radius = 0;
+  std::optional<Color> fill;
+  std::optional<Stroke> stroke;
+
+  friend bool operator==(const DiskItem&, const DiskItem&) = default;
+};
+
+/// A picture, scaled to its bounds. Equal if it is the same picture in memory.
+struct ImageItem {
+  ItemId id = ItemId::wall;
+  Rectangle bounds;
+  std::shared_ptr<const Image> image;  ///< straight alpha
+
+  friend bool operator==(const ImageItem&, const ImageItem&) = default;
+};
+
+using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem>;
 
 struct DrawList {
   int width_px = 0;

@@ -5,12 +5,14 @@
 
 #include <piblocks/blocks.hpp>
 #include <piblocks/exact.hpp>
+#include <piblocks/pacing.hpp>
 
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace piblocks {
@@ -66,6 +68,7 @@ struct Scene {
   BlockSystem system;
   View view;
   TimeSpan time;
+  Pacing pacing = {};
   Golden golden = {};
 };
 
@@ -77,7 +80,8 @@ inline constexpr int kMaxSceneNesting = 256;
 /// Collects a scene's values from a file and from options, remembering where each came from.
 /// The keys are those of the scene file: "wall.face"; "blue." and "red." with "mass",
 /// "position", "velocity", "width"; "view.x", "view.y", "view.size", "view.fps",
-/// "view.background"; "time.from", "time.to", "time.speed".
+/// "view.background"; "time.from", "time.to", "time.speed", "time.duration", "time.slow-motion",
+/// "time.freeze", "time.hold-start", "time.hold-end", "time.loop"; "golden.frames", "golden.size".
 class SceneBuilder {
  public:
   /// Reads a scene file. Values set before it are overwritten, values set after it win.
@@ -104,6 +108,10 @@ class SceneBuilder {
 
 /// Everything that is wrong with a scene; empty if nothing is.
 std::vector<Problem> problems_of(const Scene& scene);
+
+/// Every key of the scene file with its value as exact text, in a fixed order; empty for what is
+/// not set. Two scenes with equal descriptions are the same.
+std::vector<std::pair<std::string, std::string>> describe(const Scene& scene);
 
 /// Reads "12.5", "last" or "last+1.5". @throws UsageError
 End parse_end(std::string_view text);

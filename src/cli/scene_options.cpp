@@ -39,6 +39,11 @@ void SceneOptions::add_key(const std::string& key, const std::string& option,
   keys_.emplace_back(key, &add_value_option(*command_, option, placeholder, help));
 }
 
+void SceneOptions::add_flag(const std::string& key, const std::string& option,
+                            const std::string& help) {
+  keys_.emplace_back(key, command_->add_flag(option)->description(help));
+}
+
 void SceneOptions::add_picture() {
   add_key("view.size", "--size", "WxH", "Frame size in pixels (default 1920x1080)");
   transparent_ = command_->add_flag("--transparent")
@@ -57,13 +62,31 @@ void SceneOptions::add_timing() {
   add_key("view.fps", "--fps", "N|N/D", "Frames per second (default 60)");
   add_span();
   add_key("time.speed", "--speed", "X", "Simulation time per second of video (default 1)");
+  add_pacing();
+}
+
+void SceneOptions::add_pacing() {
+  add_key("time.duration", "--duration", "S", "Length of the video in seconds; sets the speed");
+  add_key("time.slow-motion", "--slow-motion", "auto|FROM:TO:N",
+          "Windows in which time runs N times slower, separated by\ncommas; FROM and TO as 3.2, "
+          "turn-0.3, last+1");
+  add_key("time.freeze", "--freeze", "AT:S", "Instants at which the picture stands still for S s");
+  add_key("time.hold-start", "--hold-start", "S", "Show the first picture for S s more");
+  add_key("time.hold-end", "--hold-end", "S", "Show the last picture for S s more");
+  add_flag("time.loop", "--loop", "Play forth and back, so that the video repeats seamlessly");
+}
+
+void SceneOptions::refuse_both(const std::string& first, const std::string& second,
+                               const char* what) const {
+  for (const std::string& name : {first, second}) {
+    const CLI::Option* option = command_->get_option_no_throw(name);
+    if (option == nullptr || option->count() == 0) return;
+  }
+  throw UsageError(fmt::format("{} and {} both set {}; give one of them", first, second, what));
 }
 
 void SceneOptions::set_background(SceneBuilder& builder) const {
   if (transparent_ == nullptr) return;
-  if (transparent_->count() > 0 && opaque_->count() > 0) {
-    throw UsageError("--transparent and --opaque contradict each other; give one of them");
-  }
   if (transparent_->count() > 0) {
     builder.set(transparent_->get_name(), "view.background", "transparent");
   }
@@ -72,9 +95,9 @@ void SceneOptions::set_background(SceneBuilder& builder) const {
 
 Scene SceneOptions::scene(const std::vector<SceneDefault>& defaults,
                           const std::string& origin) const {
-  if (digits_->count() > 0 && mass_ratio_->count() > 0) {
-    throw UsageError("--digits and --mass-ratio both set the mass of red; give one of them");
-  }
+  refuse_both("--digits", "--mass-ratio", "the mass of red");
+  refuse_both("--speed", "--duration", "the speed");
+  refuse_both("--transparent", "--opaque", "the background");
   SceneBuilder builder;
   if (const auto file = text_of(*file_)) builder.read_file(*file);
   for (const auto& [key, text] : defaults) builder.set(origin, key, text);

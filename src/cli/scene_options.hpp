@@ -28,7 +28,7 @@ class SceneOptions {
   void add_picture();
   /// Adds --from and --to.
   void add_span();
-  /// Adds --fps and --speed beside these.
+  /// Adds --fps, --speed and what else says how time runs in the video beside these.
   void add_timing();
 
   /// @param defaults  win over the scene file, but not over options.
@@ -43,6 +43,11 @@ class SceneOptions {
   void add_key(const std::string& key, const std::string& option, const std::string& placeholder,
                const std::string& help);
   void set_background(SceneBuilder& builder) const;
+  /// Adds an option without a value that sets a key to true.
+  void add_flag(const std::string& key, const std::string& option, const std::string& help);
+  void add_pacing();
+  /// @throws UsageError if both options are given; `what` they set.
+  void refuse_both(const std::string& first, const std::string& second, const char* what) const;
 
   CLI::App* command_;
   CLI::Option* file_;

@@ -6,8 +6,10 @@
 #include <cassert>
 #include <cstring>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "draw/cairo_handles.hpp"
 #include "draw/damage.hpp"
@@ -40,13 +42,58 @@ struct Canvas::Pixels {
   Painter painter{TextSetting::glyphs};
   std::optional<DrawList> shown;
   std::vector<PixelRect> changed;
+  std::vector<bool> is_touched;  ///< by tile; kept for its memory
 
-  void paint(const DrawList& list, const PixelRect& rect);
+  /// Paints what shows in these parts, and nothing else that would change a pixel.
+  void paint(const DrawList& list, std::span<const PixelRect> rects);
+
+ private:
+  void paint_part(const DrawList& list, const PixelRect& rect);
+  void paint_tiles(const DrawList& list, std::span<const PixelRect> rects);
 };
+
+/// How Cairo rounds a slanted edge depends on where the surface ends that it is painted on. The
+/// pixels of rectangles and text do not.
+bool depends_on_surface(const DrawItem& item) {
+  return !std::holds_alternative<RectangleItem>(item) && !std::holds_alternative<TextItem>(item);
+}
+
+void Canvas::Pixels::paint(const DrawList& list, std::span<const PixelRect> rects) {
+  if (std::ranges::any_of(list.items, depends_on_surface)) {
+    paint_tiles(list, rects);
+  } else {
+    for (const PixelRect& rect : rects) paint_part(list, rect);
+  }
+}
+
+/// Whole tiles of a fixed grid, so that the same pixels come out whatever part of the picture is
+/// painted.
+void Canvas::Pixels::paint_tiles(const DrawList& list, std::span<const PixelRect> rects) {
+  constexpr int kTile_px = 64;
+  const int columns = (list.width_px + kTile_px - 1) / kTile_px;
+  const int rows = (list.height_px + kTile_px - 1) / kTile_px;
+  is_touched.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), false);
+  for (const PixelRect& rect : rects) {
+    for (int y = rect.y_px / kTile_px; y * kTile_px < rect.y_px + rect.height_px; ++y) {
+      for (int x = rect.x_px / kTile_px; x * kTile_px < rect.x_px + rect.width_px; ++x) {
+        is_touched[static_cast<std::size_t>(y * columns + x)] = true;
+      }
+    }
+  }
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      if (!is_touched[static_cast<std::size_t>(y * columns + x)]) continue;
+      const int left = x * kTile_px;
+      const int top = y * kTile_px;
+      paint_part(list, {left, top, std::min(kTile_px, list.width_px - left),
+                        std::min(kTile_px, list.height_px - top)});
+    }
+  }
+}
 
 /// A part is painted as a picture of its own that shares the memory of the whole. Under a clip
 /// Cairo would take other paths, and its antialiased edges come out a step lighter or darker there.
-void Canvas::Pixels::paint(const DrawList& list, const PixelRect& rect) {
+void Canvas::Pixels::paint_part(const DrawList& list, const PixelRect& rect) {
   cairo_surface_flush(surface.get());
   const int stride_bytes = cairo_image_surface_get_stride(surface.get());
   unsigned char* const corner = cairo_image_surface_get_data(surface.get()) +
@@ -69,7 +116,8 @@ Canvas::~Canvas() = default;
 void Canvas::paint(const DrawList& list) {
   assert(list.width_px == view().width_px && list.height_px == view().height_px);
   assert(list.background || view().has_alpha);
-  pixels_->paint(list, {0, 0, list.width_px, list.height_px});
+  const PixelRect whole{0, 0, list.width_px, list.height_px};
+  pixels_->paint(list, {&whole, 1});
   pixels_->shown = list;
 }
 
@@ -84,7 +132,7 @@ std::span<const PixelRect> Canvas::update(DrawList list) {
     return pixels_->painter.font().width_em(text);
   };
   changed = damage(*pixels_->shown, list, width_em);
-  for (const PixelRect& rect : changed) pixels_->paint(list, rect);
+  pixels_->paint(list, changed);
   pixels_->shown = std::move(list);
   return changed;
 }

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
+#include <ranges>
+#include <span>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -26,6 +31,27 @@ struct Extent {
 };
 
 Extent extent_of(const Rectangle& r) { return {r.x, r.y, r.x + r.width, r.y + r.height}; }
+
+/// How far a centred line reaches beyond the outline it is drawn on.
+double reach_of(const std::optional<Stroke>& stroke) { return stroke ? stroke->width_px / 2 : 0; }
+
+Extent extent_of(const RectangleItem& item) { return extent_of(item.bounds); }
+Extent extent_of(const ImageItem& item) { return extent_of(item.bounds); }
+
+Extent extent_of(const DiskItem& disk) {
+  const double reach = disk.radius + reach_of(disk.stroke);
+  return {disk.centre.x - reach, disk.centre.y - reach, disk.centre.x + reach,
+          disk.centre.y + reach};
+}
+
+Extent extent_of(const PathItem& path) {
+  const std::span<const Point> points = path.points.view();
+  if (points.empty()) return {0, 0, 0, 0};
+  const auto [left, right] = std::ranges::minmax(points | std::views::transform(&Point::x));
+  const auto [top, bottom] = std::ranges::minmax(points | std::views::transform(&Point::y));
+  const double reach = reach_of(path.stroke);
+  return {left - reach, top - reach, right + reach, bottom + reach};
+}
 
 /// Of the characters of a line of text between two distances from its origin.
 Extent extent_of(const TextItem& text, double left_em, double right_em) {
@@ -68,7 +94,14 @@ bool slides(const RectangleItem& before, const RectangleItem& after) {
          before.bounds.y == after.bounds.y && before.bounds.height == after.bounds.height;
 }
 
-void compare(const RectangleItem& before, const RectangleItem& after, Damage& damage) {
+template <typename Item>
+void compare(const Item& before, const Item& after, const MeasureText&, Damage& damage) {
+  damage.add(extent_of(before));
+  damage.add(extent_of(after));
+}
+
+void compare(const RectangleItem& before, const RectangleItem& after, const MeasureText&,
+             Damage& damage) {
   const Rectangle& a = before.bounds;
   const Rectangle& b = after.bounds;
   if (!slides(before, after)) {
@@ -109,12 +142,66 @@ ItemId id_of(const DrawItem& item) {
   return std::visit([](const auto& any) { return any.id; }, item);
 }
 
-bool have_same_items(const DrawList& before, const DrawList& after) {
-  return before.width_px == after.width_px && before.height_px == after.height_px &&
-         before.background == after.background &&
-         std::ranges::equal(before.items, after.items, [](const DrawItem& a, const DrawItem& b) {
-           return a.index() == b.index() && id_of(a) == id_of(b);
-         });
+Extent extent_of(const TextItem& text, const MeasureText& width_em) {
+  return extent_of(text, 0, width_em(text.text));
+}
+
+/// An item that is in one of the lists only.
+void add_whole(const DrawItem& item, const MeasureText& width_em, Damage& damage) {
+  if (const auto* text = std::get_if<TextItem>(&item)) {
+    damage.add(extent_of(*text, width_em));
+    return;
+  }
+  std::visit(
+      [&](const auto& any) {
+        if constexpr (!std::is_same_v<decltype(any), const TextItem&>) damage.add(extent_of(any));
+      },
+      item);
+}
+
+/// Two items that show the same thing.
+void compare(const DrawItem& before, const DrawItem& after, const MeasureText& width_em,
+             Damage& damage) {
+  if (before == after) return;
+  if (before.index() != after.index()) {
+    add_whole(before, width_em, damage);
+    add_whole(after, width_em, damage);
+    return;
+  }
+  std::visit(
+      [&](const auto& b) {
+        compare(b, std::get<std::remove_cvref_t<decltype(b)>>(after), width_em, damage);
+      },
+      before);
+}
+
+bool have_same_ids(const DrawList& before, const DrawList& after) {
+  return std::ranges::equal(before.items, after.items, {}, id_of, id_of);
+}
+
+bool has_rising_ids(const DrawList& list) {
+  return std::ranges::adjacent_find(list.items, std::ranges::greater_equal(), id_of) ==
+         list.items.end();
+}
+
+/// Lists whose ids rise: what is in both is compared, what is in one only is added.
+void compare_by_id(const DrawList& before, const DrawList& after, const MeasureText& width_em,
+                   Damage& damage) {
+  auto a = before.items.begin();
+  auto b = after.items.begin();
+  while (a != before.items.end() || b != after.items.end()) {
+    const bool only_before =
+        b == after.items.end() || (a != before.items.end() && id_of(*a) < id_of(*b));
+    const bool only_after =
+        a == before.items.end() || (b != after.items.end() && id_of(*b) < id_of(*a));
+    if (only_before) {
+      add_whole(*a++, width_em, damage);
+    } else if (only_after) {
+      add_whole(*b++, width_em, damage);
+    } else {
+      compare(*a++, *b++, width_em, damage);
+    }
+  }
 }
 
 }  // namespace
@@ -122,9 +209,15 @@ bool have_same_items(const DrawList& before, const DrawList& after) {
 bool reaches(const DrawItem& item, const PixelRect& rect) {
   // A line is taken as endless rather than measured.
   constexpr double kEndless_em = 1e6;
-  const auto* const text = std::get_if<TextItem>(&item);
-  const Extent extent = text != nullptr ? extent_of(*text, 0, kEndless_em)
-                                        : extent_of(std::get<RectangleItem>(item).bounds);
+  const Extent extent = std::visit(
+      [](const auto& any) {
+        if constexpr (std::is_same_v<decltype(any), const TextItem&>) {
+          return extent_of(any, 0, kEndless_em);
+        } else {
+          return extent_of(any);
+        }
+      },
+      item);
   return extent.left - kFixedPoint < rect.x_px + rect.width_px &&
          extent.right + kFixedPoint > rect.x_px &&
          extent.top - kFixedPoint < rect.y_px + rect.height_px &&
@@ -134,19 +227,16 @@ bool reaches(const DrawItem& item, const PixelRect& rect) {
 std::vector<PixelRect> damage(const DrawList& before, const DrawList& after,
                               const MeasureText& width_em) {
   Damage result(after);
-  if (!have_same_items(before, after)) {
-    result.add_frame();
-    return result.take();
-  }
-  for (std::size_t i = 0; i < after.items.size(); ++i) {
-    const DrawItem& a = before.items[i];
-    const DrawItem& b = after.items[i];
-    if (a == b) continue;
-    if (const auto* rectangle = std::get_if<RectangleItem>(&a)) {
-      compare(*rectangle, std::get<RectangleItem>(b), result);
-    } else if (const auto* text = std::get_if<TextItem>(&a)) {
-      compare(*text, std::get<TextItem>(b), width_em, result);
+  const bool alike = before.width_px == after.width_px && before.height_px == after.height_px &&
+                     before.background == after.background;
+  if (alike && have_same_ids(before, after)) {
+    for (std::size_t i = 0; i < after.items.size(); ++i) {
+      compare(before.items[i], after.items[i], width_em, result);
     }
+  } else if (alike && has_rising_ids(before) && has_rising_ids(after)) {
+    compare_by_id(before, after, width_em, result);
+  } else {
+    result.add_frame();
   }
   return result.take();
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
 
 #include "draw/cairo_handles.hpp"
 #include "draw/damage.hpp"
@@ -58,6 +61,72 @@ void paint_rectangle(cairo_t& cr, const RectangleItem& item) {
   if (item.stroke) stroke_inside(cr, item.bounds, *item.stroke);
 }
 
+/// The fill of the current path, then its line, centred on it.
+void fill_and_stroke(cairo_t& cr, const std::optional<Color>& fill,
+                     const std::optional<Stroke>& stroke) {
+  if (fill) {
+    set_color(cr, *fill);
+    cairo_fill_preserve(&cr);
+  }
+  if (stroke) {
+    set_color(cr, stroke->color);
+    cairo_set_line_width(&cr, stroke->width_px);
+    cairo_set_dash(&cr, &stroke->dash_px, stroke->dash_px > 0 ? 1 : 0, 0);
+    cairo_set_line_join(&cr, CAIRO_LINE_JOIN_ROUND);
+    cairo_stroke_preserve(&cr);
+    cairo_set_line_join(&cr, CAIRO_LINE_JOIN_MITER);
+  }
+  cairo_new_path(&cr);
+}
+
+void paint_path(cairo_t& cr, const PathItem& item) {
+  for (const Point& point : item.points.view()) cairo_line_to(&cr, point.x, point.y);
+  if (item.closed) cairo_close_path(&cr);
+  fill_and_stroke(cr, item.fill, item.stroke);
+}
+
+void paint_disk(cairo_t& cr, const DiskItem& item) {
+  cairo_arc(&cr, item.centre.x, item.centre.y, item.radius, 0, 2 * std::numbers::pi);
+  cairo_close_path(&cr);
+  fill_and_stroke(cr, item.fill, item.stroke);
+}
+
+/// Cairo's pixels are multiplied by their alpha.
+CairoSurfacePtr premultiplied(const Image& image) {
+  CairoSurfacePtr surface(
+      cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.width_px, image.height_px));
+  check_cairo(cairo_surface_status(surface.get()), "paint a picture");
+  const int stride_bytes = cairo_image_surface_get_stride(surface.get());
+  unsigned char* row = cairo_image_surface_get_data(surface.get());
+  const std::uint32_t* from = image.words.data();
+  for (int y = 0; y < image.height_px; ++y, row += stride_bytes) {
+    auto* const to = reinterpret_cast<std::uint32_t*>(row);
+    for (int x = 0; x < image.width_px; ++x) {
+      const std::uint32_t word = *from++;
+      const std::uint32_t alpha = word >> 24;
+      const auto scaled = [&](int shift) {
+        return ((((word >> shift) & 0xFF) * alpha + 127) / 255) << shift;
+      };
+      to[x] = (alpha << 24) | scaled(16) | scaled(8) | scaled(0);
+    }
+  }
+  cairo_surface_mark_dirty(surface.get());
+  return surface;
+}
+
+void paint_image(cairo_t& cr, const ImageItem& item) {
+  const CairoSurfacePtr picture = premultiplied(*item.image);
+  cairo_save(&cr);
+  cairo_translate(&cr, item.bounds.x, item.bounds.y);
+  cairo_scale(&cr, item.bounds.width / item.image->width_px,
+              item.bounds.height / item.image->height_px);
+  cairo_set_source_surface(&cr, picture.get(), 0, 0);
+  // Not painted: a picture that is enlarged would reach out of its bounds.
+  cairo_rectangle(&cr, 0, 0, item.image->width_px, item.image->height_px);
+  cairo_fill(&cr);
+  cairo_restore(&cr);
+}
+
 }  // namespace
 
 void Painter::paint(cairo_t& cr, const DrawList& list) {
@@ -78,6 +147,9 @@ void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& part) {
 void Painter::paint_item(cairo_t& cr, const DrawItem& item) {
   if (const auto* rectangle = std::get_if<RectangleItem>(&item)) paint_rectangle(cr, *rectangle);
   if (const auto* text = std::get_if<TextItem>(&item)) paint_text(cr, *text);
+  if (const auto* path = std::get_if<PathItem>(&item)) paint_path(cr, *path);
+  if (const auto* disk = std::get_if<DiskItem>(&item)) paint_disk(cr, *disk);
+  if (const auto* image = std::get_if<ImageItem>(&item)) paint_image(cr, *image);
 }
 
 const Font& Painter::font() {

@@ -7,33 +7,23 @@
 #include <piblocks/version.hpp>
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 namespace piblocks {
 namespace {
 
 constexpr const char* kTransparent = "transparent";
 
-void describe(const std::string& name, const Block& block, PartHeader& header) {
-  header.emplace_back(name + ".mass", block.mass.get_str());
-  header.emplace_back(name + ".position", block.position.get_str());
-  header.emplace_back(name + ".velocity", block.velocity.get_str());
-  header.emplace_back(name + ".width", block.width.get_str());
-}
+/// What is kept of a scene to compare it with does not change its frames.
+constexpr std::string_view kGoldenKeys = "golden.";
 
 void describe(const Scene& scene, PartHeader& header) {
-  const auto range = [](const Range& r) { return r.low.get_str() + ' ' + r.high.get_str(); };
-  header.emplace_back("wall.face", scene.system.wall_face.get_str());
-  describe("blue", scene.system.blue, header);
-  describe("red", scene.system.red, header);
-  header.emplace_back("view.x", range(scene.view.x));
-  header.emplace_back("view.y", range(scene.view.y));
+  for (auto& [key, value] : describe(scene)) {
+    if (!key.starts_with(kGoldenKeys)) header.emplace_back(std::move(key), std::move(value));
+  }
   header.emplace_back("view.width", std::to_string(scene.view.width_px));
   header.emplace_back("view.height", std::to_string(scene.view.height_px));
-  header.emplace_back("view.fps", scene.view.frame_rate.get_str());
-  header.emplace_back("view.background",
-                      scene.view.background == Background::transparent ? kTransparent : "opaque");
-  header.emplace_back("time.from", scene.time.from.get_str());
-  header.emplace_back("time.speed", scene.time.speed.get_str());
 }
 
 /// Stands for a setting that was not given.

@@ -53,7 +53,9 @@ std::vector<Instant> spread_instants(const Scene& scene, int count) {
     throw UsageError(fmt::format("sheet: {} pictures: use 1 to {}", count, kMaxSheetPictures));
   }
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
-  const Timeline timeline(scene, *log);
+  Scene plain = scene;
+  plain.pacing = {};  // the run from one end to the other, however a video goes through it
+  const Timeline timeline(plain, *log);
   const Rational first = timeline.time_of(0);
   const Rational last = timeline.time_of(timeline.frame_count() - 1);
   std::vector<Instant> instants = {first};

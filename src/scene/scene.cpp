@@ -61,6 +61,24 @@ void check_time(const TimeSpan& time, std::vector<Problem>& problems) {
   }
 }
 
+void check_seconds(const char* key, const Rational& seconds, const Rational& low,
+                   std::vector<Problem>& problems) {
+  check_finite(key, seconds, problems);
+  if (seconds >= low) return;
+  problems.push_back(
+      {key, fmt::format("= {}: must be at least {}", to_text(seconds), to_text(low))});
+}
+
+void check_pacing(const Scene& scene, std::vector<Problem>& problems) {
+  const Pacing& pacing = scene.pacing;
+  check_seconds("time.hold-start", pacing.hold_start_s, 0, problems);
+  check_seconds("time.hold-end", pacing.hold_end_s, 0, problems);
+  if (pacing.duration_s && *pacing.duration_s <= 0) {
+    problems.push_back({"time.duration",
+                        fmt::format("= {}: must be greater than 0", to_text(*pacing.duration_s))});
+  }
+}
+
 }  // namespace
 
 std::vector<Problem> problems_of(const Scene& scene) {
@@ -71,6 +89,7 @@ std::vector<Problem> problems_of(const Scene& scene) {
   if (scene.golden.size) check_size("golden.size", *scene.golden.size, problems);
   check_frame_rate(scene.view.frame_rate, problems);
   check_time(scene.time, problems);
+  check_pacing(scene, problems);
   return problems;
 }
 

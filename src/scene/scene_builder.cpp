@@ -1,120 +1,24 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/instant.hpp>
 #include <piblocks/scene.hpp>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <sstream>
 #include <utility>
 
+#include "scene/scene_keys.hpp"
 #include "scene/toml_file.hpp"
 
 namespace piblocks {
-namespace {
-
-using Values = std::vector<std::string>;
-
-const std::string& single(const Values& values) {
-  if (values.size() != 1) throw UsageError("must be one value");
-  return values.front();
-}
-
-void set_number(Rational& target, const Values& values) { target = parse_rational(single(values)); }
-
-void set_range(Range& target, const Values& values) {
-  if (values.size() != 2) throw UsageError("must be two numbers, as [-1, 12]");
-  target = {parse_rational(values[0]), parse_rational(values[1])};
-}
-
-int parse_side(std::string_view text) {
-  int side = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
-  if (error != std::errc{} || end != text.data() + text.size()) {
-    throw UsageError("must be two whole numbers of pixels, as 1920x1080");
-  }
-  return side;
-}
-
-FrameSize parse_size(const Values& values) {
-  Values sides = values;
-  if (const auto cross = values.front().find('x');
-      values.size() == 1 && cross != std::string::npos) {
-    sides = {values.front().substr(0, cross), values.front().substr(cross + 1)};
-  }
-  if (sides.size() != 2) throw UsageError("must be two whole numbers of pixels, as 1920x1080");
-  return {parse_side(sides[0]), parse_side(sides[1])};
-}
-
-void set_size(View& view, const Values& values) {
-  const FrameSize size = parse_size(values);
-  view.width_px = size.width_px;
-  view.height_px = size.height_px;
-}
-
-void set_background(View& view, const Values& values) {
-  const std::string& name = single(values);
-  if (name != "opaque" && name != "transparent") throw UsageError("must be opaque or transparent");
-  view.background = name == "opaque" ? Background::opaque : Background::transparent;
-}
-
-/// A list, or one text with commas.
-void set_golden_frames(Golden& golden, Values values) {
-  if (values.size() == 1) {
-    std::istringstream text(values.front());
-    values.clear();
-    for (std::string value; std::getline(text, value, ',');) values.push_back(value);
-  }
-  for (const std::string& value : values) {
-    // Each has a file of its own.
-    if (std::ranges::count(values, value) > 1) {
-      throw UsageError(fmt::format("'{}' is named more than once", value));
-    }
-    try {
-      parse_instant(value);
-    } catch (const UsageError& error) {
-      throw UsageError(fmt::format("'{}' {}", value, error.what()));
-    }
-  }
-  golden.frames = std::move(values);
-}
-
-struct Key {
-  const char* name;
-  void (*set)(Scene& scene, const Values& values);
-};
-
-constexpr std::array<Key, 19> kKeys{{
-    {"wall.face", [](Scene& s, const Values& v) { set_number(s.system.wall_face, v); }},
-    {"blue.mass", [](Scene& s, const Values& v) { set_number(s.system.blue.mass, v); }},
-    {"blue.position", [](Scene& s, const Values& v) { set_number(s.system.blue.position, v); }},
-    {"blue.velocity", [](Scene& s, const Values& v) { set_number(s.system.blue.velocity, v); }},
-    {"blue.width", [](Scene& s, const Values& v) { set_number(s.system.blue.width, v); }},
-    {"red.mass", [](Scene& s, const Values& v) { set_number(s.system.red.mass, v); }},
-    {"red.position", [](Scene& s, const Values& v) { set_number(s.system.red.position, v); }},
-    {"red.velocity", [](Scene& s, const Values& v) { set_number(s.system.red.velocity, v); }},
-    {"red.width", [](Scene& s, const Values& v) { set_number(s.system.red.width, v); }},
-    {"view.x", [](Scene& s, const Values& v) { set_range(s.view.x, v); }},
-    {"view.y", [](Scene& s, const Values& v) { set_range(s.view.y, v); }},
-    {"view.size", [](Scene& s, const Values& v) { set_size(s.view, v); }},
-    {"view.fps", [](Scene& s, const Values& v) { set_number(s.view.frame_rate, v); }},
-    {"view.background", [](Scene& s, const Values& v) { set_background(s.view, v); }},
-    {"time.from", [](Scene& s, const Values& v) { set_number(s.time.from, v); }},
-    {"time.to", [](Scene& s, const Values& v) { s.time.to = parse_end(single(v)); }},
-    {"time.speed", [](Scene& s, const Values& v) { set_number(s.time.speed, v); }},
-    {"golden.frames", [](Scene& s, const Values& v) { set_golden_frames(s.golden, v); }},
-    {"golden.size", [](Scene& s, const Values& v) { s.golden.size = parse_size(v); }},
-}};
-
-std::string joined(const Values& values) {
-  return values.size() == 1 ? values.front() : fmt::format("[{}]", fmt::join(values, ", "));
-}
-
-}  // namespace
 
 void SceneBuilder::read_file(const std::string& path) {
-  for (const TomlEntry& entry : read_toml(path)) {
+  const std::vector<TomlEntry> entries = read_toml(path);
+  const auto has = [&](const char* key) {
+    return std::ranges::count(entries, key, &TomlEntry::key);
+  };
+  if (has("time.speed") && has("time.duration")) {
+    add_problem(path, "time.speed and time.duration both set the speed; leave out one of them");
+  }
+  for (const TomlEntry& entry : entries) {
     const std::string origin = fmt::format("{}:{}", path, entry.line);
     if (entry.problem.empty()) {
       set_values(origin, entry.key, entry.values);
@@ -135,9 +39,9 @@ void SceneBuilder::set_mass_ratio(const std::string& origin, const Rational& rat
 
 void SceneBuilder::set_values(const std::string& origin, const std::string& key,
                               const Values& values) {
-  const auto* const found =
-      std::find_if(kKeys.begin(), kKeys.end(), [&](const Key& k) { return key == k.name; });
-  if (found == kKeys.end()) {
+  const std::span<const SceneKey> keys = scene_keys();
+  const auto found = std::ranges::find(keys, std::string_view(key), &SceneKey::name);
+  if (found == keys.end()) {
     add_problem(origin, fmt::format("{}: unknown key", key));
     return;
   }
@@ -164,6 +68,14 @@ Scene SceneBuilder::build() const {
   }
   if (!problems.empty()) throw SceneError(std::move(problems));
   return scene;
+}
+
+std::vector<std::pair<std::string, std::string>> describe(const Scene& scene) {
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const SceneKey& key : scene_keys()) {
+    values.emplace_back(key.name, fmt::format("{}", fmt::join(key.get(scene), ", ")));
+  }
+  return values;
 }
 
 End parse_end(std::string_view text) {

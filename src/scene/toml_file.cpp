@@ -35,11 +35,12 @@ std::optional<std::string> scalar_text(const toml::node& node) {
   if (const auto* text = node.as_string()) return text->get();
   if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
   if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
   return std::nullopt;
 }
 
 TomlEntry entry_of(const std::string& key, const toml::node& node) {
-  constexpr const char* kExpected = "must be a number, a string or a list of these";
+  constexpr const char* kExpected = "must be a number, a string, true or false, or a list of these";
   TomlEntry entry{key, {}, node.source().begin.line, {}};
   if (const auto text = scalar_text(node)) {
     entry.values.push_back(*text);

@@ -21,7 +21,7 @@ set(cli_may ${layers})
 set(core_headers color error exact geometry image time version)
 set(physics_headers blocks collision_log event_simulator interpolator particle
     physics_versions)
-set(scene_headers instant scene timeline)
+set(scene_headers instant pacing scene schedule timeline)
 set(draw_headers canvas compose draw_list sheet)
 set(media_headers frame_sink png)
 set(golden_headers compare compare_files)

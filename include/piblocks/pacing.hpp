@@ -1,0 +1,73 @@
+// How a scene's time runs in its video: fitted, slowed, frozen, held, and played back and forth.
+// In: text of a scene file or an option. Out: plain values; schedule.hpp makes stretches of them.
+#pragma once
+
+#include <piblocks/exact.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace piblocks {
+
+/// An instant of simulation time, said by what happens then.
+struct Moment {
+  enum class Origin {
+    start,  ///< time 0
+    turn,   ///< when the blocks are nearest to the corner; collisions are densest then
+    last    ///< the last collision
+  };
+  Origin origin = Origin::start;
+  Rational offset = 0;
+
+  friend bool operator==(const Moment&, const Moment&) = default;
+};
+
+/// A window of simulation time that takes `factor` times as long as it would.
+struct SlowMotion {
+  Moment from;
+  Moment to;
+  Rational factor = 1;  ///< > 0
+};
+
+/// The picture stands still at an instant.
+struct Freeze {
+  Moment at;
+  Rational length_s;  ///< of video, > 0
+};
+
+/// Slowest that automatic slow motion goes; beyond it nothing moves by a pixel any more.
+inline constexpr int kMaxAutomaticFactor = 1000;
+
+/// Lengths are seconds of video, and are rounded up to whole frames.
+struct Pacing {
+  /// Of the whole video, holds and freezes included; the speed follows from it.
+  std::optional<Rational> duration_s = {};
+  /// Windows around the turn, each ten times slower than the one around it, down to where single
+  /// collisions can be told apart, but not beyond kMaxAutomaticFactor.
+  bool automatic_slow_motion = false;
+  std::vector<SlowMotion> slow_motion = {};
+  std::vector<Freeze> freezes = {};
+  Rational hold_start_s = 0;  ///< how long the first picture stands still, >= 0
+  Rational hold_end_s = 0;    ///< how long the last picture stands still, >= 0
+  /// Plays forth and back, so that the first frame may follow the last without a jump.
+  bool loop = false;
+};
+
+/// Most windows of slow motion, and most freezes, of one scene.
+inline constexpr std::size_t kMaxWindows = 1000;
+
+/// Reads "3.5", "turn", "turn-0.3", "last+1". @throws UsageError
+Moment parse_moment(std::string_view text);
+/// Reads "FROM:TO:FACTOR", as "turn-0.3:turn+0.3:10". @throws UsageError
+SlowMotion parse_slow_motion(std::string_view text);
+/// Reads "AT:SECONDS", as "turn:2". @throws UsageError
+Freeze parse_freeze(std::string_view text);
+
+/// Exact text of a value, which reads back as the same.
+std::string exact_text(const Moment& moment);
+std::string exact_text(const SlowMotion& window);
+std::string exact_text(const Freeze& freeze);
+
+}  // namespace piblocks

@@ -1,0 +1,212 @@
+#include "scene/scene_keys.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <piblocks/instant.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <sstream>
+#include <utility>
+
+namespace piblocks {
+namespace {
+
+const std::string& single(const Values& values) {
+  if (values.size() != 1) throw UsageError("must be one value");
+  return values.front();
+}
+
+void set_number(Rational& target, const Values& values) { target = parse_rational(single(values)); }
+
+void set_range(Range& target, const Values& values) {
+  if (values.size() != 2) throw UsageError("must be two numbers, as [-1, 12]");
+  target = {parse_rational(values[0]), parse_rational(values[1])};
+}
+
+int parse_side(std::string_view text) {
+  int side = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
+  if (error != std::errc{} || end != text.data() + text.size()) {
+    throw UsageError("must be two whole numbers of pixels, as 1920x1080");
+  }
+  return side;
+}
+
+FrameSize parse_size(const Values& values) {
+  Values sides = values;
+  if (const auto cross = values.front().find('x');
+      values.size() == 1 && cross != std::string::npos) {
+    sides = {values.front().substr(0, cross), values.front().substr(cross + 1)};
+  }
+  if (sides.size() != 2) throw UsageError("must be two whole numbers of pixels, as 1920x1080");
+  return {parse_side(sides[0]), parse_side(sides[1])};
+}
+
+void set_size(View& view, const Values& values) {
+  const FrameSize size = parse_size(values);
+  view.width_px = size.width_px;
+  view.height_px = size.height_px;
+}
+
+void set_background(View& view, const Values& values) {
+  const std::string& name = single(values);
+  if (name != "opaque" && name != "transparent") throw UsageError("must be opaque or transparent");
+  view.background = name == "opaque" ? Background::opaque : Background::transparent;
+}
+
+/// A list, or one text with commas.
+Values list_of(const Values& values) {
+  if (values.size() != 1) return values;
+  Values list;
+  std::istringstream text(values.front());
+  for (std::string value; std::getline(text >> std::ws, value, ',');) list.push_back(value);
+  return list;
+}
+
+bool parse_bool(const Values& values) {
+  const std::string& text = single(values);
+  if (text == "true") return true;
+  if (text == "false") return false;
+  throw UsageError("must be true or false");
+}
+
+/// Each of a list; messages name the one that is wrong.
+template <typename Value>
+std::vector<Value> parse_each(const Values& values, Value (*parse)(std::string_view text)) {
+  if (values.size() > kMaxWindows) {
+    throw UsageError(fmt::format("there must be at most {} of them", kMaxWindows));
+  }
+  std::vector<Value> parsed;
+  for (const std::string& value : values) {
+    try {
+      parsed.push_back(parse(value));
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("'{}' {}", value, error.what()));
+    }
+  }
+  return parsed;
+}
+
+/// In the place of a duration that was asked for before.
+void set_speed(Scene& scene, const Values& values) {
+  set_number(scene.time.speed, values);
+  scene.pacing.duration_s.reset();
+}
+
+void set_slow_motion(Pacing& pacing, Values values) {
+  values = list_of(values);
+  pacing.automatic_slow_motion = std::erase(values, "auto") > 0;
+  pacing.slow_motion = parse_each(values, parse_slow_motion);
+}
+
+void set_golden_frames(Golden& golden, Values values) {
+  values = list_of(values);
+  for (const std::string& value : values) {
+    // Each has a file of its own.
+    if (std::ranges::count(values, value) > 1) {
+      throw UsageError(fmt::format("'{}' is named more than once", value));
+    }
+    try {
+      parse_instant(value);
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("'{}' {}", value, error.what()));
+    }
+  }
+  golden.frames = std::move(values);
+}
+
+Values number(const Rational& value) { return {value.get_str()}; }
+Values range(const Range& value) { return {value.low.get_str(), value.high.get_str()}; }
+Values size(const View& view) { return {fmt::format("{}x{}", view.width_px, view.height_px)}; }
+Values size(const FrameSize& value) {
+  return {fmt::format("{}x{}", value.width_px, value.height_px)};
+}
+Values background(Background value) {
+  return {value == Background::opaque ? "opaque" : "transparent"};
+}
+Values flag(bool value) { return {value ? "true" : "false"}; }
+
+template <typename Value>
+Values each(const std::vector<Value>& list) {
+  Values texts;
+  for (const Value& value : list) texts.push_back(exact_text(value));
+  return texts;
+}
+
+Values end(const End& value) {
+  if (!value.after_last) return number(value.offset);
+  return {"last+" + value.offset.get_str()};
+}
+
+Values slow_motion(const Pacing& pacing) {
+  Values texts = each(pacing.slow_motion);
+  if (pacing.automatic_slow_motion) texts.insert(texts.begin(), "auto");
+  return texts;
+}
+
+constexpr auto kKeys = std::to_array<SceneKey>({
+    {"wall.face", [](Scene& s, const Values& v) { set_number(s.system.wall_face, v); },
+     [](const Scene& s) { return number(s.system.wall_face); }},
+    {"blue.mass", [](Scene& s, const Values& v) { set_number(s.system.blue.mass, v); },
+     [](const Scene& s) { return number(s.system.blue.mass); }},
+    {"blue.position", [](Scene& s, const Values& v) { set_number(s.system.blue.position, v); },
+     [](const Scene& s) { return number(s.system.blue.position); }},
+    {"blue.velocity", [](Scene& s, const Values& v) { set_number(s.system.blue.velocity, v); },
+     [](const Scene& s) { return number(s.system.blue.velocity); }},
+    {"blue.width", [](Scene& s, const Values& v) { set_number(s.system.blue.width, v); },
+     [](const Scene& s) { return number(s.system.blue.width); }},
+    {"red.mass", [](Scene& s, const Values& v) { set_number(s.system.red.mass, v); },
+     [](const Scene& s) { return number(s.system.red.mass); }},
+    {"red.position", [](Scene& s, const Values& v) { set_number(s.system.red.position, v); },
+     [](const Scene& s) { return number(s.system.red.position); }},
+    {"red.velocity", [](Scene& s, const Values& v) { set_number(s.system.red.velocity, v); },
+     [](const Scene& s) { return number(s.system.red.velocity); }},
+    {"red.width", [](Scene& s, const Values& v) { set_number(s.system.red.width, v); },
+     [](const Scene& s) { return number(s.system.red.width); }},
+    {"view.x", [](Scene& s, const Values& v) { set_range(s.view.x, v); },
+     [](const Scene& s) { return range(s.view.x); }},
+    {"view.y", [](Scene& s, const Values& v) { set_range(s.view.y, v); },
+     [](const Scene& s) { return range(s.view.y); }},
+    {"view.size", [](Scene& s, const Values& v) { set_size(s.view, v); },
+     [](const Scene& s) { return size(s.view); }},
+    {"view.fps", [](Scene& s, const Values& v) { set_number(s.view.frame_rate, v); },
+     [](const Scene& s) { return number(s.view.frame_rate); }},
+    {"view.background", [](Scene& s, const Values& v) { set_background(s.view, v); },
+     [](const Scene& s) { return background(s.view.background); }},
+    {"time.from", [](Scene& s, const Values& v) { set_number(s.time.from, v); },
+     [](const Scene& s) { return number(s.time.from); }},
+    {"time.to", [](Scene& s, const Values& v) { s.time.to = parse_end(single(v)); },
+     [](const Scene& s) { return end(s.time.to); }},
+    {"time.speed", [](Scene& s, const Values& v) { set_speed(s, v); },
+     [](const Scene& s) { return number(s.time.speed); }},
+    {"time.duration",
+     [](Scene& s, const Values& v) { s.pacing.duration_s = parse_rational(single(v)); },
+     [](const Scene& s) { return s.pacing.duration_s ? number(*s.pacing.duration_s) : Values(); }},
+    {"time.slow-motion", [](Scene& s, const Values& v) { set_slow_motion(s.pacing, v); },
+     [](const Scene& s) { return slow_motion(s.pacing); }},
+    {"time.freeze",
+     [](Scene& s, const Values& v) { s.pacing.freezes = parse_each(list_of(v), parse_freeze); },
+     [](const Scene& s) { return each(s.pacing.freezes); }},
+    {"time.hold-start", [](Scene& s, const Values& v) { set_number(s.pacing.hold_start_s, v); },
+     [](const Scene& s) { return number(s.pacing.hold_start_s); }},
+    {"time.hold-end", [](Scene& s, const Values& v) { set_number(s.pacing.hold_end_s, v); },
+     [](const Scene& s) { return number(s.pacing.hold_end_s); }},
+    {"time.loop", [](Scene& s, const Values& v) { s.pacing.loop = parse_bool(v); },
+     [](const Scene& s) { return flag(s.pacing.loop); }},
+    {"golden.frames", [](Scene& s, const Values& v) { set_golden_frames(s.golden, v); },
+     [](const Scene& s) { return s.golden.frames; }},
+    {"golden.size", [](Scene& s, const Values& v) { s.golden.size = parse_size(v); },
+     [](const Scene& s) { return s.golden.size ? size(*s.golden.size) : Values(); }},
+});
+
+}  // namespace
+
+std::span<const SceneKey> scene_keys() { return kKeys; }
+
+std::string joined(const Values& values) {
+  return values.size() == 1 ? values.front() : fmt::format("[{}]", fmt::join(values, ", "));
+}
+
+}  // namespace piblocks

@@ -1,0 +1,109 @@
+#include "scene/slow_motion.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <piblocks/schedule.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace piblocks {
+namespace {
+
+constexpr const char* kKey = "time.slow-motion";
+
+// Automatic windows: each takes so long to either side of the turn, and is so many times slower
+// than the one around it, until no more collisions than this happen in a second of video.
+constexpr int kHalfWindow_s = 3;
+constexpr int kStep = 10;
+constexpr double kTellApart_per_s = 10;
+
+/// Collisions per second of simulation time at the turn: one takes theta b/|V| (the notation is
+/// that of src/physics/README.md). Infinite where all happen at once.
+double rate_at_turn(const BlockSystem& system) {
+  const Rational y1 = system.blue_gap();
+  const Rational y2 = y1 + system.blocks_gap();
+  const Rational& u1 = system.blue.velocity;
+  const Rational& u2 = system.red.velocity;
+  const Rational ratio = system.blue.mass / system.red.mass;
+  const double sigma = std::sqrt(to_double(ratio));
+  const double speed_squared = to_double(ratio * u1 * u1 + u2 * u2);
+  return speed_squared / (std::atan(sigma) * sigma * std::abs(to_double(y2 * u1 - y1 * u2)));
+}
+
+std::vector<SlowWindow> automatic_windows(const Scene& scene, const CollisionLog& log) {
+  const std::optional<Rational> turn = turn_of(scene.system);
+  if (!turn || log.size() == 0) return {};
+  const double rate = rate_at_turn(scene.system) * to_double(scene.time.speed);
+  std::vector<Rational> halves;
+  int factor = 1;
+  while (factor < kMaxAutomaticFactor && rate > kTellApart_per_s * factor) {
+    factor *= kStep;
+    halves.push_back(scene.time.speed * kHalfWindow_s / factor);
+  }
+  // From the outermost to the innermost and out again.
+  std::vector<SlowWindow> windows;
+  const std::size_t count = halves.size();
+  Rational slower = 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    slower *= kStep;
+    if (i + 1 == count) {
+      windows.push_back({*turn - halves[i], *turn + halves[i], slower});
+      break;
+    }
+    windows.push_back({*turn - halves[i], *turn - halves[i + 1], slower});
+    windows.push_back({*turn + halves[i + 1], *turn + halves[i], slower});
+  }
+  return windows;
+}
+
+void check(const SlowWindow& window) {
+  if (window.from < window.to) return;
+  throw UsageError(fmt::format("{}: the window from {} ends at {}, which is not after it", kKey,
+                               to_text(window.from), to_text(window.to)));
+}
+
+void check_apart(const std::vector<SlowWindow>& windows) {
+  for (std::size_t i = 1; i < windows.size(); ++i) {
+    if (windows[i].from >= windows[i - 1].to) continue;
+    throw UsageError(fmt::format("{}: windows overlap at {}; let one begin where the other ends",
+                                 kKey, to_text(windows[i].from)));
+  }
+}
+
+}  // namespace
+
+Rational time_of(const Moment& moment, const char* key, const Scene& scene,
+                 const CollisionLog& log) {
+  if (moment.origin == Moment::Origin::start) return moment.offset;
+  if (moment.origin == Moment::Origin::turn) {
+    const std::optional<Rational> turn = turn_of(scene.system);
+    if (!turn) throw UsageError(fmt::format("{}: there is no turn, because no block moves", key));
+    return *turn + moment.offset;
+  }
+  if (log.size() == 0) {
+    throw UsageError(fmt::format("{}: there is no last collision; give a time", key));
+  }
+  return to_rational(log.at(log.size()).time) + moment.offset;
+}
+
+std::vector<SlowWindow> slow_windows(const Scene& scene, const CollisionLog& log,
+                                     const Rational& from, const Rational& to) {
+  std::vector<SlowWindow> windows;
+  if (scene.pacing.automatic_slow_motion) windows = automatic_windows(scene, log);
+  for (const SlowMotion& slow : scene.pacing.slow_motion) {
+    windows.push_back(
+        {time_of(slow.from, kKey, scene, log), time_of(slow.to, kKey, scene, log), slow.factor});
+    check(windows.back());
+  }
+  std::ranges::sort(windows, {}, &SlowWindow::from);
+  check_apart(windows);
+  for (SlowWindow& window : windows) {
+    window.from = std::max(window.from, from);
+    window.to = std::min(window.to, to);
+  }
+  std::erase_if(windows, [](const SlowWindow& window) { return window.from >= window.to; });
+  return windows;
+}
+
+}  // namespace piblocks

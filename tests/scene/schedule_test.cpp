@@ -1,0 +1,270 @@
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+#include <piblocks/interpolator.hpp>
+#include <piblocks/schedule.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/property.hpp"
+
+namespace piblocks {
+namespace {
+
+using Setting = std::pair<const char*, std::string>;
+
+Scene scene_with(const std::vector<Setting>& settings, int digits = 3) {
+  SceneBuilder builder;
+  for (const auto& [key, text] : settings) builder.set("test", key, text);
+  builder.set_mass_ratio("test", power(100, static_cast<unsigned long>(digits - 1)));
+  return builder.build();
+}
+
+Schedule schedule_of(const Scene& scene) {
+  return Schedule(scene, *make_collision_log(scene.system));
+}
+
+Schedule schedule_of(const std::vector<Setting>& settings, int digits = 3) {
+  return schedule_of(scene_with(settings, digits));
+}
+
+/// Stretches follow each other, and time does not jump between them.
+void expect_no_gaps(const Schedule& schedule) {
+  const auto stretches = schedule.stretches();
+  ASSERT_FALSE(stretches.empty());
+  EXPECT_EQ(stretches.front().video_s, 0);
+  for (std::size_t i = 1; i < stretches.size(); ++i) {
+    const Stretch& before = stretches[i - 1];
+    const Rational length_s = stretches[i].video_s - before.video_s;
+    EXPECT_GT(length_s, 0) << i;
+    EXPECT_EQ(before.time + before.speed * length_s, stretches[i].time) << i;
+  }
+}
+
+Rational frame_time(const Schedule& schedule, const Integer& frame, int rate = 60) {
+  return schedule.at(Rational(frame) / rate).time;
+}
+
+TEST(Schedule, RunsEvenlyUnlessAskedOtherwise) {
+  const Schedule schedule = schedule_of({{"time.from", "1"}, {"time.speed", "1/3"}});
+  ASSERT_EQ(schedule.stretches().size(), 1U);
+  EXPECT_EQ(schedule.at(Rational(7, 2)).time, 1 + Rational(7, 6));
+  EXPECT_EQ(schedule.at(Rational(7, 2)).slower, 1);
+}
+
+TEST(Schedule, WindowTakesItsFactorOfTime) {
+  const Schedule plain = schedule_of({{"time.to", "10"}});
+  const Schedule slow = schedule_of({{"time.to", "10"}, {"time.slow-motion", "2:4:10"}});
+  expect_no_gaps(slow);
+  EXPECT_EQ(slow.frame_count() - plain.frame_count(), 2 * 9 * 60);
+  EXPECT_EQ(slow.at(2).time, 2);
+  EXPECT_EQ(slow.at(12).time, 3);
+  EXPECT_EQ(slow.at(12).slower, 10);
+  EXPECT_EQ(slow.at(22).time, 4);
+  EXPECT_EQ(slow.at(22).slower, 1);
+  EXPECT_EQ(slow.at(23).time, 5);
+}
+
+TEST(Schedule, WindowsAreCutToWhatIsShown) {
+  const Schedule schedule = schedule_of(
+      {{"time.from", "3"}, {"time.to", "4"}, {"time.slow-motion", "1:3.5:2,8:9:5,3.9:7:3"}});
+  expect_no_gaps(schedule);
+  EXPECT_EQ(schedule.frame_count(), 60 * (1 + Rational(1, 2) + Rational(1, 10) * 2));
+}
+
+TEST(Schedule, MomentsAreMeasuredFromTurnAndLastCollision) {
+  const Scene scene = scene_with({{"time.to", "last+1"}, {"time.freeze", "turn:2,last+0.5:1"}});
+  const auto log = make_collision_log(scene.system);
+  const Schedule schedule(scene, *log);
+  expect_no_gaps(schedule);
+  const auto stretches = schedule.stretches();
+  ASSERT_EQ(stretches.size(), 5U);
+  // The article's turn: red's reduced gap of 3.5 at unit speed.
+  EXPECT_EQ(stretches[1].time, Rational(7, 2));
+  EXPECT_EQ(stretches[1].speed, 0);
+  EXPECT_EQ(stretches[2].video_s - stretches[1].video_s, 2);
+  EXPECT_EQ(stretches[3].time, to_rational(log->at(log->size()).time) + Rational(1, 2));
+}
+
+TEST(Schedule, DurationIsMetToTheFrame) {
+  for (const char* duration : {"5", "20", "61/60", "7.777"}) {
+    for (const char* to : {"last+1", "9"}) {
+      const Schedule schedule = schedule_of(
+          {{"time.to", to}, {"time.duration", duration}, {"time.slow-motion", "2:4:3"}});
+      expect_no_gaps(schedule);
+      EXPECT_EQ(schedule.frame_count(), ceil(parse_rational(duration) * 60)) << duration << to;
+    }
+  }
+}
+
+TEST(Schedule, DurationOfARunShownToItsEndEndsThere) {
+  const Scene scene = scene_with({{"time.to", "last+1"}, {"time.duration", "20"}});
+  const auto log = make_collision_log(scene.system);
+  const Schedule schedule(scene, *log);
+  EXPECT_EQ(frame_time(schedule, schedule.frame_count() - 1),
+            to_rational(log->at(log->size()).time) + 1);
+}
+
+TEST(Schedule, DurationCountsWhatStands) {
+  const std::vector<Setting> settings = {{"time.duration", "20"}, {"time.hold-start", "2"},
+                                         {"time.hold-end", "3"},  {"time.freeze", "turn:1.5"},
+                                         {"time.to", "last"},     {"time.slow-motion", "auto"}};
+  const Schedule schedule = schedule_of(settings);
+  expect_no_gaps(schedule);
+  EXPECT_EQ(schedule.frame_count(), 20 * 60);
+  EXPECT_EQ(frame_time(schedule, 0), 0);
+  EXPECT_EQ(frame_time(schedule, 120), 0);
+  EXPECT_GT(frame_time(schedule, 121), 0);
+  const Rational last = frame_time(schedule, 1199);
+  EXPECT_EQ(frame_time(schedule, 1199 - 180), last);
+  EXPECT_LT(frame_time(schedule, 1199 - 181), last);
+}
+
+TEST(Schedule, HoldsAddWholeFrames) {
+  const Schedule plain = schedule_of(std::vector<Setting>());
+  const Schedule held = schedule_of({{"time.hold-start", "0.51"}, {"time.hold-end", "1/61"}});
+  expect_no_gaps(held);
+  EXPECT_EQ(held.frame_count() - plain.frame_count(), 31 + 1);
+  for (int frame : {0, 1, 100, 500}) {
+    EXPECT_EQ(frame_time(held, frame + 31), frame_time(plain, frame));
+  }
+}
+
+TEST(Schedule, LoopComesBackFrameByFrame) {
+  for (const char* to : {"last+1", "9.99"}) {
+    const std::vector<Setting> settings = {{"time.to", to},
+                                           {"time.slow-motion", "2:2.31:7,turn:turn+0.1:10"},
+                                           {"time.hold-end", "0.3"},
+                                           {"time.hold-start", "0.1"},
+                                           {"time.freeze", "5:1"}};
+    std::vector<Setting> looped = settings;
+    looped.emplace_back("time.loop", "true");
+    const Schedule forth = schedule_of(settings);
+    const Schedule schedule = schedule_of(looped);
+    expect_no_gaps(schedule);
+    const Integer frames = schedule.frame_count();
+    EXPECT_EQ(frames, 2 * forth.frame_count() - 2);
+    for (Integer frame = 0; frame < frames; frame += 1) {
+      const Integer twin = frame == 0 ? Integer(0) : Integer(frames - frame);
+      ASSERT_EQ(frame_time(schedule, frame), frame_time(schedule, twin)) << frame;
+    }
+    for (Integer frame = 0; frame < forth.frame_count(); frame += 1) {
+      ASSERT_EQ(frame_time(schedule, frame), frame_time(forth, frame)) << frame;
+    }
+  }
+}
+
+TEST(Schedule, LoopTakesTheDurationAsAWhole) {
+  EXPECT_EQ(schedule_of({{"time.loop", "true"}, {"time.duration", "12"}}).frame_count(), 720);
+}
+
+TEST(Schedule, AutomaticWindowsTellCollisionsApart) {
+  for (int digits = 2; digits <= 3; ++digits) {
+    const Scene scene = scene_with({{"time.slow-motion", "auto"}}, digits);
+    const auto log = make_collision_log(scene.system);
+    const Schedule schedule(scene, *log);
+    expect_no_gaps(schedule);
+    // At the turn, where the video stands in the middle of its slowest stretches.
+    const Rational turn = *turn_of(scene.system);
+    const auto stretches = schedule.stretches();
+    const auto slowest = std::ranges::max_element(stretches, {}, &Stretch::slower);
+    const Rational turn_s = slowest->video_s + (turn - slowest->time) / slowest->speed;
+    const Integer in_a_second = state_at(*log, schedule.at(turn_s + Rational(1, 2)).time).count -
+                                state_at(*log, schedule.at(turn_s - Rational(1, 2)).time).count;
+    EXPECT_LE(in_a_second, 11) << digits;
+    EXPECT_GE(in_a_second, 3) << digits;
+  }
+}
+
+TEST(Schedule, AutomaticWindowsStopWhereNothingMovesAnyMore) {
+  const Schedule schedule = schedule_of({{"time.slow-motion", "auto"}}, 20);
+  const auto stretches = schedule.stretches();
+  EXPECT_EQ(std::ranges::max_element(stretches, {}, &Stretch::slower)->slower, 1000);
+  EXPECT_EQ(stretches.size(), 7U);
+}
+
+TEST(Schedule, FewCollisionsNeedNoSlowMotion) {
+  EXPECT_EQ(schedule_of({{"time.slow-motion", "auto"}}, 1).stretches().size(), 1U);
+}
+
+TEST(Schedule, RandomPacingLeavesNoGaps) {
+  Random random(20);
+  SCOPED_TRACE(random.trace());
+  for (int run = 0; run < 200; ++run) {
+    std::vector<Setting> settings;
+    Rational at = random.rational(0, 3, 7);
+    std::string windows;
+    std::string freezes;
+    for (int i = 0; i < 3; ++i) {
+      const Rational to = at + random.rational(1, 4, 5);
+      windows += (i > 0 ? "," : "") + at.get_str() + ':' + to.get_str() + ':' +
+                 Rational(random.rational(1, 30, 3)).get_str();
+      freezes += (i > 0 ? "," : "") + Rational(random.rational(0, 14, 9)).get_str() + ':' +
+                 Rational(random.rational(1, 3, 11)).get_str();
+      at = to + random.rational(0, 2, 3);
+    }
+    settings = {{"time.slow-motion", windows},
+                {"time.freeze", freezes},
+                {"time.hold-start", Rational(random.rational(0, 2, 13)).get_str()},
+                {"time.hold-end", Rational(random.rational(0, 2, 13)).get_str()},
+                {"time.loop", random.integer(0, 1) == 0 ? "true" : "false"},
+                {"view.fps", random.integer(0, 1) == 0 ? "60" : "30000/1001"}};
+    if (random.integer(0, 1) == 0) settings.emplace_back("time.duration", "40");
+    const Schedule schedule = schedule_of(settings);
+    expect_no_gaps(schedule);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(Schedule, RefusesWhatCannotBe) {
+  const auto problem = [](const std::vector<Setting>& settings, Rational red_velocity = -1) {
+    Scene scene = scene_with(settings);
+    scene.system.red.velocity = std::move(red_velocity);
+    try {
+      schedule_of(scene);
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(problem({{"time.slow-motion", "2:4:3,3:5:3"}}),
+            "time.slow-motion: windows overlap at 3; let one begin where the other ends");
+  EXPECT_EQ(problem({{"time.slow-motion", "4:3:2"}}),
+            "time.slow-motion: the window from 4 ends at 3, which is not after it");
+  EXPECT_EQ(problem({{"time.slow-motion", "auto,3:4:2"}}),
+            "time.slow-motion: windows overlap at 16/5; let one begin where the other ends");
+  EXPECT_EQ(problem({{"time.freeze", "turn:1"}, {"time.to", "3"}}, 0),
+            "time.freeze: there is no turn, because no block moves");
+  EXPECT_EQ(problem({{"time.freeze", "last:1"}, {"time.to", "3"}}, 1),
+            "time.freeze: there is no last collision; give a time");
+  EXPECT_TRUE(problem({{"time.duration", "2"}, {"time.hold-end", "2"}})
+                  .starts_with("time.duration = 2: leaves no time for the motion"));
+}
+
+TEST(Pacing, TextsReadBackAsTheSame) {
+  for (const char* text : {"0", "-7/3", "turn+0", "turn-1/3", "last+5", "last-5/2"}) {
+    EXPECT_EQ(exact_text(parse_moment(text)), text);
+    const std::string window = std::string(text) + ":turn+1:10";
+    EXPECT_EQ(exact_text(parse_slow_motion(window)), window);
+    const std::string freeze = std::string(text) + ":3/2";
+    EXPECT_EQ(exact_text(parse_freeze(freeze)), freeze);
+  }
+}
+
+TEST(Pacing, RefusesOtherTexts) {
+  for (const char* text : {"", "turning", "turn*2", "turn+", "last+-", "middle", "1:2"}) {
+    EXPECT_THROW(parse_moment(text), UsageError) << text;
+  }
+  for (const char* text : {"", "1", "1:2", "1:2:0", "1:2:-3", "1:2:3:4", "a:b:c", "::"}) {
+    EXPECT_THROW(parse_slow_motion(text), UsageError) << text;
+  }
+  for (const char* text : {"", "1", "1:0", "1:-1", "1:2:3", ":"}) {
+    EXPECT_THROW(parse_freeze(text), UsageError) << text;
+  }
+}
+
+}  // namespace
+}  // namespace piblocks
