@@ -55,7 +55,7 @@ TEST(SetUpOutput, ListsTheKindsWhenANameHasNone) {
 
 TEST(SetUpOutput, ReportsAllProblemsAtOnce) {
   try {
-    set_up_output("out.mov", {0, 20000, -1}, {});
+    set_up_output("out.avi", {0, 20000, -1}, {});
     FAIL();
   } catch (const UsageError& error) {
     EXPECT_EQ(error.problems().size(), 3u) << error.what();
