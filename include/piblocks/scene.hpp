@@ -61,11 +61,17 @@ struct Golden {
   std::optional<FrameSize> size = {};
 };
 
+/// What is heard of a scene.
+struct Sound {
+  bool on = false;  ///< whether a video has a soundtrack
+};
+
 struct Scene {
   BlockSystem system;
   View view;
   TimeSpan time;
   Pacing pacing = {};
+  Sound sound = {};
   Show show = {};
   Golden golden = {};
 };
@@ -80,8 +86,8 @@ inline constexpr int kMaxSceneNesting = 256;
 /// "position", "velocity", "width" ("by-mass" for red: width_by_mass()); "view.x", "view.y",
 /// "view.size", "view.fps", "view.theme"; "time.from", "time.to", "time.speed", "time.duration",
 /// "time.slow-motion", "time.freeze", "time.hold-start", "time.hold-end", "time.loop";
-/// "show.overlays", "show.panels", "show.title", "show.caption", "show.logo"; "golden.frames",
-/// "golden.size".
+/// "show.overlays", "show.panels", "show.title", "show.caption", "show.logo"; "sound.on";
+/// "golden.frames", "golden.size".
 class SceneBuilder {
  public:
   /// Reads a scene file. Values set before it are overwritten, values set after it win.
