@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "media/damage_chunk.hpp"
 #include "media/find_encoder.hpp"
 #include "media/output_kinds.hpp"
+#include "media/sound_stream.hpp"
 #include "media/video_chunk.hpp"
 #include "media/video_encoder.hpp"
 
@@ -24,8 +26,10 @@ namespace {
 
 class Mp4Sink final : public FrameSink {
  public:
-  Mp4Sink(const std::string& name, const VideoEncoder& encoder);
+  /// @param sound  of the second stream, if there is one.
+  Mp4Sink(const std::string& name, const VideoEncoder& encoder, const SoundEncoder* sound);
 
+  void take_sound(PacketSource& sound) override;
   void append(const EncodedChunk& chunk) override;
   void finish() override;
 
@@ -40,6 +44,7 @@ class Mp4Sink final : public FrameSink {
   TemporaryFile file_;
   AvOutputPtr muxer_;  // after file_: closed before the file is removed
   AvPacketPtr packet_;
+  std::optional<SoundStream> sound_;
   FrameCounter counter_;
   std::int64_t packets_ = 0;
 };
@@ -55,14 +60,20 @@ AvOutputPtr open_muxer(const std::string& path, const std::string& name) {
   return muxer;
 }
 
-Mp4Sink::Mp4Sink(const std::string& name, const VideoEncoder& encoder)
+Mp4Sink::Mp4Sink(const std::string& name, const VideoEncoder& encoder, const SoundEncoder* sound)
     : name_(name),
       encoder_(encoder),
       file_(name),
       muxer_(open_muxer(file_.path(), name_)),
       packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {
   add_stream();
+  if (sound != nullptr) sound_.emplace(*sound, *muxer_, name_);
   write_header();
+}
+
+void Mp4Sink::take_sound(PacketSource& sound) {
+  if (!sound_) return FrameSink::take_sound(sound);
+  sound_->take(sound);
 }
 
 void Mp4Sink::add_stream() {
@@ -90,6 +101,7 @@ void Mp4Sink::append(const EncodedChunk& chunk) {
 }
 
 void Mp4Sink::write(const Packet& packet) {
+  if (sound_) sound_->write_until(packet.dts, av_inv_q(encoder_.frame_rate()));
   av_packet_unref(packet_.get());
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): the muxer only reads what has no owner
   packet_->data = const_cast<std::uint8_t*>(packet.bytes.data());
@@ -122,13 +134,27 @@ std::optional<std::int64_t> start_of_pictures(AVIOContext& file) {
   return std::nullopt;
 }
 
-/// Whether the index names that many packets, one after the other from there to the end.
-bool is_complete(AVStream* stream, std::int64_t packets, std::int64_t start, std::int64_t end) {
-  if (avformat_index_get_entries_count(stream) != packets) return false;
-  for (int i = 0; i < packets; ++i) {
-    const AVIndexEntry* const entry = avformat_index_get_entry(stream, i);
-    if (entry->pos != start) return false;
-    start += entry->size;
+/// Whether the indices name these numbers of packets, one by one from there to the end, in whatever
+/// order the streams take turns.
+bool is_complete(std::span<AVStream* const> streams, std::span<const std::int64_t> packets,
+                 std::int64_t start, std::int64_t end) {
+  if (streams.size() != packets.size()) return false;
+  std::vector<int> next(streams.size(), 0);
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    if (avformat_index_get_entries_count(streams[i]) != packets[i]) return false;
+  }
+  bool found = true;
+  while (found) {
+    found = false;
+    for (std::size_t i = 0; i < streams.size(); ++i) {
+      while (next[i] < packets[i]) {
+        const AVIndexEntry* const entry = avformat_index_get_entry(streams[i], next[i]);
+        if (entry->pos != start) break;
+        start += entry->size;
+        ++next[i];
+        found = true;
+      }
+    }
   }
   return start == end;
 }
@@ -143,13 +169,17 @@ void Mp4Sink::check_index() const {
            (read.extradata_size > 0) == (written.extradata_size > 0);
   };
   const auto start = start_of_pictures(*file->pb);
-  if (!start || file->nb_streams != 1 || !is_ours(*file->streams[0]->codecpar) ||
-      !is_complete(file->streams[0], packets_, *start, avio_size(file->pb))) {
+  std::vector<std::int64_t> packets = {packets_};
+  if (sound_) packets.push_back(sound_->packets());
+  const std::span streams(file->streams, file->nb_streams);
+  if (!start || streams.empty() || !is_ours(*streams[0]->codecpar) ||
+      !is_complete(streams, packets, *start, avio_size(file->pb))) {
     throw MediaError(fmt::format("video: the index of '{}' was not written whole", name_));
   }
 }
 
 void Mp4Sink::finish() {
+  if (sound_) sound_->write_all();
   check_av(av_write_trailer(muxer_.get()), "write the index of", name_);
   avio_flush(muxer_->pb);
   check_av(muxer_->pb->error, "write to", name_);
@@ -198,6 +228,7 @@ class Mp4Output final : public Output {
         sets_(sets_for_damage(encoder_, request.settings)),
         when_too_much_(request.settings.encoder == kDamage ? WhenTooMuch::go_on
                                                            : WhenTooMuch::leave_to_stream_encoder) {
+    if (request.sound) sound_.emplace(kAac, *request.sound);
   }
   std::int64_t frames_per_chunk() const override { return encoder_.frames_per_chunk(); }
   std::unique_ptr<ChunkEncoder> make_encoder() const override {
@@ -205,11 +236,16 @@ class Mp4Output final : public Output {
     return std::make_unique<VideoChunkEncoder>(encoder_);
   }
   std::string signature() const override {
-    const std::string stream = "mp4 by " + encoder_.signature();
-    return sets_ ? fmt::format("{}, changes at QP {}", stream, kQp) : stream;
+    std::string text = "mp4 by " + encoder_.signature();
+    if (sets_) text += fmt::format(", changes at QP {}", kQp);
+    if (sound_) text += ", sound by " + sound_->signature();
+    return text;
+  }
+  std::unique_ptr<PacketSource> encode_sound(SampleSource& samples) const override {
+    return sound_ ? sound_->encode(samples) : Output::encode_sound(samples);
   }
   std::unique_ptr<FrameSink> open() const override {
-    return std::make_unique<Mp4Sink>(name_, encoder_);
+    return std::make_unique<Mp4Sink>(name_, encoder_, sound_ ? &*sound_ : nullptr);
   }
 
  private:
@@ -217,6 +253,7 @@ class Mp4Output final : public Output {
   VideoEncoder encoder_;
   std::optional<h264::ParameterSets> sets_;
   WhenTooMuch when_too_much_;
+  std::optional<SoundEncoder> sound_;
 };
 
 }  // namespace

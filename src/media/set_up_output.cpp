@@ -18,23 +18,30 @@ struct OutputKind {
   std::string_view name;  // as a message lists it
   bool (*matches)(std::string_view output);
   bool takes_encoder_settings;
+  bool takes_sound;
   std::unique_ptr<Output> (*set_up)(const OutputRequest& request);
 };
 
+constexpr std::string_view kWav = "*.wav (sound alone)";
+
+constexpr bool is_wav(std::string_view output) { return output.ends_with(".wav"); }
+
 constexpr std::array kOutputKinds = {
     OutputKind{"*.mp4", [](std::string_view output) { return output.ends_with(".mp4"); }, true,
-               [](const OutputRequest& request) { return av_module().mp4_output(request); }},
+               true, [](const OutputRequest& request) { return av_module().mp4_output(request); }},
     OutputKind{"*.png with a number field such as %06d",
-               [](std::string_view output) { return output.ends_with(".png"); }, false, png_output},
+               [](std::string_view output) { return output.ends_with(".png"); }, false, false,
+               png_output},
     OutputKind{"*.y4m", [](std::string_view output) { return output.ends_with(".y4m"); }, false,
-               y4m_output},
-    OutputKind{"- (y4m on standard output)", [](std::string_view output) { return output == "-"; },
                false, y4m_output},
+    OutputKind{"- (y4m on standard output)", [](std::string_view output) { return output == "-"; },
+               false, false, y4m_output},
     OutputKind{"*.framehash",
-               [](std::string_view output) { return output.ends_with(".framehash"); }, false,
+               [](std::string_view output) { return output.ends_with(".framehash"); }, false, false,
                [](const OutputRequest& request) { return av_module().framehash_output(request); }},
-    OutputKind{"null", [](std::string_view output) { return output == "null"; }, false,
+    OutputKind{"null", [](std::string_view output) { return output == "null"; }, false, false,
                null_output},
+    OutputKind{kWav, is_wav, false, true, wav_output},
 };
 
 const OutputKind* find_kind(std::string_view output) {
@@ -52,6 +59,17 @@ std::string unknown_kind(const std::string& output) {
   }
   return fmt::format("output: cannot tell the kind of '{}' from its name; use one of: {}", output,
                      known);
+}
+
+std::string sound_problem(const std::string& name) {
+  std::string kinds;
+  for (const OutputKind& kind : kOutputKinds) {
+    if (!kind.takes_sound) continue;
+    if (!kinds.empty()) kinds += " or ";
+    kinds += kind.name;
+  }
+  return fmt::format("output: '{}' has no sound; write {}, or leave the sound out (--no-sound)",
+                     name, kinds);
 }
 
 std::string size_problem(const VideoFormat& format) {
@@ -77,7 +95,8 @@ std::string frame_rate_problem(const Rational& rate) {
 }  // namespace
 
 std::unique_ptr<Output> set_up_output(const std::string& name, const VideoFormat& format,
-                                      const EncoderSettings& settings) {
+                                      const EncoderSettings& settings,
+                                      const std::optional<SoundFormat>& sound) {
   std::vector<std::string> problems;
   const auto report = [&](std::string problem) {
     if (!problem.empty()) problems.push_back(std::move(problem));
@@ -91,12 +110,15 @@ std::unique_ptr<Output> set_up_output(const std::string& name, const VideoFormat
                     "write *.mp4",
                     name));
   }
+  if (kind != nullptr && sound && !kind->takes_sound) report(sound_problem(name));
   report(size_problem(format));
   report(frame_rate_problem(format.frame_rate));
   if (!problems.empty()) throw UsageError(std::move(problems));
 
-  return kind->set_up({name, format, settings});
+  return kind->set_up({name, format, settings, sound});
 }
+
+bool is_sound_alone(const std::string& name) { return is_wav(name); }
 
 std::vector<std::string> media_library_versions() {
   std::vector<std::string> versions = av_module().av_library_versions();

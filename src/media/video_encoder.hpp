@@ -9,8 +9,6 @@
 
 namespace piblocks {
 
-using AvParametersPtr = std::unique_ptr<AVCodecParameters, AvDeleter<avcodec_parameters_free>>;
-
 /// An encoder that is known to be there, to suit MP4, and to open with these settings.
 class VideoEncoder {
  public:
