@@ -90,11 +90,13 @@ RenderOptions add_options(CLI::App& command) {
   const CLI::Option& output =
       *add_value_option(command, "-o,--output", "OUT",
                         "What to write: NAME.mp4, FRAMES/%06d.png, NAME.y4m,\n"
-                        "- (y4m on standard output), NAME.framehash, or null")
+                        "- (y4m on standard output), NAME.framehash, null,\n"
+                        "or NAME.wav, which is the sound alone")
            .required();
   scene.add_size();
   scene.add_show();
   scene.add_timing();
+  scene.add_sound();
   const CLI::Option& crf =
       add_value_option(command, "--crf", "Q", "Rate factor of MP4, 0 (lossless) to 51 (worst)");
   const CLI::Option& preset =

@@ -25,6 +25,9 @@ class SceneOptions {
   /// Adds --fps, --from, --to, --speed and what else says how time runs in the video.
   void add_timing();
 
+  /// Adds --sound and --no-sound.
+  void add_sound();
+
   /// @throws SceneError, UsageError
   Scene scene() const;
   /// @throws UsageError if the option names the scene file as the output.
