@@ -74,6 +74,8 @@ struct PositionBounds {
   double red = 0;
 };
 
+class Exposure;
+
 /// A log's collisions are those from time 0 on. Const members are thread-safe.
 class CollisionLog {
  public:
@@ -91,6 +93,10 @@ class CollisionLog {
   /// exactly at `time` has happened.
   /// @throws SimulationError as at().
   virtual FreeFlight flight_at(const Rational& time) const = 0;
+  /// Where the blocks are from `begin` to `end`, and for how much of that time; in either order,
+  /// and also before time 0, where the motion runs back. To be used with exposure.hpp.
+  /// @throws SimulationError as at().
+  virtual std::unique_ptr<Exposure> expose(const Rational& begin, const Rational& end) const = 0;
   /// How exact the positions at `time` are; nothing if the engine cannot say beforehand.
   virtual std::optional<PositionBounds> bounds_at(const Rational& time) const = 0;
 };

@@ -26,6 +26,7 @@ class ExactLog final : public CollisionLog {
   Collision at(const Integer& index) const override;
   std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const override;
   FreeFlight flight_at(const Rational& time) const override;
+  std::unique_ptr<Exposure> expose(const Rational& begin, const Rational& end) const override;
   std::optional<PositionBounds> bounds_at(const Rational& time) const override;
 
  private:

@@ -10,7 +10,7 @@ set(core_may core)
 set(physics_may core physics)
 set(scene_may core physics scene)
 # Drawing sees states and collisions, not the engines that make them.
-set(draw_may core physics/collision_log physics/interpolator scene draw)
+set(draw_may core physics/collision_log physics/exposure physics/interpolator scene draw)
 # Sinks know pixels and packets, nothing of blocks.
 set(media_may core media)
 set(golden_may core media golden)
@@ -19,7 +19,7 @@ set(cli_may ${layers})
 
 # The layer of each header in include/piblocks.
 set(core_headers color error exact geometry image time version)
-set(physics_headers blocks collision_log event_simulator interpolator particle
+set(physics_headers blocks collision_log event_simulator exposure interpolator particle
     physics_versions)
 set(scene_headers instant pacing scene schedule timeline)
 set(draw_headers canvas compose draw_list)
