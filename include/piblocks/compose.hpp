@@ -3,8 +3,12 @@
 #pragma once
 
 #include <piblocks/draw_list.hpp>
+#include <piblocks/exposure.hpp>
 #include <piblocks/interpolator.hpp>
 #include <piblocks/scene.hpp>
+
+#include <memory>
+#include <span>
 
 namespace piblocks {
 
@@ -28,5 +32,16 @@ Layout lay_out(const Scene& scene, const Integer& longest_count);
 
 /// The frame that shows `state`.
 DrawList compose(const Scene& scene, const Layout& layout, const BlockState& state);
+
+/// A part of the time for which a frame is exposed.
+struct ExposurePart {
+  double share = 1;  ///< of that time; 1 in all
+  std::unique_ptr<Exposure> exposure;
+};
+
+/// The frame that shows where the blocks are during `parts`, and what else there is at `state`.
+/// @param parts  at least one.
+DrawList compose(const Scene& scene, const Layout& layout, const BlockState& state,
+                 std::span<const ExposurePart> parts);
 
 }  // namespace piblocks

@@ -133,7 +133,47 @@ struct ImageItem {
   friend bool operator==(const ImageItem&, const ImageItem&) = default;
 };
 
-using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem>;
+/// Where the left edge of a block is for a share of an exposure.
+struct Stop {
+  double x = 0;
+  double share = 0;
+
+  friend bool operator==(const Stop&, const Stop&) = default;
+};
+
+/// A filled rectangle that moves sideways while the picture is exposed.
+struct ExposedBlock {
+  Rectangle bounds;  ///< at the picture's instant
+  Color fill;
+  Stroke stroke;            ///< solid
+  std::vector<Stop> stops;  ///< from left to right, none if it stays; shares of 1 in all, less
+                            ///< what is outside of the frame
+
+  friend bool operator==(const ExposedBlock&, const ExposedBlock&) = default;
+};
+
+/// A share of an exposure in which the left edge of the block behind and the right edge of the one
+/// in front are less than a pixel apart: left edges of both.
+struct Contact {
+  double behind_x = 0;
+  double front_x = 0;
+  double share = 0;
+
+  friend bool operator==(const Contact&, const Contact&) = default;
+};
+
+/// Two blocks, exposed: the mean, in linear light, of the pictures that rectangles would make at
+/// each instant. In a vector file this is a picture; what stays is not.
+struct ExposedItem {
+  ItemId id = ItemId::red_block;
+  ExposedBlock behind;  ///< on the right
+  ExposedBlock front;
+  std::vector<Contact> contacts;  ///< from left to right
+
+  friend bool operator==(const ExposedItem&, const ExposedItem&) = default;
+};
+
+using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, ExposedItem>;
 
 struct DrawList {
   int width_px = 0;

@@ -48,10 +48,10 @@ class Exposure {
   virtual double area_below(BlockName block, double position) const = 0;
   /// Whether pieces() are the whole truth.
   virtual bool is_listed() const = 0;
-  /// Both blocks together, in the order of time; shares add up to 1. If !is_listed(), these are
-  /// fewer and slower bounces between the same places, for who needs to know how near to each other
-  /// the blocks are: blue spends its time in each of them as in the many that they stand for, to
-  /// the first order in the time that a bounce takes.
+  /// Both blocks together, in the order of time; shares add up to 1. If !is_listed(), those in the
+  /// middle are fewer and slower bounces between the same places, for who needs to know how near to
+  /// each other the blocks are: blue spends its time in each of them as in the many that they stand
+  /// for, to the first order in the time that a bounce takes.
   virtual std::span<const UniformPiece> pieces() const = 0;
 };
 

@@ -29,6 +29,9 @@ struct View {
   int width_px = 1920;       ///< 1 … kMaxSide_px
   int height_px = 1080;      ///< 1 … kMaxSide_px
   Rational frame_rate = 60;  ///< frames per second of video, 0 < rate <= kMaxFrameRate
+  /// The share of the time between two frames for which each is exposed, from its instant on,
+  /// 0 … 1; 0 shows the instant alone.
+  Rational shutter = 0;
 };
 
 inline constexpr int kMaxFrameRate = 1000;
@@ -74,9 +77,9 @@ inline constexpr int kMaxSceneNesting = 256;
 
 /// Collects a scene's values from a file and from options, remembering where each came from.
 /// The keys are those of the scene file: "wall.face"; "blue." and "red." with "mass",
-/// "position", "velocity", "width"; "view.x", "view.y", "view.size", "view.fps"; "time.from",
-/// "time.to", "time.speed", "time.duration", "time.slow-motion", "time.freeze", "time.hold-start",
-/// "time.hold-end", "time.loop"; "golden.frames", "golden.size".
+/// "position", "velocity", "width"; "view.x", "view.y", "view.size", "view.fps",
+/// "view.shutter"; "time.from", "time.to", "time.speed", "time.duration", "time.slow-motion",
+/// "time.freeze", "time.hold-start", "time.hold-end", "time.loop"; "golden.frames", "golden.size".
 class SceneBuilder {
  public:
   /// Reads a scene file. Values set before it are overwritten, values set after it win.

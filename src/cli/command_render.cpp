@@ -93,6 +93,7 @@ RenderOptions add_options(CLI::App& command) {
                         "- (y4m on standard output), NAME.framehash, or null")
            .required();
   scene.add_size();
+  scene.add_exposure();
   scene.add_timing();
   const CLI::Option& crf =
       add_value_option(command, "--crf", "Q", "Rate factor of MP4, 0 (lossless) to 51 (worst)");

@@ -48,12 +48,19 @@ void SceneOptions::add_size() {
   add_key("view.size", "--size", "WxH", "Frame size in pixels (default 1920x1080)");
 }
 
-void SceneOptions::add_timing() {
+void SceneOptions::add_exposure() {
+  add_key(
+      "view.shutter", "--shutter", "X",
+      "Motion blur: the share of the time between two frames for\nwhich each is exposed, 0 to 1 "
+      "(default 0)");
   add_key("view.fps", "--fps", "N|N/D", "Frames per second (default 60)");
+  add_key("time.speed", "--speed", "X", "Simulation time per second of video (default 1)");
+}
+
+void SceneOptions::add_timing() {
   add_key("time.from", "--from", "S", "First instant shown, in simulation time (default 0)");
   add_key("time.to", "--to", "S|last|last+S",
           "End: a time, the last collision, or so long after it\n(default last+1.5)");
-  add_key("time.speed", "--speed", "X", "Simulation time per second of video (default 1)");
   add_pacing();
 }
 

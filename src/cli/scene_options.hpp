@@ -20,7 +20,9 @@ class SceneOptions {
   explicit SceneOptions(CLI::App& command);
   /// Adds --size.
   void add_size();
-  /// Adds --fps, --from, --to, --speed and what else says how time runs in the video.
+  /// Adds --shutter, and --fps and --speed, which it depends on.
+  void add_exposure();
+  /// Adds --from, --to and what else says how time runs in the video.
   void add_timing();
 
   /// @throws SceneError, UsageError

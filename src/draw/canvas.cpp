@@ -90,9 +90,10 @@ struct Canvas::Pixels {
 };
 
 /// How Cairo rounds a slanted edge depends on where the surface ends that it is painted on. The
-/// pixels of rectangles and text do not.
+/// pixels of rectangles, text and exposed blocks do not.
 bool depends_on_surface(const DrawItem& item) {
-  return !std::holds_alternative<RectangleItem>(item) && !std::holds_alternative<TextItem>(item);
+  return !std::holds_alternative<RectangleItem>(item) && !std::holds_alternative<TextItem>(item) &&
+         !std::holds_alternative<ExposedItem>(item);
 }
 
 void Canvas::Pixels::paint(const DrawList& list, std::span<const PixelRect> rects) {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 
+#include "draw/expose.hpp"
 #include "draw/font.hpp"
 
 namespace piblocks {
@@ -70,6 +72,28 @@ RectangleItem compose_block(ItemId id, const Block& block, const Motion& motion,
           Stroke{edge, layout.line_px, 0}};
 }
 
+RectangleItem compose_red(const Scene& scene, const Layout& layout, const BlockState& state) {
+  return compose_block(ItemId::red_block, scene.system.red, state.red, kRed, kRedEdge, layout);
+}
+
+RectangleItem compose_blue(const Scene& scene, const Layout& layout, const BlockState& state) {
+  return compose_block(ItemId::blue_block, scene.system.blue, state.blue, kBlue, kBlueEdge, layout);
+}
+
+DrawList compose_with(std::vector<DrawItem> blocks, const Scene& scene, const Layout& layout,
+                      const BlockState& state) {
+  DrawList list{layout.width_px, layout.height_px, kBackground, {compose_wall(scene, layout)}};
+  std::ranges::move(blocks, std::back_inserter(list.items));
+  list.items.emplace_back(
+      TextItem{ItemId::label, layout.label, std::string(kLabelText), layout.text_px, kLabel});
+  list.items.emplace_back(TextItem{ItemId::count,
+                                   {layout.count_x, layout.label.y},
+                                   with_thousands_separators(state.count),
+                                   layout.text_px,
+                                   kCount});
+  return list;
+}
+
 }  // namespace
 
 Layout lay_out(const Scene& scene, const Integer& longest_count) {
@@ -108,19 +132,15 @@ Layout lay_out(const Scene& scene, const Integer& longest_count) {
 }
 
 DrawList compose(const Scene& scene, const Layout& layout, const BlockState& state) {
-  const BlockSystem& system = scene.system;
-  return {layout.width_px,
-          layout.height_px,
-          kBackground,
-          {compose_wall(scene, layout),
-           compose_block(ItemId::red_block, system.red, state.red, kRed, kRedEdge, layout),
-           compose_block(ItemId::blue_block, system.blue, state.blue, kBlue, kBlueEdge, layout),
-           TextItem{ItemId::label, layout.label, std::string(kLabelText), layout.text_px, kLabel},
-           TextItem{ItemId::count,
-                    {layout.count_x, layout.label.y},
-                    with_thousands_separators(state.count),
-                    layout.text_px,
-                    kCount}}};
+  return compose_with({compose_red(scene, layout, state), compose_blue(scene, layout, state)},
+                      scene, layout, state);
+}
+
+DrawList compose(const Scene& scene, const Layout& layout, const BlockState& state,
+                 std::span<const ExposurePart> parts) {
+  return compose_with({expose(compose_red(scene, layout, state), compose_blue(scene, layout, state),
+                              scene.system, layout, parts)},
+                      scene, layout, state);
 }
 
 }  // namespace piblocks

@@ -53,6 +53,30 @@ Extent extent_of(const PathItem& path) {
   return {left - reach, top - reach, right + reach, bottom + reach};
 }
 
+/// Where a block's left edge is at some time.
+struct Way {
+  double from;
+  double to;
+};
+
+Way way_of(const ExposedBlock& block) {
+  if (block.stops.empty()) return {block.bounds.x, block.bounds.x};
+  return {block.stops.front().x, block.stops.back().x};
+}
+
+Extent extent_of(const ExposedBlock& block) {
+  const auto [from, to] = way_of(block);
+  const Rectangle& r = block.bounds;
+  return {from, r.y, to + r.width, r.y + r.height};
+}
+
+Extent extent_of(const ExposedItem& item) {
+  const Extent a = extent_of(item.behind);
+  const Extent b = extent_of(item.front);
+  return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right),
+          std::max(a.bottom, b.bottom)};
+}
+
 /// Of the characters of a line of text between two distances from its origin.
 Extent extent_of(const TextItem& text, double left_em, double right_em) {
   const double em = text.size_px;
@@ -114,6 +138,39 @@ void compare(const RectangleItem& before, const RectangleItem& after, const Meas
   const auto [first_right, last_right] = std::minmax({a.x + a.width, b.x + b.width});
   damage.add({first_left, a.y, last_left + line, a.y + a.height});
   damage.add({first_right - line, a.y, last_right, a.y + a.height});
+}
+
+/// Between its ends a block that moves has the same pixels, wherever its ends are.
+void compare(const ExposedBlock& before, const ExposedBlock& after, Damage& damage) {
+  const Rectangle& a = before.bounds;
+  const Rectangle& b = after.bounds;
+  const bool alike = before.fill == after.fill && before.stroke == after.stroke && a.y == b.y &&
+                     a.height == b.height && a.width == b.width &&
+                     before.stops.empty() == after.stops.empty();
+  if (!alike) {
+    damage.add(extent_of(before));
+    damage.add(extent_of(after));
+    return;
+  }
+  const Way first = way_of(before);
+  const Way second = way_of(after);
+  const double from = std::min(first.from, second.from);
+  const double to = std::max(first.to, second.to);
+  const double line = before.stroke.width_px;
+  damage.add({from, a.y, to + line, a.y + a.height});
+  damage.add({from + a.width - line, a.y, to + a.width, a.y + a.height});
+}
+
+void compare(const ExposedItem& before, const ExposedItem& after, const MeasureText&,
+             Damage& damage) {
+  if (before.behind != after.behind) compare(before.behind, after.behind, damage);
+  if (before.front != after.front) compare(before.front, after.front, damage);
+  for (const ExposedItem* item : {&before, &after}) {
+    if (before.contacts == after.contacts || item->contacts.empty()) continue;
+    const Extent extent = extent_of(*item);
+    damage.add({item->contacts.front().behind_x, extent.top, item->contacts.back().behind_x + 1,
+                extent.bottom});
+  }
 }
 
 /// Bytes that both texts begin with, whole characters only.

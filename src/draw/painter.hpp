@@ -8,6 +8,7 @@
 
 #include <memory>
 
+#include "draw/exposed_painter.hpp"
 #include "draw/font.hpp"
 
 namespace piblocks {
@@ -20,7 +21,8 @@ enum class TextSetting {
   glyphs  ///< each glyph by itself, so that its pixels depend on nothing else
 };
 
-/// Holds the font, which is loaded when the first text is met.
+/// Holds the font, which is loaded when the first text is met, and a table of light, which is made
+/// for the first exposed item.
 class Painter {
  public:
   explicit Painter(TextSetting setting) : setting_(setting) {}
@@ -33,10 +35,14 @@ class Painter {
 
  private:
   void paint_item(cairo_t& cr, const DrawItem& item);
+  void paint_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list,
+                     const PixelRect& part);
+  void embed_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list);
   void paint_text(cairo_t& cr, const TextItem& item);
 
   TextSetting setting_;
   std::unique_ptr<Font> font_;
+  std::unique_ptr<ExposedPainter> exposed_;
 };
 
 }  // namespace piblocks

@@ -8,7 +8,9 @@
 namespace piblocks {
 namespace {
 
-/// Bounces that stand for the many.
+/// Collisions at each end that are listed among the pieces; even.
+constexpr int kOutermost = 128;
+/// Bounces that stand for all between.
 constexpr int kSlowBounces = 128;
 
 }  // namespace
@@ -28,7 +30,7 @@ UnfoldedExposure::UnfoldedExposure(const ClosedForm& form, double total_phase, c
     const double nearest = form_.ell * form_.step.sine;
     include(red_gap_, {nearest, nearest});
   }
-  make_slow_bounces(begin.tau, end.tau);
+  make_pieces(begin, end);
 }
 
 void UnfoldedExposure::cut_ends(const Gaps& begin, const Crossing& first, const Crossing& last,
@@ -63,16 +65,33 @@ void UnfoldedExposure::cut_ends(const Gaps& begin, const Crossing& first, const 
   red_ends_.push_back({rest(from_last, odd_.last, last.ray), {rays_.contact(odd_.last), end.red}});
 }
 
-void UnfoldedExposure::make_slow_bounces(double begin, double end) {
-  const auto red_at = [&](double tau) { return std::hypot(form_.impact, form_.speed * tau); };
-  const double step = (end - begin) / (2 * kSlowBounces);
-  PieceList pieces(form_.blue_offset, form_.red_offset + red_at(begin));
-  for (int i = 1; i <= 2 * kSlowBounces; ++i) {
-    const double gap = red_at(begin + step * i);
-    pieces.add(0.5 / kSlowBounces, form_.blue_offset + (i % 2 == 1 ? gap : 0),
-               form_.red_offset + gap);
+/// The outermost collisions, which take long, as they are; between them the slow ones.
+void UnfoldedExposure::make_pieces(const Gaps& begin, const Gaps& end) {
+  PieceList pieces(form_.blue_offset + begin.blue, form_.red_offset + begin.red);
+  double now = begin.tau;
+  const auto fly_to = [&](double tau, double blue, double red) {
+    pieces.add(std::max(0.0, tau - now), form_.blue_offset + blue, form_.red_offset + red);
+    now = tau;
+  };
+  const auto meet = [&](const RayPhase& ray, bool is_odd) {
+    const double contact = rays_.contact(ray);
+    fly_to(rays_.tau(ray), is_odd ? contact : 0, is_odd ? contact : contact / form_.step.cosine);
+  };
+  if (rays_.is_before(odd_.first, even_.first)) meet(odd_.first, true);
+  for (int i = 0; i <= kOutermost; ++i) meet(rays_.later(even_.first, i), i % 2 == 1);
+  const double slow_begin = now;
+  const double step =
+      (rays_.tau(rays_.later(even_.last, -kOutermost)) - slow_begin) / (2 * kSlowBounces);
+  for (int i = 1; i < 2 * kSlowBounces; ++i) {
+    const double tau = slow_begin + step * i;
+    const double gap = std::hypot(form_.impact, form_.speed * tau);
+    fly_to(tau, i % 2 == 1 ? gap : 0, gap);
   }
-  slow_bounces_ = pieces.take();
+  for (int i = kOutermost; i >= 0; --i) meet(rays_.later(even_.last, -i), i % 2 == 1);
+  if (rays_.is_before(even_.last, odd_.last)) meet(odd_.last, true);
+  fly_to(end.tau, end.blue, end.red);
+  pieces_ = pieces.take();
+  for (UniformPiece& piece : pieces_) piece.share /= duration_;
 }
 
 Travel UnfoldedExposure::range(BlockName block) const {

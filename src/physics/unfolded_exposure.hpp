@@ -34,7 +34,7 @@ class UnfoldedExposure final : public Exposure {
   double share_below(BlockName block, double position) const override;
   double area_below(BlockName block, double position) const override;
   bool is_listed() const override { return false; }
-  std::span<const UniformPiece> pieces() const override { return slow_bounces_; }
+  std::span<const UniformPiece> pieces() const override { return pieces_; }
 
  private:
   /// A uniform motion at either end of the interval.
@@ -49,7 +49,7 @@ class UnfoldedExposure final : public Exposure {
   };
 
   void cut_ends(const Gaps& begin, const Crossing& first, const Crossing& last, const Gaps& end);
-  void make_slow_bounces(double begin, double end);
+  void make_pieces(const Gaps& begin, const Gaps& end);
   Sums sums_below(BlockName block, double gap) const;
   Sums blue_below(double gap) const;
   Sums red_below(double gap) const;
@@ -67,7 +67,7 @@ class UnfoldedExposure final : public Exposure {
   RayRange odd_;   ///< between them red flies evenly from each to the next
   std::vector<Loose> blue_ends_;
   std::vector<Loose> red_ends_;
-  std::vector<UniformPiece> slow_bounces_;
+  std::vector<UniformPiece> pieces_;
 };
 
 }  // namespace piblocks

@@ -10,6 +10,8 @@
 #include <memory>
 #include <vector>
 
+#include "render/shutter.hpp"
+
 namespace piblocks {
 
 /// Const members are thread-safe.
@@ -26,7 +28,9 @@ class Film {
   std::int64_t frame_count() const noexcept { return timeline_.frame_count(); }
   /// @param number  from 0 to frame_count() - 1.
   DrawList frame(std::int64_t number) const {
-    return compose(scene_, layout_, state_at(*log_, timeline_.time_of(number)));
+    const BlockState state = state_at(*log_, timeline_.time_of(number));
+    if (scene_.view.shutter == 0) return compose(scene_, layout_, state);
+    return compose(scene_, layout_, state, expose_frame(scene_, *log_, timeline_, number));
   }
 
  private:

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/output_file.hpp"
+#include "render/shutter.hpp"
 
 namespace piblocks {
 namespace {
@@ -19,6 +20,12 @@ std::vector<std::uint8_t> draw_png(const DrawList& list) {
 }
 
 using Draw = std::vector<std::uint8_t>(const DrawList& list);
+
+DrawList compose_still(const Scene& scene, const Layout& layout, const CollisionLog& log,
+                       const TimedState& now) {
+  if (scene.view.shutter == 0) return compose(scene, layout, now.state);
+  return compose(scene, layout, now.state, expose_still(scene, log, to_rational(now.time)));
+}
 
 Draw* drawing_for(std::string_view output) {
   if (output == "-" || output.ends_with(".png")) return draw_png;
@@ -35,10 +42,10 @@ void render_still(const Scene& scene, const Instant& instant, const std::string&
                   const std::stop_token& stop) {
   Draw* const draw = drawing_for(output);
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
-  const BlockState state = state_at(*log, instant).state;
+  const TimedState now = state_at(*log, instant);
   const Layout layout = lay_out(scene, log->size());
   OutputFile file(output);
-  const std::vector<std::uint8_t> picture = draw(compose(scene, layout, state));
+  const std::vector<std::uint8_t> picture = draw(compose_still(scene, layout, *log, now));
   if (stop.stop_requested()) throw Interrupted("still: interrupted");
   file.write(picture);
   file.finish();

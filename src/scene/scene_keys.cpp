@@ -164,6 +164,8 @@ constexpr auto kKeys = std::to_array<SceneKey>({
      [](const Scene& s) { return size(s.view); }},
     {"view.fps", [](Scene& s, const Values& v) { set_number(s.view.frame_rate, v); },
      [](const Scene& s) { return number(s.view.frame_rate); }},
+    {"view.shutter", [](Scene& s, const Values& v) { set_number(s.view.shutter, v); },
+     [](const Scene& s) { return number(s.view.shutter); }},
     {"time.from", [](Scene& s, const Values& v) { set_number(s.time.from, v); },
      [](const Scene& s) { return number(s.time.from); }},
     {"time.to", [](Scene& s, const Values& v) { s.time.to = parse_end(single(v)); },
