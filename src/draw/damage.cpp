@@ -140,36 +140,46 @@ void compare(const RectangleItem& before, const RectangleItem& after, const Meas
   damage.add({first_right - line, a.y, last_right, a.y + a.height});
 }
 
+/// Rows of both blocks: where one passes, the other is painted with it.
+Way rows_of(const ExposedItem& before, const ExposedItem& after) {
+  const Extent a = extent_of(before);
+  const Extent b = extent_of(after);
+  return {std::min(a.top, b.top), std::max(a.bottom, b.bottom)};
+}
+
 /// Between its ends a block that moves has the same pixels, wherever its ends are.
-void compare(const ExposedBlock& before, const ExposedBlock& after, Damage& damage) {
+void compare(const ExposedBlock& before, const ExposedBlock& after, const Way& rows,
+             Damage& damage) {
+  if (before == after) return;
   const Rectangle& a = before.bounds;
   const Rectangle& b = after.bounds;
   const bool alike = before.fill == after.fill && before.stroke == after.stroke && a.y == b.y &&
                      a.height == b.height && a.width == b.width &&
                      before.stops.empty() == after.stops.empty();
-  if (!alike) {
-    damage.add(extent_of(before));
-    damage.add(extent_of(after));
-    return;
-  }
   const Way first = way_of(before);
   const Way second = way_of(after);
+  if (!alike) {
+    damage.add({first.from, rows.from, first.to + a.width, rows.to});
+    damage.add({second.from, rows.from, second.to + b.width, rows.to});
+    return;
+  }
   const double from = std::min(first.from, second.from);
   const double to = std::max(first.to, second.to);
   const double line = before.stroke.width_px;
-  damage.add({from, a.y, to + line, a.y + a.height});
-  damage.add({from + a.width - line, a.y, to + a.width, a.y + a.height});
+  damage.add({from, rows.from, to + line, rows.to});
+  damage.add({from + a.width - line, rows.from, to + a.width, rows.to});
 }
 
 void compare(const ExposedItem& before, const ExposedItem& after, const MeasureText&,
              Damage& damage) {
-  if (before.behind != after.behind) compare(before.behind, after.behind, damage);
-  if (before.front != after.front) compare(before.front, after.front, damage);
+  const Way rows = rows_of(before, after);
+  compare(before.behind, after.behind, rows, damage);
+  compare(before.front, after.front, rows, damage);
+  if (before.contacts == after.contacts) return;
   for (const ExposedItem* item : {&before, &after}) {
-    if (before.contacts == after.contacts || item->contacts.empty()) continue;
-    const Extent extent = extent_of(*item);
-    damage.add({item->contacts.front().behind_x, extent.top, item->contacts.back().behind_x + 1,
-                extent.bottom});
+    if (item->contacts.empty()) continue;
+    damage.add(
+        {item->contacts.front().behind_x, rows.from, item->contacts.back().behind_x + 1, rows.to});
   }
 }
 
