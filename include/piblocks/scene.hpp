@@ -6,6 +6,7 @@
 #include <piblocks/blocks.hpp>
 #include <piblocks/exact.hpp>
 #include <piblocks/pacing.hpp>
+#include <piblocks/show.hpp>
 
 #include <map>
 #include <optional>
@@ -32,6 +33,7 @@ struct View {
   /// The share of the time between two frames for which each is exposed, from its instant on,
   /// 0 … 1; 0 shows the instant alone.
   Rational shutter = 0;
+  Theme theme = Theme::article;
 };
 
 inline constexpr int kMaxFrameRate = 1000;
@@ -67,6 +69,7 @@ struct Scene {
   View view;
   TimeSpan time;
   Pacing pacing = {};
+  Show show = {};
   Golden golden = {};
 };
 
@@ -77,9 +80,11 @@ inline constexpr int kMaxSceneNesting = 256;
 
 /// Collects a scene's values from a file and from options, remembering where each came from.
 /// The keys are those of the scene file: "wall.face"; "blue." and "red." with "mass",
-/// "position", "velocity", "width"; "view.x", "view.y", "view.size", "view.fps",
-/// "view.shutter"; "time.from", "time.to", "time.speed", "time.duration", "time.slow-motion",
-/// "time.freeze", "time.hold-start", "time.hold-end", "time.loop"; "golden.frames", "golden.size".
+/// "position", "velocity", "width" ("by-mass" for red: width_by_mass()); "view.x", "view.y",
+/// "view.size", "view.fps", "view.shutter", "view.theme"; "time.from", "time.to", "time.speed",
+/// "time.duration", "time.slow-motion", "time.freeze", "time.hold-start", "time.hold-end",
+/// "time.loop"; "show.overlays", "show.panels", "show.title", "show.caption", "show.logo";
+/// "golden.frames", "golden.size".
 class SceneBuilder {
  public:
   /// Reads a scene file. Values set before it are overwritten, values set after it win.
@@ -100,9 +105,14 @@ class SceneBuilder {
 
   Scene scene_;
   std::optional<Rational> mass_ratio_;
+  bool width_by_mass_ = false;
   std::map<std::string, std::string> origins_;  // by key
   std::vector<std::string> problems_;
 };
+
+/// Red's width where widths tell masses: blue's, and an eighth more for every factor of a hundred
+/// in mass, from half of blue's to half as wide again, so that any ratio can be drawn.
+Rational width_by_mass(const BlockSystem& system);
 
 /// Everything that is wrong with a scene; empty if nothing is.
 std::vector<Problem> problems_of(const Scene& scene);

@@ -34,6 +34,9 @@ struct TimeSlice {
   Rational to;
   Rational share;  ///< of that interval
 };
+/// Where the scene's span of simulation time ends.
+/// @throws UsageError if that is after the last collision of a scene without collisions.
+Rational end_of(const Scene& scene, const CollisionLog& log);
 
 /// A span that ends at a time T holds the moments before T. A span that ends so long after the last
 /// collision goes on to the first frame at or past it, so that the end is seen.

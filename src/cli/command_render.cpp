@@ -93,6 +93,7 @@ RenderOptions add_options(CLI::App& command) {
                         "- (y4m on standard output), NAME.framehash, or null")
            .required();
   scene.add_size();
+  scene.add_show();
   scene.add_exposure();
   scene.add_timing();
   const CLI::Option& crf =

@@ -21,6 +21,7 @@ void add_still(CLI::App& app) {
                        "NAME.png, NAME.svg, NAME.pdf, or - (PNG on standard output)")
           .required();
   scene.add_size();
+  scene.add_show();
   scene.add_exposure();
   command->footer(
       "Examples:\n"

@@ -75,6 +75,18 @@ void SceneOptions::add_pacing() {
   add_flag("time.loop", "--loop", "Play forth and back, so that the video repeats seamlessly");
 }
 
+void SceneOptions::add_show() {
+  add_key("view.theme", "--theme", "NAME", "Colours: " + theme_names());
+  add_key("show.overlays", "--show", "NAMES",
+          "What is drawn over the scene, with commas:\n" + overlay_names());
+  add_key("show.panels", "--panels", "NAMES", "Diagrams below it, with commas:\n" + panel_names());
+  add_key("show.title", "--title", "TEXT", "One line above all");
+  add_key("show.caption", "--caption", "TEXT", "One line below all");
+  add_key("show.logo", "--logo", "FILE.png", "Picture in the lower right corner");
+  width_by_mass_ =
+      command_->add_flag("--width-by-mass")->description("Make red as wide as its mass suggests");
+}
+
 void SceneOptions::refuse_both(const std::string& first, const std::string& second,
                                const char* what) const {
   for (const std::string& name : {first, second}) {
@@ -91,6 +103,9 @@ Scene SceneOptions::scene() const {
   if (const auto file = text_of(*file_)) builder.read_file(*file);
   for (const auto& [key, option] : keys_) {
     if (const auto text = text_of(*option)) builder.set(option->get_name(), key, *text);
+  }
+  if (width_by_mass_ != nullptr && width_by_mass_->count() > 0) {
+    builder.set(width_by_mass_->get_name(), "red.width", "by-mass");
   }
   if (const auto ratio = value_of(*mass_ratio_, parse_mass_ratio)) {
     builder.set_mass_ratio(mass_ratio_->get_name(), *ratio);

@@ -20,6 +20,8 @@ class SceneOptions {
   explicit SceneOptions(CLI::App& command);
   /// Adds --size.
   void add_size();
+  /// Adds --theme, --show, --panels and what else says what a picture shows.
+  void add_show();
   /// Adds --shutter, and --fps and --speed, which it depends on.
   void add_exposure();
   /// Adds --from, --to and what else says how time runs in the video.
@@ -44,6 +46,7 @@ class SceneOptions {
   CLI::Option* file_;
   CLI::Option* digits_;
   CLI::Option* mass_ratio_;
+  CLI::Option* width_by_mass_ = nullptr;
   std::vector<std::pair<std::string, CLI::Option*>> keys_;
 };
 

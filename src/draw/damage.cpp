@@ -153,9 +153,9 @@ void compare(const ExposedBlock& before, const ExposedBlock& after, const Way& r
   if (before == after) return;
   const Rectangle& a = before.bounds;
   const Rectangle& b = after.bounds;
-  const bool alike = before.fill == after.fill && before.stroke == after.stroke && a.y == b.y &&
-                     a.height == b.height && a.width == b.width &&
-                     before.stops.empty() == after.stops.empty();
+  const bool alike = before.fill == after.fill && before.stroke == after.stroke &&
+                     before.bars == after.bars && a.y == b.y && a.height == b.height &&
+                     a.width == b.width && before.stops.empty() == after.stops.empty();
   const Way first = way_of(before);
   const Way second = way_of(after);
   if (!alike) {

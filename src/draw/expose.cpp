@@ -25,13 +25,13 @@ double spacing_px(double range_px) {
   return std::max(fine, range_px / kMaxStops);
 }
 
-/// The map from the position of a block's centre to the pixels of its left edge.
+/// The map from the position of a block's centre to the column of its left edge.
 struct ToPixels {
   double zero_px;
   double scale;
 
-  ToPixels(const Layout& layout, const Block& block)
-      : zero_px(layout.origin.x - to_double(block.width) / 2 * layout.scale), scale(layout.scale) {}
+  ToPixels(const SceneColumns& columns, const ExposedBlock& block)
+      : zero_px(columns.zero_px - block.bounds.width / 2), scale(columns.scale) {}
   double operator()(double position) const { return zero_px + position * scale; }
   double back(double x_px) const { return (x_px - zero_px) / scale; }
 };
@@ -99,13 +99,14 @@ Travel range_px(BlockName block, const ToPixels& to_px, std::span<const Exposure
   return all;
 }
 
-std::vector<Stop> stops_of(BlockName block, const ToPixels& to_px, const Layout& layout,
-                           double width_px, std::span<const ExposurePart> parts) {
+/// @param width_px  of the block
+std::vector<Stop> stops_of(BlockName block, const ToPixels& to_px, double width_px, int frame_px,
+                           std::span<const ExposurePart> parts) {
   Travel range = range_px(block, to_px, parts);
   if (!(range.to - range.from > kStill_px)) return {};
   // What cannot be seen is left out.
   range.from = std::max(range.from, -width_px - kMargin_px);
-  range.to = std::min(range.to, layout.width_px + kMargin_px);
+  range.to = std::min(range.to, frame_px + kMargin_px);
   if (!(range.to > range.from)) return {};
   StopTable table(range, spacing_px(range.to - range.from));
   for (const ExposurePart& part : parts) {
@@ -168,21 +169,17 @@ class Contacts {
   std::vector<Contact> contacts_;
 };
 
-ExposedBlock exposed(const RectangleItem& block, std::vector<Stop> stops) {
-  return {block.bounds, *block.fill, *block.stroke, std::move(stops)};
-}
-
 }  // namespace
 
-ExposedItem expose(const RectangleItem& red, const RectangleItem& blue, const BlockSystem& system,
-                   const Layout& layout, std::span<const ExposurePart> parts) {
-  const ToPixels red_px(layout, system.red);
-  const ToPixels blue_px(layout, system.blue);
-  ExposedItem item{
-      ItemId::red_block,
-      exposed(red, stops_of(BlockName::red, red_px, layout, red.bounds.width, parts)),
-      exposed(blue, stops_of(BlockName::blue, blue_px, layout, blue.bounds.width, parts)),
-      {}};
+ExposedItem expose(ExposedBlock red, ExposedBlock blue, const SceneColumns& columns,
+                   std::span<const ExposurePart> parts) {
+  const ToPixels red_px(columns, red);
+  const ToPixels blue_px(columns, blue);
+  ExposedItem item{ItemId::red_block, std::move(red), std::move(blue), {}};
+  item.behind.stops =
+      stops_of(BlockName::red, red_px, item.behind.bounds.width, columns.width_px, parts);
+  item.front.stops =
+      stops_of(BlockName::blue, blue_px, item.front.bounds.width, columns.width_px, parts);
   if (item.behind.stops.empty() && item.front.stops.empty()) return item;
   Contacts contacts(item.front.bounds.width);
   for (const ExposurePart& part : parts) {
@@ -193,6 +190,17 @@ ExposedItem expose(const RectangleItem& red, const RectangleItem& blue, const Bl
   }
   item.contacts = contacts.take();
   return item;
+}
+
+void add_rectangles(ItemId id, const ExposedBlock& block, std::vector<DrawItem>& items) {
+  items.emplace_back(RectangleItem{id, block.bounds, block.fill, block.stroke});
+  for (std::size_t i = 0; i < block.bars.size(); ++i) {
+    const Bar& bar = block.bars[i];
+    items.emplace_back(RectangleItem{nth(id, i + 1),
+                                     {block.bounds.x, bar.y, block.bounds.width, bar.height},
+                                     block.stroke.color,
+                                     std::nullopt});
+  }
 }
 
 }  // namespace piblocks

@@ -17,7 +17,8 @@ double painted(double sample, const ExposedBlock& block, const Cover& column, co
   const double outer = column.outer * row.outer;
   const double line = outer - column.inner * row.inner;
   const double filled = sample + outer * (block.fill.*channel - sample);
-  return filled + line * (block.stroke.color.*channel - filled);
+  const double edged = filled + line * (block.stroke.color.*channel - filled);
+  return edged + column.outer * row.bars * (block.stroke.color.*channel - edged);
 }
 
 }  // namespace
@@ -25,6 +26,12 @@ double painted(double sample, const ExposedBlock& block, const Cover& column, co
 Cover cover_of(double pixel, double begin, double length, double line_px) {
   return {overlap(pixel, begin, begin + length),
           overlap(pixel, begin + line_px, begin + length - line_px)};
+}
+
+Cover row_cover_of(int row, const ExposedBlock& block, double line_px) {
+  Cover cover = cover_of(row, block.bounds.y, block.bounds.height, line_px);
+  for (const Bar& bar : block.bars) cover.bars += overlap(row, bar.y, bar.y + bar.height);
+  return cover;
 }
 
 BlockTimes::BlockTimes(const ExposedBlock& block)

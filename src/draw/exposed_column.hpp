@@ -13,13 +13,18 @@
 
 namespace piblocks {
 
-/// How much of a row or a column of pixels is covered by a block, and by what is inside its line.
+/// How much of a row or a column of pixels is covered by a block, by what is inside its line, and,
+/// of a row, by its bars.
 struct Cover {
   double outer = 0;
   double inner = 0;
+  double bars = 0;
 
   friend bool operator==(const Cover&, const Cover&) = default;
 };
+
+/// What of a block covers the pixels of a row.
+Cover row_cover_of(int row, const ExposedBlock& block, double line_px);
 
 /// What covers the pixels from `pixel` to `pixel` + 1 of a block from `begin` on.
 Cover cover_of(double pixel, double begin, double length, double line_px);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "draw/expose.hpp"
 #include "draw/exposed_column.hpp"
 
 namespace piblocks {
@@ -37,7 +38,7 @@ Span rows_of(const ExposedBlock& block, const PixelRect& part) {
 }
 
 Cover row_cover(const BlockTimes& block, int row) {
-  return cover_of(row, block.block().bounds.y, block.block().bounds.height, block.line_px());
+  return row_cover_of(row, block.block(), block.line_px());
 }
 
 /// The surface of a part of a picture, addressed by the picture's pixels.
@@ -79,11 +80,10 @@ PixelRect moving_part(const ExposedItem& item, const PixelRect& part) {
   return all;
 }
 
-std::vector<RectangleItem> still_blocks(const ExposedItem& item) {
-  std::vector<RectangleItem> still;
+std::vector<DrawItem> still_blocks(const ExposedItem& item) {
+  std::vector<DrawItem> still;
   for (const ExposedBlock* block : {&item.behind, &item.front}) {
-    if (!block->stops.empty()) continue;
-    still.push_back({item.id, block->bounds, block->fill, block->stroke});
+    if (block->stops.empty()) add_rectangles(item.id, *block, still);
   }
   return still;
 }
@@ -101,7 +101,7 @@ void ExposedPainter::paint(cairo_surface_t& surface, const PixelRect& part, cons
       background_.push_back(words.at(x, y));
     }
   }
-  for (const RectangleItem& block : still_blocks(item)) paint_still(block);
+  for (const DrawItem& rectangle : still_blocks(item)) paint_still(rectangle);
   if (background_.empty()) return;
 
   cairo_surface_flush(&surface);

@@ -18,11 +18,11 @@ namespace piblocks {
 PixelRect moving_part(const ExposedItem& item, const PixelRect& part);
 
 /// The blocks that stay, as rectangles.
-std::vector<RectangleItem> still_blocks(const ExposedItem& item);
+std::vector<DrawItem> still_blocks(const ExposedItem& item);
 
 class ExposedPainter {
  public:
-  using PaintStill = std::function<void(const RectangleItem& block)>;
+  using PaintStill = std::function<void(const DrawItem& rectangle)>;
 
   /// @param part         a part of the picture
   /// @param surface      its pixels

@@ -69,6 +69,8 @@ CairoFontFacePtr make_cairo_face() {
   return cairo_face;
 }
 
+constexpr const char* kFontName = "DejaVu Sans";
+
 /// Large: unhinted advances scale, but Cairo keeps them in 1/64 pixel.
 constexpr double kMeasure_px = 1024;
 
@@ -108,6 +110,35 @@ std::vector<cairo_glyph_t> Font::glyphs(cairo_t& cr, const Point& origin, std::s
   std::vector<cairo_glyph_t> glyphs(found, found + count);
   cairo_glyph_free(found);
   return glyphs;
+}
+
+void Font::check(std::string_view utf8, const char* what) const {
+  cairo_glyph_t* glyphs = nullptr;
+  cairo_text_cluster_t* clusters = nullptr;
+  int glyph_count = 0;
+  int cluster_count = 0;
+  cairo_text_cluster_flags_t flags{};
+  const cairo_status_t status = cairo_scaled_font_text_to_glyphs(
+      faces_->measure.get(), 0, 0, utf8.data(), static_cast<int>(utf8.size()), &glyphs,
+      &glyph_count, &clusters, &cluster_count, &flags);
+  if (status == CAIRO_STATUS_INVALID_STRING) {
+    throw UsageError(fmt::format("{}: is not valid UTF-8", what));
+  }
+  check_cairo(status, "set text");
+  std::string missing;
+  std::string_view rest = utf8;
+  int glyph = 0;
+  for (int i = 0; i < cluster_count; ++i) {
+    const auto bytes = static_cast<std::size_t>(clusters[i].num_bytes);
+    for (int n = 0; n < clusters[i].num_glyphs; ++n, ++glyph) {
+      if (glyphs[glyph].index == 0 && missing.empty()) missing = rest.substr(0, bytes);
+    }
+    rest.remove_prefix(bytes);
+  }
+  cairo_glyph_free(glyphs);
+  cairo_text_cluster_free(clusters);
+  if (missing.empty()) return;
+  throw UsageError(fmt::format("{}: the font {} has no glyph for '{}'", what, kFontName, missing));
 }
 
 double Font::width_em(std::string_view utf8) const {

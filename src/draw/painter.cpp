@@ -164,12 +164,12 @@ void Painter::paint_exposed(cairo_t& cr, const ExposedItem& item, const DrawList
   }
   if (!exposed_) exposed_ = std::make_unique<ExposedPainter>();
   exposed_->paint(*surface, part, item,
-                  [&](const RectangleItem& block) { paint_rectangle(cr, block); });
+                  [&](const DrawItem& rectangle) { paint_item(cr, rectangle); });
 }
 
 /// What moves has no outline: it is embedded as pixels, with what is behind it.
 void Painter::embed_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list) {
-  for (const RectangleItem& block : still_blocks(item)) paint_rectangle(cr, block);
+  for (const DrawItem& rectangle : still_blocks(item)) paint_item(cr, rectangle);
   const PixelRect area = moving_part(item, {0, 0, list.width_px, list.height_px});
   if (area.width_px <= 0 || area.height_px <= 0) return;
   DrawList until = list;

@@ -3,13 +3,15 @@
 #pragma once
 
 #include <piblocks/collision_log.hpp>
-#include <piblocks/compose.hpp>
+#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/timeline.hpp>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
+#include "render/logo.hpp"
 #include "render/shutter.hpp"
 
 namespace piblocks {
@@ -22,15 +24,17 @@ class Film {
       : scene_(checked(scene)),
         log_(make_collision_log(scene_.system)),
         timeline_(scene_, *log_),
-        layout_(lay_out(scene_, log_->size())) {}
+        composition_(scene_, *log_, read_logo(scene_)) {}
 
   const View& view() const noexcept { return scene_.view; }
   std::int64_t frame_count() const noexcept { return timeline_.frame_count(); }
   /// @param number  from 0 to frame_count() - 1.
   DrawList frame(std::int64_t number) const {
-    const BlockState state = state_at(*log_, timeline_.time_of(number));
-    if (scene_.view.shutter == 0) return compose(scene_, layout_, state);
-    return compose(scene_, layout_, state, expose_frame(scene_, *log_, timeline_, number));
+    FrameTime shown = timeline_.at(number);
+    BlockState state = state_at(*log_, shown.time);
+    const std::vector<ExposurePart> parts = expose_frame(scene_, *log_, timeline_, number);
+    return composition_.frame({std::move(state), std::move(shown.time), std::move(shown.slower)},
+                              parts);
   }
 
  private:
@@ -44,7 +48,7 @@ class Film {
   Scene scene_;
   std::unique_ptr<CollisionLog> log_;
   Timeline timeline_;
-  Layout layout_;
+  Composition composition_;
 };
 
 }  // namespace piblocks

@@ -20,12 +20,14 @@ Rational open_s(const View& view) { return view.shutter / view.frame_rate; }
 
 std::vector<ExposurePart> expose_frame(const Scene& scene, const CollisionLog& log,
                                        const Timeline& timeline, std::int64_t frame) {
+  if (scene.view.shutter == 0) return {};
   const Rational video_s = Rational(frame) / scene.view.frame_rate;
   return expose(log, timeline.schedule().during(video_s, open_s(scene.view)));
 }
 
 std::vector<ExposurePart> expose_still(const Scene& scene, const CollisionLog& log,
                                        const Rational& time) {
+  if (scene.view.shutter == 0) return {};
   const Rational length_s = open_s(scene.view);
   // A scene without collisions may have no end, and so no schedule.
   if (log.size() > 0 || !scene.time.to.after_last) {

@@ -1,10 +1,9 @@
 // For how long a picture is exposed, and where the blocks are in the meantime.
-// In: a scene whose shutter is open for a while, and a frame or an instant. Out: what compose()
-// draws.
+// In: a scene and a frame or an instant. Out: what Composition draws.
 #pragma once
 
 #include <piblocks/collision_log.hpp>
-#include <piblocks/compose.hpp>
+#include <piblocks/composition.hpp>
 #include <piblocks/scene.hpp>
 #include <piblocks/timeline.hpp>
 
@@ -13,7 +12,8 @@
 
 namespace piblocks {
 
-/// From a frame's instant on, for scene.view.shutter > 0 of the time to the next frame.
+/// From a frame's instant on, for scene.view.shutter of the time to the next frame; nothing if that
+/// is 0.
 std::vector<ExposurePart> expose_frame(const Scene& scene, const CollisionLog& log,
                                        const Timeline& timeline, std::int64_t frame);
 

@@ -1,13 +1,15 @@
 #include <fmt/format.h>
 #include <piblocks/canvas.hpp>
-#include <piblocks/compose.hpp>
+#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
 
 #include <string_view>
+#include <utility>
 
 #include "core/output_file.hpp"
+#include "render/logo.hpp"
 #include "render/shutter.hpp"
 
 namespace piblocks {
@@ -20,12 +22,6 @@ std::vector<std::uint8_t> draw_png(const DrawList& list) {
 }
 
 using Draw = std::vector<std::uint8_t>(const DrawList& list);
-
-DrawList compose_still(const Scene& scene, const Layout& layout, const CollisionLog& log,
-                       const TimedState& now) {
-  if (scene.view.shutter == 0) return compose(scene, layout, now.state);
-  return compose(scene, layout, now.state, expose_still(scene, log, to_rational(now.time)));
-}
 
 Draw* drawing_for(std::string_view output) {
   if (output == "-" || output.ends_with(".png")) return draw_png;
@@ -42,10 +38,13 @@ void render_still(const Scene& scene, const Instant& instant, const std::string&
                   const std::stop_token& stop) {
   Draw* const draw = drawing_for(output);
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
-  const TimedState now = state_at(*log, instant);
-  const Layout layout = lay_out(scene, log->size());
+  TimedState at = state_at(*log, instant);
+  const Rational time = to_rational(at.time);
+  const Composition composition(scene, *log, read_logo(scene));
+  const std::vector<ExposurePart> parts = expose_still(scene, *log, time);
   OutputFile file(output);
-  const std::vector<std::uint8_t> picture = draw(compose_still(scene, layout, *log, now));
+  const std::vector<std::uint8_t> picture =
+      draw(composition.frame({std::move(at.state), time}, parts));
   if (stop.stop_requested()) throw Interrupted("still: interrupted");
   file.write(picture);
   file.finish();

@@ -3,6 +3,8 @@
 #include <piblocks/scene.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "scene/scene_keys.hpp"
@@ -22,6 +24,10 @@ void SceneBuilder::read_file(const std::string& path) {
     const std::string origin = fmt::format("{}:{}", path, entry.line);
     if (entry.problem.empty()) {
       set_values(origin, entry.key, entry.values);
+      // Found from where the scene is, wherever the program is started.
+      if (entry.key == "show.logo" && !scene_.show.logo.empty()) {
+        scene_.show.logo = std::filesystem::path(path).parent_path() / scene_.show.logo;
+      }
     } else {
       add_problem(origin, fmt::format("{}: {}", entry.key, entry.problem));
     }
@@ -46,6 +52,10 @@ void SceneBuilder::set_values(const std::string& origin, const std::string& key,
     return;
   }
   origins_[key] = origin;
+  if (key == "red.width") {
+    width_by_mass_ = values == Values{"by-mass"};
+    if (width_by_mass_) return;
+  }
   try {
     found->set(scene_, values);
   } catch (const UsageError& error) {
@@ -60,6 +70,7 @@ void SceneBuilder::add_problem(const std::string& origin, const std::string& tex
 Scene SceneBuilder::build() const {
   Scene scene = scene_;
   if (mass_ratio_) scene.system.red.mass = scene.system.blue.mass * *mass_ratio_;
+  if (width_by_mass_) scene.system.red.width = width_by_mass(scene.system);
   std::vector<std::string> problems = problems_;
   for (const Problem& problem : problems_of(scene)) {
     const auto origin = origins_.find(problem.key);
@@ -68,6 +79,20 @@ Scene SceneBuilder::build() const {
   }
   if (!problems.empty()) throw SceneError(std::move(problems));
   return scene;
+}
+
+Rational width_by_mass(const BlockSystem& system) {
+  if (system.blue.mass <= 0 || system.red.mass <= 0) return system.red.width;
+  // The exponent of two is what a picture can tell.
+  const Rational ratio = system.red.mass / system.blue.mass;
+  const auto bits = [](const Integer& value) {
+    return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2));
+  };
+  const long exponent = bits(ratio.get_num()) - bits(ratio.get_den());
+  constexpr double kBitsOfHundred = 6.643856189774724;
+  const double hundreds = static_cast<double>(exponent) / kBitsOfHundred;
+  const double factor = std::clamp(1 + hundreds / 8, 0.5, 1.5);
+  return system.blue.width * Rational(Integer(std::lround(factor * 100))) / 100;
 }
 
 std::vector<std::pair<std::string, std::string>> describe(const Scene& scene) {

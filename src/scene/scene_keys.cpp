@@ -95,6 +95,29 @@ void set_slow_motion(Pacing& pacing, Values values) {
   pacing.slow_motion = parse_each(values, parse_slow_motion);
 }
 
+/// Of names, each at most once.
+template <typename Value>
+std::vector<Value> parse_names(const Values& values, Value (*parse)(std::string_view name)) {
+  const Values names = list_of(values);
+  for (const std::string& name : names) {
+    if (std::ranges::count(names, name) > 1) {
+      throw UsageError(fmt::format("'{}' is named more than once", name));
+    }
+  }
+  return parse_each(names, parse);
+}
+
+/// One line of text. The font says later whether it can be set.
+const std::string& line_of(const Values& values) {
+  const std::string& text = single(values);
+  if (text.size() > kMaxLine_bytes) {
+    throw UsageError(fmt::format("is longer than {} bytes", kMaxLine_bytes));
+  }
+  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
+  if (std::ranges::any_of(text, is_control)) throw UsageError("must be one line of text");
+  return text;
+}
+
 void set_golden_frames(Golden& golden, Values values) {
   values = list_of(values);
   for (const std::string& value : values) {
@@ -166,6 +189,8 @@ constexpr auto kKeys = std::to_array<SceneKey>({
      [](const Scene& s) { return number(s.view.frame_rate); }},
     {"view.shutter", [](Scene& s, const Values& v) { set_number(s.view.shutter, v); },
      [](const Scene& s) { return number(s.view.shutter); }},
+    {"view.theme", [](Scene& s, const Values& v) { s.view.theme = parse_theme(single(v)); },
+     [](const Scene& s) { return Values{exact_text(s.view.theme)}; }},
     {"time.from", [](Scene& s, const Values& v) { set_number(s.time.from, v); },
      [](const Scene& s) { return number(s.time.from); }},
     {"time.to", [](Scene& s, const Values& v) { s.time.to = parse_end(single(v)); },
@@ -186,6 +211,17 @@ constexpr auto kKeys = std::to_array<SceneKey>({
      [](const Scene& s) { return number(s.pacing.hold_end_s); }},
     {"time.loop", [](Scene& s, const Values& v) { s.pacing.loop = parse_bool(v); },
      [](const Scene& s) { return flag(s.pacing.loop); }},
+    {"show.overlays",
+     [](Scene& s, const Values& v) { s.show.overlays = parse_names(v, parse_overlay); },
+     [](const Scene& s) { return each(s.show.overlays); }},
+    {"show.panels", [](Scene& s, const Values& v) { s.show.panels = parse_names(v, parse_panel); },
+     [](const Scene& s) { return each(s.show.panels); }},
+    {"show.title", [](Scene& s, const Values& v) { s.show.title = line_of(v); },
+     [](const Scene& s) { return Values{s.show.title}; }},
+    {"show.caption", [](Scene& s, const Values& v) { s.show.caption = line_of(v); },
+     [](const Scene& s) { return Values{s.show.caption}; }},
+    {"show.logo", [](Scene& s, const Values& v) { s.show.logo = single(v); },
+     [](const Scene& s) { return Values{s.show.logo}; }},
     {"golden.frames", [](Scene& s, const Values& v) { set_golden_frames(s.golden, v); },
      [](const Scene& s) { return s.golden.frames; }},
     {"golden.size", [](Scene& s, const Values& v) { s.golden.size = parse_size(v); },

@@ -10,14 +10,6 @@
 namespace piblocks {
 namespace {
 
-Rational end_time(const End& end, const CollisionLog& log) {
-  if (!end.after_last) return end.offset;
-  if (log.size() == 0) {
-    throw UsageError("time.to: the scene has no collision to end after; give a time, as --to 10");
-  }
-  return to_rational(log.at(log.size()).time) + end.offset;
-}
-
 /// A freeze as an instant and whole frames of video.
 struct Stop {
   Rational time;
@@ -84,7 +76,7 @@ ScheduleBuilder::ScheduleBuilder(const Scene& scene, const CollisionLog& log)
       given_speed_(scene.time.speed),
       hold_start_s_(whole_frames(pacing_.hold_start_s)),
       hold_end_s_(whole_frames(pacing_.hold_end_s)),
-      motions_{scene.time.from, end_time(scene.time.to, log), {}, {}},
+      motions_{scene.time.from, end_of(scene, log), {}, {}},
       time_(motions_.from) {
   if (motions_.to <= motions_.from) {
     throw UsageError(
@@ -187,6 +179,15 @@ void ScheduleBuilder::build() {
 }
 
 }  // namespace
+
+Rational end_of(const Scene& scene, const CollisionLog& log) {
+  const End& end = scene.time.to;
+  if (!end.after_last) return end.offset;
+  if (log.size() == 0) {
+    throw UsageError("time.to: the scene has no collision to end after; give a time, as --to 10");
+  }
+  return to_rational(log.at(log.size()).time) + end.offset;
+}
 
 Schedule::Schedule(const Scene& scene, const CollisionLog& log) {
   ScheduleBuilder builder(scene, log);

@@ -2,7 +2,7 @@
 // outside of the rectangles that are said to have changed.
 #include <gtest/gtest.h>
 #include <piblocks/canvas.hpp>
-#include <piblocks/compose.hpp>
+#include <piblocks/composition.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -66,8 +66,8 @@ double area(std::span<const PixelRect> rects) {
   return sum;
 }
 
-DrawList frame(Scene& scene, const Layout& layout, const CollisionLog& log, const Rational& time) {
-  return compose(scene, layout, state_at(log, time));
+DrawList frame(const Composition& composition, const CollisionLog& log, const Rational& time) {
+  return composition.frame({state_at(log, time), time});
 }
 
 TEST(Damage, OfWholeScenesIsExact) {
@@ -76,10 +76,10 @@ TEST(Damage, OfWholeScenesIsExact) {
     scene.view.width_px = width;
     scene.view.height_px = height;
     const auto log = make_collision_log(scene.system);
-    const Layout layout = lay_out(scene, log->size());
+    const Composition composition(scene, *log);
     Canvas canvas(width, height);
     for (int i = 0; i < 120; ++i) {
-      expect_update(canvas, frame(scene, layout, *log, Rational(i) / 12));
+      expect_update(canvas, frame(composition, *log, Rational(i) / 12));
       ASSERT_FALSE(HasFailure()) << "frame " << i << " of " << width << "x" << height;
     }
   }
@@ -90,11 +90,30 @@ TEST(Damage, OfAScenesFrameIsSmall) {
   scene.view.width_px = 1280;
   scene.view.height_px = 720;
   const auto log = make_collision_log(scene.system);
-  const Layout layout = lay_out(scene, log->size());
+  const Composition composition(scene, *log);
   Canvas canvas(1280, 720);
-  EXPECT_EQ(area(canvas.update(frame(scene, layout, *log, 1))), 1280 * 720);
-  EXPECT_TRUE(canvas.update(frame(scene, layout, *log, 1)).empty()) << "nothing has changed";
-  EXPECT_LT(area(canvas.update(frame(scene, layout, *log, Rational(61, 60)))), 0.005 * 1280 * 720);
+  EXPECT_EQ(area(canvas.update(frame(composition, *log, 1))), 1280 * 720);
+  EXPECT_TRUE(canvas.update(frame(composition, *log, 1)).empty()) << "nothing has changed";
+  EXPECT_LT(area(canvas.update(frame(composition, *log, Rational(61, 60)))), 0.005 * 1280 * 720);
+}
+
+TEST(Damage, OfPicturesWithAllThatCanBeShownIsExact) {
+  for (const char* theme : {"article", "colorblind"}) {
+    SceneBuilder builder;
+    builder.set("test", "view.size", "800x600");
+    builder.set("test", "view.theme", theme);
+    builder.set("test", "show.title", "π");
+    builder.set("test", "show.overlays", "digits,masses,velocities,energy,momentum,time,ruler");
+    builder.set("test", "show.panels", "velocity,position,unfolded,time,rate");
+    const Scene scene = builder.build();
+    const auto log = make_collision_log(scene.system);
+    const Composition composition(scene, *log);
+    Canvas canvas(800, 600);
+    for (int i = 0; i < 60; ++i) {
+      expect_update(canvas, frame(composition, *log, Rational(29 + i % 45) / 9));
+      ASSERT_FALSE(HasFailure()) << theme << ", step " << i;
+    }
+  }
 }
 
 /// A number of pixels in or around a frame of size `end`; half of them whole.
@@ -170,7 +189,11 @@ ExposedBlock any_exposed_block(Random& random, int width, int height) {
                       random.uniform(1, height)},
                      any_color(random),
                      {any_color(random), random.uniform(0.5, 4), 0},
+                     {},
                      {}};
+  for (std::int64_t i = random.integer(-2, 3); i > 0; --i) {
+    block.bars.push_back({anywhere(random, height), random.uniform(0.5, 5)});
+  }
   const auto count = random.integer(0, 2) == 0 ? 0 : random.integer(1, 40);
   double x = block.bounds.x;
   for (std::int64_t i = 0; i < count; ++i) {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <piblocks/canvas.hpp>
 #include <piblocks/compare.hpp>
-#include <piblocks/compose.hpp>
+#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 
@@ -143,7 +143,7 @@ TEST(Compare, FindsTheDensestWindow) {
 
 Image painted(const Scene& scene, const BlockState& state) {
   Canvas canvas(scene.view.width_px, scene.view.height_px);
-  canvas.paint(compose(scene, lay_out(scene, 314), state));
+  canvas.paint(Composition(scene, *make_collision_log(scene.system)).frame({state}));
   Image image{scene.view.width_px, scene.view.height_px, {}};
   for (int y = 0; y < image.height_px; ++y) {
     const auto* row = reinterpret_cast<const std::uint32_t*>(canvas.view().row(y));

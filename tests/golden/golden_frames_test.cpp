@@ -3,7 +3,7 @@
 #include <cairo.h>
 #include <gtest/gtest.h>
 #include <piblocks/canvas.hpp>
-#include <piblocks/compose.hpp>
+#include <piblocks/composition.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/png.hpp>
 
@@ -55,8 +55,8 @@ DrawList draw_list_of(const GoldenFrame& frame) {
   for (const auto& [key, value] : frame.keys) builder.set("golden", key, value);
   const Scene scene = builder.build();
   const auto log = make_collision_log(scene.system);
-  return compose(scene, lay_out(scene, log->size()),
-                 state_at(*log, parse_instant(frame.instant)).state);
+  TimedState at = state_at(*log, parse_instant(frame.instant));
+  return Composition(scene, *log).frame({std::move(at.state), to_rational(at.time)});
 }
 
 struct SurfaceDeleter {

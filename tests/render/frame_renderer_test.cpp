@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <piblocks/canvas.hpp>
-#include <piblocks/compose.hpp>
+#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 #include <piblocks/timeline.hpp>
@@ -38,12 +38,12 @@ class FullPaint {
       : scene_(scene),
         log_(make_collision_log(scene.system)),
         timeline_(scene, *log_),
-        layout_(lay_out(scene, log_->size())) {}
+        composition_(scene, *log_) {}
 
   std::int64_t frame_count() const { return timeline_.frame_count(); }
   Bytes frame(std::int64_t number) const {
     Canvas canvas(scene_.view.width_px, scene_.view.height_px);
-    canvas.paint(compose(scene_, layout_, state_at(*log_, timeline_.time_of(number))));
+    canvas.paint(composition_.frame({state_at(*log_, timeline_.time_of(number))}));
     return bytes_of(canvas.view());
   }
 
@@ -51,7 +51,7 @@ class FullPaint {
   Scene scene_;
   std::unique_ptr<CollisionLog> log_;
   Timeline timeline_;
-  Layout layout_;
+  Composition composition_;
 };
 
 TEST(FrameRenderer, EveryFrameIsThatOfAFullPaint) {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <piblocks/canvas.hpp>
-#include <piblocks/compose.hpp>
+#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 #include <piblocks/timeline.hpp>
@@ -36,7 +36,7 @@ class RenderTest : public testing::Test {
 Pixels painted(const Scene& scene, const BlockState& state) {
   const auto log = make_collision_log(scene.system);
   Canvas canvas(scene.view.width_px, scene.view.height_px);
-  canvas.paint(compose(scene, lay_out(scene, log->size()), state));
+  canvas.paint(Composition(scene, *log).frame({state}));
   Pixels pixels(scene.view.width_px, scene.view.height_px);
   for (int y = 0; y < pixels.height_px; ++y) {
     std::memcpy(&pixels.at(0, y), canvas.view().row(y), std::size_t(pixels.width_px) * 4);

@@ -1,7 +1,7 @@
 // Exposed frames against the mean of many instants, and what must hold of them at any rate.
 #include <gtest/gtest.h>
 #include <piblocks/canvas.hpp>
-#include <piblocks/compose.hpp>
+#include <piblocks/composition.hpp>
 #include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
 #include <piblocks/timeline.hpp>
@@ -38,12 +38,27 @@ double to_sample(double light) {
   return 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
 }
 
+/// The bounds of a block at an instant.
+Rectangle bounds_of(const DrawList& list, ItemId block) {
+  for (const DrawItem& item : list.items) {
+    const auto* rectangle = std::get_if<RectangleItem>(&item);
+    if (rectangle != nullptr && rectangle->id == block) return rectangle->bounds;
+  }
+  return {};
+}
+
 /// Rows in which the blocks look different: above them, their upper lines, their middle, and so on.
-std::vector<int> rows_of(const Layout& layout) {
-  const int top = static_cast<int>(std::floor(layout.origin.y - layout.scale / 2));
-  const int bottom = static_cast<int>(std::ceil(layout.origin.y + layout.scale / 2));
-  std::set<int> rows = {(top + bottom) / 2};
-  for (int i = -1; i < 5; ++i) rows.insert({top + i, bottom - i});
+std::vector<int> rows_of(const Scene& scene) {
+  const auto log = make_collision_log(scene.system);
+  const DrawList list = Composition(scene, *log).frame({state_at(*log, Rational(0))});
+  std::set<int> rows;
+  for (const ItemId block : {ItemId::red_block, ItemId::blue_block}) {
+    const Rectangle bounds = bounds_of(list, block);
+    const int top = static_cast<int>(std::floor(bounds.y));
+    const int bottom = static_cast<int>(std::ceil(bounds.y + bounds.height));
+    rows.insert((top + bottom) / 2);
+    for (int i = -1; i < 5; ++i) rows.insert({top + i, bottom - i});
+  }
   return {rows.begin(), rows.end()};
 }
 
@@ -63,9 +78,9 @@ std::vector<double> mean_of_instants(const Scene& scene, std::int64_t frame) {
   constexpr int kInstants = 1000;
   const auto log = make_collision_log(scene.system);
   const Timeline timeline(scene, *log);
-  const Layout layout = lay_out(scene, log->size());
+  const Composition composition(scene, *log);
   const Integer count = state_at(*log, timeline.time_of(frame)).count;
-  const std::vector<int> rows = rows_of(layout);
+  const std::vector<int> rows = rows_of(scene);
   std::array<double, 256> light{};
   for (int i = 0; i < 256; ++i) light[static_cast<std::size_t>(i)] = to_light(i);
   std::vector<double> sums(rows.size() * static_cast<std::size_t>(3 * scene.view.width_px));
@@ -75,7 +90,7 @@ std::vector<double> mean_of_instants(const Scene& scene, std::int64_t frame) {
         (frame + scene.view.shutter * Rational(2 * i + 1, 2 * kInstants)) / scene.view.frame_rate;
     BlockState state = state_at(*log, timeline.schedule().at(video_s).time);
     state.count = count;
-    canvas.update(compose(scene, layout, state));
+    canvas.update(composition.frame({state}));
     const std::vector<int> samples = samples_of(canvas.view(), rows);
     for (std::size_t at = 0; at < sums.size(); ++at) {
       sums[at] += light[static_cast<std::size_t>(samples[at])];
@@ -89,9 +104,9 @@ std::vector<double> mean_of_instants(const Scene& scene, std::int64_t frame) {
 void expect_mean_of_instants(const Scene& scene, std::initializer_list<std::int64_t> frames,
                              double most = 2.5) {
   FrameRenderer renderer(scene);
-  const Layout layout = lay_out(scene, make_collision_log(scene.system)->size());
+  const std::vector<int> rows = rows_of(scene);
   for (const std::int64_t frame : frames) {
-    const std::vector<int> samples = samples_of(renderer.frame(frame), rows_of(layout));
+    const std::vector<int> samples = samples_of(renderer.frame(frame), rows);
     const std::vector<double> wanted = mean_of_instants(scene, frame);
     double worst = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -146,6 +161,18 @@ TEST(Shutter, FramesOfOddBlocksAreMeansOfInstants) {
   expect_mean_of_instants(scene, {0, 100, 200, 210});
 }
 
+/// Bars across the blocks, and bounds that are not of whole pixels.
+TEST(Shutter, FramesOfEveryThemeAreMeansOfInstants) {
+  for (const Theme theme : {Theme::dark, Theme::print}) {
+    Scene scene = scene_of(3, {330, 190}, Rational(1, 2));
+    scene.view.theme = theme;
+    expect_mean_of_instants(scene, {90, 150, 210});
+    scene.view.width_px = 100;  // too few pixels a unit to be rounded
+    scene.view.height_px = 70;
+    expect_mean_of_instants(scene, {90, 150, 210});
+  }
+}
+
 std::vector<std::uint8_t> bytes_of(const ImageView& picture) { return encode_png(picture); }
 
 TEST(Shutter, ClosedShowsTheInstant) {
@@ -177,9 +204,9 @@ TEST(Shutter, BlueAtRestIsAsInTheInstant) {
   Scene open = scene_of(3, {333, 217}, 1);
   Scene closed = open;
   closed.view.shutter = 0;
-  const Layout layout = lay_out(open, 314);
-  const int left = static_cast<int>(layout.origin.x + 1.5 * layout.scale) - 2;
-  const int right = static_cast<int>(layout.origin.x + 2.5 * layout.scale) + 2;
+  const Rectangle blue = bounds_of(Film(closed).frame(0), ItemId::blue_block);
+  const int left = static_cast<int>(blue.x) - 2;
+  const int right = static_cast<int>(blue.x + blue.width) + 2;
   FrameRenderer exposed(open);
   FrameRenderer instants(closed);
   for (const std::int64_t frame : {0, 20, 60}) {

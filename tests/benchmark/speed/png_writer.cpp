@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <piblocks/canvas.hpp>
 #include <piblocks/collision_log.hpp>
-#include <piblocks/compose.hpp>
+#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/timeline.hpp>
 #include <png.h>
@@ -83,11 +83,11 @@ void write_frames(const Options& options, std::int64_t begin, std::int64_t end) 
   const Scene scene;
   const auto log = make_collision_log(scene.system);
   const Timeline timeline(scene, *log);
-  const Layout layout = lay_out(scene, log->size());
+  const Composition composition(scene, *log);
   const Write& write = writers().at(options.writer);
   Canvas canvas(scene.view.width_px, scene.view.height_px);
   for (std::int64_t frame = begin; frame < end; ++frame) {
-    canvas.update(compose(scene, layout, state_at(*log, timeline.time_of(frame))));
+    canvas.update(composition.frame({state_at(*log, timeline.time_of(frame))}));
     write(canvas.view(), fmt::format("{}/{:06}.png", options.folder, frame));
   }
 }

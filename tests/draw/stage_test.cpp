@@ -1,6 +1,8 @@
+#include "draw/stage.hpp"
+
 #include <gtest/gtest.h>
 #include <piblocks/collision_log.hpp>
-#include <piblocks/compose.hpp>
+#include <piblocks/composition.hpp>
 
 #include <cmath>
 
@@ -33,30 +35,37 @@ const TextItem& text(const DrawList& list, ItemId id) {
   throw std::logic_error("no such text");
 }
 
+Layout lay_out(const Scene& scene, const Integer& longest_count) {
+  const Rectangle whole{0, 0, double(scene.view.width_px), double(scene.view.height_px)};
+  return lay_out(scene, longest_count, whole, Font());
+}
+
+DrawList compose(const Scene& scene, const BlockState& state) {
+  return Composition(scene, *make_collision_log(scene.system)).frame({state});
+}
+
 double right(const Rectangle& r) { return r.x + r.width; }
 
-TEST(Compose, BlocksTouchWhereTheyCollide) {
+TEST(Stage, BlocksTouchWhereTheyCollide) {
   const Scene scene = scene_of(3, 1920, 1080);
   const auto log = make_collision_log(scene.system);
-  const Layout layout = lay_out(scene, log->size());
-  const DrawList blocks = compose(scene, layout, state_after(*log, 1));
+  const DrawList blocks = compose(scene, state_after(*log, 1));
   EXPECT_NEAR(right(rectangle(blocks, ItemId::blue_block).bounds),
               rectangle(blocks, ItemId::red_block).bounds.x, 1e-9);
-  const DrawList wall = compose(scene, layout, state_after(*log, 2));
+  const DrawList wall = compose(scene, state_after(*log, 2));
   EXPECT_NEAR(right(rectangle(wall, ItemId::wall).bounds),
               rectangle(wall, ItemId::blue_block).bounds.x, 1e-9);
 }
 
-TEST(Compose, CounterShowsTheExactCountWithSeparators) {
+TEST(Stage, CounterShowsTheExactCountWithSeparators) {
   const Scene scene = scene_of(5, 1280, 720);
   const auto log = make_collision_log(scene.system);
-  const Layout layout = lay_out(scene, log->size());
-  EXPECT_EQ(text(compose(scene, layout, state_at(*log, 0)), ItemId::count).text, "0");
-  EXPECT_EQ(text(compose(scene, layout, state_after(*log, 1234)), ItemId::count).text, "1,234");
-  EXPECT_EQ(text(compose(scene, layout, state_at(*log, 1000)), ItemId::count).text, "31,415");
+  EXPECT_EQ(text(compose(scene, state_at(*log, 0)), ItemId::count).text, "0");
+  EXPECT_EQ(text(compose(scene, state_after(*log, 1234)), ItemId::count).text, "1,234");
+  EXPECT_EQ(text(compose(scene, state_at(*log, 1000)), ItemId::count).text, "31,415");
 }
 
-TEST(Compose, NothingOverlapsOrLeavesTheFrameAtAnyAspect) {
+TEST(Stage, NothingOverlapsOrLeavesTheFrameAtAnyAspect) {
   const Font font;
   for (const int digits : {1, 3, 9, 20, 40}) {
     for (const auto& [width, height] : {std::pair{1920, 1080},
@@ -71,8 +80,7 @@ TEST(Compose, NothingOverlapsOrLeavesTheFrameAtAnyAspect) {
                                         {2, 2}}) {
       const Scene scene = scene_of(digits, width, height);
       const auto log = make_collision_log(scene.system);
-      const DrawList list =
-          compose(scene, lay_out(scene, log->size()), state_after(*log, log->size()));
+      const DrawList list = compose(scene, state_after(*log, log->size()));
       const Rectangle wall = rectangle(list, ItemId::wall).bounds;
       const TextItem& label = text(list, ItemId::label);
       const TextItem& count = text(list, ItemId::count);
@@ -89,19 +97,18 @@ TEST(Compose, NothingOverlapsOrLeavesTheFrameAtAnyAspect) {
   }
 }
 
-TEST(Compose, NothingMovesButTheBlocksAndTheCount) {
+TEST(Stage, NothingMovesButTheBlocksAndTheCount) {
   const Scene scene = scene_of(6, 1920, 1080);
   const auto log = make_collision_log(scene.system);
-  const Layout layout = lay_out(scene, log->size());
-  const DrawList start = compose(scene, layout, state_at(*log, 0));
-  const DrawList later = compose(scene, layout, state_at(*log, 4));
+  const DrawList start = compose(scene, state_at(*log, 0));
+  const DrawList later = compose(scene, state_at(*log, 4));
   EXPECT_EQ(rectangle(start, ItemId::wall), rectangle(later, ItemId::wall));
   EXPECT_EQ(text(start, ItemId::label), text(later, ItemId::label));
   EXPECT_EQ(text(start, ItemId::count).origin, text(later, ItemId::count).origin);
   EXPECT_NE(rectangle(start, ItemId::blue_block), rectangle(later, ItemId::blue_block));
 }
 
-TEST(Compose, EverythingScalesWithTheFrame) {
+TEST(Stage, EverythingScalesWithTheFrame) {
   const Scene small = scene_of(3, 1280, 720);
   const Scene large = scene_of(3, 3840, 2160);
   const Layout a = lay_out(small, 314);
@@ -112,13 +119,13 @@ TEST(Compose, EverythingScalesWithTheFrame) {
   EXPECT_NEAR(b.count_x, 3 * a.count_x, 1e-9);
 }
 
-TEST(Compose, EdgesThatDoNotMoveAreSharp) {
+TEST(Stage, EdgesThatDoNotMoveAreSharp) {
   const auto is_whole = [](double px) { return px == std::floor(px); };
   for (const auto& [width, height] :
        {std::pair{1920, 1080}, {1280, 720}, {3840, 2160}, {854, 480}}) {
     const Scene scene = scene_of(3, width, height);
     const auto log = make_collision_log(scene.system);
-    const DrawList list = compose(scene, lay_out(scene, log->size()), state_at(*log, 4));
+    const DrawList list = compose(scene, state_at(*log, 4));
     const Rectangle wall = rectangle(list, ItemId::wall).bounds;
     const Rectangle blue = rectangle(list, ItemId::blue_block).bounds;
     EXPECT_TRUE(is_whole(wall.x) && is_whole(wall.y) && is_whole(right(wall)));
@@ -126,14 +133,14 @@ TEST(Compose, EdgesThatDoNotMoveAreSharp) {
   }
 }
 
-TEST(Compose, FollowsTheScenesGeometry) {
+TEST(Stage, FollowsTheScenesGeometry) {
   Scene scene = scene_of(2, 1000, 500);
   scene.system.wall_face = Rational(-1, 2);
   scene.system.blue.width = Rational(1, 2);
   scene.system.red.width = 2;
   const auto log = make_collision_log(scene.system);
   const Layout layout = lay_out(scene, log->size());
-  const DrawList list = compose(scene, layout, state_at(*log, 0));
+  const DrawList list = compose(scene, state_at(*log, 0));
   const Rectangle wall = rectangle(list, ItemId::wall).bounds;
   const Rectangle blue = rectangle(list, ItemId::blue_block).bounds;
   const Rectangle red = rectangle(list, ItemId::red_block).bounds;

@@ -1,0 +1,151 @@
+#include <piblocks/composition.hpp>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "draw/frame_plan.hpp"
+#include "draw/overlays/overlays.hpp"
+#include "draw/panels/panels.hpp"
+#include "draw/stage.hpp"
+
+namespace piblocks {
+namespace {
+
+/// Whether the counts of a system are the digits of pi: blue at rest, off the wall, and a mass
+/// ratio that is a power of 100.
+bool counts_pi(const BlockSystem& system) {
+  Rational ratio = system.red.mass / system.blue.mass;
+  if (system.blue.velocity != 0 || system.red.velocity >= 0 || system.blue_gap() <= 0) return false;
+  if (ratio.get_den() != 1) return false;
+  const std::string digits = ratio.get_num().get_str();
+  return digits.size() % 2 == 1 && digits.find_first_not_of('0', 1) == std::string::npos &&
+         digits.front() == '1';
+}
+
+std::string lit_digits(const Scene& scene, const CollisionLog& log) {
+  if (!scene.show.has(Overlay::digits)) return {};
+  if (counts_pi(scene.system)) return with_thousands_separators(log.size());
+  throw UsageError(
+      "show.overlays: there are no digits of pi to light up, since this scene does not count them; "
+      "leave out 'digits', or give a mass ratio of 100^(D-1) and let blue rest");
+}
+
+std::vector<ReadOut> read_outs_of(const Setting& setting) {
+  const Scene& scene = setting.scene;
+  std::vector<ReadOut> read_outs;
+  if (scene.show.has(Overlay::time)) read_outs.push_back(time_read_out(setting));
+  if (scene.pacing.automatic_slow_motion || !scene.pacing.slow_motion.empty()) {
+    read_outs.push_back(slower_read_out(setting));
+  }
+  if (scene.show.has(Overlay::energy)) read_outs.push_back(energy_read_out(setting));
+  if (scene.show.has(Overlay::momentum)) read_outs.push_back(momentum_read_out(setting));
+  return read_outs;
+}
+
+std::unique_ptr<Part> make_panel(Panel panel, const Setting& setting, const PanelPlace& place) {
+  switch (panel) {
+    case Panel::velocity:
+      return velocity_panel(setting, place);
+    case Panel::position:
+      return position_panel(setting, place);
+    case Panel::unfolded:
+      return unfolded_panel(setting, place);
+    case Panel::time:
+      return time_panel(setting, place);
+    case Panel::rate:
+      return rate_panel(setting, place);
+  }
+  return nullptr;
+}
+
+/// As large as fits, in the lower right corner of its place.
+ImageItem place_logo(const Rectangle& place, std::shared_ptr<const Image> logo) {
+  const double scale = std::min(place.width / logo->width_px, place.height / logo->height_px);
+  const double width = scale * logo->width_px;
+  const double height = scale * logo->height_px;
+  return {ItemId::logo,
+          {place.x + place.width - width, place.y + place.height - height, width, height},
+          std::move(logo)};
+}
+
+}  // namespace
+
+struct Composition::Contents {
+  Contents(const Scene& scene, const CollisionLog& log, std::shared_ptr<const Image> logo);
+
+  int width_px;
+  int height_px;
+  Palette palette;
+  std::unique_ptr<const Stage> stage;
+  std::vector<std::unique_ptr<const Part>> parts;  ///< in the order of their ids
+  std::vector<DrawItem> lines;                     ///< title, caption and logo
+  std::vector<std::unique_ptr<const Part>> panels;
+
+ private:
+  void add_parts(const Setting& setting);
+  void add_panels(const Setting& setting, const std::vector<Rectangle>& places);
+};
+
+Composition::Contents::Contents(const Scene& scene, const CollisionLog& log,
+                                std::shared_ptr<const Image> logo)
+    : width_px(scene.view.width_px),
+      height_px(scene.view.height_px),
+      palette(palette_of(scene.view.theme)) {
+  const Font font;
+  const Layout nowhere;
+  const double text_px = small_text_px(scene.view);
+  auto rows =
+      std::make_unique<ReadOutRows>(read_outs_of({scene, log, palette, font, nowhere, text_px, 1}),
+                                    read_out_area(scene.view), text_px, font);
+  const FramePlan plan = plan_frame(scene, palette, font, rows->height());
+  const Layout layout = lay_out(scene, log.size(), plan.stage, font);
+  stage = std::make_unique<Stage>(scene, layout, palette, font, lit_digits(scene, log));
+
+  const Setting setting{scene, log, palette, font, layout, plan.text_px, plan.line_px};
+  add_parts(setting);
+  if (rows->height() > 0) {
+    rows->move(plan.stage.y + plan.stage.height);
+    parts.push_back(std::move(rows));
+  }
+  if (plan.title) lines.emplace_back(*plan.title);
+  if (plan.caption) lines.emplace_back(*plan.caption);
+  if (logo) lines.emplace_back(place_logo(plan.logo, std::move(logo)));
+  add_panels(setting, plan.panels);
+}
+
+void Composition::Contents::add_parts(const Setting& setting) {
+  const Show& show = setting.scene.show;
+  if (show.has(Overlay::masses)) parts.push_back(mass_labels(setting));
+  if (show.has(Overlay::velocities)) parts.push_back(velocity_arrows(setting));
+  if (show.has(Overlay::ruler)) parts.push_back(ruler(setting));
+}
+
+void Composition::Contents::add_panels(const Setting& setting,
+                                       const std::vector<Rectangle>& places) {
+  const std::vector<Panel>& shown = setting.scene.show.panels;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +
+                                 ids_from(static_cast<std::uint32_t>(i))};
+    panels.push_back(make_panel(shown[i], setting, {places[i], first_id}));
+  }
+}
+
+Composition::Composition(const Scene& scene, const CollisionLog& log,
+                         std::shared_ptr<const Image> logo)
+    : contents_(std::make_unique<const Contents>(scene, log, std::move(logo))) {}
+Composition::~Composition() = default;
+Composition::Composition(Composition&&) noexcept = default;
+Composition& Composition::operator=(Composition&&) noexcept = default;
+
+DrawList Composition::frame(const Shown& shown, std::span<const ExposurePart> exposure) const {
+  DrawList list{contents_->width_px, contents_->height_px, contents_->palette.background, {}};
+  contents_->stage->add(shown.state, exposure, list.items);
+  for (const auto& part : contents_->parts) part->add(shown, list.items);
+  list.items.insert(list.items.end(), contents_->lines.begin(), contents_->lines.end());
+  for (const auto& panel : contents_->panels) panel->add(shown, list.items);
+  return list;
+}
+
+}  // namespace piblocks

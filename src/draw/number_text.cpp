@@ -1,0 +1,85 @@
+#include "draw/number_text.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace piblocks {
+namespace {
+
+constexpr std::string_view kMinus = "−";
+constexpr std::size_t kShort = 7;
+
+std::string with_commas(std::string digits) {
+  const std::size_t point = std::min(digits.find('.'), digits.size());
+  for (std::size_t i = point; i > 3; i -= 3) digits.insert(i - 3, ",");
+  return digits;
+}
+
+}  // namespace
+
+Magnitude magnitude_of(const Rational& value) {
+  if (value <= 0) return {};
+  // Room for the exponent of any number the program takes; the mantissa needs few bits.
+  mp_exp_t exponent = 0;
+  std::string digits = mpf_class(value, 128).get_str(exponent, 10, 17);
+  digits.insert(1, ".");
+  return {std::stod(digits), static_cast<long>(exponent) - 1};
+}
+
+std::string fixed_text(double value, int decimals) {
+  const std::string digits = fmt::format("{:.{}f}", std::abs(value), decimals);
+  const bool is_zero = digits.find_first_not_of("0.") == std::string::npos;
+  return (value < 0 && !is_zero ? std::string(kMinus) : "") + with_commas(digits);
+}
+
+std::string rounded_text(double value) {
+  constexpr double kMostFixed = 1e5;
+  if (std::abs(value) < kMostFixed || !std::isfinite(value)) return fixed_text(value, 2);
+  const std::string digits = fmt::format("{:.2e}", std::abs(value));
+  const std::size_t e = digits.find('e');
+  return fmt::format("{}{}×10{}", value < 0 ? kMinus : "", digits.substr(0, e),
+                     superscript(std::stol(digits.substr(e + 1))));
+}
+
+std::string superscript(long exponent) {
+  constexpr std::array<std::string_view, 10> kDigits{"⁰", "¹", "²", "³", "⁴",
+                                                     "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text;
+  for (const char c : std::to_string(exponent)) {
+    text += c == '-' ? std::string_view("⁻") : kDigits[static_cast<std::size_t>(c - '0')];
+  }
+  return text;
+}
+
+std::string short_text(const Rational& value) {
+  if (value.get_den() == 1 && abs(value) < 10'000'000) {
+    return fixed_text(to_double(value), 0);
+  }
+  const Magnitude size = magnitude_of(abs(value));
+  const std::string sign = value < 0 ? std::string(kMinus) : "";
+  const Rational ten = size.exponent >= 0
+                           ? power(10, static_cast<unsigned long>(size.exponent))
+                           : 1 / power(10, static_cast<unsigned long>(-size.exponent));
+  if (abs(value) == ten && std::abs(size.exponent) > 2) {
+    return sign + "10" + superscript(size.exponent);
+  }
+  // Exactly as a decimal, if it is one of few digits.
+  if (std::abs(size.exponent) <= 4) {
+    for (int decimals = 1; decimals <= 4; ++decimals) {
+      if (Rational(value * power(10, static_cast<unsigned long>(decimals))).get_den() == 1) {
+        return fixed_text(to_double(value), decimals);
+      }
+    }
+  }
+  const std::string fraction = value.get_str();
+  if (fraction.size() <= kShort) return fraction;
+  if (size.exponent >= -2 && size.exponent < 7) {
+    return fixed_text(to_double(value), std::max(0, 2 - static_cast<int>(size.exponent)));
+  }
+  return fmt::format("{}{:.2f}×10{}", sign, size.mantissa, superscript(size.exponent));
+}
+
+}  // namespace piblocks

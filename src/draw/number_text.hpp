@@ -1,0 +1,32 @@
+// Numbers as they are read in a picture.
+// In: exact or rounded values of any size. Out: short UTF-8 text.
+#pragma once
+
+#include <piblocks/exact.hpp>
+
+#include <string>
+
+namespace piblocks {
+
+/// A positive number as mantissa 10^exponent, 1 <= mantissa < 10; zero as 0.
+struct Magnitude {
+  double mantissa = 0;
+  long exponent = 0;
+};
+Magnitude magnitude_of(const Rational& value);
+
+/// With so many decimals, commas between thousands and a true minus sign: "−1,234.50". Zero has no
+/// sign.
+std::string fixed_text(double value, int decimals);
+
+/// With two decimals; from 100,000 on as "−1.23×10⁹".
+std::string rounded_text(double value);
+
+/// "⁻¹²" for -12.
+std::string superscript(long exponent);
+
+/// Exact where that is short: "10,000", "2.5", "1/3", "10¹⁶"; otherwise rounded to three digits:
+/// "1.23×10⁹".
+std::string short_text(const Rational& value);
+
+}  // namespace piblocks

@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <utility>
+
+#include "draw/number_text.hpp"
+#include "draw/overlays/overlays.hpp"
+
+namespace piblocks {
+namespace {
+
+// In parts of the block's side.
+constexpr double kHeight = 0.3;
+constexpr double kWidth = 0.84;
+constexpr double kHalfCapital_em = 0.365;
+
+/// Below this it could not be read, and is left out.
+constexpr double kLeast_px = 5;
+
+struct Label {
+  std::string text;
+  double size_px;
+  double half_width_px;
+  double down_px;  ///< from the block's centre to the baseline
+  Color color;
+};
+
+class MassLabels final : public Part {
+ public:
+  explicit MassLabels(const Setting& setting) : layout_(setting.stage) {
+    const BlockSystem& system = setting.scene.system;
+    red_ = label_of(system.red, setting.palette.red, setting.font);
+    blue_ = label_of(system.blue, setting.palette.blue, setting.font);
+  }
+
+  void add(const Shown& shown, std::vector<DrawItem>& items) const override {
+    add_label(0, red_, shown.state.red, items);
+    add_label(1, blue_, shown.state.blue, items);
+  }
+
+ private:
+  Label label_of(const Block& block, const BlockColors& colors, const Font& font) const {
+    const double side_px = to_double(block.width) * layout_.scale;
+    std::string text = short_text(block.mass);
+    const double width_em = font.width_em(text);
+    const double size_px = std::min(kHeight * side_px, kWidth * side_px / width_em);
+    return {std::move(text), size_px, width_em * size_px / 2, kHalfCapital_em * size_px,
+            colors.text};
+  }
+
+  void add_label(std::size_t n, const Label& label, const Motion& motion,
+                 std::vector<DrawItem>& items) const {
+    if (label.size_px < kLeast_px) return;
+    const Point centre = layout_.at(motion.position, 0);
+    items.emplace_back(TextItem{nth(ItemId::masses, n),
+                                {centre.x - label.half_width_px, centre.y + label.down_px},
+                                label.text,
+                                label.size_px,
+                                label.color});
+  }
+
+  Layout layout_;
+  Label red_;
+  Label blue_;
+};
+
+}  // namespace
+
+std::unique_ptr<Part> mass_labels(const Setting& setting) {
+  return std::make_unique<MassLabels>(setting);
+}
+
+}  // namespace piblocks

@@ -1,0 +1,53 @@
+#include <utility>
+
+#include "draw/panels/panels.hpp"
+
+namespace piblocks {
+namespace {
+
+// In ems.
+constexpr double kTitleHeight = 1.9;
+constexpr double kTitleBaseline = 1.0;
+// In line widths.
+constexpr double kDotRadius = 3.2;
+
+}  // namespace
+
+PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const std::string& title)
+    : palette_(setting.palette),
+      font_(setting.font),
+      first_id_(place.first_id),
+      text_px_(setting.text_px),
+      line_px_(setting.line_px) {
+  const Rectangle& whole = place.area;
+  const double title_px =
+      std::min(text_px_, text_px_ * whole.width / (font_.width_em(title) * text_px_));
+  items_.emplace_back(TextItem{
+      next_id(), {whole.x, whole.y + kTitleBaseline * text_px_}, title, title_px, palette_.muted});
+  const double top = kTitleHeight * text_px_;
+  inside_ = {whole.x, whole.y + top, whole.width, whole.height - top};
+}
+
+void PanelSheet::path(std::vector<Point> points, bool closed, const std::optional<Color>& fill,
+                      const std::optional<Stroke>& stroke) {
+  items_.emplace_back(PathItem{next_id(), std::move(points), closed, fill, stroke});
+}
+
+void PanelSheet::line(std::vector<Point> points, const Color& color, double width, double dash) {
+  path(std::move(points), false, std::nullopt, Stroke{color, width * line_px_, dash * line_px_});
+}
+
+void PanelSheet::area(std::vector<Point> points, const Color& fill) {
+  path(std::move(points), true, fill, std::nullopt);
+}
+
+void PanelSheet::text(const std::string& text, const Point& at, double anchor, const Color& color) {
+  const double width = font_.width_em(text) * text_px_;
+  items_.emplace_back(TextItem{next_id(), {at.x - anchor * width, at.y}, text, text_px_, color});
+}
+
+DiskItem PanelSheet::dot(std::size_t n, const Point& at, const Color& color) const {
+  return {moving(n), at, kDotRadius * line_px_, color, Stroke{palette_.background, line_px_}};
+}
+
+}  // namespace piblocks

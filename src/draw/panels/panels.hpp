@@ -1,0 +1,72 @@
+// The diagrams there are, one file each.
+// In: a setting and the place of the diagram. Out: a part of the picture.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "draw/part.hpp"
+
+namespace piblocks {
+
+/// Where a diagram is, and the first of its ids.
+struct PanelPlace {
+  Rectangle area;
+  ItemId first_id;
+};
+
+/// The state as a point on a circle, and a sector for each collision.
+std::unique_ptr<Part> velocity_panel(const Setting& setting, const PanelPlace& place);
+/// The path through the plane of both gaps.
+std::unique_ptr<Part> position_panel(const Setting& setting, const PanelPlace& place);
+/// The straight line through the unfolded wedge.
+std::unique_ptr<Part> unfolded_panel(const Setting& setting, const PanelPlace& place);
+/// Both gaps against time.
+std::unique_ptr<Part> time_panel(const Setting& setting, const PanelPlace& place);
+/// Collisions per second against time.
+std::unique_ptr<Part> rate_panel(const Setting& setting, const PanelPlace& place);
+
+/// What a diagram is made of: items that stay, with ids in the order they are added, and its title.
+class PanelSheet {
+ public:
+  PanelSheet(const Setting& setting, const PanelPlace& place, const std::string& title);
+
+  /// What is left below the title.
+  const Rectangle& inside() const noexcept { return inside_; }
+  double text_px() const noexcept { return text_px_; }
+  double line_px() const noexcept { return line_px_; }
+  const Palette& palette() const noexcept { return palette_; }
+
+  /// Adds something that stays.
+  void line(std::vector<Point> points, const Color& color, double width = 1, double dash = 0);
+  void area(std::vector<Point> points, const Color& fill);
+  void path(std::vector<Point> points, bool closed, const std::optional<Color>& fill,
+            const std::optional<Stroke>& stroke);
+  /// @param anchor  what part of the text's width is left of `at`: 0, 0.5 or 1.
+  void text(const std::string& text, const Point& at, double anchor, const Color& color);
+
+  /// Ids for what moves: above those of what stays.
+  ItemId moving(std::size_t n) const { return nth(first_id_, kMoving + n); }
+  /// A dot that marks the present.
+  DiskItem dot(std::size_t n, const Point& at, const Color& color) const;
+
+  void add_to(std::vector<DrawItem>& items) const {
+    items.insert(items.end(), items_.begin(), items_.end());
+  }
+
+ private:
+  static constexpr std::size_t kMoving = 32768;
+
+  ItemId next_id() { return nth(first_id_, items_.size()); }
+
+  Palette palette_;
+  const Font& font_;
+  ItemId first_id_;
+  double text_px_;
+  double line_px_;
+  Rectangle inside_;
+  std::vector<DrawItem> items_;
+};
+
+}  // namespace piblocks

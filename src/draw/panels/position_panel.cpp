@@ -1,0 +1,105 @@
+#include <piblocks/schedule.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/panels/panels.hpp"
+#include "draw/panels/trajectory.hpp"
+
+namespace piblocks {
+namespace {
+
+/// A wedge narrower than this could not be seen: it is drawn as half a right angle then.
+constexpr double kLeastAngle = 0.2;
+constexpr double kBelow_em = 1.5;
+
+class PositionPanel final : public Part {
+ public:
+  PositionPanel(const Setting& setting, const PanelPlace& place)
+      : gaps_(setting.scene.system),
+        is_true_(gaps_.theta >= kLeastAngle && std::isfinite(gaps_.sigma)),
+        sheet_(setting, place, is_true_ ? "Positions √m·x" : "Positions (not to scale)") {
+    const Rational from = setting.scene.time.from;
+    const Rational to = end_of(setting.scene, setting.log);
+    const int columns = std::max(1, static_cast<int>(sheet_.inside().width));
+    const auto pieces = trajectory_of(setting.log, gaps_, from, to, columns);
+    for (const TrajectoryPiece& piece : pieces) make_room(piece);
+    place_wedge();
+    for (const TrajectoryPiece& piece : pieces) add_piece(piece);
+    add_names();
+  }
+
+  void add(const Shown& shown, std::vector<DrawItem>& items) const override {
+    sheet_.add_to(items);
+    const GapPoint gaps = gaps_.of(shown.state);
+    if (gaps.y2 > most_ * (1 + 1e-9)) return;
+    items.emplace_back(sheet_.dot(0, at(gaps), sheet_.palette().accent));
+  }
+
+ private:
+  void make_room(const TrajectoryPiece& piece) {
+    for (const TimedGaps& corner : piece.corners) most_ = std::max(most_, corner.gaps.y2);
+    for (const Band& band : piece.bands)
+      most_ = std::max({most_, band.from.gaps.y2, band.to.gaps.y2});
+  }
+
+  double slope() const { return is_true_ ? gaps_.sigma : 1; }
+
+  /// The corner is at the lower left.
+  void place_wedge() {
+    const Rectangle& inside = sheet_.inside();
+    const double height = inside.height - kBelow_em * sheet_.text_px();
+    const double most = most_ > 0 ? most_ : 1;
+    scale_ = std::min(inside.width / most, height / (most * slope()));
+    corner_ = {inside.x + (inside.width - scale_ * most) / 2, inside.y + height};
+    const Point far = at({most, most});
+    sheet_.area({corner_, far, {far.x, corner_.y}}, sheet_.palette().shade);
+    sheet_.line({far, corner_, {far.x, corner_.y}}, sheet_.palette().muted, 1.5);
+  }
+
+  Point at(const GapPoint& gaps) const {
+    return {corner_.x + scale_ * gaps.y2, corner_.y - scale_ * slope() * gaps.y1};
+  }
+
+  void add_piece(const TrajectoryPiece& piece) {
+    const Color& color = sheet_.palette().text;
+    std::vector<Point> points;
+    for (const TimedGaps& corner : piece.corners) points.push_back(at(corner.gaps));
+    if (!points.empty()) sheet_.line(std::move(points), color);
+    if (piece.bands.empty()) return;
+    for (const Band& band : piece.bands) {
+      points.push_back(at({std::min(band.high, band.from.gaps.y2), band.from.gaps.y2}));
+    }
+    const Band& last = piece.bands.back();
+    points.push_back(at({std::min(last.high, last.to.gaps.y2), last.to.gaps.y2}));
+    for (auto band = piece.bands.rbegin(); band != piece.bands.rend(); ++band) {
+      points.push_back(at({0, band->to.gaps.y2}));
+    }
+    points.push_back(at({0, piece.bands.front().from.gaps.y2}));
+    sheet_.path(std::move(points), true, color, Stroke{color, sheet_.line_px()});
+  }
+
+  void add_names() {
+    const double em = sheet_.text_px();
+    const Point far = at({most_, most_});
+    sheet_.text("wall", {(corner_.x + far.x) / 2, corner_.y + 1.2 * em}, 0.5,
+                sheet_.palette().muted);
+    const Point beside = at({0.85 * most_, 0.85 * most_});
+    sheet_.text("contact", {beside.x - 0.6 * em, beside.y}, 1, sheet_.palette().muted);
+  }
+
+  Gaps gaps_;
+  bool is_true_;
+  PanelSheet sheet_;
+  double most_ = 0;
+  double scale_ = 1;
+  Point corner_;
+};
+
+}  // namespace
+
+std::unique_ptr<Part> position_panel(const Setting& setting, const PanelPlace& place) {
+  return std::make_unique<PositionPanel>(setting, place);
+}
+
+}  // namespace piblocks

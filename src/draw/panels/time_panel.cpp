@@ -1,0 +1,94 @@
+#include <piblocks/schedule.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/panels/panels.hpp"
+#include "draw/panels/time_axis.hpp"
+#include "draw/panels/trajectory.hpp"
+
+namespace piblocks {
+namespace {
+
+/// Columns as wide as this show every line that a picture can.
+constexpr double kColumn_px = 1;
+
+class TimePanel final : public Part {
+ public:
+  TimePanel(const Setting& setting, const PanelPlace& place)
+      : sheet_(setting, place, "Distance from the wall"),
+        gaps_(setting.scene.system),
+        axis_(setting, sheet_, 0) {
+    const auto pieces =
+        trajectory_of(setting.log, gaps_, axis_.from(), axis_.to(), axis_.columns(kColumn_px));
+    for (const TrajectoryPiece& piece : pieces) make_room(piece);
+    // What blue covers is behind, and red's line over it.
+    for (const TrajectoryPiece& piece : pieces) add_blue(piece);
+    add_red(pieces);
+    axis_.add_base(sheet_);
+  }
+
+  void add(const Shown& shown, std::vector<DrawItem>& items) const override {
+    sheet_.add_to(items);
+    const double x = axis_.x_of(to_double(shown.time));
+    if (!axis_.shows(x)) return;
+    const GapPoint gaps = gaps_.of(shown.state);
+    items.emplace_back(axis_.cursor(sheet_, x));
+    items.emplace_back(sheet_.dot(1, {x, y_of(gaps.y2)}, sheet_.palette().red.line));
+    items.emplace_back(sheet_.dot(2, {x, y_of(gaps.y1)}, sheet_.palette().blue.line));
+  }
+
+ private:
+  void make_room(const TrajectoryPiece& piece) {
+    for (const TimedGaps& corner : piece.corners) top_ = std::max(top_, corner.gaps.y2);
+    for (const Band& band : piece.bands) {
+      top_ = std::max({top_, band.from.gaps.y2, band.to.gaps.y2});
+    }
+  }
+
+  double y_of(double gap) const {
+    return axis_.bottom() - (top_ > 0 ? gap / top_ : 0) * axis_.height();
+  }
+  Point at(double time, double gap) const { return {axis_.x_of(time), y_of(gap)}; }
+
+  void add_blue(const TrajectoryPiece& piece) {
+    const Color color = sheet_.palette().blue.line;
+    std::vector<Point> points;
+    for (const TimedGaps& corner : piece.corners) {
+      points.push_back(at(corner.time, corner.gaps.y1));
+    }
+    if (!points.empty()) sheet_.line(std::move(points), color);
+    if (piece.bands.empty()) return;
+    for (const Band& band : piece.bands) {
+      points.push_back(at(band.from.time, band.high));
+      points.push_back(at(band.to.time, band.high));
+    }
+    points.push_back(at(piece.bands.back().to.time, 0));
+    points.push_back(at(piece.bands.front().from.time, 0));
+    sheet_.path(std::move(points), true, color, Stroke{color, sheet_.line_px()});
+  }
+
+  void add_red(const std::vector<TrajectoryPiece>& pieces) {
+    std::vector<Point> points;
+    for (const TrajectoryPiece& piece : pieces) {
+      for (const TimedGaps& corner : piece.corners) {
+        points.push_back(at(corner.time, corner.gaps.y2));
+      }
+      for (const Band& band : piece.bands) points.push_back(at(band.to.time, band.to.gaps.y2));
+    }
+    sheet_.line(std::move(points), sheet_.palette().red.line, 2);
+  }
+
+  PanelSheet sheet_;
+  Gaps gaps_;
+  TimeAxis axis_;
+  double top_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Part> time_panel(const Setting& setting, const PanelPlace& place) {
+  return std::make_unique<TimePanel>(setting, place);
+}
+
+}  // namespace piblocks

@@ -1,0 +1,37 @@
+// A run over a span of time as lines that can be drawn, however many collisions it has.
+// In: a log and the span, cut into columns. Out: corners of the motion where there are few in a
+// column, and what blue's gap covers where there are more: exactly, in either case.
+#pragma once
+
+#include <piblocks/collision_log.hpp>
+
+#include <vector>
+
+#include "draw/panels/gaps.hpp"
+
+namespace piblocks {
+
+struct TimedGaps {
+  double time = 0;
+  GapPoint gaps;
+};
+
+/// What blue's gap covers from one instant to the next.
+struct Band {
+  TimedGaps from;
+  TimedGaps to;
+  double low = 0;
+  double high = 0;
+};
+
+/// A stretch of time: either corners, the first and last at its ends, or bands without gaps.
+struct TrajectoryPiece {
+  std::vector<TimedGaps> corners;
+  std::vector<Band> bands;
+};
+
+/// Pieces from one end of the span to the other.
+std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const Gaps& gaps,
+                                           const Rational& from, const Rational& to, int columns);
+
+}  // namespace piblocks

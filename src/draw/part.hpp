@@ -1,0 +1,37 @@
+// One thing in the picture: an overlay or a diagram, in a file of its own.
+// In: a setting, once; what is shown, for every frame. Out: items, in the order of their ids.
+#pragma once
+
+#include <piblocks/composition.hpp>
+
+#include <vector>
+
+#include "draw/font.hpp"
+#include "draw/stage.hpp"
+#include "draw/theme.hpp"
+
+namespace piblocks {
+
+/// What parts are set up from; it does not outlive the set-up.
+struct Setting {
+  const Scene& scene;
+  const CollisionLog& log;
+  const Palette& palette;
+  const Font& font;
+  const Layout& stage;
+  double text_px;  ///< of what is read beside the blocks
+  double line_px;
+};
+
+/// Const members are thread-safe.
+class Part {
+ public:
+  Part() = default;
+  virtual ~Part() = default;
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
+
+  virtual void add(const Shown& shown, std::vector<DrawItem>& items) const = 0;
+};
+
+}  // namespace piblocks

@@ -1,0 +1,166 @@
+#include "draw/stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "draw/expose.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr std::string_view kLabelText = "Collisions:";
+
+// In parts of the area's short measure, see short_measure().
+constexpr double kTextSize = 0.074;
+constexpr double kLineWidth = 0.0032;
+constexpr double kMargin = 0.045;
+constexpr double kUsualAspect = 16.0 / 9;
+constexpr double kMaxBannerText = 2.2;
+// A unit of the scene at least this large is rounded to an even number of pixels, so that edges
+// that do not move are sharp, and so are the upper and lower edges of blocks of width 1.
+constexpr double kMinRounded_px = 16;
+// In ems of the label.
+constexpr double kCapHeight = 0.73;
+constexpr double kLabelGap = 1.0;  // between the label's baseline and the view
+constexpr double kWordSpace = 0.34;
+// In parts of a block's height: from the edge to the first bar, and from bar to bar.
+constexpr double kBarStep = 0.1;
+// In line widths.
+constexpr double kDash = 4;
+
+/// Size of type: a banner has little height and much width, and its text may have more of it.
+double text_size(const Rectangle& area) {
+  const double aspect = area.width / area.height;
+  return kTextSize * short_measure(area) * std::clamp(aspect / kUsualAspect, 1.0, kMaxBannerText);
+}
+
+double length(const Range& range) { return to_double(range.high - range.low); }
+
+Rectangle to_pixels(const Layout& layout, double x, double y, double width, double height) {
+  return {layout.origin.x + x * layout.scale, layout.origin.y - (y + height) * layout.scale,
+          width * layout.scale, height * layout.scale};
+}
+
+RectangleItem compose_wall(const Scene& scene, const Layout& layout, const Palette& palette) {
+  // The article's wall is a body of width 1 whose face is where blue turns back.
+  const double face = to_double(scene.system.wall_face);
+  const double bottom = to_double(scene.view.y.low);
+  return {ItemId::wall, to_pixels(layout, face - 1, bottom, 1, length(scene.view.y)), std::nullopt,
+          Stroke{palette.wall, layout.line_px, kDash * layout.line_px}};
+}
+
+/// The count's text up to where its digits are no longer the expected ones; separators count as
+/// digits do. Nothing while the count has fewer digits.
+std::size_t lit_length(std::string_view count, std::string_view expected) {
+  if (count.size() != expected.size()) return 0;
+  const auto end = std::ranges::mismatch(count, expected).in1;
+  auto length = static_cast<std::size_t>(end - count.begin());
+  if (length > 0 && length < count.size() && count[length - 1] == ',') --length;
+  return length;
+}
+
+}  // namespace
+
+double short_measure(const Rectangle& area) { return std::min(area.height, 0.75 * area.width); }
+
+Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
+               const Font& font) {
+  const View& view = scene.view;
+  const double measure = short_measure(area);
+  const double margin = kMargin * measure;
+  const double inner_width = area.width - 2 * margin;
+
+  const double label_em = font.width_em(kLabelText) + kWordSpace;
+  const double line_em = label_em + font.width_em(with_thousands_separators(longest_count));
+
+  Layout layout;
+  layout.line_px = std::max(1.0, std::round(kLineWidth * measure));
+  layout.text_px = std::min(text_size(area), inner_width / line_em);
+
+  // Label and view form one group, centred in the area.
+  const double label_height = (kCapHeight + kLabelGap) * layout.text_px;
+  const double inner_height = area.height - 2 * margin - label_height;
+  layout.scale = std::min(inner_width / length(view.x), inner_height / length(view.y));
+  const bool rounded = layout.scale >= kMinRounded_px;
+  const auto to_pixel = [&](double px) { return rounded ? std::round(px) : px; };
+  if (rounded) layout.scale = 2 * std::floor(layout.scale / 2);
+  const double view_width = layout.scale * length(view.x);
+  const double view_height = layout.scale * length(view.y);
+  const double top = area.y + (area.height - view_height - label_height) / 2;
+  layout.origin = {
+      to_pixel(area.x + (area.width - view_width) / 2 - to_double(view.x.low) * layout.scale),
+      to_pixel(top + label_height + to_double(view.y.high) * layout.scale)};
+  layout.label = {area.x + (area.width - line_em * layout.text_px) / 2,
+                  to_pixel(top + kCapHeight * layout.text_px)};
+  layout.count_x = layout.label.x + label_em * layout.text_px;
+  layout.above_px = kLabelGap * layout.text_px / 2;
+  layout.below_px = area.y + area.height - (top + label_height + view_height);
+  return layout;
+}
+
+Stage::Stage(const Scene& scene, const Layout& layout, const Palette& palette, const Font& font,
+             std::string lit_digits)
+    : layout_(layout),
+      palette_(palette),
+      width_px_(scene.view.width_px),
+      wall_(compose_wall(scene, layout, palette)),
+      blue_side_(to_double(scene.system.blue.width)),
+      red_side_(to_double(scene.system.red.width)),
+      lit_digits_(std::move(lit_digits)),
+      widths_(font, lit_digits_.empty() ? "" : kNumberCharacters) {}
+
+ExposedBlock Stage::block(double side, const Motion& motion, const BlockColors& colors) const {
+  ExposedBlock block{to_pixels(layout_, motion.position - side / 2, -side / 2, side, side),
+                     colors.fill,
+                     Stroke{colors.edge, layout_.line_px},
+                     {},
+                     {}};
+  const Rectangle& bounds = block.bounds;
+  const double height = std::min(2 * layout_.line_px, kBarStep * bounds.height / 2);
+  for (int bar = 1; bar <= colors.bars; ++bar) {
+    const bool is_upper = 2 * bar <= colors.bars;
+    const double down = kBarStep * (is_upper ? bar : bar - colors.bars - 1);
+    const double centre = std::round(bounds.y + bounds.height * (is_upper ? down : 1 + down));
+    block.bars.push_back({centre - height / 2, height});
+  }
+  return block;
+}
+
+void Stage::add_count(const Integer& count, std::vector<DrawItem>& items) const {
+  const std::string text = with_thousands_separators(count);
+  const std::size_t lit = lit_length(text, lit_digits_);
+  const Point origin{layout_.count_x, layout_.label.y};
+  if (lit > 0) {
+    items.emplace_back(
+        TextItem{ItemId::lit_count, origin, text.substr(0, lit), layout_.text_px, palette_.accent});
+  }
+  if (lit < text.size()) {
+    const double lit_px = lit > 0 ? widths_.width_em(text.substr(0, lit)) * layout_.text_px : 0;
+    items.emplace_back(TextItem{ItemId::count,
+                                {origin.x + lit_px, origin.y},
+                                text.substr(lit),
+                                layout_.text_px,
+                                palette_.text});
+  }
+}
+
+void Stage::add(const BlockState& state, std::span<const ExposurePart> exposure,
+                std::vector<DrawItem>& items) const {
+  items.emplace_back(wall_);
+  ExposedBlock red = block(red_side_, state.red, palette_.red);
+  ExposedBlock blue = block(blue_side_, state.blue, palette_.blue);
+  if (exposure.empty()) {
+    add_rectangles(ItemId::red_block, red, items);
+    add_rectangles(ItemId::blue_block, blue, items);
+  } else {
+    items.emplace_back(expose(std::move(red), std::move(blue),
+                              {layout_.origin.x, layout_.scale, width_px_}, exposure));
+  }
+  items.emplace_back(TextItem{ItemId::label, layout_.label, std::string(kLabelText),
+                              layout_.text_px, palette_.muted});
+  add_count(state.count, items);
+}
+
+}  // namespace piblocks

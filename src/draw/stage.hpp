@@ -1,0 +1,73 @@
+// The article's picture: wall, blocks and counter.
+// In: a scene and the part of the frame it may take, once; a state, for every frame. Out: items.
+#pragma once
+
+#include <piblocks/composition.hpp>
+#include <piblocks/draw_list.hpp>
+#include <piblocks/interpolator.hpp>
+#include <piblocks/scene.hpp>
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "draw/font.hpp"
+#include "draw/text_widths.hpp"
+#include "draw/theme.hpp"
+
+namespace piblocks {
+
+/// Where everything is that does not move: the map from scene to pixels, sizes of type and
+/// lines. They depend on the area's size and on the longest count alone, so that nothing
+/// shifts while the counter grows.
+struct Layout {
+  double scale = 1;  ///< pixels per unit of the scene
+  Point origin;      ///< pixel position of the scene's (0, 0)
+  double line_px = 1;
+  double text_px = 16;
+  Point label;          ///< baseline of "Collisions: "
+  double count_x = 0;   ///< where the count starts on that baseline
+  double above_px = 0;  ///< room between label and view, half of it
+  double below_px = 0;  ///< room from the view to the area's end
+
+  /// Pixel position of a point of the scene.
+  Point at(double x, double y) const noexcept {
+    return {origin.x + x * scale, origin.y - y * scale};
+  }
+};
+
+/// The length that type and lines are measured by: the area's height, or less where the area is
+/// narrow.
+double short_measure(const Rectangle& area);
+
+/// @param longest_count  the last count that will be shown.
+Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
+               const Font& font);
+
+class Stage {
+ public:
+  /// @param lit_digits  digits that light up in the counter as soon as it shows them in their
+  ///                    places; none if empty.
+  Stage(const Scene& scene, const Layout& layout, const Palette& palette, const Font& font,
+        std::string lit_digits);
+
+  /// @param exposure  as in Composition::frame().
+  void add(const BlockState& state, std::span<const ExposurePart> exposure,
+           std::vector<DrawItem>& items) const;
+  const Layout& layout() const noexcept { return layout_; }
+
+ private:
+  ExposedBlock block(double side, const Motion& motion, const BlockColors& colors) const;
+  void add_count(const Integer& count, std::vector<DrawItem>& items) const;
+
+  Layout layout_;
+  Palette palette_;
+  int width_px_;
+  RectangleItem wall_;
+  double blue_side_;
+  double red_side_;
+  std::string lit_digits_;
+  TextWidths widths_;
+};
+
+}  // namespace piblocks

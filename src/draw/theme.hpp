@@ -1,0 +1,35 @@
+// The colours of a theme, and what else tells the blocks apart.
+// In: a theme's name. Out: a palette whose text meets WCAG 2.1's contrast of 4.5 : 1 (AA).
+#pragma once
+
+#include <piblocks/draw_list.hpp>
+#include <piblocks/show.hpp>
+
+namespace piblocks {
+
+/// A block's colours.
+struct BlockColors {
+  Color fill;
+  Color edge;
+  Color text;  ///< of what is written on the block
+  Color line;  ///< of its path in diagrams
+  /// Bars across the block in its edge's colour, half of them near the upper edge and half near the
+  /// lower one: what tells it from the other without colours.
+  int bars = 0;
+};
+
+struct Palette {
+  Color background;
+  Color wall;
+  BlockColors blue;
+  BlockColors red;
+  Color text;    ///< of what is read first
+  Color muted;   ///< of labels
+  Color accent;  ///< of what is lit or marks the present
+  Color grid;    ///< of axes and rays: no text
+  Color shade;   ///< of filled areas in diagrams: no text
+};
+
+Palette palette_of(Theme theme);
+
+}  // namespace piblocks

@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <piblocks/show.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace piblocks {
+namespace {
+
+template <typename Value>
+struct Name {
+  const char* text;
+  Value value;
+};
+
+constexpr auto kThemes = std::to_array<Name<Theme>>({{"article", Theme::article},
+                                                     {"chalkboard", Theme::chalkboard},
+                                                     {"dark", Theme::dark},
+                                                     {"print", Theme::print},
+                                                     {"colorblind", Theme::colorblind}});
+constexpr auto kOverlays = std::to_array<Name<Overlay>>({{"digits", Overlay::digits},
+                                                         {"masses", Overlay::masses},
+                                                         {"velocities", Overlay::velocities},
+                                                         {"energy", Overlay::energy},
+                                                         {"momentum", Overlay::momentum},
+                                                         {"time", Overlay::time},
+                                                         {"ruler", Overlay::ruler}});
+constexpr auto kPanels = std::to_array<Name<Panel>>({{"velocity", Panel::velocity},
+                                                     {"position", Panel::position},
+                                                     {"unfolded", Panel::unfolded},
+                                                     {"time", Panel::time},
+                                                     {"rate", Panel::rate}});
+
+std::string names_of(const auto& table) {
+  std::string names;
+  for (const auto& name : table) names += (names.empty() ? "" : ", ") + std::string(name.text);
+  return names;
+}
+
+auto parse(const auto& table, std::string_view text) {
+  const auto found =
+      std::ranges::find_if(table, [&](const auto& name) { return text == name.text; });
+  if (found == table.end()) {
+    throw UsageError(fmt::format("must be one of: {}", names_of(table)));
+  }
+  return found->value;
+}
+
+std::string text_of(const auto& table, auto value) {
+  return std::ranges::find_if(table, [&](const auto& name) { return value == name.value; })->text;
+}
+
+}  // namespace
+
+bool Show::has(Overlay overlay) const noexcept {
+  return std::ranges::find(overlays, overlay) != overlays.end();
+}
+
+Theme parse_theme(std::string_view name) { return parse(kThemes, name); }
+Overlay parse_overlay(std::string_view name) { return parse(kOverlays, name); }
+Panel parse_panel(std::string_view name) { return parse(kPanels, name); }
+
+std::string exact_text(Theme theme) { return text_of(kThemes, theme); }
+std::string exact_text(Overlay overlay) { return text_of(kOverlays, overlay); }
+std::string exact_text(Panel panel) { return text_of(kPanels, panel); }
+
+std::string theme_names() { return names_of(kThemes); }
+std::string overlay_names() { return names_of(kOverlays); }
+std::string panel_names() { return names_of(kPanels); }
+
+}  // namespace piblocks

@@ -1,0 +1,76 @@
+#include "draw/theme.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace piblocks {
+namespace {
+
+constexpr std::array kThemes{Theme::article, Theme::chalkboard, Theme::dark, Theme::print,
+                             Theme::colorblind};
+
+/// WCAG 2.1, "relative luminance".
+double luminance(const Color& color) {
+  const auto linear = [](std::uint8_t sample) {
+    const double value = sample / 255.0;
+    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(color.red) + 0.7152 * linear(color.green) + 0.0722 * linear(color.blue);
+}
+
+/// WCAG 2.1, "contrast ratio".
+double contrast(const Color& a, const Color& b) {
+  const double x = luminance(a) + 0.05;
+  const double y = luminance(b) + 0.05;
+  return std::max(x, y) / std::min(x, y);
+}
+
+TEST(Theme, TextMeetsContrastOfWcagAa) {
+  for (const Theme theme : kThemes) {
+    SCOPED_TRACE(exact_text(theme));
+    const Palette palette = palette_of(theme);
+    for (const Color& ground : {palette.background, palette.shade}) {
+      EXPECT_GE(contrast(palette.text, ground), 4.5);
+      EXPECT_GE(contrast(palette.muted, ground), 4.5);
+    }
+    EXPECT_GE(contrast(palette.accent, palette.background), 4.5);
+    EXPECT_GE(contrast(palette.blue.text, palette.blue.fill), 4.5);
+    EXPECT_GE(contrast(palette.red.text, palette.red.fill), 4.5);
+  }
+}
+
+/// WCAG 2.1, 1.4.11: graphics that have to be seen.
+TEST(Theme, ShapesStandOutFromTheirGround) {
+  for (const Theme theme : kThemes) {
+    SCOPED_TRACE(exact_text(theme));
+    const Palette palette = palette_of(theme);
+    EXPECT_GE(contrast(palette.wall, palette.background), 3);
+    EXPECT_GE(contrast(palette.blue.edge, palette.background), 3);
+    EXPECT_GE(contrast(palette.red.edge, palette.background), 3);
+    EXPECT_GE(contrast(palette.blue.line, palette.background), 3);
+    EXPECT_GE(contrast(palette.red.line, palette.background), 3);
+  }
+}
+
+TEST(Theme, PatternsTellBlocksApartWhereColoursMayNot) {
+  for (const Theme theme : {Theme::print, Theme::colorblind}) {
+    const Palette palette = palette_of(theme);
+    EXPECT_NE(palette.red.bars, palette.blue.bars) << exact_text(theme);
+  }
+}
+
+TEST(Theme, PrintIsGrey) {
+  const Palette palette = palette_of(Theme::print);
+  for (const Color& color :
+       {palette.background, palette.wall, palette.text, palette.muted, palette.accent, palette.grid,
+        palette.shade, palette.blue.fill, palette.blue.edge, palette.blue.text, palette.blue.line,
+        palette.red.fill, palette.red.edge, palette.red.text, palette.red.line}) {
+    EXPECT_TRUE(color.red == color.green && color.green == color.blue);
+  }
+}
+
+}  // namespace
+}  // namespace piblocks
