@@ -172,7 +172,7 @@ struct ExposedBlock {
   Rectangle bounds;  ///< at the picture's instant
   Color fill;
   Stroke stroke;            ///< solid
-  std::vector<Bar> bars;    ///< in the stroke's colour, inside the bounds, apart from each other
+  std::vector<Bar> bars;    ///< in the stroke's colour, inside the bounds
   std::vector<Stop> stops;  ///< from left to right, none if it stays; shares of 1 in all, less
                             ///< what is outside of the frame
 

@@ -30,7 +30,10 @@ Cover cover_of(double pixel, double begin, double length, double line_px) {
 
 Cover row_cover_of(int row, const ExposedBlock& block, double line_px) {
   Cover cover = cover_of(row, block.bounds.y, block.bounds.height, line_px);
-  for (const Bar& bar : block.bars) cover.bars += overlap(row, bar.y, bar.y + bar.height);
+  // One after the other.
+  for (const Bar& bar : block.bars) {
+    cover.bars += (1 - cover.bars) * overlap(row, bar.y, bar.y + bar.height);
+  }
   return cover;
 }
 

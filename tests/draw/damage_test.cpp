@@ -192,7 +192,8 @@ ExposedBlock any_exposed_block(Random& random, int width, int height) {
                      {},
                      {}};
   for (std::int64_t i = random.integer(-2, 3); i > 0; --i) {
-    block.bars.push_back({anywhere(random, height), random.uniform(0.5, 5)});
+    const double down = random.uniform(0, block.bounds.height);
+    block.bars.push_back({block.bounds.y + down, random.uniform(0, block.bounds.height - down)});
   }
   const auto count = random.integer(0, 2) == 0 ? 0 : random.integer(1, 40);
   double x = block.bounds.x;

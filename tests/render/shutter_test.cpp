@@ -120,8 +120,7 @@ TEST(Shutter, FramesAreMeansOfInstants) {
   for (const int digits : {1, 3, 6, 20}) {
     SCOPED_TRACE(digits);
     // The first collision is in frame 90, the turn at 210.
-    expect_mean_of_instants(scene_of(digits, {1920, 1080}, Rational(1, 2)),
-                            {89, 90, 150, 209, 210});
+    expect_mean_of_instants(scene_of(digits, {1920, 1080}, Rational(1, 2)), {90, 150, 210});
     expect_mean_of_instants(scene_of(digits, {320, 180}, 1), {90, 208, 209, 210, 230});
   }
 }
@@ -169,7 +168,8 @@ TEST(Shutter, FramesOfEveryThemeAreMeansOfInstants) {
     expect_mean_of_instants(scene, {90, 150, 210});
     scene.view.width_px = 100;  // too few pixels a unit to be rounded
     scene.view.height_px = 70;
-    expect_mean_of_instants(scene, {90, 150, 210});
+    // A step of light is some steps of a sample where two dark lines meet.
+    expect_mean_of_instants(scene, {90, 150, 210}, 3.5);
   }
 }
 
@@ -195,7 +195,7 @@ TEST(Shutter, WhatStandsStillIsTheInstant) {
   FrameRenderer instants(closed);
   const std::int64_t last = exposed.frame_count() - 1;
   for (const std::int64_t frame : {std::int64_t{210}, std::int64_t{240}, last - 30, last}) {
-    EXPECT_EQ(bytes_of(exposed.frame(frame)), bytes_of(instants.frame(frame))) << frame;
+    EXPECT_TRUE(bytes_of(exposed.frame(frame)) == bytes_of(instants.frame(frame))) << frame;
   }
 }
 
@@ -230,7 +230,7 @@ TEST(Shutter, UpdatesAreWhatPaintingGives) {
         if (frame > 250) break;
         Canvas fresh(size.width_px, size.height_px);
         fresh.paint(film.frame(frame));
-        ASSERT_EQ(bytes_of(canvas.view()), bytes_of(fresh.view())) << "frame " << frame;
+        ASSERT_TRUE(bytes_of(canvas.view()) == bytes_of(fresh.view())) << "frame " << frame;
       }
     }
   }
@@ -252,13 +252,13 @@ TEST(Shutter, OnlyEndsOfWhatMovesAreRepainted) {
 TEST(Shutter, OfAStillIsThatOfTheFrameAtItsInstant) {
   const testing_support::TemporaryFolder folder;
   Scene scene = scene_of(3, {320, 180}, Rational(1, 2));
-  scene.pacing.slow_motion = {parse_slow_motion("3:4:2")};
+  scene.time.speed = Rational(1, 2);
   FrameRenderer renderer(scene);
   const std::string file = folder / "still.png";
-  for (const auto& [instant, frame] : {std::pair{Rational(3, 2), 90}, {Rational(7, 2), 240}}) {
+  for (const auto& [instant, frame] : {std::pair{Rational(3, 2), 180}, {Rational(7, 2), 420}}) {
     render_still(scene, instant, file);
     const std::vector<std::uint8_t> bytes = bytes_of(renderer.frame(frame));
-    EXPECT_EQ(testing_support::file_contents(file), std::string(bytes.begin(), bytes.end()))
+    EXPECT_TRUE(testing_support::file_contents(file) == std::string(bytes.begin(), bytes.end()))
         << instant;
   }
 }
@@ -270,8 +270,8 @@ TEST(Shutter, OfAStillThatNoFrameShowsRunsOnAtTheScenesSpeed) {
   longer.time.to = {false, 30};
   render_still(scene, Rational(20), folder / "outside.png");
   render_still(longer, Rational(20), folder / "inside.png");
-  EXPECT_EQ(testing_support::file_contents(folder / "outside.png"),
-            testing_support::file_contents(folder / "inside.png"));
+  EXPECT_TRUE(testing_support::file_contents(folder / "outside.png") ==
+              testing_support::file_contents(folder / "inside.png"));
 }
 
 TEST(Shutter, OfASceneWithoutCollisionsNeedsNoEnd) {
