@@ -22,7 +22,7 @@ set(core_headers color error exact geometry image time version)
 set(physics_headers blocks collision_log event_simulator exposure interpolator particle
     physics_versions)
 set(scene_headers instant pacing scene schedule show timeline)
-set(draw_headers canvas composition draw_list)
+set(draw_headers canvas composition draw_list exposed_item shapes)
 set(media_headers frame_sink png)
 set(golden_headers compare compare_files)
 set(render_headers render)
