@@ -142,6 +142,7 @@ class Contacts {
     if (gap.to > 1) end = (gap.from - 1) / (gap.from - gap.to);
     const auto way = [&](const Travel& travel) { return std::fabs(travel.to - travel.from); };
     const double way_px = std::max(way(behind), way(front)) * (end - begin);
+    if (!std::isfinite(way_px)) return;  // far outside of any frame
     const int count = static_cast<int>(std::clamp(std::ceil(way_px * kPerPixel), 1.0, kMax));
     for (int i = 0; i < count; ++i) {
       const double at = begin + (end - begin) * (i + 0.5) / count;
