@@ -44,16 +44,27 @@ class Points {
  public:
   Points() = default;
   Points(std::vector<Point> points)
-      : points_(std::make_shared<const std::vector<Point>>(std::move(points))) {}
+      : bounds_(bounds_of(points)),
+        points_(std::make_shared<const std::vector<Point>>(std::move(points))) {}
 
   std::span<const Point> view() const noexcept {
     return points_ ? std::span<const Point>(*points_) : std::span<const Point>();
   }
+  /// The least rectangle around them.
+  const Rectangle& bounds() const noexcept { return bounds_; }
   friend bool operator==(const Points& a, const Points& b) {
     return a.points_ == b.points_ || std::ranges::equal(a.view(), b.view());
   }
 
  private:
+  static Rectangle bounds_of(std::span<const Point> points) {
+    if (points.empty()) return {};
+    const auto [left, right] = std::ranges::minmax(points, {}, &Point::x);
+    const auto [top, bottom] = std::ranges::minmax(points, {}, &Point::y);
+    return {left.x, top.y, right.x - left.x, bottom.y - top.y};
+  }
+
+  Rectangle bounds_;
   std::shared_ptr<const std::vector<Point>> points_;
 };
 
@@ -87,7 +98,24 @@ struct ImageItem {
   friend bool operator==(const ImageItem&, const ImageItem&) = default;
 };
 
-using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, ExposedItem>;
+struct Sheet;
+
+/// Items that never change, as one: a canvas paints them once and keeps their picture. Equal if it
+/// is the same sheet in memory.
+struct SheetItem {
+  ItemId id = ItemId::wall;
+  Rectangle bounds;  ///< in whole pixels; nothing of the sheet is seen outside
+  std::shared_ptr<const Sheet> sheet;
+
+  friend bool operator==(const SheetItem&, const SheetItem&) = default;
+};
+
+using DrawItem =
+    std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, SheetItem, ExposedItem>;
+
+struct Sheet {
+  std::vector<DrawItem> items;  ///< from back to front
+};
 
 struct DrawList {
   int width_px = 0;

@@ -90,10 +90,10 @@ struct Canvas::Pixels {
 };
 
 /// How Cairo rounds a slanted edge depends on where the surface ends that it is painted on. The
-/// pixels of rectangles, text and exposed blocks do not.
+/// pixels of rectangles, text, sheets and exposed blocks do not.
 bool depends_on_surface(const DrawItem& item) {
-  return !std::holds_alternative<RectangleItem>(item) && !std::holds_alternative<TextItem>(item) &&
-         !std::holds_alternative<ExposedItem>(item);
+  return std::holds_alternative<PathItem>(item) || std::holds_alternative<DiskItem>(item) ||
+         std::holds_alternative<ImageItem>(item);
 }
 
 void Canvas::Pixels::paint(const DrawList& list, std::span<const PixelRect> rects) {

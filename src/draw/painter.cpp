@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "draw/cairo_handles.hpp"
 #include "draw/damage.hpp"
@@ -153,6 +154,34 @@ void Painter::paint_item(cairo_t& cr, const DrawItem& item) {
   if (const auto* path = std::get_if<PathItem>(&item)) paint_path(cr, *path);
   if (const auto* disk = std::get_if<DiskItem>(&item)) paint_disk(cr, *disk);
   if (const auto* image = std::get_if<ImageItem>(&item)) paint_image(cr, *image);
+  if (const auto* sheet = std::get_if<SheetItem>(&item)) paint_sheet(cr, *sheet);
+}
+
+void Painter::paint_sheet(cairo_t& cr, const SheetItem& item) {
+  if (setting_ == TextSetting::lines) {
+    for (const DrawItem& inner : item.sheet->items) paint_item(cr, inner);
+    return;
+  }
+  cairo_set_source_surface(&cr, &picture_of(item), item.bounds.x, item.bounds.y);
+  cairo_rectangle(&cr, item.bounds.x, item.bounds.y, item.bounds.width, item.bounds.height);
+  cairo_fill(&cr);
+}
+
+cairo_surface_t& Painter::picture_of(const SheetItem& item) {
+  for (const SheetPicture& kept : pictures_) {
+    if (kept.sheet == item.sheet) return *kept.picture;
+  }
+  CairoSurfacePtr picture(cairo_image_surface_create(CAIRO_FORMAT_ARGB32,
+                                                     static_cast<int>(item.bounds.width),
+                                                     static_cast<int>(item.bounds.height)));
+  check_cairo(cairo_surface_status(picture.get()), "paint a sheet");
+  cairo_surface_set_device_offset(picture.get(), -item.bounds.x, -item.bounds.y);
+  const CairoPtr inner(cairo_create(picture.get()));
+  for (const DrawItem& part : item.sheet->items) paint_item(*inner, part);
+  check_cairo(cairo_status(inner.get()), "paint a sheet");
+  cairo_surface_set_device_offset(picture.get(), 0, 0);
+  pictures_.push_back({item.sheet, std::move(picture)});
+  return *pictures_.back().picture;
 }
 
 void Painter::paint_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list,

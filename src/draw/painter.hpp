@@ -7,7 +7,9 @@
 #include <piblocks/image.hpp>
 
 #include <memory>
+#include <vector>
 
+#include "draw/cairo_handles.hpp"
 #include "draw/exposed_painter.hpp"
 #include "draw/font.hpp"
 
@@ -21,8 +23,8 @@ enum class TextSetting {
   glyphs  ///< each glyph by itself, so that its pixels depend on nothing else
 };
 
-/// Holds the font, which is loaded when the first text is met, and a table of light, which is made
-/// for the first exposed item.
+/// Holds the font, which is loaded when the first text is met, the pictures of sheets, and a table
+/// of light, which is made for the first exposed item.
 class Painter {
  public:
   explicit Painter(TextSetting setting) : setting_(setting) {}
@@ -39,10 +41,18 @@ class Painter {
                      const PixelRect& part);
   void embed_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list);
   void paint_text(cairo_t& cr, const TextItem& item);
+  void paint_sheet(cairo_t& cr, const SheetItem& item);
+  cairo_surface_t& picture_of(const SheetItem& item);
 
   TextSetting setting_;
   std::unique_ptr<Font> font_;
   std::unique_ptr<ExposedPainter> exposed_;
+  /// The sheet is kept too, so that no other one can come to be in its place in memory.
+  struct SheetPicture {
+    std::shared_ptr<const Sheet> sheet;
+    CairoSurfacePtr picture;
+  };
+  std::vector<SheetPicture> pictures_;
 };
 
 }  // namespace piblocks
