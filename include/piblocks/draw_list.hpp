@@ -114,7 +114,7 @@ using DrawItem =
     std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, SheetItem, ExposedItem>;
 
 struct Sheet {
-  std::vector<DrawItem> items;  ///< from back to front
+  std::vector<DrawItem> items;  ///< from back to front; none that is exposed
 };
 
 struct DrawList {
