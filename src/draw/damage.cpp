@@ -167,7 +167,7 @@ void compare(const ExposedBlock& before, const ExposedBlock& after, const Way& r
   damage.add({from + a.width - line, rows.from, to + a.width, rows.to});
 }
 
-void compare(const ExposedItem& before, const ExposedItem& after, const MeasureText&,
+void compare(const ExposedItem& before, const ExposedItem& after, const MeasureText& /*width_em*/,
              Damage& damage) {
   const Way rows = rows_of(before, after);
   compare(before.behind, after.behind, rows, damage);

@@ -54,7 +54,7 @@ class BlockTimes {
 
   struct Covered {
     Cover cover;
-    double share;
+    double share = 0;
   };
   /// Replaces `covered` by all ways in which the block covers some of a column of pixels.
   void cover_column(double pixel, std::vector<Covered>& covered) const;
@@ -86,8 +86,8 @@ class ExposedColumn {
  private:
   struct Known {
     RowCover row;
-    std::uint32_t background;
-    std::uint32_t result;
+    std::uint32_t background = 0;
+    std::uint32_t result = 0;
   };
   std::uint32_t compute(const RowCover& row, std::uint32_t background) const;
   double light_of(const RowCover& row, double background, std::uint8_t Color::*channel) const;

@@ -35,7 +35,7 @@ class Light {
 
  private:
   static constexpr int kPerStep = 4;
-  std::array<double, 255 * kPerStep + 1> table_;
+  std::array<double, 255 * kPerStep + 1> table_{};
 };
 
 }  // namespace piblocks

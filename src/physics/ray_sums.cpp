@@ -14,8 +14,8 @@ constexpr int kEndTerms = 32;
 /// With u = sin theta/sin(delta) at a ray and before and after it: a summand, and what it is beside
 /// u for a ray in the middle, where before * after = u^2/(1 - u^2).
 struct InverseSine {
-  static double at(double u, double, double) { return u; }
-  static double over_u(double) { return 1; }
+  static double at(double u, double /*before*/, double /*after*/) { return u; }
+  static double over_u(double /*u*/) { return 1; }
 };
 struct BlueMoment {
   static double at(double u, double before, double after) { return u * before * after; }

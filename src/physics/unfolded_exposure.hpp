@@ -39,7 +39,7 @@ class UnfoldedExposure final : public Exposure {
  private:
   /// A uniform motion at either end of the interval.
   struct Loose {
-    double duration;
+    double duration = 0;
     Travel gap;
   };
   /// What a sum over an interval gives: in units of time, and of time by length.
