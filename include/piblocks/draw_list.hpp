@@ -98,30 +98,30 @@ struct ImageItem {
   friend bool operator==(const ImageItem&, const ImageItem&) = default;
 };
 
-struct Sheet;
+struct Plate;
 
 /// Items that never change, as one: a canvas paints them once and keeps their picture. Equal if it
-/// is the same sheet in memory.
-struct SheetItem {
+/// is the same plate in memory.
+struct PlateItem {
   ItemId id = ItemId::wall;
-  Rectangle bounds;  ///< in whole pixels; nothing of the sheet is seen outside
-  std::shared_ptr<const Sheet> sheet;
+  Rectangle bounds;  ///< in whole pixels; nothing of the plate is seen outside
+  std::shared_ptr<const Plate> plate;
 
-  friend bool operator==(const SheetItem&, const SheetItem&) = default;
+  friend bool operator==(const PlateItem&, const PlateItem&) = default;
 };
 
 using DrawItem =
-    std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, SheetItem, ExposedItem>;
+    std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, PlateItem, ExposedItem>;
 
-struct Sheet {
+struct Plate {
   std::vector<DrawItem> items;  ///< from back to front; none that is exposed
 };
 
 struct DrawList {
   int width_px = 0;
   int height_px = 0;
-  Color background = {255, 255, 255};
-  std::vector<DrawItem> items;  ///< from back to front
+  std::optional<Color> background = Color{255, 255, 255};  ///< transparent without
+  std::vector<DrawItem> items;                             ///< from back to front
 
   friend bool operator==(const DrawList&, const DrawList&) = default;
 };

@@ -36,7 +36,7 @@ double reach_of(const std::optional<Stroke>& stroke) { return stroke ? stroke->w
 
 Extent extent_of(const RectangleItem& item) { return extent_of(item.bounds); }
 Extent extent_of(const ImageItem& item) { return extent_of(item.bounds); }
-Extent extent_of(const SheetItem& item) { return extent_of(item.bounds); }
+Extent extent_of(const PlateItem& item) { return extent_of(item.bounds); }
 
 Extent extent_of(const DiskItem& disk) {
   const double reach = disk.radius + reach_of(disk.stroke);

@@ -135,8 +135,10 @@ void Painter::paint(cairo_t& cr, const DrawList& list) {
 }
 
 void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& part) {
-  set_color(cr, list.background);
-  cairo_paint(&cr);
+  if (list.background) {
+    set_color(cr, *list.background);
+    cairo_paint(&cr);
+  }
   for (const DrawItem& item : list.items) {
     if (!reaches(item, part)) continue;
     if (const auto* exposed = std::get_if<ExposedItem>(&item)) {
@@ -154,12 +156,12 @@ void Painter::paint_item(cairo_t& cr, const DrawItem& item) {
   if (const auto* path = std::get_if<PathItem>(&item)) paint_path(cr, *path);
   if (const auto* disk = std::get_if<DiskItem>(&item)) paint_disk(cr, *disk);
   if (const auto* image = std::get_if<ImageItem>(&item)) paint_image(cr, *image);
-  if (const auto* sheet = std::get_if<SheetItem>(&item)) paint_sheet(cr, *sheet);
+  if (const auto* plate = std::get_if<PlateItem>(&item)) paint_plate(cr, *plate);
 }
 
-void Painter::paint_sheet(cairo_t& cr, const SheetItem& item) {
+void Painter::paint_plate(cairo_t& cr, const PlateItem& item) {
   if (setting_ == TextSetting::lines) {
-    for (const DrawItem& inner : item.sheet->items) paint_item(cr, inner);
+    for (const DrawItem& inner : item.plate->items) paint_item(cr, inner);
     return;
   }
   cairo_set_source_surface(&cr, &picture_of(item), item.bounds.x, item.bounds.y);
@@ -167,20 +169,20 @@ void Painter::paint_sheet(cairo_t& cr, const SheetItem& item) {
   cairo_fill(&cr);
 }
 
-cairo_surface_t& Painter::picture_of(const SheetItem& item) {
-  for (const SheetPicture& kept : pictures_) {
-    if (kept.sheet == item.sheet) return *kept.picture;
+cairo_surface_t& Painter::picture_of(const PlateItem& item) {
+  for (const PlatePicture& kept : pictures_) {
+    if (kept.plate == item.plate) return *kept.picture;
   }
   CairoSurfacePtr picture(cairo_image_surface_create(CAIRO_FORMAT_ARGB32,
                                                      static_cast<int>(item.bounds.width),
                                                      static_cast<int>(item.bounds.height)));
-  check_cairo(cairo_surface_status(picture.get()), "paint a sheet");
+  check_cairo(cairo_surface_status(picture.get()), "paint a plate");
   cairo_surface_set_device_offset(picture.get(), -item.bounds.x, -item.bounds.y);
   const CairoPtr inner(cairo_create(picture.get()));
-  for (const DrawItem& part : item.sheet->items) paint_item(*inner, part);
-  check_cairo(cairo_status(inner.get()), "paint a sheet");
+  for (const DrawItem& part : item.plate->items) paint_item(*inner, part);
+  check_cairo(cairo_status(inner.get()), "paint a plate");
   cairo_surface_set_device_offset(picture.get(), 0, 0);
-  pictures_.push_back({item.sheet, std::move(picture)});
+  pictures_.push_back({item.plate, std::move(picture)});
   return *pictures_.back().picture;
 }
 

@@ -23,13 +23,13 @@ enum class TextSetting {
   glyphs  ///< each glyph by itself, so that its pixels depend on nothing else
 };
 
-/// Holds the font, which is loaded when the first text is met, the pictures of sheets, and a table
+/// Holds the font, which is loaded when the first text is met, the pictures of plates, and a table
 /// of light, which is made for the first exposed item.
 class Painter {
  public:
   explicit Painter(TextSetting setting) : setting_(setting) {}
 
-  /// Paints the background and every item. @throws DrawError
+  /// Paints the background, if there is one, and every item. @throws DrawError
   void paint(cairo_t& cr, const DrawList& list);
   /// The same where nothing but this part of the picture is seen.
   void paint(cairo_t& cr, const DrawList& list, const PixelRect& part);
@@ -41,18 +41,18 @@ class Painter {
                      const PixelRect& part);
   void embed_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list);
   void paint_text(cairo_t& cr, const TextItem& item);
-  void paint_sheet(cairo_t& cr, const SheetItem& item);
-  cairo_surface_t& picture_of(const SheetItem& item);
+  void paint_plate(cairo_t& cr, const PlateItem& item);
+  cairo_surface_t& picture_of(const PlateItem& item);
 
   TextSetting setting_;
   std::unique_ptr<Font> font_;
   std::unique_ptr<ExposedPainter> exposed_;
-  /// The sheet is kept too, so that no other one can come to be in its place in memory.
-  struct SheetPicture {
-    std::shared_ptr<const Sheet> sheet;
+  /// The plate is kept too, so that no other one can come to be in its place in memory.
+  struct PlatePicture {
+    std::shared_ptr<const Plate> plate;
     CairoSurfacePtr picture;
   };
-  std::vector<SheetPicture> pictures_;
+  std::vector<PlatePicture> pictures_;
 };
 
 }  // namespace piblocks

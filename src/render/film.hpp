@@ -2,6 +2,7 @@
 // In: a scene, once, and the number of a frame. Out: its draw list.
 #pragma once
 
+#include <piblocks/canvas.hpp>
 #include <piblocks/collision_log.hpp>
 #include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
@@ -16,6 +17,10 @@
 
 namespace piblocks {
 
+inline Ground ground_of(const View& view) {
+  return view.background == Background::transparent ? Ground::transparent : Ground::opaque;
+}
+
 /// Const members are thread-safe.
 class Film {
  public:
@@ -27,6 +32,7 @@ class Film {
         composition_(scene_, *log_, read_logo(scene_)) {}
 
   const View& view() const noexcept { return scene_.view; }
+  Ground ground() const noexcept { return ground_of(scene_.view); }
   std::int64_t frame_count() const noexcept { return timeline_.frame_count(); }
   /// @param number  from 0 to frame_count() - 1.
   DrawList frame(std::int64_t number) const {

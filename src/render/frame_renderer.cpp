@@ -32,7 +32,7 @@ void check_buffer(const View& view, std::size_t size_bytes, std::ptrdiff_t strid
 
 struct FrameRenderer::State {
   explicit State(const Scene& scene)
-      : film(scene), canvas(film.view().width_px, film.view().height_px) {}
+      : film(scene), canvas(film.view().width_px, film.view().height_px, film.ground()) {}
 
   Film film;
   Canvas canvas;

@@ -67,8 +67,8 @@ Box box_of(const TextItem& text, const Font& font) {
 void add_texts(const std::vector<DrawItem>& items, const Font& font, std::vector<Box>& boxes) {
   for (const DrawItem& item : items) {
     if (const auto* text = std::get_if<TextItem>(&item)) boxes.push_back(box_of(*text, font));
-    if (const auto* sheet = std::get_if<SheetItem>(&item)) {
-      add_texts(sheet->sheet->items, font, boxes);
+    if (const auto* plate = std::get_if<PlateItem>(&item)) {
+      add_texts(plate->plate->items, font, boxes);
     }
   }
 }

@@ -40,7 +40,7 @@ PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const st
   item_ = {nth(first_id_, 0), whole_pixels(whole, kAround * text_px_), nullptr};
 }
 
-void PanelSheet::finish() { item_.sheet = std::make_shared<const Sheet>(Sheet{std::move(items_)}); }
+void PanelSheet::finish() { item_.plate = std::make_shared<const Plate>(Plate{std::move(items_)}); }
 
 void PanelSheet::path(std::vector<Point> points, bool closed, const std::optional<Color>& fill,
                       const std::optional<Stroke>& stroke) {

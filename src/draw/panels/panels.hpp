@@ -53,7 +53,7 @@ class PanelSheet {
 
   /// All that stays as one item; nothing can be added to it any more.
   void finish();
-  const SheetItem& item() const noexcept { return item_; }
+  const PlateItem& item() const noexcept { return item_; }
 
  private:
   static constexpr std::size_t kMoving = 32768;
@@ -67,7 +67,7 @@ class PanelSheet {
   double line_px_;
   Rectangle inside_;
   std::vector<DrawItem> items_;
-  SheetItem item_;
+  PlateItem item_;
 };
 
 }  // namespace piblocks
