@@ -2,7 +2,9 @@
 // In: composition. Out: what the canvas paints and what two frames are compared by.
 #pragma once
 
+#include <piblocks/exposed_item.hpp>
 #include <piblocks/image.hpp>
+#include <piblocks/shapes.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -16,72 +18,6 @@
 #include <vector>
 
 namespace piblocks {
-
-/// Opaque sRGB colour.
-struct Color {
-  std::uint8_t red = 0;
-  std::uint8_t green = 0;
-  std::uint8_t blue = 0;
-
-  friend bool operator==(const Color&, const Color&) = default;
-};
-
-/// In pixels, y downwards, origin at the frame's upper left corner; whole numbers are the lines
-/// between pixels.
-struct Point {
-  double x = 0;
-  double y = 0;
-
-  friend bool operator==(const Point&, const Point&) = default;
-};
-
-/// In pixels, from its upper left corner.
-struct Rectangle {
-  double x = 0;
-  double y = 0;
-  double width = 0;
-  double height = 0;
-
-  friend bool operator==(const Rectangle&, const Rectangle&) = default;
-};
-
-/// A line. On a rectangle it is drawn inside the outline, so that the shape is exactly as large as
-/// it says; on a path and on a disk it is centred on the outline.
-struct Stroke {
-  Color color;
-  double width_px = 1;
-  double dash_px = 0;  ///< length of dashes and of the gaps between them; 0 for a solid line
-
-  friend bool operator==(const Stroke&, const Stroke&) = default;
-};
-
-/// The first of 65,536 ids for what shows one thing.
-constexpr std::uint32_t ids_from(std::uint32_t thing) { return thing << 16; }
-
-/// What an item shows, the same from frame to frame. Where several items show one thing, nth()
-/// tells them apart. Lists whose ids rise from back to front may gain and lose items from frame to
-/// frame, and only these are painted.
-enum class ItemId : std::uint32_t {
-  wall = ids_from(0),
-  red_block = ids_from(1),
-  blue_block = ids_from(2),
-  label = ids_from(3),
-  lit_count = ids_from(4),
-  count = ids_from(5),
-  masses = ids_from(6),
-  velocities = ids_from(7),
-  ruler = ids_from(8),
-  read_outs = ids_from(9),
-  title = ids_from(10),
-  caption = ids_from(11),
-  logo = ids_from(12),
-  panels = ids_from(13)  ///< and one for each panel after it
-};
-
-/// The n-th of the items that show one thing, n < 65,536.
-constexpr ItemId nth(ItemId thing, std::size_t n) {
-  return ItemId{static_cast<std::uint32_t>(thing) + static_cast<std::uint32_t>(n)};
-}
 
 struct RectangleItem {
   ItemId id = ItemId::wall;
@@ -174,10 +110,11 @@ struct PlateItem {
   friend bool operator==(const PlateItem&, const PlateItem&) = default;
 };
 
-using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, PlateItem>;
+using DrawItem =
+    std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, PlateItem, ExposedItem>;
 
 struct Plate {
-  std::vector<DrawItem> items;  ///< from back to front
+  std::vector<DrawItem> items;  ///< from back to front; none that is exposed
 };
 
 struct DrawList {

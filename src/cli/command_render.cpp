@@ -120,6 +120,7 @@ RenderOptions add_options(CLI::App& command) {
                        "Size, rate and background that suit one of:\n" + destination_names());
   scene.add_picture();
   scene.add_show();
+  scene.add_exposure();
   scene.add_timing();
   scene.add_sound();
   const CLI::Option& crf =

@@ -58,10 +58,17 @@ void SceneOptions::add_span() {
           "End: a time, the last collision, or so long after it\n(default last+1.5)");
 }
 
-void SceneOptions::add_timing() {
+void SceneOptions::add_exposure() {
+  add_key(
+      "view.shutter", "--shutter", "X",
+      "Motion blur: the share of the time between two frames for\nwhich each is exposed, 0 to 1 "
+      "(default 0)");
   add_key("view.fps", "--fps", "N|N/D", "Frames per second (default 60)");
-  add_span();
   add_key("time.speed", "--speed", "X", "Simulation time per second of video (default 1)");
+}
+
+void SceneOptions::add_timing() {
+  add_span();
   add_pacing();
 }
 

@@ -28,9 +28,11 @@ class SceneOptions {
   void add_picture();
   /// Adds --theme, --show, --panels and what else says what a picture shows.
   void add_show();
+  /// Adds --shutter, and --fps and --speed, which it depends on.
+  void add_exposure();
   /// Adds --from and --to.
   void add_span();
-  /// Adds --fps, --speed and what else says how time runs in the video beside these.
+  /// Adds --from, --to and what else says how time runs in the video.
   void add_timing();
 
   /// Adds --sound and --no-sound.

@@ -53,7 +53,7 @@ struct Canvas::Pixels {
 };
 
 /// How Cairo rounds a slanted edge depends on where the surface ends that it is painted on. The
-/// pixels of rectangles, text and plates do not.
+/// pixels of rectangles, text, plates and exposed blocks do not.
 bool depends_on_surface(const DrawItem& item) {
   return std::holds_alternative<PathItem>(item) || std::holds_alternative<DiskItem>(item) ||
          std::holds_alternative<ImageItem>(item);

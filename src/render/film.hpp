@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "render/logo.hpp"
+#include "render/shutter.hpp"
 
 namespace piblocks {
 
@@ -40,7 +41,9 @@ class Film {
   DrawList frame(std::int64_t number) const {
     FrameTime shown = timeline_.at(number);
     BlockState state = state_at(*log_, shown.time);
-    return composition_.frame({std::move(state), std::move(shown.time), std::move(shown.slower)});
+    const std::vector<ExposurePart> parts = expose_frame(scene_, *log_, timeline_, number);
+    return composition_.frame({std::move(state), std::move(shown.time), std::move(shown.slower)},
+                              parts);
   }
 
  private:

@@ -10,6 +10,7 @@
 
 #include "core/output_file.hpp"
 #include "render/logo.hpp"
+#include "render/shutter.hpp"
 
 namespace piblocks {
 namespace {
@@ -39,10 +40,12 @@ void render_still(const Scene& scene, const Instant& instant, const std::string&
   Draw* const draw = drawing_for(output);
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   TimedState at = state_at(*log, instant);
+  const Rational time = to_rational(at.time);
   const Composition composition(scene, *log, read_logo(scene));
+  const std::vector<ExposurePart> parts = expose_still(scene, *log, time);
   OutputFile file(output);
   const std::vector<std::uint8_t> picture =
-      draw(composition.frame({std::move(at.state), to_rational(at.time)}));
+      draw(composition.frame({std::move(at.state), time}, parts));
   if (stop.stop_requested()) throw Interrupted("still: interrupted");
   file.write(picture);
   file.finish();

@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"-x"}, "unknown option '-x'"},
         BadInput{{"--digits", "3"}, "unknown option '--digits'"},
         BadInput{{"count", "--frames", "3"}, "count: unknown option '--frames'"},
-        BadInput{{"still", "--at", "1", "--fps", "60", "-o", "a.png"}, "unknown option '--fps'"},
+        BadInput{{"still", "--at", "1", "--from", "0", "-o", "a.png"}, "unknown option '--from'"},
         BadInput{{"render", "--ouput", "a.mp4"}, "render: unknown option '--ouput'"},
         BadInput{{"count", "a.toml", "b.toml"}, "count: unexpected argument 'b.toml'"},
         BadInput{{"info", "everything"}, "info: unexpected argument 'everything'"},
@@ -155,6 +155,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{render({"--fps", "nan"}), "view.fps = nan: not a number"},
         BadInput{render({"--fps", "30/0"}), "view.fps = 30/0: division by zero"},
         BadInput{render({"--fps", "1001"}), "at most 1000"},
+        BadInput{render({"--shutter", "1.5"}), "view.shutter = 3/2: must be from 0"},
+        BadInput{render({"--shutter", "-1/2"}), "view.shutter = -1/2: must be from 0"},
+        BadInput{render({"--shutter", "half"}), "view.shutter = half: not a number"},
+        BadInput{render({"--shutter", "1", "--transparent"}), "a transparent frame has none"},
+        BadInput{still({"--at", "1", "--shutter", "2"}), "view.shutter = 2: must be from 0"},
         BadInput{still({"--at", "1", "--size", "0x0"}), "view.size = 0x0"}));
 
 INSTANTIATE_TEST_SUITE_P(
