@@ -131,7 +131,7 @@ RenderOptions add_options(CLI::App& command) {
       add_value_option(command, "--encoder", "NAME", "Video encoder; 'piblocks info' lists them");
   const CLI::Option& smallest =
       *command.add_flag("--smallest")
-           ->description("Smallest MP4, by libx264: under half the size, takes many times as long");
+           ->description("Smallest MP4, by libx264: under half the size, and many\ntimes the time");
   const CLI::Option& jobs = add_value_option(
       command, "--jobs", "N", "Threads (default: one a processor); changes no byte of the output");
   const CLI::Option& part =
