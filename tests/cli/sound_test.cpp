@@ -190,7 +190,9 @@ TEST_F(SoundTest, AloneLoadsNoCodecsAndTakesLittleMemory) {
       render, {.folder = folder_.path(), .environment = {"LD_DEBUG=files"}});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err.find("libavcodec"), std::string::npos);
-  EXPECT_LT(result.max_memory_KiB, 64 * 1024);
+  if (testing_support::kTellsMemory) {
+    EXPECT_LT(result.max_memory_KiB, 64 * 1024);
+  }
   EXPECT_EQ(std::filesystem::file_size(folder_ / "a.wav"), 44u + 600u * 48000u * 6u);
 }
 
