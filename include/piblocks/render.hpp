@@ -31,7 +31,8 @@ struct Part {
 
 struct RenderJob {
   Scene scene;
-  std::string output;  ///< as set_up_output() takes it
+  /// As set_up_output() takes it; or `*.html`, a page that holds the MP4 and steps through it.
+  std::string output;
   EncoderSettings encoder = {};
   int jobs = 1;  ///< frames painted and encoded at the same time, >= 1; does not change a byte
   /// Renders this share only, to the file part_name().

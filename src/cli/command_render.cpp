@@ -113,7 +113,8 @@ RenderOptions add_options(CLI::App& command) {
       *add_value_option(command, "-o,--output", "OUT",
                         "What to write: NAME.mp4, NAME.mov, NAME.webm, NAME.gif,\n"
                         "NAME.apng, FRAMES/%06d.png, NAME.y4m, - (y4m on standard\n"
-                        "output), NAME.framehash, or null")
+                        "output), NAME.framehash, null, or NAME.html: the video in a\n"
+                        "page, to be stepped through by time and by collision")
            .required();
   const CLI::Option& destination =
       add_value_option(command, "--for", "WHERE",

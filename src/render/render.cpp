@@ -9,6 +9,7 @@
 #include "render/film.hpp"
 #include "render/job_description.hpp"
 #include "render/ordered_pool.hpp"
+#include "render/page.hpp"
 #include "render/stage_clock.hpp"
 
 namespace piblocks {
@@ -113,6 +114,7 @@ void add(StageSeconds& sum, const StageSeconds& spent) {
 
 Rendered render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
                 const std::stop_token& stop) {
+  if (is_page(job.output)) return render_page(job, on_progress, stop);
   check_part(job);
   const Plan plan(job);
   const Share share = share_of(job.part, plan.chunks.count());

@@ -1,0 +1,151 @@
+#include "render/page.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/collision_log.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/timeline.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "core/base64.hpp"
+#include "core/output_file.hpp"
+#include "core/unfinished.hpp"
+#include "golden/reports.hpp"
+#include "render/page_facts.hpp"
+#include "render/page_source.hpp"
+#include "render/scene_text.hpp"
+#include "render/stage_clock.hpp"
+
+namespace piblocks {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Nothing is fetched, nothing is sent, no other script runs.
+constexpr std::string_view kHead = R"(<!DOCTYPE html>
+<html lang="en">
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; media-src data:; script-src 'sha256-{script_hash}'; style-src 'sha256-{style_hash}'; base-uri 'none'; form-action 'none'">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{title}</title>
+<style>{style}</style>
+<main>
+<h1>{title}</h1>
+<video id="video" width="{width}" height="{height}" controls playsinline preload="auto" aria-label="{title}" aria-describedby="description" src="data:video/mp4;base64,)";
+
+constexpr std::string_view kControls = R"("></video>
+<p id="problem" role="alert"></p>
+<div id="controls" hidden>
+<input id="time-slider" type="range" min="0" step="any" autocomplete="off" aria-label="Simulation time">
+<dl class="read-outs">
+<div><dt>Collisions</dt><dd><span id="count" aria-live="polite"></span> <span id="picture"></span></dd></div>
+<div><dt>Time</dt><dd id="time" aria-live="polite"></dd></div>
+<div><dt>Frame</dt><dd id="frame"></dd></div>
+</dl>
+<div class="buttons" role="group" aria-label="Playback">
+<button id="start" type="button" aria-keyshortcuts="Home">Start</button>
+<button id="previous-collision" type="button" aria-keyshortcuts="," aria-label="Previous collision">&minus; collision</button>
+<button id="previous-frame" type="button" aria-keyshortcuts="ArrowLeft" aria-label="Previous frame">&minus; frame</button>
+<button id="play" type="button" aria-keyshortcuts="Space">Play</button>
+<button id="next-frame" type="button" aria-keyshortcuts="ArrowRight" aria-label="Next frame">+ frame</button>
+<button id="next-collision" type="button" aria-keyshortcuts="." aria-label="Next collision">+ collision</button>
+<button id="end" type="button" aria-keyshortcuts="End">End</button>
+</div>
+<p><kbd>Space</kbd> plays and pauses, <kbd>&larr;</kbd> <kbd>&rarr;</kbd> go from frame to frame,
+<kbd>,</kbd> <kbd>.</kbd> from collision to collision, <kbd>Home</kbd> <kbd>End</kbd> to the ends.</p>
+</div>
+)";
+
+/// Collects small pieces.
+class PageText {
+ public:
+  explicit PageText(OutputFile& file) : file_(file) {}
+  void add(std::string_view text) {
+    text_ += text;
+    if (text_.size() >= kPiece_bytes) flush();
+  }
+  void flush() {
+    file_.write(text_);
+    text_.clear();
+  }
+
+ private:
+  static constexpr std::size_t kPiece_bytes = std::size_t{1} << 16;
+  OutputFile& file_;
+  std::string text_;
+};
+
+void check(const RenderJob& job) {
+  if (job.part) {
+    throw UsageError(fmt::format(
+        "part: there are no parts of page '{}'; render it whole, or the parts of an MP4",
+        job.output));
+  }
+  if (job.scene.view.background == Background::transparent) {
+    throw UsageError(fmt::format(
+        "output: '{}' cannot be transparent: a page shows an MP4; use an opaque background",
+        job.output));
+  }
+}
+
+/// Piece by piece, however long the video is.
+void add_video(const fs::path& path, PageText& page) {
+  constexpr std::size_t kPiece_bytes = std::size_t{3} << 14;
+  std::ifstream video(path, std::ios::binary);
+  std::vector<std::uint8_t> piece(kPiece_bytes);
+  while (video) {
+    video.read(reinterpret_cast<char*>(piece.data()), std::ptrdiff_t{kPiece_bytes});
+    page.add(base64({piece.data(), static_cast<std::size_t>(video.gcount())}));
+  }
+  if (!video.eof()) throw IoError(fmt::format("page: cannot read '{}'", path.string()));
+}
+
+void write_page(const Scene& scene, const fs::path& video, OutputFile& file) {
+  const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
+  const Timeline timeline(scene, *log);
+  const PageFacts facts(scene, *log, timeline);
+  const VideoCount count{facts.most(), log->size()};
+  PageText page(file);
+  page.add(fmt::format(
+      kHead, fmt::arg("script_hash", kPageScriptHash), fmt::arg("style_hash", kPageStyleHash),
+      fmt::arg("style", kPageStyle), fmt::arg("title", escaped(title_of(scene, count))),
+      fmt::arg("width", scene.view.width_px), fmt::arg("height", scene.view.height_px)));
+  add_video(video, page);
+  page.add(kControls);
+  page.add(fmt::format("<p id=\"description\">{}</p>\n</main>\n",
+                       escaped(describe_video(scene, count))));
+  page.add("<script id=\"facts\" type=\"application/json\">");
+  facts.write([&](std::string_view text) { page.add(text); });
+  page.add(fmt::format("</script>\n<script>{}</script>\n", kPageScript));
+  page.flush();
+}
+
+}  // namespace
+
+bool is_page(const std::string& output) { return output.ends_with(".html"); }
+
+Rendered render_page(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
+                     const std::stop_token& stop) {
+  check(job);
+  OutputFile page(job.output);
+  const Unfinished folder(job.output, Unfinished::Kind::folder);
+  RenderJob video = job;
+  video.output = folder.path() / "video.mp4";
+  Rendered rendered = render(video, on_progress, stop);
+  StageClock clock(job.profile, Stage::write);
+  write_page(job.scene, video.output, page);
+  if (stop.stop_requested()) throw Interrupted("render: interrupted");
+  page.finish();
+  if (job.profile) {
+    const auto write = static_cast<std::size_t>(Stage::write);
+    rendered.profile.stages[write] += clock.spent()[write];
+    rendered.profile.total_s = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
+  }
+  return rendered;
+}
+
+}  // namespace piblocks
