@@ -113,8 +113,8 @@ RenderOptions add_options(CLI::App& command) {
       *add_value_option(command, "-o,--output", "OUT",
                         "What to write: NAME.mp4, NAME.mov, NAME.webm, NAME.gif,\n"
                         "NAME.apng, FRAMES/%06d.png, NAME.y4m, - (y4m on standard\n"
-                        "output), NAME.framehash, null, or NAME.html: the video in a\n"
-                        "page, to be stepped through by time and by collision")
+                        "output), NAME.framehash, null, NAME.wav: the sound alone, or\n"
+                        "NAME.html: a page to step through time and collisions")
            .required();
   const CLI::Option& destination =
       add_value_option(command, "--for", "WHERE",
@@ -122,6 +122,7 @@ RenderOptions add_options(CLI::App& command) {
   scene.add_picture();
   scene.add_show();
   scene.add_timing();
+  scene.add_sound();
   const CLI::Option& crf =
       add_value_option(command, "--crf", "Q", "Rate factor, 0 (best) to 51 (worst); 63 for WebM");
   const CLI::Option& preset =

@@ -33,6 +33,9 @@ class SceneOptions {
   /// Adds --fps, --speed and what else says how time runs in the video beside these.
   void add_timing();
 
+  /// Adds --sound and --no-sound.
+  void add_sound();
+
   /// @param defaults  win over the scene file, but not over options.
   /// @param origin    of these, named in messages.
   /// @throws SceneError, UsageError

@@ -30,6 +30,9 @@ class Film {
         timeline_(scene_, *log_),
         composition_(scene_, *log_, read_logo(scene_)) {}
 
+  const Scene& scene() const noexcept { return scene_; }
+  const CollisionLog& log() const noexcept { return *log_; }
+  const Schedule& schedule() const noexcept { return timeline_.schedule(); }
   const View& view() const noexcept { return scene_.view; }
   Ground ground() const noexcept { return ground_of(scene_.view); }
   std::int64_t frame_count() const noexcept { return timeline_.frame_count(); }

@@ -54,6 +54,7 @@ constexpr std::string_view kControls = R"("></video>
 <button id="next-frame" type="button" aria-keyshortcuts="ArrowRight" aria-label="Next frame">+ frame</button>
 <button id="next-collision" type="button" aria-keyshortcuts="." aria-label="Next collision">+ collision</button>
 <button id="end" type="button" aria-keyshortcuts="End">End</button>
+<button id="sound" type="button" aria-keyshortcuts="m">Sound off</button>
 </div>
 <p><kbd>Space</kbd> plays and pauses, <kbd>&larr;</kbd> <kbd>&rarr;</kbd> go from frame to frame,
 <kbd>,</kbd> <kbd>.</kbd> from collision to collision, <kbd>Home</kbd> <kbd>End</kbd> to the ends.</p>

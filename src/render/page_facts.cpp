@@ -132,9 +132,9 @@ void PageFacts::write(const Sink& sink) const {
     }
   }
   sink(fmt::format(
-      R"({{"rate":[{},{}],"frames":{},"forth":{},"loop":{},"decimals":{},"scale":{},"from":"{}",)",
+      R"({{"rate":[{},{}],"frames":{},"forth":{},"loop":{},"sound":{},"decimals":{},"scale":{},"from":"{}",)",
       rate.get_num().get_str(), rate.get_den().get_str(), timeline_.frame_count(), forth_,
-      scene_.pacing.loop, decimals, scale, scaled(from_, scale).get_str()));
+      scene_.pacing.loop, scene_.sound.on, decimals, scale, scaled(from_, scale).get_str()));
   sink(R"("stretches":[)");
   const char* comma = "";
   for (const Stretch& stretch : timeline_.schedule().stretches()) {

@@ -63,6 +63,7 @@ References::References(const std::string& scene_path, fs::path folder, const std
   if (!frames.empty()) builder.set("--frames", "golden.frames", frames);
   scene_ = builder.build();
   scene_.view = golden_view(scene_);
+  scene_.sound.on = false;  // pictures are what is kept
 }
 
 std::vector<std::string> References::files() const {

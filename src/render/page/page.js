@@ -161,6 +161,9 @@ function onPlaying() {
   }
 }
 for (const name of ["play", "pause"]) video.addEventListener(name, onPlaying);
+video.addEventListener("volumechange", () => {
+  byId("sound").textContent = video.muted ? "Sound on" : "Sound off";
+});
 video.addEventListener("ended", () => {
   frame = lastFrame;
   collision = null;
@@ -178,6 +181,7 @@ const actions = {
   "next-frame": () => show(frame + 1),
   "next-collision": nextCollision,
   end: () => show(facts.forth - 1),
+  sound: () => { video.muted = !video.muted; },
 };
 for (const [id, action] of Object.entries(actions)) byId(id).addEventListener("click", action);
 video.addEventListener("click", playOrPause);
@@ -185,7 +189,7 @@ slider.addEventListener("input", () => show(frameNear(Number(slider.value))));
 
 const keys = {
   " ": "play", ArrowLeft: "previous-frame", ArrowRight: "next-frame", Home: "start", End: "end",
-  ",": "previous-collision", ".": "next-collision",
+  ",": "previous-collision", ".": "next-collision", m: "sound",
 };
 document.addEventListener("keydown", event => {
   const id = keys[event.key];
@@ -199,6 +203,7 @@ document.body.style.setProperty("--shape", video.width / video.height);
 slider.max = offsetOf(facts.forth - 1);
 video.controls = false;
 video.loop = facts.loop;
+byId("sound").hidden = !facts.sound;
 byId("controls").hidden = false;
 onPlaying();
 show(0);
