@@ -1,19 +1,24 @@
 #include "render/page.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/timeline.hpp>
+#include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <memory>
+#include <span>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "core/base64.hpp"
+#include "core/descriptor.hpp"
+#include "core/file_set.hpp"
 #include "core/output_file.hpp"
-#include "core/unfinished.hpp"
 #include "golden/reports.hpp"
 #include "render/page_facts.hpp"
 #include "render/page_source.hpp"
@@ -47,12 +52,12 @@ constexpr std::string_view kControls = R"("></video>
 <div><dt>Frame</dt><dd id="frame"></dd></div>
 </dl>
 <div class="buttons" role="group" aria-label="Playback">
-<button id="start" type="button" aria-keyshortcuts="Home">Start</button>
-<button id="previous-collision" type="button" aria-keyshortcuts="," aria-label="Previous collision">&minus; collision</button>
-<button id="previous-frame" type="button" aria-keyshortcuts="ArrowLeft" aria-label="Previous frame">&minus; frame</button>
 <button id="play" type="button" aria-keyshortcuts="Space">Play</button>
-<button id="next-frame" type="button" aria-keyshortcuts="ArrowRight" aria-label="Next frame">+ frame</button>
+<button id="previous-collision" type="button" aria-keyshortcuts="," aria-label="Previous collision">&minus; collision</button>
 <button id="next-collision" type="button" aria-keyshortcuts="." aria-label="Next collision">+ collision</button>
+<button id="previous-frame" type="button" aria-keyshortcuts="ArrowLeft" aria-label="Previous frame">&minus; frame</button>
+<button id="next-frame" type="button" aria-keyshortcuts="ArrowRight" aria-label="Next frame">+ frame</button>
+<button id="start" type="button" aria-keyshortcuts="Home">Start</button>
 <button id="end" type="button" aria-keyshortcuts="End">End</button>
 <button id="sound" type="button" aria-keyshortcuts="m">Sound off</button>
 </div>
@@ -91,18 +96,35 @@ void check(const RenderJob& job) {
         "output: '{}' cannot be transparent: a page shows an MP4; use an opaque background",
         job.output));
   }
+  std::error_code none;
+  const fs::file_status status = fs::status(job.output, none);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw UsageError(fmt::format("output: cannot open '{}': not a file", job.output));
+  }
+}
+
+[[noreturn]] void fail_to_read(const fs::path& path, int error_number) {
+  throw IoError(fmt::format("page: cannot read '{}': {}", path.string(),
+                            std::generic_category().message(error_number)));
 }
 
 /// Piece by piece, however long the video is.
 void add_video(const fs::path& path, PageText& page) {
   constexpr std::size_t kPiece_bytes = std::size_t{3} << 14;
-  std::ifstream video(path, std::ios::binary);
+  const Descriptor video(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!video.is_open()) fail_to_read(path, errno);
   std::vector<std::uint8_t> piece(kPiece_bytes);
-  while (video) {
-    video.read(reinterpret_cast<char*>(piece.data()), std::ptrdiff_t{kPiece_bytes});
-    page.add(base64({piece.data(), static_cast<std::size_t>(video.gcount())}));
+  std::size_t filled = 0;
+  for (;;) {
+    const ssize_t count = ::read(video.get(), piece.data() + filled, piece.size() - filled);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail_to_read(path, errno);
+    filled += static_cast<std::size_t>(count);
+    if (count > 0 && filled < piece.size()) continue;
+    page.add(base64(std::span(piece).first(filled)));
+    if (count == 0) return;
+    filled = 0;
   }
-  if (!video.eof()) throw IoError(fmt::format("page: cannot read '{}'", path.string()));
 }
 
 void write_page(const Scene& scene, const fs::path& video, OutputFile& file) {
@@ -132,15 +154,17 @@ bool is_page(const std::string& output) { return output.ends_with(".html"); }
 Rendered render_page(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
                      const std::stop_token& stop) {
   check(job);
-  OutputFile page(job.output);
-  const Unfinished folder(job.output, Unfinished::Kind::folder);
+  const fs::path path(job.output);
+  FileSet files(path.parent_path(), path.filename());
+  OutputFile page(files.add(path.filename()));
   RenderJob video = job;
-  video.output = folder.path() / "video.mp4";
+  video.output = files.workshop() / "video.mp4";
   Rendered rendered = render(video, on_progress, stop);
   StageClock clock(job.profile, Stage::write);
   write_page(job.scene, video.output, page);
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
   page.finish();
+  files.commit();
   if (job.profile) {
     const auto write = static_cast<std::size_t>(Stage::write);
     rendered.profile.stages[write] += clock.spent()[write];

@@ -33,6 +33,8 @@ class PageFacts {
 
   /// Collisions that the frames count, at most.
   const Integer& most() const noexcept { return most_; }
+  /// Frames until the video runs back; all, if it does not.
+  std::int64_t forth() const noexcept { return forth_; }
   /// Writes the object in pieces. Times are given in units of 10^-scale; of sequences, what each
   /// number adds to the one before, "0~7" being seven times 0. No "<" is in it.
   void write(const std::function<void(std::string_view)>& sink) const;
@@ -43,7 +45,7 @@ class PageFacts {
   const Scene& scene_;
   const CollisionLog& log_;
   const Timeline& timeline_;
-  std::int64_t forth_;  ///< frames until the video runs back
+  std::int64_t forth_;
   Rational from_;
   Integer first_;
   Integer most_;

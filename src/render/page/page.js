@@ -129,7 +129,8 @@ function previousCollision() {
 }
 
 function playOrPause() {
-  if (!video.paused) return video.pause();
+  // The picture may be one further than the read-outs.
+  if (!video.paused) return show(frame);
   // At its end a video begins again.
   if (frame === lastFrame) video.currentTime = 0;
   video.play();
