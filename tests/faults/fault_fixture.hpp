@@ -44,7 +44,6 @@ inline std::vector<OutputKind> every_kind() {
   return {{"Mp4", small_render({"-o", "a.mp4"})},
           {"Png", small_render({"-o", "%06d.png"})},
           {"Y4m", small_render({"-o", "a.y4m"})},
-          {"Page", small_render({"-o", "a.html"})},
           {"Framehash", small_render({"-o", "a.framehash"})},
           {"Part", small_render({"--part", "1/2", "-o", "a.mp4"})},
           kJoin,

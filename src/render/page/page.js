@@ -133,7 +133,8 @@ function playOrPause() {
   if (!video.paused) return show(frame);
   // At its end a video begins again.
   if (frame === lastFrame) video.currentTime = 0;
-  video.play();
+  // A pause may come before the first picture, which is no fault.
+  video.play().catch(() => {});
 }
 
 /** While the video plays, the read-outs say what it shows. */
