@@ -141,7 +141,7 @@ TEST_F(BundleTest, LeavesOtherFilesAlone) {
 }
 
 TEST_F(BundleTest, IsAllOrNothing) {
-  std::filesystem::create_directories(folder_ / "talk" / "reveal.html");
+  std::filesystem::create_directories(folder_ / "talk/reveal.html");
   write("talk/alt.txt", "old");
   const CommandResult result = piblocks(kRender + Arguments{"--bundle", "talk"});
   EXPECT_EQ(result.exit_code, 1);

@@ -53,7 +53,7 @@ TEST_F(PageTest, RefusesWhatAPageCannotBe) {
   expect_refusal(kRender + Arguments{"-o", "new/a.html", "--transparent"},
                  "piblocks: output: 'new/a.html' cannot be transparent: a page shows an MP4; use "
                  "an opaque background\n");
-  expect_refusal(kRender + Arguments{"-o", "new/a.html", "--size", "65x37"},
+  expect_refusal({"render", "--size", "65x37", "-o", "new/a.html"},
                  "piblocks: output: size 65x37 is odd: H.264 in 4:2:0 needs even sides; use "
                  "64x36\n");
 }

@@ -151,7 +151,7 @@ TEST(PageFacts, ListedCollisionsAreNeverTwice) {
     EXPECT_EQ(ranges.size(), count <= 4000 ? 1U : 2U) << count;
     EXPECT_EQ(ranges.front().first, 11);
     EXPECT_EQ(ranges.back().last, 10 + count);
-    if (ranges.size() == 2) EXPECT_GT(ranges.back().first, ranges.front().last + 0);
+    EXPECT_TRUE(ranges.size() == 1 || ranges.back().first > ranges.front().last) << count;
   }
   EXPECT_TRUE(listed_collisions(7, 7).empty());
   EXPECT_TRUE(listed_collisions(-5, 0).empty());
