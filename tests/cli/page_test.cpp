@@ -67,7 +67,8 @@ TEST_F(PageTest, IsNotJoined) {
 }
 
 TEST_F(PageTest, TextsAreEscaped) {
-  output_of(kRender + Arguments{"--title", "</title><script>alert(1)</script>", "-o", "a.html"});
+  output_of({"render", "--quiet", "--to", "1", "--fps", "10", "--title",
+             "</title><script>alert(1)</script>", "-o", "a.html"});
   EXPECT_EQ(contents("a.html").find("alert(1)</script>"), std::string::npos);
 }
 
