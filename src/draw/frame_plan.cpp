@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace piblocks {
 namespace {
@@ -51,8 +52,9 @@ TextItem set_line(ItemId id, const char* key, const std::string& text, double si
   return {id, {area.x + (area.width - width_em * fitted_px) / 2, 0}, text, fitted_px, color};
 }
 
-/// Rows and columns in which `count` diagrams come out largest.
-std::vector<Rectangle> grid(std::size_t count, const Rectangle& area, double gap) {
+/// Rows and columns in which `count` diagrams come out largest, with no side below `least` if that
+/// can be.
+std::vector<Rectangle> grid(std::size_t count, const Rectangle& area, double gap, double least) {
   const auto cell = [&](std::size_t columns) {
     const std::size_t rows = (count + columns - 1) / columns;
     const auto side = [gap](double length, std::size_t n) {
@@ -60,7 +62,10 @@ std::vector<Rectangle> grid(std::size_t count, const Rectangle& area, double gap
     };
     return Rectangle{0, 0, side(area.width, columns), side(area.height, rows)};
   };
-  const auto size = [](const Rectangle& r) { return std::min(r.width / kPanelAspect, r.height); };
+  const auto size = [least](const Rectangle& r) {
+    return std::pair(std::min(r.width, r.height) >= least,
+                     std::min(r.width / kPanelAspect, r.height));
+  };
   std::size_t best = 1;
   for (std::size_t columns = 2; columns <= count; ++columns) {
     if (size(cell(columns)) > size(cell(best))) best = columns;
@@ -97,6 +102,33 @@ double stage_height(const View& view, const Rectangle& area, double measure) {
                     kMostStage * area.height);
 }
 
+/// Places caption and logo. @return the height of both above the lower margin
+double plan_foot(const Scene& scene, const Palette& palette, const Font& font, FramePlan& plan) {
+  const View& view = scene.view;
+  const Show& show = scene.show;
+  const double measure = short_measure(whole(view));
+  const double margin = kMargin * measure;
+  double foot = 0;
+  Rectangle caption_line{margin, 0, view.width_px - 2 * margin, 0};
+  if (!show.logo.empty()) {
+    plan.logo = {view.width_px - margin - kLogoWidth * measure,
+                 view.height_px - margin - kLogoHeight * measure, kLogoWidth * measure,
+                 kLogoHeight * measure};
+    foot = kLogoHeight * measure;
+    // As much is left free on the other side, so that the caption stays in the middle.
+    caption_line.x += plan.logo.width + margin;
+    caption_line.width -= 2 * (plan.logo.width + margin);
+  }
+  if (!show.caption.empty()) {
+    plan.caption = set_line(ItemId::caption, "show.caption", show.caption, kCaptionSize * measure,
+                            caption_line, palette.muted, font);
+    foot = std::max(foot, (kCapHeight + kDescent) * kCaptionSize * measure);
+    plan.caption->origin.y =
+        std::round(view.height_px - margin - (foot - kCapHeight * kCaptionSize * measure) / 2);
+  }
+  return foot;
+}
+
 }  // namespace
 
 double small_text_px(const View& view) { return kSmallText * short_measure(whole(view)); }
@@ -130,36 +162,21 @@ FramePlan plan_frame(const Scene& scene, const Palette& palette, const Font& fon
     left.y += margin / 2;
     left.height -= margin / 2;
   }
-  double foot = 0;
-  Rectangle caption_line = line;
-  if (!show.logo.empty()) {
-    plan.logo = {view.width_px - margin - kLogoWidth * measure,
-                 view.height_px - margin - kLogoHeight * measure, kLogoWidth * measure,
-                 kLogoHeight * measure};
-    foot = kLogoHeight * measure;
-    // As much is left free on the other side, so that the caption stays in the middle.
-    caption_line.x += plan.logo.width + margin;
-    caption_line.width -= 2 * (plan.logo.width + margin);
-  }
-  if (!show.caption.empty()) {
-    plan.caption = set_line(ItemId::caption, "show.caption", show.caption, kCaptionSize * measure,
-                            caption_line, palette.muted, font);
-    foot = std::max(foot, (kCapHeight + kDescent) * kCaptionSize * measure);
-    plan.caption->origin.y =
-        std::round(view.height_px - margin - (foot - kCapHeight * kCaptionSize * measure) / 2);
-  }
+  const double foot = plan_foot(scene, palette, font, plan);
   if (foot > 0) left.height -= foot + margin;
 
   plan.stage = left;
   if (show.panels.empty()) {
     plan.stage.height -= read_outs_px;
+    // Else read-outs would stick to the lower edge.
+    if (read_outs_px > 0 && foot == 0) plan.stage.height -= margin / 2;
     return plan;
   }
   plan.stage.height = stage_height(view, left, measure);
   const double top = plan.stage.y + plan.stage.height + read_outs_px + margin / 2;
   plan.panels = grid(show.panels.size(),
                      {margin, top, view.width_px - 2 * margin, left.y + left.height - margin - top},
-                     kPanelGap * measure);
+                     kPanelGap * measure, kLeastPanel_em * plan.text_px);
   check_panels(plan, view);
   return plan;
 }

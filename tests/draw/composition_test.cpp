@@ -100,11 +100,6 @@ TEST_P(CompositionSizes, NoTextLeavesTheFrameOrMeetsAnother) {
                     box.bottom <= list.height_px)
             << box.what << " of " << digits << " digits leaves the frame";
         for (std::size_t k = 0; k < i; ++k) {
-          // Figures above two blocks may meet while these do.
-          if (box.what.find('.') != std::string::npos &&
-              boxes[k].what.find('.') != std::string::npos && box.top == boxes[k].top) {
-            continue;
-          }
           EXPECT_FALSE(overlap(box, boxes[k]))
               << "'" << box.what << "' and '" << boxes[k].what << "' of " << digits << " digits";
         }
@@ -182,6 +177,81 @@ TEST(Overlays, ReadOutsHoldMassesBeyondADouble) {
   EXPECT_TRUE(has_text(start, "Energy ×10³⁹⁷: red 5.00000 + blue 0.00000 = 5.00000"));
   EXPECT_TRUE(has_text(start, "Momentum ×10³⁹⁸: red −1.00000, blue 0.00000, sum −1.00000"));
   EXPECT_TRUE(has_text(start, "10³⁹⁸"));
+}
+
+/// From the leftmost to the rightmost point of an arrow; empty if none is drawn.
+std::pair<double, double> reach_of_arrow(const DrawList& list, std::size_t n) {
+  std::pair<double, double> reach{1e9, -1e9};
+  for (const DrawItem& item : list.items) {
+    const auto* path = std::get_if<PathItem>(&item);
+    if (path == nullptr ||
+        (path->id != nth(ItemId::velocities, n) && path->id != nth(ItemId::velocities, n + 1))) {
+      continue;
+    }
+    const Rectangle& bounds = path->points.bounds();
+    reach = {std::min(reach.first, bounds.x), std::max(reach.second, bounds.x + bounds.width)};
+  }
+  return reach;
+}
+
+TEST(Overlays, ArrowsOfVelocitiesNeverMeet) {
+  for (const char* width : {"1/2", "1", "3/2"}) {
+    const Pictures pictures(scene_with(3, {{"show.overlays", "velocities"}, {"red.width", width}}));
+    int pairs = 0;
+    for (int k = 1; k <= 314; ++k) {
+      const DrawList list = pictures.composition.frame({state_after(*pictures.log, k)});
+      const auto red = reach_of_arrow(list, 0);
+      const auto blue = reach_of_arrow(list, 4);
+      EXPECT_LT(blue.second, red.first) << k;
+      pairs += blue.second > 0 && red.second > 0 ? 1 : 0;
+    }
+    EXPECT_GT(pairs, 200);
+  }
+}
+
+TEST(Overlays, FiguresOfVelocitiesStayClearOfTheWall) {
+  const Pictures pictures(scene_with(20, {{"show.overlays", "velocities"}}));
+  const DrawList list = pictures.at(Rational(7, 2));
+  const Rectangle wall = std::get<RectangleItem>(list.items.front()).bounds;
+  int figures = 0;
+  for (const Box& box : texts_of(list)) {
+    if (box.what.find('.') == std::string::npos) continue;
+    EXPECT_GT(box.left, wall.x + wall.width) << box.what;
+    ++figures;
+  }
+  EXPECT_EQ(figures, 2);
+}
+
+TEST(Overlays, FiguresOfTheRulerStandBesideTheWall) {
+  for (const char* size : {"640x360", "1080x1920", "3840x2160"}) {
+    const Pictures pictures(scene_with(3, {{"show.overlays", "ruler"}, {"view.size", size}}));
+    const DrawList list = pictures.at(0);
+    const Rectangle wall = std::get<RectangleItem>(list.items.front()).bounds;
+    int figures = 0;
+    for (const Box& box : texts_of(list)) {
+      if (box.what.find_first_not_of("0123456789") != std::string::npos) continue;
+      if (box.top < list.height_px / 2.0) continue;  // the counter
+      EXPECT_GT(box.left, wall.x + wall.width) << box.what;
+      ++figures;
+    }
+    EXPECT_GT(figures, 3);
+  }
+}
+
+TEST(Panels, TitlesOfNarrowDiagramsAreBriefRatherThanSmall) {
+  const Pictures pictures(scene_with(
+      6, {{"view.size", "480x360"}, {"show.overlays", kAllOverlays}, {"show.panels", kAllPanels}}));
+  const DrawList list = pictures.at(4);
+  std::vector<std::string> titles;
+  for (const DrawItem& item : list.items) {
+    const auto* plate = std::get_if<PlateItem>(&item);
+    if (plate == nullptr) continue;
+    const auto& title = std::get<TextItem>(plate->plate->items.front());
+    EXPECT_GE(title.size_px, 8);
+    titles.push_back(title.text);
+  }
+  EXPECT_EQ(titles, (std::vector<std::string>{"Velocities √m·v", "Positions", "Unfolded",
+                                              "Distances", "Collision rate"}));
 }
 
 TEST(Panels, CostLittleForAnyNumberOfDigits) {

@@ -26,7 +26,8 @@ double ray_stride(double between_px) {
 class UnfoldedPanel final : public Part {
  public:
   UnfoldedPanel(const Setting& setting, const PanelPlace& place)
-      : gaps_(setting.scene.system), sheet_(setting, place, "Unfolded: a straight line") {
+      : gaps_(setting.scene.system),
+        sheet_(setting, place, {"Unfolded: a straight line", "Unfolded"}) {
     const BlockSystem& system = setting.scene.system;
     start_ = {to_double(system.blue_gap() + system.blocks_gap()),
               gaps_.sigma * to_double(system.blue_gap())};

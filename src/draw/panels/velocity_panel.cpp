@@ -28,7 +28,8 @@ std::vector<Point> arc(const Point& centre, double radius, double from, double t
 class VelocityPanel final : public Part {
  public:
   VelocityPanel(const Setting& setting, const PanelPlace& place)
-      : sheet_(setting, place, "Velocities √m·v (red →, blue ↑)"), gaps_(setting.scene.system) {
+      : sheet_(setting, place, {"Velocities √m·v (red →, blue ↑)", "Velocities √m·v"}),
+        gaps_(setting.scene.system) {
     const BlockSystem& system = setting.scene.system;
     const Point start = point_of(to_double(system.blue.velocity), to_double(system.red.velocity));
     speed_ = std::hypot(start.x, start.y);
