@@ -4,6 +4,7 @@
 #include <piblocks/error.hpp>
 #include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
+#include <piblocks/schedule.hpp>
 
 #include <string_view>
 #include <utility>
@@ -33,6 +34,15 @@ Draw* drawing_for(std::string_view output) {
       output));
 }
 
+/// As in the video when it first shows this instant; 1 where it never does.
+Rational slower_at(const Scene& scene, const CollisionLog& log, const Rational& time) {
+  const Pacing& pacing = scene.pacing;
+  if (!pacing.automatic_slow_motion && pacing.slow_motion.empty()) return 1;
+  const Schedule schedule(scene, log);
+  const auto video_s = schedule.first_shown(time);
+  return video_s ? schedule.at(*video_s).slower : Rational(1);
+}
+
 }  // namespace
 
 void render_still(const Scene& scene, const Instant& instant, const std::string& output,
@@ -45,7 +55,7 @@ void render_still(const Scene& scene, const Instant& instant, const std::string&
   const std::vector<ExposurePart> parts = expose_still(scene, *log, time);
   OutputFile file(output);
   const std::vector<std::uint8_t> picture =
-      draw(composition.frame({std::move(at.state), time}, parts));
+      draw(composition.frame({std::move(at.state), time, slower_at(scene, *log, time)}, parts));
   if (stop.stop_requested()) throw Interrupted("still: interrupted");
   file.write(picture);
   file.finish();
