@@ -40,7 +40,7 @@ struct Figure {
   double baseline;
 };
 
-class VelocityArrows final : public Part {
+class VelocityArrows final : public PicturePart {
  public:
   explicit VelocityArrows(const Setting& setting)
       : layout_(setting.stage),
@@ -139,7 +139,7 @@ class VelocityArrows final : public Part {
 
 }  // namespace
 
-std::unique_ptr<Part> velocity_arrows(const Setting& setting) {
+std::unique_ptr<PicturePart> velocity_arrows(const Setting& setting) {
   return std::make_unique<VelocityArrows>(setting);
 }
 

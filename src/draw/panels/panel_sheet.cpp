@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "draw/frame_plan.hpp"
 #include "draw/panels/panels.hpp"
 
 namespace piblocks {
@@ -27,15 +28,15 @@ Rectangle whole_pixels(const Rectangle& area, double around) {
 
 PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const PanelTitle& title)
     : palette_(setting.palette),
-      font_(setting.font),
+      font_(&setting.font),
       first_id_(place.first_id),
       text_px_(setting.text_px),
       line_px_(setting.line_px) {
   const Rectangle& whole = place.area;
   const auto fitting_px = [&](const char* text) {
-    return std::min(text_px_, whole.width / font_.width_em(text));
+    return std::min(text_px_, whole.width / font_->width_em(text));
   };
-  const bool is_full = fitting_px(title.full) >= kLeastShrink * text_px_;
+  const bool is_full = fitting_px(title.full) >= std::max(kLeastText_px, kLeastShrink * text_px_);
   const char* const text = is_full ? title.full : title.brief;
   items_.emplace_back(TextItem{next_id(),
                                {whole.x, whole.y + kTitleBaseline * text_px_},
@@ -48,7 +49,10 @@ PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const Pa
   item_ = {nth(first_id_, 0), whole_pixels(whole, kAround * text_px_), nullptr};
 }
 
-void PanelSheet::finish() { item_.plate = std::make_shared<const Plate>(Plate{std::move(items_)}); }
+void PanelSheet::finish() {
+  item_.plate = std::make_shared<const Plate>(Plate{std::move(items_)});
+  font_ = nullptr;
+}
 
 void PanelSheet::path(std::vector<Point> points, bool closed, const std::optional<Color>& fill,
                       const std::optional<Stroke>& stroke) {
@@ -64,7 +68,7 @@ void PanelSheet::area(std::vector<Point> points, const Color& fill) {
 }
 
 void PanelSheet::text(const std::string& text, const Point& at, double anchor, const Color& color) {
-  const double width = font_.width_em(text) * text_px_;
+  const double width = font_->width_em(text) * text_px_;
   items_.emplace_back(TextItem{next_id(), {at.x - anchor * width, at.y}, text, text_px_, color});
 }
 
