@@ -141,6 +141,8 @@ void ScheduleBuilder::stand(const Rational& length_s) {
 void ScheduleBuilder::play_back() {
   if (frame_count < 2) return;
   const Rational turn_s = Rational(frame_count - 1) / rate_;
+  // What begins after the last frame is shown by none.
+  while (stretches.back().video_s > turn_s) stretches.pop_back();
   const auto forth = static_cast<std::ptrdiff_t>(stretches.size());
   Rational end_s = turn_s;
   for (std::ptrdiff_t i = forth - 1; i >= 0; --i) {

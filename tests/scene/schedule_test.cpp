@@ -134,10 +134,19 @@ TEST(Schedule, HoldsAddWholeFrames) {
 }
 
 TEST(Schedule, LoopComesBackFrameByFrame) {
-  for (const char* to : {"last+1", "9.99"}) {
+  struct Case {
+    const char* to;
+    const char* windows;
+    const char* hold_end;
+  };
+  // The last two have windows that end, or begin and end, after the last frame.
+  for (const auto& [to, windows, hold_end] : {Case{"last+1", "2:2.31:7,turn:turn+0.1:10", "0.3"},
+                                              {"9.99", "2:2.31:7,turn:turn+0.1:10", "0.3"},
+                                              {"9.99", "2:2.31:7,9.9:9.989:2", "0"},
+                                              {"9.999", "2:2.31:7,9.995:9.998:3", "0"}}) {
     const std::vector<Setting> settings = {{"time.to", to},
-                                           {"time.slow-motion", "2:2.31:7,turn:turn+0.1:10"},
-                                           {"time.hold-end", "0.3"},
+                                           {"time.slow-motion", windows},
+                                           {"time.hold-end", hold_end},
                                            {"time.hold-start", "0.1"},
                                            {"time.freeze", "5:1"}};
     std::vector<Setting> looped = settings;
@@ -198,8 +207,9 @@ TEST(Schedule, RandomPacingLeavesNoGaps) {
     Rational at = random.rational(0, 3, 7);
     std::string windows;
     std::string freezes;
+    Rational to;
     for (int i = 0; i < 3; ++i) {
-      const Rational to = at + random.rational(1, 4, 5);
+      to = at + random.rational(1, 4, 5);
       windows += (i > 0 ? "," : "") + at.get_str() + ':' + to.get_str() + ':' +
                  Rational(random.rational(1, 30, 3)).get_str();
       freezes += (i > 0 ? "," : "") + Rational(random.rational(0, 14, 9)).get_str() + ':' +
@@ -213,6 +223,13 @@ TEST(Schedule, RandomPacingLeavesNoGaps) {
                 {"time.loop", random.integer(0, 1) == 0 ? "true" : "false"},
                 {"view.fps", random.integer(0, 1) == 0 ? "60" : "30000/1001"}};
     if (random.integer(0, 1) == 0) settings.emplace_back("time.duration", "40");
+    if (random.integer(0, 1) == 0) {
+      // Within a frame or two of the end of a window, or anywhere.
+      const Rational end = random.integer(0, 1) == 0 ? Rational(to + random.rational(0, 1, 97) / 40)
+                                                     : random.rational(1, 14, 97);
+      settings.emplace_back("time.to", end.get_str());
+      settings.emplace_back("time.hold-end", "0");
+    }
     const Schedule schedule = schedule_of(settings);
     expect_no_gaps(schedule);
     if (HasFatalFailure()) return;

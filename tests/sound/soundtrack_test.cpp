@@ -1,5 +1,6 @@
 // The soundtrack as a whole: where clacks begin, how high it gets, and what it costs.
 #include <gtest/gtest.h>
+#include <piblocks/error.hpp>
 #include <piblocks/soundtrack.hpp>
 
 #include <algorithm>
@@ -153,6 +154,13 @@ TEST(Soundtrack, EndsWithoutAClick) {
   EXPECT_EQ(track.left.size(), 96096u);
   EXPECT_LT(std::fabs(track.left.back()), 1e-4);
   EXPECT_LT(std::fabs(track.left[track.left.size() - 3]), 1e-3);
+}
+
+TEST(Soundtrack, RefusesStretchesThatAreNotInOrder) {
+  for (const std::vector<Stretch>& stretches :
+       {std::vector<Stretch>{}, {{1, 0, 1}}, {{0, 0, 1}, {Rational(3, 2), 2, 1}, {1, 1, -1}}}) {
+    EXPECT_THROW(track_of(article(3), stretches, 3), UsageError);
+  }
 }
 
 TEST(Soundtrack, TakesScenesAtTheLimits) {
