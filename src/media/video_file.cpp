@@ -131,7 +131,7 @@ VideoFile::VideoFile(const std::string& name, const VideoEncoder& encoder,
       muxer_(open_muxer(file_.path(), name_, container.muxer)),
       packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {
   add_stream();
-  if (sound != nullptr) sound_.emplace(*sound, *muxer_, name_);
+  if (sound != nullptr) sound_.emplace(*sound, *muxer_, container_.sound_from_zero, name_);
   write_header();
 }
 
@@ -223,9 +223,9 @@ void VideoFile::finish() {
 
 }  // namespace
 
-const Container kMp4 = {"mp4", "movflags", "+faststart", is_whole_mov, kAac};
-const Container kMov = {"mov", "movflags", "+faststart", is_whole_mov, kAac};
-const Container kWebm = {"webm", "cues_to_front", "1", is_whole_webm, kOpus};
+const Container kMp4 = {"mp4", "movflags", "+faststart", is_whole_mov, kAac, false};
+const Container kMov = {"mov", "movflags", "+faststart", is_whole_mov, kAac, false};
+const Container kWebm = {"webm", "cues_to_front", "1", is_whole_webm, kOpus, true};
 
 std::unique_ptr<FrameSink> open_video_file(const std::string& name, const VideoEncoder& encoder,
                                            const Container& container, const SoundEncoder* sound) {

@@ -22,6 +22,9 @@ struct Container {
   /// Whether a file that is read back has so many packets of each stream.
   bool (*is_whole)(AVFormatContext& file, std::span<const std::int64_t> packets);
   SoundCodec sound;  ///< what its sound is encoded by
+  /// Whether sound is counted from its first packet. Otherwise that is before 0, where libavformat
+  /// moves all streams of a file that cannot have such times.
+  bool sound_from_zero;
 };
 
 extern const Container kMp4;

@@ -81,7 +81,8 @@ TEST_F(SoundTest, IsInPlaceInEveryKindOfVideo) {
   const auto log = make_collision_log(article_system(2));
   output_of(Arguments{"render", "--digits", "2", "-o", "a.wav"} + kSmall);
   const std::vector<float> sound = left("a.wav");
-  for (const auto& [name, codec] : {std::pair{"a.mov", "aac"},
+  for (const auto& [name, codec] : {std::pair{"a.mp4", "aac"},
+                                    {"a.mov", "aac"},
                                     {"a.webm", "opus"},
                                     {"clear.mov", "aac"},
                                     {"clear.webm", "opus"}}) {
@@ -93,6 +94,11 @@ TEST_F(SoundTest, IsInPlaceInEveryKindOfVideo) {
                           "-of default=nk=1:nw=1 ") +
               name),
         std::string(codec) + "\n");
+    EXPECT_EQ(shell(std::string("ffprobe -v error -select_streams v -show_entries "
+                                "stream=start_time -of default=nk=1:nw=1 ") +
+                    name),
+              "0.000000\n")
+        << name;
     const std::vector<float> decoded = left(name);
     ASSERT_GE(decoded.size() + 20, sound.size()) << name;
     for (Integer index = 1; index <= log->size(); ++index) {
