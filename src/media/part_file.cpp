@@ -100,6 +100,13 @@ class PartSink final : public FrameSink {
 }  // namespace
 
 std::unique_ptr<FrameSink> open_part(const std::string& path, const PartHeader& header) {
+  for (const auto& [name, value] : header) {
+    if (name.find_first_of(":\n") == std::string::npos && value.find('\n') == std::string::npos) {
+      continue;
+    }
+    throw UsageError(
+        fmt::format("part: cannot write '{}': {} cannot be said in one line", path, name));
+  }
   return std::make_unique<PartSink>(path, header);
 }
 

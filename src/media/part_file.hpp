@@ -23,7 +23,7 @@ namespace piblocks {
 using PartHeader = std::vector<std::pair<std::string, std::string>>;
 
 /// A sink that keeps chunks as they are.
-/// @throws UsageError if the file cannot be opened.
+/// @throws UsageError if the file cannot be opened, or the header cannot be written as lines.
 std::unique_ptr<FrameSink> open_part(const std::string& path, const PartHeader& header);
 
 /// Reads a part file, chunk by chunk. Never takes more memory than the file is long.

@@ -113,14 +113,20 @@ std::vector<Value> parse_names(const Values& values, Value (*parse)(std::string_
   return parse_each(names, parse);
 }
 
+/// Text without control characters, such as a path.
+const std::string& plain(const Values& values) {
+  const std::string& text = single(values);
+  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
+  if (std::ranges::any_of(text, is_control)) throw UsageError("must be one line of text");
+  return text;
+}
+
 /// One line of text. The font says later whether it can be set.
 const std::string& line_of(const Values& values) {
-  const std::string& text = single(values);
+  const std::string& text = plain(values);
   if (text.size() > kMaxLine_bytes) {
     throw UsageError(fmt::format("is longer than {} bytes", kMaxLine_bytes));
   }
-  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
-  if (std::ranges::any_of(text, is_control)) throw UsageError("must be one line of text");
   return text;
 }
 
@@ -233,7 +239,7 @@ constexpr auto kKeys = std::to_array<SceneKey>({
      [](const Scene& s) { return Values{s.show.title}; }},
     {"show.caption", [](Scene& s, const Values& v) { s.show.caption = line_of(v); },
      [](const Scene& s) { return Values{s.show.caption}; }},
-    {"show.logo", [](Scene& s, const Values& v) { s.show.logo = single(v); },
+    {"show.logo", [](Scene& s, const Values& v) { s.show.logo = plain(v); },
      [](const Scene& s) { return Values{s.show.logo}; }},
     {"golden.frames", [](Scene& s, const Values& v) { set_golden_frames(s.golden, v); },
      [](const Scene& s) { return s.golden.frames; }},

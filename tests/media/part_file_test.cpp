@@ -105,6 +105,17 @@ TEST(PartFile, IsToldFromOtherFiles) {
   EXPECT_THROW(PartReader(folder.path()), UsageError);
 }
 
+TEST(PartFile, RefusesWhatIsNoLine) {
+  const TemporaryFolder folder;
+  for (const auto& [name, value] : {std::pair{"title", "two\nlines"},
+                                    {"title", "one line\n"},
+                                    {"two\nlines", ""},
+                                    {"a: b", "c"}}) {
+    EXPECT_THROW(open_part(folder / "a", {{"fine", "fine"}, {name, value}}), UsageError) << name;
+  }
+  EXPECT_TRUE(folder.is_empty());
+}
+
 TEST(PartFile, TakesNoMemoryForSizesThatAFileOnlyClaims) {
   const TemporaryFolder folder;
   const std::string packet = std::string(17, '\0') + "\xff\xff\xff\xff";
