@@ -36,9 +36,11 @@ int parse_side(std::string_view text) {
 
 FrameSize parse_size(const Values& values) {
   Values sides = values;
-  if (const auto cross = values.front().find('x');
-      values.size() == 1 && cross != std::string::npos) {
-    sides = {values.front().substr(0, cross), values.front().substr(cross + 1)};
+  if (values.size() == 1) {
+    const std::size_t cross = values.front().find('x');
+    if (cross != std::string::npos) {
+      sides = {values.front().substr(0, cross), values.front().substr(cross + 1)};
+    }
   }
   if (sides.size() != 2) throw UsageError("must be two whole numbers of pixels, as 1920x1080");
   return {parse_side(sides[0]), parse_side(sides[1])};
@@ -61,7 +63,10 @@ Values list_of(const Values& values) {
   if (values.size() != 1) return values;
   Values list;
   std::istringstream text(values.front());
-  for (std::string value; std::getline(text >> std::ws, value, ',');) list.push_back(value);
+  for (std::string value; std::getline(text >> std::ws, value, ',');) {
+    value.erase(value.find_last_not_of(" \t") + 1);
+    list.push_back(value);
+  }
   return list;
 }
 

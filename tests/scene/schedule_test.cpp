@@ -326,6 +326,16 @@ TEST(Pacing, RefusesOtherTexts) {
   for (const char* text : {"", "1", "1:0", "1:-1", "1:2:3", ":"}) {
     EXPECT_THROW(parse_freeze(text), UsageError) << text;
   }
+  for (const char* text : {"middle", "turning", "turn--1", "last+x"}) {
+    try {
+      parse_moment(text);
+      FAIL() << text;
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find("must be a time, 'turn' or 'last'"),
+                std::string::npos)
+          << text;
+    }
+  }
 }
 
 }  // namespace
