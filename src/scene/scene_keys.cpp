@@ -100,6 +100,12 @@ void set_speed(Scene& scene, const Values& values) {
   scene.pacing.duration_s.reset();
 }
 
+/// In the place of a speed that was asked for before.
+void set_duration(Scene& scene, const Values& values) {
+  scene.pacing.duration_s = parse_rational(single(values));
+  scene.time.speed = 1;
+}
+
 void set_slow_motion(Pacing& pacing, Values values) {
   values = list_of(values);
   pacing.automatic_slow_motion = std::erase(values, "auto") > 0;
@@ -219,8 +225,7 @@ constexpr auto kKeys = std::to_array<SceneKey>({
      [](const Scene& s) { return end(s.time.to); }},
     {"time.speed", [](Scene& s, const Values& v) { set_speed(s, v); },
      [](const Scene& s) { return number(s.time.speed); }},
-    {"time.duration",
-     [](Scene& s, const Values& v) { s.pacing.duration_s = parse_rational(single(v)); },
+    {"time.duration", [](Scene& s, const Values& v) { set_duration(s, v); },
      [](const Scene& s) { return s.pacing.duration_s ? number(*s.pacing.duration_s) : Values(); }},
     {"time.slow-motion", [](Scene& s, const Values& v) { set_slow_motion(s.pacing, v); },
      [](const Scene& s) { return slow_motion(s.pacing); }},

@@ -34,12 +34,14 @@ double rate_at_turn(const BlockSystem& system) {
 std::vector<SlowWindow> automatic_windows(const Scene& scene, const CollisionLog& log) {
   const std::optional<Rational> turn = turn_of(scene.system);
   if (!turn || log.size() == 0) return {};
-  const double rate = rate_at_turn(scene.system) * to_double(scene.time.speed);
+  // A duration sets the speed for the windows too, once they are known.
+  const Rational speed = scene.pacing.duration_s ? Rational(1) : scene.time.speed;
+  const double rate = rate_at_turn(scene.system) * to_double(speed);
   std::vector<Rational> halves;
   int factor = 1;
   while (factor < kMaxAutomaticFactor && rate > kTellApart_per_s * factor) {
     factor *= kStep;
-    halves.push_back(scene.time.speed * kHalfWindow_s / factor);
+    halves.push_back(speed * kHalfWindow_s / factor);
   }
   // From the outermost to the innermost and out again.
   std::vector<SlowWindow> windows;
