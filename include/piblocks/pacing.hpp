@@ -40,7 +40,8 @@ struct Freeze {
 /// Slowest that automatic slow motion goes; beyond it nothing moves by a pixel any more.
 inline constexpr int kMaxAutomaticFactor = 1000;
 
-/// Lengths are seconds of video, and are rounded up to whole frames.
+/// Lengths are seconds of video, and are rounded up to whole frames; that of a loop to an even
+/// number of them.
 struct Pacing {
   /// Of the whole video, holds and freezes included; the speed follows from it, and that of the
   /// scene's TimeSpan has no say.

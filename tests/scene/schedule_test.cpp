@@ -167,7 +167,34 @@ TEST(Schedule, LoopComesBackFrameByFrame) {
 }
 
 TEST(Schedule, LoopTakesTheDurationAsAWhole) {
-  EXPECT_EQ(schedule_of({{"time.loop", "true"}, {"time.duration", "12"}}).frame_count(), 720);
+  for (const char* to : {"last+1", "9"}) {
+    const auto frames = [&](const char* duration) {
+      return schedule_of({{"time.to", to}, {"time.loop", "true"}, {"time.duration", duration}})
+          .frame_count();
+    };
+    EXPECT_EQ(frames("12"), 720) << to;
+    // Forth and back is an even number of frames, and no length is cut.
+    EXPECT_EQ(frames("61/60"), 62) << to;
+    EXPECT_EQ(frames("62/60"), 62) << to;
+    EXPECT_EQ(frames("0.001"), 2) << to;
+  }
+}
+
+TEST(Schedule, DurationIsInPlaceOfASpeed) {
+  const std::vector<Setting> fitted = {{"time.duration", "20"}, {"time.slow-motion", "auto"}};
+  std::vector<Setting> faster = fitted;
+  faster.insert(faster.begin(), {"time.speed", "1/4"});
+  const Scene plain = scene_with(fitted);
+  EXPECT_EQ(describe(scene_with(faster)), describe(plain));
+  Scene by_hand = plain;
+  by_hand.time.speed = Rational(1, 4);
+  const Schedule one = schedule_of(plain);
+  const Schedule other = schedule_of(by_hand);
+  ASSERT_EQ(one.stretches().size(), other.stretches().size());
+  for (std::size_t i = 0; i < one.stretches().size(); ++i) {
+    EXPECT_EQ(one.stretches()[i].video_s, other.stretches()[i].video_s);
+    EXPECT_EQ(one.stretches()[i].speed, other.stretches()[i].speed);
+  }
 }
 
 TEST(Schedule, AutomaticWindowsTellCollisionsApart) {
@@ -304,6 +331,9 @@ TEST(Schedule, RefusesWhatCannotBe) {
             "time.freeze: there is no last collision; give a time");
   EXPECT_TRUE(problem({{"time.duration", "2"}, {"time.hold-end", "2"}})
                   .starts_with("time.duration = 2: leaves no time for the motion"));
+  EXPECT_TRUE(problem({{"time.duration", "0.01"}})
+                  .starts_with("time.duration = 1/100: is shorter than two frames; "));
+  EXPECT_EQ(problem({{"time.duration", "0.01"}, {"time.to", "9"}}), "accepted");
 }
 
 TEST(Pacing, TextsReadBackAsTheSame) {
