@@ -89,7 +89,7 @@ class PartSink final : public FrameSink {
     Bytes bytes;
     append_number(bytes, static_cast<std::uint32_t>(chunk.size()));
     for (const Packet& packet : chunk) append_packet(bytes, packet);
-    append_number(bytes, checksum(0, bytes));
+    append_number(bytes, checksum(checksum(0, {kind}), bytes));
     file_.write({&kind, 1});
     file_.write(bytes);
   }
@@ -164,7 +164,7 @@ std::optional<PartReader::Record> PartReader::next_record() {
   if (kind != kChunk && kind != kSound) fail_damaged();
 
   const Bytes count = read(4);
-  std::uint32_t sum = checksum(0, count);
+  std::uint32_t sum = checksum(checksum(0, {kind}), count);
   EncodedChunk chunk;
   for (auto left = number_at<std::uint32_t>(count, 0); left > 0; --left) {
     const Bytes header = read(kPacketHeader_bytes);
