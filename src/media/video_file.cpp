@@ -11,6 +11,7 @@
 
 #include "core/output_file.hpp"
 #include "media/alpha_packet.hpp"
+#include "media/find_encoder.hpp"
 #include "media/output_request.hpp"
 #include "media/sound_stream.hpp"
 
@@ -223,9 +224,12 @@ void VideoFile::finish() {
 
 }  // namespace
 
-const Container kMp4 = {"mp4", "movflags", "+faststart", is_whole_mov, kAac, false};
-const Container kMov = {"mov", "movflags", "+faststart", is_whole_mov, kAac, false};
-const Container kWebm = {"webm", "cues_to_front", "1", is_whole_webm, kOpus, true};
+const Container kMp4 = {"mp4", "movflags",           "+faststart", is_whole_mov,
+                        kAac,  usable_h264_encoders, false};
+const Container kMov = {"mov", "movflags",          "+faststart", is_whole_mov,
+                        kAac,  usable_mov_encoders, false};
+const Container kWebm = {"webm", "cues_to_front",      "1", is_whole_webm,
+                         kOpus,  usable_webm_encoders, true};
 
 std::unique_ptr<FrameSink> open_video_file(const std::string& name, const VideoEncoder& encoder,
                                            const Container& container, const SoundEncoder* sound) {

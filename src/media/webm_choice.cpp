@@ -97,15 +97,9 @@ void set_up(AVCodecContext& context, const WebmEncoder& encoder, const EncoderSe
 
 bool can_be_opened(const WebmEncoder& encoder) {
   const AVCodec* const codec = codec_of(encoder);
-  if (codec == nullptr) return false;
-  const auto context = own_av<AvCodecContextPtr>(avcodec_alloc_context3(codec), encoder.name);
-  context->width = 64;
-  context->height = 64;
-  context->pix_fmt = AV_PIX_FMT_YUV420P;
-  context->time_base = {1, 60};
-  context->thread_count = 1;
-  set_up(*context, encoder, {});
-  return avcodec_open2(context.get(), codec, nullptr) >= 0;
+  return codec != nullptr && piblocks::can_be_opened(*codec, [&](AVCodecContext& context) {
+           set_up(context, encoder, {});
+         });
 }
 
 }  // namespace
