@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -68,6 +69,9 @@ std::vector<std::string> problems_of(const VideoFormat& format, const EncoderSet
   if (settings.crf && !(*settings.crf >= 0 && *settings.crf <= kMaxCrf)) {
     report(fmt::format("video: crf {} is out of range of *.webm; use 0 (best) to {}", *settings.crf,
                        kMaxCrf));
+  } else if (settings.crf && *settings.crf != std::floor(*settings.crf)) {
+    report(fmt::format("video: crf {} is no whole number, as *.webm needs; use {} or {}",
+                       *settings.crf, std::floor(*settings.crf), std::ceil(*settings.crf)));
   }
   if (encoder == nullptr) {
     report(fmt::format("video: cannot find encoder '{}' for *.webm; use one of: {}",

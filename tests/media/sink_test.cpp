@@ -103,6 +103,8 @@ TEST(SetUpOutput, TellsWhyAnEncoderOfMovOrWebmIsNoGood) {
   EXPECT_TRUE(
       has(opening_error("a.webm", format, {.encoder = "libx264"}), "use one of: libvpx-vp9"));
   EXPECT_TRUE(has(opening_error("a.webm", format, {.crf = 64}), "use 0 (best) to 63"));
+  EXPECT_TRUE(has(opening_error("a.webm", format, {.crf = 10.5}),
+                  "crf 10.5 is no whole number, as *.webm needs; use 10 or 11"));
   EXPECT_TRUE(has(opening_error("a.webm", format, {.preset = "fast"}), "has no presets"));
   EXPECT_TRUE(
       has(opening_error("a.mov", format, {.encoder = "nope"}), "cannot find encoder 'nope'"));
