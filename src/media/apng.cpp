@@ -65,7 +65,7 @@ class ApngEncoder final : public IntraEncoder {
   explicit ApngEncoder(const VideoFormat& format)
       : IntraEncoder(format),
         format_(format),
-        picture_(format.width_px, format.height_px),
+        picture_(format.width_px, format.height_px, ChangedPicture::Marks::none),
         stream_(open_deflate()) {}
 
   void begin(std::int64_t first_frame) override {
