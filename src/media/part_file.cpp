@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/output_file.hpp"
+#include "media/little_endian.hpp"
 
 namespace piblocks {
 namespace {
@@ -29,16 +30,12 @@ constexpr std::size_t kMaxHeaderLines = 100;
 
 template <typename Unsigned>
 void append_number(Bytes& bytes, Unsigned value) {
-  for (std::size_t i = 0; i < sizeof value; ++i) {
-    bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
-  }
+  append_little_endian(bytes, value, sizeof value);
 }
 
 template <typename Unsigned>
 Unsigned number_at(const Bytes& bytes, std::size_t at) {
-  Unsigned value = 0;
-  for (std::size_t i = 0; i < sizeof value; ++i) value |= Unsigned{bytes[at + i]} << (8 * i);
-  return value;
+  return static_cast<Unsigned>(from_little_endian(std::span(bytes).subspan(at, sizeof(Unsigned))));
 }
 
 // What precedes the bytes of a packet: pts, dts, key frame, size.
