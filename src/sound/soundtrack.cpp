@@ -21,7 +21,7 @@ constexpr std::int64_t kReach = ClickKernel::kReach;
 
 /// A clack of impulse 1 alone peaks at about a fifth of full scale.
 constexpr double kVolume = 0.28;
-/// -2.5 dB: encoders that lose something add up to 1 dB to the peaks.
+/// -2.5 dB: encoders that lose something add up to 1.1 dB to the peaks.
 constexpr double kCeiling = 0.75;
 /// The film's end would cut off what still rings.
 constexpr std::int64_t kFade = 240;
