@@ -72,13 +72,14 @@ void write(const fs::path& path, std::string_view text) {
   file.finish();
 }
 
-/// The picture that the video comes to, or the one that is asked for.
-void write_poster(const RenderJob& job, const ImageView& last, const fs::path& path) {
+/// The picture that the video comes to, which is this frame, or the one that is asked for.
+void write_poster(const RenderJob& job, std::int64_t last, const fs::path& path) {
   if (job.bundle->poster) {
     render_still(job.scene, *job.bundle->poster, path.string());
     return;
   }
-  const std::vector<std::uint8_t> png = encode_png(last);
+  FrameRenderer renderer(job.scene);
+  const std::vector<std::uint8_t> png = encode_png(renderer.frame(last));
   write(path, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
@@ -104,11 +105,10 @@ Rendered render_bundle(const RenderJob& job,
                        const std::stop_token& stop) {
   check(job);
   FileSet files(job.bundle->folder, "bundle");
-  FrameRenderer renderer(job.scene);
   const std::unique_ptr<CollisionLog> log = make_collision_log(job.scene.system);
   const Timeline timeline(job.scene, *log);
   const PageFacts facts(job.scene, *log, timeline);
-  write_poster(job, renderer.frame(facts.forth() - 1), files.add(std::string(kPoster)));
+  write_poster(job, facts.forth() - 1, files.add(std::string(kPoster)));
   write_texts(job, *log, timeline, {facts.most(), log->size()}, files);
   RenderJob video = job;
   video.bundle.reset();
