@@ -25,6 +25,7 @@ class Soundtrack {
   /// @param log         must outlive the soundtrack.
   /// @param stretches   as Schedule has them; copied.
   /// @param duration_s  of the film, > 0.
+  /// @throws UsageError if the stretches do not begin at 0 s, or are not in the film's order.
   Soundtrack(const Scene& scene, const CollisionLog& log, std::span<const Stretch> stretches,
              const Rational& duration_s);
   ~Soundtrack();

@@ -10,6 +10,9 @@
 #include <string_view>
 #include <utility>
 
+#include "media/byte_hash.hpp"
+#include "render/logo.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -18,8 +21,19 @@ constexpr const char* kTransparent = "transparent";
 /// What is kept of a scene to compare it with does not change its frames.
 constexpr std::string_view kGoldenKeys = "golden.";
 
+/// The logo by its pixels in place of its file, which may have another name elsewhere, and other
+/// pixels later.
+Scene with_logo_by_content(Scene scene) {
+  if (const auto logo = read_logo(scene)) {
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(logo->words.data());
+    scene.show.logo = fmt::format("{}x{} {}", logo->width_px, logo->height_px,
+                                  hash_of_bytes({bytes, 4 * logo->words.size()}));
+  }
+  return scene;
+}
+
 void describe(const Scene& scene, PartHeader& header) {
-  for (auto& [key, value] : describe(scene)) {
+  for (auto& [key, value] : describe(with_logo_by_content(scene))) {
     if (!key.starts_with(kGoldenKeys)) header.emplace_back(std::move(key), std::move(value));
   }
   header.emplace_back("view.width", std::to_string(scene.view.width_px));

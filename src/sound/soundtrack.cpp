@@ -1,4 +1,5 @@
 // The order of the stages: clacks -> heights -> clicks -> timbre -> limiter.
+#include <piblocks/error.hpp>
 #include <piblocks/soundtrack.hpp>
 
 #include <algorithm>
@@ -20,13 +21,19 @@ constexpr std::int64_t kReach = ClickKernel::kReach;
 
 /// A clack of impulse 1 alone peaks at about a fifth of full scale.
 constexpr double kVolume = 0.28;
-/// -2.5 dB: encoders that lose something add up to 1 dB to the peaks.
+/// -2.5 dB: encoders that lose something add up to 1.1 dB to the peaks.
 constexpr double kCeiling = 0.75;
 /// The film's end would cut off what still rings.
 constexpr std::int64_t kFade = 240;
 
 std::int64_t to_nearest(const Rational& value) {
   return floor(Rational(value + Rational(1, 2))).get_si();
+}
+
+std::span<const Stretch> checked(std::span<const Stretch> stretches) {
+  const bool is_in_order = std::ranges::is_sorted(stretches, {}, &Stretch::video_s);
+  if (!stretches.empty() && stretches.front().video_s == 0 && is_in_order) return stretches;
+  throw UsageError("sound: stretches of a film must begin at 0 s and be in its order");
 }
 
 }  // namespace
@@ -38,7 +45,7 @@ struct Soundtrack::State {
         view_low(to_double(scene.view.x.low)),
         view_width(to_double(scene.view.x.high - scene.view.x.low)),
         half_blue(to_double(scene.system.blue.width) / 2),
-        stream(log, stretches, duration_s, kRate_hz) {
+        stream(log, checked(stretches), duration_s, kRate_hz) {
     // Time goes by in the limiter before the first sample leaves it.
     for (int i = 0; i < Limiter::kDelay; ++i) next_limited();
   }
