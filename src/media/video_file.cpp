@@ -208,6 +208,8 @@ void VideoFile::check() const {
   if (sound_) packets.push_back(sound_->packets());
   if (file->nb_streams != packets.size() || !is_ours(*file->streams[0]->codecpar) ||
       !container_.is_whole(*file, packets)) {
+    // A demuxer may take a read that fails for the end.
+    check_av_read(std::min(file->pb->error, 0), "read back", name_);
     throw MediaError(fmt::format("video: the index of '{}' was not written whole", name_));
   }
 }
