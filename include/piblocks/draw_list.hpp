@@ -75,7 +75,10 @@ enum class ItemId : std::uint32_t {
   title = ids_from(10),
   caption = ids_from(11),
   logo = ids_from(12),
-  panels = ids_from(13)  ///< and one for each panel after it
+  panels = ids_from(13),  ///< and one for each panel after it
+  card = ids_from(100),
+  compared = ids_from(101),
+  fade = ids_from(102)
 };
 
 /// The n-th of the items that show one thing, n < 65,536.
@@ -151,7 +154,20 @@ struct ImageItem {
   friend bool operator==(const ImageItem&, const ImageItem&) = default;
 };
 
-using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem>;
+struct DrawList;
+
+/// A picture of its own within the picture, cut off at its edges.
+struct GroupItem {
+  ItemId id = ItemId::compared;
+  int x_px = 0;  ///< of its upper left corner
+  int y_px = 0;
+  std::shared_ptr<const DrawList> list;
+  double opacity = 1;  ///< 0 … 1
+
+  friend bool operator==(const GroupItem& a, const GroupItem& b);
+};
+
+using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, GroupItem>;
 
 struct DrawList {
   int width_px = 0;
@@ -161,5 +177,10 @@ struct DrawList {
 
   friend bool operator==(const DrawList&, const DrawList&) = default;
 };
+
+inline bool operator==(const GroupItem& a, const GroupItem& b) {
+  return a.id == b.id && a.x_px == b.x_px && a.y_px == b.y_px && a.opacity == b.opacity &&
+         (a.list == b.list || *a.list == *b.list);
+}
 
 }  // namespace piblocks

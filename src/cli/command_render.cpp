@@ -63,7 +63,7 @@ EncoderSettings settings_of(const RenderOptions& options) {
 
 RenderJob job_of(const RenderOptions& options) {
   const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
-  return {options.scene.scene(),
+  return {options.scene.script(),
           *text_of(*options.output),
           settings_of(options),
           value_of(*options.jobs, parse_jobs).value_or(static_cast<int>(processors)),
@@ -82,7 +82,7 @@ void run(const RenderOptions& options) {
       job, [&](const Progress& progress) { report.update(progress); }, signals.token());
   report.finish();
   if (job.profile) print_profile(rendered);
-  if (!quiet) note_convention(job.scene.system);
+  if (!quiet) note_convention(job.script);
 }
 
 RenderOptions add_options(CLI::App& command) {

@@ -90,9 +90,16 @@ void SceneOptions::refuse_both(const std::string& first, const std::string& seco
 }
 
 Scene SceneOptions::scene() const {
+  const Script made = script();
+  if (const auto* scene = std::get_if<Scene>(&made)) return *scene;
+  throw UsageError(fmt::format("'{}' is a storyboard; '{}' takes a scene without [[part]]",
+                               *text_of(*file_), command_->get_name()));
+}
+
+Script SceneOptions::script() const {
   refuse_both("--digits", "--mass-ratio", "the mass of red");
   refuse_both("--speed", "--duration", "the speed");
-  SceneBuilder builder;
+  ScriptBuilder builder;
   if (const auto file = text_of(*file_)) builder.read_file(*file);
   for (const auto& [key, option] : keys_) {
     if (const auto text = text_of(*option)) builder.set(option->get_name(), key, *text);

@@ -1,10 +1,10 @@
 // Options that describe a scene, shared by the subcommands.
-// In: the command line. Out: a valid scene, and the log of its collisions.
+// In: the command line. Out: a valid scene or storyboard, and the log of its collisions.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <piblocks/collision_log.hpp>
-#include <piblocks/scene.hpp>
+#include <piblocks/storyboard.hpp>
 
 #include <memory>
 #include <string>
@@ -25,8 +25,10 @@ class SceneOptions {
   /// Adds --fps, --from, --to, --speed and what else says how time runs in the video.
   void add_timing();
 
-  /// @throws SceneError, UsageError
+  /// @throws SceneError, UsageError; also if the file is a storyboard.
   Scene scene() const;
+  /// @throws SceneError, UsageError
+  Script script() const;
   /// @throws UsageError if the option names the scene file as the output.
   void refuse_as_output(const CLI::Option& output) const;
 

@@ -59,17 +59,29 @@ std::vector<std::uint8_t> draw_vector_file(const DrawList& list, MakeSurface mak
   return bytes;
 }
 
-/// Cairo 1.16 names the picture's group by a counter of the process, "surface12": equal draw lists
-/// would give different files.
-std::vector<std::uint8_t> with_fixed_id(std::vector<std::uint8_t> svg) {
-  constexpr std::string_view kCounted = "<g id=\"surface";
-  constexpr std::string_view kFixed = "<g id=\"picture";
-  const auto begin = std::search(svg.begin(), svg.end(), kCounted.begin(), kCounted.end());
-  if (begin == svg.end()) return svg;
-  // cppcheck-suppress derefInvalidIteratorRedundantCheck ; at the end this has returned
-  const auto end = std::find(begin + kCounted.size(), svg.end(), '"');
-  svg.insert(svg.erase(begin, end), kFixed.begin(), kFixed.end());
-  return svg;
+/// Cairo 1.16 names groups by a counter of the process, "surface12": equal draw lists would give
+/// different files. Here they are counted from the beginning of the file.
+std::vector<std::uint8_t> with_fixed_ids(const std::vector<std::uint8_t>& svg) {
+  constexpr std::string_view kCounted = "surface";
+  const std::string_view text(reinterpret_cast<const char*>(svg.data()), svg.size());
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::vector<std::string_view> counts;
+  std::string fixed;
+  std::size_t copied = 0;
+  for (auto at = text.find(kCounted); at != text.npos; at = text.find(kCounted, at + 1)) {
+    const bool is_name = text.substr(0, at).ends_with("id=\"") || text[at - 1] == '#';
+    const auto* const begin = text.begin() + at + kCounted.size();
+    const std::string_view count(begin, std::find_if_not(begin, text.end(), is_digit));
+    if (!is_name || count.empty()) continue;
+    auto known = std::ranges::find(counts, count);
+    if (known == counts.end()) known = counts.insert(known, count);
+    fixed += text.substr(copied, at - copied);
+    fixed +=
+        known == counts.begin() ? "picture" : fmt::format("picture{}", known - counts.begin() + 1);
+    copied = at + kCounted.size() + count.size();
+  }
+  fixed += text.substr(copied);
+  return {fixed.begin(), fixed.end()};
 }
 
 }  // namespace
@@ -92,6 +104,9 @@ struct Canvas::Pixels {
 /// How Cairo rounds a slanted edge depends on where the surface ends that it is painted on. The
 /// pixels of rectangles and text do not.
 bool depends_on_surface(const DrawItem& item) {
+  if (const auto* group = std::get_if<GroupItem>(&item)) {
+    return std::ranges::any_of(group->list->items, depends_on_surface);
+  }
   return !std::holds_alternative<RectangleItem>(item) && !std::holds_alternative<TextItem>(item);
 }
 
@@ -181,7 +196,7 @@ ImageView Canvas::view() const {
 }
 
 std::vector<std::uint8_t> draw_svg(const DrawList& list) {
-  return with_fixed_id(draw_vector_file(list, make_svg));
+  return with_fixed_ids(draw_vector_file(list, make_svg));
 }
 
 std::vector<std::uint8_t> draw_pdf(const DrawList& list) {

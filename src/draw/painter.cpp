@@ -137,7 +137,12 @@ void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& part) {
   set_color(cr, list.background);
   cairo_paint(&cr);
   for (const DrawItem& item : list.items) {
-    if (reaches(item, part)) paint_item(cr, item);
+    if (!reaches(item, part)) continue;
+    if (const auto* group = std::get_if<GroupItem>(&item)) {
+      paint_group(cr, *group, part);
+    } else {
+      paint_item(cr, item);
+    }
   }
   check_cairo(cairo_status(&cr), "paint");
 }
@@ -148,6 +153,43 @@ void Painter::paint_item(cairo_t& cr, const DrawItem& item) {
   if (const auto* path = std::get_if<PathItem>(&item)) paint_path(cr, *path);
   if (const auto* disk = std::get_if<DiskItem>(&item)) paint_disk(cr, *disk);
   if (const auto* image = std::get_if<ImageItem>(&item)) paint_image(cr, *image);
+}
+
+void Painter::paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& part) {
+  if (cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE) {
+    paint_group_pixels(cr, item, part);
+    return;
+  }
+  cairo_save(&cr);
+  cairo_translate(&cr, item.x_px, item.y_px);
+  cairo_rectangle(&cr, 0, 0, item.list->width_px, item.list->height_px);
+  cairo_clip(&cr);
+  if (item.opacity < 1) cairo_push_group(&cr);
+  paint(cr, *item.list);
+  if (item.opacity < 1) {
+    cairo_pop_group_to_source(&cr);
+    cairo_paint_with_alpha(&cr, item.opacity);
+  }
+  cairo_restore(&cr);
+}
+
+/// As a picture of its own, of which no more is made than is seen: under a clip Cairo would paint
+/// other pixels.
+void Painter::paint_group_pixels(cairo_t& cr, const GroupItem& item, const PixelRect& part) {
+  const int left = std::max(0, part.x_px - item.x_px);
+  const int top = std::max(0, part.y_px - item.y_px);
+  const int right = std::min(item.list->width_px, part.x_px + part.width_px - item.x_px);
+  const int bottom = std::min(item.list->height_px, part.y_px + part.height_px - item.y_px);
+  if (left >= right || top >= bottom) return;
+  const CairoSurfacePtr pixels(
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, right - left, bottom - top));
+  check_cairo(cairo_surface_status(pixels.get()), "paint a picture within a picture");
+  cairo_surface_set_device_offset(pixels.get(), -left, -top);
+  const CairoPtr into(cairo_create(pixels.get()));
+  paint(*into, *item.list, {left, top, right - left, bottom - top});
+  cairo_set_source_surface(&cr, pixels.get(), item.x_px, item.y_px);
+  cairo_pattern_set_filter(cairo_get_source(&cr), CAIRO_FILTER_NEAREST);
+  cairo_paint_with_alpha(&cr, item.opacity);
 }
 
 const Font& Painter::font() {

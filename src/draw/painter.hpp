@@ -34,6 +34,8 @@ class Painter {
  private:
   void paint_item(cairo_t& cr, const DrawItem& item);
   void paint_text(cairo_t& cr, const TextItem& item);
+  void paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& part);
+  void paint_group_pixels(cairo_t& cr, const GroupItem& item, const PixelRect& part);
 
   TextSetting setting_;
   std::unique_ptr<Font> font_;

@@ -16,12 +16,12 @@ namespace {
 /// What is kept of a scene to compare it with does not change its frames.
 constexpr std::string_view kGoldenKeys = "golden.";
 
-void describe(const Scene& scene, PartHeader& header) {
-  for (auto& [key, value] : describe(scene)) {
+void describe(const Script& script, PartHeader& header) {
+  for (auto& [key, value] : std::visit([](const auto& any) { return describe(any); }, script)) {
     if (!key.starts_with(kGoldenKeys)) header.emplace_back(std::move(key), std::move(value));
   }
-  header.emplace_back("view.width", std::to_string(scene.view.width_px));
-  header.emplace_back("view.height", std::to_string(scene.view.height_px));
+  header.emplace_back("view.width", std::to_string(view_of(script).width_px));
+  header.emplace_back("view.height", std::to_string(view_of(script).height_px));
 }
 
 /// Stands for a setting that was not given.
@@ -51,7 +51,7 @@ std::int64_t number(const PartInfo& part, const std::string& name, std::int64_t 
 PartHeader describe(const RenderJob& job, const Output& output, const Chunks& chunks) {
   PartHeader header;
   header.emplace_back("piblocks", kVersion);
-  describe(job.scene, header);
+  describe(job.script, header);
   header.emplace_back("frames", std::to_string(chunks.frame_count));
   describe(job.encoder, header);
   header.emplace_back("painter", painter_fingerprint());

@@ -1,4 +1,4 @@
-// The order of all stages: scene -> log -> state -> draw list -> pixels -> packets -> sink.
+// The order of all stages: script -> log -> state -> draw list -> pixels -> packets -> sink.
 #include <fmt/format.h>
 #include <piblocks/canvas.hpp>
 #include <piblocks/error.hpp>
@@ -17,7 +17,7 @@ namespace {
 /// Everything that decides what the frames show and how they are encoded.
 struct Plan {
   explicit Plan(const RenderJob& job)
-      : film(job.scene),
+      : film(job.script),
         output(set_up_output(job.output,
                              {film.view().width_px, film.view().height_px, film.view().frame_rate},
                              job.encoder)),

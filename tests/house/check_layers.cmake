@@ -21,7 +21,7 @@ set(cli_may ${layers})
 set(core_headers color error exact geometry image time version)
 set(physics_headers blocks collision_log event_simulator interpolator particle
     physics_versions)
-set(scene_headers instant pacing scene schedule show timeline)
+set(scene_headers instant pacing scene schedule show storyboard timeline)
 set(draw_headers canvas composition draw_list)
 set(media_headers frame_sink png)
 set(golden_headers compare compare_files)
