@@ -19,8 +19,6 @@ constexpr double kHeading = 0.12;
 constexpr double kLine = 0.06;
 /// A line may be set so much smaller than planned; beyond that it is too long.
 constexpr double kLeastShrink = 0.4;
-/// Below this no font can be read.
-constexpr double kLeastText_px = 8;
 // In ems.
 constexpr double kCapHeight = 0.73;
 constexpr double kBelowHeading = 0.75;  // of the heading, to the next line's capitals
@@ -29,10 +27,10 @@ constexpr double kBetweenLines = 0.8;
 double fitted_px(const std::string& text, double size_px, double width_px, const Font& font) {
   font.check(text, "card");
   const double fitted = std::min(size_px, width_px / font.width_em(text));
-  if (fitted >= std::max(kLeastShrink * size_px, kLeastText_px)) return fitted;
+  if (fitted >= kLeastShrink * size_px) return fitted;
   throw UsageError(fmt::format(
       "card: '{}' is too long to be read in {:.0f} pixels; break it into lines, or make the frame "
-      "larger",
+      "wider",
       text, width_px));
 }
 

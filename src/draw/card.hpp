@@ -12,7 +12,7 @@ namespace piblocks {
 
 /// The first line is set as a heading; all are made smaller where they would not fit.
 /// @param lines  at least one, not empty.
-/// @throws UsageError if a line cannot be set, or would be too small to be read.
+/// @throws UsageError if a line cannot be set, or is too long for the frame.
 DrawList compose_card(const std::vector<std::string>& lines, const View& view);
 
 }  // namespace piblocks

@@ -55,8 +55,7 @@ void SceneBuilder::read(const std::string& path, const TomlTable& table) {
   for (const Rivals& rivals : {Rivals{{"time.speed", "time.duration"}, "the speed"},
                                Rivals{{"digits", "mass-ratio", "red.mass"}, "the mass of red"}}) {
     const std::string problem = rivalry(table, rivals);
-    // A table inside of a file has a line of its own.
-    const std::string place = table.line > 1 ? fmt::format("{}:{}", path, table.line) : path;
+    const std::string place = table.line > 0 ? fmt::format("{}:{}", path, table.line) : path;
     if (!problem.empty()) add_problem(place, problem);
   }
   for (const TomlEntry& entry : table.entries) {

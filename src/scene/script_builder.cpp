@@ -23,6 +23,7 @@ const TomlEntry* find(const TomlTable& table, std::string_view key) {
 std::vector<std::string> lines_of(const Values& values) {
   std::vector<std::string> lines;
   for (const std::string& value : values) {
+    if (value.empty()) lines.emplace_back();
     std::istringstream text(value);
     for (std::string line; std::getline(text, line);) lines.push_back(checked_line(line));
   }

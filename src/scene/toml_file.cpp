@@ -90,7 +90,9 @@ TomlTable table_of(const toml::table& table) {
 
 TomlTable read_toml(const std::string& path) {
   try {
-    return table_of(toml::parse(read_text(path), path));
+    TomlTable root = table_of(toml::parse(read_text(path), path));
+    root.line = 0;
+    return root;
   } catch (const toml::parse_error& error) {
     throw SceneError(
         fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));

@@ -19,7 +19,7 @@ struct TomlEntry {
 
 struct TomlTable {
   std::vector<TomlEntry> entries;  ///< by line
-  std::size_t line = 0;            ///< where it begins, from 1
+  std::size_t line = 0;            ///< where it begins, from 1; 0 for the file itself
 };
 
 /// @throws SceneError if the file cannot be read, is too long, or is no TOML.

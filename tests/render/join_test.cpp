@@ -121,7 +121,7 @@ TEST_F(JoinTest, RefusesPartsOfDifferentJobs) {
   EXPECT_TRUE(ends_with({scene("wall.face", "1/2"), {}}, "wall.face"));
   EXPECT_TRUE(ends_with({scene("time.from", "2"), {}}, "time.from"));
   RenderJob longer = job;
-  longer.scene.time.to.offset += 1;
+  std::get<Scene>(longer.script).time.to.offset += 1;
   EXPECT_TRUE(ends_with(longer, "time.to"));
   EXPECT_TRUE(ends_with({scene(), {}, {.crf = 20}}, "crf"));
   EXPECT_NE(problem({one, rendered_part({2, 3}, job)}, "c.mp4").find("number of parts"),
