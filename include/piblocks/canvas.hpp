@@ -13,17 +13,22 @@
 
 namespace piblocks {
 
+/// Whether the ground of a picture can be seen through.
+enum class Ground : std::uint8_t { opaque, transparent };
+
 /// Pixels that are painted again and again. Used by one thread at a time; different canvases
 /// are independent.
 class Canvas {
  public:
+  /// @param ground  whether the pixels have alpha.
   /// @throws DrawError if there is no memory for it.
-  Canvas(int width_px, int height_px);
+  Canvas(int width_px, int height_px, Ground ground = Ground::opaque);
   ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  /// Replaces the whole picture. The list must be of the canvas's size.
+  /// Replaces the whole picture. The list must be of the canvas's size, and have a background
+  /// unless the canvas is transparent.
   /// @throws DrawError
   void paint(const DrawList& list);
   /// Makes the picture what paint() would make it, but paints only where it may differ from the

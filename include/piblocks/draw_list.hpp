@@ -3,9 +3,9 @@
 #pragma once
 
 #include <piblocks/image.hpp>
+#include <piblocks/item_id.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -55,37 +55,6 @@ struct Stroke {
   friend bool operator==(const Stroke&, const Stroke&) = default;
 };
 
-/// The first of 65,536 ids for what shows one thing.
-constexpr std::uint32_t ids_from(std::uint32_t thing) { return thing << 16; }
-
-/// What an item shows, the same from frame to frame. Where several items show one thing, nth()
-/// tells them apart. Lists whose ids rise from back to front may gain and lose items from frame to
-/// frame, and only these are painted.
-enum class ItemId : std::uint32_t {
-  wall = ids_from(0),
-  red_block = ids_from(1),
-  blue_block = ids_from(2),
-  label = ids_from(3),
-  lit_count = ids_from(4),
-  count = ids_from(5),
-  masses = ids_from(6),
-  velocities = ids_from(7),
-  ruler = ids_from(8),
-  read_outs = ids_from(9),
-  title = ids_from(10),
-  caption = ids_from(11),
-  logo = ids_from(12),
-  panels = ids_from(13),  ///< and one for each panel after it
-  card = ids_from(100),
-  compared = ids_from(101),
-  fade = ids_from(102)
-};
-
-/// The n-th of the items that show one thing, n < 65,536.
-constexpr ItemId nth(ItemId thing, std::size_t n) {
-  return ItemId{static_cast<std::uint32_t>(thing) + static_cast<std::uint32_t>(n)};
-}
-
 struct RectangleItem {
   ItemId id = ItemId::wall;
   Rectangle bounds;
@@ -111,16 +80,27 @@ class Points {
  public:
   Points() = default;
   Points(std::vector<Point> points)
-      : points_(std::make_shared<const std::vector<Point>>(std::move(points))) {}
+      : bounds_(bounds_of(points)),
+        points_(std::make_shared<const std::vector<Point>>(std::move(points))) {}
 
   std::span<const Point> view() const noexcept {
     return points_ ? std::span<const Point>(*points_) : std::span<const Point>();
   }
+  /// The least rectangle around them.
+  const Rectangle& bounds() const noexcept { return bounds_; }
   friend bool operator==(const Points& a, const Points& b) {
     return a.points_ == b.points_ || std::ranges::equal(a.view(), b.view());
   }
 
  private:
+  static Rectangle bounds_of(std::span<const Point> points) {
+    if (points.empty()) return {};
+    const auto [left, right] = std::ranges::minmax(points, {}, &Point::x);
+    const auto [top, bottom] = std::ranges::minmax(points, {}, &Point::y);
+    return {left.x, top.y, right.x - left.x, bottom.y - top.y};
+  }
+
+  Rectangle bounds_;
   std::shared_ptr<const std::vector<Point>> points_;
 };
 
@@ -154,9 +134,22 @@ struct ImageItem {
   friend bool operator==(const ImageItem&, const ImageItem&) = default;
 };
 
+struct Plate;
+
+/// Items that never change, as one: a canvas paints them once and keeps their picture. Equal if it
+/// is the same plate in memory.
+struct PlateItem {
+  ItemId id = ItemId::wall;
+  Rectangle bounds;  ///< in whole pixels; nothing of the plate is seen outside
+  std::shared_ptr<const Plate> plate;
+
+  friend bool operator==(const PlateItem&, const PlateItem&) = default;
+};
+
 struct DrawList;
 
-/// A picture of its own within the picture, cut off at its edges.
+/// A picture of its own within the picture, cut off at its edges. It is seen in the place of what
+/// is behind it, at opacity 1 wholly.
 struct GroupItem {
   ItemId id = ItemId::compared;
   int x_px = 0;  ///< of its upper left corner
@@ -167,13 +160,18 @@ struct GroupItem {
   friend bool operator==(const GroupItem& a, const GroupItem& b);
 };
 
-using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, GroupItem>;
+using DrawItem =
+    std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, PlateItem, GroupItem>;
+
+struct Plate {
+  std::vector<DrawItem> items;  ///< from back to front
+};
 
 struct DrawList {
   int width_px = 0;
   int height_px = 0;
-  Color background = {255, 255, 255};
-  std::vector<DrawItem> items;  ///< from back to front
+  std::optional<Color> background = Color{255, 255, 255};  ///< transparent without
+  std::vector<DrawItem> items;                             ///< from back to front
 
   friend bool operator==(const DrawList&, const DrawList&) = default;
 };

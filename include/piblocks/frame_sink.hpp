@@ -1,4 +1,4 @@
-// Where frames go: MP4, PNG sequence, y4m, frame hashes, or nowhere.
+// Where frames go: a video, an animated picture, a sequence, frame hashes, or nowhere.
 // In: chunks of consecutive frames, each encoded on its own by any thread. Out: one output,
 // written in order by one thread, that bears its final name only when it is complete.
 #pragma once
@@ -20,11 +20,12 @@ struct VideoFormat {
   int width_px = 1920;       ///< 1 … kMaxSide_px
   int height_px = 1080;      ///< 1 … kMaxSide_px
   Rational frame_rate = 60;  ///< frames per second, > 0
+  bool has_alpha = false;    ///< whether the frames do, as ImageView says
 };
 
 /// What may be said to a video encoder; unset means the measured default.
 struct EncoderSettings {
-  std::optional<double> crf = {};          ///< constant rate factor, 0 (lossless) … 51
+  std::optional<double> crf = {};          ///< constant rate factor, 0 (best) … 51; 63 for WebM
   std::optional<std::string> preset = {};  ///< the encoder's own name for a speed
   /// libavcodec's name of the encoder; or "damage", by which nothing but what changes is coded.
   std::optional<std::string> encoder = {};
@@ -106,17 +107,21 @@ class Output {
 };
 
 /// Sets up the output whose kind `name` tells:
-/// `*.mp4`, `*.png` with one integer field such as `%06d`, `*.y4m`, `-` (y4m on standard
-/// output), `*.framehash`, or the word `null`.
+/// `*.mp4`, `*.mov`, `*.webm`, `*.gif`, `*.apng`, `*.png` with one integer field such as `%06d`,
+/// `*.y4m`, `-` (y4m on standard output), `*.framehash`, or the word `null`.
 /// PNG files are numbered from 1, as FFmpeg numbers them; the rest counts frames from 0. Settings
-/// are for `*.mp4` alone.
+/// are for `*.mp4`, `*.mov` and `*.webm` alone; alpha is not for `*.mp4`, `*.gif`, `*.y4m` and `-`.
 /// @throws UsageError if the name has no known kind, the format does not suit the kind, or no
 ///         encoder is there.
 std::unique_ptr<Output> set_up_output(const std::string& name, const VideoFormat& format,
                                       const EncoderSettings& settings);
 
-/// Names of the encoders that MP4 may be made with, the default first.
+/// Names of the encoders that MP4 and MOV may be made with, the default first.
 std::vector<std::string> h264_encoders();
+/// The same for WebM.
+std::vector<std::string> webm_encoders();
+/// The same for MOV with alpha.
+std::vector<std::string> prores_encoders();
 
 /// Name and version of each codec library that is linked, such as "libavcodec 59.37.100".
 std::vector<std::string> media_library_versions();

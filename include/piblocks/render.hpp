@@ -89,6 +89,21 @@ std::int64_t join(const std::vector<std::string>& parts, const std::string& outp
 void render_still(const Script& script, const Instant& instant, const std::string& output,
                   const std::stop_token& stop = {});
 
+/// Most pictures of a sheet.
+inline constexpr int kMaxSheetPictures = 200;
+
+/// So many instants of the scene's span of time, as far apart as can be: the first and the last
+/// frame's, and others between at equal distances.
+/// @throws UsageError unless 1 <= count <= kMaxSheetPictures; as Timeline. SimulationError
+std::vector<Instant> spread_instants(const Scene& scene, int count);
+
+/// Renders these instants side by side on one page, time and count below each: a `.pdf`, `.svg` or
+/// `.png` file of the shape of A4 in landscape, or PNG on standard output for "-".
+/// @param stop  asks to give up: Interrupted is thrown when the page is drawn.
+/// @throws UsageError, DrawError, MediaError, IoError, SimulationError, Interrupted
+void render_sheet(const Scene& scene, const std::vector<Instant>& instants,
+                  const std::string& output, const std::stop_token& stop = {});
+
 /// The frames of a film as pixels, in any order. Only what differs from the frame painted before
 /// is painted; the pixels are those that render() encodes. Used by one thread at a time; different
 /// renderers are independent. A renderer that was moved from can only be assigned to or destroyed.

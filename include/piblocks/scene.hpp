@@ -8,6 +8,7 @@
 #include <piblocks/pacing.hpp>
 #include <piblocks/show.hpp>
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,6 +24,9 @@ struct Range {
   Rational high;
 };
 
+/// What is behind everything: a colour, or nothing, so that another picture can be put there.
+enum class Background : std::uint8_t { opaque, transparent };
+
 /// What part of the plane a frame shows, and how many frames and pixels that takes.
 struct View {
   Range x = {-1, 12};
@@ -31,6 +35,7 @@ struct View {
   int height_px = 1080;      ///< 1 … kMaxSide_px
   Rational frame_rate = 60;  ///< frames per second of video, 0 < rate <= kMaxFrameRate
   Theme theme = Theme::article;
+  Background background = Background::opaque;
 };
 
 inline constexpr int kMaxFrameRate = 1000;
@@ -80,10 +85,10 @@ struct TomlTable;
 /// Collects a scene's values from a file and from options, remembering where each came from.
 /// The keys are those of the scene file: "digits" or "mass-ratio", which set red.mass; "wall.face";
 /// "blue." and "red." with "mass", "position", "velocity", "width" ("by-mass" for red:
-/// width_by_mass()); "view.x", "view.y", "view.size", "view.fps", "view.theme"; "time.from",
-/// "time.to", "time.speed", "time.duration", "time.slow-motion", "time.freeze", "time.hold-start",
-/// "time.hold-end", "time.loop"; "show.overlays", "show.panels", "show.title", "show.caption",
-/// "show.logo"; "golden.frames", "golden.size".
+/// width_by_mass()); "view.x", "view.y", "view.size", "view.fps", "view.background", "view.theme";
+/// "time.from", "time.to", "time.speed", "time.duration", "time.slow-motion", "time.freeze",
+/// "time.hold-start", "time.hold-end", "time.loop"; "show.overlays", "show.panels", "show.title",
+/// "show.caption", "show.logo"; "golden.frames", "golden.size".
 class SceneBuilder {
  public:
   /// Reads a scene file. Values set before it are overwritten, values set after it win.

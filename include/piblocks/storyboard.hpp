@@ -34,7 +34,8 @@ struct StoryPart {
 };
 
 struct Storyboard {
-  View view = {};  ///< size, frame rate and theme of the whole film, whatever the scenes say
+  View view =
+      {};  ///< size, frame rate, theme and background of the whole film, whatever the scenes say
   Golden golden = {};
   std::vector<StoryPart> parts = {};  ///< 1 … kMaxStoryParts
 };
@@ -46,10 +47,10 @@ inline constexpr std::size_t kMaxStoryParts = 100;
 /// What a film is made from.
 using Script = std::variant<Scene, Storyboard>;
 
-/// Size, frame rate and theme of the whole film.
+/// Size, frame rate, theme and background of the whole film.
 const View& view_of(const Script& script);
 
-/// The scene as the film shows it: with the film's size, frame rate and theme.
+/// The scene as the film shows it: with the film's size, frame rate, theme and background.
 Scene with_film_view(Scene scene, const View& film);
 
 /// Everything that is wrong with it, but for what takes the length of a run to know; empty if

@@ -7,6 +7,7 @@
 #include <piblocks/frame_sink.hpp>
 #include <piblocks/image.hpp>
 #include <piblocks/physics_versions.hpp>
+#include <piblocks/render.hpp>
 #include <piblocks/scene.hpp>
 #include <piblocks/timeline.hpp>
 #include <piblocks/version.hpp>
@@ -18,6 +19,13 @@
 namespace piblocks::cli {
 namespace {
 
+void print_encoders(TextOutput& out, const char* heading, const std::vector<std::string>& encoders,
+                    const char* what) {
+  out.format_line("{}:", heading);
+  for (const std::string& encoder : encoders) out.format_line("  {}", encoder);
+  if (encoders.empty()) out.format_line("  none: {} cannot be written", what);
+}
+
 void print_limits(TextOutput& out) {
   out.line("limits:");
   out.format_line("  scene file: {} bytes, lists nested {} deep", kMaxSceneFile_bytes,
@@ -27,6 +35,7 @@ void print_limits(TextOutput& out) {
   out.format_line("  frame: {} pixels a side, {} in all", kMaxSide_px, kMaxFrame_px);
   out.format_line("  frames per second: {}", kMaxFrameRate);
   out.format_line("  frames of one rendering: {}", kMaxFrames);
+  out.format_line("  pictures of a sheet: {}", kMaxSheetPictures);
   out.format_line("  parts of one rendering: {}", kMaxParts);
   out.format_line("  threads: {}", kMaxJobs);
   out.format_line("  rows of a log: {}, more with --limit", kMaxRows);
@@ -43,10 +52,9 @@ void run() {
   for (const std::string& library : media_library_versions()) out.format_line("  {}", library);
   out.format_line("  fmt {}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
                   FMT_VERSION % 100);
-  out.line("H.264 encoders, the default first:");
-  const std::vector<std::string> encoders = h264_encoders();
-  for (const std::string& encoder : encoders) out.format_line("  {}", encoder);
-  if (encoders.empty()) out.line("  none: MP4 cannot be written");
+  print_encoders(out, "H.264 encoders, the default first", h264_encoders(), "MP4");
+  print_encoders(out, "WebM encoders, the default first", webm_encoders(), "WebM");
+  print_encoders(out, "ProRes encoders", prores_encoders(), "MOV with transparency");
   print_limits(out);
   out.finish();
 }

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/convention_note.hpp"
+#include "cli/destinations.hpp"
 #include "cli/limits.hpp"
 #include "cli/options.hpp"
 #include "cli/profile_report.hpp"
@@ -21,6 +23,7 @@ namespace {
 struct RenderOptions {
   SceneOptions scene;
   const CLI::Option* output;
+  const CLI::Option* destination;
   const CLI::Option* crf;
   const CLI::Option* preset;
   const CLI::Option* encoder;
@@ -61,11 +64,30 @@ EncoderSettings settings_of(const RenderOptions& options) {
   return smallest_file();
 }
 
+const Destination* destination_of(const RenderOptions& options) {
+  const auto found = value_of(*options.destination,
+                              [](const std::string& name) { return &parse_destination(name); });
+  if (!found) return nullptr;
+  check_ending(**found, *text_of(*options.output));
+  return *found;
+}
+
+/// With the settings that suit the destination.
 RenderJob job_of(const RenderOptions& options) {
   const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
-  return {options.scene.script(),
-          *text_of(*options.output),
-          settings_of(options),
+  const Destination* const destination = destination_of(options);
+  const std::string output = *text_of(*options.output);
+  EncoderSettings settings = settings_of(options);
+  Script script =
+      destination == nullptr
+          ? options.scene.script()
+          : options.scene.script(destination->defaults, fmt::format("--for {}", destination->name));
+  if (destination != nullptr && !settings.encoder && output.ends_with(".mov")) {
+    settings.encoder = destination->mov_encoder;
+  }
+  return {std::move(script),
+          output,
+          std::move(settings),
           value_of(*options.jobs, parse_jobs).value_or(static_cast<int>(processors)),
           value_of(*options.part, parse_part),
           options.profile->count() > 0};
@@ -89,14 +111,18 @@ RenderOptions add_options(CLI::App& command) {
   SceneOptions scene(command);
   const CLI::Option& output =
       *add_value_option(command, "-o,--output", "OUT",
-                        "What to write: NAME.mp4, FRAMES/%06d.png, NAME.y4m,\n"
-                        "- (y4m on standard output), NAME.framehash, or null")
+                        "What to write: NAME.mp4, NAME.mov, NAME.webm, NAME.gif,\n"
+                        "NAME.apng, FRAMES/%06d.png, NAME.y4m, - (y4m on standard\n"
+                        "output), NAME.framehash, or null")
            .required();
-  scene.add_size();
+  const CLI::Option& destination =
+      add_value_option(command, "--for", "WHERE",
+                       "Size, rate and background that suit one of:\n" + destination_names());
+  scene.add_picture();
   scene.add_show();
   scene.add_timing();
   const CLI::Option& crf =
-      add_value_option(command, "--crf", "Q", "Rate factor of MP4, 0 (lossless) to 51 (worst)");
+      add_value_option(command, "--crf", "Q", "Rate factor, 0 (best) to 51 (worst); 63 for WebM");
   const CLI::Option& preset =
       add_value_option(command, "--preset", "P", "The encoder's speed preset, such as veryfast");
   const CLI::Option& encoder =
@@ -112,7 +138,8 @@ RenderOptions add_options(CLI::App& command) {
   const CLI::Option& profile =
       *command.add_flag("--profile")->description("Print what each stage cost, on standard error");
   const CLI::Option& quiet = *command.add_flag("--quiet")->description("Print nothing but errors");
-  return {scene, &output, &crf, &preset, &encoder, &smallest, &jobs, &part, &profile, &quiet};
+  return {scene,     &output, &destination, &crf,     &preset, &encoder,
+          &smallest, &jobs,   &part,        &profile, &quiet};
 }
 
 }  // namespace

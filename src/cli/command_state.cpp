@@ -2,29 +2,19 @@
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/convention_note.hpp"
+#include "cli/instant_list.hpp"
 #include "cli/options.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/text_output.hpp"
 
 namespace piblocks::cli {
 namespace {
-
-std::vector<Instant> parse_instants(const std::string& text) {
-  std::vector<Instant> instants;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    instants.push_back(parse_instant(text.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return instants;
-}
 
 /// @throws UsageError if the engine cannot say.
 PositionBounds bounds_at(const CollisionLog& log, const Time& time) {

@@ -21,7 +21,7 @@ void add_still(CLI::App& app) {
       add_value_option(*command, "-o,--output", "OUT",
                        "NAME.png, NAME.svg, NAME.pdf, or - (PNG on standard output)")
           .required();
-  scene.add_size();
+  scene.add_picture();
   scene.add_show();
   command->footer(
       "Examples:\n"

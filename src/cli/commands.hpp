@@ -10,6 +10,7 @@ namespace piblocks::cli {
 void add_render(CLI::App& app);
 void add_join(CLI::App& app);
 void add_still(CLI::App& app);
+void add_sheet(CLI::App& app);
 void add_log(CLI::App& app);
 void add_state(CLI::App& app);
 void add_count(CLI::App& app);

@@ -69,6 +69,7 @@ void add_commands(CLI::App& app) {
   cli::add_render(app);
   cli::add_join(app);
   cli::add_still(app);
+  cli::add_sheet(app);
   cli::add_log(app);
   cli::add_state(app);
   cli::add_count(app);

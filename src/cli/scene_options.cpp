@@ -44,15 +44,23 @@ void SceneOptions::add_flag(const std::string& key, const std::string& option,
   keys_.emplace_back(key, command_->add_flag(option)->description(help));
 }
 
-void SceneOptions::add_size() {
+void SceneOptions::add_picture() {
   add_key("view.size", "--size", "WxH", "Frame size in pixels (default 1920x1080)");
+  transparent_ = command_->add_flag("--transparent")
+                     ->description("No background: another picture can be put behind");
+  opaque_ = command_->add_flag("--opaque")
+                ->description("A background, also where the scene or --for wants none");
+}
+
+void SceneOptions::add_span() {
+  add_key("time.from", "--from", "S", "First instant shown, in simulation time (default 0)");
+  add_key("time.to", "--to", "S|last|last+S",
+          "End: a time, the last collision, or so long after it\n(default last+1.5)");
 }
 
 void SceneOptions::add_timing() {
   add_key("view.fps", "--fps", "N|N/D", "Frames per second (default 60)");
-  add_key("time.from", "--from", "S", "First instant shown, in simulation time (default 0)");
-  add_key("time.to", "--to", "S|last|last+S",
-          "End: a time, the last collision, or so long after it\n(default last+1.5)");
+  add_span();
   add_key("time.speed", "--speed", "X", "Simulation time per second of video (default 1)");
   add_pacing();
 }
@@ -89,6 +97,14 @@ void SceneOptions::refuse_both(const std::string& first, const std::string& seco
   throw UsageError(fmt::format("{} and {} both set {}; give one of them", first, second, what));
 }
 
+void SceneOptions::set_background(ScriptBuilder& builder) const {
+  if (transparent_ == nullptr) return;
+  if (transparent_->count() > 0) {
+    builder.set(transparent_->get_name(), "view.background", "transparent");
+  }
+  if (opaque_->count() > 0) builder.set(opaque_->get_name(), "view.background", "opaque");
+}
+
 Scene SceneOptions::scene() const {
   const Script made = script();
   if (const auto* scene = std::get_if<Scene>(&made)) return *scene;
@@ -96,17 +112,21 @@ Scene SceneOptions::scene() const {
                                *text_of(*file_), command_->get_name()));
 }
 
-Script SceneOptions::script() const {
+Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
+                            const std::string& origin) const {
   refuse_both("--digits", "--mass-ratio", "the mass of red");
   refuse_both("--speed", "--duration", "the speed");
+  refuse_both("--transparent", "--opaque", "the background");
   ScriptBuilder builder;
   if (const auto file = text_of(*file_)) builder.read_file(*file);
+  for (const auto& [key, text] : defaults) builder.set(origin, key, text);
   for (const auto& [key, option] : keys_) {
     if (const auto text = text_of(*option)) builder.set(option->get_name(), key, *text);
   }
   if (width_by_mass_ != nullptr && width_by_mass_->count() > 0) {
     builder.set(width_by_mass_->get_name(), "red.width", "by-mass");
   }
+  set_background(builder);
   if (const auto ratio = value_of(*mass_ratio_, parse_mass_ratio)) {
     builder.set_mass_ratio(mass_ratio_->get_name(), *ratio);
   }

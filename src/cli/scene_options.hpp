@@ -13,22 +13,33 @@
 
 namespace piblocks::cli {
 
+/// The value of a key of the scene file.
+struct SceneDefault {
+  std::string key;
+  std::string text;
+};
+
 /// Refers to options of the App it was made for, and is valid as long as that.
 class SceneOptions {
  public:
   /// Adds [SCENE.toml], --digits and --mass-ratio.
   explicit SceneOptions(CLI::App& command);
-  /// Adds --size.
-  void add_size();
+  /// Adds --size, --transparent and --opaque.
+  void add_picture();
   /// Adds --theme, --show, --panels and what else says what a picture shows.
   void add_show();
-  /// Adds --fps, --from, --to, --speed and what else says how time runs in the video.
+  /// Adds --from and --to.
+  void add_span();
+  /// Adds --fps, --speed and what else says how time runs in the video beside these.
   void add_timing();
 
   /// @throws SceneError, UsageError; also if the file is a storyboard.
   Scene scene() const;
+  /// @param defaults  win over the scene file, but not over options.
+  /// @param origin    of these, named in messages.
   /// @throws SceneError, UsageError
-  Script script() const;
+  Script script(const std::vector<SceneDefault>& defaults = {},
+                const std::string& origin = {}) const;
   /// @throws UsageError if the option names the scene file as the output.
   void refuse_as_output(const CLI::Option& output) const;
 
@@ -36,6 +47,7 @@ class SceneOptions {
   /// Adds an option that sets a key of the scene file.
   void add_key(const std::string& key, const std::string& option, const std::string& placeholder,
                const std::string& help);
+  void set_background(SceneBuilder& builder) const;
   /// Adds an option without a value that sets a key to true.
   void add_flag(const std::string& key, const std::string& option, const std::string& help);
   void add_pacing();
@@ -47,6 +59,8 @@ class SceneOptions {
   CLI::Option* digits_;
   CLI::Option* mass_ratio_;
   CLI::Option* width_by_mass_ = nullptr;
+  CLI::Option* transparent_ = nullptr;
+  CLI::Option* opaque_ = nullptr;
   std::vector<std::pair<std::string, CLI::Option*>> keys_;
 };
 

@@ -84,6 +84,16 @@ void OutputFile::write(std::string_view text) {
   write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
+void OutputFile::overwrite(std::uint64_t position, std::span<const std::uint8_t> bytes) {
+  const int file = descriptor_.get();
+  const off_t end = ::lseek(file, 0, SEEK_CUR);
+  if (end < 0 || ::lseek(file, static_cast<off_t>(position), SEEK_SET) < 0) {
+    fail_io("write", name_, errno);
+  }
+  write(bytes);
+  if (::lseek(file, end, SEEK_SET) < 0) fail_io("write", name_, errno);
+}
+
 void OutputFile::finish() {
   if (const int error = descriptor_.close()) fail_io("close", name_, error);
   if (temporary_) temporary_->commit();

@@ -59,6 +59,9 @@ class OutputFile {
   /// @throws IoError on a full disk, a closed pipe and the like.
   void write(std::span<const std::uint8_t> bytes);
   void write(std::string_view text);
+  /// Replaces bytes that were written before, from this position on. Not on standard output.
+  /// @throws IoError
+  void overwrite(std::uint64_t position, std::span<const std::uint8_t> bytes);
   /// Closes, syncs and renames. @throws IoError
   void finish();
 

@@ -1,5 +1,3 @@
-#include <cairo-pdf.h>
-#include <cairo-svg.h>
 #include <fmt/format.h>
 #include <ft2build.h>
 #include <piblocks/canvas.hpp>
@@ -7,7 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <new>
+#include <cstring>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -17,76 +15,30 @@
 #include "draw/cairo_handles.hpp"
 #include "draw/damage.hpp"
 #include "draw/painter.hpp"
+#include "draw/vector_file.hpp"
 #include FT_FREETYPE_H
 
 namespace piblocks {
 namespace {
 
-using MakeSurface = cairo_surface_t* (*)(cairo_write_func_t write, void* bytes, double width,
-                                         double height);
-
-/// Called by Cairo, which no exception may pass through.
-cairo_status_t append_bytes(void* target, const unsigned char* data, unsigned int length) {
-  auto& bytes = *static_cast<std::vector<std::uint8_t>*>(target);
-  try {
-    bytes.insert(bytes.end(), data, data + length);
-  } catch (const std::bad_alloc&) {
-    return CAIRO_STATUS_NO_MEMORY;
+/// By hand: of a surface that Cairo itself has cleared it knows that, and paints on it in other
+/// ways.
+void clear(unsigned char* corner, const PixelRect& rect, int stride_bytes) {
+  for (int y = 0; y < rect.height_px; ++y) {
+    std::memset(corner + std::ptrdiff_t{y} * stride_bytes, 0, std::size_t(rect.width_px) * 4);
   }
-  return CAIRO_STATUS_SUCCESS;
-}
-
-cairo_surface_t* make_svg(cairo_write_func_t write, void* bytes, double width, double height) {
-  cairo_surface_t* surface = cairo_svg_surface_create_for_stream(write, bytes, width, height);
-  cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
-  return surface;
-}
-
-cairo_surface_t* make_pdf(cairo_write_func_t write, void* bytes, double width, double height) {
-  cairo_surface_t* surface = cairo_pdf_surface_create_for_stream(write, bytes, width, height);
-  // Cairo would write the time of day: equal scenes would give different files.
-  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "1970-01-01T00:00:00Z");
-  return surface;
-}
-
-std::vector<std::uint8_t> draw_vector_file(const DrawList& list, MakeSurface make) {
-  std::vector<std::uint8_t> bytes;
-  const CairoSurfacePtr surface(make(append_bytes, &bytes, list.width_px, list.height_px));
-  const CairoPtr cr(cairo_create(surface.get()));
-  Painter(TextSetting::lines).paint(*cr, list);
-  cairo_surface_finish(surface.get());
-  check_cairo(cairo_surface_status(surface.get()), "finish the vector file");
-  return bytes;
-}
-
-/// Cairo 1.16 names groups by a counter of the process, "surface12": equal draw lists would give
-/// different files. Here they are counted from the beginning of the file.
-std::vector<std::uint8_t> with_fixed_ids(const std::vector<std::uint8_t>& svg) {
-  constexpr std::string_view kCounted = "surface";
-  const std::string_view text(reinterpret_cast<const char*>(svg.data()), svg.size());
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  std::vector<std::string_view> counts;
-  std::string fixed;
-  std::size_t copied = 0;
-  for (auto at = text.find(kCounted); at != text.npos; at = text.find(kCounted, at + 1)) {
-    const bool is_name = text.substr(0, at).ends_with("id=\"") || text[at - 1] == '#';
-    const auto* const begin = text.begin() + at + kCounted.size();
-    const std::string_view count(begin, std::find_if_not(begin, text.end(), is_digit));
-    if (!is_name || count.empty()) continue;
-    auto known = std::ranges::find(counts, count);
-    if (known == counts.end()) known = counts.insert(known, count);
-    fixed += text.substr(copied, at - copied);
-    fixed +=
-        known == counts.begin() ? "picture" : fmt::format("picture{}", known - counts.begin() + 1);
-    copied = at + kCounted.size() + count.size();
-  }
-  fixed += text.substr(copied);
-  return {fixed.begin(), fixed.end()};
 }
 
 }  // namespace
 
 struct Canvas::Pixels {
+  Pixels(int width_px, int height_px, Ground ground)
+      : format(ground == Ground::transparent ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24),
+        surface(cairo_image_surface_create(format, width_px, height_px)) {
+    check_cairo(cairo_surface_status(surface.get()), "make a canvas");
+  }
+
+  cairo_format_t format;
   CairoSurfacePtr surface;
   Painter painter{TextSetting::glyphs};
   std::optional<DrawList> shown;
@@ -102,12 +54,13 @@ struct Canvas::Pixels {
 };
 
 /// How Cairo rounds a slanted edge depends on where the surface ends that it is painted on. The
-/// pixels of rectangles and text do not.
+/// pixels of rectangles, text and plates do not.
 bool depends_on_surface(const DrawItem& item) {
   if (const auto* group = std::get_if<GroupItem>(&item)) {
     return std::ranges::any_of(group->list->items, depends_on_surface);
   }
-  return !std::holds_alternative<RectangleItem>(item) && !std::holds_alternative<TextItem>(item);
+  return std::holds_alternative<PathItem>(item) || std::holds_alternative<DiskItem>(item) ||
+         std::holds_alternative<ImageItem>(item);
 }
 
 void Canvas::Pixels::paint(const DrawList& list, std::span<const PixelRect> rects) {
@@ -150,8 +103,9 @@ void Canvas::Pixels::paint_part(const DrawList& list, const PixelRect& rect) {
   const int stride_bytes = cairo_image_surface_get_stride(surface.get());
   unsigned char* const corner = cairo_image_surface_get_data(surface.get()) +
                                 std::ptrdiff_t{rect.y_px} * stride_bytes + 4 * rect.x_px;
-  const CairoSurfacePtr part(cairo_image_surface_create_for_data(
-      corner, CAIRO_FORMAT_RGB24, rect.width_px, rect.height_px, stride_bytes));
+  if (!list.background) clear(corner, rect, stride_bytes);
+  const CairoSurfacePtr part(cairo_image_surface_create_for_data(corner, format, rect.width_px,
+                                                                 rect.height_px, stride_bytes));
   cairo_surface_set_device_offset(part.get(), -rect.x_px, -rect.y_px);
   const CairoPtr cr(cairo_create(part.get()));
   painter.paint(*cr, list, rect);
@@ -159,15 +113,14 @@ void Canvas::Pixels::paint_part(const DrawList& list, const PixelRect& rect) {
   cairo_surface_mark_dirty(surface.get());
 }
 
-Canvas::Canvas(int width_px, int height_px) : pixels_(std::make_unique<Pixels>()) {
-  pixels_->surface.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, height_px));
-  check_cairo(cairo_surface_status(pixels_->surface.get()), "make a canvas");
-}
+Canvas::Canvas(int width_px, int height_px, Ground ground)
+    : pixels_(std::make_unique<Pixels>(width_px, height_px, ground)) {}
 
 Canvas::~Canvas() = default;
 
 void Canvas::paint(const DrawList& list) {
   assert(list.width_px == view().width_px && list.height_px == view().height_px);
+  assert(list.background || view().has_alpha);
   const PixelRect whole{0, 0, list.width_px, list.height_px};
   pixels_->paint(list, {&whole, 1});
   pixels_->shown = list;
@@ -192,15 +145,18 @@ std::span<const PixelRect> Canvas::update(DrawList list) {
 ImageView Canvas::view() const {
   cairo_surface_t* surface = pixels_->surface.get();
   return {cairo_image_surface_get_data(surface), cairo_image_surface_get_width(surface),
-          cairo_image_surface_get_height(surface), cairo_image_surface_get_stride(surface)};
+          cairo_image_surface_get_height(surface), cairo_image_surface_get_stride(surface),
+          pixels_->format == CAIRO_FORMAT_ARGB32};
 }
 
 std::vector<std::uint8_t> draw_svg(const DrawList& list) {
-  return with_fixed_ids(draw_vector_file(list, make_svg));
+  return write_svg(list.width_px, list.height_px,
+                   [&](cairo_t& cr) { Painter(TextSetting::lines).paint(cr, list); });
 }
 
 std::vector<std::uint8_t> draw_pdf(const DrawList& list) {
-  return draw_vector_file(list, make_pdf);
+  return write_pdf(list.width_px, list.height_px,
+                   [&](cairo_t& cr) { Painter(TextSetting::lines).paint(cr, list); });
 }
 
 std::vector<std::string> draw_library_versions() {

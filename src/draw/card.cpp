@@ -58,7 +58,7 @@ DrawList compose_card(const std::vector<std::string>& lines, const View& view) {
   }
   const double top = (height - kCapHeight * heading_px - below) / 2;
 
-  DrawList list{view.width_px, view.height_px, palette.background, {}};
+  DrawList list{view.width_px, view.height_px, background_of(view), {}};
   double baseline = top + kCapHeight * heading_px;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const double size_px = i == 0 ? heading_px : line_px;

@@ -2,6 +2,7 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -78,6 +79,7 @@ struct Composition::Contents {
   int width_px;
   int height_px;
   Palette palette;
+  std::optional<Color> background;
   std::unique_ptr<const Stage> stage;
   std::vector<std::unique_ptr<const Part>> parts;  ///< in the order of their ids
   std::vector<DrawItem> lines;                     ///< title, caption and logo
@@ -92,7 +94,8 @@ Composition::Contents::Contents(const Scene& scene, const CollisionLog& log,
                                 std::shared_ptr<const Image> logo)
     : width_px(scene.view.width_px),
       height_px(scene.view.height_px),
-      palette(palette_of(scene.view.theme)) {
+      palette(palette_of(scene.view.theme)),
+      background(background_of(scene.view)) {
   const Font font;
   const Layout nowhere;
   const double text_px = small_text_px(scene.view);
@@ -140,7 +143,7 @@ Composition::Composition(Composition&&) noexcept = default;
 Composition& Composition::operator=(Composition&&) noexcept = default;
 
 DrawList Composition::frame(const Shown& shown) const {
-  DrawList list{contents_->width_px, contents_->height_px, contents_->palette.background, {}};
+  DrawList list{contents_->width_px, contents_->height_px, contents_->background, {}};
   contents_->stage->add(shown.state, list.items);
   for (const auto& part : contents_->parts) part->add(shown, list.items);
   list.items.insert(list.items.end(), contents_->lines.begin(), contents_->lines.end());

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <ranges>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -37,6 +36,7 @@ double reach_of(const std::optional<Stroke>& stroke) { return stroke ? stroke->w
 
 Extent extent_of(const RectangleItem& item) { return extent_of(item.bounds); }
 Extent extent_of(const ImageItem& item) { return extent_of(item.bounds); }
+Extent extent_of(const PlateItem& item) { return extent_of(item.bounds); }
 
 Extent extent_of(const DiskItem& disk) {
   const double reach = disk.radius + reach_of(disk.stroke);
@@ -51,12 +51,9 @@ Extent extent_of(const GroupItem& group) {
 }
 
 Extent extent_of(const PathItem& path) {
-  const std::span<const Point> points = path.points.view();
-  if (points.empty()) return {0, 0, 0, 0};
-  const auto [left, right] = std::ranges::minmax(points | std::views::transform(&Point::x));
-  const auto [top, bottom] = std::ranges::minmax(points | std::views::transform(&Point::y));
+  const Extent points = extent_of(path.points.bounds());
   const double reach = reach_of(path.stroke);
-  return {left - reach, top - reach, right + reach, bottom + reach};
+  return {points.left - reach, points.top - reach, points.right + reach, points.bottom + reach};
 }
 
 /// Of the characters of a line of text between two distances from its origin.

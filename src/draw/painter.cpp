@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "draw/cairo_handles.hpp"
 #include "draw/damage.hpp"
@@ -134,8 +135,10 @@ void Painter::paint(cairo_t& cr, const DrawList& list) {
 }
 
 void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& part) {
-  set_color(cr, list.background);
-  cairo_paint(&cr);
+  if (list.background) {
+    set_color(cr, *list.background);
+    cairo_paint(&cr);
+  }
   for (const DrawItem& item : list.items) {
     if (!reaches(item, part)) continue;
     if (const auto* group = std::get_if<GroupItem>(&item)) {
@@ -153,8 +156,40 @@ void Painter::paint_item(cairo_t& cr, const DrawItem& item) {
   if (const auto* path = std::get_if<PathItem>(&item)) paint_path(cr, *path);
   if (const auto* disk = std::get_if<DiskItem>(&item)) paint_disk(cr, *disk);
   if (const auto* image = std::get_if<ImageItem>(&item)) paint_image(cr, *image);
+  if (const auto* plate = std::get_if<PlateItem>(&item)) paint_plate(cr, *plate);
 }
 
+void Painter::paint_plate(cairo_t& cr, const PlateItem& item) {
+  if (setting_ == TextSetting::lines) {
+    for (const DrawItem& inner : item.plate->items) paint_item(cr, inner);
+    return;
+  }
+  cairo_set_source_surface(&cr, &picture_of(item), item.bounds.x, item.bounds.y);
+  cairo_rectangle(&cr, item.bounds.x, item.bounds.y, item.bounds.width, item.bounds.height);
+  cairo_fill(&cr);
+}
+
+cairo_surface_t& Painter::picture_of(const PlateItem& item) {
+  for (const PlatePicture& kept : pictures_) {
+    if (kept.plate == item.plate) return *kept.picture;
+  }
+  CairoSurfacePtr picture(cairo_image_surface_create(CAIRO_FORMAT_ARGB32,
+                                                     static_cast<int>(item.bounds.width),
+                                                     static_cast<int>(item.bounds.height)));
+  check_cairo(cairo_surface_status(picture.get()), "paint a plate");
+  cairo_surface_set_device_offset(picture.get(), -item.bounds.x, -item.bounds.y);
+  const CairoPtr inner(cairo_create(picture.get()));
+  for (const DrawItem& part : item.plate->items) paint_item(*inner, part);
+  check_cairo(cairo_status(inner.get()), "paint a plate");
+  cairo_surface_set_device_offset(picture.get(), 0, 0);
+  // Of a long film the oldest are of no use any more.
+  constexpr std::size_t kMostPictures = 40;
+  if (pictures_.size() == kMostPictures) pictures_.erase(pictures_.begin());
+  pictures_.push_back({item.plate, std::move(picture)});
+  return *pictures_.back().picture;
+}
+
+/// A vector file knows no other way than over what is behind.
 void Painter::paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& part) {
   if (cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE) {
     paint_group_pixels(cr, item, part);
@@ -176,20 +211,33 @@ void Painter::paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& p
 /// As a picture of its own, of which no more is made than is seen: under a clip Cairo would paint
 /// other pixels.
 void Painter::paint_group_pixels(cairo_t& cr, const GroupItem& item, const PixelRect& part) {
+  const DrawList& list = *item.list;
   const int left = std::max(0, part.x_px - item.x_px);
   const int top = std::max(0, part.y_px - item.y_px);
-  const int right = std::min(item.list->width_px, part.x_px + part.width_px - item.x_px);
-  const int bottom = std::min(item.list->height_px, part.y_px + part.height_px - item.y_px);
-  if (left >= right || top >= bottom) return;
-  const CairoSurfacePtr pixels(
-      cairo_image_surface_create(CAIRO_FORMAT_RGB24, right - left, bottom - top));
+  const int width = std::min(list.width_px, part.x_px + part.width_px - item.x_px) - left;
+  const int height = std::min(list.height_px, part.y_px + part.height_px - item.y_px) - top;
+  if (width <= 0 || height <= 0) return;
+  // Memory that Cairo does not know to be clear, as that of a canvas.
+  std::vector<std::uint32_t> words(std::size_t(width) * std::size_t(height));
+  const CairoSurfacePtr pixels(cairo_image_surface_create_for_data(
+      reinterpret_cast<unsigned char*>(words.data()),
+      list.background ? CAIRO_FORMAT_RGB24 : CAIRO_FORMAT_ARGB32, width, height, 4 * width));
   check_cairo(cairo_surface_status(pixels.get()), "paint a picture within a picture");
   cairo_surface_set_device_offset(pixels.get(), -left, -top);
-  const CairoPtr into(cairo_create(pixels.get()));
-  paint(*into, *item.list, {left, top, right - left, bottom - top});
+  paint(*CairoPtr(cairo_create(pixels.get())), list, {left, top, width, height});
+  if (!list.background) {
+    cairo_set_operator(&cr, CAIRO_OPERATOR_DEST_OUT);
+    cairo_set_source_rgba(&cr, 0, 0, 0, item.opacity);
+    cairo_rectangle(&cr, item.x_px + left, item.y_px + top, width, height);
+    cairo_fill(&cr);
+    cairo_set_operator(&cr, CAIRO_OPERATOR_ADD);
+  }
   cairo_set_source_surface(&cr, pixels.get(), item.x_px, item.y_px);
   cairo_pattern_set_filter(cairo_get_source(&cr), CAIRO_FILTER_NEAREST);
   cairo_paint_with_alpha(&cr, item.opacity);
+  cairo_set_operator(&cr, CAIRO_OPERATOR_OVER);
+  // What it was painted from ends here.
+  cairo_set_source_rgb(&cr, 0, 0, 0);
 }
 
 const Font& Painter::font() {

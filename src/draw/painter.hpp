@@ -7,7 +7,9 @@
 #include <piblocks/image.hpp>
 
 #include <memory>
+#include <vector>
 
+#include "draw/cairo_handles.hpp"
 #include "draw/font.hpp"
 
 namespace piblocks {
@@ -20,12 +22,12 @@ enum class TextSetting {
   glyphs  ///< each glyph by itself, so that its pixels depend on nothing else
 };
 
-/// Holds the font, which is loaded when the first text is met.
+/// Holds the font, which is loaded when the first text is met, and the pictures of plates.
 class Painter {
  public:
   explicit Painter(TextSetting setting) : setting_(setting) {}
 
-  /// Paints the background and every item. @throws DrawError
+  /// Paints the background, if there is one, and every item. @throws DrawError
   void paint(cairo_t& cr, const DrawList& list);
   /// The same where nothing but this part of the picture is seen.
   void paint(cairo_t& cr, const DrawList& list, const PixelRect& part);
@@ -34,11 +36,19 @@ class Painter {
  private:
   void paint_item(cairo_t& cr, const DrawItem& item);
   void paint_text(cairo_t& cr, const TextItem& item);
+  void paint_plate(cairo_t& cr, const PlateItem& item);
+  cairo_surface_t& picture_of(const PlateItem& item);
   void paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& part);
   void paint_group_pixels(cairo_t& cr, const GroupItem& item, const PixelRect& part);
 
   TextSetting setting_;
   std::unique_ptr<Font> font_;
+  /// The plate is kept too, so that no other one can come to be in its place in memory.
+  struct PlatePicture {
+    std::shared_ptr<const Plate> plate;
+    CairoSurfacePtr picture;
+  };
+  std::vector<PlatePicture> pictures_;
 };
 
 }  // namespace piblocks

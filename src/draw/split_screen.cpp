@@ -23,7 +23,7 @@ constexpr int kLeastCell_px = 8;
 
 SplitScreen::SplitScreen(const View& view, std::size_t count) {
   const Palette palette = palette_of(view.theme);
-  empty_ = {view.width_px, view.height_px, palette.background, {}};
+  empty_ = {view.width_px, view.height_px, background_of(view), {}};
   const bool is_wide = view.width_px > view.height_px;
   const int length = is_wide ? view.width_px : view.height_px;
   const int breadth = is_wide ? view.height_px : view.width_px;

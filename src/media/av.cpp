@@ -1,6 +1,7 @@
 #include "media/av.hpp"
 
 #include <fmt/format.h>
+#include <gif_lib.h>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
@@ -59,7 +60,8 @@ std::string version_text(unsigned number) {
 std::vector<std::string> av_library_versions() {
   return {"libavformat " + version_text(avformat_version()),
           "libavcodec " + version_text(avcodec_version()),
-          "libavutil " + version_text(avutil_version())};
+          "libavutil " + version_text(avutil_version()),
+          fmt::format("giflib {}.{}.{}", GIFLIB_MAJOR, GIFLIB_MINOR, GIFLIB_RELEASE)};
 }
 
 }  // namespace piblocks

@@ -72,7 +72,7 @@ void silence_av();
 /// "59.37.100" of what one of libav's functions such as avcodec_version() returned.
 std::string version_text(unsigned number);
 
-/// Name and version of each of libav's libraries that is used.
+/// Name and version of each library that the module needs.
 std::vector<std::string> av_library_versions();
 
 }  // namespace piblocks

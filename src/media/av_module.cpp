@@ -83,6 +83,10 @@ std::unique_ptr<FrameReader> read_video(const std::string& path) {
   return av_module().decode_video_file(path);
 }
 
+std::vector<std::string> webm_encoders() { return av_module().usable_webm_encoders(); }
+
+std::vector<std::string> prores_encoders() { return av_module().usable_prores_encoders(); }
+
 std::vector<std::string> h264_encoders() { return av_module().usable_h264_encoders(); }
 
 }  // namespace piblocks

@@ -1,4 +1,4 @@
-// Everything that needs libav, loaded when it is asked for.
+// Everything that needs libav or giflib, loaded when it is asked for.
 // libavcodec and libavformat bring some 130 libraries with them, which take 30 ms to load: a still,
 // a count or a PNG sequence can do without.
 #pragma once
@@ -19,9 +19,14 @@ namespace piblocks {
 struct AvModule {
   const char* version;  ///< kVersion of the build; of another, nothing else here may be touched
   std::unique_ptr<Output> (*mp4_output)(const OutputRequest& request);
+  std::unique_ptr<Output> (*mov_output)(const OutputRequest& request);
+  std::unique_ptr<Output> (*webm_output)(const OutputRequest& request);
+  std::unique_ptr<Output> (*gif_output)(const OutputRequest& request);
   std::unique_ptr<Output> (*framehash_output)(const OutputRequest& request);
   std::unique_ptr<FrameReader> (*decode_video_file)(const std::string& path);
   std::vector<std::string> (*usable_h264_encoders)();
+  std::vector<std::string> (*usable_webm_encoders)();
+  std::vector<std::string> (*usable_prores_encoders)();
   std::vector<std::string> (*av_library_versions)();
 };
 

@@ -9,9 +9,17 @@
 
 extern "C" const piblocks::AvModule* piblocks_av_module() {
   using namespace piblocks;
-  static constexpr AvModule kModule = {
-      kVersion,          mp4_output,           framehash_output,
-      decode_video_file, usable_h264_encoders, av_library_versions};
+  static constexpr AvModule kModule = {.version = kVersion,
+                                       .mp4_output = mp4_output,
+                                       .mov_output = mov_output,
+                                       .webm_output = webm_output,
+                                       .gif_output = gif_output,
+                                       .framehash_output = framehash_output,
+                                       .decode_video_file = decode_video_file,
+                                       .usable_h264_encoders = usable_h264_encoders,
+                                       .usable_webm_encoders = usable_webm_encoders,
+                                       .usable_prores_encoders = usable_prores_encoders,
+                                       .av_library_versions = av_library_versions};
   silence_av();
   return &kModule;
 }

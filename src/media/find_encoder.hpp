@@ -18,6 +18,10 @@ inline constexpr std::string_view kDamage = "damage";
 
 /// What h264_encoders() gives.
 std::vector<std::string> usable_h264_encoders();
+/// What webm_encoders() gives.
+std::vector<std::string> usable_webm_encoders();
+/// What prores_encoders() gives.
+std::vector<std::string> usable_prores_encoders();
 
 /// libavcodec's encoder of that name, or the first of its own. The object is libavcodec's and
 /// lives as long as the program.

@@ -39,42 +39,46 @@ class FramehashEncoder final : public IntraEncoder {
       : IntraEncoder(format),
         file_header_(file_header(format)),
         hash_(allocate_hash()),
-        row_bytes_(std::size_t(format.width_px) * 3),
-        rgb_(row_bytes_ * std::size_t(format.height_px)) {}
+        has_alpha_(format.has_alpha),
+        row_bytes_(std::size_t(format.width_px) * pixel_bytes()),
+        samples_(row_bytes_ * std::size_t(format.height_px)) {}
 
  private:
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override;
   std::vector<std::uint8_t> encode_picture(std::int64_t number) override;
   std::string hash_of_picture();
+  std::size_t pixel_bytes() const { return has_alpha_ ? 4 : 3; }
 
   std::string file_header_;
   AvHashPtr hash_;
+  bool has_alpha_;
   std::size_t row_bytes_;
-  std::vector<std::uint8_t> rgb_;
+  std::vector<std::uint8_t> samples_;
 };
 
 void FramehashEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
+  const auto pack = has_alpha_ ? pack_rgba32 : pack_rgb24;
   for (const PixelRect& rect : rects) {
-    const std::size_t left = std::size_t(rect.x_px) * 3;
+    const std::size_t left = std::size_t(rect.x_px) * pixel_bytes();
     for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
-      pack_rgb24(frame.row(y) + std::ptrdiff_t{4} * rect.x_px, rect.width_px,
-                 rgb_.data() + std::size_t(y) * row_bytes_ + left);
+      pack(frame.row(y) + std::ptrdiff_t{4} * rect.x_px, rect.width_px,
+           samples_.data() + std::size_t(y) * row_bytes_ + left);
     }
   }
 }
 
 std::string FramehashEncoder::hash_of_picture() {
   av_hash_init(hash_.get());
-  av_hash_update(hash_.get(), rgb_.data(), rgb_.size());
+  av_hash_update(hash_.get(), samples_.data(), samples_.size());
   std::array<std::uint8_t, 2 * AV_HASH_MAX_SIZE + 1> text{};
   av_hash_final_hex(hash_.get(), text.data(), static_cast<int>(text.size()));
   return reinterpret_cast<const char*>(text.data());
 }
 
 std::vector<std::uint8_t> FramehashEncoder::encode_picture(std::int64_t number) {
-  const std::string text =
-      (number == 0 ? file_header_ : "") + fmt::format("0, {0:10}, {0:10}, {1:8}, {2:8}, {3}\n",
-                                                      number, 1, rgb_.size(), hash_of_picture());
+  const std::string text = (number == 0 ? file_header_ : "") +
+                           fmt::format("0, {0:10}, {0:10}, {1:8}, {2:8}, {3}\n", number, 1,
+                                       samples_.size(), hash_of_picture());
   return {text.begin(), text.end()};
 }
 

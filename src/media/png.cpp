@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cstring>
-#include <string_view>
 
+#include "media/png_chunk.hpp"
 #include "media/png_encoder.hpp"
 #include "media/rgb24.hpp"
 
@@ -23,50 +23,6 @@ constexpr int kStrategy = Z_RLE;
 constexpr int kRawDeflate = -15;
 constexpr int kMemoryLevel = 8;
 
-void put_u32(std::uint8_t* at, std::uint32_t value) {
-  for (int i = 0; i < 4; ++i) at[i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
-}
-
-void append_u32(Bytes& png, std::uint32_t value) {
-  png.resize(png.size() + 4);
-  put_u32(png.data() + png.size() - 4, value);
-}
-
-void append(Bytes& png, std::string_view text) {
-  for (const char c : text) png.push_back(static_cast<std::uint8_t>(c));
-}
-
-// A chunk is its length, type, data, and a CRC of type and data (PNG specification, section 5.3).
-
-/// @return where the chunk starts, for end_chunk().
-std::size_t begin_chunk(Bytes& png, std::string_view type) {
-  const std::size_t start = png.size();
-  append_u32(png, 0);
-  append(png, type);
-  return start;
-}
-
-void end_chunk(Bytes& png, std::size_t start) {
-  const std::uint8_t* type = png.data() + start + 4;
-  const std::size_t length = png.size() - start - 8;
-  put_u32(png.data() + start, static_cast<std::uint32_t>(length));
-  append_u32(png, static_cast<std::uint32_t>(crc32_z(0, type, length + 4)));
-}
-
-void append_header(Bytes& png, int width_px, int height_px) {
-  append(png, "\x89PNG\r\n\x1a\n");
-
-  const std::size_t header = begin_chunk(png, "IHDR");
-  append_u32(png, static_cast<std::uint32_t>(width_px));
-  append_u32(png, static_cast<std::uint32_t>(height_px));
-  append(png, {"\x08\x02\0\0\0", 5});  // 8 bits a sample, colour type 2 (RGB)
-  end_chunk(png, header);
-
-  const std::size_t colours = begin_chunk(png, "sRGB");
-  png.push_back(0);  // perceptual intent
-  end_chunk(png, colours);
-}
-
 }  // namespace
 
 void PngEncoder::StreamDeleter::operator()(z_stream* stream) const noexcept {
@@ -82,7 +38,8 @@ PngEncoder::PngEncoder() : stream_(new z_stream{}) {
 
 void PngEncoder::filter(const ImageView& image, std::span<const PixelRect> changed) {
   const PixelRect whole{0, 0, image.width_px, image.height_px};
-  if (image.width_px != width_px_ || image.height_px != height_px_) {
+  if (image.width_px != width_px_ || image.height_px != height_px_ ||
+      image.has_alpha != has_alpha_) {
     resize(image);
     changed = {&whole, 1};
   }
@@ -100,7 +57,9 @@ void PngEncoder::resize(const ImageView& image) {
   constexpr std::uint8_t kUp = 2;
   width_px_ = image.width_px;
   height_px_ = image.height_px;
-  row_bytes_ = static_cast<std::size_t>(width_px_) * 3 + 1;
+  has_alpha_ = image.has_alpha;
+  pixel_bytes_ = has_alpha_ ? 4 : 3;
+  row_bytes_ = static_cast<std::size_t>(width_px_) * pixel_bytes_ + 1;
   rows_.assign(row_bytes_ * static_cast<std::size_t>(height_px_), 0);
   for (std::size_t at = 0; at < rows_.size(); at += row_bytes_) rows_[at] = kUp;
   strips_.assign(static_cast<std::size_t>((height_px_ + kStripRows - 1) / kStripRows), {});
@@ -109,11 +68,12 @@ void PngEncoder::resize(const ImageView& image) {
 /// Up is the difference from the row above, so that the row below the rectangle changes too. Above
 /// the first row all is zero.
 void PngEncoder::filter_rect(const ImageView& image, const PixelRect& rect) {
-  const std::size_t bytes = static_cast<std::size_t>(rect.width_px) * 3;
+  const std::size_t bytes = static_cast<std::size_t>(rect.width_px) * pixel_bytes_;
   Bytes above(bytes);
   Bytes current(bytes);
   const auto pack = [&](int y, Bytes& row) {
-    pack_rgb24(image.row(y) + std::ptrdiff_t{4} * rect.x_px, rect.width_px, row.data());
+    const auto pack_row = has_alpha_ ? pack_rgba32 : pack_rgb24;
+    pack_row(image.row(y) + std::ptrdiff_t{4} * rect.x_px, rect.width_px, row.data());
   };
   if (rect.y_px > 0) pack(rect.y_px - 1, above);
   const int end = std::min(rect.y_px + rect.height_px + 1, height_px_);
@@ -125,8 +85,8 @@ void PngEncoder::filter_rect(const ImageView& image, const PixelRect& rect) {
 }
 
 void PngEncoder::filter_row(int y, int x, ByteSpan row, ByteSpan above) {
-  std::uint8_t* const filtered =
-      rows_.data() + static_cast<std::size_t>(y) * row_bytes_ + 1 + static_cast<std::size_t>(x) * 3;
+  std::uint8_t* const filtered = rows_.data() + static_cast<std::size_t>(y) * row_bytes_ + 1 +
+                                 static_cast<std::size_t>(x) * pixel_bytes_;
   difference_.resize(row.size());
   subtract_bytes(row.data(), above.data(), row.size(), difference_.data());
   if (std::memcmp(difference_.data(), filtered, row.size()) == 0) return;
@@ -159,10 +119,11 @@ void PngEncoder::compress_strip(std::size_t index) {
 
   Strip& strip = strips_[index];
   strip.chunk.clear();
-  const std::size_t start = begin_chunk(strip.chunk, "IDAT");
-  if (index == 0) append(strip.chunk, "\x78\x01");  // a zlib stream, compressed fast (RFC 1950)
+  const std::size_t start = begin_png_chunk(strip.chunk, "IDAT");
+  if (index == 0)
+    append_text(strip.chunk, "\x78\x01");  // a zlib stream, compressed fast (RFC 1950)
   strip.chunk.insert(strip.chunk.end(), compressed_.data(), stream.next_out);
-  end_chunk(strip.chunk, start);
+  end_png_chunk(strip.chunk, start);
   strip.checksum = static_cast<std::uint32_t>(adler32_z(1, rows.data(), rows.size()));
   strip.stale = false;
 }
@@ -172,18 +133,19 @@ Bytes PngEncoder::assemble() const {
   for (const Strip& strip : strips_) size += strip.chunk.size();
   Bytes png;
   png.reserve(size);
-  append_header(png, width_px_, height_px_);
+  append_png_header(png, width_px_, height_px_, has_alpha_);
+  append_png_srgb(png);
   uLong checksum = 1;
   for (std::size_t i = 0; i < strips_.size(); ++i) {
     png.insert(png.end(), strips_[i].chunk.begin(), strips_[i].chunk.end());
     checksum =
         adler32_combine(checksum, strips_[i].checksum, static_cast<z_off_t>(rows_of(i).size()));
   }
-  const std::size_t last = begin_chunk(png, "IDAT");
-  append(png, {"\x03\x00", 2});  // an empty last block (RFC 1951, 3.2.6)
+  const std::size_t last = begin_png_chunk(png, "IDAT");
+  append_text(png, {"\x03\x00", 2});  // an empty last block (RFC 1951, 3.2.6)
   append_u32(png, static_cast<std::uint32_t>(checksum));
-  end_chunk(png, last);
-  end_chunk(png, begin_chunk(png, "IEND"));
+  end_png_chunk(png, last);
+  end_png_chunk(png, begin_png_chunk(png, "IEND"));
   return png;
 }
 

@@ -1,5 +1,5 @@
 // Compresses one image after another, and of each only what differs from the one before.
-// In: views of opaque pixels. Out: the bytes of a PNG file each.
+// In: views of pixels. Out: the bytes of a PNG file each.
 //
 // A file is cut into strips of rows. Each is compressed by itself and stored as a chunk of its own,
 // so that its bytes depend on its rows alone: strips that stay as they were are copied. Filter Up
@@ -24,7 +24,7 @@ class PngEncoder {
   PngEncoder();
 
   /// Takes an image of the size of the last one and equal to it outside of `changed`. The first,
-  /// or one of another size, is taken whole.
+  /// or one of another size or with alpha after one without, is taken whole.
   void filter(const ImageView& image, std::span<const PixelRect> changed);
   /// The file of the image that was taken last.
   std::vector<std::uint8_t> compress();
@@ -51,6 +51,8 @@ class PngEncoder {
   std::unique_ptr<z_stream, StreamDeleter> stream_;
   int width_px_ = 0;
   int height_px_ = 0;
+  bool has_alpha_ = false;
+  std::size_t pixel_bytes_ = 3;
   std::size_t row_bytes_ = 0;             // with the byte that names the filter
   std::vector<std::uint8_t> rows_;        // filtered
   std::vector<std::uint8_t> difference_;  // room for one row

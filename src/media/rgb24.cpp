@@ -14,6 +14,23 @@ void pack_rgb24(const std::uint8_t* __restrict row, int width_px, std::uint8_t* 
   }
 }
 
+void pack_rgba32(const std::uint8_t* __restrict row, int width_px, std::uint8_t* __restrict bytes) {
+  for (int x = 0; x < width_px; ++x) {
+    std::uint32_t pixel = 0;
+    std::memcpy(&pixel, row + 4 * x, sizeof pixel);
+    const std::uint32_t alpha = pixel >> 24;
+    if (alpha == 0 || alpha == 255) {
+      pixel = (pixel & 0xff00ff00) | (pixel >> 16 & 0xff) | (pixel & 0xff) << 16;
+      std::memcpy(bytes + 4 * x, &pixel, sizeof pixel);
+      continue;
+    }
+    bytes[4 * x] = unmultiplied(pixel >> 16 & 0xff, alpha);
+    bytes[4 * x + 1] = unmultiplied(pixel >> 8 & 0xff, alpha);
+    bytes[4 * x + 2] = unmultiplied(pixel & 0xff, alpha);
+    bytes[4 * x + 3] = static_cast<std::uint8_t>(alpha);
+  }
+}
+
 void subtract_bytes(const std::uint8_t* __restrict minuend,
                     const std::uint8_t* __restrict subtrahend, std::size_t count,
                     std::uint8_t* __restrict difference) {

@@ -18,22 +18,32 @@ struct OutputKind {
   std::string_view name;  // as a message lists it
   bool (*matches)(std::string_view output);
   bool takes_encoder_settings;
+  bool takes_alpha;
   std::unique_ptr<Output> (*set_up)(const OutputRequest& request);
 };
 
 constexpr std::array kOutputKinds = {
     OutputKind{"*.mp4", [](std::string_view output) { return output.ends_with(".mp4"); }, true,
-               [](const OutputRequest& request) { return av_module().mp4_output(request); }},
+               false, [](const OutputRequest& request) { return av_module().mp4_output(request); }},
+    OutputKind{"*.mov", [](std::string_view output) { return output.ends_with(".mov"); }, true,
+               true, [](const OutputRequest& request) { return av_module().mov_output(request); }},
+    OutputKind{"*.webm", [](std::string_view output) { return output.ends_with(".webm"); }, true,
+               true, [](const OutputRequest& request) { return av_module().webm_output(request); }},
+    OutputKind{"*.gif", [](std::string_view output) { return output.ends_with(".gif"); }, false,
+               false, [](const OutputRequest& request) { return av_module().gif_output(request); }},
+    OutputKind{"*.apng", [](std::string_view output) { return output.ends_with(".apng"); }, false,
+               true, apng_output},
     OutputKind{"*.png with a number field such as %06d",
-               [](std::string_view output) { return output.ends_with(".png"); }, false, png_output},
+               [](std::string_view output) { return output.ends_with(".png"); }, false, true,
+               png_output},
     OutputKind{"*.y4m", [](std::string_view output) { return output.ends_with(".y4m"); }, false,
-               y4m_output},
-    OutputKind{"- (y4m on standard output)", [](std::string_view output) { return output == "-"; },
                false, y4m_output},
+    OutputKind{"- (y4m on standard output)", [](std::string_view output) { return output == "-"; },
+               false, false, y4m_output},
     OutputKind{"*.framehash",
-               [](std::string_view output) { return output.ends_with(".framehash"); }, false,
+               [](std::string_view output) { return output.ends_with(".framehash"); }, false, true,
                [](const OutputRequest& request) { return av_module().framehash_output(request); }},
-    OutputKind{"null", [](std::string_view output) { return output == "null"; }, false,
+    OutputKind{"null", [](std::string_view output) { return output == "null"; }, false, true,
                null_output},
 };
 
@@ -44,14 +54,37 @@ const OutputKind* find_kind(std::string_view output) {
   return nullptr;
 }
 
-std::string unknown_kind(const std::string& output) {
-  std::string known;
+/// The kinds for which this holds, as a message lists them.
+std::string names(bool (*is_listed)(const OutputKind& kind)) {
+  std::string names;
   for (const OutputKind& kind : kOutputKinds) {
-    if (!known.empty()) known += ", ";
-    known += kind.name;
+    if (!is_listed(kind)) continue;
+    if (!names.empty()) names += ", ";
+    names += kind.name;
   }
+  return names;
+}
+
+std::string unknown_kind(const std::string& output) {
   return fmt::format("output: cannot tell the kind of '{}' from its name; use one of: {}", output,
-                     known);
+                     names([](const OutputKind& /*kind*/) { return true; }));
+}
+
+std::string settings_problem(const OutputKind& kind, const std::string& name,
+                             const EncoderSettings& settings) {
+  if (kind.takes_encoder_settings || (!settings.crf && !settings.preset && !settings.encoder)) {
+    return {};
+  }
+  return fmt::format(
+      "output: '{}' has no use for crf, preset or encoder; leave them out or write one of: {}",
+      name, names([](const OutputKind& any) { return any.takes_encoder_settings; }));
+}
+
+std::string alpha_problem(const OutputKind& kind, const std::string& name, bool has_alpha) {
+  if (kind.takes_alpha || !has_alpha) return {};
+  return fmt::format(
+      "output: '{}' cannot be transparent; use an opaque background or write one of: {}", name,
+      names([](const OutputKind& any) { return any.takes_alpha; }));
 }
 
 std::string size_problem(const VideoFormat& format) {
@@ -83,13 +116,11 @@ std::unique_ptr<Output> set_up_output(const std::string& name, const VideoFormat
     if (!problem.empty()) problems.push_back(std::move(problem));
   };
   const OutputKind* kind = find_kind(name);
-  if (kind == nullptr) report(unknown_kind(name));
-  if (kind != nullptr && !kind->takes_encoder_settings &&
-      (settings.crf || settings.preset || settings.encoder)) {
-    report(
-        fmt::format("output: '{}' has no use for crf, preset or encoder; leave them out or "
-                    "write *.mp4",
-                    name));
+  if (kind == nullptr) {
+    report(unknown_kind(name));
+  } else {
+    report(settings_problem(*kind, name, settings));
+    report(alpha_problem(*kind, name, format.has_alpha));
   }
   report(size_problem(format));
   report(frame_rate_problem(format.frame_rate));

@@ -7,4 +7,9 @@ void StreamSink::append(const EncodedChunk& chunk) {
   for (const Packet& packet : chunk) file_.write(packet.bytes);
 }
 
+void StreamSink::finish() {
+  file_.write(trailer_);
+  file_.finish();
+}
+
 }  // namespace piblocks

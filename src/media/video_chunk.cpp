@@ -5,26 +5,15 @@
 #include <span>
 #include <utility>
 
+#include "media/alpha_packet.hpp"
 #include "media/yuv420.hpp"
+#include "media/yuva.hpp"
 
 namespace piblocks {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
-
-AvFramePtr allocate_picture(const AVCodecParameters& stream) {
-  auto picture = own_av<AvFramePtr>(av_frame_alloc(), "picture");
-  picture->width = stream.width;
-  picture->height = stream.height;
-  picture->format = stream.format;
-  picture->colorspace = stream.color_space;
-  picture->color_primaries = stream.color_primaries;
-  picture->color_trc = stream.color_trc;
-  picture->color_range = stream.color_range;
-  picture->chroma_location = stream.chroma_location;
-  check_av(av_frame_get_buffer(picture.get(), 0), "allocate", "picture");
-  return picture;
-}
+using ConvertRect = void (*)(const ImageView& frame, const PixelRect& rect, AVFrame& picture);
 
 YuvView view_of(AVFrame& picture) {
   return {.y = picture.data[0],
@@ -33,6 +22,32 @@ YuvView view_of(AVFrame& picture) {
           .y_stride_bytes = picture.linesize[0],
           .cb_stride_bytes = picture.linesize[1],
           .cr_stride_bytes = picture.linesize[2]};
+}
+
+void convert_yuv420(const ImageView& frame, const PixelRect& rect, AVFrame& picture) {
+  convert_to_yuv420(frame, chroma_aligned(rect, frame), view_of(picture));
+}
+
+template <typename Sample>
+PlaneView<Sample> plane_of(const AVFrame& picture, int plane) {
+  return {reinterpret_cast<Sample*>(picture.data[plane]), picture.linesize[plane]};
+}
+
+void convert_yuva420(const ImageView& frame, const PixelRect& rect, AVFrame& picture) {
+  convert_to_yuva420(frame, chroma_aligned(rect, frame),
+                     {plane_of<std::uint8_t>(picture, 0), plane_of<std::uint8_t>(picture, 1),
+                      plane_of<std::uint8_t>(picture, 2), plane_of<std::uint8_t>(picture, 3)});
+}
+
+void convert_yuva444(const ImageView& frame, const PixelRect& rect, AVFrame& picture) {
+  convert_to_yuva444p10(frame, rect,
+                        {plane_of<std::uint16_t>(picture, 0), plane_of<std::uint16_t>(picture, 1),
+                         plane_of<std::uint16_t>(picture, 2), plane_of<std::uint16_t>(picture, 3)});
+}
+
+ConvertRect conversion_to(int pixel_format) {
+  if (pixel_format == AV_PIX_FMT_YUV420P) return convert_yuv420;
+  return pixel_format == AV_PIX_FMT_YUVA420P ? convert_yuva420 : convert_yuva444;
 }
 
 /// x264 signs the first picture of every encoder with 600 bytes on its version and options: a user
@@ -58,6 +73,7 @@ VideoChunkEncoder::VideoChunkEncoder(const VideoEncoder& encoder)
     : ChunkEncoder(encoder.format()),
       encoder_(encoder),
       picture_(allocate_picture(encoder.parameters())),
+      convert_rect_(conversion_to(picture_->format)),
       packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {}
 
 void VideoChunkEncoder::begin(std::int64_t first_frame) {
@@ -69,9 +85,7 @@ void VideoChunkEncoder::begin(std::int64_t first_frame) {
 void VideoChunkEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
   // Still writable if the encoder has copied the last picture, as libx264 does: no new memory then.
   check_av(av_frame_make_writable(picture_.get()), "refill", "picture");
-  for (const PixelRect& rect : rects) {
-    convert_to_yuv420(frame, chroma_aligned(rect, frame), view_of(*picture_));
-  }
+  for (const PixelRect& rect : rects) convert_rect_(frame, rect, *picture_);
 }
 
 void VideoChunkEncoder::encode() {
@@ -106,11 +120,19 @@ void VideoChunkEncoder::take_packets() {
     Bytes bytes(packet_->data, static_cast<std::size_t>(packet_->size));
     const bool is_h264 = context_->codec_id == AV_CODEC_ID_H264;
     if (is_h264 && first_frame_ > 0 && chunk_.empty()) bytes = without_signature(bytes);
-    chunk_.push_back({.bytes = {bytes.begin(), bytes.end()},
+    chunk_.push_back({.bytes = packet_bytes(bytes),
                       .pts = first_frame_ + packet_->pts,
                       .key_frame = (packet_->flags & AV_PKT_FLAG_KEY) != 0});
     av_packet_unref(packet_.get());
   }
+}
+
+std::vector<std::uint8_t> VideoChunkEncoder::packet_bytes(Bytes bytes) const {
+  if (picture_->format != AV_PIX_FMT_YUVA420P) return {bytes.begin(), bytes.end()};
+  std::size_t size = 0;
+  const std::uint8_t* const alpha =
+      av_packet_get_side_data(packet_.get(), AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, &size);
+  return with_alpha(bytes, {alpha, alpha == nullptr ? 0 : size});
 }
 
 }  // namespace piblocks

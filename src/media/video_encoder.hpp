@@ -1,29 +1,32 @@
-// Which encoder makes an MP4, and how it is set up.
-// In: the format of the output and what the user said to the encoder. Out: any number of open
-// one-thread encoders that all make pieces of the same stream.
+// The encoders of one stream.
+// In: the format of the output and what it is encoded by. Out: any number of open one-thread
+// encoders that all make pieces of the same stream.
 #pragma once
 
 #include <piblocks/frame_sink.hpp>
 
 #include "media/av.hpp"
+#include "media/codec_choice.hpp"
 
 namespace piblocks {
 
 using AvParametersPtr = std::unique_ptr<AVCodecParameters, AvDeleter<avcodec_parameters_free>>;
 
-/// An encoder that is known to be there, to suit MP4, and to open with these settings.
+/// Room for a picture of the stream, with the stream's tags.
+AvFramePtr allocate_picture(const AVCodecParameters& stream);
+
+/// An encoder that is known to be there and to open with its settings.
 class VideoEncoder {
  public:
-  /// @throws UsageError listing everything that is wrong with the size and the settings, or that
-  ///         no encoder is there.
-  VideoEncoder(const VideoFormat& format, const EncoderSettings& settings);
+  /// @throws UsageError if the encoder cannot be opened.
+  VideoEncoder(const VideoFormat& format, CodecChoice choice);
 
-  /// Frames in a second. A chunk is one closed group of pictures: a second lets a viewer jump about
+  /// Usually a second. A chunk is one closed group of pictures: a second lets a viewer jump about
   /// in the video, costs little, and spreads short videos over all workers.
-  int frames_per_chunk() const noexcept { return frames_per_chunk_; }
+  int frames_per_chunk() const noexcept { return choice_.frames_per_chunk; }
   const VideoFormat& format() const noexcept { return format_; }
   /// libavcodec's.
-  const char* name() const noexcept { return codec_->name; }
+  const char* name() const noexcept { return choice_.codec->name; }
   AVRational frame_rate() const noexcept { return frame_rate_; }
   /// What the stream's header says; the same for every encoder that open() returns.
   const AVCodecParameters& parameters() const noexcept { return *parameters_; }
@@ -37,13 +40,11 @@ class VideoEncoder {
 
  private:
   AvCodecContextPtr open_unchecked() const;
-  void apply_settings(AVCodecContext& context) const;
+  void take_headers(AVCodecContext& context);
 
   VideoFormat format_;
-  EncoderSettings settings_;
-  const AVCodec* codec_ = nullptr;
+  CodecChoice choice_;
   AVRational frame_rate_;
-  int frames_per_chunk_;
   AvParametersPtr parameters_;
 };
 

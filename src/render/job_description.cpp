@@ -13,6 +13,8 @@
 namespace piblocks {
 namespace {
 
+constexpr const char* kTransparent = "transparent";
+
 /// What is kept of a scene to compare it with does not change its frames.
 constexpr std::string_view kGoldenKeys = "golden.";
 
@@ -70,6 +72,7 @@ JobDescription read_description(const PartInfo& part) {
   job.format.width_px = static_cast<int>(number(part, "view.width", kMaxSide_px));
   job.format.height_px = static_cast<int>(number(part, "view.height", kMaxSide_px));
   job.format.frame_rate = parse_rational(value_of(part, "view.fps"));
+  job.format.has_alpha = value_of(part, "view.background") == kTransparent;
   if (const auto crf = setting(part, "crf")) job.encoder.crf = to_double(parse_rational(*crf));
   job.encoder.preset = setting(part, "preset");
   job.encoder.encoder = setting(part, "encoder");

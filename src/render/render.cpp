@@ -19,7 +19,8 @@ struct Plan {
   explicit Plan(const RenderJob& job)
       : film(job.script),
         output(set_up_output(job.output,
-                             {film.view().width_px, film.view().height_px, film.view().frame_rate},
+                             {film.view().width_px, film.view().height_px, film.view().frame_rate,
+                              film.ground() == Ground::transparent},
                              job.encoder)),
         chunks{film.frame_count(), output->frames_per_chunk()} {}
 
@@ -40,7 +41,7 @@ class Worker {
   Worker(const Plan& plan, bool profile)
       : plan_(plan),
         profile_(profile),
-        canvas_(plan.film.view().width_px, plan.film.view().height_px),
+        canvas_(plan.film.view().width_px, plan.film.view().height_px, plan.film.ground()),
         encoder_(plan.output->make_encoder()) {}
 
   EncodedWork work(std::int64_t chunk, const std::stop_token& stop) {

@@ -16,7 +16,8 @@ namespace piblocks {
 namespace {
 
 std::vector<std::uint8_t> draw_png(const DrawList& list) {
-  Canvas canvas(list.width_px, list.height_px);
+  Canvas canvas(list.width_px, list.height_px,
+                list.background ? Ground::opaque : Ground::transparent);
   canvas.paint(list);
   return encode_png(canvas.view());
 }

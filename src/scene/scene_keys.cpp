@@ -45,6 +45,12 @@ void set_size(View& view, const Values& values) {
   view.height_px = size.height_px;
 }
 
+void set_background(View& view, const Values& values) {
+  const std::string& name = single(values);
+  if (name != "opaque" && name != "transparent") throw UsageError("must be opaque or transparent");
+  view.background = name == "opaque" ? Background::opaque : Background::transparent;
+}
+
 /// A list, or one text with commas.
 Values list_of(const Values& values) {
   if (values.size() != 1) return values;
@@ -124,6 +130,9 @@ Values size(const View& view) { return {fmt::format("{}x{}", view.width_px, view
 Values size(const FrameSize& value) {
   return {fmt::format("{}x{}", value.width_px, value.height_px)};
 }
+Values background(Background value) {
+  return {value == Background::opaque ? "opaque" : "transparent"};
+}
 Values flag(bool value) { return {value ? "true" : "false"}; }
 
 template <typename Value>
@@ -171,6 +180,8 @@ constexpr auto kKeys = std::to_array<SceneKey>({
      [](const Scene& s) { return size(s.view); }},
     {"view.fps", [](Scene& s, const Values& v) { set_number(s.view.frame_rate, v); },
      [](const Scene& s) { return number(s.view.frame_rate); }},
+    {"view.background", [](Scene& s, const Values& v) { set_background(s.view, v); },
+     [](const Scene& s) { return background(s.view.background); }},
     {"view.theme", [](Scene& s, const Values& v) { s.view.theme = parse_theme(single(v)); },
      [](const Scene& s) { return Values{exact_text(s.view.theme)}; }},
     {"time.from", [](Scene& s, const Values& v) { set_number(s.time.from, v); },
@@ -215,7 +226,8 @@ constexpr auto kKeys = std::to_array<SceneKey>({
 std::span<const SceneKey> scene_keys() { return kKeys; }
 
 bool is_film_key(std::string_view key) {
-  constexpr std::array<std::string_view, 3> kOfView = {"view.size", "view.fps", "view.theme"};
+  constexpr std::array<std::string_view, 4> kOfView = {"view.size", "view.fps", "view.background",
+                                                       "view.theme"};
   return key.starts_with("golden.") || std::ranges::count(kOfView, key) > 0;
 }
 

@@ -188,7 +188,7 @@ bool ScriptBuilder::refuses(const std::string& origin, const std::string& key) {
   if (parts_.empty() || is_film_key(key)) return false;
   problems_.push_back(fmt::format(
       "{}: '{}' is a storyboard; put {} into it, for all parts or for one. Options can set size, "
-      "frame rate and theme of the whole film",
+      "frame rate, theme and background of the whole film",
       origin, path_, key));
   return true;
 }

@@ -64,6 +64,7 @@ Scene with_film_view(Scene scene, const View& film) {
   scene.view.width_px = film.width_px;
   scene.view.height_px = film.height_px;
   scene.view.frame_rate = film.frame_rate;
+  scene.view.background = film.background;
   scene.view.theme = film.theme;
   return scene;
 }

@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(
     Commands, BadInputTest,
     testing::Values(
         BadInput{{},
-                 "no command: use one of render, join, still, log, state, count, compare, "
+                 "no command: use one of render, join, still, sheet, log, state, count, compare, "
                  "golden, info"},
         BadInput{{"frobnicate"}, "unknown command 'frobnicate'"},
         BadInput{{"-x"}, "unknown option '-x'"},
@@ -226,6 +226,42 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{render({"--jobs", "1.5"}), "--jobs 1.5: must be"}));
 
 INSTANTIATE_TEST_SUITE_P(
+    Formats, BadInputTest,
+    testing::Values(
+        BadInput{render({"--transparent"}),
+                 "'a.mp4' cannot be transparent; use an opaque background or write one of: *.mov"},
+        BadInput{{"render", "scene.toml", "-o", "a.gif", "--fps", "25"},
+                 "'a.gif' cannot be transparent",
+                 "[view]\nbackground = 'transparent'"},
+        BadInput{{"count", "scene.toml"},
+                 "view.background = glass: must be opaque or transparent",
+                 "[view]\nbackground = 'glass'"},
+        BadInput{render({"--transparent", "--opaque"}),
+                 "--transparent and --opaque both set the background"},
+        BadInput{{"render", "-o", "a.gif"}, "frame rate 60 is too high"},
+        BadInput{{"render", "-o", "a.apng", "--fps", "100000/3001", "--crf", "3"},
+                 "no use for crf"},
+        BadInput{{"render", "-o", "a.webm", "--size", "65x36"}, "WebM in 4:2:0 needs even sides"},
+        BadInput{{"render", "-o", "a.webm", "--encoder", "av1", "--transparent"},
+                 "encoder 'libaom-av1' has no transparency; use vp9"},
+        BadInput{{"render", "-o", "a.webm", "--encoder", "nope"},
+                 "cannot find encoder 'nope' for *.webm; use one of: libvpx-vp9"},
+        BadInput{{"render", "-o", "a.webm", "--crf", "64"}, "crf 64 is out of range of *.webm"},
+        BadInput{{"render", "-o", "a.mov", "--transparent", "--encoder", "libx264"},
+                 "'libx264' has no transparency in *.mov; use prores_ks"},
+        BadInput{{"render", "-o", "a.mov", "--size", "65x36"}, "H.264 in 4:2:0 needs even sides"},
+        BadInput{render({"--for", "cinema"}),
+                 "--for cinema: must be one of: powerpoint, keynote, web, editor, shorts, beamer"},
+        BadInput{render({"--for", "editor"}),
+                 "--for editor: cannot use 'a.mp4' there; write one of: *.mov, *.png"},
+        BadInput{{"sheet", "-o", "a.jpg"}, "sheet: 'a.jpg' has no known ending; use .pdf"},
+        BadInput{{"sheet", "--frames", "0", "-o", "a.pdf"}, "--frames 0: must be a whole number"},
+        BadInput{{"sheet", "--frames", "201", "-o", "a.pdf"}, "a whole number from 1 to 200"},
+        BadInput{{"sheet", "--frames", "2", "--at", "1", "-o", "a.pdf"}, "--frames and --at both"},
+        BadInput{{"sheet", "--at", "1,noon", "-o", "a.pdf"}, "--at 1,noon: not a number"},
+        BadInput{{"sheet", "--at", "#315", "-o", "a.pdf"}, "the scene has collisions #1 to #314"}));
+
+INSTANTIATE_TEST_SUITE_P(
     Log, BadInputTest,
     testing::Values(
         BadInput{{"log", "--from", "5", "--to", "3"}, "--to 3: is before --from 5"},
@@ -299,6 +335,25 @@ TEST_F(BadInputsTest, AFolderIsNotReplaced) {
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(result.err, "piblocks: output: cannot open 'a.mp4': Is a directory\n");
 }
+
+constexpr const char* kStory = "[[part]]\ncard = 'a'\n[[part]]\ndigits = 2\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Storyboards, BadInputTest,
+    testing::Values(
+        BadInput{render({"scene.toml", "--digits", "2"}), "--digits: 'scene.toml' is a storyboard",
+                 kStory},
+        BadInput{render({"scene.toml", "--speed", "2"}), "put time.speed into it", kStory},
+        BadInput{render({"scene.toml", "--show", "time"}), "put show.overlays into it", kStory},
+        BadInput{render({"scene.toml", "--size", "0x9"}), "--size: view.size = 0x9: each", kStory},
+        BadInput{render({"scene.toml"}), "scene.toml:5: fade = 9: takes 540 frames",
+                 std::string(kStory) + "[[part]]\nfade = 9\n"},
+        BadInput{still({"scene.toml", "--at", "#3"}), "'#K' is a collision of one run", kStory},
+        BadInput{still({"scene.toml", "--at", "-1"}), "-1: the storyboard's video lasts", kStory},
+        BadInput{{"count", "scene.toml"}, "'scene.toml' is a storyboard; 'count' takes", kStory},
+        BadInput{{"log", "scene.toml"}, "'scene.toml' is a storyboard; 'log' takes", kStory},
+        BadInput{{"state", "scene.toml", "--at", "1"}, "a storyboard; 'state' takes", kStory},
+        BadInput{{"sheet", "scene.toml", "--at", "1", "-o", "a.pdf"}, "'sheet' takes", kStory}));
 
 }  // namespace
 }  // namespace piblocks

@@ -30,8 +30,12 @@ TEST_F(RenderTest, WritesEveryKind) {
   EXPECT_EQ(output_of(two + Arguments{"-o", "a.y4m"}), "");
   EXPECT_EQ(output_of(two + Arguments{"-o", "a.framehash"}), "");
   EXPECT_EQ(output_of(two + Arguments{"-o", "null"}), "");
-  EXPECT_EQ(entries(), (Names{"a.framehash", "a.mp4", "a.y4m", "new", "new/folder",
-                              "new/folder/000001.png", "new/folder/000002.png"}));
+  for (const char* output : {"a.mov", "a.webm", "a.gif", "a.apng"}) {
+    EXPECT_EQ(output_of(two + Arguments{"-o", output}), "") << output;
+  }
+  EXPECT_EQ(entries(),
+            (Names{"a.apng", "a.framehash", "a.gif", "a.mov", "a.mp4", "a.webm", "a.y4m", "new",
+                   "new/folder", "new/folder/000001.png", "new/folder/000002.png"}));
   EXPECT_EQ(contents("a.mp4").substr(4, 4), "ftyp");
   EXPECT_TRUE(contents("new/folder/000001.png").starts_with("\x89PNG"));
   EXPECT_TRUE(contents("a.y4m").starts_with("YUV4MPEG2 W64 H36 F10:1 "));
@@ -67,7 +71,38 @@ TEST_P(RepeatedRenderTest, BytesDependOnNothingButTheScene) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, RepeatedRenderTest,
-                         testing::Values("a.mp4", "%04d.png", "a.y4m", "a.framehash"));
+                         testing::Values("a.mp4", "a.mov", "a.webm", "a.gif", "a.apng", "%04d.png",
+                                         "a.y4m", "a.framehash"));
+
+TEST_F(RenderTest, ADestinationSetsWhatIsNotSaidOtherwise) {
+  const auto header = [&](const Arguments& more) {
+    output_of(Arguments{"render", "--quiet", "--to", "0.1", "-o", "%d.png"} + more);
+    const std::string png = contents("1.png");
+    const auto big_endian = [&](std::size_t at) {
+      return (static_cast<unsigned char>(png.at(at + 2)) << 8) +
+             static_cast<unsigned char>(png.at(at + 3));
+    };
+    int files = 0;
+    for (const std::string& name : entries()) {
+      if (!name.ends_with(".png")) continue;
+      ++files;
+      std::filesystem::remove(folder_ / name);
+    }
+    const bool has_alpha = png.at(25) == 6;
+    return fmt::format("{}x{}, {} frames{}", big_endian(16), big_endian(20), files,
+                       has_alpha ? ", transparent" : "");
+  };
+  EXPECT_EQ(header({}), "1920x1080, 6 frames");
+  EXPECT_EQ(header({"--for", "beamer"}), "1280x720, 3 frames");
+  EXPECT_EQ(header({"--for", "editor"}), "1920x1080, 6 frames, transparent");
+  EXPECT_EQ(header({"--for", "editor", "--opaque", "--fps", "10"}), "1920x1080, 1 frames");
+  EXPECT_EQ(header({"--for", "beamer", "--size", "65x37", "--transparent"}),
+            "65x37, 3 frames, transparent");
+  write("scene.toml", "[view]\nsize = [64, 36]\nfps = 10\nbackground = 'transparent'\n");
+  EXPECT_EQ(header({"scene.toml"}), "64x36, 1 frames, transparent");
+  EXPECT_EQ(header({"scene.toml", "--for", "beamer"}), "1280x720, 3 frames, transparent")
+      << "a destination wins over the file";
+}
 
 TEST_F(RenderTest, LastsUntilAWhileAfterTheLastCollision) {
   // One digit: the last of three collisions is at 5.

@@ -133,7 +133,8 @@ TEST_F(TextCommandsTest, StateBoundsAreAddedToTheSameState) {
 TEST_F(TextCommandsTest, InfoNamesVersionLibrariesAndLimits) {
   const std::string info = output_of({"info"});
   for (const char* part : {"piblocks ", "Eigen ", "GMP ", "MPFR ", "cairo ", "freetype ",
-                           "libavcodec ", "zlib ", "fmt ", "libx264", "limits:"}) {
+                           "libavcodec ", "giflib ", "zlib ", "fmt ", "libx264", "libvpx-vp9",
+                           "prores_ks", "limits:", "pictures of a sheet: 200"}) {
     EXPECT_NE(info.find(part), std::string::npos) << part;
   }
 }
@@ -141,7 +142,7 @@ TEST_F(TextCommandsTest, InfoNamesVersionLibrariesAndLimits) {
 TEST_F(TextCommandsTest, EveryCommandHasHelpAndVersion) {
   const std::string version = output_of({"--version"});
   EXPECT_TRUE(version.starts_with("piblocks ")) << version;
-  for (const char* command : {"render", "still", "log", "state", "count", "info"}) {
+  for (const char* command : {"render", "still", "sheet", "log", "state", "count", "info"}) {
     EXPECT_NE(output_of({"--help"}).find(std::string("  ") + command), std::string::npos);
     EXPECT_EQ(output_of({command, "--version"}), version);
     const std::string help = output_of({command, "--help"});

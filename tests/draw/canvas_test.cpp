@@ -75,6 +75,58 @@ TEST(Canvas, APictureDoesNotDependOnTheOneBefore) {
   }
 }
 
+std::uint32_t word(const Canvas& canvas, int x, int y) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, canvas.view().row(y) + 4 * x, 4);
+  return value;
+}
+
+TEST(Canvas, WithoutABackgroundHasAlphaAndColoursMultipliedByIt) {
+  DrawList list = with_rectangle({10.25, 5, 20, 10});
+  list.background.reset();
+  Canvas canvas(40, 30, Ground::transparent);
+  EXPECT_TRUE(canvas.view().has_alpha);
+  EXPECT_FALSE(Canvas(40, 30).view().has_alpha);
+  canvas.paint(list);
+  EXPECT_EQ(word(canvas, 20, 7), 0xFF0AC81Eu);
+  EXPECT_EQ(word(canvas, 5, 7), 0u);
+  EXPECT_NEAR(word(canvas, 10, 7) >> 24, 0.75 * 255, 2);
+  EXPECT_NEAR(word(canvas, 10, 7) >> 8 & 0xFF, 0.75 * 200, 2);
+  list.items.clear();
+  canvas.paint(list);
+  EXPECT_EQ(word(canvas, 20, 7), 0u) << "what was there before is gone";
+}
+
+TEST(Canvas, WithoutABackgroundLooksTheSameOnWhite) {
+  DrawList list = with_rectangle({3.4, 5.7, 20.3, 10.1});
+  list.items.emplace_back(TextItem{ItemId::count, {2, 20}, "31", 18, {20, 40, 220}});
+  Canvas opaque(40, 30);
+  opaque.paint(list);
+  list.background.reset();
+  Canvas transparent(40, 30, Ground::transparent);
+  transparent.paint(list);
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      const std::uint32_t over = word(transparent, x, y);
+      for (const int shift : {0, 8, 16}) {
+        const int shown =
+            static_cast<int>(over >> shift & 0xFF) + 255 - static_cast<int>(over >> 24);
+        EXPECT_NEAR(shown, static_cast<int>(pixel(opaque, x, y) >> shift & 0xFF), 2)
+            << x << ',' << y;
+        EXPECT_LE(over >> shift & 0xFF, over >> 24) << x << ',' << y;
+      }
+    }
+  }
+}
+
+TEST(VectorFiles, HaveNoGroundWithoutABackground) {
+  const DrawList nothing{40, 30, std::nullopt, {}};
+  const DrawList white{40, 30, kWhite, {}};
+  EXPECT_EQ(as_text(draw_svg(nothing)).find("fill"), std::string::npos);
+  EXPECT_NE(as_text(draw_svg(white)).find("fill"), std::string::npos);
+  EXPECT_LT(draw_pdf(nothing).size(), draw_pdf(white).size());
+}
+
 TEST(VectorFiles, AreCompleteAndRepeatable) {
   const DrawList list{40,
                       30,

@@ -64,12 +64,18 @@ Box box_of(const TextItem& text, const Font& font) {
           text.origin.y + 0.2 * text.size_px, text.text};
 }
 
-std::vector<Box> texts_of(const DrawList& list) {
-  const Font font;
-  std::vector<Box> boxes;
-  for (const DrawItem& item : list.items) {
+void add_texts(const std::vector<DrawItem>& items, const Font& font, std::vector<Box>& boxes) {
+  for (const DrawItem& item : items) {
     if (const auto* text = std::get_if<TextItem>(&item)) boxes.push_back(box_of(*text, font));
+    if (const auto* plate = std::get_if<PlateItem>(&item)) {
+      add_texts(plate->plate->items, font, boxes);
+    }
   }
+}
+
+std::vector<Box> texts_of(const DrawList& list) {
+  std::vector<Box> boxes;
+  add_texts(list.items, Font(), boxes);
   return boxes;
 }
 

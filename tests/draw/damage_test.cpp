@@ -22,7 +22,12 @@ constexpr Color kBlack = {0, 0, 0};
 std::uint32_t pixel(const ImageView& image, int x, int y) {
   std::uint32_t value = 0;
   std::memcpy(&value, image.row(y) + 4 * x, 4);
-  return value & 0xFFFFFF;
+  return image.has_alpha ? value : value & 0xFFFFFF;
+}
+
+/// What a list has to be painted on.
+Ground ground_for(const DrawList& list) {
+  return list.background ? Ground::opaque : Ground::transparent;
 }
 
 bool contains(const PixelRect& r, int x, int y) {
@@ -43,7 +48,7 @@ void expect_update(Canvas& canvas, const DrawList& list) {
   const std::vector<std::uint32_t> before = pixels_of(canvas);
   const auto span = canvas.update(list);
   const std::vector<PixelRect> changed(span.begin(), span.end());
-  Canvas fresh(list.width_px, list.height_px);
+  Canvas fresh(list.width_px, list.height_px, ground_for(list));
   fresh.paint(list);
   const std::vector<std::uint32_t> after = pixels_of(canvas);
   const std::vector<std::uint32_t> wanted = pixels_of(fresh);
@@ -70,19 +75,27 @@ DrawList frame(const Composition& composition, const CollisionLog& log, const Ra
   return composition.frame({state_at(log, time), time});
 }
 
-TEST(Damage, OfWholeScenesIsExact) {
+void expect_exact_updates(Background background) {
   for (const auto& [width, height] : {std::pair{320, 180}, {101, 75}, {64, 240}}) {
     Scene scene = SceneBuilder().build();
+    scene.view.background = background;
     scene.view.width_px = width;
     scene.view.height_px = height;
     const auto log = make_collision_log(scene.system);
     const Composition composition(scene, *log);
-    Canvas canvas(width, height);
+    Canvas canvas(width, height, ground_for(frame(composition, *log, 0)));
     for (int i = 0; i < 120; ++i) {
       expect_update(canvas, frame(composition, *log, Rational(i) / 12));
-      ASSERT_FALSE(HasFailure()) << "frame " << i << " of " << width << "x" << height;
+      ASSERT_FALSE(testing::Test::HasFailure())
+          << "frame " << i << " of " << width << "x" << height;
     }
   }
+}
+
+TEST(Damage, OfWholeScenesIsExact) { expect_exact_updates(Background::opaque); }
+
+TEST(Damage, OfWholeScenesWithoutABackgroundIsExact) {
+  expect_exact_updates(Background::transparent);
 }
 
 TEST(Damage, OfAScenesFrameIsSmall) {
@@ -270,11 +283,12 @@ TEST(Damage, OfRandomPicturesIsExact) {
     const int width = static_cast<int>(random.integer(1, 90));
     const int height = static_cast<int>(random.integer(1, 70));
     DrawList list{width, height, any_color(random), {}};
+    if (i % 2 == 1) list.background.reset();
     for (const ItemId id :
          {ItemId::wall, ItemId::red_block, ItemId::blue_block, ItemId::label, ItemId::count}) {
       list.items.push_back(any_item(random, id, width, height));
     }
-    Canvas canvas(width, height);
+    Canvas canvas(width, height, ground_for(list));
     for (int step = 0; step < 20; ++step) {
       expect_update(canvas, list);
       ASSERT_FALSE(HasFailure()) << "picture " << i << ", step " << step;

@@ -116,6 +116,32 @@ TEST(CrossFade, ShowsTheMeanHalfWay) {
   }
 }
 
+/// Of pictures that can be seen through each pixel, alpha included, is the mean: what only the
+/// first has goes, little by little.
+TEST(CrossFade, OfTransparentPicturesIsTheirMean) {
+  const RectangleItem block{ItemId::red_block, {10.25, 5.5, 20, 10}, kGreen, std::nullopt};
+  const TextItem text{ItemId::count, {5, 25}, "314", 20, {200, 30, 10}};
+  const DrawList from{40, 30, std::nullopt, {block}};
+  const DrawList to{40, 30, std::nullopt, {text}};
+  const auto painted = [](const DrawList& list) {
+    Canvas canvas(40, 30, Ground::transparent);
+    canvas.paint(list);
+    std::vector<std::uint8_t> bytes;
+    for (int y = 0; y < 30; ++y) {
+      bytes.insert(bytes.end(), canvas.view().row(y), canvas.view().row(y) + 160);
+    }
+    return bytes;
+  };
+  const auto first = painted(from);
+  const auto second = painted(to);
+  for (const double opacity : {0.25, 0.5, 1.0}) {
+    const auto both = painted(cross_fade(from, to, opacity));
+    for (std::size_t i = 0; i < both.size(); ++i) {
+      ASSERT_NEAR(both[i], (1 - opacity) * first[i] + opacity * second[i], 1.51) << i;
+    }
+  }
+}
+
 TEST(CrossFade, AsAVectorFileIsTheSameEveryTime) {
   const DrawList from{40, 30, kWhite, {TextItem{ItemId::count, {5, 25}, "314", 20, kGreen}}};
   const DrawList both = cross_fade(from, {40, 30, kGreen, {}}, 0.5);

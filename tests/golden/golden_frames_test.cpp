@@ -142,7 +142,8 @@ TEST(GoldenComparison, SeesOnePixelOfOneDigit) {
   Canvas expected(64, 36);
   Canvas actual(64, 36);
   const auto with_digit = [](const char* digit) {
-    return DrawList{64, 36, {255, 255, 255}, {TextItem{ItemId::count, {20, 20}, digit, 7, {}}}};
+    return DrawList{
+        64, 36, Color{255, 255, 255}, {TextItem{ItemId::count, {20, 20}, digit, 7, {}}}};
   };
   expected.paint(with_digit("3"));
   actual.paint(with_digit("8"));

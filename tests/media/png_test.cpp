@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "media/frame_reader.hpp"
 #include "media/png_encoder.hpp"
 #include "support/decode_video.hpp"
 #include "support/property.hpp"
@@ -102,6 +103,57 @@ TEST(Png, AnUpdateGivesTheBytesOfTheImageAlone) {
       ASSERT_EQ(encoded(encoder, image.view(), changed), encode_png(image.view())) << step;
     }
     expect_same_pixels(image);
+  }
+}
+
+/// Any pixels with alpha, none of whose colours is greater than it.
+Pixels transparent_frame(Random& random, int width_px, int height_px) {
+  Pixels image(width_px, height_px);
+  for (std::uint32_t& word : image.words) {
+    const std::int64_t alpha = random.integer(0, 2) == 0 ? random.integer(0, 255) : 255;
+    word = static_cast<std::uint32_t>(alpha << 24 | random.integer(0, alpha) << 16 |
+                                      random.integer(0, alpha) << 8 | random.integer(0, alpha));
+  }
+  return image;
+}
+
+ImageView with_alpha(const Pixels& image) {
+  ImageView view = image.view();
+  view.has_alpha = true;
+  return view;
+}
+
+TEST(Png, KeepsAlphaAndTheColoursAsTheyWereBefore) {
+  Random random(9);
+  SCOPED_TRACE(random.trace());
+  const TemporaryFolder folder;
+  const Pixels image = transparent_frame(random, 61, 47);
+  const auto png = encode_png(with_alpha(image));
+  std::ofstream(folder / "a.png", std::ios::binary)
+      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  const Image read = read_png(folder / "a.png");
+  for (std::size_t i = 0; i < image.words.size(); ++i) {
+    const std::uint32_t alpha = image.words[i] >> 24;
+    ASSERT_EQ(read.words[i] >> 24, alpha);
+    for (const int shift : {0, 8, 16}) {
+      const double exact = alpha == 0 ? 0 : 255.0 * (image.words[i] >> shift & 0xff) / alpha;
+      ASSERT_NEAR(read.words[i] >> shift & 0xff, exact, 0.5);
+    }
+  }
+}
+
+TEST(Png, AnUpdateWithAlphaGivesTheBytesOfTheImageAlone) {
+  Random random(10);
+  SCOPED_TRACE(random.trace());
+  PngEncoder encoder;
+  encoded(encoder, Pixels(33, 21).view());  // opaque before
+  Pixels image = transparent_frame(random, 33, 21);
+  ASSERT_EQ(encoded(encoder, with_alpha(image)), encode_png(with_alpha(image)));
+  for (int step = 0; step < 50; ++step) {
+    const auto x = static_cast<int>(random.integer(0, 32));
+    const auto y = static_cast<int>(random.integer(0, 20));
+    image.at(x, y) = transparent_frame(random, 1, 1).at(0, 0);
+    ASSERT_EQ(encoded(encoder, with_alpha(image), {{x, y, 1, 1}}), encode_png(with_alpha(image)));
   }
 }
 

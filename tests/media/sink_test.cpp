@@ -42,10 +42,11 @@ testing::AssertionResult has(const std::string& text, const std::string& part) {
 }
 
 TEST(SetUpOutput, ListsTheKindsWhenANameHasNone) {
-  for (const char* output : {"out.mov", "out", "", "mp4", "null.txt", "./null", "out.mp4/"}) {
+  for (const char* output : {"out.avi", "out", "", "mp4", "null.txt", "./null", "out.mp4/"}) {
     const std::string what = opening_error(output, kSmall);
     EXPECT_TRUE(has(what, std::string("'") + output + "'"));
-    for (const char* kind : {"*.mp4", "*.png", "%06d", "*.y4m", "- (", "*.framehash", "null"}) {
+    for (const char* kind : {"*.mp4", "*.mov", "*.webm", "*.gif", "*.apng", "*.png", "%06d",
+                             "*.y4m", "- (", "*.framehash", "null"}) {
       EXPECT_TRUE(has(what, kind));
     }
     EXPECT_EQ(std::ranges::count(what, '\n'), 0) << what;
@@ -54,7 +55,7 @@ TEST(SetUpOutput, ListsTheKindsWhenANameHasNone) {
 
 TEST(SetUpOutput, ReportsAllProblemsAtOnce) {
   try {
-    set_up_output("out.mov", {0, 20000, -1}, {});
+    set_up_output("out.avi", {0, 20000, -1}, {});
     FAIL();
   } catch (const UsageError& error) {
     EXPECT_EQ(error.problems().size(), 3u) << error.what();
@@ -73,15 +74,55 @@ TEST(SetUpOutput, RefusesEncoderSettingsThatWouldBeIgnored) {
   EXPECT_TRUE(has(opening_error("%d.png", kSmall, {.preset = "slow"}), "*.mp4"));
 }
 
+TEST(SetUpOutput, SaysWhatCanBeTransparent) {
+  const TemporaryFolder folder;
+  VideoFormat format = kSmall;
+  format.has_alpha = true;
+  for (const char* name : {"out.mp4", "out.gif", "out.y4m", "-"}) {
+    const std::string what = opening_error(name, format);
+    EXPECT_TRUE(has(what, std::string("'") + name + "' cannot be transparent"));
+    EXPECT_TRUE(has(what, "*.mov, *.webm, *.apng, *.png"));
+  }
+  for (const char* name : {"out.mov", "out.webm", "out.apng", "%d.png", "out.framehash"}) {
+    EXPECT_EQ(opening_error(folder / name, format), "") << name;
+  }
+}
+
+TEST(SetUpOutput, RefusesRatesThatAPictureFileCannotTell) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(has(opening_error("a.gif", {10, 10, 60}), "use --fps 50 or 25"));
+  EXPECT_TRUE(has(opening_error("a.gif", {10, 10, Rational("1/1000")}), "too low"));
+  EXPECT_EQ(opening_error(folder / "a.gif", {10, 10, 50}), "");
+  EXPECT_TRUE(has(opening_error("a.apng", {10, 10, Rational("65536/1")}), "up to 65535"));
+  EXPECT_EQ(opening_error(folder / "a.apng", {10, 10, Rational("60000/1001")}), "");
+}
+
+TEST(SetUpOutput, TellsWhyAnEncoderOfMovOrWebmIsNoGood) {
+  VideoFormat format = kSmall;
+  EXPECT_TRUE(
+      has(opening_error("a.webm", format, {.encoder = "libx264"}), "use one of: libvpx-vp9"));
+  EXPECT_TRUE(has(opening_error("a.webm", format, {.crf = 64}), "use 0 (best) to 63"));
+  EXPECT_TRUE(has(opening_error("a.webm", format, {.preset = "fast"}), "has no presets"));
+  EXPECT_TRUE(
+      has(opening_error("a.mov", format, {.encoder = "nope"}), "cannot find encoder 'nope'"));
+  format.has_alpha = true;
+  EXPECT_TRUE(has(opening_error("a.mov", format, {.encoder = "libx264"}), "use prores_ks"));
+  EXPECT_TRUE(has(opening_error("a.mov", format, {.crf = 3, .preset = "slow"}), "has no crf"));
+  EXPECT_TRUE(has(opening_error("a.webm", format, {.encoder = "av1"}), "use vp9"));
+}
+
 TEST(SetUpOutput, SaysWhichEvenSizeToUse) {
   const TemporaryFolder folder;
-  for (const char* name : {"out.mp4", "out.y4m"}) {
+  for (const char* name : {"out.mp4", "out.mov", "out.webm", "out.y4m"}) {
     EXPECT_TRUE(has(opening_error(folder / name, {1921, 1081, 60}), "use 1920x1080"));
     EXPECT_TRUE(has(opening_error(folder / name, {1, 10, 60}), "use 2x10"));
   }
   EXPECT_TRUE(folder.is_empty());
   EXPECT_EQ(opening_error(folder / "%d.png", {1921, 1081, 60}), "");
   EXPECT_EQ(opening_error(folder / "out.framehash", {1921, 1081, 60}), "");
+  EXPECT_EQ(opening_error(folder / "out.gif", {1921, 1081, 25}), "");
+  EXPECT_EQ(opening_error(folder / "out.apng", {1921, 1081, 60}), "");
+  EXPECT_EQ(opening_error(folder / "out.mov", {1921, 1081, 60, true}), "");
 }
 
 class EveryFile : public testing::TestWithParam<const char*> {};
@@ -176,7 +217,8 @@ TEST_P(EveryFile, ReportsAFullDisk) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EveryFile,
-                         testing::Values("a/out.mp4", "a/%03d.png", "a/out.y4m",
+                         testing::Values("a/out.mp4", "a/out.mov", "a/out.webm", "a/out.gif",
+                                         "a/out.apng", "a/%03d.png", "a/out.y4m",
                                          "a/out.framehash"));
 
 TEST(NullSink, KeepsNothing) {
@@ -302,9 +344,10 @@ TEST(Framehash, IsWhatFfmpegSaysOfTheSameFrames) {
 
 TEST(MediaLibraries, TellTheirVersions) {
   const auto versions = media_library_versions();
-  ASSERT_EQ(versions.size(), 4u);
+  ASSERT_EQ(versions.size(), 5u);
   EXPECT_TRUE(has(versions[1], "libavcodec "));
-  EXPECT_TRUE(has(versions[3], "zlib 1."));
+  EXPECT_TRUE(has(versions[3], "giflib 5."));
+  EXPECT_TRUE(has(versions[4], "zlib 1."));
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "draw/panels/panels.hpp"
@@ -8,8 +10,16 @@ namespace {
 // In ems.
 constexpr double kTitleHeight = 1.9;
 constexpr double kTitleBaseline = 1.0;
+constexpr double kAround = 0.5;
 // In line widths.
 constexpr double kDotRadius = 3.2;
+
+Rectangle whole_pixels(const Rectangle& area, double around) {
+  const double left = std::floor(area.x - around);
+  const double top = std::floor(area.y - around);
+  return {left, top, std::ceil(area.x + area.width + around) - left,
+          std::ceil(area.y + area.height + around) - top};
+}
 
 }  // namespace
 
@@ -26,7 +36,11 @@ PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const st
       next_id(), {whole.x, whole.y + kTitleBaseline * text_px_}, title, title_px, palette_.muted});
   const double top = kTitleHeight * text_px_;
   inside_ = {whole.x, whole.y + top, whole.width, whole.height - top};
+  // Lines along its border are wider than the area.
+  item_ = {nth(first_id_, 0), whole_pixels(whole, kAround * text_px_), nullptr};
 }
+
+void PanelSheet::finish() { item_.plate = std::make_shared<const Plate>(Plate{std::move(items_)}); }
 
 void PanelSheet::path(std::vector<Point> points, bool closed, const std::optional<Color>& fill,
                       const std::optional<Stroke>& stroke) {

@@ -51,9 +51,9 @@ class PanelSheet {
   /// A dot that marks the present.
   DiskItem dot(std::size_t n, const Point& at, const Color& color) const;
 
-  void add_to(std::vector<DrawItem>& items) const {
-    items.insert(items.end(), items_.begin(), items_.end());
-  }
+  /// All that stays as one item; nothing can be added to it any more.
+  void finish();
+  const PlateItem& item() const noexcept { return item_; }
 
  private:
   static constexpr std::size_t kMoving = 32768;
@@ -67,6 +67,7 @@ class PanelSheet {
   double line_px_;
   Rectangle inside_;
   std::vector<DrawItem> items_;
+  PlateItem item_;
 };
 
 }  // namespace piblocks

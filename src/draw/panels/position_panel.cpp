@@ -27,10 +27,11 @@ class PositionPanel final : public Part {
     place_wedge();
     for (const TrajectoryPiece& piece : pieces) add_piece(piece);
     add_names();
+    sheet_.finish();
   }
 
   void add(const Shown& shown, std::vector<DrawItem>& items) const override {
-    sheet_.add_to(items);
+    items.emplace_back(sheet_.item());
     const GapPoint gaps = gaps_.of(shown.state);
     if (gaps.y2 > most_ * (1 + 1e-9)) return;
     items.emplace_back(sheet_.dot(0, at(gaps), sheet_.palette().accent));

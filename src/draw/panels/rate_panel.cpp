@@ -36,10 +36,11 @@ class RatePanel final : public Part {
     add_bars(rates);
     axis_.add_base(sheet_);
     add_powers();
+    sheet_.finish();
   }
 
   void add(const Shown& shown, std::vector<DrawItem>& items) const override {
-    sheet_.add_to(items);
+    items.emplace_back(sheet_.item());
     const double x = axis_.x_of(to_double(shown.time));
     if (axis_.shows(x)) items.emplace_back(axis_.cursor(sheet_, x));
   }

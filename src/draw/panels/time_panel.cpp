@@ -26,10 +26,11 @@ class TimePanel final : public Part {
     for (const TrajectoryPiece& piece : pieces) add_blue(piece);
     add_red(pieces);
     axis_.add_base(sheet_);
+    sheet_.finish();
   }
 
   void add(const Shown& shown, std::vector<DrawItem>& items) const override {
-    sheet_.add_to(items);
+    items.emplace_back(sheet_.item());
     const double x = axis_.x_of(to_double(shown.time));
     if (!axis_.shows(x)) return;
     const GapPoint gaps = gaps_.of(shown.state);

@@ -37,10 +37,11 @@ class UnfoldedPanel final : public Part {
     place_half_plane();
     add_rays();
     sheet_.line({at(from_), at(to)}, sheet_.palette().muted, 1, 4);
+    sheet_.finish();
   }
 
   void add(const Shown& shown, std::vector<DrawItem>& items) const override {
-    sheet_.add_to(items);
+    items.emplace_back(sheet_.item());
     const Point present = plane_at(to_double(shown.time));
     if (std::hypot(present.x, present.y) > most_ * (1 + 1e-9)) return;
     if (stride_ == 1) add_present_wedge(present, items);

@@ -10,8 +10,6 @@ namespace {
 
 constexpr double kCircleStep = 0.05;  // radians between points of a circle: 0.03 % of its radius
 constexpr double kMargin_em = 0.8;
-/// Sectors are drawn one by one while there are at most so many, and otherwise in groups.
-constexpr long kMostSectors = 120;
 constexpr double kLeastApart_px = 5;
 
 std::vector<Point> arc(const Point& centre, double radius, double from, double to) {
@@ -39,61 +37,53 @@ class VelocityPanel final : public Part {
     const double em = sheet_.text_px();
     centre_ = {inside.x + inside.width / 2, inside.y + inside.height / 2};
     radius_ = std::min(inside.width, inside.height) / 2 - kMargin_em * em;
-    make_sectors(setting.log);
+    place_sectors(setting.log);
     add_axes();
+    sheet_.finish();
   }
 
   void add(const Shown& shown, std::vector<DrawItem>& items) const override {
-    sheet_.add_to(items);
+    items.emplace_back(sheet_.item());
     if (!(speed_ > 0)) return;
     const Point velocity = point_of(shown.state.blue.velocity, shown.state.red.velocity);
     // The last point above the axis is as far along as the present one. So is the last one below it
     // once the wall was met; before that it is a collision behind.
     const double angle = std::abs(std::atan2(velocity.y, velocity.x));
     const bool below = velocity.y < 0;
-    add_lit(angle, above_, 1, items);
-    add_lit(below ? angle : angle + 2 * gaps_.theta, below_, 1 + above_.size(), items);
+    add_lit(angle, above_, 0, items);
+    add_lit(below ? angle : angle + 2 * gaps_.theta, below_, 2, items);
     const Point at{centre_.x + radius_ * velocity.x / speed_,
                    centre_.y - radius_ * velocity.y / speed_};
-    const std::size_t last = 1 + above_.size() + below_.size();
-    items.emplace_back(PathItem{sheet_.moving(last), std::vector<Point>{centre_, at}, false,
+    items.emplace_back(PathItem{sheet_.moving(4), std::vector<Point>{centre_, at}, false,
                                 std::nullopt,
                                 Stroke{sheet_.palette().accent, 1.5 * sheet_.line_px()}});
-    items.emplace_back(sheet_.dot(last + 1, at, sheet_.palette().accent));
+    items.emplace_back(sheet_.dot(5, at, sheet_.palette().accent));
   }
 
  private:
-  struct Sector {
-    double end_angle;  ///< lit when this is reached
-    Points outline;
-  };
-
   Point point_of(double blue_velocity, double red_velocity) const {
     return {red_velocity, gaps_.sigma * blue_velocity};
   }
 
-  /// From the start's angle down, above the axis or below it: one for each of `count` collisions,
-  /// or as many as can be told apart.
-  std::vector<Sector> sectors_of(const Integer& count, double side) const {
-    const double swept = std::min(2 * gaps_.theta * count.get_d(), start_angle_);
-    const long shown = count <= kMostSectors ? count.get_si() : kMostSectors;
-    std::vector<Sector> sectors;
-    for (long k = 0; k < shown; ++k) {
-      const double from = start_angle_ - swept * static_cast<double>(k) / double(shown);
-      const double to = start_angle_ - swept * static_cast<double>(k + 1) / double(shown);
-      std::vector<Point> outline = arc(centre_, radius_, side * from, side * to);
-      outline.push_back(centre_);
-      sectors.push_back({to, std::move(outline)});
-    }
-    return sectors;
+  Point on_rim(double angle) const {
+    return {centre_.x + radius_ * std::cos(angle), centre_.y - radius_ * std::sin(angle)};
   }
 
-  void make_sectors(const CollisionLog& log) {
-    if (!(speed_ > 0)) return;
-    above_ = sectors_of((log.size() + 1) / 2, 1);
-    below_ = sectors_of(log.size() / 2, -1);
-    is_apart_ = !above_.empty() &&
-                start_angle_ / static_cast<double>(above_.size()) * radius_ > kLeastApart_px;
+  /// Sectors of this side that are reached, for `collisions` on it.
+  struct Side {
+    double sign;
+    double swept;  ///< by all of its collisions together
+  };
+
+  Side side_of(const Integer& collisions, double sign) const {
+    return {sign, std::min(2 * gaps_.theta * collisions.get_d(), start_angle_)};
+  }
+
+  void place_sectors(const CollisionLog& log) {
+    above_ = side_of((log.size() + 1) / 2, 1);
+    below_ = side_of(log.size() / 2, -1);
+    // Lines between them only where they can be told apart.
+    is_apart_ = 2 * gaps_.theta * radius_ > kLeastApart_px;
   }
 
   void add_axes() {
@@ -106,15 +96,23 @@ class VelocityPanel final : public Part {
                 Stroke{palette.muted, sheet_.line_px()});
   }
 
-  void add_lit(double angle, const std::vector<Sector>& sectors, std::size_t first,
-               std::vector<DrawItem>& items) const {
-    const double slack = gaps_.theta / 2;  // of rounding: what is reached is reached by all of it
-    for (std::size_t k = 0; k < sectors.size(); ++k) {
-      if (angle > sectors[k].end_angle + slack) return;
-      const Color& edge = is_apart_ ? sheet_.palette().grid : sheet_.palette().shade;
-      items.emplace_back(PathItem{sheet_.moving(first + k), sectors[k].outline, true,
-                                  sheet_.palette().shade, Stroke{edge, sheet_.line_px()}});
+  void add_lit(double angle, const Side& side, std::size_t n, std::vector<DrawItem>& items) const {
+    const double end = std::max(angle, start_angle_ - side.swept);
+    // Of rounding: what is reached is reached by more than a hair.
+    if (end > start_angle_ - gaps_.theta / 2) return;
+    std::vector<Point> outline = arc(centre_, radius_, side.sign * start_angle_, side.sign * end);
+    outline.push_back(centre_);
+    const Palette& palette = sheet_.palette();
+    items.emplace_back(
+        PathItem{sheet_.moving(n), std::move(outline), true, palette.shade, std::nullopt});
+    if (!is_apart_) return;
+    std::vector<Point> rays;
+    for (double at = start_angle_; at > end - gaps_.theta / 2; at -= 2 * gaps_.theta) {
+      rays.push_back(centre_);
+      rays.push_back(on_rim(side.sign * at));
     }
+    items.emplace_back(PathItem{sheet_.moving(n + 1), std::move(rays), false, std::nullopt,
+                                Stroke{palette.grid, sheet_.line_px()}});
   }
 
   PanelSheet sheet_;
@@ -123,9 +121,9 @@ class VelocityPanel final : public Part {
   double start_angle_ = 0;
   Point centre_;
   double radius_ = 0;
-  std::vector<Sector> above_;
-  std::vector<Sector> below_;
-  bool is_apart_ = false;  ///< whether sectors are wide enough for lines between them
+  Side above_{};
+  Side below_{};
+  bool is_apart_ = false;
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace piblocks::h264 {
 
 /// What libx264 says of its stream at the product's own settings.
 struct StreamHeaders {
-  explicit StreamHeaders(const VideoFormat& format) : encoder(format, {}) {
+  explicit StreamHeaders(const VideoFormat& format) : encoder(format, h264_choice(format, {})) {
     const AVCodecParameters& parameters = encoder.parameters();
     bytes.assign(parameters.extradata, parameters.extradata + parameters.extradata_size);
     sets = read_parameter_sets(bytes);

@@ -1,0 +1,35 @@
+// The colours of one frame of a GIF.
+// In: the colours of its pixels, counted. Out: at most 256 of them, and for every other the nearest
+// of these.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace piblocks {
+
+/// Counts colours, then numbers them. A colour is a word 0x00RRGGBB.
+class ColorTable {
+ public:
+  /// Forgets all colours.
+  void clear();
+  void count(std::uint32_t color);
+  /// Keeps all colours, or the most frequent if there are more than `room`: those of flat shapes,
+  /// rather than of the edges that are smoothed. What is kept depends on the counts alone.
+  void choose(std::size_t room);
+
+  /// The colours that are kept.
+  const std::vector<std::uint32_t>& colors() const noexcept { return colors_; }
+  /// The place of the colour among them, or of the nearest. Of a colour that was counted.
+  std::uint8_t index_of(std::uint32_t color);
+
+ private:
+  std::unordered_map<std::uint32_t, std::int64_t> counts_;  // then places
+  std::vector<std::uint32_t> colors_;
+  // The last colour that was looked up: most pixels are of the colour of their neighbour.
+  std::uint32_t last_color_ = 0;
+  std::int64_t* last_ = nullptr;
+};
+
+}  // namespace piblocks

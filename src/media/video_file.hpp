@@ -1,0 +1,32 @@
+// Files of one video stream, written by libavformat.
+// In: chunks of packets, in order. Out: a file whose index comes first, or no trace of it.
+#pragma once
+
+#include <piblocks/frame_sink.hpp>
+
+#include <memory>
+#include <string>
+
+#include "media/video_encoder.hpp"
+
+namespace piblocks {
+
+/// How libavformat is told what kind of file to write.
+struct Container {
+  const char* muxer;         ///< its name
+  const char* index_option;  ///< which, set so, brings the index to the front
+  const char* index_value;
+  /// Whether a file that is read back has so many packets.
+  bool (*is_whole)(AVFormatContext& file, std::int64_t packets);
+};
+
+extern const Container kMp4;
+extern const Container kMov;
+extern const Container kWebm;
+
+/// @param encoder  of the stream; it must outlive the sink.
+/// @throws UsageError if the file cannot be opened.
+std::unique_ptr<FrameSink> open_video_file(const std::string& name, const VideoEncoder& encoder,
+                                           const Container& container);
+
+}  // namespace piblocks

@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "media/damage_chunk.hpp"
+#include "media/find_encoder.hpp"
+#include "media/output_kinds.hpp"
+#include "media/video_chunk.hpp"
+#include "media/video_encoder.hpp"
+#include "media/video_file.hpp"
+
+namespace piblocks {
+namespace {
+
+/// What it quantises by; src/media/README.md has the measurements.
+constexpr int kQp = 14;
+
+/// Those of the encoder whose headers the stream has.
+/// @throws UsageError if something else is said to an encoder of our own.
+EncoderSettings settings_of_stream(const EncoderSettings& settings) {
+  if (settings.encoder != kDamage) return settings;
+  std::vector<std::string> problems;
+  if (settings.crf) problems.emplace_back("video: encoder 'damage' has no crf; leave it out");
+  if (settings.preset) {
+    problems.emplace_back("video: encoder 'damage' has no presets; leave the preset out");
+  }
+  if (!problems.empty()) throw UsageError(std::move(problems));
+  return {};
+}
+
+/// What slices of our own have to fit, if the stream is to have such.
+/// @throws UsageError if it is to, but cannot.
+std::optional<h264::ParameterSets> sets_for_damage(const VideoEncoder& encoder,
+                                                   const EncoderSettings& settings) {
+  const bool is_asked_for = settings.encoder == kDamage;
+  if (!is_asked_for && (settings.encoder || settings.crf || settings.preset)) return std::nullopt;
+  const AVCodecParameters& stream = encoder.parameters();
+  try {
+    return h264::read_parameter_sets(
+        {stream.extradata, static_cast<std::size_t>(stream.extradata_size)});
+  } catch (const MediaError& error) {
+    if (is_asked_for) throw UsageError(error.what());
+    return std::nullopt;
+  }
+}
+
+/// H.264 in MP4, or the same stream in MOV.
+class H264Output final : public Output {
+ public:
+  H264Output(const OutputRequest& request, const Container& container)
+      : name_(request.name),
+        container_(container),
+        encoder_(request.format, h264_choice(request.format, settings_of_stream(request.settings))),
+        sets_(sets_for_damage(encoder_, request.settings)),
+        when_too_much_(request.settings.encoder == kDamage ? WhenTooMuch::go_on
+                                                           : WhenTooMuch::leave_to_stream_encoder) {
+  }
+  std::int64_t frames_per_chunk() const override { return encoder_.frames_per_chunk(); }
+  std::unique_ptr<ChunkEncoder> make_encoder() const override {
+    if (sets_) return std::make_unique<DamageChunkEncoder>(encoder_, *sets_, kQp, when_too_much_);
+    return std::make_unique<VideoChunkEncoder>(encoder_);
+  }
+  std::string signature() const override {
+    const std::string stream = fmt::format("{} by {}", container_.muxer, encoder_.signature());
+    return sets_ ? fmt::format("{}, changes at QP {}", stream, kQp) : stream;
+  }
+  std::unique_ptr<FrameSink> open() const override {
+    return open_video_file(name_, encoder_, container_);
+  }
+
+ private:
+  std::string name_;
+  const Container& container_;
+  VideoEncoder encoder_;
+  std::optional<h264::ParameterSets> sets_;
+  WhenTooMuch when_too_much_;
+};
+
+/// A stream of libavcodec's alone.
+class EncodedOutput final : public Output {
+ public:
+  EncodedOutput(const OutputRequest& request, const Container& container, CodecChoice choice)
+      : name_(request.name), container_(container), encoder_(request.format, std::move(choice)) {}
+  std::int64_t frames_per_chunk() const override { return encoder_.frames_per_chunk(); }
+  std::unique_ptr<ChunkEncoder> make_encoder() const override {
+    return std::make_unique<VideoChunkEncoder>(encoder_);
+  }
+  std::string signature() const override {
+    return fmt::format("{} by {}", container_.muxer, encoder_.signature());
+  }
+  std::unique_ptr<FrameSink> open() const override {
+    return open_video_file(name_, encoder_, container_);
+  }
+
+ private:
+  std::string name_;
+  const Container& container_;
+  VideoEncoder encoder_;
+};
+
+}  // namespace
+
+std::unique_ptr<Output> mp4_output(const OutputRequest& request) {
+  return std::make_unique<H264Output>(request, kMp4);
+}
+
+std::unique_ptr<Output> mov_output(const OutputRequest& request) {
+  const bool is_prores = request.format.has_alpha || request.settings.encoder == "prores_ks";
+  if (!is_prores) return std::make_unique<H264Output>(request, kMov);
+  return std::make_unique<EncodedOutput>(request, kMov,
+                                         prores_choice(request.format, request.settings));
+}
+
+std::unique_ptr<Output> webm_output(const OutputRequest& request) {
+  return std::make_unique<EncodedOutput>(request, kWebm,
+                                         webm_choice(request.format, request.settings));
+}
+
+}  // namespace piblocks
