@@ -43,6 +43,17 @@ struct FreeFlight {
   Motion red;
 };
 
+/// Collisions of one kind taken together: one blow of all their impulses, at the centre of these in
+/// time. For whoever cannot tell their times apart, it stands for all of them.
+struct Impact {
+  CollisionKind kind = CollisionKind::blocks;
+  Time time;  ///< mean of the times, weighted by the impulses
+  /// Sum of the impulses. The unit is the blow that red, had it all the energy of the run, would
+  /// give to blue at rest: 2 m_blue m_red / (m_blue + m_red) times its velocity.
+  double impulse = 0;
+  double blue_position = 0;  ///< of one collision; of several, a position between theirs
+};
+
 /// Consecutive collisions in columns, for those who read millions of them. 24 KiB of numbers: a
 /// batch stays in the first-level cache between its producer and its consumer.
 struct CollisionBatch {
@@ -91,6 +102,14 @@ class CollisionLog {
   /// exactly at `time` has happened.
   /// @throws SimulationError as at().
   virtual FreeFlight flight_at(const Rational& time) const = 0;
+  /// Those collisions first … last that are of this kind, taken together; nothing if none is.
+  /// Indices go on before time 0: the last collision before it has index 0, as flight_at() counts.
+  /// Both must be among the collisions of all time.
+  virtual std::optional<Impact> impact(CollisionKind kind, const Integer& first,
+                                       const Integer& last) const = 0;
+  /// The count of flight_at(), but collisions within the rounding of `time` and of the engine may
+  /// be taken for earlier or later. Costs no more, however many collisions there are.
+  virtual Integer count_near(const Time& time) const = 0;
   /// How exact the positions at `time` are; nothing if the engine cannot say beforehand.
   virtual std::optional<PositionBounds> bounds_at(const Rational& time) const = 0;
 };

@@ -39,10 +39,10 @@ struct RenderJob {
   bool profile = false;  ///< whether to measure what each stage costs
 };
 
-/// What the work on a frame consists of, in this order.
-enum class Stage { compose, paint, convert, encode, mux, write };
-inline constexpr std::array<const char*, 6> kStageNames = {"compose", "paint", "convert",
-                                                           "encode",  "mux",   "write"};
+/// What the work on a frame consists of, in this order; sound is both made and encoded in one.
+enum class Stage { compose, paint, convert, encode, sound, mux, write };
+inline constexpr std::array<const char*, 7> kStageNames = {"compose", "paint", "convert", "encode",
+                                                           "sound",   "mux",   "write"};
 
 /// Seconds of processor time by stage.
 using StageSeconds = std::array<double, kStageNames.size()>;

@@ -66,11 +66,17 @@ struct Golden {
   std::optional<FrameSize> size = {};
 };
 
+/// What is heard of a scene.
+struct Sound {
+  bool on = false;  ///< whether a video has a soundtrack
+};
+
 struct Scene {
   BlockSystem system;
   View view;
   TimeSpan time;
   Pacing pacing = {};
+  Sound sound = {};
   Show show = {};
   Golden golden = {};
 };
@@ -88,7 +94,7 @@ struct TomlTable;
 /// width_by_mass()); "view.x", "view.y", "view.size", "view.fps", "view.background", "view.theme";
 /// "time.from", "time.to", "time.speed", "time.duration", "time.slow-motion", "time.freeze",
 /// "time.hold-start", "time.hold-end", "time.loop"; "show.overlays", "show.panels", "show.title",
-/// "show.caption", "show.logo"; "golden.frames", "golden.size".
+/// "show.caption", "show.logo"; "sound.on"; "golden.frames", "golden.size".
 class SceneBuilder {
  public:
   /// Reads a scene file. Values set before it are overwritten, values set after it win.

@@ -113,7 +113,7 @@ RenderOptions add_options(CLI::App& command) {
       *add_value_option(command, "-o,--output", "OUT",
                         "What to write: NAME.mp4, NAME.mov, NAME.webm, NAME.gif,\n"
                         "NAME.apng, FRAMES/%06d.png, NAME.y4m, - (y4m on standard\n"
-                        "output), NAME.framehash, or null")
+                        "output), NAME.framehash, null, or NAME.wav: the sound alone")
            .required();
   const CLI::Option& destination =
       add_value_option(command, "--for", "WHERE",
@@ -121,6 +121,7 @@ RenderOptions add_options(CLI::App& command) {
   scene.add_picture();
   scene.add_show();
   scene.add_timing();
+  scene.add_sound();
   const CLI::Option& crf =
       add_value_option(command, "--crf", "Q", "Rate factor, 0 (best) to 51 (worst); 63 for WebM");
   const CLI::Option& preset =

@@ -76,6 +76,10 @@ void SceneOptions::add_pacing() {
   add_flag("time.loop", "--loop", "Play forth and back, so that the video repeats seamlessly");
 }
 
+void SceneOptions::add_sound() {
+  add_flag("sound.on", "--sound,!--no-sound", "A clack at every collision, in MP4 (as AAC)");
+}
+
 void SceneOptions::add_show() {
   add_key("view.theme", "--theme", "NAME", "Colours: " + theme_names());
   add_key("show.overlays", "--show", "NAMES",

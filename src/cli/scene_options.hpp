@@ -33,6 +33,9 @@ class SceneOptions {
   /// Adds --fps, --speed and what else says how time runs in the video beside these.
   void add_timing();
 
+  /// Adds --sound and --no-sound.
+  void add_sound();
+
   /// @throws SceneError, UsageError; also if the file is a storyboard.
   Scene scene() const;
   /// @param defaults  win over the scene file, but not over options.
@@ -47,7 +50,7 @@ class SceneOptions {
   /// Adds an option that sets a key of the scene file.
   void add_key(const std::string& key, const std::string& option, const std::string& placeholder,
                const std::string& help);
-  void set_background(SceneBuilder& builder) const;
+  void set_background(ScriptBuilder& builder) const;
   /// Adds an option without a value that sets a key to true.
   void add_flag(const std::string& key, const std::string& option, const std::string& help);
   void add_pacing();

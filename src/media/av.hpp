@@ -37,6 +37,7 @@ using AvInputPtr = std::unique_ptr<AVFormatContext, AvDeleter<avformat_close_inp
 using AvFramePtr = std::unique_ptr<AVFrame, AvDeleter<av_frame_free>>;
 using AvPacketPtr = std::unique_ptr<AVPacket, AvDeleter<av_packet_free>>;
 using AvCodecContextPtr = std::unique_ptr<AVCodecContext, AvDeleter<avcodec_free_context>>;
+using AvParametersPtr = std::unique_ptr<AVCodecParameters, AvDeleter<avcodec_parameters_free>>;
 using AvHashPtr = std::unique_ptr<AVHashContext, AvDeleter<av_hash_freep>>;
 using AvOutputPtr = std::unique_ptr<AVFormatContext, AvOutputDeleter>;
 

@@ -41,6 +41,10 @@ std::unique_ptr<Output> y4m_output(const OutputRequest& request);
 /// writes it for rawvideo rgb24 (rgba, if the frames have alpha) without its #software line.
 std::unique_ptr<Output> framehash_output(const OutputRequest& request);
 
+/// Sound alone, uncompressed: 24 bits.
+/// @throws UsageError if it is longer than such a file can be.
+std::unique_ptr<Output> wav_output(const OutputRequest& request);
+
 /// Takes frames and keeps nothing: what rendering costs without any output.
 std::unique_ptr<Output> null_output(const OutputRequest& request);
 

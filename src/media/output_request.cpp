@@ -26,6 +26,14 @@ void ChunkEncoder::take(const ImageView& frame, std::span<const PixelRect> chang
   is_empty_ = false;
 }
 
+void FrameSink::take_sound(PacketSource& /*sound*/) {
+  throw MediaError("output: cannot take sound: it has no place for any");
+}
+
+std::unique_ptr<PacketSource> Output::encode_sound(SampleSource& /*samples*/) const {
+  throw MediaError("output: cannot encode sound: it has no place for any");
+}
+
 void FrameCounter::take(const EncodedChunk& chunk) {
   if (!chunk.empty() && chunk.front().pts != next_frame_) {
     throw MediaError(fmt::format("output: cannot append the chunk of frame {}: frame {} is next",

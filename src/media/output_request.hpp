@@ -5,6 +5,7 @@
 
 #include <piblocks/frame_sink.hpp>
 
+#include <optional>
 #include <string>
 
 namespace piblocks {
@@ -14,6 +15,7 @@ struct OutputRequest {
   std::string name;
   VideoFormat format;
   EncoderSettings settings;
+  std::optional<SoundFormat> sound = {};
 };
 
 /// Empty if both sides are even, as 4:2:0 needs; else what is wrong and which size to use.

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "core/output_file.hpp"
 
@@ -18,7 +19,10 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::string_view kMagic = "piblocks part 1";
 constexpr std::uint8_t kChunk = 'C';
+constexpr std::uint8_t kSound = 'S';
 constexpr std::uint8_t kEnd = 'E';
+/// Packets of sound that stand together.
+constexpr std::size_t kSoundPackets = 64;
 /// A line of the header: numbers of a scene may have 100,000 digits each.
 constexpr std::size_t kMaxLine_bytes = 4 * 1024 * 1024;
 constexpr std::size_t kMaxHeaderLines = 200;
@@ -61,14 +65,19 @@ class PartSink final : public FrameSink {
     file_.write("\n");
   }
 
-  void append(const EncodedChunk& chunk) override {
-    Bytes bytes;
-    append_number(bytes, static_cast<std::uint32_t>(chunk.size()));
-    for (const Packet& packet : chunk) append_packet(bytes, packet);
-    append_number(bytes, checksum(0, bytes));
-    file_.write({&kChunk, 1});
-    file_.write(bytes);
+  /// All of it at once: whoever joins reads it beside the chunks.
+  void take_sound(PacketSource& sound) override {
+    EncodedChunk packets;
+    while (auto packet = sound.next()) {
+      packets.push_back(std::move(*packet));
+      if (packets.size() < kSoundPackets) continue;
+      write(kSound, packets);
+      packets.clear();
+    }
+    if (!packets.empty()) write(kSound, packets);
   }
+
+  void append(const EncodedChunk& chunk) override { write(kChunk, chunk); }
 
   void finish() override {
     file_.write({&kEnd, 1});
@@ -76,6 +85,15 @@ class PartSink final : public FrameSink {
   }
 
  private:
+  void write(const std::uint8_t& kind, const EncodedChunk& chunk) {
+    Bytes bytes;
+    append_number(bytes, static_cast<std::uint32_t>(chunk.size()));
+    for (const Packet& packet : chunk) append_packet(bytes, packet);
+    append_number(bytes, checksum(0, bytes));
+    file_.write({&kind, 1});
+    file_.write(bytes);
+  }
+
   OutputFile file_;
 };
 
@@ -121,9 +139,22 @@ std::optional<std::string> PartReader::read_line(std::size_t max_bytes) {
 }
 
 std::optional<EncodedChunk> PartReader::next() {
+  while (auto record = next_record()) {
+    if (record->kind == kChunk) return std::move(record->packets);
+  }
+  return std::nullopt;
+}
+
+std::optional<EncodedChunk> PartReader::next_sound() {
+  auto record = next_record();
+  if (!record || record->kind != kSound) return std::nullopt;
+  return std::move(record->packets);
+}
+
+std::optional<PartReader::Record> PartReader::next_record() {
   const std::uint8_t kind = read(1).front();
   if (kind == kEnd && left_bytes_ == 0) return std::nullopt;
-  if (kind != kChunk) fail_damaged();
+  if (kind != kChunk && kind != kSound) fail_damaged();
 
   const Bytes count = read(4);
   std::uint32_t sum = checksum(0, count);
@@ -138,7 +169,7 @@ std::optional<EncodedChunk> PartReader::next() {
                      .key_frame = header[16] == 1});
   }
   if (number_at<std::uint32_t>(read(4), 0) != sum) fail_damaged();
-  return chunk;
+  return Record{kind, std::move(chunk)};
 }
 
 Bytes PartReader::read(std::uint64_t count) {

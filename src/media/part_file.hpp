@@ -5,7 +5,8 @@
 // The file starts with lines of text, "piblocks part 1", then "NAME: VALUE" each, then an empty
 // line. Then come the chunks, numbers in little-endian order: a byte 'C', the number of packets
 // (32 bits), the packets, and the CRC-32 of what follows the 'C'; a packet is its pts and dts
-// (64 bits each), a byte that is 1 for a key frame, its size (32 bits) and its bytes. A byte 'E'
+// (64 bits each), a byte that is 1 for a key frame, its size (32 bits) and its bytes. Before all
+// chunks there may be sound, for the whole output: likewise, with 'S' in place of 'C'. A byte 'E'
 // ends the file, so that one that was cut off is found out.
 #pragma once
 
@@ -35,8 +36,18 @@ class PartReader {
   /// The next chunk; nothing after the last.
   /// @throws IoError if the file is damaged or cut off.
   std::optional<EncodedChunk> next();
+  /// The next packets of sound; nothing after the last. Not to be mixed with next().
+  /// @throws IoError as next().
+  std::optional<EncodedChunk> next_sound();
 
  private:
+  struct Record {
+    std::uint8_t kind;
+    EncodedChunk packets;
+  };
+
+  /// @throws IoError as next().
+  std::optional<Record> next_record();
   void read_header();
   /// A line without its end; nothing if it is longer or the file ends in it.
   std::optional<std::string> read_line(std::size_t max_bytes);

@@ -19,32 +19,43 @@ struct OutputKind {
   bool (*matches)(std::string_view output);
   bool takes_encoder_settings;
   bool takes_alpha;
+  bool takes_sound;
   std::unique_ptr<Output> (*set_up)(const OutputRequest& request);
 };
 
+constexpr std::string_view kWav = "*.wav (sound alone)";
+
+constexpr bool is_wav(std::string_view output) { return output.ends_with(".wav"); }
+
 constexpr std::array kOutputKinds = {
     OutputKind{"*.mp4", [](std::string_view output) { return output.ends_with(".mp4"); }, true,
-               false, [](const OutputRequest& request) { return av_module().mp4_output(request); }},
+               false, true,
+               [](const OutputRequest& request) { return av_module().mp4_output(request); }},
     OutputKind{"*.mov", [](std::string_view output) { return output.ends_with(".mov"); }, true,
-               true, [](const OutputRequest& request) { return av_module().mov_output(request); }},
+               true, true,
+               [](const OutputRequest& request) { return av_module().mov_output(request); }},
     OutputKind{"*.webm", [](std::string_view output) { return output.ends_with(".webm"); }, true,
-               true, [](const OutputRequest& request) { return av_module().webm_output(request); }},
+               true, true,
+               [](const OutputRequest& request) { return av_module().webm_output(request); }},
     OutputKind{"*.gif", [](std::string_view output) { return output.ends_with(".gif"); }, false,
-               false, [](const OutputRequest& request) { return av_module().gif_output(request); }},
+               false, false,
+               [](const OutputRequest& request) { return av_module().gif_output(request); }},
     OutputKind{"*.apng", [](std::string_view output) { return output.ends_with(".apng"); }, false,
-               true, apng_output},
+               true, false, apng_output},
     OutputKind{"*.png with a number field such as %06d",
-               [](std::string_view output) { return output.ends_with(".png"); }, false, true,
+               [](std::string_view output) { return output.ends_with(".png"); }, false, true, false,
                png_output},
     OutputKind{"*.y4m", [](std::string_view output) { return output.ends_with(".y4m"); }, false,
-               false, y4m_output},
-    OutputKind{"- (y4m on standard output)", [](std::string_view output) { return output == "-"; },
                false, false, y4m_output},
+    OutputKind{"- (y4m on standard output)", [](std::string_view output) { return output == "-"; },
+               false, false, false, y4m_output},
     OutputKind{"*.framehash",
                [](std::string_view output) { return output.ends_with(".framehash"); }, false, true,
+               false,
                [](const OutputRequest& request) { return av_module().framehash_output(request); }},
-    OutputKind{"null", [](std::string_view output) { return output == "null"; }, false, true,
+    OutputKind{"null", [](std::string_view output) { return output == "null"; }, false, true, false,
                null_output},
+    OutputKind{kWav, is_wav, false, true, true, wav_output},
 };
 
 const OutputKind* find_kind(std::string_view output) {
@@ -107,10 +118,19 @@ std::string frame_rate_problem(const Rational& rate) {
       rate.get_str());
 }
 
+std::string sound_problem(const OutputKind& kind, const std::string& name, bool has_sound) {
+  if (kind.takes_sound || !has_sound) return {};
+  return fmt::format(
+      "output: '{}' has no sound; write one of: {}, or leave the sound out "
+      "(--no-sound)",
+      name, names([](const OutputKind& any) { return any.takes_sound; }));
+}
+
 }  // namespace
 
 std::unique_ptr<Output> set_up_output(const std::string& name, const VideoFormat& format,
-                                      const EncoderSettings& settings) {
+                                      const EncoderSettings& settings,
+                                      const std::optional<SoundFormat>& sound) {
   std::vector<std::string> problems;
   const auto report = [&](std::string problem) {
     if (!problem.empty()) problems.push_back(std::move(problem));
@@ -121,13 +141,16 @@ std::unique_ptr<Output> set_up_output(const std::string& name, const VideoFormat
   } else {
     report(settings_problem(*kind, name, settings));
     report(alpha_problem(*kind, name, format.has_alpha));
+    report(sound_problem(*kind, name, sound.has_value()));
   }
   report(size_problem(format));
   report(frame_rate_problem(format.frame_rate));
   if (!problems.empty()) throw UsageError(std::move(problems));
 
-  return kind->set_up({name, format, settings});
+  return kind->set_up({name, format, settings, sound});
 }
+
+bool is_sound_alone(const std::string& name) { return is_wav(name); }
 
 std::vector<std::string> media_library_versions() {
   std::vector<std::string> versions = av_module().av_library_versions();

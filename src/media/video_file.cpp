@@ -7,10 +7,12 @@
 #include <new>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/output_file.hpp"
 #include "media/alpha_packet.hpp"
 #include "media/output_request.hpp"
+#include "media/sound_stream.hpp"
 
 extern "C" {
 #include <libavutil/opt.h>
@@ -36,35 +38,58 @@ std::optional<std::int64_t> start_of_pictures(AVIOContext& file) {
   return std::nullopt;
 }
 
-/// Whether the index names that many packets, one after the other from there to the end.
-bool is_complete(AVStream* stream, std::int64_t packets, std::int64_t start, std::int64_t end) {
-  if (avformat_index_get_entries_count(stream) != packets) return false;
-  for (int i = 0; i < packets; ++i) {
-    const AVIndexEntry* const entry = avformat_index_get_entry(stream, i);
-    if (entry->pos != start) return false;
-    start += entry->size;
+/// Whether the indices name these numbers of packets, one by one from there to the end, in whatever
+/// order the streams take turns.
+bool is_complete(std::span<AVStream* const> streams, std::span<const std::int64_t> packets,
+                 std::int64_t start, std::int64_t end) {
+  if (streams.size() != packets.size()) return false;
+  std::vector<int> next(streams.size(), 0);
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    if (avformat_index_get_entries_count(streams[i]) != packets[i]) return false;
+  }
+  bool found = true;
+  while (found) {
+    found = false;
+    for (std::size_t i = 0; i < streams.size(); ++i) {
+      while (next[i] < packets[i]) {
+        const AVIndexEntry* const entry = avformat_index_get_entry(streams[i], next[i]);
+        if (entry->pos != start) break;
+        start += entry->size;
+        ++next[i];
+        found = true;
+      }
+    }
   }
   return start == end;
 }
 
-/// The index comes first, the pictures are behind it to the end of the file.
-bool is_whole_mov(AVFormatContext& file, std::int64_t packets) {
+/// The index comes first, the packets are behind it to the end of the file.
+bool is_whole_mov(AVFormatContext& file, std::span<const std::int64_t> packets) {
   const auto start = start_of_pictures(*file.pb);
-  return start && is_complete(file.streams[0], packets, *start, avio_size(file.pb));
+  return start && is_complete({file.streams, file.nb_streams}, packets, *start, avio_size(file.pb));
 }
 
-/// As many packets can be read as were written.
-bool is_whole_webm(AVFormatContext& file, std::int64_t packets) {
+/// As many packets of each stream can be read as were written.
+bool is_whole_webm(AVFormatContext& file, std::span<const std::int64_t> packets) {
+  std::vector<std::int64_t> left(packets.begin(), packets.end());
   const auto packet = own_av<AvPacketPtr>(av_packet_alloc(), "packet");
   int code = 0;
-  for (; (code = av_read_frame(&file, packet.get())) >= 0; av_packet_unref(packet.get())) --packets;
-  return code == AVERROR_EOF && packets == 0;
+  while ((code = av_read_frame(&file, packet.get())) >= 0) {
+    const auto stream = static_cast<std::size_t>(packet->stream_index);
+    if (stream >= left.size()) return false;
+    --left[stream];
+    av_packet_unref(packet.get());
+  }
+  return code == AVERROR_EOF && std::ranges::count(left, 0) == std::ssize(left);
 }
 
 class VideoFile final : public FrameSink {
  public:
-  VideoFile(const std::string& name, const VideoEncoder& encoder, const Container& container);
+  /// @param sound  of the second stream, if there is one.
+  VideoFile(const std::string& name, const VideoEncoder& encoder, const Container& container,
+            const SoundEncoder* sound);
 
+  void take_sound(PacketSource& sound) override;
   void append(const EncodedChunk& chunk) override;
   void finish() override;
 
@@ -81,6 +106,7 @@ class VideoFile final : public FrameSink {
   TemporaryFile file_;
   AvOutputPtr muxer_;  // after file_: closed before the file is removed
   AvPacketPtr packet_;
+  std::optional<SoundStream> sound_;
   FrameCounter counter_;
   std::int64_t packets_ = 0;
 };
@@ -97,7 +123,7 @@ AvOutputPtr open_muxer(const std::string& path, const std::string& name, const c
 }
 
 VideoFile::VideoFile(const std::string& name, const VideoEncoder& encoder,
-                     const Container& container)
+                     const Container& container, const SoundEncoder* sound)
     : name_(name),
       encoder_(encoder),
       container_(container),
@@ -105,7 +131,13 @@ VideoFile::VideoFile(const std::string& name, const VideoEncoder& encoder,
       muxer_(open_muxer(file_.path(), name_, container.muxer)),
       packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {
   add_stream();
+  if (sound != nullptr) sound_.emplace(*sound, *muxer_, name_);
   write_header();
+}
+
+void VideoFile::take_sound(PacketSource& sound) {
+  if (!sound_) return FrameSink::take_sound(sound);
+  sound_->take(sound);
 }
 
 void VideoFile::add_stream() {
@@ -133,6 +165,7 @@ void VideoFile::append(const EncodedChunk& chunk) {
 }
 
 void VideoFile::write(const Packet& packet) {
+  if (sound_) sound_->write_until(packet.dts, av_inv_q(encoder_.frame_rate()));
   av_packet_unref(packet_.get());
   std::span<const std::uint8_t> picture = packet.bytes;
   if (encoder_.parameters().format == AV_PIX_FMT_YUVA420P) {
@@ -170,13 +203,16 @@ void VideoFile::check() const {
     return read.codec_id == written.codec_id &&
            (read.extradata_size > 0) == (written.extradata_size > 0);
   };
-  if (file->nb_streams != 1 || !is_ours(*file->streams[0]->codecpar) ||
-      !container_.is_whole(*file, packets_)) {
+  std::vector<std::int64_t> packets = {packets_};
+  if (sound_) packets.push_back(sound_->packets());
+  if (file->nb_streams != packets.size() || !is_ours(*file->streams[0]->codecpar) ||
+      !container_.is_whole(*file, packets)) {
     throw MediaError(fmt::format("video: the index of '{}' was not written whole", name_));
   }
 }
 
 void VideoFile::finish() {
+  if (sound_) sound_->write_all();
   check_av(av_write_trailer(muxer_.get()), "write the index of", name_);
   avio_flush(muxer_->pb);
   check_av(muxer_->pb->error, "write to", name_);
@@ -187,13 +223,13 @@ void VideoFile::finish() {
 
 }  // namespace
 
-const Container kMp4 = {"mp4", "movflags", "+faststart", is_whole_mov};
-const Container kMov = {"mov", "movflags", "+faststart", is_whole_mov};
-const Container kWebm = {"webm", "cues_to_front", "1", is_whole_webm};
+const Container kMp4 = {"mp4", "movflags", "+faststart", is_whole_mov, kAac};
+const Container kMov = {"mov", "movflags", "+faststart", is_whole_mov, kAac};
+const Container kWebm = {"webm", "cues_to_front", "1", is_whole_webm, kOpus};
 
 std::unique_ptr<FrameSink> open_video_file(const std::string& name, const VideoEncoder& encoder,
-                                           const Container& container) {
-  return std::make_unique<VideoFile>(name, encoder, container);
+                                           const Container& container, const SoundEncoder* sound) {
+  return std::make_unique<VideoFile>(name, encoder, container, sound);
 }
 
 }  // namespace piblocks

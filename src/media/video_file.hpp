@@ -1,12 +1,15 @@
-// Files of one video stream, written by libavformat.
+// Files of a video stream, and one of sound if asked for, written by libavformat.
 // In: chunks of packets, in order. Out: a file whose index comes first, or no trace of it.
 #pragma once
 
 #include <piblocks/frame_sink.hpp>
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 
+#include "media/sound_encoder.hpp"
 #include "media/video_encoder.hpp"
 
 namespace piblocks {
@@ -16,17 +19,19 @@ struct Container {
   const char* muxer;         ///< its name
   const char* index_option;  ///< which, set so, brings the index to the front
   const char* index_value;
-  /// Whether a file that is read back has so many packets.
-  bool (*is_whole)(AVFormatContext& file, std::int64_t packets);
+  /// Whether a file that is read back has so many packets of each stream.
+  bool (*is_whole)(AVFormatContext& file, std::span<const std::int64_t> packets);
+  SoundCodec sound;  ///< what its sound is encoded by
 };
 
 extern const Container kMp4;
 extern const Container kMov;
 extern const Container kWebm;
 
-/// @param encoder  of the stream; it must outlive the sink.
+/// @param encoder  of the pictures, and
+/// @param sound    of the sound, if there is any; they must outlive the sink.
 /// @throws UsageError if the file cannot be opened.
 std::unique_ptr<FrameSink> open_video_file(const std::string& name, const VideoEncoder& encoder,
-                                           const Container& container);
+                                           const Container& container, const SoundEncoder* sound);
 
 }  // namespace piblocks

@@ -48,6 +48,12 @@ std::optional<h264::ParameterSets> sets_for_damage(const VideoEncoder& encoder,
   }
 }
 
+/// The pictures' part of a signature with that of the sound.
+std::string with_sound(std::string signature, const std::optional<SoundEncoder>& sound) {
+  if (sound) signature += ", sound by " + sound->signature();
+  return signature;
+}
+
 /// H.264 in MP4, or the same stream in MOV.
 class H264Output final : public Output {
  public:
@@ -58,6 +64,7 @@ class H264Output final : public Output {
         sets_(sets_for_damage(encoder_, request.settings)),
         when_too_much_(request.settings.encoder == kDamage ? WhenTooMuch::go_on
                                                            : WhenTooMuch::leave_to_stream_encoder) {
+    if (request.sound) sound_.emplace(container.sound, *request.sound);
   }
   std::int64_t frames_per_chunk() const override { return encoder_.frames_per_chunk(); }
   std::unique_ptr<ChunkEncoder> make_encoder() const override {
@@ -66,10 +73,13 @@ class H264Output final : public Output {
   }
   std::string signature() const override {
     const std::string stream = fmt::format("{} by {}", container_.muxer, encoder_.signature());
-    return sets_ ? fmt::format("{}, changes at QP {}", stream, kQp) : stream;
+    return with_sound(sets_ ? fmt::format("{}, changes at QP {}", stream, kQp) : stream, sound_);
+  }
+  std::unique_ptr<PacketSource> encode_sound(SampleSource& samples) const override {
+    return sound_ ? sound_->encode(samples) : Output::encode_sound(samples);
   }
   std::unique_ptr<FrameSink> open() const override {
-    return open_video_file(name_, encoder_, container_);
+    return open_video_file(name_, encoder_, container_, sound_ ? &*sound_ : nullptr);
   }
 
  private:
@@ -78,28 +88,35 @@ class H264Output final : public Output {
   VideoEncoder encoder_;
   std::optional<h264::ParameterSets> sets_;
   WhenTooMuch when_too_much_;
+  std::optional<SoundEncoder> sound_;
 };
 
 /// A stream of libavcodec's alone.
 class EncodedOutput final : public Output {
  public:
   EncodedOutput(const OutputRequest& request, const Container& container, CodecChoice choice)
-      : name_(request.name), container_(container), encoder_(request.format, std::move(choice)) {}
+      : name_(request.name), container_(container), encoder_(request.format, std::move(choice)) {
+    if (request.sound) sound_.emplace(container.sound, *request.sound);
+  }
   std::int64_t frames_per_chunk() const override { return encoder_.frames_per_chunk(); }
   std::unique_ptr<ChunkEncoder> make_encoder() const override {
     return std::make_unique<VideoChunkEncoder>(encoder_);
   }
   std::string signature() const override {
-    return fmt::format("{} by {}", container_.muxer, encoder_.signature());
+    return with_sound(fmt::format("{} by {}", container_.muxer, encoder_.signature()), sound_);
+  }
+  std::unique_ptr<PacketSource> encode_sound(SampleSource& samples) const override {
+    return sound_ ? sound_->encode(samples) : Output::encode_sound(samples);
   }
   std::unique_ptr<FrameSink> open() const override {
-    return open_video_file(name_, encoder_, container_);
+    return open_video_file(name_, encoder_, container_, sound_ ? &*sound_ : nullptr);
   }
 
  private:
   std::string name_;
   const Container& container_;
   VideoEncoder encoder_;
+  std::optional<SoundEncoder> sound_;
 };
 
 }  // namespace

@@ -26,7 +26,8 @@ Motion motion_of(const Block& block) {
 
 std::unique_ptr<CollisionLog> store(const BlockSystem& system, Simulate* simulate) {
   const FreeFlight initial{0, 0, motion_of(system.blue), motion_of(system.red)};
-  return std::make_unique<StoredLog>(initial, simulate(system), simulate(reversed(system)));
+  return std::make_unique<StoredLog>(to_double(system.blue.mass / system.red.mass), initial,
+                                     simulate(system), simulate(reversed(system)));
 }
 
 bool is_at_rest(const BlockSystem& system) {

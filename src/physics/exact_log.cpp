@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "physics/impact_sum.hpp"
 #include "physics/indexed_stream.hpp"
 #include "physics/require_finite.hpp"
 
@@ -81,6 +82,18 @@ Motion motion_of(const Block& block) {
   return {to_double(block.position), to_double(block.velocity)};
 }
 
+/// In the unit of Impact. It is rounded once its square, which has no root in it, is known.
+double impulse_of(const ExactCollision& collision) {
+  const Block& blue = collision.after.blue;
+  const Block& red = collision.after.red;
+  const Rational r = blue.mass / red.mass;
+  const Rational change = collision.kind == CollisionKind::wall
+                              ? Rational((1 + r) * blue.velocity)
+                              : Rational(red.velocity - blue.velocity);
+  const Rational speed_squared = r * blue.velocity * blue.velocity + red.velocity * red.velocity;
+  return std::sqrt(to_double(change * change / speed_squared));
+}
+
 /// The blocks as the nearest doubles.
 struct Rounded {
   Time time;
@@ -134,6 +147,30 @@ FreeFlight ExactLog::flight_at(const Rational& time) const {
   const Rounded at = rounded(time, now);
   return {count, 0, at.blue, at.red};
 }
+
+const ExactCollision& ExactLog::event(long index) const {
+  return index > 0 ? forward_[static_cast<std::size_t>(index - 1)]
+                   : backward_[static_cast<std::size_t>(-index)];
+}
+
+Rational ExactLog::time_of(long index) const {
+  const Rational& time = event(index).time;
+  return index > 0 ? time : Rational(-time);
+}
+
+std::optional<Impact> ExactLog::impact(CollisionKind kind, const Integer& first,
+                                       const Integer& last) const {
+  ImpactSum sum(kind);
+  for (long index = first.get_si(); index <= last.get_si(); ++index) {
+    const ExactCollision& collision = event(index);
+    if (collision.kind != kind) continue;
+    sum.add(to_time(time_of(index)), impulse_of(collision),
+            to_double(collision.after.blue.position));
+  }
+  return sum.result();
+}
+
+Integer ExactLog::count_near(const Time& time) const { return flight_at(to_rational(time)).count; }
 
 std::optional<PositionBounds> ExactLog::bounds_at(const Rational& time) const {
   const FreeFlight now = flight_at(time);

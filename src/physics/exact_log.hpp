@@ -26,9 +26,16 @@ class ExactLog final : public CollisionLog {
   Collision at(const Integer& index) const override;
   std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const override;
   FreeFlight flight_at(const Rational& time) const override;
+  std::optional<Impact> impact(CollisionKind kind, const Integer& first,
+                               const Integer& last) const override;
+  Integer count_near(const Time& time) const override;
   std::optional<PositionBounds> bounds_at(const Rational& time) const override;
 
  private:
+  /// When the collision with this index happens.
+  Rational time_of(long index) const;
+  const ExactCollision& event(long index) const;
+
   BlockSystem initial_;
   std::vector<ExactCollision> forward_;
   std::vector<ExactCollision> backward_;  // with the velocities and times of the run reversed

@@ -1,8 +1,10 @@
 #include "physics/stored_log.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "physics/impact_sum.hpp"
 #include "physics/indexed_stream.hpp"
 
 namespace piblocks {
@@ -34,9 +36,10 @@ std::size_t count_before(const std::vector<StoredCollision>& collisions, const T
 
 }  // namespace
 
-StoredLog::StoredLog(FreeFlight initial, std::vector<StoredCollision> forward,
+StoredLog::StoredLog(double mass_ratio, FreeFlight initial, std::vector<StoredCollision> forward,
                      std::vector<StoredCollision> backward)
-    : initial_(std::move(initial)),
+    : mass_ratio_(mass_ratio),
+      initial_(std::move(initial)),
       forward_(std::move(forward)),
       backward_(std::move(backward)),
       size_(forward_.size()) {}
@@ -68,6 +71,34 @@ FreeFlight StoredLog::flight_at(const Rational& time) const {
   }
   flight.age = (t.hi - since.hi) + (t.lo - since.lo);
   return flight;
+}
+
+double StoredLog::impulse_of(const StoredCollision& collision) const {
+  const double blue = collision.blue.velocity;
+  const double red = collision.red.velocity;
+  const double speed = std::hypot(std::sqrt(mass_ratio_) * blue, red);
+  const double change =
+      collision.kind == CollisionKind::wall ? (1 + mass_ratio_) * blue : red - blue;
+  return std::fabs(change) / speed;
+}
+
+std::optional<Impact> StoredLog::impact(CollisionKind kind, const Integer& first,
+                                        const Integer& last) const {
+  ImpactSum sum(kind);
+  for (long index = first.get_si(); index <= last.get_si(); ++index) {
+    const bool is_late = index > 0;
+    const StoredCollision& c = is_late ? forward_[static_cast<std::size_t>(index - 1)]
+                                       : backward_[static_cast<std::size_t>(-index)];
+    if (c.kind != kind) continue;
+    sum.add(is_late ? c.time : negated(c.time), impulse_of(c), c.blue.position);
+  }
+  return sum.result();
+}
+
+Integer StoredLog::count_near(const Time& time) const {
+  const std::size_t happened = count_until(forward_, time);
+  if (happened > 0) return Integer(happened);
+  return -Integer(count_before(backward_, negated(time)));
 }
 
 }  // namespace piblocks

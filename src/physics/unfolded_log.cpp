@@ -23,6 +23,12 @@ constexpr double kFarAway = 0x1p1000;
 
 bool is_odd(const Integer& n) { return mpz_odd_p(n.get_mpz_t()) != 0; }
 
+/// Half the sum.
+DoubleDouble mean(const DoubleDouble& a, const DoubleDouble& b) {
+  const DoubleDouble sum = two_sum(a.hi, b.hi);
+  return {sum.hi / 2, (sum.lo + a.lo + b.lo) / 2};
+}
+
 ExactMotion checked(const BlockSystem& system) {
   ExactMotion motion(system);
   if (std::labs(Real(64, motion.ratio).exponent()) > kMaxRatioExponent) {
@@ -44,15 +50,21 @@ UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion)
 UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion, const Fan& fan)
     : exact_(motion), form_(system, motion, fan), size_(motion.total(fan.future)) {}
 
-double UnfoldedLog::tau_at(const Rational& time, const Time& t) const {
+double UnfoldedLog::tau_near(const Time& t, double* magnitude) const {
   const Time& turn = form_.closest_approach;
   const double hi = t.hi / form_.time_unit;
   const Time difference = two_sum(hi, -turn.hi);
-  const double tau = difference.hi + (difference.lo + (t.lo / form_.time_unit - turn.lo));
+  if (magnitude != nullptr) *magnitude = std::fabs(hi) + std::fabs(turn.hi);
+  return difference.hi + (difference.lo + (t.lo / form_.time_unit - turn.lo));
+}
+
+double UnfoldedLog::tau_at(const Rational& time, const Time& t) const {
+  double magnitude = 0;
+  const double tau = tau_near(t, &magnitude);
 
   // Both times are right to 2^-106 of them. Where the difference is so small that this would
   // matter beside the time that passing the corner takes, it is taken of the exact times.
-  const double error = 0x1p-104 * (std::fabs(hi) + std::fabs(turn.hi));
+  const double error = 0x1p-104 * magnitude;
   if (error <= 0x1p-56 * (std::fabs(tau) + form_.passage)) return tau;
   return to_double((time - exact_.closest_approach) / Rational(form_.time_unit));
 }
@@ -142,6 +154,42 @@ Collision UnfoldedLog::at(const Integer& index) const {
                       {now.red_position, now.red_velocity}};
   require_finite(collision.time, collision.blue, collision.red, "closed form");
   return collision;
+}
+
+std::optional<Impact> UnfoldedLog::impact(CollisionKind kind, const Integer& first,
+                                          const Integer& last) const {
+  const bool odd = kind == CollisionKind::blocks;
+  Integer from = ray_of(first);
+  Integer to = ray_of(last);
+  if (is_odd(from) != odd) ++from;
+  if (is_odd(to) != odd) --to;
+  if (from > to) return std::nullopt;
+
+  const DoubleDouble from_past = mean(form_.past.steps_from(from), form_.past.steps_from(to));
+  const DoubleDouble to_future = mean(form_.future.steps_from(from), form_.future.steps_from(to));
+  const End& end = to_future.hi < from_past.hi ? form_.future : form_.past;
+  const Direction seen = form_.direction(&end == &form_.future ? to_future : from_past, end.beyond);
+  // What one collision in the middle has, for each of n, and how far they fall short of that:
+  // they lie 2 theta apart, and sin(d - (n-1) theta) + … + sin(d + (n-1) theta) is
+  // sin d sin(n theta)/sin theta, as is the sum of cosines, which the times are weighted by, with
+  // cos d.
+  const double one = seen.sine / form_.step.sine / (odd ? 1 : form_.step.cosine);
+  double number = 1;
+  if (from != to) {
+    const Integer n = (to - from) / 2 + 1;
+    number = form_.direction(to_time(Rational(n)), {}).sine / form_.step.sine;
+  }
+  const double reach = form_.kind(odd).blue_reach * (form_.sigma / seen.sine);
+  return Impact{kind, form_.time(end.sign, seen), one * number,
+                form_.blue_offset + reach * form_.ell};
+}
+
+Integer UnfoldedLog::count_near(const Time& time) const {
+  Sighting seen = sight(tau_near(time));
+  seen.decided = true;
+  const Rational exact = exact_.through_corner() ? to_rational(time) : Rational(0);
+  Integer ray = place(seen, exact).ray;
+  return exact_.blocks_first ? ray : Integer(ray + 1);
 }
 
 std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,

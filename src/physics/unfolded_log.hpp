@@ -25,6 +25,9 @@ class UnfoldedLog final : public CollisionLog {
   Collision at(const Integer& index) const override;
   std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const override;
   FreeFlight flight_at(const Rational& time) const override;
+  std::optional<Impact> impact(CollisionKind kind, const Integer& first,
+                               const Integer& last) const override;
+  Integer count_near(const Time& time) const override;
   std::optional<PositionBounds> bounds_at(const Rational& time) const override;
 
  private:
@@ -46,6 +49,8 @@ class UnfoldedLog final : public CollisionLog {
     Integer ray;
   };
 
+  /// Scaled time since closest approach; `magnitude` is that of the times it is the difference of.
+  double tau_near(const Time& t, double* magnitude = nullptr) const;
   /// Scaled time since closest approach, rounded once. `t` is the time as a double-double.
   double tau_at(const Rational& time, const Time& t) const;
   Sighting sight(double tau) const;

@@ -89,6 +89,14 @@ struct ClosedForm {
     return odd ? RayKind{step.cosine, step.cosine, -1} : RayKind{0, 1, 1};
   }
 
+  /// When the line crosses a ray of this direction from the end of time that has this sign.
+  Time time(double sign, const Direction& ray) const {
+    const DoubleDouble sum =
+        two_sum(closest_approach.hi, sign * (passage * (ray.cosine / ray.sine)));
+    const DoubleDouble scaled = two_sum(sum.hi, sum.lo + closest_approach.lo);
+    return {scaled.hi * time_unit, scaled.lo * time_unit};
+  }
+
   /// The collision on a ray.
   /// @param sign  of the end of time
   /// @param ray   direction of the ray, from that end
@@ -97,11 +105,7 @@ struct ClosedForm {
                              const RayKind& kind) const {
     const double reach = sigma / ray.sine;  // R/ell
     const double distance = ell * reach;
-    const DoubleDouble sum =
-        two_sum(closest_approach.hi, sign * (passage * (ray.cosine / ray.sine)));
-    const DoubleDouble time = two_sum(sum.hi, sum.lo + closest_approach.lo);
-    const double hi = time.hi * time_unit;
-    const double lo = time.lo * time_unit;
+    const auto [hi, lo] = time(sign, ray);
     // A log begins at time 0: what is before can only be the rounding of a collision then.
     return {hi < 0 ? 0.0 : hi,
             hi < 0 ? 0.0 : lo,

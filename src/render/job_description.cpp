@@ -78,6 +78,7 @@ JobDescription read_description(const PartInfo& part) {
   job.encoder.encoder = setting(part, "encoder");
   job.signature = value_of(part, "output");
   job.frame_count = number(part, "frames", kMaxFrames);
+  job.has_sound = value_of(part, "sound.on") == "true";
   return job;
 }
 

@@ -22,6 +22,7 @@ struct JobDescription {
   EncoderSettings encoder;
   std::string signature;
   std::int64_t frame_count = 0;
+  bool has_sound = false;
 };
 
 /// The header of a part file, and the file's name for messages.

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "media/part_file.hpp"
+#include "render/film_sound.hpp"
 #include "render/job_description.hpp"
 
 namespace piblocks {
@@ -97,6 +98,11 @@ void check_output(const std::vector<NumberedPart>& parts, const std::string& nam
                   name, job.signature, output.signature()));
 }
 
+std::optional<SoundFormat> sound_of(const JobDescription& job) {
+  if (!job.has_sound) return std::nullopt;
+  return sound_format(job.frame_count, job.format.frame_rate);
+}
+
 }  // namespace
 
 std::int64_t join(const std::vector<std::string>& parts, const std::string& output,
@@ -106,10 +112,12 @@ std::int64_t join(const std::vector<std::string>& parts, const std::string& outp
   check_same_job(in_order);
   check_all_there(in_order);
   const JobDescription job = read_description(in_order.front().info);
-  const auto joined = set_up_output(output, job.format, job.encoder);
+  const auto joined = set_up_output(output, job.format, job.encoder, sound_of(job));
   check_output(in_order, output, *joined, job);
 
   const auto sink = joined->open();
+  std::optional<PartSound> sound;
+  if (job.has_sound) sink->take_sound(sound.emplace(in_order.front().info.path));
   std::int64_t frames = 0;
   for (const auto& [number, info] : in_order) {
     PartReader reader(info.path);

@@ -7,6 +7,7 @@
 #include "media/part_file.hpp"
 #include "render/chunks.hpp"
 #include "render/film.hpp"
+#include "render/film_sound.hpp"
 #include "render/job_description.hpp"
 #include "render/ordered_pool.hpp"
 #include "render/stage_clock.hpp"
@@ -14,17 +15,29 @@
 namespace piblocks {
 namespace {
 
-/// Everything that decides what the frames show and how they are encoded.
+/// Everything that decides what the frames show, how they sound, and how they are encoded.
 struct Plan {
   explicit Plan(const RenderJob& job)
       : film(job.script),
+        sound(sound_of(job, film)),
         output(set_up_output(job.output,
                              {film.view().width_px, film.view().height_px, film.view().frame_rate,
                               film.ground() == Ground::transparent},
-                             job.encoder)),
-        chunks{film.frame_count(), output->frames_per_chunk()} {}
+                             job.encoder, sound)),
+        chunks{output->has_frames() ? film.frame_count() : 0, output->frames_per_chunk()} {}
+
+  static std::optional<SoundFormat> sound_of(const RenderJob& job, const Film& film) {
+    const auto* const scene = std::get_if<Scene>(&job.script);
+    if (is_sound_alone(job.output)) {
+      if (scene == nullptr) throw UsageError("render: a storyboard has no sound to write");
+    } else if (scene == nullptr || !scene->sound.on) {
+      return std::nullopt;
+    }
+    return sound_format(film.frame_count(), film.view().frame_rate);
+  }
 
   Film film;
+  std::optional<SoundFormat> sound;
   std::unique_ptr<Output> output;
   Chunks chunks;
 };
@@ -97,12 +110,53 @@ void check_part(const RenderJob& job) {
     throw UsageError(fmt::format("part {} of {}: the number must be from 1 to the count",
                                  job.part->number, job.part->count));
   }
-  if (job.output == "-" || job.output == "null") {
+  if (job.output == "-" || job.output == "null" || is_sound_alone(job.output)) {
     throw UsageError(
         fmt::format("part: there are no parts of output '{}'; name a file that the "
                     "parts are to be joined to",
                     job.output));
   }
+}
+
+/// Packets whose making is charged to the sound, whoever asks for them.
+class ClockedPackets final : public PacketSource {
+ public:
+  ClockedPackets(std::unique_ptr<PacketSource> packets, StageClock& clock)
+      : packets_(std::move(packets)), clock_(clock) {}
+
+  std::optional<Packet> next() override {
+    const Stage before = clock_.stage();
+    clock_.enter(Stage::sound);
+    std::optional<Packet> packet = packets_->next();
+    clock_.enter(before);
+    return packet;
+  }
+
+ private:
+  std::unique_ptr<PacketSource> packets_;
+  StageClock& clock_;
+};
+
+/// The soundtrack on its way to a sink. Nothing of it is made before the sink asks for it.
+struct SoundWork {
+  std::unique_ptr<SampleSource> samples;
+  std::unique_ptr<PacketSource> packets;
+};
+
+/// Empty if there is no sound, or another part has it.
+SoundWork sound_for(const RenderJob& job, const Plan& plan, FrameSink& sink,
+                    const std::function<void(const Progress&)>& on_progress, StageClock& clock,
+                    const std::stop_token& stop) {
+  if (!plan.sound || (job.part && job.part->number != 1)) return {};
+  const auto report = [&](std::int64_t samples) {
+    if (plan.output->has_frames() || samples == plan.sound->size) return;
+    const std::int64_t frames = plan.film.frame_count();
+    on_progress({samples * frames / plan.sound->size, frames});
+  };
+  SoundWork work{std::make_unique<FilmSound>(plan.film, stop, report), nullptr};
+  work.packets = std::make_unique<ClockedPackets>(plan.output->encode_sound(*work.samples), clock);
+  sink.take_sound(*work.packets);
+  return work;
 }
 
 void add(StageSeconds& sum, const StageSeconds& spent) {
@@ -127,9 +181,11 @@ Rendered render(const RenderJob& job, const std::function<void(const Progress&)>
     };
   };
 
-  Rendered rendered{frames_until(share.end), {}};
+  Rendered rendered{plan.output->has_frames() ? frames_until(share.end) : plan.film.frame_count(),
+                    {}};
   on_progress({0, rendered.frame_count});
   StageClock clock(job.profile, Stage::mux);
+  const SoundWork sound = sound_for(job, plan, *sink, on_progress, clock, stop);
   OrderedPool<EncodedWork> pool(share.end - share.begin, job.jobs, make_worker);
   for (std::int64_t chunk = share.begin; const auto work = pool.take(stop); ++chunk) {
     sink->append(work->chunk);
@@ -140,6 +196,7 @@ Rendered render(const RenderJob& job, const std::function<void(const Progress&)>
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
   clock.enter(Stage::write);
   sink->finish();
+  if (!plan.output->has_frames()) on_progress({rendered.frame_count, rendered.frame_count});
   if (job.profile) {
     add(rendered.profile.stages, clock.spent());
     rendered.profile.total_s = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);

@@ -27,6 +27,7 @@ class StageClock {
     if (is_on_) charge();
     stage_ = stage;
   }
+  Stage stage() const noexcept { return stage_; }
   /// What was spent up to now.
   const StageSeconds& spent() {
     if (is_on_) charge();

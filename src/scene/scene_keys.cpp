@@ -204,6 +204,8 @@ constexpr auto kKeys = std::to_array<SceneKey>({
      [](const Scene& s) { return number(s.pacing.hold_end_s); }},
     {"time.loop", [](Scene& s, const Values& v) { s.pacing.loop = parse_bool(v); },
      [](const Scene& s) { return flag(s.pacing.loop); }},
+    {"sound.on", [](Scene& s, const Values& v) { s.sound.on = parse_bool(v); },
+     [](const Scene& s) { return flag(s.sound.on); }},
     {"show.overlays",
      [](Scene& s, const Values& v) { s.show.overlays = parse_names(v, parse_overlay); },
      [](const Scene& s) { return each(s.show.overlays); }},

@@ -216,6 +216,9 @@ Script ScriptBuilder::build() const {
     }
   };
   add(film_.problems_);
+  if (film_.scene_.sound.on) {
+    add({film_.described({"sound.on", "= true: a storyboard has no sound; leave it out"})});
+  }
   Storyboard story{film_.scene_.view, film_.scene_.golden, {}};
   for (const Problem& problem : problems_of(film_.scene_)) {
     if (is_film_key(problem.key)) add({film_.described(problem)});

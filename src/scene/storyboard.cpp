@@ -28,6 +28,9 @@ void add_problems(const Runs& runs, const View& film, const std::string& place,
     problems.push_back(fmt::format("{}: compare: must be from 2 to {} runs", place, kMaxCompared));
   }
   for (const Scene& run : runs) {
+    if (run.sound.on) {
+      problems.push_back(fmt::format("{}: sound.on = true: a storyboard has no sound", place));
+    }
     for (const Problem& problem : problems_of(with_film_view(run, film))) {
       problems.push_back(fmt::format("{}: {} {}", place, problem.key, problem.reason));
     }

@@ -17,6 +17,8 @@ failed() {
 readonly -a outputs=(
   "render --to 9 -o default.mp4"
   "render --to 9 --preset medium -o medium.mp4"
+  "render --to 9 --sound -o sound.mp4"
+  "render --to 9 -o sound.wav"
   "render --to 9 -o out.y4m"
   "render --to 9 -o out.framehash"
   "render --to 2 -o %03d.png"

@@ -5,16 +5,17 @@ cmake_minimum_required(VERSION 3.25)
 
 # Layers, which are the folders of src, and the layers whose headers each may include. An entry
 # LAYER/HEADER admits one public header of a layer.
-set(layers core physics scene draw media golden render cli)
+set(layers core physics scene sound draw media golden render cli)
 set(core_may core)
 set(physics_may core physics)
 set(scene_may core physics scene)
+set(sound_may core physics scene sound)
 # Drawing sees states and collisions, not the engines that make them.
 set(draw_may core physics/collision_log physics/interpolator scene draw)
 # Sinks know pixels and packets, nothing of blocks.
 set(media_may core media)
 set(golden_may core media golden)
-set(render_may core physics scene draw media golden render)
+set(render_may core physics scene sound draw media golden render)
 set(cli_may ${layers})
 
 # The layer of each header in include/piblocks.
@@ -22,6 +23,7 @@ set(core_headers color error exact geometry image time version)
 set(physics_headers blocks collision_log event_simulator interpolator particle
     physics_versions)
 set(scene_headers instant pacing scene schedule show storyboard timeline)
+set(sound_headers soundtrack)
 set(draw_headers canvas composition draw_list item_id sheet)
 set(media_headers frame_sink png)
 set(golden_headers compare compare_files)

@@ -1,0 +1,75 @@
+// What a film sounds like, for the outputs that take sound.
+// In: a film. Out: its samples; or from a part file, its packets.
+#pragma once
+
+#include <piblocks/frame_sink.hpp>
+#include <piblocks/soundtrack.hpp>
+
+#include <functional>
+#include <stop_token>
+#include <string>
+
+#include "media/part_file.hpp"
+#include "render/film.hpp"
+
+namespace piblocks {
+
+/// Of a film with so many frames: as long as these, to the nearest sample.
+inline SoundFormat sound_format(std::int64_t frame_count, const Rational& frame_rate) {
+  const Rational size = Rational(frame_count) / frame_rate * Soundtrack::kRate_hz;
+  return {.rate_hz = Soundtrack::kRate_hz, .size = floor(size + Rational(1, 2)).get_si()};
+}
+
+/// A film's soundtrack, until it is told to stop.
+class FilmSound final : public SampleSource {
+ public:
+  /// @param film  of a single scene.
+  /// @param on_samples  is told how many pairs there are so far.
+  FilmSound(const Film& film, std::stop_token stop, std::function<void(std::int64_t)> on_samples)
+      : FilmSound(film, film.parts().front().part, std::move(stop), std::move(on_samples)) {}
+
+  std::size_t read(std::span<float> samples) override {
+    if (stop_.stop_requested()) throw Interrupted("render: interrupted");
+    const std::size_t count = soundtrack_.read(samples);
+    count_ += static_cast<std::int64_t>(count);
+    on_samples_(count_);
+    return count;
+  }
+
+ private:
+  FilmSound(const Film& film, const FilmPart& part, std::stop_token stop,
+            std::function<void(std::int64_t)> on_samples)
+      : soundtrack_(part.runs().front().scene(), part.runs().front().log(),
+                    part.schedule()->stretches(),
+                    Rational(film.frame_count()) / film.view().frame_rate),
+        stop_(std::move(stop)),
+        on_samples_(std::move(on_samples)) {}
+
+  Soundtrack soundtrack_;
+  std::stop_token stop_;
+  std::function<void(std::int64_t)> on_samples_;
+  std::int64_t count_ = 0;
+};
+
+/// The sound that the first part of a rendering has for all of them.
+class PartSound final : public PacketSource {
+ public:
+  explicit PartSound(const std::string& path) : reader_(path) {}
+
+  std::optional<Packet> next() override {
+    if (next_ == packets_.size()) {
+      auto packets = reader_.next_sound();
+      if (!packets || packets->empty()) return std::nullopt;
+      packets_ = std::move(*packets);
+      next_ = 0;
+    }
+    return std::move(packets_[next_++]);
+  }
+
+ private:
+  PartReader reader_;
+  EncodedChunk packets_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace piblocks

@@ -1,0 +1,70 @@
+// Which clacks a film has, and at which sample.
+// In: a collision log and the stretches of the film. Out: clacks in the order of the film. Where
+// there are more collisions than samples, those of an eighth of a sample are one clack.
+#pragma once
+
+#include <piblocks/collision_log.hpp>
+#include <piblocks/schedule.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace piblocks {
+
+struct Clack {
+  double sample = 0;  ///< samples since the film began, with a fraction
+  CollisionKind kind = CollisionKind::blocks;
+  double impulse = 0;  ///< as Impact has it
+  double blue_position = 0;
+};
+
+/// Takes constant memory but for what it returns. Used by one thread at a time.
+class ClackStream {
+ public:
+  ClackStream(const CollisionLog& log, std::span<const Stretch> stretches,
+              const Rational& duration_s, int rate_hz);
+
+  /// Adds to `clacks` those before this sample that were not read yet, in order.
+  /// @throws SimulationError as CollisionLog::flight_at().
+  void read_until(std::int64_t sample, std::vector<Clack>& clacks);
+
+ private:
+  /// A stretch in samples.
+  struct Segment {
+    double begin = 0;  ///< sample at which simulation time is `time`
+    double end = 0;
+    Time time;
+    Rational begin_time;
+    Rational end_time;
+    double time_per_sample = 0;  ///< may be negative
+    bool continues = false;      ///< begins where the one before ends
+
+    Time time_at(double sample) const;
+    double sample_at(const Time& t) const;
+  };
+  /// Samples, and the collisions that have happened at both ends.
+  struct Piece {
+    double begin;
+    double end;
+    Integer count_at_begin;
+    Integer count_at_end;
+  };
+
+  void enter(const Segment& segment);
+  Integer count_at(const Segment& segment, double sample) const;
+  Integer count_at_end(const Segment& segment, double end, bool is_last) const;
+  void add(const Piece& piece, const Segment& segment, std::vector<Clack>& clacks) const;
+  void add_one_by_one(const Piece& piece, const Segment& segment, std::vector<Clack>& clacks) const;
+  void add_impact(CollisionKind kind, const Integer& first, const Integer& last, const Piece& piece,
+                  const Segment& segment, std::vector<Clack>& clacks) const;
+
+  const CollisionLog& log_;
+  std::vector<Segment> segments_;
+  std::size_t current_ = 0;
+  double sample_ = 0;
+  Integer count_;
+};
+
+}  // namespace piblocks

@@ -1,0 +1,172 @@
+// Sound as a user gets it: in MP4 and WAV, decoded by ffmpeg.
+#include <fmt/format.h>
+#include <piblocks/collision_log.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "cli/cli_fixture.hpp"
+
+namespace piblocks {
+namespace {
+
+const Arguments kSmall{"--size", "64x36", "--fps", "10", "--quiet"};
+
+class SoundTest : public CliFixture {
+ protected:
+  /// What a command prints that is run in the folder.
+  std::string shell(const std::string& command) const {
+    const std::string line = fmt::format("cd '{}' && {}", folder_.path().string(), command);
+    const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(line.c_str(), "r"), pclose);
+    std::string out;
+    std::array<char, 65536> block{};
+    while (const std::size_t count = fread(block.data(), 1, block.size(), pipe.get())) {
+      out.append(block.data(), count);
+    }
+    return out;
+  }
+  /// The left channel, decoded.
+  std::vector<float> left(const std::string& name) const {
+    const std::string bytes =
+        shell("ffmpeg -nostdin -v error -i " + name + " -f f32le -c:a pcm_f32le -");
+    std::vector<float> left(bytes.size() / 8);
+    for (std::size_t i = 0; i < left.size(); ++i) std::memcpy(&left[i], bytes.data() + 8 * i, 4);
+    return left;
+  }
+  double peak_db(const std::string& name) const {
+    const std::string text =
+        shell("ffmpeg -nostdin -hide_banner -i " + name + " -af ebur128=peak=true -f null - 2>&1");
+    const std::size_t at = text.rfind("Peak:");
+    return at == std::string::npos ? 99 : std::stod(text.substr(at + 5));
+  }
+};
+
+/// By how much `other` is late, looked for in a window.
+int lag(const std::vector<float>& one, const std::vector<float>& other, std::size_t begin,
+        std::size_t end) {
+  constexpr int kMost = 12;
+  int best = -kMost;
+  double highest = -HUGE_VAL;
+  for (int shift = -kMost; shift <= kMost; ++shift) {
+    double sum = 0;
+    for (std::size_t i = std::max<std::size_t>(begin, kMost); i < end; ++i) {
+      sum += double(one[i]) * double(other[std::size_t(std::int64_t(i) + shift)]);
+    }
+    if (sum > highest) best = shift;
+    highest = std::max(highest, sum);
+  }
+  return best;
+}
+
+TEST_F(SoundTest, ClacksOfTheVideoAreWhereThoseOfTheSoundAloneAre) {
+  for (const std::string digits : {"1", "2", "3"}) {
+    output_of(Arguments{"render", "--sound", "--digits", digits, "-o", "a.mp4"} + kSmall);
+    output_of(Arguments{"render", "--digits", digits, "-o", "a.wav"} + kSmall);
+    const std::vector<float> sound = left("a.wav");
+    const std::vector<float> decoded = left("a.mp4");
+    ASSERT_GE(decoded.size(), sound.size());
+    const auto log = make_collision_log(article_system(std::stoi(digits)));
+    for (Integer index = 1; index <= log->size(); ++index) {
+      const auto at = std::size_t(log->at(index).time.hi * 48000);
+      EXPECT_LE(std::abs(lag(sound, decoded, at - 50, at + 400)), 1) << index.get_str();
+    }
+    EXPECT_EQ(lag(sound, decoded, 0, sound.size() - 20), 0);
+  }
+}
+
+TEST_F(SoundTest, BeginsWithTheVideoAndLastsAsLong) {
+  output_of(Arguments{"render", "--sound", "-o", "a.mp4"} + kSmall);
+  const std::string audio = shell(
+      "ffprobe -v error -select_streams a -show_entries stream=start_time,codec_name,channels,"
+      "sample_rate,duration -of default=nk=1:nw=1 a.mp4");
+  EXPECT_EQ(lines(audio).front(), "aac");
+  EXPECT_NE(audio.find("\n48000\n2\n0.000000\n"), std::string::npos) << audio;
+  const std::string video = shell(
+      "ffprobe -v error -select_streams v -show_entries stream=start_time,duration -of "
+      "default=nk=1:nw=1 a.mp4");
+  EXPECT_NEAR(std::stod(lines(audio).back()), std::stod(lines(video).back()), 0.002);
+}
+
+TEST_F(SoundTest, PacketsTakeTurnsWithPictures) {
+  output_of(Arguments{"render", "--sound", "-o", "a.mp4"} + kSmall);
+  const std::string packets =
+      shell("ffprobe -v error -show_entries packet=codec_type,dts_time,pos -of csv=p=0 a.mp4");
+  std::vector<std::pair<std::int64_t, double>> by_place;
+  for (const std::string& line : lines(packets)) {
+    const std::vector<std::string> values = split(line, ',');
+    if (values.size() < 3) continue;  // what is said of a packet besides
+    by_place.emplace_back(std::stoll(values.at(2)), std::stod(values.at(1)));
+  }
+  std::ranges::sort(by_place);
+  ASSERT_GT(by_place.size(), 700u);
+  for (std::size_t i = 1; i < by_place.size(); ++i) {
+    EXPECT_GT(by_place[i].second, by_place[i - 1].second - 0.1);
+  }
+}
+
+TEST_F(SoundTest, StaysBelowFullScaleForFfmpegToo) {
+  for (const std::string digits : {"1", "3", "6", "20"}) {
+    output_of(Arguments{"render", "--sound", "--digits", digits, "-o", "a.mp4"} + kSmall);
+    output_of(Arguments{"render", "--digits", digits, "-o", "a.wav"} + kSmall);
+    EXPECT_LE(peak_db("a.wav"), -1.5) << digits;
+    EXPECT_LE(peak_db("a.mp4"), -1) << digits;
+  }
+}
+
+TEST_F(SoundTest, HasTheSameBytesByAnyNumberOfThreadsAndInParts) {
+  const Arguments render = Arguments{"render", "--sound", "--to", "5", "-o"};
+  output_of(render + Arguments{"a.mp4", "--jobs", "1"} + kSmall);
+  output_of(render + Arguments{"b.mp4", "--jobs", "2"} + kSmall);
+  EXPECT_TRUE(contents("a.mp4") == contents("b.mp4"));
+  for (const char* part : {"1/3", "2/3", "3/3"}) {
+    output_of(render + Arguments{"c.mp4", "--part", part} + kSmall);
+  }
+  output_of({"join", "--quiet", "c.mp4.part-3-of-3", "c.mp4.part-1-of-3", "c.mp4.part-2-of-3", "-o",
+             "c.mp4"});
+  EXPECT_TRUE(contents("a.mp4") == contents("c.mp4"));
+}
+
+TEST_F(SoundTest, IsAKeyOfTheScene) {
+  write("scene.toml", "[sound]\non = true\n");
+  output_of(Arguments{"render", "scene.toml", "--to", "1", "-o", "on.mp4"} + kSmall);
+  output_of(Arguments{"render", "scene.toml", "--no-sound", "--to", "1", "-o", "off.mp4"} + kSmall);
+  EXPECT_NE(contents("on.mp4").find("mp4a"), std::string::npos);
+  EXPECT_EQ(contents("off.mp4").find("mp4a"), std::string::npos);
+  output_of(Arguments{"render", "--to", "1", "-o", "plain.mp4"} + kSmall);
+  EXPECT_TRUE(contents("off.mp4") == contents("plain.mp4"));
+  write("scene.toml", "[sound]\non = 1\n");
+  const CommandResult result = piblocks({"render", "scene.toml", "-o", "a.mp4"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("sound.on = 1: must be true or false"), std::string::npos);
+}
+
+TEST_F(SoundTest, IsRefusedWhereItHasNoPlace) {
+  for (const std::string output : {"a.y4m", "null", "a.framehash", "%d.png"}) {
+    const CommandResult result = piblocks({"render", "--sound", "-o", output});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find("has no sound; write *.mp4"), std::string::npos) << result.err;
+  }
+  const CommandResult part = piblocks({"render", "--part", "1/2", "-o", "a.wav"});
+  EXPECT_EQ(part.exit_code, 2);
+  const CommandResult crf = piblocks({"render", "--crf", "20", "-o", "a.wav"});
+  EXPECT_EQ(crf.exit_code, 2);
+  EXPECT_TRUE(entries().empty());
+}
+
+TEST_F(SoundTest, AloneLoadsNoCodecsAndTakesLittleMemory) {
+  // Ten minutes of film.
+  const Arguments render{"render", "--digits", "9",  "--duration", "600",
+                         "--fps",  "1",        "-o", "a.wav",      "--quiet"};
+  const CommandResult result = testing_support::run_command(
+      render, {.folder = folder_.path(), .environment = {"LD_DEBUG=files"}});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err.find("libavcodec"), std::string::npos);
+  EXPECT_LT(result.max_memory_KiB, 64 * 1024);
+  EXPECT_EQ(std::filesystem::file_size(folder_ / "a.wav"), 44u + 600u * 48000u * 6u);
+}
+
+}  // namespace
+}  // namespace piblocks

@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+#include <piblocks/frame_sink.hpp>
+
+#include <cstring>
+
+#include "support/decode_video.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace piblocks {
+namespace {
+using testing_support::file_contents;
+using testing_support::TemporaryFolder;
+
+class Samples final : public SampleSource {
+ public:
+  explicit Samples(std::vector<float> values) : values_(std::move(values)) {}
+  std::size_t read(std::span<float> samples) override {
+    const std::size_t count = std::min(samples.size(), values_.size() - at_) / 2;
+    std::copy_n(values_.begin() + std::ptrdiff_t(at_), 2 * count, samples.begin());
+    at_ += 2 * count;
+    return count;
+  }
+
+ private:
+  std::vector<float> values_;
+  std::size_t at_ = 0;
+};
+
+int sample(const std::string& bytes, std::size_t index) {
+  int value = 0;
+  std::memcpy(&value, bytes.data() + 44 + 3 * index, 3);
+  return (value ^ 0x800000) - 0x800000;
+}
+
+void write(const std::string& path, std::vector<float> values, std::int64_t size) {
+  const auto output = set_up_output(path, {}, {}, SoundFormat{.rate_hz = 48000, .size = size});
+  const auto sink = output->open();
+  Samples samples(std::move(values));
+  const auto packets = output->encode_sound(samples);
+  sink->take_sound(*packets);
+  sink->finish();
+}
+
+TEST(Wav, HoldsEverySample) {
+  const TemporaryFolder folder;
+  write(folder / "a.wav", {0, 1, -1, 0.5F, -0.25F, 2}, 3);
+  const std::string bytes = file_contents(folder / "a.wav");
+  ASSERT_EQ(bytes.size(), 44u + 18u);
+  EXPECT_EQ(bytes.substr(0, 4), "RIFF");
+  EXPECT_EQ(bytes[4], 36 + 18);
+  EXPECT_EQ(bytes.substr(8, 8), "WAVEfmt ");
+  const int expected[] = {0, 8388607, -8388607, 4194304, -2097152, 8388607};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(sample(bytes, i), expected[i]) << i;
+}
+
+TEST(Wav, IsNotWrittenIfTheSoundIsOfAnotherLength) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(write(folder / "a.wav", {0, 0}, 3), MediaError);
+  EXPECT_TRUE(folder.is_empty());
+}
+
+TEST(Wav, RefusesWhatNoHeaderCanSay) {
+  try {
+    set_up_output("a.wav", {}, {}, SoundFormat{.rate_hz = 48000, .size = 900'000'000});
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("WAV ends at 4 GiB, which is 14913 s"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Sound, IsRefusedWhereThereIsNone) {
+  const SoundFormat sound{.rate_hz = 48000, .size = 3};
+  for (const char* name : {"a.y4m", "-", "%d.png", "a.framehash", "null"}) {
+    try {
+      set_up_output(name, {}, {}, sound);
+      FAIL() << name;
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find("has no sound; write *.mp4"), std::string::npos);
+    }
+  }
+  EXPECT_NO_THROW(set_up_output("a.mp4", {}, {}, sound));
+}
+
+TEST(Sound, IsNotTakenByAnOutputThatWasSetUpWithout) {
+  const TemporaryFolder folder;
+  const auto output = set_up_output(folder / "a.mp4", {}, {});
+  Samples samples({0, 0});
+  EXPECT_THROW(output->encode_sound(samples), MediaError);
+  const auto packets = set_up_output("a.wav", {}, {})->encode_sound(samples);
+  EXPECT_THROW(output->open()->take_sound(*packets), MediaError);
+}
+
+}  // namespace
+}  // namespace piblocks

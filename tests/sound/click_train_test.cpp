@@ -1,0 +1,136 @@
+// What is left out where collisions are denser than samples, and that nothing is folded back.
+#include "sound/click_train.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "sound/loudness.hpp"
+
+namespace piblocks {
+namespace {
+using testing_support::clacks_of;
+using testing_support::ClickTrain;
+
+constexpr double kRate_hz = 48000;
+constexpr double kTurn_s = 0.2;  // after the film's begin
+
+double level_db(const std::vector<double>& samples) {
+  double energy = 0;
+  for (double sample : samples) energy += sample * sample;
+  return 10 * std::log10(energy);
+}
+
+TEST(ClickTrain, OfCollisionsTakenTogetherIsThatOfAllOfThem) {
+  for (int digits : {4, 5, 6}) {
+    const auto log = make_collision_log(article_system(digits));
+    const Rational begin = Rational(7, 2) - Rational(1, 5);
+    const std::size_t size = 19200;
+    ClickTrain together(size);
+    for (const Clack& clack : clacks_of(*log, {{0, begin, 1}}, Rational(2, 5))) {
+      together.add(clack.sample, clack.impulse);
+    }
+    ClickTrain all(size);
+    const auto stream = log->stream(1, log->size());
+    CollisionBatch batch;
+    const double r = to_double(1 / article_system(digits).red.mass);
+    while (stream->read(batch)) {
+      for (std::size_t i = 0; i < batch.size; ++i) {
+        const double u1 = batch.blue_velocity[i];
+        const double u2 = batch.red_velocity[i];
+        const double blow =
+            batch.kind[i] == CollisionKind::wall ? (1 + r) * std::fabs(u1) : std::fabs(u2 - u1);
+        const double time = (batch.time_hi[i] - to_double(begin)) + batch.time_lo[i];
+        all.add(time * kRate_hz, blow / std::hypot(std::sqrt(r) * u1, u2));
+      }
+    }
+    std::vector<double> error = together.samples();
+    const std::vector<double> exact = all.samples();
+    for (std::size_t i = 0; i < size; ++i) error[i] -= exact[i];
+    const double relative_db = level_db(error) - level_db(exact);
+    RecordProperty("error_db_" + std::to_string(digits), std::to_string(relative_db));
+    EXPECT_LT(relative_db, digits == 6 ? -56 : -78) << digits;
+  }
+}
+
+/// The compressed clicks of 20 digits around the turn.
+std::vector<double> clicks() {
+  const auto log = make_collision_log(article_system(20));
+  const Rational begin = Rational(7, 2) - Rational(1, 5);
+  const std::vector<Clack> clacks = clacks_of(*log, {{0, begin, 1}}, Rational(2, 5));
+  ClickTrain train(19200);
+  for (std::size_t i = 0; i < clacks.size(); ++i) train.add(clacks[i].sample, height(clacks, i));
+  return train.samples();
+}
+
+/// Energy of a window around a time before the turn, from one frequency to another.
+double band_energy(const std::vector<double>& samples, double tau_s, double low_hz,
+                   double high_hz) {
+  constexpr int kSize = 128;
+  const auto begin = std::size_t((kTurn_s - tau_s) * kRate_hz) - kSize / 2;
+  double energy = 0;
+  for (int bin = 0; bin <= kSize / 2; ++bin) {
+    const double frequency_hz = bin * kRate_hz / kSize;
+    if (frequency_hz < low_hz || frequency_hz > high_hz) continue;
+    std::complex<double> sum = 0;
+    for (int i = 0; i < kSize; ++i) {
+      const double phase = 2 * std::numbers::pi * i / kSize;
+      const double window = 0.35875 - 0.48829 * std::cos(phase) + 0.14128 * std::cos(2 * phase) -
+                            0.01168 * std::cos(3 * phase);  // Blackman-Harris
+      sum += window * samples[begin + std::size_t(i)] * std::polar(1.0, -phase * bin);
+    }
+    energy += std::norm(sum);
+  }
+  return energy;
+}
+
+TEST(ClickTrain, IsAChirpWithoutAnythingFoldedBack) {
+  const std::vector<double> samples = clicks();
+  // Collisions come 1.5/tau^2 times a second. Below this frequency is their steady push, which is
+  // slower than 3 kHz, and nothing else.
+  for (double tau_s : {0.0125, 0.011, 0.0105, 0.0100, 0.0095}) {
+    const double chirp_hz = 1.5 / (tau_s * tau_s);
+    const double whole = band_energy(samples, tau_s, 3000, 24000);
+    const double below = band_energy(samples, tau_s, 3000, 0.65 * chirp_hz);
+    EXPECT_LT(10 * std::log10(below / whole), -40) << chirp_hz;
+  }
+  // Beyond the audio rate only the push is left.
+  const double heard = band_energy(samples, 0.0100, 3000, 24000);
+  for (double tau_s : {0.0055, 0.005, 0.0045}) {
+    const double above = band_energy(samples, tau_s, 3000, 24000);
+    EXPECT_LT(10 * std::log10(above / heard), -40) << tau_s;
+  }
+}
+
+TEST(Loudness, RisesWithTheImpulseAndStaysBounded) {
+  double before = 0;
+  for (double impulse = 1e-6; impulse < 1e300; impulse *= 10) {
+    const double now = compressed(impulse);
+    EXPECT_GT(now, before);
+    EXPECT_LT(now, 8);
+    before = now;
+  }
+  EXPECT_NEAR(compressed(1e-6), 1e-6, 1e-12);
+  EXPECT_NEAR(compressed(1), 0.79, 0.01);
+  EXPECT_NEAR(compressed(100), 3.19, 0.01);
+  EXPECT_LT(compressed(HUGE_VAL), 8);
+}
+
+TEST(Loudness, OfACrowdIsThatOfOneBlow) {
+  std::vector<Clack> crowd;
+  for (int i = 0; i < 100; ++i) crowd.push_back({10 + i * 1e-6, CollisionKind::wall, 5, 0});
+  double total = 0;
+  for (std::size_t i = 0; i < crowd.size(); ++i) total += height(crowd, i);
+  EXPECT_NEAR(total, compressed(500), 1e-6);
+  // Far from each other they are as loud as alone.
+  const std::vector<Clack> apart = {{0, CollisionKind::wall, 5, 0},
+                                    {5, CollisionKind::wall, 50, 0}};
+  EXPECT_EQ(height(apart, 0), compressed(5));
+}
+
+}  // namespace
+}  // namespace piblocks

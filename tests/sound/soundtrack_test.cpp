@@ -1,0 +1,176 @@
+// The soundtrack as a whole: where clacks begin, how high it gets, and what it costs.
+#include <gtest/gtest.h>
+#include <piblocks/soundtrack.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "sound/true_peak.hpp"
+
+namespace piblocks {
+namespace {
+using testing_support::true_peak;
+
+constexpr double kRate_hz = Soundtrack::kRate_hz;
+
+struct Track {
+  std::vector<double> left;
+  std::vector<double> right;
+};
+
+Track track_of(const Scene& scene, const std::vector<Stretch>& stretches,
+               const Rational& duration_s, std::size_t block = 1000) {
+  const auto log = make_collision_log(scene.system);
+  Soundtrack soundtrack(scene, *log, stretches, duration_s);
+  Track track;
+  std::vector<float> samples(2 * block);
+  while (const std::size_t count = soundtrack.read(samples)) {
+    for (std::size_t i = 0; i < count; ++i) {
+      track.left.push_back(double(samples[2 * i]));
+      track.right.push_back(double(samples[2 * i + 1]));
+    }
+  }
+  EXPECT_EQ(track.left.size(), std::size_t(soundtrack.size()));
+  return track;
+}
+
+Scene article(int digits) {
+  Scene scene;
+  scene.system = article_system(digits);
+  return scene;
+}
+
+/// The first sample of a window that is higher than half of its highest.
+double onset(const std::vector<double>& samples, std::size_t begin, std::size_t end) {
+  double high = 0;
+  for (std::size_t i = begin; i < end; ++i) high = std::max(high, std::fabs(samples[i]));
+  for (std::size_t i = begin; i < end; ++i) {
+    if (std::fabs(samples[i]) > high / 2) return double(i);
+  }
+  return -1;
+}
+
+TEST(Soundtrack, BeginsEachClackAtItsCollision) {
+  for (int digits = 1; digits <= 3; ++digits) {
+    // So slow that no clack rings into the next.
+    const Rational speed(1, digits == 3 ? 400 : 8);
+    const Scene scene = article(digits);
+    const auto log = make_collision_log(scene.system);
+    const Rational begin = digits == 3 ? Rational("348/100") : Rational(1);
+    const Rational duration_s = digits == 3 ? 16 : 90;
+    const Track track = track_of(scene, {{0, begin, speed}}, duration_s);
+    int heard = 0;
+    double quiet_since = 0;
+    for (Integer index = 1; index <= log->size(); ++index) {
+      const double at = (log->at(index).time.hi - to_double(begin)) / to_double(speed) * kRate_hz;
+      if (at < 0 || at + 100 > double(track.left.size())) continue;
+      if (at - quiet_since > 400) {
+        const auto window = std::size_t(at);
+        EXPECT_NEAR(onset(track.left, window - 40, window + 40), at, 1) << index.get_str();
+        ++heard;
+      }
+      quiet_since = at;
+    }
+    EXPECT_GE(heard, digits == 1 ? 2 : 20);
+  }
+}
+
+TEST(Soundtrack, IsSilentWithoutACollision) {
+  Scene scene = article(3);
+  scene.system.red.velocity = 1;
+  const Track track = track_of(scene, {{0, 0, 1}}, 3);
+  EXPECT_EQ(track.left, std::vector<double>(3 * 48000, 0.0));
+  // And before the first one, and while the film stands still.
+  const Track early = track_of(article(3), {{0, 0, 1}, {1, 1, 0}}, 4);
+  EXPECT_EQ(early.right, std::vector<double>(4 * 48000, 0.0));
+}
+
+TEST(Soundtrack, NeverClips) {
+  for (int digits : {1, 2, 3, 4, 6, 9, 20, 100}) {
+    for (const Rational& speed : {Rational(1), Rational(1, 30), Rational(-1)}) {
+      const Rational begin = speed == 1 ? 0 : speed < 0 ? 7 : Rational(345, 100);
+      const Track track = track_of(article(digits), {{0, begin, speed}}, 7);
+      for (const auto& channel : {track.left, track.right}) {
+        EXPECT_LT(20 * std::log10(true_peak(channel)), -1.5) << digits << " at " << speed.get_str();
+      }
+    }
+  }
+}
+
+TEST(Soundtrack, HearsTheTurnLouderThanTheFirstClackButNotTooLoud) {
+  for (int digits : {3, 20}) {
+    const Track track = track_of(article(digits), {{0, 0, 1}}, 7);
+    const auto highest = [&](double from_s, double to_s) {
+      double high = 0;
+      for (auto i = std::size_t(from_s * kRate_hz); i < std::size_t(to_s * kRate_hz); ++i) {
+        high = std::max(high, std::fabs(track.left[i]));
+      }
+      return high;
+    };
+    const double first = highest(1.99, 2.1);
+    EXPECT_GT(first, 0.05);
+    EXPECT_GT(highest(3.4, 3.6), 2 * first);
+    EXPECT_LT(highest(3.4, 3.6), 20 * first);
+  }
+}
+
+TEST(Soundtrack, IsToTheSideWhereItHappens) {
+  Scene scene = article(1);
+  constexpr std::size_t kBlocks = 2 * 48000;  // the blocks meet in the middle
+  constexpr std::size_t kWall = 7 * 24000;
+  scene.view.x = {Rational(-1, 10), Rational(61, 10)};
+  const Track track = track_of(scene, {{0, 0, 1}}, 6);
+  const auto energy = [](const std::vector<double>& samples, std::size_t at) {
+    double sum = 0;
+    for (std::size_t i = at; i < at + 4000; ++i) sum += samples[i] * samples[i];
+    return sum;
+  };
+  EXPECT_GT(energy(track.left, kWall - 10), 4 * energy(track.right, kWall - 10));
+  const double ratio = energy(track.left, kBlocks - 10) / energy(track.right, kBlocks - 10);
+  EXPECT_LT(ratio, 2);
+  EXPECT_GT(ratio, 0.5);
+}
+
+TEST(Soundtrack, SlowMotionMovesClacksApartAndLeavesEachAsItIs) {
+  const Track normal = track_of(article(1), {{0, 0, 1}}, 5);
+  const Track slow = track_of(article(1), {{0, 0, Rational(1, 2)}}, 9);
+  for (std::size_t i = 0; i < 40000; ++i) {
+    ASSERT_NEAR(slow.left[4 * 48000 - 30 + i], normal.left[2 * 48000 - 30 + i], 1e-7) << i;
+  }
+}
+
+TEST(Soundtrack, DoesNotDependOnHowItIsRead) {
+  const Track one = track_of(article(5), {{0, 3, 1}}, 1, 1);
+  const Track all = track_of(article(5), {{0, 3, 1}}, 1, 100000);
+  EXPECT_EQ(one.left, all.left);
+  EXPECT_EQ(one.right, all.right);
+}
+
+TEST(Soundtrack, EndsWithoutAClick) {
+  // 2 ms after the first clack.
+  const Track track = track_of(article(3), {{0, 0, 1}}, Rational(2002, 1000));
+  EXPECT_EQ(track.left.size(), 96096u);
+  EXPECT_LT(std::fabs(track.left.back()), 1e-4);
+  EXPECT_LT(std::fabs(track.left[track.left.size() - 3]), 1e-3);
+}
+
+TEST(Soundtrack, TakesScenesAtTheLimits) {
+  Scene corner = article(20);
+  corner.system.blue.position = Rational(1, 2);
+  Scene light = article(1);
+  light.system.red.mass = Rational(1, 1000000);
+  Scene huge = article(1);
+  huge.system.red.mass = power(2, 1999);
+  Scene heavy = article(3);
+  heavy.system.blue.mass = power(10, 400);
+  heavy.system.red.mass = power(10, 404);
+  for (const Scene& scene : {corner, light, huge, heavy}) {
+    const Track track = track_of(scene, {{0, 0, 1}}, 6);
+    EXPECT_TRUE(std::ranges::all_of(track.left, [](double x) { return std::fabs(x) <= 1; }));
+    EXPECT_GT(std::ranges::max(track.left), 0.01);
+  }
+}
+
+}  // namespace
+}  // namespace piblocks
