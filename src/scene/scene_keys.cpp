@@ -228,9 +228,9 @@ constexpr auto kKeys = std::to_array<SceneKey>({
 std::span<const SceneKey> scene_keys() { return kKeys; }
 
 bool is_film_key(std::string_view key) {
-  constexpr std::array<std::string_view, 4> kOfView = {"view.size", "view.fps", "view.background",
-                                                       "view.theme"};
-  return key.starts_with("golden.") || std::ranges::count(kOfView, key) > 0;
+  constexpr std::array<std::string_view, 5> kOfFilm = {"view.size", "view.fps", "view.background",
+                                                       "view.theme", "sound.on"};
+  return key.starts_with("golden.") || std::ranges::count(kOfFilm, key) > 0;
 }
 
 const std::string& single(const Values& values) {
