@@ -94,7 +94,7 @@ TEST(CrossFade, ShowsTheMeanHalfWay) {
   const RectangleItem block{ItemId::red_block, {10.25, 5.5, 20, 10}, kGreen, std::nullopt};
   const TextItem text{ItemId::count, {5, 25}, "314", 20, {200, 30, 10}};
   const DrawList from{40, 30, kWhite, {block}};
-  const DrawList to{40, 30, {20, 40, 60}, {text}};
+  const DrawList to{40, 30, Color{20, 40, 60}, {text}};
   Canvas first(40, 30);
   first.paint(from);
   Canvas second(40, 30);
