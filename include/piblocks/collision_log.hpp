@@ -85,6 +85,8 @@ struct PositionBounds {
   double red = 0;
 };
 
+class Exposure;
+
 /// A log's collisions are those from time 0 on. Const members are thread-safe.
 class CollisionLog {
  public:
@@ -110,6 +112,10 @@ class CollisionLog {
   /// The count of flight_at(), but collisions within the rounding of `time` and of the engine may
   /// be taken for earlier or later. Costs no more, however many collisions there are.
   virtual Integer count_near(const Time& time) const = 0;
+  /// Where the blocks are from `begin` to `end`, and for how much of that time; in either order,
+  /// and also before time 0, where the motion runs back. To be used with exposure.hpp.
+  /// @throws SimulationError as at().
+  virtual std::unique_ptr<Exposure> expose(const Rational& begin, const Rational& end) const = 0;
   /// How exact the positions at `time` are; nothing if the engine cannot say beforehand.
   virtual std::optional<PositionBounds> bounds_at(const Rational& time) const = 0;
 };

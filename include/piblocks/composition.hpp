@@ -4,10 +4,12 @@
 
 #include <piblocks/collision_log.hpp>
 #include <piblocks/draw_list.hpp>
+#include <piblocks/exposure.hpp>
 #include <piblocks/interpolator.hpp>
 #include <piblocks/scene.hpp>
 
 #include <memory>
+#include <span>
 
 namespace piblocks {
 
@@ -16,6 +18,12 @@ struct Shown {
   BlockState state;
   Rational time = 0;    ///< simulation time of the state
   Rational slower = 1;  ///< as in Stretch
+};
+
+/// A part of the time for which a frame is exposed.
+struct ExposurePart {
+  double share = 1;  ///< of that time; 1 in all
+  std::unique_ptr<Exposure> exposure;
 };
 
 /// The layout and everything in it that does not move. Only what the scene asks for is made; the
@@ -34,7 +42,9 @@ class Composition {
   Composition(const Composition&) = delete;
   Composition& operator=(const Composition&) = delete;
 
-  DrawList frame(const Shown& shown) const;
+  /// @param exposure  where the blocks are while the frame is exposed; empty shows the instant. All
+  ///                  else is shown as it is at the instant.
+  DrawList frame(const Shown& shown, std::span<const ExposurePart> exposure = {}) const;
 
  private:
   struct Contents;

@@ -2,8 +2,10 @@
 // In: composition. Out: what the canvas paints and what two frames are compared by.
 #pragma once
 
+#include <piblocks/exposed_item.hpp>
 #include <piblocks/image.hpp>
 #include <piblocks/item_id.hpp>
+#include <piblocks/shapes.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -16,44 +18,6 @@
 #include <vector>
 
 namespace piblocks {
-
-/// Opaque sRGB colour.
-struct Color {
-  std::uint8_t red = 0;
-  std::uint8_t green = 0;
-  std::uint8_t blue = 0;
-
-  friend bool operator==(const Color&, const Color&) = default;
-};
-
-/// In pixels, y downwards, origin at the frame's upper left corner; whole numbers are the lines
-/// between pixels.
-struct Point {
-  double x = 0;
-  double y = 0;
-
-  friend bool operator==(const Point&, const Point&) = default;
-};
-
-/// In pixels, from its upper left corner.
-struct Rectangle {
-  double x = 0;
-  double y = 0;
-  double width = 0;
-  double height = 0;
-
-  friend bool operator==(const Rectangle&, const Rectangle&) = default;
-};
-
-/// A line. On a rectangle it is drawn inside the outline, so that the shape is exactly as large as
-/// it says; on a path and on a disk it is centred on the outline.
-struct Stroke {
-  Color color;
-  double width_px = 1;
-  double dash_px = 0;  ///< length of dashes and of the gaps between them; 0 for a solid line
-
-  friend bool operator==(const Stroke&, const Stroke&) = default;
-};
 
 struct RectangleItem {
   ItemId id = ItemId::wall;
@@ -160,11 +124,11 @@ struct GroupItem {
   friend bool operator==(const GroupItem& a, const GroupItem& b);
 };
 
-using DrawItem =
-    std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, PlateItem, GroupItem>;
+using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, PlateItem,
+                              GroupItem, ExposedItem>;
 
 struct Plate {
-  std::vector<DrawItem> items;  ///< from back to front
+  std::vector<DrawItem> items;  ///< from back to front; none that is exposed
 };
 
 struct DrawList {

@@ -29,14 +29,25 @@ struct Part {
   friend bool operator==(const Part&, const Part&) = default;
 };
 
+/// A folder for a video, which has the name of the job's output there, and for what a lecture needs
+/// beside it: poster, captions, a text for those who cannot see it, ways to show it.
+struct Bundle {
+  std::string folder;
+  /// What the poster shows; without it, the frame that comes furthest in time.
+  std::optional<Instant> poster = {};
+};
+
 struct RenderJob {
   Script script;
-  std::string output;  ///< as set_up_output() takes it
+  /// As set_up_output() takes it; or `*.html`, a page that holds the MP4 and steps through it.
+  std::string output;
   EncoderSettings encoder = {};
   int jobs = 1;  ///< frames painted and encoded at the same time, >= 1; does not change a byte
   /// Renders this share only, to the file part_name().
   std::optional<Part> part = {};
   bool profile = false;  ///< whether to measure what each stage costs
+  /// Renders a `*.mp4` into a folder, together with the rest, or nothing of it.
+  std::optional<Bundle> bundle = {};
 };
 
 /// What the work on a frame consists of, in this order; sound is both made and encoded in one.

@@ -34,6 +34,9 @@ struct View {
   int width_px = 1920;       ///< 1 … kMaxSide_px
   int height_px = 1080;      ///< 1 … kMaxSide_px
   Rational frame_rate = 60;  ///< frames per second of video, 0 < rate <= kMaxFrameRate
+  /// The share of the time between two frames for which each is exposed, from its instant on,
+  /// 0 … 1; 0 shows the instant alone.
+  Rational shutter = 0;
   Theme theme = Theme::article;
   Background background = Background::opaque;
 };
@@ -91,10 +94,11 @@ struct TomlTable;
 /// Collects a scene's values from a file and from options, remembering where each came from.
 /// The keys are those of the scene file: "digits" or "mass-ratio", which set red.mass; "wall.face";
 /// "blue." and "red." with "mass", "position", "velocity", "width" ("by-mass" for red:
-/// width_by_mass()); "view.x", "view.y", "view.size", "view.fps", "view.background", "view.theme";
-/// "time.from", "time.to", "time.speed", "time.duration", "time.slow-motion", "time.freeze",
-/// "time.hold-start", "time.hold-end", "time.loop"; "show.overlays", "show.panels", "show.title",
-/// "show.caption", "show.logo"; "sound.on"; "golden.frames", "golden.size".
+/// width_by_mass()); "view.x", "view.y", "view.size", "view.fps", "view.shutter",
+/// "view.background", "view.theme"; "time.from", "time.to", "time.speed", "time.duration",
+/// "time.slow-motion", "time.freeze", "time.hold-start", "time.hold-end", "time.loop";
+/// "show.overlays", "show.panels", "show.title", "show.caption", "show.logo"; "sound.on";
+/// "golden.frames", "golden.size".
 class SceneBuilder {
  public:
   /// Reads a scene file. Values set before it are overwritten, values set after it win.

@@ -7,6 +7,7 @@
 #include <piblocks/scene.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,13 @@ struct FrameTime {
   Rational slower = 1;  ///< as in Stretch
 };
 
+/// Simulation time that runs evenly, in either direction or not at all, during a part of an
+/// interval of video.
+struct TimeSlice {
+  Rational from;
+  Rational to;
+  Rational share;  ///< of that interval
+};
 /// Where the scene's span of simulation time ends.
 /// @throws UsageError if that is after the last collision of a scene without collisions.
 Rational end_of(const Scene& scene, const CollisionLog& log);
@@ -45,6 +53,11 @@ class Schedule {
   const Integer& frame_count() const noexcept { return frame_count_; }
   /// The instant shown at `video_s` >= 0.
   FrameTime at(const Rational& video_s) const;
+  /// The first moment of the video, in seconds, that shows this instant; it may be between frames.
+  std::optional<Rational> first_shown(const Rational& time) const;
+  /// What is shown from `video_s` >= 0 on, for a length > 0, in order; shares add up to 1. Past the
+  /// end the last stretch goes on.
+  std::vector<TimeSlice> during(const Rational& video_s, const Rational& length_s) const;
 
  private:
   std::vector<Stretch> stretches_;

@@ -3,6 +3,7 @@
 #include <piblocks/render.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <thread>
 #include <utility>
 
@@ -32,6 +33,8 @@ struct RenderOptions {
   const CLI::Option* part;
   const CLI::Option* profile;
   const CLI::Option* quiet;
+  const CLI::Option* bundle;
+  const CLI::Option* poster;
 };
 
 int parse_jobs(const std::string& text) {
@@ -64,6 +67,13 @@ EncoderSettings settings_of(const RenderOptions& options) {
   return smallest_file();
 }
 
+std::optional<Bundle> bundle_of(const RenderOptions& options) {
+  const auto poster = value_of(*options.poster, parse_instant);
+  if (const auto folder = text_of(*options.bundle)) return Bundle{*folder, poster};
+  if (!poster) return std::nullopt;
+  throw UsageError("--poster is for a bundle; add --bundle DIR or leave it out");
+}
+
 const Destination* destination_of(const RenderOptions& options) {
   const auto found = value_of(*options.destination,
                               [](const std::string& name) { return &parse_destination(name); });
@@ -90,7 +100,14 @@ RenderJob job_of(const RenderOptions& options) {
           std::move(settings),
           value_of(*options.jobs, parse_jobs).value_or(static_cast<int>(processors)),
           value_of(*options.part, parse_part),
-          options.profile->count() > 0};
+          options.profile->count() > 0,
+          bundle_of(options)};
+}
+
+/// What is written, for messages.
+std::string name_of(const RenderJob& job) {
+  if (job.bundle) return std::filesystem::path(job.bundle->folder) / job.output;
+  return job.part ? part_name(job.output, *job.part) : job.output;
 }
 
 void run(const RenderOptions& options) {
@@ -99,7 +116,7 @@ void run(const RenderOptions& options) {
   options.scene.refuse_as_output(*options.output);
   const RenderJob job = job_of(options);
   const bool quiet = options.quiet->count() > 0;
-  ProgressReport report(job.part ? part_name(job.output, *job.part) : job.output, quiet);
+  ProgressReport report(name_of(job), quiet);
   const Rendered rendered = render(
       job, [&](const Progress& progress) { report.update(progress); }, signals.token());
   report.finish();
@@ -113,13 +130,15 @@ RenderOptions add_options(CLI::App& command) {
       *add_value_option(command, "-o,--output", "OUT",
                         "What to write: NAME.mp4, NAME.mov, NAME.webm, NAME.gif,\n"
                         "NAME.apng, FRAMES/%06d.png, NAME.y4m, - (y4m on standard\n"
-                        "output), NAME.framehash, null, or NAME.wav: the sound alone")
+                        "output), NAME.framehash, null, NAME.wav: the sound alone, or\n"
+                        "NAME.html: a page to step through time and collisions")
            .required();
   const CLI::Option& destination =
       add_value_option(command, "--for", "WHERE",
                        "Size, rate and background that suit one of:\n" + destination_names());
   scene.add_picture();
   scene.add_show();
+  scene.add_exposure();
   scene.add_timing();
   scene.add_sound();
   const CLI::Option& crf =
@@ -130,17 +149,23 @@ RenderOptions add_options(CLI::App& command) {
       add_value_option(command, "--encoder", "NAME", "Video encoder; 'piblocks info' lists them");
   const CLI::Option& smallest =
       *command.add_flag("--smallest")
-           ->description("Smallest MP4, by libx264: under half the size, takes many times as long");
+           ->description("Smallest MP4, by libx264: under half the size, and many\ntimes the time");
   const CLI::Option& jobs = add_value_option(
       command, "--jobs", "N", "Threads (default: one a processor); changes no byte of the output");
   const CLI::Option& part =
       add_value_option(command, "--part", "I/N",
                        "Render the I-th of N shares to OUT.part-I-of-N,\nfor 'piblocks join'");
+  const CLI::Option& bundle =
+      add_value_option(command, "--bundle", "DIR",
+                       "Write OUT, an MP4, into DIR, with a poster, captions, alt text\n"
+                       "and snippets for LaTeX beamer and reveal.js beside it");
+  const CLI::Option& poster = add_value_option(command, "--poster", "S|last|#K",
+                                               "What the poster shows (default: the last frame)");
   const CLI::Option& profile =
       *command.add_flag("--profile")->description("Print what each stage cost, on standard error");
   const CLI::Option& quiet = *command.add_flag("--quiet")->description("Print nothing but errors");
-  return {scene,     &output, &destination, &crf,     &preset, &encoder,
-          &smallest, &jobs,   &part,        &profile, &quiet};
+  return {scene, &output, &destination, &crf,   &preset, &encoder, &smallest,
+          &jobs, &part,   &profile,     &quiet, &bundle, &poster};
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ void add_still(CLI::App& app) {
           .required();
   scene.add_picture();
   scene.add_show();
+  scene.add_exposure();
   command->footer(
       "Examples:\n"
       "  piblocks still --at 3.5 -o turn.svg\n"

@@ -13,7 +13,9 @@ const std::vector<Destination>& destinations() {
   static const std::vector<Destination> kDestinations = {
       {"powerpoint", {{"view.size", "1920x1080"}, {"view.fps", "60"}}, {".mp4"}},
       {"keynote", {{"view.size", "1920x1080"}, {"view.fps", "60"}}, {".mp4", ".mov"}},
-      {"web", {{"view.size", "1280x720"}, {"view.fps", "30"}}, {".mp4", ".webm", ".gif", ".apng"}},
+      {"web",
+       {{"view.size", "1280x720"}, {"view.fps", "30"}},
+       {".mp4", ".webm", ".gif", ".apng", ".html"}},
       {"editor",
        {{"view.size", "1920x1080"}, {"view.fps", "60"}, {"view.background", "transparent"}},
        {".mov", ".png"},

@@ -39,17 +39,17 @@ void SceneOptions::add_key(const std::string& key, const std::string& option,
   keys_.emplace_back(key, &add_value_option(*command_, option, placeholder, help));
 }
 
-void SceneOptions::add_flag(const std::string& key, const std::string& option,
-                            const std::string& help) {
-  keys_.emplace_back(key, command_->add_flag(option)->description(help));
+void SceneOptions::add_flag(const std::string& key, const std::string& value,
+                            const std::string& option, const std::string& help) {
+  flags_.push_back({key, value, command_->add_flag(option)->description(help)});
 }
 
 void SceneOptions::add_picture() {
   add_key("view.size", "--size", "WxH", "Frame size in pixels (default 1920x1080)");
-  transparent_ = command_->add_flag("--transparent")
-                     ->description("No background: another picture can be put behind");
-  opaque_ = command_->add_flag("--opaque")
-                ->description("A background, also where the scene or --for wants none");
+  add_flag("view.background", "transparent", "--transparent",
+           "No background: another picture can be put behind");
+  add_flag("view.background", "opaque", "--opaque",
+           "A background, also where the scene or --for wants none");
 }
 
 void SceneOptions::add_span() {
@@ -58,10 +58,17 @@ void SceneOptions::add_span() {
           "End: a time, the last collision, or so long after it\n(default last+1.5)");
 }
 
-void SceneOptions::add_timing() {
+void SceneOptions::add_exposure() {
+  add_key(
+      "view.shutter", "--shutter", "X",
+      "Motion blur: the share of the time between two frames for\nwhich each is exposed, 0 to 1 "
+      "(default 0)");
   add_key("view.fps", "--fps", "N|N/D", "Frames per second (default 60)");
-  add_span();
   add_key("time.speed", "--speed", "X", "Simulation time per second of video (default 1)");
+}
+
+void SceneOptions::add_timing() {
+  add_span();
   add_pacing();
 }
 
@@ -73,11 +80,13 @@ void SceneOptions::add_pacing() {
   add_key("time.freeze", "--freeze", "AT:S", "Instants at which the picture stands still for S s");
   add_key("time.hold-start", "--hold-start", "S", "Show the first picture for S s more");
   add_key("time.hold-end", "--hold-end", "S", "Show the last picture for S s more");
-  add_flag("time.loop", "--loop", "Play forth and back, so that the video repeats seamlessly");
+  add_flag("time.loop", "true", "--loop",
+           "Play forth and back, so that the video repeats seamlessly");
 }
 
 void SceneOptions::add_sound() {
-  add_flag("sound.on", "--sound,!--no-sound", "A clack at every collision, in MP4 (as AAC)");
+  add_flag("sound.on", "true", "--sound", "A clack at every collision, in MP4, MOV and WebM");
+  add_flag("sound.on", "false", "--no-sound", "None, also where the scene wants it");
 }
 
 void SceneOptions::add_show() {
@@ -88,8 +97,7 @@ void SceneOptions::add_show() {
   add_key("show.title", "--title", "TEXT", "One line above all");
   add_key("show.caption", "--caption", "TEXT", "One line below all");
   add_key("show.logo", "--logo", "FILE.png", "Picture in the lower right corner");
-  width_by_mass_ =
-      command_->add_flag("--width-by-mass")->description("Make red as wide as its mass suggests");
+  add_flag("red.width", "by-mass", "--width-by-mass", "Make red as wide as its mass suggests");
 }
 
 void SceneOptions::refuse_both(const std::string& first, const std::string& second,
@@ -99,14 +107,6 @@ void SceneOptions::refuse_both(const std::string& first, const std::string& seco
     if (option == nullptr || option->count() == 0) return;
   }
   throw UsageError(fmt::format("{} and {} both set {}; give one of them", first, second, what));
-}
-
-void SceneOptions::set_background(ScriptBuilder& builder) const {
-  if (transparent_ == nullptr) return;
-  if (transparent_->count() > 0) {
-    builder.set(transparent_->get_name(), "view.background", "transparent");
-  }
-  if (opaque_->count() > 0) builder.set(opaque_->get_name(), "view.background", "opaque");
 }
 
 Scene SceneOptions::scene() const {
@@ -121,16 +121,16 @@ Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
   refuse_both("--digits", "--mass-ratio", "the mass of red");
   refuse_both("--speed", "--duration", "the speed");
   refuse_both("--transparent", "--opaque", "the background");
+  refuse_both("--sound", "--no-sound", "the sound");
   ScriptBuilder builder;
   if (const auto file = text_of(*file_)) builder.read_file(*file);
   for (const auto& [key, text] : defaults) builder.set(origin, key, text);
   for (const auto& [key, option] : keys_) {
     if (const auto text = text_of(*option)) builder.set(option->get_name(), key, *text);
   }
-  if (width_by_mass_ != nullptr && width_by_mass_->count() > 0) {
-    builder.set(width_by_mass_->get_name(), "red.width", "by-mass");
+  for (const Flag& flag : flags_) {
+    if (flag.option->count() > 0) builder.set(flag.option->get_name(), flag.key, flag.value);
   }
-  set_background(builder);
   if (const auto ratio = value_of(*mass_ratio_, parse_mass_ratio)) {
     builder.set_mass_ratio(mass_ratio_->get_name(), *ratio);
   }

@@ -28,9 +28,11 @@ class SceneOptions {
   void add_picture();
   /// Adds --theme, --show, --panels and what else says what a picture shows.
   void add_show();
+  /// Adds --shutter, and --fps and --speed, which it depends on.
+  void add_exposure();
   /// Adds --from and --to.
   void add_span();
-  /// Adds --fps, --speed and what else says how time runs in the video beside these.
+  /// Adds --from, --to and what else says how time runs in the video.
   void add_timing();
 
   /// Adds --sound and --no-sound.
@@ -50,9 +52,9 @@ class SceneOptions {
   /// Adds an option that sets a key of the scene file.
   void add_key(const std::string& key, const std::string& option, const std::string& placeholder,
                const std::string& help);
-  void set_background(ScriptBuilder& builder) const;
-  /// Adds an option without a value that sets a key to true.
-  void add_flag(const std::string& key, const std::string& option, const std::string& help);
+  /// Adds an option without a value that sets a key of the scene file to this one.
+  void add_flag(const std::string& key, const std::string& value, const std::string& option,
+                const std::string& help);
   void add_pacing();
   /// @throws UsageError if both options are given; `what` they set.
   void refuse_both(const std::string& first, const std::string& second, const char* what) const;
@@ -61,10 +63,13 @@ class SceneOptions {
   CLI::Option* file_;
   CLI::Option* digits_;
   CLI::Option* mass_ratio_;
-  CLI::Option* width_by_mass_ = nullptr;
-  CLI::Option* transparent_ = nullptr;
-  CLI::Option* opaque_ = nullptr;
   std::vector<std::pair<std::string, CLI::Option*>> keys_;
+  struct Flag {
+    std::string key;
+    std::string value;
+    CLI::Option* option;
+  };
+  std::vector<Flag> flags_;
 };
 
 /// Adds --engine, for the commands that offer both engines.

@@ -46,21 +46,22 @@ Descriptor open(const char* path, Kind kind) {
   return Descriptor(::open(path, access | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
 }
 
-void remove_if_abandoned(const fs::path& path, Kind kind) {
-  const Descriptor descriptor = open(path.c_str(), kind);
+void remove_if_abandoned(const fs::path& path) {
+  Descriptor descriptor = open(path.c_str(), Kind::file);
+  if (!descriptor.is_open()) descriptor = open(path.c_str(), Kind::folder);
   if (!descriptor.is_open() || !take_lock(descriptor.get())) return;
   std::error_code stays;  // the work does not depend on it
   fs::remove_all(path, stays);
 }
 
-void remove_abandoned(const fs::path& final_path, Kind kind) {
+void remove_abandoned(const fs::path& final_path) {
   const std::string start = final_path.filename().string() + std::string(kMark);
   std::error_code unreadable;
   fs::directory_iterator entry(folder_of(final_path), unreadable);
   for (; !unreadable && entry != fs::directory_iterator(); entry.increment(unreadable)) {
     const std::string name = entry->path().filename();
     const bool is_ours = name.starts_with(start) && name.size() == start.size() + kRandom.size();
-    if (is_ours) remove_if_abandoned(entry->path(), kind);
+    if (is_ours) remove_if_abandoned(entry->path());
   }
 }
 
@@ -88,7 +89,7 @@ Descriptor make(std::string& name, Kind kind) {
 }  // namespace
 
 Unfinished::Unfinished(const fs::path& final_path, Kind kind) {
-  remove_abandoned(final_path, kind);
+  remove_abandoned(final_path);
   do {
     std::string name = final_path.string();
     name.append(kMark).append(kRandom);

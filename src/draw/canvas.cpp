@@ -54,7 +54,7 @@ struct Canvas::Pixels {
 };
 
 /// How Cairo rounds a slanted edge depends on where the surface ends that it is painted on. The
-/// pixels of rectangles, text and plates do not.
+/// pixels of rectangles, text, plates and exposed blocks do not.
 bool depends_on_surface(const DrawItem& item) {
   if (const auto* group = std::get_if<GroupItem>(&item)) {
     return std::ranges::any_of(group->list->items, depends_on_surface);

@@ -142,9 +142,9 @@ Composition::~Composition() = default;
 Composition::Composition(Composition&&) noexcept = default;
 Composition& Composition::operator=(Composition&&) noexcept = default;
 
-DrawList Composition::frame(const Shown& shown) const {
+DrawList Composition::frame(const Shown& shown, std::span<const ExposurePart> exposure) const {
   DrawList list{contents_->width_px, contents_->height_px, contents_->background, {}};
-  contents_->stage->add(shown.state, list.items);
+  contents_->stage->add(shown.state, exposure, list.items);
   for (const auto& part : contents_->parts) part->add(shown, list.items);
   list.items.insert(list.items.end(), contents_->lines.begin(), contents_->lines.end());
   for (const auto& panel : contents_->panels) panel->add(shown, list.items);

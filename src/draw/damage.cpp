@@ -56,6 +56,30 @@ Extent extent_of(const PathItem& path) {
   return {points.left - reach, points.top - reach, points.right + reach, points.bottom + reach};
 }
 
+/// Where a block's left edge is at some time.
+struct Way {
+  double from;
+  double to;
+};
+
+Way way_of(const ExposedBlock& block) {
+  if (block.stops.empty()) return {block.bounds.x, block.bounds.x};
+  return {block.stops.front().x, block.stops.back().x};
+}
+
+Extent extent_of(const ExposedBlock& block) {
+  const auto [from, to] = way_of(block);
+  const Rectangle& r = block.bounds;
+  return {from, r.y, to + r.width, r.y + r.height};
+}
+
+Extent extent_of(const ExposedItem& item) {
+  const Extent a = extent_of(item.behind);
+  const Extent b = extent_of(item.front);
+  return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right),
+          std::max(a.bottom, b.bottom)};
+}
+
 /// Of the characters of a line of text between two distances from its origin.
 Extent extent_of(const TextItem& text, double left_em, double right_em) {
   const double em = text.size_px;
@@ -146,6 +170,49 @@ void compare(const GroupItem& before, const GroupItem& after, const MeasureText&
     const double x = after.x_px + rect.x_px;
     const double y = after.y_px + rect.y_px;
     damage.add({x, y, x + rect.width_px, y + rect.height_px});
+  }
+}
+
+/// Rows of both blocks: where one passes, the other is painted with it.
+Way rows_of(const ExposedItem& before, const ExposedItem& after) {
+  const Extent a = extent_of(before);
+  const Extent b = extent_of(after);
+  return {std::min(a.top, b.top), std::max(a.bottom, b.bottom)};
+}
+
+/// Between its ends a block that moves has the same pixels, wherever its ends are.
+void compare(const ExposedBlock& before, const ExposedBlock& after, const Way& rows,
+             Damage& damage) {
+  if (before == after) return;
+  const Rectangle& a = before.bounds;
+  const Rectangle& b = after.bounds;
+  const bool alike = before.fill == after.fill && before.stroke == after.stroke &&
+                     before.bars == after.bars && a.y == b.y && a.height == b.height &&
+                     a.width == b.width && before.stops.empty() == after.stops.empty();
+  const Way first = way_of(before);
+  const Way second = way_of(after);
+  if (!alike) {
+    damage.add({first.from, rows.from, first.to + a.width, rows.to});
+    damage.add({second.from, rows.from, second.to + b.width, rows.to});
+    return;
+  }
+  const double from = std::min(first.from, second.from);
+  const double to = std::max(first.to, second.to);
+  const double line = before.stroke.width_px;
+  damage.add({from, rows.from, to + line, rows.to});
+  damage.add({from + a.width - line, rows.from, to + a.width, rows.to});
+}
+
+void compare(const ExposedItem& before, const ExposedItem& after, const MeasureText& /*width_em*/,
+             Damage& damage) {
+  const Way rows = rows_of(before, after);
+  compare(before.behind, after.behind, rows, damage);
+  compare(before.front, after.front, rows, damage);
+  if (before.contacts == after.contacts) return;
+  for (const ExposedItem* item : {&before, &after}) {
+    if (item->contacts.empty()) continue;
+    damage.add(
+        {item->contacts.front().behind_x, rows.from, item->contacts.back().behind_x + 1, rows.to});
   }
 }
 

@@ -143,6 +143,8 @@ void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& part) {
     if (!reaches(item, part)) continue;
     if (const auto* group = std::get_if<GroupItem>(&item)) {
       paint_group(cr, *group, part);
+    } else if (const auto* exposed = std::get_if<ExposedItem>(&item)) {
+      paint_exposed(cr, *exposed, list, part);
     } else {
       paint_item(cr, item);
     }
@@ -238,6 +240,40 @@ void Painter::paint_group_pixels(cairo_t& cr, const GroupItem& item, const Pixel
   cairo_set_operator(&cr, CAIRO_OPERATOR_OVER);
   // What it was painted from ends here.
   cairo_set_source_rgb(&cr, 0, 0, 0);
+}
+
+void Painter::paint_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list,
+                            const PixelRect& part) {
+  cairo_surface_t* const surface = cairo_get_target(&cr);
+  if (cairo_surface_get_type(surface) != CAIRO_SURFACE_TYPE_IMAGE) {
+    embed_exposed(cr, item, list);
+    return;
+  }
+  if (!exposed_) exposed_ = std::make_unique<ExposedPainter>();
+  exposed_->paint(*surface, part, item,
+                  [&](const DrawItem& rectangle) { paint_item(cr, rectangle); });
+}
+
+/// What moves has no outline: it is embedded as pixels, with what is behind it.
+void Painter::embed_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list) {
+  for (const DrawItem& rectangle : still_blocks(item)) paint_item(cr, rectangle);
+  const PixelRect area = moving_part(item, {0, 0, list.width_px, list.height_px});
+  if (area.width_px <= 0 || area.height_px <= 0) return;
+  DrawList until = list;
+  const auto is_item = [&](const DrawItem& other) {
+    const auto* exposed = std::get_if<ExposedItem>(&other);
+    return exposed != nullptr && *exposed == item;
+  };
+  until.items.erase(std::ranges::find_if(until.items, is_item) + 1, until.items.end());
+  const CairoSurfacePtr pixels(
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, area.width_px, area.height_px));
+  cairo_surface_set_device_offset(pixels.get(), -area.x_px, -area.y_px);
+  const CairoPtr into(cairo_create(pixels.get()));
+  paint(*into, until, area);
+  cairo_surface_set_device_offset(pixels.get(), 0, 0);
+  cairo_set_source_surface(&cr, pixels.get(), area.x_px, area.y_px);
+  cairo_rectangle(&cr, area.x_px, area.y_px, area.width_px, area.height_px);
+  cairo_fill(&cr);
 }
 
 const Font& Painter::font() {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "draw/cairo_handles.hpp"
+#include "draw/exposed_painter.hpp"
 #include "draw/font.hpp"
 
 namespace piblocks {
@@ -22,7 +23,8 @@ enum class TextSetting {
   glyphs  ///< each glyph by itself, so that its pixels depend on nothing else
 };
 
-/// Holds the font, which is loaded when the first text is met, and the pictures of plates.
+/// Holds the font, which is loaded when the first text is met, the pictures of plates, and a table
+/// of light, which is made for the first exposed item.
 class Painter {
  public:
   explicit Painter(TextSetting setting) : setting_(setting) {}
@@ -35,6 +37,9 @@ class Painter {
 
  private:
   void paint_item(cairo_t& cr, const DrawItem& item);
+  void paint_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list,
+                     const PixelRect& part);
+  void embed_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list);
   void paint_text(cairo_t& cr, const TextItem& item);
   void paint_plate(cairo_t& cr, const PlateItem& item);
   cairo_surface_t& picture_of(const PlateItem& item);
@@ -43,6 +48,7 @@ class Painter {
 
   TextSetting setting_;
   std::unique_ptr<Font> font_;
+  std::unique_ptr<ExposedPainter> exposed_;
   /// The plate is kept too, so that no other one can come to be in its place in memory.
   struct PlatePicture {
     std::shared_ptr<const Plate> plate;

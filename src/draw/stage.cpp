@@ -5,6 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include "draw/expose.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -102,26 +104,28 @@ Stage::Stage(const Scene& scene, const Layout& layout, const Palette& palette, c
              std::string lit_digits)
     : layout_(layout),
       palette_(palette),
+      width_px_(scene.view.width_px),
       wall_(compose_wall(scene, layout, palette)),
       blue_side_(to_double(scene.system.blue.width)),
       red_side_(to_double(scene.system.red.width)),
       lit_digits_(std::move(lit_digits)),
       widths_(font, lit_digits_.empty() ? "" : kNumberCharacters) {}
 
-void Stage::add_block(ItemId id, double side, const Motion& motion, const BlockColors& colors,
-                      std::vector<DrawItem>& items) const {
-  const Rectangle bounds = to_pixels(layout_, motion.position - side / 2, -side / 2, side, side);
-  items.emplace_back(RectangleItem{id, bounds, colors.fill, Stroke{colors.edge, layout_.line_px}});
+ExposedBlock Stage::block(double side, const Motion& motion, const BlockColors& colors) const {
+  ExposedBlock block{to_pixels(layout_, motion.position - side / 2, -side / 2, side, side),
+                     colors.fill,
+                     Stroke{colors.edge, layout_.line_px},
+                     {},
+                     {}};
+  const Rectangle& bounds = block.bounds;
   const double height = std::min(2 * layout_.line_px, kBarStep * bounds.height / 2);
   for (int bar = 1; bar <= colors.bars; ++bar) {
     const bool is_upper = 2 * bar <= colors.bars;
     const double down = kBarStep * (is_upper ? bar : bar - colors.bars - 1);
     const double centre = std::round(bounds.y + bounds.height * (is_upper ? down : 1 + down));
-    items.emplace_back(RectangleItem{nth(id, static_cast<std::size_t>(bar)),
-                                     {bounds.x, centre - height / 2, bounds.width, height},
-                                     colors.edge,
-                                     std::nullopt});
+    block.bars.push_back({centre - height / 2, height});
   }
+  return block;
 }
 
 void Stage::add_count(const Integer& count, std::vector<DrawItem>& items) const {
@@ -142,10 +146,18 @@ void Stage::add_count(const Integer& count, std::vector<DrawItem>& items) const 
   }
 }
 
-void Stage::add(const BlockState& state, std::vector<DrawItem>& items) const {
+void Stage::add(const BlockState& state, std::span<const ExposurePart> exposure,
+                std::vector<DrawItem>& items) const {
   items.emplace_back(wall_);
-  add_block(ItemId::red_block, red_side_, state.red, palette_.red, items);
-  add_block(ItemId::blue_block, blue_side_, state.blue, palette_.blue, items);
+  ExposedBlock red = block(red_side_, state.red, palette_.red);
+  ExposedBlock blue = block(blue_side_, state.blue, palette_.blue);
+  if (exposure.empty()) {
+    add_rectangles(ItemId::red_block, red, items);
+    add_rectangles(ItemId::blue_block, blue, items);
+  } else {
+    items.emplace_back(expose(std::move(red), std::move(blue),
+                              {layout_.origin.x, layout_.scale, width_px_}, exposure));
+  }
   items.emplace_back(TextItem{ItemId::label, layout_.label, std::string(kLabelText),
                               layout_.text_px, palette_.muted});
   add_count(state.count, items);

@@ -2,10 +2,12 @@
 // In: a scene and the part of the frame it may take, once; a state, for every frame. Out: items.
 #pragma once
 
+#include <piblocks/composition.hpp>
 #include <piblocks/draw_list.hpp>
 #include <piblocks/interpolator.hpp>
 #include <piblocks/scene.hpp>
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,16 +51,18 @@ class Stage {
   Stage(const Scene& scene, const Layout& layout, const Palette& palette, const Font& font,
         std::string lit_digits);
 
-  void add(const BlockState& state, std::vector<DrawItem>& items) const;
+  /// @param exposure  as in Composition::frame().
+  void add(const BlockState& state, std::span<const ExposurePart> exposure,
+           std::vector<DrawItem>& items) const;
   const Layout& layout() const noexcept { return layout_; }
 
  private:
-  void add_block(ItemId id, double side, const Motion& motion, const BlockColors& colors,
-                 std::vector<DrawItem>& items) const;
+  ExposedBlock block(double side, const Motion& motion, const BlockColors& colors) const;
   void add_count(const Integer& count, std::vector<DrawItem>& items) const;
 
   Layout layout_;
   Palette palette_;
+  int width_px_;
   RectangleItem wall_;
   double blue_side_;
   double red_side_;

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <piblocks/png.hpp>
 
-#include <span>
 #include <string_view>
 
+#include "core/base64.hpp"
 #include "core/output_file.hpp"
 #include "golden/describe.hpp"
 #include "golden/diff_picture.hpp"
@@ -74,23 +74,6 @@ for (const slider of document.querySelectorAll("input[type=range]")) {
 update();
 </script>
 )";
-
-/// RFC 4648, section 4.
-std::string base64(std::span<const std::uint8_t> bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (k < count ? bytes[i + k] : 0U);
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= count ? kDigits[(word >> (18 - 6 * k)) & 63] : '=';
-    }
-  }
-  return text;
-}
 
 std::string picture(const Image& image, std::string_view kind) {
   return fmt::format(R"(<img class="{0}" alt="{0}" src="data:image/png;base64,{1}">)", kind,

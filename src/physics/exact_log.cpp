@@ -8,6 +8,7 @@
 
 #include "physics/impact_sum.hpp"
 #include "physics/indexed_stream.hpp"
+#include "physics/listed_exposure.hpp"
 #include "physics/require_finite.hpp"
 
 namespace piblocks {
@@ -171,6 +172,29 @@ std::optional<Impact> ExactLog::impact(CollisionKind kind, const Integer& first,
 }
 
 Integer ExactLog::count_near(const Time& time) const { return flight_at(to_rational(time)).count; }
+
+std::unique_ptr<Exposure> ExactLog::expose(const Rational& begin, const Rational& end) const {
+  const Rational& first = std::min(begin, end);
+  const Rational& last = std::max(begin, end);
+  const FreeFlight start = flight_at(first);
+  PieceList pieces(start.blue.position, start.red.position);
+  Rational now = first;
+  const auto go_to = [&](const Rational& time, double blue, double red) {
+    pieces.add(to_double(time - now), blue, red);
+    now = time;
+  };
+  const auto meet = [&](const Rational& time, const BlockSystem& blocks) {
+    if (time <= first || time >= last) return;
+    go_to(time, to_double(blocks.blue.position), to_double(blocks.red.position));
+  };
+  for (auto event = backward_.rbegin(); event != backward_.rend(); ++event) {
+    meet(-event->time, event->after);
+  }
+  for (const ExactCollision& event : forward_) meet(event.time, event.after);
+  const FreeFlight stop = flight_at(last);
+  go_to(last, stop.blue.position, stop.red.position);
+  return std::make_unique<ListedExposure>(pieces.take());
+}
 
 std::optional<PositionBounds> ExactLog::bounds_at(const Rational& time) const {
   const FreeFlight now = flight_at(time);

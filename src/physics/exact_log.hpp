@@ -29,6 +29,7 @@ class ExactLog final : public CollisionLog {
   std::optional<Impact> impact(CollisionKind kind, const Integer& first,
                                const Integer& last) const override;
   Integer count_near(const Time& time) const override;
+  std::unique_ptr<Exposure> expose(const Rational& begin, const Rational& end) const override;
   std::optional<PositionBounds> bounds_at(const Rational& time) const override;
 
  private:

@@ -1,11 +1,14 @@
 #include "physics/stored_log.hpp"
 
+#include <piblocks/interpolator.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "physics/impact_sum.hpp"
 #include "physics/indexed_stream.hpp"
+#include "physics/listed_exposure.hpp"
 
 namespace piblocks {
 namespace {
@@ -99,6 +102,35 @@ Integer StoredLog::count_near(const Time& time) const {
   const std::size_t happened = count_until(forward_, time);
   if (happened > 0) return Integer(happened);
   return -Integer(count_before(backward_, negated(time)));
+}
+
+std::unique_ptr<Exposure> StoredLog::expose(const Rational& begin, const Rational& end) const {
+  const Rational& first = std::min(begin, end);
+  const Rational& last = std::max(begin, end);
+  const BlockState start = state_at(*this, first);
+  PieceList pieces(start.blue.position, start.red.position);
+  Time now = to_time(first);
+  const Time until = to_time(last);
+  const auto go_to = [&](const Time& time, double blue, double red) {
+    // The doubles of an event loop can be out of order by their rounding.
+    pieces.add(std::max(0.0, (time.hi - now.hi) + (time.lo - now.lo)), blue, red);
+    now = time;
+  };
+  const auto meet = [&](const Time& time, const StoredCollision& c) {
+    go_to(time, c.blue.position, c.red.position);
+  };
+  for (std::size_t i = count_before(backward_, negated(now)),
+                   end_of_past = count_until(backward_, negated(until));
+       i > end_of_past; --i) {
+    meet(negated(backward_[i - 1].time), backward_[i - 1]);
+  }
+  for (std::size_t i = count_until(forward_, now), end_of_run = count_before(forward_, until);
+       i < end_of_run; ++i) {
+    meet(forward_[i].time, forward_[i]);
+  }
+  const BlockState stop = state_at(*this, last);
+  go_to(until, stop.blue.position, stop.red.position);
+  return std::make_unique<ListedExposure>(pieces.take());
 }
 
 }  // namespace piblocks

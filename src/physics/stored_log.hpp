@@ -34,6 +34,7 @@ class StoredLog final : public CollisionLog {
   std::optional<Impact> impact(CollisionKind kind, const Integer& first,
                                const Integer& last) const override;
   Integer count_near(const Time& time) const override;
+  std::unique_ptr<Exposure> expose(const Rational& begin, const Rational& end) const override;
   std::optional<PositionBounds> bounds_at(const Rational& /*time*/) const override {
     return std::nullopt;
   }

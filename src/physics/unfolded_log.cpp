@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "physics/listed_exposure.hpp"
 #include "physics/require_finite.hpp"
+#include "physics/unfolded_exposure.hpp"
 #include "physics/unfolded_stream.hpp"
 
 namespace piblocks {
@@ -201,6 +203,69 @@ std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,
     at(last);
   }
   return std::make_unique<UnfoldedStream>(form_, ray_of(first), ray_of(last), first);
+}
+
+RayPhase UnfoldedLog::phase_of(const Integer& ray) const {
+  const auto from = [&](const End& end) {
+    const DoubleDouble steps = end.steps_from(ray);
+    return steps.hi + (steps.lo + end.beyond.hi);
+  };
+  const double past = from(form_.past);
+  const double future = from(form_.future);
+  return future < past ? RayPhase{future, true} : RayPhase{past, false};
+}
+
+double UnfoldedLog::total_phase() const {
+  const DoubleDouble steps = form_.future.steps_from(form_.past.ray);
+  return steps.hi + (steps.lo + form_.past.beyond.hi + form_.future.beyond.hi);
+}
+
+/// Until all collisions at once, and from there on.
+std::unique_ptr<Exposure> UnfoldedLog::expose_corner(const Rational& begin,
+                                                     const Rational& end) const {
+  const FreeFlight start = flight_at(begin);
+  const FreeFlight stop = flight_at(end);
+  PieceList pieces(start.blue.position, start.red.position);
+  Rational now = begin;
+  if (begin < exact_.closest_approach && exact_.closest_approach < end) {
+    now = exact_.closest_approach;
+    pieces.add(to_double(now - begin), form_.blue_offset, form_.red_offset);
+  }
+  pieces.add(to_double(end - now), stop.blue.position, stop.red.position);
+  return std::make_unique<ListedExposure>(pieces.take());
+}
+
+std::unique_ptr<Exposure> UnfoldedLog::expose(const Rational& begin, const Rational& end) const {
+  const Rational& first = std::min(begin, end);
+  const Rational& last = std::max(begin, end);
+  if (exact_.through_corner()) return expose_corner(first, last);
+  const FreeFlight start = flight_at(first);
+  const FreeFlight stop = flight_at(last);
+  const Gaps from{tau_at(first, to_time(first)), start.blue.position - form_.blue_offset,
+                  start.red.position - form_.red_offset};
+  const Gaps to{tau_at(last, to_time(last)), stop.blue.position - form_.blue_offset,
+                stop.red.position - form_.red_offset};
+  const Integer first_ray = ray_of(start.count) + 1;
+  const Integer last_ray = ray_of(stop.count);
+  if (last_ray - first_ray >= Integer(long(kMaxListedCollisions))) {
+    return std::make_unique<UnfoldedExposure>(form_, total_phase(), from,
+                                              Crossing{phase_of(first_ray), is_odd(first_ray)},
+                                              Crossing{phase_of(last_ray), is_odd(last_ray)}, to);
+  }
+  const RaySums rays(form_, total_phase());
+  PieceList pieces(start.blue.position, start.red.position);
+  double now = from.tau;
+  for (Integer ray = first_ray; ray <= last_ray; ++ray) {
+    const RayPhase phase = phase_of(ray);
+    const double tau = rays.tau(phase);
+    const double distance = form_.ell * (form_.sigma / std::sin(phase.phase * form_.theta.hi));
+    const RayKind kind = form_.kind(is_odd(ray));
+    pieces.add(std::max(0.0, tau - now), form_.blue_offset + kind.blue_reach * distance,
+               form_.red_offset + kind.red_reach * distance);
+    now = tau;
+  }
+  pieces.add(std::max(0.0, to.tau - now), stop.blue.position, stop.red.position);
+  return std::make_unique<ListedExposure>(pieces.take());
 }
 
 std::optional<PositionBounds> UnfoldedLog::bounds_at(const Rational& time) const {

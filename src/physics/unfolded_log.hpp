@@ -6,6 +6,7 @@
 #include <piblocks/collision_log.hpp>
 
 #include "physics/exact_motion.hpp"
+#include "physics/ray_sums.hpp"
 #include "physics/unfolding.hpp"
 
 namespace piblocks {
@@ -28,6 +29,7 @@ class UnfoldedLog final : public CollisionLog {
   std::optional<Impact> impact(CollisionKind kind, const Integer& first,
                                const Integer& last) const override;
   Integer count_near(const Time& time) const override;
+  std::unique_ptr<Exposure> expose(const Rational& begin, const Rational& end) const override;
   std::optional<PositionBounds> bounds_at(const Rational& time) const override;
 
  private:
@@ -55,6 +57,9 @@ class UnfoldedLog final : public CollisionLog {
   double tau_at(const Rational& time, const Time& t) const;
   Sighting sight(double tau) const;
   Place place(const Sighting& seen, const Rational& time) const;
+  std::unique_ptr<Exposure> expose_corner(const Rational& begin, const Rational& end) const;
+  double total_phase() const;
+  RayPhase phase_of(const Integer& ray) const;
   Integer ray_of(const Integer& index) const { return exact_.blocks_first ? index : index - 1; }
 
   ExactMotion exact_;

@@ -7,6 +7,7 @@
 
 #include "draw/card.hpp"
 #include "render/logo.hpp"
+#include "render/shutter.hpp"
 
 namespace piblocks {
 namespace {
@@ -33,9 +34,11 @@ Run::Run(Scene scene, std::unique_ptr<CollisionLog> log)
       log_(std::move(log)),
       composition_(scene_, *log_, read_logo(scene_)) {}
 
-DrawList Run::at(FrameTime shown) const {
+DrawList Run::frame(FrameTime shown, const Schedule& clock, std::int64_t number) const {
   BlockState state = state_at(*log_, shown.time);
-  return composition_.frame({std::move(state), std::move(shown.time), std::move(shown.slower)});
+  const std::vector<ExposurePart> exposure = expose_frame(scene_, *log_, clock, number);
+  return composition_.frame({std::move(state), std::move(shown.time), std::move(shown.slower)},
+                            exposure);
 }
 
 FilmPart::FilmPart(const Scene& scene) { show_one(scene); }
@@ -87,10 +90,11 @@ void FilmPart::compare(const Runs& runs, const View& film) {
 DrawList FilmPart::frame(std::int64_t number) const {
   if (runs_.empty()) return card_;
   FrameTime shown = timeline_->at(number);
-  if (!split_) return runs_.front().at(std::move(shown));
+  const Schedule& clock = timeline_->schedule();
+  if (!split_) return runs_.front().frame(std::move(shown), clock, number);
   std::vector<DrawList> pictures;
   pictures.reserve(runs_.size());
-  for (const Run& run : runs_) pictures.push_back(run.at(shown));
+  for (const Run& run : runs_) pictures.push_back(run.frame(shown, clock, number));
   return split_->compose(std::move(pictures));
 }
 

@@ -26,7 +26,8 @@ class Run {
 
   const Scene& scene() const noexcept { return scene_; }
   const CollisionLog& log() const noexcept { return *log_; }
-  DrawList at(FrameTime shown) const;
+  /// @param clock  by which frame `number` shows the instant `shown`.
+  DrawList frame(FrameTime shown, const Schedule& clock, std::int64_t number) const;
 
  private:
   Scene scene_;

@@ -10,6 +10,7 @@
 #include "media/part_file.hpp"
 #include "render/film_sound.hpp"
 #include "render/job_description.hpp"
+#include "render/page.hpp"
 
 namespace piblocks {
 namespace {
@@ -108,6 +109,10 @@ std::optional<SoundFormat> sound_of(const JobDescription& job) {
 std::int64_t join(const std::vector<std::string>& parts, const std::string& output,
                   const std::stop_token& stop) {
   if (parts.empty()) throw UsageError("join: no parts are given");
+  if (is_page(output)) {
+    throw UsageError(
+        fmt::format("join: '{}' cannot be made of parts; render the page whole", output));
+  }
   const std::vector<NumberedPart> in_order = read_headers(parts);
   check_same_job(in_order);
   check_all_there(in_order);

@@ -5,11 +5,13 @@
 #include <piblocks/render.hpp>
 
 #include "media/part_file.hpp"
+#include "render/bundle.hpp"
 #include "render/chunks.hpp"
 #include "render/film.hpp"
 #include "render/film_sound.hpp"
 #include "render/job_description.hpp"
 #include "render/ordered_pool.hpp"
+#include "render/page.hpp"
 #include "render/stage_clock.hpp"
 
 namespace piblocks {
@@ -167,6 +169,8 @@ void add(StageSeconds& sum, const StageSeconds& spent) {
 
 Rendered render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
                 const std::stop_token& stop) {
+  if (job.bundle) return render_bundle(job, on_progress, stop);
+  if (is_page(job.output)) return render_page(job, on_progress, stop);
   check_part(job);
   const Plan plan(job);
   const Share share = share_of(job.part, plan.chunks.count());

@@ -11,6 +11,7 @@
 #include "core/output_file.hpp"
 #include "render/film.hpp"
 #include "render/logo.hpp"
+#include "render/shutter.hpp"
 
 namespace piblocks {
 namespace {
@@ -36,8 +37,9 @@ Draw* drawing_for(std::string_view output) {
 DrawList picture_of(const Scene& scene, const Instant& instant) {
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   TimedState at = state_at(*log, instant);
+  const Rational time = to_rational(at.time);
   const Composition composition(scene, *log, read_logo(scene));
-  return composition.frame({std::move(at.state), to_rational(at.time)});
+  return composition.frame({std::move(at.state), time}, expose_still(scene, *log, time));
 }
 
 DrawList picture_of(const Storyboard& story, const Instant& instant) {

@@ -42,6 +42,20 @@ void check_frame_rate(const Rational& rate, std::vector<Problem>& problems) {
                                to_text(rate), kMaxFrameRate, kMaxTerm)});
 }
 
+void check_shutter(const View& view, std::vector<Problem>& problems) {
+  const Rational& shutter = view.shutter;
+  if (shutter > 0 && view.background == Background::transparent) {
+    problems.push_back({"view.shutter",
+                        "asks for light from behind the blocks, and a transparent frame has none; "
+                        "leave it out, or use --opaque"});
+  }
+  if (shutter >= 0 && shutter <= 1) return;
+  problems.push_back(
+      {"view.shutter", fmt::format("= {}: must be from 0 (the instant alone) to 1 (all of the time "
+                                   "to the next frame)",
+                                   to_text(shutter))});
+}
+
 void check_finite(const char* key, const Rational& value, std::vector<Problem>& problems) {
   if (std::isfinite(to_double(value))) return;
   problems.push_back({key, "is beyond the range of a double (about 1.8e308)"});
@@ -88,6 +102,7 @@ std::vector<Problem> problems_of(const Scene& scene) {
   check_size("view.size", {scene.view.width_px, scene.view.height_px}, problems);
   if (scene.golden.size) check_size("golden.size", *scene.golden.size, problems);
   check_frame_rate(scene.view.frame_rate, problems);
+  check_shutter(scene.view, problems);
   check_time(scene.time, problems);
   check_pacing(scene, problems);
   return problems;

@@ -180,6 +180,8 @@ constexpr auto kKeys = std::to_array<SceneKey>({
      [](const Scene& s) { return size(s.view); }},
     {"view.fps", [](Scene& s, const Values& v) { set_number(s.view.frame_rate, v); },
      [](const Scene& s) { return number(s.view.frame_rate); }},
+    {"view.shutter", [](Scene& s, const Values& v) { set_number(s.view.shutter, v); },
+     [](const Scene& s) { return number(s.view.shutter); }},
     {"view.background", [](Scene& s, const Values& v) { set_background(s.view, v); },
      [](const Scene& s) { return background(s.view.background); }},
     {"view.theme", [](Scene& s, const Values& v) { s.view.theme = parse_theme(single(v)); },

@@ -196,6 +196,36 @@ Schedule::Schedule(const Scene& scene, const CollisionLog& log) {
   frame_count_ = std::move(builder.frame_count);
 }
 
+std::optional<Rational> Schedule::first_shown(const Rational& time) const {
+  for (std::size_t i = 0; i < stretches_.size(); ++i) {
+    const Stretch& stretch = stretches_[i];
+    if (time == stretch.time) return stretch.video_s;
+    if (stretch.speed == 0) continue;
+    const Rational video_s = stretch.video_s + (time - stretch.time) / stretch.speed;
+    const bool is_over = i + 1 < stretches_.size() && video_s >= stretches_[i + 1].video_s;
+    if (video_s > stretch.video_s && !is_over) return video_s;
+  }
+  return std::nullopt;
+}
+
+std::vector<TimeSlice> Schedule::during(const Rational& video_s, const Rational& length_s) const {
+  std::vector<TimeSlice> slices;
+  const Rational end_s = video_s + length_s;
+  auto next = std::ranges::upper_bound(stretches_, video_s, {}, &Stretch::video_s);
+  for (Rational now_s = video_s; now_s < end_s;) {
+    const Stretch& stretch = *std::prev(next);
+    const Rational until_s =
+        next == stretches_.end() ? end_s : std::min<Rational>(next->video_s, end_s);
+    const auto time = [&](const Rational& s) -> Rational {
+      return stretch.time + stretch.speed * (s - stretch.video_s);
+    };
+    slices.push_back({time(now_s), time(until_s), (until_s - now_s) / length_s});
+    now_s = until_s;
+    if (next != stretches_.end()) ++next;
+  }
+  return slices;
+}
+
 FrameTime Schedule::at(const Rational& video_s) const {
   const auto next = std::ranges::upper_bound(stretches_, video_s, {}, &Stretch::video_s);
   const Stretch& stretch = *std::prev(next);

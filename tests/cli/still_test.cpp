@@ -51,6 +51,35 @@ TEST_F(StillTest, SvgAndPdfAreVectorPictures) {
   EXPECT_TRUE(contents("still.pdf").starts_with("%PDF-"));
 }
 
+TEST_F(StillTest, ExposedBlocksAreAPictureInAVectorFile) {
+  const auto svg_of = [&](const Arguments& more) {
+    output_of(Arguments{"still", "--size", "320x180", "-o", "still.svg"} + more);
+    return contents("still.svg");
+  };
+  const auto has_image = [](const std::string& svg) {
+    return svg.find("<image") != std::string::npos;
+  };
+  EXPECT_FALSE(has_image(svg_of({"--at", "4"})));
+  EXPECT_TRUE(has_image(svg_of({"--at", "4", "--shutter", "1"})));
+  // At 5 time stands, and so do the blocks.
+  write("scene.toml", "[time]\nfreeze = ['5:1']\n[view]\nshutter = 1\n");
+  const std::string frozen = svg_of({"scene.toml", "--at", "5"});
+  EXPECT_FALSE(has_image(frozen));
+  EXPECT_EQ(frozen, svg_of({"--at", "5"}));
+}
+
+TEST_F(StillTest, ExposureDependsOnRateAndSpeed) {
+  const auto picture = [&](const Arguments& more) {
+    return output_of(Arguments{"still", "--at", "4", "--size", "320x180", "-o", "-"} + more);
+  };
+  const std::string half = picture({"--shutter", "0.5"});
+  EXPECT_NE(half, picture({}));
+  EXPECT_EQ(picture({"--shutter", "0"}), picture({}));
+  EXPECT_EQ(half, picture({"--shutter", "1", "--fps", "120"}));
+  EXPECT_EQ(half, picture({"--shutter", "1", "--speed", "1/2"}));
+  EXPECT_NE(half, picture({"--shutter", "0.5", "--speed", "2"}));
+}
+
 TEST_F(StillTest, InstantsNamedTwoWaysGiveOnePicture) {
   const auto picture = [&](const std::string& instant) {
     return output_of({"still", "--digits", "1", "--at", instant, "--size", "320x180", "-o", "-"});

@@ -214,10 +214,38 @@ GroupItem any_group(Random& random, ItemId id, int width, int height) {
           random.integer(0, 1) == 0 ? 1 : random.uniform(0, 1)};
 }
 
+ExposedBlock any_exposed_block(Random& random, int width, int height) {
+  ExposedBlock block{{anywhere(random, width), anywhere(random, height), random.uniform(1, width),
+                      random.uniform(1, height)},
+                     any_color(random),
+                     {any_color(random), random.uniform(0.5, 4), 0},
+                     {},
+                     {}};
+  for (std::int64_t i = random.integer(-2, 3); i > 0; --i) {
+    const double down = random.uniform(0, block.bounds.height);
+    block.bars.push_back({block.bounds.y + down, random.uniform(0, block.bounds.height - down)});
+  }
+  const auto count = random.integer(0, 2) == 0 ? 0 : random.integer(1, 40);
+  double x = block.bounds.x;
+  for (std::int64_t i = 0; i < count; ++i) {
+    block.stops.push_back({x, 1.0 / double(count)});
+    x += random.uniform(0.01, 1);
+  }
+  return block;
+}
+
+ExposedItem any_exposed(Random& random, ItemId id, int width, int height) {
+  ExposedItem item{
+      id, any_exposed_block(random, width, height), any_exposed_block(random, width, height), {}};
+  for (std::int64_t i = random.integer(-3, 5); i > 0; --i) {
+    item.contacts.push_back({anywhere(random, width), anywhere(random, width), 0.1});
+  }
+  std::ranges::sort(item.contacts, {}, &Contact::behind_x);
+  return item;
+}
+
 DrawItem any_item(Random& random, ItemId id, int width, int height) {
-  switch (random.integer(0, 5)) {
-    case 5:
-      return any_group(random, id, width, height);
+  switch (random.integer(0, 6)) {
     case 0:
       return any_line(random, id, width, height);
     case 1:
@@ -226,6 +254,10 @@ DrawItem any_item(Random& random, ItemId id, int width, int height) {
       return any_disk(random, id, width, height);
     case 3:
       return any_image(random, id, width, height);
+    case 4:
+      return any_exposed(random, id, width, height);
+    case 5:
+      return any_group(random, id, width, height);
     default:
       return any_rectangle(random, id, width, height);
   }
@@ -239,6 +271,14 @@ void change_group(Random& random, GroupItem& group) {
   change(random, list);
   group.list = std::make_shared<const DrawList>(list);
   if (random.integer(0, 3) == 0) group.opacity = random.uniform(0, 1);
+}
+
+/// As from frame to frame: all of its way, or where it stays.
+void move(Random& random, ExposedBlock& block) {
+  const double step = random.uniform(-5, 5);
+  block.bounds.x += step;
+  for (Stop& stop : block.stops) stop.x += step;
+  if (random.integer(0, 4) == 0) block.stops.clear();
 }
 
 /// Moves, resizes, recolours or rewrites one item, or a few, or none.
@@ -256,6 +296,9 @@ void change(Random& random, DrawList& list) {
       disk->centre.x += random.uniform(-5, 5);
     } else if (auto* group = std::get_if<GroupItem>(&item); group && kind < 3) {
       change_group(random, *group);
+    } else if (auto* exposed = std::get_if<ExposedItem>(&item); exposed && kind < 3) {
+      move(random, random.integer(0, 1) == 0 ? exposed->behind : exposed->front);
+      if (random.integer(0, 1) == 0) exposed->contacts.clear();
     }
   }
 }

@@ -115,9 +115,18 @@ class Browser:
         if text:
             self.call("Input.insertText", text=text)
         else:
-            for kind in ("keyDown", "keyUp"):
-                self.call("Input.dispatchKeyEvent", type=kind, key="Delete", code="Delete",
-                          windowsVirtualKeyCode=46)
+            self.press("Delete", 46)
+
+    def press(self, key, code, text=""):
+        """A key by its name and number; with what it types, if anything."""
+        for kind in ("keyDown", "keyUp"):
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, code=key,
+                      windowsVirtualKeyCode=code, **({"text": text} if text else {}))
+
+    def prefer(self, **features):
+        """What the person has set up, such as prefers_color_scheme="dark"."""
+        self.call("Emulation.setEmulatedMedia", features=[
+            {"name": name.replace("_", "-"), "value": value} for name, value in features.items()])
 
     def save_picture(self, element, path):
         """What is seen where this element is."""

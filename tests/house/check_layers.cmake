@@ -11,7 +11,7 @@ set(physics_may core physics)
 set(scene_may core physics scene)
 set(sound_may core physics scene sound)
 # Drawing sees states and collisions, not the engines that make them.
-set(draw_may core physics/collision_log physics/interpolator scene draw)
+set(draw_may core physics/collision_log physics/exposure physics/interpolator scene draw)
 # Sinks know pixels and packets, nothing of blocks.
 set(media_may core media)
 set(golden_may core media golden)
@@ -20,11 +20,11 @@ set(cli_may ${layers})
 
 # The layer of each header in include/piblocks.
 set(core_headers color error exact geometry image time version)
-set(physics_headers blocks collision_log event_simulator interpolator particle
+set(physics_headers blocks collision_log event_simulator exposure interpolator particle
     physics_versions)
 set(scene_headers instant pacing scene schedule show storyboard timeline)
 set(sound_headers soundtrack)
-set(draw_headers canvas composition draw_list item_id sheet)
+set(draw_headers canvas composition draw_list exposed_item item_id shapes sheet)
 set(media_headers frame_sink png)
 set(golden_headers compare compare_files)
 set(render_headers render)

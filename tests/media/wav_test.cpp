@@ -73,15 +73,18 @@ TEST(Wav, RefusesWhatNoHeaderCanSay) {
 
 TEST(Sound, IsRefusedWhereThereIsNone) {
   const SoundFormat sound{.rate_hz = 48000, .size = 3};
-  for (const char* name : {"a.y4m", "-", "%d.png", "a.framehash", "null"}) {
+  for (const char* name : {"a.y4m", "-", "%d.png", "a.framehash", "null", "a.gif", "a.apng"}) {
     try {
       set_up_output(name, {}, {}, sound);
       FAIL() << name;
     } catch (const UsageError& error) {
-      EXPECT_NE(std::string(error.what()).find("has no sound; write *.mp4"), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find("has no sound; write one of: *.mp4"),
+                std::string::npos);
     }
   }
-  EXPECT_NO_THROW(set_up_output("a.mp4", {}, {}, sound));
+  for (const char* name : {"a.mp4", "a.mov", "a.webm"}) {
+    EXPECT_NO_THROW(set_up_output(name, {}, {}, sound)) << name;
+  }
 }
 
 TEST(Sound, IsNotTakenByAnOutputThatWasSetUpWithout) {

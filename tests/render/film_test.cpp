@@ -59,7 +59,7 @@ class FilmTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
-/// A card, runs, a comparison, fades and a cut.
+/// A card, runs, a comparison, fades and a cut; what moves is exposed in some.
 constexpr const char* kStory = R"(
 [[part]]
 card = ["Counting π", "twice"]
@@ -71,10 +71,11 @@ time.duration = 3
 [[part]]
 digits = 2
 time.duration = 2
+view.shutter = 1
 [[part]]
 fade = 0.7
 time.duration = 3
-compare = [{ mass-ratio = 1 }, { mass-ratio = 16 }]
+compare = [{ mass-ratio = 1 }, { mass-ratio = 16, view.shutter = "1/2" }]
 )";
 
 TEST_F(FilmTest, PartsFollowEachOther) {
@@ -105,8 +106,25 @@ TEST_F(FilmTest, OfASceneIsTheScene) {
 
 TEST_F(FilmTest, APartShowsWhatItsSceneWouldShowAlone) {
   const Film made = film(kStory);
-  const Film alone = film("digits = 2\ntime.duration = 2");
+  const Film alone = film("digits = 2\ntime.duration = 2\nview.shutter = 1");
   for (std::int64_t k = 35; k < 48; ++k) EXPECT_EQ(made.frame(k), alone.frame(k - 35)) << k;
+}
+
+bool is_exposed(const DrawList& list) {
+  return std::ranges::any_of(
+      list.items, [](const DrawItem& item) { return std::holds_alternative<ExposedItem>(item); });
+}
+
+TEST_F(FilmTest, EachRunHasItsOwnShutter) {
+  const Film made = film(kStory);
+  EXPECT_FALSE(is_exposed(made.frame(20)));
+  EXPECT_TRUE(is_exposed(made.frame(40)));
+  std::vector<bool> exposed;
+  for (const DrawItem& item : made.frame(60).items) {
+    const auto* group = std::get_if<GroupItem>(&item);
+    if (group != nullptr) exposed.push_back(is_exposed(*group->list));
+  }
+  EXPECT_EQ(exposed, (std::vector<bool>{false, true}));
 }
 
 TEST_F(FilmTest, AFadeShowsBothPartsAndHalfWayTheirMean) {
@@ -161,7 +179,8 @@ TEST_F(FilmTest, WhatIsComparedHasOneClock) {
     for (const DrawItem& item : list.items) {
       const auto* group = std::get_if<GroupItem>(&item);
       if (group == nullptr) continue;
-      EXPECT_EQ(*group->list, runs[cell].at(shown)) << "frame " << k << ", cell " << cell;
+      EXPECT_EQ(*group->list, runs[cell].frame(shown, *placed.part.schedule(), k))
+          << "frame " << k << ", cell " << cell;
       ++cell;
     }
     EXPECT_EQ(cell, 3U);

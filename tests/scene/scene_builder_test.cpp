@@ -62,6 +62,7 @@ TEST_F(SceneFileTest, DescriptionReadsBackAsTheSame) {
     x = [-2, 7.5]
     size = "640x360"
     fps = "30000/1001"
+    shutter = "1/3"
     [time]
     from = "1/7"
     to = "last+1/3"
@@ -114,12 +115,14 @@ TEST_F(SceneFileTest, ReadsEveryKey) {
     y = [-1.5, 1.5]
     size = [1280, 720]
     fps = "30000/1001"
+    shutter = 0.5
     [time]
     from = 1
     to = "last+0.25"
     speed = "1/2"
   )");
   EXPECT_EQ(scene.system.wall_face, Rational(-1, 2));
+  EXPECT_EQ(scene.view.shutter, Rational(1, 2));
   EXPECT_EQ(scene.system.blue.mass, Rational(1, 3));
   EXPECT_EQ(scene.system.blue.position, Rational(9, 4));
   EXPECT_EQ(scene.system.blue.velocity, Rational(1, 10)) << "a decimal means the decimal";
@@ -189,6 +192,9 @@ TEST_F(SceneFileTest, RefusesInvalidValuesOneByOne) {
       {"[view]\nfps = '1/0'", "view.fps"},
       {"[view]\nfps = 1001", "view.fps"},
       {"[view]\nfps = '1/3000000'", "view.fps"},
+      {"[view]\nshutter = 1.01", "view.shutter"},
+      {"[view]\nshutter = -1", "view.shutter"},
+      {"[view]\nshutter = true", "view.shutter"},
       {"[time]\nspeed = 0", "time.speed"},
       {"[time]\nfrom = 5\nto = 5", "time.to"},
       {"[time]\nto = 'first'", "time.to"},

@@ -219,6 +219,51 @@ TEST(Schedule, RandomPacingLeavesNoGaps) {
   }
 }
 
+/// What is shown during a frame is what is shown at each moment of it.
+void expect_slices(const Schedule& schedule, const Rational& video_s, const Rational& length_s) {
+  Rational now_s = video_s;
+  for (const TimeSlice& slice : schedule.during(video_s, length_s)) {
+    EXPECT_GT(slice.share, 0);
+    EXPECT_EQ(slice.from, schedule.at(now_s).time);
+    const Rational slice_s = slice.share * length_s;
+    EXPECT_EQ((slice.from + slice.to) / 2, schedule.at(now_s + slice_s / 2).time);
+    now_s += slice_s;
+    EXPECT_EQ(slice.to, schedule.at(now_s).time);
+  }
+  EXPECT_EQ(now_s, video_s + length_s);
+}
+
+TEST(Schedule, SlicesFollowTheStretches) {
+  Random random(77);
+  SCOPED_TRACE(random.trace());
+  const Schedule schedule = schedule_of({{"time.to", "5"},
+                                         {"time.slow-motion", "1:3:2,3.4:3.5:10"},
+                                         {"time.freeze", "2:1/3,3.45:0.1"},
+                                         {"time.hold-start", "0.2"},
+                                         {"time.loop", "true"}});
+  EXPECT_EQ(schedule.during(0, Rational(1, 10)).size(), 1U);
+  EXPECT_GT(schedule.during(0, 12).size(), 10U);
+  for (int i = 0; i < 200; ++i) {
+    expect_slices(schedule, random.rational(0, 16, 120), random.rational(0, 2, 120) + 1);
+    expect_slices(schedule, random.rational(0, 16, 120), Rational(1, 60));
+  }
+}
+
+TEST(Schedule, KnowsWhenAnInstantIsFirstShown) {
+  const Schedule schedule = schedule_of({{"time.from", "1"},
+                                         {"time.to", "5"},
+                                         {"time.slow-motion", "2:3:2"},
+                                         {"time.freeze", "4:1"},
+                                         {"time.hold-start", "2"},
+                                         {"time.loop", "true"}});
+  EXPECT_EQ(schedule.first_shown(1), 0);
+  EXPECT_EQ(schedule.first_shown(Rational(3, 2)), Rational(5, 2));
+  EXPECT_EQ(schedule.first_shown(Rational(5, 2)), 4);
+  EXPECT_EQ(schedule.first_shown(4), 6);
+  EXPECT_EQ(schedule.first_shown(Rational(9, 2)), Rational(15, 2));
+  EXPECT_EQ(schedule.first_shown(Rational(1, 2)), std::nullopt);
+}
+
 TEST(Schedule, RefusesWhatCannotBe) {
   const auto problem = [](const std::vector<Setting>& settings, Rational red_velocity = -1) {
     Scene scene = scene_with(settings);

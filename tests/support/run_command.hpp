@@ -21,11 +21,18 @@ struct CommandOptions {
   bool err_is_terminal = false;               ///< standard error is a terminal of its own
 };
 
+/// A sanitizer keeps freed memory, and needs some of its own.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kTellsMemory = false;
+#else
+inline constexpr bool kTellsMemory = true;
+#endif
+
 struct CommandResult {
   int exit_code = 0;  ///< minus the signal's number if one ended it
   std::string out;
   std::string err;
-  long max_memory_KiB = 0;  ///< largest resident set
+  long max_memory_KiB = 0;  ///< largest resident set; means nothing unless kTellsMemory
 };
 
 /// A running piblocks; killed if it is still running when this object goes.

@@ -15,7 +15,7 @@ namespace piblocks {
 std::unique_ptr<Part> mass_labels(const Setting& setting);
 
 /// Arrows above the blocks. Velocities of one run differ by the square root of the mass ratio, so
-/// lengths grow with the logarithm; the figure says the value.
+/// lengths grow less and less, up to a longest one; the figure says the value.
 /// @throws UsageError if the view has no room above the blocks.
 std::unique_ptr<Part> velocity_arrows(const Setting& setting);
 

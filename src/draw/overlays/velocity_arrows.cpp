@@ -17,17 +17,16 @@ constexpr double kBaseline = 0.5;  // height of the figure's baseline
 constexpr double kTextSize = 0.4;
 constexpr double kHead = 0.17;
 constexpr double kLeastRoom_px = 16;
-/// Of the longest arrow, in units of the scene.
+/// No arrow is as long as this, in units of the scene.
 constexpr double kLongest = 0.9;
-/// A velocity so many times smaller than the largest is not told from rest.
-constexpr double kRange = 1000;
+/// So many times red's usual speed has an arrow half as long.
+constexpr double kHalfLength = 2;
 
-/// Largest speed that a block reaches: all energy its own.
-double top_speed(const BlockSystem& system) {
+/// Red's largest speed if it is the heavier one: all energy its own.
+double usual_speed(const BlockSystem& system) {
   const double ratio = to_double(system.blue.mass / system.red.mass);
-  const double blue = to_double(system.blue.velocity);
-  const double red = to_double(system.red.velocity);
-  return std::sqrt(ratio * blue * blue + red * red) / std::min(1.0, std::sqrt(ratio));
+  return std::hypot(std::sqrt(ratio) * to_double(system.blue.velocity),
+                    to_double(system.red.velocity));
 }
 
 class VelocityArrows final : public Part {
@@ -36,7 +35,7 @@ class VelocityArrows final : public Part {
       : layout_(setting.stage),
         palette_(setting.palette),
         widths_(setting.font, kNumberCharacters),
-        top_speed_(top_speed(setting.scene.system)),
+        usual_speed_(usual_speed(setting.scene.system)),
         line_px_(setting.line_px) {
     const BlockSystem& system = setting.scene.system;
     top_ = to_double(std::max(system.blue.width, system.red.width)) / 2;
@@ -57,8 +56,9 @@ class VelocityArrows final : public Part {
 
  private:
   double length_px(double velocity) const {
-    if (!(top_speed_ > 0)) return 0;
-    const double share = std::log1p(std::abs(velocity) / top_speed_ * kRange) / std::log1p(kRange);
+    const double speed = std::abs(velocity);
+    if (!(usual_speed_ > 0) || !(speed > 0)) return 0;
+    const double share = 1 / (1 + kHalfLength * usual_speed_ / speed);
     return std::copysign(kLongest * share * layout_.scale, velocity);
   }
 
@@ -91,7 +91,7 @@ class VelocityArrows final : public Part {
   Layout layout_;
   Palette palette_;
   TextWidths widths_;
-  double top_speed_;
+  double usual_speed_;
   double line_px_;
   double top_ = 0;
   double room_px_ = 0;

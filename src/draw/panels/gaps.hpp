@@ -3,8 +3,8 @@
 // less the widths between, so that 0 <= y1 <= y2, with equality where something meets.
 #pragma once
 
-#include <piblocks/scene.hpp>
 #include <piblocks/interpolator.hpp>
+#include <piblocks/scene.hpp>
 
 #include <cmath>
 

@@ -1,0 +1,207 @@
+#include "draw/expose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace piblocks {
+namespace {
+
+/// What moves less than this, stays: far below what a pixel can tell, far above roundings.
+constexpr double kStill_px = 1e-6;
+
+/// Beyond the frame's edge by more than this, nothing of a block is seen.
+constexpr double kMargin_px = 4;
+
+/// Most places that stand for the way of one block.
+constexpr double kMaxStops = 1 << 15;
+
+/// Distance of the places in which a block is drawn. Between two of them the light of a pixel is
+/// taken as changing evenly. The error falls with the square of the distance, and counts the less
+/// the shorter a block is in a pixel.
+double spacing_px(double range_px) {
+  const double fine = range_px <= 64 ? 1.0 / 32 : range_px <= 512 ? 1.0 / 16 : 1.0 / 4;
+  return std::max(fine, range_px / kMaxStops);
+}
+
+/// The map from the position of a block's centre to the column of its left edge.
+struct ToPixels {
+  double zero_px;
+  double scale;
+
+  ToPixels(const SceneColumns& columns, const ExposedBlock& block)
+      : zero_px(columns.zero_px - block.bounds.width / 2), scale(columns.scale) {}
+  double operator()(double position) const { return zero_px + position * scale; }
+  double back(double x_px) const { return (x_px - zero_px) / scale; }
+};
+
+/// The integral of the share of time that an even motion from one place to another is below x.
+double area_below(double low, double high, double x) {
+  if (x >= high) return (x - low) / 2 + (x - high) / 2;
+  if (x <= low) return 0;
+  return (x - low) * ((x - low) / (high - low)) / 2;
+}
+
+/// Shares of time by place, such that whatever changes evenly from place to place has the right
+/// mean: the second differences of the integral of F.
+class StopTable {
+ public:
+  StopTable(const Travel& range_px, double spacing)
+      : spacing_(spacing), first_(std::floor(range_px.from / spacing) - 1) {
+    const double last = std::ceil(range_px.to / spacing) + 1;
+    shares_.assign(static_cast<std::size_t>(last - first_) + 1, 0);
+  }
+
+  /// @param area  the integral of F up to a place; 0 below `low`, rising by 1 a pixel above `high`.
+  template <typename Area>
+  void add(double share, double low, double high, const Area& area) {
+    const std::size_t begin = index(std::floor(low / spacing_));
+    const std::size_t end = index(std::ceil(high / spacing_)) + 1;
+    double before = area(place(begin - 1));
+    double here = area(place(begin));
+    for (std::size_t i = begin; i < end; ++i) {
+      const double after = area(place(i + 1));
+      shares_[i] += share * ((after - here) - (here - before)) / spacing_;
+      before = here;
+      here = after;
+    }
+  }
+
+  std::vector<Stop> take() const {
+    std::vector<Stop> stops;
+    for (std::size_t i = 0; i < shares_.size(); ++i) {
+      // Differences of equal areas leave roundings.
+      if (shares_[i] > 1e-12) stops.push_back({place(i), shares_[i]});
+    }
+    return stops;
+  }
+
+ private:
+  double place(std::size_t i) const { return (first_ + double(i)) * spacing_; }
+  std::size_t index(double place) const {
+    return static_cast<std::size_t>(std::clamp(place - first_, 1.0, double(shares_.size() - 2)));
+  }
+
+  double spacing_;
+  double first_;
+  std::vector<double> shares_;
+};
+
+/// Where the left edge of a block goes.
+Travel range_px(BlockName block, const ToPixels& to_px, std::span<const ExposurePart> parts) {
+  Travel all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const ExposurePart& part : parts) {
+    const Travel range = part.exposure->range(block);
+    all.from = std::min(all.from, to_px(range.from));
+    all.to = std::max(all.to, to_px(range.to));
+  }
+  return all;
+}
+
+/// @param width_px  of the block
+std::vector<Stop> stops_of(BlockName block, const ToPixels& to_px, double width_px, int frame_px,
+                           std::span<const ExposurePart> parts) {
+  Travel range = range_px(block, to_px, parts);
+  if (!(range.to - range.from > kStill_px)) return {};
+  // What cannot be seen is left out.
+  range.from = std::max(range.from, -width_px - kMargin_px);
+  range.to = std::min(range.to, frame_px + kMargin_px);
+  if (!(range.to > range.from)) return {};
+  StopTable table(range, spacing_px(range.to - range.from));
+  for (const ExposurePart& part : parts) {
+    if (!part.exposure->is_listed()) {
+      const Travel own = part.exposure->range(block);
+      table.add(part.share, to_px(own.from), to_px(own.to), [&](double x) {
+        return part.exposure->area_below(block, to_px.back(x)) * to_px.scale;
+      });
+      continue;
+    }
+    for (const UniformPiece& piece : part.exposure->pieces()) {
+      const Travel& way = piece.of(block);
+      const double low = to_px(std::min(way.from, way.to));
+      const double high = to_px(std::max(way.from, way.to));
+      table.add(part.share * piece.share, low, high,
+                [&](double x) { return area_below(low, high, x); });
+    }
+  }
+  return table.take();
+}
+
+/// Places of both blocks along an even motion, as far as they are less than a pixel apart.
+class Contacts {
+ public:
+  explicit Contacts(double front_width) : front_width_(front_width) {}
+
+  void add(double share, const Travel& behind, const Travel& front) {
+    const Travel gap{behind.from - front.from - front_width_, behind.to - front.to - front_width_};
+    double begin = 0;
+    double end = 1;
+    if (gap.from >= 1 && gap.to >= 1) return;
+    if (gap.from > 1) begin = (gap.from - 1) / (gap.from - gap.to);
+    if (gap.to > 1) end = (gap.from - 1) / (gap.from - gap.to);
+    const auto way = [&](const Travel& travel) { return std::fabs(travel.to - travel.from); };
+    const double way_px = std::max(way(behind), way(front)) * (end - begin);
+    if (!std::isfinite(way_px)) return;  // far outside of any frame
+    const int count = static_cast<int>(std::clamp(std::ceil(way_px * kPerPixel), 1.0, kMax));
+    for (int i = 0; i < count; ++i) {
+      const double at = begin + (end - begin) * (i + 0.5) / count;
+      add({behind.from + (behind.to - behind.from) * at, front.from + (front.to - front.from) * at,
+           share * (end - begin) / count});
+    }
+  }
+
+  std::vector<Contact> take() {
+    std::ranges::sort(contacts_, {}, &Contact::behind_x);
+    return std::move(contacts_);
+  }
+
+ private:
+  static constexpr double kPerPixel = 16;
+  static constexpr double kMax = 4096;  // of one motion
+
+  /// If there is a pixel that both reach into.
+  void add(const Contact& contact) {
+    if (contact.front_x + front_width_ <= std::floor(contact.behind_x)) return;
+    contacts_.push_back(contact);
+  }
+
+  double front_width_;
+  std::vector<Contact> contacts_;
+};
+
+}  // namespace
+
+ExposedItem expose(ExposedBlock red, ExposedBlock blue, const SceneColumns& columns,
+                   std::span<const ExposurePart> parts) {
+  const ToPixels red_px(columns, red);
+  const ToPixels blue_px(columns, blue);
+  ExposedItem item{ItemId::red_block, std::move(red), std::move(blue), {}};
+  item.behind.stops =
+      stops_of(BlockName::red, red_px, item.behind.bounds.width, columns.width_px, parts);
+  item.front.stops =
+      stops_of(BlockName::blue, blue_px, item.front.bounds.width, columns.width_px, parts);
+  if (item.behind.stops.empty() && item.front.stops.empty()) return item;
+  Contacts contacts(item.front.bounds.width);
+  for (const ExposurePart& part : parts) {
+    for (const UniformPiece& piece : part.exposure->pieces()) {
+      contacts.add(part.share * piece.share, {red_px(piece.red.from), red_px(piece.red.to)},
+                   {blue_px(piece.blue.from), blue_px(piece.blue.to)});
+    }
+  }
+  item.contacts = contacts.take();
+  return item;
+}
+
+void add_rectangles(ItemId id, const ExposedBlock& block, std::vector<DrawItem>& items) {
+  items.emplace_back(RectangleItem{id, block.bounds, block.fill, block.stroke});
+  for (std::size_t i = 0; i < block.bars.size(); ++i) {
+    const Bar& bar = block.bars[i];
+    items.emplace_back(RectangleItem{nth(id, i + 1),
+                                     {block.bounds.x, bar.y, block.bounds.width, bar.height},
+                                     block.stroke.color,
+                                     std::nullopt});
+  }
+}
+
+}  // namespace piblocks

@@ -1,0 +1,27 @@
+// Two blocks while the picture is exposed.
+// In: the blocks as they are drawn at one instant, and where they are in the meantime. Out: a draw
+// item with the places that each of them takes. Or, without exposure, plain rectangles.
+#pragma once
+
+#include <piblocks/composition.hpp>
+
+#include <span>
+#include <vector>
+
+namespace piblocks {
+
+/// From positions of the scene to columns of the frame.
+struct SceneColumns {
+  double zero_px = 0;  ///< where the scene's 0 is
+  double scale = 1;    ///< pixels per unit of the scene
+  int width_px = 0;    ///< of the frame
+};
+
+/// @param red, blue  at the picture's instant, without stops.
+ExposedItem expose(ExposedBlock red, ExposedBlock blue, const SceneColumns& columns,
+                   std::span<const ExposurePart> parts);
+
+/// A block that stays, as one rectangle, and one for each of its bars.
+void add_rectangles(ItemId id, const ExposedBlock& block, std::vector<DrawItem>& items);
+
+}  // namespace piblocks

@@ -1,0 +1,129 @@
+#include "render/bundle.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/collision_log.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/interpolator.hpp>
+#include <piblocks/png.hpp>
+#include <piblocks/timeline.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "core/file_set.hpp"
+#include "core/output_file.hpp"
+#include "golden/reports.hpp"
+#include "render/captions.hpp"
+#include "render/page_facts.hpp"
+#include "render/scene_text.hpp"
+
+namespace piblocks {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPoster = "poster.png";
+
+/// Shown wherever the viewer plays no videos: the poster.
+constexpr std::string_view kLatex =
+    R"(% In the preamble: \usepackage{{graphicx}} \usepackage{{multimedia}}
+% A viewer that plays no videos shows the poster.
+\movie[width=0.9\textwidth,height={height}\textwidth,showcontrols]{{%
+  \includegraphics[width=0.9\textwidth]{{poster.png}}}}{{{name}}}
+)";
+
+constexpr std::string_view kReveal = R"(<section>
+  <video controls preload="metadata" poster="poster.png" width="{width}" height="{height}"
+         aria-label="{alt}">
+    <source src="{name}" type="video/mp4">
+    <track kind="captions" src="captions.vtt" srclang="en" label="English">
+  </video>
+</section>
+)";
+
+/// A name that means the same in a file system, in LaTeX and in an address.
+bool is_plain(const std::string& name) {
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._";
+  return name.find_first_not_of(kPlain) == std::string::npos && !name.starts_with('.') &&
+         !name.starts_with('-');
+}
+
+void check(const RenderJob& job) {
+  std::vector<std::string> problems;
+  if (job.part) {
+    problems.emplace_back("bundle: there are no parts of a bundle; leave the part out");
+  }
+  if (!std::holds_alternative<Scene>(job.script)) {
+    problems.emplace_back(
+        "bundle: captions count one run, and a storyboard has several; render it without a bundle, "
+        "or a scene without [[part]]");
+  }
+  if (!job.output.ends_with(".mp4") || !is_plain(job.output)) {
+    problems.push_back(fmt::format(
+        "bundle: '{}' is no name for the video in it; use one such as pi-3.mp4, without a folder, "
+        "of letters, digits, '-', '_' and '.'",
+        job.output));
+  }
+  if (job.bundle->folder.empty()) problems.emplace_back("bundle: the name of the folder is empty");
+  if (!problems.empty()) throw UsageError(std::move(problems));
+}
+
+void write(const fs::path& path, std::string_view text) {
+  OutputFile file(path.string());
+  file.write(text);
+  file.finish();
+}
+
+/// The picture that the video comes to, or the one that is asked for.
+void write_poster(const RenderJob& job, const ImageView& last, const fs::path& path) {
+  if (job.bundle->poster) {
+    render_still(job.script, *job.bundle->poster, path.string());
+    return;
+  }
+  const std::vector<std::uint8_t> png = encode_png(last);
+  write(path, {reinterpret_cast<const char*>(png.data()), png.size()});
+}
+
+void write_texts(const RenderJob& job, const CollisionLog& log, const Timeline& timeline,
+                 const VideoCount& count, FileSet& files) {
+  const auto& scene = std::get<Scene>(job.script);
+  const View& view = scene.view;
+  const std::string alt = describe_video(scene, count);
+  write(files.add("alt.txt"), alt + "\n");
+  write(files.add("captions.vtt"), captions(log, timeline, view.frame_rate));
+  write(
+      files.add("latex.tex"),
+      fmt::format(kLatex, fmt::arg("name", job.output),
+                  fmt::arg("height", fmt::format("{:.4f}", 0.9 * view.height_px / view.width_px))));
+  write(files.add("reveal.html"),
+        fmt::format(kReveal, fmt::arg("name", job.output), fmt::arg("alt", escaped(alt)),
+                    fmt::arg("width", view.width_px), fmt::arg("height", view.height_px)));
+}
+
+}  // namespace
+
+Rendered render_bundle(const RenderJob& job,
+                       const std::function<void(const Progress&)>& on_progress,
+                       const std::stop_token& stop) {
+  check(job);
+  FileSet files(job.bundle->folder, "bundle");
+  const auto& scene = std::get<Scene>(job.script);
+  FrameRenderer renderer(scene);
+  const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
+  const Timeline timeline(scene, *log);
+  const PageFacts facts(scene, *log, timeline);
+  write_poster(job, renderer.frame(facts.forth() - 1), files.add(std::string(kPoster)));
+  write_texts(job, *log, timeline, {facts.most(), log->size()}, files);
+  RenderJob video = job;
+  video.bundle.reset();
+  video.output = files.add(job.output);
+  Rendered rendered = render(video, on_progress, stop);
+  if (stop.stop_requested()) throw Interrupted("render: interrupted");
+  files.commit();
+  return rendered;
+}
+
+}  // namespace piblocks

@@ -1,0 +1,183 @@
+#include "render/page.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <piblocks/collision_log.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/timeline.hpp>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "core/base64.hpp"
+#include "core/descriptor.hpp"
+#include "core/file_set.hpp"
+#include "core/output_file.hpp"
+#include "golden/reports.hpp"
+#include "render/page_facts.hpp"
+#include "render/page_source.hpp"
+#include "render/scene_text.hpp"
+#include "render/stage_clock.hpp"
+
+namespace piblocks {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Nothing is fetched, nothing is sent, no other script runs.
+constexpr std::string_view kHead = R"(<!DOCTYPE html>
+<html lang="en">
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; media-src data:; script-src 'sha256-{script_hash}'; style-src 'sha256-{style_hash}'; base-uri 'none'; form-action 'none'">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{title}</title>
+<style>{style}</style>
+<main>
+<h1>{title}</h1>
+<video id="video" width="{width}" height="{height}" controls playsinline preload="auto" aria-label="{title}" aria-describedby="description" src="data:video/mp4;base64,)";
+
+constexpr std::string_view kControls = R"("></video>
+<p id="problem" role="alert"></p>
+<div id="controls" hidden>
+<input id="time-slider" type="range" min="0" step="any" autocomplete="off" aria-label="Simulation time">
+<dl class="read-outs">
+<div><dt>Collisions</dt><dd><span id="count" aria-live="polite"></span> <span id="picture"></span></dd></div>
+<div><dt>Time</dt><dd id="time" aria-live="polite"></dd></div>
+<div><dt>Frame</dt><dd id="frame"></dd></div>
+</dl>
+<div class="buttons" role="group" aria-label="Playback">
+<button id="play" type="button" aria-keyshortcuts="Space">Play</button>
+<button id="previous-collision" type="button" aria-keyshortcuts="," aria-label="Previous collision">&minus; collision</button>
+<button id="next-collision" type="button" aria-keyshortcuts="." aria-label="Next collision">+ collision</button>
+<button id="previous-frame" type="button" aria-keyshortcuts="ArrowLeft" aria-label="Previous frame">&minus; frame</button>
+<button id="next-frame" type="button" aria-keyshortcuts="ArrowRight" aria-label="Next frame">+ frame</button>
+<button id="start" type="button" aria-keyshortcuts="Home">Start</button>
+<button id="end" type="button" aria-keyshortcuts="End">End</button>
+<button id="sound" type="button" aria-keyshortcuts="m">Sound off</button>
+</div>
+<p><kbd>Space</kbd> plays and pauses, <kbd>&larr;</kbd> <kbd>&rarr;</kbd> go from frame to frame,
+<kbd>,</kbd> <kbd>.</kbd> from collision to collision, <kbd>Home</kbd> <kbd>End</kbd> to the ends.</p>
+</div>
+)";
+
+/// Collects small pieces.
+class PageText {
+ public:
+  explicit PageText(OutputFile& file) : file_(file) {}
+  void add(std::string_view text) {
+    text_ += text;
+    if (text_.size() >= kPiece_bytes) flush();
+  }
+  void flush() {
+    file_.write(text_);
+    text_.clear();
+  }
+
+ private:
+  static constexpr std::size_t kPiece_bytes = std::size_t{1} << 16;
+  OutputFile& file_;
+  std::string text_;
+};
+
+void check(const RenderJob& job) {
+  if (job.part) {
+    throw UsageError(fmt::format(
+        "part: there are no parts of page '{}'; render it whole, or the parts of an MP4",
+        job.output));
+  }
+  const auto* const scene = std::get_if<Scene>(&job.script);
+  if (scene == nullptr) {
+    throw UsageError(fmt::format(
+        "page: '{}' steps through one run, and a storyboard has several; write an MP4, or a page "
+        "of a scene without [[part]]",
+        job.output));
+  }
+  if (scene->view.background == Background::transparent) {
+    throw UsageError(fmt::format(
+        "output: '{}' cannot be transparent: a page shows an MP4; use an opaque background",
+        job.output));
+  }
+  std::error_code none;
+  const fs::file_status status = fs::status(job.output, none);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw UsageError(fmt::format("output: cannot open '{}': not a file", job.output));
+  }
+}
+
+[[noreturn]] void fail_to_read(const fs::path& path, int error_number) {
+  throw IoError(fmt::format("page: cannot read '{}': {}", path.string(),
+                            std::generic_category().message(error_number)));
+}
+
+/// Piece by piece, however long the video is.
+void add_video(const fs::path& path, PageText& page) {
+  constexpr std::size_t kPiece_bytes = std::size_t{3} << 14;
+  const Descriptor video(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!video.is_open()) fail_to_read(path, errno);
+  std::vector<std::uint8_t> piece(kPiece_bytes);
+  std::size_t filled = 0;
+  for (;;) {
+    const ssize_t count = ::read(video.get(), piece.data() + filled, piece.size() - filled);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail_to_read(path, errno);
+    filled += static_cast<std::size_t>(count);
+    if (count > 0 && filled < piece.size()) continue;
+    page.add(base64(std::span(piece).first(filled)));
+    if (count == 0) return;
+    filled = 0;
+  }
+}
+
+void write_page(const Scene& scene, const fs::path& video, OutputFile& file) {
+  const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
+  const Timeline timeline(scene, *log);
+  const PageFacts facts(scene, *log, timeline);
+  const VideoCount count{facts.most(), log->size()};
+  PageText page(file);
+  page.add(fmt::format(
+      kHead, fmt::arg("script_hash", kPageScriptHash), fmt::arg("style_hash", kPageStyleHash),
+      fmt::arg("style", kPageStyle), fmt::arg("title", escaped(title_of(scene, count))),
+      fmt::arg("width", scene.view.width_px), fmt::arg("height", scene.view.height_px)));
+  add_video(video, page);
+  page.add(kControls);
+  page.add(fmt::format("<p id=\"description\">{}</p>\n</main>\n",
+                       escaped(describe_video(scene, count))));
+  page.add("<script id=\"facts\" type=\"application/json\">");
+  facts.write([&](std::string_view text) { page.add(text); });
+  page.add(fmt::format("</script>\n<script>{}</script>\n", kPageScript));
+  page.flush();
+}
+
+}  // namespace
+
+bool is_page(const std::string& output) { return output.ends_with(".html"); }
+
+Rendered render_page(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
+                     const std::stop_token& stop) {
+  check(job);
+  const fs::path path(job.output);
+  FileSet files(path.parent_path(), path.filename());
+  OutputFile page(files.add(path.filename()));
+  RenderJob video = job;
+  video.output = files.workshop() / "video.mp4";
+  Rendered rendered = render(video, on_progress, stop);
+  StageClock clock(job.profile, Stage::write);
+  write_page(std::get<Scene>(job.script), video.output, page);
+  if (stop.stop_requested()) throw Interrupted("render: interrupted");
+  page.finish();
+  files.commit();
+  if (job.profile) {
+    const auto write = static_cast<std::size_t>(Stage::write);
+    rendered.profile.stages[write] += clock.spent()[write];
+    rendered.profile.total_s = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
+  }
+  return rendered;
+}
+
+}  // namespace piblocks

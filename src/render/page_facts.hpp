@@ -1,0 +1,54 @@
+// What a video's page knows of the run: which instant and which count each frame shows, and when
+// collisions happen.
+// In: a scene, its collision log, its timeline. Out: one JSON object, every number of it exact
+// where it is one to be read.
+#pragma once
+
+#include <piblocks/collision_log.hpp>
+#include <piblocks/scene.hpp>
+#include <piblocks/timeline.hpp>
+
+#include <functional>
+#include <string_view>
+#include <vector>
+
+namespace piblocks {
+
+/// Of so many collisions at the beginning, and so many at the end, the page has the times; of all,
+/// if there are no more than both.
+inline constexpr int kListedAtEachEnd = 2000;
+
+/// Consecutive collisions.
+struct CollisionRange {
+  Integer first;
+  Integer last;  ///< >= first
+};
+
+/// Those whose times are given, of the collisions that happen between two counts of frames.
+std::vector<CollisionRange> listed_collisions(const Integer& before, const Integer& after);
+
+class PageFacts {
+ public:
+  PageFacts(const Scene& scene, const CollisionLog& log, const Timeline& timeline);
+
+  /// Collisions that the frames count, at most.
+  const Integer& most() const noexcept { return most_; }
+  /// Frames until the video runs back; all, if it does not.
+  std::int64_t forth() const noexcept { return forth_; }
+  /// Writes the object in pieces. Times are given in units of 10^-scale; of sequences, what each
+  /// number adds to the one before, "0~7" being seven times 0. No "<" is in it.
+  void write(const std::function<void(std::string_view)>& sink) const;
+
+ private:
+  void write_counts(const std::function<void(std::string_view)>& sink) const;
+
+  const Scene& scene_;
+  const CollisionLog& log_;
+  const Timeline& timeline_;
+  std::int64_t forth_;
+  Rational from_;
+  Integer first_;
+  Integer most_;
+};
+
+}  // namespace piblocks

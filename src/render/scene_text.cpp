@@ -1,0 +1,42 @@
+#include "render/scene_text.hpp"
+
+#include <fmt/format.h>
+
+#include "draw/number_text.hpp"
+
+namespace piblocks {
+namespace {
+
+std::string motion_of(const Block& block) {
+  if (block.velocity == 0) return "rests";
+  return block.velocity < 0 ? "slides towards the wall" : "slides away from the wall";
+}
+
+std::string collisions(const Integer& count) {
+  return fmt::format("{} {}", with_thousands_separators(count),
+                     count == 1 ? "collision" : "collisions");
+}
+
+}  // namespace
+
+std::string title_of(const Scene& scene, const VideoCount& count) {
+  if (!scene.show.title.empty()) return scene.show.title;
+  return fmt::format("Masses {} and {}: {}", short_text(scene.system.blue.mass),
+                     short_text(scene.system.red.mass), collisions(count.total));
+}
+
+std::string describe_video(const Scene& scene, const VideoCount& count) {
+  const BlockSystem& system = scene.system;
+  const std::string reached = count.at_end == count.total
+                                  ? collisions(count.total) + ", which is all there are"
+                                  : fmt::format("{} of {}", with_thousands_separators(count.at_end),
+                                                collisions(count.total));
+  return fmt::format(
+      "Two blocks slide along a line without friction: the inner one, beside a wall on the left, "
+      "has mass {}, the outer one mass {}. At time 0 the inner one {} and the outer one {}. All "
+      "collisions are elastic, and a counter reaches {}.",
+      short_text(system.blue.mass), short_text(system.red.mass), motion_of(system.blue),
+      motion_of(system.red), reached);
+}
+
+}  // namespace piblocks

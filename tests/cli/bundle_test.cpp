@@ -1,0 +1,170 @@
+// render --bundle DIR: a video and what a lecture needs beside it, all or nothing.
+#include <algorithm>
+#include <cmath>
+
+#include "cli/cli_fixture.hpp"
+
+namespace piblocks {
+namespace {
+
+using BundleTest = CliFixture;
+using Names = std::vector<std::string>;
+
+const Arguments kRender{"render", "--quiet", "--size", "64x36", "--fps", "30", "-o", "pi.mp4"};
+const Names kFiles{"talk",        "talk/alt.txt",    "talk/captions.vtt", "talk/latex.tex",
+                   "talk/pi.mp4", "talk/poster.png", "talk/reveal.html"};
+
+struct Cue {
+  double begin_s;
+  double end_s;
+  std::string text;
+};
+
+/// "01:02:03.004"
+double seconds(const std::string& text) {
+  EXPECT_EQ(text.size(), 12U) << text;
+  return 3600 * std::stod(text.substr(0, 2)) + 60 * std::stod(text.substr(3, 2)) +
+         std::stod(text.substr(6));
+}
+
+std::vector<Cue> cues_of(const std::string& captions) {
+  const std::vector<std::string> all = lines(captions);
+  EXPECT_EQ(all.at(0), "WEBVTT");
+  EXPECT_EQ(all.at(1), "");
+  std::vector<Cue> cues;
+  for (std::size_t i = 2; i < all.size(); i += 3) {
+    EXPECT_EQ(all[i].substr(12, 5), " --> ") << all[i];
+    cues.push_back({seconds(all[i].substr(0, 12)), seconds(all[i].substr(17)), all.at(i + 1)});
+    EXPECT_TRUE(i + 2 >= all.size() || all[i + 2].empty());
+  }
+  return cues;
+}
+
+/// The number a caption starts with.
+std::string number_of(const std::string& caption) {
+  std::string number = caption.substr(0, caption.find(' '));
+  std::erase(number, ',');
+  return number == "No" ? "0" : number;
+}
+
+TEST_F(BundleTest, HoldsTheVideoAndAllThatGoesWithIt) {
+  output_of(kRender + Arguments{"--bundle", "talk"});
+  EXPECT_EQ(entries(), kFiles);
+  output_of(kRender);
+  EXPECT_TRUE(contents("talk/pi.mp4") == contents("pi.mp4"));
+  EXPECT_EQ(contents("talk/alt.txt"),
+            "Two blocks slide along a line without friction: the inner one, beside a wall on the "
+            "left, has mass 1, the outer one mass 10,000. At time 0 the inner one rests and the "
+            "outer one slides towards the wall. All collisions are elastic, and a counter reaches "
+            "314 collisions, which is all there are.\n");
+}
+
+TEST_F(BundleTest, ThePosterIsTheLastFrameOrTheOneAskedFor) {
+  output_of(kRender + Arguments{"--bundle", "talk"});
+  Arguments frames = kRender;
+  frames.back() = "all/%06d.png";
+  output_of(frames);
+  Names pictures = entries();
+  std::erase_if(pictures, [](const std::string& name) { return !name.starts_with("all/"); });
+  EXPECT_TRUE(contents("talk/poster.png") == contents(pictures.back()));
+  output_of(kRender + Arguments{"--bundle", "talk", "--poster", "#7"});
+  output_of({"still", "--size", "64x36", "--at", "#7", "-o", "7.png"});
+  EXPECT_TRUE(contents("talk/poster.png") == contents("7.png"));
+}
+
+/// At each cue's first frame, and not before, so many collisions have happened.
+TEST_F(BundleTest, CaptionsSayWhatTheFramesCount) {
+  output_of(kRender + Arguments{"--digits", "5", "--bundle", "talk"});
+  const std::vector<Cue> cues = cues_of(contents("talk/captions.vtt"));
+  ASSERT_GE(cues.size(), 5U);
+  EXPECT_EQ(cues.front().begin_s, 0);
+  EXPECT_EQ(cues.front().text, "No collision yet");
+  EXPECT_EQ(cues.at(1).text, "1 collision or more");
+  EXPECT_EQ(cues.back().text, "31,415 collisions, which is all there are");
+  for (std::size_t i = 1; i < cues.size(); ++i) {
+    EXPECT_EQ(cues[i - 1].end_s, cues[i].begin_s);
+    EXPECT_GT(cues[i].begin_s, cues[i - 1].begin_s);
+    const long frame = std::lround(std::floor(cues[i].begin_s * 30 + 1e-6));
+    const auto count_at = [&](long number) {
+      const std::string state =
+          output_of({"state", "--digits", "5", "--at", std::to_string(number) + "/30"});
+      return std::stol(json_value(state, {"collisions"}));
+    };
+    const long milestone = std::stol(number_of(cues[i].text));
+    EXPECT_GE(count_at(frame), milestone) << cues[i].text;
+    EXPECT_LT(count_at(frame - 1), milestone) << cues[i].text;
+  }
+}
+
+TEST_F(BundleTest, CaptionsFollowTheSchedule) {
+  const auto first_s = [this](const Arguments& pacing) {
+    output_of(kRender + Arguments{"--digits", "1", "--bundle", "talk"} + pacing);
+    return cues_of(contents("talk/captions.vtt")).at(1).begin_s;
+  };
+  EXPECT_NEAR(first_s({}), 2, 0.001);
+  EXPECT_NEAR(first_s({"--speed", "1/2"}), 4, 0.001);
+  EXPECT_NEAR(first_s({"--hold-start", "3"}), 5, 0.001);
+  EXPECT_NEAR(first_s({"--slow-motion", "1:3:4"}), 5, 0.001);
+}
+
+TEST_F(BundleTest, CaptionsOfALoopGoBack) {
+  output_of(kRender + Arguments{"--digits", "1", "--loop", "--bundle", "talk"});
+  std::vector<std::string> texts;
+  for (const Cue& cue : cues_of(contents("talk/captions.vtt"))) texts.push_back(cue.text);
+  const Names expected{"No collision yet", "1 collision or more",
+                       "3 collisions, which is all there are", "1 collision or more",
+                       "No collision yet"};
+  EXPECT_EQ(texts, expected);
+}
+
+TEST_F(BundleTest, SnippetsNameTheFiles) {
+  output_of(kRender + Arguments{"--bundle", "talk"});
+  const std::string latex = contents("talk/latex.tex");
+  EXPECT_NE(latex.find("\\includegraphics[width=0.9\\textwidth]{poster.png}}{pi.mp4}"),
+            std::string::npos);
+  EXPECT_EQ(std::ranges::count(latex, '{'), std::ranges::count(latex, '}'));
+  const std::string reveal = contents("talk/reveal.html");
+  for (const char* piece : {"poster=\"poster.png\"", "src=\"pi.mp4\"", "src=\"captions.vtt\"",
+                            "aria-label=\"Two blocks", "width=\"64\""}) {
+    EXPECT_NE(reveal.find(piece), std::string::npos) << piece;
+  }
+}
+
+TEST_F(BundleTest, LeavesOtherFilesAlone) {
+  std::filesystem::create_directory(folder_ / "talk");
+  write("talk/notes.txt", "mine");
+  write("talk/alt.txt", "old");
+  output_of(kRender + Arguments{"--bundle", "talk"});
+  EXPECT_EQ(contents("talk/notes.txt"), "mine");
+  EXPECT_NE(contents("talk/alt.txt"), "old");
+  EXPECT_EQ(entries().size(), kFiles.size() + 1);
+}
+
+TEST_F(BundleTest, IsAllOrNothing) {
+  std::filesystem::create_directories(folder_ / "talk/reveal.html");
+  write("talk/alt.txt", "old");
+  const CommandResult result = piblocks(kRender + Arguments{"--bundle", "talk"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, "piblocks: output: cannot replace 'talk/reveal.html': Is a directory\n");
+  EXPECT_EQ(entries(), (Names{"talk", "talk/alt.txt", "talk/reveal.html"}));
+  EXPECT_EQ(contents("talk/alt.txt"), "old");
+}
+
+TEST_F(BundleTest, RefusesWhatItCannotBe) {
+  const auto expect_refusal = [this](const Arguments& arguments, const std::string& message) {
+    const CommandResult result = piblocks(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+    EXPECT_EQ(entries(), Names{});
+  };
+  const Arguments bundle{"render", "--quiet", "--bundle", "talk", "-o"};
+  expect_refusal(bundle + Arguments{"new/pi.mp4"}, "'new/pi.mp4' is no name for the video in it");
+  expect_refusal(bundle + Arguments{"pi.gif"}, "'pi.gif' is no name for the video in it");
+  expect_refusal(bundle + Arguments{"a b.mp4"}, "'a b.mp4' is no name for the video in it");
+  expect_refusal(bundle + Arguments{"pi.mp4", "--part", "1/2"}, "there are no parts of a bundle");
+  expect_refusal(bundle + Arguments{"pi.mp4", "--poster", "#9999"}, "9999");
+  expect_refusal({"render", "--poster", "3", "-o", "pi.mp4"}, "--poster is for a bundle");
+}
+
+}  // namespace
+}  // namespace piblocks

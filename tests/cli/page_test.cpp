@@ -1,0 +1,76 @@
+// render -o NAME.html: a page that holds the video; what it does is checked in a browser
+// (tests/golden/check_page).
+#include "cli/cli_fixture.hpp"
+#include "core/base64.hpp"
+
+namespace piblocks {
+namespace {
+
+using PageTest = CliFixture;
+using Names = std::vector<std::string>;
+
+const Arguments kRender{"render", "--quiet", "--size", "64x36", "--fps", "24", "--to", "5"};
+
+/// The base64 between the quotes of the page's video.
+std::string video_of(const std::string& page) {
+  const std::string start = "src=\"data:video/mp4;base64,";
+  const std::size_t at = page.find(start) + start.size();
+  return page.substr(at, page.find('"', at) - at);
+}
+
+TEST_F(PageTest, HoldsTheBytesOfTheMp4) {
+  output_of(kRender + Arguments{"-o", "a.html"});
+  output_of(kRender + Arguments{"-o", "a.mp4"});
+  EXPECT_EQ(entries(), (Names{"a.html", "a.mp4"}));
+  const std::string video = contents("a.mp4");
+  const std::string text =
+      base64({reinterpret_cast<const std::uint8_t*>(video.data()), video.size()});
+  EXPECT_TRUE(video_of(contents("a.html")) == text);
+}
+
+TEST_F(PageTest, IsTheSameByAnyNumberOfThreads) {
+  output_of(kRender + Arguments{"--jobs", "1", "-o", "a.html"});
+  output_of(kRender + Arguments{"--jobs", "3", "-o", "b.html"});
+  EXPECT_TRUE(contents("a.html") == contents("b.html"));
+}
+
+TEST_F(PageTest, TakesSettingsOfTheEncoder) {
+  output_of(kRender + Arguments{"--encoder", "libx264", "--crf", "40", "-o", "a.html"});
+  output_of(kRender + Arguments{"-o", "b.html"});
+  EXPECT_FALSE(video_of(contents("a.html")) == video_of(contents("b.html")));
+}
+
+TEST_F(PageTest, RefusesWhatAPageCannotBe) {
+  const auto expect_refusal = [this](const Arguments& arguments, const std::string& message) {
+    const CommandResult result = piblocks(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.err, message);
+    EXPECT_EQ(entries(), Names{});
+  };
+  expect_refusal(kRender + Arguments{"-o", "new/a.html", "--part", "1/2"},
+                 "piblocks: part: there are no parts of page 'new/a.html'; render it whole, or the "
+                 "parts of an MP4\n");
+  expect_refusal(kRender + Arguments{"-o", "new/a.html", "--transparent"},
+                 "piblocks: output: 'new/a.html' cannot be transparent: a page shows an MP4; use "
+                 "an opaque background\n");
+  expect_refusal({"render", "--size", "65x37", "-o", "new/a.html"},
+                 "piblocks: output: size 65x37 is odd: H.264 in 4:2:0 needs even sides; use "
+                 "64x36\n");
+}
+
+TEST_F(PageTest, IsNotJoined) {
+  output_of(kRender + Arguments{"-o", "a.mp4", "--part", "1/1"});
+  const CommandResult result = piblocks({"join", "a.mp4.part-1-of-1", "-o", "a.html"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err,
+            "piblocks: join: 'a.html' cannot be made of parts; render the page whole\n");
+}
+
+TEST_F(PageTest, TextsAreEscaped) {
+  output_of({"render", "--quiet", "--to", "1", "--fps", "10", "--title",
+             "</title><script>alert(1)</script>", "-o", "a.html"});
+  EXPECT_EQ(contents("a.html").find("alert(1)</script>"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace piblocks

@@ -1,0 +1,285 @@
+// Exposed frames against the mean of many instants, and what must hold of them at any rate.
+#include <gtest/gtest.h>
+#include <piblocks/canvas.hpp>
+#include <piblocks/composition.hpp>
+#include <piblocks/png.hpp>
+#include <piblocks/render.hpp>
+#include <piblocks/timeline.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "render/film.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace piblocks {
+namespace {
+
+Scene scene_of(int digits, FrameSize size, const Rational& shutter) {
+  Scene scene;
+  scene.system = article_system(digits);
+  scene.view.width_px = size.width_px;
+  scene.view.height_px = size.height_px;
+  scene.view.shutter = shutter;
+  return scene;
+}
+
+double to_light(int sample) {
+  const double v = sample / 255.0;
+  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+double to_sample(double light) {
+  return 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
+}
+
+/// The bounds of a block at an instant.
+Rectangle bounds_of(const DrawList& list, ItemId block) {
+  for (const DrawItem& item : list.items) {
+    const auto* rectangle = std::get_if<RectangleItem>(&item);
+    if (rectangle != nullptr && rectangle->id == block) return rectangle->bounds;
+  }
+  return {};
+}
+
+/// Rows in which the blocks look different: above them, their upper lines, their middle, and so on.
+std::vector<int> rows_of(const Scene& scene) {
+  const auto log = make_collision_log(scene.system);
+  const DrawList list = Composition(scene, *log).frame({state_at(*log, Rational(0))});
+  std::set<int> rows;
+  for (const ItemId block : {ItemId::red_block, ItemId::blue_block}) {
+    const Rectangle bounds = bounds_of(list, block);
+    const int top = static_cast<int>(std::floor(bounds.y));
+    const int bottom = static_cast<int>(std::ceil(bounds.y + bounds.height));
+    rows.insert((top + bottom) / 2);
+    for (int i = -1; i < 5; ++i) rows.insert({top + i, bottom - i});
+  }
+  return {rows.begin(), rows.end()};
+}
+
+/// Samples of some rows: three a pixel.
+std::vector<int> samples_of(const ImageView& picture, const std::vector<int>& rows) {
+  std::vector<int> samples;
+  for (const int row : rows) {
+    for (int x = 0; x < picture.width_px; ++x) {
+      for (int c = 0; c < 3; ++c) samples.push_back(picture.row(row)[4 * x + c]);
+    }
+  }
+  return samples;
+}
+
+/// The mean in linear light of the pictures of many instants at which a frame's shutter is open.
+std::vector<double> mean_of_instants(const Scene& scene, std::int64_t frame) {
+  constexpr int kInstants = 1000;
+  const auto log = make_collision_log(scene.system);
+  const Timeline timeline(scene, *log);
+  const Composition composition(scene, *log);
+  const Integer count = state_at(*log, timeline.time_of(frame)).count;
+  const std::vector<int> rows = rows_of(scene);
+  std::array<double, 256> light{};
+  for (int i = 0; i < 256; ++i) light[static_cast<std::size_t>(i)] = to_light(i);
+  std::vector<double> sums(rows.size() * static_cast<std::size_t>(3 * scene.view.width_px));
+  Canvas canvas(scene.view.width_px, scene.view.height_px);
+  for (int i = 0; i < kInstants; ++i) {
+    const Rational video_s =
+        (frame + scene.view.shutter * Rational(2 * i + 1, 2 * kInstants)) / scene.view.frame_rate;
+    BlockState state = state_at(*log, timeline.schedule().at(video_s).time);
+    state.count = count;
+    canvas.update(composition.frame({state}));
+    const std::vector<int> samples = samples_of(canvas.view(), rows);
+    for (std::size_t at = 0; at < sums.size(); ++at) {
+      sums[at] += light[static_cast<std::size_t>(samples[at])];
+    }
+  }
+  for (double& sum : sums) sum = to_sample(sum / kInstants);
+  return sums;
+}
+
+/// @param most  steps of 255; half of one is the rounding of the sample.
+void expect_mean_of_instants(const Scene& scene, std::initializer_list<std::int64_t> frames,
+                             double most = 2.5) {
+  FrameRenderer renderer(scene);
+  const std::vector<int> rows = rows_of(scene);
+  for (const std::int64_t frame : frames) {
+    const std::vector<int> samples = samples_of(renderer.frame(frame), rows);
+    const std::vector<double> wanted = mean_of_instants(scene, frame);
+    double worst = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      worst = std::max(worst, std::fabs(samples[i] - wanted[i]));
+    }
+    EXPECT_LE(worst, most) << "frame " << frame << " of " << scene.view.width_px << " pixels";
+  }
+}
+
+TEST(Shutter, FramesAreMeansOfInstants) {
+  for (const int digits : {1, 3, 6, 20}) {
+    SCOPED_TRACE(digits);
+    // The first collision is in frame 90, the turn at 210.
+    expect_mean_of_instants(scene_of(digits, {1920, 1080}, Rational(1, 2)), {90, 150, 210});
+    expect_mean_of_instants(scene_of(digits, {320, 180}, 1), {90, 208, 209, 210, 230});
+  }
+}
+
+TEST(Shutter, FramesOfAnySpeedAreMeansOfInstants) {
+  for (const int digits : {2, 5}) {
+    SCOPED_TRACE(digits);
+    Scene scene = scene_of(digits, {333, 217}, Rational(3, 4));
+    scene.time.speed = Rational(1, 3);
+    expect_mean_of_instants(scene, {450, 629, 630});
+    scene.time.speed = 10;
+    expect_mean_of_instants(scene, {8, 20, 21});
+    scene.time.speed = Rational(1, 500);
+    expect_mean_of_instants(scene, {45'000, 104'990, 105'000});
+  }
+}
+
+/// Time that stands, runs slower and runs back within one exposure.
+TEST(Shutter, FramesAcrossStretchesAreMeansOfInstants) {
+  Scene scene = scene_of(3, {640, 360}, 1);
+  scene.view.frame_rate = 10;
+  scene.time.to = {false, 5};
+  scene.pacing.freezes = {{parse_moment("3.43"), Rational(1, 10)}};
+  scene.pacing.slow_motion = {parse_slow_motion("3.5:3.52:5")};
+  scene.pacing.loop = true;
+  expect_mean_of_instants(scene, {33, 34, 35, 36, 37, 49, 50, 51, 60});
+}
+
+/// Other widths and masses: edges that are not on whole pixels in any direction.
+TEST(Shutter, FramesOfOddBlocksAreMeansOfInstants) {
+  Scene scene = scene_of(3, {500, 300}, Rational(1, 2));
+  scene.system.blue.width = Rational(5, 7);
+  scene.system.red.width = Rational(13, 11);
+  scene.system.blue.velocity = Rational(-1, 3);
+  expect_mean_of_instants(scene, {0, 100, 190, 200, 210, 220});
+  scene.system.red.width = Rational(1, 13);  // hardly more than its line
+  expect_mean_of_instants(scene, {0, 100, 200, 210});
+}
+
+/// Bars across the blocks, and bounds that are not of whole pixels.
+TEST(Shutter, FramesOfEveryThemeAreMeansOfInstants) {
+  for (const Theme theme : {Theme::dark, Theme::print}) {
+    Scene scene = scene_of(3, {330, 190}, Rational(1, 2));
+    scene.view.theme = theme;
+    expect_mean_of_instants(scene, {90, 150, 210});
+    scene.view.width_px = 100;  // too few pixels a unit to be rounded
+    scene.view.height_px = 70;
+    // A step of light is some steps of a sample where two dark lines meet.
+    expect_mean_of_instants(scene, {90, 150, 210}, 3.5);
+  }
+}
+
+std::vector<std::uint8_t> bytes_of(const ImageView& picture) { return encode_png(picture); }
+
+TEST(Shutter, ClosedShowsTheInstant) {
+  const Scene scene = scene_of(3, {320, 180}, 0);
+  const Film film(scene);
+  for (const std::int64_t frame : {0, 90, 210}) {
+    for (const DrawItem& item : film.frame(frame).items) {
+      EXPECT_FALSE(std::holds_alternative<ExposedItem>(item));
+    }
+  }
+}
+
+TEST(Shutter, WhatStandsStillIsTheInstant) {
+  Scene open = scene_of(3, {333, 217}, 1);
+  open.pacing.freezes = {{parse_moment("3.47"), 1}};
+  open.pacing.hold_end_s = 1;
+  Scene closed = open;
+  closed.view.shutter = 0;
+  FrameRenderer exposed(open);
+  FrameRenderer instants(closed);
+  const std::int64_t last = exposed.frame_count() - 1;
+  for (const std::int64_t frame : {std::int64_t{210}, std::int64_t{240}, last - 30, last}) {
+    EXPECT_TRUE(bytes_of(exposed.frame(frame)) == bytes_of(instants.frame(frame))) << frame;
+  }
+}
+
+/// What stays is drawn as ever beside what moves.
+TEST(Shutter, BlueAtRestIsAsInTheInstant) {
+  Scene open = scene_of(3, {333, 217}, 1);
+  Scene closed = open;
+  closed.view.shutter = 0;
+  const Rectangle blue = bounds_of(Film(closed).frame(0), ItemId::blue_block);
+  const int left = static_cast<int>(blue.x) - 2;
+  const int right = static_cast<int>(blue.x + blue.width) + 2;
+  FrameRenderer exposed(open);
+  FrameRenderer instants(closed);
+  for (const std::int64_t frame : {0, 20, 60}) {
+    const ImageView a = exposed.frame(frame);
+    const ImageView b = instants.frame(frame);
+    for (int y = 0; y < a.height_px; ++y) {
+      EXPECT_TRUE(std::equal(a.row(y) + 4 * left, a.row(y) + 4 * right, b.row(y) + 4 * left));
+    }
+  }
+}
+
+TEST(Shutter, UpdatesAreWhatPaintingGives) {
+  for (const FrameSize size : {FrameSize{320, 180}, FrameSize{97, 61}}) {
+    for (const int digits : {1, 3, 8}) {
+      Scene scene = scene_of(digits, size, Rational(1, 2));
+      scene.pacing.freezes = {{parse_moment("3.45"), Rational(1, 10)}};
+      const Film film(scene);
+      Canvas canvas(size.width_px, size.height_px);
+      for (std::int64_t frame = 80; frame < film.frame_count(); frame += frame == 100 ? 95 : 1) {
+        canvas.update(film.frame(frame));
+        if (frame > 250) break;
+        Canvas fresh(size.width_px, size.height_px);
+        fresh.paint(film.frame(frame));
+        ASSERT_TRUE(bytes_of(canvas.view()) == bytes_of(fresh.view())) << "frame " << frame;
+      }
+    }
+  }
+}
+
+TEST(Shutter, OnlyEndsOfWhatMovesAreRepainted) {
+  const Film film(scene_of(3, {1920, 1080}, Rational(1, 2)));
+  Canvas canvas(1920, 1080);
+  canvas.update(film.frame(10));
+  std::int64_t changed = 0;
+  for (const PixelRect& rect : canvas.update(film.frame(11))) {
+    changed += std::int64_t{rect.width_px} * rect.height_px;
+  }
+  // Both ends of red, its line of 3 pixels, and some 4 pixels of way from frame to frame.
+  EXPECT_LE(changed, 2 * 140 * 12);
+  EXPECT_GT(changed, 0);
+}
+
+TEST(Shutter, OfAStillIsThatOfTheFrameAtItsInstant) {
+  const testing_support::TemporaryFolder folder;
+  Scene scene = scene_of(3, {320, 180}, Rational(1, 2));
+  scene.time.speed = Rational(1, 2);
+  FrameRenderer renderer(scene);
+  const std::string file = folder / "still.png";
+  for (const auto& [instant, frame] : {std::pair{Rational(3, 2), 180}, {Rational(7, 2), 420}}) {
+    render_still(scene, instant, file);
+    const std::vector<std::uint8_t> bytes = bytes_of(renderer.frame(frame));
+    EXPECT_TRUE(testing_support::file_contents(file) == std::string(bytes.begin(), bytes.end()))
+        << instant;
+  }
+}
+
+TEST(Shutter, OfAStillThatNoFrameShowsRunsOnAtTheScenesSpeed) {
+  const testing_support::TemporaryFolder folder;
+  Scene scene = scene_of(3, {320, 180}, Rational(1, 2));
+  Scene longer = scene;
+  longer.time.to = {false, 30};
+  render_still(scene, Rational(20), folder / "outside.png");
+  render_still(longer, Rational(20), folder / "inside.png");
+  EXPECT_TRUE(testing_support::file_contents(folder / "outside.png") ==
+              testing_support::file_contents(folder / "inside.png"));
+}
+
+TEST(Shutter, OfASceneWithoutCollisionsNeedsNoEnd) {
+  const testing_support::TemporaryFolder folder;
+  Scene scene = scene_of(3, {320, 180}, 1);
+  scene.system.red.velocity = 1;
+  EXPECT_NO_THROW(render_still(scene, Rational(1), folder / "still.png"));
+}
+
+}  // namespace
+}  // namespace piblocks
