@@ -162,6 +162,8 @@ std::vector<std::string> h264_encoders();
 std::vector<std::string> webm_encoders();
 /// The same for MOV with alpha.
 std::vector<std::string> prores_encoders();
+/// Names of the encoders that sound is made with: that of MP4 and MOV, that of WebM.
+std::vector<std::string> sound_encoders();
 
 /// Name and version of each codec library that is linked, such as "libavcodec 59.37.100".
 std::vector<std::string> media_library_versions();

@@ -48,6 +48,8 @@ struct RenderJob {
   bool profile = false;  ///< whether to measure what each stage costs
   /// Renders a `*.mp4` into a folder, together with the rest, or nothing of it.
   std::optional<Bundle> bundle = {};
+  /// Renders nothing if more flashes than this would be seen within a second (WCAG 2.3.1: 3), >= 1.
+  std::optional<int> max_flashes = {};
 };
 
 /// What the work on a frame consists of, in this order; sound is both made and encoded in one.

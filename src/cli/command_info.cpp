@@ -55,6 +55,7 @@ void run() {
   print_encoders(out, "H.264 encoders, the default first", h264_encoders(), "MP4");
   print_encoders(out, "WebM encoders, the default first", webm_encoders(), "WebM");
   print_encoders(out, "ProRes encoders", prores_encoders(), "MOV with transparency");
+  print_encoders(out, "sound encoders", sound_encoders(), "videos with sound");
   print_limits(out);
   out.finish();
 }

@@ -35,10 +35,15 @@ struct RenderOptions {
   const CLI::Option* quiet;
   const CLI::Option* bundle;
   const CLI::Option* poster;
+  const CLI::Option* max_flashes;
 };
 
 int parse_jobs(const std::string& text) {
   return static_cast<int>(parse_whole_number(text, 1, Integer(kMaxJobs)).get_si());
+}
+
+int parse_flashes(const std::string& text) {
+  return static_cast<int>(parse_whole_number(text, 1, Integer(kMaxFlashes)).get_si());
 }
 
 /// "2/3", the second of three.
@@ -101,7 +106,8 @@ RenderJob job_of(const RenderOptions& options) {
           value_of(*options.jobs, parse_jobs).value_or(static_cast<int>(processors)),
           value_of(*options.part, parse_part),
           options.profile->count() > 0,
-          bundle_of(options)};
+          bundle_of(options),
+          value_of(*options.max_flashes, parse_flashes)};
 }
 
 /// What is written, for messages.
@@ -161,11 +167,15 @@ RenderOptions add_options(CLI::App& command) {
                        "and snippets for LaTeX beamer and reveal.js beside it");
   const CLI::Option& poster = add_value_option(command, "--poster", "S|last|#K",
                                                "What the poster shows (default: the last frame)");
+  const CLI::Option& max_flashes =
+      add_value_option(command, "--max-flashes", "N",
+                       "Render nothing if the film would flash more than N times\n"
+                       "within a second; 3 are held to be harmless (WCAG 2.3.1)");
   const CLI::Option& profile =
       *command.add_flag("--profile")->description("Print what each stage cost, on standard error");
   const CLI::Option& quiet = *command.add_flag("--quiet")->description("Print nothing but errors");
   return {scene, &output, &destination, &crf,   &preset, &encoder, &smallest,
-          &jobs, &part,   &profile,     &quiet, &bundle, &poster};
+          &jobs, &part,   &profile,     &quiet, &bundle, &poster,  &max_flashes};
 }
 
 }  // namespace

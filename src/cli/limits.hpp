@@ -9,5 +9,7 @@ inline constexpr long kMaxRows = 100'000'000;
 inline constexpr int kMaxJobs = 256;
 /// Parts of --part.
 inline constexpr int kMaxParts = 100'000;
+/// Flashes of --max-flashes: as many as there can be at 60 frames a second.
+inline constexpr int kMaxFlashes = 30;
 
 }  // namespace piblocks::cli

@@ -97,6 +97,76 @@ double stage_height(const View& view, const Rectangle& area, double measure) {
                     kMostStage * area.height);
 }
 
+/// What lengths in a frame are in proportion to.
+struct FrameMeasures {
+  explicit FrameMeasures(const View& view)
+      : measure(short_measure(whole(view))),
+        margin(kMargin * measure),
+        right(view.width_px - margin),
+        bottom(view.height_px - margin) {}
+
+  /// Between the margins.
+  Rectangle line() const { return {margin, 0, right - margin, 0}; }
+
+  double measure;
+  double margin;
+  double right;
+  double bottom;
+};
+
+/// At the top; what is left of the stage begins below.
+void place_title(const Show& show, const FrameMeasures& frame, const Palette& palette,
+                 const Font& font, FramePlan& plan) {
+  double top = 0;
+  if (!show.title.empty()) {
+    const double size_px = kTitleSize * frame.measure;
+    plan.title = set_line(ItemId::title, "show.title", show.title, size_px, frame.line(),
+                          palette.text, font);
+    plan.title->origin.y = std::round(frame.margin + kCapHeight * size_px);
+    top = plan.title->origin.y + (kDescent + kBelowTitle) * size_px;
+  } else if (!show.panels.empty()) {
+    // Else the counter would stick to the upper edge.
+    top = frame.margin / 2;
+  }
+  plan.stage.y += top;
+  plan.stage.height -= top;
+}
+
+/// Caption and logo, at the bottom; what is left of the stage ends above.
+void place_foot(const Show& show, const FrameMeasures& frame, const Palette& palette,
+                const Font& font, FramePlan& plan) {
+  double height = 0;
+  Rectangle line = frame.line();
+  if (!show.logo.empty()) {
+    const double logo_width = kLogoWidth * frame.measure;
+    height = kLogoHeight * frame.measure;
+    plan.logo = {frame.right - logo_width, frame.bottom - height, logo_width, height};
+    // As much is left free on the other side, so that the caption stays in the middle.
+    line.x += logo_width + frame.margin;
+    line.width -= 2 * (logo_width + frame.margin);
+  }
+  if (!show.caption.empty()) {
+    const double size_px = kCaptionSize * frame.measure;
+    plan.caption =
+        set_line(ItemId::caption, "show.caption", show.caption, size_px, line, palette.muted, font);
+    height = std::max(height, (kCapHeight + kDescent) * size_px);
+    plan.caption->origin.y = std::round(frame.bottom - (height - kCapHeight * size_px) / 2);
+  }
+  if (height > 0) plan.stage.height -= height + frame.margin;
+}
+
+/// Below the stage and its read-outs, which together get what they need at least.
+void place_panels(const Scene& scene, const FrameMeasures& frame, double read_outs_px,
+                  FramePlan& plan) {
+  const double bottom = plan.stage.y + plan.stage.height - frame.margin;
+  plan.stage.height = stage_height(scene.view, plan.stage, frame.measure);
+  const double top = plan.stage.y + plan.stage.height + read_outs_px + frame.margin / 2;
+  plan.panels =
+      grid(scene.show.panels.size(), {frame.margin, top, frame.right - frame.margin, bottom - top},
+           kPanelGap * frame.measure);
+  check_panels(plan, scene.view);
+}
+
 }  // namespace
 
 double small_text_px(const View& view) { return kSmallText * short_measure(whole(view)); }
@@ -108,59 +178,18 @@ Rectangle read_out_area(const View& view) {
 
 FramePlan plan_frame(const Scene& scene, const Palette& palette, const Font& font,
                      double read_outs_px) {
-  const View& view = scene.view;
-  const Show& show = scene.show;
-  const double measure = short_measure(whole(view));
-  const double margin = kMargin * measure;
+  const FrameMeasures measures{scene.view};
   FramePlan plan;
-  plan.text_px = small_text_px(view);
-  plan.line_px = std::max(1.0, std::round(kLineWidth * measure));
-
-  Rectangle left = whole(view);
-  const Rectangle line{margin, 0, view.width_px - 2 * margin, 0};
-  if (!show.title.empty()) {
-    plan.title = set_line(ItemId::title, "show.title", show.title, kTitleSize * measure, line,
-                          palette.text, font);
-    plan.title->origin.y = std::round(margin + kCapHeight * kTitleSize * measure);
-    left.y = plan.title->origin.y + (kDescent + kBelowTitle) * kTitleSize * measure;
-    left.height -= left.y;
-  }
-  if (show.title.empty() && !show.panels.empty()) {
-    // Else the counter would stick to the upper edge.
-    left.y += margin / 2;
-    left.height -= margin / 2;
-  }
-  double foot = 0;
-  Rectangle caption_line = line;
-  if (!show.logo.empty()) {
-    plan.logo = {view.width_px - margin - kLogoWidth * measure,
-                 view.height_px - margin - kLogoHeight * measure, kLogoWidth * measure,
-                 kLogoHeight * measure};
-    foot = kLogoHeight * measure;
-    // As much is left free on the other side, so that the caption stays in the middle.
-    caption_line.x += plan.logo.width + margin;
-    caption_line.width -= 2 * (plan.logo.width + margin);
-  }
-  if (!show.caption.empty()) {
-    plan.caption = set_line(ItemId::caption, "show.caption", show.caption, kCaptionSize * measure,
-                            caption_line, palette.muted, font);
-    foot = std::max(foot, (kCapHeight + kDescent) * kCaptionSize * measure);
-    plan.caption->origin.y =
-        std::round(view.height_px - margin - (foot - kCapHeight * kCaptionSize * measure) / 2);
-  }
-  if (foot > 0) left.height -= foot + margin;
-
-  plan.stage = left;
-  if (show.panels.empty()) {
+  plan.text_px = small_text_px(scene.view);
+  plan.line_px = std::max(1.0, std::round(kLineWidth * measures.measure));
+  plan.stage = whole(scene.view);
+  place_title(scene.show, measures, palette, font, plan);
+  place_foot(scene.show, measures, palette, font, plan);
+  if (scene.show.panels.empty()) {
     plan.stage.height -= read_outs_px;
-    return plan;
+  } else {
+    place_panels(scene, measures, read_outs_px, plan);
   }
-  plan.stage.height = stage_height(view, left, measure);
-  const double top = plan.stage.y + plan.stage.height + read_outs_px + margin / 2;
-  plan.panels = grid(show.panels.size(),
-                     {margin, top, view.width_px - 2 * margin, left.y + left.height - margin - top},
-                     kPanelGap * measure);
-  check_panels(plan, view);
   return plan;
 }
 

@@ -87,6 +87,8 @@ std::vector<std::string> webm_encoders() { return av_module().usable_webm_encode
 
 std::vector<std::string> prores_encoders() { return av_module().usable_prores_encoders(); }
 
+std::vector<std::string> sound_encoders() { return av_module().usable_sound_encoders(); }
+
 std::vector<std::string> h264_encoders() { return av_module().usable_h264_encoders(); }
 
 }  // namespace piblocks

@@ -27,6 +27,7 @@ struct AvModule {
   std::vector<std::string> (*usable_h264_encoders)();
   std::vector<std::string> (*usable_webm_encoders)();
   std::vector<std::string> (*usable_prores_encoders)();
+  std::vector<std::string> (*usable_sound_encoders)();
   std::vector<std::string> (*av_library_versions)();
 };
 

@@ -19,6 +19,7 @@ extern "C" const piblocks::AvModule* piblocks_av_module() {
                                        .usable_h264_encoders = usable_h264_encoders,
                                        .usable_webm_encoders = usable_webm_encoders,
                                        .usable_prores_encoders = usable_prores_encoders,
+                                       .usable_sound_encoders = usable_sound_encoders,
                                        .av_library_versions = av_library_versions};
   silence_av();
   return &kModule;

@@ -22,6 +22,8 @@ std::vector<std::string> usable_h264_encoders();
 std::vector<std::string> usable_webm_encoders();
 /// What prores_encoders() gives.
 std::vector<std::string> usable_prores_encoders();
+/// What sound_encoders() gives.
+std::vector<std::string> usable_sound_encoders();
 
 /// libavcodec's encoder of that name, or the first of its own. The object is libavcodec's and
 /// lives as long as the program.

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "media/find_encoder.hpp"
+
 extern "C" {
 #include <libavutil/opt.h>
 }
@@ -80,6 +82,14 @@ class SoundPackets final : public PacketSource {
 };
 
 }  // namespace
+
+std::vector<std::string> usable_sound_encoders() {
+  std::vector<std::string> names;
+  for (const SoundCodec& codec : {kAac, kOpus}) {
+    if (avcodec_find_encoder_by_name(codec.name) != nullptr) names.emplace_back(codec.name);
+  }
+  return names;
+}
 
 SoundEncoder::SoundEncoder(const SoundCodec& codec, const SoundFormat& format)
     : settings_(codec),

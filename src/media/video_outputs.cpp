@@ -48,51 +48,8 @@ std::optional<h264::ParameterSets> sets_for_damage(const VideoEncoder& encoder,
   }
 }
 
-/// The pictures' part of a signature with that of the sound.
-std::string with_sound(std::string signature, const std::optional<SoundEncoder>& sound) {
-  if (sound) signature += ", sound by " + sound->signature();
-  return signature;
-}
-
-/// H.264 in MP4, or the same stream in MOV.
-class H264Output final : public Output {
- public:
-  H264Output(const OutputRequest& request, const Container& container)
-      : name_(request.name),
-        container_(container),
-        encoder_(request.format, h264_choice(request.format, settings_of_stream(request.settings))),
-        sets_(sets_for_damage(encoder_, request.settings)),
-        when_too_much_(request.settings.encoder == kDamage ? WhenTooMuch::go_on
-                                                           : WhenTooMuch::leave_to_stream_encoder) {
-    if (request.sound) sound_.emplace(container.sound, *request.sound);
-  }
-  std::int64_t frames_per_chunk() const override { return encoder_.frames_per_chunk(); }
-  std::unique_ptr<ChunkEncoder> make_encoder() const override {
-    if (sets_) return std::make_unique<DamageChunkEncoder>(encoder_, *sets_, kQp, when_too_much_);
-    return std::make_unique<VideoChunkEncoder>(encoder_);
-  }
-  std::string signature() const override {
-    const std::string stream = fmt::format("{} by {}", container_.muxer, encoder_.signature());
-    return with_sound(sets_ ? fmt::format("{}, changes at QP {}", stream, kQp) : stream, sound_);
-  }
-  std::unique_ptr<PacketSource> encode_sound(SampleSource& samples) const override {
-    return sound_ ? sound_->encode(samples) : Output::encode_sound(samples);
-  }
-  std::unique_ptr<FrameSink> open() const override {
-    return open_video_file(name_, encoder_, container_, sound_ ? &*sound_ : nullptr);
-  }
-
- private:
-  std::string name_;
-  const Container& container_;
-  VideoEncoder encoder_;
-  std::optional<h264::ParameterSets> sets_;
-  WhenTooMuch when_too_much_;
-  std::optional<SoundEncoder> sound_;
-};
-
-/// A stream of libavcodec's alone.
-class EncodedOutput final : public Output {
+/// A stream of libavcodec's, and one of sound where that is asked for.
+class EncodedOutput : public Output {
  public:
   EncodedOutput(const OutputRequest& request, const Container& container, CodecChoice choice)
       : name_(request.name), container_(container), encoder_(request.format, std::move(choice)) {
@@ -103,7 +60,9 @@ class EncodedOutput final : public Output {
     return std::make_unique<VideoChunkEncoder>(encoder_);
   }
   std::string signature() const override {
-    return with_sound(fmt::format("{} by {}", container_.muxer, encoder_.signature()), sound_);
+    std::string signature = fmt::format("{} by {}", container_.muxer, encoder_.signature());
+    if (sound_) signature += ", sound by " + sound_->signature();
+    return signature;
   }
   std::unique_ptr<PacketSource> encode_sound(SampleSource& samples) const override {
     return sound_ ? sound_->encode(samples) : Output::encode_sound(samples);
@@ -112,11 +71,38 @@ class EncodedOutput final : public Output {
     return open_video_file(name_, encoder_, container_, sound_ ? &*sound_ : nullptr);
   }
 
+ protected:
+  const VideoEncoder& encoder() const noexcept { return encoder_; }
+
  private:
   std::string name_;
   const Container& container_;
   VideoEncoder encoder_;
   std::optional<SoundEncoder> sound_;
+};
+
+/// H.264 in MP4, or the same stream in MOV: slices of our own where the stream can have them.
+class H264Output final : public EncodedOutput {
+ public:
+  H264Output(const OutputRequest& request, const Container& container)
+      : EncodedOutput(request, container,
+                      h264_choice(request.format, settings_of_stream(request.settings))),
+        sets_(sets_for_damage(encoder(), request.settings)),
+        when_too_much_(request.settings.encoder == kDamage ? WhenTooMuch::go_on
+                                                           : WhenTooMuch::leave_to_stream_encoder) {
+  }
+  std::unique_ptr<ChunkEncoder> make_encoder() const override {
+    if (!sets_) return EncodedOutput::make_encoder();
+    return std::make_unique<DamageChunkEncoder>(encoder(), *sets_, kQp, when_too_much_);
+  }
+  std::string signature() const override {
+    const std::string signature = EncodedOutput::signature();
+    return sets_ ? fmt::format("{}, changes at QP {}", signature, kQp) : signature;
+  }
+
+ private:
+  std::optional<h264::ParameterSets> sets_;
+  WhenTooMuch when_too_much_;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "render/chunks.hpp"
 #include "render/film.hpp"
 #include "render/film_sound.hpp"
+#include "render/flash_check.hpp"
 #include "render/job_description.hpp"
 #include "render/ordered_pool.hpp"
 #include "render/page.hpp"
@@ -173,6 +174,7 @@ Rendered render(const RenderJob& job, const std::function<void(const Progress&)>
   if (is_page(job.output)) return render_page(job, on_progress, stop);
   check_part(job);
   const Plan plan(job);
+  if (job.max_flashes) check_flashes(plan.film, *job.max_flashes, stop);
   const Share share = share_of(job.part, plan.chunks.count());
   const std::unique_ptr<FrameSink> sink = open_sink(job, plan);
   const auto frames_until = [&](std::int64_t chunk) {

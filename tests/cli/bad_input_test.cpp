@@ -73,6 +73,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"count", "--digits"}, "--digits needs a value: --digits D"},
         BadInput{{"render", "-o"}, "--output needs a value: --output OUT"},
         BadInput{{"render", "-o", "null", "--size"}, "--size needs a value: --size WxH"},
+        BadInput{render({"--max-flashes", "0"}), "--max-flashes 0: must be a whole number"},
+        BadInput{render({"--max-flashes", "99"}), "--max-flashes 99: must be a whole number"},
         BadInput{{"count", "--digits", "1", "--digits", "2"}, "--digits is given more than once"},
         BadInput{{"count", "--digits", "2", "--mass-ratio", "3"}, "--digits and --mass-ratio"}));
 

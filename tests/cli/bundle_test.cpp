@@ -151,12 +151,6 @@ TEST_F(BundleTest, IsAllOrNothing) {
 }
 
 TEST_F(BundleTest, RefusesWhatItCannotBe) {
-  const auto expect_refusal = [this](const Arguments& arguments, const std::string& message) {
-    const CommandResult result = piblocks(arguments);
-    EXPECT_EQ(result.exit_code, 2);
-    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
-    EXPECT_EQ(entries(), Names{});
-  };
   const Arguments bundle{"render", "--quiet", "--bundle", "talk", "-o"};
   expect_refusal(bundle + Arguments{"new/pi.mp4"}, "'new/pi.mp4' is no name for the video in it");
   expect_refusal(bundle + Arguments{"pi.gif"}, "'pi.gif' is no name for the video in it");

@@ -43,6 +43,14 @@ class CliFixture : public testing::Test {
     EXPECT_EQ(result.err, "");
     return result.out;
   }
+  /// Wrong usage, which leaves the folder as it is.
+  void expect_refusal(const Arguments& arguments, const std::string& message) const {
+    const std::vector<std::string> before = entries();
+    const CommandResult result = piblocks(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+    EXPECT_EQ(entries(), before);
+  }
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
   }

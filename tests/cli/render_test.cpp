@@ -129,6 +129,17 @@ TEST_F(RenderTest, ReadsTheSceneFileAndLetsOptionsWin) {
   EXPECT_EQ(y4m_frames(smaller), 3u);
 }
 
+TEST_F(RenderTest, WritesNothingThatFlashesTooMuch) {
+  const Arguments small = {"render", "--quiet", "--size", "320x180", "--max-flashes", "3"};
+  output_of(small + Arguments{"-o", "usual.mp4"});
+  // Blue bounces as large as the frame.
+  write("close.toml", "[view]\nx = [-1, 1]\ny = [-0.5, 0.5]\n");
+  const Arguments close = small + Arguments{"close.toml", "--from", "3", "--to", "4"};
+  expect_refusal(close + Arguments{"-o", "close.mp4"}, "more than 3 times within a second");
+  expect_refusal(close + Arguments{"--part", "2/2", "-o", "close.mp4"}, "--slow-motion");
+  output_of(close + Arguments{"--speed", "1/50", "-o", "close.mp4"});
+}
+
 TEST_F(RenderTest, EncoderOptionsReachTheEncoder) {
   const Arguments two = frames(2);
   output_of(two + Arguments{"--crf", "0", "-o", "lossless.mp4"});

@@ -134,7 +134,7 @@ TEST_F(TextCommandsTest, InfoNamesVersionLibrariesAndLimits) {
   const std::string info = output_of({"info"});
   for (const char* part : {"piblocks ", "Eigen ", "GMP ", "MPFR ", "cairo ", "freetype ",
                            "libavcodec ", "giflib ", "zlib ", "fmt ", "libx264", "libvpx-vp9",
-                           "prores_ks", "limits:", "pictures of a sheet: 200"}) {
+                           "prores_ks", "aac", "libopus", "limits:", "pictures of a sheet: 200"}) {
     EXPECT_NE(info.find(part), std::string::npos) << part;
   }
 }

@@ -42,6 +42,12 @@ inline const OutputKind kJoin{
 
 inline std::vector<OutputKind> every_kind() {
   return {{"Mp4", small_render({"-o", "a.mp4"})},
+          {"Mp4Sound", small_render({"--sound", "-o", "a.mp4"})},
+          {"Webm", small_render({"--sound", "-o", "a.webm"})},
+          {"Gif", small_render({"-o", "a.gif"})},
+          {"Apng", small_render({"-o", "a.apng"})},
+          {"Wav", small_render({"-o", "a.wav"})},
+          {"Page", small_render({"-o", "a.html"})},
           {"Png", small_render({"-o", "%06d.png"})},
           {"Y4m", small_render({"-o", "a.y4m"})},
           {"Framehash", small_render({"-o", "a.framehash"})},
@@ -50,6 +56,7 @@ inline std::vector<OutputKind> every_kind() {
           {"StillPng", {"still", "--at", "3", "--size", "640x360", "-o", "a.png"}},
           {"StillSvg", {"still", "--at", "3", "--size", "640x360", "-o", "a.svg"}},
           {"StillPdf", {"still", "--at", "3", "--size", "640x360", "-o", "a.pdf"}},
+          {"Sheet", {"sheet", "--frames", "2", "--size", "320x180", "-o", "a.pdf"}},
           {"LogCsv", {"log", "--digits", "3", "-o", "a.csv"}, false},
           {"LogNpy", {"log", "--digits", "3", "--format", "npy", "-o", "a.npy"}, false}};
 }

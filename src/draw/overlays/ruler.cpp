@@ -32,43 +32,51 @@ Ticks spaced_ticks(double low, double high, double em, const Font& font) {
   return ticks;
 }
 
+/// Where the ruler has its place.
+struct Room {
+  double top;
+  double height;
+
+  double at(double share) const { return top + share * height; }
+};
+
+/// @throws UsageError if there is none below the blocks.
+Room room_for(const Setting& setting) {
+  const BlockSystem& system = setting.scene.system;
+  const Layout& layout = setting.stage;
+  const double foot = -to_double(std::max(system.blue.width, system.red.width)) / 2;
+  const double height = (foot - to_double(setting.scene.view.y.low)) * layout.scale +
+                        std::min(layout.below_px, setting.text_px);
+  if (height >= kLeastRoom_px) return {layout.at(0, foot).y, height};
+  throw UsageError(
+      fmt::format("show.overlays: the ruler needs {} pixels below the blocks, and there are "
+                  "{:.0f}; lower the lower end of view.y, or make the frame larger",
+                  kLeastRoom_px, std::max(0.0, height)));
+}
+
 class Ruler final : public Part {
  public:
   explicit Ruler(const Setting& setting) {
     const Layout& layout = setting.stage;
-    const BlockSystem& system = setting.scene.system;
-    const View& view = setting.scene.view;
-    const double foot = -to_double(std::max(system.blue.width, system.red.width)) / 2;
-    const double room_px =
-        (foot - to_double(view.y.low)) * layout.scale + std::min(layout.below_px, setting.text_px);
-    if (room_px < kLeastRoom_px) {
-      throw UsageError(
-          fmt::format("show.overlays: the ruler needs {} pixels below the blocks, and there are "
-                      "{:.0f}; lower the lower end of view.y, or make the frame larger",
-                      kLeastRoom_px, std::max(0.0, room_px)));
-    }
-    const double size_px = std::min(kTextSize * room_px, setting.text_px);
-    const double left = to_double(std::max(view.x.low, system.wall_face));
-    const double right = to_double(view.x.high);
-    const double axis = std::round(layout.at(0, foot).y + kAxis * room_px);
-    const auto line = [&](std::size_t n, double x0, double y0, double x1, double y1) {
-      items_.emplace_back(PathItem{nth(ItemId::ruler, n), std::vector<Point>{{x0, y0}, {x1, y1}},
-                                   false, std::nullopt,
-                                   Stroke{setting.palette.muted, setting.line_px}});
-    };
-    line(0, layout.at(left, 0).x, axis, layout.at(right, 0).x, axis);
-    std::size_t n = 1;
+    const Room room = room_for(setting);
+    const double size_px = std::min(kTextSize * room.height, setting.text_px);
+    const double left =
+        to_double(std::max(setting.scene.view.x.low, setting.scene.system.wall_face));
+    const double right = to_double(setting.scene.view.x.high);
+    const double axis = std::round(room.at(kAxis));
+    const Stroke stroke{setting.palette.muted, setting.line_px};
+    add_line({layout.at(left, 0).x, axis}, {layout.at(right, 0).x, axis}, stroke);
     const Ticks ticks = spaced_ticks(left, right, size_px / layout.scale, setting.font);
     for (const double value : ticks.values) {
       const double x = layout.at(value, 0).x;
-      line(n++, x, axis, x, axis + kTick * room_px);
+      add_line({x, axis}, {x, axis + kTick * room.height}, stroke);
       const std::string text = tick_text(value, ticks.step);
-      items_.emplace_back(TextItem{
-          nth(ItemId::ruler, n++),
-          {x - setting.font.width_em(text) * size_px / 2, axis + (kBaseline - kAxis) * room_px},
-          text,
-          size_px,
-          setting.palette.muted});
+      const double width_px = setting.font.width_em(text) * size_px;
+      items_.emplace_back(TextItem{next_id(),
+                                   {x - width_px / 2, axis + (kBaseline - kAxis) * room.height},
+                                   text,
+                                   size_px,
+                                   setting.palette.muted});
     }
   }
 
@@ -77,6 +85,12 @@ class Ruler final : public Part {
   }
 
  private:
+  ItemId next_id() const { return nth(ItemId::ruler, items_.size()); }
+  void add_line(const Point& from, const Point& to, const Stroke& stroke) {
+    items_.emplace_back(
+        PathItem{next_id(), std::vector<Point>{from, to}, false, std::nullopt, stroke});
+  }
+
   std::vector<DrawItem> items_;
 };
 

@@ -80,6 +80,8 @@ function frameTime(frame) {
 // What is looked at: a frame, or a collision and the first frame that shows it.
 let frame = 0;
 let collision = null;
+/** From the video's start to its end or to the next step; its events may come later than that. */
+let isPlaying = false;
 
 const count = () => collision ?? counts[frame];
 const grouped = number => number.toLocaleString("en");
@@ -99,6 +101,7 @@ function update() {
 
 function show(newFrame, newCollision = null) {
   video.pause();
+  isPlaying = false;
   frame = Math.max(0, Math.min(lastFrame, newFrame));
   collision = newCollision;
   // The middle of the frame, so that no rounding leads to its neighbour.
@@ -139,7 +142,7 @@ function playOrPause() {
 
 /** While the video plays, the read-outs say what it shows. */
 function follow(time_s) {
-  if (!video.paused) {
+  if (isPlaying && !video.paused) {
     frame = Math.max(0, Math.min(lastFrame, Math.floor(time_s * rate + 0.01)));
     collision = null;
     update();
@@ -156,6 +159,7 @@ if (video.requestVideoFrameCallback) {
 }
 
 function onPlaying() {
+  isPlaying ||= !video.paused;
   byId("play").textContent = video.paused ? "Play" : "Pause";
   // Nobody can listen to sixty counts a second.
   for (const id of ["count", "time"]) {
@@ -167,6 +171,8 @@ video.addEventListener("volumechange", () => {
   byId("sound").textContent = video.muted ? "Sound on" : "Sound off";
 });
 video.addEventListener("ended", () => {
+  if (!isPlaying) return;
+  isPlaying = false;
   frame = lastFrame;
   collision = null;
   update();

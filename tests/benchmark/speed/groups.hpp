@@ -16,5 +16,7 @@ void measure_png(const Workbench& bench);
 void measure_stages(const Workbench& bench);
 /// What digits, frame size, threads and duration do to time and memory.
 void measure_scaling(const Workbench& bench);
+/// What everything that a scene can ask for beside the blocks costs, and every format.
+void measure_features(const Workbench& bench);
 
 }  // namespace piblocks::benchmark

@@ -22,11 +22,13 @@ struct Options {
 };
 
 using Measure = void (*)(const Workbench&);
-constexpr std::array<std::pair<const char*, Measure>, 5> kGroups = {{{"job", measure_job},
-                                                                     {"encoders", measure_encoders},
-                                                                     {"png", measure_png},
-                                                                     {"stages", measure_stages},
-                                                                     {"scaling", measure_scaling}}};
+constexpr std::array<std::pair<const char*, Measure>, 6> kGroups = {
+    {{"job", measure_job},
+     {"encoders", measure_encoders},
+     {"png", measure_png},
+     {"stages", measure_stages},
+     {"scaling", measure_scaling},
+     {"features", measure_features}}};
 
 void run(const Options& options) {
   const Workbench bench{.circumstances = {.commit = options.commit},
@@ -49,8 +51,9 @@ int main(int argc, char** argv) {
   app.add_option("--rounds", options.rounds, "Rounds over all programs, after one to warm up")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--only", options.only, "Measure one group: job, encoders, png, stages or scaling")
-      ->check(CLI::IsMember({"job", "encoders", "png", "stages", "scaling"}));
+  app.add_option("--only", options.only,
+                 "Measure one group: job, encoders, png, stages, scaling or features")
+      ->check(CLI::IsMember({"job", "encoders", "png", "stages", "scaling", "features"}));
   CLI11_PARSE(app, argc, argv);
   try {
     piblocks::benchmark::run(options);

@@ -3,7 +3,7 @@
 # awk -f page.awk -f speed/tables.awk speed.csv README.md
 BEGIN {
   if (page == "README.md") allowed = "speed-short"
-  else names = "measured job encoders png stages digits size jobs duration null still"
+  else names = "measured job encoders png stages digits size jobs duration null still features formats"
 }
 
 # Rows are known by number: field[row, column's name].
@@ -21,11 +21,13 @@ function print_table(name) {
   else if (name == "encoders") print_encoders()
   else if (name == "png") print_png()
   else if (name == "stages") print_stages()
-  else if (name == "digits") print_scaling("digits", "Digits")
-  else if (name == "size") print_scaling("size", "Frame size")
-  else if (name == "jobs") print_scaling("jobs", "Threads")
-  else if (name == "duration") print_scaling("duration", "Simulated time, s")
-  else if (name == "null") print_scaling("null", "Digits")
+  else if (name == "digits") print_series("scaling", "digits", "Digits")
+  else if (name == "size") print_series("scaling", "size", "Frame size")
+  else if (name == "jobs") print_series("scaling", "jobs", "Threads")
+  else if (name == "duration") print_series("scaling", "duration", "Simulated time, s")
+  else if (name == "null") print_series("scaling", "null", "Digits")
+  else if (name == "features") print_series("features", "features", "With")
+  else if (name == "formats") print_series("features", "formats", "Format")
   else if (name == "still") print_still()
   else print_short()
 }
@@ -139,17 +141,18 @@ function stage_cells(stage, output,    total) {
     sprintf("%.1f %%", 100 * cost[stage, output] / total) " |"
 }
 
-function print_scaling(series, title,    row) {
+function print_series(group, series, title,    row) {
   print "| " title " | " speed_head() " | Time a frame, first row = 1 |"
-  print_rule(0, 7)
+  if (group == "scaling") print_rule(0, 7)
+  else print_rule(1, 6)
   for (row = 1; row <= rows; ++row) {
-    if (!is(row, "scaling", series)) continue
+    if (!is(row, group, series)) continue
     print "| " value_text(row) " | " speed_cells(row) " | " ratio_text(row) " |"
   }
 }
 function value_text(row,    text) {
   text = get(row, "value")
-  sub(/x/, "×", text)
+  if (text ~ /^[0-9]+x[0-9]+$/) sub(/x/, "×", text)
   return text
 }
 

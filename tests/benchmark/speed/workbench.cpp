@@ -49,8 +49,9 @@ Command ffmpeg_ultrafast(const std::string& y4m, const std::string& output) {
           "-movflags", "+faststart", output};
 }
 
-std::int64_t article_frames(int digits, const std::string& to) {
+std::int64_t article_frames(int digits, const std::string& to, int frames_per_s) {
   Scene scene;
+  scene.view.frame_rate = frames_per_s;
   scene.system = article_system(digits);
   scene.time.to = parse_end(to);
   return Timeline(scene, *make_collision_log(scene.system)).frame_count();

@@ -37,8 +37,8 @@ struct Workbench {
 /// Nothing but encoding, by the settings that the program's libx264 has.
 Command ffmpeg_ultrafast(const std::string& y4m, const std::string& output);
 
-/// Frames of the article's scene at 60 frames a second.
+/// Frames of the article's scene.
 /// @param to  as the option --to takes it.
-std::int64_t article_frames(int digits, const std::string& to = "last+1.5");
+std::int64_t article_frames(int digits, const std::string& to = "last+1.5", int frames_per_s = 60);
 
 }  // namespace piblocks::benchmark

@@ -1,0 +1,158 @@
+#include "render/flash_meter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/light.hpp"
+
+namespace piblocks {
+namespace {
+
+/// On the picture's longer side, about.
+constexpr int kCells = 160;
+// Of a picture as large as a screen of 1024 x 768 can show it.
+constexpr double kScreenWidth_px = 1024;
+constexpr double kScreenHeight_px = 768;
+constexpr double kSightWidth_px = 341;
+constexpr double kSightHeight_px = 256;
+
+constexpr float kLeastChange = 0.1F;
+constexpr float kBright = 0.8F;
+constexpr float kLeastRedChange = 20.0F / 320;
+constexpr float kSaturated = 0.8F;
+
+/// Cells that a length covers, rounded to the smaller field of sight.
+int cells_in(double length_px, int cell_px, int most) {
+  return std::clamp(static_cast<int>(length_px / cell_px), 1, most);
+}
+
+}  // namespace
+
+FlashMeter::FlashMeter(int width_px, int height_px, double frames_per_s, int most)
+    : width_px_(width_px),
+      height_px_(height_px),
+      frames_per_s_(frames_per_s),
+      too_many_(2 * static_cast<std::size_t>(most) + 1),
+      cell_px_(std::max(1, std::max(width_px, height_px) / kCells)),
+      columns_((width_px + cell_px_ - 1) / cell_px_),
+      rows_((height_px + cell_px_ - 1) / cell_px_) {
+  const double scale = std::max(width_px / kScreenWidth_px, height_px / kScreenHeight_px);
+  sight_columns_ = cells_in(scale * kSightWidth_px, cell_px_, columns_);
+  sight_rows_ = cells_in(scale * kSightHeight_px, cell_px_, rows_);
+  const Light light;
+  for (std::size_t i = 0; i < light_.size(); ++i) light_[i] = float(light.of(double(i)));
+  const auto cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  touched_.resize(cells);
+  swings_.resize(cells * kMeasures);
+  changed_at_.resize(cells * kMeasures * too_many_);
+}
+
+std::optional<Flashing> FlashMeter::take(const ImageView& frame,
+                                         std::span<const PixelRect> changed) {
+  const bool is_first = ++frame_ == 0;
+  has_changed_ = false;
+  std::fill(touched_.begin(), touched_.end(), is_first);
+  for (const PixelRect& rect : changed) touch(rect);
+  for (std::size_t cell = 0; cell < touched_.size(); ++cell) {
+    if (!touched_[cell]) continue;
+    const int at = static_cast<int>(cell);
+    const Measured measured = measure(frame, at % columns_, at / columns_);
+    for (const Measure each : {luminance, red}) {
+      Swing& swing = swings_[cell * kMeasures + each];
+      if (is_first) swing.low = swing.high = measured[each];
+      follow(cell * kMeasures + each, each, measured[each]);
+    }
+  }
+  // More can only be flashing than before where something has changed.
+  return has_changed_ ? most_flashing() : std::nullopt;
+}
+
+void FlashMeter::touch(const PixelRect& rect) {
+  for (int y = rect.y_px / cell_px_; y * cell_px_ < rect.y_px + rect.height_px; ++y) {
+    for (int x = rect.x_px / cell_px_; x * cell_px_ < rect.x_px + rect.width_px; ++x) {
+      touched_[static_cast<std::size_t>(y * columns_ + x)] = true;
+    }
+  }
+}
+
+FlashMeter::Measured FlashMeter::measure(const ImageView& frame, int column, int row) const {
+  const int left = column * cell_px_;
+  const int top = row * cell_px_;
+  const int right = std::min(left + cell_px_, width_px_);
+  const int bottom = std::min(top + cell_px_, height_px_);
+  Measured sum{};
+  for (int y = top; y < bottom; ++y) {
+    const auto* words = reinterpret_cast<const std::uint32_t*>(frame.row(y));
+    for (int x = left; x < right; ++x) {
+      const float r = light_[words[x] >> 16 & 0xff];
+      const float g = light_[words[x] >> 8 & 0xff];
+      const float b = light_[words[x] & 0xff];
+      sum[luminance] += 0.2126F * r + 0.7152F * g + 0.0722F * b;
+      if (r >= kSaturated * (r + g + b)) sum[red] += std::max(0.0F, r - g - b);
+    }
+  }
+  const auto pixels = static_cast<float>((right - left) * (bottom - top));
+  for (float& value : sum) value /= pixels;
+  return sum;
+}
+
+void FlashMeter::follow(std::size_t at, Measure measure, float value) {
+  Swing& swing = swings_[at];
+  const float least = measure == luminance ? kLeastChange : kLeastRedChange;
+  const auto counts = [&](float darker, float brighter) {
+    return brighter - darker >= least && (measure == red || darker < kBright);
+  };
+  int direction = 0;
+  if (swing.direction <= 0 && counts(swing.low, value)) direction = 1;
+  if (swing.direction >= 0 && counts(value, swing.high)) direction = -1;
+  if (direction == 0) {
+    swing.low = std::min(swing.low, value);
+    swing.high = std::max(swing.high, value);
+    return;
+  }
+  // The next change is measured from the extreme that follows this one.
+  swing.low = swing.high = value;
+  swing.direction = direction;
+  changed_at_[at * too_many_ + static_cast<std::size_t>(swing.count) % too_many_] = frame_;
+  ++swing.count;
+  has_changed_ = true;
+}
+
+bool FlashMeter::flashes(std::size_t cell) const {
+  for (const Measure each : {luminance, red}) {
+    const std::size_t at = cell * kMeasures + each;
+    const auto count = static_cast<std::size_t>(swings_[at].count);
+    if (count < too_many_) continue;
+    const std::int64_t oldest = changed_at_[at * too_many_ + count % too_many_];
+    if (double(frame_ - oldest) <= frames_per_s_) return true;
+  }
+  return false;
+}
+
+std::optional<Flashing> FlashMeter::most_flashing() const {
+  // Sums over all cells above and to the left, to have that of any rectangle at once.
+  const int stride = columns_ + 1;
+  std::vector<int> sums(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows_ + 1));
+  const auto sum = [&](int x, int y) -> int& {
+    return sums[static_cast<std::size_t>(y * stride + x)];
+  };
+  for (int y = 0; y < rows_; ++y) {
+    for (int x = 0; x < columns_; ++x) {
+      const int own = flashes(static_cast<std::size_t>(y * columns_ + x)) ? 1 : 0;
+      sum(x + 1, y + 1) = own + sum(x, y + 1) + sum(x + 1, y) - sum(x, y);
+    }
+  }
+  int most = 0;
+  for (int y = sight_rows_; y <= rows_; ++y) {
+    for (int x = sight_columns_; x <= columns_; ++x) {
+      const int left = x - sight_columns_;
+      const int top = y - sight_rows_;
+      most = std::max(most, sum(x, y) - sum(left, y) - sum(x, top) + sum(left, top));
+    }
+  }
+  const double share = double(most) / (double(sight_columns_) * sight_rows_);
+  if (share <= kMostFlashing) return std::nullopt;
+  return Flashing{frame_, share};
+}
+
+}  // namespace piblocks
