@@ -52,7 +52,8 @@ void add_sheet(CLI::App& app) {
       add_value_option(*command, "-o,--output", "OUT",
                        "NAME.pdf, NAME.png, NAME.svg, or - (PNG on standard output)")
           .required();
-  scene.add_picture();
+  scene.add_size();
+  scene.add_show();
   scene.add_span();
   command->footer(
       "Examples:\n"

@@ -44,12 +44,15 @@ void SceneOptions::add_flag(const std::string& key, const std::string& value,
   flags_.push_back({key, value, command_->add_flag(option)->description(help)});
 }
 
-void SceneOptions::add_picture() {
+void SceneOptions::add_size() {
   add_key("view.size", "--size", "WxH", "Frame size in pixels (default 1920x1080)");
+}
+
+void SceneOptions::add_picture() {
+  add_size();
   add_flag("view.background", "transparent", "--transparent",
            "No background: another picture can be put behind");
-  add_flag("view.background", "opaque", "--opaque",
-           "A background, also where the scene or --for wants none");
+  add_flag("view.background", "opaque", "--opaque", "A background, also where there would be none");
 }
 
 void SceneOptions::add_span() {

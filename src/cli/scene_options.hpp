@@ -24,6 +24,8 @@ class SceneOptions {
  public:
   /// Adds [SCENE.toml], --digits and --mass-ratio.
   explicit SceneOptions(CLI::App& command);
+  /// Adds --size.
+  void add_size();
   /// Adds --size, --transparent and --opaque.
   void add_picture();
   /// Adds --theme, --show, --panels and what else says what a picture shows.

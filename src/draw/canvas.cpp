@@ -29,6 +29,16 @@ void clear(unsigned char* corner, const PixelRect& rect, int stride_bytes) {
   }
 }
 
+/// How Cairo rounds a slanted edge depends on where the surface ends that it is painted on. The
+/// pixels of rectangles, text, plates and exposed blocks do not.
+bool depends_on_surface(const DrawItem& item) {
+  if (const auto* group = std::get_if<GroupItem>(&item)) {
+    return std::ranges::any_of(group->list->items, depends_on_surface);
+  }
+  return std::holds_alternative<PathItem>(item) || std::holds_alternative<DiskItem>(item) ||
+         std::holds_alternative<ImageItem>(item);
+}
+
 }  // namespace
 
 struct Canvas::Pixels {
@@ -52,16 +62,6 @@ struct Canvas::Pixels {
   void paint_part(const DrawList& list, const PixelRect& rect);
   void paint_tiles(const DrawList& list, std::span<const PixelRect> rects);
 };
-
-/// How Cairo rounds a slanted edge depends on where the surface ends that it is painted on. The
-/// pixels of rectangles, text, plates and exposed blocks do not.
-bool depends_on_surface(const DrawItem& item) {
-  if (const auto* group = std::get_if<GroupItem>(&item)) {
-    return std::ranges::any_of(group->list->items, depends_on_surface);
-  }
-  return std::holds_alternative<PathItem>(item) || std::holds_alternative<DiskItem>(item) ||
-         std::holds_alternative<ImageItem>(item);
-}
 
 void Canvas::Pixels::paint(const DrawList& list, std::span<const PixelRect> rects) {
   if (std::ranges::any_of(list.items, depends_on_surface)) {

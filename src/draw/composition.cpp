@@ -45,7 +45,8 @@ std::vector<ReadOut> read_outs_of(const Setting& setting) {
   return read_outs;
 }
 
-std::unique_ptr<Part> make_panel(Panel panel, const Setting& setting, const PanelPlace& place) {
+std::unique_ptr<PicturePart> make_panel(Panel panel, const Setting& setting,
+                                        const PanelPlace& place) {
   switch (panel) {
     case Panel::velocity:
       return velocity_panel(setting, place);
@@ -80,10 +81,10 @@ struct Composition::Contents {
   int height_px;
   Palette palette;
   std::optional<Color> background;
-  std::unique_ptr<const Stage> stage;
-  std::vector<std::unique_ptr<const Part>> parts;  ///< in the order of their ids
-  std::vector<DrawItem> lines;                     ///< title, caption and logo
-  std::vector<std::unique_ptr<const Part>> panels;
+  std::unique_ptr<const StagePicture> stage;
+  std::vector<std::unique_ptr<const PicturePart>> parts;  ///< in the order of their ids
+  std::vector<DrawItem> lines;                            ///< title, caption and logo
+  std::vector<std::unique_ptr<const PicturePart>> panels;
 
  private:
   void add_parts(const Setting& setting);
@@ -104,7 +105,7 @@ Composition::Contents::Contents(const Scene& scene, const CollisionLog& log,
                                     read_out_area(scene.view), text_px, font);
   const FramePlan plan = plan_frame(scene, palette, font, rows->height());
   const Layout layout = lay_out(scene, log.size(), plan.stage, font);
-  stage = std::make_unique<Stage>(scene, layout, palette, font, lit_digits(scene, log));
+  stage = std::make_unique<StagePicture>(scene, layout, palette, font, lit_digits(scene, log));
 
   const Setting setting{scene, log, palette, font, layout, plan.text_px, plan.line_px};
   add_parts(setting);

@@ -41,8 +41,7 @@ BlockTimes::BlockTimes(const ExposedBlock& block)
     : block_(block),
       // A shape thinner than its stroke is all stroke.
       line_px_(std::min({block.stroke.width_px, block.bounds.width, block.bounds.height})),
-      first_x_(block.stops.empty() ? block.bounds.x : block.stops.front().x),
-      last_x_(block.stops.empty() ? block.bounds.x : block.stops.back().x) {
+      first_x_(block.stops.empty() ? block.bounds.x : block.stops.front().x) {
   sums_.reserve(block.stops.size() + 1);
   sums_.push_back(0);
   for (const Stop& stop : block.stops) sums_.push_back(sums_.back() + stop.share);

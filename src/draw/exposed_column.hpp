@@ -43,9 +43,6 @@ class BlockTimes {
   explicit BlockTimes(const ExposedBlock& block);
 
   const ExposedBlock& block() const noexcept { return block_; }
-  /// Where its left edge is at some time: from, to.
-  double first_x() const noexcept { return first_x_; }
-  double last_x() const noexcept { return last_x_; }
   bool moves() const noexcept { return !block_.stops.empty(); }
   double line_px() const noexcept { return line_px_; }
   Cover cover(double pixel, double x) const {
@@ -67,7 +64,6 @@ class BlockTimes {
   const ExposedBlock& block_;
   double line_px_;
   double first_x_;
-  double last_x_;
   std::vector<double> sums_;  // of the shares before each stop
 };
 

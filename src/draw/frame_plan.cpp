@@ -24,8 +24,6 @@ constexpr double kDescent = 0.24;
 constexpr double kBelowTitle = 0.25;
 /// A line may be set so much smaller than planned; beyond that it is too long.
 constexpr double kLeastShrink = 0.5;
-/// Below this no font can be read.
-constexpr double kLeastText_px = 8;
 /// Least side of a diagram, in ems of its text.
 constexpr double kLeastPanel_em = 8;
 /// What diagrams look best in.
@@ -82,7 +80,7 @@ std::vector<Rectangle> grid(std::size_t count, const Rectangle& area, double gap
 void check_panels(const FramePlan& plan, const View& view) {
   for (const Rectangle& panel : plan.panels) {
     const double least = kLeastPanel_em * plan.text_px;
-    if (std::min(panel.width, panel.height) >= least && plan.text_px >= kLeastText_px) continue;
+    if (std::min(panel.width, panel.height) >= least) continue;
     throw UsageError(
         fmt::format("show.panels: {} of them do not fit into {}x{}; leave some out, or "
                     "make the frame larger",
@@ -169,7 +167,9 @@ void place_panels(const Scene& scene, const FrameMeasures& frame, double read_ou
 
 }  // namespace
 
-double small_text_px(const View& view) { return kSmallText * short_measure(whole(view)); }
+double small_text_px(const View& view) {
+  return std::max(kLeastText_px, kSmallText * short_measure(whole(view)));
+}
 
 Rectangle read_out_area(const View& view) {
   const double margin = kMargin * short_measure(whole(view));

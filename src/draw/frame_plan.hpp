@@ -19,6 +19,9 @@ struct FramePlan {
   std::vector<Rectangle> panels;
 };
 
+/// Below this no font can be read.
+inline constexpr double kLeastText_px = 8;
+
 /// Type of read-outs and diagrams in a frame.
 double small_text_px(const View& view);
 

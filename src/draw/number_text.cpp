@@ -18,15 +18,31 @@ std::string with_commas(std::string digits) {
   return digits;
 }
 
-}  // namespace
+/// GMP's floating point has room for the exponent of any number the program takes; the mantissa
+/// needs few bits.
+constexpr mp_bitcnt_t kBits = 128;
 
-Magnitude magnitude_of(const Rational& value) {
+Magnitude split(const mpf_class& value) {
   if (value <= 0) return {};
-  // Room for the exponent of any number the program takes; the mantissa needs few bits.
   mp_exp_t exponent = 0;
-  std::string digits = mpf_class(value, 128).get_str(exponent, 10, 17);
+  std::string digits = value.get_str(exponent, 10, 17);
   digits.insert(1, ".");
   return {std::stod(digits), static_cast<long>(exponent) - 1};
+}
+
+mpf_class float_root(const Rational& value) { return sqrt(mpf_class(value, kBits)); }
+
+}  // namespace
+
+Magnitude magnitude_of(const Rational& value) { return split(mpf_class(value, kBits)); }
+
+Magnitude root_magnitude_of(const Rational& value) { return split(float_root(value)); }
+
+double root_of(const Rational& value) { return float_root(value).get_d(); }
+
+Magnitude written_with(int decimals, Magnitude size) {
+  if (size.mantissa < 10 - 0.5 * std::pow(10, -decimals)) return size;
+  return {size.mantissa / 10, size.exponent + 1};
 }
 
 std::string fixed_text(double value, int decimals) {
@@ -79,7 +95,8 @@ std::string short_text(const Rational& value) {
   if (size.exponent >= -2 && size.exponent < 7) {
     return fixed_text(to_double(value), std::max(0, 2 - static_cast<int>(size.exponent)));
   }
-  return fmt::format("{}{:.2f}×10{}", sign, size.mantissa, superscript(size.exponent));
+  const Magnitude rounded = written_with(2, size);
+  return fmt::format("{}{:.2f}×10{}", sign, rounded.mantissa, superscript(rounded.exponent));
 }
 
 }  // namespace piblocks

@@ -15,6 +15,15 @@ struct Magnitude {
 };
 Magnitude magnitude_of(const Rational& value);
 
+/// The square root of a number >= 0 of any size, to 16 digits.
+Magnitude root_magnitude_of(const Rational& value);
+/// The same as a double, in whose range it has to be.
+double root_of(const Rational& value);
+
+/// The same number for a mantissa of so many decimals: one that would be rounded to 10 is given as
+/// a tenth of that, slightly less than 1.
+Magnitude written_with(int decimals, Magnitude size);
+
 /// With so many decimals, commas between thousands and a true minus sign: "−1,234.50". Zero has no
 /// sign.
 std::string fixed_text(double value, int decimals);

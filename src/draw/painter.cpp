@@ -115,19 +115,6 @@ CairoSurfacePtr premultiplied(const Image& image) {
   return surface;
 }
 
-void paint_image(cairo_t& cr, const ImageItem& item) {
-  const CairoSurfacePtr picture = premultiplied(*item.image);
-  cairo_save(&cr);
-  cairo_translate(&cr, item.bounds.x, item.bounds.y);
-  cairo_scale(&cr, item.bounds.width / item.image->width_px,
-              item.bounds.height / item.image->height_px);
-  cairo_set_source_surface(&cr, picture.get(), 0, 0);
-  // Not painted: a picture that is enlarged would reach out of its bounds.
-  cairo_rectangle(&cr, 0, 0, item.image->width_px, item.image->height_px);
-  cairo_fill(&cr);
-  cairo_restore(&cr);
-}
-
 }  // namespace
 
 void Painter::paint(cairo_t& cr, const DrawList& list) {
@@ -161,20 +148,31 @@ void Painter::paint_item(cairo_t& cr, const DrawItem& item) {
   if (const auto* plate = std::get_if<PlateItem>(&item)) paint_plate(cr, *plate);
 }
 
+void Painter::paint_image(cairo_t& cr, const ImageItem& item) {
+  cairo_surface_t& picture = picture_of(item.image, [&] { return premultiplied(*item.image); });
+  cairo_save(&cr);
+  cairo_translate(&cr, item.bounds.x, item.bounds.y);
+  cairo_scale(&cr, item.bounds.width / item.image->width_px,
+              item.bounds.height / item.image->height_px);
+  cairo_set_source_surface(&cr, &picture, 0, 0);
+  // Not painted: a picture that is enlarged would reach out of its bounds.
+  cairo_rectangle(&cr, 0, 0, item.image->width_px, item.image->height_px);
+  cairo_fill(&cr);
+  cairo_restore(&cr);
+}
+
 void Painter::paint_plate(cairo_t& cr, const PlateItem& item) {
   if (setting_ == TextSetting::lines) {
     for (const DrawItem& inner : item.plate->items) paint_item(cr, inner);
     return;
   }
-  cairo_set_source_surface(&cr, &picture_of(item), item.bounds.x, item.bounds.y);
+  cairo_surface_t& picture = picture_of(item.plate, [&] { return paint_apart(item); });
+  cairo_set_source_surface(&cr, &picture, item.bounds.x, item.bounds.y);
   cairo_rectangle(&cr, item.bounds.x, item.bounds.y, item.bounds.width, item.bounds.height);
   cairo_fill(&cr);
 }
 
-cairo_surface_t& Painter::picture_of(const PlateItem& item) {
-  for (const PlatePicture& kept : pictures_) {
-    if (kept.plate == item.plate) return *kept.picture;
-  }
+CairoSurfacePtr Painter::paint_apart(const PlateItem& item) {
   CairoSurfacePtr picture(cairo_image_surface_create(CAIRO_FORMAT_ARGB32,
                                                      static_cast<int>(item.bounds.width),
                                                      static_cast<int>(item.bounds.height)));
@@ -184,11 +182,20 @@ cairo_surface_t& Painter::picture_of(const PlateItem& item) {
   for (const DrawItem& part : item.plate->items) paint_item(*inner, part);
   check_cairo(cairo_status(inner.get()), "paint a plate");
   cairo_surface_set_device_offset(picture.get(), 0, 0);
+  return picture;
+}
+
+cairo_surface_t& Painter::picture_of(std::shared_ptr<const void> thing,
+                                     const std::function<CairoSurfacePtr()>& make) {
+  for (const Picture& kept : pictures_) {
+    if (kept.thing == thing) return *kept.pixels;
+  }
+  CairoSurfacePtr pixels = make();
   // Of a long film the oldest are of no use any more.
   constexpr std::size_t kMostPictures = 40;
   if (pictures_.size() == kMostPictures) pictures_.erase(pictures_.begin());
-  pictures_.push_back({item.plate, std::move(picture)});
-  return *pictures_.back().picture;
+  pictures_.push_back({std::move(thing), std::move(pixels)});
+  return *pictures_.back().pixels;
 }
 
 /// A vector file knows no other way than over what is behind.

@@ -6,6 +6,7 @@
 #include <piblocks/draw_list.hpp>
 #include <piblocks/image.hpp>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -23,8 +24,8 @@ enum class TextSetting {
   glyphs  ///< each glyph by itself, so that its pixels depend on nothing else
 };
 
-/// Holds the font, which is loaded when the first text is met, the pictures of plates, and a table
-/// of light, which is made for the first exposed item.
+/// Holds the font, which is loaded when the first text is met, the pixels of plates and images, and
+/// a table of light, which is made for the first exposed item.
 class Painter {
  public:
   explicit Painter(TextSetting setting) : setting_(setting) {}
@@ -41,20 +42,24 @@ class Painter {
                      const PixelRect& part);
   void embed_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list);
   void paint_text(cairo_t& cr, const TextItem& item);
+  void paint_image(cairo_t& cr, const ImageItem& item);
   void paint_plate(cairo_t& cr, const PlateItem& item);
-  cairo_surface_t& picture_of(const PlateItem& item);
   void paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& part);
   void paint_group_pixels(cairo_t& cr, const GroupItem& item, const PixelRect& part);
+  CairoSurfacePtr paint_apart(const PlateItem& item);
+  /// What was made of this plate or image when it was painted first.
+  cairo_surface_t& picture_of(std::shared_ptr<const void> thing,
+                              const std::function<CairoSurfacePtr()>& make);
 
   TextSetting setting_;
   std::unique_ptr<Font> font_;
   std::unique_ptr<ExposedPainter> exposed_;
-  /// The plate is kept too, so that no other one can come to be in its place in memory.
-  struct PlatePicture {
-    std::shared_ptr<const Plate> plate;
-    CairoSurfacePtr picture;
+  /// The thing is kept too, so that no other one can come to be in its place in memory.
+  struct Picture {
+    std::shared_ptr<const void> thing;
+    CairoSurfacePtr pixels;
   };
-  std::vector<PlatePicture> pictures_;
+  std::vector<Picture> pictures_;
 };
 
 }  // namespace piblocks

@@ -24,12 +24,12 @@ struct Setting {
 };
 
 /// Const members are thread-safe.
-class Part {
+class PicturePart {
  public:
-  Part() = default;
-  virtual ~Part() = default;
-  Part(const Part&) = delete;
-  Part& operator=(const Part&) = delete;
+  PicturePart() = default;
+  virtual ~PicturePart() = default;
+  PicturePart(const PicturePart&) = delete;
+  PicturePart& operator=(const PicturePart&) = delete;
 
   virtual void add(const Shown& shown, std::vector<DrawItem>& items) const = 0;
 };

@@ -100,8 +100,8 @@ Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle
   return layout;
 }
 
-Stage::Stage(const Scene& scene, const Layout& layout, const Palette& palette, const Font& font,
-             std::string lit_digits)
+StagePicture::StagePicture(const Scene& scene, const Layout& layout, const Palette& palette,
+                           const Font& font, std::string lit_digits)
     : layout_(layout),
       palette_(palette),
       width_px_(scene.view.width_px),
@@ -111,7 +111,8 @@ Stage::Stage(const Scene& scene, const Layout& layout, const Palette& palette, c
       lit_digits_(std::move(lit_digits)),
       widths_(font, lit_digits_.empty() ? "" : kNumberCharacters) {}
 
-ExposedBlock Stage::block(double side, const Motion& motion, const BlockColors& colors) const {
+ExposedBlock StagePicture::block(double side, const Motion& motion,
+                                 const BlockColors& colors) const {
   ExposedBlock block{to_pixels(layout_, motion.position - side / 2, -side / 2, side, side),
                      colors.fill,
                      Stroke{colors.edge, layout_.line_px},
@@ -128,7 +129,7 @@ ExposedBlock Stage::block(double side, const Motion& motion, const BlockColors& 
   return block;
 }
 
-void Stage::add_count(const Integer& count, std::vector<DrawItem>& items) const {
+void StagePicture::add_count(const Integer& count, std::vector<DrawItem>& items) const {
   const std::string text = with_thousands_separators(count);
   const std::size_t lit = lit_length(text, lit_digits_);
   const Point origin{layout_.count_x, layout_.label.y};
@@ -146,8 +147,8 @@ void Stage::add_count(const Integer& count, std::vector<DrawItem>& items) const 
   }
 }
 
-void Stage::add(const BlockState& state, std::span<const ExposurePart> exposure,
-                std::vector<DrawItem>& items) const {
+void StagePicture::add(const BlockState& state, std::span<const ExposurePart> exposure,
+                       std::vector<DrawItem>& items) const {
   items.emplace_back(wall_);
   ExposedBlock red = block(red_side_, state.red, palette_.red);
   ExposedBlock blue = block(blue_side_, state.blue, palette_.blue);

@@ -44,17 +44,16 @@ double short_measure(const Rectangle& area);
 Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
                const Font& font);
 
-class Stage {
+class StagePicture {
  public:
   /// @param lit_digits  digits that light up in the counter as soon as it shows them in their
   ///                    places; none if empty.
-  Stage(const Scene& scene, const Layout& layout, const Palette& palette, const Font& font,
-        std::string lit_digits);
+  StagePicture(const Scene& scene, const Layout& layout, const Palette& palette, const Font& font,
+               std::string lit_digits);
 
   /// @param exposure  as in Composition::frame().
   void add(const BlockState& state, std::span<const ExposurePart> exposure,
            std::vector<DrawItem>& items) const;
-  const Layout& layout() const noexcept { return layout_; }
 
  private:
   ExposedBlock block(double side, const Motion& motion, const BlockColors& colors) const;

@@ -93,7 +93,7 @@ UnfoldedLog::Sighting UnfoldedLog::sight(double tau) const {
 }
 
 UnfoldedLog::Place UnfoldedLog::place(const Sighting& seen, const Rational& time) const {
-  const End& end = *seen.end;
+  const FarEnd& end = *seen.end;
   if (exact_.through_corner()) {
     // All rays are crossed at once: the line keeps the direction of the nearer end.
     const bool on_ray = end.beyond.hi == 0;
@@ -143,7 +143,7 @@ Collision UnfoldedLog::at(const Integer& index) const {
   const DoubleDouble from_past = form_.past.steps_from(ray);
   const DoubleDouble to_future = form_.future.steps_from(ray);
   const bool late = to_future.hi < from_past.hi;
-  const End& end = late ? form_.future : form_.past;
+  const FarEnd& end = late ? form_.future : form_.past;
   const bool odd = is_odd(ray);
   const Direction seen = form_.direction(late ? to_future : from_past, end.beyond);
   const Direction step{-end.sign * form_.step.sine, form_.step.cosine};
@@ -169,7 +169,7 @@ std::optional<Impact> UnfoldedLog::impact(CollisionKind kind, const Integer& fir
 
   const DoubleDouble from_past = mean(form_.past.steps_from(from), form_.past.steps_from(to));
   const DoubleDouble to_future = mean(form_.future.steps_from(from), form_.future.steps_from(to));
-  const End& end = to_future.hi < from_past.hi ? form_.future : form_.past;
+  const FarEnd& end = to_future.hi < from_past.hi ? form_.future : form_.past;
   const Direction seen = form_.direction(&end == &form_.future ? to_future : from_past, end.beyond);
   // What one collision in the middle has, for each of n, and how far they fall short of that:
   // they lie 2 theta apart, and sin(d - (n-1) theta) + … + sin(d + (n-1) theta) is
@@ -206,7 +206,7 @@ std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,
 }
 
 RayPhase UnfoldedLog::phase_of(const Integer& ray) const {
-  const auto from = [&](const End& end) {
+  const auto from = [&](const FarEnd& end) {
     const DoubleDouble steps = end.steps_from(ray);
     return steps.hi + (steps.lo + end.beyond.hi);
   };

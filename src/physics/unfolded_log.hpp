@@ -38,7 +38,7 @@ class UnfoldedLog final : public CollisionLog {
 
   /// A point on the line as the nearer end of time sees it.
   struct Sighting {
-    const End* end = nullptr;
+    const FarEnd* end = nullptr;
     double distance = 0;  // R
     double sine = 0;      // of the angle to go to that end, from the line's point of view
     double cosine = 1;

@@ -107,7 +107,7 @@ bool UnfoldedStream::read(CollisionBatch& batch) {
 }
 
 /// Rows begin … begin + rows - 1 of the batch, which are the rays from next_ + begin on.
-void UnfoldedStream::fill(const End& end, std::size_t begin, std::size_t rows,
+void UnfoldedStream::fill(const FarEnd& end, std::size_t begin, std::size_t rows,
                           CollisionBatch& batch) {
   if (rows == 0) return;
   const ClosedForm& form = form_;

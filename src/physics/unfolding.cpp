@@ -16,7 +16,7 @@ DoubleDouble to_double_double(const Real& value) {
   return {hi, (value - hi).to_double()};
 }
 
-End to_end(const Asymptote& asymptote, int sign) {
+FarEnd to_end(const Asymptote& asymptote, int sign) {
   return {asymptote.ray, to_double_double(asymptote.beyond), sign};
 }
 
@@ -34,7 +34,7 @@ long unit_exponent(const ExactMotion& exact, const Real& ell, const Real& speed)
 
 }  // namespace
 
-DoubleDouble End::steps_from(const Integer& other) const {
+DoubleDouble FarEnd::steps_from(const Integer& other) const {
   constexpr long kNoOverflow = 1L << 62;
   if (mpz_cmpabs_ui(ray.get_mpz_t(), kNoOverflow) < 0 &&
       mpz_cmpabs_ui(other.get_mpz_t(), kNoOverflow) < 0) {  // a shortcut

@@ -20,7 +20,7 @@ using DoubleDouble = Time;
 
 /// One end of time. Its phase is beyond that of `ray`: past it for the infinite future, before it
 /// for the infinite past.
-struct End {
+struct FarEnd {
   Integer ray;
   DoubleDouble beyond;
   int sign = 1;  ///< of t
@@ -120,8 +120,8 @@ struct Unfolding : ClosedForm {
   /// @throws SimulationError if ell, or the time it takes, is too small for a double, but not 0.
   Unfolding(const BlockSystem& system, const ExactMotion& exact, const Fan& fan);
 
-  End past;
-  End future;
+  FarEnd past;
+  FarEnd future;
 };
 
 }  // namespace piblocks

@@ -77,13 +77,14 @@ void write(const fs::path& path, std::string_view text) {
   file.finish();
 }
 
-/// The picture that the video comes to, or the one that is asked for.
-void write_poster(const RenderJob& job, const ImageView& last, const fs::path& path) {
+/// The picture that the video comes to, which is this frame, or the one that is asked for.
+void write_poster(const RenderJob& job, std::int64_t last, const fs::path& path) {
   if (job.bundle->poster) {
     render_still(job.script, *job.bundle->poster, path.string());
     return;
   }
-  const std::vector<std::uint8_t> png = encode_png(last);
+  FrameRenderer renderer(job.script);
+  const std::vector<std::uint8_t> png = encode_png(renderer.frame(last));
   write(path, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
@@ -111,11 +112,10 @@ Rendered render_bundle(const RenderJob& job,
   check(job);
   FileSet files(job.bundle->folder, "bundle");
   const auto& scene = std::get<Scene>(job.script);
-  FrameRenderer renderer(scene);
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Timeline timeline(scene, *log);
   const PageFacts facts(scene, *log, timeline);
-  write_poster(job, renderer.frame(facts.forth() - 1), files.add(std::string(kPoster)));
+  write_poster(job, facts.forth() - 1, files.add(std::string(kPoster)));
   write_texts(job, *log, timeline, {facts.most(), log->size()}, files);
   RenderJob video = job;
   video.bundle.reset();

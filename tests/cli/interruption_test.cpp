@@ -34,27 +34,32 @@ TEST_P(InterruptionsTest, LeaveNothingBehind) {
 }
 INSTANTIATE_TEST_SUITE_P(
     Signals, InterruptionsTest,
-    testing::Values(Interruption{"IntMp4", kLong + Arguments{"-o", "new/a.mp4"}, SIGINT},
-                    Interruption{"TermMp4", kLong + Arguments{"-o", "a.mp4"}, SIGTERM},
-                    Interruption{"HangupMp4", kLong + Arguments{"-o", "a.mp4"}, SIGHUP},
-                    Interruption{"IntPng", kLong + Arguments{"-o", "new/%06d.png"}, SIGINT},
-                    Interruption{"TermPng", kLong + Arguments{"-o", "%06d.png"}, SIGTERM},
-                    Interruption{"IntMov", kLong + Arguments{"-o", "a.mov"}, SIGINT},
-                    Interruption{"IntTransparentMov",
-                                 kLong + Arguments{"--transparent", "-o", "a.mov"}, SIGINT},
-                    Interruption{"TermWebm", kLong + Arguments{"-o", "new/a.webm"}, SIGTERM},
-                    Interruption{"IntApng", kLong + Arguments{"-o", "a.apng"}, SIGINT},
-                    Interruption{"IntGif",
-                                 {"render", "--quiet", "--size", "320x180", "--fps", "50", "--to",
-                                  "9999", "-o", "a.gif"},
-                                 SIGINT},
-                    Interruption{"IntY4m", kLong + Arguments{"-o", "a.y4m"}, SIGINT},
-                    Interruption{"IntStill",
-                                 {"still", "--at", "1", "--size", "8192x4096", "-o", "a.png"},
-                                 SIGINT},
-                    Interruption{"IntLog",
-                                 {"log", "--digits", "12", "--limit", "1e11", "-o", "a.csv"},
-                                 SIGINT}),
+    testing::Values(
+        Interruption{"IntMp4", kLong + Arguments{"-o", "new/a.mp4"}, SIGINT},
+        Interruption{"TermMp4", kLong + Arguments{"-o", "a.mp4"}, SIGTERM},
+        Interruption{"HangupMp4", kLong + Arguments{"-o", "a.mp4"}, SIGHUP},
+        Interruption{"IntPng", kLong + Arguments{"-o", "new/%06d.png"}, SIGINT},
+        Interruption{"TermPng", kLong + Arguments{"-o", "%06d.png"}, SIGTERM},
+        Interruption{"IntMov", kLong + Arguments{"-o", "a.mov"}, SIGINT},
+        Interruption{"IntTransparentMov", kLong + Arguments{"--transparent", "-o", "a.mov"},
+                     SIGINT},
+        Interruption{"TermWebm", kLong + Arguments{"-o", "new/a.webm"}, SIGTERM},
+        Interruption{"IntApng", kLong + Arguments{"-o", "a.apng"}, SIGINT},
+        Interruption{"IntGif",
+                     {"render", "--quiet", "--size", "320x180", "--fps", "50", "--to", "9999", "-o",
+                      "a.gif"},
+                     SIGINT},
+        Interruption{"IntY4m", kLong + Arguments{"-o", "a.y4m"}, SIGINT},
+        Interruption{"IntPage", kLong + Arguments{"-o", "a.html"}, SIGINT},
+        Interruption{"TermBundle", kLong + Arguments{"--bundle", "new/talk", "-o", "a.mp4"},
+                     SIGTERM},
+        Interruption{"IntWav", kLong + Arguments{"-o", "a.wav"}, SIGINT},
+        Interruption{
+            "IntSheet", {"sheet", "--frames", "200", "--size", "3840x2160", "-o", "a.pdf"}, SIGINT},
+        Interruption{
+            "IntStill", {"still", "--at", "1", "--size", "8192x4096", "-o", "a.png"}, SIGINT},
+        Interruption{
+            "IntLog", {"log", "--digits", "12", "--limit", "1e11", "-o", "a.csv"}, SIGINT}),
     [](const auto& test) { return test.param.name; });
 
 TEST_F(InterruptionTest, AnOldFileSurvives) {

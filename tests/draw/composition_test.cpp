@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,13 +58,17 @@ struct Box {
   double right;
   double bottom;
   std::string what;
+  ItemId id;
 };
 
 /// Of a text's capitals and figures, with what hangs below the line.
 Box box_of(const TextItem& text, const Font& font) {
-  return {text.origin.x, text.origin.y - 0.76 * text.size_px,
+  return {text.origin.x,
+          text.origin.y - 0.76 * text.size_px,
           text.origin.x + font.width_em(text.text) * text.size_px,
-          text.origin.y + 0.2 * text.size_px, text.text};
+          text.origin.y + 0.2 * text.size_px,
+          text.text,
+          text.id};
 }
 
 void add_texts(const std::vector<DrawItem>& items, const Font& font, std::vector<Box>& boxes) {
@@ -85,6 +92,15 @@ bool overlap(const Box& a, const Box& b) {
          a.top < b.bottom - kTouch_px && b.top < a.bottom - kTouch_px;
 }
 
+/// Figures above two blocks may meet while these do.
+bool may_meet(const Box& a, const Box& b) {
+  const auto is_velocity = [](const Box& box) {
+    return static_cast<std::uint32_t>(box.id) >> 16 ==
+           static_cast<std::uint32_t>(ItemId::velocities) >> 16;
+  };
+  return is_velocity(a) && is_velocity(b);
+}
+
 class CompositionSizes : public testing::TestWithParam<const char*> {};
 
 TEST_P(CompositionSizes, NoTextLeavesTheFrameOrMeetsAnother) {
@@ -100,11 +116,7 @@ TEST_P(CompositionSizes, NoTextLeavesTheFrameOrMeetsAnother) {
                     box.bottom <= list.height_px)
             << box.what << " of " << digits << " digits leaves the frame";
         for (std::size_t k = 0; k < i; ++k) {
-          // Figures above two blocks may meet while these do.
-          if (box.what.find('.') != std::string::npos &&
-              boxes[k].what.find('.') != std::string::npos && box.top == boxes[k].top) {
-            continue;
-          }
+          if (may_meet(box, boxes[k])) continue;
           EXPECT_FALSE(overlap(box, boxes[k]))
               << "'" << box.what << "' and '" << boxes[k].what << "' of " << digits << " digits";
         }
@@ -184,8 +196,149 @@ TEST(Overlays, ReadOutsHoldMassesBeyondADouble) {
   EXPECT_TRUE(has_text(start, "10³⁹⁸"));
 }
 
+/// "red 1.25 + blue 3.75 = 5" and the like: the number after a word.
+double number_after(std::string text, const std::string& word) {
+  std::erase(text, ',');
+  return std::stod(text.substr(text.find(word) + word.size()));
+}
+
+TEST(Overlays, EnergyIsSharedAtTheTurnOfAnyMass) {
+  for (const int digits : {3, 20, 163, 200, 300}) {
+    const Pictures pictures(scene_with(digits, {{"show.overlays", "energy"}}));
+    const std::string text = text_of(pictures.at(Rational(7, 2)), ItemId::read_outs);
+    const double red = number_after(text, "red ");
+    const double blue = number_after(text, "blue ");
+    // About the turn blue has nearly all of it.
+    EXPECT_GT(blue, red) << text;
+    EXPECT_NEAR(red + blue, number_after(text, "= "), 2e-5 * (red + blue)) << text;
+  }
+}
+
+TEST(Overlays, MomentumHoldsAnyMass) {
+  for (const char* mass : {"1/10^310", "1/10^200", "10^310"}) {
+    const Pictures pictures(
+        scene_with(1, {{"show.overlays", "momentum,energy"}, {"red.mass", mass}}));
+    for (const Rational& time : {Rational(0), Rational(3), Rational(9)}) {
+      const DrawList list = pictures.at(time);
+      for (const Box& box : texts_of(list)) {
+        EXPECT_EQ(box.what.find("nan"), std::string::npos) << box.what;
+        EXPECT_EQ(box.what.find("inf"), std::string::npos) << box.what;
+      }
+    }
+    // Blue is at rest at first, and all momentum is red's.
+    const std::string start = text_of(pictures.at(0), nth(ItemId::read_outs, 1));
+    EXPECT_NE(start.find("red −1.00000, blue 0.00000, sum −1.00000"), std::string::npos) << start;
+  }
+}
+
+TEST(Overlays, MakeRoomForInstantsOutsideOfTheSpan) {
+  const Pictures pictures(scene_with(
+      3, {{"show.overlays", "time,energy"}, {"view.size", "800x450"}, {"time.to", "5"}}));
+  const DrawList list = pictures.at(1000000);
+  EXPECT_TRUE(has_text(list, "t = 1,000,000.00"));
+  const std::vector<Box> boxes = texts_of(list);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      EXPECT_FALSE(overlap(boxes[i], boxes[k])) << boxes[i].what << " and " << boxes[k].what;
+    }
+  }
+}
+
+TEST(Overlays, AreReadableInSmallFrames) {
+  const Pictures pictures(
+      scene_with(1, {{"show.overlays", "time,energy"}, {"view.size", "320x180"}}));
+  const DrawList list = pictures.at(1);
+  for (const DrawItem& item : list.items) {
+    const auto* text = std::get_if<TextItem>(&item);
+    if (text != nullptr && text->id >= ItemId::read_outs) {
+      EXPECT_GE(text->size_px, 8) << text->text;
+    }
+  }
+}
+
+TEST(Overlays, TimeHasTheDecimalsThatTheSpeedNeeds) {
+  const std::vector<Setting> usual = {
+      {"show.overlays", "time"}, {"time.from", "2.5"}, {"time.to", "3.5"}};
+  const auto with = [&](const char* key, const char* text) {
+    std::vector<Setting> settings = usual;
+    settings.emplace_back(key, text);
+    return text_of(Pictures(scene_with(3, settings)).at(Rational(5, 2)), ItemId::read_outs);
+  };
+  EXPECT_EQ(with("time.speed", "1/600"), "t = 2.50000");
+  EXPECT_EQ(with("time.duration", "600"), "t = 2.50000");
+  EXPECT_EQ(with("time.duration", "1"), "t = 2.50");
+}
+
+/// How far the sectors of the velocity circle reach that are lit, in radians, of both sides.
+double lit_angle(const DrawList& list) {
+  double sum = 0;
+  for (const DrawItem& item : list.items) {
+    const auto* path = std::get_if<PathItem>(&item);
+    if (path == nullptr || !path->fill || path->points.view().size() < 3) continue;
+    const std::span<const Point> points = path->points.view();
+    const Point& centre = points.back();
+    double angle = 0;
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+      const Point a{points[i - 1].x - centre.x, points[i - 1].y - centre.y};
+      const Point b{points[i].x - centre.x, points[i].y - centre.y};
+      angle += std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
+    }
+    sum += std::abs(angle);
+  }
+  return sum;
+}
+
+TEST(Panels, ASectorIsLitForEachCollision) {
+  for (const int digits : {1, 2, 3}) {
+    const Pictures pictures(scene_with(digits, {{"show.panels", "velocity"}}));
+    const double sector = 2 * std::atan(std::pow(10, 1 - digits));
+    const double half = std::numbers::pi;
+    for (int count = 0; count <= pictures.log->size(); ++count) {
+      const double below = std::min((count + 1) / 2 * sector, half);
+      const double above = std::min(count / 2 * sector, half);
+      const DrawList list =
+          count == 0 ? pictures.at(0)
+                     : pictures.composition.frame({state_after(*pictures.log, count)});
+      EXPECT_NEAR(lit_angle(list), below + above, 1e-6) << digits << " digits, " << count;
+    }
+  }
+}
+
+TEST(Panels, TheUnfoldedLineStaysInItsPlace) {
+  const std::vector<Setting> usual = {{"show.panels", "unfolded"}, {"view.size", "800x450"}};
+  const std::vector<std::vector<Setting>> systems = {
+      {{"blue.velocity", "1/2"}, {"red.mass", "1"}, {"time.from", "-10"}, {"time.to", "5"}},
+      {{"blue.velocity", "-1/2"}, {"red.mass", "7"}, {"time.to", "20"}},
+      {{"blue.velocity", "-3"}, {"red.velocity", "0"}, {"red.mass", "1/9"}, {"time.to", "20"}},
+      {{"time.from", "-30"}, {"time.to", "30"}}};
+  for (const auto& system : systems) {
+    std::vector<Setting> settings = usual;
+    settings.insert(settings.end(), system.begin(), system.end());
+    const Pictures pictures(scene_with(1, settings));
+    for (int time = -30; time <= 30; ++time) {
+      const DrawList list = pictures.at(time);
+      const auto plate = std::ranges::find_if(
+          list.items, [](const DrawItem& item) { return std::holds_alternative<PlateItem>(item); });
+      ASSERT_NE(plate, list.items.end());
+      const Rectangle place = std::get<PlateItem>(*plate).bounds;
+      std::vector<DrawItem> items(plate, list.items.end());
+      const auto& still = std::get<PlateItem>(*plate).plate->items;
+      items.insert(items.end(), still.begin(), still.end());
+      for (const DrawItem& item : items) {
+        const auto* path = std::get_if<PathItem>(&item);
+        if (path == nullptr) continue;
+        for (const Point& point : path->points.view()) {
+          EXPECT_TRUE(point.x >= place.x && point.x <= place.x + place.width &&
+                      point.y >= place.y && point.y <= place.y + place.height)
+              << "at " << time << ": " << point.x << ", " << point.y;
+        }
+      }
+    }
+  }
+}
+
 TEST(Panels, CostLittleForAnyNumberOfDigits) {
-  for (const int digits : {1, 9, 20, 100}) {
+  for (const int digits : {1, 9, 20, 100, 200, 300}) {
     const Pictures pictures(scene_with(digits, {{"show.panels", kAllPanels}}));
     EXPECT_LT(pictures.at(4).items.size(), 600U) << digits;
   }

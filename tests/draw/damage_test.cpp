@@ -244,8 +244,21 @@ ExposedItem any_exposed(Random& random, ItemId id, int width, int height) {
   return item;
 }
 
+PlateItem any_plate(Random& random, ItemId id, int width, int height) {
+  Plate plate;
+  for (std::int64_t i = random.integer(0, 3); i > 0; --i) {
+    plate.items.emplace_back(any_path(random, id, width, height));
+    plate.items.emplace_back(any_disk(random, id, width, height));
+    plate.items.emplace_back(any_line(random, id, width, height));
+  }
+  return {id,
+          {std::round(anywhere(random, width)), std::round(anywhere(random, height)),
+           double(random.integer(1, width)), double(random.integer(1, height))},
+          std::make_shared<const Plate>(std::move(plate))};
+}
+
 DrawItem any_item(Random& random, ItemId id, int width, int height) {
-  switch (random.integer(0, 6)) {
+  switch (random.integer(0, 7)) {
     case 0:
       return any_line(random, id, width, height);
     case 1:
@@ -258,6 +271,8 @@ DrawItem any_item(Random& random, ItemId id, int width, int height) {
       return any_exposed(random, id, width, height);
     case 5:
       return any_group(random, id, width, height);
+    case 6:
+      return any_plate(random, id, width, height);
     default:
       return any_rectangle(random, id, width, height);
   }

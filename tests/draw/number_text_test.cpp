@@ -32,6 +32,8 @@ TEST(NumberText, ShortIsExactWhereItCanBe) {
   EXPECT_EQ(short_text(1 / power(10, 6)), "10⁻⁶");
   EXPECT_EQ(short_text(Rational(123456789)), "1.23×10⁸");
   EXPECT_EQ(short_text(Rational(1234567, 1000001)), "1.23");
+  EXPECT_EQ(short_text(Rational(9999999999)), "1.00×10¹⁰");
+  EXPECT_EQ(short_text(Rational(9994999999)), "9.99×10⁹");
   EXPECT_EQ(short_text(power(100, 99999)), "10¹⁹⁹⁹⁹⁸");
 }
 

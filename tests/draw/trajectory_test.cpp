@@ -16,7 +16,7 @@ struct Traced {
         pieces(trajectory_of(*log, gaps, from, to, columns)) {}
 
   BlockSystem system;
-  Gaps gaps;
+  PanelGaps gaps;
   std::unique_ptr<CollisionLog> log;
   std::vector<TrajectoryPiece> pieces;
 };
@@ -37,7 +37,7 @@ TEST(Trajectory, BandsCoverWhatBlueDoesAndNoMore) {
           low = std::min(low, at.y1);
           high = std::max(high, at.y1);
         }
-        EXPECT_NEAR(low, band.low, 1e-12);
+        EXPECT_NEAR(low, 0, 1e-12);
         EXPECT_NEAR(high, band.high, 1e-12) << "of " << digits << " digits at " << band.from.time;
       }
     }

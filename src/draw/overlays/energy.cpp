@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
@@ -18,7 +18,7 @@ struct Scale {
 };
 
 Scale scale_of(const Rational& sum) {
-  const Magnitude size = magnitude_of(sum);
+  const Magnitude size = written_with(kDigits - 1, magnitude_of(sum));
   const bool is_plain = size.exponent >= -2 && size.exponent < kDigits;
   if (!is_plain) return {size.mantissa, kDigits - 1, " ×10" + superscript(size.exponent)};
   return {to_double(sum), kDigits - 1 - static_cast<int>(size.exponent), ""};
@@ -31,21 +31,20 @@ ReadOut energy_read_out(const Setting& setting) {
   const auto energy = [](const Block& block) {
     return Rational(block.mass * block.velocity * block.velocity / 2);
   };
-  const Scale scale = scale_of(energy(system.blue) + energy(system.red));
-  const double ratio = to_double(system.blue.mass / system.red.mass);
+  const Rational sum = energy(system.blue) + energy(system.red);
+  const Scale scale = scale_of(sum);
   const auto text = [scale](double red, double blue) {
     return fmt::format("Energy{}: red {} + blue {} = {}", scale.unit,
                        fixed_text(red, scale.decimals), fixed_text(blue, scale.decimals),
                        fixed_text(scale.sum, scale.decimals));
   };
+  // Red's velocity if it had all the energy: masses may be beyond a double.
+  const double fastest = root_of(2 * sum / system.red.mass);
   return {text(scale.sum, scale.sum),
           [=](const Shown& shown) {
-            // In parts of the sum: masses may be beyond a double.
-            const double red = shown.state.red.velocity * shown.state.red.velocity;
-            const double blue = ratio * shown.state.blue.velocity * shown.state.blue.velocity;
-            const double whole = red + blue;
-            if (!(whole > 0)) return text(0, 0);
-            return text(scale.sum * (red / whole), scale.sum * (blue / whole));
+            const double share = fastest > 0 ? shown.state.red.velocity / fastest : 0;
+            const double red = scale.sum * std::min(1.0, share * share);
+            return text(red, scale.sum - red);
           },
           setting.palette.text};
 }

@@ -23,7 +23,7 @@ struct Label {
   Color color;
 };
 
-class MassLabels final : public Part {
+class MassLabels final : public PicturePart {
  public:
   explicit MassLabels(const Setting& setting) : layout_(setting.stage) {
     const BlockSystem& system = setting.scene.system;
@@ -64,7 +64,7 @@ class MassLabels final : public Part {
 
 }  // namespace
 
-std::unique_ptr<Part> mass_labels(const Setting& setting) {
+std::unique_ptr<PicturePart> mass_labels(const Setting& setting) {
   return std::make_unique<MassLabels>(setting);
 }
 

@@ -11,16 +11,6 @@ namespace {
 
 constexpr int kDigits = 6;
 
-/// sqrt(value) as mantissa and exponent.
-Magnitude root(const Rational& value) {
-  Magnitude size = magnitude_of(value);
-  if (size.exponent % 2 != 0) {
-    size.exponent -= 1;
-    size.mantissa *= 10;
-  }
-  return {std::sqrt(size.mantissa), size.exponent / 2};
-}
-
 }  // namespace
 
 ReadOut momentum_read_out(const Setting& setting) {
@@ -28,9 +18,9 @@ ReadOut momentum_read_out(const Setting& setting) {
   // The most that one block can have: all energy its own, and it the heavier one.
   const Rational twice_energy = system.blue.mass * system.blue.velocity * system.blue.velocity +
                                 system.red.mass * system.red.velocity * system.red.velocity;
-  const Magnitude most = root(twice_energy * std::max(system.blue.mass, system.red.mass));
+  const Rational most_squared = twice_energy * std::max(system.blue.mass, system.red.mass);
+  const Magnitude most = written_with(kDigits - 1, root_magnitude_of(most_squared));
   const bool is_plain = most.exponent >= -2 && most.exponent < kDigits;
-  const double unit = is_plain ? std::pow(10, static_cast<double>(most.exponent)) : 1;
   const int decimals = is_plain ? kDigits - 1 - static_cast<int>(most.exponent) : kDigits - 1;
   const std::string power = is_plain ? "" : " ×10" + superscript(most.exponent);
   const auto text = [=](double red, double blue) {
@@ -38,16 +28,18 @@ ReadOut momentum_read_out(const Setting& setting) {
                        fixed_text(blue, decimals), fixed_text(red + blue, decimals));
   };
 
-  const double ratio = to_double(system.blue.mass / system.red.mass);
-  const double blue_start = to_double(system.blue.velocity);
-  const double red_start = to_double(system.red.velocity);
-  const double speed = std::sqrt(ratio * blue_start * blue_start + red_start * red_start);
-  const double largest = most.mantissa * unit;
-  const double red_factor = speed > 0 ? largest / (speed * std::max(1.0, std::sqrt(ratio))) : 0;
+  const double largest =
+      most.mantissa * (is_plain ? std::pow(10, static_cast<double>(most.exponent)) : 1);
+  // In parts of the largest: masses may be beyond a double.
+  const auto factor = [&](const Block& block) {
+    return most_squared > 0 ? largest * root_of(block.mass * block.mass / most_squared) : 0;
+  };
+  const double red_factor = factor(system.red);
+  const double blue_factor = factor(system.blue);
   return {text(-largest, -largest),
           [=](const Shown& shown) {
             return text(red_factor * shown.state.red.velocity,
-                        red_factor * ratio * shown.state.blue.velocity);
+                        blue_factor * shown.state.blue.velocity);
           },
           setting.palette.text};
 }

@@ -8,20 +8,21 @@
 #include <vector>
 
 #include "draw/part.hpp"
+#include "draw/text_widths.hpp"
 
 namespace piblocks {
 
 /// Each block's mass on it, as large as fits.
-std::unique_ptr<Part> mass_labels(const Setting& setting);
+std::unique_ptr<PicturePart> mass_labels(const Setting& setting);
 
 /// Arrows above the blocks. Velocities of one run differ by the square root of the mass ratio, so
 /// lengths grow less and less, up to a longest one; the figure says the value.
 /// @throws UsageError if the view has no room above the blocks.
-std::unique_ptr<Part> velocity_arrows(const Setting& setting);
+std::unique_ptr<PicturePart> velocity_arrows(const Setting& setting);
 
 /// A scale of positions below the blocks.
 /// @throws UsageError if the view has no room there.
-std::unique_ptr<Part> ruler(const Setting& setting);
+std::unique_ptr<PicturePart> ruler(const Setting& setting);
 
 /// A short text that changes with what is shown, beside others in a row.
 struct ReadOut {
@@ -37,9 +38,10 @@ ReadOut momentum_read_out(const Setting& setting);
 ReadOut slower_read_out(const Setting& setting);
 
 /// Read-outs in rows.
-class ReadOutRows : public Part {
+class ReadOutRows : public PicturePart {
  public:
   /// @param area  as wide as the rows may be; they are centred in it from its top on.
+  /// @throws UsageError if one has to be too small to be read.
   ReadOutRows(std::vector<ReadOut> read_outs, const Rectangle& area, double text_px,
               const Font& font);
 
@@ -52,8 +54,10 @@ class ReadOutRows : public Part {
   struct Placed {
     ReadOut read_out;
     Point origin;
+    double room_px;
   };
   std::vector<Placed> placed_;
+  TextWidths widths_;
   double text_px_;
   double height_ = 0;
 };

@@ -1,6 +1,10 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
 #include <algorithm>
 #include <utility>
 
+#include "draw/frame_plan.hpp"
 #include "draw/overlays/overlays.hpp"
 
 namespace piblocks {
@@ -11,15 +15,31 @@ constexpr double kGap = 2.0;
 constexpr double kRowHeight = 1.6;
 constexpr double kBaseline = 1.1;
 
+/// With what a figure may have in another instant.
+std::string characters_of(const std::vector<ReadOut>& read_outs) {
+  std::string characters(kNumberCharacters);
+  for (const ReadOut& read_out : read_outs) characters += read_out.widest;
+  return characters;
+}
+
 }  // namespace
 
 ReadOutRows::ReadOutRows(std::vector<ReadOut> read_outs, const Rectangle& area, double text_px,
                          const Font& font)
-    : text_px_(text_px) {
+    : widths_(font, characters_of(read_outs)), text_px_(text_px) {
   std::vector<double> widths;
   for (const ReadOut& read_out : read_outs) {
     widths.push_back(font.width_em(read_out.widest) * text_px);
     text_px_ = std::min(text_px_, text_px * area.width / widths.back());
+  }
+  if (text_px_ < kLeastText_px) {
+    throw UsageError(fmt::format(
+        "show.overlays: '{}' cannot be read in {:.0f} pixels; leave it out, or make the "
+        "frame wider",
+        std::ranges::max(read_outs, {},
+                         [&](const ReadOut& read_out) { return font.width_em(read_out.widest); })
+            .widest,
+        area.width));
   }
   for (double& width : widths) width *= text_px_ / text_px;
   const double gap = kGap * text_px_;
@@ -32,8 +52,9 @@ ReadOutRows::ReadOutRows(std::vector<ReadOut> read_outs, const Rectangle& area, 
     }
     double x = area.x + (area.width - width) / 2;
     for (; first < end; ++first) {
-      placed_.push_back(
-          {std::move(read_outs[first]), {x, area.y + height_ + kBaseline * text_px_}});
+      placed_.push_back({std::move(read_outs[first]),
+                         {x, area.y + height_ + kBaseline * text_px_},
+                         widths[first]});
       x += widths[first] + gap;
     }
     height_ += kRowHeight * text_px_;
@@ -45,11 +66,18 @@ void ReadOutRows::move(double y) {
 }
 
 void ReadOutRows::add(const Shown& shown, std::vector<DrawItem>& items) const {
+  // An instant outside of the scene's span may need more room than any in it.
+  double shift = 0;
   for (std::size_t n = 0; n < placed_.size(); ++n) {
     const Placed& placed = placed_[n];
+    if (n > 0 && placed.origin.y != placed_[n - 1].origin.y) shift = 0;
     std::string text = placed.read_out.text(shown);
     if (text.empty()) continue;
-    items.emplace_back(TextItem{nth(ItemId::read_outs, n), placed.origin, std::move(text), text_px_,
+    const Point origin{placed.origin.x + shift, placed.origin.y};
+    if (text.size() > placed.read_out.widest.size()) {
+      shift += std::max(0.0, widths_.width_em(text) * text_px_ - placed.room_px);
+    }
+    items.emplace_back(TextItem{nth(ItemId::read_outs, n), origin, std::move(text), text_px_,
                                 placed.read_out.color});
   }
 }

@@ -54,7 +54,7 @@ Room room_for(const Setting& setting) {
                   kLeastRoom_px, std::max(0.0, height)));
 }
 
-class Ruler final : public Part {
+class Ruler final : public PicturePart {
  public:
   explicit Ruler(const Setting& setting) {
     const Layout& layout = setting.stage;
@@ -96,6 +96,8 @@ class Ruler final : public Part {
 
 }  // namespace
 
-std::unique_ptr<Part> ruler(const Setting& setting) { return std::make_unique<Ruler>(setting); }
+std::unique_ptr<PicturePart> ruler(const Setting& setting) {
+  return std::make_unique<Ruler>(setting);
+}
 
 }  // namespace piblocks

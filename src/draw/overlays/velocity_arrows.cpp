@@ -29,7 +29,7 @@ double usual_speed(const BlockSystem& system) {
                     to_double(system.red.velocity));
 }
 
-class VelocityArrows final : public Part {
+class VelocityArrows final : public PicturePart {
  public:
   explicit VelocityArrows(const Setting& setting)
       : layout_(setting.stage),
@@ -100,7 +100,7 @@ class VelocityArrows final : public Part {
 
 }  // namespace
 
-std::unique_ptr<Part> velocity_arrows(const Setting& setting) {
+std::unique_ptr<PicturePart> velocity_arrows(const Setting& setting) {
   return std::make_unique<VelocityArrows>(setting);
 }
 

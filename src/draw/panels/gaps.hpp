@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+#include "draw/number_text.hpp"
+
 namespace piblocks {
 
 struct GapPoint {
@@ -15,11 +17,11 @@ struct GapPoint {
   double y2 = 0;
 };
 
-struct Gaps {
-  explicit Gaps(const BlockSystem& system)
+struct PanelGaps {
+  explicit PanelGaps(const BlockSystem& system)
       : blue_offset(to_double(system.wall_face + system.blue.width / 2)),
         red_offset(to_double(system.wall_face + system.blue.width + system.red.width / 2)),
-        sigma(std::sqrt(to_double(system.blue.mass / system.red.mass))),
+        sigma(root_of(system.blue.mass / system.red.mass)),
         theta(std::atan(sigma)) {}
 
   GapPoint of(const Motion& blue, const Motion& red) const {

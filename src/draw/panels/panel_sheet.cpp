@@ -25,13 +25,13 @@ Rectangle whole_pixels(const Rectangle& area, double around) {
 
 PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const std::string& title)
     : palette_(setting.palette),
-      font_(setting.font),
+      font_(&setting.font),
       first_id_(place.first_id),
       text_px_(setting.text_px),
       line_px_(setting.line_px) {
   const Rectangle& whole = place.area;
   const double title_px =
-      std::min(text_px_, text_px_ * whole.width / (font_.width_em(title) * text_px_));
+      std::min(text_px_, text_px_ * whole.width / (font_->width_em(title) * text_px_));
   items_.emplace_back(TextItem{
       next_id(), {whole.x, whole.y + kTitleBaseline * text_px_}, title, title_px, palette_.muted});
   const double top = kTitleHeight * text_px_;
@@ -40,7 +40,10 @@ PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const st
   item_ = {nth(first_id_, 0), whole_pixels(whole, kAround * text_px_), nullptr};
 }
 
-void PanelSheet::finish() { item_.plate = std::make_shared<const Plate>(Plate{std::move(items_)}); }
+void PanelSheet::finish() {
+  item_.plate = std::make_shared<const Plate>(Plate{std::move(items_)});
+  font_ = nullptr;
+}
 
 void PanelSheet::path(std::vector<Point> points, bool closed, const std::optional<Color>& fill,
                       const std::optional<Stroke>& stroke) {
@@ -56,7 +59,7 @@ void PanelSheet::area(std::vector<Point> points, const Color& fill) {
 }
 
 void PanelSheet::text(const std::string& text, const Point& at, double anchor, const Color& color) {
-  const double width = font_.width_em(text) * text_px_;
+  const double width = font_->width_em(text) * text_px_;
   items_.emplace_back(TextItem{next_id(), {at.x - anchor * width, at.y}, text, text_px_, color});
 }
 

@@ -17,15 +17,15 @@ struct PanelPlace {
 };
 
 /// The state as a point on a circle, and a sector for each collision.
-std::unique_ptr<Part> velocity_panel(const Setting& setting, const PanelPlace& place);
+std::unique_ptr<PicturePart> velocity_panel(const Setting& setting, const PanelPlace& place);
 /// The path through the plane of both gaps.
-std::unique_ptr<Part> position_panel(const Setting& setting, const PanelPlace& place);
+std::unique_ptr<PicturePart> position_panel(const Setting& setting, const PanelPlace& place);
 /// The straight line through the unfolded wedge.
-std::unique_ptr<Part> unfolded_panel(const Setting& setting, const PanelPlace& place);
+std::unique_ptr<PicturePart> unfolded_panel(const Setting& setting, const PanelPlace& place);
 /// Both gaps against time.
-std::unique_ptr<Part> time_panel(const Setting& setting, const PanelPlace& place);
+std::unique_ptr<PicturePart> time_panel(const Setting& setting, const PanelPlace& place);
 /// Collisions per second against time.
-std::unique_ptr<Part> rate_panel(const Setting& setting, const PanelPlace& place);
+std::unique_ptr<PicturePart> rate_panel(const Setting& setting, const PanelPlace& place);
 
 /// What a diagram is made of: items that stay, with ids in the order they are added, and its title.
 class PanelSheet {
@@ -61,7 +61,7 @@ class PanelSheet {
   ItemId next_id() { return nth(first_id_, items_.size()); }
 
   Palette palette_;
-  const Font& font_;
+  const Font* font_;  ///< of the set-up, which ends with finish()
   ItemId first_id_;
   double text_px_;
   double line_px_;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kLeastAngle = 0.2;
 constexpr double kBelow_em = 1.5;
 
-class PositionPanel final : public Part {
+class PositionPanel final : public PicturePart {
  public:
   PositionPanel(const Setting& setting, const PanelPlace& place)
       : gaps_(setting.scene.system),
@@ -89,7 +89,7 @@ class PositionPanel final : public Part {
     sheet_.text("contact", {beside.x - 0.6 * em, beside.y}, 1, sheet_.palette().muted);
   }
 
-  Gaps gaps_;
+  PanelGaps gaps_;
   bool is_true_;
   PanelSheet sheet_;
   double most_ = 0;
@@ -99,7 +99,7 @@ class PositionPanel final : public Part {
 
 }  // namespace
 
-std::unique_ptr<Part> position_panel(const Setting& setting, const PanelPlace& place) {
+std::unique_ptr<PicturePart> position_panel(const Setting& setting, const PanelPlace& place) {
   return std::make_unique<PositionPanel>(setting, place);
 }
 

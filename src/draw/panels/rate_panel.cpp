@@ -15,7 +15,7 @@ constexpr double kColumn_px = 3;
 constexpr double kBetweenTicks_em = 1.8;
 constexpr double kFigures_em = 2.6;  // of room for powers of ten, left of the bars
 
-class RatePanel final : public Part {
+class RatePanel final : public PicturePart {
  public:
   RatePanel(const Setting& setting, const PanelPlace& place)
       : sheet_(setting, place, "Collisions per unit of time"), axis_(setting, sheet_, kFigures_em) {
@@ -88,7 +88,7 @@ class RatePanel final : public Part {
 
 }  // namespace
 
-std::unique_ptr<Part> rate_panel(const Setting& setting, const PanelPlace& place) {
+std::unique_ptr<PicturePart> rate_panel(const Setting& setting, const PanelPlace& place) {
   return std::make_unique<RatePanel>(setting, place);
 }
 

@@ -13,7 +13,7 @@ namespace {
 /// Columns as wide as this show every line that a picture can.
 constexpr double kColumn_px = 1;
 
-class TimePanel final : public Part {
+class TimePanel final : public PicturePart {
  public:
   TimePanel(const Setting& setting, const PanelPlace& place)
       : sheet_(setting, place, "Distance from the wall"),
@@ -75,20 +75,23 @@ class TimePanel final : public Part {
       for (const TimedGaps& corner : piece.corners) {
         points.push_back(at(corner.time, corner.gaps.y2));
       }
-      for (const Band& band : piece.bands) points.push_back(at(band.to.time, band.to.gaps.y2));
+      for (const Band& band : piece.bands) {
+        if (points.empty()) points.push_back(at(band.from.time, band.from.gaps.y2));
+        points.push_back(at(band.to.time, band.to.gaps.y2));
+      }
     }
     sheet_.line(std::move(points), sheet_.palette().red.line, 2);
   }
 
   PanelSheet sheet_;
-  Gaps gaps_;
+  PanelGaps gaps_;
   TimeAxis axis_;
   double top_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<Part> time_panel(const Setting& setting, const PanelPlace& place) {
+std::unique_ptr<PicturePart> time_panel(const Setting& setting, const PanelPlace& place) {
   return std::make_unique<TimePanel>(setting, place);
 }
 

@@ -11,7 +11,7 @@ constexpr int kMostCorners = 2;
 
 class TrajectoryBuilder {
  public:
-  TrajectoryBuilder(const CollisionLog& log, const Gaps& gaps) : log_(log), gaps_(gaps) {}
+  TrajectoryBuilder(const CollisionLog& log, const PanelGaps& gaps) : log_(log), gaps_(gaps) {}
 
   void begin(const Rational& time) {
     state_ = state_at(log_, time);
@@ -48,7 +48,7 @@ class TrajectoryBuilder {
 
   void add_band(const TimedGaps& end, const Integer& count) {
     if (pieces.empty() || pieces.back().bands.empty()) pieces.push_back({});
-    Band band{{time_, gaps_.of(state_)}, end, 0, 0};
+    Band band{{time_, gaps_.of(state_)}, end, 0};
     // Between the wall and red, whose distance falls to the turn and rises again: it is largest at
     // the first contact or at the last one.
     for (const Integer& k :
@@ -61,14 +61,14 @@ class TrajectoryBuilder {
   }
 
   const CollisionLog& log_;
-  const Gaps& gaps_;
+  const PanelGaps& gaps_;
   BlockState state_;
   double time_ = 0;
 };
 
 }  // namespace
 
-std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const Gaps& gaps,
+std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const PanelGaps& gaps,
                                            const Rational& from, const Rational& to, int columns) {
   TrajectoryBuilder builder(log, gaps);
   builder.begin(from);

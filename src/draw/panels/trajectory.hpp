@@ -16,11 +16,10 @@ struct TimedGaps {
   GapPoint gaps;
 };
 
-/// What blue's gap covers from one instant to the next.
+/// What blue's gap covers from one instant to the next: all from the wall to `high`.
 struct Band {
   TimedGaps from;
   TimedGaps to;
-  double low = 0;
   double high = 0;
 };
 
@@ -31,7 +30,7 @@ struct TrajectoryPiece {
 };
 
 /// Pieces from one end of the span to the other.
-std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const Gaps& gaps,
+std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const PanelGaps& gaps,
                                            const Rational& from, const Rational& to, int columns);
 
 }  // namespace piblocks

@@ -16,14 +16,20 @@ constexpr double kLeastBetween_px = 6;  // between rays, at their ends
 constexpr double kRimStep = 0.05;       // radians
 constexpr double kBelow_em = 1.5;
 
-/// 1, 10, 100, …: every how many-th ray is drawn.
-double ray_stride(double between_px) {
-  return std::pow(10, std::max(0.0, std::ceil(std::log10(kLeastBetween_px / between_px))));
+/// 0, 1, 2, …: of one, ten, a hundred, … rays one is drawn.
+unsigned long stride_exponent(double between_px) {
+  const double exponent = std::ceil(std::log10(kLeastBetween_px / between_px));
+  return static_cast<unsigned long>(std::max(0.0, exponent));
+}
+
+/// By how much a straight line turns around the origin from one of its points to another.
+double angle_between(const Point& a, const Point& b) {
+  return std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
 }
 
 /// Reflected again and again instead of the path, the wedge fills the half-plane, and the path is a
 /// straight line: it crosses a ray at every collision.
-class UnfoldedPanel final : public Part {
+class UnfoldedPanel final : public PicturePart {
  public:
   UnfoldedPanel(const Setting& setting, const PanelPlace& place)
       : gaps_(setting.scene.system), sheet_(setting, place, "Unfolded: a straight line") {
@@ -34,6 +40,7 @@ class UnfoldedPanel final : public Part {
     from_ = plane_at(to_double(setting.scene.time.from));
     const Point to = plane_at(to_double(end_of(setting.scene, setting.log)));
     most_ = std::max({std::hypot(from_.x, from_.y), std::hypot(to.x, to.y), 1e-300});
+    tilt_to_hold(to);
     place_half_plane();
     add_rays();
     sheet_.line({at(from_), at(to)}, sheet_.palette().muted, 1, 4);
@@ -44,7 +51,7 @@ class UnfoldedPanel final : public Part {
     items.emplace_back(sheet_.item());
     const Point present = plane_at(to_double(shown.time));
     if (std::hypot(present.x, present.y) > most_ * (1 + 1e-9)) return;
-    if (stride_ == 1) add_present_wedge(present, items);
+    if (stride_exponent_ == 0) add_present_wedge(present, items);
     items.emplace_back(PathItem{sheet_.moving(1), std::vector<Point>{at(from_), at(present)}, false,
                                 std::nullopt,
                                 Stroke{sheet_.palette().accent, 2 * sheet_.line_px()}});
@@ -57,10 +64,24 @@ class UnfoldedPanel final : public Part {
     return {start_.x + velocity_.x * time, start_.y + velocity_.y * time};
   }
   Point at(const Point& plane) const {
-    return {corner_.x + scale_ * plane.x, corner_.y - scale_ * plane.y};
+    const double cos = std::cos(tilt_);
+    const double sin = std::sin(tilt_);
+    return {corner_.x + scale_ * (plane.x * cos - plane.y * sin),
+            corner_.y - scale_ * (plane.x * sin + plane.y * cos)};
   }
+  /// @param angle  in the picture, which is the plane's and the tilt.
   Point on_rim(double angle) const {
     return {corner_.x + radius_ * std::cos(angle), corner_.y - radius_ * std::sin(angle)};
+  }
+
+  /// Where blue does not begin at rest the line may leave the upper half-plane, but no line turns
+  /// by more than half a turn: the plane is turned until all of it is seen.
+  void tilt_to_hold(const Point& to) {
+    from_angle_ = std::atan2(from_.y, from_.x);
+    const double to_angle = from_angle_ + angle_between(from_, to);
+    const auto [low, high] = std::minmax(from_angle_, to_angle);
+    if (low < 0) tilt_ = -low;
+    if (high > std::numbers::pi) tilt_ = std::numbers::pi - high;
   }
 
   void place_half_plane() {
@@ -72,12 +93,13 @@ class UnfoldedPanel final : public Part {
   }
 
   void add_rays() {
-    stride_ = ray_stride(gaps_.theta * radius_);
-    const double step = stride_ * gaps_.theta;
+    stride_exponent_ = stride_exponent(gaps_.theta * radius_);
+    const double step = std::pow(10, double(stride_exponent_)) * gaps_.theta;
     std::vector<Point> rays;
-    for (double k = 0; k * step <= std::numbers::pi * (1 + 1e-12); ++k) {
+    for (double k = std::ceil(-tilt_ / step); tilt_ + k * step <= std::numbers::pi * (1 + 1e-12);
+         ++k) {
       rays.push_back(corner_);
-      rays.push_back(on_rim(k * step));
+      rays.push_back(on_rim(tilt_ + k * step));
     }
     sheet_.line(std::move(rays), sheet_.palette().grid);
     std::vector<Point> rim;
@@ -86,25 +108,24 @@ class UnfoldedPanel final : public Part {
     rim.push_back(on_rim(std::numbers::pi));
     sheet_.path(std::move(rim), true, std::nullopt,
                 Stroke{sheet_.palette().muted, sheet_.line_px()});
-    if (stride_ > 1) {
-      sheet_.text(fmt::format("1 ray in {}", short_text(Rational(stride_))),
+    if (stride_exponent_ > 0) {
+      sheet_.text(fmt::format("1 ray in {}", short_text(Rational(power(10, stride_exponent_)))),
                   {corner_.x, corner_.y + 1.2 * sheet_.text_px()}, 0.5, sheet_.palette().muted);
     }
   }
 
   void add_present_wedge(const Point& present, std::vector<DrawItem>& items) const {
-    const double k = std::floor(std::atan2(present.y, present.x) / gaps_.theta);
-    const double end = std::min((k + 1) * gaps_.theta, std::numbers::pi);
+    const double k = std::floor((from_angle_ + angle_between(from_, present)) / gaps_.theta);
+    const double begin = std::max(0.0, tilt_ + k * gaps_.theta);
+    const double end = std::min(tilt_ + (k + 1) * gaps_.theta, std::numbers::pi);
     std::vector<Point> outline{corner_};
-    const int steps = static_cast<int>(std::ceil((end - k * gaps_.theta) / kRimStep));
-    for (int i = 0; i <= steps; ++i) {
-      outline.push_back(on_rim(k * gaps_.theta + (end - k * gaps_.theta) * i / steps));
-    }
+    const int steps = std::max(1, static_cast<int>(std::ceil((end - begin) / kRimStep)));
+    for (int i = 0; i <= steps; ++i) outline.push_back(on_rim(begin + (end - begin) * i / steps));
     items.emplace_back(PathItem{sheet_.moving(0), std::move(outline), true, sheet_.palette().shade,
                                 Stroke{sheet_.palette().muted, sheet_.line_px()}});
   }
 
-  Gaps gaps_;
+  PanelGaps gaps_;
   PanelSheet sheet_;
   Point start_;
   Point velocity_;
@@ -113,12 +134,14 @@ class UnfoldedPanel final : public Part {
   double most_ = 1;
   double scale_ = 1;
   double radius_ = 1;
-  double stride_ = 1;
+  double from_angle_ = 0;
+  double tilt_ = 0;
+  unsigned long stride_exponent_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<Part> unfolded_panel(const Setting& setting, const PanelPlace& place) {
+std::unique_ptr<PicturePart> unfolded_panel(const Setting& setting, const PanelPlace& place) {
   return std::make_unique<UnfoldedPanel>(setting, place);
 }
 

@@ -22,10 +22,10 @@ std::vector<Point> arc(const Point& centre, double radius, double from, double t
   return points;
 }
 
-/// The velocities as a point of the plane whose distance from the origin never changes. Every
-/// collision of the blocks turns it by two wedge angles, and the wall mirrors it: above and below
-/// the axis sector joins sector, until none fits any more.
-class VelocityPanel final : public Part {
+/// The velocities as a point of the plane whose distance from the origin never changes. A collision
+/// of the blocks turns it by two wedge angles to below the axis, and the wall mirrors it to above:
+/// on either side sector joins sector, until none fits any more.
+class VelocityPanel final : public PicturePart {
  public:
   VelocityPanel(const Setting& setting, const PanelPlace& place)
       : sheet_(setting, place, "Velocities √m·v (red →, blue ↑)"), gaps_(setting.scene.system) {
@@ -46,12 +46,13 @@ class VelocityPanel final : public Part {
     items.emplace_back(sheet_.item());
     if (!(speed_ > 0)) return;
     const Point velocity = point_of(shown.state.blue.velocity, shown.state.red.velocity);
-    // The last point above the axis is as far along as the present one. So is the last one below it
-    // once the wall was met; before that it is a collision behind.
-    const double angle = std::abs(std::atan2(velocity.y, velocity.x));
-    const bool below = velocity.y < 0;
-    add_lit(angle, above_, 0, items);
-    add_lit(below ? angle : angle + 2 * gaps_.theta, below_, 2, items);
+    // The last point below the axis is as far along as the present one; the last one above it is a
+    // collision behind until the wall is met. After the last collision every sector is lit, and the
+    // point may be back in one.
+    const bool is_over = shown.state.count >= collisions_;
+    const double angle = is_over ? 0 : std::abs(std::atan2(velocity.y, velocity.x));
+    add_lit(angle, below_, 0, items);
+    add_lit(velocity.y < 0 && !is_over ? angle + 2 * gaps_.theta : angle, above_, 2, items);
     const Point at{centre_.x + radius_ * velocity.x / speed_,
                    centre_.y - radius_ * velocity.y / speed_};
     items.emplace_back(PathItem{sheet_.moving(4), std::vector<Point>{centre_, at}, false,
@@ -80,8 +81,12 @@ class VelocityPanel final : public Part {
   }
 
   void place_sectors(const CollisionLog& log) {
-    above_ = side_of((log.size() + 1) / 2, 1);
-    below_ = side_of(log.size() / 2, -1);
+    collisions_ = log.size();
+    // Where blue meets the wall first, no sector is swept by that.
+    const bool wall_first = collisions_ > 0 && log.at(1).kind == CollisionKind::wall;
+    const Integer sweeping = collisions_ - (wall_first ? 1 : 0);
+    below_ = side_of((sweeping + 1) / 2, -1);
+    above_ = side_of(sweeping / 2, 1);
     // Lines between them only where they can be told apart.
     is_apart_ = 2 * gaps_.theta * radius_ > kLeastApart_px;
   }
@@ -116,19 +121,20 @@ class VelocityPanel final : public Part {
   }
 
   PanelSheet sheet_;
-  Gaps gaps_;
+  PanelGaps gaps_;
   double speed_ = 0;
   double start_angle_ = 0;
   Point centre_;
   double radius_ = 0;
-  Side above_{};
+  Integer collisions_;
   Side below_{};
+  Side above_{};
   bool is_apart_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<Part> velocity_panel(const Setting& setting, const PanelPlace& place) {
+std::unique_ptr<PicturePart> velocity_panel(const Setting& setting, const PanelPlace& place) {
   return std::make_unique<VelocityPanel>(setting, place);
 }
 

@@ -177,9 +177,12 @@ video.addEventListener("ended", () => {
   collision = null;
   update();
 });
-video.addEventListener("error", () => {
+function sayThatItCannotPlay() {
   byId("problem").textContent = "This browser cannot play the video.";
-});
+}
+video.addEventListener("error", sayThatItCannotPlay);
+// It may have failed before this script was read.
+if (video.error) sayThatItCannotPlay();
 
 const actions = {
   start: () => show(0),
@@ -201,7 +204,7 @@ const keys = {
 };
 document.addEventListener("keydown", event => {
   const id = keys[event.key];
-  const hasOwnUse = event.key === " " && event.target.closest("button, summary");
+  const hasOwnUse = event.key === " " && event.target.closest("button");
   if (!id || hasOwnUse || event.ctrlKey || event.altKey || event.metaKey) return;
   event.preventDefault();
   actions[id]();
