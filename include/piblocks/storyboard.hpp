@@ -34,8 +34,9 @@ struct StoryPart {
 };
 
 struct Storyboard {
-  View view =
-      {};  ///< size, frame rate, theme and background of the whole film, whatever the scenes say
+  // Of the whole film, whatever the scenes say.
+  View view = {};  ///< size, frame rate, theme and background
+  Sound sound = {};
   Golden golden = {};
   std::vector<StoryPart> parts = {};  ///< 1 … kMaxStoryParts
 };
@@ -49,6 +50,9 @@ using Script = std::variant<Scene, Storyboard>;
 
 /// Size, frame rate, theme and background of the whole film.
 const View& view_of(const Script& script);
+
+/// Of the whole film.
+const Sound& sound_of(const Script& script);
 
 /// The scene as the film shows it: with the film's size, frame rate, theme and background.
 Scene with_film_view(Scene scene, const View& film);

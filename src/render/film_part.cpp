@@ -87,6 +87,12 @@ void FilmPart::compare(const Runs& runs, const View& film) {
   }
 }
 
+PixelRect FilmPart::cell(std::size_t run) const {
+  if (split_) return split_->cells()[run];
+  const View& view = runs_[run].scene().view;
+  return {0, 0, view.width_px, view.height_px};
+}
+
 DrawList FilmPart::frame(std::int64_t number) const {
   if (runs_.empty()) return card_;
   FrameTime shown = timeline_->at(number);

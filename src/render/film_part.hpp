@@ -54,6 +54,8 @@ class FilmPart {
 
   /// What is shown at the same time; none of a card.
   std::span<const Run> runs() const noexcept { return runs_; }
+  /// Where a run's picture is in the frame. @param run  its place in runs().
+  PixelRect cell(std::size_t run) const;
   /// The one clock of all runs, in seconds since the part began; none of a card.
   const Schedule* schedule() const noexcept { return timeline_ ? &timeline_->schedule() : nullptr; }
 

@@ -61,9 +61,12 @@ References::References(const std::string& scene_path, fs::path folder, const std
   builder.read_file(scene_path);
   if (!frames.empty()) builder.set("--frames", "golden.frames", frames);
   script_ = builder.build();
-  std::visit([](auto& any) { any.view = golden_view(any.view, any.golden); }, script_);
-  // Pictures are what is kept.
-  if (auto* const scene = std::get_if<Scene>(&script_)) scene->sound.on = false;
+  std::visit(
+      [](auto& any) {
+        any.view = golden_view(any.view, any.golden);
+        any.sound.on = false;  // pictures are what is kept
+      },
+      script_);
 }
 
 const Golden& References::golden() const {

@@ -22,20 +22,15 @@ namespace {
 struct Plan {
   explicit Plan(const RenderJob& job)
       : film(job.script),
-        sound(sound_of(job, film)),
+        sound(soundtrack_of(job, film)),
         output(set_up_output(job.output,
                              {film.view().width_px, film.view().height_px, film.view().frame_rate,
                               film.ground() == Ground::transparent},
                              job.encoder, sound)),
         chunks{output->has_frames() ? film.frame_count() : 0, output->frames_per_chunk()} {}
 
-  static std::optional<SoundFormat> sound_of(const RenderJob& job, const Film& film) {
-    const auto* const scene = std::get_if<Scene>(&job.script);
-    if (is_sound_alone(job.output)) {
-      if (scene == nullptr) throw UsageError("render: a storyboard has no sound to write");
-    } else if (scene == nullptr || !scene->sound.on) {
-      return std::nullopt;
-    }
+  static std::optional<SoundFormat> soundtrack_of(const RenderJob& job, const Film& film) {
+    if (!is_sound_alone(job.output) && !sound_of(job.script).on) return std::nullopt;
     return sound_format(film.frame_count(), film.view().frame_rate);
   }
 

@@ -188,7 +188,7 @@ bool ScriptBuilder::refuses(const std::string& origin, const std::string& key) {
   if (parts_.empty() || is_film_key(key)) return false;
   problems_.push_back(fmt::format(
       "{}: '{}' is a storyboard; put {} into it, for all parts or for one. Options can set size, "
-      "frame rate, theme and background of the whole film",
+      "frame rate, theme, background and sound of the whole film",
       origin, path_, key));
   return true;
 }
@@ -216,10 +216,7 @@ Script ScriptBuilder::build() const {
     }
   };
   add(film_.problems_);
-  if (film_.scene_.sound.on) {
-    add({film_.described({"sound.on", "= true: a storyboard has no sound; leave it out"})});
-  }
-  Storyboard story{film_.scene_.view, film_.scene_.golden, {}};
+  Storyboard story{film_.scene_.view, film_.scene_.sound, film_.scene_.golden, {}};
   for (const Problem& problem : problems_of(film_.scene_)) {
     if (is_film_key(problem.key)) add({film_.described(problem)});
   }

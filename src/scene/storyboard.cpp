@@ -28,9 +28,6 @@ void add_problems(const Runs& runs, const View& film, const std::string& place,
     problems.push_back(fmt::format("{}: compare: must be from 2 to {} runs", place, kMaxCompared));
   }
   for (const Scene& run : runs) {
-    if (run.sound.on) {
-      problems.push_back(fmt::format("{}: sound.on = true: a storyboard has no sound", place));
-    }
     for (const Problem& problem : problems_of(with_film_view(run, film))) {
       problems.push_back(fmt::format("{}: {} {}", place, problem.key, problem.reason));
     }
@@ -61,6 +58,10 @@ std::string described(const StoryPart& part) {
 const View& view_of(const Script& script) {
   if (const auto* scene = std::get_if<Scene>(&script)) return scene->view;
   return std::get<Storyboard>(script).view;
+}
+
+const Sound& sound_of(const Script& script) {
+  return std::visit([](const auto& any) -> const Sound& { return any.sound; }, script);
 }
 
 Scene with_film_view(Scene scene, const View& film) {
@@ -101,6 +102,7 @@ std::vector<std::string> problems_of(const Storyboard& story) {
 
 std::vector<std::pair<std::string, std::string>> describe(const Storyboard& story) {
   Scene film;
+  film.sound = story.sound;
   std::vector<std::pair<std::string, std::string>> values;
   for (auto& [key, value] : describe(with_film_view(film, story.view))) {
     if (is_film_key(key)) values.emplace_back(std::move(key), std::move(value));

@@ -353,9 +353,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{render({"scene.toml", "--speed", "2"}), "put time.speed into it", kStory},
         BadInput{render({"scene.toml", "--show", "time"}), "put show.overlays into it", kStory},
         BadInput{render({"scene.toml", "--size", "0x9"}), "--size: view.size = 0x9: each", kStory},
-        BadInput{render({"scene.toml", "--sound"}), "--sound: sound.on = true: a storyboard has",
-                 kStory},
-        BadInput{{"render", "scene.toml", "-o", "a.wav"}, "a storyboard has no sound", kStory},
+        BadInput{
+            {"render", "scene.toml", "--sound", "-o", "a.gif"}, "'a.gif' has no sound", kStory},
+        BadInput{render({"scene.toml"}), "scene.toml:2: sound.on: holds for the whole film",
+                 "[[part]]\nsound.on = true\n"},
         BadInput{{"render", "scene.toml", "-o", "a.html"},
                  "page: 'a.html' steps through one run, and a storyboard has several",
                  kStory},

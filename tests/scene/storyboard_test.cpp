@@ -220,6 +220,7 @@ TEST_F(StoryboardFileTest, DescriptionsDifferWhereFilmsDo) {
       "compare = [{digits = 1}, {digits = 2}]\n";
   const std::vector<std::pair<std::string, std::string>> changes = {
       {"fps = 30", "fps = 31"},
+      {"fps = 30", "fps = 30\n[sound]\non = true"},
       {"'b'", "'c'"},
       {"['a', 'b']", "'a b'"},
       {"['a', 'b']", "'a'\nseconds = 3"},
