@@ -25,7 +25,8 @@ struct UniformPiece {
   const Travel& of(BlockName block) const { return block == BlockName::blue ? blue : red; }
 };
 
-/// Most collisions in an interval whose pieces are all listed; more are summed in closed form.
+/// Most collisions in an interval whose pieces the closed form lists; more it sums up. Engines that
+/// step list all they have.
 inline constexpr std::size_t kMaxListedCollisions = 512;
 
 /// An interval of time, however short: in one of no length the blocks are where they are then.

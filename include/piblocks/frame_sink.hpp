@@ -25,7 +25,7 @@ struct VideoFormat {
 
 /// What may be said to a video encoder; unset means the measured default.
 struct EncoderSettings {
-  std::optional<double> crf = {};          ///< constant rate factor, 0 (best) … 51; 63 for WebM
+  std::optional<double> crf = {};  ///< constant rate factor, 0 (best) … 51; whole, … 63 for WebM
   std::optional<std::string> preset = {};  ///< the encoder's own name for a speed
   /// libavcodec's name of the encoder; or "damage", by which nothing but what changes is coded.
   std::optional<std::string> encoder = {};

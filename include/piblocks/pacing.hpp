@@ -40,12 +40,15 @@ struct Freeze {
 /// Slowest that automatic slow motion goes; beyond it nothing moves by a pixel any more.
 inline constexpr int kMaxAutomaticFactor = 1000;
 
-/// Lengths are seconds of video, and are rounded up to whole frames.
+/// Lengths are seconds of video, and are rounded up to whole frames; that of a loop to an even
+/// number of them.
 struct Pacing {
-  /// Of the whole video, holds and freezes included; the speed follows from it.
+  /// Of the whole video, holds and freezes included; the speed follows from it, and that of the
+  /// scene's TimeSpan has no say.
   std::optional<Rational> duration_s = {};
   /// Windows around the turn, each ten times slower than the one around it, down to where single
-  /// collisions can be told apart, but not beyond kMaxAutomaticFactor.
+  /// collisions can be told apart, but not beyond kMaxAutomaticFactor. With a duration they are
+  /// those of speed 1, and take their share of it as all else does.
   bool automatic_slow_motion = false;
   std::vector<SlowMotion> slow_motion = {};
   std::vector<Freeze> freezes = {};

@@ -139,7 +139,8 @@ Rational width_by_mass(const BlockSystem& system);
 std::vector<Problem> problems_of(const Scene& scene);
 
 /// Every key of the scene file with its value as exact text, in a fixed order; empty for what is
-/// not set. Two scenes with equal descriptions are the same.
+/// not set. Two scenes with equal descriptions are the same, but for what is in the files they
+/// name: show.logo is a path.
 std::vector<std::pair<std::string, std::string>> describe(const Scene& scene);
 
 /// Reads "12.5", "last" or "last+1.5". @throws UsageError

@@ -53,7 +53,8 @@ class Schedule {
   const Integer& frame_count() const noexcept { return frame_count_; }
   /// The instant shown at `video_s` >= 0.
   FrameTime at(const Rational& video_s) const;
-  /// The first moment of the video, in seconds, that shows this instant; it may be between frames.
+  /// The first moment of the video, in seconds, that shows this instant; it may be between frames,
+  /// and past the end, where the last stretch goes on.
   std::optional<Rational> first_shown(const Rational& time) const;
   /// What is shown from `video_s` >= 0 on, for a length > 0, in order; shares add up to 1. Past the
   /// end the last stretch goes on.

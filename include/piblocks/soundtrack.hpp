@@ -46,6 +46,7 @@ class Soundtrack {
 
   /// @param voices      in the order in which they begin; none is silence.
   /// @param duration_s  of the film, > 0.
+  /// @throws UsageError if stretches do not begin at 0 s, or are not in the film's order.
   Soundtrack(std::vector<Voice> voices, const Rational& duration_s);
   /// Of a film of one run.
   /// @param log         must outlive the soundtrack, as the scene.

@@ -120,6 +120,7 @@ void run(const RenderOptions& options) {
   const StopOnSignals signals;
   refuse_terminal(*options.output);
   options.scene.refuse_as_output(*options.output);
+  options.scene.refuse_silence(*options.output);
   const RenderJob job = job_of(options);
   const bool quiet = options.quiet->count() > 0;
   ProgressReport report(name_of(job), quiet);

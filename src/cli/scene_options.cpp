@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
+#include <piblocks/frame_sink.hpp>
 
 #include <filesystem>
 #include <system_error>
@@ -152,6 +153,14 @@ void SceneOptions::refuse_as_output(const CLI::Option& output) const {
   throw UsageError(
       fmt::format("{} {}: is the scene file that is read; choose another name for the output",
                   output.get_name(), *name));
+}
+
+void SceneOptions::refuse_silence(const CLI::Option& output) const {
+  const CLI::Option* const silent = command_->get_option_no_throw("--no-sound");
+  const auto name = text_of(output);
+  if (silent == nullptr || silent->count() == 0 || !name || !is_sound_alone(*name)) return;
+  throw UsageError(
+      fmt::format("--no-sound: '{}' is the sound alone; leave one of them out", *name));
 }
 
 CLI::Option& add_engine(CLI::App& command) {

@@ -49,6 +49,8 @@ class SceneOptions {
                 const std::string& origin = {}) const;
   /// @throws UsageError if the option names the scene file as the output.
   void refuse_as_output(const CLI::Option& output) const;
+  /// @throws UsageError if it names the sound alone, and there is to be none.
+  void refuse_silence(const CLI::Option& output) const;
 
  private:
   /// Adds an option that sets a key of the scene file.

@@ -25,7 +25,8 @@ class FileSet {
   /// @return where it is to be written.
   std::filesystem::path add(const std::string& name);
   /// Syncs all files and gives them their names.
-  /// @throws IoError if that fails; every name has then what it had before.
+  /// @throws IoError if that fails. Every name has then what it had before, unless all had their
+  ///         files already, and only removing or syncing what remains failed.
   void commit();
 
  private:

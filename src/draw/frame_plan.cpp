@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace piblocks {
 namespace {
@@ -49,8 +50,9 @@ TextItem set_line(ItemId id, const char* key, const std::string& text, double si
   return {id, {area.x + (area.width - width_em * fitted_px) / 2, 0}, text, fitted_px, color};
 }
 
-/// Rows and columns in which `count` diagrams come out largest.
-std::vector<Rectangle> grid(std::size_t count, const Rectangle& area, double gap) {
+/// Rows and columns in which `count` diagrams come out largest, with no side below `least` if that
+/// can be.
+std::vector<Rectangle> grid(std::size_t count, const Rectangle& area, double gap, double least) {
   const auto cell = [&](std::size_t columns) {
     const std::size_t rows = (count + columns - 1) / columns;
     const auto side = [gap](double length, std::size_t n) {
@@ -58,7 +60,10 @@ std::vector<Rectangle> grid(std::size_t count, const Rectangle& area, double gap
     };
     return Rectangle{0, 0, side(area.width, columns), side(area.height, rows)};
   };
-  const auto size = [](const Rectangle& r) { return std::min(r.width / kPanelAspect, r.height); };
+  const auto size = [least](const Rectangle& r) {
+    return std::pair(std::min(r.width, r.height) >= least,
+                     std::min(r.width / kPanelAspect, r.height));
+  };
   std::size_t best = 1;
   for (std::size_t columns = 2; columns <= count; ++columns) {
     if (size(cell(columns)) > size(cell(best))) best = columns;
@@ -161,7 +166,7 @@ void place_panels(const Scene& scene, const FrameMeasures& frame, double read_ou
   const double top = plan.stage.y + plan.stage.height + read_outs_px + frame.margin / 2;
   plan.panels =
       grid(scene.show.panels.size(), {frame.margin, top, frame.right - frame.margin, bottom - top},
-           kPanelGap * frame.measure);
+           kPanelGap * frame.measure, kLeastPanel_em * plan.text_px);
   check_panels(plan, scene.view);
 }
 
@@ -187,6 +192,9 @@ FramePlan plan_frame(const Scene& scene, const Palette& palette, const Font& fon
   place_foot(scene.show, measures, palette, font, plan);
   if (scene.show.panels.empty()) {
     plan.stage.height -= read_outs_px;
+    // Else read-outs would stick to the lower edge.
+    const bool are_lowest = !plan.caption && scene.show.logo.empty();
+    if (read_outs_px > 0 && are_lowest) plan.stage.height -= measures.margin / 2;
   } else {
     place_panels(scene, measures, read_outs_px, plan);
   }

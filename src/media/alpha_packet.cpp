@@ -2,6 +2,8 @@
 
 #include <piblocks/error.hpp>
 
+#include "media/little_endian.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -16,17 +18,14 @@ std::vector<std::uint8_t> with_alpha(std::span<const std::uint8_t> picture,
   bytes.reserve(picture.size() + alpha.size() + kLength_bytes);
   bytes.insert(bytes.end(), picture.begin(), picture.end());
   bytes.insert(bytes.end(), alpha.begin(), alpha.end());
-  for (std::size_t i = 0; i < kLength_bytes; ++i) {
-    bytes.push_back(static_cast<std::uint8_t>(alpha.size() >> (8 * i)));
-  }
+  append_little_endian(bytes, alpha.size(), kLength_bytes);
   return bytes;
 }
 
 PictureAndAlpha without_alpha(std::span<const std::uint8_t> bytes) {
   std::size_t length = 0;
   if (bytes.size() >= kLength_bytes) {
-    const auto last = bytes.last(kLength_bytes);
-    for (std::size_t i = 0; i < kLength_bytes; ++i) length |= std::size_t{last[i]} << (8 * i);
+    length = from_little_endian(bytes.last(kLength_bytes));
   }
   if (bytes.size() < kLength_bytes || length > bytes.size() - kLength_bytes) {
     throw MediaError("video: a packet is cut off where its transparency should be");

@@ -1,7 +1,6 @@
 // Animated PNG: https://wiki.mozilla.org/APNG_Specification, since 2025 part of PNG itself.
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <zlib.h>
 
 #include <cstdint>
 #include <memory>
@@ -11,6 +10,7 @@
 
 #include "core/output_file.hpp"
 #include "media/changed_picture.hpp"
+#include "media/deflate.hpp"
 #include "media/intra_encoder.hpp"
 #include "media/output_kinds.hpp"
 #include "media/png_chunk.hpp"
@@ -25,9 +25,6 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr std::int64_t kFramesPerChunk = 64;
 /// A delay is a fraction of two numbers of 16 bits.
 constexpr int kMaxTerm = 65535;
-/// Chosen from the table in README.md.
-constexpr int kLevel = 1;
-constexpr int kStrategy = Z_RLE;
 
 constexpr std::size_t kSignature_bytes = 8;
 constexpr std::size_t kIhdr_bytes = 25;
@@ -42,31 +39,13 @@ Bytes animation_control(std::int64_t frames) {
   return chunk;
 }
 
-struct DeflateDeleter {
-  void operator()(z_stream* stream) const noexcept {
-    deflateEnd(stream);
-    delete stream;  // NOLINT(cppcoreguidelines-owning-memory): the owner is the pointer
-  }
-};
-using DeflatePtr = std::unique_ptr<z_stream, DeflateDeleter>;
-
-DeflatePtr open_deflate() {
-  constexpr int kWindow_bits = 15;
-  constexpr int kMemoryLevel = 8;
-  DeflatePtr stream(new z_stream{});
-  const int code =
-      deflateInit2(stream.get(), kLevel, Z_DEFLATED, kWindow_bits, kMemoryLevel, kStrategy);
-  if (code != Z_OK) throw MediaError("apng: cannot compress images: out of memory");
-  return stream;
-}
-
 class ApngEncoder final : public IntraEncoder {
  public:
   explicit ApngEncoder(const VideoFormat& format)
       : IntraEncoder(format),
         format_(format),
-        picture_(format.width_px, format.height_px),
-        stream_(open_deflate()) {}
+        picture_(format.width_px, format.height_px, ChangedPicture::Marks::none),
+        stream_(open_deflate(DeflateForm::zlib)) {}
 
   void begin(std::int64_t first_frame) override {
     IntraEncoder::begin(first_frame);

@@ -10,6 +10,8 @@
 #include <memory>
 #include <string_view>
 
+#include "media/byte_hash.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -81,6 +83,10 @@ const AvModule& av_module() {
 
 std::unique_ptr<FrameReader> read_video(const std::string& path) {
   return av_module().decode_video_file(path);
+}
+
+std::string hash_of_bytes(std::span<const std::uint8_t> bytes) {
+  return av_module().compute_hash(bytes);
 }
 
 std::vector<std::string> webm_encoders() { return av_module().usable_webm_encoders(); }

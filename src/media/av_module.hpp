@@ -5,7 +5,9 @@
 
 #include <piblocks/frame_sink.hpp>
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,8 +16,8 @@
 
 namespace piblocks {
 
-/// What the module offers: the functions of these names in output_kinds.hpp, video_reader.hpp and
-/// find_encoder.hpp.
+/// What the module offers: the functions of these names in output_kinds.hpp, video_reader.hpp,
+/// byte_hash.hpp and find_encoder.hpp.
 struct AvModule {
   const char* version;  ///< kVersion of the build; of another, nothing else here may be touched
   std::unique_ptr<Output> (*mp4_output)(const OutputRequest& request);
@@ -24,6 +26,7 @@ struct AvModule {
   std::unique_ptr<Output> (*gif_output)(const OutputRequest& request);
   std::unique_ptr<Output> (*framehash_output)(const OutputRequest& request);
   std::unique_ptr<FrameReader> (*decode_video_file)(const std::string& path);
+  std::string (*compute_hash)(std::span<const std::uint8_t> bytes);
   std::vector<std::string> (*usable_h264_encoders)();
   std::vector<std::string> (*usable_webm_encoders)();
   std::vector<std::string> (*usable_prores_encoders)();

@@ -3,6 +3,7 @@
 
 #include "media/av.hpp"
 #include "media/av_module.hpp"
+#include "media/byte_hash.hpp"
 #include "media/find_encoder.hpp"
 #include "media/output_kinds.hpp"
 #include "media/video_reader.hpp"
@@ -16,6 +17,7 @@ extern "C" const piblocks::AvModule* piblocks_av_module() {
                                        .gif_output = gif_output,
                                        .framehash_output = framehash_output,
                                        .decode_video_file = decode_video_file,
+                                       .compute_hash = compute_hash,
                                        .usable_h264_encoders = usable_h264_encoders,
                                        .usable_webm_encoders = usable_webm_encoders,
                                        .usable_prores_encoders = usable_prores_encoders,

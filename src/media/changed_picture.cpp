@@ -5,11 +5,11 @@
 
 namespace piblocks {
 
-ChangedPicture::ChangedPicture(int width_px, int height_px)
+ChangedPicture::ChangedPicture(int width_px, int height_px, Marks marks)
     : width_px_(width_px),
       height_px_(height_px),
       words_(std::size_t(width_px) * std::size_t(height_px)),
-      news_(words_.size()) {}
+      news_(marks == Marks::new_pixels ? words_.size() : 0) {}
 
 void ChangedPicture::take(const ImageView& frame, std::span<const PixelRect> rects) {
   for (const PixelRect& rect : rects) {
@@ -20,7 +20,7 @@ void ChangedPicture::take(const ImageView& frame, std::span<const PixelRect> rec
 void ChangedPicture::take_row(const ImageView& frame, const PixelRect& rect, int y) {
   const std::uint8_t* const from = frame.row(y) + std::ptrdiff_t{4} * rect.x_px;
   std::uint32_t* const to = words_.data() + offset(y) + rect.x_px;
-  std::uint8_t* const news = news_.data() + offset(y) + rect.x_px;
+  std::uint8_t* const news = news_.empty() ? nullptr : news_.data() + offset(y) + rect.x_px;
   // What is in place of an opaque pixel's alpha is not said.
   const std::uint32_t unsaid = frame.has_alpha ? 0 : 0xff000000;
   int first = rect.width_px;
@@ -31,7 +31,7 @@ void ChangedPicture::take_row(const ImageView& frame, const PixelRect& rect, int
     word |= unsaid;
     if (word == to[x]) continue;
     to[x] = word;
-    news[x] = 1;
+    if (news != nullptr) news[x] = 1;
     first = std::min(first, x);
     last = x;
   }
@@ -46,7 +46,7 @@ void ChangedPicture::take_row(const ImageView& frame, const PixelRect& rect, int
 }
 
 void ChangedPicture::settle() {
-  for (int y = top_; y < bottom_; ++y) {
+  for (int y = top_; !news_.empty() && y < bottom_; ++y) {
     std::fill_n(news_.data() + offset(y) + left_, right_ - left_, std::uint8_t{0});
   }
   left_ = top_ = right_ = bottom_ = 0;

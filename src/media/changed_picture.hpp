@@ -1,6 +1,6 @@
 // A picture that remembers what has changed of it.
-// In: frames, with the rectangles that may have changed. Out: the pixels, which of them are new,
-// and the least rectangle around those: what a frame of GIF or APNG has to hold.
+// In: frames, with the rectangles that may have changed. Out: the pixels, which of them are new if
+// that is asked for, and the least rectangle around those: what a frame of GIF or APNG has to hold.
 #pragma once
 
 #include <piblocks/image.hpp>
@@ -13,7 +13,10 @@ namespace piblocks {
 
 class ChangedPicture {
  public:
-  ChangedPicture(int width_px, int height_px);
+  /// What is known of each pixel beside the rectangle.
+  enum class Marks { none, new_pixels };
+
+  ChangedPicture(int width_px, int height_px, Marks marks);
 
   /// @param rects  cover every pixel in which the frame differs from the one taken before.
   void take(const ImageView& frame, std::span<const PixelRect> rects);
@@ -25,7 +28,7 @@ class ChangedPicture {
   PixelRect changed() const noexcept;
   /// Pixels as ImageView has them.
   const std::uint32_t* row(int y) const noexcept { return words_.data() + offset(y); }
-  /// For each pixel whether it has changed since settle().
+  /// For each pixel whether it has changed since settle(), with Marks::new_pixels.
   const std::uint8_t* news(int y) const noexcept { return news_.data() + offset(y); }
 
  private:

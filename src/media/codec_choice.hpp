@@ -30,8 +30,10 @@ int frames_in_a_second(const Rational& frame_rate);
 bool has_option(const AVCodec& codec, const char* name);
 
 /// H.264, or the video of another encoder that MP4 can hold, in 4:2:0.
+/// @param usable  names the encoders that may be asked for.
 /// @throws UsageError listing everything that is wrong with the size and the settings.
-CodecChoice h264_choice(const VideoFormat& format, const EncoderSettings& settings);
+CodecChoice h264_choice(const VideoFormat& format, const EncoderSettings& settings,
+                        std::vector<std::string> (*usable)());
 
 /// ProRes 4444, with alpha if the frames have it.
 /// @throws UsageError if something is said to it, or it is not there.

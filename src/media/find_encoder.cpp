@@ -5,6 +5,7 @@
 #include <piblocks/frame_sink.hpp>
 
 #include <algorithm>
+#include <iterator>
 
 namespace piblocks {
 namespace {
@@ -20,17 +21,6 @@ bool takes_yuv420p(const AVCodec& codec) {
 bool suits_mp4(const AVCodec& codec) {
   const AVOutputFormat* mp4 = av_guess_format("mp4", nullptr, nullptr);
   return mp4 != nullptr && avformat_query_codec(mp4, codec.id, FF_COMPLIANCE_NORMAL) == 1;
-}
-
-/// Being registered is not enough: wrappers load what they wrap only when they are opened.
-bool can_be_opened(const AVCodec& codec) {
-  const auto context = own_av<AvCodecContextPtr>(avcodec_alloc_context3(&codec), codec.name);
-  context->width = 64;
-  context->height = 64;
-  context->pix_fmt = AV_PIX_FMT_YUV420P;
-  context->time_base = {1, 60};
-  context->thread_count = 1;
-  return avcodec_open2(context.get(), &codec, nullptr) >= 0;
 }
 
 bool is_software_h264(const AVCodec& codec) {
@@ -60,12 +50,18 @@ const AVCodec& first_encoder() {
   return *avcodec_find_encoder_by_name(found.front().c_str());
 }
 
-[[noreturn]] void refuse(const std::string& problem) {
-  throw UsageError(
-      fmt::format("video: {}; use one of: {}", problem, fmt::join(usable_h264_encoders(), ", ")));
-}
-
 }  // namespace
+
+bool can_be_opened(const AVCodec& codec, const std::function<void(AVCodecContext&)>& set_up) {
+  const auto context = own_av<AvCodecContextPtr>(avcodec_alloc_context3(&codec), codec.name);
+  context->width = 64;
+  context->height = 64;
+  context->pix_fmt = AV_PIX_FMT_YUV420P;
+  context->time_base = {1, 60};
+  context->thread_count = 1;
+  if (set_up) set_up(*context);
+  return avcodec_open2(context.get(), &codec, nullptr) >= 0;
+}
 
 std::vector<std::string> usable_h264_encoders() {
   std::vector<std::string> names = software_h264_encoders();
@@ -73,7 +69,17 @@ std::vector<std::string> usable_h264_encoders() {
   return names;
 }
 
-const AVCodec& find_encoder(const std::optional<std::string>& name) {
+std::vector<std::string> usable_mov_encoders() {
+  std::vector<std::string> names = usable_h264_encoders();
+  std::ranges::move(usable_prores_encoders(), std::back_inserter(names));
+  return names;
+}
+
+const AVCodec& find_encoder(const std::optional<std::string>& name,
+                            std::vector<std::string> (*usable)()) {
+  const auto refuse = [&](const std::string& problem) {
+    throw UsageError(fmt::format("video: {}; use one of: {}", problem, fmt::join(usable(), ", ")));
+  };
   // The usual case does not open every encoder there is.
   if (!name) {
     if (const AVCodec* x264 = avcodec_find_encoder_by_name(kX264.data())) return *x264;

@@ -2,6 +2,7 @@
 // In: a name, or none. Out: an encoder that takes yuv420p and whose stream MP4 can hold.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,6 +19,8 @@ inline constexpr std::string_view kDamage = "damage";
 
 /// What h264_encoders() gives.
 std::vector<std::string> usable_h264_encoders();
+/// Those of H.264 and those of ProRes.
+std::vector<std::string> usable_mov_encoders();
 /// What webm_encoders() gives.
 std::vector<std::string> usable_webm_encoders();
 /// What prores_encoders() gives.
@@ -25,9 +28,16 @@ std::vector<std::string> usable_prores_encoders();
 /// What sound_encoders() gives.
 std::vector<std::string> usable_sound_encoders();
 
+/// Whether the encoder opens for a small picture in 4:2:0. Being registered is not enough: wrappers
+/// load what they wrap only when they are opened.
+/// @param set_up  sets its own options before.
+bool can_be_opened(const AVCodec& codec, const std::function<void(AVCodecContext&)>& set_up = {});
+
 /// libavcodec's encoder of that name, or the first of its own. The object is libavcodec's and
 /// lives as long as the program.
+/// @param usable  names those to use instead.
 /// @throws UsageError if there is none, or it does not suit; the message says what to use instead.
-const AVCodec& find_encoder(const std::optional<std::string>& name);
+const AVCodec& find_encoder(const std::optional<std::string>& name,
+                            std::vector<std::string> (*usable)());
 
 }  // namespace piblocks

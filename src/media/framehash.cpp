@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "media/av.hpp"
+#include "media/byte_hash.hpp"
 #include "media/intra_encoder.hpp"
 #include "media/output_kinds.hpp"
 #include "media/rgb24.hpp"
@@ -33,6 +34,14 @@ AvHashPtr allocate_hash() {
   return AvHashPtr(allocated);
 }
 
+std::string digits_of(AVHashContext& hash, std::span<const std::uint8_t> bytes) {
+  av_hash_init(&hash);
+  av_hash_update(&hash, bytes.data(), bytes.size());
+  std::array<std::uint8_t, 2 * AV_HASH_MAX_SIZE + 1> text{};
+  av_hash_final_hex(&hash, text.data(), static_cast<int>(text.size()));
+  return reinterpret_cast<const char*>(text.data());
+}
+
 class FramehashEncoder final : public IntraEncoder {
  public:
   explicit FramehashEncoder(const VideoFormat& format)
@@ -46,7 +55,6 @@ class FramehashEncoder final : public IntraEncoder {
  private:
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override;
   std::vector<std::uint8_t> encode_picture(std::int64_t number) override;
-  std::string hash_of_picture();
   std::size_t pixel_bytes() const { return has_alpha_ ? 4 : 3; }
 
   std::string file_header_;
@@ -67,22 +75,18 @@ void FramehashEncoder::convert(const ImageView& frame, std::span<const PixelRect
   }
 }
 
-std::string FramehashEncoder::hash_of_picture() {
-  av_hash_init(hash_.get());
-  av_hash_update(hash_.get(), samples_.data(), samples_.size());
-  std::array<std::uint8_t, 2 * AV_HASH_MAX_SIZE + 1> text{};
-  av_hash_final_hex(hash_.get(), text.data(), static_cast<int>(text.size()));
-  return reinterpret_cast<const char*>(text.data());
-}
-
 std::vector<std::uint8_t> FramehashEncoder::encode_picture(std::int64_t number) {
   const std::string text = (number == 0 ? file_header_ : "") +
                            fmt::format("0, {0:10}, {0:10}, {1:8}, {2:8}, {3}\n", number, 1,
-                                       samples_.size(), hash_of_picture());
+                                       samples_.size(), digits_of(*hash_, samples_));
   return {text.begin(), text.end()};
 }
 
 }  // namespace
+
+std::string compute_hash(std::span<const std::uint8_t> bytes) {
+  return digits_of(*allocate_hash(), bytes);
+}
 
 std::unique_ptr<Output> framehash_output(const OutputRequest& request) {
   return std::make_unique<StreamOutput<FramehashEncoder>>(request, kFramesPerChunk,

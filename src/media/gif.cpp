@@ -123,7 +123,7 @@ class GifEncoder final : public IntraEncoder {
   explicit GifEncoder(const VideoFormat& format)
       : IntraEncoder(format),
         frame_rate_(format.frame_rate),
-        picture_(format.width_px, format.height_px),
+        picture_(format.width_px, format.height_px, ChangedPicture::Marks::new_pixels),
         writer_(format),
         header_(writer_.take()) {}
 

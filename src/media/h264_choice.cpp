@@ -55,14 +55,14 @@ std::string preset_problem(const AVCodec& codec, const std::string& preset) {
 
 /// Everything that is wrong, found before anything is opened. `codec` is set if there is one.
 std::vector<std::string> problems_of(const VideoFormat& format, const EncoderSettings& settings,
-                                     const AVCodec*& codec) {
+                                     std::vector<std::string> (*usable)(), const AVCodec*& codec) {
   std::vector<std::string> problems;
   const auto report = [&](std::string problem) {
     if (!problem.empty()) problems.push_back(std::move(problem));
   };
   report(odd_size_problem(format, "H.264 in 4:2:0"));
   try {
-    codec = &find_encoder(settings.encoder);
+    codec = &find_encoder(settings.encoder, usable);
     if (settings.crf) report(crf_problem(*codec, *settings.crf));
     if (settings.preset) report(preset_problem(*codec, *settings.preset));
   } catch (const UsageError& error) {
@@ -118,16 +118,17 @@ void apply_settings(AVCodecContext& context, const AVCodec& codec,
 
 }  // namespace
 
-CodecChoice h264_choice(const VideoFormat& format, const EncoderSettings& settings) {
+CodecChoice h264_choice(const VideoFormat& format, const EncoderSettings& settings,
+                        std::vector<std::string> (*usable)()) {
   const AVCodec* codec = nullptr;
-  std::vector<std::string> problems = problems_of(format, settings, codec);
+  std::vector<std::string> problems = problems_of(format, settings, usable, codec);
   if (!problems.empty()) throw UsageError(std::move(problems));
   return {.codec = codec,
           .pixel_format = AV_PIX_FMT_YUV420P,
           .frames_per_chunk = frames_in_a_second(format.frame_rate),
           .set_up = [codec, settings](
                         AVCodecContext& context) { apply_settings(context, *codec, settings); },
-          .usable = usable_h264_encoders};
+          .usable = usable};
 }
 
 }  // namespace piblocks

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/output_file.hpp"
+#include "media/little_endian.hpp"
 
 namespace piblocks {
 namespace {
@@ -29,16 +30,12 @@ constexpr std::size_t kMaxHeaderLines = 200;
 
 template <typename Unsigned>
 void append_number(Bytes& bytes, Unsigned value) {
-  for (std::size_t i = 0; i < sizeof value; ++i) {
-    bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
-  }
+  append_little_endian(bytes, value, sizeof value);
 }
 
 template <typename Unsigned>
 Unsigned number_at(const Bytes& bytes, std::size_t at) {
-  Unsigned value = 0;
-  for (std::size_t i = 0; i < sizeof value; ++i) value |= Unsigned{bytes[at + i]} << (8 * i);
-  return value;
+  return static_cast<Unsigned>(from_little_endian(std::span(bytes).subspan(at, sizeof(Unsigned))));
 }
 
 // What precedes the bytes of a packet: pts, dts, key frame, size.
@@ -89,7 +86,7 @@ class PartSink final : public FrameSink {
     Bytes bytes;
     append_number(bytes, static_cast<std::uint32_t>(chunk.size()));
     for (const Packet& packet : chunk) append_packet(bytes, packet);
-    append_number(bytes, checksum(0, bytes));
+    append_number(bytes, checksum(checksum(0, {kind}), bytes));
     file_.write({&kind, 1});
     file_.write(bytes);
   }
@@ -100,6 +97,13 @@ class PartSink final : public FrameSink {
 }  // namespace
 
 std::unique_ptr<FrameSink> open_part(const std::string& path, const PartHeader& header) {
+  for (const auto& [name, value] : header) {
+    if (name.find_first_of(":\n") == std::string::npos && value.find('\n') == std::string::npos) {
+      continue;
+    }
+    throw UsageError(
+        fmt::format("part: cannot write '{}': {} cannot be said in one line", path, name));
+  }
   return std::make_unique<PartSink>(path, header);
 }
 
@@ -157,7 +161,7 @@ std::optional<PartReader::Record> PartReader::next_record() {
   if (kind != kChunk && kind != kSound) fail_damaged();
 
   const Bytes count = read(4);
-  std::uint32_t sum = checksum(0, count);
+  std::uint32_t sum = checksum(checksum(0, {kind}), count);
   EncodedChunk chunk;
   for (auto left = number_at<std::uint32_t>(count, 0); left > 0; --left) {
     const Bytes header = read(kPacketHeader_bytes);

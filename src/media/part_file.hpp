@@ -4,10 +4,10 @@
 //
 // The file starts with lines of text, "piblocks part 1", then "NAME: VALUE" each, then an empty
 // line. Then come the chunks, numbers in little-endian order: a byte 'C', the number of packets
-// (32 bits), the packets, and the CRC-32 of what follows the 'C'; a packet is its pts and dts
-// (64 bits each), a byte that is 1 for a key frame, its size (32 bits) and its bytes. Before all
-// chunks there may be sound, for the whole output: likewise, with 'S' in place of 'C'. A byte 'E'
-// ends the file, so that one that was cut off is found out.
+// (32 bits), the packets, and the CRC-32 of all these; a packet is its pts and dts (64 bits each), a
+// byte that is 1 for a key frame, its size (32 bits) and its bytes. Before all chunks there may be
+// sound, for the whole output: likewise, with 'S' in place of 'C'. A byte 'E' ends the file, so that
+// one that was cut off is found out.
 #pragma once
 
 #include <piblocks/frame_sink.hpp>
@@ -23,7 +23,7 @@ namespace piblocks {
 using PartHeader = std::vector<std::pair<std::string, std::string>>;
 
 /// A sink that keeps chunks as they are.
-/// @throws UsageError if the file cannot be opened.
+/// @throws UsageError if the file cannot be opened, or the header cannot be written as lines.
 std::unique_ptr<FrameSink> open_part(const std::string& path, const PartHeader& header);
 
 /// Reads a part file, chunk by chunk. Never takes more memory than the file is long.

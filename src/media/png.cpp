@@ -14,27 +14,12 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 using ByteSpan = std::span<const std::uint8_t>;
 
-// Rows in a strip, and how they are compressed, are chosen from the table in README.md: runs of
-// equal bytes are all that filter Up leaves of flat shapes.
+/// Chosen from the table in README.md.
 constexpr int kStripRows = 8;
-constexpr int kLevel = 1;
-constexpr int kStrategy = Z_RLE;
-
-constexpr int kRawDeflate = -15;
-constexpr int kMemoryLevel = 8;
 
 }  // namespace
 
-void PngEncoder::StreamDeleter::operator()(z_stream* stream) const noexcept {
-  deflateEnd(stream);
-  delete stream;  // NOLINT(cppcoreguidelines-owning-memory): the owner is the pointer it belongs to
-}
-
-PngEncoder::PngEncoder() : stream_(new z_stream{}) {
-  const int code =
-      deflateInit2(stream_.get(), kLevel, Z_DEFLATED, kRawDeflate, kMemoryLevel, kStrategy);
-  if (code != Z_OK) throw MediaError("png: cannot compress images: out of memory");
-}
+PngEncoder::PngEncoder() : stream_(open_deflate(DeflateForm::raw)) {}
 
 void PngEncoder::filter(const ImageView& image, std::span<const PixelRect> changed) {
   const PixelRect whole{0, 0, image.width_px, image.height_px};

@@ -14,7 +14,7 @@ void append_u16(std::vector<std::uint8_t>& png, std::uint32_t value);
 void append_u32(std::vector<std::uint8_t>& png, std::uint32_t value);
 void append_text(std::vector<std::uint8_t>& png, std::string_view text);
 
-/// @return where the chunk starts, for end_chunk(). What is appended between is its data.
+/// @return where the chunk starts, for end_png_chunk(). What is appended between is its data.
 std::size_t begin_png_chunk(std::vector<std::uint8_t>& png, std::string_view type);
 void end_png_chunk(std::vector<std::uint8_t>& png, std::size_t start);
 

@@ -7,12 +7,12 @@
 #pragma once
 
 #include <piblocks/image.hpp>
-#include <zlib.h>
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
+
+#include "media/deflate.hpp"
 
 namespace piblocks {
 
@@ -30,9 +30,6 @@ class PngEncoder {
   std::vector<std::uint8_t> compress();
 
  private:
-  struct StreamDeleter {
-    void operator()(z_stream* stream) const noexcept;
-  };
   /// Some rows of a file, filtered and compressed.
   struct Strip {
     std::vector<std::uint8_t> chunk;
@@ -48,7 +45,7 @@ class PngEncoder {
   std::span<const std::uint8_t> rows_of(std::size_t strip) const;
   std::vector<std::uint8_t> assemble() const;
 
-  std::unique_ptr<z_stream, StreamDeleter> stream_;
+  DeflatePtr stream_;
   int width_px_ = 0;
   int height_px_ = 0;
   bool has_alpha_ = false;

@@ -20,6 +20,7 @@ struct OutputKind {
   bool takes_encoder_settings;
   bool takes_alpha;
   bool takes_sound;
+  bool keeps_pictures;
   std::unique_ptr<Output> (*set_up)(const OutputRequest& request);
 };
 
@@ -29,33 +30,33 @@ constexpr bool is_wav(std::string_view output) { return output.ends_with(".wav")
 
 constexpr std::array kOutputKinds = {
     OutputKind{"*.mp4", [](std::string_view output) { return output.ends_with(".mp4"); }, true,
-               false, true,
+               false, true, true,
                [](const OutputRequest& request) { return av_module().mp4_output(request); }},
     OutputKind{"*.mov", [](std::string_view output) { return output.ends_with(".mov"); }, true,
-               true, true,
+               true, true, true,
                [](const OutputRequest& request) { return av_module().mov_output(request); }},
     OutputKind{"*.webm", [](std::string_view output) { return output.ends_with(".webm"); }, true,
-               true, true,
+               true, true, true,
                [](const OutputRequest& request) { return av_module().webm_output(request); }},
     OutputKind{"*.gif", [](std::string_view output) { return output.ends_with(".gif"); }, false,
-               false, false,
+               false, false, true,
                [](const OutputRequest& request) { return av_module().gif_output(request); }},
     OutputKind{"*.apng", [](std::string_view output) { return output.ends_with(".apng"); }, false,
-               true, false, apng_output},
+               true, false, true, apng_output},
     OutputKind{"*.png with a number field such as %06d",
                [](std::string_view output) { return output.ends_with(".png"); }, false, true, false,
-               png_output},
+               true, png_output},
     OutputKind{"*.y4m", [](std::string_view output) { return output.ends_with(".y4m"); }, false,
-               false, false, y4m_output},
+               false, false, true, y4m_output},
     OutputKind{"- (y4m on standard output)", [](std::string_view output) { return output == "-"; },
-               false, false, false, y4m_output},
+               false, false, false, true, y4m_output},
     OutputKind{"*.framehash",
                [](std::string_view output) { return output.ends_with(".framehash"); }, false, true,
-               false,
+               false, true,
                [](const OutputRequest& request) { return av_module().framehash_output(request); }},
     OutputKind{"null", [](std::string_view output) { return output == "null"; }, false, true, false,
-               null_output},
-    OutputKind{kWav, is_wav, false, true, true, wav_output},
+               false, null_output},
+    OutputKind{kWav, is_wav, false, true, true, false, wav_output},
 };
 
 const OutputKind* find_kind(std::string_view output) {
@@ -95,7 +96,7 @@ std::string alpha_problem(const OutputKind& kind, const std::string& name, bool 
   if (kind.takes_alpha || !has_alpha) return {};
   return fmt::format(
       "output: '{}' cannot be transparent; use an opaque background or write one of: {}", name,
-      names([](const OutputKind& any) { return any.takes_alpha; }));
+      names([](const OutputKind& any) { return any.takes_alpha && any.keeps_pictures; }));
 }
 
 std::string size_problem(const VideoFormat& format) {

@@ -9,8 +9,10 @@
 
 namespace piblocks {
 
-SoundStream::SoundStream(const SoundEncoder& encoder, AVFormatContext& muxer, std::string name)
+SoundStream::SoundStream(const SoundEncoder& encoder, AVFormatContext& muxer, bool from_zero,
+                         std::string name)
     : encoder_(encoder),
+      shift_(from_zero ? encoder.parameters().initial_padding : 0),
       muxer_(muxer),
       name_(std::move(name)),
       stream_(avformat_new_stream(&muxer, nullptr)),
@@ -28,7 +30,7 @@ bool SoundStream::fetch() {
 
 void SoundStream::write_until(std::int64_t time, AVRational time_base) {
   const AVRational samples = {1, encoder_.format().rate_hz};
-  while (fetch() && av_compare_ts(next_->dts, samples, time, time_base) <= 0) write();
+  while (fetch() && av_compare_ts(next_->dts + shift_, samples, time, time_base) <= 0) write();
 }
 
 void SoundStream::write_all() {
@@ -42,8 +44,8 @@ void SoundStream::write() {
   av_packet_unref(packet_.get());
   packet_->data = next_->bytes.data();
   packet_->size = static_cast<int>(next_->bytes.size());
-  packet_->pts = next_->pts;
-  packet_->dts = next_->dts;
+  packet_->pts = next_->pts + shift_;
+  packet_->dts = next_->dts + shift_;
   // The last one is filled up with silence, which does not belong to the sound.
   const std::int64_t whole = encoder_.packet_size();
   const std::int64_t size = encoder_.format().size;

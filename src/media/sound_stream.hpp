@@ -13,8 +13,11 @@ namespace piblocks {
 class SoundStream {
  public:
   /// Adds the stream to a muxer whose header is not written yet; both must outlive it.
-  /// @param name  of the file, for messages.
-  SoundStream(const SoundEncoder& encoder, AVFormatContext& muxer, std::string name);
+  /// @param from_zero  whether the file counts from the first packet, and has players leave out
+  ///                   what that begins before sample 0.
+  /// @param name       of the file, for messages.
+  SoundStream(const SoundEncoder& encoder, AVFormatContext& muxer, bool from_zero,
+              std::string name);
 
   void take(PacketSource& sound) { source_ = &sound; }
   /// Writes what is decoded at that time or before.
@@ -30,6 +33,7 @@ class SoundStream {
   void write();
 
   const SoundEncoder& encoder_;
+  std::int64_t shift_;  // of time stamps, in samples
   AVFormatContext& muxer_;
   std::string name_;
   AVStream* stream_;

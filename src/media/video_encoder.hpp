@@ -10,8 +10,6 @@
 
 namespace piblocks {
 
-using AvParametersPtr = std::unique_ptr<AVCodecParameters, AvDeleter<avcodec_parameters_free>>;
-
 /// Room for a picture of the stream, with the stream's tags.
 AvFramePtr allocate_picture(const AVCodecParameters& stream);
 

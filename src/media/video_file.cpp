@@ -11,6 +11,7 @@
 
 #include "core/output_file.hpp"
 #include "media/alpha_packet.hpp"
+#include "media/find_encoder.hpp"
 #include "media/output_request.hpp"
 #include "media/sound_stream.hpp"
 
@@ -131,7 +132,7 @@ VideoFile::VideoFile(const std::string& name, const VideoEncoder& encoder,
       muxer_(open_muxer(file_.path(), name_, container.muxer)),
       packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {
   add_stream();
-  if (sound != nullptr) sound_.emplace(*sound, *muxer_, name_);
+  if (sound != nullptr) sound_.emplace(*sound, *muxer_, container_.sound_from_zero, name_);
   write_header();
 }
 
@@ -223,9 +224,12 @@ void VideoFile::finish() {
 
 }  // namespace
 
-const Container kMp4 = {"mp4", "movflags", "+faststart", is_whole_mov, kAac};
-const Container kMov = {"mov", "movflags", "+faststart", is_whole_mov, kAac};
-const Container kWebm = {"webm", "cues_to_front", "1", is_whole_webm, kOpus};
+const Container kMp4 = {"mp4", "movflags",           "+faststart", is_whole_mov,
+                        kAac,  usable_h264_encoders, false};
+const Container kMov = {"mov", "movflags",          "+faststart", is_whole_mov,
+                        kAac,  usable_mov_encoders, false};
+const Container kWebm = {"webm", "cues_to_front",      "1", is_whole_webm,
+                         kOpus,  usable_webm_encoders, true};
 
 std::unique_ptr<FrameSink> open_video_file(const std::string& name, const VideoEncoder& encoder,
                                            const Container& container, const SoundEncoder* sound) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "media/sound_encoder.hpp"
 #include "media/video_encoder.hpp"
@@ -21,7 +22,11 @@ struct Container {
   const char* index_value;
   /// Whether a file that is read back has so many packets of each stream.
   bool (*is_whole)(AVFormatContext& file, std::span<const std::int64_t> packets);
-  SoundCodec sound;  ///< what its sound is encoded by
+  SoundCodec sound;                        ///< what its sound is encoded by
+  std::vector<std::string> (*encoders)();  ///< names of those that its pictures may be encoded by
+  /// Whether sound is counted from its first packet. Otherwise that is before 0, where libavformat
+  /// moves all streams of a file that cannot have such times.
+  bool sound_from_zero;
 };
 
 extern const Container kMp4;

@@ -85,8 +85,9 @@ class EncodedOutput : public Output {
 class H264Output final : public EncodedOutput {
  public:
   H264Output(const OutputRequest& request, const Container& container)
-      : EncodedOutput(request, container,
-                      h264_choice(request.format, settings_of_stream(request.settings))),
+      : EncodedOutput(
+            request, container,
+            h264_choice(request.format, settings_of_stream(request.settings), container.encoders)),
         sets_(sets_for_damage(encoder(), request.settings)),
         when_too_much_(request.settings.encoder == kDamage ? WhenTooMuch::go_on
                                                            : WhenTooMuch::leave_to_stream_encoder) {

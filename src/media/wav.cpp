@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/output_file.hpp"
+#include "media/little_endian.hpp"
 #include "media/output_kinds.hpp"
 
 namespace piblocks {
@@ -20,10 +21,8 @@ constexpr std::int64_t kHeader_bytes = 44;
 /// What the file says of its own length has 32 bits, and leaves out the first 8 bytes.
 constexpr std::int64_t kMaxFile_bytes = 0xFFFFFFFF;
 
-void append_number(std::vector<std::uint8_t>& bytes, std::int64_t value, int size_bytes) {
-  for (int i = 0; i < size_bytes; ++i) {
-    bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
-  }
+void append_number(std::vector<std::uint8_t>& bytes, std::int64_t value, std::size_t size_bytes) {
+  append_little_endian(bytes, static_cast<std::uint64_t>(value), size_bytes);
 }
 
 void append_text(std::vector<std::uint8_t>& bytes, std::string_view text) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -68,6 +69,9 @@ std::vector<std::string> problems_of(const VideoFormat& format, const EncoderSet
   if (settings.crf && !(*settings.crf >= 0 && *settings.crf <= kMaxCrf)) {
     report(fmt::format("video: crf {} is out of range of *.webm; use 0 (best) to {}", *settings.crf,
                        kMaxCrf));
+  } else if (settings.crf && *settings.crf != std::floor(*settings.crf)) {
+    report(fmt::format("video: crf {} is no whole number, as *.webm needs; use {} or {}",
+                       *settings.crf, std::floor(*settings.crf), std::ceil(*settings.crf)));
   }
   if (encoder == nullptr) {
     report(fmt::format("video: cannot find encoder '{}' for *.webm; use one of: {}",
@@ -97,15 +101,9 @@ void set_up(AVCodecContext& context, const WebmEncoder& encoder, const EncoderSe
 
 bool can_be_opened(const WebmEncoder& encoder) {
   const AVCodec* const codec = codec_of(encoder);
-  if (codec == nullptr) return false;
-  const auto context = own_av<AvCodecContextPtr>(avcodec_alloc_context3(codec), encoder.name);
-  context->width = 64;
-  context->height = 64;
-  context->pix_fmt = AV_PIX_FMT_YUV420P;
-  context->time_base = {1, 60};
-  context->thread_count = 1;
-  set_up(*context, encoder, {});
-  return avcodec_open2(context.get(), codec, nullptr) >= 0;
+  return codec != nullptr && piblocks::can_be_opened(*codec, [&](AVCodecContext& context) {
+           set_up(context, encoder, {});
+         });
 }
 
 }  // namespace

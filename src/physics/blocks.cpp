@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "physics/exact_motion.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -20,14 +22,9 @@ void check_finite(const char* key, const Rational& value, std::vector<Problem>& 
 }  // namespace
 
 std::optional<Rational> turn_of(const BlockSystem& system) {
-  const Rational y1 = system.blue_gap();
-  const Rational y2 = y1 + system.blocks_gap();
-  const Rational& u1 = system.blue.velocity;
-  const Rational& u2 = system.red.velocity;
-  const Rational ratio = system.blue.mass / system.red.mass;
-  const Rational speed_squared = ratio * u1 * u1 + u2 * u2;
-  if (speed_squared == 0) return std::nullopt;
-  return -(ratio * y1 * u1 + y2 * u2) / speed_squared;
+  const ExactMotion motion(system);
+  if (motion.at_rest()) return std::nullopt;
+  return motion.closest_approach;
 }
 
 BlockSystem article_system(int digits) {

@@ -10,6 +10,9 @@
 #include <string_view>
 #include <utility>
 
+#include "media/byte_hash.hpp"
+#include "render/logo.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -18,8 +21,31 @@ constexpr const char* kTransparent = "transparent";
 /// What is kept of a scene to compare it with does not change its frames.
 constexpr std::string_view kGoldenKeys = "golden.";
 
+/// The logo by its pixels in place of its file, which may have another name elsewhere, and other
+/// pixels later.
+Scene with_logo_by_content(Scene scene) {
+  if (const auto logo = read_logo(scene)) {
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(logo->words.data());
+    scene.show.logo = fmt::format("{}x{} {}", logo->width_px, logo->height_px,
+                                  hash_of_bytes({bytes, 4 * logo->words.size()}));
+  }
+  return scene;
+}
+
+Script with_logos_by_content(Script script) {
+  if (auto* const scene = std::get_if<Scene>(&script)) return with_logo_by_content(*scene);
+  auto& story = std::get<Storyboard>(script);
+  for (StoryPart& part : story.parts) {
+    auto* const runs = std::get_if<Runs>(&part.content);
+    if (runs == nullptr) continue;
+    for (Scene& run : *runs) run = with_logo_by_content(std::move(run));
+  }
+  return script;
+}
+
 void describe(const Script& script, PartHeader& header) {
-  for (auto& [key, value] : std::visit([](const auto& any) { return describe(any); }, script)) {
+  const Script described = with_logos_by_content(script);
+  for (auto& [key, value] : std::visit([](const auto& any) { return describe(any); }, described)) {
     if (!key.starts_with(kGoldenKeys)) header.emplace_back(std::move(key), std::move(value));
   }
   header.emplace_back("view.width", std::to_string(view_of(script).width_px));

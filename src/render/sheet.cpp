@@ -7,6 +7,9 @@
 #include <piblocks/sheet.hpp>
 #include <piblocks/timeline.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -23,6 +26,10 @@ constexpr int kPageWidth_pt = 842;
 constexpr int kPageHeight_pt = 595;
 constexpr int kPageWidth_px = 2339;
 constexpr int kPageHeight_px = 1654;
+
+/// Of a time.
+constexpr int kUsualDigits = 6;
+constexpr int kMostDigits = 17;
 
 struct Paper {
   int width_px;
@@ -42,9 +49,31 @@ Paper paper_for(std::string_view output) {
       output));
 }
 
-std::string caption(const TimedState& at) {
-  return fmt::format("time {:.6g}, count {}", at.time.hi,
-                     with_thousands_separators(at.state.count));
+/// With so many significant digits, but no zeros behind the last one.
+std::string time_text(double time, int digits) {
+  const double exponent = time == 0 ? 0 : std::floor(std::log10(std::abs(time)));
+  const int decimals = std::max(0, digits - 1 - static_cast<int>(exponent));
+  std::string text = fmt::format("{:.{}f}", time, decimals);
+  if (text.find('.') == std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+/// As short as can be where different times are still written differently.
+std::vector<std::string> time_texts(const std::vector<TimedState>& states) {
+  std::vector<std::string> texts;
+  for (int digits = kUsualDigits; digits <= kMostDigits; ++digits) {
+    texts.clear();
+    std::map<std::string, double> times;
+    bool are_distinct = true;
+    for (const TimedState& at : states) {
+      texts.push_back(time_text(at.time.hi, digits));
+      are_distinct &= times.try_emplace(texts.back(), at.time.hi).first->second == at.time.hi;
+    }
+    if (are_distinct) break;
+  }
+  return texts;
 }
 
 }  // namespace
@@ -75,10 +104,16 @@ void render_sheet(const Scene& scene, const std::vector<Instant>& instants,
   }
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Composition composition(scene, *log, read_logo(scene));
+  std::vector<TimedState> states;
+  states.reserve(instants.size());
+  for (const Instant& instant : instants) states.push_back(state_at(*log, instant));
+  const std::vector<std::string> times = time_texts(states);
   std::vector<CaptionedPicture> pictures;
-  for (const Instant& instant : instants) {
-    const TimedState at = state_at(*log, instant);
-    pictures.push_back({composition.frame({at.state, to_rational(at.time)}), caption(at)});
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const TimedState& at = states[i];
+    pictures.push_back(
+        {composition.frame({at.state, to_rational(at.time)}),
+         fmt::format("time {}, count {}", times[i], with_thousands_separators(at.state.count))});
   }
   OutputFile file(output);
   const Bytes page = paper.draw(arrange(std::move(pictures), paper.width_px, paper.height_px));

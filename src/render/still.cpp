@@ -4,6 +4,7 @@
 #include <piblocks/error.hpp>
 #include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
+#include <piblocks/schedule.hpp>
 
 #include <string_view>
 #include <utility>
@@ -34,12 +35,22 @@ Draw* drawing_for(std::string_view output) {
       output));
 }
 
+/// As in the video when it first shows this instant; 1 where it never does.
+Rational slower_at(const Scene& scene, const CollisionLog& log, const Rational& time) {
+  const Pacing& pacing = scene.pacing;
+  if (!pacing.automatic_slow_motion && pacing.slow_motion.empty()) return 1;
+  const Schedule schedule(scene, log);
+  const auto video_s = schedule.first_shown(time);
+  return video_s ? schedule.at(*video_s).slower : Rational(1);
+}
+
 DrawList picture_of(const Scene& scene, const Instant& instant) {
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   TimedState at = state_at(*log, instant);
   const Rational time = to_rational(at.time);
   const Composition composition(scene, *log, read_logo(scene));
-  return composition.frame({std::move(at.state), time}, expose_still(scene, *log, time));
+  return composition.frame({std::move(at.state), time, slower_at(scene, *log, time)},
+                           expose_still(scene, *log, time));
 }
 
 DrawList picture_of(const Storyboard& story, const Instant& instant) {

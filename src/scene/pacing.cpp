@@ -32,15 +32,15 @@ constexpr std::array<Named, 2> kOrigins{
 }  // namespace
 
 Moment parse_moment(std::string_view text) {
-  for (const Named& named : kOrigins) {
-    if (!text.starts_with(named.name)) continue;
-    std::string_view offset = text.substr(named.name.size());
-    if (offset.empty()) return {named.origin, 0};
-    if (offset.front() != '+' && offset.front() != '-') break;
-    if (offset.front() == '+') offset.remove_prefix(1);
-    return {named.origin, parse_rational(offset)};
-  }
   try {
+    for (const Named& named : kOrigins) {
+      if (!text.starts_with(named.name)) continue;
+      std::string_view offset = text.substr(named.name.size());
+      if (offset.empty()) return {named.origin, 0};
+      if (offset.front() != '+' && offset.front() != '-') break;
+      if (offset.front() == '+') offset.remove_prefix(1);
+      return {named.origin, parse_rational(offset)};
+    }
     return {Moment::Origin::start, parse_rational(text)};
   } catch (const UsageError& error) {
     throw UsageError(std::string(error.what()) +

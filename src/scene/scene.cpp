@@ -75,6 +75,11 @@ void check_time(const TimeSpan& time, std::vector<Problem>& problems) {
   }
 }
 
+void check_count(const char* key, std::size_t count, std::vector<Problem>& problems) {
+  if (count <= kMaxWindows) return;
+  problems.push_back({key, fmt::format("must have at most {} of them", kMaxWindows)});
+}
+
 void check_seconds(const char* key, const Rational& seconds, const Rational& low,
                    std::vector<Problem>& problems) {
   check_finite(key, seconds, problems);
@@ -83,8 +88,47 @@ void check_seconds(const char* key, const Rational& seconds, const Rational& low
       {key, fmt::format("= {}: must be at least {}", to_text(seconds), to_text(low))});
 }
 
+void check_slow_motion(const Scene& scene, std::vector<Problem>& problems) {
+  constexpr const char* kKey = "time.slow-motion";
+  check_count(kKey, scene.pacing.slow_motion.size(), problems);
+  for (const SlowMotion& window : scene.pacing.slow_motion) {
+    if (window.factor <= 0) {
+      problems.push_back({kKey, fmt::format("has a window whose factor is {}: it must be greater "
+                                            "than 0",
+                                            to_text(window.factor))});
+      return;
+    }
+    const std::size_t before = problems.size();
+    check_finite(kKey, window.factor, problems);
+    check_finite(kKey, 1 / window.factor, problems);
+    check_finite(kKey, scene.time.speed / window.factor, problems);
+    if (problems.size() > before) {
+      problems.resize(before + 1);
+      return;
+    }
+  }
+}
+
+void check_freezes(const Pacing& pacing, std::vector<Problem>& problems) {
+  constexpr const char* kKey = "time.freeze";
+  check_count(kKey, pacing.freezes.size(), problems);
+  for (const Freeze& freeze : pacing.freezes) {
+    if (freeze.length_s > 0) continue;
+    problems.push_back({kKey, fmt::format("has a stop of {} s: it must be longer than 0",
+                                          to_text(freeze.length_s))});
+    return;
+  }
+}
+
+void check_line(const char* key, const std::string& text, std::vector<Problem>& problems) {
+  if (text.size() <= kMaxLine_bytes) return;
+  problems.push_back({key, fmt::format("is longer than {} bytes", kMaxLine_bytes)});
+}
+
 void check_pacing(const Scene& scene, std::vector<Problem>& problems) {
   const Pacing& pacing = scene.pacing;
+  check_slow_motion(scene, problems);
+  check_freezes(pacing, problems);
   check_seconds("time.hold-start", pacing.hold_start_s, 0, problems);
   check_seconds("time.hold-end", pacing.hold_end_s, 0, problems);
   if (pacing.duration_s && *pacing.duration_s <= 0) {
@@ -105,6 +149,8 @@ std::vector<Problem> problems_of(const Scene& scene) {
   check_shutter(scene.view, problems);
   check_time(scene.time, problems);
   check_pacing(scene, problems);
+  check_line("show.title", scene.show.title, problems);
+  check_line("show.caption", scene.show.caption, problems);
   return problems;
 }
 

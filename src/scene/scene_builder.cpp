@@ -133,16 +133,17 @@ Scene SceneBuilder::build() const {
 
 Rational width_by_mass(const BlockSystem& system) {
   if (system.blue.mass <= 0 || system.red.mass <= 0) return system.red.width;
-  // The exponent of two is what a picture can tell.
-  const Rational ratio = system.red.mass / system.blue.mass;
-  const auto bits = [](const Integer& value) {
-    return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2));
+  // Either mass may be beyond what a double holds.
+  const auto log_2 = [](const Integer& value) {
+    long exponent = 0;
+    const double mantissa = mpz_get_d_2exp(&exponent, value.get_mpz_t());
+    return static_cast<double>(exponent) + std::log2(mantissa);
   };
-  const long exponent = bits(ratio.get_num()) - bits(ratio.get_den());
-  constexpr double kBitsOfHundred = 6.643856189774724;
-  const double hundreds = static_cast<double>(exponent) / kBitsOfHundred;
+  const Rational ratio = system.red.mass / system.blue.mass;
+  const double hundreds = (log_2(ratio.get_num()) - log_2(ratio.get_den())) / std::log2(100.0);
   const double factor = std::clamp(1 + hundreds / 8, 0.5, 1.5);
-  return system.blue.width * Rational(Integer(std::lround(factor * 100))) / 100;
+  // To a thousandth, which makes the eighths exact.
+  return system.blue.width * Rational(Integer(std::lround(factor * 1000))) / 1000;
 }
 
 std::vector<std::pair<std::string, std::string>> describe(const Scene& scene) {

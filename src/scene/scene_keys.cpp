@@ -31,9 +31,11 @@ int parse_side(std::string_view text) {
 
 FrameSize parse_size(const Values& values) {
   Values sides = values;
-  if (const auto cross = values.front().find('x');
-      values.size() == 1 && cross != std::string::npos) {
-    sides = {values.front().substr(0, cross), values.front().substr(cross + 1)};
+  if (values.size() == 1) {
+    const std::size_t cross = values.front().find('x');
+    if (cross != std::string::npos) {
+      sides = {values.front().substr(0, cross), values.front().substr(cross + 1)};
+    }
   }
   if (sides.size() != 2) throw UsageError("must be two whole numbers of pixels, as 1920x1080");
   return {parse_side(sides[0]), parse_side(sides[1])};
@@ -56,7 +58,10 @@ Values list_of(const Values& values) {
   if (values.size() != 1) return values;
   Values list;
   std::istringstream text(values.front());
-  for (std::string value; std::getline(text >> std::ws, value, ',');) list.push_back(value);
+  for (std::string value; std::getline(text >> std::ws, value, ',');) {
+    value.erase(value.find_last_not_of(" \t") + 1);
+    list.push_back(value);
+  }
   return list;
 }
 
@@ -90,6 +95,12 @@ void set_speed(Scene& scene, const Values& values) {
   scene.pacing.duration_s.reset();
 }
 
+/// In the place of a speed that was asked for before.
+void set_duration(Scene& scene, const Values& values) {
+  scene.pacing.duration_s = parse_rational(single(values));
+  scene.time.speed = 1;
+}
+
 void set_slow_motion(Pacing& pacing, Values values) {
   values = list_of(values);
   pacing.automatic_slow_motion = std::erase(values, "auto") > 0;
@@ -106,6 +117,13 @@ std::vector<Value> parse_names(const Values& values, Value (*parse)(std::string_
     }
   }
   return parse_each(names, parse);
+}
+
+/// Text without control characters, such as a path.
+const std::string& plain(const std::string& text) {
+  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
+  if (std::ranges::any_of(text, is_control)) throw UsageError("must be one line of text");
+  return text;
 }
 
 void set_golden_frames(Golden& golden, Values values) {
@@ -192,8 +210,7 @@ constexpr auto kKeys = std::to_array<SceneKey>({
      [](const Scene& s) { return end(s.time.to); }},
     {"time.speed", [](Scene& s, const Values& v) { set_speed(s, v); },
      [](const Scene& s) { return number(s.time.speed); }},
-    {"time.duration",
-     [](Scene& s, const Values& v) { s.pacing.duration_s = parse_rational(single(v)); },
+    {"time.duration", [](Scene& s, const Values& v) { set_duration(s, v); },
      [](const Scene& s) { return s.pacing.duration_s ? number(*s.pacing.duration_s) : Values(); }},
     {"time.slow-motion", [](Scene& s, const Values& v) { set_slow_motion(s.pacing, v); },
      [](const Scene& s) { return slow_motion(s.pacing); }},
@@ -217,7 +234,7 @@ constexpr auto kKeys = std::to_array<SceneKey>({
      [](const Scene& s) { return Values{s.show.title}; }},
     {"show.caption", [](Scene& s, const Values& v) { s.show.caption = checked_line(single(v)); },
      [](const Scene& s) { return Values{s.show.caption}; }},
-    {"show.logo", [](Scene& s, const Values& v) { s.show.logo = single(v); },
+    {"show.logo", [](Scene& s, const Values& v) { s.show.logo = plain(single(v)); },
      [](const Scene& s) { return Values{s.show.logo}; }},
     {"golden.frames", [](Scene& s, const Values& v) { set_golden_frames(s.golden, v); },
      [](const Scene& s) { return s.golden.frames; }},
@@ -244,9 +261,7 @@ const std::string& checked_line(const std::string& text) {
   if (text.size() > kMaxLine_bytes) {
     throw UsageError(fmt::format("is longer than {} bytes", kMaxLine_bytes));
   }
-  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
-  if (std::ranges::any_of(text, is_control)) throw UsageError("must be one line of text");
-  return text;
+  return plain(text);
 }
 
 std::string joined(const Values& values) {

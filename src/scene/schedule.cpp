@@ -96,12 +96,18 @@ ScheduleBuilder::ScheduleBuilder(const Scene& scene, const CollisionLog& log)
 Rational ScheduleBuilder::speed() const {
   if (!pacing_.duration_s) return given_speed_;
   Integer frames = ceil(*pacing_.duration_s * rate_);
-  if (pacing_.loop) frames = frames / 2 + 1;  // see play_back()
+  if (pacing_.loop) frames = (frames + 1) / 2 + 1;  // see play_back()
   // At the end of a run that is shown to its end one frame stands at that end.
   if (after_last_) frames -= 1;
   const Rational standing_s = hold_start_s_ + hold_end_s_ + motions_.stopped_s();
   const Rational moving_s = Rational(frames) / rate_ - standing_s;
   if (moving_s > 0) return motions_.length() / moving_s;
+  if (standing_s == 0) {
+    throw UsageError(fmt::format(
+        "time.duration = {}: is shorter than two frames; make it longer, or let the video end at a "
+        "time, as --to 10",
+        to_text(*pacing_.duration_s)));
+  }
   throw UsageError(fmt::format(
       "time.duration = {}: leaves no time for the motion, since the picture stands still for {} s; "
       "make it longer, or --hold-start, --hold-end and --freeze shorter",
@@ -141,6 +147,8 @@ void ScheduleBuilder::stand(const Rational& length_s) {
 void ScheduleBuilder::play_back() {
   if (frame_count < 2) return;
   const Rational turn_s = Rational(frame_count - 1) / rate_;
+  // What begins after the last frame is shown by none.
+  while (stretches.back().video_s > turn_s) stretches.pop_back();
   const auto forth = static_cast<std::ptrdiff_t>(stretches.size());
   Rational end_s = turn_s;
   for (std::ptrdiff_t i = forth - 1; i >= 0; --i) {

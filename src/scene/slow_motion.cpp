@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/exact_motion.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -21,25 +23,23 @@ constexpr double kTellApart_per_s = 10;
 /// Collisions per second of simulation time at the turn: one takes theta b/|V| (the notation is
 /// that of src/physics/README.md). Infinite where all happen at once.
 double rate_at_turn(const BlockSystem& system) {
-  const Rational y1 = system.blue_gap();
-  const Rational y2 = y1 + system.blocks_gap();
-  const Rational& u1 = system.blue.velocity;
-  const Rational& u2 = system.red.velocity;
-  const Rational ratio = system.blue.mass / system.red.mass;
-  const double sigma = std::sqrt(to_double(ratio));
-  const double speed_squared = to_double(ratio * u1 * u1 + u2 * u2);
-  return speed_squared / (std::atan(sigma) * sigma * std::abs(to_double(y2 * u1 - y1 * u2)));
+  const ExactMotion motion(system);
+  const double sigma = std::sqrt(to_double(motion.ratio));
+  return to_double(motion.speed_squared) /
+         (std::atan(sigma) * sigma * std::abs(to_double(motion.area)));
 }
 
 std::vector<SlowWindow> automatic_windows(const Scene& scene, const CollisionLog& log) {
   const std::optional<Rational> turn = turn_of(scene.system);
   if (!turn || log.size() == 0) return {};
-  const double rate = rate_at_turn(scene.system) * to_double(scene.time.speed);
+  // A duration sets the speed for the windows too, once they are known.
+  const Rational speed = scene.pacing.duration_s ? Rational(1) : scene.time.speed;
+  const double rate = rate_at_turn(scene.system) * to_double(speed);
   std::vector<Rational> halves;
   int factor = 1;
   while (factor < kMaxAutomaticFactor && rate > kTellApart_per_s * factor) {
     factor *= kStep;
-    halves.push_back(scene.time.speed * kHalfWindow_s / factor);
+    halves.push_back(speed * kHalfWindow_s / factor);
   }
   // From the outermost to the innermost and out again.
   std::vector<SlowWindow> windows;

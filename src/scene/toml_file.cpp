@@ -57,7 +57,7 @@ TomlEntry entry_of(const std::string& key, const toml::node& node) {
   TomlEntry entry{key, {}, {}, node.source().begin.line, {}};
   if (const auto text = scalar_text(node)) {
     entry.values.push_back(*text);
-  } else if (const auto* list = node.as_array(); list != nullptr && !list->empty()) {
+  } else if (const auto* list = node.as_array()) {
     for (const toml::node& element : *list) {
       const auto element_text = scalar_text(element);
       if (!element_text) entry.problem = kExpected;

@@ -30,10 +30,11 @@ double ClackStream::Segment::sample_at(const Time& t) const {
 ClackStream::ClackStream(const CollisionLog& log, std::span<const Stretch> stretches,
                          const Rational& duration_s, int rate_hz)
     : log_(log) {
+  add_first_instant(stretches, rate_hz);
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     const Stretch& stretch = stretches[i];
     const Rational end_s = i + 1 < stretches.size() ? stretches[i + 1].video_s : duration_s;
-    const bool continues = i > 0 && segments_.back().end_time == stretch.time;
+    const bool continues = !segments_.empty() && segments_.back().end_time == stretch.time;
     segments_.push_back({.begin = to_double(stretch.video_s * rate_hz),
                          .end = to_double(end_s * rate_hz),
                          .time = to_time(stretch.time),
@@ -43,8 +44,24 @@ ClackStream::ClackStream(const CollisionLog& log, std::span<const Stretch> stret
                          .continues = continues});
   }
   // A collision at the very beginning has happened in the first frame, and is to be heard.
-  sample_ = -0.5;
+  sample_ = segments_.front().begin - 0.5;
   enter(segments_.front());
+}
+
+/// A film that begins standing still hears what happens just then as if it had come there moving.
+void ClackStream::add_first_instant(std::span<const Stretch> stretches, int rate_hz) {
+  const auto moves = std::ranges::find_if(stretches, [](const Stretch& s) { return s.speed != 0; });
+  // Backwards it is heard when the film leaves that instant.
+  if (moves == stretches.begin() || moves == stretches.end() || moves->speed < 0) return;
+  const Rational& time = stretches.front().time;
+  const double begin = to_double(stretches.front().video_s * rate_hz);
+  segments_.push_back({.begin = begin,
+                       .end = begin,
+                       .time = to_time(time),
+                       .begin_time = time,
+                       .end_time = time,
+                       .time_per_sample = to_double(moves->speed / rate_hz),
+                       .continues = false});
 }
 
 void ClackStream::enter(const Segment& segment) {

@@ -1,6 +1,7 @@
 // Which clacks a film has, and at which sample.
-// In: a collision log and the stretches of the film. Out: clacks in the order of the film. Where
-// there are more collisions than samples, those of an eighth of a sample are one clack.
+// In: a collision log and the stretches of the film. Out: clacks in the order of the film, but for
+// an eighth of a sample. Where there are more collisions than samples, those of an eighth of a
+// sample are one clack.
 #pragma once
 
 #include <piblocks/collision_log.hpp>
@@ -26,7 +27,8 @@ class ClackStream {
   ClackStream(const CollisionLog& log, std::span<const Stretch> stretches,
               const Rational& duration_s, int rate_hz);
 
-  /// Adds to `clacks` those before this sample that were not read yet, in order.
+  /// Adds to `clacks` those before this sample that were not read yet, none of them more than an
+  /// eighth of a sample before the one ahead of it.
   /// @throws SimulationError as CollisionLog::flight_at().
   void read_until(std::int64_t sample, std::vector<Clack>& clacks);
 
@@ -52,6 +54,7 @@ class ClackStream {
     Integer count_at_end;
   };
 
+  void add_first_instant(std::span<const Stretch> stretches, int rate_hz);
   void enter(const Segment& segment);
   Integer count_at(const Segment& segment, double sample) const;
   Integer count_at_end(const Segment& segment, double end, bool is_last) const;

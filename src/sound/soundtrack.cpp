@@ -1,6 +1,8 @@
 // The order of the stages: runs -> mix -> limiter.
+#include <piblocks/error.hpp>
 #include <piblocks/soundtrack.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <list>
 #include <utility>
@@ -11,11 +13,17 @@
 namespace piblocks {
 namespace {
 
-/// -2.5 dB: encoders that lose something add up to 1 dB to the peaks.
+/// -2.5 dB: encoders that lose something add up to 1.1 dB to the peaks.
 constexpr double kCeiling = 0.75;
 
 std::int64_t to_nearest(const Rational& value) {
   return floor(Rational(value + Rational(1, 2))).get_si();
+}
+
+void check(std::span<const Stretch> stretches) {
+  const bool is_in_order = std::ranges::is_sorted(stretches, {}, &Stretch::video_s);
+  if (!stretches.empty() && stretches.front().video_s == 0 && is_in_order) return;
+  throw UsageError("sound: stretches of a film must begin at 0 s and be in its order");
 }
 
 }  // namespace
@@ -25,6 +33,7 @@ struct Soundtrack::State {
       : duration_s(std::move(length_s)),
         size(to_nearest(duration_s * kRate_hz)),
         voices(std::move(all)) {
+    for (const Voice& voice : voices) check(voice.stretches);
     find_next();
     // Time goes by in the limiter before the first sample leaves it.
     for (int i = 0; i < Limiter::kDelay; ++i) next_limited();

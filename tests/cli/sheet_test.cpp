@@ -53,6 +53,21 @@ TEST_F(SheetTest, PutsTimeAndCountBelowEachPicture) {
   EXPECT_EQ(count_of(text_of({"--frames", "1"}), "time 0, count 0"), 1u);
 }
 
+TEST_F(SheetTest, TellsInstantsApart) {
+  if (std::system("command -v pdftotext > /dev/null") != 0) GTEST_SKIP() << "no pdftotext here";
+  output_of({"sheet", "--digits", "6", "--at", "#157000,#157001,1000000", "-o", "a.pdf"});
+  const std::string command =
+      "pdftotext -layout " + (folder_ / "a.pdf") + " " + (folder_ / "a.txt");
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  const std::string text = contents("a.txt");
+  EXPECT_EQ(count_of(text, "time 3.4999"), 2u) << text;
+  EXPECT_EQ(count_of(text, "time 1000000, count"), 1u) << text;
+  const std::size_t first = text.find("time 3.4999");
+  const std::size_t second = text.find("time 3.4999", first + 1);
+  EXPECT_NE(text.substr(first, text.find(',', first) - first),
+            text.substr(second, text.find(',', second) - second));
+}
+
 TEST_F(SheetTest, TakesTheLargestNumberThereIs) {
   EXPECT_EQ(output_of({"sheet", "--frames", "200", "-o", "a.pdf"}), "");
 }

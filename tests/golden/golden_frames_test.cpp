@@ -20,14 +20,46 @@ namespace piblocks {
 namespace {
 namespace fs = std::filesystem;
 
+using Keys = std::vector<std::pair<const char*, const char*>>;
+
 struct GoldenFrame {
   const char* name;
   int digits;
   const char* instant;
-  std::vector<std::pair<const char*, const char*>> keys;
+  Keys keys;
 };
 
 void PrintTo(const GoldenFrame& frame, std::ostream* out) { *out << frame.name; }
+
+/// Something in every colour of a theme.
+Keys full(const char* theme) {
+  return {{"view.size", "640x360"},
+          {"view.theme", theme},
+          {"show.overlays", "digits,masses,velocities,time"},
+          {"show.panels", "velocity,time"}};
+}
+
+Keys showing(const char* overlay) { return {{"view.size", "640x360"}, {"show.overlays", overlay}}; }
+
+Keys with_panels(const char* panels, const char* size = "560x315") {
+  return {{"view.size", size}, {"show.panels", panels}};
+}
+
+/// With everything that has to find its place beside diagrams.
+Keys lecture(const char* size, const char* panels = "velocity,position,unfolded,time") {
+  return {{"view.size", size},
+          {"show.title", "Où se cache π ?"},
+          {"show.caption", "Zwei Blöcke zählen seine Ziffern"},
+          {"show.overlays", "digits,masses,velocities,energy,momentum,time,ruler"},
+          {"show.panels", panels}};
+}
+
+Keys exposed(const char* shutter, const char* theme = "article") {
+  return {{"view.size", "480x270"},
+          {"view.fps", "10"},
+          {"view.shutter", shutter},
+          {"view.theme", theme}};
+}
 
 const std::vector<GoldenFrame> kFrames{
     {"article-start", 3, "0", {{"view.size", "640x360"}}},
@@ -47,6 +79,35 @@ const std::vector<GoldenFrame> kFrames{
       {"blue.width", "0.6"},
       {"blue.position", "2.2"},
       {"red.width", "1.5"}}},
+    {"theme-chalkboard", 2, "4", full("chalkboard")},
+    {"theme-dark", 2, "4", full("dark")},
+    {"theme-print", 2, "4", full("print")},
+    {"theme-colorblind", 2, "4", full("colorblind")},
+    {"theme-article", 2, "4", full("article")},
+    {"overlay-digits", 9, "4.2", showing("digits")},
+    {"overlay-masses", 6, "2.5", showing("masses")},
+    {"overlay-velocities", 2, "#3", showing("velocities")},
+    {"overlay-velocities-touching", 20, "3.5", showing("velocities")},
+    {"overlay-energy", 3, "3.4", showing("energy")},
+    {"overlay-momentum", 3, "3.4", showing("momentum")},
+    {"overlay-time", 3, "3.4", showing("time")},
+    {"overlay-ruler", 3, "3.4", showing("ruler")},
+    {"panel-velocity", 2, "3.6", with_panels("velocity")},
+    {"panel-position", 1, "4", with_panels("position")},
+    {"panel-unfolded", 2, "3.6", with_panels("unfolded")},
+    {"panel-time", 2, "3.6", with_panels("time")},
+    {"panel-rate", 9, "3.6", with_panels("rate")},
+    {"panels-20-digits", 20, "3.6", with_panels("velocity,position,unfolded,time,rate", "640x360")},
+    {"panels-16-9", 3, "3.4", lecture("640x360")},
+    {"panels-4-3", 3, "3.4", lecture("480x360")},
+    {"panels-1-1", 3, "3.4", lecture("480x480")},
+    {"panels-9-16", 3, "3.4", lecture("450x800")},
+    {"panels-narrow", 6, "4.4", lecture("480x360", "velocity,position,unfolded,time,rate")},
+    {"shutter-approach", 3, "2.8", exposed("1/2")},
+    {"shutter-turn", 9, "3.5", exposed("1")},
+    {"shutter-collision", 1, "#1", exposed("1")},
+    {"shutter-print", 3, "3.2", exposed("1/2", "print")},
+    {"width-by-mass", 2, "4", {{"view.size", "480x270"}, {"red.width", "by-mass"}}},
 };
 
 DrawList draw_list_of(const GoldenFrame& frame) {
@@ -56,7 +117,13 @@ DrawList draw_list_of(const GoldenFrame& frame) {
   const Scene scene = builder.build();
   const auto log = make_collision_log(scene.system);
   TimedState at = state_at(*log, parse_instant(frame.instant));
-  return Composition(scene, *log).frame({std::move(at.state), to_rational(at.time)});
+  const Rational time = to_rational(at.time);
+  std::vector<ExposurePart> exposure;
+  if (scene.view.shutter > 0) {
+    const Rational open_s = scene.view.shutter / scene.view.frame_rate;
+    exposure.push_back({1, log->expose(time, time + scene.time.speed * open_s)});
+  }
+  return Composition(scene, *log).frame({std::move(at.state), time}, exposure);
 }
 
 struct SurfaceDeleter {

@@ -34,10 +34,37 @@ bool equal(const EncodedChunk& one, const EncodedChunk& other) {
   });
 }
 
-void write(const std::string& path, const std::vector<EncodedChunk>& chunks) {
+/// Hands out packets one by one.
+class Packets final : public PacketSource {
+ public:
+  explicit Packets(const EncodedChunk& packets) : packets_(packets) {}
+  std::optional<Packet> next() override {
+    if (next_ == packets_.size()) return std::nullopt;
+    return packets_[next_++];
+  }
+
+ private:
+  const EncodedChunk& packets_;
+  std::size_t next_ = 0;
+};
+
+void write(const std::string& path, const EncodedChunk& sound,
+           const std::vector<EncodedChunk>& chunks) {
   const auto sink = open_part(path, kHeader);
+  Packets packets(sound);
+  sink->take_sound(packets);
   for (const EncodedChunk& chunk : chunks) sink->append(chunk);
   sink->finish();
+}
+
+/// Of a record beside its packets: its kind, their number, a checksum.
+constexpr std::size_t kRecord_bytes = 1 + 4 + 4;
+
+/// Of packets in a record, each with its two times, its size and whether it is a key frame.
+std::size_t bytes_of(const EncodedChunk& packets) {
+  std::size_t bytes = 0;
+  for (const Packet& packet : packets) bytes += 8 + 8 + 1 + 4 + packet.bytes.size();
+  return bytes;
 }
 
 void write_text(const std::string& path, const std::string& text) {
@@ -50,13 +77,33 @@ void read_all(const std::string& path) {
   }
 }
 
-TEST(PartFile, HoldsWhatWasWritten) {
+EncodedChunk sound_in(const std::string& path) {
+  PartReader reader(path);
+  EncodedChunk sound;
+  while (const auto packets = reader.next_sound()) {
+    sound.insert(sound.end(), packets->begin(), packets->end());
+  }
+  return sound;
+}
+
+/// More than stand together in a file.
+EncodedChunk random_sound(Random& random, std::size_t packets) {
+  EncodedChunk sound;
+  while (sound.size() < packets) {
+    for (Packet& packet : random_chunk(random)) sound.push_back(std::move(packet));
+  }
+  return sound;
+}
+
+TEST(PartFile, HoldsWhatWasWrittenAndPassesOverSound) {
   const TemporaryFolder folder;
   Random random(1);
   for (int i = 0; i < 20; ++i) {
     std::vector<EncodedChunk> chunks(static_cast<std::size_t>(random.integer(0, 6)));
     for (EncodedChunk& chunk : chunks) chunk = random_chunk(random);
-    write(folder / "a", chunks);
+    const EncodedChunk sound = random_sound(random, i % 2 == 0 ? 0 : 10 * std::size_t(i));
+    write(folder / "a", sound, chunks);
+    EXPECT_TRUE(equal(sound_in(folder / "a"), sound));
     PartReader reader(folder / "a");
     EXPECT_EQ(reader.header(), kHeader);
     for (const EncodedChunk& chunk : chunks) {
@@ -71,24 +118,36 @@ TEST(PartFile, HoldsWhatWasWritten) {
 TEST(PartFile, NoticesThatItWasCutOffAnywhere) {
   const TemporaryFolder folder;
   Random random(2);
-  write(folder / "whole", {random_chunk(random), random_chunk(random)});
+  const EncodedChunk sound = random_sound(random, 3);
+  write(folder / "whole", sound, {random_chunk(random), random_chunk(random)});
   const std::string whole = file_contents(folder / "whole");
+  const std::size_t end_of_sound = whole.find("\n\n") + 2 + kRecord_bytes + bytes_of(sound);
   for (std::size_t size = 0; size < whole.size(); ++size) {
     write_text(folder / "cut", whole.substr(0, size));
     EXPECT_THROW(read_all(folder / "cut"), Error) << size;
+    if (size < end_of_sound) {
+      EXPECT_THROW(sound_in(folder / "cut"), Error) << size;
+    }
   }
 }
 
 TEST(PartFile, NoticesThatOneBitHasChanged) {
   const TemporaryFolder folder;
   Random random(3);
-  write(folder / "whole", {random_chunk(random), random_chunk(random)});
+  const EncodedChunk sound = random_sound(random, 3);
+  write(folder / "whole", sound, {random_chunk(random), random_chunk(random)});
   const std::string whole = file_contents(folder / "whole");
+  const std::size_t end_of_sound = whole.find("\n\n") + 2 + kRecord_bytes + bytes_of(sound);
   for (std::size_t at = whole.find("\n\n") + 2; at < whole.size(); ++at) {
-    std::string changed = whole;
-    changed[at] = static_cast<char>(changed[at] ^ (1 << random.integer(0, 7)));
-    write_text(folder / "changed", changed);
-    EXPECT_THROW(read_all(folder / "changed"), Error) << at;
+    for (int bit = 0; bit < 8; ++bit) {
+      std::string changed = whole;
+      changed[at] = static_cast<char>(changed[at] ^ (1 << bit));
+      write_text(folder / "changed", changed);
+      EXPECT_THROW(read_all(folder / "changed"), Error) << at << ", " << bit;
+      if (at < end_of_sound) {
+        EXPECT_THROW(sound_in(folder / "changed"), Error) << at << ", " << bit;
+      }
+    }
   }
 }
 
@@ -103,6 +162,17 @@ TEST(PartFile, IsToldFromOtherFiles) {
   EXPECT_THROW(PartReader(folder / "long"), UsageError);
   EXPECT_THROW(PartReader(folder / "none"), UsageError);
   EXPECT_THROW(PartReader(folder.path()), UsageError);
+}
+
+TEST(PartFile, RefusesWhatIsNoLine) {
+  const TemporaryFolder folder;
+  for (const auto& [name, value] : {std::pair{"title", "two\nlines"},
+                                    {"title", "one line\n"},
+                                    {"two\nlines", ""},
+                                    {"a: b", "c"}}) {
+    EXPECT_THROW(open_part(folder / "a", {{"fine", "fine"}, {name, value}}), UsageError) << name;
+  }
+  EXPECT_TRUE(folder.is_empty());
 }
 
 TEST(PartFile, TakesNoMemoryForSizesThatAFileOnlyClaims) {

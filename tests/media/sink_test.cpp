@@ -46,7 +46,7 @@ TEST(SetUpOutput, ListsTheKindsWhenANameHasNone) {
     const std::string what = opening_error(output, kSmall);
     EXPECT_TRUE(has(what, std::string("'") + output + "'"));
     for (const char* kind : {"*.mp4", "*.mov", "*.webm", "*.gif", "*.apng", "*.png", "%06d",
-                             "*.y4m", "- (", "*.framehash", "null"}) {
+                             "*.y4m", "- (", "*.framehash", "null", "*.wav (sound alone)"}) {
       EXPECT_TRUE(has(what, kind));
     }
     EXPECT_EQ(std::ranges::count(what, '\n'), 0) << what;
@@ -82,6 +82,7 @@ TEST(SetUpOutput, SaysWhatCanBeTransparent) {
     const std::string what = opening_error(name, format);
     EXPECT_TRUE(has(what, std::string("'") + name + "' cannot be transparent"));
     EXPECT_TRUE(has(what, "*.mov, *.webm, *.apng, *.png"));
+    EXPECT_TRUE(what.ends_with(", *.framehash")) << what;
   }
   for (const char* name : {"out.mov", "out.webm", "out.apng", "%d.png", "out.framehash"}) {
     EXPECT_EQ(opening_error(folder / name, format), "") << name;
@@ -102,9 +103,13 @@ TEST(SetUpOutput, TellsWhyAnEncoderOfMovOrWebmIsNoGood) {
   EXPECT_TRUE(
       has(opening_error("a.webm", format, {.encoder = "libx264"}), "use one of: libvpx-vp9"));
   EXPECT_TRUE(has(opening_error("a.webm", format, {.crf = 64}), "use 0 (best) to 63"));
+  EXPECT_TRUE(has(opening_error("a.webm", format, {.crf = 10.5}),
+                  "crf 10.5 is no whole number, as *.webm needs; use 10 or 11"));
   EXPECT_TRUE(has(opening_error("a.webm", format, {.preset = "fast"}), "has no presets"));
   EXPECT_TRUE(
       has(opening_error("a.mov", format, {.encoder = "nope"}), "cannot find encoder 'nope'"));
+  EXPECT_TRUE(has(opening_error("a.mov", format, {.encoder = "vp9"}), ", prores_ks"));
+  EXPECT_FALSE(has(opening_error("a.mp4", format, {.encoder = "vp9"}), "prores_ks"));
   format.has_alpha = true;
   EXPECT_TRUE(has(opening_error("a.mov", format, {.encoder = "libx264"}), "use prores_ks"));
   EXPECT_TRUE(has(opening_error("a.mov", format, {.crf = 3, .preset = "slow"}), "has no crf"));

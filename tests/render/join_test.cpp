@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
+#include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
 #include <sys/resource.h>
 
@@ -126,6 +127,22 @@ TEST_F(JoinTest, RefusesPartsOfDifferentJobs) {
   EXPECT_TRUE(ends_with({scene(), {}, {.crf = 20}}, "crf"));
   EXPECT_NE(problem({one, rendered_part({2, 3}, job)}, "c.mp4").find("number of parts"),
             std::string::npos);
+}
+
+TEST_F(JoinTest, TellsLogosApartByWhatIsInTheFile) {
+  const auto logo = [this](const std::string& name, std::uint32_t color) {
+    const Image image{8, 8, std::vector<std::uint32_t>(64, color)};
+    const auto bytes = encode_png(image.view());
+    std::ofstream(path(name), std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    return path(name);
+  };
+  RenderJob job{scene("show.logo", logo("a.png", 0xff00ff00)), path("a.y4m")};
+  const std::string one = rendered_part({1, 2}, job);
+  logo("a.png", 0xff0000ff);
+  EXPECT_TRUE(problem({one, rendered_part({2, 2}, job)}, "b.y4m").ends_with("differ in show.logo"));
+  job.script = scene("show.logo", logo("copy.png", 0xff00ff00));
+  EXPECT_EQ(problem({one, rendered_part({2, 2}, job)}, "b.y4m"), "none");
 }
 
 TEST_F(JoinTest, RefusesAnotherKindOfOutput) {

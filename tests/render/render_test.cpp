@@ -130,5 +130,17 @@ TEST_F(RenderTest, AStillIsTheFrameOfItsInstant) {
   EXPECT_EQ(file_contents(path("frame1.png")), file_contents(path("still.png")));
 }
 
+TEST_F(RenderTest, AStillInSlowMotionSaysSoAsTheFrameDoes) {
+  SceneBuilder builder;
+  builder.set("test", "view.size", "640x360");
+  builder.set("test", "time.from", "3.5");
+  builder.set("test", "time.to", "3.51");
+  builder.set("test", "time.slow-motion", "turn-0.1:turn+0.1:10");
+  const Scene slow = builder.build();
+  render({slow, path("frame%d.png"), {}, 1}, [](const Progress&) {});
+  render_still(slow, Rational(7, 2), path("still.png"));
+  EXPECT_EQ(file_contents(path("frame1.png")), file_contents(path("still.png")));
+}
+
 }  // namespace
 }  // namespace piblocks

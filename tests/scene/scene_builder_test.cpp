@@ -50,42 +50,47 @@ TEST_F(SceneFileTest, EmptyFileIsTheArticlesScene) {
   EXPECT_EQ(scene.time.to.offset, Rational(3, 2));
 }
 
-/// Whatever a scene says can be said again in its own words: what parts of a rendering are told
-/// apart by leaves nothing out.
-TEST_F(SceneFileTest, DescriptionReadsBackAsTheSame) {
-  const Scene scene = load(R"(
-    [wall]
-    face = "-1/3"
-    [red]
-    mass = "100^7/3"
-    [view]
-    x = [-2, 7.5]
-    size = "640x360"
-    fps = "30000/1001"
-    shutter = "1/3"
-    [time]
-    from = "1/7"
-    to = "last+1/3"
-    duration = 12
-    slow-motion = ["turn-0.3:turn+0.3:10", "auto"]
-    freeze = "last:2"
-    hold-start = 0.5
-    hold-end = "1/3"
-    loop = true
-    [golden]
-    frames = ["0", "#3"]
-    size = [64, 48]
-  )");
-  SceneBuilder again;
-  for (const auto& [key, value] : describe(scene)) {
-    if (key != "view.x" && key != "view.y" && !value.empty()) again.set("test", key, value);
+TEST_F(SceneFileTest, RefusesTextOfMoreThanOneLine) {
+  for (const char* key : {"title", "caption", "logo"}) {
+    for (const char* text : {"a\\nb.png", "a\\u007F", "\\ta.png"}) {
+      const auto found = problems(std::string("[show]\n") + key + " = \"" + text + "\"\n");
+      ASSERT_EQ(found.size(), 1U) << key << text;
+      EXPECT_TRUE(contains(found.front(), "must be one line of text")) << found.front();
+    }
   }
-  Scene read = again.build();
-  read.view.x = scene.view.x;
-  EXPECT_EQ(describe(read), describe(scene));
-  EXPECT_EQ(read.pacing.slow_motion.size(), 1U);
-  EXPECT_TRUE(read.pacing.automatic_slow_motion);
-  EXPECT_EQ(read.pacing.duration_s, 12);
+  const std::string long_path = std::string(2000, 'a') + ".png";
+  EXPECT_TRUE(load("[show]\nlogo = '" + long_path + "'").show.logo.ends_with(long_path));
+}
+
+TEST_F(SceneFileTest, AnEmptyListIsNoneWhereThereMayBeNone) {
+  const Scene scene = load(R"(
+    [show]
+    overlays = []
+    panels = []
+    [time]
+    slow-motion = []
+    freeze = []
+    [golden]
+    frames = []
+  )");
+  EXPECT_TRUE(scene.show.overlays.empty() && scene.show.panels.empty());
+  EXPECT_TRUE(scene.pacing.slow_motion.empty() && scene.pacing.freezes.empty());
+  EXPECT_TRUE(scene.golden.frames.empty());
+  for (const char* text :
+       {"[view]\nsize = []", "[golden]\nsize = []", "[view]\nx = []", "[show]\ntitle = []",
+        "[time]\nduration = []", "[time]\nloop = []", "[red]\nwidth = []"}) {
+    const auto found = problems(text);
+    ASSERT_EQ(found.size(), 1U) << text;
+    EXPECT_TRUE(contains(found.front(), " = []: must be ")) << found.front();
+  }
+}
+
+TEST_F(SceneFileTest, BlanksAroundNamesOfAListAreNone) {
+  const Scene scene =
+      load("[time]\nslow-motion = ' auto , 5:6:3 '\n[show]\npanels = 'time ,\trate '\n");
+  EXPECT_TRUE(scene.pacing.automatic_slow_motion);
+  EXPECT_EQ(scene.pacing.slow_motion.size(), 1U);
+  EXPECT_EQ(scene.show.panels, (std::vector{Panel::time, Panel::rate}));
 }
 
 TEST_F(SceneFileTest, SpeedAndDurationExcludeEachOther) {

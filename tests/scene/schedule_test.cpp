@@ -134,10 +134,19 @@ TEST(Schedule, HoldsAddWholeFrames) {
 }
 
 TEST(Schedule, LoopComesBackFrameByFrame) {
-  for (const char* to : {"last+1", "9.99"}) {
+  struct Case {
+    const char* to;
+    const char* windows;
+    const char* hold_end;
+  };
+  // The last two have windows that end, or begin and end, after the last frame.
+  for (const auto& [to, windows, hold_end] : {Case{"last+1", "2:2.31:7,turn:turn+0.1:10", "0.3"},
+                                              {"9.99", "2:2.31:7,turn:turn+0.1:10", "0.3"},
+                                              {"9.99", "2:2.31:7,9.9:9.989:2", "0"},
+                                              {"9.999", "2:2.31:7,9.995:9.998:3", "0"}}) {
     const std::vector<Setting> settings = {{"time.to", to},
-                                           {"time.slow-motion", "2:2.31:7,turn:turn+0.1:10"},
-                                           {"time.hold-end", "0.3"},
+                                           {"time.slow-motion", windows},
+                                           {"time.hold-end", hold_end},
                                            {"time.hold-start", "0.1"},
                                            {"time.freeze", "5:1"}};
     std::vector<Setting> looped = settings;
@@ -158,7 +167,34 @@ TEST(Schedule, LoopComesBackFrameByFrame) {
 }
 
 TEST(Schedule, LoopTakesTheDurationAsAWhole) {
-  EXPECT_EQ(schedule_of({{"time.loop", "true"}, {"time.duration", "12"}}).frame_count(), 720);
+  for (const char* to : {"last+1", "9"}) {
+    const auto frames = [&](const char* duration) {
+      return schedule_of({{"time.to", to}, {"time.loop", "true"}, {"time.duration", duration}})
+          .frame_count();
+    };
+    EXPECT_EQ(frames("12"), 720) << to;
+    // Forth and back is an even number of frames, and no length is cut.
+    EXPECT_EQ(frames("61/60"), 62) << to;
+    EXPECT_EQ(frames("62/60"), 62) << to;
+    EXPECT_EQ(frames("0.001"), 2) << to;
+  }
+}
+
+TEST(Schedule, DurationIsInPlaceOfASpeed) {
+  const std::vector<Setting> fitted = {{"time.duration", "20"}, {"time.slow-motion", "auto"}};
+  std::vector<Setting> faster = fitted;
+  faster.insert(faster.begin(), {"time.speed", "1/4"});
+  const Scene plain = scene_with(fitted);
+  EXPECT_EQ(describe(scene_with(faster)), describe(plain));
+  Scene by_hand = plain;
+  by_hand.time.speed = Rational(1, 4);
+  const Schedule one = schedule_of(plain);
+  const Schedule other = schedule_of(by_hand);
+  ASSERT_EQ(one.stretches().size(), other.stretches().size());
+  for (std::size_t i = 0; i < one.stretches().size(); ++i) {
+    EXPECT_EQ(one.stretches()[i].video_s, other.stretches()[i].video_s);
+    EXPECT_EQ(one.stretches()[i].speed, other.stretches()[i].speed);
+  }
 }
 
 TEST(Schedule, AutomaticWindowsTellCollisionsApart) {
@@ -198,8 +234,9 @@ TEST(Schedule, RandomPacingLeavesNoGaps) {
     Rational at = random.rational(0, 3, 7);
     std::string windows;
     std::string freezes;
+    Rational to;
     for (int i = 0; i < 3; ++i) {
-      const Rational to = at + random.rational(1, 4, 5);
+      to = at + random.rational(1, 4, 5);
       windows += (i > 0 ? "," : "") + at.get_str() + ':' + to.get_str() + ':' +
                  Rational(random.rational(1, 30, 3)).get_str();
       freezes += (i > 0 ? "," : "") + Rational(random.rational(0, 14, 9)).get_str() + ':' +
@@ -213,6 +250,13 @@ TEST(Schedule, RandomPacingLeavesNoGaps) {
                 {"time.loop", random.integer(0, 1) == 0 ? "true" : "false"},
                 {"view.fps", random.integer(0, 1) == 0 ? "60" : "30000/1001"}};
     if (random.integer(0, 1) == 0) settings.emplace_back("time.duration", "40");
+    if (random.integer(0, 1) == 0) {
+      // Within a frame or two of the end of a window, or anywhere.
+      const Rational end = random.integer(0, 1) == 0 ? Rational(to + random.rational(0, 1, 97) / 40)
+                                                     : random.rational(1, 14, 97);
+      settings.emplace_back("time.to", end.get_str());
+      settings.emplace_back("time.hold-end", "0");
+    }
     const Schedule schedule = schedule_of(settings);
     expect_no_gaps(schedule);
     if (HasFatalFailure()) return;
@@ -287,6 +331,9 @@ TEST(Schedule, RefusesWhatCannotBe) {
             "time.freeze: there is no last collision; give a time");
   EXPECT_TRUE(problem({{"time.duration", "2"}, {"time.hold-end", "2"}})
                   .starts_with("time.duration = 2: leaves no time for the motion"));
+  EXPECT_TRUE(problem({{"time.duration", "0.01"}})
+                  .starts_with("time.duration = 1/100: is shorter than two frames; "));
+  EXPECT_EQ(problem({{"time.duration", "0.01"}, {"time.to", "9"}}), "accepted");
 }
 
 TEST(Pacing, TextsReadBackAsTheSame) {
@@ -308,6 +355,16 @@ TEST(Pacing, RefusesOtherTexts) {
   }
   for (const char* text : {"", "1", "1:0", "1:-1", "1:2:3", ":"}) {
     EXPECT_THROW(parse_freeze(text), UsageError) << text;
+  }
+  for (const char* text : {"middle", "turning", "turn--1", "last+x"}) {
+    try {
+      parse_moment(text);
+      FAIL() << text;
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find("must be a time, 'turn' or 'last'"),
+                std::string::npos)
+          << text;
+    }
   }
 }
 

@@ -107,9 +107,26 @@ TEST(ClackStream, HearsWhatHappensInTheFirstFrame) {
   system.red.position = 3;  // touching, and moving in: the blocks meet at time 0
   const auto log = make_collision_log(system);
   ASSERT_EQ(log->at(1).time.hi, 0);
-  const std::vector<Clack> clacks = clacks_of(*log, {{0, 0, 1}}, 12);
-  ASSERT_EQ(clacks.size(), log->size().get_ui());
-  EXPECT_NEAR(clacks.front().sample, 0, 1e-9);
+  const Rational half(1, 2);
+  for (const std::vector<Stretch>& stretches : {std::vector<Stretch>{{0, 0, 1}},
+                                                {{0, 0, 0}, {2, 0, 1}},
+                                                {{0, 0, 0}, {1, 0, 0}, {2, 0, half}}}) {
+    const std::vector<Clack> clacks = clacks_of(*log, stretches, 24);
+    ASSERT_EQ(clacks.size(), log->size().get_ui());
+    EXPECT_NEAR(clacks.front().sample, 0, 1e-9);
+    EXPECT_GT(clacks[1].sample, to_double(stretches.back().video_s) * kRate_hz);
+  }
+}
+
+TEST(ClackStream, HearsTheFirstInstantOnceWhicheverWayTheFilmGoesOn) {
+  const auto log = make_collision_log(article_system(1));
+  ASSERT_EQ(log->at(1).time.hi, 2);
+  for (const int speed : {1, -1}) {
+    const std::vector<Clack> clacks = clacks_of(*log, {{0, 2, 0}, {1, 2, speed}}, 2);
+    ASSERT_EQ(clacks.size(), 1U) << speed;
+    EXPECT_NEAR(clacks.front().sample, speed == 1 ? 0 : kRate_hz, 1e-6);
+  }
+  EXPECT_TRUE(clacks_of(*log, {{0, 2, 0}}, 1).empty()) << "nothing moves at all";
 }
 
 TEST(ClackStream, HearsACornerAsOneBlowOfEachKind) {

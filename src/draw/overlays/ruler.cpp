@@ -18,6 +18,7 @@ constexpr double kBaseline = 0.82;
 constexpr double kTextSize = 0.44;
 constexpr double kLeastRoom_px = 16;
 constexpr double kLeastGap_em = 1.0;  // between figures
+constexpr double kAside_em = 0.25;    // from the wall and the edge of the frame
 
 /// So far apart that their figures do not touch.
 Ticks spaced_ticks(double low, double high, double em, const Font& font) {
@@ -66,14 +67,19 @@ class Ruler final : public PicturePart {
     const double axis = std::round(room.at(kAxis));
     const Stroke stroke{setting.palette.muted, setting.line_px};
     add_line({layout.at(left, 0).x, axis}, {layout.at(right, 0).x, axis}, stroke);
+    // The wall reaches down to the figures: the one at its face stands beside it.
+    const double wall_px = layout.at(to_double(setting.scene.system.wall_face), 0).x;
+    const double first_px = wall_px + kAside_em * size_px;
+    const double end_px = setting.scene.view.width_px - kAside_em * size_px;
     const Ticks ticks = spaced_ticks(left, right, size_px / layout.scale, setting.font);
     for (const double value : ticks.values) {
       const double x = layout.at(value, 0).x;
       add_line({x, axis}, {x, axis + kTick * room.height}, stroke);
       const std::string text = tick_text(value, ticks.step);
       const double width_px = setting.font.width_em(text) * size_px;
+      const double left_px = std::max(first_px, std::min(x - width_px / 2, end_px - width_px));
       items_.emplace_back(TextItem{next_id(),
-                                   {x - width_px / 2, axis + (kBaseline - kAxis) * room.height},
+                                   {left_px, axis + (kBaseline - kAxis) * room.height},
                                    text,
                                    size_px,
                                    setting.palette.muted});

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
@@ -12,13 +14,15 @@ namespace piblocks {
 namespace {
 
 // In parts of the room above the blocks.
-constexpr double kShaft = 0.3;     // height of the shaft above the block
-constexpr double kBaseline = 0.5;  // height of the figure's baseline
+constexpr double kShaft = 0.3;      // height of the shaft above the block
+constexpr double kBaseline = 0.54;  // height of the figure's baseline, clear of the head
 constexpr double kTextSize = 0.4;
 constexpr double kHead = 0.17;
 constexpr double kLeastRoom_px = 16;
-/// No arrow is as long as this, in units of the scene.
+/// No arrow is as long as this, in parts of the distance of the centres of blocks that touch: above
+/// its own block's centre it never meets the other one.
 constexpr double kLongest = 0.9;
+constexpr double kBetweenFigures_em = 0.5;
 /// So many times red's usual speed has an arrow half as long.
 constexpr double kHalfLength = 2;
 
@@ -28,6 +32,13 @@ double usual_speed(const BlockSystem& system) {
   return std::hypot(std::sqrt(ratio) * to_double(system.blue.velocity),
                     to_double(system.red.velocity));
 }
+
+struct Figure {
+  std::string text;
+  double left;  ///< in pixels
+  double width;
+  double baseline;
+};
 
 class VelocityArrows final : public PicturePart {
  public:
@@ -39,8 +50,11 @@ class VelocityArrows final : public PicturePart {
         line_px_(setting.line_px) {
     const BlockSystem& system = setting.scene.system;
     top_ = to_double(std::max(system.blue.width, system.red.width)) / 2;
+    longest_px_ = kLongest * to_double(system.blue.width + system.red.width) / 2 * layout_.scale;
     room_px_ = (to_double(setting.scene.view.y.high) - top_) * layout_.scale + layout_.above_px;
     text_px_ = std::min(kTextSize * room_px_, setting.text_px);
+    const double face_px = layout_.at(to_double(system.wall_face), 0).x;
+    least_left_px_ = std::max(0.0, face_px) + kBetweenFigures_em / 2 * text_px_;
     if (room_px_ < kLeastRoom_px) {
       throw UsageError(fmt::format(
           "show.overlays: the velocities need {} pixels above the blocks, and there are {:.0f}; "
@@ -50,8 +64,13 @@ class VelocityArrows final : public PicturePart {
   }
 
   void add(const Shown& shown, std::vector<DrawItem>& items) const override {
+    Figure red = figure_of(shown.state.red);
+    Figure blue = figure_of(shown.state.blue);
+    keep_apart(blue, red);
     add_arrow(0, shown.state.red, palette_.red.fill, items);
+    add_figure(2, std::move(red), items);
     add_arrow(4, shown.state.blue, palette_.blue.fill, items);
+    add_figure(6, std::move(blue), items);
   }
 
  private:
@@ -59,7 +78,24 @@ class VelocityArrows final : public PicturePart {
     const double speed = std::abs(velocity);
     if (!(usual_speed_ > 0) || !(speed > 0)) return 0;
     const double share = 1 / (1 + kHalfLength * usual_speed_ / speed);
-    return std::copysign(kLongest * share * layout_.scale, velocity);
+    return std::copysign(share * longest_px_, velocity);
+  }
+
+  Figure figure_of(const Motion& motion) const {
+    std::string text = rounded_text(motion.velocity);
+    const double width = widths_.width_em(text) * text_px_;
+    const Point foot = layout_.at(motion.position, top_);
+    return {std::move(text), foot.x - width / 2, width, foot.y - kBaseline * room_px_};
+  }
+
+  /// Each gives way by half, but blue's, which is the left one, not into the wall.
+  void keep_apart(Figure& blue, Figure& red) const {
+    blue.left = std::max(blue.left, least_left_px_);
+    const double overlap = blue.left + blue.width + kBetweenFigures_em * text_px_ - red.left;
+    if (overlap <= 0) return;
+    const double to_left = std::clamp(blue.left - least_left_px_, 0.0, overlap / 2);
+    blue.left -= to_left;
+    red.left += overlap - to_left;
   }
 
   void add_arrow(std::size_t n, const Motion& motion, const Color& color,
@@ -67,25 +103,26 @@ class VelocityArrows final : public PicturePart {
     const Point foot = layout_.at(motion.position, top_);
     const double y = foot.y - kShaft * room_px_;
     const double head = kHead * room_px_;
-    const double tip = foot.x + length_px(motion.velocity);
-    const double side = tip < foot.x ? -1 : 1;
+    const double length = length_px(motion.velocity);
+    if (std::abs(length) <= head) return;
+    const double tail = foot.x - length / 2;
+    const double tip = foot.x + length / 2;
+    const double neck = tip - std::copysign(head, length);
     const Color edge = palette_.text;
-    if (std::abs(tip - foot.x) > head) {
-      const double neck = tip - side * head;
-      items.emplace_back(PathItem{nth(ItemId::velocities, n),
-                                  std::vector<Point>{{foot.x, y}, {neck, y}}, false, std::nullopt,
-                                  Stroke{edge, 2 * line_px_}});
-      items.emplace_back(PathItem{nth(ItemId::velocities, n + 1),
-                                  std::vector<Point>{{tip, y}, {neck, y - head}, {neck, y + head}},
-                                  true, color, Stroke{edge, line_px_}});
-    }
-    const std::string text = rounded_text(motion.velocity);
-    items.emplace_back(
-        TextItem{nth(ItemId::velocities, n + 2),
-                 {foot.x - widths_.width_em(text) * text_px_ / 2, foot.y - kBaseline * room_px_},
-                 text,
-                 text_px_,
-                 palette_.text});
+    items.emplace_back(PathItem{nth(ItemId::velocities, n),
+                                std::vector<Point>{{tail, y}, {neck, y}}, false, std::nullopt,
+                                Stroke{edge, 2 * line_px_}});
+    items.emplace_back(PathItem{nth(ItemId::velocities, n + 1),
+                                std::vector<Point>{{tip, y}, {neck, y - head}, {neck, y + head}},
+                                true, color, Stroke{edge, line_px_}});
+  }
+
+  void add_figure(std::size_t n, Figure figure, std::vector<DrawItem>& items) const {
+    items.emplace_back(TextItem{nth(ItemId::velocities, n),
+                                {figure.left, figure.baseline},
+                                std::move(figure.text),
+                                text_px_,
+                                palette_.text});
   }
 
   Layout layout_;
@@ -93,6 +130,8 @@ class VelocityArrows final : public PicturePart {
   TextWidths widths_;
   double usual_speed_;
   double line_px_;
+  double longest_px_ = 0;
+  double least_left_px_ = 0;
   double top_ = 0;
   double room_px_ = 0;
   double text_px_ = 0;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "draw/frame_plan.hpp"
 #include "draw/panels/panels.hpp"
 
 namespace piblocks {
@@ -11,6 +12,8 @@ namespace {
 constexpr double kTitleHeight = 1.9;
 constexpr double kTitleBaseline = 1.0;
 constexpr double kAround = 0.5;
+/// Rather than be set smaller than this, in parts of the other text, the full title is left out.
+constexpr double kLeastShrink = 0.8;
 // In line widths.
 constexpr double kDotRadius = 3.2;
 
@@ -23,17 +26,23 @@ Rectangle whole_pixels(const Rectangle& area, double around) {
 
 }  // namespace
 
-PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const std::string& title)
+PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const PanelTitle& title)
     : palette_(setting.palette),
       font_(&setting.font),
       first_id_(place.first_id),
       text_px_(setting.text_px),
       line_px_(setting.line_px) {
   const Rectangle& whole = place.area;
-  const double title_px =
-      std::min(text_px_, text_px_ * whole.width / (font_->width_em(title) * text_px_));
-  items_.emplace_back(TextItem{
-      next_id(), {whole.x, whole.y + kTitleBaseline * text_px_}, title, title_px, palette_.muted});
+  const auto fitting_px = [&](const char* text) {
+    return std::min(text_px_, whole.width / font_->width_em(text));
+  };
+  const bool is_full = fitting_px(title.full) >= std::max(kLeastText_px, kLeastShrink * text_px_);
+  const char* const text = is_full ? title.full : title.brief;
+  items_.emplace_back(TextItem{next_id(),
+                               {whole.x, whole.y + kTitleBaseline * text_px_},
+                               text,
+                               fitting_px(text),
+                               palette_.muted});
   const double top = kTitleHeight * text_px_;
   inside_ = {whole.x, whole.y + top, whole.width, whole.height - top};
   // Lines along its border are wider than the area.

@@ -27,10 +27,16 @@ std::unique_ptr<PicturePart> time_panel(const Setting& setting, const PanelPlace
 /// Collisions per second against time.
 std::unique_ptr<PicturePart> rate_panel(const Setting& setting, const PanelPlace& place);
 
+/// The brief one is for diagrams too narrow for the full one.
+struct PanelTitle {
+  const char* full;
+  const char* brief;
+};
+
 /// What a diagram is made of: items that stay, with ids in the order they are added, and its title.
 class PanelSheet {
  public:
-  PanelSheet(const Setting& setting, const PanelPlace& place, const std::string& title);
+  PanelSheet(const Setting& setting, const PanelPlace& place, const PanelTitle& title);
 
   /// What is left below the title.
   const Rectangle& inside() const noexcept { return inside_; }

@@ -18,7 +18,8 @@ class PositionPanel final : public PicturePart {
   PositionPanel(const Setting& setting, const PanelPlace& place)
       : gaps_(setting.scene.system),
         is_true_(gaps_.theta >= kLeastAngle && std::isfinite(gaps_.sigma)),
-        sheet_(setting, place, is_true_ ? "Positions √m·x" : "Positions (not to scale)") {
+        sheet_(setting, place,
+               {is_true_ ? "Positions √m·x" : "Positions (not to scale)", "Positions"}) {
     const Rational from = setting.scene.time.from;
     const Rational to = end_of(setting.scene, setting.log);
     const int columns = std::max(1, static_cast<int>(sheet_.inside().width));

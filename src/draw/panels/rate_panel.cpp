@@ -18,7 +18,8 @@ constexpr double kFigures_em = 2.6;  // of room for powers of ten, left of the b
 class RatePanel final : public PicturePart {
  public:
   RatePanel(const Setting& setting, const PanelPlace& place)
-      : sheet_(setting, place, "Collisions per unit of time"), axis_(setting, sheet_, kFigures_em) {
+      : sheet_(setting, place, {"Collisions per unit of time", "Collision rate"}),
+        axis_(setting, sheet_, kFigures_em) {
     const int columns = axis_.columns(kColumn_px);
     const Rational width = (axis_.to() - axis_.from()) / columns;
     std::vector<Rational> rates;

@@ -16,7 +16,7 @@ constexpr double kColumn_px = 1;
 class TimePanel final : public PicturePart {
  public:
   TimePanel(const Setting& setting, const PanelPlace& place)
-      : sheet_(setting, place, "Distance from the wall"),
+      : sheet_(setting, place, {"Distance from the wall", "Distances"}),
         gaps_(setting.scene.system),
         axis_(setting, sheet_, 0) {
     const auto pieces =

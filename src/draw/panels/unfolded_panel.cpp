@@ -32,7 +32,8 @@ double angle_between(const Point& a, const Point& b) {
 class UnfoldedPanel final : public PicturePart {
  public:
   UnfoldedPanel(const Setting& setting, const PanelPlace& place)
-      : gaps_(setting.scene.system), sheet_(setting, place, "Unfolded: a straight line") {
+      : gaps_(setting.scene.system),
+        sheet_(setting, place, {"Unfolded: a straight line", "Unfolded"}) {
     const BlockSystem& system = setting.scene.system;
     start_ = {to_double(system.blue_gap() + system.blocks_gap()),
               gaps_.sigma * to_double(system.blue_gap())};

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kCircleStep = 0.05;  // radians between points of a circle: 0.03 % of its radius
 constexpr double kMargin_em = 0.8;
-constexpr double kLeastApart_px = 5;
+/// Lines between sectors begin where they are so far apart.
+constexpr double kLeastApart_px = 4;
 
 std::vector<Point> arc(const Point& centre, double radius, double from, double to) {
   std::vector<Point> points;
@@ -28,7 +29,8 @@ std::vector<Point> arc(const Point& centre, double radius, double from, double t
 class VelocityPanel final : public PicturePart {
  public:
   VelocityPanel(const Setting& setting, const PanelPlace& place)
-      : sheet_(setting, place, "Velocities √m·v (red →, blue ↑)"), gaps_(setting.scene.system) {
+      : sheet_(setting, place, {"Velocities √m·v (red →, blue ↑)", "Velocities √m·v"}),
+        gaps_(setting.scene.system) {
     const BlockSystem& system = setting.scene.system;
     const Point start = point_of(to_double(system.blue.velocity), to_double(system.red.velocity));
     speed_ = std::hypot(start.x, start.y);
@@ -39,6 +41,7 @@ class VelocityPanel final : public PicturePart {
     radius_ = std::min(inside.width, inside.height) / 2 - kMargin_em * em;
     place_sectors(setting.log);
     add_axes();
+    add_rays();
     sheet_.finish();
   }
 
@@ -52,13 +55,14 @@ class VelocityPanel final : public PicturePart {
     const bool is_over = shown.state.count >= collisions_;
     const double angle = is_over ? 0 : std::abs(std::atan2(velocity.y, velocity.x));
     add_lit(angle, below_, 0, items);
-    add_lit(velocity.y < 0 && !is_over ? angle + 2 * gaps_.theta : angle, above_, 2, items);
+    add_lit(velocity.y < 0 && !is_over ? angle + 2 * gaps_.theta : angle, above_, 1, items);
+    if (rays_.plate) items.emplace_back(rays_);
     const Point at{centre_.x + radius_ * velocity.x / speed_,
                    centre_.y - radius_ * velocity.y / speed_};
-    items.emplace_back(PathItem{sheet_.moving(4), std::vector<Point>{centre_, at}, false,
+    items.emplace_back(PathItem{sheet_.moving(3), std::vector<Point>{centre_, at}, false,
                                 std::nullopt,
                                 Stroke{sheet_.palette().accent, 1.5 * sheet_.line_px()}});
-    items.emplace_back(sheet_.dot(5, at, sheet_.palette().accent));
+    items.emplace_back(sheet_.dot(4, at, sheet_.palette().accent));
   }
 
  private:
@@ -66,9 +70,10 @@ class VelocityPanel final : public PicturePart {
     return {red_velocity, gaps_.sigma * blue_velocity};
   }
 
-  Point on_rim(double angle) const {
-    return {centre_.x + radius_ * std::cos(angle), centre_.y - radius_ * std::sin(angle)};
+  Point on_circle(double radius, double angle) const {
+    return {centre_.x + radius * std::cos(angle), centre_.y - radius * std::sin(angle)};
   }
+  Point on_rim(double angle) const { return on_circle(radius_, angle); }
 
   /// Sectors of this side that are reached, for `collisions` on it.
   struct Side {
@@ -87,8 +92,6 @@ class VelocityPanel final : public PicturePart {
     const Integer sweeping = collisions_ - (wall_first ? 1 : 0);
     below_ = side_of((sweeping + 1) / 2, -1);
     above_ = side_of(sweeping / 2, 1);
-    // Lines between them only where they can be told apart.
-    is_apart_ = 2 * gaps_.theta * radius_ > kLeastApart_px;
   }
 
   void add_axes() {
@@ -101,6 +104,24 @@ class VelocityPanel final : public PicturePart {
                 Stroke{palette.muted, sheet_.line_px()});
   }
 
+  /// Between all sectors, lit or not; they are over what is lit, and painted once.
+  void add_rays() {
+    const double inner = kLeastApart_px / (2 * gaps_.theta);
+    if (inner > radius_) return;
+    Plate plate;
+    for (const Side& side : {below_, above_}) {
+      const double end = start_angle_ - side.swept - gaps_.theta / 2;
+      for (double angle = start_angle_; angle > end; angle -= 2 * gaps_.theta) {
+        const double at = side.sign * std::max(0.0, angle);
+        plate.items.emplace_back(
+            PathItem{sheet_.moving(2), std::vector<Point>{on_circle(inner, at), on_rim(at)}, false,
+                     std::nullopt, Stroke{sheet_.palette().grid, sheet_.line_px()}});
+      }
+    }
+    rays_ = {sheet_.moving(2), sheet_.item().bounds,
+             std::make_shared<const Plate>(std::move(plate))};
+  }
+
   void add_lit(double angle, const Side& side, std::size_t n, std::vector<DrawItem>& items) const {
     const double end = std::max(angle, start_angle_ - side.swept);
     // Of rounding: what is reached is reached by more than a hair.
@@ -110,14 +131,6 @@ class VelocityPanel final : public PicturePart {
     const Palette& palette = sheet_.palette();
     items.emplace_back(
         PathItem{sheet_.moving(n), std::move(outline), true, palette.shade, std::nullopt});
-    if (!is_apart_) return;
-    std::vector<Point> rays;
-    for (double at = start_angle_; at > end - gaps_.theta / 2; at -= 2 * gaps_.theta) {
-      rays.push_back(centre_);
-      rays.push_back(on_rim(side.sign * at));
-    }
-    items.emplace_back(PathItem{sheet_.moving(n + 1), std::move(rays), false, std::nullopt,
-                                Stroke{palette.grid, sheet_.line_px()}});
   }
 
   PanelSheet sheet_;
@@ -129,7 +142,7 @@ class VelocityPanel final : public PicturePart {
   Integer collisions_;
   Side below_{};
   Side above_{};
-  bool is_apart_ = false;
+  PlateItem rays_;
 };
 
 }  // namespace

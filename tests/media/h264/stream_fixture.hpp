@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "media/av.hpp"
+#include "media/find_encoder.hpp"
 #include "media/h264/picture_encoder.hpp"
 #include "media/video_encoder.hpp"
 
@@ -19,7 +20,8 @@ namespace piblocks::h264 {
 
 /// What libx264 says of its stream at the product's own settings.
 struct StreamHeaders {
-  explicit StreamHeaders(const VideoFormat& format) : encoder(format, h264_choice(format, {})) {
+  explicit StreamHeaders(const VideoFormat& format)
+      : encoder(format, h264_choice(format, {}, usable_h264_encoders)) {
     const AVCodecParameters& parameters = encoder.parameters();
     bytes.assign(parameters.extradata, parameters.extradata + parameters.extradata_size);
     sets = read_parameter_sets(bytes);

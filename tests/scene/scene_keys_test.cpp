@@ -1,0 +1,138 @@
+// Every key of a scene file: that it is read, and that a description tells it.
+#include "scene/scene_keys.hpp"
+
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+#include <piblocks/scene.hpp>
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+namespace piblocks {
+namespace {
+
+using Description = std::vector<std::pair<std::string, std::string>>;
+
+/// For each key a value that is not the default, and that suits the defaults of all others.
+const std::map<std::string, Values> kOther = {
+    {"wall.face", {"-1/3"}},
+    {"blue.mass", {"2/3"}},
+    {"blue.position", {"9/4"}},
+    {"blue.velocity", {"1/10"}},
+    {"blue.width", {"3/4"}},
+    {"red.mass", {"100^7/3"}},
+    {"red.position", {"7"}},
+    {"red.velocity", {"-3/2"}},
+    {"red.width", {"5/4"}},
+    {"view.x", {"-2", "15/2"}},
+    {"view.y", {"-3/2", "2"}},
+    {"view.size", {"640x360"}},
+    {"view.fps", {"30000/1001"}},
+    {"view.shutter", {"1/3"}},
+    {"view.background", {"transparent"}},
+    {"view.theme", {"chalkboard"}},
+    {"time.from", {"1/7"}},
+    {"time.to", {"last+1/3"}},
+    {"time.speed", {"1/4"}},
+    {"time.duration", {"12"}},
+    {"time.slow-motion", {"auto", "1:2:10"}},
+    {"time.freeze", {"last+0:2"}},
+    {"time.hold-start", {"1/2"}},
+    {"time.hold-end", {"1/3"}},
+    {"time.loop", {"true"}},
+    {"sound.on", {"true"}},
+    {"show.overlays", {"ruler", "digits"}},
+    {"show.panels", {"rate", "time"}},
+    {"show.title", {"One, two"}},
+    {"show.caption", {"Three"}},
+    {"show.logo", {"logos/a.png"}},
+    {"golden.frames", {"0", "#3"}},
+    {"golden.size", {"64x48"}},
+};
+
+std::string differing_keys(const Description& one, const Description& other) {
+  std::string keys;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    if (one[i] != other[i]) keys += (keys.empty() ? "" : " ") + one[i].first;
+  }
+  return keys;
+}
+
+void set(Scene& scene, const std::string& name) {
+  const auto key = std::ranges::find(scene_keys(), std::string_view(name), &SceneKey::name);
+  key->set(scene, kOther.at(name));
+}
+
+TEST(SceneKeys, EachIsTold) {
+  ASSERT_EQ(kOther.size(), scene_keys().size());
+  for (const SceneKey& key : scene_keys()) {
+    ASSERT_TRUE(kOther.contains(key.name)) << key.name;
+    Scene scene;
+    set(scene, key.name);
+    EXPECT_EQ(differing_keys(describe(Scene{}), describe(scene)), key.name);
+    EXPECT_TRUE(problems_of(scene).empty()) << key.name;
+  }
+}
+
+/// Whatever a scene says can be said again in its own words: what parts of a rendering are told
+/// apart by leaves nothing out.
+TEST(SceneKeys, AllTogetherReadBackAsTheSame) {
+  Scene scene;
+  for (const auto& [name, values] : kOther) {
+    // Another background has no light for the shutter; a duration replaces the speed.
+    if (name != "view.background" && name != "time.speed") set(scene, name);
+  }
+  ASSERT_TRUE(problems_of(scene).empty());
+  Scene read;
+  for (const SceneKey& key : scene_keys()) {
+    const Values values = key.get(scene);
+    if (!values.empty()) key.set(read, values);
+  }
+  EXPECT_EQ(describe(read), describe(scene));
+  EXPECT_EQ(differing_keys(describe(Scene{}), describe(read)).find("time.speed"),
+            std::string::npos);
+}
+
+TEST(SceneKeys, SayWhatIsShownAndHeard) {
+  Scene scene;
+  for (const char* name : {"view.theme", "view.background", "sound.on", "show.overlays",
+                           "show.panels", "show.title", "show.caption", "show.logo"}) {
+    set(scene, name);
+  }
+  EXPECT_EQ(scene.view.theme, Theme::chalkboard);
+  EXPECT_EQ(scene.view.background, Background::transparent);
+  EXPECT_TRUE(scene.sound.on);
+  EXPECT_EQ(scene.show.overlays, (std::vector{Overlay::ruler, Overlay::digits}));
+  EXPECT_EQ(scene.show.panels, (std::vector{Panel::rate, Panel::time}));
+  EXPECT_EQ(scene.show.title, "One, two");
+  EXPECT_EQ(scene.show.caption, "Three");
+  EXPECT_EQ(scene.show.logo, "logos/a.png");
+}
+
+TEST(SceneKeys, RefuseOtherNames) {
+  for (const auto& [key, text] : {std::pair{"view.theme", "neon"},
+                                  {"view.background", "blue"},
+                                  {"sound.on", "yes"},
+                                  {"show.overlays", "mass"},
+                                  {"show.overlays", "time,time"},
+                                  {"show.panels", "circle"}}) {
+    SceneBuilder builder;
+    builder.set("--option", key, text);
+    EXPECT_THROW(builder.build(), SceneError) << key << " = " << text;
+  }
+}
+
+TEST(SceneKeys, WidthByMassFollowsTheMassesInTheEnd) {
+  SceneBuilder builder;
+  builder.set("--width-by-mass", "red.width", "by-mass");
+  builder.set_mass_ratio("--digits", 10000);
+  EXPECT_EQ(builder.build().system.red.width, Rational(5, 4));
+  builder.set("test", "red.width", "2");
+  EXPECT_EQ(builder.build().system.red.width, 2);
+  builder.set("test", "blue.width", "by-mass");
+  EXPECT_THROW(builder.build(), SceneError) << "red alone is wide by its mass";
+}
+
+}  // namespace
+}  // namespace piblocks
