@@ -192,7 +192,8 @@ Rational end_of(const Scene& scene, const CollisionLog& log) {
   const End& end = scene.time.to;
   if (!end.after_last) return end.offset;
   if (log.size() == 0) {
-    throw UsageError("time.to: the scene has no collision to end after; give a time, as --to 10");
+    throw UsageError(
+        "time.to: the scene has no collision to end after; give a time, such as to = 10 in [time]");
   }
   return to_rational(log.at(log.size()).time) + end.offset;
 }

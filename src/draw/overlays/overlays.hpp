@@ -54,7 +54,7 @@ class ReadOutRows : public PicturePart {
   struct Placed {
     ReadOut read_out;
     Point origin;
-    double room_px;
+    double room_px = 0;
   };
   std::vector<Placed> placed_;
   TextWidths widths_;

@@ -86,7 +86,7 @@ class Ruler final : public PicturePart {
     }
   }
 
-  void add(const Shown&, std::vector<DrawItem>& items) const override {
+  void add(const Shown& /*shown*/, std::vector<DrawItem>& items) const override {
     items.insert(items.end(), items_.begin(), items_.end());
   }
 

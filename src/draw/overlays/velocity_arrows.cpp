@@ -33,6 +33,11 @@ double usual_speed(const BlockSystem& system) {
                     to_double(system.red.velocity));
 }
 
+/// The blocks' upper edge, in units of the scene.
+double top_of(const BlockSystem& system) {
+  return to_double(std::max(system.blue.width, system.red.width)) / 2;
+}
+
 struct Figure {
   std::string text;
   double left;  ///< in pixels
@@ -47,12 +52,12 @@ class VelocityArrows final : public PicturePart {
         palette_(setting.palette),
         widths_(setting.font, kNumberCharacters),
         usual_speed_(usual_speed(setting.scene.system)),
-        line_px_(setting.line_px) {
+        line_px_(setting.line_px),
+        top_(top_of(setting.scene.system)),
+        room_px_((to_double(setting.scene.view.y.high) - top_) * layout_.scale + layout_.above_px),
+        text_px_(std::min(kTextSize * room_px_, setting.text_px)) {
     const BlockSystem& system = setting.scene.system;
-    top_ = to_double(std::max(system.blue.width, system.red.width)) / 2;
     longest_px_ = kLongest * to_double(system.blue.width + system.red.width) / 2 * layout_.scale;
-    room_px_ = (to_double(setting.scene.view.y.high) - top_) * layout_.scale + layout_.above_px;
-    text_px_ = std::min(kTextSize * room_px_, setting.text_px);
     const double face_px = layout_.at(to_double(system.wall_face), 0).x;
     least_left_px_ = std::max(0.0, face_px) + kBetweenFigures_em / 2 * text_px_;
     if (room_px_ < kLeastRoom_px) {
@@ -130,11 +135,11 @@ class VelocityArrows final : public PicturePart {
   TextWidths widths_;
   double usual_speed_;
   double line_px_;
+  double top_;
+  double room_px_;
+  double text_px_;
   double longest_px_ = 0;
   double least_left_px_ = 0;
-  double top_ = 0;
-  double room_px_ = 0;
-  double text_px_ = 0;
 };
 
 }  // namespace

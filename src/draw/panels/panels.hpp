@@ -13,7 +13,7 @@ namespace piblocks {
 /// Where a diagram is, and the first of its ids.
 struct PanelPlace {
   Rectangle area;
-  ItemId first_id;
+  ItemId first_id = ItemId::panels;
 };
 
 /// The state as a point on a circle, and a sector for each collision.
