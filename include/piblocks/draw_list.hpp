@@ -4,10 +4,10 @@
 
 #include <piblocks/exposed_item.hpp>
 #include <piblocks/image.hpp>
+#include <piblocks/item_id.hpp>
 #include <piblocks/shapes.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -110,8 +110,22 @@ struct PlateItem {
   friend bool operator==(const PlateItem&, const PlateItem&) = default;
 };
 
-using DrawItem =
-    std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, PlateItem, ExposedItem>;
+struct DrawList;
+
+/// A picture of its own within the picture, cut off at its edges. It is seen in the place of what
+/// is behind it, at opacity 1 wholly.
+struct GroupItem {
+  ItemId id = ItemId::compared;
+  int x_px = 0;  ///< of its upper left corner
+  int y_px = 0;
+  std::shared_ptr<const DrawList> list;
+  double opacity = 1;  ///< 0 … 1
+
+  friend bool operator==(const GroupItem& a, const GroupItem& b);
+};
+
+using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, PlateItem,
+                              GroupItem, ExposedItem>;
 
 struct Plate {
   std::vector<DrawItem> items;  ///< from back to front; none that is exposed
@@ -125,5 +139,10 @@ struct DrawList {
 
   friend bool operator==(const DrawList&, const DrawList&) = default;
 };
+
+inline bool operator==(const GroupItem& a, const GroupItem& b) {
+  return a.id == b.id && a.x_px == b.x_px && a.y_px == b.y_px && a.opacity == b.opacity &&
+         (a.list == b.list || *a.list == *b.list);
+}
 
 }  // namespace piblocks

@@ -3,6 +3,7 @@
 // Shares are of the exposure's time.
 #pragma once
 
+#include <piblocks/item_id.hpp>
 #include <piblocks/shapes.hpp>
 
 #include <vector>

@@ -1,12 +1,12 @@
-// The whole program: a scene becomes a video, a sequence or a still.
-// In: a scene and the name of an output, or parts of one. Out: the output, complete, or an
+// The whole program: a scene or a storyboard becomes a video, a sequence or a still.
+// In: a script and the name of an output, or parts of one. Out: the output, complete, or an
 // exception and no trace of it. Or, frame by frame, pixels in memory.
 #pragma once
 
 #include <piblocks/frame_sink.hpp>
 #include <piblocks/image.hpp>
 #include <piblocks/instant.hpp>
-#include <piblocks/scene.hpp>
+#include <piblocks/storyboard.hpp>
 
 #include <array>
 #include <cstddef>
@@ -38,7 +38,7 @@ struct Bundle {
 };
 
 struct RenderJob {
-  Scene scene;
+  Script script;
   /// As set_up_output() takes it; or `*.html`, a page that holds the MP4 and steps through it.
   std::string output;
   EncoderSettings encoder = {};
@@ -77,7 +77,7 @@ struct Progress {
   std::int64_t frame_count = 0;
 };
 
-/// Renders every frame of the scene's span of time, or of a part of it.
+/// Renders every frame of the film, or of a part of it.
 /// @param on_progress  called by the calling thread: at the start, now and then, at the end.
 /// @param stop         asks to give up: Interrupted is thrown soon after.
 /// @throws UsageError, DrawError, MediaError, IoError, SimulationError, Interrupted
@@ -95,10 +95,11 @@ std::string part_name(const std::string& output, const Part& part);
 std::int64_t join(const std::vector<std::string>& parts, const std::string& output,
                   const std::stop_token& stop = {});
 
-/// Renders one instant to a `.png`, `.svg` or `.pdf` file, or to standard output as PNG for "-".
+/// Renders one instant to a `.png`, `.svg` or `.pdf` file, or to standard output as PNG for "-". Of
+/// a storyboard an instant is a second of its video, and "last" the last frame.
 /// @param stop  asks to give up: Interrupted is thrown when the picture is drawn.
 /// @throws UsageError, DrawError, MediaError, IoError, SimulationError, Interrupted
-void render_still(const Scene& scene, const Instant& instant, const std::string& output,
+void render_still(const Script& script, const Instant& instant, const std::string& output,
                   const std::stop_token& stop = {});
 
 /// Most pictures of a sheet.
@@ -116,24 +117,25 @@ std::vector<Instant> spread_instants(const Scene& scene, int count);
 void render_sheet(const Scene& scene, const std::vector<Instant>& instants,
                   const std::string& output, const std::stop_token& stop = {});
 
-/// The frames of a scene as pixels, in any order. Only what differs from the frame painted before
+/// The frames of a film as pixels, in any order. Only what differs from the frame painted before
 /// is painted; the pixels are those that render() encodes. Used by one thread at a time; different
 /// renderers are independent. A renderer that was moved from can only be assigned to or destroyed.
 class FrameRenderer {
  public:
-  /// @throws SceneError if problems_of(scene) is not empty.
-  /// @throws UsageError as Timeline and make_collision_log(); SimulationError, DrawError
-  explicit FrameRenderer(const Scene& scene);
+  /// @throws SceneError if problems_of() the scene or storyboard is not empty.
+  /// @throws UsageError as Timeline and make_collision_log(), or if a storyboard's fade is not
+  ///         shorter than its parts; SimulationError, DrawError
+  explicit FrameRenderer(const Script& script);
   ~FrameRenderer();
   FrameRenderer(FrameRenderer&& other) noexcept;
   FrameRenderer& operator=(FrameRenderer&& other) noexcept;
   FrameRenderer(const FrameRenderer&) = delete;
   FrameRenderer& operator=(const FrameRenderer&) = delete;
 
-  /// Frames of the scene's span of time.
+  /// Frames of the whole film.
   std::int64_t frame_count() const noexcept;
-  /// The frame with this number, which shows the instant that Timeline says.
-  /// @returns a picture of the size of the scene's view; valid until the next call.
+  /// The frame with this number; of a scene it shows the instant that Timeline says.
+  /// @returns a picture of the size of the film's view; valid until the next call.
   /// @throws UsageError unless 0 <= number < frame_count(); SimulationError, DrawError
   ImageView frame(std::int64_t number);
   /// The same, into memory of the caller's: pixels as ImageView has them, rows from the top.

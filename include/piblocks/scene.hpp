@@ -89,13 +89,16 @@ inline constexpr std::size_t kMaxSceneFile_bytes = 1 << 20;
 /// Deepest lists and tables in it.
 inline constexpr int kMaxSceneNesting = 256;
 
+struct TomlTable;
+
 /// Collects a scene's values from a file and from options, remembering where each came from.
-/// The keys are those of the scene file: "wall.face"; "blue." and "red." with "mass",
-/// "position", "velocity", "width" ("by-mass" for red: width_by_mass()); "view.x", "view.y",
-/// "view.size", "view.fps", "view.shutter", "view.background", "view.theme"; "time.from",
-/// "time.to", "time.speed", "time.duration", "time.slow-motion", "time.freeze", "time.hold-start",
-/// "time.hold-end", "time.loop"; "show.overlays", "show.panels", "show.title", "show.caption",
-/// "show.logo"; "sound.on"; "golden.frames", "golden.size".
+/// The keys are those of the scene file: "digits" or "mass-ratio", which set red.mass; "wall.face";
+/// "blue." and "red." with "mass", "position", "velocity", "width" ("by-mass" for red:
+/// width_by_mass()); "view.x", "view.y", "view.size", "view.fps", "view.shutter",
+/// "view.background", "view.theme"; "time.from", "time.to", "time.speed", "time.duration",
+/// "time.slow-motion", "time.freeze", "time.hold-start", "time.hold-end", "time.loop";
+/// "show.overlays", "show.panels", "show.title", "show.caption", "show.logo"; "sound.on";
+/// "golden.frames", "golden.size".
 class SceneBuilder {
  public:
   /// Reads a scene file. Values set before it are overwritten, values set after it win.
@@ -104,20 +107,27 @@ class SceneBuilder {
   /// Sets one key from text, as an option of the command line does.
   /// @param origin  named in messages, such as "--size".
   void set(const std::string& origin, const std::string& key, const std::string& text);
-  /// Sets red.mass to this multiple of blue.mass, whatever the file says of red.mass.
+  /// Sets red.mass to this multiple of blue.mass, whatever was said of red.mass before.
   void set_mass_ratio(const std::string& origin, const Rational& ratio);
   /// @throws SceneError with every problem: origin, key, value and reason.
   Scene build() const;
 
  private:
+  friend class ScriptBuilder;
+
+  void read(const std::string& path, const TomlTable& table);
   void set_values(const std::string& origin, const std::string& key,
                   const std::vector<std::string>& values);
+  void set_key(const std::string& origin, const std::string& key,
+               const std::vector<std::string>& values);
   void add_problem(const std::string& origin, const std::string& text);
+  std::string described(const Problem& problem) const;
 
   Scene scene_;
   std::optional<Rational> mass_ratio_;
   bool width_by_mass_ = false;
   std::map<std::string, std::string> origins_;  // by key
+  std::string place_ = "scene";                 // of values that nobody has set
   std::vector<std::string> problems_;
 };
 

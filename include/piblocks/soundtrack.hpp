@@ -1,5 +1,5 @@
-// What a film sounds like: a clack at every collision.
-// In: a scene, its collision log, the stretches of the film. Out: its samples, in order.
+// What a film sounds like: a clack at every collision of each run it shows.
+// In: runs, and when and where in the film each is heard. Out: its samples, in order.
 #pragma once
 
 #include <piblocks/collision_log.hpp>
@@ -9,9 +9,31 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace piblocks {
+
+/// An even change of weight between two instants of the film, in seconds.
+struct Ramp {
+  Rational begin_s;
+  Rational end_s;  ///< > begin_s
+};
+
+/// A run as a film has it.
+struct Voice {
+  const Scene& scene;              ///< must outlive the soundtrack
+  const CollisionLog& log;         ///< must outlive the soundtrack
+  std::vector<Stretch> stretches;  ///< as Schedule has them, from begin_s on
+  Rational begin_s = 0;            ///< when it begins in the film, >= 0
+  Rational end_s = 0;              ///< > begin_s; nothing of it is heard from then on
+  std::optional<Ramp> rise = {};   ///< its weight goes from 0 to 1
+  std::optional<Ramp> fall = {};   ///< and from 1 to 0; without it, it ends with a cut
+  /// Where its picture is in the frame, from 0, the left edge, to 1, the right one.
+  double left = 0;
+  double right = 1;
+};
 
 /// 48 kHz in stereo. A collision is heard at the very moment when the film shows it; where the film
 /// stands still there is none, where it goes backwards they come in the reverse order. Slow motion
@@ -22,10 +44,13 @@ class Soundtrack {
   static constexpr int kRate_hz = 48000;
   static constexpr int kChannels = 2;  ///< left, right
 
-  /// @param log         must outlive the soundtrack.
-  /// @param stretches   as Schedule has them; copied.
+  /// @param voices      in the order in which they begin; none is silence.
   /// @param duration_s  of the film, > 0.
-  /// @throws UsageError if the stretches do not begin at 0 s, or are not in the film's order.
+  /// @throws UsageError if stretches do not begin at 0 s, or are not in the film's order.
+  Soundtrack(std::vector<Voice> voices, const Rational& duration_s);
+  /// Of a film of one run.
+  /// @param log         must outlive the soundtrack, as the scene.
+  /// @param stretches   as Schedule has them; copied.
   Soundtrack(const Scene& scene, const CollisionLog& log, std::span<const Stretch> stretches,
              const Rational& duration_s);
   ~Soundtrack();

@@ -93,14 +93,14 @@ RenderJob job_of(const RenderOptions& options) {
   const Destination* const destination = destination_of(options);
   const std::string output = *text_of(*options.output);
   EncoderSettings settings = settings_of(options);
-  Scene scene =
+  Script script =
       destination == nullptr
-          ? options.scene.scene()
-          : options.scene.scene(destination->defaults, fmt::format("--for {}", destination->name));
+          ? options.scene.script()
+          : options.scene.script(destination->defaults, fmt::format("--for {}", destination->name));
   if (destination != nullptr && !settings.encoder && output.ends_with(".mov")) {
     settings.encoder = destination->mov_encoder;
   }
-  return {std::move(scene),
+  return {std::move(script),
           output,
           std::move(settings),
           value_of(*options.jobs, parse_jobs).value_or(static_cast<int>(processors)),
@@ -128,7 +128,7 @@ void run(const RenderOptions& options) {
       job, [&](const Progress& progress) { report.update(progress); }, signals.token());
   report.finish();
   if (job.profile) print_profile(rendered);
-  if (!quiet) note_convention(job.scene.system);
+  if (!quiet) note_convention(job.script);
 }
 
 RenderOptions add_options(CLI::App& command) {

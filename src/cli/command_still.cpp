@@ -14,7 +14,8 @@ void add_still(CLI::App& app) {
   SceneOptions scene(*command);
   const CLI::Option* instant =
       add_value_option(*command, "--at", "S|last|#K",
-                       "Instant: a time, the last collision, or the K-th one")
+                       "Instant: a time, the last collision, or the K-th one; of a\n"
+                       "storyboard, a second of its video, or 'last' for its end")
           .required();
   const CLI::Option* output =
       add_value_option(*command, "-o,--output", "OUT",
@@ -31,9 +32,9 @@ void add_still(CLI::App& app) {
     const StopOnSignals signals;
     refuse_terminal(*output);
     scene.refuse_as_output(*output);
-    const Scene shown = scene.scene();
+    const Script shown = scene.script();
     render_still(shown, *value_of(*instant, parse_instant), *text_of(*output), signals.token());
-    note_convention(shown.system);
+    note_convention(shown);
   });
 }
 

@@ -17,4 +17,13 @@ void note_convention(const BlockSystem& system) {
       readable(corner->other_count));
 }
 
+void note_convention(const Script& script) {
+  if (const auto* scene = std::get_if<Scene>(&script)) return note_convention(scene->system);
+  for (const StoryPart& part : std::get<Storyboard>(script).parts) {
+    const auto* const runs = std::get_if<Runs>(&part.content);
+    if (runs == nullptr) continue;
+    for (const Scene& run : *runs) note_convention(run.system);
+  }
+}
+
 }  // namespace piblocks::cli

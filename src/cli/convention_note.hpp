@@ -3,11 +3,13 @@
 // their number depends on a convention; nothing otherwise.
 #pragma once
 
-#include <piblocks/blocks.hpp>
+#include <piblocks/storyboard.hpp>
 
 namespace piblocks::cli {
 
 /// @throws SceneError if problems_of(system) is not empty.
 void note_convention(const BlockSystem& system);
+/// Of every run.
+void note_convention(const Script& script);
 
 }  // namespace piblocks::cli

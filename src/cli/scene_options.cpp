@@ -113,13 +113,20 @@ void SceneOptions::refuse_both(const std::string& first, const std::string& seco
   throw UsageError(fmt::format("{} and {} both set {}; give one of them", first, second, what));
 }
 
-Scene SceneOptions::scene(const std::vector<SceneDefault>& defaults,
-                          const std::string& origin) const {
+Scene SceneOptions::scene() const {
+  const Script made = script();
+  if (const auto* scene = std::get_if<Scene>(&made)) return *scene;
+  throw UsageError(fmt::format("'{}' is a storyboard; '{}' takes a scene without [[part]]",
+                               *text_of(*file_), command_->get_name()));
+}
+
+Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
+                            const std::string& origin) const {
   refuse_both("--digits", "--mass-ratio", "the mass of red");
   refuse_both("--speed", "--duration", "the speed");
   refuse_both("--transparent", "--opaque", "the background");
   refuse_both("--sound", "--no-sound", "the sound");
-  SceneBuilder builder;
+  ScriptBuilder builder;
   if (const auto file = text_of(*file_)) builder.read_file(*file);
   for (const auto& [key, text] : defaults) builder.set(origin, key, text);
   for (const auto& [key, option] : keys_) {

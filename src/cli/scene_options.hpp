@@ -1,10 +1,10 @@
 // Options that describe a scene, shared by the subcommands.
-// In: the command line. Out: a valid scene, and the log of its collisions.
+// In: the command line. Out: a valid scene or storyboard, and the log of its collisions.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <piblocks/collision_log.hpp>
-#include <piblocks/scene.hpp>
+#include <piblocks/storyboard.hpp>
 
 #include <memory>
 #include <string>
@@ -40,10 +40,13 @@ class SceneOptions {
   /// Adds --sound and --no-sound.
   void add_sound();
 
+  /// @throws SceneError, UsageError; also if the file is a storyboard.
+  Scene scene() const;
   /// @param defaults  win over the scene file, but not over options.
   /// @param origin    of these, named in messages.
   /// @throws SceneError, UsageError
-  Scene scene(const std::vector<SceneDefault>& defaults = {}, const std::string& origin = {}) const;
+  Script script(const std::vector<SceneDefault>& defaults = {},
+                const std::string& origin = {}) const;
   /// @throws UsageError if the option names the scene file as the output.
   void refuse_as_output(const CLI::Option& output) const;
   /// @throws UsageError if it names the sound alone, and there is to be none.

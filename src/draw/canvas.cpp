@@ -3,6 +3,7 @@
 #include <piblocks/canvas.hpp>
 #include <pixman.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <optional>
@@ -31,6 +32,9 @@ void clear(unsigned char* corner, const PixelRect& rect, int stride_bytes) {
 /// How Cairo rounds a slanted edge depends on where the surface ends that it is painted on. The
 /// pixels of rectangles, text, plates and exposed blocks do not.
 bool depends_on_surface(const DrawItem& item) {
+  if (const auto* group = std::get_if<GroupItem>(&item)) {
+    return std::ranges::any_of(group->list->items, depends_on_surface);
+  }
   return std::holds_alternative<PathItem>(item) || std::holds_alternative<DiskItem>(item) ||
          std::holds_alternative<ImageItem>(item);
 }

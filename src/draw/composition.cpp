@@ -95,8 +95,8 @@ Composition::Contents::Contents(const Scene& scene, const CollisionLog& log,
                                 std::shared_ptr<const Image> logo)
     : width_px(scene.view.width_px),
       height_px(scene.view.height_px),
-      palette(palette_of(scene.view.theme)) {
-  if (scene.view.background == Background::opaque) background = palette.background;
+      palette(palette_of(scene.view.theme)),
+      background(background_of(scene.view)) {
   const Font font;
   const Layout nowhere;
   const double text_px = small_text_px(scene.view);

@@ -44,6 +44,12 @@ Extent extent_of(const DiskItem& disk) {
           disk.centre.y + reach};
 }
 
+Extent extent_of(const GroupItem& group) {
+  const double x = group.x_px;
+  const double y = group.y_px;
+  return {x, y, x + group.list->width_px, y + group.list->height_px};
+}
+
 Extent extent_of(const PathItem& path) {
   const Extent points = extent_of(path.points.bounds());
   const double reach = reach_of(path.stroke);
@@ -87,13 +93,21 @@ class Damage {
   explicit Damage(const DrawList& list) : width_px_(list.width_px), height_px_(list.height_px) {}
 
   void add(const Extent& extent) {
+    if (is_frame_) return;
     const int x = to_pixel(std::floor(extent.left - kFixedPoint), width_px_);
     const int y = to_pixel(std::floor(extent.top - kFixedPoint), height_px_);
     const int end_x = to_pixel(std::ceil(extent.right + kFixedPoint), width_px_);
     const int end_y = to_pixel(std::ceil(extent.bottom + kFixedPoint), height_px_);
-    if (x < end_x && y < end_y) rects_.push_back({x, y, end_x - x, end_y - y});
+    if (x >= end_x || y >= end_y) return;
+    const PixelRect rect{x, y, end_x - x, end_y - y};
+    if (rect == frame()) return add_frame();
+    rects_.push_back(rect);
   }
-  void add_frame() { rects_ = {{0, 0, width_px_, height_px_}}; }
+  /// What is added after it is part of it.
+  void add_frame() {
+    is_frame_ = true;
+    rects_ = {frame()};
+  }
 
   std::vector<PixelRect> take() { return std::move(rects_); }
 
@@ -103,9 +117,12 @@ class Damage {
     return static_cast<int>(std::min(std::max(0.0, position), double(end)));
   }
 
+  PixelRect frame() const { return {0, 0, width_px_, height_px_}; }
+
   int width_px_;
   int height_px_;
   std::vector<PixelRect> rects_;
+  bool is_frame_ = false;
 };
 
 /// Whether a rectangle that is only moved sideways has the same pixels but for its ends.
@@ -135,6 +152,25 @@ void compare(const RectangleItem& before, const RectangleItem& after, const Meas
   const auto [first_right, last_right] = std::minmax({a.x + a.width, b.x + b.width});
   damage.add({first_left, a.y, last_left + line, a.y + a.height});
   damage.add({first_right - line, a.y, last_right, a.y + a.height});
+}
+
+/// Of a picture that stays where it is only what differs in it.
+void compare(const GroupItem& before, const GroupItem& after, const MeasureText& width_em,
+             Damage& damage) {
+  const bool stays = before.x_px == after.x_px && before.y_px == after.y_px &&
+                     before.opacity == after.opacity &&
+                     before.list->width_px == after.list->width_px &&
+                     before.list->height_px == after.list->height_px;
+  if (!stays) {
+    damage.add(extent_of(before));
+    damage.add(extent_of(after));
+    return;
+  }
+  for (const PixelRect& rect : piblocks::damage(*before.list, *after.list, width_em)) {
+    const double x = after.x_px + rect.x_px;
+    const double y = after.y_px + rect.y_px;
+    damage.add({x, y, x + rect.width_px, y + rect.height_px});
+  }
 }
 
 /// Rows of both blocks: where one passes, the other is painted with it.

@@ -128,7 +128,9 @@ void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& part) {
   }
   for (const DrawItem& item : list.items) {
     if (!reaches(item, part)) continue;
-    if (const auto* exposed = std::get_if<ExposedItem>(&item)) {
+    if (const auto* group = std::get_if<GroupItem>(&item)) {
+      paint_group(cr, *group, part);
+    } else if (const auto* exposed = std::get_if<ExposedItem>(&item)) {
       paint_exposed(cr, *exposed, list, part);
     } else {
       paint_item(cr, item);
@@ -188,8 +190,63 @@ cairo_surface_t& Painter::picture_of(std::shared_ptr<const void> thing,
   for (const Picture& kept : pictures_) {
     if (kept.thing == thing) return *kept.pixels;
   }
-  pictures_.push_back({std::move(thing), make()});
+  CairoSurfacePtr pixels = make();
+  // Of a long film the oldest are of no use any more.
+  constexpr std::size_t kMostPictures = 40;
+  if (pictures_.size() == kMostPictures) pictures_.erase(pictures_.begin());
+  pictures_.push_back({std::move(thing), std::move(pixels)});
   return *pictures_.back().pixels;
+}
+
+/// A vector file knows no other way than over what is behind.
+void Painter::paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& part) {
+  if (cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE) {
+    paint_group_pixels(cr, item, part);
+    return;
+  }
+  cairo_save(&cr);
+  cairo_translate(&cr, item.x_px, item.y_px);
+  cairo_rectangle(&cr, 0, 0, item.list->width_px, item.list->height_px);
+  cairo_clip(&cr);
+  if (item.opacity < 1) cairo_push_group(&cr);
+  paint(cr, *item.list);
+  if (item.opacity < 1) {
+    cairo_pop_group_to_source(&cr);
+    cairo_paint_with_alpha(&cr, item.opacity);
+  }
+  cairo_restore(&cr);
+}
+
+/// As a picture of its own, of which no more is made than is seen: under a clip Cairo would paint
+/// other pixels.
+void Painter::paint_group_pixels(cairo_t& cr, const GroupItem& item, const PixelRect& part) {
+  const DrawList& list = *item.list;
+  const int left = std::max(0, part.x_px - item.x_px);
+  const int top = std::max(0, part.y_px - item.y_px);
+  const int width = std::min(list.width_px, part.x_px + part.width_px - item.x_px) - left;
+  const int height = std::min(list.height_px, part.y_px + part.height_px - item.y_px) - top;
+  if (width <= 0 || height <= 0) return;
+  // Memory that Cairo does not know to be clear, as that of a canvas.
+  std::vector<std::uint32_t> words(std::size_t(width) * std::size_t(height));
+  const CairoSurfacePtr pixels(cairo_image_surface_create_for_data(
+      reinterpret_cast<unsigned char*>(words.data()),
+      list.background ? CAIRO_FORMAT_RGB24 : CAIRO_FORMAT_ARGB32, width, height, 4 * width));
+  check_cairo(cairo_surface_status(pixels.get()), "paint a picture within a picture");
+  cairo_surface_set_device_offset(pixels.get(), -left, -top);
+  paint(*CairoPtr(cairo_create(pixels.get())), list, {left, top, width, height});
+  if (!list.background) {
+    cairo_set_operator(&cr, CAIRO_OPERATOR_DEST_OUT);
+    cairo_set_source_rgba(&cr, 0, 0, 0, item.opacity);
+    cairo_rectangle(&cr, item.x_px + left, item.y_px + top, width, height);
+    cairo_fill(&cr);
+    cairo_set_operator(&cr, CAIRO_OPERATOR_ADD);
+  }
+  cairo_set_source_surface(&cr, pixels.get(), item.x_px, item.y_px);
+  cairo_pattern_set_filter(cairo_get_source(&cr), CAIRO_FILTER_NEAREST);
+  cairo_paint_with_alpha(&cr, item.opacity);
+  cairo_set_operator(&cr, CAIRO_OPERATOR_OVER);
+  // What it was painted from ends here.
+  cairo_set_source_rgb(&cr, 0, 0, 0);
 }
 
 void Painter::paint_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list,

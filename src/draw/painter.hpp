@@ -44,6 +44,8 @@ class Painter {
   void paint_text(cairo_t& cr, const TextItem& item);
   void paint_image(cairo_t& cr, const ImageItem& item);
   void paint_plate(cairo_t& cr, const PlateItem& item);
+  void paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& part);
+  void paint_group_pixels(cairo_t& cr, const GroupItem& item, const PixelRect& part);
   CairoSurfacePtr paint_apart(const PlateItem& item);
   /// What was made of this plate or image when it was painted first.
   cairo_surface_t& picture_of(std::shared_ptr<const void> thing,

@@ -85,4 +85,9 @@ Palette palette_of(Theme theme) {
   return kArticle;
 }
 
+std::optional<Color> background_of(const View& view) {
+  if (view.background == Background::transparent) return std::nullopt;
+  return palette_of(view.theme).background;
+}
+
 }  // namespace piblocks

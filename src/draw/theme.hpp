@@ -3,7 +3,9 @@
 #pragma once
 
 #include <piblocks/draw_list.hpp>
-#include <piblocks/show.hpp>
+#include <piblocks/scene.hpp>
+
+#include <optional>
 
 namespace piblocks {
 
@@ -31,5 +33,8 @@ struct Palette {
 };
 
 Palette palette_of(Theme theme);
+
+/// What is behind everything; nothing if the view is transparent.
+std::optional<Color> background_of(const View& view);
 
 }  // namespace piblocks

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <new>
+#include <string>
 #include <string_view>
 
 #include "draw/cairo_handles.hpp"
@@ -50,23 +51,37 @@ std::vector<std::uint8_t> write_file(int width_px, int height_px, const PaintPic
   return bytes;
 }
 
-/// Cairo 1.16 names the picture's group by a counter of the process, "surface12": equal draw lists
-/// would give different files.
-std::vector<std::uint8_t> with_fixed_id(std::vector<std::uint8_t> svg) {
-  constexpr std::string_view kCounted = "<g id=\"surface";
-  constexpr std::string_view kFixed = "<g id=\"picture";
-  const auto begin = std::search(svg.begin(), svg.end(), kCounted.begin(), kCounted.end());
-  if (begin == svg.end()) return svg;
-  // cppcheck-suppress derefInvalidIteratorRedundantCheck ; at the end this has returned
-  const auto end = std::find(begin + kCounted.size(), svg.end(), '"');
-  svg.insert(svg.erase(begin, end), kFixed.begin(), kFixed.end());
-  return svg;
+/// Cairo 1.16 names groups by a counter of the process, "surface12": equal draw lists would give
+/// different files. Here they are counted from the beginning of the file.
+std::vector<std::uint8_t> with_fixed_ids(const std::vector<std::uint8_t>& svg) {
+  constexpr std::string_view kCounted = "surface";
+  const std::string_view text(reinterpret_cast<const char*>(svg.data()), svg.size());
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::vector<std::string_view> counts;
+  std::string fixed;
+  std::size_t copied = 0;
+  for (auto at = text.find(kCounted); at != text.npos; at = text.find(kCounted, at + 1)) {
+    const bool is_name = text.substr(0, at).ends_with("id=\"") || text.substr(0, at).ends_with('#');
+    const std::size_t begin = at + kCounted.size();
+    std::size_t end = begin;
+    while (end < text.size() && is_digit(text[end])) ++end;
+    if (!is_name || end == begin) continue;
+    const std::string_view count = text.substr(begin, end - begin);
+    auto known = std::ranges::find(counts, count);
+    if (known == counts.end()) known = counts.insert(known, count);
+    fixed += text.substr(copied, at - copied);
+    fixed += known == counts.begin() ? "picture"
+                                     : "picture" + std::to_string(known - counts.begin() + 1);
+    copied = end;
+  }
+  fixed += text.substr(copied);
+  return {fixed.begin(), fixed.end()};
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> write_svg(int width_px, int height_px, const PaintPicture& paint) {
-  return with_fixed_id(write_file(width_px, height_px, paint, make_svg));
+  return with_fixed_ids(write_file(width_px, height_px, paint, make_svg));
 }
 
 std::vector<std::uint8_t> write_pdf(int width_px, int height_px, const PaintPicture& paint) {

@@ -26,7 +26,7 @@ constexpr std::uint8_t kEnd = 'E';
 constexpr std::size_t kSoundPackets = 64;
 /// A line of the header: numbers of a scene may have 100,000 digits each.
 constexpr std::size_t kMaxLine_bytes = 4 * 1024 * 1024;
-constexpr std::size_t kMaxHeaderLines = 100;
+constexpr std::size_t kMaxHeaderLines = 200;
 
 template <typename Unsigned>
 void append_number(Bytes& bytes, Unsigned value) {

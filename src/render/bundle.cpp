@@ -56,6 +56,11 @@ void check(const RenderJob& job) {
   if (job.part) {
     problems.emplace_back("bundle: there are no parts of a bundle; leave the part out");
   }
+  if (!std::holds_alternative<Scene>(job.script)) {
+    problems.emplace_back(
+        "bundle: captions count one run, and a storyboard has several; render it without a bundle, "
+        "or a scene without [[part]]");
+  }
   if (!job.output.ends_with(".mp4") || !is_plain(job.output)) {
     problems.push_back(fmt::format(
         "bundle: '{}' is no name for the video in it; use one such as pi-3.mp4, without a folder, "
@@ -75,18 +80,19 @@ void write(const fs::path& path, std::string_view text) {
 /// The picture that the video comes to, which is this frame, or the one that is asked for.
 void write_poster(const RenderJob& job, std::int64_t last, const fs::path& path) {
   if (job.bundle->poster) {
-    render_still(job.scene, *job.bundle->poster, path.string());
+    render_still(job.script, *job.bundle->poster, path.string());
     return;
   }
-  FrameRenderer renderer(job.scene);
+  FrameRenderer renderer(job.script);
   const std::vector<std::uint8_t> png = encode_png(renderer.frame(last));
   write(path, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
 void write_texts(const RenderJob& job, const CollisionLog& log, const Timeline& timeline,
                  const VideoCount& count, FileSet& files) {
-  const View& view = job.scene.view;
-  const std::string alt = describe_video(job.scene, count);
+  const auto& scene = std::get<Scene>(job.script);
+  const View& view = scene.view;
+  const std::string alt = describe_video(scene, count);
   write(files.add("alt.txt"), alt + "\n");
   write(files.add("captions.vtt"), captions(log, timeline, view.frame_rate));
   write(
@@ -105,9 +111,10 @@ Rendered render_bundle(const RenderJob& job,
                        const std::stop_token& stop) {
   check(job);
   FileSet files(job.bundle->folder, "bundle");
-  const std::unique_ptr<CollisionLog> log = make_collision_log(job.scene.system);
-  const Timeline timeline(job.scene, *log);
-  const PageFacts facts(job.scene, *log, timeline);
+  const auto& scene = std::get<Scene>(job.script);
+  const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
+  const Timeline timeline(scene, *log);
+  const PageFacts facts(scene, *log, timeline);
   write_poster(job, facts.forth() - 1, files.add(std::string(kPoster)));
   write_texts(job, *log, timeline, {facts.most(), log->size()}, files);
   RenderJob video = job;

@@ -1,19 +1,17 @@
-// What every frame of a scene shows.
-// In: a scene, once, and the number of a frame. Out: its draw list.
+// What every frame of a film shows.
+// In: a scene or a storyboard, once, and the number of a frame. Out: its draw list.
 #pragma once
 
 #include <piblocks/canvas.hpp>
-#include <piblocks/collision_log.hpp>
-#include <piblocks/composition.hpp>
-#include <piblocks/error.hpp>
-#include <piblocks/timeline.hpp>
+#include <piblocks/draw_list.hpp>
+#include <piblocks/instant.hpp>
+#include <piblocks/storyboard.hpp>
 
-#include <memory>
-#include <utility>
+#include <cstdint>
+#include <span>
 #include <vector>
 
-#include "render/logo.hpp"
-#include "render/shutter.hpp"
+#include "render/film_part.hpp"
 
 namespace piblocks {
 
@@ -21,43 +19,40 @@ inline Ground ground_of(const View& view) {
   return view.background == Background::transparent ? Ground::transparent : Ground::opaque;
 }
 
+/// A part and its place in the film.
+struct PlacedPart {
+  FilmPart part;
+  std::int64_t first_frame = 0;
+  std::int64_t fade_frames = 0;  ///< of its first frames, which are the last of the part before
+};
+
 /// Const members are thread-safe.
 class Film {
  public:
-  /// @throws SceneError if problems_of(scene) is not empty; UsageError, SimulationError, DrawError
-  explicit Film(const Scene& scene)
-      : scene_(checked(scene)),
-        log_(make_collision_log(scene_.system)),
-        timeline_(scene_, *log_),
-        composition_(scene_, *log_, read_logo(scene_)) {}
+  /// @throws SceneError if problems_of() what it is made from is not empty; UsageError if a fade is
+  ///         not shorter than its parts, or as FilmPart; SimulationError, DrawError
+  explicit Film(const Script& script);
 
-  const Scene& scene() const noexcept { return scene_; }
-  const CollisionLog& log() const noexcept { return *log_; }
-  const Schedule& schedule() const noexcept { return timeline_.schedule(); }
-  const View& view() const noexcept { return scene_.view; }
-  Ground ground() const noexcept { return ground_of(scene_.view); }
-  std::int64_t frame_count() const noexcept { return timeline_.frame_count(); }
+  const View& view() const noexcept { return view_; }
+  Ground ground() const noexcept { return ground_of(view_); }
+  std::int64_t frame_count() const noexcept { return frame_count_; }
   /// @param number  from 0 to frame_count() - 1.
-  DrawList frame(std::int64_t number) const {
-    FrameTime shown = timeline_.at(number);
-    BlockState state = state_at(*log_, shown.time);
-    const std::vector<ExposurePart> parts = expose_frame(scene_, *log_, timeline_, number);
-    return composition_.frame({std::move(state), std::move(shown.time), std::move(shown.slower)},
-                              parts);
-  }
+  DrawList frame(std::int64_t number) const;
+  /// In the order of the film; at least one. Frame k is seen from k / frame_rate seconds on.
+  std::span<const PlacedPart> parts() const noexcept { return parts_; }
 
  private:
-  /// Whoever fills in a Scene by hand has not been told what is wrong with it.
-  static const Scene& checked(const Scene& scene) {
-    const std::vector<Problem> problems = problems_of(scene);
-    if (!problems.empty()) throw SceneError(describe(problems));
-    return scene;
-  }
+  void add_parts(const Storyboard& story);
+  void place_parts(const Storyboard& story);
 
-  Scene scene_;
-  std::unique_ptr<CollisionLog> log_;
-  Timeline timeline_;
-  Composition composition_;
+  View view_;
+  std::vector<PlacedPart> parts_;
+  std::int64_t frame_count_ = 0;
 };
+
+/// The frame of a storyboard's film that an instant names: a time in seconds of video, or "last"
+/// for the last frame.
+/// @throws UsageError if the film has no such frame.
+std::int64_t frame_at(const Film& film, const Instant& instant);
 
 }  // namespace piblocks

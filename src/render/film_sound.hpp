@@ -20,23 +20,15 @@ inline SoundFormat sound_format(std::int64_t frame_count, const Rational& frame_
   return {.rate_hz = Soundtrack::kRate_hz, .size = floor(size + Rational(1, 2)).get_si()};
 }
 
-/// A film's soundtrack, until it is told to stop.
+/// A film's soundtrack, until it is told to stop: each run of each part at its time, and as loud as
+/// its part is seen. Cards are silent.
 class FilmSound final : public SampleSource {
  public:
+  /// @param film        must outlive it.
   /// @param on_samples  is told how many pairs there are so far.
-  FilmSound(const Film& film, std::stop_token stop, std::function<void(std::int64_t)> on_samples)
-      : soundtrack_(film.scene(), film.log(), film.schedule().stretches(),
-                    Rational(film.frame_count()) / film.view().frame_rate),
-        stop_(std::move(stop)),
-        on_samples_(std::move(on_samples)) {}
+  FilmSound(const Film& film, std::stop_token stop, std::function<void(std::int64_t)> on_samples);
 
-  std::size_t read(std::span<float> samples) override {
-    if (stop_.stop_requested()) throw Interrupted("render: interrupted");
-    const std::size_t count = soundtrack_.read(samples);
-    count_ += static_cast<std::int64_t>(count);
-    on_samples_(count_);
-    return count;
-  }
+  std::size_t read(std::span<float> samples) override;
 
  private:
   Soundtrack soundtrack_;

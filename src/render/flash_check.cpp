@@ -1,6 +1,8 @@
 #include "render/flash_check.hpp"
 
 #include <fmt/format.h>
+#include <piblocks/canvas.hpp>
+#include <piblocks/error.hpp>
 
 #include <algorithm>
 #include <optional>

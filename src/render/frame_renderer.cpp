@@ -31,14 +31,14 @@ void check_buffer(const View& view, std::size_t size_bytes, std::ptrdiff_t strid
 }  // namespace
 
 struct FrameRenderer::State {
-  explicit State(const Scene& scene)
-      : film(scene), canvas(film.view().width_px, film.view().height_px, film.ground()) {}
+  explicit State(const Script& script)
+      : film(script), canvas(film.view().width_px, film.view().height_px, film.ground()) {}
 
   Film film;
   Canvas canvas;
 };
 
-FrameRenderer::FrameRenderer(const Scene& scene) : state_(std::make_unique<State>(scene)) {}
+FrameRenderer::FrameRenderer(const Script& script) : state_(std::make_unique<State>(script)) {}
 FrameRenderer::~FrameRenderer() = default;
 FrameRenderer::FrameRenderer(FrameRenderer&&) noexcept = default;
 FrameRenderer& FrameRenderer::operator=(FrameRenderer&&) noexcept = default;

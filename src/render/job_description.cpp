@@ -32,12 +32,24 @@ Scene with_logo_by_content(Scene scene) {
   return scene;
 }
 
-void describe(const Scene& scene, PartHeader& header) {
-  for (auto& [key, value] : describe(with_logo_by_content(scene))) {
+Script with_logos_by_content(Script script) {
+  if (auto* const scene = std::get_if<Scene>(&script)) return with_logo_by_content(*scene);
+  auto& story = std::get<Storyboard>(script);
+  for (StoryPart& part : story.parts) {
+    auto* const runs = std::get_if<Runs>(&part.content);
+    if (runs == nullptr) continue;
+    for (Scene& run : *runs) run = with_logo_by_content(std::move(run));
+  }
+  return script;
+}
+
+void describe(const Script& script, PartHeader& header) {
+  const Script described = with_logos_by_content(script);
+  for (auto& [key, value] : std::visit([](const auto& any) { return describe(any); }, described)) {
     if (!key.starts_with(kGoldenKeys)) header.emplace_back(std::move(key), std::move(value));
   }
-  header.emplace_back("view.width", std::to_string(scene.view.width_px));
-  header.emplace_back("view.height", std::to_string(scene.view.height_px));
+  header.emplace_back("view.width", std::to_string(view_of(script).width_px));
+  header.emplace_back("view.height", std::to_string(view_of(script).height_px));
 }
 
 /// Stands for a setting that was not given.
@@ -67,7 +79,7 @@ std::int64_t number(const PartInfo& part, const std::string& name, std::int64_t 
 PartHeader describe(const RenderJob& job, const Output& output, const Chunks& chunks) {
   PartHeader header;
   header.emplace_back("piblocks", kVersion);
-  describe(job.scene, header);
+  describe(job.script, header);
   header.emplace_back("frames", std::to_string(chunks.frame_count));
   describe(job.encoder, header);
   header.emplace_back("painter", painter_fingerprint());

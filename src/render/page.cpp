@@ -91,7 +91,14 @@ void check(const RenderJob& job) {
         "part: there are no parts of page '{}'; render it whole, or the parts of an MP4",
         job.output));
   }
-  if (job.scene.view.background == Background::transparent) {
+  const auto* const scene = std::get_if<Scene>(&job.script);
+  if (scene == nullptr) {
+    throw UsageError(fmt::format(
+        "page: '{}' steps through one run, and a storyboard has several; write an MP4, or a page "
+        "of a scene without [[part]]",
+        job.output));
+  }
+  if (scene->view.background == Background::transparent) {
     throw UsageError(fmt::format(
         "output: '{}' cannot be transparent: a page shows an MP4; use an opaque background",
         job.output));
@@ -161,7 +168,7 @@ Rendered render_page(const RenderJob& job, const std::function<void(const Progre
   video.output = files.workshop() / "video.mp4";
   Rendered rendered = render(video, on_progress, stop);
   StageClock clock(job.profile, Stage::write);
-  write_page(job.scene, video.output, page);
+  write_page(std::get<Scene>(job.script), video.output, page);
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
   page.finish();
   files.commit();

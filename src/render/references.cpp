@@ -24,11 +24,10 @@ std::string file_part(std::string instant) {
   return instant;
 }
 
-View golden_view(const Scene& scene) {
-  View view = scene.view;
-  if (scene.golden.size) {
-    view.width_px = scene.golden.size->width_px;
-    view.height_px = scene.golden.size->height_px;
+View golden_view(View view, const Golden& golden) {
+  if (golden.size) {
+    view.width_px = golden.size->width_px;
+    view.height_px = golden.size->height_px;
     return view;
   }
   constexpr int kLongerSide_px = 480;
@@ -58,17 +57,25 @@ void add_fingerprint(const fs::path& hashes) {
 
 References::References(const std::string& scene_path, fs::path folder, const std::string& frames)
     : name_(fs::path(scene_path).stem()), folder_(std::move(folder)) {
-  SceneBuilder builder;
+  ScriptBuilder builder;
   builder.read_file(scene_path);
   if (!frames.empty()) builder.set("--frames", "golden.frames", frames);
-  scene_ = builder.build();
-  scene_.view = golden_view(scene_);
-  scene_.sound.on = false;  // pictures are what is kept
+  script_ = builder.build();
+  std::visit(
+      [](auto& any) {
+        any.view = golden_view(any.view, any.golden);
+        any.sound.on = false;  // pictures are what is kept
+      },
+      script_);
+}
+
+const Golden& References::golden() const {
+  return std::visit([](const auto& any) -> const Golden& { return any.golden; }, script_);
 }
 
 std::vector<std::string> References::files() const {
   std::vector<std::string> files = {name_ + ".framehash"};
-  for (const std::string& instant : scene_.golden.frames) {
+  for (const std::string& instant : golden().frames) {
     files.push_back(fmt::format("{}-{}.png", name_, file_part(instant)));
   }
   return files;
@@ -88,10 +95,10 @@ void References::render_into(const fs::path& folder, int jobs, const std::stop_t
   const std::vector<std::string> names = files();
   const fs::path hashes = folder / names.front();
   render(
-      {scene_, hashes, {}, jobs}, [](const Progress&) {}, stop);
+      {script_, hashes, {}, jobs}, [](const Progress&) {}, stop);
   add_fingerprint(hashes);
-  for (std::size_t i = 0; i < scene_.golden.frames.size(); ++i) {
-    render_still(scene_, parse_instant(scene_.golden.frames[i]), folder / names[i + 1], stop);
+  for (std::size_t i = 0; i < golden().frames.size(); ++i) {
+    render_still(script_, parse_instant(golden().frames[i]), folder / names[i + 1], stop);
   }
 }
 

@@ -7,7 +7,7 @@
 #pragma once
 
 #include <piblocks/compare_files.hpp>
-#include <piblocks/scene.hpp>
+#include <piblocks/storyboard.hpp>
 
 #include <filesystem>
 #include <stop_token>
@@ -38,7 +38,9 @@ class References {
  private:
   std::string name_;
   std::filesystem::path folder_;
-  Scene scene_;
+  const Golden& golden() const;
+
+  Script script_;
 };
 
 }  // namespace piblocks

@@ -1,4 +1,4 @@
-// The order of all stages: scene -> log -> state -> draw list -> pixels -> packets -> sink.
+// The order of all stages: script -> log -> state -> draw list -> pixels -> packets -> sink.
 #include <fmt/format.h>
 #include <piblocks/canvas.hpp>
 #include <piblocks/error.hpp>
@@ -21,16 +21,16 @@ namespace {
 /// Everything that decides what the frames show, how they sound, and how they are encoded.
 struct Plan {
   explicit Plan(const RenderJob& job)
-      : film(job.scene),
-        sound(sound_of(film, job.output)),
+      : film(job.script),
+        sound(soundtrack_of(job, film)),
         output(set_up_output(job.output,
                              {film.view().width_px, film.view().height_px, film.view().frame_rate,
                               film.ground() == Ground::transparent},
                              job.encoder, sound)),
         chunks{output->has_frames() ? film.frame_count() : 0, output->frames_per_chunk()} {}
 
-  static std::optional<SoundFormat> sound_of(const Film& film, const std::string& output) {
-    if (!film.scene().sound.on && !is_sound_alone(output)) return std::nullopt;
+  static std::optional<SoundFormat> soundtrack_of(const RenderJob& job, const Film& film) {
+    if (!is_sound_alone(job.output) && !sound_of(job.script).on) return std::nullopt;
     return sound_format(film.frame_count(), film.view().frame_rate);
   }
 

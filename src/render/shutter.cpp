@@ -19,10 +19,10 @@ Rational open_s(const View& view) { return view.shutter / view.frame_rate; }
 }  // namespace
 
 std::vector<ExposurePart> expose_frame(const Scene& scene, const CollisionLog& log,
-                                       const Timeline& timeline, std::int64_t frame) {
+                                       const Schedule& schedule, std::int64_t frame) {
   if (scene.view.shutter == 0) return {};
   const Rational video_s = Rational(frame) / scene.view.frame_rate;
-  return expose(log, timeline.schedule().during(video_s, open_s(scene.view)));
+  return expose(log, schedule.during(video_s, open_s(scene.view)));
 }
 
 std::vector<ExposurePart> expose_still(const Scene& scene, const CollisionLog& log,

@@ -5,7 +5,7 @@
 #include <piblocks/collision_log.hpp>
 #include <piblocks/composition.hpp>
 #include <piblocks/scene.hpp>
-#include <piblocks/timeline.hpp>
+#include <piblocks/schedule.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -15,7 +15,7 @@ namespace piblocks {
 /// From a frame's instant on, for scene.view.shutter of the time to the next frame; nothing if that
 /// is 0.
 std::vector<ExposurePart> expose_frame(const Scene& scene, const CollisionLog& log,
-                                       const Timeline& timeline, std::int64_t frame);
+                                       const Schedule& schedule, std::int64_t frame);
 
 /// The same of a still: what a frame would have that begins when the video first shows `time`.
 /// Where the video does not show it, time runs at scene.time.speed.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/output_file.hpp"
+#include "render/film.hpp"
 #include "render/logo.hpp"
 #include "render/shutter.hpp"
 
@@ -43,19 +44,29 @@ Rational slower_at(const Scene& scene, const CollisionLog& log, const Rational& 
   return video_s ? schedule.at(*video_s).slower : Rational(1);
 }
 
-}  // namespace
-
-void render_still(const Scene& scene, const Instant& instant, const std::string& output,
-                  const std::stop_token& stop) {
-  Draw* const draw = drawing_for(output);
+DrawList picture_of(const Scene& scene, const Instant& instant) {
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   TimedState at = state_at(*log, instant);
   const Rational time = to_rational(at.time);
   const Composition composition(scene, *log, read_logo(scene));
-  const std::vector<ExposurePart> parts = expose_still(scene, *log, time);
+  return composition.frame({std::move(at.state), time, slower_at(scene, *log, time)},
+                           expose_still(scene, *log, time));
+}
+
+DrawList picture_of(const Storyboard& story, const Instant& instant) {
+  const Film film(story);
+  return film.frame(frame_at(film, instant));
+}
+
+}  // namespace
+
+void render_still(const Script& script, const Instant& instant, const std::string& output,
+                  const std::stop_token& stop) {
+  Draw* const draw = drawing_for(output);
+  const DrawList list =
+      std::visit([&](const auto& any) { return picture_of(any, instant); }, script);
   OutputFile file(output);
-  const std::vector<std::uint8_t> picture =
-      draw(composition.frame({std::move(at.state), time, slower_at(scene, *log, time)}, parts));
+  const std::vector<std::uint8_t> picture = draw(list);
   if (stop.stop_requested()) throw Interrupted("still: interrupted");
   file.write(picture);
   file.finish();

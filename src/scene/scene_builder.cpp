@@ -12,17 +12,57 @@
 
 namespace piblocks {
 
-void SceneBuilder::read_file(const std::string& path) {
-  const std::vector<TomlEntry> entries = read_toml(path);
-  const auto has = [&](const char* key) {
-    return std::ranges::count(entries, key, &TomlEntry::key);
-  };
-  if (has("time.speed") && has("time.duration")) {
-    add_problem(path, "time.speed and time.duration both set the speed; leave out one of them");
+namespace {
+
+/// Keys of which a table may have one only, and what they set.
+struct Rivals {
+  std::vector<std::string_view> keys;
+  const char* what;
+};
+
+/// @returns what is wrong; empty if nothing is.
+std::string rivalry(const TomlTable& table, const Rivals& rivals) {
+  std::vector<std::string_view> present;
+  for (const std::string_view key : rivals.keys) {
+    if (std::ranges::count(table.entries, key, &TomlEntry::key) > 0) present.push_back(key);
   }
-  for (const TomlEntry& entry : entries) {
+  if (present.size() < 2) return {};
+  return fmt::format("{} {} set {}; leave out {} of them", fmt::join(present, " and "),
+                     present.size() == 2 ? "both" : "all", rivals.what,
+                     present.size() == 2 ? "one" : "all but one");
+}
+
+/// The mass ratio that counts so many digits.
+Rational mass_ratio_of_digits(const Values& values) {
+  const Rational digits = parse_rational(single(values));
+  if (digits.get_den() != 1 || digits < 1 || digits > kMaxDigits) {
+    throw UsageError(fmt::format("must be a whole number from 1 to {}", kMaxDigits));
+  }
+  return power(100, digits.get_num().get_ui() - 1);
+}
+
+Rational positive(const Values& values) {
+  Rational value = parse_rational(single(values));
+  if (value <= 0) throw UsageError("must be greater than 0");
+  return value;
+}
+
+}  // namespace
+
+void SceneBuilder::read_file(const std::string& path) { read(path, read_toml(path)); }
+
+void SceneBuilder::read(const std::string& path, const TomlTable& table) {
+  for (const Rivals& rivals : {Rivals{{"time.speed", "time.duration"}, "the speed"},
+                               Rivals{{"digits", "mass-ratio", "red.mass"}, "the mass of red"}}) {
+    const std::string problem = rivalry(table, rivals);
+    const std::string place = table.line > 0 ? fmt::format("{}:{}", path, table.line) : path;
+    if (!problem.empty()) add_problem(place, problem);
+  }
+  for (const TomlEntry& entry : table.entries) {
     const std::string origin = fmt::format("{}:{}", path, entry.line);
-    if (entry.problem.empty()) {
+    if (entry.key == "part" && !entry.tables.empty()) {
+      add_problem(origin, "part: a single scene has no parts; this is a storyboard");
+    } else if (entry.problem.empty()) {
       set_values(origin, entry.key, entry.values);
       // Found from where the scene is, wherever the program is started.
       if (entry.key == "show.logo" && !scene_.show.logo.empty()) {
@@ -45,6 +85,17 @@ void SceneBuilder::set_mass_ratio(const std::string& origin, const Rational& rat
 
 void SceneBuilder::set_values(const std::string& origin, const std::string& key,
                               const Values& values) {
+  try {
+    set_key(origin, key, values);
+  } catch (const UsageError& error) {
+    add_problem(origin, fmt::format("{} = {}: {}", key, joined(values), error.what()));
+  }
+}
+
+void SceneBuilder::set_key(const std::string& origin, const std::string& key,
+                           const Values& values) {
+  if (key == "digits") return set_mass_ratio(origin, mass_ratio_of_digits(values));
+  if (key == "mass-ratio") return set_mass_ratio(origin, positive(values));
   const std::span<const SceneKey> keys = scene_keys();
   const auto found = std::ranges::find(keys, std::string_view(key), &SceneKey::name);
   if (found == keys.end()) {
@@ -52,19 +103,22 @@ void SceneBuilder::set_values(const std::string& origin, const std::string& key,
     return;
   }
   origins_[key] = origin;
+  if (key == "red.mass") mass_ratio_.reset();
   if (key == "red.width") {
     width_by_mass_ = values == Values{"by-mass"};
     if (width_by_mass_) return;
   }
-  try {
-    found->set(scene_, values);
-  } catch (const UsageError& error) {
-    add_problem(origin, fmt::format("{} = {}: {}", key, joined(values), error.what()));
-  }
+  found->set(scene_, values);
 }
 
 void SceneBuilder::add_problem(const std::string& origin, const std::string& text) {
   problems_.push_back(fmt::format("{}: {}", origin, text));
+}
+
+std::string SceneBuilder::described(const Problem& problem) const {
+  const auto origin = origins_.find(problem.key);
+  const std::string& place = origin == origins_.end() ? place_ : origin->second;
+  return fmt::format("{}: {} {}", place, problem.key, problem.reason);
 }
 
 Scene SceneBuilder::build() const {
@@ -72,11 +126,7 @@ Scene SceneBuilder::build() const {
   if (mass_ratio_) scene.system.red.mass = scene.system.blue.mass * *mass_ratio_;
   if (width_by_mass_) scene.system.red.width = width_by_mass(scene.system);
   std::vector<std::string> problems = problems_;
-  for (const Problem& problem : problems_of(scene)) {
-    const auto origin = origins_.find(problem.key);
-    const std::string place = origin == origins_.end() ? "scene" : origin->second;
-    problems.push_back(fmt::format("{}: {} {}", place, problem.key, problem.reason));
-  }
+  for (const Problem& problem : problems_of(scene)) problems.push_back(described(problem));
   if (!problems.empty()) throw SceneError(std::move(problems));
   return scene;
 }

@@ -13,11 +13,6 @@
 namespace piblocks {
 namespace {
 
-const std::string& single(const Values& values) {
-  if (values.size() != 1) throw UsageError("must be one value");
-  return values.front();
-}
-
 void set_number(Rational& target, const Values& values) { target = parse_rational(single(values)); }
 
 void set_range(Range& target, const Values& values) {
@@ -125,19 +120,9 @@ std::vector<Value> parse_names(const Values& values, Value (*parse)(std::string_
 }
 
 /// Text without control characters, such as a path.
-const std::string& plain(const Values& values) {
-  const std::string& text = single(values);
+const std::string& plain(const std::string& text) {
   const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
   if (std::ranges::any_of(text, is_control)) throw UsageError("must be one line of text");
-  return text;
-}
-
-/// One line of text. The font says later whether it can be set.
-const std::string& line_of(const Values& values) {
-  const std::string& text = plain(values);
-  if (text.size() > kMaxLine_bytes) {
-    throw UsageError(fmt::format("is longer than {} bytes", kMaxLine_bytes));
-  }
   return text;
 }
 
@@ -245,11 +230,11 @@ constexpr auto kKeys = std::to_array<SceneKey>({
      [](const Scene& s) { return each(s.show.overlays); }},
     {"show.panels", [](Scene& s, const Values& v) { s.show.panels = parse_names(v, parse_panel); },
      [](const Scene& s) { return each(s.show.panels); }},
-    {"show.title", [](Scene& s, const Values& v) { s.show.title = line_of(v); },
+    {"show.title", [](Scene& s, const Values& v) { s.show.title = checked_line(single(v)); },
      [](const Scene& s) { return Values{s.show.title}; }},
-    {"show.caption", [](Scene& s, const Values& v) { s.show.caption = line_of(v); },
+    {"show.caption", [](Scene& s, const Values& v) { s.show.caption = checked_line(single(v)); },
      [](const Scene& s) { return Values{s.show.caption}; }},
-    {"show.logo", [](Scene& s, const Values& v) { s.show.logo = plain(v); },
+    {"show.logo", [](Scene& s, const Values& v) { s.show.logo = plain(single(v)); },
      [](const Scene& s) { return Values{s.show.logo}; }},
     {"golden.frames", [](Scene& s, const Values& v) { set_golden_frames(s.golden, v); },
      [](const Scene& s) { return s.golden.frames; }},
@@ -260,6 +245,24 @@ constexpr auto kKeys = std::to_array<SceneKey>({
 }  // namespace
 
 std::span<const SceneKey> scene_keys() { return kKeys; }
+
+bool is_film_key(std::string_view key) {
+  constexpr std::array<std::string_view, 5> kOfFilm = {"view.size", "view.fps", "view.background",
+                                                       "view.theme", "sound.on"};
+  return key.starts_with("golden.") || std::ranges::count(kOfFilm, key) > 0;
+}
+
+const std::string& single(const Values& values) {
+  if (values.size() != 1) throw UsageError("must be one value");
+  return values.front();
+}
+
+const std::string& checked_line(const std::string& text) {
+  if (text.size() > kMaxLine_bytes) {
+    throw UsageError(fmt::format("is longer than {} bytes", kMaxLine_bytes));
+  }
+  return plain(text);
+}
 
 std::string joined(const Values& values) {
   return values.size() == 1 ? values.front() : fmt::format("[{}]", fmt::join(values, ", "));

@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace piblocks {
@@ -20,6 +21,15 @@ struct SceneKey {
 };
 
 std::span<const SceneKey> scene_keys();
+
+/// Whether the key is one for a whole film, and not for one of its parts.
+bool is_film_key(std::string_view key);
+
+/// The value of a key that takes one. @throws UsageError if there are more.
+const std::string& single(const Values& values);
+
+/// Without control characters, at most kMaxLine_bytes long. @throws UsageError otherwise
+const std::string& checked_line(const std::string& text);
 
 /// One text for a message.
 std::string joined(const Values& values);

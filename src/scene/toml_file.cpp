@@ -39,9 +39,22 @@ std::optional<std::string> scalar_text(const toml::node& node) {
   return std::nullopt;
 }
 
+TomlTable table_of(const toml::table& table);
+
+/// Those of a list that has nothing but tables.
+std::vector<TomlTable> tables_of(const toml::array& list) {
+  std::vector<TomlTable> tables;
+  for (const toml::node& element : list) {
+    const toml::table* table = element.as_table();
+    if (table == nullptr) return {};
+    tables.push_back(table_of(*table));
+  }
+  return tables;
+}
+
 TomlEntry entry_of(const std::string& key, const toml::node& node) {
   constexpr const char* kExpected = "must be a number, a string, true or false, or a list of these";
-  TomlEntry entry{key, {}, node.source().begin.line, {}};
+  TomlEntry entry{key, {}, {}, node.source().begin.line, {}};
   if (const auto text = scalar_text(node)) {
     entry.values.push_back(*text);
   } else if (const auto* list = node.as_array()) {
@@ -50,36 +63,40 @@ TomlEntry entry_of(const std::string& key, const toml::node& node) {
       if (!element_text) entry.problem = kExpected;
       entry.values.push_back(element_text.value_or(""));
     }
+    entry.tables = tables_of(*list);
   } else {
     entry.problem = kExpected;
   }
   return entry;
 }
 
+TomlTable table_of(const toml::table& table) {
+  TomlTable result{{}, table.source().begin.line};
+  for (const auto& [name, node] : table) {
+    const toml::table* inner = node.as_table();
+    if (inner == nullptr) {
+      result.entries.push_back(entry_of(std::string(name.str()), node));
+      continue;
+    }
+    for (const auto& [key, value] : *inner) {
+      result.entries.push_back(entry_of(fmt::format("{}.{}", name.str(), key.str()), value));
+    }
+  }
+  std::ranges::stable_sort(result.entries, {}, &TomlEntry::line);
+  return result;
+}
+
 }  // namespace
 
-std::vector<TomlEntry> read_toml(const std::string& path) {
-  toml::table root;
+TomlTable read_toml(const std::string& path) {
   try {
-    root = toml::parse(read_text(path), path);
+    TomlTable root = table_of(toml::parse(read_text(path), path));
+    root.line = 0;
+    return root;
   } catch (const toml::parse_error& error) {
     throw SceneError(
         fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
   }
-  std::vector<TomlEntry> entries;
-  for (const auto& [table_name, node] : root) {
-    const toml::table* table = node.as_table();
-    if (table == nullptr) {
-      entries.push_back(entry_of(std::string(table_name.str()), node));
-      continue;
-    }
-    for (const auto& [name, value] : *table) {
-      entries.push_back(entry_of(fmt::format("{}.{}", table_name.str(), name.str()), value));
-    }
-  }
-  std::stable_sort(entries.begin(), entries.end(),
-                   [](const TomlEntry& a, const TomlEntry& b) { return a.line < b.line; });
-  return entries;
 }
 
 }  // namespace piblocks

@@ -1,4 +1,4 @@
-// A TOML file as a flat list of keys.
+// A TOML file as a flat list of keys, and lists of tables below some of them.
 // In: a path. Out: "table.key" with its values as text and its line.
 #pragma once
 
@@ -7,14 +7,22 @@
 
 namespace piblocks {
 
+struct TomlTable;
+
 struct TomlEntry {
   std::string key;                  ///< "red.mass"
   std::vector<std::string> values;  ///< numbers as their shortest decimal text
+  std::vector<TomlTable> tables;    ///< of a list of tables, which has no values
   std::size_t line = 0;             ///< from 1
   std::string problem;              ///< why there are no values, if so
 };
 
+struct TomlTable {
+  std::vector<TomlEntry> entries;  ///< by line
+  std::size_t line = 0;            ///< where it begins, from 1; 0 for the file itself
+};
+
 /// @throws SceneError if the file cannot be read, is too long, or is no TOML.
-std::vector<TomlEntry> read_toml(const std::string& path);
+TomlTable read_toml(const std::string& path);
 
 }  // namespace piblocks

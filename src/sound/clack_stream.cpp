@@ -44,7 +44,7 @@ ClackStream::ClackStream(const CollisionLog& log, std::span<const Stretch> stret
                          .continues = continues});
   }
   // A collision at the very beginning has happened in the first frame, and is to be heard.
-  sample_ = -0.5;
+  sample_ = segments_.front().begin - 0.5;
   enter(segments_.front());
 }
 
@@ -54,8 +54,9 @@ void ClackStream::add_first_instant(std::span<const Stretch> stretches, int rate
   // Backwards it is heard when the film leaves that instant.
   if (moves == stretches.begin() || moves == stretches.end() || moves->speed < 0) return;
   const Rational& time = stretches.front().time;
-  segments_.push_back({.begin = 0,
-                       .end = 0,
+  const double begin = to_double(stretches.front().video_s * rate_hz);
+  segments_.push_back({.begin = begin,
+                       .end = begin,
                        .time = to_time(time),
                        .begin_time = time,
                        .end_time = time,

@@ -343,5 +343,36 @@ TEST_F(BadInputsTest, AFolderIsNotReplaced) {
   EXPECT_EQ(result.err, "piblocks: output: cannot open 'a.mp4': Is a directory\n");
 }
 
+constexpr const char* kStory = "[[part]]\ncard = 'a'\n[[part]]\ndigits = 2\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Storyboards, BadInputTest,
+    testing::Values(
+        BadInput{render({"scene.toml", "--digits", "2"}), "--digits: 'scene.toml' is a storyboard",
+                 kStory},
+        BadInput{render({"scene.toml", "--speed", "2"}), "put time.speed into it", kStory},
+        BadInput{render({"scene.toml", "--show", "time"}), "put show.overlays into it", kStory},
+        BadInput{render({"scene.toml", "--size", "0x9"}), "--size: view.size = 0x9: each", kStory},
+        BadInput{
+            {"render", "scene.toml", "--sound", "-o", "a.gif"}, "'a.gif' has no sound", kStory},
+        BadInput{render({"scene.toml"}), "scene.toml:2: sound.on: holds for the whole film",
+                 "[[part]]\nsound.on = true\n"},
+        BadInput{{"render", "scene.toml", "-o", "a.html"},
+                 "page: 'a.html' steps through one run, and a storyboard has several",
+                 kStory},
+        BadInput{render({"scene.toml", "--bundle", "talk"}),
+                 "bundle: captions count one run, and a storyboard has several", kStory},
+        BadInput{render({"scene.toml", "--shutter", "1"}), "put view.shutter into it", kStory},
+        BadInput{render({"scene.toml"}), "scene.toml:2: view.shutter asks for light from behind",
+                 "[[part]]\nview.shutter = 1\n[view]\nbackground = 'transparent'\n"},
+        BadInput{render({"scene.toml"}), "scene.toml:5: fade = 9: takes 540 frames",
+                 std::string(kStory) + "[[part]]\nfade = 9\n"},
+        BadInput{still({"scene.toml", "--at", "#3"}), "'#K' is a collision of one run", kStory},
+        BadInput{still({"scene.toml", "--at", "-1"}), "-1: the storyboard's video lasts", kStory},
+        BadInput{{"count", "scene.toml"}, "'scene.toml' is a storyboard; 'count' takes", kStory},
+        BadInput{{"log", "scene.toml"}, "'scene.toml' is a storyboard; 'log' takes", kStory},
+        BadInput{{"state", "scene.toml", "--at", "1"}, "a storyboard; 'state' takes", kStory},
+        BadInput{{"sheet", "scene.toml", "--at", "1", "-o", "a.pdf"}, "'sheet' takes", kStory}));
+
 }  // namespace
 }  // namespace piblocks

@@ -197,6 +197,23 @@ ImageItem any_image(Random& random, ItemId id, int width, int height) {
           std::make_shared<const Image>(image)};
 }
 
+DrawItem any_item(Random& random, ItemId id, int width, int height);
+
+/// A picture of a few items, in or around the frame, often seen through.
+GroupItem any_group(Random& random, ItemId id, int width, int height) {
+  DrawList list{static_cast<int>(random.integer(1, width)),
+                static_cast<int>(random.integer(1, height)),
+                any_color(random),
+                {}};
+  for (const ItemId inner : {ItemId::wall, ItemId::red_block, ItemId::count}) {
+    if (random.integer(0, 2) == 0) continue;
+    list.items.push_back(any_item(random, inner, list.width_px, list.height_px));
+  }
+  return {id, static_cast<int>(anywhere(random, width)), static_cast<int>(anywhere(random, height)),
+          std::make_shared<const DrawList>(list),
+          random.integer(0, 1) == 0 ? 1 : random.uniform(0, 1)};
+}
+
 ExposedBlock any_exposed_block(Random& random, int width, int height) {
   ExposedBlock block{{anywhere(random, width), anywhere(random, height), random.uniform(1, width),
                       random.uniform(1, height)},
@@ -241,7 +258,7 @@ PlateItem any_plate(Random& random, ItemId id, int width, int height) {
 }
 
 DrawItem any_item(Random& random, ItemId id, int width, int height) {
-  switch (random.integer(0, 6)) {
+  switch (random.integer(0, 7)) {
     case 0:
       return any_line(random, id, width, height);
     case 1:
@@ -253,10 +270,22 @@ DrawItem any_item(Random& random, ItemId id, int width, int height) {
     case 4:
       return any_exposed(random, id, width, height);
     case 5:
+      return any_group(random, id, width, height);
+    case 6:
       return any_plate(random, id, width, height);
     default:
       return any_rectangle(random, id, width, height);
   }
+}
+
+void change(Random& random, DrawList& list);
+
+/// The picture within a picture, or how much of it is seen.
+void change_group(Random& random, GroupItem& group) {
+  DrawList list = *group.list;
+  change(random, list);
+  group.list = std::make_shared<const DrawList>(list);
+  if (random.integer(0, 3) == 0) group.opacity = random.uniform(0, 1);
 }
 
 /// As from frame to frame: all of its way, or where it stays.
@@ -280,6 +309,8 @@ void change(Random& random, DrawList& list) {
       text->text = any_text(random);
     } else if (auto* disk = std::get_if<DiskItem>(&item); disk && kind < 3) {
       disk->centre.x += random.uniform(-5, 5);
+    } else if (auto* group = std::get_if<GroupItem>(&item); group && kind < 3) {
+      change_group(random, *group);
     } else if (auto* exposed = std::get_if<ExposedItem>(&item); exposed && kind < 3) {
       move(random, random.integer(0, 1) == 0 ? exposed->behind : exposed->front);
       if (random.integer(0, 1) == 0) exposed->contacts.clear();
@@ -361,6 +392,36 @@ TEST(Damage, OfOtherItemsInAnyOrderIsTheWholeFrame) {
   expect_update(canvas, {40, 30, kWhite, {wall, count}});
   EXPECT_EQ(area(canvas.update({40, 30, kWhite, {count, wall}})), 40 * 30);
   EXPECT_EQ(area(canvas.update({40, 30, kBlack, {count, wall}})), 40 * 30);
+}
+
+/// Of two cells, one of which changes, with a line between them.
+TEST(Damage, WithinAPictureIsAsSmallAsItsOwn) {
+  const auto list = [](const char* text) {
+    DrawList left{200, 40, kWhite, {TextItem{ItemId::count, {10, 30}, text, 20, kBlack}}};
+    const auto cell = std::make_shared<const DrawList>(std::move(left));
+    return DrawList{420, 40, kWhite, {GroupItem{ItemId::compared, 220, 0, cell, 1}}};
+  };
+  Canvas canvas(420, 40);
+  expect_update(canvas, list("3,141,591"));
+  EXPECT_TRUE(canvas.update(list("3,141,591")).empty());
+  const auto changed = canvas.update(list("3,141,592"));
+  EXPECT_LT(area(changed), 0.1 * 420 * 40);
+  for (const PixelRect& rect : changed) EXPECT_GT(rect.x_px, 220 + 90);
+}
+
+TEST(Damage, OfAFadeIsTheFrameOnce) {
+  const auto list = [](double opacity) {
+    const DrawList next{40, 30, kGreen, {}};
+    const RectangleItem block{ItemId::red_block, {10 * opacity, 1, 5, 5}, kBlack, std::nullopt};
+    return DrawList{
+        40,
+        30,
+        kWhite,
+        {block, GroupItem{ItemId::fade, 0, 0, std::make_shared<const DrawList>(next), opacity}}};
+  };
+  Canvas canvas(40, 30);
+  expect_update(canvas, list(0.25));
+  EXPECT_EQ(area(canvas.update(list(0.5))), 40 * 30);
 }
 
 TEST(Damage, OfACounterStartsAtTheFirstNewDigit) {

@@ -1,24 +1,45 @@
-// Scene files: read, checked, and, if they are good, asked where the blocks are.
+// Scene files and storyboards: read, checked, and, if they are good, asked where the blocks are.
 #include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/interpolator.hpp>
-#include <piblocks/scene.hpp>
+#include <piblocks/storyboard.hpp>
 #include <piblocks/timeline.hpp>
+
+#include <cstdlib>
 
 #include "fuzz/input_file.hpp"
 
+namespace {
+using namespace piblocks;
+
+void ask(const Scene& scene) {
+  const auto log = make_collision_log(scene.system);
+  const Timeline timeline(scene, *log);
+  for (const std::int64_t frame : {std::int64_t{0}, timeline.frame_count() - 1}) {
+    state_at(*log, timeline.time_of(frame));
+  }
+}
+
+/// What was read without a problem has none.
+void ask(const Storyboard& story) {
+  if (!problems_of(story).empty()) std::abort();
+  describe(story);
+  for (const StoryPart& part : story.parts) {
+    if (const auto* runs = std::get_if<Runs>(&part.content)) {
+      for (const Scene& run : *runs) ask(run);
+    }
+  }
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace piblocks;
   const fuzz::InputFile file(data, size);
   try {
-    SceneBuilder builder;
+    ScriptBuilder builder;
     builder.read_file(file.path());
-    const Scene scene = builder.build();
-    const auto log = make_collision_log(scene.system);
-    const Timeline timeline(scene, *log);
-    for (const std::int64_t frame : {std::int64_t{0}, timeline.frame_count() - 1}) {
-      state_at(*log, timeline.time_of(frame));
-    }
+    const Script script = builder.build();
+    std::visit([](const auto& any) { ask(any); }, script);
   } catch (const Error&) {  // the right answer to most of what comes here
   }
   return 0;

@@ -122,7 +122,7 @@ TEST_F(JoinTest, RefusesPartsOfDifferentJobs) {
   EXPECT_TRUE(ends_with({scene("wall.face", "1/2"), {}}, "wall.face"));
   EXPECT_TRUE(ends_with({scene("time.from", "2"), {}}, "time.from"));
   RenderJob longer = job;
-  longer.scene.time.to.offset += 1;
+  std::get<Scene>(longer.script).time.to.offset += 1;
   EXPECT_TRUE(ends_with(longer, "time.to"));
   EXPECT_TRUE(ends_with({scene(), {}, {.crf = 20}}, "crf"));
   EXPECT_NE(problem({one, rendered_part({2, 3}, job)}, "c.mp4").find("number of parts"),
@@ -141,7 +141,7 @@ TEST_F(JoinTest, TellsLogosApartByWhatIsInTheFile) {
   const std::string one = rendered_part({1, 2}, job);
   logo("a.png", 0xff0000ff);
   EXPECT_TRUE(problem({one, rendered_part({2, 2}, job)}, "b.y4m").ends_with("differ in show.logo"));
-  job.scene = scene("show.logo", logo("copy.png", 0xff00ff00));
+  job.script = scene("show.logo", logo("copy.png", 0xff00ff00));
   EXPECT_EQ(problem({one, rendered_part({2, 2}, job)}, "b.y4m"), "none");
 }
 

@@ -1,0 +1,107 @@
+#include "render/film_part.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <utility>
+
+#include "draw/card.hpp"
+#include "render/logo.hpp"
+#include "render/shutter.hpp"
+
+namespace piblocks {
+namespace {
+
+/// The place of the run whose last collision comes last; the first of several.
+std::size_t longest(const std::vector<std::unique_ptr<CollisionLog>>& logs) {
+  std::size_t found = 0;
+  std::optional<Rational> latest;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const CollisionLog& log = *logs[i];
+    if (log.size() == 0) continue;
+    Rational last = to_rational(log.at(log.size()).time);
+    if (latest && last <= *latest) continue;
+    latest = std::move(last);
+    found = i;
+  }
+  return found;
+}
+
+}  // namespace
+
+Run::Run(Scene scene, std::unique_ptr<CollisionLog> log)
+    : scene_(std::move(scene)),
+      log_(std::move(log)),
+      composition_(scene_, *log_, read_logo(scene_)) {}
+
+DrawList Run::frame(FrameTime shown, const Schedule& clock, std::int64_t number) const {
+  BlockState state = state_at(*log_, shown.time);
+  const std::vector<ExposurePart> exposure = expose_frame(scene_, *log_, clock, number);
+  return composition_.frame({std::move(state), std::move(shown.time), std::move(shown.slower)},
+                            exposure);
+}
+
+FilmPart::FilmPart(const Scene& scene) { show_one(scene); }
+
+FilmPart::FilmPart(const Runs& runs, const View& film) {
+  if (runs.size() == 1) {
+    show_one(with_film_view(runs.front(), film));
+  } else {
+    compare(runs, film);
+  }
+}
+
+FilmPart::FilmPart(const Card& card, const View& film) : card_(compose_card(card.lines, film)) {
+  const Integer frames = ceil(card.length_s * film.frame_rate);
+  if (frames > kMaxFrames) {
+    throw UsageError(fmt::format("seconds = {}: {} frames are more than {}", to_text(card.length_s),
+                                 readable(frames), readable(kMaxFrames)));
+  }
+  frame_count_ = frames.get_si();
+}
+
+void FilmPart::show_one(Scene scene) {
+  auto log = make_collision_log(scene.system);
+  timeline_.emplace(scene, *log);
+  frame_count_ = timeline_->frame_count();
+  runs_.emplace_back(std::move(scene), std::move(log));
+}
+
+void FilmPart::compare(const Runs& runs, const View& film) {
+  split_.emplace(film, runs.size());
+  std::vector<std::unique_ptr<CollisionLog>> logs;
+  for (const Scene& run : runs) logs.push_back(make_collision_log(run.system));
+  const std::size_t leader = longest(logs);
+  const Scene leading = with_film_view(runs[leader], film);
+  timeline_.emplace(leading, *logs[leader]);
+  frame_count_ = timeline_->frame_count();
+  const End end{false, end_of(leading, *logs[leader])};
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    Scene run = with_film_view(runs[i], film);
+    run.view.width_px = split_->cells()[i].width_px;
+    run.view.height_px = split_->cells()[i].height_px;
+    run.time = leading.time;
+    run.time.to = end;
+    run.pacing = leading.pacing;
+    runs_.emplace_back(std::move(run), std::move(logs[i]));
+  }
+}
+
+PixelRect FilmPart::cell(std::size_t run) const {
+  if (split_) return split_->cells()[run];
+  const View& view = runs_[run].scene().view;
+  return {0, 0, view.width_px, view.height_px};
+}
+
+DrawList FilmPart::frame(std::int64_t number) const {
+  if (runs_.empty()) return card_;
+  FrameTime shown = timeline_->at(number);
+  const Schedule& clock = timeline_->schedule();
+  if (!split_) return runs_.front().frame(std::move(shown), clock, number);
+  std::vector<DrawList> pictures;
+  pictures.reserve(runs_.size());
+  for (const Run& run : runs_) pictures.push_back(run.frame(shown, clock, number));
+  return split_->compose(std::move(pictures));
+}
+
+}  // namespace piblocks

@@ -1,0 +1,73 @@
+// What a film shows between two cuts: a run, several at a time, or a title card.
+// In: scenes or lines of text, once, and the number of a frame. Out: its draw list.
+#pragma once
+
+#include <piblocks/collision_log.hpp>
+#include <piblocks/composition.hpp>
+#include <piblocks/storyboard.hpp>
+#include <piblocks/timeline.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "draw/split_screen.hpp"
+
+namespace piblocks {
+
+/// A scene, its collisions, and what its frames are composed by. Const members are thread-safe.
+class Run {
+ public:
+  /// @param log  of the scene's system.
+  /// @throws UsageError, DrawError, MediaError as Composition and read_logo().
+  Run(Scene scene, std::unique_ptr<CollisionLog> log);
+
+  const Scene& scene() const noexcept { return scene_; }
+  const CollisionLog& log() const noexcept { return *log_; }
+  /// @param clock  by which frame `number` shows the instant `shown`.
+  DrawList frame(FrameTime shown, const Schedule& clock, std::int64_t number) const;
+
+ private:
+  Scene scene_;
+  std::unique_ptr<CollisionLog> log_;
+  Composition composition_;
+};
+
+/// Const members are thread-safe.
+class FilmPart {
+ public:
+  /// Scenes and cards must have no problems. @throws UsageError, SimulationError, DrawError
+  explicit FilmPart(const Scene& scene);
+  FilmPart(const Runs& runs, const View& film);
+  FilmPart(const Card& card, const View& film);
+  FilmPart(FilmPart&&) = default;
+  FilmPart& operator=(FilmPart&&) = default;
+  FilmPart(const FilmPart&) = delete;
+  FilmPart& operator=(const FilmPart&) = delete;
+  ~FilmPart() = default;
+
+  std::int64_t frame_count() const noexcept { return frame_count_; }
+  /// @param number  within the part, from 0 to frame_count() - 1.
+  DrawList frame(std::int64_t number) const;
+
+  /// What is shown at the same time; none of a card.
+  std::span<const Run> runs() const noexcept { return runs_; }
+  /// Where a run's picture is in the frame. @param run  its place in runs().
+  PixelRect cell(std::size_t run) const;
+  /// The one clock of all runs, in seconds since the part began; none of a card.
+  const Schedule* schedule() const noexcept { return timeline_ ? &timeline_->schedule() : nullptr; }
+
+ private:
+  void show_one(Scene scene);
+  void compare(const Runs& runs, const View& film);
+
+  std::int64_t frame_count_ = 0;
+  std::vector<Run> runs_;
+  std::optional<Timeline> timeline_;
+  std::optional<SplitScreen> split_;  ///< if there are several runs
+  DrawList card_;                     ///< if there are none
+};
+
+}  // namespace piblocks

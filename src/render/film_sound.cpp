@@ -1,0 +1,60 @@
+#include "render/film_sound.hpp"
+
+#include <piblocks/error.hpp>
+
+#include <utility>
+#include <vector>
+
+namespace piblocks {
+namespace {
+
+/// Along the line on which the weights of the fade's frames are at their instants: 0 a frame before
+/// the first, 1 where only the new part is seen.
+std::optional<Ramp> fade_into(const PlacedPart& part, const Rational& frame_rate) {
+  if (part.fade_frames == 0) return std::nullopt;
+  return Ramp{Rational(part.first_frame - 1) / frame_rate,
+              Rational(part.first_frame + part.fade_frames) / frame_rate};
+}
+
+std::vector<Voice> voices_of(const Film& film) {
+  const Rational& rate = film.view().frame_rate;
+  std::vector<Voice> voices;
+  for (std::size_t i = 0; i < film.parts().size(); ++i) {
+    const PlacedPart& placed = film.parts()[i];
+    const FilmPart& part = placed.part;
+    for (std::size_t k = 0; k < part.runs().size(); ++k) {
+      const Run& run = part.runs()[k];
+      const auto stretches = part.schedule()->stretches();
+      Voice& voice = voices.emplace_back(
+          Voice{.scene = run.scene(),
+                .log = run.log(),
+                .stretches = {stretches.begin(), stretches.end()},
+                .begin_s = Rational(placed.first_frame) / rate,
+                .end_s = Rational(placed.first_frame + part.frame_count()) / rate});
+      voice.rise = fade_into(placed, rate);
+      if (i + 1 < film.parts().size()) voice.fall = fade_into(film.parts()[i + 1], rate);
+      const PixelRect cell = part.cell(k);
+      voice.left = double(cell.x_px) / film.view().width_px;
+      voice.right = double(cell.x_px + cell.width_px) / film.view().width_px;
+    }
+  }
+  return voices;
+}
+
+}  // namespace
+
+FilmSound::FilmSound(const Film& film, std::stop_token stop,
+                     std::function<void(std::int64_t)> on_samples)
+    : soundtrack_(voices_of(film), Rational(film.frame_count()) / film.view().frame_rate),
+      stop_(std::move(stop)),
+      on_samples_(std::move(on_samples)) {}
+
+std::size_t FilmSound::read(std::span<float> samples) {
+  if (stop_.stop_requested()) throw Interrupted("render: interrupted");
+  const std::size_t count = soundtrack_.read(samples);
+  count_ += static_cast<std::int64_t>(count);
+  on_samples_(count_);
+  return count;
+}
+
+}  // namespace piblocks

@@ -1,0 +1,126 @@
+// The order of the stages: clacks -> heights -> clicks -> timbre -> weights.
+#include "sound/run_sound.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "sound/loudness.hpp"
+
+namespace piblocks {
+namespace {
+
+/// A clack of impulse 1 alone peaks at about a fifth of full scale.
+constexpr double kVolume = 0.28;
+
+/// The clock of a voice begins with a whole sample of the film.
+Rational to_first_sample_s(const Voice& voice, int rate_hz) {
+  return voice.begin_s - Rational(RunSound::first_sample(voice, rate_hz)) / rate_hz;
+}
+
+ClackStream stream_of(const Voice& voice, int rate_hz) {
+  const Rational later_s = to_first_sample_s(voice, rate_hz);
+  std::vector<Stretch> stretches = voice.stretches;
+  for (Stretch& stretch : stretches) stretch.video_s += later_s;
+  return {voice.log, stretches, voice.end_s - voice.begin_s + later_s, rate_hz};
+}
+
+}  // namespace
+
+RunSound::RunSound(const Voice& voice, const Rational& film_s, int rate_hz)
+    : view_low_(to_double(voice.scene.view.x.low)),
+      view_width_(to_double(voice.scene.view.x.high - voice.scene.view.x.low)),
+      half_blue_(to_double(voice.scene.system.blue.width) / 2),
+      left_(voice.left),
+      width_(voice.right - voice.left),
+      sample_(first_sample(voice, rate_hz)),
+      rise_(in_samples(voice.rise, rate_hz)),
+      fall_(in_samples(voice.fall, rate_hz)),
+      stream_(stream_of(voice, rate_hz)),
+      wall_(wall_modes(), rate_hz),
+      blocks_(block_modes(), rate_hz) {
+  if (voice.end_s < film_s) end_ = to_double(voice.end_s * rate_hz);
+}
+
+std::int64_t RunSound::first_sample(const Voice& voice, int rate_hz) {
+  return floor(Rational(voice.begin_s * rate_hz)).get_si();
+}
+
+RunSound::SampleRamp RunSound::in_samples(const std::optional<Ramp>& ramp, int rate_hz) {
+  if (!ramp) return {};
+  return {to_double(ramp->begin_s * rate_hz), to_double(ramp->end_s * rate_hz)};
+}
+
+/// Left and right of a contact: of equal power from one edge of the frame to the other, neither
+/// ever silent.
+RunSound::Pair RunSound::channels(const Clack& clack) const {
+  const double side = clack.kind == CollisionKind::wall ? -half_blue_ : half_blue_;
+  const double in_view = (clack.blue_position + side - view_low_) / view_width_;
+  const double x = left_ + width_ * std::clamp(in_view, 0.0, 1.0);
+  const double angle = std::numbers::pi / 2 * (0.15 + 0.7 * x);
+  return {std::cos(angle), std::sin(angle)};
+}
+
+/// All whose click reaches into the block.
+void RunSound::add_clicks() {
+  const std::int64_t end = block_begin_ + kBlock + kReach;
+  stream_.read_until(end + kTogether_samples, clacks_);
+  // The two kinds of one eighth of a sample, and what rounding did.
+  std::stable_sort(clacks_.begin() + std::ptrdiff_t(clicked_), clacks_.end(),
+                   [](const Clack& a, const Clack& b) { return a.sample < b.sample; });
+  for (; clicked_ < clacks_.size() && clacks_[clicked_].sample < double(end); ++clicked_) {
+    const Clack& clack = clacks_[clicked_];
+    const double volume = kVolume * height(clacks_, clicked_);
+    const Pair side = channels(clack);
+    const double whole = std::floor(clack.sample);
+    const auto first = std::int64_t(whole) - (kReach - 1);
+    const std::int64_t at = first - (block_begin_ - kReach);
+    std::vector<double>& clicks = clack.kind == CollisionKind::wall ? wall_clicks_ : block_clicks_;
+    kernel_.add(clack.sample - whole, volume * side[0], volume * side[1], clicks.data() + 2 * at);
+  }
+  const auto done = std::find_if(
+      clacks_.begin(), clacks_.begin() + std::ptrdiff_t(clicked_),
+      [&](const Clack& clack) { return clack.sample > double(end) - kTogether_samples; });
+  clicked_ -= std::size_t(done - clacks_.begin());
+  clacks_.erase(clacks_.begin(), done);
+}
+
+void RunSound::make_block() {
+  add_clicks();
+  std::ranges::fill(block_, 0.0);
+  for (auto [timbre, clicks] :
+       {std::pair{&wall_, &wall_clicks_}, std::pair{&blocks_, &block_clicks_}}) {
+    timbre->add(std::span(*clicks).subspan(2 * kReach, 2 * kBlock), block_);
+    std::copy(clicks->begin() + 2 * kBlock, clicks->end(), clicks->begin());
+    std::fill(clicks->end() - 2 * kBlock, clicks->end(), 0.0);
+  }
+  block_begin_ += kBlock;
+  used_ = 0;
+}
+
+double RunSound::weight() const {
+  const auto along = [&](const SampleRamp& ramp) {
+    return std::clamp((double(sample_) - ramp.begin) / (ramp.end - ramp.begin), 0.0, 1.0);
+  };
+  double weight = rise_.begin < rise_.end ? along(rise_) : 1;
+  if (fall_.begin < fall_.end) return weight * (1 - along(fall_));
+  return weight * weight_before_cut(end_ - double(sample_));
+}
+
+RunSound::Pair RunSound::next() {
+  if (used_ == kBlock) make_block();
+  const auto at = static_cast<std::size_t>(2 * used_);
+  const double factor = weight();
+  ++used_;
+  ++sample_;
+  return {factor * block_[at], factor * block_[at + 1]};
+}
+
+double weight_before_cut(double samples) {
+  constexpr double kLength = 240;  // 5 ms
+  const double rest = samples / kLength;
+  return rest >= 1 ? 1 : (1 - std::cos(std::numbers::pi * rest)) / 2;
+}
+
+}  // namespace piblocks

@@ -1,0 +1,75 @@
+// What one run of a film sounds like before anything is limited.
+// In: a voice. Out: pairs of samples of any height, from the first that it is heard in.
+#pragma once
+
+#include <piblocks/soundtrack.hpp>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "sound/clack_stream.hpp"
+#include "sound/click_kernel.hpp"
+#include "sound/timbre.hpp"
+
+namespace piblocks {
+
+/// Takes the same memory for a run of any length. Used by one thread at a time.
+class RunSound {
+ public:
+  using Pair = std::array<double, 2>;
+
+  /// @param film_s  the film's duration: what lasts until then rings on beyond it.
+  RunSound(const Voice& voice, const Rational& film_s, int rate_hz);
+
+  /// The sample of the film in which next() begins.
+  static std::int64_t first_sample(const Voice& voice, int rate_hz);
+  bool is_over() const noexcept { return double(sample_) >= end_; }
+  Pair next();
+
+ private:
+  static constexpr std::int64_t kBlock = 1024;  // pairs
+  static constexpr std::int64_t kReach = ClickKernel::kReach;
+
+  /// A ramp in samples; none if both are equal.
+  struct SampleRamp {
+    double begin = 0;
+    double end = 0;
+  };
+
+  static SampleRamp in_samples(const std::optional<Ramp>& ramp, int rate_hz);
+  Pair channels(const Clack& clack) const;
+  void add_clicks();
+  void make_block();
+  double weight() const;
+
+  double view_low_;
+  double view_width_;
+  double half_blue_;
+  double left_;
+  double width_;
+  std::int64_t sample_;  // of the film, the next one
+  double end_ = std::numeric_limits<double>::infinity();
+  SampleRamp rise_;
+  SampleRamp fall_;
+  ClackStream stream_;
+  ClickKernel kernel_;
+  Timbre wall_;
+  Timbre blocks_;
+
+  // In samples from the first one on.
+  std::vector<Clack> clacks_;  // those that are not done with
+  std::size_t clicked_ = 0;    // of them, how many are in the clicks
+  // Pairs of samples from block_begin_ - kReach on, as far as clicks reach.
+  std::vector<double> wall_clicks_ = std::vector<double>(2 * (kBlock + 3 * kReach));
+  std::vector<double> block_clicks_ = std::vector<double>(2 * (kBlock + 3 * kReach));
+  std::vector<double> block_ = std::vector<double>(2 * kBlock);
+  std::int64_t block_begin_ = 0;
+  std::int64_t used_ = kBlock;  // pairs of the block
+};
+
+/// The weight of what ends with a cut so many samples later: what still rings must not click.
+double weight_before_cut(double samples);
+
+}  // namespace piblocks

@@ -1,0 +1,303 @@
+// Films of several parts: what every frame shows, and that nothing changes their bytes.
+#include "render/film.hpp"
+
+#include <gtest/gtest.h>
+#include <piblocks/canvas.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/png.hpp>
+#include <piblocks/render.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+
+#include "support/decode_video.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace piblocks {
+namespace {
+using testing_support::file_contents;
+using testing_support::TemporaryFolder;
+
+using Words = std::vector<std::uint32_t>;
+
+Words words_of(const ImageView& image) {
+  Words words(static_cast<std::size_t>(image.width_px * image.height_px));
+  for (int y = 0; y < image.height_px; ++y) {
+    std::memcpy(words.data() + y * image.width_px, image.row(y),
+                std::size_t{4} * static_cast<std::size_t>(image.width_px));
+  }
+  return words;
+}
+
+Words painted(const DrawList& list) {
+  Canvas canvas(list.width_px, list.height_px);
+  canvas.paint(list);
+  return words_of(canvas.view());
+}
+
+class FilmTest : public testing::Test {
+ protected:
+  Script read(const std::string& text) const {
+    const std::string path = folder_ / "story.toml";
+    std::ofstream(path) << "view.size = '160x90'\nview.fps = 10\n" << text;
+    ScriptBuilder builder;
+    builder.read_file(path);
+    return builder.build();
+  }
+  Film film(const std::string& text) const { return Film(read(text)); }
+
+  std::vector<std::string> problems(const std::string& text) const {
+    try {
+      film(text);
+    } catch (const UsageError& error) {
+      return error.problems();
+    }
+    return {};
+  }
+
+  TemporaryFolder folder_;
+};
+
+/// A card, runs, a comparison, fades and a cut; what moves is exposed in some.
+constexpr const char* kStory = R"(
+[[part]]
+card = ["Counting π", "twice"]
+seconds = 1
+[[part]]
+digits = 1
+fade = 0.5
+time.duration = 3
+[[part]]
+digits = 2
+time.duration = 2
+view.shutter = 1
+[[part]]
+fade = 0.7
+time.duration = 3
+compare = [{ mass-ratio = 1 }, { mass-ratio = 16, view.shutter = "1/2" }]
+)";
+
+TEST_F(FilmTest, PartsFollowEachOther) {
+  const Film made = film(kStory);
+  const auto parts = made.parts();
+  ASSERT_EQ(parts.size(), 4U);
+  const std::vector<std::int64_t> counts = {10, 30, 20, 30};
+  const std::vector<std::int64_t> fades = {0, 5, 0, 7};
+  const std::vector<std::int64_t> first = {0, 5, 35, 48};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(parts[i].part.frame_count(), counts[i]) << i;
+    EXPECT_EQ(parts[i].fade_frames, fades[i]) << i;
+    EXPECT_EQ(parts[i].first_frame, first[i]) << i;
+    EXPECT_EQ(parts[i].part.schedule() != nullptr, i > 0) << i;
+    EXPECT_EQ(parts[i].part.runs().size(), i == 3 ? 2U : i == 0 ? 0U : 1U) << i;
+  }
+  EXPECT_EQ(made.frame_count(), 78);
+}
+
+TEST_F(FilmTest, OfASceneIsTheScene) {
+  const Script script = read("digits = 2");
+  const Film made(script);
+  const FilmPart part(std::get<Scene>(script));
+  ASSERT_EQ(made.parts().size(), 1U);
+  EXPECT_EQ(made.frame_count(), part.frame_count());
+  EXPECT_EQ(made.frame(17), part.frame(17));
+}
+
+TEST_F(FilmTest, APartShowsWhatItsSceneWouldShowAlone) {
+  const Film made = film(kStory);
+  const Film alone = film("digits = 2\ntime.duration = 2\nview.shutter = 1");
+  for (std::int64_t k = 35; k < 48; ++k) EXPECT_EQ(made.frame(k), alone.frame(k - 35)) << k;
+}
+
+bool is_exposed(const DrawList& list) {
+  return std::ranges::any_of(
+      list.items, [](const DrawItem& item) { return std::holds_alternative<ExposedItem>(item); });
+}
+
+TEST_F(FilmTest, EachRunHasItsOwnShutter) {
+  const Film made = film(kStory);
+  EXPECT_FALSE(is_exposed(made.frame(20)));
+  EXPECT_TRUE(is_exposed(made.frame(40)));
+  std::vector<bool> exposed;
+  for (const DrawItem& item : made.frame(60).items) {
+    const auto* group = std::get_if<GroupItem>(&item);
+    if (group != nullptr) exposed.push_back(is_exposed(*group->list));
+  }
+  EXPECT_EQ(exposed, (std::vector<bool>{false, true}));
+}
+
+TEST_F(FilmTest, AFadeShowsBothPartsAndHalfWayTheirMean) {
+  const Film made = film(kStory);
+  const auto parts = made.parts();
+  for (const std::size_t i : {1U, 3U}) {
+    const std::int64_t fade = parts[i].fade_frames;
+    for (std::int64_t k = 0; k < fade; ++k) {
+      const std::int64_t frame = parts[i].first_frame + k;
+      const Words from = painted(parts[i - 1].part.frame(frame - parts[i - 1].first_frame));
+      const Words to = painted(parts[i].part.frame(k));
+      const Words both = painted(made.frame(frame));
+      const double opacity = double(k + 1) / double(fade + 1);
+      if (k == fade / 2) {
+        EXPECT_EQ(opacity, 0.5);
+      }
+      for (std::size_t at = 0; at < both.size(); ++at) {
+        for (const int shift : {0, 8, 16}) {
+          const auto sample = [&](const Words& words) {
+            return double((words[at] >> shift) & 0xFF);
+          };
+          // The opacity and both products are rounded to eight bits.
+          ASSERT_NEAR(sample(both), (1 - opacity) * sample(from) + opacity * sample(to), 1.51)
+              << "frame " << frame << ", pixel " << at;
+        }
+      }
+    }
+    const std::int64_t after = parts[i].first_frame + fade;
+    EXPECT_EQ(made.frame(after), parts[i].part.frame(fade)) << "the fade is over";
+    const std::int64_t before = parts[i].first_frame - 1;
+    EXPECT_EQ(made.frame(before), parts[i - 1].part.frame(before - parts[i - 1].first_frame));
+  }
+}
+
+TEST_F(FilmTest, WhatIsComparedHasOneClock) {
+  const Film made = film(
+      "[[part]]\ntime.to = 'last+1'\ncompare = [{digits = 1}, {mass-ratio = 16}, {digits = 3}]");
+  const PlacedPart& placed = made.parts().front();
+  const auto runs = placed.part.runs();
+  ASSERT_EQ(runs.size(), 3U);
+  // As long as the run that takes longest would be alone.
+  const auto length = [&](const char* keys) {
+    return film(std::string(keys) + "\ntime.to = 'last+1'").frame_count();
+  };
+  const std::int64_t longest =
+      std::max({length("digits = 1"), length("mass-ratio = 16"), length("digits = 3")});
+  EXPECT_EQ(made.frame_count(), longest);
+  for (const std::int64_t k : {std::int64_t{0}, longest / 2, longest - 1}) {
+    const FrameTime shown = placed.part.schedule()->at(Rational(k) / 10);
+    const DrawList list = made.frame(k);
+    std::size_t cell = 0;
+    for (const DrawItem& item : list.items) {
+      const auto* group = std::get_if<GroupItem>(&item);
+      if (group == nullptr) continue;
+      EXPECT_EQ(*group->list, runs[cell].frame(shown, *placed.part.schedule(), k))
+          << "frame " << k << ", cell " << cell;
+      ++cell;
+    }
+    EXPECT_EQ(cell, 3U);
+  }
+}
+
+TEST_F(FilmTest, FadesHaveToFit) {
+  const std::string card = "[[part]]\ncard = 'a'\nseconds = 1\n";
+  EXPECT_EQ(film(card + card + "fade = 0.9\n").frame_count(), 11);
+  EXPECT_EQ(film(card + card + "fade = 0.94\n").frame_count(), 11) << "rounded to whole frames";
+  EXPECT_EQ(film(card + card + "fade = 0.04\n").frame_count(), 20) << "rounded to a cut";
+  EXPECT_EQ(film(card + card + "fade = 0.5\n" + card + "fade = 0.5\n").frame_count(), 20);
+  for (const std::string& fades : {std::string("fade = 1\n"), std::string("fade = 1000000000\n"),
+                                   std::string("fade = 0.95")}) {
+    const auto found = problems(card + card + fades);
+    ASSERT_EQ(found.size(), 1U) << fades;
+    EXPECT_NE(found.front().find("story.toml:6: fade = "), std::string::npos) << found.front();
+  }
+  EXPECT_EQ(problems(card + card + "fade = 0.6\n" + card + "fade = 0.5\n").size(), 1U)
+      << "three parts at once";
+  EXPECT_EQ(problems(card + card + "fade = 1\n" + card + "fade = 1\n").size(), 2U);
+}
+
+TEST_F(FilmTest, ProblemsOfAllPartsAreToldAtOnce) {
+  const std::string long_line(500, 'm');
+  const auto found = problems("[[part]]\ncard = '" + long_line +
+                              "'\n[[part]]\nred.velocity = 0\n[[part]]\nview.x = [-1, 30]\n"
+                              "[[part]]\ncard = 'a'\nseconds = 1e9\n");
+  ASSERT_EQ(found.size(), 3U) << testing::PrintToString(found);
+  EXPECT_NE(found[0].find("story.toml:3: card: "), std::string::npos) << found[0];
+  EXPECT_NE(found[1].find("story.toml:5: time.to: "), std::string::npos) << found[1];
+  EXPECT_NE(found[2].find("story.toml:9: seconds = "), std::string::npos) << found[2];
+}
+
+TEST_F(FilmTest, RefusesAStoryboardThatWasNotChecked) {
+  const Script empty = Storyboard();
+  EXPECT_THROW(Film{empty}, SceneError);
+}
+
+TEST_F(FilmTest, IsNotTooLong) {
+  std::string text = "[[part]]\ncard = 'a'\nseconds = 60000\n";
+  EXPECT_TRUE(problems(text).empty());
+  EXPECT_EQ(problems(text + text).size(), 1U);
+}
+
+TEST_F(FilmTest, EveryFrameIsThatOfAFullPaintInAnyOrder) {
+  const Script script = read(kStory);
+  const Film made(script);
+  FrameRenderer renderer(script);
+  ASSERT_EQ(renderer.frame_count(), made.frame_count());
+  for (std::int64_t k = 0; k < made.frame_count(); ++k) {
+    ASSERT_EQ(words_of(renderer.frame(k)), painted(made.frame(k))) << k;
+    const std::int64_t other = k * 37 % made.frame_count();
+    ASSERT_EQ(words_of(renderer.frame(other)), painted(made.frame(other))) << other;
+    ASSERT_EQ(words_of(renderer.frame(k)), painted(made.frame(k))) << k << " again";
+  }
+}
+
+TEST_F(FilmTest, BytesDoNotDependOnJobsNorOnParts) {
+  const Script script = read(kStory);
+  for (const std::string name : {"out.mp4", "out.framehash"}) {
+    const std::string whole = folder_ / name;
+    render({script, whole, {}, 1}, [](const Progress&) {});
+    const std::string other = folder_ / ("two-" + name);
+    render({script, other, {}, 2}, [](const Progress&) {});
+    EXPECT_EQ(file_contents(whole) == file_contents(other), true) << name;
+    std::vector<std::string> parts;
+    RenderJob job{script, folder_ / ("part-" + name)};
+    for (int i = 1; i <= 3; ++i) {
+      job.part = Part{i, 3};
+      render(job, [](const Progress&) {});
+      parts.push_back(part_name(job.output, *job.part));
+    }
+    const std::string joined = folder_ / ("joined-" + name);
+    EXPECT_EQ(join(parts, joined), 78);
+    EXPECT_EQ(file_contents(whole) == file_contents(joined), true) << name;
+  }
+}
+
+TEST_F(FilmTest, PartsOfOtherStoriesAreNotJoined) {
+  std::string changed = kStory;
+  changed.replace(changed.find("twice"), 5, "again");
+  std::vector<std::string> parts;
+  for (int i = 1; i <= 2; ++i) {
+    const RenderJob job{read(i == 1 ? kStory : changed), folder_ / "out.mp4", {}, 1, Part{i, 2}};
+    render(job, [](const Progress&) {});
+    parts.push_back(part_name(job.output, *job.part));
+  }
+  try {
+    join(parts, folder_ / "joined.mp4");
+    FAIL() << "joined";
+  } catch (const UsageError& error) {
+    EXPECT_TRUE(std::string(error.what()).ends_with("they differ in part-1")) << error.what();
+  }
+}
+
+TEST_F(FilmTest, AStillIsTheFrameOfASecondOfTheVideo) {
+  const Script script = read(kStory);
+  const Film made(script);
+  const auto still = [&](const Instant& instant) {
+    render_still(script, instant, folder_ / "still.png");
+    return file_contents(folder_ / "still.png");
+  };
+  const auto frame = [&](std::int64_t number) {
+    const DrawList list = made.frame(number);
+    Canvas canvas(list.width_px, list.height_px);
+    canvas.paint(list);
+    const auto png = encode_png(canvas.view());
+    return std::string(png.begin(), png.end());
+  };
+  EXPECT_EQ(still(Rational(0)) == frame(0), true);
+  EXPECT_EQ(still(Rational(509, 100)) == frame(50), true) << "in a fade";
+  EXPECT_EQ(still(LastCollision{}) == frame(77), true);
+  EXPECT_THROW(still(Rational(-1)), UsageError);
+  EXPECT_THROW(still(Rational(78, 10)), UsageError);
+  EXPECT_THROW(still(NthCollision{1}), UsageError);
+}
+
+}  // namespace
+}  // namespace piblocks

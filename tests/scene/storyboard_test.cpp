@@ -1,0 +1,251 @@
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+#include <piblocks/storyboard.hpp>
+
+#include <fstream>
+
+#include "support/temporary_folder.hpp"
+
+namespace piblocks {
+namespace {
+
+class StoryboardFileTest : public testing::Test {
+ protected:
+  Script load(const std::string& text) {
+    std::ofstream(path_) << text;
+    ScriptBuilder builder;
+    builder.read_file(path_);
+    return builder.build();
+  }
+  Storyboard story(const std::string& text) { return std::get<Storyboard>(load(text)); }
+
+  std::vector<std::string> problems(const std::string& text) {
+    try {
+      load(text);
+    } catch (const SceneError& error) {
+      return error.problems();
+    }
+    return {};
+  }
+
+  testing_support::TemporaryFolder folder_;
+  std::string path_ = folder_ / "story.toml";
+};
+
+const Scene& only_run(const StoryPart& part) { return std::get<Runs>(part.content).at(0); }
+
+TEST_F(StoryboardFileTest, AFileWithoutPartsIsAScene) {
+  const Script script = load("digits = 2\n[time]\nspeed = 3\n");
+  const Scene& scene = std::get<Scene>(script);
+  EXPECT_EQ(scene.system.red.mass, 100);
+  EXPECT_EQ(scene.time.speed, 3);
+}
+
+TEST_F(StoryboardFileTest, DigitsAndMassRatioSetTheMassOfRed) {
+  const auto red_mass = [&](const std::string& text) {
+    return std::get<Scene>(load(text)).system.red.mass;
+  };
+  EXPECT_EQ(red_mass("digits = 1"), 1);
+  EXPECT_EQ(red_mass("digits = \"4\"\nblue.mass = 3"), 3'000'000);
+  EXPECT_EQ(red_mass("mass-ratio = \"1/3\"\nblue.mass = 6"), 2);
+}
+
+TEST_F(StoryboardFileTest, KeysAboveHoldForAllParts) {
+  const Storyboard read = story(R"(
+    digits = 2
+    [view]
+    size = "640x360"
+    fps = 25
+    theme = "dark"
+    [time]
+    speed = 2
+    [golden]
+    frames = ["1.5"]
+    [[part]]
+    [[part]]
+    digits = 3
+    fade = "1/3"
+    time.duration = 6
+    show.title = "three"
+    [[part]]
+    red.mass = 7
+    [part.time]
+    speed = 5
+  )");
+  EXPECT_EQ(read.view.width_px, 640);
+  EXPECT_EQ(read.view.frame_rate, 25);
+  EXPECT_EQ(read.view.theme, Theme::dark);
+  EXPECT_EQ(read.golden.frames, std::vector<std::string>{"1.5"});
+  ASSERT_EQ(read.parts.size(), 3U);
+  EXPECT_EQ(only_run(read.parts[0]).system.red.mass, 100);
+  EXPECT_EQ(only_run(read.parts[0]).time.speed, 2);
+  EXPECT_EQ(read.parts[0].fade_s, 0);
+  EXPECT_EQ(only_run(read.parts[1]).system.red.mass, 10000);
+  EXPECT_EQ(only_run(read.parts[1]).pacing.duration_s, 6);
+  EXPECT_EQ(only_run(read.parts[1]).show.title, "three");
+  EXPECT_EQ(read.parts[1].fade_s, Rational(1, 3));
+  EXPECT_EQ(only_run(read.parts[2]).system.red.mass, 7) << "the part's key wins over the film's";
+  EXPECT_EQ(only_run(read.parts[2]).time.speed, 5);
+  EXPECT_EQ(only_run(read.parts[2]).show.title, "");
+  EXPECT_EQ(read.parts[2].origin, path_ + ":17");
+}
+
+TEST_F(StoryboardFileTest, ACardHasLines) {
+  const auto lines = [&](const std::string& value) {
+    return std::get<Card>(story("[[part]]\ncard = " + value + "\n").parts.at(0).content).lines;
+  };
+  const std::vector<std::string> two = {"Counting π", "by hand"};
+  EXPECT_EQ(lines("'π'"), std::vector<std::string>{"π"});
+  EXPECT_EQ(lines("['Counting π', 'by hand']"), two);
+  EXPECT_EQ(lines("\"Counting π\\nby hand\""), two);
+  EXPECT_EQ(lines("\"\"\"\nCounting π\nby hand\n\"\"\""), two);
+  const Storyboard read = story("[[part]]\ncard = 'a'\n[[part]]\ncard = 'b'\nseconds = '5/2'\n");
+  EXPECT_EQ(std::get<Card>(read.parts[0].content).length_s, 2);
+  EXPECT_EQ(std::get<Card>(read.parts[1].content).length_s, Rational(5, 2));
+}
+
+TEST_F(StoryboardFileTest, WhatAPartSaysHoldsForAllItCompares) {
+  const Storyboard read = story(R"(
+    [[part]]
+    time.duration = 4
+    red.position = 6
+    compare = [{ mass-ratio = 16, show.title = "16" }, { digits = 2, red.position = 7 }]
+  )");
+  const Runs& runs = std::get<Runs>(read.parts.at(0).content);
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[0].system.red.mass, 16);
+  EXPECT_EQ(runs[0].system.red.position, 6);
+  EXPECT_EQ(runs[0].show.title, "16");
+  EXPECT_EQ(runs[1].system.red.mass, 100);
+  EXPECT_EQ(runs[1].system.red.position, 7);
+  EXPECT_EQ(runs[1].pacing.duration_s, 4);
+}
+
+TEST_F(StoryboardFileTest, EveryProblemNamesItsLine) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"[[part]]\ndigits = 0", ":2: digits = 0: must be a whole number from 1"},
+      {"[[part]]\ndigits = 1.5", ":2: digits = 1.5: must be a whole number from 1"},
+      {"[[part]]\ndigits = [1, 2]", ":2: digits = [1, 2]: must be one value"},
+      {"[[part]]\nmass-ratio = -1", ":2: mass-ratio = -1: must be greater than 0"},
+      {"[[part]]\ndigits = 1\nmass-ratio = 3", ":1: digits and mass-ratio both set the mass"},
+      {"digits = 1\nmass-ratio = 3\nred.mass = 3", ": digits and mass-ratio and red.mass all set"},
+      {"[[part]]\ntime.speed = 1\ntime.duration = 3", ":1: time.speed and time.duration both set"},
+      {"[[part]]\nspeed = 1", ":2: speed: unknown key"},
+      {"[[part]]\nview.size = '64x64'", ":2: view.size: holds for the whole film"},
+      {"[[part]]\n[part.view]\nfps = 10", ":3: view.fps: holds for the whole film"},
+      {"[[part]]\nview.theme = 'dark'", ":2: view.theme: holds for the whole film"},
+      {"[[part]]\ngolden.frames = [1]", ":2: golden.frames: holds for the whole film"},
+      {"[[part]]\nfade = 1", ":2: fade: no part is before the first"},
+      {"[[part]]\n[[part]]\nfade = -1", ":3: fade: must not be less than 0"},
+      {"[[part]]\n[[part]]\nfade = 'x'", ":3: fade: not a number"},
+      {"[[part]]\n[[part]]\nfade = [[1]]", ":3: fade: "},
+      {"[[part]]\ncard = ''", ":2: card: must not have an empty line"},
+      {"[[part]]\ncard = ['a', '']", ":2: card: must not have an empty line"},
+      {"[[part]]\ncard = [1,2,3,4,5,6,7,8,9]", ":2: card: must be from 1 to 8 lines"},
+      {"[[part]]\ncard = \"a\\n\\nb\"", ":2: card: must not have an empty line"},
+      {"[[part]]\ncard = \"a\\tb\"", ":2: card: must be one line of text"},
+      {"[[part]]\ncard = 'a'\nseconds = 0", ":3: seconds: must be greater than 0"},
+      {"[[part]]\ncard = 'a'\ndigits = 3", ":3: digits: a card has nothing but"},
+      {"[[part]]\ncard = 'a'\ncompare = [{}, {}]", ":3: compare: a card has nothing but"},
+      {"[[part]]\nseconds = 3", ":2: seconds: is the length of a card"},
+      {"[[part]]\ncompare = 3", ":2: compare: must be a list of 2 to 4 tables"},
+      {"[[part]]\ncompare = [{}]", ":2: compare: must be a list of 2 to 4 tables"},
+      {"[[part]]\ncompare = [{}, {}, {}, {}, {}]", ":2: compare: must be a list of 2 to 4"},
+      {"[[part]]\ncompare = [{}, 3]", ":2: compare: must be a list of 2 to 4 tables"},
+      {"[[part]]\ncompare = [{}, { time.speed = 2 }]", ":2: time.speed: what is compared has one"},
+      {"[[part]]\ncompare = [{}, { view.size = 2 }]", ":2: view.size: holds for the whole film"},
+      {"[[part]]\ncompare = [{}, { fade = 2 }]", ":2: fade: unknown key"},
+      {"[part]\ndigits = 2", ":2: part: is written [[part]]"},
+      {"part = 2", ":1: part: is written [[part]]"},
+      {"[view]\nfps = 0\n[[part]]\n[[part]]", ":2: view.fps = 0: must be greater than 0"},
+      {"[view]\nfps = 0\n[[part]]\ncard = 'a'", ":2: view.fps = 0: must be greater than 0"},
+      {"[time]\nspeed = -1\n[[part]]\n[[part]]", ":2: time.speed = -1: must be greater than 0"},
+      {"[[part]]\n[[part]]\nred.width = 7", ":2: red.position"},
+      {"[[part]]\n[[part]]\nred.position = 2", ":3: red.position"},
+  };
+  for (const auto& [text, expected] : cases) {
+    const auto found = problems(text);
+    ASSERT_EQ(found.size(), 1U) << text << "\n" << testing::PrintToString(found);
+    EXPECT_TRUE(found.front().starts_with(path_ + expected)) << found.front();
+  }
+}
+
+TEST_F(StoryboardFileTest, AllProblemsAreToldAtOnce) {
+  const auto found = problems(
+      "[view]\nfps = 0\n[[part]]\ncard = ''\n[[part]]\ndigits = 0\n[[part]]\ntime.speed = -1\n");
+  EXPECT_EQ(found.size(), 4U) << testing::PrintToString(found);
+}
+
+TEST_F(StoryboardFileTest, HasALimitedNumberOfParts) {
+  std::string text;
+  for (std::size_t i = 0; i < kMaxStoryParts; ++i) text += "[[part]]\n";
+  EXPECT_EQ(story(text).parts.size(), kMaxStoryParts);
+  EXPECT_EQ(problems(text + "[[part]]\n").size(), 1U);
+}
+
+TEST_F(StoryboardFileTest, OptionsSetKeysOfTheWholeFilmOnly) {
+  std::ofstream(path_) << "[[part]]\n[[part]]\ncard = 'a'\n";
+  ScriptBuilder builder;
+  builder.read_file(path_);
+  builder.set("--size", "view.size", "64x48");
+  builder.set("--fps", "view.fps", "12");
+  const auto story = std::get<Storyboard>(builder.build());
+  EXPECT_EQ(story.view.height_px, 48);
+  EXPECT_EQ(story.view.frame_rate, 12);
+  builder.set("--speed", "time.speed", "2");
+  builder.set_mass_ratio("--digits", 100);
+  builder.set("--size", "view.size", "0x48");
+  try {
+    builder.build();
+    FAIL() << "accepted";
+  } catch (const SceneError& error) {
+    ASSERT_EQ(error.problems().size(), 3U) << error.what();
+    EXPECT_TRUE(error.problems()[0].starts_with("--speed: '" + path_ + "' is a storyboard"));
+    EXPECT_TRUE(error.problems()[1].starts_with("--digits: '" + path_ + "' is a storyboard"));
+    EXPECT_TRUE(error.problems()[2].starts_with("--size: view.size = 0x48"));
+  }
+}
+
+TEST_F(StoryboardFileTest, ASceneBuilderRefusesParts) {
+  std::ofstream(path_) << "[[part]]\n";
+  SceneBuilder builder;
+  builder.read_file(path_);
+  EXPECT_THROW(builder.build(), SceneError);
+}
+
+/// Parts of a rendering are told apart by descriptions.
+TEST_F(StoryboardFileTest, DescriptionsDifferWhereFilmsDo) {
+  const std::string base =
+      "[view]\nfps = 30\n[[part]]\ncard = ['a', 'b']\n[[part]]\nfade = 1\n"
+      "compare = [{digits = 1}, {digits = 2}]\n";
+  const std::vector<std::pair<std::string, std::string>> changes = {
+      {"fps = 30", "fps = 31"},
+      {"fps = 30", "fps = 30\n[sound]\non = true"},
+      {"'b'", "'c'"},
+      {"['a', 'b']", "'a b'"},
+      {"['a', 'b']", "'a'\nseconds = 3"},
+      {"fade = 1", "fade = 2"},
+      {"digits = 2", "digits = 3"},
+      {"{digits = 1}", "{digits = 1}, {digits = 1}"}};
+  const auto described = describe(story(base));
+  EXPECT_EQ(described, describe(story(base)));
+  for (const auto& [from, to] : changes) {
+    std::string changed = base;
+    changed.replace(changed.find(from), from.size(), to);
+    EXPECT_NE(described, describe(story(changed))) << to;
+  }
+}
+
+TEST(Storyboard, ProblemsOfOneMadeByHandAreToldAtOnce) {
+  Storyboard story;
+  EXPECT_EQ(problems_of(story).size(), 1U);
+  story.parts = {{Runs{}, 1}, {Card{}, -1}, {Card{{"a", ""}, 0}}, {Runs{Scene{}}}};
+  story.view.width_px = 0;
+  const auto found = problems_of(story);
+  // The frame, as the film's and as the last part's; fade and no run; fade and no line; an empty
+  // line and no time.
+  EXPECT_EQ(found.size(), 8U) << testing::PrintToString(found);
+}
+
+}  // namespace
+}  // namespace piblocks
