@@ -17,9 +17,9 @@ const Scene& checked(const Scene& scene) {
   return scene;
 }
 
-FilmPart made_from(const StoryPart& part, const View& view) {
-  if (const auto* card = std::get_if<Card>(&part.content)) return {*card, view};
-  return {std::get<Runs>(part.content), view};
+FilmPart made_from(const StoryPart& part, const View& view, FilmUse use) {
+  if (const auto* card = std::get_if<Card>(&part.content)) return {*card, view, use};
+  return {std::get<Runs>(part.content), view, use};
 }
 
 std::string place_of(const Storyboard& story, std::size_t part) {
@@ -29,24 +29,24 @@ std::string place_of(const Storyboard& story, std::size_t part) {
 
 }  // namespace
 
-Film::Film(const Script& script) : view_(view_of(script)) {
+Film::Film(const Script& script, FilmUse use) : view_(view_of(script)) {
   if (const auto* scene = std::get_if<Scene>(&script)) {
-    parts_.push_back({FilmPart(checked(*scene))});
+    parts_.push_back({FilmPart(checked(*scene), use)});
     frame_count_ = parts_.front().part.frame_count();
     return;
   }
   const auto& story = std::get<Storyboard>(script);
   std::vector<std::string> problems = problems_of(story);
   if (!problems.empty()) throw SceneError(std::move(problems));
-  add_parts(story);
+  add_parts(story, use);
   place_parts(story);
 }
 
-void Film::add_parts(const Storyboard& story) {
+void Film::add_parts(const Storyboard& story, FilmUse use) {
   std::vector<std::string> problems;
   for (std::size_t i = 0; i < story.parts.size(); ++i) {
     try {
-      parts_.push_back({made_from(story.parts[i], view_)});
+      parts_.push_back({made_from(story.parts[i], view_, use)});
     } catch (const UsageError& error) {
       for (const std::string& problem : error.problems()) {
         problems.push_back(fmt::format("{}: {}", place_of(story, i), problem));

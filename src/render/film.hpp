@@ -31,7 +31,7 @@ class Film {
  public:
   /// @throws SceneError if problems_of() what it is made from is not empty; UsageError if a fade is
   ///         not shorter than its parts, or as FilmPart; SimulationError, DrawError
-  explicit Film(const Script& script);
+  explicit Film(const Script& script, FilmUse use = FilmUse::seen);
 
   const View& view() const noexcept { return view_; }
   Ground ground() const noexcept { return ground_of(view_); }
@@ -42,7 +42,7 @@ class Film {
   std::span<const PlacedPart> parts() const noexcept { return parts_; }
 
  private:
-  void add_parts(const Storyboard& story);
+  void add_parts(const Storyboard& story, FilmUse use);
   void place_parts(const Storyboard& story);
 
   View view_;

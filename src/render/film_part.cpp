@@ -29,29 +29,30 @@ std::size_t longest(const std::vector<std::unique_ptr<CollisionLog>>& logs) {
 
 }  // namespace
 
-Run::Run(Scene scene, std::unique_ptr<CollisionLog> log)
-    : scene_(std::move(scene)),
-      log_(std::move(log)),
-      composition_(scene_, *log_, read_logo(scene_)) {}
+Run::Run(Scene scene, std::unique_ptr<CollisionLog> log, FilmUse use)
+    : scene_(std::move(scene)), log_(std::move(log)) {
+  if (use == FilmUse::seen) composition_.emplace(scene_, *log_, read_logo(scene_));
+}
 
 DrawList Run::frame(FrameTime shown, const Schedule& clock, std::int64_t number) const {
   BlockState state = state_at(*log_, shown.time);
   const std::vector<ExposurePart> exposure = expose_frame(scene_, *log_, clock, number);
-  return composition_.frame({std::move(state), std::move(shown.time), std::move(shown.slower)},
-                            exposure);
+  return composition_->frame({std::move(state), std::move(shown.time), std::move(shown.slower)},
+                             exposure);
 }
 
-FilmPart::FilmPart(const Scene& scene) { show_one(scene); }
+FilmPart::FilmPart(const Scene& scene, FilmUse use) { show_one(scene, use); }
 
-FilmPart::FilmPart(const Runs& runs, const View& film) {
+FilmPart::FilmPart(const Runs& runs, const View& film, FilmUse use) {
   if (runs.size() == 1) {
-    show_one(with_film_view(runs.front(), film));
+    show_one(with_film_view(runs.front(), film), use);
   } else {
-    compare(runs, film);
+    compare(runs, film, use);
   }
 }
 
-FilmPart::FilmPart(const Card& card, const View& film) : card_(compose_card(card.lines, film)) {
+FilmPart::FilmPart(const Card& card, const View& film, FilmUse use) {
+  if (use == FilmUse::seen) card_ = compose_card(card.lines, film);
   const Integer frames = ceil(card.length_s * film.frame_rate);
   if (frames > kMaxFrames) {
     throw UsageError(fmt::format("seconds = {}: {} frames are more than {}", to_text(card.length_s),
@@ -60,14 +61,14 @@ FilmPart::FilmPart(const Card& card, const View& film) : card_(compose_card(card
   frame_count_ = frames.get_si();
 }
 
-void FilmPart::show_one(Scene scene) {
+void FilmPart::show_one(Scene scene, FilmUse use) {
   auto log = make_collision_log(scene.system);
   timeline_.emplace(scene, *log);
   frame_count_ = timeline_->frame_count();
-  runs_.emplace_back(std::move(scene), std::move(log));
+  runs_.emplace_back(std::move(scene), std::move(log), use);
 }
 
-void FilmPart::compare(const Runs& runs, const View& film) {
+void FilmPart::compare(const Runs& runs, const View& film, FilmUse use) {
   split_.emplace(film, runs.size());
   std::vector<std::unique_ptr<CollisionLog>> logs;
   for (const Scene& run : runs) logs.push_back(make_collision_log(run.system));
@@ -83,7 +84,7 @@ void FilmPart::compare(const Runs& runs, const View& film) {
     run.time = leading.time;
     run.time.to = end;
     run.pacing = leading.pacing;
-    runs_.emplace_back(std::move(run), std::move(logs[i]));
+    runs_.emplace_back(std::move(run), std::move(logs[i]), use);
   }
 }
 

@@ -17,12 +17,16 @@
 
 namespace piblocks {
 
+/// What is asked of a film: of one that is only heard nothing is laid out, and no frame may be
+/// asked for.
+enum class FilmUse : std::uint8_t { seen, heard };
+
 /// A scene, its collisions, and what its frames are composed by. Const members are thread-safe.
 class Run {
  public:
   /// @param log  of the scene's system.
   /// @throws UsageError, DrawError, MediaError as Composition and read_logo().
-  Run(Scene scene, std::unique_ptr<CollisionLog> log);
+  Run(Scene scene, std::unique_ptr<CollisionLog> log, FilmUse use);
 
   const Scene& scene() const noexcept { return scene_; }
   const CollisionLog& log() const noexcept { return *log_; }
@@ -32,16 +36,16 @@ class Run {
  private:
   Scene scene_;
   std::unique_ptr<CollisionLog> log_;
-  Composition composition_;
+  std::optional<Composition> composition_;  ///< of a run that is seen
 };
 
 /// Const members are thread-safe.
 class FilmPart {
  public:
   /// Scenes and cards must have no problems. @throws UsageError, SimulationError, DrawError
-  explicit FilmPart(const Scene& scene);
-  FilmPart(const Runs& runs, const View& film);
-  FilmPart(const Card& card, const View& film);
+  FilmPart(const Scene& scene, FilmUse use);
+  FilmPart(const Runs& runs, const View& film, FilmUse use);
+  FilmPart(const Card& card, const View& film, FilmUse use);
   FilmPart(FilmPart&&) = default;
   FilmPart& operator=(FilmPart&&) = default;
   FilmPart(const FilmPart&) = delete;
@@ -60,8 +64,8 @@ class FilmPart {
   const Schedule* schedule() const noexcept { return timeline_ ? &timeline_->schedule() : nullptr; }
 
  private:
-  void show_one(Scene scene);
-  void compare(const Runs& runs, const View& film);
+  void show_one(Scene scene, FilmUse use);
+  void compare(const Runs& runs, const View& film, FilmUse use);
 
   std::int64_t frame_count_ = 0;
   std::vector<Run> runs_;

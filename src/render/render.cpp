@@ -21,7 +21,7 @@ namespace {
 /// Everything that decides what the frames show, how they sound, and how they are encoded.
 struct Plan {
   explicit Plan(const RenderJob& job)
-      : film(job.script),
+      : film(job.script, is_sound_alone(job.output) ? FilmUse::heard : FilmUse::seen),
         sound(soundtrack_of(job, film)),
         output(set_up_output(job.output,
                              {film.view().width_px, film.view().height_px, film.view().frame_rate,
@@ -169,7 +169,9 @@ Rendered render(const RenderJob& job, const std::function<void(const Progress&)>
   if (is_page(job.output)) return render_page(job, on_progress, stop);
   check_part(job);
   const Plan plan(job);
-  if (job.max_flashes) check_flashes(plan.film, *job.max_flashes, stop);
+  if (job.max_flashes && plan.output->has_frames()) {
+    check_flashes(plan.film, *job.max_flashes, stop);
+  }
   const Share share = share_of(job.part, plan.chunks.count());
   const std::unique_ptr<FrameSink> sink = open_sink(job, plan);
   const auto frames_until = [&](std::int64_t chunk) {

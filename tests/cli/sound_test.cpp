@@ -206,5 +206,15 @@ TEST_F(SoundTest, AloneLoadsNoCodecsAndTakesLittleMemory) {
   EXPECT_EQ(std::filesystem::file_size(folder_ / "a.wav"), 44u + 600u * 48000u * 6u);
 }
 
+/// What only the picture would need is neither made nor asked for.
+TEST_F(SoundTest, AloneNeedsNoPicture) {
+  const Arguments wav{"render", "--digits", "2", "--quiet", "-o", "a.wav"};
+  output_of(wav);
+  const std::string sound = contents("a.wav");
+  output_of(wav + Arguments{"--logo", "missing.png", "--size", "64x36", "--show", "velocities",
+                            "--max-flashes", "3"});
+  EXPECT_EQ(contents("a.wav"), sound);
+}
+
 }  // namespace
 }  // namespace piblocks
