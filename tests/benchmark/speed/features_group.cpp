@@ -16,29 +16,29 @@ constexpr const char* kToForFormats = "5";
 
 /// The article's scene with something that it does not have by default.
 struct Feature {
-  const char* name;
+  std::string name;
   Command options;
 };
 
 std::vector<Feature> features() {
   std::vector<Feature> features = {
       {"nothing", {}},
-      {"theme", {"--theme", "dark"}},
-      {"title and caption", {"--title", "Counting collisions", "--caption", "m = 100 kg"}},
-      {"sound", {"--sound"}},
-      {"slow motion", {"--slow-motion", "auto"}},
-      {"exposure", {"--shutter", "0.5"}},
-      {"flashes limited", {"--max-flashes", "3"}},
-      {"width by mass", {"--width-by-mass"}}};
+      {"--theme dark", {"--theme", "dark"}},
+      {"--title and --caption", {"--title", "Counting collisions", "--caption", "m = 100 kg"}},
+      {"--sound", {"--sound"}},
+      {"--slow-motion auto", {"--slow-motion", "auto"}},
+      {"--shutter 0.5", {"--shutter", "0.5"}},
+      {"--max-flashes 3", {"--max-flashes", "3"}},
+      {"--width-by-mass", {"--width-by-mass"}}};
   for (const char* overlay :
        {"digits", "masses", "velocities", "energy", "momentum", "time", "ruler"}) {
-    features.push_back({overlay, {"--show", overlay}});
+    features.push_back({std::string("--show ") + overlay, {"--show", overlay}});
   }
   for (const char* panel : {"velocity", "position", "unfolded", "time", "rate"}) {
-    features.push_back({panel, {"--panels", panel}});
+    features.push_back({std::string("--panels ") + panel, {"--panels", panel}});
   }
   features.push_back({"four panels", {"--panels", "velocity,position,unfolded,time"}});
-  features.push_back({"four panels and overlays",
+  features.push_back({"four panels and all of --show",
                       {"--panels", "velocity,position,unfolded,time", "--show",
                        "digits,masses,velocities,energy,momentum,time,ruler"}});
   return features;

@@ -81,7 +81,7 @@ set xlabel font ",12"
 scaled(series, x) = is('scaling', series) ? x : NaN
 x_of(size) = strstrt(size, 'x')
 product(size) = real(size[1:x_of(size) - 1]) * real(size[x_of(size) + 1:strlen(size)])
-megapixels(size) = x_of(size) > 0 ? product(size) / 1e6 : NaN
+megapixels(size) = is('scaling', 'size') ? product(size) / 1e6 : NaN
 
 eval place(0.06, 0.245, 0.09, 0.44)
 set title "MP4: frame size"
@@ -92,7 +92,7 @@ set logscale y
 set yrange [10:10000]
 set format y "%.0f"
 set ylabel "frames/s" offset char 1.5, 0
-plot csv using (scaled('size', megapixels(strcol('value')))):(column(speed)) \
+plot csv using (megapixels(strcol('value'))):(column(speed)) \
   with linespoints ls 1
 
 eval place(0.31, 0.495, 0.09, 0.44)
