@@ -72,7 +72,7 @@ std::size_t onset(const std::vector<double>& samples, std::size_t from) {
 /// Frame rates at which parts begin at a sample, and between two of them.
 TEST_F(FilmSoundTest, EachPartIsHeardAtItsTime) {
   for (const std::string rate : {"10", "60", "'30000/1001'"}) {
-    const Film film(read("view.fps = " + rate + R"(
+    const std::string text = "view.fps = " + rate + R"(
 [[part]]
 card = 'a'
 seconds = 1
@@ -86,22 +86,9 @@ digits = 2
 time.duration = 4
 [[part]]
 mass-ratio = 3
-)"));
-    const Track heard = track("view.fps = " + rate + R"(
-[[part]]
-card = 'a'
-seconds = 1
-[[part]]
-digits = 1
-time.duration = 5
-[[part]]
-card = 'b'
-[[part]]
-digits = 2
-time.duration = 4
-[[part]]
-mass-ratio = 3
-)");
+)";
+    const Film film(read(text));
+    const Track heard = track(text);
     const Rational& fps = film.view().frame_rate;
     const auto seconds = [&](std::int64_t frame) { return to_double(Rational(frame) / fps); };
     for (const PlacedPart& placed : film.parts()) {

@@ -5,32 +5,12 @@
 #include <algorithm>
 #include <fstream>
 
-#include "support/temporary_folder.hpp"
+#include "scene/file_fixture.hpp"
 
 namespace piblocks {
 namespace {
 
-class SceneFileTest : public testing::Test {
- protected:
-  Scene load(const std::string& text) {
-    std::ofstream(path_) << text;
-    SceneBuilder builder;
-    builder.read_file(path_);
-    return builder.build();
-  }
-
-  std::vector<std::string> problems(const std::string& text) {
-    try {
-      load(text);
-    } catch (const SceneError& error) {
-      return error.problems();
-    }
-    return {};
-  }
-
-  testing_support::TemporaryFolder folder_;
-  std::string path_ = folder_ / "scene.toml";
-};
+using SceneFileTest = FileFixture<SceneBuilder>;
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

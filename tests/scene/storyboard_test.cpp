@@ -4,32 +4,14 @@
 
 #include <fstream>
 
-#include "support/temporary_folder.hpp"
+#include "scene/file_fixture.hpp"
 
 namespace piblocks {
 namespace {
 
-class StoryboardFileTest : public testing::Test {
+class StoryboardFileTest : public FileFixture<ScriptBuilder> {
  protected:
-  Script load(const std::string& text) {
-    std::ofstream(path_) << text;
-    ScriptBuilder builder;
-    builder.read_file(path_);
-    return builder.build();
-  }
   Storyboard story(const std::string& text) { return std::get<Storyboard>(load(text)); }
-
-  std::vector<std::string> problems(const std::string& text) {
-    try {
-      load(text);
-    } catch (const SceneError& error) {
-      return error.problems();
-    }
-    return {};
-  }
-
-  testing_support::TemporaryFolder folder_;
-  std::string path_ = folder_ / "story.toml";
 };
 
 const Scene& only_run(const StoryPart& part) { return std::get<Runs>(part.content).at(0); }
