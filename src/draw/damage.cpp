@@ -133,13 +133,14 @@ bool slides(const RectangleItem& before, const RectangleItem& after) {
 }
 
 template <typename Item>
-void compare(const Item& before, const Item& after, const MeasureText&, Damage& damage) {
+void compare(const Item& before, const Item& after, const MeasureText& /*width_em*/,
+             Damage& damage) {
   damage.add(extent_of(before));
   damage.add(extent_of(after));
 }
 
-void compare(const RectangleItem& before, const RectangleItem& after, const MeasureText&,
-             Damage& damage) {
+void compare(const RectangleItem& before, const RectangleItem& after,
+             const MeasureText& /*width_em*/, Damage& damage) {
   const Rectangle& a = before.bounds;
   const Rectangle& b = after.bounds;
   if (!slides(before, after)) {

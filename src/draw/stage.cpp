@@ -55,7 +55,7 @@ RectangleItem compose_wall(const Scene& scene, const Layout& layout, const Palet
 /// digits do. Nothing while the count has fewer digits.
 std::size_t lit_length(std::string_view count, std::string_view expected) {
   if (count.size() != expected.size()) return 0;
-  const auto end = std::ranges::mismatch(count, expected).in1;
+  const auto* const end = std::ranges::mismatch(count, expected).in1;
   auto length = static_cast<std::size_t>(end - count.begin());
   if (length > 0 && length < count.size() && count[length - 1] == ',') --length;
   return length;

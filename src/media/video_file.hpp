@@ -17,16 +17,17 @@ namespace piblocks {
 
 /// How libavformat is told what kind of file to write.
 struct Container {
-  const char* muxer;         ///< its name
-  const char* index_option;  ///< which, set so, brings the index to the front
-  const char* index_value;
+  const char* muxer = nullptr;         ///< its name
+  const char* index_option = nullptr;  ///< which, set so, brings the index to the front
+  const char* index_value = nullptr;
   /// Whether a file that is read back has so many packets of each stream.
-  bool (*is_whole)(AVFormatContext& file, std::span<const std::int64_t> packets);
-  SoundCodec sound;                        ///< what its sound is encoded by
-  std::vector<std::string> (*encoders)();  ///< names of those that its pictures may be encoded by
+  bool (*is_whole)(AVFormatContext& file, std::span<const std::int64_t> packets) = nullptr;
+  SoundCodec sound;  ///< what its sound is encoded by
+  /// Names of those that its pictures may be encoded by.
+  std::vector<std::string> (*encoders)() = nullptr;
   /// Whether sound is counted from its first packet. Otherwise that is before 0, where libavformat
   /// moves all streams of a file that cannot have such times.
-  bool sound_from_zero;
+  bool sound_from_zero = false;
 };
 
 extern const Container kMp4;

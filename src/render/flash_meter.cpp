@@ -70,7 +70,7 @@ std::optional<Flashing> FlashMeter::take(const ImageView& frame,
 void FlashMeter::touch(const PixelRect& rect) {
   for (int y = rect.y_px / cell_px_; y * cell_px_ < rect.y_px + rect.height_px; ++y) {
     for (int x = rect.x_px / cell_px_; x * cell_px_ < rect.x_px + rect.width_px; ++x) {
-      touched_[static_cast<std::size_t>(y * columns_ + x)] = true;
+      touched_[cell_at(x, y)] = true;
     }
   }
 }
@@ -118,27 +118,24 @@ void FlashMeter::follow(std::size_t at, Measure measure, float value) {
   has_changed_ = true;
 }
 
-bool FlashMeter::flashes(std::size_t cell) const {
-  for (const Measure each : {luminance, red}) {
-    const std::size_t at = cell * kMeasures + each;
-    const auto count = static_cast<std::size_t>(swings_[at].count);
-    if (count < too_many_) continue;
-    const std::int64_t oldest = changed_at_[at * too_many_ + count % too_many_];
-    if (double(frame_ - oldest) <= frames_per_s_) return true;
-  }
-  return false;
+bool FlashMeter::flashes(std::size_t swing) const {
+  const auto count = static_cast<std::size_t>(swings_[swing].count);
+  if (count < too_many_) return false;
+  const std::int64_t oldest = changed_at_[swing * too_many_ + count % too_many_];
+  return double(frame_ - oldest) <= frames_per_s_;
 }
 
 std::optional<Flashing> FlashMeter::most_flashing() const {
   // Sums over all cells above and to the left, to have that of any rectangle at once.
-  const int stride = columns_ + 1;
-  std::vector<int> sums(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows_ + 1));
+  const auto stride = static_cast<std::size_t>(columns_) + 1;
+  std::vector<int> sums(stride * (static_cast<std::size_t>(rows_) + 1));
   const auto sum = [&](int x, int y) -> int& {
-    return sums[static_cast<std::size_t>(y * stride + x)];
+    return sums[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)];
   };
   for (int y = 0; y < rows_; ++y) {
     for (int x = 0; x < columns_; ++x) {
-      const int own = flashes(static_cast<std::size_t>(y * columns_ + x)) ? 1 : 0;
+      const std::size_t at = cell_at(x, y) * kMeasures;
+      const int own = flashes(at + luminance) || flashes(at + red) ? 1 : 0;
       sum(x + 1, y + 1) = own + sum(x, y + 1) + sum(x + 1, y) - sum(x, y);
     }
   }

@@ -40,7 +40,8 @@ class FlashMeter {
   std::optional<Flashing> take(const ImageView& frame, std::span<const PixelRect> changed);
 
  private:
-  enum Measure : std::size_t { luminance, red, kMeasures };
+  enum Measure : std::size_t { luminance, red };
+  static constexpr std::size_t kMeasures = 2;
   using Measured = std::array<float, kMeasures>;
 
   /// One measure of a cell, from one change to the next.
@@ -51,10 +52,14 @@ class FlashMeter {
     std::int64_t count = 0;  ///< changes so far
   };
 
+  std::size_t cell_at(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
   void touch(const PixelRect& rect);
   Measured measure(const ImageView& frame, int column, int row) const;
-  void follow(std::size_t swing, Measure measure, float value);
-  bool flashes(std::size_t cell) const;
+  void follow(std::size_t at, Measure measure, float value);
+  bool flashes(std::size_t swing) const;
   std::optional<Flashing> most_flashing() const;
 
   int width_px_;

@@ -40,9 +40,8 @@ class ScheduleBuilder {
  public:
   ScheduleBuilder(const Scene& scene, const CollisionLog& log);
   void build();
-
-  std::vector<Stretch> stretches;
-  Integer frame_count;
+  std::vector<Stretch> take_stretches() { return std::move(stretches_); }
+  const Integer& frame_count() const noexcept { return frame_count_; }
 
  private:
   Rational whole_frames(const Rational& length_s) const {
@@ -55,6 +54,8 @@ class ScheduleBuilder {
   void append(Stretch stretch);
   void play_back();
 
+  std::vector<Stretch> stretches_;
+  Integer frame_count_;
   const Pacing& pacing_;
   Rational rate_;
   bool after_last_;
@@ -116,8 +117,8 @@ Rational ScheduleBuilder::speed() const {
 
 void ScheduleBuilder::append(Stretch stretch) {
   // What begins when the next does takes no time.
-  if (!stretches.empty() && stretches.back().video_s == stretch.video_s) stretches.pop_back();
-  stretches.push_back(std::move(stretch));
+  if (!stretches_.empty() && stretches_.back().video_s == stretch.video_s) stretches_.pop_back();
+  stretches_.push_back(std::move(stretch));
 }
 
 void ScheduleBuilder::run_to(const Rational& time, const Rational& slower) {
@@ -145,20 +146,20 @@ void ScheduleBuilder::stand(const Rational& length_s) {
 
 /// The same again from the last frame to the first, neither of which is repeated.
 void ScheduleBuilder::play_back() {
-  if (frame_count < 2) return;
-  const Rational turn_s = Rational(frame_count - 1) / rate_;
+  if (frame_count_ < 2) return;
+  const Rational turn_s = Rational(frame_count_ - 1) / rate_;
   // What begins after the last frame is shown by none.
-  while (stretches.back().video_s > turn_s) stretches.pop_back();
-  const auto forth = static_cast<std::ptrdiff_t>(stretches.size());
+  while (stretches_.back().video_s > turn_s) stretches_.pop_back();
+  const auto forth = static_cast<std::ptrdiff_t>(stretches_.size());
   Rational end_s = turn_s;
   for (std::ptrdiff_t i = forth - 1; i >= 0; --i) {
-    const Stretch stretch = stretches[static_cast<std::size_t>(i)];
+    const Stretch stretch = stretches_[static_cast<std::size_t>(i)];
     if (stretch.video_s >= end_s) continue;
     append({2 * turn_s - end_s, stretch.time + stretch.speed * (end_s - stretch.video_s),
             -stretch.speed, stretch.slower});
     end_s = stretch.video_s;
   }
-  frame_count = 2 * frame_count - 2;
+  frame_count_ = 2 * frame_count_ - 2;
 }
 
 void ScheduleBuilder::build() {
@@ -172,17 +173,17 @@ void ScheduleBuilder::build() {
   const auto& stops = motions_.stops;
   for (; next_stop_ < stops.size(); ++next_stop_) stand(stops[next_stop_].length_s);
 
-  frame_count = ceil(video_s_ * rate_);
+  frame_count_ = ceil(video_s_ * rate_);
   if (after_last_) {
     // The motion goes on to the next frame, which may stand still then.
-    frame_count += 1;
-    const Rational last_s = Rational(frame_count - 1) / rate_;
-    const Stretch& last = stretches.back();
+    frame_count_ += 1;
+    const Rational last_s = Rational(frame_count_ - 1) / rate_;
+    const Stretch& last = stretches_.back();
     time_ = last.time + last.speed * (last_s - last.video_s);
     video_s_ = last_s;
   }
   stand(hold_end_s_);
-  frame_count += ceil(hold_end_s_ * rate_);
+  frame_count_ += ceil(hold_end_s_ * rate_);
   if (pacing_.loop) play_back();
 }
 
@@ -201,8 +202,8 @@ Rational end_of(const Scene& scene, const CollisionLog& log) {
 Schedule::Schedule(const Scene& scene, const CollisionLog& log) {
   ScheduleBuilder builder(scene, log);
   builder.build();
-  stretches_ = std::move(builder.stretches);
-  frame_count_ = std::move(builder.frame_count);
+  stretches_ = builder.take_stretches();
+  frame_count_ = builder.frame_count();
 }
 
 std::optional<Rational> Schedule::first_shown(const Rational& time) const {

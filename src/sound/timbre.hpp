@@ -32,9 +32,9 @@ class Timbre {
  private:
   using Pair = std::array<double, 2>;
   struct Resonator {
-    double last_but_one;  ///< factors of the answers before
-    double last;
-    double height;
+    double last_but_one = 0;  ///< factors of the answers before
+    double last = 0;
+    double height = 0;
     Pair before_last{};
     Pair before{};
   };
