@@ -34,6 +34,7 @@ struct TimeSlice {
   Rational to;
   Rational share;  ///< of that interval
 };
+
 /// Where the scene's span of simulation time ends.
 /// @throws UsageError if that is after the last collision of a scene without collisions.
 Rational end_of(const Scene& scene, const CollisionLog& log);

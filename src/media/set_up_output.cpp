@@ -16,12 +16,12 @@ namespace {
 /// A kind of output: a new one is one more entry of the table below.
 struct OutputKind {
   std::string_view name;  // as a message lists it
-  bool (*matches)(std::string_view output);
-  bool takes_encoder_settings;
-  bool takes_alpha;
-  bool takes_sound;
-  bool keeps_pictures;
-  std::unique_ptr<Output> (*set_up)(const OutputRequest& request);
+  bool (*matches)(std::string_view output) = nullptr;
+  std::unique_ptr<Output> (*set_up)(const OutputRequest& request) = nullptr;
+  bool takes_encoder_settings = false;
+  bool takes_alpha = false;
+  bool takes_sound = false;
+  bool keeps_pictures = true;
 };
 
 constexpr std::string_view kWav = "*.wav (sound alone)";
@@ -29,34 +29,61 @@ constexpr std::string_view kWav = "*.wav (sound alone)";
 constexpr bool is_wav(std::string_view output) { return output.ends_with(".wav"); }
 
 constexpr std::array kOutputKinds = {
-    OutputKind{"*.mp4", [](std::string_view output) { return output.ends_with(".mp4"); }, true,
-               false, true, true,
-               [](const OutputRequest& request) { return av_module().mp4_output(request); }},
-    OutputKind{"*.mov", [](std::string_view output) { return output.ends_with(".mov"); }, true,
-               true, true, true,
-               [](const OutputRequest& request) { return av_module().mov_output(request); }},
-    OutputKind{"*.webm", [](std::string_view output) { return output.ends_with(".webm"); }, true,
-               true, true, true,
-               [](const OutputRequest& request) { return av_module().webm_output(request); }},
-    OutputKind{"*.gif", [](std::string_view output) { return output.ends_with(".gif"); }, false,
-               false, false, true,
-               [](const OutputRequest& request) { return av_module().gif_output(request); }},
-    OutputKind{"*.apng", [](std::string_view output) { return output.ends_with(".apng"); }, false,
-               true, false, true, apng_output},
-    OutputKind{"*.png with a number field such as %06d",
-               [](std::string_view output) { return output.ends_with(".png"); }, false, true, false,
-               true, png_output},
-    OutputKind{"*.y4m", [](std::string_view output) { return output.ends_with(".y4m"); }, false,
-               false, false, true, y4m_output},
-    OutputKind{"- (y4m on standard output)", [](std::string_view output) { return output == "-"; },
-               false, false, false, true, y4m_output},
-    OutputKind{"*.framehash",
-               [](std::string_view output) { return output.ends_with(".framehash"); }, false, true,
-               false, true,
-               [](const OutputRequest& request) { return av_module().framehash_output(request); }},
-    OutputKind{"null", [](std::string_view output) { return output == "null"; }, false, true, false,
-               false, null_output},
-    OutputKind{kWav, is_wav, false, true, true, false, wav_output},
+    OutputKind{
+        .name = "*.mp4",
+        .matches = [](std::string_view output) { return output.ends_with(".mp4"); },
+        .set_up = [](const OutputRequest& request) { return av_module().mp4_output(request); },
+        .takes_encoder_settings = true,
+        .takes_sound = true},
+    OutputKind{
+        .name = "*.mov",
+        .matches = [](std::string_view output) { return output.ends_with(".mov"); },
+        .set_up = [](const OutputRequest& request) { return av_module().mov_output(request); },
+        .takes_encoder_settings = true,
+        .takes_alpha = true,
+        .takes_sound = true},
+    OutputKind{
+        .name = "*.webm",
+        .matches = [](std::string_view output) { return output.ends_with(".webm"); },
+        .set_up = [](const OutputRequest& request) { return av_module().webm_output(request); },
+        .takes_encoder_settings = true,
+        .takes_alpha = true,
+        .takes_sound = true},
+    OutputKind{
+        .name = "*.gif",
+        .matches = [](std::string_view output) { return output.ends_with(".gif"); },
+        .set_up = [](const OutputRequest& request) { return av_module().gif_output(request); }},
+    OutputKind{.name = "*.apng",
+               .matches = [](std::string_view output) { return output.ends_with(".apng"); },
+               .set_up = apng_output,
+               .takes_alpha = true},
+    OutputKind{.name = "*.png with a number field such as %06d",
+               .matches = [](std::string_view output) { return output.ends_with(".png"); },
+               .set_up = png_output,
+               .takes_alpha = true},
+    OutputKind{.name = "*.y4m",
+               .matches = [](std::string_view output) { return output.ends_with(".y4m"); },
+               .set_up = y4m_output},
+    OutputKind{.name = "- (y4m on standard output)",
+               .matches = [](std::string_view output) { return output == "-"; },
+               .set_up = y4m_output},
+    OutputKind{
+        .name = "*.framehash",
+        .matches = [](std::string_view output) { return output.ends_with(".framehash"); },
+        .set_up =
+            [](const OutputRequest& request) { return av_module().framehash_output(request); },
+        .takes_alpha = true},
+    OutputKind{.name = "null",
+               .matches = [](std::string_view output) { return output == "null"; },
+               .set_up = null_output,
+               .takes_alpha = true,
+               .keeps_pictures = false},
+    OutputKind{.name = kWav,
+               .matches = is_wav,
+               .set_up = wav_output,
+               .takes_alpha = true,
+               .takes_sound = true,
+               .keeps_pictures = false},
 };
 
 const OutputKind* find_kind(std::string_view output) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "draw/random_items.hpp"
 #include "support/property.hpp"
 
 namespace piblocks {
@@ -129,153 +130,12 @@ TEST(Damage, OfPicturesWithAllThatCanBeShownIsExact) {
   }
 }
 
-/// A number of pixels in or around a frame of size `end`; half of them whole.
-double anywhere(Random& random, int end) {
-  const double position = random.uniform(-0.3 * end, 1.3 * end);
-  return random.integer(0, 1) == 0 ? position : std::round(position);
-}
-
-Color any_color(Random& random) {
-  const auto part = [&] { return static_cast<std::uint8_t>(random.integer(0, 255)); };
-  return {part(), part(), part()};
-}
-
-std::string any_text(Random& random) {
-  const std::string text = "3,141,592 Collisions: \xc3\x84\xc3\xb6j\xcf\x80";
-  std::size_t length = static_cast<std::size_t>(random.integer(0, std::int64_t(text.size())));
-  while (length < text.size() && (static_cast<unsigned char>(text[length]) & 0xc0) == 0x80)
-    ++length;
-  return text.substr(0, length);
-}
-
-std::optional<Stroke> any_stroke(Random& random) {
-  if (random.integer(0, 2) == 0) return std::nullopt;
-  return Stroke{any_color(random), random.uniform(0.5, 4),
-                random.integer(0, 2) == 0 ? random.uniform(1, 6) : 0};
-}
-
-std::optional<Color> any_fill(Random& random) {
-  return random.integer(0, 3) != 0 ? std::optional(any_color(random)) : std::nullopt;
-}
-
-Point any_point(Random& random, int width, int height) {
-  return {anywhere(random, width), anywhere(random, height)};
-}
-
-TextItem any_line(Random& random, ItemId id, int width, int height) {
-  return {id, any_point(random, width, height), any_text(random), random.uniform(4, 30),
-          any_color(random)};
-}
-
-RectangleItem any_rectangle(Random& random, ItemId id, int width, int height) {
-  return {id,
-          {anywhere(random, width), anywhere(random, height), random.uniform(1, width),
-           random.uniform(1, height)},
-          any_fill(random),
-          any_stroke(random)};
-}
-
-PathItem any_path(Random& random, ItemId id, int width, int height) {
-  std::vector<Point> points(static_cast<std::size_t>(random.integer(0, 9)));
-  for (Point& point : points) point = any_point(random, width, height);
-  return {id, points, random.integer(0, 1) == 0, any_fill(random), any_stroke(random)};
-}
-
-DiskItem any_disk(Random& random, ItemId id, int width, int height) {
-  return {id, any_point(random, width, height), random.uniform(0.5, 30), any_fill(random),
-          any_stroke(random)};
-}
-
-ImageItem any_image(Random& random, ItemId id, int width, int height) {
-  Image image{static_cast<int>(random.integer(1, 8)), static_cast<int>(random.integer(1, 8)), {}};
-  for (int i = 0; i < image.width_px * image.height_px; ++i) {
-    image.words.push_back(static_cast<std::uint32_t>(random.integer(0, 0xFFFFFFFF)));
-  }
-  return {id,
-          {std::round(anywhere(random, width)), std::round(anywhere(random, height)),
-           random.uniform(1, width), random.uniform(1, height)},
-          std::make_shared<const Image>(image)};
-}
-
-DrawItem any_item(Random& random, ItemId id, int width, int height);
-
-/// A picture of a few items, in or around the frame, often seen through.
-GroupItem any_group(Random& random, ItemId id, int width, int height) {
-  DrawList list{static_cast<int>(random.integer(1, width)),
-                static_cast<int>(random.integer(1, height)),
-                any_color(random),
-                {}};
-  for (const ItemId inner : {ItemId::wall, ItemId::red_block, ItemId::count}) {
-    if (random.integer(0, 2) == 0) continue;
-    list.items.push_back(any_item(random, inner, list.width_px, list.height_px));
-  }
-  return {id, static_cast<int>(anywhere(random, width)), static_cast<int>(anywhere(random, height)),
-          std::make_shared<const DrawList>(list),
-          random.integer(0, 1) == 0 ? 1 : random.uniform(0, 1)};
-}
-
-ExposedBlock any_exposed_block(Random& random, int width, int height) {
-  ExposedBlock block{{anywhere(random, width), anywhere(random, height), random.uniform(1, width),
-                      random.uniform(1, height)},
-                     any_color(random),
-                     {any_color(random), random.uniform(0.5, 4), 0},
-                     {},
-                     {}};
-  for (std::int64_t i = random.integer(-2, 3); i > 0; --i) {
-    const double down = random.uniform(0, block.bounds.height);
-    block.bars.push_back({block.bounds.y + down, random.uniform(0, block.bounds.height - down)});
-  }
-  const auto count = random.integer(0, 2) == 0 ? 0 : random.integer(1, 40);
-  double x = block.bounds.x;
-  for (std::int64_t i = 0; i < count; ++i) {
-    block.stops.push_back({x, 1.0 / double(count)});
-    x += random.uniform(0.01, 1);
-  }
-  return block;
-}
-
-ExposedItem any_exposed(Random& random, ItemId id, int width, int height) {
-  ExposedItem item{
-      id, any_exposed_block(random, width, height), any_exposed_block(random, width, height), {}};
-  for (std::int64_t i = random.integer(-3, 5); i > 0; --i) {
-    item.contacts.push_back({anywhere(random, width), anywhere(random, width), 0.1});
-  }
-  std::ranges::sort(item.contacts, {}, &Contact::behind_x);
-  return item;
-}
-
-PlateItem any_plate(Random& random, ItemId id, int width, int height) {
-  Plate plate;
-  for (std::int64_t i = random.integer(0, 3); i > 0; --i) {
-    plate.items.emplace_back(any_path(random, id, width, height));
-    plate.items.emplace_back(any_disk(random, id, width, height));
-    plate.items.emplace_back(any_line(random, id, width, height));
-  }
-  return {id,
-          {std::round(anywhere(random, width)), std::round(anywhere(random, height)),
-           double(random.integer(1, width)), double(random.integer(1, height))},
-          std::make_shared<const Plate>(std::move(plate))};
-}
-
-DrawItem any_item(Random& random, ItemId id, int width, int height) {
-  switch (random.integer(0, 7)) {
-    case 0:
-      return any_line(random, id, width, height);
-    case 1:
-      return any_path(random, id, width, height);
-    case 2:
-      return any_disk(random, id, width, height);
-    case 3:
-      return any_image(random, id, width, height);
-    case 4:
-      return any_exposed(random, id, width, height);
-    case 5:
-      return any_group(random, id, width, height);
-    case 6:
-      return any_plate(random, id, width, height);
-    default:
-      return any_rectangle(random, id, width, height);
-  }
+/// As from frame to frame: all of its way, or where it stays.
+void move(Random& random, ExposedBlock& block) {
+  const double step = random.uniform(-5, 5);
+  block.bounds.x += step;
+  for (Stop& stop : block.stops) stop.x += step;
+  if (random.integer(0, 4) == 0) block.stops.clear();
 }
 
 void change(Random& random, DrawList& list);
@@ -286,14 +146,6 @@ void change_group(Random& random, GroupItem& group) {
   change(random, list);
   group.list = std::make_shared<const DrawList>(list);
   if (random.integer(0, 3) == 0) group.opacity = random.uniform(0, 1);
-}
-
-/// As from frame to frame: all of its way, or where it stays.
-void move(Random& random, ExposedBlock& block) {
-  const double step = random.uniform(-5, 5);
-  block.bounds.x += step;
-  for (Stop& stop : block.stops) stop.x += step;
-  if (random.integer(0, 4) == 0) block.stops.clear();
 }
 
 /// Moves, resizes, recolours or rewrites one item, or a few, or none.

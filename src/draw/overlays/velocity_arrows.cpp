@@ -28,8 +28,7 @@ constexpr double kHalfLength = 2;
 
 /// Red's largest speed if it is the heavier one: all energy its own.
 double usual_speed(const BlockSystem& system) {
-  const double ratio = to_double(system.blue.mass / system.red.mass);
-  return std::hypot(std::sqrt(ratio) * to_double(system.blue.velocity),
+  return std::hypot(root_of(system.blue.mass / system.red.mass) * to_double(system.blue.velocity),
                     to_double(system.red.velocity));
 }
 

@@ -13,16 +13,6 @@ constexpr double kMargin_em = 0.8;
 /// Lines between sectors begin where they are so far apart.
 constexpr double kLeastApart_px = 4;
 
-std::vector<Point> arc(const Point& centre, double radius, double from, double to) {
-  std::vector<Point> points;
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(to - from) / kCircleStep)));
-  for (int i = 0; i <= steps; ++i) {
-    const double angle = from + (to - from) * i / steps;
-    points.push_back({centre.x + radius * std::cos(angle), centre.y - radius * std::sin(angle)});
-  }
-  return points;
-}
-
 /// The velocities as a point of the plane whose distance from the origin never changes. A collision
 /// of the blocks turns it by two wedge angles to below the axis, and the wall mirrors it to above:
 /// on either side sector joins sector, until none fits any more.
@@ -41,7 +31,7 @@ class VelocityPanel final : public PicturePart {
     radius_ = std::min(inside.width, inside.height) / 2 - kMargin_em * em;
     place_sectors(setting.log);
     add_axes();
-    add_rays();
+    if (speed_ > 0) add_rays();
     sheet_.finish();
   }
 
@@ -74,6 +64,12 @@ class VelocityPanel final : public PicturePart {
     return {centre_.x + radius * std::cos(angle), centre_.y - radius * std::sin(angle)};
   }
   Point on_rim(double angle) const { return on_circle(radius_, angle); }
+  std::vector<Point> arc(double from, double to) const {
+    std::vector<Point> points;
+    const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(to - from) / kCircleStep)));
+    for (int i = 0; i <= steps; ++i) points.push_back(on_rim(from + (to - from) * i / steps));
+    return points;
+  }
 
   /// Sectors of this side that are reached, for `collisions` on it.
   struct Side {
@@ -100,7 +96,7 @@ class VelocityPanel final : public PicturePart {
     const double reach = radius_ + 0.5 * em;
     sheet_.line({{centre_.x - reach, centre_.y}, {centre_.x + reach, centre_.y}}, palette.grid);
     sheet_.line({{centre_.x, centre_.y - reach}, {centre_.x, centre_.y + reach}}, palette.grid);
-    sheet_.path(arc(centre_, radius_, 0, 2 * std::numbers::pi), true, std::nullopt,
+    sheet_.path(arc(0, 2 * std::numbers::pi), true, std::nullopt,
                 Stroke{palette.muted, sheet_.line_px()});
   }
 
@@ -126,11 +122,10 @@ class VelocityPanel final : public PicturePart {
     const double end = std::max(angle, start_angle_ - side.swept);
     // Of rounding: what is reached is reached by more than a hair.
     if (end > start_angle_ - gaps_.theta / 2) return;
-    std::vector<Point> outline = arc(centre_, radius_, side.sign * start_angle_, side.sign * end);
+    std::vector<Point> outline = arc(side.sign * start_angle_, side.sign * end);
     outline.push_back(centre_);
-    const Palette& palette = sheet_.palette();
     items.emplace_back(
-        PathItem{sheet_.moving(n), std::move(outline), true, palette.shade, std::nullopt});
+        PathItem{sheet_.moving(n), std::move(outline), true, sheet_.palette().shade, std::nullopt});
   }
 
   PanelSheet sheet_;
