@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace piblocks {
 
@@ -28,7 +29,7 @@ struct Motion {
 
 /// One collision; velocities are those just after it.
 struct Collision {
-  Integer index;  ///< from 1
+  Integer index;  ///< as CollisionLog counts
   Time time;
   CollisionKind kind = CollisionKind::blocks;
   Motion blue;
@@ -37,21 +38,10 @@ struct Collision {
 
 /// Uniform motion between two collisions, known at one instant of it.
 struct FreeFlight {
-  Integer count;   ///< collisions since time 0; negative before it, where the motion runs back
+  Integer count;   ///< index of the last collision; negative before time 0, as CollisionLog says
   double age = 0;  ///< time from when the blocks are where blue and red say to the time asked for
   Motion blue;
   Motion red;
-};
-
-/// Collisions of one kind taken together: one blow of all their impulses, at the centre of these in
-/// time. For whoever cannot tell their times apart, it stands for all of them.
-struct Impact {
-  CollisionKind kind = CollisionKind::blocks;
-  Time time;  ///< mean of the times, weighted by the impulses
-  /// Sum of the impulses. The unit is the blow that red, had it all the energy of the run, would
-  /// give to blue at rest: 2 m_blue m_red / (m_blue + m_red) times its velocity.
-  double impulse = 0;
-  double blue_position = 0;  ///< of one collision; of several, a position between theirs
 };
 
 /// Consecutive collisions in columns, for those who read millions of them. 24 KiB of numbers: a
@@ -79,24 +69,31 @@ class CollisionStream {
   virtual bool read(CollisionBatch& batch) = 0;
 };
 
-/// What positions may be off by at most, in units of length.
-struct PositionBounds {
-  double blue = 0;
-  double red = 0;
-};
-
-class Exposure;
-
-/// A log's collisions are those from time 0 on. Const members are thread-safe.
+/// Counting begins at time 0: the collisions from then on have the indices 1, 2, …, size(). Before
+/// time 0 the motion runs back, and the count goes on below 0: the collisions before it have the
+/// indices 0, -1, … down to first_index(). Const members are thread-safe.
 class CollisionLog {
  public:
   virtual ~CollisionLog() = default;
-  /// Number of collisions of the whole run.
+  CollisionLog(const CollisionLog&) = delete;
+  CollisionLog& operator=(const CollisionLog&) = delete;
+
+  const BlockSystem& system() const noexcept { return system_; }
+  /// Number of collisions from time 0 on, and the index of the last collision of all time.
   virtual const Integer& size() const = 0;
-  /// The collision with 1 <= index <= size().
+  /// Index of the first collision of all time; 1 if there are none before time 0.
+  virtual const Integer& first_index() const = 0;
+  /// The collision with first_index() <= index <= size().
   /// @throws SimulationError if its time or state is beyond the range of a double.
   virtual Collision at(const Integer& index) const = 0;
-  /// Collisions first … last, where 1 <= first and last <= size(); none if last < first.
+  /// A time at which exactly the collisions up to this one have happened: that of the collision if
+  /// its exact value is short, otherwise one so little later that no picture can show the
+  /// difference. first_index() <= index <= size().
+  /// @throws UsageError if the next collision happens at the same time.
+  /// @throws SimulationError if a stepping engine cannot tell the two times apart.
+  virtual Rational time_after(const Integer& index) const = 0;
+  /// Collisions first … last, where first_index() <= first and last <= size(); none if last <
+  /// first.
   /// @throws SimulationError as at().
   virtual std::unique_ptr<CollisionStream> stream(const Integer& first,
                                                   const Integer& last) const = 0;
@@ -104,20 +101,12 @@ class CollisionLog {
   /// exactly at `time` has happened.
   /// @throws SimulationError as at().
   virtual FreeFlight flight_at(const Rational& time) const = 0;
-  /// Those collisions first … last that are of this kind, taken together; nothing if none is.
-  /// Indices go on before time 0: the last collision before it has index 0, as flight_at() counts.
-  /// Both must be among the collisions of all time.
-  virtual std::optional<Impact> impact(CollisionKind kind, const Integer& first,
-                                       const Integer& last) const = 0;
-  /// The count of flight_at(), but collisions within the rounding of `time` and of the engine may
-  /// be taken for earlier or later. Costs no more, however many collisions there are.
-  virtual Integer count_near(const Time& time) const = 0;
-  /// Where the blocks are from `begin` to `end`, and for how much of that time; in either order,
-  /// and also before time 0, where the motion runs back. To be used with exposure.hpp.
-  /// @throws SimulationError as at().
-  virtual std::unique_ptr<Exposure> expose(const Rational& begin, const Rational& end) const = 0;
-  /// How exact the positions at `time` are; nothing if the engine cannot say beforehand.
-  virtual std::optional<PositionBounds> bounds_at(const Rational& time) const = 0;
+
+ protected:
+  explicit CollisionLog(BlockSystem system) : system_(std::move(system)) {}
+
+ private:
+  BlockSystem system_;
 };
 
 enum class Engine {

@@ -21,7 +21,8 @@ using Rational = mpq_class;
 inline constexpr std::int64_t kMaxRationalBits = 4'000'000;
 
 /// Reads VALUE, VALUE/VALUE or VALUE^EXPONENT where VALUE is a decimal number with optional sign,
-/// fraction and power of ten, and EXPONENT an integer; the two forms combine: "100^7/3".
+/// fraction and power of ten, and EXPONENT an integer; the two forms combine: "100^7/3". A power
+/// binds more closely than a sign: "-2^2" is -4.
 /// @throws UsageError saying what is wrong with the text, or that it is longer than the limit.
 Rational parse_rational(std::string_view text);
 

@@ -1,34 +1,60 @@
-// One moment of a run, named by time or by collision.
-// In: "3.5", "last" or "#314". Out: the state at it.
+// One instant of a run, named by a time or by what happens then.
+// In: text such as "3.5", "turn-0.3", "last+1" or "#314+1/1000". Out: the exact time it stands for.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
-#include <piblocks/interpolator.hpp>
+#include <piblocks/exact.hpp>
 
+#include <cstdint>
+#include <string>
 #include <string_view>
-#include <variant>
+#include <utility>
 
 namespace piblocks {
 
-/// The instant of the last collision.
-struct LastCollision {};
-/// The instant of the collision with this index; the state is the one just after it.
-struct NthCollision {
-  Integer index;
-};
-/// A time in the scene's unit.
-using Instant = std::variant<Rational, LastCollision, NthCollision>;
+class CollisionLog;
 
-/// @throws UsageError if the text is no instant.
+/// So long after an anchor, or before it.
+struct Instant {
+  enum class Anchor : std::uint8_t {
+    time_zero,
+    turn,      ///< when the blocks are nearest to the corner; collisions are densest then
+    last,      ///< the last collision
+    collision  ///< the collision with an index of its own
+  };
+  Anchor anchor = Anchor::time_zero;
+  Integer index = 0;    ///< of Anchor::collision, as CollisionLog counts
+  Rational offset = 0;  ///< simulation time from the anchor on
+
+  Instant() = default;
+  /// A time is an instant.
+  Instant(Rational time) : offset(std::move(time)) {}
+  static Instant turn(Rational offset = 0) { return {Anchor::turn, 0, std::move(offset)}; }
+  static Instant last(Rational offset = 0) { return {Anchor::last, 0, std::move(offset)}; }
+  static Instant collision(Integer index, Rational offset = 0) {
+    return {Anchor::collision, std::move(index), std::move(offset)};
+  }
+
+  bool is_time() const noexcept { return anchor == Anchor::time_zero; }
+  friend bool operator==(const Instant&, const Instant&) = default;
+
+ private:
+  Instant(Anchor at, Integer number, Rational after)
+      : anchor(at), index(std::move(number)), offset(std::move(after)) {}
+};
+
+/// Reads a time, or "turn", "last" or "#K", alone or with an offset: "last+1.5", "#314-1/1000".
+/// @throws UsageError if the text is none, or beyond the range of a double.
 Instant parse_instant(std::string_view text);
 
-/// The state at an instant, and the instant's time.
-struct TimedState {
-  Time time;
-  BlockState state;
-};
+/// Exact text, which reads back as the same.
+std::string exact_text(const Instant& instant);
 
-/// @throws UsageError if the log has no such collision.
-TimedState state_at(const CollisionLog& log, const Instant& instant);
+/// Whether the run has the anchor of this instant.
+bool exists(const Instant& instant, const CollisionLog& log);
+
+/// The time that the instant stands for. A collision stands for CollisionLog::time_after(): at that
+/// time it has happened, and the next one has not.
+/// @throws UsageError if the run has no such turn or collision, or as time_after().
+Rational time_of(const Instant& instant, const CollisionLog& log);
 
 }  // namespace piblocks

@@ -9,7 +9,7 @@ namespace piblocks {
 
 /// What a frame needs to know of the physics.
 struct BlockState {
-  Integer count;  ///< collisions so far
+  Integer count;  ///< index of the last collision so far, as CollisionLog counts
   Motion blue;
   Motion red;
 };
@@ -17,9 +17,5 @@ struct BlockState {
 /// The state at `time`. Before the first and after the last collision the motion goes on with
 /// its velocity, as far as one likes.
 BlockState state_at(const CollisionLog& log, const Rational& time);
-
-/// The state just after the collision with this index, so that its count is `index`.
-/// @throws UsageError unless 1 <= index <= log.size().
-BlockState state_after(const CollisionLog& log, const Integer& index);
 
 }  // namespace piblocks

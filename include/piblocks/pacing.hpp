@@ -3,6 +3,7 @@
 #pragma once
 
 #include <piblocks/exact.hpp>
+#include <piblocks/instant.hpp>
 
 #include <optional>
 #include <string>
@@ -11,29 +12,16 @@
 
 namespace piblocks {
 
-/// An instant of simulation time, said by what happens then.
-struct Moment {
-  enum class Origin {
-    start,  ///< time 0
-    turn,   ///< when the blocks are nearest to the corner; collisions are densest then
-    last    ///< the last collision
-  };
-  Origin origin = Origin::start;
-  Rational offset = 0;
-
-  friend bool operator==(const Moment&, const Moment&) = default;
-};
-
 /// A window of simulation time that takes `factor` times as long as it would.
 struct SlowMotion {
-  Moment from;
-  Moment to;
+  Instant from;
+  Instant to;
   Rational factor = 1;  ///< > 0
 };
 
 /// The picture stands still at an instant.
 struct Freeze {
-  Moment at;
+  Instant at;
   Rational length_s;  ///< of video, > 0
 };
 
@@ -54,22 +42,19 @@ struct Pacing {
   std::vector<Freeze> freezes = {};
   Rational hold_start_s = 0;  ///< how long the first picture stands still, >= 0
   Rational hold_end_s = 0;    ///< how long the last picture stands still, >= 0
-  /// Plays forth and back, so that the first frame may follow the last without a jump.
+  /// Plays forwards and then backwards, so that the first frame may follow the last without a jump.
   bool loop = false;
 };
 
 /// Most windows of slow motion, and most freezes, of one scene.
 inline constexpr std::size_t kMaxWindows = 1000;
 
-/// Reads "3.5", "turn", "turn-0.3", "last+1". @throws UsageError
-Moment parse_moment(std::string_view text);
 /// Reads "FROM:TO:FACTOR", as "turn-0.3:turn+0.3:10". @throws UsageError
 SlowMotion parse_slow_motion(std::string_view text);
 /// Reads "AT:SECONDS", as "turn:2". @throws UsageError
 Freeze parse_freeze(std::string_view text);
 
 /// Exact text of a value, which reads back as the same.
-std::string exact_text(const Moment& moment);
 std::string exact_text(const SlowMotion& window);
 std::string exact_text(const Freeze& freeze);
 

@@ -95,8 +95,9 @@ std::string part_name(const std::string& output, const Part& part);
 std::int64_t join(const std::vector<std::string>& parts, const std::string& output,
                   const std::stop_token& stop = {});
 
-/// Renders one instant to a `.png`, `.svg` or `.pdf` file, or to standard output as PNG for "-". Of
-/// a storyboard an instant is a second of its video, and "last" the last frame.
+/// Renders one instant to a `.png`, `.svg` or `.pdf` file, or to standard output as PNG for "-".
+/// The picture is that of the film's first frame that shows the instant. Of a storyboard an instant
+/// is a second of its video, and "last" the last frame.
 /// @param stop  asks to give up: Interrupted is thrown when the picture is drawn.
 /// @throws UsageError, DrawError, MediaError, IoError, SimulationError, Interrupted
 void render_still(const Script& script, const Instant& instant, const std::string& output,
@@ -105,9 +106,9 @@ void render_still(const Script& script, const Instant& instant, const std::strin
 /// Most pictures of a sheet.
 inline constexpr int kMaxSheetPictures = 200;
 
-/// So many instants of the scene's span of time, as far apart as can be: the first and the last
-/// frame's, and others between at equal distances.
-/// @throws UsageError unless 1 <= count <= kMaxSheetPictures; as Timeline. SimulationError
+/// So many instants of the scene's span of time: its two ends, and others between them at equal
+/// distances.
+/// @throws UsageError unless 1 <= count <= kMaxSheetPictures; as span_of(). SimulationError
 std::vector<Instant> spread_instants(const Scene& scene, int count);
 
 /// Renders these instants side by side on one page, time and count below each: a `.pdf`, `.svg` or
@@ -123,7 +124,8 @@ void render_sheet(const Scene& scene, const std::vector<Instant>& instants,
 class FrameRenderer {
  public:
   /// @throws SceneError if problems_of() the scene or storyboard is not empty.
-  /// @throws UsageError as Timeline and make_collision_log(), or if a storyboard's fade is not
+  /// @throws UsageError as make_schedule(), film_frames() and make_collision_log(), or if a
+  /// storyboard's fade is not
   ///         shorter than its parts; SimulationError, DrawError
   explicit FrameRenderer(const Script& script);
   ~FrameRenderer();
@@ -134,7 +136,7 @@ class FrameRenderer {
 
   /// Frames of the whole film.
   std::int64_t frame_count() const noexcept;
-  /// The frame with this number; of a scene it shows the instant that Timeline says.
+  /// The frame with this number; of a scene it shows the instant that Schedule says.
   /// @returns a picture of the size of the film's view; valid until the next call.
   /// @throws UsageError unless 0 <= number < frame_count(); SimulationError, DrawError
   ImageView frame(std::int64_t number);

@@ -43,16 +43,12 @@ struct View {
 
 inline constexpr int kMaxFrameRate = 1000;
 
-/// The end of the animation: a time, or so long after the last collision.
-struct End {
-  bool after_last = true;
-  Rational offset = Rational(3, 2);  ///< after the last collision, or else after time 0
-};
-
 /// Which part of the run is shown, in simulation time.
 struct TimeSpan {
-  Rational from = 0;
-  End to;
+  Instant from = {};
+  /// An end that is a time is not shown itself: so many seconds make so many frames. An end that is
+  /// named by what happens then is shown, by the first frame at it or past it.
+  Instant to = Instant::last(Rational(3, 2));
   Rational speed = 1;  ///< simulation time per second of video, > 0
 };
 
@@ -142,8 +138,5 @@ std::vector<Problem> problems_of(const Scene& scene);
 /// not set. Two scenes with equal descriptions are the same, but for what is in the files they
 /// name: show.logo is a path.
 std::vector<std::pair<std::string, std::string>> describe(const Scene& scene);
-
-/// Reads "12.5", "last" or "last+1.5". @throws UsageError
-End parse_end(std::string_view text);
 
 }  // namespace piblocks

@@ -13,18 +13,15 @@
 
 namespace piblocks {
 
+/// Most frames of one rendering; four and a half hours at 60 frames per second.
+inline constexpr std::int64_t kMaxFrames = 1'000'000;
+
 /// From `video_s` on to the next stretch, simulation time is time + speed * (v - video_s).
 struct Stretch {
   Rational video_s;     ///< seconds since the video began
   Rational time;        ///< simulation time at that moment
   Rational speed;       ///< per second of video; 0 while it stands still, negative backwards
   Rational slower = 1;  ///< how many times slower than the scene runs elsewhere
-};
-
-/// What a frame shows of time.
-struct FrameTime {
-  Rational time;
-  Rational slower = 1;  ///< as in Stretch
 };
 
 /// Simulation time that runs evenly, in either direction or not at all, during a part of an
@@ -35,35 +32,78 @@ struct TimeSlice {
   Rational share;  ///< of that interval
 };
 
-/// Where the scene's span of simulation time ends.
-/// @throws UsageError if that is after the last collision of a scene without collisions.
-Rational end_of(const Scene& scene, const CollisionLog& log);
+/// What a picture shows of time.
+struct FrameTime {
+  Rational time;
+  Rational slower = 1;  ///< as in Stretch
+  /// What passes while the shutter is open, in order; empty if there is none.
+  std::vector<TimeSlice> exposure = {};
+};
 
-/// A span that ends at a time T holds the moments before T. A span that ends so long after the last
-/// collision goes on to the first frame at or past it, so that the end is seen.
+/// An interval of simulation time.
+struct Span {
+  Rational from;
+  Rational to;
+};
+
+/// Whether the run has the instants between which the scene is shown.
+bool has_span(const Scene& scene, const CollisionLog& log);
+
+/// The times between which the scene is shown.
+/// @throws UsageError unless has_span().
+Span span_of(const Scene& scene, const CollisionLog& log);
+
+/// Frame k shows the moment k / frame_rate of the video. Nothing is accumulated, so no frame
+/// depends on another.
 class Schedule {
  public:
-  /// @throws UsageError if the span is empty or ends after the last collision of a scene without
-  ///         collisions; if windows of slow motion overlap, or name a turn or a last collision that
-  ///         is not there; if the duration leaves no time for the motion.
-  Schedule(const Scene& scene, const CollisionLog& log);
+  /// @param stretches  in the order of the video, the first from 0 s; at least one.
+  Schedule(std::vector<Stretch> stretches, Integer frame_count, Rational frame_rate);
 
-  /// In the order of the video, the first from 0 s; at least one.
   std::span<const Stretch> stretches() const noexcept { return stretches_; }
   /// Frames of the whole video: all that begin before its end.
   const Integer& frame_count() const noexcept { return frame_count_; }
-  /// The instant shown at `video_s` >= 0.
-  FrameTime at(const Rational& video_s) const;
-  /// The first moment of the video, in seconds, that shows this instant; it may be between frames,
-  /// and past the end, where the last stretch goes on.
-  std::optional<Rational> first_shown(const Rational& time) const;
-  /// What is shown from `video_s` >= 0 on, for a length > 0, in order; shares add up to 1. Past the
+
+  /// What is shown at `video_s` >= 0, and while a shutter is open from then on, `open_s` long. Past
+  /// the end the last stretch goes on.
+  FrameTime at(const Rational& video_s, const Rational& open_s = 0) const;
+  /// What a frame shows. @param number  >= 0
+  FrameTime frame(std::int64_t number, const Rational& open_s = 0) const {
+    return at(Rational(number) / frame_rate_, open_s);
+  }
+  /// Simulation time of a frame.
+  Rational time_of(std::int64_t number) const { return frame(number).time; }
+  /// When the video shows this instant: the moment of the first frame that does; if none does, the
+  /// first moment between two frames at which it passes. Nothing if the video never shows it.
+  std::optional<Rational> moment_of(const Rational& time) const;
+  /// What passes from `video_s` >= 0 on, for a length > 0, in order; shares add up to 1. Past the
   /// end the last stretch goes on.
   std::vector<TimeSlice> during(const Rational& video_s, const Rational& length_s) const;
 
  private:
   std::vector<Stretch> stretches_;
   Integer frame_count_;
+  Rational frame_rate_;
 };
+
+/// A span that ends at a time T holds the moments before T. A span whose end is named by what
+/// happens then goes on to the first frame at or past it, so that this is seen.
+/// @throws UsageError as span_of(); if the span is empty; if windows of slow motion overlap; if a
+///         window or a freeze is outside of the span; if the duration leaves no time for the
+///         motion.
+Schedule make_schedule(const Scene& scene, const CollisionLog& log);
+
+/// The number of frames of a film.
+/// @throws UsageError if they are more than kMaxFrames.
+std::int64_t film_frames(const Schedule& schedule);
+
+/// How long each frame is exposed, in seconds of video.
+inline Rational open_s(const View& view) { return view.shutter / view.frame_rate; }
+
+/// What a still shows: what the first frame does that shows this instant, or would do if a frame
+/// began when the video first passes it. Where the video never shows it, time runs at
+/// scene.time.speed.
+/// @throws UsageError as make_schedule(), if slow motion or the shutter ask for a schedule.
+FrameTime still_time(const Scene& scene, const CollisionLog& log, const Rational& time);
 
 }  // namespace piblocks

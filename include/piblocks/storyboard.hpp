@@ -79,7 +79,8 @@ class ScriptBuilder {
 
   /// As SceneBuilder::read_file(); called once.
   void read_file(const std::string& path);
-  /// As SceneBuilder::set(). A storyboard takes keys of the whole film only.
+  /// As SceneBuilder::set(). A storyboard takes keys of the whole film only,
+  /// whether it is read before or after.
   void set(const std::string& origin, const std::string& key, const std::string& text);
   /// As SceneBuilder::set_mass_ratio(). A storyboard takes none.
   void set_mass_ratio(const std::string& origin, const Rational& ratio);
@@ -94,13 +95,18 @@ class ScriptBuilder {
   void read_runs(const TomlTable& table, PartBuilder& part);
   void read_compared(const TomlEntry& compare, PartBuilder& part);
   SceneBuilder next_run(const std::string& origin) const;
-  bool refuses(const std::string& origin, const std::string& key);
+  std::vector<std::string> misplaced_keys() const;
   void add_problem(std::size_t line, const std::string& text);
 
   SceneBuilder film_;
   std::string path_;
   std::vector<PartBuilder> parts_;
   std::vector<std::string> problems_;
+  struct SetKey {
+    std::string origin;
+    std::string key;
+  };
+  std::vector<SetKey> set_;  // by set(), in order
 };
 
 }  // namespace piblocks

@@ -9,7 +9,7 @@
 #include <piblocks/physics_versions.hpp>
 #include <piblocks/render.hpp>
 #include <piblocks/scene.hpp>
-#include <piblocks/timeline.hpp>
+#include <piblocks/schedule.hpp>
 #include <piblocks/version.hpp>
 
 #include "cli/commands.hpp"

@@ -1,6 +1,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
+#include <piblocks/instant.hpp>
 
 #include <algorithm>
 
@@ -40,43 +41,63 @@ struct Rows {
 
 Integer parse_positive(const std::string& text) { return parse_whole_number(text, 1); }
 
-/// Number of collisions before `time`, or also at it.
-Integer count_until(const CollisionLog& log, const Rational& time, bool inclusive) {
-  const Time t = to_time(time);
-  const auto has_happened = [&](const Integer& index) {
-    const Time event = log.at(index).time;
-    if (event.hi != t.hi) return event.hi < t.hi;
-    return inclusive ? event.lo <= t.lo : event.lo < t.lo;
-  };
-  Integer happened = 0;  // invariant: happened <= answer < open
-  Integer open = log.size() + 1;
-  while (happened + 1 < open) {
-    const Integer middle = (happened + open) / 2;
-    (has_happened(middle) ? happened : open) = middle;
-  }
-  return happened;
+Integer parse_index(const std::string& text) {
+  constexpr const char* kExpected = "must be a whole number";
+  const Rational index = parse_rational(text);
+  if (index.get_den() != 1) throw UsageError(kExpected);
+  return index.get_num();
+}
+
+/// The first collision at this instant or after it.
+Integer first_since(const CollisionLog& log, const Instant& instant) {
+  if (instant.anchor == Instant::Anchor::collision && instant.offset == 0) return instant.index;
+  if (instant.anchor == Instant::Anchor::last && instant.offset == 0) return log.size();
+  const Rational time = time_of(instant, log);
+  const Time rounded = to_time(time);
+  Integer first = log.flight_at(time).count + 1;
+  while (first > log.first_index() && log.at(first - 1).time == rounded) first -= 1;
+  return first;
 }
 
 Rows rows_within_times(const LogOptions& options, const CollisionLog& log) {
-  const auto from = value_of(*options.from, parse_rational);
-  const auto to = value_of(*options.to, parse_rational);
-  if (from && to && *to < *from) {
-    throw UsageError(fmt::format("--to {}: is before --from {}", to_text(*to), to_text(*from)));
-  }
+  const auto from = value_of(*options.from, parse_instant);
+  const auto to = value_of(*options.to, parse_instant);
   Rows rows{1, log.size()};
-  if (from) rows.first = count_until(log, *from, false) + 1;
-  if (to) rows.last = count_until(log, *to, true);
+  const auto bound = [&](const CLI::Option& option, const Instant& instant, auto&& row) {
+    try {
+      return row(instant);
+    } catch (const UsageError& error) {
+      throw UsageError(
+          fmt::format("{} {}: {}", option.get_name(), exact_text(instant), error.what()));
+    }
+  };
+  if (from) {
+    rows.first = bound(*options.from, *from, [&](const Instant& i) { return first_since(log, i); });
+  }
+  if (to) {
+    rows.last = bound(*options.to, *to, [&](const Instant& instant) -> Integer {
+      return log.flight_at(time_of(instant, log)).count;
+    });
+  }
+  if (from && to && time_of(*to, log) < time_of(*from, log)) {
+    throw UsageError(
+        fmt::format("--to {}: is before --from {}", exact_text(*to), exact_text(*from)));
+  }
   return rows;
 }
 
 Rows select_rows(const LogOptions& options, const CollisionLog& log) {
   Rows rows = rows_within_times(options, log);
-  if (const auto first = value_of(*options.first, parse_positive)) {
-    if (*first > log.size()) {
-      throw UsageError(fmt::format("--first {}: the scene has {} collisions", readable(*first),
-                                   readable(log.size())));
+  if (const auto first = value_of(*options.first, parse_index)) {
+    if (*first > log.size() || *first < log.first_index()) {
+      throw UsageError(
+          fmt::format("--first {}: the scene has {}", readable(*first),
+                      log.size() < log.first_index()
+                          ? "no collisions"
+                          : fmt::format("collisions {} to {}", readable(log.first_index()),
+                                        readable(log.size()))));
     }
-    rows.first = std::max(rows.first, *first);
+    rows.first = options.from->count() > 0 ? std::max(rows.first, *first) : *first;
   }
   if (const auto limit = value_of(*options.limit, parse_positive)) {
     rows.last = std::min<Integer>(rows.last, rows.first + *limit - 1);
@@ -127,9 +148,10 @@ void append_jsonl(const CollisionBatch& batch, fmt::memory_buffer& out) {
 std::string no_header(const Rows& /*rows*/) { return {}; }
 
 std::string npy_header_of(const Rows& rows) {
-  if (rows.count() > 0 && rows.last > kMaxNpyIndex) {
+  for (const Integer& index : {rows.first, rows.last}) {
+    if (rows.count() == 0 || abs(index) <= kMaxNpyIndex) continue;
     throw UsageError(fmt::format("--format npy: index {} does not fit in 64 bits; use csv or jsonl",
-                                 readable(rows.last)));
+                                 readable(index)));
   }
   return npy_header(rows.count());
 }
@@ -178,9 +200,10 @@ LogOptions add_options(CLI::App& command) {
   const SceneOptions scene(command);
   return {scene,
           &add_engine(command),
-          &add_value_option(command, "--from", "S", "Leave out collisions before this time"),
-          &add_value_option(command, "--to", "S", "Leave out collisions after this time"),
-          &add_value_option(command, "--first", "K", "Start with this collision, from 1"),
+          &add_value_option(command, "--from", "T",
+                            "Leave out collisions before this instant (default 0)"),
+          &add_value_option(command, "--to", "T", "Leave out collisions after this instant"),
+          &add_value_option(command, "--first", "K", "Start with this collision (default 1)"),
           &add_value_option(command, "--limit", "N", "Print at most so many rows"),
           &add_value_option(command, "--format", "NAME",
                             "csv (default), jsonl, or npy, which numpy.load() reads"),

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
+#include <piblocks/interpolator.hpp>
 
 #include <optional>
 #include <string>
@@ -12,13 +13,14 @@
 #include "cli/options.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/text_output.hpp"
+#include "physics/position_bounds.hpp"
 
 namespace piblocks::cli {
 namespace {
 
 /// @throws UsageError if the engine cannot say.
-PositionBounds bounds_at(const CollisionLog& log, const Time& time) {
-  if (const auto bounds = log.bounds_at(to_rational(time))) return *bounds;
+PositionBounds bounds_at(const CollisionLog& log, const Rational& time) {
+  if (const auto bounds = position_bounds(log, time)) return *bounds;
   throw UsageError(
       "--bounds: engines that step cannot say how exact they are; use --engine unfolded");
 }
@@ -30,11 +32,11 @@ std::string described(const Motion& motion, const std::optional<double>& positio
                      shown(motion.velocity));
 }
 
-void write(const TimedState& at, const std::optional<PositionBounds>& bounds, TextOutput& out) {
-  const auto& [time, state] = at;
+void write(const Rational& time, const BlockState& state,
+           const std::optional<PositionBounds>& bounds, TextOutput& out) {
   const auto blue_bound = bounds ? std::optional(bounds->blue) : std::nullopt;
   const auto red_bound = bounds ? std::optional(bounds->red) : std::nullopt;
-  out.format_line(R"({{"time":{},"collisions":"{}","blue":{},"red":{}}})", shown(time.hi),
+  out.format_line(R"({{"time":{},"collisions":"{}","blue":{},"red":{}}})", shown(to_double(time)),
                   state.count.get_str(), described(state.blue, blue_bound),
                   described(state.red, red_bound));
 }
@@ -52,10 +54,10 @@ void run(const StateOptions& options) {
   const auto log = make_log(system, *options.engine);
   TextOutput out("-");
   for (const Instant& instant : instants) {
-    const TimedState at = state_at(*log, instant);
+    const Rational time = time_of(instant, *log);
     std::optional<PositionBounds> bounds;
-    if (options.bounds->count() > 0) bounds = bounds_at(*log, at.time);
-    write(at, bounds, out);
+    if (options.bounds->count() > 0) bounds = bounds_at(*log, time);
+    write(time, state_at(*log, time), bounds, out);
   }
   out.finish();
   note_convention(system);

@@ -1,4 +1,4 @@
-// A number that counts up, as text.
+// A whole number that counts up, as text.
 // In: where to start, of any size. Out: its digits, without a division or a big number each time.
 #pragma once
 
@@ -11,11 +11,14 @@ namespace piblocks::cli {
 
 class DecimalCounter {
  public:
-  /// @param first  >= 0
   explicit DecimalCounter(const Integer& first) : digits_(first.get_str()) {}
 
   std::string_view text() const { return digits_; }
   void increment() {
+    if (digits_.front() == '-') {  // only the rows before time 0
+      digits_ = Integer(Integer(digits_, 10) + 1).get_str();
+      return;
+    }
     for (auto digit = digits_.rbegin(); digit != digits_.rend(); ++digit) {
       if (*digit != '9') {
         ++*digit;

@@ -65,7 +65,14 @@ class NumberReader {
     return negative ? -value : value;
   }
 
+  /// A power binds more closely than a sign: -2^2 is -4.
   Rational factor() {
+    const bool negative = take_sign();
+    const Rational value = power_of_decimal();
+    return negative ? Rational(-value) : value;
+  }
+
+  Rational power_of_decimal() {
     Rational base = decimal();
     if (!take('^')) return base;
     const long n = exponent();
@@ -75,7 +82,6 @@ class NumberReader {
   }
 
   Rational decimal() {
-    const bool negative = take_sign();
     std::string mantissa(digits());
     long scale = 0;
     if (take('.')) {
@@ -92,7 +98,7 @@ class NumberReader {
     const Rational ten_power = power(10, static_cast<unsigned long>(std::labs(scale)));
     if (scale < 0) value /= ten_power;
     if (scale > 0) value *= ten_power;
-    return negative ? Rational(-value) : value;
+    return value;
   }
 
   std::string_view rest_;

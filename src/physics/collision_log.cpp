@@ -20,14 +20,8 @@ BlockSystem reversed(BlockSystem system) {
   return system;
 }
 
-Motion motion_of(const Block& block) {
-  return {to_double(block.position), to_double(block.velocity)};
-}
-
 std::unique_ptr<CollisionLog> store(const BlockSystem& system, Simulate* simulate) {
-  const FreeFlight initial{0, 0, motion_of(system.blue), motion_of(system.red)};
-  return std::make_unique<StoredLog>(to_double(system.blue.mass / system.red.mass), initial,
-                                     simulate(system), simulate(reversed(system)));
+  return std::make_unique<StoredLog>(system, simulate(system), simulate(reversed(system)));
 }
 
 bool is_at_rest(const BlockSystem& system) {

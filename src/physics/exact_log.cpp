@@ -3,12 +3,11 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 #include <utility>
 
-#include "physics/impact_sum.hpp"
 #include "physics/indexed_stream.hpp"
-#include "physics/listed_exposure.hpp"
+#include "physics/require_alone.hpp"
 #include "physics/require_finite.hpp"
 
 namespace piblocks {
@@ -16,8 +15,6 @@ namespace {
 
 /// With theta >= pi/4 there are at most a handful.
 constexpr int kMaxEvents = 16;
-
-constexpr double kUnitRoundoff = 0x1p-53;
 
 /// Time until a gap that changes at `rate` is closed, if ever.
 std::optional<Rational> closing_time(const Rational& gap, const Rational& rate) {
@@ -65,7 +62,7 @@ std::optional<ExactCollision> next_after(const Rational& time, BlockSystem now) 
 std::vector<ExactCollision> run(const BlockSystem& system) {
   std::vector<ExactCollision> events;
   for (auto event = next_after(0, system); event;
-       event = next_after(events.back().time, events.back().after)) {
+       event = next_after(events.back().time, events.back().blocks)) {
     if (events.size() == kMaxEvents) {
       throw SimulationError("exact events: more collisions than a light red block can have");
     }
@@ -83,19 +80,7 @@ Motion motion_of(const Block& block) {
   return {to_double(block.position), to_double(block.velocity)};
 }
 
-/// In the unit of Impact. It is rounded once its square, which has no root in it, is known.
-double impulse_of(const ExactCollision& collision) {
-  const Block& blue = collision.after.blue;
-  const Block& red = collision.after.red;
-  const Rational r = blue.mass / red.mass;
-  const Rational change = collision.kind == CollisionKind::wall
-                              ? Rational((1 + r) * blue.velocity)
-                              : Rational(red.velocity - blue.velocity);
-  const Rational speed_squared = r * blue.velocity * blue.velocity + red.velocity * red.velocity;
-  return std::sqrt(to_double(change * change / speed_squared));
-}
-
-/// The blocks as the nearest doubles.
+/// The blocks of one instant as the nearest doubles.
 struct Rounded {
   Time time;
   Motion blue;
@@ -111,15 +96,34 @@ Rounded rounded(const Rational& time, const BlockSystem& system) {
 }  // namespace
 
 ExactLog::ExactLog(const BlockSystem& system)
-    : initial_(system),
-      forward_(run(system)),
-      backward_(run(reversed(system))),
-      size_(forward_.size()) {}
+    : CollisionLog(system), start_{0, CollisionKind::wall, system} {
+  // A collision of the reversed run ends, seen forwards, with what was before it.
+  for (ExactCollision& event : run(reversed(system))) {
+    ExactCollision collision{-event.time, event.kind, event.blocks};
+    collision.blocks.blue.velocity = start_.blocks.blue.velocity;
+    collision.blocks.red.velocity = start_.blocks.red.velocity;
+    start_ = {collision.time, collision.kind, reversed(event.blocks)};
+    events_.insert(events_.begin(), std::move(collision));
+  }
+  first_index_ = 1 - Integer(events_.size());
+  for (ExactCollision& event : run(system)) events_.push_back(std::move(event));
+  size_ = first_index_ + Integer(events_.size()) - 1;
+}
+
+const ExactCollision& ExactLog::event(const Integer& index) const {
+  return events_[Integer(index - first_index_).get_ui()];
+}
 
 Collision ExactLog::at(const Integer& index) const {
-  const ExactCollision& event = forward_[index.get_ui() - 1];
-  const Rounded after = rounded(event.time, event.after);
-  return {index, after.time, event.kind, after.blue, after.red};
+  const ExactCollision& collision = event(index);
+  const Rounded after = rounded(collision.time, collision.blocks);
+  return {index, after.time, collision.kind, after.blue, after.red};
+}
+
+Rational ExactLog::time_after(const Integer& index) const {
+  const Rational& time = event(index).time;
+  require_alone(index, flight_at(time).count);
+  return time;
 }
 
 std::unique_ptr<CollisionStream> ExactLog::stream(const Integer& first, const Integer& last) const {
@@ -127,79 +131,12 @@ std::unique_ptr<CollisionStream> ExactLog::stream(const Integer& first, const In
 }
 
 FreeFlight ExactLog::flight_at(const Rational& time) const {
-  Integer count = 0;
-  Rational since = time;
-  BlockSystem now = initial_;
-  for (const ExactCollision& event : forward_) {
-    if (event.time > time) break;
-    ++count;
-    since = time - event.time;
-    now = event.after;
-  }
-  // Seen forwards, what the reversed run does after a collision ends with that collision; one
-  // exactly at `time` has happened.
-  for (const ExactCollision& event : backward_) {
-    if (-event.time <= time) break;
-    --count;
-    since = time + event.time;
-    now = reversed(event.after);
-  }
-  advance(now, since);
+  const auto next = std::ranges::upper_bound(events_, time, {}, &ExactCollision::time);
+  const ExactCollision& since = next == events_.begin() ? start_ : *std::prev(next);
+  BlockSystem now = since.blocks;
+  advance(now, time - since.time);
   const Rounded at = rounded(time, now);
-  return {count, 0, at.blue, at.red};
-}
-
-const ExactCollision& ExactLog::event(long index) const {
-  return index > 0 ? forward_[static_cast<std::size_t>(index - 1)]
-                   : backward_[static_cast<std::size_t>(-index)];
-}
-
-Rational ExactLog::time_of(long index) const {
-  const Rational& time = event(index).time;
-  return index > 0 ? time : Rational(-time);
-}
-
-std::optional<Impact> ExactLog::impact(CollisionKind kind, const Integer& first,
-                                       const Integer& last) const {
-  ImpactSum sum(kind);
-  for (long index = first.get_si(); index <= last.get_si(); ++index) {
-    const ExactCollision& collision = event(index);
-    if (collision.kind != kind) continue;
-    sum.add(to_time(time_of(index)), impulse_of(collision),
-            to_double(collision.after.blue.position));
-  }
-  return sum.result();
-}
-
-Integer ExactLog::count_near(const Time& time) const { return flight_at(to_rational(time)).count; }
-
-std::unique_ptr<Exposure> ExactLog::expose(const Rational& begin, const Rational& end) const {
-  const Rational& first = std::min(begin, end);
-  const Rational& last = std::max(begin, end);
-  const FreeFlight start = flight_at(first);
-  PieceList pieces(start.blue.position, start.red.position);
-  Rational now = first;
-  const auto go_to = [&](const Rational& time, double blue, double red) {
-    pieces.add(to_double(time - now), blue, red);
-    now = time;
-  };
-  const auto meet = [&](const Rational& time, const BlockSystem& blocks) {
-    if (time <= first || time >= last) return;
-    go_to(time, to_double(blocks.blue.position), to_double(blocks.red.position));
-  };
-  for (auto event = backward_.rbegin(); event != backward_.rend(); ++event) {
-    meet(-event->time, event->after);
-  }
-  for (const ExactCollision& event : forward_) meet(event.time, event.after);
-  const FreeFlight stop = flight_at(last);
-  go_to(last, stop.blue.position, stop.red.position);
-  return std::make_unique<ListedExposure>(pieces.take());
-}
-
-std::optional<PositionBounds> ExactLog::bounds_at(const Rational& time) const {
-  const FreeFlight now = flight_at(time);
-  return PositionBounds{kUnitRoundoff * std::fabs(now.blue.position),
-                        kUnitRoundoff * std::fabs(now.red.position)};
+  return {first_index_ - 1 + Integer(next - events_.begin()), 0, at.blue, at.red};
 }
 
 }  // namespace piblocks

@@ -14,7 +14,7 @@ namespace piblocks {
 struct ExactCollision {
   Rational time;
   CollisionKind kind;
-  BlockSystem after;
+  BlockSystem blocks;
 };
 
 class ExactLog final : public CollisionLog {
@@ -23,23 +23,18 @@ class ExactLog final : public CollisionLog {
   explicit ExactLog(const BlockSystem& system);
 
   const Integer& size() const override { return size_; }
+  const Integer& first_index() const override { return first_index_; }
   Collision at(const Integer& index) const override;
+  Rational time_after(const Integer& index) const override;
   std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const override;
   FreeFlight flight_at(const Rational& time) const override;
-  std::optional<Impact> impact(CollisionKind kind, const Integer& first,
-                               const Integer& last) const override;
-  Integer count_near(const Time& time) const override;
-  std::unique_ptr<Exposure> expose(const Rational& begin, const Rational& end) const override;
-  std::optional<PositionBounds> bounds_at(const Rational& time) const override;
 
  private:
-  /// When the collision with this index happens.
-  Rational time_of(long index) const;
-  const ExactCollision& event(long index) const;
+  const ExactCollision& event(const Integer& index) const;
 
-  BlockSystem initial_;
-  std::vector<ExactCollision> forward_;
-  std::vector<ExactCollision> backward_;  // with the velocities and times of the run reversed
+  std::vector<ExactCollision> events_;  // of all time, in order
+  ExactCollision start_;                // before all of them; its kind has no meaning
+  Integer first_index_;
   Integer size_;
 };
 

@@ -10,8 +10,13 @@
 namespace piblocks {
 namespace {
 
-/// Largest numerator or denominator built to test whether a point lies on a ray, in bits.
-constexpr double kMaxRayBits = 16e6;
+/// Longest numerator or denominator built to test whether a point lies on a ray, in bits of the
+/// precision that has not decided it: so that the test takes no longer than more precision would.
+constexpr double kMaxRay_bits = 16;
+
+/// Longest power of a ray's direction, in bits, from which the time of a collision is computed
+/// exactly. Longer ones would slow down everything that is computed with that time.
+constexpr double kMaxShort_bits = 256;
 
 std::size_t size_bits(const Rational& value) {
   return mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
@@ -37,12 +42,13 @@ RayDirection ray_direction(unsigned long n, const Rational& r) {
   return result;
 }
 
-/// Whether (sigma x, y) lies on the line of ray n, exactly; nothing if that is too long to say.
-std::optional<bool> is_on_ray(const Integer& n, const Rational& x, const Rational& y,
-                              const Rational& r) {
-  if (!n.fits_slong_p()) return std::nullopt;
+/// Whether (sigma x, y) certainly lies on the line of ray n. False also where numbers longer than
+/// max_bits would be needed to tell.
+bool is_on_ray(const Integer& n, const Rational& x, const Rational& y, const Rational& r,
+               double max_bits) {
+  if (!n.fits_slong_p()) return false;
   const long index = n.get_si();
-  if (std::abs(double(index)) * double(size_bits(r)) > kMaxRayBits) return std::nullopt;
+  if (std::abs(double(index)) * double(size_bits(r)) > max_bits) return false;
   const RayDirection ray = ray_direction(static_cast<unsigned long>(std::labs(index)), r);
   return x * ray.a == (index < 0 ? Rational(-ray.b) : ray.b) * y;
 }
@@ -66,7 +72,7 @@ Asymptote split(const Phase& phase, long magnitude, long relative_bits, const Ra
       if (rest.exponent() - error.exponent() > relative_bits) return {low, rest};
     }
     if (certain && relative_bits == 0) return {low, value - low};
-    if (is_on_ray(high, x, y, r).value_or(false)) return {high, Real(bits, 0)};
+    if (is_on_ray(high, x, y, r, kMaxRay_bits * double(bits))) return {high, Real(bits, 0)};
   }
   throw SimulationError(fmt::format("count: {} bits do not decide whether a collision has happened",
                                     kMaxDecisionBits));
@@ -137,6 +143,53 @@ Integer ExactMotion::total() const {
     return final_phase(s, atan(s));
   };
   return total(split(phase, magnitude(), 0, turned(u1), u2, ratio));
+}
+
+Integer ExactMotion::first_index(const Asymptote& past) const {
+  const Integer first = past.beyond.sign() == 0 ? Integer(past.ray + 1) : past.ray;
+  return std::min<Integer>(count_from_ray(first), 1);
+}
+
+std::optional<Rational> ExactMotion::short_crossing(const Integer& ray) const {
+  if (!ray.fits_slong_p()) return std::nullopt;
+  const long n = ray.get_si();
+  if (std::abs(double(n)) * double(size_bits(ratio)) > kMaxShort_bits) return std::nullopt;
+  RayDirection direction = ray_direction(static_cast<unsigned long>(std::labs(n)), ratio);
+  if (n < 0) direction.b = -direction.b;
+  const Rational& a = direction.a;
+  const Rational& b = direction.b;
+  return Rational((b * y2 - a * turned(y1)) / (a * turned(u1) - b * u2));
+}
+
+Rational ExactMotion::rounded_crossing(const Integer& ray, mpfr_prec_t bits) const {
+  const Fan rays = fan(bits);
+  // The angle from the nearer end of time: a sum of two positive numbers.
+  const Real from_past = Real(bits, Rational(ray - rays.past.ray)) + rays.past.beyond;
+  const Real to_future = Real(bits, Rational(rays.future.ray - ray)) + rays.future.beyond;
+  const bool late = (from_past - to_future).sign() > 0;
+  const Real angle = (late ? to_future : from_past) * rays.theta;
+  const Real passage = rays.sigma * Real(bits, abs(area) / speed_squared);
+  const Real tau = passage * cot(angle);
+  // Each of the few roundings above is at most 2^-bits of the result, or of the passage.
+  const Real margin = scaled(tau + passage, 8 - bits);
+  Rational since_approach = tau.to_rational();
+  if (!late) since_approach = -since_approach;
+  const Rational time = closest_approach + since_approach + margin.to_rational();
+  // Up to the next multiple of 2^grid, which keeps the number short.
+  const long grid = margin.exponent();
+  const Rational unit = grid < 0 ? Rational(1 / power(2, static_cast<unsigned long>(-grid)))
+                                 : power(2, static_cast<unsigned long>(grid));
+  return Rational(ceil(time / unit)) * unit;
+}
+
+Rational ExactMotion::time_past(const Integer& ray) const {
+  if (const auto crossing = short_crossing(ray)) return *crossing;
+  for (mpfr_prec_t bits = 2 * magnitude() + 128; bits <= kMaxDecisionBits; bits *= 2) {
+    Rational time = rounded_crossing(ray, bits);
+    if (phase_at(time).ray == ray) return time;
+  }
+  throw SimulationError(
+      fmt::format("collision: {} bits do not tell its time from the next one's", kMaxDecisionBits));
 }
 
 DecidedPhase ExactMotion::phase_at(const Rational& t) const {

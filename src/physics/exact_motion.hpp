@@ -13,6 +13,8 @@
 #include <piblocks/blocks.hpp>
 #include <piblocks/exact.hpp>
 
+#include <optional>
+
 #include "physics/real.hpp"
 
 namespace piblocks {
@@ -71,6 +73,14 @@ struct ExactMotion {
   /// Number of collisions at times >= 0: rays crossed at finite times.
   /// @throws SimulationError if kMaxDecisionBits do not decide.
   Integer total() const;
+  /// Index of the first ray of all time, counted as by count_from_ray().
+  Integer first_index(const Asymptote& past) const;
+  /// A time at which this ray has been crossed and the next one has not, for a motion that is not
+  /// through_corner() and a ray that is crossed. It is the exact time of the crossing where that is
+  /// a short number. Otherwise it is later by at most 2^-100 of the time that the line takes to
+  /// pass the corner, and of the time between the crossing and closest_approach.
+  /// @throws SimulationError as total().
+  Rational time_past(const Integer& ray) const;
   /// The phase at time t for a motion that is not through_corner().
   /// @throws SimulationError as total().
   DecidedPhase phase_at(const Rational& t) const;
@@ -78,6 +88,10 @@ struct ExactMotion {
  private:
   /// q: the phase as t grows without bound; q - pi/theta is that of the infinite past.
   Real final_phase(const Real& sigma, const Real& theta) const;
+  /// When the line crosses the ray; nothing if that is too long a number to be of use.
+  std::optional<Rational> short_crossing(const Integer& ray) const;
+  /// The same, rounded up by no more than 2^-bits of what time_past() says.
+  Rational rounded_crossing(const Integer& ray, mpfr_prec_t bits) const;
   /// x of a point in the frame in which the phase grows.
   Rational turned(const Rational& x) const { return blocks_first ? x : Rational(-x); }
 };

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/interpolator.hpp>
 
@@ -23,15 +22,6 @@ BlockState state_at(const CollisionLog& log, const Rational& time) {
     throw SimulationError("state: a position is beyond a double's range");
   }
   return state;
-}
-
-BlockState state_after(const CollisionLog& log, const Integer& index) {
-  if (index < 1 || index > log.size()) {
-    throw UsageError(fmt::format("collision #{}: the scene has collisions #1 to #{}",
-                                 index.get_str(), log.size().get_str()));
-  }
-  const Collision collision = log.at(index);
-  return {index, collision.blue, collision.red};
 }
 
 }  // namespace piblocks

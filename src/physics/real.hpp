@@ -41,6 +41,12 @@ class Real {
   double to_double() const { return mpfr_get_d(value_, MPFR_RNDN); }
   /// The exponent e of |value| = m * 2^e with 1/2 <= m < 1; 0 for zero.
   long exponent() const { return mpfr_zero_p(value_) != 0 ? 0 : mpfr_get_exp(value_); }
+  /// The exact value.
+  Rational to_rational() const {
+    Rational result;
+    mpfr_get_q(result.get_mpq_t(), value_);
+    return result;
+  }
   /// Largest integer <= value.
   Integer floor() const {
     Integer result;
@@ -65,6 +71,7 @@ class Real {
   }
   friend Real sqrt(const Real& a) { return unary(mpfr_sqrt, a); }
   friend Real atan(const Real& a) { return unary(mpfr_atan, a); }
+  friend Real cot(const Real& a) { return unary(mpfr_cot, a); }
   /// a * 2^exponent, exactly.
   friend Real scaled(const Real& a, long exponent) {
     Real result(a.bits());

@@ -1,14 +1,12 @@
 #include "physics/stored_log.hpp"
 
-#include <piblocks/interpolator.hpp>
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "physics/impact_sum.hpp"
 #include "physics/indexed_stream.hpp"
-#include "physics/listed_exposure.hpp"
 
 namespace piblocks {
 namespace {
@@ -37,19 +35,47 @@ std::size_t count_before(const std::vector<StoredCollision>& collisions, const T
   return static_cast<std::size_t>(next - collisions.begin());
 }
 
+Motion motion_of(const Block& block) {
+  return {to_double(block.position), to_double(block.velocity)};
+}
+
 }  // namespace
 
-StoredLog::StoredLog(double mass_ratio, FreeFlight initial, std::vector<StoredCollision> forward,
+StoredLog::StoredLog(const BlockSystem& system, std::vector<StoredCollision> forward,
                      std::vector<StoredCollision> backward)
-    : mass_ratio_(mass_ratio),
-      initial_(std::move(initial)),
+    : CollisionLog(system),
+      initial_{0, 0, motion_of(system.blue), motion_of(system.red)},
       forward_(std::move(forward)),
       backward_(std::move(backward)),
-      size_(forward_.size()) {}
+      size_(forward_.size()),
+      first_index_(1 - Integer(backward_.size())) {}
 
+/// A collision of the reversed run ends, seen forwards, with what was before it.
 Collision StoredLog::at(const Integer& index) const {
-  const StoredCollision& c = forward_[index.get_ui() - 1];
-  return {index, c.time, c.kind, c.blue, c.red};
+  if (index > 0) {
+    const StoredCollision& c = forward_[index.get_ui() - 1];
+    return {index, c.time, c.kind, c.blue, c.red};
+  }
+  const std::size_t place = Integer(-index).get_ui();
+  const StoredCollision& c = backward_[place];
+  const bool is_first = place == 0;
+  const Motion& blue = is_first ? initial_.blue : backward_[place - 1].blue;
+  const Motion& red = is_first ? initial_.red : backward_[place - 1].red;
+  const double sign = is_first ? 1 : -1;
+  return {index,
+          negated(c.time),
+          c.kind,
+          {c.blue.position, sign * blue.velocity},
+          {c.red.position, sign * red.velocity}};
+}
+
+Rational StoredLog::time_after(const Integer& index) const {
+  Rational time = to_rational(at(index).time);
+  if (flight_at(time).count == index) return time;
+  throw SimulationError(fmt::format(
+      "collision #{}: in double precision it cannot be told apart from its neighbours; use the "
+      "closed form (--engine unfolded)",
+      index.get_str()));
 }
 
 std::unique_ptr<CollisionStream> StoredLog::stream(const Integer& first,
@@ -74,63 +100,6 @@ FreeFlight StoredLog::flight_at(const Rational& time) const {
   }
   flight.age = (t.hi - since.hi) + (t.lo - since.lo);
   return flight;
-}
-
-double StoredLog::impulse_of(const StoredCollision& collision) const {
-  const double blue = collision.blue.velocity;
-  const double red = collision.red.velocity;
-  const double speed = std::hypot(std::sqrt(mass_ratio_) * blue, red);
-  const double change =
-      collision.kind == CollisionKind::wall ? (1 + mass_ratio_) * blue : red - blue;
-  return std::fabs(change) / speed;
-}
-
-std::optional<Impact> StoredLog::impact(CollisionKind kind, const Integer& first,
-                                        const Integer& last) const {
-  ImpactSum sum(kind);
-  for (long index = first.get_si(); index <= last.get_si(); ++index) {
-    const bool is_late = index > 0;
-    const StoredCollision& c = is_late ? forward_[static_cast<std::size_t>(index - 1)]
-                                       : backward_[static_cast<std::size_t>(-index)];
-    if (c.kind != kind) continue;
-    sum.add(is_late ? c.time : negated(c.time), impulse_of(c), c.blue.position);
-  }
-  return sum.result();
-}
-
-Integer StoredLog::count_near(const Time& time) const {
-  const std::size_t happened = count_until(forward_, time);
-  if (happened > 0) return Integer(happened);
-  return -Integer(count_before(backward_, negated(time)));
-}
-
-std::unique_ptr<Exposure> StoredLog::expose(const Rational& begin, const Rational& end) const {
-  const Rational& first = std::min(begin, end);
-  const Rational& last = std::max(begin, end);
-  const BlockState start = state_at(*this, first);
-  PieceList pieces(start.blue.position, start.red.position);
-  Time now = to_time(first);
-  const Time until = to_time(last);
-  const auto go_to = [&](const Time& time, double blue, double red) {
-    // The doubles of an event loop can be out of order by their rounding.
-    pieces.add(std::max(0.0, (time.hi - now.hi) + (time.lo - now.lo)), blue, red);
-    now = time;
-  };
-  const auto meet = [&](const Time& time, const StoredCollision& c) {
-    go_to(time, c.blue.position, c.red.position);
-  };
-  for (std::size_t i = count_before(backward_, negated(now)),
-                   end_of_past = count_until(backward_, negated(until));
-       i > end_of_past; --i) {
-    meet(negated(backward_[i - 1].time), backward_[i - 1]);
-  }
-  for (std::size_t i = count_until(forward_, now), end_of_run = count_before(forward_, until);
-       i < end_of_run; ++i) {
-    meet(forward_[i].time, forward_[i]);
-  }
-  const BlockState stop = state_at(*this, last);
-  go_to(until, stop.blue.position, stop.red.position);
-  return std::make_unique<ListedExposure>(pieces.take());
 }
 
 }  // namespace piblocks

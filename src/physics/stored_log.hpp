@@ -19,35 +19,26 @@ struct StoredCollision {
 
 class StoredLog final : public CollisionLog {
  public:
-  /// @param mass_ratio  m_blue / m_red
-  /// @param initial   the motion at time 0, before a collision at time 0.
+  /// @param system    whose motion was recorded.
   /// @param forward   collisions at times >= 0, in order.
   /// @param backward  collisions of the run with all velocities reversed, in its order and with
   ///                  its times and velocities.
-  StoredLog(double mass_ratio, FreeFlight initial, std::vector<StoredCollision> forward,
+  StoredLog(const BlockSystem& system, std::vector<StoredCollision> forward,
             std::vector<StoredCollision> backward);
 
   const Integer& size() const override { return size_; }
+  const Integer& first_index() const override { return first_index_; }
   Collision at(const Integer& index) const override;
+  Rational time_after(const Integer& index) const override;
   std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const override;
   FreeFlight flight_at(const Rational& time) const override;
-  std::optional<Impact> impact(CollisionKind kind, const Integer& first,
-                               const Integer& last) const override;
-  Integer count_near(const Time& time) const override;
-  std::unique_ptr<Exposure> expose(const Rational& begin, const Rational& end) const override;
-  std::optional<PositionBounds> bounds_at(const Rational& /*time*/) const override {
-    return std::nullopt;
-  }
 
  private:
-  /// In the unit of Impact.
-  double impulse_of(const StoredCollision& collision) const;
-
-  double mass_ratio_;
-  FreeFlight initial_;
+  FreeFlight initial_;  // at time 0, before a collision then
   std::vector<StoredCollision> forward_;
   std::vector<StoredCollision> backward_;
   Integer size_;
+  Integer first_index_;
 };
 
 }  // namespace piblocks

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "physics/listed_exposure.hpp"
+#include "physics/require_alone.hpp"
 #include "physics/require_finite.hpp"
 #include "physics/unfolded_exposure.hpp"
 #include "physics/unfolded_stream.hpp"
@@ -50,7 +51,14 @@ UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion)
     : UnfoldedLog(system, motion, motion.fan(kFan_bits)) {}
 
 UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion, const Fan& fan)
-    : exact_(motion), form_(system, motion, fan), size_(motion.total(fan.future)) {}
+    : CollisionLog(system),
+      exact_(motion),
+      form_(system, motion, fan),
+      size_(motion.total(fan.future)),
+      first_index_(motion.first_index(fan.past)) {
+  const bool touches = motion.y1 == 0 || motion.y1 == motion.y2;
+  if (touches && !motion.through_corner()) contact_ = flight_at(0).count;
+}
 
 double UnfoldedLog::tau_near(const Time& t, double* magnitude) const {
   const Time& turn = form_.closest_approach;
@@ -150,12 +158,18 @@ Collision UnfoldedLog::at(const Integer& index) const {
   const CollisionNumbers now =
       form_.collision(end.sign, seen, odd ? seen + step : seen, form_.kind(odd));
   Collision collision{index,
-                      {now.time_hi, now.time_lo},
+                      time_within(index, contact_, {now.time_hi, now.time_lo}),
                       odd ? CollisionKind::blocks : CollisionKind::wall,
                       {now.blue_position, now.blue_velocity},
                       {now.red_position, now.red_velocity}};
   require_finite(collision.time, collision.blue, collision.red, "closed form");
   return collision;
+}
+
+Rational UnfoldedLog::time_after(const Integer& index) const {
+  if (!exact_.through_corner()) return exact_.time_past(ray_of(index));
+  require_alone(index, flight_at(exact_.closest_approach).count);
+  return exact_.closest_approach;
 }
 
 std::optional<Impact> UnfoldedLog::impact(CollisionKind kind, const Integer& first,
@@ -202,7 +216,7 @@ std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,
     at(first);
     at(last);
   }
-  return std::make_unique<UnfoldedStream>(form_, ray_of(first), ray_of(last), first);
+  return std::make_unique<UnfoldedStream>(form_, ray_of(first), ray_of(last), first, contact_);
 }
 
 RayPhase UnfoldedLog::phase_of(const Integer& ray) const {
@@ -235,9 +249,7 @@ std::unique_ptr<Exposure> UnfoldedLog::expose_corner(const Rational& begin,
   return std::make_unique<ListedExposure>(pieces.take());
 }
 
-std::unique_ptr<Exposure> UnfoldedLog::expose(const Rational& begin, const Rational& end) const {
-  const Rational& first = std::min(begin, end);
-  const Rational& last = std::max(begin, end);
+std::unique_ptr<Exposure> UnfoldedLog::expose(const Rational& first, const Rational& last) const {
   if (exact_.through_corner()) return expose_corner(first, last);
   const FreeFlight start = flight_at(first);
   const FreeFlight stop = flight_at(last);
@@ -268,14 +280,13 @@ std::unique_ptr<Exposure> UnfoldedLog::expose(const Rational& begin, const Ratio
   return std::make_unique<ListedExposure>(pieces.take());
 }
 
-std::optional<PositionBounds> UnfoldedLog::bounds_at(const Rational& time) const {
+PositionBounds UnfoldedLog::bounds_at(const Rational& time) const {
   const double distance = std::hypot(form_.impact, form_.speed * tau_at(time, to_time(time)));
   // An offset is rounded once, and once more in the sum.
   const auto bound = [&](double gap, double offset) {
     return kUnitRoundoff * (8 * gap + 2 * std::fabs(offset) + distance);
   };
-  return PositionBounds{bound(distance + form_.ell, form_.blue_offset),
-                        bound(distance, form_.red_offset)};
+  return {bound(distance + form_.ell, form_.blue_offset), bound(distance, form_.red_offset)};
 }
 
 }  // namespace piblocks

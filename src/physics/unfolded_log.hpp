@@ -4,8 +4,14 @@
 
 #include <piblocks/blocks.hpp>
 #include <piblocks/collision_log.hpp>
+#include <piblocks/exposure.hpp>
+
+#include <memory>
+#include <optional>
 
 #include "physics/exact_motion.hpp"
+#include "physics/impact.hpp"
+#include "physics/position_bounds.hpp"
 #include "physics/ray_sums.hpp"
 #include "physics/unfolding.hpp"
 
@@ -23,14 +29,18 @@ class UnfoldedLog final : public CollisionLog {
   explicit UnfoldedLog(const BlockSystem& system);
 
   const Integer& size() const override { return size_; }
+  const Integer& first_index() const override { return first_index_; }
   Collision at(const Integer& index) const override;
+  Rational time_after(const Integer& index) const override;
   std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const override;
   FreeFlight flight_at(const Rational& time) const override;
-  std::optional<Impact> impact(CollisionKind kind, const Integer& first,
-                               const Integer& last) const override;
-  Integer count_near(const Time& time) const override;
-  std::unique_ptr<Exposure> expose(const Rational& begin, const Rational& end) const override;
-  std::optional<PositionBounds> bounds_at(const Rational& time) const override;
+
+  /// As the functions of these names in impact.hpp.
+  std::optional<Impact> impact(CollisionKind kind, const Integer& first, const Integer& last) const;
+  Integer count_near(const Time& time) const;
+  /// As in expose.hpp, for begin <= end.
+  std::unique_ptr<Exposure> expose(const Rational& begin, const Rational& end) const;
+  PositionBounds bounds_at(const Rational& time) const;
 
  private:
   UnfoldedLog(const BlockSystem& system, const ExactMotion& motion);
@@ -65,6 +75,8 @@ class UnfoldedLog final : public CollisionLog {
   ExactMotion exact_;
   Unfolding form_;
   Integer size_;
+  Integer first_index_;
+  std::optional<Integer> contact_;  // index of the collision that happens exactly at time 0
 };
 
 }  // namespace piblocks

@@ -80,15 +80,18 @@ constexpr auto kKinds = []() {
 
 }  // namespace
 
-UnfoldedStream::UnfoldedStream(const Unfolding& form, Integer first, Integer last, Integer index)
+UnfoldedStream::UnfoldedStream(const Unfolding& form, Integer first, Integer last, Integer index,
+                               const std::optional<Integer>& contact)
     : form_(form),
       next_(std::move(first)),
       last_(std::move(last)),
       index_(std::move(index)),
+      contact_(contact),
       last_of_past_(middle(form.past.ray, form.future.ray)) {}
 
 bool UnfoldedStream::read(CollisionBatch& batch) {
-  const Integer left = last_ - next_ + 1;
+  Integer left = last_ - next_ + 1;
+  if (index_ <= 0) left = std::min<Integer>(left, 1 - index_);  // on one side of time 0
   batch.first = index_;
   batch.size = left <= 0 ? 0
                          : static_cast<std::size_t>(
@@ -101,9 +104,25 @@ bool UnfoldedStream::read(CollisionBatch& batch) {
           : static_cast<std::size_t>(std::min<Integer>(of_past, long(batch.size)).get_ui());
   fill(form_.past, 0, turn, batch);
   fill(form_.future, turn, batch.size - turn, batch);
+  keep_within(batch);
   next_ += static_cast<unsigned long>(batch.size);
   index_ += static_cast<unsigned long>(batch.size);
   return batch.size > 0;
+}
+
+/// As time_within(), for all rows, which are on one side of time 0.
+void UnfoldedStream::keep_within(CollisionBatch& batch) const {
+  const double side = batch.first > 0 ? 1 : -1;
+  for (std::size_t row = 0; row < batch.size; ++row) {
+    const bool is_wrong = side * batch.time_hi[row] < 0;
+    batch.time_hi[row] = is_wrong ? 0 : batch.time_hi[row];
+    batch.time_lo[row] = is_wrong ? 0 : batch.time_lo[row];
+  }
+  if (!contact_ || *contact_ < batch.first) return;
+  const Integer row = *contact_ - batch.first;
+  if (row >= static_cast<unsigned long>(batch.size)) return;
+  batch.time_hi[row.get_ui()] = 0;
+  batch.time_lo[row.get_ui()] = 0;
 }
 
 /// Rows begin … begin + rows - 1 of the batch, which are the rays from next_ + begin on.

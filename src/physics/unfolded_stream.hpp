@@ -6,6 +6,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
 #include "physics/unfolding.hpp"
 
@@ -35,18 +36,22 @@ struct RayTable {
 class UnfoldedStream final : public CollisionStream {
  public:
   /// Rays first … last in the order of time; the collision on `first` has index `index`.
-  UnfoldedStream(const Unfolding& form, Integer first, Integer last, Integer index);
+  /// @param contact  as in time_within()
+  UnfoldedStream(const Unfolding& form, Integer first, Integer last, Integer index,
+                 const std::optional<Integer>& contact);
 
   bool read(CollisionBatch& batch) override;
 
  private:
   void fill(const FarEnd& end, std::size_t begin, std::size_t rows, CollisionBatch& batch);
   const RayTable& table(int sign, bool anchor_is_odd);
+  void keep_within(CollisionBatch& batch) const;
 
   const Unfolding& form_;
   Integer next_;
   Integer last_;
   Integer index_;
+  std::optional<Integer> contact_;
   Integer last_of_past_;  // later rays are nearer to the future
   std::array<std::array<std::unique_ptr<RayTable>, 2>, 2> tables_;  // by end and parity of anchor
 };

@@ -6,6 +6,7 @@
 #include <piblocks/time.hpp>
 
 #include <cmath>
+#include <optional>
 
 #include "physics/exact_motion.hpp"
 
@@ -106,15 +107,22 @@ struct ClosedForm {
     const double reach = sigma / ray.sine;  // R/ell
     const double distance = ell * reach;
     const auto [hi, lo] = time(sign, ray);
-    // A log begins at time 0: what is before can only be the rounding of a collision then.
-    return {hi < 0 ? 0.0 : hi,
-            hi < 0 ? 0.0 : lo,
+    return {hi,
+            lo,
             blue_offset + kind.blue_reach * distance,
             kind.side * (blue_speed * even.sine),
             red_offset + kind.red_reach * distance,
             sign * (red_speed * even.cosine)};
   }
 };
+
+/// The time of a collision on the right side of time 0, past which only rounding can carry it.
+/// @param contact  index of the collision that happens exactly at time 0, if one does.
+inline Time time_within(const Integer& index, const std::optional<Integer>& contact,
+                        const Time& time) {
+  const bool is_wrong = index > 0 ? time.hi < 0 : time.hi > 0;
+  return is_wrong || (contact && index == *contact) ? Time{} : time;
+}
 
 struct Unfolding : ClosedForm {
   /// @throws SimulationError if ell, or the time it takes, is too small for a double, but not 0.

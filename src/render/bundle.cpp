@@ -5,7 +5,7 @@
 #include <piblocks/error.hpp>
 #include <piblocks/interpolator.hpp>
 #include <piblocks/png.hpp>
-#include <piblocks/timeline.hpp>
+#include <piblocks/schedule.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -88,13 +88,13 @@ void write_poster(const RenderJob& job, std::int64_t last, const fs::path& path)
   write(path, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
-void write_texts(const RenderJob& job, const CollisionLog& log, const Timeline& timeline,
+void write_texts(const RenderJob& job, const CollisionLog& log, const Schedule& schedule,
                  const VideoCount& count, FileSet& files) {
   const auto& scene = std::get<Scene>(job.script);
   const View& view = scene.view;
   const std::string alt = describe_video(scene, count);
   write(files.add("alt.txt"), alt + "\n");
-  write(files.add("captions.vtt"), captions(log, timeline, view.frame_rate));
+  write(files.add("captions.vtt"), captions(log, schedule, view.frame_rate));
   write(
       files.add("latex.tex"),
       fmt::format(kLatex, fmt::arg("name", job.output),
@@ -113,10 +113,10 @@ Rendered render_bundle(const RenderJob& job,
   FileSet files(job.bundle->folder, "bundle");
   const auto& scene = std::get<Scene>(job.script);
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
-  const Timeline timeline(scene, *log);
-  const PageFacts facts(scene, *log, timeline);
+  const Schedule schedule = make_schedule(scene, *log);
+  const PageFacts facts(scene, *log, schedule);
   write_poster(job, facts.forth() - 1, files.add(std::string(kPoster)));
-  write_texts(job, *log, timeline, {facts.most(), log->size()}, files);
+  write_texts(job, *log, schedule, {facts.most(), log->size()}, files);
   RenderJob video = job;
   video.bundle.reset();
   video.output = files.add(job.output);

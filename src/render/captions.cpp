@@ -14,23 +14,32 @@ struct Cue {
   Integer milestone;
 };
 
-/// The largest power of ten that is not larger; the count itself if there are no more, or below 1.
+/// The largest power of ten that is not larger than the count, with the count's sign; the count
+/// itself if there are no more, or none.
 Integer milestone_of(const Integer& count, const Integer& most) {
-  if (count < 1) return 0;
-  if (count == most) return most;
+  if (count == 0 || (count == most && count > 0)) return count;
   Integer power;
-  mpz_ui_pow_ui(power.get_mpz_t(), 10, count.get_str().size() - 1);
-  return power;
+  mpz_ui_pow_ui(power.get_mpz_t(), 10, Integer(abs(count)).get_str().size() - 1);
+  return count < 0 ? Integer(-power) : power;
 }
 
-std::string text_of(const Integer& milestone, const Integer& most, const Integer& total) {
-  const std::string number = with_thousands_separators(milestone);
-  if (milestone == 0) return "No collision yet";
-  const char* noun = milestone == 1 ? "collision" : "collisions";
-  if (milestone == most) {
-    return fmt::format("{} {}{}", number, noun, most == total ? ", which is all there are" : "");
+/// What the captions of a film have in common.
+struct Extremes {
+  Integer least;  ///< count
+  Integer most;   ///< count
+  Integer total;  ///< of the run
+};
+
+std::string text_of(const Integer& milestone, const Extremes& counts) {
+  if (milestone == 0) {
+    return counts.least < 0 ? "Time 0, from which collisions are counted" : "No collision yet";
   }
-  return fmt::format("{} {} or more", number, noun);
+  const std::string number = with_thousands_separators(abs(milestone));
+  const char* noun = abs(milestone) == 1 ? "collision" : "collisions";
+  if (milestone < 0) return fmt::format("{} {} or more to go until time 0", number, noun);
+  if (milestone < counts.most) return fmt::format("{} {} or more", number, noun);
+  const bool is_all = counts.most == counts.total;
+  return fmt::format("{} {}{}", number, noun, is_all ? ", which is all there are" : "");
 }
 
 std::string time_text(std::int64_t frame, const Rational& frame_rate) {
@@ -41,24 +50,26 @@ std::string time_text(std::int64_t frame, const Rational& frame_rate) {
 
 }  // namespace
 
-std::string captions(const CollisionLog& log, const Timeline& timeline,
+std::string captions(const CollisionLog& log, const Schedule& schedule,
                      const Rational& frame_rate) {
-  std::vector<Integer> counts;
-  for (std::int64_t frame = 0; frame < timeline.frame_count(); ++frame) {
-    counts.push_back(state_at(log, timeline.time_of(frame)).count);
+  const std::int64_t frames = film_frames(schedule);
+  std::vector<Integer> shown;
+  for (std::int64_t frame = 0; frame < frames; ++frame) {
+    shown.push_back(state_at(log, schedule.time_of(frame)).count);
   }
-  const Integer most = *std::ranges::max_element(counts);
+  const Extremes counts{*std::ranges::min_element(shown), *std::ranges::max_element(shown),
+                        log.size()};
   std::vector<Cue> cues;
-  for (std::int64_t frame = 0; frame < timeline.frame_count(); ++frame) {
-    Integer milestone = milestone_of(counts[static_cast<std::size_t>(frame)], most);
+  for (std::int64_t frame = 0; frame < frames; ++frame) {
+    Integer milestone = milestone_of(shown[static_cast<std::size_t>(frame)], counts.most);
     if (!cues.empty() && cues.back().milestone == milestone) continue;
     cues.push_back({frame, std::move(milestone)});
   }
   std::string text = "WEBVTT\n";
   for (std::size_t i = 0; i < cues.size(); ++i) {
-    const std::int64_t end = i + 1 < cues.size() ? cues[i + 1].first_frame : timeline.frame_count();
+    const std::int64_t end = i + 1 < cues.size() ? cues[i + 1].first_frame : frames;
     text += fmt::format("\n{} --> {}\n{}\n", time_text(cues[i].first_frame, frame_rate),
-                        time_text(end, frame_rate), text_of(cues[i].milestone, most, log.size()));
+                        time_text(end, frame_rate), text_of(cues[i].milestone, counts));
   }
   return text;
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <piblocks/collision_log.hpp>
-#include <piblocks/timeline.hpp>
+#include <piblocks/schedule.hpp>
 
 #include <string>
 
@@ -11,7 +11,9 @@ namespace piblocks {
 
 /// A caption from the first frame on that shows a first collision, ten, a hundred and so on, and
 /// the most there are in the video; each until the next one. Times are those of frames, rounded up
-/// to milliseconds.
-std::string captions(const CollisionLog& log, const Timeline& timeline, const Rational& frame_rate);
+/// to milliseconds. Before time 0, where counts are negative, captions say how many collisions are
+/// to go until then.
+/// @throws UsageError as film_frames().
+std::string captions(const CollisionLog& log, const Schedule& schedule, const Rational& frame_rate);
 
 }  // namespace piblocks

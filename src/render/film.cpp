@@ -95,18 +95,19 @@ DrawList Film::frame(std::int64_t number) const {
 }
 
 std::int64_t frame_at(const Film& film, const Instant& instant) {
-  if (std::holds_alternative<LastCollision>(instant)) return film.frame_count() - 1;
-  const auto* const video_s = std::get_if<Rational>(&instant);
-  if (video_s == nullptr) {
-    throw UsageError(
-        "'#K' is a collision of one run; of a storyboard, name a second of the video, or 'last' "
-        "for its last frame");
+  if (!instant.is_time() && instant.anchor != Instant::Anchor::last) {
+    throw UsageError(fmt::format(
+        "'{}' is an instant of one run; of a storyboard, name a second of the video, or 'last' for "
+        "its last frame",
+        exact_text(instant)));
   }
-  const Integer frame = floor(*video_s * film.view().frame_rate);
+  const Rational& rate = film.view().frame_rate;
+  const Rational anchor_s =
+      instant.is_time() ? Rational(0) : Rational(film.frame_count() - 1) / rate;
+  const Integer frame = floor((anchor_s + instant.offset) * rate);
   if (frame >= 0 && frame < film.frame_count()) return frame.get_si();
-  const Rational length_s = Rational(film.frame_count()) / film.view().frame_rate;
-  throw UsageError(fmt::format("{}: the storyboard's video lasts from 0 to {} s", to_text(*video_s),
-                               to_text(length_s)));
+  throw UsageError(fmt::format("{}: the storyboard's video lasts from 0 to {} s",
+                               exact_text(instant), to_text(Rational(film.frame_count()) / rate)));
 }
 
 }  // namespace piblocks

@@ -51,7 +51,7 @@ class Film {
 };
 
 /// The frame of a storyboard's film that an instant names: a time in seconds of video, or "last"
-/// for the last frame.
+/// for the last frame, and seconds before it.
 /// @throws UsageError if the film has no such frame.
 std::int64_t frame_at(const Film& film, const Instant& instant);
 

@@ -19,7 +19,7 @@ std::size_t longest(const std::vector<std::unique_ptr<CollisionLog>>& logs) {
   for (std::size_t i = 0; i < logs.size(); ++i) {
     const CollisionLog& log = *logs[i];
     if (log.size() == 0) continue;
-    Rational last = to_rational(log.at(log.size()).time);
+    Rational last = time_of(Instant::last(), log);
     if (latest && last <= *latest) continue;
     latest = std::move(last);
     found = i;
@@ -34,11 +34,9 @@ Run::Run(Scene scene, std::unique_ptr<CollisionLog> log, FilmUse use)
   if (use == FilmUse::seen) composition_.emplace(scene_, *log_, read_logo(scene_));
 }
 
-DrawList Run::frame(FrameTime shown, const Schedule& clock, std::int64_t number) const {
-  BlockState state = state_at(*log_, shown.time);
-  const std::vector<ExposurePart> exposure = expose_frame(scene_, *log_, clock, number);
-  return composition_->frame({std::move(state), std::move(shown.time), std::move(shown.slower)},
-                             exposure);
+DrawList Run::picture(const FrameTime& shown) const {
+  return composition_->frame({state_at(*log_, shown.time), shown.time, shown.slower},
+                             expose(*log_, shown.exposure));
 }
 
 FilmPart::FilmPart(const Scene& scene, FilmUse use) { show_one(scene, use); }
@@ -63,8 +61,8 @@ FilmPart::FilmPart(const Card& card, const View& film, FilmUse use) {
 
 void FilmPart::show_one(Scene scene, FilmUse use) {
   auto log = make_collision_log(scene.system);
-  timeline_.emplace(scene, *log);
-  frame_count_ = timeline_->frame_count();
+  schedule_ = make_schedule(scene, *log);
+  frame_count_ = film_frames(*schedule_);
   runs_.emplace_back(std::move(scene), std::move(log), use);
 }
 
@@ -74,15 +72,14 @@ void FilmPart::compare(const Runs& runs, const View& film, FilmUse use) {
   for (const Scene& run : runs) logs.push_back(make_collision_log(run.system));
   const std::size_t leader = longest(logs);
   const Scene leading = with_film_view(runs[leader], film);
-  timeline_.emplace(leading, *logs[leader]);
-  frame_count_ = timeline_->frame_count();
-  const End end{false, end_of(leading, *logs[leader])};
+  schedule_ = make_schedule(leading, *logs[leader]);
+  frame_count_ = film_frames(*schedule_);
+  const Span span = span_of(leading, *logs[leader]);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     Scene run = with_film_view(runs[i], film);
     run.view.width_px = split_->cells()[i].width_px;
     run.view.height_px = split_->cells()[i].height_px;
-    run.time = leading.time;
-    run.time.to = end;
+    run.time = {span.from, span.to, leading.time.speed};
     run.pacing = leading.pacing;
     runs_.emplace_back(std::move(run), std::move(logs[i]), use);
   }
@@ -96,12 +93,10 @@ PixelRect FilmPart::cell(std::size_t run) const {
 
 DrawList FilmPart::frame(std::int64_t number) const {
   if (runs_.empty()) return card_;
-  FrameTime shown = timeline_->at(number);
-  const Schedule& clock = timeline_->schedule();
-  if (!split_) return runs_.front().frame(std::move(shown), clock, number);
+  if (!split_) return runs_.front().frame(*schedule_, number);
   std::vector<DrawList> pictures;
   pictures.reserve(runs_.size());
-  for (const Run& run : runs_) pictures.push_back(run.frame(shown, clock, number));
+  for (const Run& run : runs_) pictures.push_back(run.frame(*schedule_, number));
   return split_->compose(std::move(pictures));
 }
 

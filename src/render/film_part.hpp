@@ -4,8 +4,8 @@
 
 #include <piblocks/collision_log.hpp>
 #include <piblocks/composition.hpp>
+#include <piblocks/schedule.hpp>
 #include <piblocks/storyboard.hpp>
-#include <piblocks/timeline.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -30,8 +30,12 @@ class Run {
 
   const Scene& scene() const noexcept { return scene_; }
   const CollisionLog& log() const noexcept { return *log_; }
-  /// @param clock  by which frame `number` shows the instant `shown`.
-  DrawList frame(FrameTime shown, const Schedule& clock, std::int64_t number) const;
+  /// A frame by a clock, which may be another run's. @param number  >= 0
+  DrawList frame(const Schedule& clock, std::int64_t number) const {
+    return picture(clock.frame(number, open_s(scene_.view)));
+  }
+  /// The picture of what a frame, or a still, shows of time.
+  DrawList picture(const FrameTime& shown) const;
 
  private:
   Scene scene_;
@@ -61,7 +65,7 @@ class FilmPart {
   /// Where a run's picture is in the frame. @param run  its place in runs().
   PixelRect cell(std::size_t run) const;
   /// The one clock of all runs, in seconds since the part began; none of a card.
-  const Schedule* schedule() const noexcept { return timeline_ ? &timeline_->schedule() : nullptr; }
+  const Schedule* schedule() const noexcept { return schedule_ ? &*schedule_ : nullptr; }
 
  private:
   void show_one(Scene scene, FilmUse use);
@@ -69,7 +73,7 @@ class FilmPart {
 
   std::int64_t frame_count_ = 0;
   std::vector<Run> runs_;
-  std::optional<Timeline> timeline_;
+  std::optional<Schedule> schedule_;
   std::optional<SplitScreen> split_;  ///< if there are several runs
   DrawList card_;                     ///< if there are none
 };

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <piblocks/canvas.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/timeline.hpp>
+#include <piblocks/schedule.hpp>
 #include <piblocks/version.hpp>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/timeline.hpp>
+#include <piblocks/schedule.hpp>
 #include <unistd.h>
 
 #include <cerrno>
@@ -136,8 +136,8 @@ void add_video(const fs::path& path, PageText& page) {
 
 void write_page(const Scene& scene, const fs::path& video, OutputFile& file) {
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
-  const Timeline timeline(scene, *log);
-  const PageFacts facts(scene, *log, timeline);
+  const Schedule schedule = make_schedule(scene, *log);
+  const PageFacts facts(scene, *log, schedule);
   const VideoCount count{facts.most(), log->size()};
   PageText page(file);
   page.add(fmt::format(

@@ -74,17 +74,17 @@ std::optional<Rational> least_distance(const std::vector<Rational>& times) {
   return least;
 }
 
-std::int64_t frames_forth(const Timeline& timeline, const Rational& frame_rate) {
-  for (const Stretch& stretch : timeline.schedule().stretches()) {
+std::int64_t frames_forth(const Schedule& schedule, const Rational& frame_rate) {
+  for (const Stretch& stretch : schedule.stretches()) {
     if (stretch.speed < 0) return ceil(stretch.video_s * frame_rate).get_si() + 1;
   }
-  return timeline.frame_count();
+  return film_frames(schedule);
 }
 
 /// The slowest motion from frame to frame; the whole span where there is none.
-Rational least_step(const Timeline& timeline, const Rational& frame_rate, const Rational& span) {
+Rational least_step(const Schedule& schedule, const Rational& frame_rate, const Rational& span) {
   Rational least = span;
-  for (const Stretch& stretch : timeline.schedule().stretches()) {
+  for (const Stretch& stretch : schedule.stretches()) {
     if (stretch.speed > 0) least = std::min(least, Rational(stretch.speed / frame_rate));
   }
   return least;
@@ -93,25 +93,26 @@ Rational least_step(const Timeline& timeline, const Rational& frame_rate, const 
 }  // namespace
 
 std::vector<CollisionRange> listed_collisions(const Integer& before, const Integer& after) {
-  const Integer first = std::max(Integer(1), Integer(before + 1));
+  const Integer first = before + 1;
   if (after < first) return {};
   if (after - first < 2 * kListedAtEachEnd) return {{first, after}};
   return {{first, first + (kListedAtEachEnd - 1)}, {after - (kListedAtEachEnd - 1), after}};
 }
 
-PageFacts::PageFacts(const Scene& scene, const CollisionLog& log, const Timeline& timeline)
+PageFacts::PageFacts(const Scene& scene, const CollisionLog& log, const Schedule& schedule)
     : scene_(scene),
       log_(log),
-      timeline_(timeline),
-      forth_(std::min(frames_forth(timeline, scene.view.frame_rate), timeline.frame_count())),
-      from_(timeline.time_of(0)),
+      schedule_(schedule),
+      frames_(film_frames(schedule)),
+      forth_(std::min(frames_forth(schedule, scene.view.frame_rate), frames_)),
+      from_(schedule.time_of(0)),
       first_(state_at(log, from_).count),
-      most_(state_at(log, timeline.time_of(forth_ - 1)).count) {}
+      most_(state_at(log, schedule.time_of(forth_ - 1)).count) {}
 
 void PageFacts::write_counts(const Sink& sink) const {
   Differences counts;
-  for (std::int64_t frame = 0; frame < timeline_.frame_count(); ++frame) {
-    const std::string text = counts.add(state_at(log_, timeline_.time_of(frame)).count);
+  for (std::int64_t frame = 0; frame < frames_; ++frame) {
+    const std::string text = counts.add(state_at(log_, schedule_.time_of(frame)).count);
     if (!text.empty()) sink(text);
   }
   sink(counts.end());
@@ -119,9 +120,9 @@ void PageFacts::write_counts(const Sink& sink) const {
 
 void PageFacts::write(const Sink& sink) const {
   const Rational& rate = scene_.view.frame_rate;
-  const Rational span = timeline_.time_of(forth_ - 1) - from_;
+  const Rational span = schedule_.time_of(forth_ - 1) - from_;
   const int decimals =
-      decimals_for(span > 0 ? least_step(timeline_, rate, span) : Rational(1), span);
+      decimals_for(span > 0 ? least_step(schedule_, rate, span) : Rational(1), span);
   const std::vector<CollisionRange> listed = listed_collisions(first_, most_);
   std::vector<std::vector<Rational>> times;
   int scale = decimals;
@@ -133,11 +134,11 @@ void PageFacts::write(const Sink& sink) const {
   }
   sink(fmt::format(
       R"({{"rate":[{},{}],"frames":{},"forth":{},"loop":{},"sound":{},"decimals":{},"scale":{},"from":"{}",)",
-      rate.get_num().get_str(), rate.get_den().get_str(), timeline_.frame_count(), forth_,
-      scene_.pacing.loop, scene_.sound.on, decimals, scale, scaled(from_, scale).get_str()));
+      rate.get_num().get_str(), rate.get_den().get_str(), frames_, forth_, scene_.pacing.loop,
+      scene_.sound.on, decimals, scale, scaled(from_, scale).get_str()));
   sink(R"("stretches":[)");
   const char* comma = "";
-  for (const Stretch& stretch : timeline_.schedule().stretches()) {
+  for (const Stretch& stretch : schedule_.stretches()) {
     sink(fmt::format("{}[{},{},{}]", comma, to_double(stretch.video_s),
                      to_double(stretch.time - from_), to_double(stretch.speed)));
     comma = ",";

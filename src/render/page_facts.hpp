@@ -1,12 +1,12 @@
 // What a video's page knows of the run: which instant and which count each frame shows, and when
 // collisions happen.
-// In: a scene, its collision log, its timeline. Out: one JSON object, every number of it exact
+// In: a scene, its collision log, its schedule. Out: one JSON object, every number of it exact
 // where it is one to be read.
 #pragma once
 
 #include <piblocks/collision_log.hpp>
 #include <piblocks/scene.hpp>
-#include <piblocks/timeline.hpp>
+#include <piblocks/schedule.hpp>
 
 #include <functional>
 #include <string_view>
@@ -29,7 +29,8 @@ std::vector<CollisionRange> listed_collisions(const Integer& before, const Integ
 
 class PageFacts {
  public:
-  PageFacts(const Scene& scene, const CollisionLog& log, const Timeline& timeline);
+  /// @throws UsageError as film_frames().
+  PageFacts(const Scene& scene, const CollisionLog& log, const Schedule& schedule);
 
   /// Collisions that the frames count, at most.
   const Integer& most() const noexcept { return most_; }
@@ -44,7 +45,8 @@ class PageFacts {
 
   const Scene& scene_;
   const CollisionLog& log_;
-  const Timeline& timeline_;
+  const Schedule& schedule_;
+  std::int64_t frames_;
   std::int64_t forth_;
   Rational from_;
   Integer first_;

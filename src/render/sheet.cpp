@@ -1,11 +1,13 @@
+#include "render/sheet.hpp"
+
 #include <fmt/format.h>
 #include <piblocks/canvas.hpp>
 #include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
+#include <piblocks/schedule.hpp>
 #include <piblocks/sheet.hpp>
-#include <piblocks/timeline.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -61,15 +63,16 @@ std::string time_text(double time, int digits) {
 }
 
 /// As short as can be where different times are still written differently.
-std::vector<std::string> time_texts(const std::vector<TimedState>& states) {
+std::vector<std::string> time_texts(const std::vector<Shown>& pictures) {
   std::vector<std::string> texts;
   for (int digits = kUsualDigits; digits <= kMostDigits; ++digits) {
     texts.clear();
     std::map<std::string, double> times;
     bool are_distinct = true;
-    for (const TimedState& at : states) {
-      texts.push_back(time_text(at.time.hi, digits));
-      are_distinct &= times.try_emplace(texts.back(), at.time.hi).first->second == at.time.hi;
+    for (const Shown& shown : pictures) {
+      const double time = to_double(shown.time);
+      texts.push_back(time_text(time, digits));
+      are_distinct &= times.try_emplace(texts.back(), time).first->second == time;
     }
     if (are_distinct) break;
   }
@@ -83,16 +86,32 @@ std::vector<Instant> spread_instants(const Scene& scene, int count) {
     throw UsageError(fmt::format("sheet: {} pictures: use 1 to {}", count, kMaxSheetPictures));
   }
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
-  Scene plain = scene;
-  plain.pacing = {};  // the run from one end to the other, however a video goes through it
-  const Timeline timeline(plain, *log);
-  const Rational first = timeline.time_of(0);
-  const Rational last = timeline.time_of(timeline.frame_count() - 1);
-  std::vector<Instant> instants = {first};
+  const Span span = span_of(scene, *log);
+  std::vector<Instant> instants = {span.from};
   for (int i = 1; i < count; ++i) {
-    instants.emplace_back(Rational(first + (last - first) * Rational(i, count - 1)));
+    instants.emplace_back(Rational(span.from + (span.to - span.from) * Rational(i, count - 1)));
   }
   return instants;
+}
+
+std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
+                                             const std::vector<Instant>& instants) {
+  const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
+  const Composition composition(scene, *log, read_logo(scene));
+  std::vector<Shown> shown;
+  shown.reserve(instants.size());
+  for (const Instant& instant : instants) {
+    const Rational time = time_of(instant, *log);
+    shown.push_back({state_at(*log, time), time});
+  }
+  const std::vector<std::string> times = time_texts(shown);
+  std::vector<CaptionedPicture> pictures;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    pictures.push_back({composition.frame(shown[i]),
+                        fmt::format("time {}, count {}", times[i],
+                                    with_thousands_separators(shown[i].state.count))});
+  }
+  return pictures;
 }
 
 void render_sheet(const Scene& scene, const std::vector<Instant>& instants,
@@ -102,19 +121,7 @@ void render_sheet(const Scene& scene, const std::vector<Instant>& instants,
     throw UsageError(
         fmt::format("sheet: {} pictures: use 1 to {}", instants.size(), kMaxSheetPictures));
   }
-  const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
-  const Composition composition(scene, *log, read_logo(scene));
-  std::vector<TimedState> states;
-  states.reserve(instants.size());
-  for (const Instant& instant : instants) states.push_back(state_at(*log, instant));
-  const std::vector<std::string> times = time_texts(states);
-  std::vector<CaptionedPicture> pictures;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const TimedState& at = states[i];
-    pictures.push_back(
-        {composition.frame({at.state, to_rational(at.time)}),
-         fmt::format("time {}, count {}", times[i], with_thousands_separators(at.state.count))});
-  }
+  std::vector<CaptionedPicture> pictures = sheet_pictures(scene, instants);
   OutputFile file(output);
   const Bytes page = paper.draw(arrange(std::move(pictures), paper.width_px, paper.height_px));
   if (stop.stop_requested()) throw Interrupted("sheet: interrupted");

@@ -1,18 +1,16 @@
+#include "render/still.hpp"
+
 #include <fmt/format.h>
 #include <piblocks/canvas.hpp>
-#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
 #include <piblocks/schedule.hpp>
 
 #include <string_view>
-#include <utility>
 
 #include "core/output_file.hpp"
 #include "render/film.hpp"
-#include "render/logo.hpp"
-#include "render/shutter.hpp"
 
 namespace piblocks {
 namespace {
@@ -35,22 +33,9 @@ Draw* drawing_for(std::string_view output) {
       output));
 }
 
-/// As in the video when it first shows this instant; 1 where it never does.
-Rational slower_at(const Scene& scene, const CollisionLog& log, const Rational& time) {
-  const Pacing& pacing = scene.pacing;
-  if (!pacing.automatic_slow_motion && pacing.slow_motion.empty()) return 1;
-  const Schedule schedule(scene, log);
-  const auto video_s = schedule.first_shown(time);
-  return video_s ? schedule.at(*video_s).slower : Rational(1);
-}
-
 DrawList picture_of(const Scene& scene, const Instant& instant) {
-  const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
-  TimedState at = state_at(*log, instant);
-  const Rational time = to_rational(at.time);
-  const Composition composition(scene, *log, read_logo(scene));
-  return composition.frame({std::move(at.state), time, slower_at(scene, *log, time)},
-                           expose_still(scene, *log, time));
+  const Run run(scene, make_collision_log(scene.system), FilmUse::seen);
+  return run.picture(still_time(scene, run.log(), time_of(instant, run.log())));
 }
 
 DrawList picture_of(const Storyboard& story, const Instant& instant) {
@@ -60,11 +45,14 @@ DrawList picture_of(const Storyboard& story, const Instant& instant) {
 
 }  // namespace
 
+DrawList still_picture(const Script& script, const Instant& instant) {
+  return std::visit([&](const auto& any) { return picture_of(any, instant); }, script);
+}
+
 void render_still(const Script& script, const Instant& instant, const std::string& output,
                   const std::stop_token& stop) {
   Draw* const draw = drawing_for(output);
-  const DrawList list =
-      std::visit([&](const auto& any) { return picture_of(any, instant); }, script);
+  const DrawList list = still_picture(script, instant);
   OutputFile file(output);
   const std::vector<std::uint8_t> picture = draw(list);
   if (stop.stop_requested()) throw Interrupted("still: interrupted");

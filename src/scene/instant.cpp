@@ -1,55 +1,130 @@
 #include <fmt/format.h>
+#include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 namespace piblocks {
 namespace {
 
-constexpr const char* kExpected = "must be a time, 'last', or '#K' for the K-th collision";
+using Anchor = Instant::Anchor;
 
-bool is_digits(std::string_view text) {
-  constexpr std::size_t kMaxLength = 1000;
-  return !text.empty() && text.size() <= kMaxLength &&
-         std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+constexpr const char* kExpected =
+    "must be a time, or 'turn', 'last' or '#K' for the K-th collision, or so long before or after "
+    "one of these, such as turn-0.3";
+
+/// Longest index that is read.
+constexpr std::size_t kMaxIndex_bytes = 1000;
+
+struct NamedAnchor {
+  std::string_view name;
+  Anchor anchor;
+};
+constexpr std::array kNamedAnchors = {NamedAnchor{"turn", Anchor::turn},
+                                      NamedAnchor{"last", Anchor::last}};
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Takes an anchor from the front of the text; leaves a text that is a time as it is.
+Instant take_anchor(std::string_view& text) {
+  for (const auto& [name, anchor] : kNamedAnchors) {
+    if (!text.starts_with(name)) continue;
+    text.remove_prefix(name.size());
+    return anchor == Anchor::turn ? Instant::turn() : Instant::last();
+  }
+  if (!text.starts_with('#')) return {};
+  text.remove_prefix(1);
+  const std::size_t sign = text.starts_with('-') ? 1 : 0;
+  const auto end = std::find_if_not(text.begin() + std::ptrdiff_t(sign), text.end(), is_digit);
+  const auto length = static_cast<std::size_t>(end - text.begin());
+  if (length == sign || length > kMaxIndex_bytes) throw UsageError(kExpected);
+  Instant instant = Instant::collision(Integer(std::string(text.substr(0, length)), 10));
+  text.remove_prefix(length);
+  return instant;
 }
 
-Rational parse_time(std::string_view text) {
-  Rational time;
+/// The offset behind an anchor: nothing, or a sign and a number without one.
+Rational parse_offset(std::string_view text) {
+  if (text.empty()) return 0;
+  const bool is_signed = text.front() == '+' || text.front() == '-';
+  if (!is_signed || text.size() < 2 || !(is_digit(text[1]) || text[1] == '.')) {
+    throw UsageError(kExpected);
+  }
+  return parse_rational(text.front() == '+' ? text.substr(1) : text);
+}
+
+Instant parse(std::string_view text) {
+  Instant instant = take_anchor(text);
   try {
-    time = parse_rational(text);
+    instant.offset = instant.is_time() ? parse_rational(text) : parse_offset(text);
   } catch (const UsageError& error) {
+    if (std::string_view(error.what()) == kExpected) throw;
     throw UsageError(fmt::format("{}; {}", error.what(), kExpected));
   }
-  if (std::isfinite(to_double(time))) return time;
-  throw UsageError("is beyond the range of a double (about 1.8e308)");
+  return instant;
 }
 
-TimedState at_collision(const CollisionLog& log, const Integer& index) {
-  const BlockState state = state_after(log, index);
-  return {log.at(index).time, state};
+/// When the anchor happens; nothing if it never does.
+std::optional<Integer> anchoring_collision(const Instant& instant, const CollisionLog& log) {
+  if (instant.anchor == Anchor::last && log.size() > 0) return log.size();
+  const bool is_there = instant.index >= log.first_index() && instant.index <= log.size();
+  if (instant.anchor == Anchor::collision && is_there) return instant.index;
+  return std::nullopt;
+}
+
+[[noreturn]] void fail_missing(const Instant& instant, const CollisionLog& log) {
+  if (instant.anchor == Anchor::turn) {
+    throw UsageError("'turn': no block moves, so there is none; give a time");
+  }
+  if (instant.anchor == Anchor::last) {
+    throw UsageError("'last': the scene has no collisions; give a time");
+  }
+  const std::string has =
+      log.size() < log.first_index()
+          ? "no collisions"
+          : fmt::format("collisions #{} to #{}", log.first_index().get_str(), log.size().get_str());
+  throw UsageError(fmt::format("collision #{}: the scene has {}", instant.index.get_str(), has));
 }
 
 }  // namespace
 
 Instant parse_instant(std::string_view text) {
-  if (text == "last") return LastCollision{};
-  if (!text.starts_with('#')) return parse_time(text);
-  if (!is_digits(text.substr(1))) throw UsageError(kExpected);
-  return NthCollision{Integer(std::string(text.substr(1)), 10)};
+  Instant instant = parse(text);
+  if (std::isfinite(to_double(instant.offset))) return instant;
+  throw UsageError("is beyond the range of a double (about 1.8e308)");
 }
 
-TimedState state_at(const CollisionLog& log, const Instant& instant) {
-  if (const auto* time = std::get_if<Rational>(&instant)) {
-    return {to_time(*time), state_at(log, *time)};
+std::string exact_text(const Instant& instant) {
+  const std::string offset = instant.offset.get_str();
+  if (instant.is_time()) return offset;
+  std::string text = "#" + instant.index.get_str();
+  for (const auto& [name, anchor] : kNamedAnchors) {
+    if (anchor == instant.anchor) text = name;
   }
-  if (const auto* collision = std::get_if<NthCollision>(&instant)) {
-    return at_collision(log, collision->index);
+  if (instant.offset == 0) return text;
+  return text + (instant.offset > 0 ? "+" : "") + offset;
+}
+
+bool exists(const Instant& instant, const CollisionLog& log) {
+  if (instant.is_time()) return true;
+  if (instant.anchor == Anchor::turn) return turn_of(log.system()).has_value();
+  return anchoring_collision(instant, log).has_value();
+}
+
+Rational time_of(const Instant& instant, const CollisionLog& log) {
+  if (instant.is_time()) return instant.offset;
+  if (instant.anchor == Anchor::turn) {
+    const std::optional<Rational> turn = turn_of(log.system());
+    if (!turn) fail_missing(instant, log);
+    return *turn + instant.offset;
   }
-  if (log.size() == 0) throw UsageError("last: the scene has no collisions");
-  return at_collision(log, log.size());
+  const std::optional<Integer> index = anchoring_collision(instant, log);
+  if (!index) fail_missing(instant, log);
+  return log.time_after(*index) + instant.offset;
 }
 
 }  // namespace piblocks

@@ -22,53 +22,20 @@ std::array<std::string_view, N> split(std::string_view text, const char* expecte
   return parts;
 }
 
-struct Named {
-  std::string_view name;
-  Moment::Origin origin;
-};
-constexpr std::array<Named, 2> kOrigins{
-    {{"turn", Moment::Origin::turn}, {"last", Moment::Origin::last}}};
-
 }  // namespace
-
-Moment parse_moment(std::string_view text) {
-  try {
-    for (const Named& named : kOrigins) {
-      if (!text.starts_with(named.name)) continue;
-      std::string_view offset = text.substr(named.name.size());
-      if (offset.empty()) return {named.origin, 0};
-      if (offset.front() != '+' && offset.front() != '-') break;
-      if (offset.front() == '+') offset.remove_prefix(1);
-      return {named.origin, parse_rational(offset)};
-    }
-    return {Moment::Origin::start, parse_rational(text)};
-  } catch (const UsageError& error) {
-    throw UsageError(std::string(error.what()) +
-                     "; must be a time, 'turn' or 'last', or so long after these, as turn-0.3");
-  }
-}
 
 SlowMotion parse_slow_motion(std::string_view text) {
   const auto parts = split<3>(text, "FROM:TO:FACTOR, as turn-0.3:turn+0.3:10");
-  SlowMotion window{parse_moment(parts[0]), parse_moment(parts[1]), parse_rational(parts[2])};
+  SlowMotion window{parse_instant(parts[0]), parse_instant(parts[1]), parse_rational(parts[2])};
   if (window.factor <= 0) throw UsageError("the factor must be greater than 0");
   return window;
 }
 
 Freeze parse_freeze(std::string_view text) {
   const auto parts = split<2>(text, "AT:SECONDS, as turn:2");
-  Freeze freeze{parse_moment(parts[0]), parse_rational(parts[1])};
+  Freeze freeze{parse_instant(parts[0]), parse_rational(parts[1])};
   if (freeze.length_s <= 0) throw UsageError("the seconds must be greater than 0");
   return freeze;
-}
-
-std::string exact_text(const Moment& moment) {
-  const std::string offset = moment.offset.get_str();
-  for (const Named& named : kOrigins) {
-    if (moment.origin != named.origin) continue;
-    return std::string(named.name) + (moment.offset < 0 ? "" : "+") + offset;
-  }
-  return offset;
 }
 
 std::string exact_text(const SlowMotion& window) {

@@ -62,16 +62,17 @@ void check_finite(const char* key, const Rational& value, std::vector<Problem>& 
 }
 
 void check_time(const TimeSpan& time, std::vector<Problem>& problems) {
-  check_finite("time.from", time.from, problems);
+  check_finite("time.from", time.from.offset, problems);
   check_finite("time.to", time.to.offset, problems);
   check_finite("time.speed", time.speed, problems);
   if (time.speed <= 0) {
     problems.push_back(
         {"time.speed", fmt::format("= {}: must be greater than 0", to_text(time.speed))});
   }
-  if (!time.to.after_last && time.to.offset <= time.from) {
-    problems.push_back({"time.to", fmt::format("= {}: must be after time.from = {}",
-                                               to_text(time.to.offset), to_text(time.from))});
+  if (time.from.is_time() && time.to.is_time() && time.to.offset <= time.from.offset) {
+    problems.push_back(
+        {"time.to", fmt::format("= {}: must be after time.from = {}", to_text(time.to.offset),
+                                to_text(time.from.offset))});
   }
 }
 
@@ -117,7 +118,7 @@ void check_freezes(const Pacing& pacing, std::vector<Problem>& problems) {
   check_count(kKey, pacing.freezes.size(), problems);
   for (const Freeze& freeze : pacing.freezes) {
     if (freeze.length_s > 0) continue;
-    problems.push_back({kKey, fmt::format("has a stop of {} s: it must be longer than 0",
+    problems.push_back({kKey, fmt::format("has a freeze of {} s: it must be longer than 0",
                                           to_text(freeze.length_s))});
     return;
   }

@@ -154,15 +154,4 @@ std::vector<std::pair<std::string, std::string>> describe(const Scene& scene) {
   return values;
 }
 
-End parse_end(std::string_view text) {
-  constexpr std::string_view kLast = "last";
-  if (!text.starts_with(kLast)) return {false, parse_rational(text)};
-  const std::string_view offset = text.substr(kLast.size());
-  if (offset.empty()) return {true, 0};
-  if (offset.front() != '+') throw UsageError("must be a time, 'last' or 'last+S'");
-  const Rational after = parse_rational(offset.substr(1));
-  if (after < 0) throw UsageError("must not be before the last collision");
-  return {true, after};
-}
-
 }  // namespace piblocks

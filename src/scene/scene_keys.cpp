@@ -160,10 +160,7 @@ Values each(const std::vector<Value>& list) {
   return texts;
 }
 
-Values end(const End& value) {
-  if (!value.after_last) return number(value.offset);
-  return {"last+" + value.offset.get_str()};
-}
+Values instant(const Instant& value) { return {exact_text(value)}; }
 
 Values slow_motion(const Pacing& pacing) {
   Values texts = each(pacing.slow_motion);
@@ -204,10 +201,10 @@ constexpr auto kKeys = std::to_array<SceneKey>({
      [](const Scene& s) { return background(s.view.background); }},
     {"view.theme", [](Scene& s, const Values& v) { s.view.theme = parse_theme(single(v)); },
      [](const Scene& s) { return Values{exact_text(s.view.theme)}; }},
-    {"time.from", [](Scene& s, const Values& v) { set_number(s.time.from, v); },
-     [](const Scene& s) { return number(s.time.from); }},
-    {"time.to", [](Scene& s, const Values& v) { s.time.to = parse_end(single(v)); },
-     [](const Scene& s) { return end(s.time.to); }},
+    {"time.from", [](Scene& s, const Values& v) { s.time.from = parse_instant(single(v)); },
+     [](const Scene& s) { return instant(s.time.from); }},
+    {"time.to", [](Scene& s, const Values& v) { s.time.to = parse_instant(single(v)); },
+     [](const Scene& s) { return instant(s.time.to); }},
     {"time.speed", [](Scene& s, const Values& v) { set_speed(s, v); },
      [](const Scene& s) { return number(s.time.speed); }},
     {"time.duration", [](Scene& s, const Values& v) { set_duration(s, v); },

@@ -10,212 +10,238 @@
 namespace piblocks {
 namespace {
 
-/// A freeze as an instant and whole frames of video.
+/// A freeze at its time, in whole frames.
 struct Stop {
   Rational time;
   Rational length_s;
 };
 
-/// The motion from its beginning to its end, before it is known how fast it runs.
-struct Motions {
+/// Even motion from one time to another, or a stop, before it is known how fast the motion is.
+struct Move {
   Rational from;
-  Rational to;
-  std::vector<SlowWindow> slow;  ///< in order, apart
-  std::vector<Stop> stops;       ///< in order
-
-  /// Seconds of video at speed 1, without the stops.
-  Rational length() const {
-    Rational sum = to - from;
-    for (const SlowWindow& window : slow) sum += (window.to - window.from) * (window.factor - 1);
-    return sum;
-  }
-  Rational stopped_s() const {
-    Rational sum = 0;
-    for (const Stop& stop : stops) sum += stop.length_s;
-    return sum;
-  }
+  Rational to;  ///< as `from`, of a stop
+  Rational slower = 1;
+  Rational stop_s = 0;
 };
 
-class ScheduleBuilder {
- public:
-  ScheduleBuilder(const Scene& scene, const CollisionLog& log);
-  void build();
-  std::vector<Stretch> take_stretches() { return std::move(stretches_); }
-  const Integer& frame_count() const noexcept { return frame_count_; }
-
- private:
-  Rational whole_frames(const Rational& length_s) const {
-    return Rational(ceil(length_s * rate_)) / rate_;
-  }
-  Rational speed() const;
-  void run_to(const Rational& time, const Rational& slower);
-  void run_past_stops(const Rational& time, const Rational& slower);
-  void stand(const Rational& length_s);
-  void append(Stretch stretch);
-  void play_back();
-
-  std::vector<Stretch> stretches_;
-  Integer frame_count_;
-  const Pacing& pacing_;
-  Rational rate_;
-  bool after_last_;
-  Rational given_speed_;
-  Rational hold_start_s_;
-  Rational hold_end_s_;
-  Motions motions_;
-  Rational speed_;
-
-  Rational video_s_ = 0;
-  Rational time_;
-  std::size_t next_stop_ = 0;
+/// Lengths of video at which the picture stands still before and after the motion.
+struct Holds {
+  Rational start_s;
+  Rational end_s;
 };
 
-ScheduleBuilder::ScheduleBuilder(const Scene& scene, const CollisionLog& log)
-    : pacing_(scene.pacing),
-      rate_(scene.view.frame_rate),
-      after_last_(scene.time.to.after_last),
-      given_speed_(scene.time.speed),
-      hold_start_s_(whole_frames(pacing_.hold_start_s)),
-      hold_end_s_(whole_frames(pacing_.hold_end_s)),
-      motions_{scene.time.from, end_of(scene, log), {}, {}},
-      time_(motions_.from) {
-  if (motions_.to <= motions_.from) {
-    throw UsageError(
-        fmt::format("time.from = {}: is not before the end at {}; there is nothing to show",
-                    to_text(motions_.from), to_text(motions_.to)));
-  }
-  motions_.slow = slow_windows(scene, log, motions_.from, motions_.to);
-  for (const Freeze& freeze : pacing_.freezes) {
-    const Rational time = time_of(freeze.at, "time.freeze", scene, log);
-    if (time < motions_.from || time > motions_.to) continue;
-    motions_.stops.push_back({time, whole_frames(freeze.length_s)});
-  }
-  std::ranges::stable_sort(motions_.stops, {}, &Stop::time);
+Rational whole_frames(const Rational& length_s, const Rational& frame_rate) {
+  return Rational(ceil(length_s * frame_rate)) / frame_rate;
 }
 
-/// Of the scene, or such that the video takes as long as it is to take.
-Rational ScheduleBuilder::speed() const {
-  if (!pacing_.duration_s) return given_speed_;
-  Integer frames = ceil(*pacing_.duration_s * rate_);
-  if (pacing_.loop) frames = (frames + 1) / 2 + 1;  // see play_back()
-  // At the end of a run that is shown to its end one frame stands at that end.
-  if (after_last_) frames -= 1;
-  const Rational standing_s = hold_start_s_ + hold_end_s_ + motions_.stopped_s();
-  const Rational moving_s = Rational(frames) / rate_ - standing_s;
-  if (moving_s > 0) return motions_.length() / moving_s;
-  if (standing_s == 0) {
+/// Whether the first frame at or past the end is shown.
+bool shows_end(const Scene& scene) { return !scene.time.to.is_time(); }
+
+std::vector<Stop> stops_of(const Scene& scene, const CollisionLog& log, const Span& span) {
+  std::vector<Stop> stops;
+  for (const Freeze& freeze : scene.pacing.freezes) {
+    const Rational time = time_of(freeze.at, "time.freeze", log);
+    if (time < span.from || time > span.to) {
+      throw UsageError(fmt::format("time.freeze: {} is outside of what is shown, {} to {}",
+                                   exact_text(freeze.at), to_text(span.from), to_text(span.to)));
+    }
+    stops.push_back({time, whole_frames(freeze.length_s, scene.view.frame_rate)});
+  }
+  std::ranges::stable_sort(stops, {}, &Stop::time);
+  return stops;
+}
+
+/// @param windows  in order, apart, inside the span
+/// @param stops    in order, inside the span
+std::vector<Move> moves_of(const Span& span, const std::vector<SlowWindow>& windows,
+                           const std::vector<Stop>& stops) {
+  std::vector<Move> moves;
+  Rational now = span.from;
+  auto stop = stops.begin();
+  const auto move_to = [&](const Rational& time, const Rational& slower) {
+    if (time > now) moves.push_back({now, time, slower});
+    now = std::max(now, time);
+  };
+  const auto pass_stops = [&](const Rational& time, const Rational& slower) {
+    for (; stop != stops.end() && stop->time < time; ++stop) {
+      move_to(stop->time, slower);
+      moves.push_back({now, now, slower, stop->length_s});
+    }
+    move_to(time, slower);
+  };
+  for (const SlowWindow& window : windows) {
+    pass_stops(window.from, 1);
+    pass_stops(window.to, window.factor);
+  }
+  pass_stops(span.to, 1);
+  for (; stop != stops.end(); ++stop) moves.push_back({now, now, 1, stop->length_s});
+  return moves;
+}
+
+/// The speed at which the moves take as long as the scene wants its video to be.
+Rational speed_for_duration(const Scene& scene, const std::vector<Move>& moves,
+                            const Holds& holds) {
+  const Rational& duration_s = *scene.pacing.duration_s;
+  Integer frames = ceil(duration_s * scene.view.frame_rate);
+  if (scene.pacing.loop) frames = (frames + 1) / 2 + 1;  // see played_back()
+  if (shows_end(scene)) frames -= 1;                     // one frame stands at the end
+  Rational length = 0;                                   // seconds of video at speed 1
+  Rational still_s = holds.start_s + holds.end_s;
+  for (const Move& move : moves) {
+    length += (move.to - move.from) * move.slower;
+    still_s += move.stop_s;
+  }
+  const Rational moving_s = Rational(frames) / scene.view.frame_rate - still_s;
+  if (moving_s > 0) return length / moving_s;
+  if (still_s == 0) {
     throw UsageError(fmt::format(
         "time.duration = {}: is shorter than two frames; make it longer, or let the video end at a "
         "time, as --to 10",
-        to_text(*pacing_.duration_s)));
+        to_text(duration_s)));
   }
   throw UsageError(fmt::format(
       "time.duration = {}: leaves no time for the motion, since the picture stands still for {} s; "
       "make it longer, or --hold-start, --hold-end and --freeze shorter",
-      to_text(*pacing_.duration_s), to_text(standing_s)));
+      to_text(duration_s), to_text(still_s)));
 }
 
-void ScheduleBuilder::append(Stretch stretch) {
-  // What begins when the next does takes no time.
-  if (!stretches_.empty() && stretches_.back().video_s == stretch.video_s) stretches_.pop_back();
-  stretches_.push_back(std::move(stretch));
-}
+/// Stretches from the video's start on.
+struct StretchList {
+  std::vector<Stretch> stretches = {};
+  Rational end_s = 0;  ///< of the last stretch
 
-void ScheduleBuilder::run_to(const Rational& time, const Rational& slower) {
-  if (time <= time_) return;
-  append({video_s_, time_, speed_ / slower, slower});
-  video_s_ += (time - time_) * slower / speed_;
-  time_ = time;
-}
-
-void ScheduleBuilder::run_past_stops(const Rational& time, const Rational& slower) {
-  const auto& stops = motions_.stops;
-  for (; next_stop_ < stops.size() && stops[next_stop_].time < time; ++next_stop_) {
-    run_to(stops[next_stop_].time, slower);
-    append({video_s_, time_, 0, slower});
-    video_s_ += stops[next_stop_].length_s;
+  void add(const Rational& time, const Rational& speed, const Rational& slower,
+           const Rational& length_s) {
+    if (length_s == 0) return;
+    stretches.push_back({end_s, time, speed, slower});
+    end_s += length_s;
   }
-  run_to(time, slower);
-}
-
-void ScheduleBuilder::stand(const Rational& length_s) {
-  if (length_s == 0) return;
-  append({video_s_, time_, 0, 1});
-  video_s_ += length_s;
-}
+};
 
 /// The same again from the last frame to the first, neither of which is repeated.
-void ScheduleBuilder::play_back() {
-  if (frame_count_ < 2) return;
-  const Rational turn_s = Rational(frame_count_ - 1) / rate_;
+std::vector<Stretch> played_back(std::vector<Stretch> stretches, const Rational& last_frame_s) {
   // What begins after the last frame is shown by none.
-  while (stretches_.back().video_s > turn_s) stretches_.pop_back();
-  const auto forth = static_cast<std::ptrdiff_t>(stretches_.size());
-  Rational end_s = turn_s;
-  for (std::ptrdiff_t i = forth - 1; i >= 0; --i) {
-    const Stretch stretch = stretches_[static_cast<std::size_t>(i)];
-    if (stretch.video_s >= end_s) continue;
-    append({2 * turn_s - end_s, stretch.time + stretch.speed * (end_s - stretch.video_s),
-            -stretch.speed, stretch.slower});
-    end_s = stretch.video_s;
+  while (stretches.back().video_s > last_frame_s) stretches.pop_back();
+  StretchList back{{}, last_frame_s};
+  Rational end_s = last_frame_s;
+  for (auto stretch = stretches.rbegin(); stretch != stretches.rend(); ++stretch) {
+    const Rational length_s = end_s - stretch->video_s;
+    back.add(stretch->time + stretch->speed * length_s, -stretch->speed, stretch->slower, length_s);
+    end_s = stretch->video_s;
   }
-  frame_count_ = 2 * frame_count_ - 2;
-}
-
-void ScheduleBuilder::build() {
-  speed_ = speed();
-  stand(hold_start_s_);
-  for (const SlowWindow& window : motions_.slow) {
-    run_past_stops(window.from, 1);
-    run_past_stops(window.to, window.factor);
-  }
-  run_past_stops(motions_.to, 1);
-  const auto& stops = motions_.stops;
-  for (; next_stop_ < stops.size(); ++next_stop_) stand(stops[next_stop_].length_s);
-
-  frame_count_ = ceil(video_s_ * rate_);
-  if (after_last_) {
-    // The motion goes on to the next frame, which may stand still then.
-    frame_count_ += 1;
-    const Rational last_s = Rational(frame_count_ - 1) / rate_;
-    const Stretch& last = stretches_.back();
-    time_ = last.time + last.speed * (last_s - last.video_s);
-    video_s_ = last_s;
-  }
-  stand(hold_end_s_);
-  frame_count_ += ceil(hold_end_s_ * rate_);
-  if (pacing_.loop) play_back();
+  // What begins at the last frame begins with the way back.
+  if (stretches.back().video_s == last_frame_s) stretches.pop_back();
+  stretches.insert(stretches.end(), back.stretches.begin(), back.stretches.end());
+  return stretches;
 }
 
 }  // namespace
 
-Rational end_of(const Scene& scene, const CollisionLog& log) {
-  const End& end = scene.time.to;
-  if (!end.after_last) return end.offset;
-  if (log.size() == 0) {
+bool has_span(const Scene& scene, const CollisionLog& log) {
+  return exists(scene.time.from, log) && exists(scene.time.to, log);
+}
+
+Span span_of(const Scene& scene, const CollisionLog& log) {
+  if (scene.time.to.anchor == Instant::Anchor::last && log.size() == 0) {
     throw UsageError(
         "time.to: the scene has no collision to end after; give a time, such as to = 10 in [time]");
   }
-  return to_rational(log.at(log.size()).time) + end.offset;
+  return {time_of(scene.time.from, "time.from", log), time_of(scene.time.to, "time.to", log)};
 }
 
-Schedule::Schedule(const Scene& scene, const CollisionLog& log) {
-  ScheduleBuilder builder(scene, log);
-  builder.build();
-  stretches_ = builder.take_stretches();
-  frame_count_ = builder.frame_count();
+Schedule make_schedule(const Scene& scene, const CollisionLog& log) {
+  const Span span = span_of(scene, log);
+  if (span.to <= span.from) {
+    throw UsageError(
+        fmt::format("time.from = {}: is not before the end at {}; there is nothing to show",
+                    to_text(span.from), to_text(span.to)));
+  }
+  const Rational& rate = scene.view.frame_rate;
+  const Holds holds{whole_frames(scene.pacing.hold_start_s, rate),
+                    whole_frames(scene.pacing.hold_end_s, rate)};
+  const std::vector<Move> moves =
+      moves_of(span, slow_windows(scene, log, span), stops_of(scene, log, span));
+  const Rational speed =
+      scene.pacing.duration_s ? speed_for_duration(scene, moves, holds) : scene.time.speed;
+
+  StretchList video;
+  video.add(span.from, 0, 1, holds.start_s);
+  for (const Move& move : moves) {
+    const bool stops = move.stop_s > 0;
+    video.add(move.from, stops ? Rational(0) : Rational(speed / move.slower), move.slower,
+              stops ? move.stop_s : Rational((move.to - move.from) * move.slower / speed));
+  }
+  Integer frame_count = ceil(video.end_s * rate);
+  Rational end = span.to;
+  if (shows_end(scene)) {
+    // The motion goes on to the next frame.
+    frame_count += 1;
+    video.end_s = Rational(frame_count - 1) / rate;
+    const Stretch& last = video.stretches.back();
+    end = last.time + last.speed * (video.end_s - last.video_s);
+  }
+  video.add(end, 0, 1, holds.end_s);
+  frame_count += ceil(holds.end_s * rate);
+  if (!scene.pacing.loop || frame_count < 2) {
+    return Schedule(std::move(video.stretches), frame_count, rate);
+  }
+  const Rational last_frame_s = Rational(frame_count - 1) / rate;
+  return Schedule(played_back(std::move(video.stretches), last_frame_s), 2 * frame_count - 2, rate);
 }
 
-std::optional<Rational> Schedule::first_shown(const Rational& time) const {
+std::int64_t film_frames(const Schedule& schedule) {
+  const Integer& frames = schedule.frame_count();
+  if (frames <= kMaxFrames) return frames.get_si();
+  throw UsageError(
+      fmt::format("time: {} frames are more than {}; narrow them with --from and --to, or "
+                  "raise --speed",
+                  readable(frames), readable(kMaxFrames)));
+}
+
+FrameTime still_time(const Scene& scene, const CollisionLog& log, const Rational& time) {
+  const Pacing& pacing = scene.pacing;
+  const bool is_even = !pacing.automatic_slow_motion && pacing.slow_motion.empty();
+  if (is_even && scene.view.shutter == 0) return {time};
+  if (has_span(scene, log)) {
+    const Schedule schedule = make_schedule(scene, log);
+    if (const auto video_s = schedule.moment_of(time))
+      return schedule.at(*video_s, open_s(scene.view));
+  }
+  FrameTime alone{time};
+  if (scene.view.shutter > 0) {
+    alone.exposure = {{time, time + scene.time.speed * open_s(scene.view), 1}};
+  }
+  return alone;
+}
+
+Schedule::Schedule(std::vector<Stretch> stretches, Integer frame_count, Rational frame_rate)
+    : stretches_(std::move(stretches)),
+      frame_count_(std::move(frame_count)),
+      frame_rate_(std::move(frame_rate)) {}
+
+FrameTime Schedule::at(const Rational& video_s, const Rational& open_s) const {
+  const auto next = std::ranges::upper_bound(stretches_, video_s, {}, &Stretch::video_s);
+  const Stretch& stretch = *std::prev(next);
+  FrameTime shown{stretch.time + stretch.speed * (video_s - stretch.video_s), stretch.slower};
+  if (open_s > 0) shown.exposure = during(video_s, open_s);
+  return shown;
+}
+
+std::optional<Rational> Schedule::moment_of(const Rational& time) const {
+  std::optional<Rational> between;  // two frames
+  const Rational length_s = Rational(frame_count_) / frame_rate_;
   for (std::size_t i = 0; i < stretches_.size(); ++i) {
     const Stretch& stretch = stretches_[i];
-    if (time == stretch.time) return stretch.video_s;
-    if (stretch.speed == 0) continue;
-    const Rational video_s = stretch.video_s + (time - stretch.time) / stretch.speed;
-    const bool is_over = i + 1 < stretches_.size() && video_s >= stretches_[i + 1].video_s;
-    if (video_s > stretch.video_s && !is_over) return video_s;
+    const Rational end_s = i + 1 < stretches_.size() ? stretches_[i + 1].video_s : length_s;
+    if (stretch.speed == 0 && time != stretch.time) continue;
+    Rational video_s = stretch.video_s;
+    if (stretch.speed != 0) video_s += (time - stretch.time) / stretch.speed;
+    if (video_s < stretch.video_s || video_s >= end_s) continue;
+    const Rational frame_s = Rational(ceil(video_s * frame_rate_)) / frame_rate_;
+    if (frame_s == video_s || (stretch.speed == 0 && frame_s < end_s)) return frame_s;
+    if (!between) between = video_s;
   }
-  return std::nullopt;
+  return between;
 }
 
 std::vector<TimeSlice> Schedule::during(const Rational& video_s, const Rational& length_s) const {
@@ -234,12 +260,6 @@ std::vector<TimeSlice> Schedule::during(const Rational& video_s, const Rational&
     if (next != stretches_.end()) ++next;
   }
   return slices;
-}
-
-FrameTime Schedule::at(const Rational& video_s) const {
-  const auto next = std::ranges::upper_bound(stretches_, video_s, {}, &Stretch::video_s);
-  const Stretch& stretch = *std::prev(next);
-  return {stretch.time + stretch.speed * (video_s - stretch.video_s), stretch.slower};
 }
 
 }  // namespace piblocks

@@ -184,18 +184,9 @@ void ScriptBuilder::read_compared(const TomlEntry& compare, PartBuilder& part) {
   }
 }
 
-bool ScriptBuilder::refuses(const std::string& origin, const std::string& key) {
-  if (parts_.empty() || is_film_key(key)) return false;
-  problems_.push_back(fmt::format(
-      "{}: '{}' is a storyboard; put {} into it, for all parts or for one. Options can set size, "
-      "frame rate, theme, background and sound of the whole film",
-      origin, path_, key));
-  return true;
-}
-
 void ScriptBuilder::set(const std::string& origin, const std::string& key,
                         const std::string& text) {
-  if (refuses(origin, key)) return;
+  set_.push_back({origin, key});
   film_.set(origin, key, text);
   for (PartBuilder& part : parts_) {
     for (SceneBuilder& run : part.runs) run.set(origin, key, text);
@@ -203,12 +194,30 @@ void ScriptBuilder::set(const std::string& origin, const std::string& key,
 }
 
 void ScriptBuilder::set_mass_ratio(const std::string& origin, const Rational& ratio) {
-  if (!refuses(origin, "mass-ratio")) film_.set_mass_ratio(origin, ratio);
+  set_.push_back({origin, "mass-ratio"});
+  film_.set_mass_ratio(origin, ratio);
+}
+
+/// Keys of one run that were set from outside of the storyboard, before it was read or after.
+std::vector<std::string> ScriptBuilder::misplaced_keys() const {
+  std::vector<std::string> problems;
+  for (const auto& [origin, key] : set_) {
+    if (is_film_key(key)) continue;
+    problems.push_back(fmt::format(
+        "{}: '{}' is a storyboard; put {} into it, for all parts or for one. Options can set size, "
+        "frame rate, theme, background and sound of the whole film",
+        origin, path_, key));
+  }
+  return problems;
 }
 
 Script ScriptBuilder::build() const {
   if (parts_.empty() && problems_.empty()) return film_.build();
   std::vector<std::string> problems = problems_;
+  if (!parts_.empty()) {
+    const std::vector<std::string> misplaced = misplaced_keys();
+    problems.insert(problems.end(), misplaced.begin(), misplaced.end());
+  }
   // What is wrong for every part is told once.
   const auto add = [&](const std::vector<std::string>& more) {
     for (const std::string& problem : more) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/schedule.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -57,10 +56,13 @@ std::vector<SlowWindow> automatic_windows(const Scene& scene, const CollisionLog
   return windows;
 }
 
-void check(const SlowWindow& window) {
-  if (window.from < window.to) return;
-  throw UsageError(fmt::format("{}: the window from {} ends at {}, which is not after it", kKey,
-                               to_text(window.from), to_text(window.to)));
+void check(const SlowWindow& window, const Span& span) {
+  const std::string name =
+      fmt::format("{}: the window from {} to {}", kKey, to_text(window.from), to_text(window.to));
+  if (window.from >= window.to) throw UsageError(name + " ends before it begins");
+  if (window.from < span.to && window.to > span.from) return;
+  throw UsageError(fmt::format("{} is outside of what is shown, {} to {}", name, to_text(span.from),
+                               to_text(span.to)));
 }
 
 void check_apart(const std::vector<SlowWindow>& windows) {
@@ -73,34 +75,27 @@ void check_apart(const std::vector<SlowWindow>& windows) {
 
 }  // namespace
 
-Rational time_of(const Moment& moment, const char* key, const Scene& scene,
-                 const CollisionLog& log) {
-  if (moment.origin == Moment::Origin::start) return moment.offset;
-  if (moment.origin == Moment::Origin::turn) {
-    const std::optional<Rational> turn = turn_of(scene.system);
-    if (!turn) throw UsageError(fmt::format("{}: there is no turn, because no block moves", key));
-    return *turn + moment.offset;
+Rational time_of(const Instant& instant, const char* key, const CollisionLog& log) {
+  try {
+    return time_of(instant, log);
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("{}: {}", key, error.what()));
   }
-  if (log.size() == 0) {
-    throw UsageError(fmt::format("{}: there is no last collision; give a time", key));
-  }
-  return to_rational(log.at(log.size()).time) + moment.offset;
 }
 
 std::vector<SlowWindow> slow_windows(const Scene& scene, const CollisionLog& log,
-                                     const Rational& from, const Rational& to) {
+                                     const Span& span) {
   std::vector<SlowWindow> windows;
   if (scene.pacing.automatic_slow_motion) windows = automatic_windows(scene, log);
   for (const SlowMotion& slow : scene.pacing.slow_motion) {
-    windows.push_back(
-        {time_of(slow.from, kKey, scene, log), time_of(slow.to, kKey, scene, log), slow.factor});
-    check(windows.back());
+    windows.push_back({time_of(slow.from, kKey, log), time_of(slow.to, kKey, log), slow.factor});
+    check(windows.back(), span);
   }
   std::ranges::sort(windows, {}, &SlowWindow::from);
   check_apart(windows);
   for (SlowWindow& window : windows) {
-    window.from = std::max(window.from, from);
-    window.to = std::min(window.to, to);
+    window.from = std::max(window.from, span.from);
+    window.to = std::min(window.to, span.to);
   }
   std::erase_if(windows, [](const SlowWindow& window) { return window.from >= window.to; });
   return windows;

@@ -4,6 +4,7 @@
 
 #include <piblocks/collision_log.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/schedule.hpp>
 
 #include <vector>
 
@@ -16,13 +17,11 @@ struct SlowWindow {
   Rational factor;
 };
 
-/// The exact time of a moment. @param key  named in the message.
-/// @throws UsageError if it is that of a turn or a last collision, and there is none.
-Rational time_of(const Moment& moment, const char* key, const Scene& scene,
-                 const CollisionLog& log);
+/// As time_of(instant, log), for the value of a key, which messages name.
+Rational time_of(const Instant& instant, const char* key, const CollisionLog& log);
 
-/// @throws UsageError as time_of(), or if windows overlap or end before they begin.
-std::vector<SlowWindow> slow_windows(const Scene& scene, const CollisionLog& log,
-                                     const Rational& from, const Rational& to);
+/// @throws UsageError as time_of(), if windows overlap or end before they begin, or if one that the
+///         scene names is outside of the span.
+std::vector<SlowWindow> slow_windows(const Scene& scene, const CollisionLog& log, const Span& span);
 
 }  // namespace piblocks

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <fstream>
 #include <optional>
+#include <string_view>
 #include <system_error>
 
 namespace piblocks {
@@ -31,66 +32,113 @@ std::string read_text(const std::string& path) {
   return text;
 }
 
-std::optional<std::string> scalar_text(const toml::node& node) {
-  if (const auto* text = node.as_string()) return text->get();
-  if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
-  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
-  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
-  return std::nullopt;
-}
-
-TomlTable table_of(const toml::table& table);
-
-/// Those of a list that has nothing but tables.
-std::vector<TomlTable> tables_of(const toml::array& list) {
-  std::vector<TomlTable> tables;
-  for (const toml::node& element : list) {
-    const toml::table* table = element.as_table();
-    if (table == nullptr) return {};
-    tables.push_back(table_of(*table));
-  }
-  return tables;
-}
-
-TomlEntry entry_of(const std::string& key, const toml::node& node) {
-  constexpr const char* kExpected = "must be a number, a string, true or false, or a list of these";
-  TomlEntry entry{key, {}, {}, node.source().begin.line, {}};
-  if (const auto text = scalar_text(node)) {
-    entry.values.push_back(*text);
-  } else if (const auto* list = node.as_array()) {
-    for (const toml::node& element : *list) {
-      const auto element_text = scalar_text(element);
-      if (!element_text) entry.problem = kExpected;
-      entry.values.push_back(element_text.value_or(""));
-    }
-    entry.tables = tables_of(*list);
-  } else {
-    entry.problem = kExpected;
-  }
-  return entry;
-}
-
-TomlTable table_of(const toml::table& table) {
-  TomlTable result{{}, table.source().begin.line};
-  for (const auto& [name, node] : table) {
-    const toml::table* inner = node.as_table();
-    if (inner == nullptr) {
-      result.entries.push_back(entry_of(std::string(name.str()), node));
-      continue;
-    }
-    for (const auto& [key, value] : *inner) {
-      result.entries.push_back(entry_of(fmt::format("{}.{}", name.str(), key.str()), value));
+/// The text of a file by line and column, which toml++ counts from 1, columns in code points.
+class SourceText {
+ public:
+  explicit SourceText(std::string_view text) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    for (std::size_t begin = 0; begin <= text.size();) {
+      const std::size_t end = std::min(text.find('\n', begin), text.size());
+      lines_.push_back(text.substr(begin, end - begin));
+      begin = end + 1;
     }
   }
-  std::ranges::stable_sort(result.entries, {}, &TomlEntry::line);
-  return result;
-}
+
+  /// A value that stands on one line.
+  std::string_view of(const toml::source_region& region) const {
+    const std::string_view line = lines_.at(region.begin.line - 1);
+    const std::size_t begin = offset(line, region.begin.column);
+    return line.substr(begin, offset(line, region.end.column) - begin);
+  }
+
+ private:
+  static std::size_t offset(std::string_view line, toml::source_index column) {
+    const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+    std::size_t at = 0;
+    for (toml::source_index i = 1; i < column && at < line.size(); ++i) {
+      do ++at;
+      while (at < line.size() && continues(line[at]));
+    }
+    return at;
+  }
+
+  std::vector<std::string_view> lines_;
+};
+
+/// Tables of toml++ as ours.
+class Reader {
+ public:
+  explicit Reader(const SourceText& source) : source_(source) {}
+
+  TomlTable table_of(const toml::table& table) const {
+    TomlTable result{{}, table.source().begin.line};
+    for (const auto& [name, node] : table) {
+      const toml::table* inner = node.as_table();
+      if (inner == nullptr) {
+        result.entries.push_back(entry_of(std::string(name.str()), node));
+        continue;
+      }
+      for (const auto& [key, value] : *inner) {
+        result.entries.push_back(entry_of(fmt::format("{}.{}", name.str(), key.str()), value));
+      }
+    }
+    std::ranges::stable_sort(result.entries, {}, &TomlEntry::line);
+    return result;
+  }
+
+ private:
+  std::optional<std::string> scalar_text(const toml::node& node) const {
+    if (const auto* text = node.as_string()) return text->get();
+    if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
+    if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+    if (!node.is_floating_point()) return std::nullopt;
+    // As it stands in the file: toml++ keeps the nearest double only.
+    std::string text(source_.of(node.source()));
+    std::erase(text, '_');
+    return text;
+  }
+
+  /// Those of a list that has nothing but tables.
+  std::vector<TomlTable> tables_of(const toml::array& list) const {
+    std::vector<TomlTable> tables;
+    for (const toml::node& element : list) {
+      const toml::table* table = element.as_table();
+      if (table == nullptr) return {};
+      tables.push_back(table_of(*table));
+    }
+    return tables;
+  }
+
+  TomlEntry entry_of(const std::string& key, const toml::node& node) const {
+    constexpr const char* kExpected =
+        "must be a number, a string, true or false, or a list of these";
+    TomlEntry entry{key, {}, {}, node.source().begin.line, {}};
+    if (const auto text = scalar_text(node)) {
+      entry.values.push_back(*text);
+    } else if (const auto* list = node.as_array()) {
+      for (const toml::node& element : *list) {
+        const auto element_text = scalar_text(element);
+        if (!element_text) entry.problem = kExpected;
+        entry.values.push_back(element_text.value_or(""));
+      }
+      entry.tables = tables_of(*list);
+    } else {
+      entry.problem = kExpected;
+    }
+    return entry;
+  }
+
+  const SourceText& source_;
+};
 
 }  // namespace
 
 TomlTable read_toml(const std::string& path) {
+  const std::string text = read_text(path);
+  const SourceText source(text);
   try {
-    TomlTable root = table_of(toml::parse(read_text(path), path));
+    TomlTable root = Reader(source).table_of(toml::parse(text, path));
     root.line = 0;
     return root;
   } catch (const toml::parse_error& error) {

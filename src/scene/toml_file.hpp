@@ -11,7 +11,7 @@ struct TomlTable;
 
 struct TomlEntry {
   std::string key;                  ///< "red.mass"
-  std::vector<std::string> values;  ///< numbers as their shortest decimal text
+  std::vector<std::string> values;  ///< decimals as they stand in the file
   std::vector<TomlTable> tables;    ///< of a list of tables, which has no values
   std::size_t line = 0;             ///< from 1
   std::string problem;              ///< why there are no values, if so

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "physics/impact.hpp"
 
 namespace piblocks {
 namespace {
@@ -89,7 +92,7 @@ Integer ClackStream::count_at(const Segment& segment, double sample) const {
   const Time time = segment.time_at(sample);
   // So slow that the rounding of count_near() would be heard.
   const bool is_slow = std::fabs(segment.time_per_sample) < 0x1p-45 * std::fabs(time.hi);
-  return is_slow ? log_.flight_at(to_rational(time)).count : log_.count_near(time);
+  return is_slow ? log_.flight_at(to_rational(time)).count : count_near(log_, time);
 }
 
 /// Between the ends of a stretch it does not matter in which piece a collision is found, as long as
@@ -134,11 +137,11 @@ void ClackStream::add_one_by_one(const Piece& piece, const Segment& segment,
 void ClackStream::add_impact(CollisionKind kind, const Integer& first, const Integer& last,
                              const Piece& piece, const Segment& segment,
                              std::vector<Clack>& clacks) const {
-  const auto impact = log_.impact(kind, first, last);
-  if (!impact) return;
+  const std::optional<Impact> together = impact(log_, kind, first, last);
+  if (!together) return;
   // Where a count was rounded the time may be on the other side of the piece's end.
-  const double sample = std::max(piece.begin, std::min(piece.end, segment.sample_at(impact->time)));
-  clacks.push_back({sample, kind, impact->impulse, impact->blue_position});
+  const double sample = std::max(piece.begin, std::min(piece.end, segment.sample_at(together->time)));
+  clacks.push_back({sample, kind, together->impulse, together->blue_position});
 }
 
 }  // namespace piblocks

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "draw/font.hpp"
+#include "support/state_after.hpp"
 
 namespace piblocks {
 namespace {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "draw/font.hpp"
+#include "support/state_after.hpp"
 
 namespace piblocks {
 namespace {

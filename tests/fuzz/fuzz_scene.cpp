@@ -2,8 +2,8 @@
 #include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/interpolator.hpp>
+#include <piblocks/schedule.hpp>
 #include <piblocks/storyboard.hpp>
-#include <piblocks/timeline.hpp>
 
 #include <cstdlib>
 
@@ -14,9 +14,9 @@ using namespace piblocks;
 
 void ask(const Scene& scene) {
   const auto log = make_collision_log(scene.system);
-  const Timeline timeline(scene, *log);
-  for (const std::int64_t frame : {std::int64_t{0}, timeline.frame_count() - 1}) {
-    state_at(*log, timeline.time_of(frame));
+  const Schedule schedule = make_schedule(scene, *log);
+  for (const std::int64_t frame : {std::int64_t{0}, film_frames(schedule) - 1}) {
+    state_at(*log, schedule.time_of(frame));
   }
 }
 

@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "physics/expose.hpp"
+
 namespace piblocks {
 namespace {
 namespace fs = std::filesystem;
@@ -116,14 +118,13 @@ DrawList draw_list_of(const GoldenFrame& frame) {
   for (const auto& [key, value] : frame.keys) builder.set("golden", key, value);
   const Scene scene = builder.build();
   const auto log = make_collision_log(scene.system);
-  TimedState at = state_at(*log, parse_instant(frame.instant));
-  const Rational time = to_rational(at.time);
+  const Rational time = time_of(parse_instant(frame.instant), *log);
   std::vector<ExposurePart> exposure;
   if (scene.view.shutter > 0) {
     const Rational open_s = scene.view.shutter / scene.view.frame_rate;
-    exposure.push_back({1, log->expose(time, time + scene.time.speed * open_s)});
+    exposure.push_back({1, expose(*log, time, time + scene.time.speed * open_s)});
   }
-  return Composition(scene, *log).frame({std::move(at.state), time}, exposure);
+  return Composition(scene, *log).frame({state_at(*log, time), time}, exposure);
 }
 
 struct SurfaceDeleter {

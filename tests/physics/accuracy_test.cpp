@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "physics/position_bounds.hpp"
 #include "support/oracle.hpp"
 #include "support/property.hpp"
 
@@ -52,7 +53,7 @@ void expect_accurate(const BlockSystem& system, const CollisionLog& log, const R
   const oracle::ExactState exact = oracle::high_precision_state(system, t);
   EXPECT_EQ(state.count, exact.count);
   const PositionBounds ours = a_priori_bounds(system, exact);
-  const PositionBounds given = log.bounds_at(t).value();
+  const PositionBounds given = position_bounds(log, t).value();
   const double blue_error =
       std::fabs(to_double(Rational(state.blue.position) - exact.blue.position));
   const double red_error = std::fabs(to_double(Rational(state.red.position) - exact.red.position));
@@ -187,7 +188,7 @@ TEST(Accuracy, LogAndStatesAreOneMotion) {
 
 TEST(Accuracy, NoBoundIsClaimedForAnEngineThatSteps) {
   for (const Engine engine : {Engine::events, Engine::velocities}) {
-    EXPECT_FALSE(make_collision_log(article_system(2), engine)->bounds_at(3).has_value());
+    EXPECT_FALSE(position_bounds(*make_collision_log(article_system(2), engine), 3).has_value());
   }
 }
 

@@ -8,6 +8,8 @@
 #include <memory>
 #include <string>
 
+#include "support/state_after.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -327,13 +329,6 @@ TEST(Log, RefusesToStoreTooMuch) {
 TEST(Log, RefusesRatiosBeyondItsRange) {
   EXPECT_THROW(make_collision_log(article_system(400)), UsageError);
   EXPECT_EQ(make_collision_log(article_system(300))->size().get_str().size(), 300u);
-}
-
-TEST(StateAfter, RefusesWhatHasNotHappened) {
-  const auto log = make_collision_log(article_system(3));
-  EXPECT_THROW(state_after(*log, 0), UsageError);
-  EXPECT_THROW(state_after(*log, 315), UsageError);
-  EXPECT_EQ(state_after(*log, 314).count, 314);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "physics/expose.hpp"
 #include "support/property.hpp"
 
 namespace piblocks {
@@ -84,7 +85,7 @@ class DirectSum {
 void expect_the_sum_of_all_flights(const CollisionLog& log, const Rational& begin,
                                    const Rational& end) {
   SCOPED_TRACE(begin.get_str() + " to " + end.get_str());
-  const auto exposure = log.expose(begin, end);
+  const auto exposure = expose(log, begin, end);
   DirectSum blue(BlockName::blue, positions_in(exposure->range(BlockName::blue)));
   DirectSum red(BlockName::red, positions_in(exposure->range(BlockName::red)));
   const BlockState first = state_at(log, begin);
@@ -151,9 +152,9 @@ TEST(Exposure, OfEveryEngineIsTheSumOfAllFlights) {
 void expect_additive(const CollisionLog& log, const Rational& begin, const Rational& middle,
                      const Rational& end) {
   SCOPED_TRACE(begin.get_str() + ", " + middle.get_str() + ", " + end.get_str());
-  const auto whole = log.expose(begin, end);
-  const auto early = log.expose(begin, middle);
-  const auto late = log.expose(middle, end);
+  const auto whole = expose(log, begin, end);
+  const auto early = expose(log, begin, middle);
+  const auto late = expose(log, middle, end);
   const double weight = to_double((middle - begin) / (end - begin));
   for (const BlockName block : kBlocks) {
     for (const double position : positions_in(whole->range(block))) {
@@ -212,7 +213,7 @@ void expect_shares_of_instants(const CollisionLog& log, const Rational& begin, c
                                Random& random) {
   constexpr int kInstants = 4000;
   SCOPED_TRACE(begin.get_str() + " to " + end.get_str());
-  const auto exposure = log.expose(begin, end);
+  const auto exposure = expose(log, begin, end);
   expect_distribution(*exposure);
   std::vector<BlockState> states;
   for (int i = 0; i < kInstants; ++i) {
@@ -267,7 +268,7 @@ TEST(Exposure, OfNoTimeIsTheInstant) {
   for (const int digits : {1, 3, 20}) {
     const auto log = make_collision_log(article_system(digits));
     for (const Rational& time : {Rational(0), Rational(3, 2), Rational(7, 2), Rational(9)}) {
-      const auto exposure = log->expose(time, time);
+      const auto exposure = expose(*log, time, time);
       const BlockState state = state_at(*log, time);
       ASSERT_EQ(exposure->pieces().size(), 1U);
       for (const BlockName block : kBlocks) {
@@ -283,8 +284,8 @@ TEST(Exposure, OfNoTimeIsTheInstant) {
 TEST(Exposure, DoesNotAskWhichWayTimeRuns) {
   for (const int digits : {1, 3, 9}) {
     const auto log = make_collision_log(article_system(digits));
-    const auto forth = log->expose(3, 4);
-    const auto back = log->expose(4, 3);
+    const auto forth = expose(*log, 3, 4);
+    const auto back = expose(*log, 4, 3);
     for (const BlockName block : kBlocks) {
       for (const double position : positions_in(forth->range(block))) {
         EXPECT_EQ(forth->share_below(block, position), back->share_below(block, position));
@@ -298,7 +299,7 @@ TEST(Exposure, OfACornerPassesIt) {
   system.blue.position = Rational(1, 2);
   const auto log = make_collision_log(system);
   const Rational meeting = log->at(1).time.hi;
-  const auto exposure = log->expose(meeting - 1, meeting + 1);
+  const auto exposure = expose(*log, meeting - 1, meeting + 1);
   EXPECT_TRUE(exposure->is_listed());
   expect_distribution(*exposure);
   EXPECT_NEAR(exposure->share_below(BlockName::red, 2), 0.5, 1e-9);
@@ -306,7 +307,7 @@ TEST(Exposure, OfACornerPassesIt) {
 
 TEST(Exposure, OfManyCollisionsHasSlowBouncesBetweenTheSamePlaces) {
   const auto log = make_collision_log(article_system(9));
-  const auto exposure = log->expose(Rational(7, 2) - Rational(1, 120), Rational(7, 2));
+  const auto exposure = expose(*log, Rational(7, 2) - Rational(1, 120), Rational(7, 2));
   EXPECT_FALSE(exposure->is_listed());
   for (const BlockName block : kBlocks) {
     for (const double position : positions_in(exposure->range(block))) {

@@ -173,13 +173,12 @@ TEST_F(FilmTest, WhatIsComparedHasOneClock) {
       std::max({length("digits = 1"), length("mass-ratio = 16"), length("digits = 3")});
   EXPECT_EQ(made.frame_count(), longest);
   for (const std::int64_t k : {std::int64_t{0}, longest / 2, longest - 1}) {
-    const FrameTime shown = placed.part.schedule()->at(Rational(k) / 10);
     const DrawList list = made.frame(k);
     std::size_t cell = 0;
     for (const DrawItem& item : list.items) {
       const auto* group = std::get_if<GroupItem>(&item);
       if (group == nullptr) continue;
-      EXPECT_EQ(*group->list, runs[cell].frame(shown, *placed.part.schedule(), k))
+      EXPECT_EQ(*group->list, runs[cell].frame(*placed.part.schedule(), k))
           << "frame " << k << ", cell " << cell;
       ++cell;
     }
@@ -293,10 +292,10 @@ TEST_F(FilmTest, AStillIsTheFrameOfASecondOfTheVideo) {
   };
   EXPECT_EQ(still(Rational(0)) == frame(0), true);
   EXPECT_EQ(still(Rational(509, 100)) == frame(50), true) << "in a fade";
-  EXPECT_EQ(still(LastCollision{}) == frame(77), true);
+  EXPECT_EQ(still(Instant::last()) == frame(77), true);
   EXPECT_THROW(still(Rational(-1)), UsageError);
   EXPECT_THROW(still(Rational(78, 10)), UsageError);
-  EXPECT_THROW(still(NthCollision{1}), UsageError);
+  EXPECT_THROW(still(Instant::collision(1)), UsageError);
 }
 
 }  // namespace

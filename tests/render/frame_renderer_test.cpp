@@ -3,7 +3,7 @@
 #include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/timeline.hpp>
+#include <piblocks/schedule.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -37,20 +37,20 @@ class FullPaint {
   explicit FullPaint(const Scene& scene)
       : scene_(scene),
         log_(make_collision_log(scene.system)),
-        timeline_(scene, *log_),
+        schedule_(make_schedule(scene, *log_)),
         composition_(scene, *log_) {}
 
-  std::int64_t frame_count() const { return timeline_.frame_count(); }
+  std::int64_t frame_count() const { return film_frames(schedule_); }
   Bytes frame(std::int64_t number) const {
     Canvas canvas(scene_.view.width_px, scene_.view.height_px);
-    canvas.paint(composition_.frame({state_at(*log_, timeline_.time_of(number))}));
+    canvas.paint(composition_.frame({state_at(*log_, schedule_.time_of(number))}));
     return bytes_of(canvas.view());
   }
 
  private:
   Scene scene_;
   std::unique_ptr<CollisionLog> log_;
-  Timeline timeline_;
+  Schedule schedule_;
   Composition composition_;
 };
 

@@ -3,7 +3,7 @@
 #include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/timeline.hpp>
+#include <piblocks/schedule.hpp>
 
 #include <cstring>
 
@@ -54,11 +54,11 @@ TEST_F(RenderTest, EveryVideoFrameShowsItsInstant) {
   const std::int64_t frames = render(job, [](const Progress&) {}).frame_count;
   const DecodedVideo video = decode_video(job.output);
   const auto log = make_collision_log(article.system);
-  const Timeline timeline(article, *log);
+  const Schedule schedule = make_schedule(article, *log);
   ASSERT_EQ(std::int64_t(video.frames.size()), frames);
-  ASSERT_EQ(frames, timeline.frame_count());
+  ASSERT_EQ(frames, film_frames(schedule));
   for (std::int64_t k = 0; k < frames; ++k) {
-    const Pixels expected = painted(article, state_at(*log, timeline.time_of(k)));
+    const Pixels expected = painted(article, state_at(*log, schedule.time_of(k)));
     const double mse = error_between(video.frames[std::size_t(k)].rgb, expected);
     EXPECT_GT(testing_support::psnr_db(mse), 38) << "frame " << k;
   }
@@ -69,8 +69,8 @@ TEST_F(RenderTest, TheLastFrameReads314) {
   render({article, path("out.mp4"), {}, 2}, [](const Progress&) {});
   const DecodedVideo video = decode_video(path("out.mp4"));
   const auto log = make_collision_log(article.system);
-  const Timeline timeline(article, *log);
-  BlockState state = state_at(*log, timeline.time_of(timeline.frame_count() - 1));
+  const Schedule schedule = make_schedule(article, *log);
+  BlockState state = state_at(*log, schedule.time_of(film_frames(schedule) - 1));
   ASSERT_EQ(state.count, 314);
   const double as_314 = error_between(video.frames.back().rgb, painted(article, state));
   for (const int other : {313, 315, 214, 324}) {
@@ -118,8 +118,8 @@ TEST_F(RenderTest, StoppingLeavesNoTrace) {
 TEST_F(RenderTest, FailingLeavesNoTrace) {
   EXPECT_THROW(render({scene("0", "1"), path("out.avi"), {}, 2}, [](const Progress&) {}),
                UsageError);
-  EXPECT_THROW(render_still(scene("0", "1"), LastCollision{}, path("out.jpg")), UsageError);
-  EXPECT_THROW(render_still(scene("0", "1"), NthCollision{315}, path("out.png")), UsageError);
+  EXPECT_THROW(render_still(scene("0", "1"), Instant::last(), path("out.jpg")), UsageError);
+  EXPECT_THROW(render_still(scene("0", "1"), Instant::collision(315), path("out.png")), UsageError);
   EXPECT_TRUE(folder_.is_empty());
 }
 

@@ -4,7 +4,7 @@
 #include <piblocks/composition.hpp>
 #include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/timeline.hpp>
+#include <piblocks/schedule.hpp>
 
 #include <algorithm>
 #include <array>
@@ -77,9 +77,9 @@ std::vector<int> samples_of(const ImageView& picture, const std::vector<int>& ro
 std::vector<double> mean_of_instants(const Scene& scene, std::int64_t frame) {
   constexpr int kInstants = 1000;
   const auto log = make_collision_log(scene.system);
-  const Timeline timeline(scene, *log);
+  const Schedule schedule = make_schedule(scene, *log);
   const Composition composition(scene, *log);
-  const Integer count = state_at(*log, timeline.time_of(frame)).count;
+  const Integer count = state_at(*log, schedule.time_of(frame)).count;
   const std::vector<int> rows = rows_of(scene);
   std::array<double, 256> light{};
   for (int i = 0; i < 256; ++i) light[static_cast<std::size_t>(i)] = to_light(i);
@@ -88,7 +88,7 @@ std::vector<double> mean_of_instants(const Scene& scene, std::int64_t frame) {
   for (int i = 0; i < kInstants; ++i) {
     const Rational video_s =
         (frame + scene.view.shutter * Rational(2 * i + 1, 2 * kInstants)) / scene.view.frame_rate;
-    BlockState state = state_at(*log, timeline.schedule().at(video_s).time);
+    BlockState state = state_at(*log, schedule.at(video_s).time);
     state.count = count;
     canvas.update(composition.frame({state}));
     const std::vector<int> samples = samples_of(canvas.view(), rows);
@@ -142,8 +142,8 @@ TEST(Shutter, FramesOfAnySpeedAreMeansOfInstants) {
 TEST(Shutter, FramesAcrossStretchesAreMeansOfInstants) {
   Scene scene = scene_of(3, {640, 360}, 1);
   scene.view.frame_rate = 10;
-  scene.time.to = {false, 5};
-  scene.pacing.freezes = {{parse_moment("3.43"), Rational(1, 10)}};
+  scene.time.to = Rational(5);
+  scene.pacing.freezes = {{parse_instant("3.43"), Rational(1, 10)}};
   scene.pacing.slow_motion = {parse_slow_motion("3.5:3.52:5")};
   scene.pacing.loop = true;
   expect_mean_of_instants(scene, {33, 34, 35, 36, 37, 49, 50, 51, 60});
@@ -187,7 +187,7 @@ TEST(Shutter, ClosedShowsTheInstant) {
 
 TEST(Shutter, WhatStandsStillIsTheInstant) {
   Scene open = scene_of(3, {333, 217}, 1);
-  open.pacing.freezes = {{parse_moment("3.47"), 1}};
+  open.pacing.freezes = {{parse_instant("3.47"), 1}};
   open.pacing.hold_end_s = 1;
   Scene closed = open;
   closed.view.shutter = 0;
@@ -222,7 +222,7 @@ TEST(Shutter, UpdatesAreWhatPaintingGives) {
   for (const FrameSize size : {FrameSize{320, 180}, FrameSize{97, 61}}) {
     for (const int digits : {1, 3, 8}) {
       Scene scene = scene_of(digits, size, Rational(1, 2));
-      scene.pacing.freezes = {{parse_moment("3.45"), Rational(1, 10)}};
+      scene.pacing.freezes = {{parse_instant("3.45"), Rational(1, 10)}};
       const Film film(scene);
       Canvas canvas(size.width_px, size.height_px);
       for (std::int64_t frame = 80; frame < film.frame_count(); frame += frame == 100 ? 95 : 1) {
@@ -267,7 +267,7 @@ TEST(Shutter, OfAStillThatNoFrameShowsRunsOnAtTheScenesSpeed) {
   const testing_support::TemporaryFolder folder;
   Scene scene = scene_of(3, {320, 180}, Rational(1, 2));
   Scene longer = scene;
-  longer.time.to = {false, 30};
+  longer.time.to = Rational(30);
   render_still(scene, Rational(20), folder / "outside.png");
   render_still(longer, Rational(20), folder / "inside.png");
   EXPECT_TRUE(testing_support::file_contents(folder / "outside.png") ==

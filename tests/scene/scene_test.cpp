@@ -11,8 +11,8 @@ namespace piblocks {
 namespace {
 
 TEST(SceneByHand, IsToldWhatIsWrongWithIt) {
-  const Moment start{Moment::Origin::start, 1};
-  const Moment end{Moment::Origin::start, 2};
+  const Instant start{Rational(1)};
+  const Instant end{Rational(2)};
   const auto slow = [&](const Rational& factor) {
     return [=](Scene& s) { s.pacing.slow_motion = {{start, end, factor}}; };
   };
@@ -32,15 +32,14 @@ TEST(SceneByHand, IsToldWhatIsWrongWithIt) {
       {"time.slow-motion",
        [&](Scene& s) {
          for (int i = 0; i <= int(kMaxWindows); ++i) {
-           s.pacing.slow_motion.push_back(
-               {{Moment::Origin::start, i}, {Moment::Origin::start, i + 1}, 2});
+           s.pacing.slow_motion.push_back({Instant(Rational(i)), Instant(Rational(i + 1)), 2});
          }
        }},
       {"time.freeze", frozen(0)},
       {"time.freeze", frozen(Rational(-1, 3))},
       {"time.freeze",
        [&](Scene& s) {
-         s.pacing.freezes.assign(kMaxWindows + 1, {start, 1});
+         s.pacing.freezes.assign(kMaxWindows + 1, Freeze{start, 1});
        }},
       {"show.title", [](Scene& s) { s.show.title = std::string(kMaxLine_bytes + 1, 'a'); }},
       {"show.caption", [](Scene& s) { s.show.caption = std::string(kMaxLine_bytes + 1, 'a'); }},
@@ -57,7 +56,7 @@ TEST(SceneByHand, IsToldWhatIsWrongWithIt) {
   }
   Scene scene;
   slow(Rational(1, 1000))(scene);
-  scene.pacing.freezes.assign(kMaxWindows, {start, Rational(1, 1000)});
+  scene.pacing.freezes.assign(kMaxWindows, Freeze{start, Rational(1, 1000)});
   scene.show.title = std::string(kMaxLine_bytes, 'a');
   EXPECT_TRUE(problems_of(scene).empty());
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "physics/impact.hpp"
 #include "sound/click_train.hpp"
 
 namespace piblocks {
@@ -23,7 +24,7 @@ double sum(const std::vector<Clack>& clacks, CollisionKind kind) {
 
 void expect_all_collisions(const CollisionLog& log, const std::vector<Clack>& clacks) {
   for (const CollisionKind kind : {CollisionKind::wall, CollisionKind::blocks}) {
-    const auto all = log.impact(kind, 1, log.size());
+    const auto all = impact(log, kind, 1, log.size());
     const double expected = all ? all->impulse : 0;
     EXPECT_NEAR(sum(clacks, kind), expected, 1e-9 * expected);
   }

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "support/oracle.hpp"
+#include "support/state_after.hpp"
 
 namespace piblocks::stress {
 namespace {

@@ -20,8 +20,7 @@ class PositionPanel final : public PicturePart {
         is_true_(gaps_.theta >= kLeastAngle && std::isfinite(gaps_.sigma)),
         sheet_(setting, place,
                {is_true_ ? "Positions √m·x" : "Positions (not to scale)", "Positions"}) {
-    const Rational from = setting.scene.time.from;
-    const Rational to = end_of(setting.scene, setting.log);
+    const auto [from, to] = span_of(setting.scene, setting.log);
     const int columns = std::max(1, static_cast<int>(sheet_.inside().width));
     const auto pieces = trajectory_of(setting.log, gaps_, from, to, columns);
     for (const TrajectoryPiece& piece : pieces) make_room(piece);

@@ -19,8 +19,10 @@ constexpr double kBetweenTicks = 4;
 
 }  // namespace
 
-TimeAxis::TimeAxis(const Setting& setting, const PanelSheet& sheet, double indent_em)
-    : from_(setting.scene.time.from), to_(end_of(setting.scene, setting.log)) {
+TimeAxis::TimeAxis(const Setting& setting, const PanelSheet& sheet, double indent_em) {
+  const Span span = span_of(setting.scene, setting.log);
+  from_ = span.from;
+  to_ = span.to;
   if (to_ <= from_) throw UsageError("show.panels: the scene ends before it begins");
   plot_ = sheet.inside();
   plot_.height -= kBelow * sheet.text_px();

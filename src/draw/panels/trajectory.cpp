@@ -39,7 +39,6 @@ class TrajectoryBuilder {
     }
     std::vector<TimedGaps>& corners = pieces.back().corners;
     for (Integer k = state_.count + 1; k <= count; k += 1) {
-      if (k < 1) continue;  // a log begins at time 0
       const Collision collision = log_.at(k);
       corners.push_back({collision.time.hi, gaps_.of(collision.blue, collision.red)});
     }
@@ -53,7 +52,6 @@ class TrajectoryBuilder {
     // the first contact or at the last one.
     for (const Integer& k :
          {Integer(state_.count + 1), Integer(state_.count + 2), Integer(count - 1), count}) {
-      if (k < 1) continue;
       const Collision collision = log_.at(k);
       band.high = std::max(band.high, gaps_.of(collision.blue, collision.red).y1);
     }

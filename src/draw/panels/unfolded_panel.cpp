@@ -38,8 +38,9 @@ class UnfoldedPanel final : public PicturePart {
     start_ = {to_double(system.blue_gap() + system.blocks_gap()),
               gaps_.sigma * to_double(system.blue_gap())};
     velocity_ = {to_double(system.red.velocity), gaps_.sigma * to_double(system.blue.velocity)};
-    from_ = plane_at(to_double(setting.scene.time.from));
-    const Point to = plane_at(to_double(end_of(setting.scene, setting.log)));
+    const Span span = span_of(setting.scene, setting.log);
+    from_ = plane_at(to_double(span.from));
+    const Point to = plane_at(to_double(span.to));
     most_ = std::max({std::hypot(from_.x, from_.y), std::hypot(to.x, to.y), 1e-300});
     tilt_to_hold(to);
     place_half_plane();

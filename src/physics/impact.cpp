@@ -1,0 +1,47 @@
+#include "physics/impact.hpp"
+
+#include <cmath>
+
+#include "physics/impact_sum.hpp"
+#include "physics/real.hpp"
+#include "physics/unfolded_log.hpp"
+
+namespace piblocks {
+namespace {
+
+const UnfoldedLog* closed_form(const CollisionLog& log) {
+  return dynamic_cast<const UnfoldedLog*>(&log);
+}
+
+/// In the unit of Impact. Exact up to one root: masses can be beyond the range of a double.
+double impulse_of(const Rational& mass_ratio, const Collision& collision) {
+  constexpr mpfr_prec_t kPrecision_bits = 64;
+  const Rational blue(collision.blue.velocity);
+  const Rational red(collision.red.velocity);
+  const Rational change = collision.kind == CollisionKind::wall ? Rational((1 + mass_ratio) * blue)
+                                                                : Rational(red - blue);
+  const Rational speed_squared = mass_ratio * blue * blue + red * red;
+  return sqrt(Real(kPrecision_bits, change * change / speed_squared)).to_double();
+}
+
+}  // namespace
+
+std::optional<Impact> impact(const CollisionLog& log, CollisionKind kind, const Integer& first,
+                             const Integer& last) {
+  if (const UnfoldedLog* const form = closed_form(log)) return form->impact(kind, first, last);
+  const Rational mass_ratio = log.system().blue.mass / log.system().red.mass;
+  ImpactSum sum(kind);
+  for (Integer index = first; index <= last; ++index) {
+    const Collision collision = log.at(index);
+    if (collision.kind != kind) continue;
+    sum.add(collision.time, impulse_of(mass_ratio, collision), collision.blue.position);
+  }
+  return sum.result();
+}
+
+Integer count_near(const CollisionLog& log, const Time& time) {
+  if (const UnfoldedLog* const form = closed_form(log)) return form->count_near(time);
+  return log.flight_at(to_rational(time)).count;
+}
+
+}  // namespace piblocks

@@ -1,0 +1,17 @@
+// The pictures of a contact sheet.
+// In: a scene and instants. Out: a draw list for each, and the line below it.
+#pragma once
+
+#include <piblocks/instant.hpp>
+#include <piblocks/scene.hpp>
+#include <piblocks/sheet.hpp>
+
+#include <vector>
+
+namespace piblocks {
+
+/// @throws UsageError, DrawError, MediaError, SimulationError
+std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
+                                             const std::vector<Instant>& instants);
+
+}  // namespace piblocks

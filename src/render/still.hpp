@@ -1,0 +1,16 @@
+// The picture of one instant.
+// In: a script and an instant. Out: its draw list, which is that of the film's frame.
+#pragma once
+
+#include <piblocks/draw_list.hpp>
+#include <piblocks/instant.hpp>
+#include <piblocks/storyboard.hpp>
+
+namespace piblocks {
+
+/// What render_still() draws: the first frame of the film that shows the instant, or where none
+/// does, what still_time() says.
+/// @throws UsageError, DrawError, MediaError, SimulationError
+DrawList still_picture(const Script& script, const Instant& instant);
+
+}  // namespace piblocks
