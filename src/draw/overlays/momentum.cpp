@@ -30,16 +30,17 @@ ReadOut momentum_read_out(const Setting& setting) {
 
   const double largest =
       most.mantissa * (is_plain ? std::pow(10, static_cast<double>(most.exponent)) : 1);
-  // In parts of the largest: masses may be beyond a double.
-  const auto factor = [&](const Block& block) {
-    return most_squared > 0 ? largest * root_of(block.mass * block.mass / most_squared) : 0;
+  // In parts of the largest: masses may be beyond a double, and so may what a velocity of 1 gives.
+  const auto factor = [&](const Block& block) -> mpf_class {
+    if (most_squared == 0) return 0;
+    return largest * wide_root_of(block.mass * block.mass / most_squared);
   };
-  const double red_factor = factor(system.red);
-  const double blue_factor = factor(system.blue);
+  const mpf_class red_factor = factor(system.red);
+  const mpf_class blue_factor = factor(system.blue);
   return {text(-largest, -largest),
           [=](const Shown& shown) {
-            return text(red_factor * shown.state.red.velocity,
-                        blue_factor * shown.state.blue.velocity);
+            return text(mpf_class(red_factor * shown.state.red.velocity).get_d(),
+                        mpf_class(blue_factor * shown.state.blue.velocity).get_d());
           },
           setting.palette.text};
 }

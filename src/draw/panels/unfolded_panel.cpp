@@ -16,9 +16,10 @@ constexpr double kLeastBetween_px = 6;  // between rays, at their ends
 constexpr double kRimStep = 0.05;       // radians
 constexpr double kBelow_em = 1.5;
 
-/// 0, 1, 2, …: of one, ten, a hundred, … rays one is drawn.
-unsigned long stride_exponent(double between_px) {
-  const double exponent = std::ceil(std::log10(kLeastBetween_px / between_px));
+/// 0, 1, 2, …: of one, ten, a hundred, … rays one is drawn, so that their ends are far enough
+/// apart.
+unsigned long stride_exponent(const PanelGaps& gaps, double radius_px) {
+  const double exponent = std::ceil(std::log10(kLeastBetween_px / radius_px) - gaps.log10_theta());
   return static_cast<unsigned long>(std::max(0.0, exponent));
 }
 
@@ -35,9 +36,10 @@ class UnfoldedPanel final : public PicturePart {
       : gaps_(setting.scene.system),
         sheet_(setting, place, {"Unfolded: a straight line", "Unfolded"}) {
     const BlockSystem& system = setting.scene.system;
-    start_ = {to_double(system.blue_gap() + system.blocks_gap()),
-              gaps_.sigma * to_double(system.blue_gap())};
-    velocity_ = {to_double(system.red.velocity), gaps_.sigma * to_double(system.blue.velocity)};
+    start_ = {gaps_.cosine * to_double(system.blue_gap() + system.blocks_gap()),
+              gaps_.sine * to_double(system.blue_gap())};
+    velocity_ = {gaps_.cosine * to_double(system.red.velocity),
+                 gaps_.sine * to_double(system.blue.velocity)};
     from_ = plane_at(to_double(setting.scene.time.from));
     const Point to = plane_at(to_double(end_of(setting.scene, setting.log)));
     most_ = std::max({std::hypot(from_.x, from_.y), std::hypot(to.x, to.y), 1e-300});
@@ -94,8 +96,8 @@ class UnfoldedPanel final : public PicturePart {
   }
 
   void add_rays() {
-    stride_exponent_ = stride_exponent(gaps_.theta * radius_);
-    const double step = std::pow(10, double(stride_exponent_)) * gaps_.theta;
+    stride_exponent_ = stride_exponent(gaps_, radius_);
+    const double step = gaps_.angle({1, static_cast<long>(stride_exponent_)});
     std::vector<Point> rays;
     for (double k = std::ceil(-tilt_ / step); tilt_ + k * step <= std::numbers::pi * (1 + 1e-12);
          ++k) {
