@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 
@@ -13,6 +14,10 @@
 
 namespace piblocks {
 namespace {
+
+/// A smaller logo is a speck.
+constexpr double kLeastLogo_px = 1;
+constexpr double kLeastLogoLength_px = 6;
 
 /// Whether the counts of a system are the digits of pi: blue at rest, off the wall, and a mass
 /// ratio that is a power of 100.
@@ -37,7 +42,7 @@ std::vector<ReadOut> read_outs_of(const Setting& setting) {
   const Scene& scene = setting.scene;
   std::vector<ReadOut> read_outs;
   if (scene.show.has(Overlay::time)) read_outs.push_back(time_read_out(setting));
-  if (scene.pacing.automatic_slow_motion || !scene.pacing.slow_motion.empty()) {
+  if (has_slow_motion(scene.pacing)) {
     read_outs.push_back(slower_read_out(setting));
   }
   if (scene.show.has(Overlay::energy)) read_outs.push_back(energy_read_out(setting));
@@ -63,10 +68,17 @@ std::unique_ptr<PicturePart> make_panel(Panel panel, const Setting& setting,
 }
 
 /// As large as fits, in the lower right corner of its place.
+/// @throws UsageError if nothing could be seen of it.
 ImageItem place_logo(const Rectangle& place, std::shared_ptr<const Image> logo) {
   const double scale = std::min(place.width / logo->width_px, place.height / logo->height_px);
   const double width = scale * logo->width_px;
   const double height = scale * logo->height_px;
+  if (std::min(width, height) < kLeastLogo_px || std::max(width, height) < kLeastLogoLength_px) {
+    throw UsageError(fmt::format(
+        "show.logo: a picture of {}x{} would be {:.1f}x{:.1f} pixels here; leave it out, make the "
+        "frame larger, or use a picture of another shape",
+        logo->width_px, logo->height_px, width, height));
+  }
   return {ItemId::logo,
           {place.x + place.width - width, place.y + place.height - height, width, height},
           std::move(logo)};

@@ -14,9 +14,10 @@ constexpr std::string_view kLabelText = "Collisions:";
 
 // In parts of the area's short measure, see short_measure().
 constexpr double kTextSize = 0.074;
-constexpr double kLineWidth = 0.0032;
 constexpr double kMargin = 0.045;
 constexpr double kUsualAspect = 16.0 / 9;
+/// Of the frame's short measure.
+constexpr double kLineWidth = 0.0032;
 constexpr double kMaxBannerText = 2.2;
 // A unit of the scene at least this large is rounded to an even number of pixels, so that edges
 // that do not move are sharp, and so are the upper and lower edges of blocks of width 1.
@@ -63,7 +64,11 @@ std::size_t lit_length(std::string_view count, std::string_view expected) {
 
 }  // namespace
 
-double short_measure(const Rectangle& area) { return std::min(area.height, 0.75 * area.width); }
+double short_measure(const Rectangle& area) { return std::min(area.height, kNarrow * area.width); }
+
+double line_width_px(const View& view) {
+  return kLineWidth * short_measure({0, 0, double(view.width_px), double(view.height_px)});
+}
 
 Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
                const Font& font) {
@@ -76,7 +81,7 @@ Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle
   const double line_em = label_em + font.width_em(with_thousands_separators(longest_count));
 
   Layout layout;
-  layout.line_px = std::max(1.0, std::round(kLineWidth * measure));
+  layout.line_px = std::max(1.0, std::round(line_width_px(view)));
   layout.text_px = std::min(text_size(area), inner_width / line_em);
 
   // Label and view form one group, centred in the area.

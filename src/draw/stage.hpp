@@ -39,6 +39,12 @@ struct Layout {
 /// The length that type and lines are measured by: the area's height, or less where the area is
 /// narrow.
 double short_measure(const Rectangle& area);
+/// Where the height is less than this part of the width, it is the height that counts.
+inline constexpr double kNarrow = 0.75;
+
+/// What all lines of a frame are measured by: a part of its short measure, wherever in it they are.
+/// Lines of the blocks are as many whole pixels, so that their edges are sharp.
+double line_width_px(const View& view);
 
 /// @param longest_count  the last count that will be shown.
 Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,

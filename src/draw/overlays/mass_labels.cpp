@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
 #include <algorithm>
 #include <utility>
 
@@ -12,7 +15,7 @@ constexpr double kHeight = 0.3;
 constexpr double kWidth = 0.84;
 constexpr double kHalfCapital_em = 0.365;
 
-/// Below this it could not be read, and is left out.
+/// Below this it could not be read.
 constexpr double kLeast_px = 5;
 
 struct Label {
@@ -42,13 +45,18 @@ class MassLabels final : public PicturePart {
     std::string text = short_text(block.mass);
     const double width_em = font.width_em(text);
     const double size_px = std::min(kHeight * side_px, kWidth * side_px / width_em);
+    if (size_px < kLeast_px) {
+      throw UsageError(fmt::format(
+          "show.overlays: the mass '{}' would be {:.1f} pixels high on its block, which cannot be "
+          "read; leave out 'masses', or make the frame or the block larger",
+          text, size_px));
+    }
     return {std::move(text), size_px, width_em * size_px / 2, kHalfCapital_em * size_px,
             colors.text};
   }
 
   void add_label(std::size_t n, const Label& label, const Motion& motion,
                  std::vector<DrawItem>& items) const {
-    if (label.size_px < kLeast_px) return;
     const Point centre = layout_.at(motion.position, 0);
     items.emplace_back(TextItem{nth(ItemId::masses, n),
                                 {centre.x - label.half_width_px, centre.y + label.down_px},

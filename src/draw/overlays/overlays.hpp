@@ -34,6 +34,8 @@ struct ReadOut {
 ReadOut time_read_out(const Setting& setting);
 ReadOut energy_read_out(const Setting& setting);
 ReadOut momentum_read_out(const Setting& setting);
+/// Whether slower_read_out() has anything to say.
+bool has_slow_motion(const Pacing& pacing);
 /// "10× slower".
 ReadOut slower_read_out(const Setting& setting);
 

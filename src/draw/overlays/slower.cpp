@@ -16,6 +16,10 @@ std::string text_of(const Rational& slower) {
 
 }  // namespace
 
+bool has_slow_motion(const Pacing& pacing) {
+  return pacing.automatic_slow_motion || !pacing.slow_motion.empty();
+}
+
 ReadOut slower_read_out(const Setting& setting) {
   const Pacing& pacing = setting.scene.pacing;
   ReadOut read_out{
