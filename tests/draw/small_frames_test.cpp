@@ -69,7 +69,8 @@ class Checker {
     if (item.stroke && !(item.stroke->width_px > 0)) problem += "a line without width; ";
   }
   void check_item(const TextItem& item) {
-    if (!(item.size_px > 0) || !std::isfinite(item.size_px)) problem += item.text + " has no size; ";
+    if (!(item.size_px > 0) || !std::isfinite(item.size_px))
+      problem += item.text + " has no size; ";
     const double width_px = font_.width_em(item.text) * item.size_px;
     check_inside(item.origin.x, item.origin.y - 0.73 * item.size_px, item.origin.x + width_px,
                  item.origin.y, item.text.c_str());

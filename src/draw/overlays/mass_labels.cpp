@@ -6,6 +6,7 @@
 
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
+#include "draw/ticks.hpp"
 
 namespace piblocks {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 // In parts of the block's side.
 constexpr double kHeight = 0.3;
 constexpr double kWidth = 0.84;
-constexpr double kHalfCapital_em = 0.365;
 
 /// Below this it could not be read.
 constexpr double kLeast_px = 5;
@@ -51,7 +51,7 @@ class MassLabels final : public PicturePart {
           "read; leave out 'masses', or make the frame or the block larger",
           text, size_px));
     }
-    return {std::move(text), size_px, width_em * size_px / 2, kHalfCapital_em * size_px,
+    return {std::move(text), size_px, width_em * size_px / 2, kHalfFigure_em * size_px,
             colors.text};
   }
 

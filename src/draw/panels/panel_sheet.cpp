@@ -33,11 +33,11 @@ PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const Pa
       text_px_(setting.text_px),
       line_px_(setting.line_px) {
   const Rectangle& whole = place.area;
-  const auto fitting_px = [&](const char* text) {
+  const auto fitting_px = [&](const std::string& text) {
     return std::min(text_px_, whole.width / font_->width_em(text));
   };
   const bool is_full = fitting_px(title.full) >= std::max(kLeastText_px, kLeastShrink * text_px_);
-  const char* const text = is_full ? title.full : title.brief;
+  const std::string& text = is_full ? title.full : title.brief;
   items_.emplace_back(TextItem{next_id(),
                                {whole.x, whole.y + kTitleBaseline * text_px_},
                                text,

@@ -29,8 +29,8 @@ std::unique_ptr<PicturePart> rate_panel(const Setting& setting, const PanelPlace
 
 /// The brief one is for diagrams too narrow for the full one.
 struct PanelTitle {
-  const char* full;
-  const char* brief;
+  std::string full;
+  std::string brief;
 };
 
 /// What a diagram is made of: items that stay, with ids in the order they are added, and its title.
