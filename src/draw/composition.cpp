@@ -3,11 +3,14 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "draw/finite.hpp"
 #include "draw/frame_plan.hpp"
+#include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/stage.hpp"
@@ -35,7 +38,7 @@ std::string lit_digits(const Scene& scene, const CollisionLog& log) {
   if (counts_pi(scene.system)) return with_thousands_separators(log.size());
   throw UsageError(
       "show.overlays: there are no digits of pi to light up, since this scene does not count them; "
-      "leave out 'digits', or give a mass ratio of 100^(D-1) and let blue rest");
+      "leave out 'digits', or give a mass ratio of 100^(D-1) and a blue.velocity of 0");
 }
 
 std::vector<ReadOut> read_outs_of(const Setting& setting) {
@@ -65,6 +68,24 @@ std::unique_ptr<PicturePart> make_panel(Panel panel, const Setting& setting,
       return rate_panel(setting, place);
   }
   return nullptr;
+}
+
+[[noreturn]] void refuse_time(const Rational& time) {
+  throw UsageError(
+      fmt::format("frame: at time {} something is at a place beyond the range of a double (about "
+                  "1.8e308); show "
+                  "another time, or use less extreme positions, velocities and widths",
+                  short_text(time)));
+}
+
+void check_finite(const Shown& shown) {
+  for (const Motion& motion : {shown.state.blue, shown.state.red}) {
+    if (!std::isfinite(motion.position) || !std::isfinite(motion.velocity)) refuse_time(shown.time);
+  }
+}
+
+void check_finite(std::span<const DrawItem> items, const Rational& time) {
+  if (!are_finite(items)) refuse_time(time);
 }
 
 /// As large as fits, in the lower right corner of its place.
@@ -144,7 +165,7 @@ void Composition::Contents::add_panels(const Setting& setting,
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +
                                  ids_from(static_cast<std::uint32_t>(i))};
-    panels.push_back(make_panel(shown[i], setting, {places[i], first_id}));
+    panels.push_back(make_panel(shown[i], setting, {places[i], first_id, shown[i]}));
   }
 }
 
@@ -156,11 +177,13 @@ Composition::Composition(Composition&&) noexcept = default;
 Composition& Composition::operator=(Composition&&) noexcept = default;
 
 DrawList Composition::frame(const Shown& shown, std::span<const ExposurePart> exposure) const {
+  check_finite(shown);
   DrawList list{contents_->width_px, contents_->height_px, contents_->background, {}};
   contents_->stage->add(shown.state, exposure, list.items);
   for (const auto& part : contents_->parts) part->add(shown, list.items);
   list.items.insert(list.items.end(), contents_->lines.begin(), contents_->lines.end());
   for (const auto& panel : contents_->panels) panel->add(shown, list.items);
+  check_finite(list.items, shown.time);
   return list;
 }
 

@@ -70,6 +70,10 @@ double line_width_px(const View& view) {
   return kLineWidth * short_measure({0, 0, double(view.width_px), double(view.height_px)});
 }
 
+double base_of(const BlockSystem& system) {
+  return -to_double(std::max(system.blue.width, system.red.width)) / 2;
+}
+
 Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
                const Font& font) {
   const View& view = scene.view;
@@ -111,6 +115,7 @@ StagePicture::StagePicture(const Scene& scene, const Layout& layout, const Palet
       palette_(palette),
       width_px_(scene.view.width_px),
       wall_(compose_wall(scene, layout, palette)),
+      base_(base_of(scene.system)),
       blue_side_(to_double(scene.system.blue.width)),
       red_side_(to_double(scene.system.red.width)),
       lit_digits_(std::move(lit_digits)),
@@ -118,7 +123,7 @@ StagePicture::StagePicture(const Scene& scene, const Layout& layout, const Palet
 
 ExposedBlock StagePicture::block(double side, const Motion& motion,
                                  const BlockColors& colors) const {
-  ExposedBlock block{to_pixels(layout_, motion.position - side / 2, -side / 2, side, side),
+  ExposedBlock block{to_pixels(layout_, motion.position - side / 2, base_, side, side),
                      colors.fill,
                      Stroke{colors.edge, layout_.line_px},
                      {},

@@ -46,6 +46,10 @@ inline constexpr double kNarrow = 0.75;
 /// Lines of the blocks are as many whole pixels, so that their edges are sharp.
 double line_width_px(const View& view);
 
+/// The height on which both blocks stand, in units of the scene: the middle of the larger one is
+/// at 0.
+double base_of(const BlockSystem& system);
+
 /// @param longest_count  the last count that will be shown.
 Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
                const Font& font);
@@ -69,6 +73,7 @@ class StagePicture {
   Palette palette_;
   int width_px_;
   RectangleItem wall_;
+  double base_;
   double blue_side_;
   double red_side_;
   std::string lit_digits_;

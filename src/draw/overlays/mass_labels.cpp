@@ -22,13 +22,15 @@ struct Label {
   std::string text;
   double size_px;
   double half_width_px;
-  double down_px;  ///< from the block's centre to the baseline
+  double centre_y;  ///< of the block, in units of the scene
+  double down_px;   ///< from there to the baseline
   Color color;
 };
 
 class MassLabels final : public PicturePart {
  public:
-  explicit MassLabels(const Setting& setting) : layout_(setting.stage) {
+  explicit MassLabels(const Setting& setting)
+      : layout_(setting.stage), base_(base_of(setting.scene.system)) {
     const BlockSystem& system = setting.scene.system;
     red_ = label_of(system.red, setting.palette.red, setting.font);
     blue_ = label_of(system.blue, setting.palette.blue, setting.font);
@@ -51,13 +53,14 @@ class MassLabels final : public PicturePart {
           "read; leave out 'masses', or make the frame or the block larger",
           text, size_px));
     }
-    return {std::move(text), size_px, width_em * size_px / 2, kHalfFigure_em * size_px,
-            colors.text};
+    return {std::move(text),          size_px,
+            width_em * size_px / 2,   base_ + to_double(block.width) / 2,
+            kHalfFigure_em * size_px, colors.text};
   }
 
   void add_label(std::size_t n, const Label& label, const Motion& motion,
                  std::vector<DrawItem>& items) const {
-    const Point centre = layout_.at(motion.position, 0);
+    const Point centre = layout_.at(motion.position, label.centre_y);
     items.emplace_back(TextItem{nth(ItemId::masses, n),
                                 {centre.x - label.half_width_px, centre.y + label.down_px},
                                 label.text,
@@ -66,6 +69,7 @@ class MassLabels final : public PicturePart {
   }
 
   Layout layout_;
+  double base_;
   Label red_;
   Label blue_;
 };

@@ -23,9 +23,12 @@ ReadOut momentum_read_out(const Setting& setting) {
   const bool is_plain = most.exponent >= -2 && most.exponent < kDigits;
   const int decimals = is_plain ? kDigits - 1 - static_cast<int>(most.exponent) : kDigits - 1;
   const std::string power = is_plain ? "" : " ×10" + superscript(most.exponent);
+  const char* const red_name = setting.palette.red.name;
+  const char* const blue_name = setting.palette.blue.name;
   const auto text = [=](double red, double blue) {
-    return fmt::format("Momentum{}: red {}, blue {}, sum {}", power, fixed_text(red, decimals),
-                       fixed_text(blue, decimals), fixed_text(red + blue, decimals));
+    return fmt::format("Momentum{}: {} {}, {} {}, sum {}", power, red_name,
+                       fixed_text(red, decimals), blue_name, fixed_text(blue, decimals),
+                       fixed_text(red + blue, decimals));
   };
 
   const double largest =

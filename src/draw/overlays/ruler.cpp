@@ -51,9 +51,8 @@ struct Room {
 
 /// @throws UsageError if there is none below the blocks.
 Room room_for(const Setting& setting) {
-  const BlockSystem& system = setting.scene.system;
   const Layout& layout = setting.stage;
-  const double foot = -to_double(std::max(system.blue.width, system.red.width)) / 2;
+  const double foot = base_of(setting.scene.system);
   const double height = (foot - to_double(setting.scene.view.y.low)) * layout.scale +
                         std::min(layout.below_px, setting.text_px);
   if (height >= kLeastRoom_px) return {layout.at(0, foot).y, height};

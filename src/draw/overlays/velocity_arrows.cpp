@@ -33,10 +33,8 @@ mpf_class usual_speed(const BlockSystem& system) {
   return wide_root_of(twice_energy / std::max(system.blue.mass, system.red.mass));
 }
 
-/// The blocks' upper edge, in units of the scene.
-double top_of(const BlockSystem& system) {
-  return to_double(std::max(system.blue.width, system.red.width)) / 2;
-}
+/// The larger block's upper edge, in units of the scene.
+double top_of(const BlockSystem& system) { return -base_of(system); }
 
 struct Figure {
   std::string text;

@@ -1,7 +1,11 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "draw/finite.hpp"
 #include "draw/frame_plan.hpp"
 #include "draw/panels/panels.hpp"
 
@@ -30,6 +34,7 @@ PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const Pa
     : palette_(setting.palette),
       font_(&setting.font),
       first_id_(place.first_id),
+      panel_(place.panel),
       text_px_(setting.text_px),
       line_px_(setting.line_px) {
   const Rectangle& whole = place.area;
@@ -50,6 +55,12 @@ PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const Pa
 }
 
 void PanelSheet::finish() {
+  if (!are_finite(items_)) {
+    throw UsageError(fmt::format(
+        "show.panels: the diagram '{}' needs numbers beyond the range of a double (about 1.8e308); "
+        "leave it out, or use less extreme positions, velocities and times",
+        exact_text(panel_)));
+  }
   item_.plate = std::make_shared<const Plate>(Plate{std::move(items_)});
   font_ = nullptr;
 }

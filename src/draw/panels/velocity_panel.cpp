@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,14 +15,19 @@ constexpr double kMargin_em = 0.8;
 /// Lines between sectors begin where they are so far apart.
 constexpr double kLeastApart_px = 4;
 
+PanelTitle title_of(const Palette& palette) {
+  constexpr const char* kBrief = "Velocities √m·v";
+  return {fmt::format("{} ({} block →, {} block ↑)", kBrief, palette.red.name, palette.blue.name),
+          kBrief};
+}
+
 /// The velocities as a point of the plane whose distance from the origin never changes. A collision
 /// of the blocks turns it by two wedge angles to below the axis, and the wall mirrors it to above:
 /// on either side sector joins sector, until none fits any more.
 class VelocityPanel final : public PicturePart {
  public:
   VelocityPanel(const Setting& setting, const PanelPlace& place)
-      : sheet_(setting, place, {"Velocities √m·v (red →, blue ↑)", "Velocities √m·v"}),
-        gaps_(setting.scene.system) {
+      : sheet_(setting, place, title_of(setting.palette)), gaps_(setting.scene.system) {
     const BlockSystem& system = setting.scene.system;
     const Rational twice_energy = system.blue.mass * system.blue.velocity * system.blue.velocity +
                                   system.red.mass * system.red.velocity * system.red.velocity;
