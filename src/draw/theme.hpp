@@ -21,6 +21,7 @@ struct BlockColors {
   /// What the block is called in the picture: its colour, or, where the two blocks are not red and
   /// blue, the side on which it always is.
   const char* name = "";
+  const char* full_name = name;  ///< where the name alone might be read as a direction
 };
 
 struct Palette {

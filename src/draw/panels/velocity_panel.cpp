@@ -17,7 +17,7 @@ constexpr double kLeastApart_px = 4;
 
 PanelTitle title_of(const Palette& palette) {
   constexpr const char* kBrief = "Velocities √m·v";
-  return {fmt::format("{} ({} block →, {} block ↑)", kBrief, palette.red.name, palette.blue.name),
+  return {fmt::format("{} ({} →, {} ↑)", kBrief, palette.red.full_name, palette.blue.full_name),
           kBrief};
 }
 
