@@ -119,8 +119,8 @@ void check_stage(const Scene& scene, double height_px) {
   const View& view = scene.view;
   if (height_px >= kLeastLeft * view.height_px) return;
   throw UsageError(fmt::format(
-      "show: {} leave too little room for the blocks in {}x{}; leave some out, or make the frame "
-      "higher",
+      "show: beside {} there is too little room for the blocks in {}x{}; leave something out, or "
+      "make the frame higher",
       fmt::join(lines_of(scene), ", "), view.width_px, view.height_px));
 }
 
