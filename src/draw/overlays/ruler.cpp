@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "draw/frame_plan.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/ticks.hpp"
@@ -24,9 +25,14 @@ constexpr int kLeastFigures = 2;
 constexpr double kFigure_em = 2 * kHalfFigure_em;
 constexpr double kTick_em = 0.45;
 constexpr double kBelowTick_em = 0.3;
-constexpr double kBelowWall_em = 0.2;
+constexpr double kBelowWall_em = 0.15;
+constexpr double kBesideWall_em = 0.25;
+constexpr double kBesideEdge_em = 0.1;
+/// Of the type that would fill the room below the wall; and rather than be set smaller than so much
+/// of the usual type, figures stand beside the wall.
+constexpr double kFitting = 0.95;
+constexpr double kLeastShrink = 0.7;
 constexpr double kLeastGap_em = 1.0;  // between figures
-constexpr double kAside_em = 0.25;    // from the wall and the edge of the frame
 
 /// So far apart that their figures do not touch.
 Ticks spaced_ticks(double low, double high, double em, const Font& font) {
@@ -62,24 +68,33 @@ Room room_for(const Setting& setting) {
                   kLeastRoom_px, std::max(0.0, height)));
 }
 
-/// Heights of the ruler, in pixels from the frame's top.
+/// Heights of the ruler, in pixels from the frame's top, and its type.
 struct Rows {
   double axis;
   double tick_end;
   double baseline;
+  double size_px;
+  bool are_below_wall;
 };
 
 /// Figures below the wall's foot if there is room, so that the one at its face can be centred
 /// there, and otherwise in the room below the blocks.
-Rows rows_of(const Setting& setting, const Room& room, double size_px) {
-  const double foot = setting.stage.at(0, to_double(setting.scene.view.y.low)).y;
-  const double baseline = foot + setting.stage.line_px + (kBelowWall_em + kFigure_em) * size_px;
+Rows rows_of(const Setting& setting, const Room& room) {
+  const Layout& layout = setting.stage;
+  const double usual_px = std::min(kTextSize * room.height, setting.text_px);
+  const double fitting_px = (layout.below_px - layout.line_px) / (kBelowWall_em + kFigure_em);
+  const double size_px = std::min(usual_px, kFitting * fitting_px);
+  const double foot = layout.at(0, to_double(setting.scene.view.y.low)).y;
+  const double baseline = foot + layout.line_px + (kBelowWall_em + kFigure_em) * size_px;
   const double tick_end = baseline - (kFigure_em + kBelowTick_em) * size_px;
   const double axis = std::round(tick_end - kTick_em * size_px);
-  const bool has_room = baseline + kAside_em * size_px <= foot + setting.stage.below_px;
-  if (has_room && axis > room.at(kLeastDown)) return {axis, tick_end, baseline};
+  const double least_px = std::max(kLeastShrink * usual_px, std::min(usual_px, kLeastText_px));
+  if (size_px >= least_px && axis > room.at(kLeastDown)) {
+    return {axis, tick_end, baseline, size_px, true};
+  }
   const double above = std::round(room.at(kAxis));
-  return {above, above + kTick * room.height, above + (kBaseline - kAxis) * room.height};
+  return {above, above + kTick * room.height, above + (kBaseline - kAxis) * room.height, usual_px,
+          false};
 }
 
 class Ruler final : public PicturePart {
@@ -87,18 +102,17 @@ class Ruler final : public PicturePart {
   explicit Ruler(const Setting& setting) {
     const Layout& layout = setting.stage;
     const Room room = room_for(setting);
-    const double size_px = std::min(kTextSize * room.height, setting.text_px);
-    const Rows rows = rows_of(setting, room, size_px);
+    const Rows rows = rows_of(setting, room);
+    const double size_px = rows.size_px;
     const double left =
         to_double(std::max(setting.scene.view.x.low, setting.scene.system.wall_face));
     const double right = to_double(setting.scene.view.x.high);
     const Stroke stroke{setting.palette.muted, setting.line_px};
     add_line({layout.at(left, 0).x, rows.axis}, {layout.at(right, 0).x, rows.axis}, stroke);
-    const double wall_foot = layout.at(0, to_double(setting.scene.view.y.low)).y;
-    const bool is_beside_wall = rows.baseline - kFigure_em * size_px < wall_foot;
     const double wall_px = layout.at(to_double(setting.scene.system.wall_face), 0).x;
-    const double first_px = (is_beside_wall ? std::max(0.0, wall_px) : 0) + kAside_em * size_px;
-    const double end_px = setting.scene.view.width_px - kAside_em * size_px;
+    const double wall_end_px = rows.are_below_wall ? 0 : wall_px + kBesideWall_em * size_px;
+    const double first_px = std::max(kBesideEdge_em * size_px, wall_end_px);
+    const double end_px = setting.scene.view.width_px - kBesideEdge_em * size_px;
     const Ticks ticks = spaced_ticks(left, right, size_px / layout.scale, setting.font);
     int figures = 0;
     for (const double value : ticks.values) {

@@ -64,6 +64,8 @@ TimeAxis::TimeAxis(const Setting& setting, const PanelSheet& sheet, double inden
 
 std::vector<TimeAxis::Figure> TimeAxis::figures_of(const Font& font, double em) const {
   Ticks ticks = ticks_of(low_, low_ + span_, kBetweenTicks * em / scale_);
+  // One figure alone gives no scale.
+  if (ticks.values.size() < 2) ticks = ticks_of(low_, low_ + span_, em / scale_);
   const auto is_crowded = [&] {
     const double widest = std::max(font.width_em(tick_text(low_, ticks.step)),
                                    font.width_em(tick_text(low_ + span_, ticks.step)));
