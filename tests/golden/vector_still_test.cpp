@@ -20,8 +20,8 @@ struct Bounds {
   int beside_nothing;
   double of_window;
 };
-// Measured 2026-11-22 over all pictures below: 5 and 25 by librsvg, 34 and 32 by poppler, which sets
-// type at other places. A stray line in the palest colour of any theme is 55 beside nothing.
+// Measured 2026-11-22 over all pictures below: 5 and 25 by librsvg, 34 and 32 by poppler, which
+// sets type at other places. A stray line in the palest colour of any theme is 55 beside nothing.
 constexpr Bounds kSvgBounds{8, 32};
 constexpr Bounds kPdfBounds{45, 40};
 

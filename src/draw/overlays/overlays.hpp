@@ -26,6 +26,7 @@ std::unique_ptr<PicturePart> ruler(const Setting& setting);
 
 /// A short text that changes with what is shown, beside others in a row.
 struct ReadOut {
+  const char* name;                               ///< in messages
   std::string widest;                             ///< what takes most room
   std::function<std::string(const Shown&)> text;  ///< empty where there is nothing to say
   Color color;

@@ -46,7 +46,7 @@ ReadOut time_read_out(const Setting& setting) {
   if (has_end(setting)) {
     end = std::max(end, std::abs(to_double(end_of(setting.scene, setting.log))));
   }
-  return {text(-end), [=](const Shown& shown) { return text(to_double(shown.time)); },
+  return {"time", text(-end), [=](const Shown& shown) { return text(to_double(shown.time)); },
           setting.palette.text};
 }
 
