@@ -20,7 +20,7 @@ namespace {
 
 /// A smaller logo is a speck.
 constexpr double kLeastLogo_px = 1;
-constexpr double kLeastLogoLength_px = 6;
+constexpr double kLeastLogoLength_px = 3;
 
 /// Whether the counts of a system are the digits of pi: blue at rest, off the wall, and a mass
 /// ratio that is a power of 100.

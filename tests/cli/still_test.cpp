@@ -144,7 +144,7 @@ TEST_F(StillTest, LogosOfAnyShapeAreShownOrRefused) {
   std::filesystem::remove(folder_ / "a.png");
   expect_refusal(logo("1x4000") + Arguments{"--size", "640x360"},
                  "show.logo: a picture of 1x4000 would be 0.0x32.4 pixels here");
-  expect_refusal(logo("640x360") + Arguments{"--size", "40x20"}, "show.logo: a picture of 640x360");
+  expect_refusal(logo("640x360") + Arguments{"--size", "30x16"}, "show.logo: a picture of 640x360");
 }
 
 /// A still of 20 digits is not 3e19 collisions away. The bound only tells seconds from years.
