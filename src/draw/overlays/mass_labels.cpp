@@ -16,7 +16,7 @@ constexpr double kHeight = 0.3;
 constexpr double kWidth = 0.84;
 
 /// Below this it could not be read.
-constexpr double kLeast_px = 5;
+constexpr double kLeast_px = 4;
 
 struct Label {
   std::string text;
