@@ -92,6 +92,22 @@ TEST(Panels, MarkThePresentForAnyMasses) {
   }
 }
 
+TEST(Panels, UnfoldALineOfAnyLength) {
+  for (const char* position : {"5", "1e100", "1e200", "1e300"}) {
+    const Pictures pictures(apart("1", {{"show.panels", "unfolded"}, {"red.position", position}}));
+    bool has_wedge = false;
+    for (const DrawItem& item : pictures.at(1).items) {
+      const auto* path = std::get_if<PathItem>(&item);
+      if (path == nullptr || !path->closed) continue;
+      has_wedge = true;
+      for (const Point& point : path->points.view()) {
+        EXPECT_TRUE(point.x >= 0 && point.x <= 1920 && point.y >= 0 && point.y <= 1080) << position;
+      }
+    }
+    EXPECT_TRUE(has_wedge) << "the wedge that the present is in, at " << position;
+  }
+}
+
 TEST(Panels, KnowTheWedgeHoweverNarrowOrWide) {
   BlockSystem system;
   for (const unsigned long exponent : {4UL, 40UL, 400UL, 648UL, 700UL, 4000UL}) {

@@ -24,7 +24,14 @@ unsigned long stride_exponent(const PanelGaps& gaps, double radius_px) {
 }
 
 /// By how much a straight line turns around the origin from one of its points to another.
-double angle_between(const Point& a, const Point& b) {
+double angle_between(const Point& from, const Point& to) {
+  // Of length 1: products of long ones would leave the range of a double.
+  const auto direction = [](const Point& point) {
+    const double length = std::hypot(point.x, point.y);
+    return length > 0 ? Point{point.x / length, point.y / length} : Point{};
+  };
+  const Point a = direction(from);
+  const Point b = direction(to);
   return std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
 }
 
