@@ -1,18 +1,26 @@
+#include <fmt/format.h>
 #include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "draw/finite.hpp"
 #include "draw/frame_plan.hpp"
+#include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/stage.hpp"
 
 namespace piblocks {
 namespace {
+
+/// A smaller logo is a speck.
+constexpr double kLeastLogo_px = 1;
+constexpr double kLeastLogoLength_px = 3;
 
 /// Whether the counts of a system are the digits of pi: blue at rest, off the wall, and a mass
 /// ratio that is a power of 100.
@@ -30,14 +38,14 @@ std::string lit_digits(const Scene& scene, const CollisionLog& log) {
   if (counts_pi(scene.system)) return with_thousands_separators(log.size());
   throw UsageError(
       "show.overlays: there are no digits of pi to light up, since this scene does not count them; "
-      "leave out 'digits', or give a mass ratio of 100^(D-1) and let blue rest");
+      "leave out 'digits', or give a mass ratio of 100^(D-1) and a blue.velocity of 0");
 }
 
 std::vector<ReadOut> read_outs_of(const Setting& setting) {
   const Scene& scene = setting.scene;
   std::vector<ReadOut> read_outs;
   if (scene.show.has(Overlay::time)) read_outs.push_back(time_read_out(setting));
-  if (scene.pacing.automatic_slow_motion || !scene.pacing.slow_motion.empty()) {
+  if (has_slow_motion(scene.pacing)) {
     read_outs.push_back(slower_read_out(setting));
   }
   if (scene.show.has(Overlay::energy)) read_outs.push_back(energy_read_out(setting));
@@ -62,11 +70,36 @@ std::unique_ptr<PicturePart> make_panel(Panel panel, const Setting& setting,
   return nullptr;
 }
 
+[[noreturn]] void refuse_time(const Rational& time) {
+  throw UsageError(
+      fmt::format("frame: at time {} something is at a place beyond the range of a double (about "
+                  "1.8e308); show "
+                  "another time, or use less extreme positions, velocities and widths",
+                  short_text(time)));
+}
+
+void check_finite(const Shown& shown) {
+  for (const Motion& motion : {shown.state.blue, shown.state.red}) {
+    if (!std::isfinite(motion.position) || !std::isfinite(motion.velocity)) refuse_time(shown.time);
+  }
+}
+
+void check_finite(std::span<const DrawItem> items, const Rational& time) {
+  if (!are_finite(items)) refuse_time(time);
+}
+
 /// As large as fits, in the lower right corner of its place.
+/// @throws UsageError if nothing could be seen of it.
 ImageItem place_logo(const Rectangle& place, std::shared_ptr<const Image> logo) {
   const double scale = std::min(place.width / logo->width_px, place.height / logo->height_px);
   const double width = scale * logo->width_px;
   const double height = scale * logo->height_px;
+  if (std::min(width, height) < kLeastLogo_px || std::max(width, height) < kLeastLogoLength_px) {
+    throw UsageError(fmt::format(
+        "show.logo: a picture of {}x{} would be {:.1f}x{:.1f} pixels here; leave it out, make the "
+        "frame larger, or use a picture of another shape",
+        logo->width_px, logo->height_px, width, height));
+  }
   return {ItemId::logo,
           {place.x + place.width - width, place.y + place.height - height, width, height},
           std::move(logo)};
@@ -132,7 +165,7 @@ void Composition::Contents::add_panels(const Setting& setting,
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +
                                  ids_from(static_cast<std::uint32_t>(i))};
-    panels.push_back(make_panel(shown[i], setting, {places[i], first_id}));
+    panels.push_back(make_panel(shown[i], setting, {places[i], first_id, shown[i]}));
   }
 }
 
@@ -144,11 +177,13 @@ Composition::Composition(Composition&&) noexcept = default;
 Composition& Composition::operator=(Composition&&) noexcept = default;
 
 DrawList Composition::frame(const Shown& shown, std::span<const ExposurePart> exposure) const {
+  check_finite(shown);
   DrawList list{contents_->width_px, contents_->height_px, contents_->background, {}};
   contents_->stage->add(shown.state, exposure, list.items);
   for (const auto& part : contents_->parts) part->add(shown, list.items);
   list.items.insert(list.items.end(), contents_->lines.begin(), contents_->lines.end());
   for (const auto& panel : contents_->panels) panel->add(shown, list.items);
+  check_finite(list.items, shown.time);
   return list;
 }
 

@@ -5,9 +5,11 @@
 #include <ft2build.h>
 #include <piblocks/error.hpp>
 
+#include <optional>
 #include <string>
 
 #include "draw/cairo_handles.hpp"
+#include "draw/shaping.hpp"
 #include FT_FREETYPE_H
 
 // Defined in font_data.S.
@@ -125,6 +127,12 @@ void Font::check(std::string_view utf8, const char* what) const {
     throw UsageError(fmt::format("{}: is not valid UTF-8", what));
   }
   check_cairo(status, "set text");
+  if (const std::optional<Unshaped> unshaped = first_unshaped(utf8)) {
+    cairo_glyph_free(glyphs);
+    cairo_text_cluster_free(clusters);
+    throw UsageError(
+        fmt::format("{}: {} {}; {}", what, unshaped->name, unshaped->reason, unshaped->remedy));
+  }
   std::string missing;
   std::string_view rest = utf8;
   int glyph = 0;

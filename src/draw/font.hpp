@@ -25,7 +25,8 @@ class Font {
   /// The glyphs of a line of text that starts at `origin`, in a context where select() was called.
   static std::vector<cairo_glyph_t> glyphs(cairo_t& cr, const Point& origin, std::string_view utf8);
   /// Whether a line of text can be set. @param what  named in the message.
-  /// @throws UsageError if it is no UTF-8, or the font has no glyph for a character.
+  /// @throws UsageError if it is no UTF-8, a character needs shaping (shaping.hpp), or the font has
+  ///         no glyph for it.
   void check(std::string_view utf8, const char* what) const;
   /// Width of a line of text, in ems.
   double width_em(std::string_view utf8) const;

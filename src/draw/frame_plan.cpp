@@ -15,7 +15,6 @@ constexpr double kMargin = 0.045;
 constexpr double kTitleSize = 0.06;
 constexpr double kCaptionSize = 0.036;
 constexpr double kSmallText = 0.026;
-constexpr double kLineWidth = 0.0016;
 constexpr double kLogoHeight = 0.09;
 constexpr double kLogoWidth = 0.24;
 constexpr double kPanelGap = 0.035;
@@ -29,6 +28,8 @@ constexpr double kLeastShrink = 0.5;
 constexpr double kLeastPanel_em = 8;
 /// What diagrams look best in.
 constexpr double kPanelAspect = 1.3;
+/// Of the frame's height, for the blocks and what else there is.
+constexpr double kLeastLeft = 0.25;
 /// Of what is left beside title and caption, where there are diagrams.
 constexpr double kLeastStage = 0.22;
 constexpr double kMostStage = 0.46;
@@ -37,8 +38,15 @@ Rectangle whole(const View& view) { return {0, 0, double(view.width_px), double(
 
 /// A centred line that is made smaller to fit. @param key  named in messages.
 TextItem set_line(ItemId id, const char* key, const std::string& text, double size_px,
-                  const Rectangle& area, const Color& color, const Font& font) {
+                  const Rectangle& area, const View& view, const Color& color, const Font& font) {
   font.check(text, key);
+  if (size_px < kLeastText_px) {
+    const bool is_low = view.height_px < kNarrow * view.width_px;
+    throw UsageError(fmt::format(
+        "{}: '{}' would be {:.1f} pixels high in {}x{}, which cannot be read; leave it out, or "
+        "make the frame {}",
+        key, text, size_px, view.width_px, view.height_px, is_low ? "higher" : "wider"));
+  }
   const double width_em = font.width_em(text);
   const double fitted_px = std::min(size_px, area.width / width_em);
   if (fitted_px < std::max(kLeastShrink * size_px, kLeastText_px)) {
@@ -93,6 +101,29 @@ void check_panels(const FramePlan& plan, const View& view) {
   }
 }
 
+/// What a scene shows above and below the blocks.
+std::vector<std::string> lines_of(const Scene& scene) {
+  std::vector<std::string> lines;
+  if (!scene.show.title.empty()) lines.emplace_back("the title");
+  if (!scene.show.caption.empty()) lines.emplace_back("the caption");
+  if (!scene.show.logo.empty()) lines.emplace_back("the logo");
+  for (const Overlay overlay : {Overlay::time, Overlay::energy, Overlay::momentum}) {
+    if (scene.show.has(overlay)) lines.push_back(fmt::format("'{}'", exact_text(overlay)));
+  }
+  if (has_slow_motion(scene.pacing)) lines.emplace_back("the slow motion's factor");
+  return lines;
+}
+
+/// @param height_px  what is left of the frame for the blocks.
+void check_stage(const Scene& scene, double height_px) {
+  const View& view = scene.view;
+  if (height_px >= kLeastLeft * view.height_px) return;
+  throw UsageError(fmt::format(
+      "show: beside {} there is too little room for the blocks in {}x{}; leave something out, or "
+      "make the frame higher",
+      fmt::join(lines_of(scene), ", "), view.width_px, view.height_px));
+}
+
 /// What the stage needs to be as wide as the area.
 double stage_height(const View& view, const Rectangle& area, double measure) {
   const double lengths = to_double(view.y.high - view.y.low) / to_double(view.x.high - view.x.low);
@@ -102,15 +133,17 @@ double stage_height(const View& view, const Rectangle& area, double measure) {
 
 /// What lengths in a frame are in proportion to.
 struct FrameMeasures {
-  explicit FrameMeasures(const View& view)
-      : measure(short_measure(whole(view))),
+  explicit FrameMeasures(const View& frame)
+      : view(frame),
+        measure(short_measure(whole(frame))),
         margin(kMargin * measure),
-        right(view.width_px - margin),
-        bottom(view.height_px - margin) {}
+        right(frame.width_px - margin),
+        bottom(frame.height_px - margin) {}
 
   /// Between the margins.
   Rectangle line() const { return {margin, 0, right - margin, 0}; }
 
+  const View& view;
   double measure;
   double margin;
   double right;
@@ -124,7 +157,7 @@ void place_title(const Show& show, const FrameMeasures& frame, const Palette& pa
   if (!show.title.empty()) {
     const double size_px = kTitleSize * frame.measure;
     plan.title = set_line(ItemId::title, "show.title", show.title, size_px, frame.line(),
-                          palette.text, font);
+                          frame.view, palette.text, font);
     plan.title->origin.y = std::round(frame.margin + kCapHeight * size_px);
     top = plan.title->origin.y + (kDescent + kBelowTitle) * size_px;
   } else if (!show.panels.empty()) {
@@ -150,8 +183,8 @@ void place_foot(const Show& show, const FrameMeasures& frame, const Palette& pal
   }
   if (!show.caption.empty()) {
     const double size_px = kCaptionSize * frame.measure;
-    plan.caption =
-        set_line(ItemId::caption, "show.caption", show.caption, size_px, line, palette.muted, font);
+    plan.caption = set_line(ItemId::caption, "show.caption", show.caption, size_px, line,
+                            frame.view, palette.muted, font);
     height = std::max(height, (kCapHeight + kDescent) * size_px);
     plan.caption->origin.y = std::round(frame.bottom - (height - kCapHeight * size_px) / 2);
   }
@@ -186,7 +219,7 @@ FramePlan plan_frame(const Scene& scene, const Palette& palette, const Font& fon
   const FrameMeasures measures{scene.view};
   FramePlan plan;
   plan.text_px = small_text_px(scene.view);
-  plan.line_px = std::max(1.0, std::round(kLineWidth * measures.measure));
+  plan.line_px = std::max(1.0, line_width_px(scene.view) / 2);
   plan.stage = whole(scene.view);
   place_title(scene.show, measures, palette, font, plan);
   place_foot(scene.show, measures, palette, font, plan);
@@ -195,7 +228,9 @@ FramePlan plan_frame(const Scene& scene, const Palette& palette, const Font& fon
     // Else read-outs would stick to the lower edge.
     const bool are_lowest = !plan.caption && scene.show.logo.empty();
     if (read_outs_px > 0 && are_lowest) plan.stage.height -= measures.margin / 2;
+    check_stage(scene, plan.stage.height);
   } else {
+    check_stage(scene, plan.stage.height - read_outs_px);
     place_panels(scene, measures, read_outs_px, plan);
   }
   return plan;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
@@ -30,15 +31,23 @@ Magnitude split(const mpf_class& value) {
   return {std::stod(digits), static_cast<long>(exponent) - 1};
 }
 
-mpf_class float_root(const Rational& value) { return sqrt(mpf_class(value, kBits)); }
-
 }  // namespace
 
 Magnitude magnitude_of(const Rational& value) { return split(mpf_class(value, kBits)); }
 
-Magnitude root_magnitude_of(const Rational& value) { return split(float_root(value)); }
+double to_double(const Magnitude& value) {
+  // In two steps: 10^-330 alone is below the range, and its product with a mantissa may not be.
+  constexpr long kMostExponent = 1000;
+  const long exponent = std::clamp(value.exponent, -kMostExponent, kMostExponent);
+  const long half = exponent / 2;
+  return value.mantissa * std::pow(10, double(half)) * std::pow(10, double(exponent - half));
+}
 
-double root_of(const Rational& value) { return float_root(value).get_d(); }
+Magnitude root_magnitude_of(const Rational& value) { return split(wide_root_of(value)); }
+
+double root_of(const Rational& value) { return wide_root_of(value).get_d(); }
+
+mpf_class wide_root_of(const Rational& value) { return sqrt(mpf_class(value, kBits)); }
 
 Magnitude written_with(int decimals, Magnitude size) {
   if (size.mantissa < 10 - 0.5 * std::pow(10, -decimals)) return size;

@@ -14,11 +14,15 @@ struct Magnitude {
   long exponent = 0;
 };
 Magnitude magnitude_of(const Rational& value);
+/// Infinity or 0 where it is beyond the range of a double.
+double to_double(const Magnitude& value);
 
 /// The square root of a number >= 0 of any size, to 16 digits.
 Magnitude root_magnitude_of(const Rational& value);
-/// The same as a double, in whose range it has to be.
+/// The same as a double; infinity or 0 where it is beyond the range.
 double root_of(const Rational& value);
+/// The same with 64-bit exponents and at least 128 bits.
+mpf_class wide_root_of(const Rational& value);
 
 /// The same number for a mantissa of so many decimals: one that would be rounded to 10 is given as
 /// a tenth of that, slightly less than 1.

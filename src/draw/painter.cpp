@@ -53,13 +53,28 @@ void stroke_inside(cairo_t& cr, const Rectangle& bounds, const Stroke& stroke) {
   cairo_set_line_cap(&cr, CAIRO_LINE_CAP_BUTT);
 }
 
+/// Cairo's coordinates end at 2^23 pixels, and beyond it they come back on the other side. No frame
+/// and no line reaches as far as this.
+double within_reach(double px) {
+  constexpr double kFar_px = 1 << 22;
+  return std::clamp(px, -kFar_px, kFar_px);
+}
+
+Rectangle within_reach(const Rectangle& r) {
+  const double x = within_reach(r.x);
+  const double y = within_reach(r.y);
+  if (x == r.x && y == r.y && r.width <= kMaxSide_px && r.height <= kMaxSide_px) return r;
+  return {x, y, within_reach(r.x + r.width) - x, within_reach(r.y + r.height) - y};
+}
+
 void paint_rectangle(cairo_t& cr, const RectangleItem& item) {
+  const Rectangle bounds = within_reach(item.bounds);
   if (item.fill) {
     set_color(cr, *item.fill);
-    cairo_rectangle(&cr, item.bounds.x, item.bounds.y, item.bounds.width, item.bounds.height);
+    cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);
     cairo_fill(&cr);
   }
-  if (item.stroke) stroke_inside(cr, item.bounds, *item.stroke);
+  if (item.stroke) stroke_inside(cr, bounds, *item.stroke);
 }
 
 /// The fill of the current path, then its line, centred on it.
@@ -81,7 +96,9 @@ void fill_and_stroke(cairo_t& cr, const std::optional<Color>& fill,
 }
 
 void paint_path(cairo_t& cr, const PathItem& item) {
-  for (const Point& point : item.points.view()) cairo_line_to(&cr, point.x, point.y);
+  for (const Point& point : item.points.view()) {
+    cairo_line_to(&cr, within_reach(point.x), within_reach(point.y));
+  }
   if (item.closed) cairo_close_path(&cr);
   fill_and_stroke(cr, item.fill, item.stroke);
 }
@@ -90,6 +107,16 @@ void paint_disk(cairo_t& cr, const DiskItem& item) {
   cairo_arc(&cr, item.centre.x, item.centre.y, item.radius, 0, 2 * std::numbers::pi);
   cairo_close_path(&cr);
   fill_and_stroke(cr, item.fill, item.stroke);
+}
+
+/// Whether one pixel of the picture is one pixel of the surface. It is not in a vector file, and
+/// not on a sheet, where the picture is scaled.
+bool has_pixels_of_picture(cairo_t& cr) {
+  cairo_matrix_t matrix;
+  cairo_get_matrix(&cr, &matrix);
+  const bool is_identity = matrix.xx == 1 && matrix.yy == 1 && matrix.xy == 0 && matrix.yx == 0 &&
+                           matrix.x0 == 0 && matrix.y0 == 0;
+  return is_identity && cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE;
 }
 
 /// Cairo's pixels are multiplied by their alpha.
@@ -140,6 +167,9 @@ void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& part) {
 }
 
 void Painter::paint_item(cairo_t& cr, const DrawItem& item) {
+  // cairo_show_text() leaves the current point at the end of its line, and the next path would
+  // begin there.
+  cairo_new_path(&cr);
   if (const auto* rectangle = std::get_if<RectangleItem>(&item)) paint_rectangle(cr, *rectangle);
   if (const auto* text = std::get_if<TextItem>(&item)) paint_text(cr, *text);
   if (const auto* path = std::get_if<PathItem>(&item)) paint_path(cr, *path);
@@ -200,11 +230,12 @@ cairo_surface_t& Painter::picture_of(std::shared_ptr<const void> thing,
 
 /// A vector file knows no other way than over what is behind.
 void Painter::paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& part) {
-  if (cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE) {
+  if (has_pixels_of_picture(cr)) {
     paint_group_pixels(cr, item, part);
     return;
   }
   cairo_save(&cr);
+  cairo_new_path(&cr);
   cairo_translate(&cr, item.x_px, item.y_px);
   cairo_rectangle(&cr, 0, 0, item.list->width_px, item.list->height_px);
   cairo_clip(&cr);
@@ -251,17 +282,16 @@ void Painter::paint_group_pixels(cairo_t& cr, const GroupItem& item, const Pixel
 
 void Painter::paint_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list,
                             const PixelRect& part) {
-  cairo_surface_t* const surface = cairo_get_target(&cr);
-  if (cairo_surface_get_type(surface) != CAIRO_SURFACE_TYPE_IMAGE) {
+  if (!has_pixels_of_picture(cr)) {
     embed_exposed(cr, item, list);
     return;
   }
   if (!exposed_) exposed_ = std::make_unique<ExposedPainter>();
-  exposed_->paint(*surface, part, item,
+  exposed_->paint(*cairo_get_target(&cr), part, item,
                   [&](const DrawItem& rectangle) { paint_item(cr, rectangle); });
 }
 
-/// What moves has no outline: it is embedded as pixels, with what is behind it.
+/// What moves has no outline: it is embedded as pixels of the picture, with what is behind it.
 void Painter::embed_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list) {
   for (const DrawItem& rectangle : still_blocks(item)) paint_item(cr, rectangle);
   const PixelRect area = moving_part(item, {0, 0, list.width_px, list.height_px});

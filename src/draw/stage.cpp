@@ -14,9 +14,10 @@ constexpr std::string_view kLabelText = "Collisions:";
 
 // In parts of the area's short measure, see short_measure().
 constexpr double kTextSize = 0.074;
-constexpr double kLineWidth = 0.0032;
 constexpr double kMargin = 0.045;
 constexpr double kUsualAspect = 16.0 / 9;
+/// Of the frame's short measure.
+constexpr double kLineWidth = 0.0032;
 constexpr double kMaxBannerText = 2.2;
 // A unit of the scene at least this large is rounded to an even number of pixels, so that edges
 // that do not move are sharp, and so are the upper and lower edges of blocks of width 1.
@@ -63,7 +64,15 @@ std::size_t lit_length(std::string_view count, std::string_view expected) {
 
 }  // namespace
 
-double short_measure(const Rectangle& area) { return std::min(area.height, 0.75 * area.width); }
+double short_measure(const Rectangle& area) { return std::min(area.height, kNarrow * area.width); }
+
+double line_width_px(const View& view) {
+  return kLineWidth * short_measure({0, 0, double(view.width_px), double(view.height_px)});
+}
+
+double base_of(const BlockSystem& system) {
+  return -to_double(std::max(system.blue.width, system.red.width)) / 2;
+}
 
 Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
                const Font& font) {
@@ -76,7 +85,7 @@ Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle
   const double line_em = label_em + font.width_em(with_thousands_separators(longest_count));
 
   Layout layout;
-  layout.line_px = std::max(1.0, std::round(kLineWidth * measure));
+  layout.line_px = std::max(1.0, std::round(line_width_px(view)));
   layout.text_px = std::min(text_size(area), inner_width / line_em);
 
   // Label and view form one group, centred in the area.
@@ -106,6 +115,7 @@ StagePicture::StagePicture(const Scene& scene, const Layout& layout, const Palet
       palette_(palette),
       width_px_(scene.view.width_px),
       wall_(compose_wall(scene, layout, palette)),
+      base_(base_of(scene.system)),
       blue_side_(to_double(scene.system.blue.width)),
       red_side_(to_double(scene.system.red.width)),
       lit_digits_(std::move(lit_digits)),
@@ -113,7 +123,7 @@ StagePicture::StagePicture(const Scene& scene, const Layout& layout, const Palet
 
 ExposedBlock StagePicture::block(double side, const Motion& motion,
                                  const BlockColors& colors) const {
-  ExposedBlock block{to_pixels(layout_, motion.position - side / 2, -side / 2, side, side),
+  ExposedBlock block{to_pixels(layout_, motion.position - side / 2, base_, side, side),
                      colors.fill,
                      Stroke{colors.edge, layout_.line_px},
                      {},

@@ -39,6 +39,16 @@ struct Layout {
 /// The length that type and lines are measured by: the area's height, or less where the area is
 /// narrow.
 double short_measure(const Rectangle& area);
+/// Where the height is less than this part of the width, it is the height that counts.
+inline constexpr double kNarrow = 0.75;
+
+/// What all lines of a frame are measured by: a part of its short measure, wherever in it they are.
+/// Lines of the blocks are as many whole pixels, so that their edges are sharp.
+double line_width_px(const View& view);
+
+/// The height on which both blocks stand, in units of the scene: the middle of the larger one is
+/// at 0.
+double base_of(const BlockSystem& system);
 
 /// @param longest_count  the last count that will be shown.
 Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
@@ -63,6 +73,7 @@ class StagePicture {
   Palette palette_;
   int width_px_;
   RectangleItem wall_;
+  double base_;
   double blue_side_;
   double red_side_;
   std::string lit_digits_;

@@ -18,6 +18,10 @@ struct BlockColors {
   /// Bars across the block in its edge's colour, half of them near the upper edge and half near the
   /// lower one: what tells it from the other without colours.
   int bars = 0;
+  /// What the block is called in the picture: its colour, or, where the two blocks are not red and
+  /// blue, the side on which it always is.
+  const char* name = "";
+  const char* full_name = name;  ///< where the name alone might be read as a direction
 };
 
 struct Palette {

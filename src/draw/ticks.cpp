@@ -21,13 +21,35 @@ Ticks ticks_of(double low, double high, double least) {
   constexpr double kSlack = 1e-9;
   const double first = std::ceil(low / ticks.step - kSlack);
   const double last = std::floor(high / ticks.step + kSlack);
+  // Beyond 2^53 neighbours cannot be told apart.
+  constexpr double kMostExact = 1LL << 53;
+  if (!(std::max(std::abs(first), std::abs(last)) < kMostExact)) return ticks;
   for (double n = first; n <= last; ++n) ticks.values.push_back(n * ticks.step);
   return ticks;
 }
 
 std::string tick_text(double value, double step) {
-  const int decimals = static_cast<int>(std::max(0.0, -std::floor(std::log10(step) + 1e-9)));
-  return fixed_text(value, decimals);
+  constexpr double kLeastPlain = 1e-4;
+  constexpr double kMostPlain = 1e6;
+  const double exponent = std::floor(std::log10(step) + 1e-9);
+  if (step >= kLeastPlain && step < kMostPlain) {
+    return fixed_text(value, static_cast<int>(std::max(0.0, -exponent)));
+  }
+  // A step is 1, 2 or 5 times a power of ten: values are whole multiples of that.
+  const double multiple = std::round(value / step) * std::round(step / std::pow(10, exponent));
+  const std::string text = fixed_text(multiple, 0);
+  return multiple == 0 ? text : text + "×10" + superscript(std::lround(exponent));
+}
+
+Rational round_step(const Rational& least) {
+  const long exponent = magnitude_of(least).exponent;
+  const Rational power_of_ten = exponent >= 0
+                                    ? power(10, static_cast<unsigned long>(exponent))
+                                    : 1 / power(10, static_cast<unsigned long>(-exponent));
+  for (const int factor : {1, 2, 5}) {
+    if (factor * power_of_ten >= least) return factor * power_of_ten;
+  }
+  return 10 * power_of_ten;
 }
 
 }  // namespace piblocks

@@ -2,6 +2,8 @@
 // In: the ends of the axis and how close marks may be. Out: values and their texts.
 #pragma once
 
+#include <piblocks/exact.hpp>
+
 #include <string>
 #include <vector>
 
@@ -15,7 +17,14 @@ struct Ticks {
 /// Multiples of the smallest step >= least, from low to high, both included; at most a thousand.
 Ticks ticks_of(double low, double high, double least);
 
-/// With as many decimals as the step has.
+/// With as many decimals as the step has, or with the step's power of ten if these are many:
+/// "−0.25", "5×10⁹".
 std::string tick_text(double value, double step);
+
+/// The smallest step >= least, exactly. @param least  > 0
+Rational round_step(const Rational& least);
+
+/// Half of the height of figures: what is centred on a mark has its baseline as much below it.
+inline constexpr double kHalfFigure_em = 0.365;
 
 }  // namespace piblocks

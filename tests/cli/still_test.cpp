@@ -98,6 +98,55 @@ TEST_F(StillTest, ReplacesAFileAndKeepsItsNeighbours) {
   EXPECT_EQ(entries(), (std::vector<std::string>{"other.txt", "still.png"}));
 }
 
+TEST_F(StillTest, SaysWhatAFrameHasNoRoomFor) {
+  const auto expect = [&](const char* size, const Arguments& show, const std::string& message) {
+    expect_refusal(Arguments{"still", "--at", "3", "-o", "a.png", "--size", size} + show, message);
+  };
+  expect("120x12", {"--show", "time"}, "show: beside 'time' there is too little room");
+  expect("16000x120", {"--title", "fi"},
+         "show.title: 'fi' would be 7.2 pixels high in 16000x120, which cannot be read; leave it "
+         "out, or make the frame higher");
+  expect("120x16000", {"--title", "fi"}, "make the frame wider");
+  expect("64x36", {"--show", "masses"}, "show.overlays: the mass '10,000'");
+  expect("400x60", {"--panels", "time"}, "show.panels: 1 of them do not fit into 400x60");
+  expect("100x1000", {"--show", "ruler"}, "show.overlays: the ruler needs");
+}
+
+TEST_F(StillTest, RefusesTextThatNeedsShaping) {
+  for (const char* option : {"--title", "--caption"}) {
+    const std::string key = std::string("show.") + (option + 2);
+    const auto expect = [&](const char* text, const char* message) {
+      expect_refusal({"still", "--at", "3", "-o", "a.png", option, text}, key + ": " + message);
+    };
+    expect("שלום", "'ש' (U+05E9) is in a script that needs shaping");
+    expect("Zahlen: مرحبا", "'م' (U+0645) is in a script that needs shaping");
+    expect("e\u0301", "U+0301 is a combining mark");
+    expect("a\u200Db", "U+200D is an instruction for shaping text");
+  }
+  output_of({"still", "--at", "3", "-o", "a.png", "--title", "Où se cache π ? Два блока, Δύο"});
+}
+
+/// Any still is a picture.
+TEST_F(StillTest, LogosOfAnyShapeAreShownOrRefused) {
+  const auto logo = [&](const std::string& size, const Arguments& more = {}) {
+    output_of(
+        Arguments{"still", "--at", "3", "--theme", "dark", "--size", size, "-o", size + ".png"} +
+        more);
+    return Arguments{"still", "--at", "3", "-o", "a.png", "--logo", size + ".png"};
+  };
+  const std::string plain = output_of({"still", "--at", "3", "--size", "640x360", "-o", "-"});
+  for (const char* size : {"1x1", "3x2", "640x360", "4000x3000", "16x1", "1x16"}) {
+    const Arguments still = logo(size);
+    output_of(still + Arguments{"--size", "640x360"});
+    EXPECT_NE(contents("a.png"), plain) << size;
+  }
+  output_of(logo("64x36", {"--transparent"}) + Arguments{"--size", "640x360", "--transparent"});
+  std::filesystem::remove(folder_ / "a.png");
+  expect_refusal(logo("1x4000") + Arguments{"--size", "640x360"},
+                 "show.logo: a picture of 1x4000 would be 0.0x32.4 pixels here");
+  expect_refusal(logo("640x360") + Arguments{"--size", "30x16"}, "show.logo: a picture of 640x360");
+}
+
 /// A still of 20 digits is not 3e19 collisions away. The bound only tells seconds from years.
 TEST_F(StillTest, TakesNoLongerForMoreDigits) {
   for (const char* digits : {"3", "9", "20"}) {

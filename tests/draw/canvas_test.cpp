@@ -52,6 +52,24 @@ TEST(Canvas, AStrokeStaysInside) {
   EXPECT_EQ(pixel(canvas, 12, 10), 0xFFFFFFu);
 }
 
+TEST(Canvas, WhatReachesFarOutOfTheFrameIsSeenInIt) {
+  constexpr Stroke kLine{kGreen, 2, 0};
+  for (const double far : {1e4, 5e6, 1.3e7, 2e7, 1e9, 1e15}) {
+    Canvas canvas(40, 30);
+    canvas.paint({40,
+                  30,
+                  kWhite,
+                  {RectangleItem{ItemId::blue_block, {20, 15, far, far}, kGreen, std::nullopt},
+                   RectangleItem{ItemId::red_block, {-far, -far, far + 5, far + 6}, kGreen, kLine},
+                   PathItem{ItemId::ruler, std::vector<Point>{{-far, 10}, {far, 10}}, false,
+                            std::nullopt, kLine}}});
+    EXPECT_EQ(pixel(canvas, 38, 28), 0x0AC81Eu) << far;
+    EXPECT_EQ(pixel(canvas, 2, 3), 0x0AC81Eu) << far;
+    EXPECT_EQ(pixel(canvas, 30, 10), 0x0AC81Eu) << far;
+    EXPECT_EQ(pixel(canvas, 12, 20), 0xFFFFFFu) << far;
+  }
+}
+
 TEST(Canvas, DashesMeetInEveryCorner) {
   Canvas canvas(40, 30);
   canvas.paint({40,

@@ -175,6 +175,19 @@ TEST(Overlays, ReadOutsSayWhatIs) {
   EXPECT_TRUE(has_text(first, "−1.98"));
 }
 
+TEST(Overlays, NameNoColourThatIsNotThere) {
+  for (const char* theme : {"print", "colorblind"}) {
+    for (const char* size : {"1920x1080", "800x450"}) {
+      const Pictures pictures(full_scene(3, size, theme));
+      for (const Box& box : texts_of(pictures.at(3))) {
+        if (box.what == "Wall, blue, red") continue;  // the caption
+        EXPECT_EQ(box.what.find("red"), std::string::npos) << box.what;
+        EXPECT_EQ(box.what.find("blue"), std::string::npos) << box.what;
+      }
+    }
+  }
+}
+
 TEST(Overlays, ReadOutsHoldMassesBeyondADouble) {
   const Pictures pictures(scene_with(200, {{"show.overlays", "energy,momentum,masses"}}));
   const DrawList start = pictures.at(0);

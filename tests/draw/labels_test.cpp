@@ -3,6 +3,8 @@
 #include <piblocks/composition.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -103,17 +105,133 @@ TEST(Labels, FiguresOfVelocitiesMeetNeitherEachOtherNorTheWall) {
   }
 }
 
-TEST(Labels, FiguresOfTheRulerStandBetweenWallAndEdge) {
+/// Straight lines of two points, also those of diagrams.
+void add_lines(const std::vector<DrawItem>& items, std::vector<std::pair<Point, Point>>& lines) {
+  for (const DrawItem& item : items) {
+    if (const auto* plate = std::get_if<PlateItem>(&item)) add_lines(plate->plate->items, lines);
+    const auto* path = std::get_if<PathItem>(&item);
+    if (path == nullptr || path->points.view().size() != 2) continue;
+    lines.emplace_back(path->points.view()[0], path->points.view()[1]);
+  }
+}
+
+std::vector<std::pair<Point, Point>> lines_of(const DrawList& list) {
+  std::vector<std::pair<Point, Point>> lines;
+  add_lines(list.items, lines);
+  return lines;
+}
+
+bool has_upright_line_at(const DrawList& list, double x) {
+  return std::ranges::any_of(lines_of(list), [x](const auto& line) {
+    return line.first.x == line.second.x && std::abs(line.first.x - x) < 1e-6;
+  });
+}
+
+bool has_level_line_at(const DrawList& list, double y) {
+  return std::ranges::any_of(lines_of(list), [y](const auto& line) {
+    return line.first.y == line.second.y && std::abs(line.first.y - y) < 1e-6;
+  });
+}
+
+TEST(Labels, FiguresOfTheRulerStandBelowTheirMarks) {
   const Font font;
-  for (const char* size : {"640x360", "480x360", "1080x1920", "3840x2160"}) {
+  for (const char* size : {"640x360", "480x360", "1080x1920", "3840x2160", "1600x300"}) {
     const Labels labels(3, {{"show.overlays", "ruler"}, {"view.size", size}});
     const DrawList list = labels.at(0);
+    const Rectangle& wall = std::get<RectangleItem>(list.items.front()).bounds;
     const std::vector<TextItem> figures = texts_of(list, ItemId::ruler);
     EXPECT_GT(figures.size(), 3U);
     for (const TextItem& figure : figures) {
-      EXPECT_GT(figure.origin.x, right_of_wall(list)) << figure.text;
-      const double right = figure.origin.x + font.width_em(figure.text) * figure.size_px;
-      EXPECT_LT(right, list.width_px) << figure.text;
+      const double width_px = font.width_em(figure.text) * figure.size_px;
+      EXPECT_TRUE(has_upright_line_at(list, figure.origin.x + width_px / 2))
+          << figure.text << " in " << size;
+      EXPECT_TRUE(figure.origin.x > wall.x + wall.width ||
+                  figure.origin.y - 0.73 * figure.size_px > wall.y + wall.height)
+          << figure.text << " meets the wall in " << size;
+      EXPECT_LT(figure.origin.x + width_px, list.width_px) << figure.text;
+      EXPECT_LT(figure.origin.y, list.height_px) << figure.text;
+    }
+  }
+}
+
+/// Texts of a diagram that are numbers.
+std::vector<TextItem> figures_of_diagram(const DrawList& list) {
+  std::vector<TextItem> figures;
+  for (const DrawItem& item : list.items) {
+    const auto* plate = std::get_if<PlateItem>(&item);
+    if (plate == nullptr) continue;
+    for (const DrawItem& inner : plate->plate->items) {
+      const auto* text = std::get_if<TextItem>(&inner);
+      if (text == nullptr) continue;
+      const bool is_number = text->text.find_first_of("0123456789") < 4;
+      if (is_number) figures.push_back(*text);
+    }
+  }
+  return figures;
+}
+
+TEST(Labels, FiguresOfDiagramsAreCentredOnTheirMarks) {
+  const Font font;
+  int across = 0;
+  int upright = 0;
+  for (const char* panel : {"time", "rate"}) {
+    for (const int digits : {1, 3, 9, 60}) {
+      for (const char* end : {"3", "4", "9.99", "10", "20000", "1e9", "1e-7"}) {
+        const Labels labels(digits, {{"show.panels", panel},
+                                     {"view.size", "640x360"},
+                                     {"time.from", "0"},
+                                     {"time.to", end}});
+        const DrawList list = labels.at(0);
+        for (const TextItem& figure : figures_of_diagram(list)) {
+          const double width_px = font.width_em(figure.text) * figure.size_px;
+          const bool is_below = has_upright_line_at(list, figure.origin.x + width_px / 2);
+          const bool is_beside = has_level_line_at(list, figure.origin.y - 0.365 * figure.size_px);
+          EXPECT_TRUE(is_below || is_beside) << figure.text << " to " << end;
+          EXPECT_GE(figure.origin.x, 0);
+          EXPECT_LE(figure.origin.x + width_px, 640);
+          (is_below ? across : upright) += 1;
+        }
+      }
+    }
+  }
+  EXPECT_GT(across, 100);
+  EXPECT_GT(upright, 50);
+}
+
+/// The outline of the bars of a rate diagram, from 0 to 1 both across and up.
+std::vector<Point> bars_of(const DrawList& list) {
+  for (const DrawItem& item : list.items) {
+    const auto* plate = std::get_if<PlateItem>(&item);
+    if (plate == nullptr) continue;
+    for (const DrawItem& inner : plate->plate->items) {
+      const auto* path = std::get_if<PathItem>(&inner);
+      if (path == nullptr || !path->closed) continue;
+      const std::span<const Point> points = path->points.view();
+      const Rectangle& bounds = path->points.bounds();
+      std::vector<Point> bars;
+      for (const Point& point : points) {
+        bars.push_back({(point.x - bounds.x) / bounds.width, (point.y - bounds.y) / bounds.height});
+      }
+      return bars;
+    }
+  }
+  return {};
+}
+
+TEST(Labels, RatesDoNotDependOnTheSizeOfTheFrame) {
+  for (const int digits : {1, 3, 9}) {
+    const auto bars_at = [&](const char* size) {
+      return bars_of(Labels(digits, {{"show.panels", "rate"}, {"view.size", size}}).at(0));
+    };
+    const std::vector<Point> small = bars_at("480x270");
+    for (const char* size : {"1920x1080", "3840x2160", "720x1280"}) {
+      const std::vector<Point> large = bars_at(size);
+      ASSERT_EQ(small.size(), large.size()) << size;
+      EXPECT_GT(small.size(), 40U);
+      for (std::size_t i = 0; i < small.size(); ++i) {
+        EXPECT_NEAR(small[i].x, large[i].x, 1e-9);
+        EXPECT_NEAR(small[i].y, large[i].y, 1e-9);
+      }
     }
   }
 }

@@ -60,6 +60,33 @@ TEST(Sheet, CutsPicturesOffAtTheirEdge) {
   }
 }
 
+/// A block that moves by a tenth of the picture's width, and one that stays.
+DrawList exposed(int width_px, int height_px) {
+  const double unit = width_px / 10.0;
+  ExposedBlock moving{{5 * unit, unit, 2 * unit, 2 * unit}, kGreen, {kGreen, 1, 0}, {}, {}};
+  for (int i = 0; i <= 10; ++i) moving.stops.push_back({(5 + i / 10.0) * unit, 1 / 11.0});
+  const ExposedBlock still{{unit, unit, 2 * unit, 2 * unit}, kGreen, {kGreen, 1, 0}, {}, {}};
+  return {width_px, height_px, Color{0, 0, 0}, {ExposedItem{ItemId::red_block, moving, still, {}}}};
+}
+
+TEST(Sheet, ShowsExposedBlocksInTheirPlaceAtAnyScale) {
+  for (const int width_px : {60, 400, 1600, 5000}) {
+    const Sheet sheet = arrange({{exposed(width_px, width_px / 2), "a"}}, 400, 300);
+    const Image image = draw_pixels(sheet);
+    const Rectangle& place = sheet.pictures.front().place;
+    const auto at = [&](double x, double y) {
+      const auto column = std::size_t(place.x + x / 10 * place.width);
+      const auto row = std::size_t(place.y + y / 5 * place.height);
+      return image.words[row * 400 + column] & 0xFFFFFF;
+    };
+    EXPECT_EQ(at(2, 2), 0x0AC81Eu) << "the block that stays, of " << width_px;
+    EXPECT_EQ(at(6.5, 2), 0x0AC81Eu) << "where the other one always is, of " << width_px;
+    EXPECT_EQ(at(4, 2), 0x000000u) << width_px;
+    EXPECT_EQ(at(9, 2), 0x000000u) << width_px;
+    EXPECT_EQ(at(6.5, 4), 0x000000u) << width_px;
+  }
+}
+
 TEST(Sheet, VectorFilesAreRepeatable) {
   const Sheet sheet = arrange(green(3, 160, 90), 842, 595);
   EXPECT_EQ(draw_pdf(sheet), draw_pdf(sheet));

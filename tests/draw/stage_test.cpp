@@ -58,6 +58,38 @@ TEST(Stage, BlocksTouchWhereTheyCollide) {
               rectangle(wall, ItemId::blue_block).bounds.x, 1e-9);
 }
 
+TEST(Stage, BlocksStandOnOneBase) {
+  for (const char* width : {"1/3", "1/2", "1", "3/2", "2"}) {
+    Scene scene = scene_of(2, 1920, 1080);
+    scene.system.red.width = parse_rational(width);
+    scene.show.overlays = {Overlay::masses};
+    const auto log = make_collision_log(scene.system);
+    const DrawList list = compose(scene, state_after(*log, 3));
+    const Rectangle red = rectangle(list, ItemId::red_block).bounds;
+    const Rectangle blue = rectangle(list, ItemId::blue_block).bounds;
+    EXPECT_NEAR(red.y + red.height, blue.y + blue.height, 1e-9) << width;
+    const auto middle = [](const TextItem& label) {
+      return label.origin.y - 0.365 * label.size_px;
+    };
+    EXPECT_NEAR(middle(text(list, ItemId::masses)), red.y + red.height / 2, 1e-9);
+    EXPECT_NEAR(middle(text(list, nth(ItemId::masses, 1))), blue.y + blue.height / 2, 1e-9);
+  }
+}
+
+TEST(Stage, LinesOfBlocksDoNotDependOnWhatIsBesideThem) {
+  for (const auto& [width, height] : {std::pair{1920, 1080}, {3840, 2160}, {1280, 720}}) {
+    Scene plain = scene_of(2, width, height);
+    Scene full = plain;
+    full.show.title = "Title";
+    full.show.panels = {Panel::time, Panel::velocity};
+    const auto line_px = [](const Scene& scene) {
+      const auto log = make_collision_log(scene.system);
+      return rectangle(compose(scene, state_at(*log, 0)), ItemId::blue_block).stroke->width_px;
+    };
+    EXPECT_EQ(line_px(plain), line_px(full)) << width << 'x' << height;
+  }
+}
+
 TEST(Stage, CounterShowsTheExactCountWithSeparators) {
   const Scene scene = scene_of(5, 1280, 720);
   const auto log = make_collision_log(scene.system);
@@ -148,7 +180,7 @@ TEST(Stage, FollowsTheScenesGeometry) {
   EXPECT_NEAR(blue.width, 0.5 * layout.scale, 1e-9);
   EXPECT_NEAR(red.height, 2 * layout.scale, 1e-9);
   EXPECT_NEAR(blue.x - right(wall), 2.25 * layout.scale, 1e-9);
-  EXPECT_NEAR(blue.y + blue.height / 2, red.y + red.height / 2, 1e-9);
+  EXPECT_NEAR(blue.y + blue.height, red.y + red.height, 1e-9);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace piblocks {
@@ -59,6 +60,29 @@ TEST(Theme, PatternsTellBlocksApartWhereColoursMayNot) {
   for (const Theme theme : {Theme::print, Theme::colorblind}) {
     const Palette palette = palette_of(theme);
     EXPECT_NE(palette.red.bars, palette.blue.bars) << exact_text(theme);
+  }
+}
+
+/// In degrees, as in HSV; nothing if the colour is nearly grey.
+std::optional<double> hue_of(const Color& color) {
+  const double high = std::max({color.red, color.green, color.blue});
+  const double low = std::min({color.red, color.green, color.blue});
+  if (high - low < 0.3 * high) return std::nullopt;
+  const auto sixth = [&](double a, double b) { return 60 * (a - b) / (high - low); };
+  if (high == color.red) return sixth(color.green, color.blue);
+  if (high == color.green) return 120 + sixth(color.blue, color.red);
+  return 240 + sixth(color.red, color.green);
+}
+
+TEST(Theme, BlocksAreCalledByColoursThatTheyHave) {
+  for (const Theme theme : kThemes) {
+    SCOPED_TRACE(exact_text(theme));
+    const Palette palette = palette_of(theme);
+    const auto red = hue_of(palette.red.fill);
+    const auto blue = hue_of(palette.blue.fill);
+    const bool are_red_and_blue = red && std::abs(*red) < 15 && blue && std::abs(*blue - 220) < 25;
+    EXPECT_EQ(palette.red.name, std::string(are_red_and_blue ? "red" : "right"));
+    EXPECT_EQ(palette.blue.name, std::string(are_red_and_blue ? "blue" : "left"));
   }
 }
 

@@ -33,16 +33,19 @@ ReadOut energy_read_out(const Setting& setting) {
   };
   const Rational sum = energy(system.blue) + energy(system.red);
   const Scale scale = scale_of(sum);
-  const auto text = [scale](double red, double blue) {
-    return fmt::format("Energy{}: red {} + blue {} = {}", scale.unit,
-                       fixed_text(red, scale.decimals), fixed_text(blue, scale.decimals),
+  const Palette& palette = setting.palette;
+  const auto text = [scale, red_name = palette.red.name, blue_name = palette.blue.name](
+                        double red, double blue) {
+    return fmt::format("Energy{}: {} {} + {} {} = {}", scale.unit, red_name,
+                       fixed_text(red, scale.decimals), blue_name, fixed_text(blue, scale.decimals),
                        fixed_text(scale.sum, scale.decimals));
   };
-  // Red's velocity if it had all the energy: masses may be beyond a double.
-  const double fastest = root_of(2 * sum / system.red.mass);
-  return {text(scale.sum, scale.sum),
+  // Red's velocity if it had all the energy. It may be beyond a double where red's velocity is not.
+  const mpf_class fastest = wide_root_of(2 * sum / system.red.mass);
+  return {"energy", text(scale.sum, scale.sum),
           [=](const Shown& shown) {
-            const double share = fastest > 0 ? shown.state.red.velocity / fastest : 0;
+            const double share =
+                fastest > 0 ? mpf_class(shown.state.red.velocity / fastest).get_d() : 0;
             const double red = scale.sum * std::min(1.0, share * share);
             return text(red, scale.sum - red);
           },

@@ -23,23 +23,27 @@ ReadOut momentum_read_out(const Setting& setting) {
   const bool is_plain = most.exponent >= -2 && most.exponent < kDigits;
   const int decimals = is_plain ? kDigits - 1 - static_cast<int>(most.exponent) : kDigits - 1;
   const std::string power = is_plain ? "" : " ×10" + superscript(most.exponent);
+  const char* const red_name = setting.palette.red.name;
+  const char* const blue_name = setting.palette.blue.name;
   const auto text = [=](double red, double blue) {
-    return fmt::format("Momentum{}: red {}, blue {}, sum {}", power, fixed_text(red, decimals),
-                       fixed_text(blue, decimals), fixed_text(red + blue, decimals));
+    return fmt::format("Momentum{}: {} {}, {} {}, sum {}", power, red_name,
+                       fixed_text(red, decimals), blue_name, fixed_text(blue, decimals),
+                       fixed_text(red + blue, decimals));
   };
 
   const double largest =
       most.mantissa * (is_plain ? std::pow(10, static_cast<double>(most.exponent)) : 1);
-  // In parts of the largest: masses may be beyond a double.
-  const auto factor = [&](const Block& block) {
-    return most_squared > 0 ? largest * root_of(block.mass * block.mass / most_squared) : 0;
+  // In parts of the largest: masses may be beyond a double, and so may what a velocity of 1 gives.
+  const auto factor = [&](const Block& block) -> mpf_class {
+    if (most_squared == 0) return 0;
+    return largest * wide_root_of(block.mass * block.mass / most_squared);
   };
-  const double red_factor = factor(system.red);
-  const double blue_factor = factor(system.blue);
-  return {text(-largest, -largest),
+  const mpf_class red_factor = factor(system.red);
+  const mpf_class blue_factor = factor(system.blue);
+  return {"momentum", text(-largest, -largest),
           [=](const Shown& shown) {
-            return text(red_factor * shown.state.red.velocity,
-                        blue_factor * shown.state.blue.velocity);
+            return text(mpf_class(red_factor * shown.state.red.velocity).get_d(),
+                        mpf_class(blue_factor * shown.state.blue.velocity).get_d());
           },
           setting.palette.text};
 }

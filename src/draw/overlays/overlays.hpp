@@ -26,6 +26,7 @@ std::unique_ptr<PicturePart> ruler(const Setting& setting);
 
 /// A short text that changes with what is shown, beside others in a row.
 struct ReadOut {
+  const char* name;                               ///< in messages
   std::string widest;                             ///< what takes most room
   std::function<std::string(const Shown&)> text;  ///< empty where there is nothing to say
   Color color;
@@ -34,6 +35,8 @@ struct ReadOut {
 ReadOut time_read_out(const Setting& setting);
 ReadOut energy_read_out(const Setting& setting);
 ReadOut momentum_read_out(const Setting& setting);
+/// Whether slower_read_out() has anything to say.
+bool has_slow_motion(const Pacing& pacing);
 /// "10× slower".
 ReadOut slower_read_out(const Setting& setting);
 

@@ -33,13 +33,12 @@ ReadOutRows::ReadOutRows(std::vector<ReadOut> read_outs, const Rectangle& area, 
     text_px_ = std::min(text_px_, text_px * area.width / widths.back());
   }
   if (text_px_ < kLeastText_px) {
-    throw UsageError(fmt::format(
-        "show.overlays: '{}' cannot be read in {:.0f} pixels; leave it out, or make the "
-        "frame wider",
-        std::ranges::max(read_outs, {},
-                         [&](const ReadOut& read_out) { return font.width_em(read_out.widest); })
-            .widest,
-        area.width));
+    const ReadOut& widest = std::ranges::max(
+        read_outs, {}, [&](const ReadOut& read_out) { return font.width_em(read_out.widest); });
+    throw UsageError(
+        fmt::format("show.overlays: '{}' cannot be read in {:.0f} pixels; leave it out, or make "
+                    "the frame wider",
+                    widest.name, area.width));
   }
   for (double& width : widths) width *= text_px_ / text_px;
   const double gap = kGap * text_px_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "draw/frame_plan.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/ticks.hpp"
@@ -16,9 +17,22 @@ constexpr double kAxis = 0.25;
 constexpr double kTick = 0.14;
 constexpr double kBaseline = 0.82;
 constexpr double kTextSize = 0.44;
+constexpr double kLeastDown = 0.1;
 constexpr double kLeastRoom_px = 16;
+/// With fewer, nothing can be measured.
+constexpr int kLeastFigures = 2;
+// In ems.
+constexpr double kFigure_em = 2 * kHalfFigure_em;
+constexpr double kTick_em = 0.45;
+constexpr double kBelowTick_em = 0.3;
+constexpr double kBelowWall_em = 0.15;
+constexpr double kBesideWall_em = 0.25;
+constexpr double kBesideEdge_em = 0.1;
+/// Of the type that would fill the room below the wall; and rather than be set smaller than so much
+/// of the usual type, figures stand beside the wall.
+constexpr double kFitting = 0.95;
+constexpr double kLeastShrink = 0.7;
 constexpr double kLeastGap_em = 1.0;  // between figures
-constexpr double kAside_em = 0.25;    // from the wall and the edge of the frame
 
 /// So far apart that their figures do not touch.
 Ticks spaced_ticks(double low, double high, double em, const Font& font) {
@@ -43,9 +57,8 @@ struct Room {
 
 /// @throws UsageError if there is none below the blocks.
 Room room_for(const Setting& setting) {
-  const BlockSystem& system = setting.scene.system;
   const Layout& layout = setting.stage;
-  const double foot = -to_double(std::max(system.blue.width, system.red.width)) / 2;
+  const double foot = base_of(setting.scene.system);
   const double height = (foot - to_double(setting.scene.view.y.low)) * layout.scale +
                         std::min(layout.below_px, setting.text_px);
   if (height >= kLeastRoom_px) return {layout.at(0, foot).y, height};
@@ -55,35 +68,68 @@ Room room_for(const Setting& setting) {
                   kLeastRoom_px, std::max(0.0, height)));
 }
 
+/// Heights of the ruler, in pixels from the frame's top, and its type.
+struct Rows {
+  double axis;
+  double tick_end;
+  double baseline;
+  double size_px;
+  bool are_below_wall;
+};
+
+/// Figures below the wall's foot if there is room, so that the one at its face can be centred
+/// there, and otherwise in the room below the blocks.
+Rows rows_of(const Setting& setting, const Room& room) {
+  const Layout& layout = setting.stage;
+  const double usual_px = std::min(kTextSize * room.height, setting.text_px);
+  const double fitting_px = (layout.below_px - layout.line_px) / (kBelowWall_em + kFigure_em);
+  const double size_px = std::min(usual_px, kFitting * fitting_px);
+  const double foot = layout.at(0, to_double(setting.scene.view.y.low)).y;
+  const double baseline = foot + layout.line_px + (kBelowWall_em + kFigure_em) * size_px;
+  const double tick_end = baseline - (kFigure_em + kBelowTick_em) * size_px;
+  const double axis = std::round(tick_end - kTick_em * size_px);
+  const double least_px = std::max(kLeastShrink * usual_px, std::min(usual_px, kLeastText_px));
+  if (size_px >= least_px && axis > room.at(kLeastDown)) {
+    return {axis, tick_end, baseline, size_px, true};
+  }
+  const double above = std::round(room.at(kAxis));
+  return {above, above + kTick * room.height, above + (kBaseline - kAxis) * room.height, usual_px,
+          false};
+}
+
 class Ruler final : public PicturePart {
  public:
   explicit Ruler(const Setting& setting) {
     const Layout& layout = setting.stage;
     const Room room = room_for(setting);
-    const double size_px = std::min(kTextSize * room.height, setting.text_px);
+    const Rows rows = rows_of(setting, room);
+    const double size_px = rows.size_px;
     const double left =
         to_double(std::max(setting.scene.view.x.low, setting.scene.system.wall_face));
     const double right = to_double(setting.scene.view.x.high);
-    const double axis = std::round(room.at(kAxis));
     const Stroke stroke{setting.palette.muted, setting.line_px};
-    add_line({layout.at(left, 0).x, axis}, {layout.at(right, 0).x, axis}, stroke);
-    // The wall reaches down to the figures: the one at its face stands beside it.
+    add_line({layout.at(left, 0).x, rows.axis}, {layout.at(right, 0).x, rows.axis}, stroke);
     const double wall_px = layout.at(to_double(setting.scene.system.wall_face), 0).x;
-    const double first_px = wall_px + kAside_em * size_px;
-    const double end_px = setting.scene.view.width_px - kAside_em * size_px;
+    const double wall_end_px = rows.are_below_wall ? 0 : wall_px + kBesideWall_em * size_px;
+    const double first_px = std::max(kBesideEdge_em * size_px, wall_end_px);
+    const double end_px = setting.scene.view.width_px - kBesideEdge_em * size_px;
     const Ticks ticks = spaced_ticks(left, right, size_px / layout.scale, setting.font);
+    int figures = 0;
     for (const double value : ticks.values) {
       const double x = layout.at(value, 0).x;
-      add_line({x, axis}, {x, axis + kTick * room.height}, stroke);
+      add_line({x, rows.axis}, {x, rows.tick_end}, stroke);
       const std::string text = tick_text(value, ticks.step);
-      const double width_px = setting.font.width_em(text) * size_px;
-      const double left_px = std::max(first_px, std::min(x - width_px / 2, end_px - width_px));
-      items_.emplace_back(TextItem{next_id(),
-                                   {left_px, axis + (kBaseline - kAxis) * room.height},
-                                   text,
-                                   size_px,
-                                   setting.palette.muted});
+      const double half_px = setting.font.width_em(text) * size_px / 2;
+      // A figure beside its mark would name another place.
+      if (x - half_px < first_px || x + half_px > end_px) continue;
+      ++figures;
+      items_.emplace_back(
+          TextItem{next_id(), {x - half_px, rows.baseline}, text, size_px, setting.palette.muted});
     }
+    if (figures >= kLeastFigures) return;
+    throw UsageError(
+        "show.overlays: the ruler has no room for two of its figures; leave out 'ruler', make the "
+        "frame wider, or show another part of the x axis");
   }
 
   void add(const Shown& /*shown*/, std::vector<DrawItem>& items) const override {

@@ -16,10 +16,16 @@ std::string text_of(const Rational& slower) {
 
 }  // namespace
 
+bool has_slow_motion(const Pacing& pacing) {
+  return pacing.automatic_slow_motion || !pacing.slow_motion.empty();
+}
+
 ReadOut slower_read_out(const Setting& setting) {
   const Pacing& pacing = setting.scene.pacing;
-  ReadOut read_out{
-      {}, [](const Shown& shown) { return text_of(shown.slower); }, setting.palette.accent};
+  ReadOut read_out{"slow motion",
+                   {},
+                   [](const Shown& shown) { return text_of(shown.slower); },
+                   setting.palette.accent};
   const auto make_room = [&](const Rational& slower) {
     std::string text = text_of(slower);
     if (setting.font.width_em(text) > setting.font.width_em(read_out.widest)) {

@@ -43,7 +43,7 @@ ReadOut time_read_out(const Setting& setting) {
     const Span span = span_of(setting.scene, setting.log);
     end = std::max(std::abs(to_double(span.from)), std::abs(to_double(span.to)));
   }
-  return {text(-end), [=](const Shown& shown) { return text(to_double(shown.time)); },
+  return {"time", text(-end), [=](const Shown& shown) { return text(to_double(shown.time)); },
           setting.palette.text};
 }
 

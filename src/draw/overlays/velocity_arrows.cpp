@@ -23,19 +23,18 @@ constexpr double kLeastRoom_px = 16;
 /// its own block's centre it never meets the other one.
 constexpr double kLongest = 0.9;
 constexpr double kBetweenFigures_em = 0.5;
-/// So many times red's usual speed has an arrow half as long.
+/// So many times the usual speed has an arrow half as long.
 constexpr double kHalfLength = 2;
 
-/// Red's largest speed if it is the heavier one: all energy its own.
-double usual_speed(const BlockSystem& system) {
-  return std::hypot(root_of(system.blue.mass / system.red.mass) * to_double(system.blue.velocity),
-                    to_double(system.red.velocity));
+/// The heavier block's largest speed: all energy its own. It may be below the range of a double.
+mpf_class usual_speed(const BlockSystem& system) {
+  const Rational twice_energy = system.blue.mass * system.blue.velocity * system.blue.velocity +
+                                system.red.mass * system.red.velocity * system.red.velocity;
+  return wide_root_of(twice_energy / std::max(system.blue.mass, system.red.mass));
 }
 
-/// The blocks' upper edge, in units of the scene.
-double top_of(const BlockSystem& system) {
-  return to_double(std::max(system.blue.width, system.red.width)) / 2;
-}
+/// The larger block's upper edge, in units of the scene.
+double top_of(const BlockSystem& system) { return -base_of(system); }
 
 struct Figure {
   std::string text;
@@ -81,7 +80,7 @@ class VelocityArrows final : public PicturePart {
   double length_px(double velocity) const {
     const double speed = std::abs(velocity);
     if (!(usual_speed_ > 0) || !(speed > 0)) return 0;
-    const double share = 1 / (1 + kHalfLength * usual_speed_ / speed);
+    const double share = 1 / (1 + kHalfLength * mpf_class(usual_speed_ / speed).get_d());
     return std::copysign(share * longest_px_, velocity);
   }
 
@@ -132,7 +131,7 @@ class VelocityArrows final : public PicturePart {
   Layout layout_;
   Palette palette_;
   TextWidths widths_;
-  double usual_speed_;
+  mpf_class usual_speed_;
   double line_px_;
   double top_;
   double room_px_;

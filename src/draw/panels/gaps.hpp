@@ -6,6 +6,7 @@
 #include <piblocks/interpolator.hpp>
 #include <piblocks/scene.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include "draw/number_text.hpp"
@@ -21,18 +22,40 @@ struct PanelGaps {
   explicit PanelGaps(const BlockSystem& system)
       : blue_offset(to_double(system.wall_face + system.blue.width / 2)),
         red_offset(to_double(system.wall_face + system.blue.width + system.red.width / 2)),
-        sigma(root_of(system.blue.mass / system.red.mass)),
-        theta(std::atan(sigma)) {}
+        sine(root_of(system.blue.mass / (system.blue.mass + system.red.mass))),
+        cosine(root_of(system.red.mass / (system.blue.mass + system.red.mass))),
+        theta(std::atan2(sine, cosine)),
+        tangent_(root_magnitude_of(system.blue.mass / system.red.mass)) {}
 
   GapPoint of(const Motion& blue, const Motion& red) const {
     return {blue.position - blue_offset, red.position - red_offset};
   }
   GapPoint of(const BlockState& state) const { return of(state.blue, state.red); }
 
+  /// The wedge's angle, so many times, also where the angle itself is below the range of a double.
+  double angle(const Magnitude& times) const {
+    if (theta > kNarrow) return theta * to_double(times);
+    return to_double(
+        Magnitude{tangent_.mantissa * times.mantissa, tangent_.exponent + times.exponent});
+  }
+  double log10_theta() const {
+    if (theta > kNarrow) return std::log10(theta);
+    return std::log10(tangent_.mantissa) + double(tangent_.exponent);
+  }
+
   double blue_offset;
   double red_offset;
-  double sigma;  ///< sqrt(m_blue/m_red)
-  double theta;  ///< the wedge's angle, atan(sigma)
+  // Of the wedge's angle atan(sqrt(m_blue/m_red)). Sine and cosine are the square roots of the
+  // blocks' shares of the mass: unlike those of their ratio they never leave the range of a double.
+  double sine;
+  double cosine;
+  double theta;  ///< 0 where it is below the range of a double
+
+ private:
+  /// Below this atan(s) is s to a part of s^2/3.
+  static constexpr double kNarrow = 1e-7;
+
+  Magnitude tangent_;
 };
 
 }  // namespace piblocks

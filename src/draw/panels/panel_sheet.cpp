@@ -1,7 +1,11 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "draw/finite.hpp"
 #include "draw/frame_plan.hpp"
 #include "draw/panels/panels.hpp"
 
@@ -30,14 +34,15 @@ PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const Pa
     : palette_(setting.palette),
       font_(&setting.font),
       first_id_(place.first_id),
+      panel_(place.panel),
       text_px_(setting.text_px),
       line_px_(setting.line_px) {
   const Rectangle& whole = place.area;
-  const auto fitting_px = [&](const char* text) {
+  const auto fitting_px = [&](const std::string& text) {
     return std::min(text_px_, whole.width / font_->width_em(text));
   };
   const bool is_full = fitting_px(title.full) >= std::max(kLeastText_px, kLeastShrink * text_px_);
-  const char* const text = is_full ? title.full : title.brief;
+  const std::string& text = is_full ? title.full : title.brief;
   items_.emplace_back(TextItem{next_id(),
                                {whole.x, whole.y + kTitleBaseline * text_px_},
                                text,
@@ -50,6 +55,12 @@ PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const Pa
 }
 
 void PanelSheet::finish() {
+  if (!are_finite(items_)) {
+    throw UsageError(fmt::format(
+        "show.panels: the diagram '{}' needs numbers beyond the range of a double (about 1.8e308); "
+        "leave it out, or use less extreme positions, velocities and times",
+        exact_text(panel_)));
+  }
   item_.plate = std::make_shared<const Plate>(Plate{std::move(items_)});
   font_ = nullptr;
 }

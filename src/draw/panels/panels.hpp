@@ -10,10 +10,11 @@
 
 namespace piblocks {
 
-/// Where a diagram is, and the first of its ids.
+/// Where a diagram is, the first of its ids, and its name for messages.
 struct PanelPlace {
   Rectangle area;
   ItemId first_id = ItemId::panels;
+  Panel panel = Panel::velocity;
 };
 
 /// The state as a point on a circle, and a sector for each collision.
@@ -29,8 +30,8 @@ std::unique_ptr<PicturePart> rate_panel(const Setting& setting, const PanelPlace
 
 /// The brief one is for diagrams too narrow for the full one.
 struct PanelTitle {
-  const char* full;
-  const char* brief;
+  std::string full;
+  std::string brief;
 };
 
 /// What a diagram is made of: items that stay, with ids in the order they are added, and its title.
@@ -58,6 +59,7 @@ class PanelSheet {
   DiskItem dot(std::size_t n, const Point& at, const Color& color) const;
 
   /// All that stays as one item; nothing can be added to it any more.
+  /// @throws UsageError if some of it is beyond the range of numbers.
   void finish();
   const PlateItem& item() const noexcept { return item_; }
 
@@ -69,6 +71,7 @@ class PanelSheet {
   Palette palette_;
   const Font* font_;  ///< of the set-up, which ends with finish()
   ItemId first_id_;
+  Panel panel_;
   double text_px_;
   double line_px_;
   Rectangle inside_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "draw/panels/panels.hpp"
 #include "draw/panels/trajectory.hpp"
@@ -9,7 +10,8 @@
 namespace piblocks {
 namespace {
 
-/// A wedge narrower than this could not be seen: it is drawn as half a right angle then.
+/// A wedge narrower than this could not be seen, nor one that is so near to a right angle: it is
+/// drawn as half a right angle then.
 constexpr double kLeastAngle = 0.2;
 constexpr double kBelow_em = 1.5;
 
@@ -17,7 +19,7 @@ class PositionPanel final : public PicturePart {
  public:
   PositionPanel(const Setting& setting, const PanelPlace& place)
       : gaps_(setting.scene.system),
-        is_true_(gaps_.theta >= kLeastAngle && std::isfinite(gaps_.sigma)),
+        is_true_(std::min(gaps_.theta, std::numbers::pi / 2 - gaps_.theta) >= kLeastAngle),
         sheet_(setting, place,
                {is_true_ ? "Positions √m·x" : "Positions (not to scale)", "Positions"}) {
     const auto [from, to] = span_of(setting.scene, setting.log);
@@ -44,7 +46,7 @@ class PositionPanel final : public PicturePart {
       most_ = std::max({most_, band.from.gaps.y2, band.to.gaps.y2});
   }
 
-  double slope() const { return is_true_ ? gaps_.sigma : 1; }
+  double slope() const { return is_true_ ? gaps_.sine / gaps_.cosine : 1; }
 
   /// The corner is at the lower left.
   void place_wedge() {

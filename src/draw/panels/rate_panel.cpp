@@ -1,40 +1,74 @@
+#include <fmt/format.h>
 #include <piblocks/interpolator.hpp>
+#include <piblocks/schedule.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "draw/number_text.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/panels/time_axis.hpp"
+#include "draw/ticks.hpp"
 
 namespace piblocks {
 namespace {
 
-/// As wide as this a column is seen as a bar.
-constexpr double kColumn_px = 3;
 constexpr double kBetweenTicks_em = 1.8;
-constexpr double kFigures_em = 2.6;  // of room for powers of ten, left of the bars
+constexpr double kTick_em = 0.4;
+constexpr double kBesideTick_em = 0.2;
+/// The span is cut into so many bins or somewhat fewer.
+constexpr int kMostBins = 120;
 
-class RatePanel final : public PicturePart {
- public:
-  RatePanel(const Setting& setting, const PanelPlace& place)
-      : sheet_(setting, place, {"Collisions per unit of time", "Collision rate"}),
-        axis_(setting, sheet_, kFigures_em) {
-    const int columns = axis_.columns(kColumn_px);
-    const Rational width = (axis_.to() - axis_.from()) / columns;
-    std::vector<Rational> rates;
-    Integer before = state_at(setting.log, axis_.from()).count;
-    for (int column = 1; column <= columns; ++column) {
-      const Integer count = state_at(setting.log, axis_.from() + width * column).count;
-      rates.push_back(Rational(count - before) / width);
+/// How often blocks meet each other or the wall in each of equal bins of time. A bin is a round
+/// step long and begins at a multiple of it, so that its rate depends on nothing that is drawn.
+struct Rates {
+  Rates(const CollisionLog& log, const Span& span)
+      : bin(round_step((span.to - span.from) / kMostBins)), first(floor(span.from / bin)) {
+    const Integer end = ceil(span.to / bin);
+    Integer before = state_at(log, first * bin).count;
+    for (Integer k = first + 1; k <= end; k += 1) {
+      const Integer count = state_at(log, k * bin).count;
+      of_bins.push_back(magnitude_of(Rational(count - before) / bin));
       before = count;
     }
     // Rates of one run span many powers of ten: heights are their logarithms, from one collision in
     // the whole span on.
-    low_ = std::floor(std::log10(1 / to_double(axis_.to() - axis_.from())));
-    const Magnitude most = magnitude_of(*std::ranges::max_element(rates));
-    high_ = std::max(low_ + 1, static_cast<double>(most.exponent) + 1);
-    add_bars(rates);
+    low = magnitude_of(1 / (span.to - span.from)).exponent;
+    high = low + 1;
+    for (const Magnitude& rate : of_bins) {
+      if (rate.mantissa > 0) high = std::max(high, rate.exponent + 1);
+    }
+  }
+
+  Rational bin;   ///< length
+  Integer first;  ///< the first one begins at so many of these
+  std::vector<Magnitude> of_bins;
+  // Powers of ten.
+  long low = 0;
+  long high = 1;
+};
+
+PanelTitle title_of(const Rates& rates) {
+  return {fmt::format("Collisions per unit of time, in bins of {}", short_text(rates.bin)),
+          "Collision rate"};
+}
+
+std::string power_text(long exponent) { return "10" + superscript(exponent); }
+
+/// Left of the axis, for powers of ten and their ticks.
+double indent_em(const Rates& rates, const Font& font) {
+  return kTick_em + kBesideTick_em +
+         std::max(font.width_em(power_text(rates.low)), font.width_em(power_text(rates.high)));
+}
+
+class RatePanel final : public PicturePart {
+ public:
+  RatePanel(const Setting& setting, const PanelPlace& place)
+      : rates_(setting.log, span_of(setting.scene, setting.log)),
+        sheet_(setting, place, title_of(rates_)),
+        axis_(setting, sheet_, indent_em(rates_, setting.font)) {
+    add_bars();
     axis_.add_base(sheet_);
     add_powers();
     sheet_.finish();
@@ -48,21 +82,24 @@ class RatePanel final : public PicturePart {
 
  private:
   double y_of(double logarithm) const {
-    const double share = std::clamp((logarithm - low_) / (high_ - low_), 0.0, 1.0);
-    return axis_.bottom() - share * axis_.height();
+    const double share = (logarithm - double(rates_.low)) / double(rates_.high - rates_.low);
+    return axis_.bottom() - std::clamp(share, 0.0, 1.0) * axis_.height();
   }
 
-  void add_bars(const std::vector<Rational>& rates) {
+  void add_bars() {
+    const auto x_of = [&](const Integer& bins) {
+      return std::clamp(axis_.x_of(to_double(bins * rates_.bin)), axis_.left(),
+                        axis_.left() + axis_.width());
+    };
     std::vector<Point> points;
-    const double step = axis_.width() / static_cast<double>(rates.size());
     points.push_back({axis_.left(), axis_.bottom()});
-    for (std::size_t i = 0; i < rates.size(); ++i) {
-      const Magnitude rate = magnitude_of(rates[i]);
-      const double logarithm =
-          rate.mantissa > 0 ? std::log10(rate.mantissa) + static_cast<double>(rate.exponent) : low_;
-      const double x = axis_.left() + step * static_cast<double>(i);
-      points.push_back({x, y_of(logarithm)});
-      points.push_back({x + step, y_of(logarithm)});
+    Integer k = rates_.first;
+    for (const Magnitude& rate : rates_.of_bins) {
+      const double y = rate.mantissa > 0
+                           ? y_of(std::log10(rate.mantissa) + static_cast<double>(rate.exponent))
+                           : axis_.bottom();
+      points.push_back({x_of(k), y});
+      points.push_back({x_of(++k), y});
     }
     points.push_back({axis_.left() + axis_.width(), axis_.bottom()});
     sheet_.path(std::move(points), true, sheet_.palette().shade,
@@ -71,20 +108,20 @@ class RatePanel final : public PicturePart {
 
   void add_powers() {
     const double em = sheet_.text_px();
-    const double fit = axis_.height() / (kBetweenTicks_em * em);
-    const double step = std::max(1.0, std::ceil((high_ - low_) / std::max(1.0, fit)));
-    for (double power = low_ + step; power <= high_; power += step) {
-      const double y = y_of(power);
-      sheet_.line({{axis_.left() - 0.4 * em, y}, {axis_.left(), y}}, sheet_.palette().muted);
-      sheet_.text("10" + superscript(std::lround(power)),
-                  {axis_.left() - kFigures_em * em, y + 0.35 * em}, 0, sheet_.palette().muted);
+    const double fit = std::max(1.0, axis_.height() / (kBetweenTicks_em * em));
+    const long step = std::lround(std::ceil(double(rates_.high - rates_.low) / fit));
+    for (long power = rates_.low + step; power <= rates_.high; power += step) {
+      const double y = y_of(double(power));
+      const double tick = axis_.left() - kTick_em * em;
+      sheet_.line({{tick, y}, {axis_.left(), y}}, sheet_.palette().muted);
+      sheet_.text(power_text(power), {tick - kBesideTick_em * em, y + kHalfFigure_em * em}, 1,
+                  sheet_.palette().muted);
     }
   }
 
+  Rates rates_;
   PanelSheet sheet_;
   TimeAxis axis_;
-  double low_ = 0;
-  double high_ = 1;
 };
 
 }  // namespace

@@ -2,14 +2,20 @@
 // In: a setting and a sheet. Out: places of instants, ticks below, a line that marks the present.
 #pragma once
 
+#include <piblocks/schedule.hpp>
+
+#include <string>
+#include <vector>
+
 #include "draw/panels/panels.hpp"
 
 namespace piblocks {
 
 class TimeAxis {
  public:
-  /// From the scene's beginning to its end.
+  /// From the scene's beginning to its end, with its figures inside the diagram.
   /// @param indent_em  room left of it.
+  /// @throws UsageError if there is no such time, or none that can be told.
   TimeAxis(const Setting& setting, const PanelSheet& sheet, double indent_em);
 
   const Rational& from() const noexcept { return from_; }
@@ -30,11 +36,24 @@ class TimeAxis {
   PathItem cursor(const PanelSheet& sheet, double x) const;
 
  private:
+  TimeAxis(const Span& span, const Font& font, const PanelSheet& sheet, double indent_em);
+
+  struct Figure {
+    double x;
+    std::string text;
+    double width_px;
+  };
+
+  std::vector<Figure> figures_of(const Font& font, double em) const;
+  void set_scale() { scale_ = plot_.width / span_; }
+
   Rational from_;
   Rational to_;
   Rectangle plot_;
   double low_;
-  double scale_;
+  double span_;
+  double scale_ = 1;
+  std::vector<Figure> figures_;  ///< one at each tick; without a text where that has no room
 };
 
 }  // namespace piblocks

@@ -16,14 +16,22 @@ constexpr double kLeastBetween_px = 6;  // between rays, at their ends
 constexpr double kRimStep = 0.05;       // radians
 constexpr double kBelow_em = 1.5;
 
-/// 0, 1, 2, …: of one, ten, a hundred, … rays one is drawn.
-unsigned long stride_exponent(double between_px) {
-  const double exponent = std::ceil(std::log10(kLeastBetween_px / between_px));
+/// 0, 1, 2, …: of one, ten, a hundred, … rays one is drawn, so that their ends are far enough
+/// apart.
+unsigned long stride_exponent(const PanelGaps& gaps, double radius_px) {
+  const double exponent = std::ceil(std::log10(kLeastBetween_px / radius_px) - gaps.log10_theta());
   return static_cast<unsigned long>(std::max(0.0, exponent));
 }
 
 /// By how much a straight line turns around the origin from one of its points to another.
-double angle_between(const Point& a, const Point& b) {
+double angle_between(const Point& from, const Point& to) {
+  // Of length 1: products of long ones would leave the range of a double.
+  const auto direction = [](const Point& point) {
+    const double length = std::hypot(point.x, point.y);
+    return length > 0 ? Point{point.x / length, point.y / length} : Point{};
+  };
+  const Point a = direction(from);
+  const Point b = direction(to);
   return std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
 }
 
@@ -35,9 +43,10 @@ class UnfoldedPanel final : public PicturePart {
       : gaps_(setting.scene.system),
         sheet_(setting, place, {"Unfolded: a straight line", "Unfolded"}) {
     const BlockSystem& system = setting.scene.system;
-    start_ = {to_double(system.blue_gap() + system.blocks_gap()),
-              gaps_.sigma * to_double(system.blue_gap())};
-    velocity_ = {to_double(system.red.velocity), gaps_.sigma * to_double(system.blue.velocity)};
+    start_ = {gaps_.cosine * to_double(system.blue_gap() + system.blocks_gap()),
+              gaps_.sine * to_double(system.blue_gap())};
+    velocity_ = {gaps_.cosine * to_double(system.red.velocity),
+                 gaps_.sine * to_double(system.blue.velocity)};
     const Span span = span_of(setting.scene, setting.log);
     from_ = plane_at(to_double(span.from));
     const Point to = plane_at(to_double(span.to));
@@ -95,8 +104,8 @@ class UnfoldedPanel final : public PicturePart {
   }
 
   void add_rays() {
-    stride_exponent_ = stride_exponent(gaps_.theta * radius_);
-    const double step = std::pow(10, double(stride_exponent_)) * gaps_.theta;
+    stride_exponent_ = stride_exponent(gaps_, radius_);
+    const double step = gaps_.angle({1, static_cast<long>(stride_exponent_)});
     std::vector<Point> rays;
     for (double k = std::ceil(-tilt_ / step); tilt_ + k * step <= std::numbers::pi * (1 + 1e-12);
          ++k) {

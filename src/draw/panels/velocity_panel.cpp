@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,31 +15,42 @@ constexpr double kMargin_em = 0.8;
 /// Lines between sectors begin where they are so far apart.
 constexpr double kLeastApart_px = 4;
 
+PanelTitle title_of(const Palette& palette) {
+  constexpr const char* kBrief = "Velocities √m·v";
+  return {fmt::format("{} ({} →, {} ↑)", kBrief, palette.red.full_name, palette.blue.full_name),
+          kBrief};
+}
+
 /// The velocities as a point of the plane whose distance from the origin never changes. A collision
 /// of the blocks turns it by two wedge angles to below the axis, and the wall mirrors it to above:
 /// on either side sector joins sector, until none fits any more.
 class VelocityPanel final : public PicturePart {
  public:
   VelocityPanel(const Setting& setting, const PanelPlace& place)
-      : sheet_(setting, place, {"Velocities √m·v (red →, blue ↑)", "Velocities √m·v"}),
-        gaps_(setting.scene.system) {
+      : sheet_(setting, place, title_of(setting.palette)), gaps_(setting.scene.system) {
     const BlockSystem& system = setting.scene.system;
-    const Point start = point_of(to_double(system.blue.velocity), to_double(system.red.velocity));
-    speed_ = std::hypot(start.x, start.y);
-    start_angle_ = speed_ > 0 ? std::abs(std::atan2(start.y, start.x)) : 0;
+    const Rational twice_energy = system.blue.mass * system.blue.velocity * system.blue.velocity +
+                                  system.red.mass * system.red.velocity * system.red.velocity;
+    if (twice_energy > 0) {
+      moves_ = true;
+      red_factor_ = wide_root_of(system.red.mass / twice_energy);
+      blue_factor_ = wide_root_of(system.blue.mass / twice_energy);
+      const Point start = point_of(to_double(system.blue.velocity), to_double(system.red.velocity));
+      start_angle_ = std::abs(std::atan2(start.y, start.x));
+    }
     const Rectangle& inside = sheet_.inside();
     const double em = sheet_.text_px();
     centre_ = {inside.x + inside.width / 2, inside.y + inside.height / 2};
     radius_ = std::min(inside.width, inside.height) / 2 - kMargin_em * em;
     place_sectors(setting.log);
     add_axes();
-    if (speed_ > 0) add_rays();
+    if (moves_) add_rays();
     sheet_.finish();
   }
 
   void add(const Shown& shown, std::vector<DrawItem>& items) const override {
     items.emplace_back(sheet_.item());
-    if (!(speed_ > 0)) return;
+    if (!moves_) return;
     const Point velocity = point_of(shown.state.blue.velocity, shown.state.red.velocity);
     // The last point below the axis is as far along as the present one; the last one above it is a
     // collision behind until the wall is met. After the last collision every sector is lit, and the
@@ -47,8 +60,7 @@ class VelocityPanel final : public PicturePart {
     add_lit(angle, below_, 0, items);
     add_lit(velocity.y < 0 && !is_over ? angle + 2 * gaps_.theta : angle, above_, 1, items);
     if (rays_.plate) items.emplace_back(rays_);
-    const Point at{centre_.x + radius_ * velocity.x / speed_,
-                   centre_.y - radius_ * velocity.y / speed_};
+    const Point at{centre_.x + radius_ * velocity.x, centre_.y - radius_ * velocity.y};
     items.emplace_back(PathItem{sheet_.moving(3), std::vector<Point>{centre_, at}, false,
                                 std::nullopt,
                                 Stroke{sheet_.palette().accent, 1.5 * sheet_.line_px()}});
@@ -56,8 +68,10 @@ class VelocityPanel final : public PicturePart {
   }
 
  private:
+  /// On the circle of radius 1.
   Point point_of(double blue_velocity, double red_velocity) const {
-    return {red_velocity, gaps_.sigma * blue_velocity};
+    return {mpf_class(red_factor_ * red_velocity).get_d(),
+            mpf_class(blue_factor_ * blue_velocity).get_d()};
   }
 
   Point on_circle(double radius, double angle) const {
@@ -78,7 +92,7 @@ class VelocityPanel final : public PicturePart {
   };
 
   Side side_of(const Integer& collisions, double sign) const {
-    return {sign, std::min(2 * gaps_.theta * collisions.get_d(), start_angle_)};
+    return {sign, std::min(2 * gaps_.angle(magnitude_of(Rational(collisions))), start_angle_)};
   }
 
   void place_sectors(const CollisionLog& log) {
@@ -130,7 +144,10 @@ class VelocityPanel final : public PicturePart {
 
   PanelSheet sheet_;
   PanelGaps gaps_;
-  double speed_ = 0;
+  bool moves_ = false;
+  // From a velocity to its part of the circle's radius; they may be beyond a double.
+  mpf_class red_factor_;
+  mpf_class blue_factor_;
   double start_angle_ = 0;
   Point centre_;
   double radius_ = 0;

@@ -1,0 +1,159 @@
+// Frames of every size and shape: what a scene shows is either drawn inside the frame or refused by
+// its name.
+#include <gtest/gtest.h>
+#include <piblocks/composition.hpp>
+#include <piblocks/error.hpp>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "draw/font.hpp"
+
+namespace piblocks {
+namespace {
+
+struct Feature {
+  const char* key;
+  const char* text;
+  const char* named;  ///< in a refusal
+};
+
+constexpr std::array kFeatures{Feature{"view.theme", "print", "-"},
+                               Feature{"show.overlays", "digits", "-"},
+                               Feature{"show.overlays", "masses", "mass"},
+                               Feature{"show.overlays", "velocities", "velocities"},
+                               Feature{"show.overlays", "ruler", "ruler"},
+                               Feature{"show.overlays", "time", "'time'"},
+                               Feature{"show.overlays", "energy", "'energy'"},
+                               Feature{"show.overlays", "momentum", "'momentum'"},
+                               Feature{"time.slow-motion", "3:4:10", "slow motion"},
+                               Feature{"show.title", "fi", "title"},
+                               Feature{"show.caption", "fi", "caption"},
+                               Feature{"show.panels", "velocity", "show.panels"},
+                               Feature{"show.panels", "position", "show.panels"},
+                               Feature{"show.panels", "unfolded", "show.panels"},
+                               Feature{"show.panels", "time", "show.panels"},
+                               Feature{"show.panels", "rate", "show.panels"},
+                               Feature{"show.logo", "logo.png", "logo"}};
+
+/// Rounding of sums of lengths.
+constexpr double kSlack_px = 1e-6;
+
+class Checker {
+ public:
+  explicit Checker(const DrawList& list) : list_(list) {}
+
+  void check(const std::vector<DrawItem>& items) {
+    for (const DrawItem& item : items) {
+      std::visit([&](const auto& any) { check_item(any); }, item);
+    }
+  }
+
+  std::string problem;
+
+ private:
+  void check_inside(double left, double top, double right, double bottom, const char* what) {
+    const bool is_inside = left >= -kSlack_px && top >= -kSlack_px &&
+                           right <= list_.width_px + kSlack_px &&
+                           bottom <= list_.height_px + kSlack_px;
+    if (!is_inside) problem += std::string(what) + " leaves the frame; ";
+  }
+  void check_item(const RectangleItem& item) {
+    const Rectangle& r = item.bounds;
+    if (!(r.width >= 0 && r.height >= 0)) problem += "a rectangle of negative size; ";
+    if (item.id == ItemId::wall) {
+      check_inside(r.x, r.y, r.x + r.width, r.y + r.height, "the wall");
+    }
+    if (item.stroke && !(item.stroke->width_px > 0)) problem += "a line without width; ";
+  }
+  void check_item(const TextItem& item) {
+    if (!(item.size_px > 0) || !std::isfinite(item.size_px))
+      problem += item.text + " has no size; ";
+    const double width_px = font_.width_em(item.text) * item.size_px;
+    check_inside(item.origin.x, item.origin.y - 0.73 * item.size_px, item.origin.x + width_px,
+                 item.origin.y, item.text.c_str());
+  }
+  void check_item(const PathItem& item) {
+    if (item.stroke && !(item.stroke->width_px > 0)) problem += "a line without width; ";
+    const Rectangle& r = item.points.bounds();
+    check_inside(r.x, r.y, r.x + r.width, r.y + r.height, "a path");
+  }
+  void check_item(const DiskItem& item) {
+    if (!(item.radius > 0)) problem += "a dot without a radius; ";
+    check_inside(item.centre.x, item.centre.y, item.centre.x, item.centre.y, "a dot");
+  }
+  void check_item(const ImageItem& item) {
+    const Rectangle& r = item.bounds;
+    if (!(r.width > 0 && r.height > 0)) problem += "a picture without size; ";
+    check_inside(r.x, r.y, r.x + r.width, r.y + r.height, "a picture");
+  }
+  void check_item(const PlateItem& item) { check(item.plate->items); }
+  void check_item(const GroupItem& /*item*/) {}
+  void check_item(const ExposedItem& /*item*/) {}
+
+  const DrawList& list_;
+  Font font_;
+};
+
+/// Nothing if the feature is drawn or refused as it should be.
+std::string problem_with(const Feature& feature, int width_px, int height_px, bool& is_drawn) {
+  SceneBuilder builder;
+  builder.set_mass_ratio("test", 100);
+  builder.set("test", "view.size", std::to_string(width_px) + "x" + std::to_string(height_px));
+  builder.set("test", feature.key, feature.text);
+  const Scene scene = builder.build();
+  const auto log = make_collision_log(scene.system);
+  const auto logo = std::make_shared<const Image>(Image{3, 2, std::vector<std::uint32_t>(6)});
+  try {
+    const Composition composition(scene, *log, scene.show.logo.empty() ? nullptr : logo);
+    const Rational time(7, 2);
+    const DrawList list = composition.frame({state_at(*log, time), time, 10});
+    Checker checker(list);
+    checker.check(list.items);
+    is_drawn = true;
+    return checker.problem;
+  } catch (const UsageError& error) {
+    const std::string what = error.what();
+    if (what.find('\n') != what.npos) return "more than one line: " + what;
+    return what.find(feature.named) == what.npos ? "nameless refusal: " + what : "";
+  }
+}
+
+void expect_all(const std::vector<int>& widths, const std::vector<int>& heights) {
+  for (const Feature& feature : kFeatures) {
+    for (const int width : widths) {
+      for (const int height : heights) {
+        bool is_drawn = false;
+        EXPECT_EQ(problem_with(feature, width, height, is_drawn), "")
+            << feature.text << " in " << width << 'x' << height;
+      }
+    }
+  }
+}
+
+TEST(SmallFrames, ShowOrRefuse) {
+  const std::vector<int> sides{1, 2, 3, 4, 7, 8, 11, 12, 13, 16, 21, 27, 32, 41, 53, 64};
+  expect_all(sides, sides);
+}
+
+TEST(SmallFrames, ThinFramesShowOrRefuse) {
+  const std::vector<int> thin{1, 2, 8, 12, 30, 90, 120, 150};
+  const std::vector<int> longest{1000, 4000, 16000};
+  expect_all(thin, longest);
+  expect_all(longest, thin);
+}
+
+TEST(SmallFrames, EverythingIsDrawnWhereThereIsRoom) {
+  for (const Feature& feature : kFeatures) {
+    for (const auto& [width, height] : {std::pair{640, 360}, {360, 640}, {1600, 400}}) {
+      bool is_drawn = false;
+      EXPECT_EQ(problem_with(feature, width, height, is_drawn), "");
+      EXPECT_TRUE(is_drawn) << feature.text << " in " << width << 'x' << height;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace piblocks
