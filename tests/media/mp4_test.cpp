@@ -168,6 +168,25 @@ TEST_F(Mp4Test, TakesUnusualFrameRates) {
   }
 }
 
+/// libavformat keeps in 31 bits how many units of time a frame lasts.
+TEST_F(Mp4Test, AFrameLastsAsLongAsTheFileCanSay) {
+  for (const long numerator : {1L, 3L, 7L, 999L, 10'000L}) {
+    long doubled = 1;
+    while (numerator * doubled < 10'000) doubled *= 2;
+    const long longest = ((1L << 31) - 2) / doubled;
+    VideoFormat format = {.width_px = 16, .height_px = 16};
+    format.frame_rate = Rational(numerator, longest);
+    format.frame_rate.canonicalize();
+    const DecodedVideo video = written_and_read({}, 3, format);
+    ASSERT_EQ(video.frames.size(), 3u) << numerator;
+    EXPECT_EQ(video.frames[2].time_s, 2 / format.frame_rate) << numerator;
+  }
+  EXPECT_THROW(
+      set_up_output(folder_ / "out.mp4",
+                    {.width_px = 16, .height_px = 16, .frame_rate = Rational(1, 131072)}, {}),
+      UsageError);
+}
+
 TEST_F(Mp4Test, BetterQualityTakesMoreBytes) {
   written_and_read({.crf = 12}, 30);
   const std::size_t good = file_contents(folder_ / "out.mp4").size();
