@@ -34,15 +34,15 @@ Picture<std::uint64_t> picture_of(const DeepImage& image) {
           image.height_px, kBytes * image.width_px, image.max_level};
 }
 
-/// Red, green, blue and alpha, or what is in their places, by how often their width they are
-/// shifted.
-constexpr std::array kPlaces = {2, 1, 0, 3};
+/// Where red, green, blue and alpha are in a pixel, or what is in their places.
+template <typename Word>
+constexpr std::array kShifts = {sizeof(Word) * 4, sizeof(Word) * 2, std::size_t{0},
+                                sizeof(Word) * 6};
 
 template <typename Word>
 int level(Word word, std::size_t channel) {
-  constexpr int kBits = sizeof(Word) * 2;
-  constexpr Word kMask = (Word{1} << kBits) - 1;
-  return static_cast<int>((word >> (kBits * kPlaces[channel])) & kMask);
+  constexpr Word kMask = (Word{1} << sizeof(Word) * 2) - 1;
+  return static_cast<int>((word >> kShifts<Word>[channel]) & kMask);
 }
 
 template <typename Word>
@@ -110,7 +110,7 @@ class Comparison {
  private:
   void compare_pixel(Word a, Word b, int x, int y) {
     int largest = 0;
-    for (std::size_t channel = 0; channel < kPlaces.size(); ++channel) {
+    for (std::size_t channel = 0; channel < kShifts<Word>.size(); ++channel) {
       const int d = delta(a, b, channel);
       if (d > 0 && result_.largest_delta == 0) {
         result_.first = {x, y, static_cast<int>(channel)};
@@ -181,7 +181,7 @@ std::vector<std::uint8_t> deltas_of(const Picture<Word>& reference, const Pictur
   std::vector<std::uint8_t> deltas(width * static_cast<std::size_t>(reference.height_px));
   for_each_difference(reference, actual, Mask(masks), [&](Word a, Word b, int x, int y) {
     int largest = 0;
-    for (std::size_t channel = 0; channel < kPlaces.size(); ++channel) {
+    for (std::size_t channel = 0; channel < kShifts<Word>.size(); ++channel) {
       largest = std::max(largest, delta(a, b, channel));
     }
     deltas[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =

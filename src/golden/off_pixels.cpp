@@ -23,7 +23,11 @@ void OffPixels::find_densest(int side_px, Difference& result) const {
   std::vector<int> columns(static_cast<std::size_t>(width_px_));
   const auto add_row = [&](int y, int sign) {
     if (y < top_ || y > bottom_) return;
-    for (int x = 0; x < width_px_; ++x) columns[std::size_t(x)] += sign * is_off_[index(x, y)];
+    // Local copies: the compiler has to load members again after every write to a column.
+    const std::uint8_t* const row = is_off_.data() + index(0, y);
+    int* const column = columns.data();
+    const int count = width_px_;
+    for (int x = 0; x < count; ++x) column[x] += sign * row[x];
   };
   for (int y = 0; y < height; ++y) add_row(y, 1);
   for (int y = 0;; ++y) {
@@ -36,13 +40,15 @@ void OffPixels::find_densest(int side_px, Difference& result) const {
 
 void OffPixels::look_along(const std::vector<int>& columns, PixelRect window,
                            Difference& result) const {
-  std::int64_t sum = 0;
+  const int width = window.width_px;
+  const int* const column = columns.data();
+  int sum = 0;
   for (int x = 0; x < width_px_; ++x) {
-    sum += columns[std::size_t(x)];
-    if (x >= window.width_px) sum -= columns[std::size_t(x - window.width_px)];
-    if (x + 1 < window.width_px || sum <= result.densest_off) continue;
+    sum += column[x];
+    if (x >= width) sum -= column[x - width];
+    if (x + 1 < width || sum <= result.densest_off) continue;
     result.densest_off = sum;
-    window.x_px = x + 1 - window.width_px;
+    window.x_px = x + 1 - width;
     result.densest = window;
   }
 }
