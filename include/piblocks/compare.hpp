@@ -3,11 +3,13 @@
 // much, and where: enough to find one wrong digit in a frame of 4K.
 #pragma once
 
+#include <piblocks/exact.hpp>
 #include <piblocks/image.hpp>
 
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace piblocks {
 
@@ -18,17 +20,19 @@ struct Window {
 };
 
 /// What is accepted: all of it has to hold. The default accepts nothing but equality.
+/// A delta of 255 is the full range of a sample at any depth, so that one tolerance means the same
+/// for 8 bits, where deltas are whole numbers, and for more, where one level is a fraction.
 struct Tolerance {
-  int max_delta = 0;            ///< a pixel is off if one of its samples differs by more, 0 … 255
+  Rational max_delta = 0;       ///< a pixel is off if one of its samples differs by more, 0 … 255
   std::int64_t max_pixels = 0;  ///< that are off in the whole image
-  int hard_delta = 255;         ///< no sample of any pixel may differ by more, 0 … 255
+  Rational hard_delta = 255;    ///< no sample of any pixel may differ by more, 0 … 255
   std::optional<Window> window = {};  ///< bounds the pixels that are off in one place
 
   /// Whether anything but equality may be accepted.
-  bool is_exact() const noexcept { return max_delta == 0 && max_pixels == 0; }
+  bool is_exact() const { return max_delta == 0 && max_pixels == 0; }
 };
 
-/// A sample: 0 to 3 are the bytes of 0xAARRGGBB from red to alpha, or of whatever else they hold.
+/// A sample: channels 0 to 3 are red, green, blue and alpha, or whatever else is in their places.
 struct SamplePlace {
   int x_px = 0;
   int y_px = 0;
@@ -40,8 +44,9 @@ struct SamplePlace {
 struct Difference {
   std::int64_t different_pixels = 0;  ///< in which any sample differs
   std::int64_t off_pixels = 0;        ///< of these, by more than the tolerance's max_delta
-  int largest_delta = 0;
-  SamplePlace first = {};  ///< that differs, row by row; of no meaning if none does
+  int largest_delta = 0;              ///< in levels of the samples
+  int max_level = 255;                ///< of the samples: a delta of 255 is so many levels
+  SamplePlace first = {};             ///< that differs, row by row; of no meaning if none does
   PixelRect densest = {};  ///< the first of the places of the window with the most pixels off
   std::int64_t densest_off = 0;
   bool is_accepted = true;
@@ -49,10 +54,25 @@ struct Difference {
   bool is_equal() const noexcept { return different_pixels == 0; }
 };
 
-/// Compares all four bytes of every pixel that is in none of the masks. Without a window in the
+/// Compares all four samples of every pixel that is in none of the masks. Without a window in the
 /// tolerance, the densest of 16x16 pixels is looked for.
 /// @throws UsageError if the images are not of one size, or the tolerance is out of range.
 Difference compare(const ImageView& reference, const ImageView& actual,
                    const Tolerance& tolerance = {}, std::span<const PixelRect> masks = {});
+
+/// The same for deeper samples.
+/// @throws UsageError also if the images differ in max_level.
+Difference compare(const DeepImage& reference, const DeepImage& actual,
+                   const Tolerance& tolerance = {}, std::span<const PixelRect> masks = {});
+
+/// The largest delta of each pixel, row by row: 255 for the full range, rounded up, so that 0 means
+/// that the pixel is equal or in one of the masks.
+/// @throws UsageError if the images are not of one size.
+std::vector<std::uint8_t> pixel_deltas(const Image& reference, const Image& actual,
+                                       std::span<const PixelRect> masks = {});
+/// The same for deeper samples.
+/// @throws UsageError also if the images differ in max_level.
+std::vector<std::uint8_t> pixel_deltas(const DeepImage& reference, const DeepImage& actual,
+                                       std::span<const PixelRect> masks = {});
 
 }  // namespace piblocks

@@ -36,6 +36,8 @@ struct FrameComparison {
   /// The pictures as they are shown; empty functions where only hashes are known.
   std::function<Image()> reference;
   std::function<Image()> actual;
+  /// What pixel_deltas() returns for the samples that were compared.
+  std::function<std::vector<std::uint8_t>()> deltas;
 
   bool is_equal() const noexcept { return difference ? difference->is_equal() : is_accepted; }
 };
@@ -44,7 +46,7 @@ enum class Verdict { equal, accepted, different, mismatch };
 
 struct ComparisonResult {
   Verdict verdict = Verdict::equal;
-  std::string mismatch;               ///< what does not fit: sizes, numbers of frames
+  std::string mismatch;               ///< what does not fit: sizes, numbers of frames, rotation
   std::int64_t frames = 0;            ///< that were compared
   std::int64_t different_frames = 0;  ///< that are not equal, accepted or not
   std::int64_t refused_frames = 0;    ///< that are not accepted

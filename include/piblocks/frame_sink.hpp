@@ -25,9 +25,11 @@ struct VideoFormat {
 
 /// What may be said to a video encoder; unset means the measured default.
 struct EncoderSettings {
-  std::optional<double> crf = {};  ///< constant rate factor, 0 (best) … 51; whole, … 63 for WebM
+  /// Constant rate factor, 1 (best) … 51; for WebM whole, 0 … 63.
+  std::optional<double> crf = {};
   std::optional<std::string> preset = {};  ///< the encoder's own name for a speed
-  /// libavcodec's name of the encoder; or "damage", by which nothing but what changes is coded.
+  /// An encoder that h264_encoders(), webm_encoders() or prores_encoders() names; of these "damage"
+  /// is the one by which nothing but what changes is coded.
   std::optional<std::string> encoder = {};
 };
 

@@ -40,6 +40,14 @@ struct Image {
   }
 };
 
+/// The same for samples of more than 8 bits: words 0xAAAARRRRGGGGBBBB.
+struct DeepImage {
+  int width_px = 0;
+  int height_px = 0;
+  int max_level = 65535;                  ///< of every sample, such as 1023 for 10 bits
+  std::vector<std::uint64_t> words = {};  ///< row by row
+};
+
 /// A rectangle of whole pixels, from its top left corner.
 struct PixelRect {
   int x_px = 0;

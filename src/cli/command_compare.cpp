@@ -31,8 +31,10 @@ struct CompareOptions {
   const CLI::Option* quiet;
 };
 
-int parse_level(const std::string& text) {
-  return static_cast<int>(parse_whole_number(text, 0, Integer(255)).get_si());
+Rational parse_delta(const std::string& text) {
+  Rational delta = parse_rational(text);
+  if (delta < 0 || delta > 255) throw UsageError("must be a number from 0 to 255");
+  return delta;
 }
 
 std::int64_t parse_pixels(const std::string& text) {
@@ -65,8 +67,8 @@ PixelRect parse_mask(const std::string& text) {
 
 Tolerance tolerance_of(const CompareOptions& options) {
   Tolerance tolerance;
-  tolerance.max_delta = value_of(*options.max_delta, parse_level).value_or(0);
-  tolerance.hard_delta = value_of(*options.hard_delta, parse_level).value_or(255);
+  tolerance.max_delta = value_of(*options.max_delta, parse_delta).value_or(0);
+  tolerance.hard_delta = value_of(*options.hard_delta, parse_delta).value_or(255);
   tolerance.window = value_of(*options.max_window, parse_window);
   // Who bounds the pixels of any place need not bound those of the whole frame.
   const std::int64_t otherwise = tolerance.window ? kMaxFrame_px : 0;
@@ -179,7 +181,9 @@ CompareOptions add_options(CLI::App& command) {
                 "What is expected: a PNG file, a folder of them, FRAMES/%06d.png,\n"
                 "a video, or hashes (*.framehash)"),
           input("ACTUAL", "What is to be judged: the same; a video may be compared with pictures"),
-          option("--max-delta", "D", "Accept samples that differ by up to D, 0 to 255"),
+          option("--max-delta", "D",
+                 "Accept samples that differ by up to D, where 255 is the full\n"
+                 "range at any depth: 0.25 is one level of 10 bits"),
           option("--max-pixels", "N", "Accept up to N pixels of a frame that differ by more"),
           option("--hard-delta", "D", "Accept no sample at all that differs by more than D"),
           option("--max-window", "N:K", "Accept up to K such pixels in any square of NxN"),
@@ -201,8 +205,9 @@ void add_compare(CLI::App& app) {
   const CompareOptions options = add_options(*command);
   command->footer(
       "Every sample has to be equal unless a tolerance is given; of several, all have to hold.\n"
-      "Exit codes: 0 equal or accepted, 1 different, 2 wrong usage, 3 no reference, 4 sizes or\n"
-      "numbers of frames differ, 5 cannot be read.\n\n"
+      "Samples are compared as they are stored, alpha too, at up to 16 bits.\n"
+      "Exit codes: 0 equal or accepted, 1 different, 2 wrong usage, 3 no reference, 4 sizes,\n"
+      "numbers of frames or the way they are shown differ, 5 cannot be read.\n\n"
       "Examples:\n"
       "  piblocks compare expected.png actual.png --diff differences\n"
       "  piblocks compare golden/%06d.png frames/%06d.png --report report.html\n"

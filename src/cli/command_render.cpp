@@ -148,8 +148,8 @@ RenderOptions add_options(CLI::App& command) {
   scene.add_exposure();
   scene.add_timing();
   scene.add_sound();
-  const CLI::Option& crf =
-      add_value_option(command, "--crf", "Q", "Rate factor, 0 (best) to 51 (worst); 63 for WebM");
+  const CLI::Option& crf = add_value_option(
+      command, "--crf", "Q", "Rate factor, 1 (best) to 51 (worst); 0 to 63 for WebM");
   const CLI::Option& preset =
       add_value_option(command, "--preset", "P", "The encoder's speed preset, such as veryfast");
   const CLI::Option& encoder =

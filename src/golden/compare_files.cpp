@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <future>
 #include <memory>
+#include <utility>
+#include <variant>
 
 #include "golden/frame_source.hpp"
 #include "golden/framehash_file.hpp"
@@ -16,6 +18,33 @@ using OnFrame = std::function<void(const FrameComparison&)>;
 
 bool is_framehash(const std::string& name) {
   return name.ends_with(".framehash") || name.ends_with(".framemd5");
+}
+
+/// Two frames at one depth.
+struct SamplePair {
+  Samples reference;
+  Samples actual;
+
+  template <typename Operation>
+  auto apply(const Operation& operation) const {
+    if (const auto* const a = std::get_if<Image>(&reference)) {
+      return operation(*a, std::get<Image>(actual));
+    }
+    return operation(std::get<DeepImage>(reference), std::get<DeepImage>(actual));
+  }
+};
+
+/// Brings both to the greater depth.
+SamplePair at_one_depth(Samples reference, Samples actual) {
+  const int max_level = std::max(max_level_of(reference), max_level_of(actual));
+  if (max_level == 255) return {std::move(reference), std::move(actual)};
+  return {deepened(std::move(reference), max_level), deepened(std::move(actual), max_level)};
+}
+
+std::string size_of(const Samples& samples) {
+  return std::visit(
+      [](const auto& image) { return fmt::format("{}x{}", image.width_px, image.height_px); },
+      samples);
 }
 
 /// Counts what every frame comes to.
@@ -64,27 +93,51 @@ class PictureComparison {
     return count;
   }
 
-  /// False if the sizes do not fit.
+  /// False if the frames do not fit.
   bool compare_frame(const OnFrame& on_frame) {
     const bool is_exact = reference_->layout() == actual_->layout();
-    const Image a = is_exact ? reference_->samples() : reference_->rgb();
-    const Image b = is_exact ? actual_->samples() : actual_->rgb();
-    if (a.width_px != b.width_px || a.height_px != b.height_px) {
-      result_.mismatch =
-          fmt::format("{} is {}x{} in the reference, {}x{} in the other", reference_->name(),
-                      a.width_px, a.height_px, b.width_px, b.height_px);
+    Samples reference = is_exact ? reference_->samples() : reference_->rgb();
+    Samples actual = is_exact ? actual_->samples() : actual_->rgb();
+    if (is_mismatch("{} is {} in the reference, {} in the other", size_of(reference),
+                    size_of(actual)) ||
+        is_mismatch("{} is shown {} in the reference, {} in the other",
+                    shown(reference_->presentation()), shown(actual_->presentation()))) {
       return false;
     }
+    const SamplePair pair = at_one_depth(std::move(reference), std::move(actual));
     FrameComparison frame;
     frame.number = result_.frames;
     frame.name = reference_->name();
-    frame.is_yuv = is_exact && reference_->layout() != "rgba";
-    frame.difference = compare(a.view(), b.view(), job_.tolerance, job_.masks);
+    frame.is_yuv = is_exact && reference_->layout() != kRgba;
+    frame.difference = pair.apply([this](const auto& a, const auto& b) { return compared(a, b); });
     frame.is_accepted = frame.difference->is_accepted;
-    frame.reference = [&] { return frame.is_yuv ? reference_->rgb() : a; };
-    frame.actual = [&] { return frame.is_yuv ? actual_->rgb() : b; };
+    frame.reference = [&] { return flattened(frame.is_yuv ? reference_->rgb() : pair.reference); };
+    frame.actual = [&] { return flattened(frame.is_yuv ? actual_->rgb() : pair.actual); };
+    frame.deltas = [&] {
+      return pair.apply(
+          [this](const auto& a, const auto& b) { return pixel_deltas(a, b, job_.masks); });
+    };
     take(frame, result_);
     on_frame(frame);
+    return true;
+  }
+
+  Difference compared(const Image& a, const Image& b) const {
+    return compare(a.view(), b.view(), job_.tolerance, job_.masks);
+  }
+  Difference compared(const DeepImage& a, const DeepImage& b) const {
+    return compare(a, b, job_.tolerance, job_.masks);
+  }
+
+  static std::string shown(std::string presentation) {
+    return presentation.empty() ? "as it is stored" : presentation;
+  }
+
+  /// @param text  takes the frame's name and what is true of each side.
+  bool is_mismatch(fmt::format_string<std::string, const std::string&, const std::string&> text,
+                   const std::string& reference, const std::string& actual) {
+    if (reference == actual) return false;
+    result_.mismatch = fmt::format(text, reference_->name(), reference, actual);
     return true;
   }
 
@@ -133,8 +186,14 @@ ComparisonResult compare_hashes(const ComparisonJob& job, const OnFrame& on_fram
 
 ComparisonResult compare_files(const ComparisonJob& job, const OnFrame& on_frame,
                                const std::stop_token& stop) {
-  if (is_framehash(job.reference) || is_framehash(job.actual)) return compare_hashes(job, on_frame);
-  return PictureComparison(job).run(on_frame, stop);
+  const bool has_hashes = is_framehash(job.reference) || is_framehash(job.actual);
+  ComparisonResult result =
+      has_hashes ? compare_hashes(job, on_frame) : PictureComparison(job).run(on_frame, stop);
+  if (result.frames == 0 && result.mismatch.empty()) {
+    throw IoError(fmt::format("compare: there is no frame in '{}' and none in '{}'", job.reference,
+                              job.actual));
+  }
+  return result;
 }
 
 }  // namespace piblocks

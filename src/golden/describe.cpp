@@ -1,6 +1,7 @@
 #include "golden/describe.hpp"
 
 #include <fmt/format.h>
+#include <piblocks/exact.hpp>
 
 #include <array>
 
@@ -17,6 +18,24 @@ std::string pixels(std::int64_t count, const char* what) {
   return fmt::format("{} {} {}", count, count == 1 ? "pixel" : "pixels", what);
 }
 
+/// The digits after the point that keep three, as far as the first that is not 0.
+int decimals_of(const Rational& value) {
+  int decimals = 0;
+  for (Rational scaled = value; scaled < 100 && decimals < 5; scaled *= 10) ++decimals;
+  return decimals;
+}
+
+/// "3 of 255", and for deeper samples "0.250 of 255 (1 of 1023)": rounded up, so that what is
+/// printed, taken as a tolerance, accepts the delta.
+std::string largest_delta(const Difference& d) {
+  if (d.max_level == 255) return fmt::format("{} of 255", d.largest_delta);
+  const Rational delta = Rational(d.largest_delta) * 255 / d.max_level;
+  const int decimals = decimals_of(delta);
+  const Rational unit = power(Rational(10), static_cast<unsigned long>(decimals));
+  return fmt::format("{:.{}f} of 255 ({} of {})", to_double(Rational(ceil(delta * unit)) / unit),
+                     decimals, d.largest_delta, d.max_level);
+}
+
 }  // namespace
 
 std::string describe(const FrameComparison& frame) {
@@ -25,7 +44,7 @@ std::string describe(const FrameComparison& frame) {
   if (d.is_equal()) return "equal";
   std::string text = fmt::format(
       "{}, largest delta {}, first at x={} y={} ({})",
-      pixels(d.different_pixels, d.different_pixels == 1 ? "differs" : "differ"), d.largest_delta,
+      pixels(d.different_pixels, d.different_pixels == 1 ? "differs" : "differ"), largest_delta(d),
       d.first.x_px, d.first.y_px, channel_name(frame, d.first.channel));
   if (d.off_pixels != d.different_pixels) {
     text += fmt::format(", {} beyond the accepted delta", d.off_pixels);

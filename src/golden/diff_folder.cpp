@@ -18,8 +18,8 @@ class DiffFolder final : public Report {
 
   void add(const FrameComparison& frame) override {
     if (frame.is_accepted || !frame.difference || ++pictures_ > kMaxPictures) return;
-    const Image strip =
-        difference_strip(frame.reference(), frame.actual(), frame.difference->densest);
+    const Image strip = difference_strip(frame.reference(), frame.deltas(), frame.actual(),
+                                         frame.difference->densest);
     OutputFile file(folder_ / fmt::format("{:06}.png", frame.number));
     file.write(encode_png(strip.view()));
     file.finish();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 
 namespace piblocks {
 namespace {
@@ -20,12 +19,8 @@ std::uint32_t pale(std::uint32_t pixel) {
   return grey(255 - (255 - mean) / 4);
 }
 
-std::uint32_t mark(std::uint32_t a, std::uint32_t b) {
-  int delta = 0;
-  for (const int shift : {24, 16, 8, 0}) {
-    delta = std::max(delta, std::abs(level(a, shift) - level(b, shift)));
-  }
-  // Even a delta of 1 can be seen.
+/// Even the least delta can be seen.
+std::uint32_t mark(int delta) {
   const auto other = static_cast<std::uint32_t>(160 - 160 * delta / 255);
   return kOpaque | 0xff0000U | other << 8 | other;
 }
@@ -54,16 +49,17 @@ Image beside_each_other(const std::array<Image, 3>& images) {
 
 }  // namespace
 
-Image difference_picture(const Image& reference, const Image& actual) {
+Image difference_picture(const Image& reference, const std::vector<std::uint8_t>& deltas) {
   Image picture{reference.width_px, reference.height_px, {}};
   picture.words.resize(reference.words.size());
   std::ranges::transform(
-      reference.words, actual.words, picture.words.begin(),
-      [](std::uint32_t a, std::uint32_t b) { return a == b ? pale(a) : mark(a, b); });
+      reference.words, deltas, picture.words.begin(),
+      [](std::uint32_t a, std::uint8_t delta) { return delta == 0 ? pale(a) : mark(delta); });
   return picture;
 }
 
-Image difference_strip(const Image& reference, const Image& actual, const PixelRect& focus) {
+Image difference_strip(const Image& reference, const std::vector<std::uint8_t>& deltas,
+                       const Image& actual, const PixelRect& focus) {
   constexpr std::int64_t kLongest_px = (kMaxSide_px - 2 * kGap_px) / 3;
   // Three pictures and the gaps in one frame.
   const std::int64_t most_px = kMaxFrame_px / 3 / reference.height_px - kGap_px;
@@ -72,7 +68,7 @@ Image difference_strip(const Image& reference, const Image& actual, const PixelR
   const int centre = focus.x_px + focus.width_px / 2;
   const int x = std::clamp(centre - width / 2, 0, reference.width_px - width);
   return beside_each_other({part_of(reference, x, width),
-                            part_of(difference_picture(reference, actual), x, width),
+                            part_of(difference_picture(reference, deltas), x, width),
                             part_of(actual, x, width)});
 }
 

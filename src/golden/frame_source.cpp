@@ -76,12 +76,41 @@ std::optional<std::int64_t> first_number(const FramePattern& pattern) {
   return std::nullopt;
 }
 
+/// Whether this is the name of a frame with a greater number.
+bool is_later(const std::string& file, const FramePattern& pattern, std::int64_t number) {
+  constexpr std::size_t kMaxDigits = 18;
+  for (std::size_t begin = 0; begin < file.size(); ++begin) {
+    std::int64_t found = 0;
+    for (std::size_t i = begin; i < file.size() && is_digit(file[i]); ++i) {
+      if (i - begin == kMaxDigits) break;
+      found = 10 * found + (file[i] - '0');
+      if (found > number && pattern.name(found) == file) return true;
+    }
+  }
+  return false;
+}
+
+/// Frames behind a gap would not be compared, and nobody would be told.
+/// @param missing  the first frame that is not there.
+void check_for_gap(const FramePattern& pattern, std::int64_t missing) {
+  const fs::path folder = pattern.folder().empty() ? "." : pattern.folder();
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    if (!is_later(at->path().filename(), pattern, missing)) continue;
+    throw IoError(fmt::format("compare: there is no '{}', but there is '{}' after it",
+                              numbered(pattern, missing).string(), at->path().string()));
+  }
+}
+
 std::vector<fs::path> png_files_of(const std::string& name) {
   const FramePattern pattern(name);
   std::vector<fs::path> paths;
   for (std::int64_t number = first_number(pattern).value_or(0);; ++number) {
     fs::path path = numbered(pattern, number);
-    if (!fs::exists(path)) break;
+    if (!fs::exists(path)) {
+      if (!paths.empty()) check_for_gap(pattern, number);
+      break;
+    }
     paths.push_back(std::move(path));
   }
   if (paths.empty()) throw IoError(fmt::format("compare: there is no file of '{}'", name));
@@ -102,7 +131,7 @@ bool frames_exist(const std::string& name) {
 std::unique_ptr<FrameReader> open_frames(const std::string& name) {
   if (is_pattern(name)) return read_png_files(png_files_of(name));
   if (fs::is_directory(name)) return read_png_files(png_files_in(name));
-  if (name.ends_with(".png")) return read_png_files({name});
+  if (name.ends_with(".png") && !is_animated_png(name)) return read_png_files({name});
   return read_video(name);
 }
 

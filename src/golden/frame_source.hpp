@@ -10,7 +10,7 @@
 namespace piblocks {
 
 /// A PNG file; the PNG files of a folder, in the order of the numbers in their names; those of a
-/// pattern, from number 0 or 1 on; or else a video.
+/// pattern, from number 0 or 1 on; or else a video, which an animated PNG file is too.
 /// @throws IoError, MediaError if it cannot be read; UsageError if the pattern is no good.
 std::unique_ptr<FrameReader> open_frames(const std::string& name);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 
 namespace piblocks {
@@ -15,9 +16,22 @@ namespace {
 /// More than a line of the longest hash has.
 constexpr std::size_t kMaxLine = 4096;
 
-/// Stream, dts, pts, duration, size, hash.
-bool is_frame(const std::string& line) {
-  return std::ranges::count(line, ',') == 5 && line.find_first_of("0123456789") == 0;
+bool is_number(std::string_view text) {
+  if (text.starts_with('-')) text.remove_prefix(1);
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// Stream, dts, pts, duration, size: numbers; and a hash, which is letters and digits.
+bool is_frame(std::string_view line) {
+  constexpr int kNumbers = 5;
+  for (int i = 0; i < kNumbers; ++i) {
+    const std::size_t comma = line.find(',');
+    if (comma == std::string_view::npos || !is_number(line.substr(0, comma))) return false;
+    line.remove_prefix(comma + 1);
+  }
+  return !line.empty() && std::ranges::all_of(line, [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  });
 }
 
 std::string without_blanks(std::string line) {
@@ -36,7 +50,9 @@ FramehashFile read_framehash(const std::string& path) {
   FramehashFile result;
   std::vector<char> line(kMaxLine);
   for (std::size_t number = 1; file.getline(line.data(), kMaxLine); ++number) {
-    const std::string text = without_blanks(line.data());
+    // All of the line: it may have a zero in it. The end of the line counts, where there is one.
+    const auto length = static_cast<std::size_t>(file.gcount()) - (file.eof() ? 0 : 1);
+    const std::string text = without_blanks({line.data(), length});
     if (text.starts_with("#software")) continue;
     const bool is_header = text.empty() || text.front() == '#';
     if (!is_header && !is_frame(text)) {

@@ -91,7 +91,8 @@ std::string pictures_of(const FrameComparison& frame) {
       "<input type=\"range\" value=\"50\" autocomplete=\"off\" "
       "aria-label=\"expected on the left, actual on the right\"></div>\n",
       reference.width_px, reference.height_px, picture(reference, "expected"),
-      picture(actual, "actual"), picture(difference_picture(reference, actual), "difference"));
+      picture(actual, "actual"),
+      picture(difference_picture(reference, frame.deltas()), "difference"));
 }
 
 std::string summary_of(const ComparisonResult& result) {

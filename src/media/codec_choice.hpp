@@ -29,7 +29,7 @@ int frames_in_a_second(const Rational& frame_rate);
 /// Whether the encoder has an option of its own with this name.
 bool has_option(const AVCodec& codec, const char* name);
 
-/// H.264, or the video of another encoder that MP4 can hold, in 4:2:0.
+/// H.264 in 4:2:0.
 /// @param usable  names the encoders that may be asked for.
 /// @throws UsageError listing everything that is wrong with the size and the settings.
 CodecChoice h264_choice(const VideoFormat& format, const EncoderSettings& settings,

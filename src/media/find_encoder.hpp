@@ -1,5 +1,5 @@
 // The encoders that the linked libavcodec offers.
-// In: a name, or none. Out: an encoder that takes yuv420p and whose stream MP4 can hold.
+// In: a name, or none. Out: an encoder of H.264 that takes yuv420p.
 #pragma once
 
 #include <functional>
@@ -35,8 +35,8 @@ bool can_be_opened(const AVCodec& codec, const std::function<void(AVCodecContext
 
 /// libavcodec's encoder of that name, or the first of its own. The object is libavcodec's and
 /// lives as long as the program.
-/// @param usable  names those to use instead.
-/// @throws UsageError if there is none, or it does not suit; the message says what to use instead.
+/// @param usable  names those that may be asked for.
+/// @throws UsageError if there is none, or it is not one of these; the message lists them.
 const AVCodec& find_encoder(const std::optional<std::string>& name,
                             std::vector<std::string> (*usable)());
 

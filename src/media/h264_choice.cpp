@@ -8,6 +8,7 @@
 
 #include "media/codec_choice.hpp"
 #include "media/find_encoder.hpp"
+#include "media/h264/level_limits.hpp"
 #include "media/output_request.hpp"
 
 extern "C" {
@@ -28,14 +29,28 @@ constexpr double kX264Crf = 21;
 /// shapes.
 constexpr double kBitsPerPixel = 0.1;
 
+/// Below 1 libx264 encodes without loss, in the profile High 4:4:4 Predictive, which hardly any
+/// player knows.
+constexpr double kMinCrf = 1;
 constexpr double kMaxCrf = 51;
+
+std::string level_problem(const VideoFormat& format) {
+  const Rational& rate = format.frame_rate;
+  const std::string problem = h264::level_problem(format.width_px, format.height_px,
+                                                  rate.get_num().get_si(), rate.get_den().get_si());
+  if (problem.empty()) return {};
+  return fmt::format(
+      "output: H.264 cannot hold this video: {}; make it smaller or slower, or write *.webm, "
+      "*.apng or *.png",
+      problem);
+}
 
 std::string crf_problem(const AVCodec& codec, double crf) {
   if (!has_option(codec, "crf")) {
     return fmt::format("video: encoder '{}' has no crf; leave it out", codec.name);
   }
-  if (crf >= 0 && crf <= kMaxCrf) return {};
-  return fmt::format("video: crf {} is out of range; use 0 (lossless) to {}", crf, kMaxCrf);
+  if (crf >= kMinCrf && crf <= kMaxCrf) return {};
+  return fmt::format("video: crf {} is out of range; use {} (best) to {}", crf, kMinCrf, kMaxCrf);
 }
 
 std::string preset_problem(const AVCodec& codec, const std::string& preset) {
@@ -61,6 +76,7 @@ std::vector<std::string> problems_of(const VideoFormat& format, const EncoderSet
     if (!problem.empty()) problems.push_back(std::move(problem));
   };
   report(odd_size_problem(format, "H.264 in 4:2:0"));
+  report(level_problem(format));
   try {
     codec = &find_encoder(settings.encoder, usable);
     if (settings.crf) report(crf_problem(*codec, *settings.crf));

@@ -8,8 +8,9 @@
 
 namespace piblocks {
 
-/// H.264 (or another encoder's video) in MP4: BT.709 in limited range, converted and tagged.
-/// @throws UsageError if the size is odd, or a setting or the encoder is no good.
+/// H.264 in MP4: BT.709 in limited range, converted and tagged.
+/// @throws UsageError if the size is odd, no level of H.264 allows size and frame rate, a frame
+///         lasts too long, or a setting or the encoder is no good.
 std::unique_ptr<Output> mp4_output(const OutputRequest& request);
 
 /// The same in MOV; or, with alpha, ProRes 4444 of 10 bits, colours as they were before they were

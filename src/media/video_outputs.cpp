@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +20,22 @@ namespace {
 
 /// What it quantises by; src/media/README.md has the measurements.
 constexpr int kQp = 14;
+
+/// libavformat 59 counts time in MP4 and MOV in units of the frame rate's numerator a second,
+/// doubled until there are 10,000, and keeps in 31 bits how many of them a frame lasts (movenc.c).
+/// @throws UsageError if a frame lasts longer.
+void check_duration_of_frame(const Rational& frame_rate) {
+  constexpr int kFewestUnits = 10'000;
+  const Integer longest = std::numeric_limits<std::int32_t>::max() - 1;
+  Integer units_per_s = frame_rate.get_num();
+  while (units_per_s < kFewestUnits) units_per_s *= 2;
+  if (units_per_s / frame_rate <= longest) return;
+  const Integer longest_s = longest / units_per_s;
+  throw UsageError(
+      fmt::format("output: frame rate {} is too low for *.mp4 and *.mov: a frame can last {} s at "
+                  "most; use --fps 1/100000 or more, or write *.webm or *.png",
+                  frame_rate.get_str(), longest_s.get_str()));
+}
 
 /// Those of the encoder whose headers the stream has.
 /// @throws UsageError if something else is said to an encoder of our own.
@@ -109,10 +127,12 @@ class H264Output final : public EncodedOutput {
 }  // namespace
 
 std::unique_ptr<Output> mp4_output(const OutputRequest& request) {
+  check_duration_of_frame(request.format.frame_rate);
   return std::make_unique<H264Output>(request, kMp4);
 }
 
 std::unique_ptr<Output> mov_output(const OutputRequest& request) {
+  check_duration_of_frame(request.format.frame_rate);
   const bool is_prores = request.format.has_alpha || request.settings.encoder == "prores_ks";
   if (!is_prores) return std::make_unique<H264Output>(request, kMov);
   return std::make_unique<EncodedOutput>(request, kMov,

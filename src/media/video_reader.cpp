@@ -3,23 +3,19 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
-#include <algorithm>
-#include <array>
+#include <cmath>
+#include <cstring>
+#include <string_view>
 
 #include "media/av.hpp"
+#include "media/video_samples.hpp"
 
 extern "C" {
-#include <libavutil/pixdesc.h>
-#include <libswscale/swscale.h>
+#include <libavutil/display.h>
 }
 
 namespace piblocks {
 namespace {
-
-struct SwsDeleter {
-  void operator()(SwsContext* context) const noexcept { sws_freeContext(context); }
-};
-using SwsPtr = std::unique_ptr<SwsContext, SwsDeleter>;
 
 AvInputPtr open_input(const std::string& path) {
   AvInputPtr input = open_av_input(path);
@@ -27,8 +23,35 @@ AvInputPtr open_input(const std::string& path) {
   return input;
 }
 
+/// libavformat takes the end of a file that was cut off for the end of the video.
+[[noreturn]] void refuse_cut_file(const std::string& path) {
+  throw MediaError(
+      fmt::format("video: cannot read '{}': it is cut off: it has not all of its frames", path));
+}
+
+/// Refuses a file whose own index says that it goes on behind its end.
+void check_index(AVFormatContext& input, AVStream& stream, const std::string& path) {
+  const std::int64_t size = avio_size(input.pb);
+  const int count = avformat_index_get_entries_count(&stream);
+  for (int i = 0; size > 0 && i < count; ++i) {
+    const AVIndexEntry& entry = *avformat_index_get_entry(&stream, i);
+    if (entry.pos + entry.size > size) refuse_cut_file(path);
+  }
+}
+
+/// libavcodec's own decoders of VP8 and VP9 leave alpha out, which Matroska keeps beside the
+/// pictures.
+const AVCodec* find_decoder(const AVStream& stream) {
+  const AVCodecID codec = stream.codecpar->codec_id;
+  const AVDictionaryEntry* const mode = av_dict_get(stream.metadata, "alpha_mode", nullptr, 0);
+  const bool has_alpha = mode != nullptr && std::string_view(mode->value) == "1";
+  if (has_alpha && codec == AV_CODEC_ID_VP9) return avcodec_find_decoder_by_name("libvpx-vp9");
+  if (has_alpha && codec == AV_CODEC_ID_VP8) return avcodec_find_decoder_by_name("libvpx");
+  return avcodec_find_decoder(codec);
+}
+
 AvCodecContextPtr open_decoder(const AVStream& stream, const std::string& path) {
-  const AVCodec* codec = avcodec_find_decoder(stream.codecpar->codec_id);
+  const AVCodec* codec = find_decoder(stream);
   if (codec == nullptr) {
     throw MediaError(fmt::format("video: cannot decode '{}': no decoder for {}", path,
                                  avcodec_get_name(stream.codecpar->codec_id)));
@@ -42,65 +65,15 @@ AvCodecContextPtr open_decoder(const AVStream& stream, const std::string& path) 
   return context;
 }
 
-const AVPixFmtDescriptor& descriptor_of(const AVFrame& frame) {
-  return *av_pix_fmt_desc_get(static_cast<AVPixelFormat>(frame.format));
-}
-
-/// Planes of luma and chroma with 8 bits a sample.
-bool is_plain_yuv(const AVPixFmtDescriptor& format) {
-  constexpr auto kOther = AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_HWACCEL |
-                          AV_PIX_FMT_FLAG_BITSTREAM | AV_PIX_FMT_FLAG_ALPHA;
-  return format.nb_components == 3 && (format.flags & AV_PIX_FMT_FLAG_PLANAR) != 0 &&
-         (format.flags & kOther) == 0 && format.comp[0].depth == 8;
-}
-
-Image repeated_planes(const AVFrame& frame, const AVPixFmtDescriptor& format) {
-  Image image{frame.width, frame.height, {}};
-  image.words.reserve(static_cast<std::size_t>(frame.width) *
-                      static_cast<std::size_t>(frame.height));
-  for (int y = 0; y < frame.height; ++y) {
-    const auto row = [&](int plane, int line) {
-      return frame.data[plane] + std::ptrdiff_t{line} * frame.linesize[plane];
-    };
-    const std::uint8_t* const luma = row(0, y);
-    const std::uint8_t* const cb = row(1, y >> format.log2_chroma_h);
-    const std::uint8_t* const cr = row(2, y >> format.log2_chroma_h);
-    for (int x = 0; x < frame.width; ++x) {
-      const int at = x >> format.log2_chroma_w;
-      image.words.push_back(0xff000000U | std::uint32_t{luma[x]} << 16 |
-                            std::uint32_t{cb[at]} << 8 | cr[at]);
-    }
-  }
-  return image;
-}
-
-/// What a player assumes where the file does not say.
-int matrix_of(const AVFrame& frame) {
-  if (frame.colorspace != AVCOL_SPC_UNSPECIFIED) return frame.colorspace;
-  constexpr int kHdLines = 720;
-  return frame.height >= kHdLines ? AVCOL_SPC_BT709 : AVCOL_SPC_SMPTE170M;
-}
-
-/// @param sws  of the last picture, used again if it suits this one.
-Image converted_to_rgb(const AVFrame& frame, SwsPtr& sws) {
-  constexpr int kFlags = SWS_BILINEAR | SWS_FULL_CHR_H_INT | SWS_ACCURATE_RND | SWS_BITEXACT;
-  sws.reset(sws_getCachedContext(sws.release(), frame.width, frame.height,
-                                 static_cast<AVPixelFormat>(frame.format), frame.width,
-                                 frame.height, AV_PIX_FMT_BGRA, kFlags, nullptr, nullptr, nullptr));
-  if (!sws) throw MediaError("video: cannot convert the pictures to RGB");
-  const int* const matrix = sws_getCoefficients(matrix_of(frame));
-  constexpr int kOne = 1 << 16;
-  sws_setColorspaceDetails(sws.get(), matrix, frame.color_range == AVCOL_RANGE_JPEG ? 1 : 0, matrix,
-                           1, 0, kOne, kOne);
-  Image image{frame.width, frame.height, {}};
-  image.words.resize(static_cast<std::size_t>(frame.width) *
-                     static_cast<std::size_t>(frame.height));
-  const std::array<std::uint8_t*, 1> data = {reinterpret_cast<std::uint8_t*>(image.words.data())};
-  const std::array<int, 1> stride = {4 * frame.width};
-  check_av_read(
-      sws_scale(sws.get(), frame.data, frame.linesize, 0, frame.height, data.data(), stride.data()),
-      "convert", "picture");
-  return image;
+/// How a display matrix moves the corners of the picture; empty if it leaves them.
+std::string turn_of(const std::int32_t* matrix) {
+  constexpr std::int32_t kOne = 1 << 16;
+  if (matrix[0] == kOne && matrix[1] == 0 && matrix[3] == 0 && matrix[4] == kOne) return {};
+  const bool is_mirrored =
+      std::int64_t{matrix[0]} * matrix[4] - std::int64_t{matrix[1]} * matrix[3] < 0;
+  const double degrees = std::fmod(360 - av_display_rotation_get(matrix), 360);
+  return fmt::format("{}turned clockwise by {:.0f} degrees", is_mirrored ? "mirrored and " : "",
+                     degrees);
 }
 
 class VideoReader final : public FrameReader {
@@ -113,17 +86,15 @@ class VideoReader final : public FrameReader {
                           "find a video in", path)),
         decoder_(open_decoder(*input_->streams[stream_], path)),
         packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")),
-        frame_(own_av<AvFramePtr>(av_frame_alloc(), "frame")) {}
+        frame_(own_av<AvFramePtr>(av_frame_alloc(), "frame")) {
+    check_index(*input_, *input_->streams[stream_], path_);
+  }
 
   bool next() override;
-  std::string layout() const override {
-    return is_plain_yuv(descriptor_of(*frame_)) ? descriptor_of(*frame_).name : "rgba";
-  }
-  Image samples() override {
-    const AVPixFmtDescriptor& format = descriptor_of(*frame_);
-    return is_plain_yuv(format) ? repeated_planes(*frame_, format) : rgb();
-  }
-  Image rgb() override { return converted_to_rgb(*frame_, sws_); }
+  std::string layout() const override { return layout_of(*frame_); }
+  std::string presentation() const override;
+  Samples samples() override { return samples_of(*frame_); }
+  Samples rgb() override { return rgb_of(*frame_, sws_); }
   std::string name() const override { return fmt::format("frame {}", frames_ - 1); }
 
  private:
@@ -148,9 +119,27 @@ bool VideoReader::next() {
       continue;
     }
     check_av_read(code, "decode", path_);
+    check_pixel_format(*frame_, path_);
     ++frames_;
     return true;
   }
+}
+
+std::string VideoReader::presentation() const {
+  AVStream* const stream = input_->streams[stream_];
+  const AVFrameSideData* const own =
+      av_frame_get_side_data(frame_.get(), AV_FRAME_DATA_DISPLAYMATRIX);
+  const std::uint8_t* const matrix =
+      own != nullptr ? own->data
+                     : av_stream_get_side_data(stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+  std::string text =
+      matrix == nullptr ? "" : turn_of(reinterpret_cast<const std::int32_t*>(matrix));
+  const AVRational aspect = av_guess_sample_aspect_ratio(input_.get(), stream, frame_.get());
+  if (aspect.num > 0 && aspect.num != aspect.den) {
+    if (!text.empty()) text += ", ";
+    text += fmt::format("with pixels of {}:{}", aspect.num, aspect.den);
+  }
+  return text;
 }
 
 /// Hands one packet to the decoder, or tells it that there are no more.
@@ -161,6 +150,7 @@ void VideoReader::feed() {
     check_av_read(code, "read", path_);
     const bool is_video = packet_->stream_index == stream_;
     if (is_video) {
+      if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) refuse_cut_file(path_);
       check_av_read(avcodec_send_packet(decoder_.get(), packet_.get()), "decode", path_);
     }
     av_packet_unref(packet_.get());

@@ -141,6 +141,45 @@ TEST(Compare, FindsTheDensestWindow) {
   }
 }
 
+DeepImage deep(int max_level, const std::vector<std::uint64_t>& words) {
+  return {static_cast<int>(words.size()), 1, max_level, words};
+}
+
+TEST(Compare, ADeltaOf255IsTheFullRangeAtAnyDepth) {
+  for (const int max_level : {1023, 4095, 65535}) {
+    const auto full = static_cast<std::uint64_t>(max_level);
+    for (const std::uint64_t levels : {std::uint64_t{1}, full / 255, full / 2, full}) {
+      const DeepImage a = deep(max_level, {0, 0});
+      const DeepImage b = deep(max_level, {0, levels << 32});
+      const Difference found = compare(a, b);
+      EXPECT_EQ(found.different_pixels, 1);
+      EXPECT_EQ(found.largest_delta, static_cast<int>(levels));
+      EXPECT_EQ(found.max_level, max_level);
+      EXPECT_EQ(found.first, (SamplePlace{1, 0, 0}));
+      EXPECT_FALSE(found.is_accepted);
+      const Rational delta = Rational(static_cast<long>(levels)) * 255 / max_level;
+      EXPECT_TRUE(compare(a, b, {.max_delta = delta}).is_accepted);
+      EXPECT_FALSE(compare(a, b, {.max_delta = delta * Rational(999, 1000)}).is_accepted);
+      EXPECT_FALSE(
+          compare(a, b, {.max_pixels = 9, .hard_delta = delta * Rational(999, 1000)}).is_accepted);
+      EXPECT_EQ(pixel_deltas(a, b).at(1), ceil(delta).get_si());
+      EXPECT_EQ(pixel_deltas(a, b).at(0), 0);
+    }
+  }
+}
+
+TEST(Compare, AnyDeltaLeavesAMarkOutsideTheMasks) {
+  const DeepImage a = deep(65535, {5, 5, 5});
+  const DeepImage b = deep(65535, {5, 6, 6});
+  EXPECT_EQ(pixel_deltas(a, b), (std::vector<std::uint8_t>{0, 1, 1}));
+  const std::vector<PixelRect> masks = {{2, 0, 1, 1}};
+  EXPECT_EQ(pixel_deltas(a, b, masks), (std::vector<std::uint8_t>{0, 1, 0}));
+}
+
+TEST(Compare, RefusesImagesOfDifferentDepths) {
+  EXPECT_THROW(compare(deep(1023, {0}), deep(65535, {0})), UsageError);
+}
+
 Image painted(const Scene& scene, const BlockState& state) {
   Canvas canvas(scene.view.width_px, scene.view.height_px);
   canvas.paint(Composition(scene, *make_collision_log(scene.system)).frame({state}));

@@ -23,7 +23,7 @@ using testing_support::TemporaryFolder;
 std::vector<Image> shown(const std::string& path) {
   std::vector<Image> frames;
   const auto reader = read_video(path);
-  while (reader->next()) frames.push_back(reader->rgb());
+  while (reader->next()) frames.push_back(std::get<Image>(reader->rgb()));
   return frames;
 }
 

@@ -107,7 +107,7 @@ TEST(SetUpOutput, TellsWhyAnEncoderOfMovOrWebmIsNoGood) {
                   "crf 10.5 is no whole number, as *.webm needs; use 10 or 11"));
   EXPECT_TRUE(has(opening_error("a.webm", format, {.preset = "fast"}), "has no presets"));
   EXPECT_TRUE(
-      has(opening_error("a.mov", format, {.encoder = "nope"}), "cannot find encoder 'nope'"));
+      has(opening_error("a.mov", format, {.encoder = "nope"}), "cannot use encoder 'nope'"));
   EXPECT_TRUE(has(opening_error("a.mov", format, {.encoder = "vp9"}), ", prores_ks"));
   EXPECT_FALSE(has(opening_error("a.mp4", format, {.encoder = "vp9"}), "prores_ks"));
   format.has_alpha = true;
