@@ -118,9 +118,11 @@ void FileSet::remove(const std::string& name) {
 }
 
 void FileSet::commit() {
-  prepare();
-  sync();
-  move_into_place();
+  if (!names_.empty() || !removed_.empty()) {
+    prepare();
+    sync();
+    move_into_place();
+  }
   made_folders_.keep();
   std::error_code error;
   fs::remove_all(temporary_.path(), error);

@@ -105,7 +105,8 @@ void TemporaryFile::commit() {
   sync_folder(final_path_.parent_path());
 }
 
-OutputFile::OutputFile(const std::string& name) : name_(name) {
+OutputFile::OutputFile(const std::string& name, Contents contents)
+    : name_(name), contents_(contents) {
   if (name == "-") {
     name_ = "standard output";
     descriptor_ = Descriptor(::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0));
@@ -117,7 +118,9 @@ OutputFile::OutputFile(const std::string& name) : name_(name) {
 }
 
 void OutputFile::write(std::span<const std::uint8_t> bytes) {
-  if (const int error = descriptor_.write(bytes)) fail_io("write", name_, error);
+  const int error = descriptor_.write(bytes);
+  if (error == EPIPE && contents_ == Contents::text) throw ReaderGone("output: nobody reads it");
+  if (error != 0) fail_io("write", name_, error);
 }
 
 void OutputFile::write(std::string_view text) {

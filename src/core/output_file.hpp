@@ -2,6 +2,8 @@
 // In: bytes, in order. Out: the file, synced and renamed by finish(), or no trace of it.
 #pragma once
 
+#include <piblocks/error.hpp>
+
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -66,12 +68,23 @@ class TemporaryFile {
   std::optional<Unfinished> file_;
 };
 
+/// Whoever reads text from standard output has read enough, as `head` does.
+class ReaderGone : public Error {
+ public:
+  using Error::Error;
+};
+
 /// Bytes to a file (through a TemporaryFile) or, for the name "-", to standard output.
 class OutputFile {
  public:
-  explicit OutputFile(const std::string& name);
+  /// Of bytes a part is of no use; of text it is.
+  enum class Contents { bytes, text };
 
-  /// @throws IoError on a full disk, a closed pipe and the like.
+  explicit OutputFile(const std::string& name, Contents contents = Contents::bytes);
+
+  /// @throws IoError on a full disk, a closed pipe and the like; ReaderGone if a pipe is closed
+  /// that
+  ///         text is written to.
   void write(std::span<const std::uint8_t> bytes);
   void write(std::string_view text);
   /// Replaces bytes that were written before, from this position on. Not on standard output.
@@ -82,6 +95,7 @@ class OutputFile {
 
  private:
   std::string name_;
+  Contents contents_;
   std::unique_ptr<TemporaryFile> temporary_;  // none for standard output
   Descriptor descriptor_;
 };

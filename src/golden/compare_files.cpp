@@ -6,6 +6,7 @@
 #include <future>
 #include <memory>
 
+#include "core/ending.hpp"
 #include "golden/frame_source.hpp"
 #include "golden/framehash_file.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 using OnFrame = std::function<void(const FrameComparison&)>;
 
 bool is_framehash(const std::string& name) {
-  return name.ends_with(".framehash") || name.ends_with(".framemd5");
+  return has_ending(name, ".framehash") || has_ending(name, ".framemd5");
 }
 
 /// Counts what every frame comes to.

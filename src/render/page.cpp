@@ -17,6 +17,7 @@
 
 #include "core/base64.hpp"
 #include "core/descriptor.hpp"
+#include "core/ending.hpp"
 #include "core/file_set.hpp"
 #include "core/output_file.hpp"
 #include "golden/reports.hpp"
@@ -155,7 +156,7 @@ void write_page(const Scene& scene, const fs::path& video, OutputFile& file) {
 
 }  // namespace
 
-bool is_page(const std::string& output) { return output.ends_with(".html"); }
+bool is_page(const std::string& output) { return has_ending(output, ".html"); }
 
 Rendered render_page(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
                      const std::stop_token& stop) {
