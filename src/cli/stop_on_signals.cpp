@@ -8,7 +8,6 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <cstdint>
 #include <string_view>
 #include <system_error>
 
@@ -79,8 +78,7 @@ StopOnSignals::StopOnSignals()
 }
 
 StopOnSignals::~StopOnSignals() {
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const ssize_t written = ::write(end_.get(), &one, sizeof one);
+  while (::eventfd_write(end_.get(), 1) != 0 && errno == EINTR) continue;
   waiter_.join();  // the signals stay blocked: what is done is done
 }
 
