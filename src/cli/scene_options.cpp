@@ -139,7 +139,12 @@ Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
   if (const auto ratio = value_of(*digits_, parse_digits)) {
     builder.set_mass_ratio(digits_->get_name(), *ratio);
   }
-  return builder.build();
+  Script made = builder.build();
+  OverwriteCheck check;
+  add_inputs(check, made);
+  check.writes_standard_output();
+  check.check();
+  return made;
 }
 
 void SceneOptions::add_inputs(OverwriteCheck& check, const Script& script) const {

@@ -121,6 +121,20 @@ TEST_F(AppendingTest, ToWhatIsReadIsRefused) {
   EXPECT_EQ(contents("a.png"), before);
 }
 
+TEST_F(AppendingTest, ToTheSceneIsRefused) {
+  write("scene.toml", kScene);
+  for (const Arguments& arguments :
+       {Arguments{"count", "scene.toml"}, Arguments{"log", "scene.toml"},
+        Arguments{"state", "scene.toml", "--at", "1"}}) {
+    const CommandResult result =
+        testing_support::run_command(arguments, {.folder = folder_.path(),
+                                                 .out_file = folder_ / "scene.toml",
+                                                 .out_flags = O_WRONLY | O_APPEND});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(contents("scene.toml"), kScene);
+  }
+}
+
 /// Nothing is refused that does no harm.
 TEST_F(AppendingTest, BesideWhatIsReadIsFine) {
   output_of({"still", "--size", "64x36", "--at", "1", "-o", "a/000001.png"});
