@@ -1,5 +1,6 @@
 #include <piblocks/compare_files.hpp>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -8,7 +9,10 @@
 #include "cli/help_formatter.hpp"
 #include "cli/options.hpp"
 #include "cli/stop_on_signals.hpp"
+#include "cli/text_output.hpp"
+#include "core/overwrite_check.hpp"
 #include "golden/describe.hpp"
+#include "golden/frame_source.hpp"
 #include "golden/reports.hpp"
 
 namespace piblocks::cli {
@@ -104,22 +108,26 @@ class Printer {
 
   void add(const FrameComparison& frame) {
     if (quiet_ || frame.is_equal() || ++lines_ > kMaxLines) return;
-    fmt::print("{}: {}\n", frame.name, describe(frame));
+    out_.format_line("{}: {}", frame.name, describe(frame));
+    out_.flush();
   }
 
-  void finish(const ComparisonResult& result) const {
-    if (quiet_) return;
-    if (lines_ > kMaxLines) fmt::print("… and {} more\n", lines_ - kMaxLines);
-    if (!result.mismatch.empty()) fmt::print("mismatch: {}\n", result.mismatch);
-    fmt::print("{}: {} of {} frames differ", verdict(result.verdict), result.different_frames,
-               result.frames);
-    if (result.different_frames != result.refused_frames) {
-      fmt::print(", {} beyond tolerance", result.refused_frames);
-    }
-    fmt::print("\n");
+  void finish(const ComparisonResult& result) {
+    if (!quiet_) print(result);
+    out_.finish();
   }
 
  private:
+  void print(const ComparisonResult& result) {
+    if (lines_ > kMaxLines) out_.format_line("… and {} more", lines_ - kMaxLines);
+    if (!result.mismatch.empty()) out_.format_line("mismatch: {}", result.mismatch);
+    const std::string beyond = result.different_frames == result.refused_frames
+                                   ? ""
+                                   : fmt::format(", {} beyond tolerance", result.refused_frames);
+    out_.format_line("{}: {} of {} frames differ{}", verdict(result.verdict),
+                     result.different_frames, result.frames, beyond);
+  }
+
   static const char* verdict(Verdict verdict) {
     switch (verdict) {
       case Verdict::equal:
@@ -136,17 +144,55 @@ class Printer {
 
   bool quiet_;
   int lines_ = 0;
+  TextOutput out_{"-"};
 };
+
+/// @throws UsageError if a report would replace what is compared.
+void check_reports(const CompareOptions& options, const ComparisonJob& job) {
+  OverwriteCheck check;
+  claim_frames(check, "the reference", job.reference);
+  claim_frames(check, "the actual pictures", job.actual);
+  if (const auto name = text_of(*options.diff)) claim_diff_folder(check, *name);
+  if (const auto name = text_of(*options.html)) check.writes("--report", *name);
+  if (const auto name = text_of(*options.junit)) check.writes("--junit", *name);
+  if (options.quiet->count() == 0) check.writes_standard_output();
+  check.check();
+}
+
+/// Runs `read`, whose failures have an exit code of their own.
+ComparisonResult read_inputs(const std::function<ComparisonResult()>& read) {
+  try {
+    return read();
+  } catch (const IoError& error) {
+    throw ExitCode(kUnreadable, error.what());
+  } catch (const MediaError& error) {
+    throw ExitCode(kUnreadable, error.what());
+  }
+}
+
+/// Runs `write`, whose failures are no failures to read.
+void write_outputs(const std::function<void()>& write) {
+  try {
+    write();
+  } catch (const IoError& error) {
+    throw ExitCode(kFailed, error.what());
+  } catch (const MediaError& error) {
+    throw ExitCode(kFailed, error.what());
+  }
+}
 
 ComparisonResult run_comparison(const CompareOptions& options, const ComparisonJob& job) {
   const StopOnSignals signals;
   const auto reports = reports_of(options);
   Printer printer(options.quiet->count() > 0);
   const auto on_frame = [&](const FrameComparison& frame) {
-    printer.add(frame);
-    for (const auto& report : reports) report->add(frame);
+    write_outputs([&] {
+      printer.add(frame);
+      for (const auto& report : reports) report->add(frame);
+    });
   };
-  ComparisonResult result = compare_files(job, on_frame, signals.token());
+  ComparisonResult result =
+      read_inputs([&] { return compare_files(job, on_frame, signals.token()); });
   for (const auto& report : reports) report->finish(job, result);
   printer.finish(result);
   return result;
@@ -158,14 +204,8 @@ void run(const CompareOptions& options) {
     throw ExitCode(kMissingReference,
                    fmt::format("compare: there is no reference '{}'", job.reference));
   }
-  Verdict verdict{};
-  try {
-    verdict = run_comparison(options, job).verdict;
-  } catch (const IoError& error) {
-    throw ExitCode(kUnreadable, error.what());
-  } catch (const MediaError& error) {
-    throw ExitCode(kUnreadable, error.what());
-  }
+  check_reports(options, job);
+  const Verdict verdict = run_comparison(options, job).verdict;
   if (verdict == Verdict::different) throw ExitCode(kDifferent);
   if (verdict == Verdict::mismatch) throw ExitCode(kMismatch);
 }

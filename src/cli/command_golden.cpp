@@ -4,16 +4,20 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <thread>
 
 #include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/options.hpp"
 #include "cli/stop_on_signals.hpp"
-#include "core/output_file.hpp"
+#include "cli/text_output.hpp"
+#include "core/file_set.hpp"
+#include "core/overwrite_check.hpp"
 #include "core/unfinished.hpp"
 #include "golden/describe.hpp"
 #include "golden/reports.hpp"
+#include "render/logo.hpp"
 #include "render/references.hpp"
 
 namespace piblocks::cli {
@@ -48,111 +52,188 @@ std::vector<References> references_of(const GoldenOptions& options) {
   return all;
 }
 
+/// What a command on references works with.
+struct Work {
+  explicit Work(const GoldenOptions& options)
+      : folder(*text_of(*options.folder)),
+        diff(options.diff == nullptr ? std::nullopt : text_of(*options.diff)),
+        all(references_of(options)) {}
+
+  fs::path folder;
+  std::optional<std::string> diff;
+  std::vector<References> all;
+  TextOutput out{"-"};
+};
+
+void claim_inputs(OverwriteCheck& check, const GoldenOptions& options, const Work& work) {
+  for (const std::string& scene : options.scenes->results()) check.reads("the scene file", scene);
+  for (const References& references : work.all) {
+    for (const std::string& logo : logos_of(references.script())) check.reads("the logo", logo);
+  }
+  check.writes_standard_output();
+}
+
+/// Where the differences from a reference go.
+fs::path diff_folder_of(const std::string& diff, const std::string& file) {
+  return fs::path(diff) / fs::path(file).stem();
+}
+
+void check_diff(const GoldenOptions& options, const Work& work) {
+  OverwriteCheck check;
+  claim_inputs(check, options, work);
+  check.reads_all_of("the folder of the references", work.folder);
+  if (work.diff) claim_diff_folder(check, *work.diff);
+  for (const References& references : work.all) {
+    for (const std::string& file : references.files()) {
+      if (work.diff) claim_diff_folder(check, diff_folder_of(*work.diff, file));
+    }
+  }
+  check.check();
+}
+
+void check_references(const GoldenOptions& options, const Work& work) {
+  OverwriteCheck check;
+  claim_inputs(check, options, work);
+  for (const References& references : work.all) {
+    for (const std::string& file : references.files()) check.writes("--dir", work.folder / file);
+  }
+  check.check();
+}
+
+/// @throws UsageError if a picture that would be replaced belongs to no references.
+void check_pictures(const References& references, const fs::path& folder) {
+  if (references.exist()) return;
+  for (const std::string& file : references.files()) {
+    if (!fs::exists(fs::symlink_status(folder / file))) continue;
+    throw UsageError(fmt::format(
+        "golden: cannot record '{}': '{}' is there, and belongs to no references; move it away",
+        references.name(), (folder / file).string()));
+  }
+}
+
 /// Prints what differs from a reference. False if anything does.
-bool compare_file(const fs::path& reference, const fs::path& actual, Report* report) {
+bool compare_file(const fs::path& reference, const fs::path& actual, Report* report,
+                  TextOutput& out) {
   const ComparisonJob job{reference, actual};
   const auto on_frame = [&](const FrameComparison& frame) {
     if (frame.is_accepted) return;
-    fmt::print("{}: {}: {}\n", reference.filename().string(), frame.name, describe(frame));
+    out.format_line("{}: {}: {}", reference.filename().string(), frame.name, describe(frame));
     if (report != nullptr) report->add(frame);
   };
   const ComparisonResult result = compare_files(job, on_frame);
   if (!result.mismatch.empty()) {
-    fmt::print("{}: {}\n", reference.filename().string(), result.mismatch);
+    out.format_line("{}: {}", reference.filename().string(), result.mismatch);
   }
   if (report != nullptr) report->finish(job, result);
   return result.verdict == Verdict::equal;
 }
 
 /// Says so if the references were painted by something else, which is why they may differ.
-void note_fingerprint(const References& references) {
+void note_fingerprint(const References& references, TextOutput& out) {
   if (!references.exist()) return;
   const std::string theirs = references.fingerprint();
   const std::string ours = painter_fingerprint();
   if (theirs == ours) return;
-  fmt::print("{}: the references were painted by {}; this is {}\n", references.name(),
-             theirs.empty() ? "something unnamed" : theirs, ours);
+  out.format_line("{}: the references were painted by {}; this is {}", references.name(),
+                  theirs.empty() ? "something unnamed" : theirs, ours);
 }
 
-bool check(const References& references, const GoldenOptions& options,
-           const std::stop_token& stop) {
-  const fs::path folder = *text_of(*options.folder);
+/// Hands on at once what it says of one scene.
+void conclude(const References& references, const char* verdict, TextOutput& out) {
+  out.format_line("{}: {}", references.name(), verdict);
+  out.flush();
+}
+
+bool check(const References& references, Work& work, const std::stop_token& stop) {
   const Unfinished scratch(fs::temp_directory_path() / "piblocks-golden", Unfinished::Kind::folder);
   references.render_into(scratch.path(), processors(), stop);
-  const auto diff = text_of(*options.diff);
   bool is_equal = true;
   for (const std::string& file : references.files()) {
-    if (!fs::exists(folder / file)) {
+    if (!fs::exists(work.folder / file)) {
       throw ExitCode(kMissingReference,
                      fmt::format("golden: there is no reference '{}'; see 'piblocks golden record'",
-                                 (folder / file).string()));
+                                 (work.folder / file).string()));
     }
-    const auto report = diff ? diff_folder(fs::path(*diff) / fs::path(file).stem()) : nullptr;
-    is_equal &= compare_file(folder / file, scratch.path() / file, report.get());
+    const auto report = work.diff ? diff_folder(diff_folder_of(*work.diff, file)) : nullptr;
+    is_equal &= compare_file(work.folder / file, scratch.path() / file, report.get(), work.out);
   }
-  note_fingerprint(references);
-  fmt::print("{}: {}\n", references.name(), is_equal ? "equal" : "different");
+  note_fingerprint(references, work.out);
+  conclude(references, is_equal ? "equal" : "different", work.out);
   return is_equal;
 }
 
 void run_check(const GoldenOptions& options) {
+  Work work(options);
+  check_diff(options, work);
   const StopOnSignals signals;
   bool is_equal = true;
-  for (const References& references : references_of(options)) {
-    is_equal &= check(references, options, signals.token());
+  for (const References& references : work.all) {
+    is_equal &= check(references, work, signals.token());
   }
+  work.out.finish();
   if (!is_equal) throw ExitCode(kDifferent);
 }
 
-/// Hashes come last: where they are, all is.
-void replace(const References& references, const fs::path& folder, const fs::path& scratch) {
-  const std::vector<std::string> files = references.files();
-  for (auto file = files.rbegin(); file != files.rend(); ++file) {
-    fs::rename(scratch / *file, folder / *file);
+/// References on their way: all of them take their names, or none does.
+class NewReferences {
+ public:
+  NewReferences(const References& references, const fs::path& folder, const std::stop_token& stop)
+      : files_(folder, references.name() + ".golden") {
+    const std::vector<std::string> names = references.files();
+    // Hashes come last: where they are, all is.
+    for (auto name = names.rbegin(); name != names.rend(); ++name) {
+      folder_ = files_.add(*name).parent_path();
+    }
+    references.render_into(folder_, processors(), stop);
   }
-  sync_folder(folder);
-}
+
+  fs::path path(const std::string& file) const { return folder_ / file; }
+  void commit() { files_.commit(); }
+
+ private:
+  FileSet files_;
+  fs::path folder_;
+};
 
 void run_record(const GoldenOptions& options) {
+  Work work(options);
+  check_references(options, work);
+  for (const References& references : work.all) {
+    if (references.exist()) {
+      throw UsageError(
+          fmt::format("golden: '{}' has references; replace them by 'piblocks golden approve'",
+                      references.name()));
+    }
+    check_pictures(references, work.folder);
+  }
   const StopOnSignals signals;
-  const fs::path folder = *text_of(*options.folder);
-  const std::vector<References> all = references_of(options);
-  for (const References& references : all) {
-    if (!references.exist()) continue;
-    throw UsageError(
-        fmt::format("golden: '{}' has references; replace them by 'piblocks golden "
-                    "approve'",
-                    references.name()));
+  for (const References& references : work.all) {
+    NewReferences(references, work.folder, signals.token()).commit();
+    conclude(references, "recorded", work.out);
   }
-  MadeFolders made(folder);
-  for (const References& references : all) {
-    const Unfinished scratch(folder / "golden", Unfinished::Kind::folder);
-    references.render_into(scratch.path(), processors(), signals.token());
-    replace(references, folder, scratch.path());
-    made.keep();
-    fmt::print("{}: recorded\n", references.name());
+  work.out.finish();
+}
+
+void approve(const References& references, Work& work, const std::stop_token& stop) {
+  NewReferences found(references, work.folder, stop);
+  bool is_equal = true;
+  for (const std::string& file : references.files()) {
+    const bool is_there = fs::exists(work.folder / file);
+    if (!is_there) work.out.format_line("{}: new", file);
+    is_equal &= is_there && compare_file(work.folder / file, found.path(file), nullptr, work.out);
   }
+  note_fingerprint(references, work.out);
+  found.commit();
+  conclude(references, is_equal ? "equal" : "replaced", work.out);
 }
 
 void run_approve(const GoldenOptions& options) {
+  Work work(options);
+  check_references(options, work);
+  for (const References& references : work.all) check_pictures(references, work.folder);
   const StopOnSignals signals;
-  const fs::path folder = *text_of(*options.folder);
-  const std::vector<References> all = references_of(options);
-  MadeFolders made(folder);
-  for (const References& references : all) {
-    const Unfinished scratch(folder / "golden", Unfinished::Kind::folder);
-    references.render_into(scratch.path(), processors(), signals.token());
-    bool is_equal = true;
-    for (const std::string& file : references.files()) {
-      const bool is_there = fs::exists(folder / file);
-      if (!is_there) fmt::print("{}: new\n", file);
-      is_equal &= is_there && compare_file(folder / file, scratch.path() / file, nullptr);
-    }
-    note_fingerprint(references);
-    replace(references, folder, scratch.path());
-    made.keep();
-    fmt::print("{}: {}\n", references.name(), is_equal ? "equal" : "replaced");
-  }
+  for (const References& references : work.all) approve(references, work, signals.token());
+  work.out.finish();
 }
 
 GoldenOptions add_options(CLI::App& command, bool with_diff) {

@@ -189,7 +189,9 @@ void run(const LogOptions& options) {
   const Rows rows = select_rows(options, *log);
   const std::string header = format.header(rows);
   const StopOnSignals signals;
-  OutputFile file(text_of(*options.output).value_or("-"));
+  using Contents = OutputFile::Contents;
+  OutputFile file(text_of(*options.output).value_or("-"),
+                  format.is_text ? Contents::text : Contents::bytes);
   file.write(header);
   write(*log->stream(rows.first, rows.last), format, file, signals.token());
   file.finish();

@@ -17,6 +17,10 @@
 #include "cli/refuse_terminal.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/stop_on_signals.hpp"
+#include "core/ending.hpp"
+#include "core/overwrite_check.hpp"
+#include "media/claim_output.hpp"
+#include "render/bundle.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -97,7 +101,7 @@ RenderJob job_of(const RenderOptions& options) {
       destination == nullptr
           ? options.scene.script()
           : options.scene.script(destination->defaults, fmt::format("--for {}", destination->name));
-  if (destination != nullptr && !settings.encoder && output.ends_with(".mov")) {
+  if (destination != nullptr && !settings.encoder && has_ending(output, ".mov")) {
     settings.encoder = destination->mov_encoder;
   }
   return {std::move(script),
@@ -116,13 +120,29 @@ std::string name_of(const RenderJob& job) {
   return job.part ? part_name(job.output, *job.part) : job.output;
 }
 
+/// @throws UsageError if the job would write over a file that it reads.
+void check_outputs(const RenderOptions& options, const RenderJob& job) {
+  OverwriteCheck check;
+  options.scene.add_inputs(check, job.script);
+  if (job.bundle) {
+    for (const std::string& file : bundle_files(job)) {
+      check.writes("--bundle", std::filesystem::path(job.bundle->folder) / file);
+    }
+  } else if (job.part) {
+    check.writes("--part", part_name(job.output, *job.part));
+  } else {
+    claim_output(check, "--output", job.output);
+  }
+  check.check();
+}
+
 void run(const RenderOptions& options) {
-  const StopOnSignals signals;
   refuse_terminal(*options.output);
-  options.scene.refuse_as_output(*options.output);
   options.scene.refuse_silence(*options.output);
   const RenderJob job = job_of(options);
+  check_outputs(options, job);
   const bool quiet = options.quiet->count() > 0;
+  const StopOnSignals signals;
   ProgressReport report(name_of(job), quiet);
   const Rendered rendered = render(
       job, [&](const Progress& progress) { report.update(progress); }, signals.token());

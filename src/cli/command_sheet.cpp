@@ -25,15 +25,15 @@ int parse_count(const std::string& text) {
 }
 
 void run(const SheetOptions& options) {
-  const StopOnSignals signals;
   refuse_terminal(*options.output);
-  options.scene.refuse_as_output(*options.output);
   if (options.frames->count() > 0 && options.at->count() > 0) {
     throw UsageError("--frames and --at both say which instants are shown; give one of them");
   }
   const Scene scene = options.scene.scene();
+  options.scene.refuse_as_output(*options.output, scene);
   const auto named = value_of(*options.at, parse_instants);
   const int count = value_of(*options.frames, parse_count).value_or(kUsualCount);
+  const StopOnSignals signals;
   render_sheet(scene, named ? *named : spread_instants(scene, count), *text_of(*options.output),
                signals.token());
   note_convention(scene.system);

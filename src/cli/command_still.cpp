@@ -29,10 +29,10 @@ void add_still(CLI::App& app) {
       "  piblocks still --at 3.5 -o turn.svg\n"
       "  piblocks still scene.toml --at '#10' --size 640x360 -o tenth.png");
   command->callback([=] {
-    const StopOnSignals signals;
     refuse_terminal(*output);
-    scene.refuse_as_output(*output);
     const Script shown = scene.script();
+    scene.refuse_as_output(*output, shown);
+    const StopOnSignals signals;
     render_still(shown, *value_of(*instant, parse_instant), *text_of(*output), signals.token());
     note_convention(shown);
   });

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "core/ending.hpp"
+
 namespace piblocks::cli {
 namespace {
 
@@ -41,7 +43,7 @@ const Destination& parse_destination(const std::string& name) {
 }
 
 void check_ending(const Destination& destination, const std::string& output) {
-  const auto is_ending = [&](std::string_view ending) { return output.ends_with(ending); };
+  const auto is_ending = [&](std::string_view ending) { return has_ending(output, ending); };
   if (std::ranges::any_of(destination.endings, is_ending)) return;
   throw UsageError(fmt::format("--for {}: cannot use '{}' there; write one of: *{}",
                                destination.name, output, fmt::join(destination.endings, ", *")));

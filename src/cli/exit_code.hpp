@@ -9,6 +9,9 @@
 
 namespace piblocks::cli {
 
+inline constexpr int kFailed = 1;
+inline constexpr int kWrongUsage = 2;
+
 // Those of comparisons.
 inline constexpr int kDifferent = 1;
 inline constexpr int kMissingReference = 3;

@@ -8,30 +8,42 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
-#include <iostream>
 #include <memory>
 #include <new>
+#include <sstream>
 
 #include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/help_formatter.hpp"
 #include "cli/say.hpp"
+#include "cli/stop_on_signals.hpp"
 #include "cli/usage_message.hpp"
 #include "core/gmp_memory.hpp"
+#include "core/output_file.hpp"
 
 namespace {
 
-constexpr int kFailed = 1;
-constexpr int kWrongUsage = 2;
+using piblocks::cli::kFailed;
+using piblocks::cli::kWrongUsage;
 
 int fail(const char* message, int exit_code) {
   piblocks::cli::say("piblocks: {}\n", message);
   return exit_code;
 }
 
+int fail_by_interruption() { return fail("interrupted", kFailed); }
+
 int fail(const piblocks::UsageError& error) {
+  if (piblocks::cli::stop_was_requested()) return fail_by_interruption();
   for (const std::string& problem : error.problems()) fail(problem.c_str(), kWrongUsage);
   return kWrongUsage;
+}
+
+int fail(const std::exception& error, int exit_code) {
+  // A call that was broken off fails for a reason that nobody needs to know.
+  const bool is_broken_off = piblocks::cli::stop_was_requested() &&
+                             dynamic_cast<const piblocks::Interrupted*>(&error) == nullptr;
+  return is_broken_off ? fail_by_interruption() : fail(error.what(), exit_code);
 }
 
 /// Where nothing can be passed on: below GMP.
@@ -55,9 +67,12 @@ int finish(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() != 0) {
     return fail(piblocks::cli::usage_message(app, error).c_str(), kWrongUsage);
   }
-  app.exit(error);
-  std::cout.flush();
-  return std::cout ? 0 : fail("cannot write to standard output", kFailed);
+  std::ostringstream text;
+  app.exit(error, text, text);
+  piblocks::OutputFile out("-", piblocks::OutputFile::Contents::text);
+  out.write(text.str());
+  out.finish();
+  return 0;
 }
 
 void add_commands(CLI::App& app) {
@@ -107,28 +122,31 @@ void fill_closed_streams() {
   ::close(opened);
 }
 
-/// So that a failed write is an error with a message, and does not end the process.
-void ignore_signals_of_writing() {
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file longer than ulimit -f allows
+/// A failed write is an error with a message, and does not end the process. A cluster announces the
+/// end of a job's time by SIGUSR1 or SIGUSR2, and SIGTERM follows.
+void ignore_signals() {
+  for (const int signal : {SIGPIPE, SIGXFSZ, SIGUSR1, SIGUSR2}) std::signal(signal, SIG_IGN);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   fill_closed_streams();
-  ignore_signals_of_writing();
+  ignore_signals();
+  piblocks::cli::end_at_once_on_signals();
   piblocks::end_when_gmp_has_no_memory(end_without_memory);
   std::set_terminate(end_of_exception);
   try {
     return run(argc, argv);
   } catch (const piblocks::UsageError& error) {
     return fail(error);
+  } catch (const piblocks::ReaderGone&) {
+    return 0;
   } catch (const piblocks::cli::ExitCode& exit) {
-    return *exit.what() == '\0' ? exit.code() : fail(exit.what(), exit.code());
+    return *exit.what() == '\0' ? exit.code() : fail(exit, exit.code());
   } catch (const std::bad_alloc&) {
     return fail("out of memory", kFailed);
   } catch (const std::exception& error) {
-    return fail(error.what(), kFailed);
+    return fail(error, kFailed);
   }
 }

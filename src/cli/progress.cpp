@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kBarInterval{100};
 constexpr std::chrono::seconds kLineInterval{5};
-constexpr std::string_view kClearLine = "\r\x1b[K";
+constexpr fmt::string_view kClearLine = "\r\x1b[K";
 
 std::string minutes_and_seconds(double duration_s) {
   const auto whole = static_cast<long>(std::lround(duration_s));
@@ -32,7 +32,7 @@ ProgressReport::ProgressReport(std::string output, bool quiet)
     : output_(std::move(output)), quiet_(quiet), on_terminal_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressReport::~ProgressReport() {
-  if (bar_visible_) say("{}", kClearLine);
+  if (bar_visible_) say(kClearLine);
 }
 
 double ProgressReport::elapsed_s() const {
@@ -59,8 +59,8 @@ void ProgressReport::draw_bar() const {
   const bool is_done = progress_.frames_done == progress_.frame_count;
   const double share = is_done ? 1 : double(progress_.frames_done) / double(progress_.frame_count);
   const int filled = static_cast<int>(share * kWidth);
-  say("{}[{:=<{}}{: <{}}] {:3.0f} %", kClearLine, "", filled, "", kWidth - filled,
-      std::floor(100 * share));
+  say(kClearLine);
+  say("[{:=<{}}{: <{}}] {:3.0f} %", "", filled, "", kWidth - filled, std::floor(100 * share));
   if (progress_.frames_done == 0) return;  // no rate to judge by yet
   const double rate = double(progress_.frames_done) / elapsed_s();
   const double left_s = double(progress_.frame_count - progress_.frames_done) / rate;
@@ -74,7 +74,7 @@ void ProgressReport::print_line() const {
 
 void ProgressReport::finish() {
   if (quiet_) return;
-  if (std::exchange(bar_visible_, false)) say("{}", kClearLine);
+  if (std::exchange(bar_visible_, false)) say(kClearLine);
   const double duration_s = elapsed_s();
   say("{}: {} {} in {:.2f} s ({:.0f} frames/s)\n", subject(output_), progress_.frame_count,
       progress_.frame_count == 1 ? "frame" : "frames", duration_s,

@@ -1,20 +1,23 @@
 // Messages for people.
-// In: text. Out: standard error, if it can be written: work does not fail because nobody can be
-// told about it, on a terminal that was closed for example.
+// In: text; what stands in place of {} is made printable. Out: standard error, if it can be
+// written: work does not fail because nobody can be told about it, on a terminal that was closed
+// for example.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <exception>
-#include <utility>
+
+#include "cli/printable_value.hpp"
 
 namespace piblocks::cli {
 
 template <typename... Values>
-void say(fmt::format_string<Values...> format, Values&&... values) noexcept {
+void say(fmt::format_string<const Values&...> format, const Values&... values) noexcept {
   try {
-    fmt::print(stderr, format, std::forward<Values>(values)...);
+    fmt::vprint(stderr, fmt::string_view(format),
+                fmt::make_format_args(printable_value(values)...));
   } catch (const std::exception&) {
     return;
   }

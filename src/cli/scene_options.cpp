@@ -4,10 +4,8 @@
 #include <piblocks/error.hpp>
 #include <piblocks/frame_sink.hpp>
 
-#include <filesystem>
-#include <system_error>
-
 #include "cli/options.hpp"
+#include "render/logo.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -141,18 +139,29 @@ Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
   if (const auto ratio = value_of(*digits_, parse_digits)) {
     builder.set_mass_ratio(digits_->get_name(), *ratio);
   }
-  return builder.build();
+  Script made = builder.build();
+  OverwriteCheck check;
+  add_inputs(check, made);
+  check.writes_standard_output();
+  check.check();
+  return made;
+}
+
+void SceneOptions::add_inputs(OverwriteCheck& check, const Script& script) const {
+  if (const auto scene = text_of(*file_)) check.reads("the scene file", *scene);
+  for (const std::string& logo : logos_of(script)) check.reads("the logo", logo);
 }
 
 void SceneOptions::refuse_as_output(const CLI::Option& output) const {
-  const auto scene = text_of(*file_);
-  const auto name = text_of(output);
-  if (!scene || !name || name == "-") return;
-  std::error_code missing;  // what is not there yet is another file
-  if (!std::filesystem::equivalent(*scene, *name, missing)) return;
-  throw UsageError(
-      fmt::format("{} {}: is the scene file that is read; choose another name for the output",
-                  output.get_name(), *name));
+  refuse_as_output(output, Script());
+}
+
+void SceneOptions::refuse_as_output(const CLI::Option& output, const Script& script) const {
+  OverwriteCheck check;
+  add_inputs(check, script);
+  const std::string name = text_of(output).value_or("-");
+  name == "-" ? check.writes_standard_output() : check.writes(output.get_name(), name);
+  check.check();
 }
 
 void SceneOptions::refuse_silence(const CLI::Option& output) const {

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/overwrite_check.hpp"
+
 namespace piblocks::cli {
 
 /// The value of a key of the scene file.
@@ -47,8 +49,12 @@ class SceneOptions {
   /// @throws SceneError, UsageError
   Script script(const std::vector<SceneDefault>& defaults = {},
                 const std::string& origin = {}) const;
+  /// Adds the scene file, and the logos of what was made of it.
+  void add_inputs(OverwriteCheck& check, const Script& script) const;
   /// @throws UsageError if the option names the scene file as the output.
   void refuse_as_output(const CLI::Option& output) const;
+  /// @throws UsageError if the option names the scene file or a logo as the output.
+  void refuse_as_output(const CLI::Option& output, const Script& script) const;
   /// @throws UsageError if it names the sound alone, and there is to be none.
   void refuse_silence(const CLI::Option& output) const;
 

@@ -1,5 +1,6 @@
 // Lines of text to a file or to standard output.
-// In: lines. Out: the same bytes, in large writes; a failed write is an exception.
+// In: lines; what stands in place of {} is made printable. Out: the same bytes, in large writes; a
+// failed write is an exception, but nothing is said to a reader that has gone away.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,8 +9,8 @@
 #include <cmath>
 #include <string>
 #include <string_view>
-#include <utility>
 
+#include "cli/printable_value.hpp"
 #include "core/output_file.hpp"
 
 namespace piblocks::cli {
@@ -26,17 +27,28 @@ inline double shown(double value) {
 class TextOutput {
  public:
   /// @param name  a file, which appears when it is finished, or "-".
-  explicit TextOutput(const std::string& name) : file_(name) {}
+  explicit TextOutput(const std::string& name) : file_(name, OutputFile::Contents::text) {}
 
   void line(std::string_view text) {
     buffer_.append(text.data(), text.data() + text.size());
     end_line();
   }
   template <typename... Values>
-  void format_line(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(fmt::appender(buffer_), format, std::forward<Values>(values)...);
+  void format_line(fmt::format_string<const Values&...> format, const Values&... values) {
+    fmt::vformat_to(fmt::appender(buffer_), fmt::string_view(format),
+                    fmt::make_format_args(printable_value(values)...));
     end_line();
   }
+  /// Hands on what a reader may wait for. @throws IoError
+  void flush() {
+    try {
+      if (has_reader_) file_.write(std::string_view(buffer_.data(), buffer_.size()));
+    } catch (const ReaderGone&) {  // the work goes on: it may be more than text
+      has_reader_ = false;
+    }
+    buffer_.clear();
+  }
+  /// @throws IoError
   void finish() {
     flush();
     file_.finish();
@@ -48,13 +60,10 @@ class TextOutput {
     buffer_.push_back('\n');
     if (buffer_.size() >= kFlush_bytes) flush();
   }
-  void flush() {
-    file_.write(std::string_view(buffer_.data(), buffer_.size()));
-    buffer_.clear();
-  }
 
   OutputFile file_;
   fmt::memory_buffer buffer_;
+  bool has_reader_ = true;
 };
 
 }  // namespace piblocks::cli

@@ -15,9 +15,21 @@ namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
+/// In the temporary folder: complete files on their way, and what had their names before. The
+/// second exists as soon as the first file moves.
+constexpr const char* kNew = "new";
+constexpr const char* kOld = "old";
+
+[[noreturn]] void fail(const char* operation, const fs::path& path, const std::string& reason) {
+  throw IoError(fmt::format("output: cannot {} '{}': {}", operation, path.string(), reason));
+}
+
 [[noreturn]] void fail(const char* operation, const fs::path& path, int error_number) {
-  throw IoError(fmt::format("output: cannot {} '{}': {}", operation, path.string(),
-                            std::generic_category().message(error_number)));
+  fail(operation, path, std::generic_category().message(error_number));
+}
+
+void make_folder(const fs::path& path) {
+  if (::mkdir(path.c_str(), 0777) != 0) fail("make", path, errno);
 }
 
 /// All files take their names, or none does. What else has a name waits among the old ones until
@@ -29,16 +41,21 @@ class Renaming {
 
   /// @return 0, or an errno, and the name is as it was.
   int place(const char* name) const noexcept {
-    if (move(to_, old_, name) != 0 && errno != ENOENT) return errno;
+    if (const int error = put_away(name)) return error;
     if (move(from_, to_, name) == 0) return 0;
     const int error = errno;
-    move(old_, to_, name);
+    put_back(name);
     return error;
   }
   void take_back(const char* name) const noexcept {
     move(to_, from_, name);
-    move(old_, to_, name);
+    put_back(name);
   }
+  /// @return 0, or an errno, and the name is as it was.
+  int put_away(const char* name) const noexcept {
+    return move(to_, old_, name) != 0 && errno != ENOENT ? errno : 0;
+  }
+  void put_back(const char* name) const noexcept { move(old_, to_, name); }
 
  private:
   /// For naming files in it only: that needs no right to read it.
@@ -58,20 +75,54 @@ class Renaming {
 
 }  // namespace
 
-FileSet::FileSet(const fs::path& folder, const std::string& label)
+FileSet::FileSet(const fs::path& folder, const std::string& label, Unfinished::Rivals rivals)
     : folder_(folder.empty() ? "." : folder),
       made_folders_(folder_),
-      temporary_(folder_ / label, Unfinished::Kind::folder) {}
+      temporary_(folder_ / label, Unfinished::Kind::folder, rivals,
+                 [this](const fs::path& left) { return finish_commit(left); }) {
+  make_folder(temporary_.path() / kNew);
+}
+
+bool FileSet::finish_commit(const fs::path& folder) const {
+  std::error_code error;
+  // Without the old files nothing has moved yet; without the new ones everything has.
+  for (const char* files : {kOld, kNew}) {
+    if (!fs::exists(folder / files, error)) return !error;
+  }
+  fs::directory_iterator entry(folder / kNew, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    fs::rename(entry->path(), folder_ / entry->path().filename(), error);
+    if (error) return false;
+  }
+  return !error;
+}
 
 fs::path FileSet::add(const std::string& name) {
+  check_destination(name);
   names_.push_back(name);
-  return temporary_.path() / name;
+  return temporary_.path() / kNew / name;
+}
+
+void FileSet::add(const std::string& name, std::span<const std::uint8_t> bytes) {
+  const fs::path path = add(name);
+  const fs::path final_path = folder_ / name;
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (!file.is_open()) fail("make", final_path, errno);
+  if (const int error = file.write(bytes)) fail("write", final_path, error);
+  if (const int error = file.close()) fail("close", final_path, error);
+}
+
+void FileSet::remove(const std::string& name) {
+  check_destination(name);
+  removed_.push_back(name);
 }
 
 void FileSet::commit() {
-  sync();
-  check_destinations();
-  move_into_place();
+  if (!names_.empty() || !removed_.empty()) {
+    prepare();
+    sync();
+    move_into_place();
+  }
   made_folders_.keep();
   std::error_code error;
   fs::remove_all(temporary_.path(), error);
@@ -85,25 +136,50 @@ void FileSet::sync() const {
   if (::syncfs(temporary_.descriptor()) != 0) fail("sync", temporary_.path(), errno);
 }
 
+void FileSet::check_destination(const std::string& name) const {
+  const fs::path to = folder_ / name;
+  std::error_code none;
+  if (fs::is_symlink(fs::symlink_status(to, none))) {
+    fail("replace", to, "a symbolic link; remove it or choose another name");
+  }
+  const std::string problem = problem_of_replacing(to);
+  if (!problem.empty()) fail("replace", to, problem);
+}
+
 /// Finds what renaming would fail on before the first file is renamed.
-void FileSet::check_destinations() const {
+void FileSet::prepare() const {
   for (const std::string& name : names_) {
+    check_destination(name);
     const fs::path to = folder_ / name;
     std::error_code none;
-    if (fs::is_directory(fs::symlink_status(to, none))) fail("replace", to, EISDIR);
+    if (!fs::exists(to, none)) continue;
+    const fs::path from = temporary_.path() / kNew / name;
+    const Descriptor file(::open(from.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!file.is_open()) fail("open", from, errno);
+    take_permissions(file.get(), to);
   }
 }
 
 void FileSet::move_into_place() const {
-  const fs::path old = temporary_.path() / "old";
-  if (::mkdir(old.c_str(), 0777) != 0) fail("make", old, errno);
-  const Renaming renaming(temporary_.path(), folder_, old);
-  for (std::size_t i = 0; i < names_.size(); ++i) {
-    const int error = renaming.place(names_[i].c_str());
-    if (error == 0) continue;
-    for (std::size_t j = 0; j < i; ++j) renaming.take_back(names_[j].c_str());
-    fail("rename to", folder_ / names_[i], error);
+  const fs::path old = temporary_.path() / kOld;
+  make_folder(old);
+  const Renaming renaming(temporary_.path() / kNew, folder_, old);
+  std::size_t placed = 0;
+  std::size_t removed = 0;
+  int error = 0;
+  while (error == 0 && placed < names_.size()) {
+    error = renaming.place(names_[placed].c_str());
+    if (error == 0) ++placed;
   }
+  while (error == 0 && removed < removed_.size()) {
+    error = renaming.put_away(removed_[removed].c_str());
+    if (error == 0) ++removed;
+  }
+  if (error == 0) return;
+  for (std::size_t i = 0; i < placed; ++i) renaming.take_back(names_[i].c_str());
+  for (std::size_t i = 0; i < removed; ++i) renaming.put_back(removed_[i].c_str());
+  if (placed < names_.size()) fail("rename to", folder_ / names_[placed], error);
+  fail("remove", folder_ / removed_[removed], error);
 }
 
 }  // namespace piblocks

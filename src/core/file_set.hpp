@@ -3,7 +3,9 @@
 // place of what had these, or no trace of them.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,16 +16,27 @@ namespace piblocks {
 
 class FileSet {
  public:
-  /// Makes missing folders.
-  /// @param label  what the temporary folder is called until all is done: LABEL.unfinished-XXXXXX
-  /// @throws UsageError if one cannot write there.
-  FileSet(const std::filesystem::path& folder, const std::string& label);
+  /// Makes missing folders. If a process was killed while the files of such a set took their names,
+  /// the others of these files take theirs now: they are complete.
+  /// @param label   tells which files belong together: as Unfinished's name.
+  /// @param rivals  whether another set with this label may be written at the same time.
+  /// @throws UsageError, IoError as Unfinished.
+  FileSet(const std::filesystem::path& folder, const std::string& label,
+          Unfinished::Rivals rivals = Unfinished::Rivals::refused);
 
   /// A folder for what only helps to make the files; it goes when they are done.
   std::filesystem::path workshop() const { return temporary_.path(); }
   /// One more file.
   /// @return where it is to be written.
+  /// @throws IoError if no file can replace what has this name: a folder, a symbolic link, a file
+  ///         without the right to write to it.
   std::filesystem::path add(const std::string& name);
+  /// One more file, and its contents.
+  /// @throws IoError as add(), and if it cannot be written.
+  void add(const std::string& name, std::span<const std::uint8_t> bytes);
+  /// A file that goes when the others take their names.
+  /// @throws IoError as add().
+  void remove(const std::string& name);
   /// Syncs all files and gives them their names.
   /// @throws IoError if that fails. Every name has then what it had before, unless all had their
   ///         files already, and only removing or syncing what remains failed.
@@ -31,13 +44,17 @@ class FileSet {
 
  private:
   void sync() const;
-  void check_destinations() const;
+  void check_destination(const std::string& name) const;
+  void prepare() const;
   void move_into_place() const;
+  /// Of a folder that a killed process left.
+  bool finish_commit(const std::filesystem::path& folder) const;
 
   std::filesystem::path folder_;
   MadeFolders made_folders_;
-  Unfinished temporary_;  // holds the files until they take their names
-  std::vector<std::string> names_;
+  Unfinished temporary_;            // holds the files until they take their names
+  std::vector<std::string> names_;  // of the files
+  std::vector<std::string> removed_;
 };
 
 }  // namespace piblocks

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -47,25 +48,65 @@ MadeFolders::~MadeFolders() {
   for (auto at = made_.rbegin(); at != made_.rend(); ++at) fs::remove(*at, ignored);
 }
 
-TemporaryFile::TemporaryFile(fs::path final_path)
-    : final_path_(std::move(final_path)), folders_(final_path_.parent_path()) {
-  if (final_path_.empty()) throw UsageError("output: the name is empty");
+fs::path follow_links(const fs::path& path) {
+  constexpr int kMaxLinks = 40;  // as Linux
   std::error_code error;
-  const fs::file_status status = fs::status(final_path_, error);
-  if (fs::is_directory(status)) fail_open(final_path_, reason(EISDIR));
-  if (fs::exists(status) && !fs::is_regular_file(status)) fail_open(final_path_, "not a file");
+  if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
+  // The system protects users from links that others leave in a folder such as /tmp.
+  const bool may_follow = fs::exists(path, error) || !error;
+  if (!may_follow) fail_open(path, error.message());
+  fs::path at = path;
+  for (int links = 0; links < kMaxLinks; ++links) {
+    const fs::path target = fs::read_symlink(at, error);
+    if (error) return at;
+    at = at.parent_path() / target;  // which is the target alone if that is absolute
+  }
+  fail_open(path, reason(ELOOP));
+}
+
+std::string problem_of_replacing(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) return {};
+  if (fs::is_directory(status)) return reason(EISDIR);
+  if (!fs::is_regular_file(status)) return "not a file";
+  return ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0 ? "" : reason(errno);
+}
+
+void take_permissions(int descriptor, const fs::path& replaced) {
+  constexpr mode_t kPermissions = 0777;
+  struct stat old {};
+  if (::stat(replaced.c_str(), &old) != 0) return;
+  // Only root may give files away. Before the permissions, some of which a new owner takes away.
+  [[maybe_unused]] const int ignored = ::fchown(descriptor, old.st_uid, old.st_gid);
+  if (::fchmod(descriptor, old.st_mode & kPermissions) == 0) return;
+  const int error = errno;
+  struct stat now {};
+  const bool has_them = ::fstat(descriptor, &now) == 0 &&
+                        (now.st_mode & kPermissions) == (old.st_mode & kPermissions);
+  if (!has_them) fail_io("keep the permissions of", replaced, error);
+}
+
+TemporaryFile::TemporaryFile(fs::path final_path) : final_path_(std::move(final_path)) {
+  if (final_path_.empty()) throw UsageError("output: the name is empty");
+  final_path_ = follow_links(final_path_);
+  const std::string problem = problem_of_replacing(final_path_);
+  if (!problem.empty()) fail_open(final_path_, problem);
+  folders_.emplace(final_path_.parent_path());
   file_.emplace(final_path_, Unfinished::Kind::file);
+  take_permissions(file_->descriptor(), final_path_);
 }
 
 void TemporaryFile::commit() {
   if (::fsync(file_->descriptor()) != 0) fail_io("sync", path(), errno);
   if (::rename(path().c_str(), final_path_.c_str()) != 0) fail_io("rename to", final_path_, errno);
   file_->release();
-  folders_.keep();
+  folders_->keep();
   sync_folder(final_path_.parent_path());
 }
 
-OutputFile::OutputFile(const std::string& name) : name_(name) {
+OutputFile::OutputFile(const std::string& name, Contents contents)
+    : name_(name), contents_(contents) {
   if (name == "-") {
     name_ = "standard output";
     descriptor_ = Descriptor(::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0));
@@ -77,7 +118,9 @@ OutputFile::OutputFile(const std::string& name) : name_(name) {
 }
 
 void OutputFile::write(std::span<const std::uint8_t> bytes) {
-  if (const int error = descriptor_.write(bytes)) fail_io("write", name_, error);
+  const int error = descriptor_.write(bytes);
+  if (error == EPIPE && contents_ == Contents::text) throw ReaderGone("output: nobody reads it");
+  if (error != 0) fail_io("write", name_, error);
 }
 
 void OutputFile::write(std::string_view text) {

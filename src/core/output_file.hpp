@@ -2,6 +2,8 @@
 // In: bytes, in order. Out: the file, synced and renamed by finish(), or no trace of it.
 #pragma once
 
+#include <piblocks/error.hpp>
+
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -32,12 +34,27 @@ class MadeFolders {
   std::vector<std::filesystem::path> made_;  // outermost first
 };
 
+/// The file that a name stands for: symbolic links are followed, also to what is not there yet.
+/// @throws UsageError if they go in a circle, or the system does not let this user follow them.
+std::filesystem::path follow_links(const std::filesystem::path& path);
+
+/// Why a file may not be replaced under this name, which may be free; empty if it may be: a folder,
+/// a device, a file without the right to write to it.
+std::string problem_of_replacing(const std::filesystem::path& path);
+
+/// Gives an open file the permissions of the file that it is to replace, if there is one, and its
+/// owner, as far as this user may.
+/// @throws IoError if it cannot have the permissions.
+void take_permissions(int descriptor, const std::filesystem::path& replaced);
+
 /// A file that is written under a temporary name beside `final_path`. Destroying it before commit()
-/// removes the file.
+/// removes the file. It replaces what a symbolic link points to, and has the permissions of the
+/// file that it replaces.
 class TemporaryFile {
  public:
   /// Makes an empty file that only this process knows; makes missing folders.
-  /// @throws UsageError if final_path is a folder or a device, or cannot be written there.
+  /// @throws UsageError if final_path is a folder, a device or a file that this user may not write
+  ///         to, or a file cannot be made there; IoError if the disk is full.
   explicit TemporaryFile(std::filesystem::path final_path);
 
   std::filesystem::path path() const { return file_->path(); }
@@ -47,16 +64,27 @@ class TemporaryFile {
 
  private:
   std::filesystem::path final_path_;
-  MadeFolders folders_;
+  std::optional<MadeFolders> folders_;
   std::optional<Unfinished> file_;
+};
+
+/// Whoever reads text from standard output has read enough, as `head` does.
+class ReaderGone : public Error {
+ public:
+  using Error::Error;
 };
 
 /// Bytes to a file (through a TemporaryFile) or, for the name "-", to standard output.
 class OutputFile {
  public:
-  explicit OutputFile(const std::string& name);
+  /// Of bytes a part is of no use; of text it is.
+  enum class Contents { bytes, text };
 
-  /// @throws IoError on a full disk, a closed pipe and the like.
+  explicit OutputFile(const std::string& name, Contents contents = Contents::bytes);
+
+  /// @throws IoError on a full disk, a closed pipe and the like; ReaderGone if a pipe is closed
+  /// that
+  ///         text is written to.
   void write(std::span<const std::uint8_t> bytes);
   void write(std::string_view text);
   /// Replaces bytes that were written before, from this position on. Not on standard output.
@@ -67,6 +95,7 @@ class OutputFile {
 
  private:
   std::string name_;
+  Contents contents_;
   std::unique_ptr<TemporaryFile> temporary_;  // none for standard output
   Descriptor descriptor_;
 };

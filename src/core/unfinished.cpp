@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <sys/file.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
+#include <cstdint>
 #include <new>
 #include <string>
 #include <string_view>
@@ -19,10 +20,14 @@ namespace fs = std::filesystem;
 namespace {
 
 using Kind = Unfinished::Kind;
+using Rivals = Unfinished::Rivals;
+using Rescue = Unfinished::Rescue;
 
 /// Never that of a part, "NAME.part-2-of-3".
 constexpr std::string_view kMark = ".unfinished-";
-constexpr std::string_view kRandom = "XXXXXX";
+constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz234567";  // 5 bits each
+constexpr std::size_t kRandom_letters = 10;
+constexpr std::size_t kCheck_letters = 6;
 
 fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
@@ -31,77 +36,135 @@ fs::path folder_of(const fs::path& path) {
 std::string reason(int error_number) { return std::generic_category().message(error_number); }
 
 [[noreturn]] void fail(const fs::path& final_path, Kind kind, int error_number) {
-  if (kind == Kind::folder) {
-    throw UsageError(fmt::format("output: cannot write into '{}': {}",
-                                 folder_of(final_path).string(), reason(error_number)));
+  const std::string message =
+      kind == Kind::folder
+          ? fmt::format("output: cannot write into '{}': {}", folder_of(final_path).string(),
+                        reason(error_number))
+          : fmt::format("output: cannot open '{}': {}", final_path.string(), reason(error_number));
+  if (error_number == EIO || error_number == ENOSPC || error_number == EDQUOT) {
+    throw IoError(message);
   }
-  throw UsageError(
-      fmt::format("output: cannot open '{}': {}", final_path.string(), reason(error_number)));
+  throw UsageError(message);
+}
+
+/// FNV-1a.
+std::uint64_t hash_of(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return hash;
+}
+
+std::string letters_of(std::uint64_t bits, std::size_t count) {
+  std::string letters;
+  for (; letters.size() < count; bits >>= 5) letters += kLetters[bits % kLetters.size()];
+  return letters;
+}
+
+/// The part of the temporary name behind the random letters.
+std::string check_letters(const std::string& final_name, std::string_view random) {
+  const std::uint64_t hash = hash_of(final_name + '/' + std::string(random));
+  return letters_of(hash ^ (hash >> 32), kCheck_letters);
+}
+
+std::string temporary_name(const std::string& final_name) {
+  std::uint64_t bits = 0;
+  if (::getrandom(&bits, sizeof bits, 0) != sizeof bits) throw IoError("output: no random numbers");
+  const std::string random = letters_of(bits, kRandom_letters);
+  return fmt::format("{}{}{}{}", final_name, kMark, random, check_letters(final_name, random));
+}
+
+bool is_temporary_name(std::string_view name, const std::string& final_name) {
+  const std::size_t start = final_name.size() + kMark.size();
+  if (name.size() != start + kRandom_letters + kCheck_letters) return false;
+  if (!name.starts_with(final_name) || !name.substr(final_name.size()).starts_with(kMark)) {
+    return false;
+  }
+  const std::string_view random = name.substr(start, kRandom_letters);
+  return name.substr(start + kRandom_letters) == check_letters(final_name, random);
 }
 
 bool take_lock(int descriptor) { return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0; }
 
-Descriptor open(const char* path, Kind kind) {
+Descriptor open(const fs::path& path, Kind kind) {
   const int access = kind == Kind::folder ? O_RDONLY | O_DIRECTORY : O_RDWR;
-  return Descriptor(::open(path, access | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  return Descriptor(::open(path.c_str(), access | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
 }
 
-void remove_if_abandoned(const fs::path& path) {
-  Descriptor descriptor = open(path.c_str(), Kind::file);
-  if (!descriptor.is_open()) descriptor = open(path.c_str(), Kind::folder);
-  if (!descriptor.is_open() || !take_lock(descriptor.get())) return;
+/// A regular file or a folder of this user.
+bool is_own(int descriptor) {
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0) return false;
+  return status.st_uid == ::geteuid() && (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode));
+}
+
+/// @return whether a process works on it.
+bool remove_unless_locked(const fs::path& path, const Rescue& rescue) {
+  Descriptor descriptor = open(path, Kind::folder);
+  const bool is_folder = descriptor.is_open();
+  if (!is_folder) descriptor = open(path, Kind::file);
+  if (!descriptor.is_open() || !is_own(descriptor.get())) return false;
+  if (!take_lock(descriptor.get())) return errno == EWOULDBLOCK;
+  if (is_folder && rescue && !rescue(path)) return false;
   std::error_code stays;  // the work does not depend on it
   fs::remove_all(path, stays);
+  return false;
 }
 
-void remove_abandoned(const fs::path& final_path) {
-  const std::string start = final_path.filename().string() + std::string(kMark);
+/// Removes what killed processes left for this name.
+/// @param own  is left out.
+/// @return whether another process works for the name.
+bool remove_abandoned(const fs::path& final_path, const fs::path& own, const Rescue& rescue) {
+  const std::string final_name = final_path.filename();
+  bool has_rival = false;
   std::error_code unreadable;
   fs::directory_iterator entry(folder_of(final_path), unreadable);
   for (; !unreadable && entry != fs::directory_iterator(); entry.increment(unreadable)) {
     const std::string name = entry->path().filename();
-    const bool is_ours = name.starts_with(start) && name.size() == start.size() + kRandom.size();
-    if (is_ours) remove_if_abandoned(entry->path());
+    if (!is_temporary_name(name, final_name) || name == own.filename()) continue;
+    has_rival |= remove_unless_locked(entry->path(), rescue);
   }
+  return has_rival;
 }
 
-/// The permissions that a plain open() for writing would give.
-mode_t default_permissions() {
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  return 0666 & ~mask;
-}
-
-/// Replaces the X at the end of `name`.
-Descriptor make(std::string& name, Kind kind) {
-  if (kind == Kind::folder) {
-    if (::mkdtemp(name.data()) == nullptr) return {};
-    Descriptor folder = open(name.c_str(), kind);
-    if (!folder.is_open()) ::rmdir(name.c_str());
-    return folder;
+/// @return closed, with errno set, if it cannot be made.
+Descriptor make_empty(const std::string& path, Kind kind) {
+  if (kind == Kind::file) {
+    return Descriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   }
-  static const mode_t permissions = default_permissions();
-  Descriptor file(::mkostemp(name.data(), O_CLOEXEC));
-  if (file.is_open()) ::fchmod(file.get(), permissions);
-  return file;
+  if (::mkdir(path.c_str(), 0700) != 0) return {};
+  Descriptor folder = open(path, kind);
+  if (!folder.is_open()) ::rmdir(path.c_str());
+  return folder;
 }
 
 }  // namespace
 
-Unfinished::Unfinished(const fs::path& final_path, Kind kind) {
-  remove_abandoned(final_path);
-  do {
-    std::string name = final_path.string();
-    name.append(kMark).append(kRandom);
-    lock_ = make(name, kind);
-    if (!lock_.is_open()) fail(final_path, kind, errno);
-    path_ = std::move(name);
-    // Before it was locked, another process could take it for abandoned.
-  } while ((!take_lock(lock_.get()) && errno == EWOULDBLOCK) || ::access(path_.c_str(), F_OK) != 0);
+Unfinished::Unfinished(const fs::path& final_path, Kind kind, Rivals rivals, const Rescue& rescue) {
+  remove_abandoned(final_path, {}, rescue);
+  make(final_path, kind);
+  if (rivals == Rivals::allowed) return;
+  // Two that start together see each other here, and neither goes on.
+  if (!remove_abandoned(final_path, path_, rescue)) return;
+  remove();
+  throw UsageError(fmt::format(
+      "output: cannot write '{}': another run is writing it; wait for that, or use another name",
+      final_path.string()));
 }
 
+void Unfinished::make(const fs::path& final_path, Kind kind) {
+  do {
+    path_ = final_path.parent_path() / temporary_name(final_path.filename());
+    lock_ = make_empty(path_, kind);
+    if (!lock_.is_open() && errno != EEXIST) fail(final_path, kind, errno);
+    // Before it was locked, another process could take it for abandoned.
+  } while (!lock_.is_open() || (!take_lock(lock_.get()) && errno == EWOULDBLOCK) ||
+           ::access(path_.c_str(), F_OK) != 0);
+}
+
+Unfinished::~Unfinished() { remove(); }
+
 /// A file goes without new memory, of which there may be none left.
-Unfinished::~Unfinished() {
+void Unfinished::remove() noexcept {
   if (path_.empty() || ::unlink(path_.c_str()) == 0) return;
   try {
     std::error_code ignored;

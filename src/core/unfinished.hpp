@@ -1,12 +1,15 @@
 // A file or folder under a temporary name, for what is not complete yet.
-// In: the final name. Out: NAME.unfinished-XXXXXX beside it, on the same device; goes with its
-// owner unless that has renamed it.
+// In: the final name. Out: NAME.unfinished-CODE beside it, on the same device; goes with its owner
+// unless that has renamed it.
 //
-// The owner holds a lock (flock) on it. One that nobody holds is what a process left that was
-// killed; whoever works on the same name next removes it. File systems without locks keep it.
+// CODE is ten random letters or digits and six that are computed from NAME and these ten: no other
+// program makes such a name, and a copy under another name does not have it. The owner holds a
+// lock (flock) on the file or folder. A killed process leaves it without a lock, and the next owner
+// for the same NAME removes it, if it belongs to the same user. File systems without locks keep it.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "core/descriptor.hpp"
@@ -16,9 +19,16 @@ namespace piblocks {
 class Unfinished {
  public:
   enum class Kind { file, folder };
+  enum class Rivals { allowed, refused };
+  /// Saves what is worth it in a folder that a killed process left.
+  /// @return whether the rest may be removed.
+  using Rescue = std::function<bool(const std::filesystem::path& folder)>;
 
-  /// @throws UsageError if it cannot be made.
-  Unfinished(const std::filesystem::path& final_path, Kind kind);
+  /// @param rivals  whether other processes may work for the same name at the same time.
+  /// @throws UsageError if it cannot be made, or a rival that is not allowed is at work; IoError if
+  ///         the disk is full or broken.
+  Unfinished(const std::filesystem::path& final_path, Kind kind, Rivals rivals = Rivals::allowed,
+             const Rescue& rescue = {});
   ~Unfinished();
   Unfinished(const Unfinished&) = delete;
   Unfinished& operator=(const Unfinished&) = delete;
@@ -30,6 +40,9 @@ class Unfinished {
   void release() noexcept { path_.clear(); }
 
  private:
+  void make(const std::filesystem::path& final_path, Kind kind);
+  void remove() noexcept;
+
   std::string path_;
   Descriptor lock_;
 };

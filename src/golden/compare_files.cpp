@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/ending.hpp"
 #include "golden/frame_source.hpp"
 #include "golden/framehash_file.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 using OnFrame = std::function<void(const FrameComparison&)>;
 
 bool is_framehash(const std::string& name) {
-  return name.ends_with(".framehash") || name.ends_with(".framemd5");
+  return has_ending(name, ".framehash") || has_ending(name, ".framemd5");
 }
 
 /// Two frames at one depth.

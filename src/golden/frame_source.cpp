@@ -9,6 +9,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/ending.hpp"
+#include "media/claim_output.hpp"
 #include "media/frame_pattern.hpp"
 
 namespace piblocks {
@@ -52,7 +54,7 @@ std::vector<fs::path> png_files_in(const fs::path& folder) {
   std::vector<fs::path> paths;
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    if (at->path().extension() == ".png") paths.push_back(at->path());
+    if (has_ending(at->path().filename().native(), ".png")) paths.push_back(at->path());
   }
   if (error) {
     throw IoError(fmt::format("compare: cannot read '{}': {}", folder.string(), error.message()));
@@ -119,7 +121,7 @@ std::vector<fs::path> png_files_of(const std::string& name) {
 
 /// A file may have a percent sign in its name.
 bool is_pattern(const std::string& name) {
-  return name.ends_with(".png") && name.find('%') != std::string::npos && !fs::exists(name);
+  return has_ending(name, ".png") && name.find('%') != std::string::npos && !fs::exists(name);
 }
 
 }  // namespace
@@ -128,10 +130,20 @@ bool frames_exist(const std::string& name) {
   return is_pattern(name) ? first_number(FramePattern(name)).has_value() : fs::exists(name);
 }
 
+void claim_frames(OverwriteCheck& check, const std::string& what, const std::string& name) {
+  if (is_pattern(name)) {
+    check.reads_some_of(what, FramePattern(name).folder(), names_of_pattern(name));
+  } else if (fs::is_directory(name)) {
+    check.reads_all_of(what, name);
+  } else {
+    check.reads(what, name);
+  }
+}
+
 std::unique_ptr<FrameReader> open_frames(const std::string& name) {
   if (is_pattern(name)) return read_png_files(png_files_of(name));
   if (fs::is_directory(name)) return read_png_files(png_files_in(name));
-  if (name.ends_with(".png") && !is_animated_png(name)) return read_png_files({name});
+  if (has_ending(name, ".png") && !is_animated_png(name)) return read_png_files({name});
   return read_video(name);
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "core/overwrite_check.hpp"
 #include "media/frame_reader.hpp"
 
 namespace piblocks {
@@ -13,5 +14,9 @@ namespace piblocks {
 /// pattern, from number 0 or 1 on; or else a video, which an animated PNG file is too.
 /// @throws IoError, MediaError if it cannot be read; UsageError if the pattern is no good.
 std::unique_ptr<FrameReader> open_frames(const std::string& name);
+
+/// Adds the files that the name stands for to those that are read.
+/// @param what  their part in the comparison, for messages.
+void claim_frames(OverwriteCheck& check, const std::string& what, const std::string& name);
 
 }  // namespace piblocks

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/output_file.hpp"
+#include "core/printable.hpp"
 #include "golden/describe.hpp"
 #include "golden/reports.hpp"
 
@@ -52,8 +53,7 @@ std::unique_ptr<Report> junit_report(const std::string& path) {
 
 std::string escaped(const std::string& text) {
   std::string result;
-  for (const char c : text) {
-    const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+  for (const char c : printable(text)) {
     if (c == '&')
       result += "&amp;";
     else if (c == '<')
@@ -65,7 +65,7 @@ std::string escaped(const std::string& text) {
     else if (c == '\'')
       result += "&#39;";
     else
-      result += is_control ? '?' : c;
+      result += c;
   }
   return result;
 }

@@ -7,6 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "core/overwrite_check.hpp"
+
 namespace piblocks {
 
 class Report {
@@ -18,8 +20,14 @@ class Report {
 };
 
 /// A PNG file of every frame that is not accepted, up to a hundred: expected, difference, actual.
-/// @throws UsageError if the folder cannot be made.
+/// All of them appear in the end, and those of earlier comparisons, which carry a mark, go.
+/// @throws UsageError if the folder cannot be made; its add() if a picture would replace a file
+/// that
+///         no comparison has written.
 std::unique_ptr<Report> diff_folder(const std::string& folder);
+
+/// Adds the pictures of such a folder to those that are written.
+void claim_diff_folder(OverwriteCheck& check, const std::string& folder);
 
 /// One HTML file that needs nothing else: every frame that is not equal, with the pictures of the
 /// first forty to be laid over each other.
@@ -30,8 +38,8 @@ std::unique_ptr<Report> html_report(const std::string& path);
 /// @throws UsageError if it cannot be written.
 std::unique_ptr<Report> junit_report(const std::string& path);
 
-/// Text as HTML and XML have it, in attributes too; what XML does not allow becomes a question
-/// mark.
+/// Text as HTML and XML have it, in attributes too; what XML does not allow is escaped as
+/// printable() does.
 std::string escaped(const std::string& text);
 
 }  // namespace piblocks

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
+#include <charconv>
 #include <optional>
 
 namespace piblocks {
@@ -61,6 +62,16 @@ FramePattern::FramePattern(std::string_view text) {
 
 std::string FramePattern::name(std::int64_t number) const {
   return fmt::format("{}{:0{}}{}", before_, number, digits_, after_);
+}
+
+std::optional<std::int64_t> FramePattern::number_of(std::string_view name) const {
+  if (name.size() <= before_.size() + after_.size()) return std::nullopt;
+  const std::string_view digits =
+      name.substr(before_.size(), name.size() - before_.size() - after_.size());
+  std::int64_t number = 0;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (read.ec != std::errc() || number < 0 || this->name(number) != name) return std::nullopt;
+  return number;
 }
 
 }  // namespace piblocks

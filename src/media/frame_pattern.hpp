@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,6 +20,10 @@ class FramePattern {
   /// File name of frame `number` >= 0, without its folder. Longer numbers than the field has
   /// digits for are written in full.
   std::string name(std::int64_t number) const;
+  /// The number of the image that has this file name; nothing if none has.
+  std::optional<std::int64_t> number_of(std::string_view name) const;
+  /// Text that is the same for all patterns of a folder that differ in the width of the field only.
+  std::string label() const { return before_ + "%d" + after_; }
   /// The folder the files go to; empty if the pattern names none.
   const std::string& folder() const noexcept { return folder_; }
 

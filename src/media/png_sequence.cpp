@@ -1,10 +1,6 @@
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <piblocks/error.hpp>
-#include <unistd.h>
 #include <zlib.h>
 
-#include <cerrno>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -12,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/descriptor.hpp"
 #include "core/file_set.hpp"
 #include "media/frame_pattern.hpp"
 #include "media/intra_encoder.hpp"
@@ -27,19 +22,6 @@ namespace {
 constexpr std::int64_t kFramesPerChunk = 16;
 /// Number of the first file, as that of FFmpeg's image2 muxer.
 constexpr std::int64_t kFirstNumber = 1;
-
-[[noreturn]] void fail(const char* operation, const fs::path& path, int error_number) {
-  throw IoError(fmt::format("output: cannot {} '{}': {}", operation, path.string(),
-                            std::generic_category().message(error_number)));
-}
-
-/// Writes a whole new file; not yet synced to its device.
-void write_file(const fs::path& path, std::span<const std::uint8_t> bytes) {
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  if (!file.is_open()) fail("make", path, errno);
-  if (const int error = file.write(bytes)) fail("write", path, error);
-  if (const int error = file.close()) fail("close", path, error);
-}
 
 class PngFrameEncoder final : public IntraEncoder {
  public:
@@ -59,22 +41,40 @@ class PngFrameEncoder final : public IntraEncoder {
 class PngSequence final : public FrameSink {
  public:
   explicit PngSequence(FramePattern pattern)
-      : pattern_(std::move(pattern)), files_(pattern_.folder(), "frames") {}
+      : pattern_(std::move(pattern)), files_(pattern_.folder(), pattern_.label()) {}
 
   void append(const EncodedChunk& chunk) override;
-  void finish() override { files_.commit(); }
+  void finish() override;
 
  private:
+  void remove_longer_sequence();
+
   FramePattern pattern_;
   FileSet files_;
   FrameCounter counter_;
+  std::int64_t next_ = kFirstNumber;  // the number of the next file
 };
 
 void PngSequence::append(const EncodedChunk& chunk) {
   counter_.take(chunk);
-  for (const Packet& packet : chunk) {
-    write_file(files_.add(pattern_.name(kFirstNumber + packet.pts)), packet.bytes);
+  for (const Packet& packet : chunk) files_.add(pattern_.name(next_++), packet.bytes);
+}
+
+/// Pictures of an earlier, longer sequence would look like the end of this one. What comes after a
+/// gap is no part of that.
+void PngSequence::remove_longer_sequence() {
+  std::error_code error;
+  for (std::int64_t number = next_;; ++number) {
+    const std::string name = pattern_.name(number);
+    const fs::path path = fs::path(pattern_.folder()) / name;
+    if (!fs::is_regular_file(fs::symlink_status(path, error))) return;
+    files_.remove(name);
   }
+}
+
+void PngSequence::finish() {
+  remove_longer_sequence();
+  files_.commit();
 }
 
 class PngOutput final : public Output {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string_view>
 
+#include "core/ending.hpp"
 #include "media/av_module.hpp"
 #include "media/output_kinds.hpp"
 
@@ -26,50 +27,53 @@ struct OutputKind {
 
 constexpr std::string_view kWav = "*.wav (sound alone)";
 
-constexpr bool is_wav(std::string_view output) { return output.ends_with(".wav"); }
+/// Made of an MP4 by render(), which comes here for the MP4 alone.
+constexpr std::string_view kPage = ", *.html (a page)";
+
+constexpr bool is_wav(std::string_view output) { return has_ending(output, ".wav"); }
 
 constexpr std::array kOutputKinds = {
     OutputKind{
         .name = "*.mp4",
-        .matches = [](std::string_view output) { return output.ends_with(".mp4"); },
+        .matches = [](std::string_view output) { return has_ending(output, ".mp4"); },
         .set_up = [](const OutputRequest& request) { return av_module().mp4_output(request); },
         .takes_encoder_settings = true,
         .takes_sound = true},
     OutputKind{
         .name = "*.mov",
-        .matches = [](std::string_view output) { return output.ends_with(".mov"); },
+        .matches = [](std::string_view output) { return has_ending(output, ".mov"); },
         .set_up = [](const OutputRequest& request) { return av_module().mov_output(request); },
         .takes_encoder_settings = true,
         .takes_alpha = true,
         .takes_sound = true},
     OutputKind{
         .name = "*.webm",
-        .matches = [](std::string_view output) { return output.ends_with(".webm"); },
+        .matches = [](std::string_view output) { return has_ending(output, ".webm"); },
         .set_up = [](const OutputRequest& request) { return av_module().webm_output(request); },
         .takes_encoder_settings = true,
         .takes_alpha = true,
         .takes_sound = true},
     OutputKind{
         .name = "*.gif",
-        .matches = [](std::string_view output) { return output.ends_with(".gif"); },
+        .matches = [](std::string_view output) { return has_ending(output, ".gif"); },
         .set_up = [](const OutputRequest& request) { return av_module().gif_output(request); }},
     OutputKind{.name = "*.apng",
-               .matches = [](std::string_view output) { return output.ends_with(".apng"); },
+               .matches = [](std::string_view output) { return has_ending(output, ".apng"); },
                .set_up = apng_output,
                .takes_alpha = true},
     OutputKind{.name = "*.png with a number field such as %06d",
-               .matches = [](std::string_view output) { return output.ends_with(".png"); },
+               .matches = [](std::string_view output) { return has_ending(output, ".png"); },
                .set_up = png_output,
                .takes_alpha = true},
     OutputKind{.name = "*.y4m",
-               .matches = [](std::string_view output) { return output.ends_with(".y4m"); },
+               .matches = [](std::string_view output) { return has_ending(output, ".y4m"); },
                .set_up = y4m_output},
     OutputKind{.name = "- (y4m on standard output)",
                .matches = [](std::string_view output) { return output == "-"; },
                .set_up = y4m_output},
     OutputKind{
         .name = "*.framehash",
-        .matches = [](std::string_view output) { return output.ends_with(".framehash"); },
+        .matches = [](std::string_view output) { return has_ending(output, ".framehash"); },
         .set_up =
             [](const OutputRequest& request) { return av_module().framehash_output(request); },
         .takes_alpha = true},
@@ -106,7 +110,7 @@ std::string names(bool (*is_listed)(const OutputKind& kind)) {
 
 std::string unknown_kind(const std::string& output) {
   return fmt::format("output: cannot tell the kind of '{}' from its name; use one of: {}", output,
-                     names([](const OutputKind& /*kind*/) { return true; }));
+                     names([](const OutputKind& /*kind*/) { return true; }) + std::string(kPage));
 }
 
 std::string settings_problem(const OutputKind& kind, const std::string& name,

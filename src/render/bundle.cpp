@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/ending.hpp"
 #include "core/file_set.hpp"
 #include "core/output_file.hpp"
 #include "golden/reports.hpp"
@@ -24,7 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPoster = "poster.png";
+constexpr const char* kPoster = "poster.png";
+constexpr const char* kAltText = "alt.txt";
+constexpr const char* kCaptions = "captions.vtt";
+constexpr const char* kLatexFile = "latex.tex";
+constexpr const char* kRevealFile = "reveal.html";
 
 /// Shown wherever the viewer plays no videos: the poster.
 constexpr std::string_view kLatex =
@@ -61,7 +66,7 @@ void check(const RenderJob& job) {
         "bundle: captions count one run, and a storyboard has several; render it without a bundle, "
         "or a scene without [[part]]");
   }
-  if (!job.output.ends_with(".mp4") || !is_plain(job.output)) {
+  if (!has_ending(job.output, ".mp4") || !is_plain(job.output)) {
     problems.push_back(fmt::format(
         "bundle: '{}' is no name for the video in it; use one such as pi-3.mp4, without a folder, "
         "of letters, digits, '-', '_' and '.'",
@@ -93,18 +98,22 @@ void write_texts(const RenderJob& job, const CollisionLog& log, const Schedule& 
   const auto& scene = std::get<Scene>(job.script);
   const View& view = scene.view;
   const std::string alt = describe_video(scene, count);
-  write(files.add("alt.txt"), alt + "\n");
-  write(files.add("captions.vtt"), captions(log, schedule, view.frame_rate));
+  write(files.add(kAltText), alt + "\n");
+  write(files.add(kCaptions), captions(log, schedule, view.frame_rate));
   write(
-      files.add("latex.tex"),
+      files.add(kLatexFile),
       fmt::format(kLatex, fmt::arg("name", job.output),
                   fmt::arg("height", fmt::format("{:.4f}", 0.9 * view.height_px / view.width_px))));
-  write(files.add("reveal.html"),
+  write(files.add(kRevealFile),
         fmt::format(kReveal, fmt::arg("name", job.output), fmt::arg("alt", escaped(alt)),
                     fmt::arg("width", view.width_px), fmt::arg("height", view.height_px)));
 }
 
 }  // namespace
+
+std::vector<std::string> bundle_files(const RenderJob& job) {
+  return {job.output, kPoster, kAltText, kCaptions, kLatexFile, kRevealFile};
+}
 
 Rendered render_bundle(const RenderJob& job,
                        const std::function<void(const Progress&)>& on_progress,
@@ -115,7 +124,7 @@ Rendered render_bundle(const RenderJob& job,
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   const PageFacts facts(scene, *log, schedule);
-  write_poster(job, facts.forth() - 1, files.add(std::string(kPoster)));
+  write_poster(job, facts.forth() - 1, files.add(kPoster));
   write_texts(job, *log, schedule, {facts.most(), log->size()}, files);
   RenderJob video = job;
   video.bundle.reset();

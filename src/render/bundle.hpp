@@ -6,6 +6,8 @@
 
 #include <functional>
 #include <stop_token>
+#include <string>
+#include <vector>
 
 namespace piblocks {
 
@@ -15,5 +17,8 @@ namespace piblocks {
 Rendered render_bundle(const RenderJob& job,
                        const std::function<void(const Progress&)>& on_progress,
                        const std::stop_token& stop);
+
+/// The names of all these files, in the bundle's folder.
+std::vector<std::string> bundle_files(const RenderJob& job);
 
 }  // namespace piblocks

@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
 
+#include "core/overwrite_check.hpp"
+#include "media/claim_output.hpp"
 #include "media/part_file.hpp"
 #include "render/film_sound.hpp"
 #include "render/job_description.hpp"
@@ -88,11 +89,10 @@ void check_all_there(const std::vector<NumberedPart>& parts) {
 
 void check_output(const std::vector<NumberedPart>& parts, const std::string& name,
                   const Output& output, const JobDescription& job) {
-  for (const auto& [number, info] : parts) {
-    std::error_code missing;  // what is not there yet is another file
-    if (!std::filesystem::equivalent(info.path, name, missing)) continue;
-    throw UsageError(fmt::format("join: output '{}' is one of the parts", name));
-  }
+  OverwriteCheck check;
+  for (const auto& [number, info] : parts) check.reads("the part", info.path);
+  claim_output(check, "join: output", name);
+  check.check();
   if (output.signature() == job.signature) return;
   throw UsageError(
       fmt::format("join: the parts were made for another output than '{}' is here: '{}', not '{}'",

@@ -9,4 +9,21 @@ std::shared_ptr<const Image> read_logo(const Scene& scene) {
   return std::make_shared<const Image>(read_png(scene.show.logo));
 }
 
+std::vector<std::string> logos_of(const Script& script) {
+  std::vector<std::string> logos;
+  const auto add = [&](const Scene& scene) {
+    if (!scene.show.logo.empty()) logos.push_back(scene.show.logo);
+  };
+  if (const auto* const scene = std::get_if<Scene>(&script)) {
+    add(*scene);
+    return logos;
+  }
+  for (const StoryPart& part : std::get<Storyboard>(script).parts) {
+    if (const auto* const runs = std::get_if<Runs>(&part.content)) {
+      for (const Scene& run : *runs) add(run);
+    }
+  }
+  return logos;
+}
+
 }  // namespace piblocks

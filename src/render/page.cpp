@@ -17,6 +17,7 @@
 
 #include "core/base64.hpp"
 #include "core/descriptor.hpp"
+#include "core/ending.hpp"
 #include "core/file_set.hpp"
 #include "core/output_file.hpp"
 #include "golden/reports.hpp"
@@ -103,10 +104,9 @@ void check(const RenderJob& job) {
         "output: '{}' cannot be transparent: a page shows an MP4; use an opaque background",
         job.output));
   }
-  std::error_code none;
-  const fs::file_status status = fs::status(job.output, none);
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw UsageError(fmt::format("output: cannot open '{}': not a file", job.output));
+  const std::string problem = problem_of_replacing(follow_links(job.output));
+  if (!problem.empty()) {
+    throw UsageError(fmt::format("output: cannot open '{}': {}", job.output, problem));
   }
 }
 
@@ -156,13 +156,13 @@ void write_page(const Scene& scene, const fs::path& video, OutputFile& file) {
 
 }  // namespace
 
-bool is_page(const std::string& output) { return output.ends_with(".html"); }
+bool is_page(const std::string& output) { return has_ending(output, ".html"); }
 
 Rendered render_page(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
                      const std::stop_token& stop) {
   check(job);
-  const fs::path path(job.output);
-  FileSet files(path.parent_path(), path.filename());
+  const fs::path path = follow_links(job.output);
+  FileSet files(path.parent_path(), path.filename(), Unfinished::Rivals::allowed);
   OutputFile page(files.add(path.filename()));
   RenderJob video = job;
   video.output = files.workshop() / "video.mp4";

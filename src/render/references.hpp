@@ -25,6 +25,7 @@ class References {
              const std::string& frames = {});
 
   const std::string& name() const noexcept { return name_; }
+  const Script& script() const noexcept { return script_; }
   /// The files of the references, without the folder; hashes first.
   std::vector<std::string> files() const;
   bool exist() const;

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/ending.hpp"
 #include "core/output_file.hpp"
 #include "render/logo.hpp"
 
@@ -40,12 +41,12 @@ struct Paper {
 };
 
 Paper paper_for(std::string_view output) {
-  if (output == "-" || output.ends_with(".png")) {
+  if (output == "-" || has_ending(output, ".png")) {
     return {kPageWidth_px, kPageHeight_px,
             [](const Sheet& sheet) { return encode_png(draw_pixels(sheet).view()); }};
   }
-  if (output.ends_with(".svg")) return {kPageWidth_pt, kPageHeight_pt, draw_svg};
-  if (output.ends_with(".pdf")) return {kPageWidth_pt, kPageHeight_pt, draw_pdf};
+  if (has_ending(output, ".svg")) return {kPageWidth_pt, kPageHeight_pt, draw_svg};
+  if (has_ending(output, ".pdf")) return {kPageWidth_pt, kPageHeight_pt, draw_pdf};
   throw UsageError(fmt::format(
       "sheet: '{}' has no known ending; use .pdf, .png, .svg, or - for PNG on standard output",
       output));

@@ -9,6 +9,7 @@
 
 #include <string_view>
 
+#include "core/ending.hpp"
 #include "core/output_file.hpp"
 #include "render/film.hpp"
 
@@ -25,9 +26,9 @@ std::vector<std::uint8_t> draw_png(const DrawList& list) {
 using Draw = std::vector<std::uint8_t>(const DrawList& list);
 
 Draw* drawing_for(std::string_view output) {
-  if (output == "-" || output.ends_with(".png")) return draw_png;
-  if (output.ends_with(".svg")) return draw_svg;
-  if (output.ends_with(".pdf")) return draw_pdf;
+  if (output == "-" || has_ending(output, ".png")) return draw_png;
+  if (has_ending(output, ".svg")) return draw_svg;
+  if (has_ending(output, ".pdf")) return draw_pdf;
   throw UsageError(fmt::format(
       "still: '{}' has no known ending; use .png, .svg, .pdf, or - for PNG on standard output",
       output));

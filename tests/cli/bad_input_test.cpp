@@ -332,9 +332,8 @@ TEST_F(BadInputsTest, TheSceneThatIsReadIsNotReplaced) {
     const auto before = entries();
     const CommandResult result = piblocks(command + Arguments{file, "-o", output});
     EXPECT_EQ(result.exit_code, 2) << output;
-    EXPECT_EQ(result.err, "piblocks: --output " + output +
-                              ": is the scene file that is read; choose another name for the "
-                              "output\n");
+    EXPECT_EQ(result.err, "piblocks: --output '" + output + "': would write over the scene file '" +
+                              file + "'; choose another name\n");
     EXPECT_EQ(contents(file), scene);
     EXPECT_EQ(entries(), before);
   };

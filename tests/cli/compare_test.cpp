@@ -1,4 +1,8 @@
 // compare: what it says, its exit codes, and what it leaves behind.
+#include <sys/mount.h>
+
+#include <cstdlib>
+
 #include "cli/cli_fixture.hpp"
 
 namespace piblocks {
@@ -166,6 +170,66 @@ TEST_F(CompareTest, LeavesPicturesAPageAndAListOfTests) {
   const std::string tests = contents("r.xml");
   EXPECT_NE(tests.find("tests=\"12\" failures=\"2\""), std::string::npos);
   EXPECT_NE(tests.find("name=\"0007.png\">\n      <failure message=\""), std::string::npos);
+}
+
+TEST_F(CompareTest, ReplacesPicturesOfAnEarlierComparisonAndNoOthers) {
+  render("a/%04d.png");
+  fs::copy(folder_ / "a", folder_ / "b");
+  still("b/0003.png", "0.2");
+  still("b/0007.png", "0.51");
+  EXPECT_EQ(compare({"a", "b", "--diff", "d"}).exit_code, 1);
+  fs::copy(folder_ / "a/0001.png", folder_ / "d/000009.png");
+  write("d/notes.txt", "mine");
+  fs::copy(folder_ / "a/0003.png", folder_ / "b/0003.png", fs::copy_options::overwrite_existing);
+  EXPECT_EQ(compare({"a", "b", "--diff", "d"}).exit_code, 1);
+  const auto names_in_d = [&] {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_ / "d")) {
+      names.push_back(entry.path().filename());
+    }
+    std::ranges::sort(names);
+    return names;
+  };
+  EXPECT_EQ(names_in_d(), (std::vector<std::string>{"000006.png", "000009.png", "notes.txt"}));
+  still("b/0010.png", "0.51");  // its difference is 000009.png
+  EXPECT_NE(complaint({"a", "b", "--diff", "d"}, 2).find("'d/000009.png'"), std::string::npos);
+  EXPECT_EQ(contents("d/000009.png"), contents("a/0001.png"));
+  EXPECT_EQ(names_in_d(), (std::vector<std::string>{"000006.png", "000009.png", "notes.txt"}));
+}
+
+/// Only root can mount a file system.
+TEST_F(CompareTest, AFullDiskUnderTheReportIsNoUnreadableInput) {
+  still("a.png", "1");
+  still("b.png", "2");
+  fs::create_directory(folder_ / "d");
+  const std::string disk = folder_ / "d";
+  if (::mount("none", disk.c_str(), "tmpfs", 0, "size=4096") != 0) GTEST_SKIP() << "no right to";
+  write("d/full", std::string(4096, ' '));
+  const std::string diff = complaint({"a.png", "b.png", "--diff", "d"}, 1);
+  const std::string report = complaint({"a.png", "b.png", "--report", "d/r.html"}, 1);
+  ::umount2(disk.c_str(), MNT_DETACH);
+  EXPECT_NE(diff.find("000000.png': No space left on device"), std::string::npos) << diff;
+  EXPECT_NE(report.find("r.html': No space left on device"), std::string::npos) << report;
+}
+
+TEST_F(CompareTest, NamesOfAnyBytesMakeReportsThatCanBeRead) {
+  fs::create_directory(folder_ / "a");
+  fs::create_directory(folder_ / "b");
+  const std::string bytes = "x\xff\x1b[31m\xc2\x9b\"<&>'\xef\xbf\xbf\n\xcf\x80.png";
+  const std::string shown = "x\\xff\\x1b[31m\\u{9b}\"<&>'\\u{ffff}\\n\xcf\x80.png";
+  still("a/" + bytes, "1");
+  still("b/y.png", "2");
+  const CommandResult result = compare({"a", "b", "--report", "r.html", "--junit", "r.xml"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_TRUE(result.out.starts_with(shown + ": ")) << result.out;
+  EXPECT_EQ(contents("r.html").find_first_of("\x1b\xff\x9b"), std::string::npos);
+  const std::string read_name =
+      "import sys, xml.etree.ElementTree as xml; sys.stdout.buffer.write("
+      "xml.parse(sys.argv[1]).find('.//testcase').get('name').encode())";
+  const std::string command = "python3 -c \"" + read_name + "\" '" + (folder_ / "r.xml") + "' > '" +
+                              (folder_ / "name") + "'";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(contents("name"), shown);
 }
 
 TEST_F(CompareTest, NoPicturesAreLeftOfWhatIsEqual) {

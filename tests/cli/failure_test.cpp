@@ -34,8 +34,51 @@ TEST_P(ClosedPipeTest, IsReported) {
   EXPECT_EQ(result.err, "piblocks: output: cannot write 'standard output': Broken pipe\n");
 }
 INSTANTIATE_TEST_SUITE_P(StandardOutput, ClosedPipeTest,
-                         testing::Values("log --digits 8",
+                         testing::Values("log --digits 8 --format npy",
                                          "render --quiet --size 320x180 --jobs 3 -o -"));
+
+class ReadEnoughTest : public CliFixture, public testing::WithParamInterface<const char*> {};
+
+TEST_P(ReadEnoughTest, IsNoFailure) {
+  RunningCommand command(words(GetParam()), {.folder = folder_.path()});
+  command.close_output_after_one_byte();
+  const CommandResult result = command.wait();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+}
+INSTANTIATE_TEST_SUITE_P(OfText, ReadEnoughTest,
+                         testing::Values("log --digits 8", "log --digits 8 --format jsonl",
+                                         "count --digits 100000"));
+
+/// Whoever reads the first line only is told the verdict all the same.
+TEST_F(FailureTest, AComparisonWithoutAReaderKeepsItsVerdict) {
+  for (const auto& [name, to] : {std::pair{"a", "9"}, {"b", "10"}}) {
+    output_of({"render", "--quiet", "--size", "64x36", "--fps", "3", "--from", "1", "--speed",
+               "1/3", "--to", to, "--theme", to == std::string("9") ? "article" : "dark", "-o",
+               std::string(name) + "/%03d.png"});
+  }
+  RunningCommand command({"compare", "a", "b"}, {.folder = folder_.path()});
+  command.close_output_after_one_byte();
+  const CommandResult result = command.wait();
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(FailureTest, AVerdictThatCannotBePrintedIsNone) {
+  output_of({"still", "--size", "64x36", "--at", "1", "-o", "a.png"});
+  write("scene.toml", "[time]\nto = 1\n[golden]\nsize = [64, 36]\n");
+  output_of({"golden", "record", "scene.toml", "--dir", "golden"});
+  for (const Arguments& arguments :
+       {Arguments{"compare", "a.png", "a.png"},
+        Arguments{"golden", "check", "scene.toml", "--dir", "golden"},
+        Arguments{"golden", "approve", "scene.toml", "--dir", "golden"}}) {
+    const CommandResult result = testing_support::run_command(
+        arguments, {.folder = folder_.path(), .out_file = "/dev/full"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.err,
+              "piblocks: output: cannot write 'standard output': No space left on device\n");
+  }
+}
 
 TEST_F(FailureTest, ThatTheEngineCannotRepresentIsNoNumber) {
   const CommandResult result = piblocks({"state", "--mass-ratio", "1e-700", "--at", "last"});

@@ -91,6 +91,28 @@ TEST_F(GoldenTest, MissesReferencesWithACodeOfItsOwn) {
   EXPECT_EQ(golden("check").exit_code, 3);
 }
 
+TEST_F(GoldenTest, TakesNoPictureThatIsNoReference) {
+  fs::create_directory(folder_ / "refs");
+  write("refs/scene-last.png", "mine");
+  for (const char* action : {"record", "approve"}) {
+    const CommandResult result = golden(action);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find("'refs/scene-last.png' is there"), std::string::npos) << result.err;
+    EXPECT_EQ(references(), (Names{"scene-last.png"}));
+    EXPECT_EQ(contents("refs/scene-last.png"), "mine");
+  }
+}
+
+/// Some of their pictures have the same names.
+TEST_F(GoldenTest, KeepsTheReferencesOfScenesApart) {
+  write("scene-collision.toml", contents("scene.toml"));
+  const CommandResult result = piblocks({"golden", "record", "scene.toml", "scene-collision.toml",
+                                         "--frames", "#7,7", "--dir", "refs"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("refs/scene-collision-7.png"), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(folder_ / "refs"));
+}
+
 TEST_F(GoldenTest, SaysWhatElsePaintedTheReferences) {
   golden("record");
   std::string text = contents("refs/scene.framehash");

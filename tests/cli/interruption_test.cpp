@@ -1,7 +1,11 @@
 // Signals while the program works.
+#include <fcntl.h>
+#include <sys/stat.h>
+
 #include <csignal>
 
 #include "cli/cli_fixture.hpp"
+#include "core/descriptor.hpp"
 
 namespace piblocks {
 namespace {
@@ -80,6 +84,75 @@ TEST_F(InterruptionTest, ASecondSignalEndsItAtOnce) {
   EXPECT_FALSE(wait_until([&] { return command.has_ended(); }, std::chrono::milliseconds(500)));
   command.send(SIGINT);
   EXPECT_TRUE(wait_until([&] { return command.has_ended(); }));
+  EXPECT_EQ(command.wait().exit_code, 1);
+}
+
+/// Nobody writes to the pipe that the program reads. It is asked only after it has come that far.
+class PipeTest : public CliFixture, public testing::WithParamInterface<const char*> {};
+
+TEST_P(PipeTest, ThatNobodyWritesToCanBeLeft) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  RunningCommand command(split(GetParam(), ' '), {.folder = folder_.path()});
+  EXPECT_FALSE(wait_until([&] { return command.has_ended(); }, std::chrono::milliseconds(500)));
+  command.send(SIGINT);
+  EXPECT_TRUE(wait_until([&] { return command.has_ended(); }, std::chrono::seconds(5)));
+  const CommandResult result = command.wait();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, "piblocks: interrupted\n");
+  EXPECT_EQ(entries(), (std::vector<std::string>{"pipe"}));
+}
+INSTANTIATE_TEST_SUITE_P(AsInput, PipeTest,
+                         testing::Values("render pipe -o new/a.mp4", "still pipe --at 1 -o a.png",
+                                         "golden record pipe --dir new", "count pipe",
+                                         "log pipe -o a.csv", "render --logo pipe -o new/a.mp4",
+                                         "render --logo pipe -o a.html",
+                                         "render --logo pipe --bundle new -o a.mp4",
+                                         "still --logo pipe --at 1 -o a.png",
+                                         "sheet --logo pipe -o a.pdf"));
+
+/// A writer that has opened the pipe holds the program in a read.
+TEST_F(InterruptionTest, APipeThatStaysSilentCanBeLeft) {
+  for (const Arguments& arguments :
+       {Arguments{"count", "pipe"},
+        Arguments{"still", "--logo", "pipe", "--at", "1", "-o", "a.png"}}) {
+    const std::string pipe = folder_ / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const Descriptor writer(::open(pipe.c_str(), O_RDWR | O_CLOEXEC));
+    RunningCommand command(arguments, {.folder = folder_.path()});
+    EXPECT_FALSE(wait_until([&] { return command.has_ended(); }, std::chrono::milliseconds(500)));
+    command.send(SIGTERM);
+    EXPECT_TRUE(wait_until([&] { return command.has_ended(); }, std::chrono::seconds(5)));
+    EXPECT_EQ(command.wait().exit_code, 1);
+    EXPECT_EQ(entries(), (std::vector<std::string>{"pipe"}));
+    std::filesystem::remove(pipe);
+  }
+}
+
+/// Signals that mean something else, from a cluster or from anybody, do not make it deaf.
+TEST_F(InterruptionTest, OtherSignalsChangeNothing) {
+  RunningCommand command(kLong + Arguments{"-o", "a.mp4"}, {.folder = folder_.path()});
+  ASSERT_TRUE(wait_until([&] { return !folder_.is_empty(); }));
+  for (const int signal : {SIGUSR1, SIGUSR2, SIGURG, SIGUSR1}) {
+    command.send(signal);
+    EXPECT_FALSE(wait_until([&] { return command.has_ended(); }, std::chrono::milliseconds(50)));
+  }
+  command.send(SIGTERM);
+  EXPECT_TRUE(wait_until([&] { return command.has_ended(); }, std::chrono::seconds(10)));
+  const CommandResult result = command.wait();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, "piblocks: render: interrupted\n");
+  EXPECT_EQ(entries(), (std::vector<std::string>{}));
+}
+
+/// As nohup starts it.
+TEST_F(InterruptionTest, AnIgnoredSignalStaysIgnored) {
+  const auto before = std::signal(SIGHUP, SIG_IGN);
+  RunningCommand command(kLong + Arguments{"-o", "a.mp4"}, {.folder = folder_.path()});
+  std::signal(SIGHUP, before);
+  ASSERT_TRUE(wait_until([&] { return !folder_.is_empty(); }));
+  command.send(SIGHUP);
+  EXPECT_FALSE(wait_until([&] { return command.has_ended(); }, std::chrono::milliseconds(300)));
+  command.send(SIGINT);
   EXPECT_EQ(command.wait().exit_code, 1);
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <iterator>
@@ -61,6 +62,57 @@ TEST_F(OutputFileTest, HasThePermissionsOfAnOrdinaryFile) {
   std::ofstream(folder_ / "plain.txt") << "x";
   EXPECT_EQ(fs::status(folder_ / "out.txt").permissions(),
             fs::status(folder_ / "plain.txt").permissions());
+}
+
+TEST_F(OutputFileTest, HasThePermissionsOfTheFileThatItReplaces) {
+  const fs::path path = folder_ / "out.txt";
+  for (const auto permissions : {fs::perms(0600), fs::perms(0664), fs::perms(0640)}) {
+    std::ofstream(path) << "old";
+    fs::permissions(path, permissions);
+    OutputFile file(path);
+    file.write("new");
+    file.finish();
+    EXPECT_EQ(fs::status(path).permissions(), permissions);
+    EXPECT_EQ(file_contents(path), "new");
+  }
+}
+
+TEST_F(OutputFileTest, ReplacesNoFileThatMayNotBeWritten) {
+  const fs::path path = folder_ / "out.txt";
+  std::ofstream(path) << "old";
+  fs::permissions(path, fs::perms(0444));
+  fs::permissions(folder_.path(), fs::perms::all);
+  {
+    const testing_support::OrdinaryUser user;
+    EXPECT_THROW(OutputFile{path}, UsageError);
+  }
+  EXPECT_EQ(file_contents(path), "old");
+}
+
+TEST_F(OutputFileTest, ReplacesWhatALinkPointsTo) {
+  fs::create_directory(folder_ / "there");
+  fs::create_symlink("there/to", folder_ / "from");
+  fs::create_symlink("from", folder_ / "first");
+  for (const char* text : {"new", "newer"}) {
+    OutputFile file(folder_ / "first");
+    file.write(text);
+    file.finish();
+    EXPECT_EQ(file_contents(folder_ / "there/to"), text);
+  }
+  EXPECT_TRUE(fs::is_symlink(folder_ / "first"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "from"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "there"), {}), 1);
+  fs::create_symlink("round", folder_ / "round");
+  EXPECT_THROW(OutputFile{folder_ / "round"}, UsageError);
+}
+
+/// Another thread of a program that uses the library may make a file just then.
+TEST_F(OutputFileTest, LeavesTheMaskOfTheProcessAlone) {
+  const mode_t before = ::umask(027);
+  OutputFile file(folder_ / "out.txt");
+  file.finish();
+  EXPECT_EQ(::umask(before), 027U);
+  EXPECT_EQ(fs::status(folder_ / "out.txt").permissions(), fs::perms(0640));
 }
 
 TEST_F(OutputFileTest, NamesWhatCannotBeOpened) {

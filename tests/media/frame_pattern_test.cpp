@@ -54,5 +54,18 @@ INSTANTIATE_TEST_SUITE_P(All, BadPattern,
                                          "%03i.png", "%ld.png", "%-3d.png", "%", "%0", "%03", "a%",
                                          "%d/a.png", "%03d/%%.png", "% d.png", "%%%.png"));
 
+TEST(FramePattern, KnowsItsFilesByTheirNumbers) {
+  const FramePattern pattern("f/a%03d.png");
+  for (const std::int64_t number : {0, 1, 12, 999, 1000, 123456}) {
+    EXPECT_EQ(pattern.number_of(pattern.name(number)), number);
+  }
+  for (const char* other :
+       {"a1.png", "a0001.png", "a-01.png", "a+01.png", "a 01.png", "b001.png", "a001.jpg",
+        "a001.png~", "a.png", "a", "", "a99999999999999999999.png"}) {
+    EXPECT_EQ(pattern.number_of(other), std::nullopt) << other;
+  }
+  EXPECT_EQ(pattern.label(), FramePattern("a%d.png").label());
+}
+
 }  // namespace
 }  // namespace piblocks

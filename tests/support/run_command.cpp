@@ -67,7 +67,7 @@ pid_t spawn(const std::vector<std::string>& arguments, const CommandOptions& opt
     posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
   } else {
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, options.out_file.c_str(),
-                                     O_WRONLY | O_CREAT | O_TRUNC, 0666);
+                                     options.out_flags, 0666);
   }
   posix_spawn_file_actions_adddup2(&actions, err, STDERR_FILENO);
   for (const int descriptor : options.closed) {

@@ -2,6 +2,7 @@
 // In: arguments, a working folder. Out: exit code, what it printed, the memory it took.
 #pragma once
 
+#include <fcntl.h>
 #include <sys/types.h>
 
 #include <chrono>
@@ -15,10 +16,11 @@ namespace piblocks::testing_support {
 struct CommandOptions {
   std::filesystem::path folder = {};  ///< working folder; the caller's if empty
   std::string out_file = {};          ///< where standard output goes instead, such as /dev/full
-  std::vector<std::string> environment = {};  ///< "NAME=VALUE" each, beside the caller's
-  std::vector<int> closed = {};               ///< descriptors that the program starts without
-  bool out_is_terminal = false;               ///< standard output is a terminal of its own
-  bool err_is_terminal = false;               ///< standard error is a terminal of its own
+  int out_flags = O_WRONLY | O_CREAT | O_TRUNC;  ///< how out_file is opened
+  std::vector<std::string> environment = {};     ///< "NAME=VALUE" each, beside the caller's
+  std::vector<int> closed = {};                  ///< descriptors that the program starts without
+  bool out_is_terminal = false;                  ///< standard output is a terminal of its own
+  bool err_is_terminal = false;                  ///< standard error is a terminal of its own
 };
 
 /// A sanitizer keeps freed memory, and needs some of its own.

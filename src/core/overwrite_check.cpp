@@ -1,0 +1,130 @@
+#include "core/overwrite_check.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <iterator>
+#include <system_error>
+
+#include "core/output_file.hpp"
+
+namespace piblocks {
+namespace fs = std::filesystem;
+namespace {
+
+/// What cannot be followed cannot be opened either, and whoever tries says so.
+fs::path target_of(const fs::path& path) {
+  try {
+    return follow_links(path);
+  } catch (const UsageError&) {
+    return path;
+  }
+}
+
+std::string quoted(const std::string& what, const std::string& path) {
+  return path.empty() ? what : fmt::format("{} '{}'", what, path);
+}
+
+}  // namespace
+
+std::optional<OverwriteCheck::FileId> OverwriteCheck::id_of(const fs::path& path, mode_t type) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0 || (status.st_mode & S_IFMT) != type) return std::nullopt;
+  return FileId(status.st_dev, status.st_ino);
+}
+
+OverwriteCheck::Claim OverwriteCheck::file_claim(const std::string& what, const fs::path& file) {
+  Claim claim{what, file.string()};
+  if (const auto id = id_of(file, S_IFREG)) claim.files.push_back(*id);
+  const fs::path target = target_of(file);
+  fs::path rest = target.filename();
+  for (fs::path at = target.parent_path();; at = at.parent_path()) {
+    if (const auto id = id_of(at.empty() ? "." : at, S_IFDIR)) {
+      claim.place.emplace(*id, rest.lexically_normal().string());
+      return claim;
+    }
+    if (at.empty() || at == at.parent_path()) return claim;
+    rest = at.filename() / rest;
+  }
+}
+
+OverwriteCheck::Claim OverwriteCheck::folder_claim(const std::string& what, const fs::path& folder,
+                                                   Names names) {
+  const fs::path path = folder.empty() ? "." : folder;
+  Claim claim{what, path.string()};
+  claim.folder = id_of(path, S_IFDIR);
+  std::error_code error;
+  for (fs::directory_iterator at(path, error), end; !error && at != end; at.increment(error)) {
+    if (names && !names(at->path().filename())) continue;
+    if (const auto id = id_of(at->path(), S_IFREG)) claim.files.push_back(*id);
+  }
+  std::ranges::sort(claim.files);
+  claim.names = std::move(names);
+  return claim;
+}
+
+void OverwriteCheck::reads(const std::string& what, const fs::path& file) {
+  inputs_.push_back(file_claim(what, file));
+}
+
+void OverwriteCheck::reads_some_of(const std::string& what, const fs::path& folder, Names names) {
+  inputs_.push_back(folder_claim(what, folder, std::move(names)));
+}
+
+void OverwriteCheck::reads_all_of(const std::string& what, const fs::path& folder) {
+  inputs_.push_back(folder_claim(what, folder, {}));
+}
+
+void OverwriteCheck::writes(const std::string& what, const fs::path& file) {
+  outputs_.push_back(file_claim(what, file));
+}
+
+void OverwriteCheck::writes_some_of(const std::string& what, const std::string& name,
+                                    const fs::path& folder, Names names) {
+  outputs_.push_back(folder_claim(what, folder, std::move(names)));
+  outputs_.back().path = name;
+}
+
+void OverwriteCheck::writes_standard_output() {
+  struct stat status {};
+  if (::fstat(STDOUT_FILENO, &status) != 0 || !S_ISREG(status.st_mode)) return;
+  outputs_.push_back({"standard output", "", {FileId(status.st_dev, status.st_ino)}});
+}
+
+bool OverwriteCheck::is_within(const Claim& file, const Claim& folder) {
+  if (!file.place || !folder.folder || file.place->first != *folder.folder) return false;
+  const std::string& name = file.place->second;
+  return name.find('/') == std::string::npos && (!folder.names || folder.names(name));
+}
+
+bool OverwriteCheck::meet(const Claim& one, const Claim& other) {
+  std::vector<FileId> both;
+  std::ranges::set_intersection(one.files, other.files, std::back_inserter(both));
+  if (!both.empty() || is_within(one, other) || is_within(other, one)) return true;
+  if (one.folder && one.folder == other.folder) return !one.names || !other.names;
+  return one.place && one.place == other.place;
+}
+
+void OverwriteCheck::check() const {
+  std::vector<std::string> problems;
+  for (auto output = outputs_.begin(); output != outputs_.end(); ++output) {
+    for (const Claim& input : inputs_) {
+      if (!meet(*output, input)) continue;
+      problems.push_back(fmt::format(
+          "{}: would write {} {}; choose another name", quoted(output->what, output->path),
+          input.folder ? "into" : "over", quoted(input.what, input.path)));
+    }
+    for (auto other = outputs_.begin(); other != output; ++other) {
+      if (!meet(*output, *other)) continue;
+      problems.push_back(fmt::format("{}: would write over {}; choose another name",
+                                     quoted(output->what, output->path),
+                                     quoted(other->what, other->path)));
+    }
+  }
+  if (!problems.empty()) throw UsageError(std::move(problems));
+}
+
+}  // namespace piblocks

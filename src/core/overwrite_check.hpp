@@ -1,0 +1,68 @@
+// Keeps a command from writing over what it reads, and over its own outputs.
+// In: the files that it reads, and those that it is going to write. Out: nothing, or a UsageError
+// that names both.
+//
+// Two names are the same file if the system says so, through symbolic and hard links and whatever
+// the path. A name that is not there yet is known by the folder that it will be in.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace piblocks {
+
+class OverwriteCheck {
+ public:
+  /// Whether a file of a folder is meant.
+  using Names = std::function<bool(const std::string& name)>;
+
+  /// @param what  the file's part in the command, for messages: "the scene file".
+  void reads(const std::string& what, const std::filesystem::path& file);
+  /// Reads the files of a folder that have these names.
+  void reads_some_of(const std::string& what, const std::filesystem::path& folder, Names names);
+  /// Reads a folder: nothing else may be put there.
+  void reads_all_of(const std::string& what, const std::filesystem::path& folder);
+
+  void writes(const std::string& what, const std::filesystem::path& file);
+  /// Writes files of a folder, with some of these names.
+  /// @param name  of all of them, for messages: "frames/%06d.png".
+  void writes_some_of(const std::string& what, const std::string& name,
+                      const std::filesystem::path& folder, Names names);
+  /// Writes to standard output, which may have been redirected to a file.
+  void writes_standard_output();
+
+  /// @throws UsageError that lists all outputs which would replace an input or another output.
+  void check() const;
+
+ private:
+  using FileId = std::pair<dev_t, ino_t>;
+
+  /// Files, or a folder with names in it.
+  struct Claim {
+    std::string what;
+    std::string path;
+    std::vector<FileId> files = {};  ///< those that exist, sorted
+    /// The nearest folder that exists, and the rest of the path.
+    std::optional<std::pair<FileId, std::string>> place = {};
+    std::optional<FileId> folder = {};  ///< whose names are claimed
+    Names names = {};                   ///< all if empty
+  };
+
+  static std::optional<FileId> id_of(const std::filesystem::path& path, mode_t type);
+  static Claim file_claim(const std::string& what, const std::filesystem::path& file);
+  static Claim folder_claim(const std::string& what, const std::filesystem::path& folder,
+                            Names names);
+  static bool is_within(const Claim& file, const Claim& folder);
+  static bool meet(const Claim& one, const Claim& other);
+
+  std::vector<Claim> inputs_;
+  std::vector<Claim> outputs_;
+};
+
+}  // namespace piblocks

@@ -1,0 +1,114 @@
+// What was there before a run: which files it replaces, and which it leaves alone.
+#include <csignal>
+
+#include "cli/cli_fixture.hpp"
+
+namespace piblocks {
+namespace {
+namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
+
+const Arguments kSmall{"render", "--quiet", "--size", "64x36", "--fps", "10"};
+
+class OldFilesTest : public CliFixture {
+ protected:
+  void render(const std::string& output, const std::string& to = "0.5") const {
+    output_of(kSmall + Arguments{"--to", to, "-o", output});
+  }
+  bool is_png(const std::string& name) const { return contents(name).starts_with("\x89PNG"); }
+};
+
+TEST_F(OldFilesTest, OfAnotherProgramStayWhateverTheirNames) {
+  fs::create_directory(folder_ / "a.mp4.unfinished-backup");
+  write("a.mp4.unfinished-backup/file", "mine");
+  write("a.mp4.unfinished-abcdef", "mine");
+  fs::create_directory(folder_ / "frames.unfinished-backup");
+  write("frames.unfinished-backup/file", "mine");
+  const Names before = entries();
+  render("a.mp4");
+  fs::remove(folder_ / "a.mp4");
+  EXPECT_EQ(entries(), before);
+  render("%d.png", "0.1");
+  fs::remove(folder_ / "1.png");
+  EXPECT_EQ(entries(), before);
+}
+
+class KeptTest : public CliFixture, public testing::WithParamInterface<const char*> {};
+
+TEST_P(KeptTest, PermissionsAndLinksOfTheReplacedFile) {
+  Arguments arguments = split(GetParam(), ' ');
+  const std::string name = arguments.back();
+  fs::create_directory(folder_ / "there");
+  write("there/file", "old");
+  fs::permissions(folder_ / "there/file", fs::perms(0600));
+  fs::create_symlink("there/file", folder_ / name);
+  output_of(arguments);
+  EXPECT_TRUE(fs::is_symlink(folder_ / name));
+  EXPECT_EQ(fs::status(folder_ / "there/file").permissions(), fs::perms(0600));
+  EXPECT_NE(contents("there/file"), "old");
+  EXPECT_EQ(entries().size(), 3U);
+}
+INSTANTIATE_TEST_SUITE_P(Outputs, KeptTest,
+                         testing::Values("render --quiet --size 64x36 --to 0.1 -o a.mp4",
+                                         "render --quiet --size 64x36 --to 0.1 -o a.y4m",
+                                         "render --quiet --size 64x36 --to 0.1 -o a.html",
+                                         "still --size 64x36 --at 1 -o a.png",
+                                         "sheet --size 64x36 -o a.pdf", "log --limit 2 -o a.csv"));
+
+TEST_F(OldFilesTest, OfALongerSequenceGoWithIt) {
+  render("f/%03d.png", "1");
+  const std::size_t longer = entries().size();
+  for (const char* other : {"f/000.png", "f/4.png", "f/0004.png", "f/004.jpg", "f/x004.png"}) {
+    write(other, "mine");
+  }
+  write("f/099.png", "behind a gap");
+  render("f/%03d.png", "0.3");
+  EXPECT_GE(longer, 10U);
+  EXPECT_EQ(entries(), (Names{"f", "f/000.png", "f/0004.png", "f/001.png", "f/002.png", "f/003.png",
+                              "f/004.jpg", "f/099.png", "f/4.png", "f/x004.png"}));
+}
+
+TEST_F(OldFilesTest, OfALongerSequenceGoWithOneThatIsJoined) {
+  render("%d.png", "1");
+  for (const char* part : {"1/2", "2/2"}) {
+    output_of(kSmall + Arguments{"--to", "0.3", "--part", part, "-o", "%d.png"});
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "10.png")) << "parts are no sequence yet";
+  output_of({"join", "--quiet", "%d.png.part-1-of-2", "%d.png.part-2-of-2", "-o", "%d.png"});
+  EXPECT_EQ(entries(),
+            (Names{"%d.png.part-1-of-2", "%d.png.part-2-of-2", "1.png", "2.png", "3.png"}));
+}
+
+TEST_F(OldFilesTest, OfASequenceStayWhereOneCannotBeReplaced) {
+  render("%d.png", "1");
+  write("mine.png", "mine");
+  fs::remove(folder_ / "2.png");
+  fs::create_symlink("mine.png", folder_ / "2.png");
+  const std::string first = contents("1.png");
+  const Names before = entries();
+  const CommandResult result =
+      piblocks(kSmall + Arguments{"--theme", "dark", "--to", "0.3", "-o", "%d.png"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("'./2.png': a symbolic link"), std::string::npos) << result.err;
+  EXPECT_EQ(entries(), before);
+  EXPECT_EQ(contents("1.png"), first);
+  EXPECT_EQ(contents("mine.png"), "mine");
+}
+
+TEST_F(OldFilesTest, OfASequenceBelongToOneRunAtATime) {
+  const Arguments endless{"render", "--quiet", "--size", "320x180", "--to", "9999"};
+  RunningCommand first(endless + Arguments{"-o", "f/%06d.png"}, {.folder = folder_.path()});
+  ASSERT_TRUE(wait_until([&] { return fs::exists(folder_ / "f") && entries().size() > 4; }));
+  const CommandResult second = piblocks(kSmall + Arguments{"--to", "0.1", "-o", "f/%06d.png"});
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_NE(second.err.find("another run is writing it"), std::string::npos) << second.err;
+  render("f/other-%06d.png", "0.1");
+  EXPECT_TRUE(is_png("f/other-000001.png"));
+  first.send(SIGINT);
+  EXPECT_EQ(first.wait().exit_code, 1);
+  render("f/%06d.png", "0.1");
+  EXPECT_EQ(entries(), (Names{"f", "f/000001.png", "f/other-000001.png"}));
+}
+
+}  // namespace
+}  // namespace piblocks

@@ -1,0 +1,144 @@
+// Files that take their names together.
+#include "core/file_set.hpp"
+
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+
+#include <fstream>
+#include <map>
+#include <string_view>
+
+#include "support/temporary_folder.hpp"
+
+namespace piblocks {
+namespace {
+namespace fs = std::filesystem;
+
+using testing_support::file_contents;
+using testing_support::TemporaryFolder;
+using Files = std::map<std::string, std::string>;
+
+std::span<const std::uint8_t> bytes_of(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+class FileSetTest : public testing::Test {
+ protected:
+  Files files() const {
+    Files files;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) {
+      files[entry.path().filename()] =
+          entry.is_directory() ? "folder" : file_contents(entry.path());
+    }
+    return files;
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(FileSetTest, ReplacesAndRemovesTogether) {
+  for (const char* name : {"1", "2", "3", "other"}) write(name, "old");
+  {
+    FileSet files(folder_.path(), "set");
+    files.add("1", bytes_of("new"));
+    files.remove("3");
+  }
+  EXPECT_EQ(files(), (Files{{"1", "old"}, {"2", "old"}, {"3", "old"}, {"other", "old"}}));
+  FileSet set(folder_.path(), "set");
+  set.add("1", bytes_of("new"));
+  set.add("2", bytes_of("new"));
+  set.remove("3");
+  set.commit();
+  EXPECT_EQ(files(), (Files{{"1", "new"}, {"2", "new"}, {"other", "old"}}));
+}
+
+/// A file that is gone stops the renaming half-way.
+TEST_F(FileSetTest, TakesAllNamesBackWhereOneCannotBeTaken) {
+  write("1", "old");
+  write("3", "old");
+  FileSet set(folder_.path(), "set");
+  for (const char* name : {"1", "2"}) set.add(name, bytes_of("new"));
+  set.remove("3");
+  fs::remove(set.workshop() / "new/2");
+  EXPECT_THROW(set.commit(), IoError);
+  Files left = files();
+  std::erase_if(left, [](const auto& file) { return file.second == "folder"; });
+  EXPECT_EQ(left, (Files{{"1", "old"}, {"3", "old"}}));
+}
+
+TEST_F(FileSetTest, KeepsPermissions) {
+  write("1", "old");
+  fs::permissions(folder_ / "1", fs::perms(0600));
+  FileSet set(folder_.path(), "set");
+  set.add("1", bytes_of("new"));
+  set.commit();
+  EXPECT_EQ(fs::status(folder_ / "1").permissions(), fs::perms(0600));
+}
+
+TEST_F(FileSetTest, ReplacesNoLinkAndNoFolder) {
+  write("target", "old");
+  fs::create_symlink("target", folder_ / "link");
+  fs::create_directory(folder_ / "folder");
+  FileSet set(folder_.path(), "set");
+  EXPECT_THROW(set.add("link"), IoError);
+  EXPECT_THROW(set.add("folder"), IoError);
+  EXPECT_THROW(set.remove("link"), IoError);
+}
+
+TEST_F(FileSetTest, HasNoRivalUnlessThatIsAllowed) {
+  const FileSet first(folder_.path(), "set");
+  EXPECT_THROW(FileSet(folder_.path(), "set"), UsageError);
+  EXPECT_NO_THROW(FileSet(folder_.path(), "another"));
+  EXPECT_NO_THROW(FileSet(folder_.path(), "set", Unfinished::Rivals::allowed));
+  EXPECT_TRUE(fs::exists(first.workshop()));
+}
+
+/// The state in which SIGKILL leaves a set whose first file has its name.
+TEST_F(FileSetTest, CompletesWhatAKilledProcessHadBegunToRename) {
+  write("1", "new");
+  write("3", "old");
+  fs::path dead;
+  {
+    FileSet set(folder_.path(), "set");
+    dead = set.workshop();
+  }
+  for (const char* name : {"new", "old"}) fs::create_directories(dead / name);
+  std::ofstream(dead / "old/1") << "old";
+  std::ofstream(dead / "new/2") << "new";
+  std::ofstream(dead / "new/3") << "new";
+  { const FileSet next(folder_.path(), "set"); }
+  EXPECT_EQ(files(), (Files{{"1", "new"}, {"2", "new"}, {"3", "new"}}));
+}
+
+TEST_F(FileSetTest, RemovesWhatAKilledProcessHadOnlyToRemove) {
+  write("1", "new");
+  fs::path dead;
+  {
+    FileSet set(folder_.path(), "set");
+    dead = set.workshop();
+  }
+  fs::create_directories(dead / "old");
+  std::ofstream(dead / "old/1") << "old";
+  { const FileSet next(folder_.path(), "set"); }
+  EXPECT_EQ(files(), (Files{{"1", "new"}}));
+}
+
+/// Before the first renaming the old files are still in place, and the new ones may be incomplete.
+TEST_F(FileSetTest, DropsWhatAKilledProcessHadNotBegunToRename) {
+  write("1", "old");
+  fs::path dead;
+  {
+    FileSet set(folder_.path(), "set");
+    dead = set.workshop();
+  }
+  fs::create_directories(dead / "new");
+  std::ofstream(dead / "new/1") << "ne";
+  { const FileSet next(folder_.path(), "set"); }
+  EXPECT_EQ(files(), (Files{{"1", "old"}}));
+}
+
+}  // namespace
+}  // namespace piblocks

@@ -1,0 +1,51 @@
+#include "core/printable.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace piblocks {
+namespace {
+
+TEST(Printable, KeepsText) {
+  for (const char* text : {"", "a.mp4", "π … 🙂", "C:\\x1b", "\"<&>'", "\xef\xbf\xbd"}) {
+    EXPECT_EQ(printable(text), text);
+  }
+}
+
+TEST(Printable, EscapesWhatATerminalObeys) {
+  EXPECT_EQ(printable("\x1b[2J\a\r\n\t\x7f"), "\\x1b[2J\\x07\\x0d\\n\\t\\x7f");
+  EXPECT_EQ(printable(std::string_view("a\0b", 3)), "a\\x00b");
+  EXPECT_EQ(printable("\u009b31m \u0085"), "\\u{9b}31m \\u{85}");
+  EXPECT_EQ(printable("\u202egpj.exe \u2066 \u2028"), "\\u{202e}gpj.exe \\u{2066} \\u{2028}");
+}
+
+TEST(Printable, EscapesBytesThatAreNoUtf8) {
+  EXPECT_EQ(printable("\xff\x80"), "\\xff\\x80");
+  EXPECT_EQ(printable("\xc0\x9b"), "\\xc0\\x9b") << "too long a form";
+  EXPECT_EQ(printable("\xe0\x82\x9b"), "\\xe0\\x82\\x9b");
+  EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80") << "surrogate";
+  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80") << "above U+10FFFF";
+  EXPECT_EQ(printable("\xcf"), "\\xcf") << "cut off";
+  EXPECT_EQ(printable("\xcfx"), "\\xcfx");
+}
+
+/// Whatever the bytes, what is printed has no control characters, and stays as it is.
+TEST(Printable, IsSafeAndStableForRandomBytes) {
+  std::mt19937 random(31415);
+  for (int round = 0; round < 2000; ++round) {
+    std::string bytes(random() % 12, ' ');
+    for (char& c : bytes) c = static_cast<char>(random() % 256);
+    const std::string text = printable(bytes);
+    EXPECT_EQ(printable(text), text);
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      const auto byte = static_cast<unsigned char>(text[i]);
+      EXPECT_FALSE(byte < 0x20 || byte == 0x7f);
+      const bool starts_c1 = byte == 0xc2 && static_cast<unsigned char>(text.at(i + 1)) < 0xa0;
+      EXPECT_FALSE(starts_c1);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace piblocks
