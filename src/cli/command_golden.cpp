@@ -245,7 +245,7 @@ GoldenOptions add_options(CLI::App& command, bool with_diff) {
               ->option_text("..."),
           add_value_option(command, "--dir", "DIR", "The folder of the references").required(),
           &add_value_option(command, "--frames", "T,…",
-                            "Instants kept as pictures, instead of the scene's: times, last, #K"),
+                            "Instants kept as pictures, instead of the scene's: 3.5, last, #K"),
           with_diff ? &add_value_option(command, "--diff", "DIR",
                                         "Write expected, difference and actual of pictures")
                     : nullptr};

@@ -4,6 +4,8 @@
 #include <piblocks/instant.hpp>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/convention_note.hpp"
@@ -48,11 +50,26 @@ Integer parse_index(const std::string& text) {
   return index.get_num();
 }
 
+/// An end of what is printed.
+struct Bound {
+  Instant instant;
+  Rational time;
+};
+
+/// Nothing if the option was not given.
+std::optional<Bound> bound_of(const CLI::Option& option, const CollisionLog& log) {
+  return value_of(option, [&](const std::string& text) {
+    Instant instant = parse_instant(text);
+    Rational time = time_of(instant, log);
+    return Bound{std::move(instant), std::move(time)};
+  });
+}
+
 /// The first collision at this instant or after it.
-Integer first_since(const CollisionLog& log, const Instant& instant) {
-  if (instant.anchor == Instant::Anchor::collision && instant.offset == 0) return instant.index;
-  if (instant.anchor == Instant::Anchor::last && instant.offset == 0) return log.size();
-  const Rational time = time_of(instant, log);
+Integer first_since(const CollisionLog& log, const Bound& bound) {
+  const auto& [instant, time] = bound;
+  if (instant.offset == 0 && instant.anchor == Instant::Anchor::collision) return instant.index;
+  if (instant.offset == 0 && instant.anchor == Instant::Anchor::last) return log.size();
   const Time rounded = to_time(time);
   Integer first = log.flight_at(time).count + 1;
   while (first > log.first_index() && log.at(first - 1).time == rounded) first -= 1;
@@ -60,29 +77,15 @@ Integer first_since(const CollisionLog& log, const Instant& instant) {
 }
 
 Rows rows_within_times(const LogOptions& options, const CollisionLog& log) {
-  const auto from = value_of(*options.from, parse_instant);
-  const auto to = value_of(*options.to, parse_instant);
+  const auto from = bound_of(*options.from, log);
+  const auto to = bound_of(*options.to, log);
+  if (from && to && to->time < from->time) {
+    throw UsageError(fmt::format("--to {}: is before --from {}", exact_text(to->instant),
+                                 exact_text(from->instant)));
+  }
   Rows rows{1, log.size()};
-  const auto bound = [&](const CLI::Option& option, const Instant& instant, auto&& row) {
-    try {
-      return row(instant);
-    } catch (const UsageError& error) {
-      throw UsageError(
-          fmt::format("{} {}: {}", option.get_name(), exact_text(instant), error.what()));
-    }
-  };
-  if (from) {
-    rows.first = bound(*options.from, *from, [&](const Instant& i) { return first_since(log, i); });
-  }
-  if (to) {
-    rows.last = bound(*options.to, *to, [&](const Instant& instant) -> Integer {
-      return log.flight_at(time_of(instant, log)).count;
-    });
-  }
-  if (from && to && time_of(*to, log) < time_of(*from, log)) {
-    throw UsageError(
-        fmt::format("--to {}: is before --from {}", exact_text(*to), exact_text(*from)));
-  }
+  if (from) rows.first = first_since(log, *from);
+  if (to) rows.last = log.flight_at(to->time).count;
   return rows;
 }
 

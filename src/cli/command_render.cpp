@@ -186,8 +186,8 @@ RenderOptions add_options(CLI::App& command) {
       add_value_option(command, "--bundle", "DIR",
                        "Write OUT, an MP4, into DIR, with a poster, captions, alt text\n"
                        "and snippets for LaTeX beamer and reveal.js beside it");
-  const CLI::Option& poster = add_value_option(command, "--poster", "S|last|#K",
-                                               "What the poster shows (default: the last frame)");
+  const CLI::Option& poster = add_value_option(
+      command, "--poster", "T", "Instant that the poster shows (default: the last frame)");
   const CLI::Option& max_flashes =
       add_value_option(command, "--max-flashes", "N",
                        "Render nothing if the film would flash more than N times\n"

@@ -46,8 +46,8 @@ void add_sheet(CLI::App& app) {
   SceneOptions scene(*command);
   const CLI::Option* frames = &add_value_option(
       *command, "--frames", "N", "So many instants, spread over the run (default 12)");
-  const CLI::Option* at = &add_value_option(*command, "--at", "S[,S...]",
-                                            "Or these: times, 'last', or '#K', the K-th collision");
+  const CLI::Option* at = &add_value_option(*command, "--at", "T[,T...]",
+                                            "Or these instants: 3.5, turn-0.3, last+1, '#314'");
   const CLI::Option* output =
       add_value_option(*command, "-o,--output", "OUT",
                        "NAME.pdf, NAME.png, NAME.svg, or - (PNG on standard output)")

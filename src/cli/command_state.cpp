@@ -69,9 +69,9 @@ void add_state(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("state", "Print positions, velocities and count, one JSON object a line");
   const SceneOptions scene(*command);
-  const CLI::Option* at = add_value_option(*command, "--at", "S[,S...]",
-                                           "Instants: times, 'last', or '#K', the K-th collision")
-                              .required();
+  const CLI::Option* at =
+      add_value_option(*command, "--at", "T[,T...]", "Instants: 3.5, turn-0.3, last+1, '#314'")
+          .required();
   const CLI::Option* bounds =
       command->add_flag("--bounds")
           ->description("Add position_bound: how far a position may be from the truth at most");

@@ -13,8 +13,9 @@ void add_still(CLI::App& app) {
   CLI::App* command = app.add_subcommand("still", "Render one instant as a picture");
   SceneOptions scene(*command);
   const CLI::Option* instant =
-      add_value_option(*command, "--at", "S|last|#K",
-                       "Instant: a time, the last collision, or the K-th one; of a\n"
+      add_value_option(*command, "--at", "T",
+                       "Instant: a time, 'turn', 'last' or '#K', the K-th collision, or\n"
+                       "so long before or after these: turn-0.3, last+1; of a\n"
                        "storyboard, a second of its video, or 'last' for its end")
           .required();
   const CLI::Option* output =

@@ -55,9 +55,9 @@ void SceneOptions::add_picture() {
 }
 
 void SceneOptions::add_span() {
-  add_key("time.from", "--from", "S", "First instant shown, in simulation time (default 0)");
-  add_key("time.to", "--to", "S|last|last+S",
-          "End: a time, the last collision, or so long after it\n(default last+1.5)");
+  add_key("time.from", "--from", "T",
+          "First instant shown: 3.5, turn-0.3, last+1, #314\n(default 0)");
+  add_key("time.to", "--to", "T", "End, as such an instant (default last+1.5)");
 }
 
 void SceneOptions::add_exposure() {
@@ -78,12 +78,12 @@ void SceneOptions::add_pacing() {
   add_key("time.duration", "--duration", "S", "Length of the video in seconds; sets the speed");
   add_key("time.slow-motion", "--slow-motion", "auto|FROM:TO:N",
           "Windows in which time runs N times slower, separated by\ncommas; FROM and TO as 3.2, "
-          "turn-0.3, last+1");
-  add_key("time.freeze", "--freeze", "AT:S", "Instants at which the picture stands still for S s");
+          "turn-0.3, last+1, #314");
+  add_key("time.freeze", "--freeze", "AT:S",
+          "Instants, as above, at which the picture stands still for S s");
   add_key("time.hold-start", "--hold-start", "S", "Show the first picture for S s more");
   add_key("time.hold-end", "--hold-end", "S", "Show the last picture for S s more");
-  add_flag("time.loop", "true", "--loop",
-           "Play forth and back, so that the video repeats seamlessly");
+  add_flag("time.loop", "true", "--loop", "Play forwards and backwards, so that the video repeats");
 }
 
 void SceneOptions::add_sound() {

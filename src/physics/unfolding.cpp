@@ -64,11 +64,12 @@ Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact, const 
   passage = (fan.sigma * exact_ell / scaled_speed).to_double();
   speed_over_ell = exact.through_corner() ? 0 : (scaled_speed / exact_ell).to_double();
   // In the chosen unit of time the speed is a typical length.
-  const double least = exact.through_corner() ? speed : std::min({ell, speed, passage});
+  const double least =
+      exact.through_corner() ? speed : std::min({ell, speed, passage, speed_over_ell});
   if (least < kLeast) {
     throw SimulationError(
-        "closed form: lengths or times are so short that doubles cannot tell where the "
-        "blocks turn; use greater units");
+        "closed form: lengths, times and speeds are so far apart, or so small, that doubles cannot "
+        "tell where the blocks turn; use other units");
   }
   time_unit = std::scalbln(1.0, exponent);
   closest_approach = to_time(exact.closest_approach / Rational(time_unit));

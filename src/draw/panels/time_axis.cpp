@@ -26,10 +26,7 @@ TimeAxis::TimeAxis(const Setting& setting, const PanelSheet& sheet, double inden
     : TimeAxis(span_of(setting.scene, setting.log), setting.font, sheet, indent_em) {}
 
 TimeAxis::TimeAxis(const Span& span, const Font& font, const PanelSheet& sheet, double indent_em)
-    : from_(span.from),
-      to_(span.to),
-      low_(to_double(from_)),
-      span_(to_double(to_ - from_)) {
+    : from_(span.from), to_(span.to), low_(to_double(from_)), span_(to_double(to_ - from_)) {
   if (to_ <= from_) throw UsageError("show.panels: the scene ends before it begins");
   if (!(span_ > 0) || !std::isfinite(span_)) {
     throw UsageError(

@@ -1,0 +1,181 @@
+// The count that is on the picture, at every kind of anchor, in every kind of output.
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+#include <piblocks/schedule.hpp>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "render/captions.hpp"
+#include "render/film.hpp"
+#include "render/page_facts.hpp"
+#include "render/sheet.hpp"
+#include "render/still.hpp"
+#include "support/property.hpp"
+
+namespace piblocks {
+namespace {
+
+/// What the counter of a picture says, without its separators.
+std::string count_of(const DrawList& list) {
+  for (const DrawItem& item : list.items) {
+    const auto* text = std::get_if<TextItem>(&item);
+    if (text == nullptr || text->id != ItemId::count) continue;
+    std::string count = text->text;
+    std::erase(count, ',');
+    return count;
+  }
+  return "no counter";
+}
+
+Scene scene_of(const BlockSystem& system) {
+  Scene scene;
+  scene.system = system;
+  scene.view.width_px = 64;
+  scene.view.height_px = 36;
+  scene.view.frame_rate = 2;
+  return scene;
+}
+
+BlockSystem system_of_ratio(const Rational& ratio) {
+  BlockSystem system;
+  system.red.mass = ratio;
+  return system;
+}
+
+/// An instant named by its anchor, and the count that is true of it.
+struct Anchored {
+  Instant instant;
+  Integer count;
+};
+
+std::vector<Anchored> anchors_of(const CollisionLog& log) {
+  const Integer& total = log.size();
+  const Rational turn = *turn_of(log.system());
+  return {{Instant::last(), total},
+          {Instant::collision(total), total},
+          {Instant::collision(1), 1},
+          {Instant::collision((total + 1) / 2), (total + 1) / 2},
+          {Instant::turn(), log.flight_at(turn).count}};
+}
+
+std::string last_count(const Scene& scene) {
+  const Film film(scene);
+  return count_of(film.frame(film.frame_count() - 1));
+}
+
+/// Films that end at the anchor, stand still at it, begin with it or play back from it.
+void expect_in_films(const Scene& scene, const Anchored& at) {
+  const std::string count = at.count.get_str();
+  Scene film = scene;
+  film.time.from = Rational(0);
+  film.time.to = at.instant;
+  film.pacing.duration_s = 4;
+  EXPECT_EQ(last_count(film), count) << "end, fitted to a duration";
+  film.pacing.hold_end_s = 1;
+  EXPECT_EQ(last_count(film), count) << "held end";
+
+  Scene frozen = scene;
+  frozen.time.to = Instant::last(3);
+  frozen.time.speed = 20;
+  frozen.pacing.freezes = {{at.instant, 2}};
+  const Schedule schedule = make_schedule(frozen, *make_collision_log(frozen.system));
+  const auto stop = std::ranges::find(schedule.stretches(), 0, &Stretch::speed);
+  const Film stands(frozen);
+  const std::int64_t frame = ceil(stop->video_s * 2).get_si();
+  EXPECT_EQ(count_of(stands.frame(frame)), count) << "freeze";
+  EXPECT_EQ(count_of(stands.frame(frame + 1)), count) << "freeze";
+
+  Scene later = scene;
+  later.time.from = at.instant;
+  later.time.to = Instant::last(40);
+  later.time.speed = 20;
+  EXPECT_EQ(count_of(Film(later).frame(0)), count) << "begin";
+
+  Scene looped = scene;
+  looped.time.from = Rational(0);
+  looped.time.to = at.instant;
+  looped.pacing.duration_s = 5;
+  looped.pacing.loop = true;
+  const Film loop(looped);
+  EXPECT_EQ(count_of(loop.frame(loop.frame_count() / 2)), count) << "turn of a loop";
+}
+
+void expect_in_texts(const Scene& scene, const Anchored& at) {
+  Scene film = scene;
+  film.time.from = Rational(0);
+  film.time.to = at.instant;
+  film.pacing.duration_s = 4;
+  const auto log = make_collision_log(film.system);
+  const Schedule schedule = make_schedule(film, *log);
+  const PageFacts facts(film, *log, schedule);
+  EXPECT_EQ(facts.most(), at.count) << "page";
+  std::string text = captions(*log, schedule, film.view.frame_rate);
+  std::erase(text, ',');
+  const std::string last = "\n" + at.count.get_str() + " collision";
+  EXPECT_NE(text.find(last), std::string::npos) << "captions: " << text;
+}
+
+void expect_everywhere(const BlockSystem& system) {
+  const Scene scene = scene_of(system);
+  const auto log = make_collision_log(system);
+  SCOPED_TRACE("ratio " + system.red.mass.get_str());
+  for (const Anchored& at : anchors_of(*log)) {
+    SCOPED_TRACE(exact_text(at.instant));
+    const std::string count = at.count.get_str();
+    EXPECT_EQ(count_of(still_picture(scene, at.instant)), count);
+    std::string caption = sheet_pictures(scene, {at.instant}).front().caption;
+    std::erase(caption, ',');
+    EXPECT_TRUE(caption.ends_with("count " + count)) << caption;
+    expect_in_films(scene, at);
+    expect_in_texts(scene, at);
+  }
+}
+
+TEST(CountsShown, AreRightForAnyMassRatio) {
+  Random random(2718);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 200; ++i) {
+    expect_everywhere(system_of_ratio(random.rational(1, 2'000'000, 1000) / 4 + 1));
+    if (HasFailure()) return;
+  }
+}
+
+TEST(CountsShown, AreRightForAnyNumberOfDigits) {
+  for (int digits = 1; digits <= 40; ++digits) {
+    expect_everywhere(article_system(digits));
+    if (HasFailure()) return;
+  }
+}
+
+TEST(CountsShown, AreRightInTimesBeforeZero) {
+  BlockSystem system;
+  system.red.velocity = 1;
+  const Scene scene = scene_of(system);
+  EXPECT_EQ(count_of(still_picture(scene, Instant(Rational(-20)))), "-314");
+  EXPECT_EQ(count_of(still_picture(scene, Instant::collision(-7))), "-7");
+  EXPECT_EQ(count_of(still_picture(scene, Instant::collision(0))), "0");
+  Scene film = scene;
+  film.time.from = Rational(-20);
+  film.time.to = Rational(1);
+  const auto log = make_collision_log(system);
+  const std::string text = captions(*log, make_schedule(film, *log), film.view.frame_rate);
+  EXPECT_NE(text.find("100 collisions or more to go until time 0"), std::string::npos) << text;
+}
+
+TEST(CountsShown, AreRightInTheSecondsOfAStoryboard) {
+  Storyboard story;
+  story.view = scene_of(article_system(3)).view;
+  Scene run = scene_of(article_system(3));
+  run.time.to = Instant::last();
+  run.pacing.duration_s = 4;
+  run.pacing.hold_end_s = 1;
+  story.parts.push_back({Card{{"314"}, 1}});
+  story.parts.push_back({Runs{run}, Rational(1, 2)});
+  EXPECT_EQ(count_of(still_picture(story, Instant::last())), "314");
+  EXPECT_EQ(count_of(still_picture(story, Instant::last(Rational(-1, 2)))), "314");
+}
+
+}  // namespace
+}  // namespace piblocks

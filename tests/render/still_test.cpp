@@ -1,0 +1,153 @@
+// A still is the film's frame: random scenes, every kind of instant, pixel by pixel.
+#include "render/still.hpp"
+
+#include <gtest/gtest.h>
+#include <piblocks/canvas.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/schedule.hpp>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/film.hpp"
+#include "support/property.hpp"
+
+namespace piblocks {
+namespace {
+
+std::string pixels_of(const DrawList& list) {
+  Canvas canvas(list.width_px, list.height_px,
+                list.background ? Ground::opaque : Ground::transparent);
+  canvas.paint(list);
+  const ImageView image = canvas.view();
+  std::string pixels;
+  for (int y = 0; y < image.height_px; ++y) {
+    pixels.append(reinterpret_cast<const char*>(image.row(y)),
+                  static_cast<std::size_t>(4 * image.width_px));
+  }
+  return pixels;
+}
+
+Instant any_instant(Random& random, const Integer& total) {
+  const Rational offset = random.rational(0, 4, 30) - 2;
+  switch (random.integer(0, 3)) {
+    case 0:
+      return random.rational(0, 12, 30);
+    case 1:
+      return Instant::turn(offset);
+    case 2:
+      return Instant::last(random.integer(0, 1) == 0 ? Rational(0) : offset);
+    default:
+      return Instant::collision(1 + total * random.integer(0, 999) / 1000,
+                                random.integer(0, 1) == 0 ? Rational(0) : offset);
+  }
+}
+
+/// Scenes of few frames, with any pacing and shutter.
+Scene any_scene(Random& random) {
+  Scene scene;
+  scene.system = article_system(static_cast<int>(random.integer(1, 12)));
+  if (random.integer(0, 2) == 0) scene.system.red.mass = random.rational(1, 5000, 7) + 1;
+  scene.view.width_px = 96;
+  scene.view.height_px = 54;
+  scene.view.frame_rate = random.integer(0, 1) == 0 ? Rational(4) : Rational(5000, 1001);
+  if (random.integer(0, 1) == 0) scene.view.shutter = Rational(random.integer(1, 4)) / 4;
+  scene.show.overlays = {Overlay::time};
+  const Integer total = count_collisions(scene.system);
+  if (random.integer(0, 2) == 0) scene.time.from = any_instant(random, total);
+  if (random.integer(0, 1) == 0) scene.time.to = any_instant(random, total);
+  scene.time.speed = Rational(random.integer(1, 8)) / 4;
+  Pacing& pacing = scene.pacing;
+  if (random.integer(0, 2) == 0) pacing.duration_s = random.rational(4, 16, 9);
+  pacing.automatic_slow_motion = random.integer(0, 4) == 0;
+  if (random.integer(0, 1) == 0) {
+    const Rational from = random.rational(0, 8, 12);
+    pacing.slow_motion = {{from, Rational(from + random.rational(0, 3, 8) + Rational(1, 8)), 3}};
+  }
+  for (std::int64_t i = random.integer(0, 2); i > 0; --i) {
+    pacing.freezes.push_back(
+        {any_instant(random, total), random.rational(0, 1, 5) + Rational(1, 4)});
+  }
+  if (random.integer(0, 2) == 0) pacing.hold_start_s = random.rational(0, 1, 3);
+  if (random.integer(0, 2) == 0) pacing.hold_end_s = random.rational(0, 1, 3);
+  pacing.loop = random.integer(0, 3) == 0;
+  return scene;
+}
+
+/// Frames at which something begins or ends, and some others.
+std::vector<std::int64_t> some_frames(Random& random, const Schedule& schedule, std::int64_t count,
+                                      const Rational& rate) {
+  std::vector<std::int64_t> frames = {0, count - 1, count / 2};
+  for (const Stretch& stretch : schedule.stretches()) {
+    const std::int64_t first = ceil(stretch.video_s * rate).get_si();
+    frames.insert(frames.end(), {first - 1, first, first + 1});
+  }
+  for (int i = 0; i < 4; ++i) frames.push_back(random.integer(0, count - 1));
+  std::erase_if(frames, [&](std::int64_t frame) { return frame < 0 || frame >= count; });
+  return frames;
+}
+
+/// The first frame with the same time; the one that a still of that time is.
+std::int64_t first_at(const Schedule& schedule, const Rational& time, std::int64_t count) {
+  for (std::int64_t frame = 0; frame < count; ++frame) {
+    if (schedule.time_of(frame) == time) return frame;
+  }
+  return count;
+}
+
+std::string described(const Scene& scene) {
+  std::string text;
+  for (const auto& [key, value] : describe(scene)) text += "\n" + key + " = " + value;
+  return text;
+}
+
+TEST(Still, IsTheFilmsFrameInAnyScene) {
+  Random random(1618);
+  SCOPED_TRACE(random.trace());
+  int scenes = 0;
+  int compared = 0;
+  for (int i = 0; scenes < 1000; ++i) {
+    ASSERT_LT(i, 5000) << "too many scenes are refused";
+    const Scene scene = any_scene(random);
+    try {
+      const Film film(scene);
+      const Schedule& schedule = *film.parts().front().part.schedule();
+      const std::int64_t count = film.frame_count();
+      ++scenes;
+      for (const std::int64_t frame : some_frames(random, schedule, count, scene.view.frame_rate)) {
+        const Rational time = schedule.time_of(frame);
+        const std::int64_t first = first_at(schedule, time, count);
+        const DrawList still = still_picture(scene, time);
+        ++compared;
+        ASSERT_TRUE(still == film.frame(first) || pixels_of(still) == pixels_of(film.frame(first)))
+            << "scene " << i << ", frame " << first << " of " << count << described(scene);
+      }
+    } catch (const UsageError&) {  // spans without time, freezes outside of them
+    }
+  }
+  EXPECT_GT(compared, 8000);
+}
+
+// Where collisions anchor them, too: what a freeze or an end shows is what a still of it shows.
+TEST(Still, OfAnAnchorIsWhereTheFilmStops) {
+  for (int digits = 1; digits <= 20; ++digits) {
+    Scene scene;
+    scene.system = article_system(digits);
+    scene.view.width_px = 96;
+    scene.view.height_px = 54;
+    scene.view.frame_rate = 4;
+    scene.view.shutter = Rational(1, 2);
+    scene.time.to = Instant::last();
+    scene.pacing.duration_s = 3;
+    scene.pacing.hold_end_s = 1;
+    const Film film(scene);
+    EXPECT_EQ(pixels_of(still_picture(scene, Instant::last())),
+              pixels_of(film.frame(film.frame_count() - 1)))
+        << digits;
+  }
+}
+
+}  // namespace
+}  // namespace piblocks
