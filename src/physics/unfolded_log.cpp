@@ -21,9 +21,6 @@ constexpr double kUnitRoundoff = 0x1p-53;
 /// Relative precision of what the doubles of the closed form are rounded from: two doubles'.
 constexpr mpfr_prec_t kFan_bits = 110;
 
-/// Stands for all greater times: the angle to go is then far below anything that matters.
-constexpr double kFarAway = 0x1p1000;
-
 bool is_odd(const Integer& n) { return mpz_odd_p(n.get_mpz_t()) != 0; }
 
 /// Half the sum.
@@ -81,9 +78,7 @@ double UnfoldedLog::tau_at(const Rational& time, const Time& t) const {
 
 UnfoldedLog::Sighting UnfoldedLog::sight(double tau) const {
   // The view of the line from the corner in units of ell, in which it passes at sigma.
-  const bool corner = exact_.through_corner();
-  const double ahead =
-      corner ? kFarAway : std::min(std::fabs(tau) * form_.speed_over_ell, kFarAway);
+  const double ahead = exact_.through_corner() ? kFarAway : form_.ahead(tau);
   const double range = std::hypot(form_.sigma, ahead);
 
   Sighting seen;

@@ -3,6 +3,7 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace piblocks {
 namespace {
@@ -64,12 +65,11 @@ Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact, const 
   passage = (fan.sigma * exact_ell / scaled_speed).to_double();
   speed_over_ell = exact.through_corner() ? 0 : (scaled_speed / exact_ell).to_double();
   // In the chosen unit of time the speed is a typical length.
-  const double least =
-      exact.through_corner() ? speed : std::min({ell, speed, passage, speed_over_ell});
+  const double least = exact.through_corner() ? speed : std::min({ell, speed, passage});
   if (least < kLeast) {
     throw SimulationError(
-        "closed form: lengths, times and speeds are so far apart, or so small, that doubles cannot "
-        "tell where the blocks turn; use other units");
+        "closed form: lengths or times are so short that doubles cannot tell where the "
+        "blocks turn; use greater units");
   }
   time_unit = std::scalbln(1.0, exponent);
   closest_approach = to_time(exact.closest_approach / Rational(time_unit));
@@ -77,6 +77,12 @@ Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact, const 
   blue_speed = (exact_speed / fan.sigma).to_double();
   blue_offset = to_double(system.wall_face + system.blue.width / 2);
   red_offset = to_double(system.wall_face + system.blue.width + system.red.width / 2);
+}
+
+double Unfolding::ahead(double tau) const {
+  // The quotient loses precision where it is near the denormal numbers.
+  const double way = speed_over_ell < kLeast ? tau * speed / ell : tau * speed_over_ell;
+  return std::min(std::fabs(way), kFarAway);
 }
 
 }  // namespace piblocks

@@ -16,6 +16,10 @@ namespace piblocks {
 /// leaves the range of a double.
 inline constexpr long kMaxRatioExponent = 2000;
 
+/// Stands for all greater distances along the line, in units of ell: the angle to go is then far
+/// below anything that matters.
+inline constexpr double kFarAway = 0x1p1000;
+
 /// A number as hi + lo; what Time is for instants.
 using DoubleDouble = Time;
 
@@ -127,6 +131,11 @@ inline Time time_within(const Integer& index, const std::optional<Integer>& cont
 struct Unfolding : ClosedForm {
   /// @throws SimulationError if ell, or the time it takes, is too small for a double, but not 0.
   Unfolding(const BlockSystem& system, const ExactMotion& exact, const Fan& fan);
+
+  /// Distance along the line from where it is nearest to the corner, in units of ell and
+  /// at most kFarAway, for a line that is not through the corner. @param tau  scaled time since
+  /// then
+  double ahead(double tau) const;
 
   FarEnd past;
   FarEnd future;

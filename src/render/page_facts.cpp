@@ -1,6 +1,7 @@
 #include "render/page_facts.hpp"
 
 #include <fmt/format.h>
+#include <piblocks/error.hpp>
 #include <piblocks/interpolator.hpp>
 
 #include <algorithm>
@@ -107,7 +108,12 @@ PageFacts::PageFacts(const Scene& scene, const CollisionLog& log, const Schedule
       forth_(std::min(frames_forth(schedule, scene.view.frame_rate), frames_)),
       from_(schedule.time_of(0)),
       first_(state_at(log, from_).count),
-      most_(state_at(log, schedule.time_of(forth_ - 1)).count) {}
+      most_(state_at(log, schedule.time_of(forth_ - 1)).count) {
+  if (to_double(schedule.time_of(forth_ - 1) - from_) <= kLargest) return;
+  throw UsageError(
+      "page: the times that it would step through are too far apart for a browser's numbers; write "
+      "an MP4, or bring time.from and time.to nearer to each other");
+}
 
 void PageFacts::write_counts(const Sink& sink) const {
   Differences counts;
