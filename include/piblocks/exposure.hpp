@@ -1,5 +1,5 @@
 // Where the blocks are during an interval of time, and for how much of it.
-// In: two instants, by CollisionLog::expose(). Out: the share of the time that a block's position
+// In: two instants, by expose() of the physics. Out: the share of the time that a block's position
 // is below a value, exactly, over any number of collisions.
 #pragma once
 

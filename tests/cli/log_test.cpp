@@ -88,6 +88,28 @@ TEST_F(LogTest, BoundsOfTimeIncludeWhatHappensAtThem) {
   EXPECT_EQ(rows({"--from", "1e300"}), (Rows{}));
 }
 
+TEST_F(LogTest, BoundsMayBeAnyInstant) {
+  EXPECT_EQ(indices(output_of({"log", "--from", "#312"})),
+            (std::vector<std::string>{"312", "313", "314"}));
+  EXPECT_EQ(indices(output_of({"log", "--from", "last-1"})), std::vector<std::string>{"314"});
+  EXPECT_EQ(indices(output_of({"log", "--from", "turn", "--to", "#160-1/1000000"})),
+            (std::vector<std::string>{"158", "159"}));
+}
+
+TEST_F(LogTest, GoesOnBeforeTimeZero) {
+  write("recede.toml", "red.velocity = 1\nred.position = 3\n");
+  EXPECT_TRUE(indices(output_of({"log", "recede.toml"})).empty());
+  const auto before = indices(output_of({"log", "recede.toml", "--from=-20"}));
+  ASSERT_EQ(before.size(), 314U);
+  EXPECT_EQ(before.front(), "-313");
+  EXPECT_EQ(before[304], "-9");
+  EXPECT_EQ(before.back(), "0");
+  EXPECT_EQ(indices(output_of({"log", "recede.toml", "--first", "-11", "--limit", "3"})),
+            (std::vector<std::string>{"-11", "-10", "-9"}));
+  EXPECT_NE(output_of({"state", "recede.toml", "--at", "#-7"}).find("\"collisions\":\"-7\""),
+            std::string::npos);
+}
+
 TEST_F(LogTest, SelectsByIndexAndLimit) {
   using Rows = std::vector<std::string>;
   const auto rows = [&](const Arguments& selection) {

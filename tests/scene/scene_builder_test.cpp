@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/scene.hpp>
 
@@ -151,6 +152,33 @@ TEST_F(SceneFileTest, ReportsEveryProblemWithItsLine) {
   EXPECT_TRUE(has("6", "red.position = far", "not a number"));
   EXPECT_TRUE(has("8", "vieww.size", "unknown key"));
   EXPECT_TRUE(has("10", "time.speed", "= -1: must be greater than 0"));
+}
+
+TEST_F(SceneFileTest, DecimalsAreReadAsTheyStand) {
+  const Scene scene = load(R"(
+    show.title = "\u00fc" # ü
+    view = { x = [-1, 12.50], theme = "dark", size = "640x360", y = [ -1.000000000000000000000001, 1_0.5e-1 ] }
+    [red]
+    mass = 1.00000000000000000000000000000001
+    position = +5.000000000000000000000000000000000000001
+  )");
+  EXPECT_EQ(scene.system.red.mass, parse_rational("1.00000000000000000000000000000001"));
+  EXPECT_EQ(scene.system.red.position, 5 + 1 / power(10, 39));
+  EXPECT_EQ(scene.view.x.high, Rational(25, 2));
+  EXPECT_EQ(scene.view.y.low, -1 - 1 / power(10, 24));
+  EXPECT_EQ(scene.view.y.high, Rational(21, 20));
+  EXPECT_EQ(count_collisions(scene.system), 4);
+}
+
+TEST_F(SceneFileTest, ColumnsBehindOtherScriptsAreFound) {
+  const Scene scene = load(
+      "show = { title = 'πü→', caption = '' }\nview = { theme = 'dark', "
+      "x = [-1.25, 12.0000000000000000000000001] } # π\n");
+  EXPECT_EQ(scene.view.x.high, 12 + 1 / power(10, 25));
+  const Scene inlined = load(
+      "golden = { frames = ['0'], size = '10x10' }\n"
+      "red = { width = 'by-mass', mass = 2.50 }\n");
+  EXPECT_EQ(inlined.system.red.mass, Rational(5, 2));
 }
 
 TEST_F(SceneFileTest, RefusesInvalidValuesOneByOne) {

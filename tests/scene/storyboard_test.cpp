@@ -165,6 +165,21 @@ TEST_F(StoryboardFileTest, HasALimitedNumberOfParts) {
   EXPECT_EQ(problems(text + "[[part]]\n").size(), 1U);
 }
 
+TEST_F(StoryboardFileTest, KeysOfOneRunAreRefusedBeforeTheFileIsReadAsWell) {
+  std::ofstream(path_) << "[[part]]\n[[part]]\ncard = 'a'\n";
+  ScriptBuilder builder;
+  builder.set("--fps", "view.fps", "12");
+  builder.set("--speed", "time.speed", "2");
+  builder.read_file(path_);
+  try {
+    builder.build();
+    FAIL() << "accepted";
+  } catch (const SceneError& error) {
+    ASSERT_EQ(error.problems().size(), 1U) << error.what();
+    EXPECT_TRUE(error.problems()[0].starts_with("--speed: '" + path_ + "' is a storyboard"));
+  }
+}
+
 TEST_F(StoryboardFileTest, OptionsSetKeysOfTheWholeFilmOnly) {
   std::ofstream(path_) << "[[part]]\n[[part]]\ncard = 'a'\n";
   ScriptBuilder builder;
