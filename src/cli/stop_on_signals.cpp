@@ -16,7 +16,7 @@
 namespace piblocks::cli {
 namespace {
 
-/// Breaks off a call that waits. By itself it does nothing, whoever sends it.
+/// Interrupts a system call that waits. Its handler does nothing.
 constexpr int kBreakOff = SIGURG;
 constexpr int kBreakOffInterval_ms = 50;
 constexpr int kForEver = -1;

@@ -68,7 +68,7 @@ class TemporaryFile {
   std::optional<Unfinished> file_;
 };
 
-/// Whoever reads text from standard output has read enough, as `head` does.
+/// The reader of standard output has closed it, as `head` does once it has read enough.
 class ReaderGone : public Error {
  public:
   using Error::Error;

@@ -15,7 +15,7 @@ namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
-/// What cannot be followed cannot be opened either, and whoever tries says so.
+/// A path whose links cannot be followed stays as it is: opening it reports the error.
 fs::path target_of(const fs::path& path) {
   try {
     return follow_links(path);

@@ -85,8 +85,8 @@ void DiffFolder::add(const FrameComparison& frame) {
     throw UsageError(fmt::format("diff: '{}' is not from an earlier comparison; use another folder",
                                  path.string()));
   }
-  const Image strip =
-      difference_strip(frame.reference(), frame.deltas(), frame.actual(), frame.difference->densest);
+  const Image strip = difference_strip(frame.reference(), frame.deltas(), frame.actual(),
+                                       frame.difference->densest);
   files_.add(name, encode_with_mark(strip));
   names_.insert(name);
 }

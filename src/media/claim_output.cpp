@@ -15,7 +15,7 @@ std::optional<FramePattern> pattern_of(const std::string& name) {
   if (!has_ending(name, ".png")) return std::nullopt;
   try {
     return FramePattern(name);
-  } catch (const UsageError&) {  // whoever uses it says what is wrong
+  } catch (const UsageError&) {  // opening it says what is wrong
     return std::nullopt;
   }
 }

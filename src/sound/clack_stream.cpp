@@ -140,7 +140,8 @@ void ClackStream::add_impact(CollisionKind kind, const Integer& first, const Int
   const std::optional<Impact> together = impact(log_, kind, first, last);
   if (!together) return;
   // Where a count was rounded the time may be on the other side of the piece's end.
-  const double sample = std::max(piece.begin, std::min(piece.end, segment.sample_at(together->time)));
+  const double sample =
+      std::max(piece.begin, std::min(piece.end, segment.sample_at(together->time)));
   clacks.push_back({sample, kind, together->impulse, together->blue_position});
 }
 

@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(OfText, ReadEnoughTest,
                          testing::Values("log --digits 8", "log --digits 8 --format jsonl",
                                          "count --digits 100000"));
 
-/// Whoever reads the first line only is told the verdict all the same.
+/// The exit code tells the verdict, also to a reader of the first line alone.
 TEST_F(FailureTest, AComparisonWithoutAReaderKeepsItsVerdict) {
   for (const auto& [name, to] : {std::pair{"a", "9"}, {"b", "10"}}) {
     output_of({"render", "--quiet", "--size", "64x36", "--fps", "3", "--from", "1", "--speed",

@@ -16,7 +16,8 @@ constexpr int kMostDecimals = 9;
 /// Simulation time per second of video where it runs slowest; 1 at most.
 double least_speed(const Setting& setting) {
   // A scene that ends after a collision that never comes can still be seen at one instant.
-  if (!has_span(setting.scene, setting.log)) return std::min(1.0, to_double(setting.scene.time.speed));
+  if (!has_span(setting.scene, setting.log))
+    return std::min(1.0, to_double(setting.scene.time.speed));
   double least = 1;
   const Schedule schedule = make_schedule(setting.scene, setting.log);
   for (const Stretch& stretch : schedule.stretches()) {
