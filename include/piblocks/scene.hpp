@@ -1,6 +1,6 @@
 // What is asked for: the system, the picture's frame, the span of time.
-// In: a scene file (TOML) and options of the same keys. Out: one valid value, or every problem
-// at once.
+// In: plain values, filled in by hand or by script_builder.hpp. Out: everything that is wrong with
+// them, and their exact text.
 #pragma once
 
 #include <piblocks/blocks.hpp>
@@ -9,10 +9,8 @@
 #include <piblocks/show.hpp>
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -78,53 +76,6 @@ struct Scene {
   Sound sound = {};
   Show show = {};
   Golden golden = {};
-};
-
-/// Longest scene file that is read.
-inline constexpr std::size_t kMaxSceneFile_bytes = 1 << 20;
-/// Deepest lists and tables in it.
-inline constexpr int kMaxSceneNesting = 256;
-
-struct TomlTable;
-
-/// Collects a scene's values from a file and from options, remembering where each came from.
-/// The keys are those of the scene file: "digits" or "mass-ratio", which set red.mass; "wall.face";
-/// "blue." and "red." with "mass", "position", "velocity", "width" ("by-mass" for red:
-/// width_by_mass()); "view.x", "view.y", "view.size", "view.fps", "view.shutter",
-/// "view.background", "view.theme"; "time.from", "time.to", "time.speed", "time.duration",
-/// "time.slow-motion", "time.freeze", "time.hold-start", "time.hold-end", "time.loop";
-/// "show.overlays", "show.panels", "show.title", "show.caption", "show.logo"; "sound.on";
-/// "golden.frames", "golden.size".
-class SceneBuilder {
- public:
-  /// Reads a scene file. Values set before it are overwritten, values set after it win.
-  /// @throws SceneError if it cannot be read or is no TOML; other problems wait for build().
-  void read_file(const std::string& path);
-  /// Sets one key from text, as an option of the command line does.
-  /// @param origin  named in messages, such as "--size".
-  void set(const std::string& origin, const std::string& key, const std::string& text);
-  /// Sets red.mass to this multiple of blue.mass, whatever was said of red.mass before.
-  void set_mass_ratio(const std::string& origin, const Rational& ratio);
-  /// @throws SceneError with every problem: origin, key, value and reason.
-  Scene build() const;
-
- private:
-  friend class ScriptBuilder;
-
-  void read(const std::string& path, const TomlTable& table);
-  void set_values(const std::string& origin, const std::string& key,
-                  const std::vector<std::string>& values);
-  void set_key(const std::string& origin, const std::string& key,
-               const std::vector<std::string>& values);
-  void add_problem(const std::string& origin, const std::string& text);
-  std::string described(const Problem& problem) const;
-
-  Scene scene_;
-  std::optional<Rational> mass_ratio_;
-  bool width_by_mass_ = false;
-  std::map<std::string, std::string> origins_;  // by key
-  std::string place_ = "scene";                 // of values that nobody has set
-  std::vector<std::string> problems_;
 };
 
 /// Red's width where widths tell masses: blue's, and an eighth more for every factor of a hundred

@@ -1,12 +1,11 @@
 // Several runs in one film: title cards, scenes, comparisons, and how one follows the other.
-// In: a scene file with parts, and options. Out: one valid value, or every problem at once.
+// In: plain values, filled in by hand or by script_builder.hpp. Out: everything that is wrong with
+// them, and their exact text.
 #pragma once
 
 #include <piblocks/exact.hpp>
 #include <piblocks/scene.hpp>
 
-#include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -64,49 +63,5 @@ std::vector<std::string> problems_of(const Storyboard& story);
 /// All that changes a frame, as exact text in a fixed order: a line for the film and one for each
 /// part. Two storyboards with equal descriptions are the same film.
 std::vector<std::pair<std::string, std::string>> describe(const Storyboard& story);
-
-struct TomlEntry;
-
-/// Collects a script from a scene file and from options, as SceneBuilder does a scene. A file with
-/// [[part]] is a storyboard: its other keys hold for all parts, and a part takes all keys of a
-/// scene but those of the whole film, and beside them "card" and "seconds", "compare", "fade".
-class ScriptBuilder {
- public:
-  ScriptBuilder();
-  ~ScriptBuilder();
-  ScriptBuilder(const ScriptBuilder&) = delete;
-  ScriptBuilder& operator=(const ScriptBuilder&) = delete;
-
-  /// As SceneBuilder::read_file(); called once.
-  void read_file(const std::string& path);
-  /// As SceneBuilder::set(). A storyboard takes keys of the whole film only,
-  /// whether it is read before or after.
-  void set(const std::string& origin, const std::string& key, const std::string& text);
-  /// As SceneBuilder::set_mass_ratio(). A storyboard takes none.
-  void set_mass_ratio(const std::string& origin, const Rational& ratio);
-  /// @throws SceneError with every problem: origin, key, value and reason.
-  Script build() const;
-
- private:
-  struct PartBuilder;
-
-  void read_part(const TomlTable& table);
-  void read_card(const TomlTable& table, PartBuilder& part);
-  void read_runs(const TomlTable& table, PartBuilder& part);
-  void read_compared(const TomlEntry& compare, PartBuilder& part);
-  SceneBuilder next_run(const std::string& origin) const;
-  std::vector<std::string> misplaced_keys() const;
-  void add_problem(std::size_t line, const std::string& text);
-
-  SceneBuilder film_;
-  std::string path_;
-  std::vector<PartBuilder> parts_;
-  std::vector<std::string> problems_;
-  struct SetKey {
-    std::string origin;
-    std::string key;
-  };
-  std::vector<SetKey> set_;  // by set(), in order
-};
 
 }  // namespace piblocks

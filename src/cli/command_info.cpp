@@ -10,6 +10,7 @@
 #include <piblocks/render.hpp>
 #include <piblocks/scene.hpp>
 #include <piblocks/schedule.hpp>
+#include <piblocks/script_builder.hpp>
 #include <piblocks/version.hpp>
 
 #include "cli/commands.hpp"

@@ -3,35 +3,19 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/frame_sink.hpp>
+#include <piblocks/script_builder.hpp>
 
 #include "cli/options.hpp"
 #include "render/logo.hpp"
 
 namespace piblocks::cli {
-namespace {
-
-Rational parse_mass_ratio(const std::string& text) {
-  Rational value = parse_rational(text);
-  if (value <= 0) throw UsageError("must be greater than 0");
-  return value;
-}
-
-/// The mass ratio that counts so many digits.
-Rational parse_digits(const std::string& text) {
-  const Integer digits = parse_whole_number(text, 1, Integer(kMaxDigits));
-  return power(100, digits.get_ui() - 1);
-}
-
-}  // namespace
-
 SceneOptions::SceneOptions(CLI::App& command)
     : command_(&command),
       file_(&add_value_option(command, "SCENE.toml", "",
-                              "Scene file; without it, the article's scene: three digits")),
-      digits_(&add_value_option(command, "--digits", "D",
-                                "Count this many digits of pi: m_red = 100^(D-1) m_blue")),
-      mass_ratio_(&add_value_option(command, "--mass-ratio", "R",
-                                    "m_red / m_blue, exactly: 16, 2.5, 1/3, 100^7")) {}
+                              "Scene file; without it, the article's scene: three digits")) {
+  add_key("digits", "--digits", "D", "Count this many digits of pi: m_red = 100^(D-1) m_blue");
+  add_key("mass-ratio", "--mass-ratio", "R", "m_red / m_blue, exactly: 16, 2.5, 1/3, 100^7");
+}
 
 void SceneOptions::add_key(const std::string& key, const std::string& option,
                            const std::string& placeholder, const std::string& help) {
@@ -132,12 +116,6 @@ Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
   }
   for (const Flag& flag : flags_) {
     if (flag.option->count() > 0) builder.set(flag.option->get_name(), flag.key, flag.value);
-  }
-  if (const auto ratio = value_of(*mass_ratio_, parse_mass_ratio)) {
-    builder.set_mass_ratio(mass_ratio_->get_name(), *ratio);
-  }
-  if (const auto ratio = value_of(*digits_, parse_digits)) {
-    builder.set_mass_ratio(digits_->get_name(), *ratio);
   }
   Script made = builder.build();
   OverwriteCheck check;

@@ -71,8 +71,6 @@ class SceneOptions {
 
   CLI::App* command_;
   CLI::Option* file_;
-  CLI::Option* digits_;
-  CLI::Option* mass_ratio_;
   std::vector<std::pair<std::string, CLI::Option*>> keys_;
   struct Flag {
     std::string key;

@@ -4,6 +4,7 @@
 #include <piblocks/canvas.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/render.hpp>
+#include <piblocks/script_builder.hpp>
 
 #include <algorithm>
 #include <fstream>

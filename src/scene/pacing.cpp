@@ -26,16 +26,12 @@ std::array<std::string_view, N> split(std::string_view text, const char* expecte
 
 SlowMotion parse_slow_motion(std::string_view text) {
   const auto parts = split<3>(text, "FROM:TO:FACTOR, as turn-0.3:turn+0.3:10");
-  SlowMotion window{parse_instant(parts[0]), parse_instant(parts[1]), parse_rational(parts[2])};
-  if (window.factor <= 0) throw UsageError("the factor must be greater than 0");
-  return window;
+  return {parse_instant(parts[0]), parse_instant(parts[1]), parse_rational(parts[2])};
 }
 
 Freeze parse_freeze(std::string_view text) {
   const auto parts = split<2>(text, "AT:SECONDS, as turn:2");
-  Freeze freeze{parse_instant(parts[0]), parse_rational(parts[1])};
-  if (freeze.length_s <= 0) throw UsageError("the seconds must be greater than 0");
-  return freeze;
+  return {parse_instant(parts[0]), parse_rational(parts[1])};
 }
 
 std::string exact_text(const SlowMotion& window) {

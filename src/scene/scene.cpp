@@ -3,7 +3,10 @@
 #include <piblocks/image.hpp>
 #include <piblocks/scene.hpp>
 
+#include <algorithm>
 #include <cmath>
+
+#include "scene/line.hpp"
 
 namespace piblocks {
 namespace {
@@ -125,8 +128,45 @@ void check_freezes(const Pacing& pacing, std::vector<Problem>& problems) {
 }
 
 void check_line(const char* key, const std::string& text, std::vector<Problem>& problems) {
-  if (text.size() <= kMaxLine_bytes) return;
-  problems.push_back({key, fmt::format("is longer than {} bytes", kMaxLine_bytes)});
+  const std::string problem = problem_of_line(text);
+  if (!problem.empty()) problems.push_back({key, problem});
+}
+
+/// Each of them is there once: a panel has one place, a kept picture one file.
+template <typename Value>
+void check_each_once(const char* key, const std::vector<Value>& list, const auto& name_of,
+                     std::vector<Problem>& problems) {
+  for (auto value = list.begin(); value != list.end(); ++value) {
+    if (std::find(list.begin(), value, *value) == value) continue;
+    problems.push_back({key, fmt::format("has '{}' more than once", name_of(*value))});
+    return;
+  }
+}
+
+void check_show(const Show& show, std::vector<Problem>& problems) {
+  const auto name_of = [](auto value) { return exact_text(value); };
+  check_each_once("show.overlays", show.overlays, name_of, problems);
+  check_each_once("show.panels", show.panels, name_of, problems);
+  check_line("show.title", show.title, problems);
+  check_line("show.caption", show.caption, problems);
+  if (has_control_characters(show.logo)) {
+    problems.push_back({"show.logo", "must be one line of text"});
+  }
+}
+
+void check_golden(const Golden& golden, std::vector<Problem>& problems) {
+  constexpr const char* kKey = "golden.frames";
+  if (golden.size) check_size("golden.size", *golden.size, problems);
+  check_each_once(
+      kKey, golden.frames, [](const std::string& text) { return text; }, problems);
+  for (const std::string& text : golden.frames) {
+    try {
+      parse_instant(text);
+    } catch (const UsageError& error) {
+      problems.push_back({kKey, fmt::format("has '{}': {}", text, error.what())});
+      return;
+    }
+  }
 }
 
 void check_pacing(const Scene& scene, std::vector<Problem>& problems) {
@@ -143,18 +183,41 @@ void check_pacing(const Scene& scene, std::vector<Problem>& problems) {
 
 }  // namespace
 
+bool has_control_characters(std::string_view text) {
+  return std::ranges::any_of(text, [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; });
+}
+
+std::string problem_of_line(std::string_view text) {
+  if (text.size() > kMaxLine_bytes) return fmt::format("is longer than {} bytes", kMaxLine_bytes);
+  return has_control_characters(text) ? "must be one line of text" : "";
+}
+
+Rational width_by_mass(const BlockSystem& system) {
+  if (system.blue.mass <= 0 || system.red.mass <= 0) return system.red.width;
+  // Either mass may be beyond what a double holds.
+  const auto log_2 = [](const Integer& value) {
+    long exponent = 0;
+    const double mantissa = mpz_get_d_2exp(&exponent, value.get_mpz_t());
+    return static_cast<double>(exponent) + std::log2(mantissa);
+  };
+  const Rational ratio = system.red.mass / system.blue.mass;
+  const double hundreds = (log_2(ratio.get_num()) - log_2(ratio.get_den())) / std::log2(100.0);
+  const double factor = std::clamp(1 + hundreds / 8, 0.5, 1.5);
+  // To a thousandth, which makes the eighths exact.
+  return system.blue.width * Rational(Integer(std::lround(factor * 1000))) / 1000;
+}
+
 std::vector<Problem> problems_of(const Scene& scene) {
   std::vector<Problem> problems = problems_of(scene.system);
   check_range("view.x", scene.view.x, problems);
   check_range("view.y", scene.view.y, problems);
   check_size("view.size", {scene.view.width_px, scene.view.height_px}, problems);
-  if (scene.golden.size) check_size("golden.size", *scene.golden.size, problems);
   check_frame_rate(scene.view.frame_rate, problems);
   check_shutter(scene.view, problems);
   check_time(scene.time, problems);
   check_pacing(scene, problems);
-  check_line("show.title", scene.show.title, problems);
-  check_line("show.caption", scene.show.caption, problems);
+  check_show(scene.show, problems);
+  check_golden(scene.golden, problems);
   return problems;
 }
 

@@ -75,9 +75,6 @@ bool parse_bool(const Values& values) {
 /// Each of a list; messages name the one that is wrong.
 template <typename Value>
 std::vector<Value> parse_each(const Values& values, Value (*parse)(std::string_view text)) {
-  if (values.size() > kMaxWindows) {
-    throw UsageError(fmt::format("there must be at most {} of them", kMaxWindows));
-  }
   std::vector<Value> parsed;
   for (const std::string& value : values) {
     try {
@@ -105,41 +102,6 @@ void set_slow_motion(Pacing& pacing, Values values) {
   values = list_of(values);
   pacing.automatic_slow_motion = std::erase(values, "auto") > 0;
   pacing.slow_motion = parse_each(values, parse_slow_motion);
-}
-
-/// Of names, each at most once.
-template <typename Value>
-std::vector<Value> parse_names(const Values& values, Value (*parse)(std::string_view name)) {
-  const Values names = list_of(values);
-  for (const std::string& name : names) {
-    if (std::ranges::count(names, name) > 1) {
-      throw UsageError(fmt::format("'{}' is named more than once", name));
-    }
-  }
-  return parse_each(names, parse);
-}
-
-/// Text without control characters, such as a path.
-const std::string& plain(const std::string& text) {
-  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
-  if (std::ranges::any_of(text, is_control)) throw UsageError("must be one line of text");
-  return text;
-}
-
-void set_golden_frames(Golden& golden, Values values) {
-  values = list_of(values);
-  for (const std::string& value : values) {
-    // Each has a file of its own.
-    if (std::ranges::count(values, value) > 1) {
-      throw UsageError(fmt::format("'{}' is named more than once", value));
-    }
-    try {
-      parse_instant(value);
-    } catch (const UsageError& error) {
-      throw UsageError(fmt::format("'{}' {}", value, error.what()));
-    }
-  }
-  golden.frames = std::move(values);
 }
 
 Values number(const Rational& value) { return {value.get_str()}; }
@@ -223,17 +185,18 @@ constexpr auto kKeys = std::to_array<SceneKey>({
     {"sound.on", [](Scene& s, const Values& v) { s.sound.on = parse_bool(v); },
      [](const Scene& s) { return flag(s.sound.on); }},
     {"show.overlays",
-     [](Scene& s, const Values& v) { s.show.overlays = parse_names(v, parse_overlay); },
+     [](Scene& s, const Values& v) { s.show.overlays = parse_each(list_of(v), parse_overlay); },
      [](const Scene& s) { return each(s.show.overlays); }},
-    {"show.panels", [](Scene& s, const Values& v) { s.show.panels = parse_names(v, parse_panel); },
+    {"show.panels",
+     [](Scene& s, const Values& v) { s.show.panels = parse_each(list_of(v), parse_panel); },
      [](const Scene& s) { return each(s.show.panels); }},
-    {"show.title", [](Scene& s, const Values& v) { s.show.title = checked_line(single(v)); },
+    {"show.title", [](Scene& s, const Values& v) { s.show.title = single(v); },
      [](const Scene& s) { return Values{s.show.title}; }},
-    {"show.caption", [](Scene& s, const Values& v) { s.show.caption = checked_line(single(v)); },
+    {"show.caption", [](Scene& s, const Values& v) { s.show.caption = single(v); },
      [](const Scene& s) { return Values{s.show.caption}; }},
-    {"show.logo", [](Scene& s, const Values& v) { s.show.logo = plain(single(v)); },
+    {"show.logo", [](Scene& s, const Values& v) { s.show.logo = single(v); },
      [](const Scene& s) { return Values{s.show.logo}; }},
-    {"golden.frames", [](Scene& s, const Values& v) { set_golden_frames(s.golden, v); },
+    {"golden.frames", [](Scene& s, const Values& v) { s.golden.frames = list_of(v); },
      [](const Scene& s) { return s.golden.frames; }},
     {"golden.size", [](Scene& s, const Values& v) { s.golden.size = parse_size(v); },
      [](const Scene& s) { return s.golden.size ? size(*s.golden.size) : Values(); }},
@@ -254,15 +217,16 @@ const std::string& single(const Values& values) {
   return values.front();
 }
 
-const std::string& checked_line(const std::string& text) {
-  if (text.size() > kMaxLine_bytes) {
-    throw UsageError(fmt::format("is longer than {} bytes", kMaxLine_bytes));
-  }
-  return plain(text);
-}
-
 std::string joined(const Values& values) {
   return values.size() == 1 ? values.front() : fmt::format("[{}]", fmt::join(values, ", "));
+}
+
+std::vector<std::pair<std::string, std::string>> describe(const Scene& scene) {
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const SceneKey& key : scene_keys()) {
+    values.emplace_back(key.name, fmt::format("{}", fmt::join(key.get(scene), ", ")));
+  }
+  return values;
 }
 
 }  // namespace piblocks

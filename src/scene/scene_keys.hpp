@@ -28,9 +28,6 @@ bool is_film_key(std::string_view key);
 /// The value of a key that takes one. @throws UsageError if there are more.
 const std::string& single(const Values& values);
 
-/// Without control characters, at most kMaxLine_bytes long. @throws UsageError otherwise
-const std::string& checked_line(const std::string& text);
-
 /// One text for a message.
 std::string joined(const Values& values);
 

@@ -4,34 +4,35 @@
 
 #include <algorithm>
 
+#include "scene/line.hpp"
 #include "scene/scene_keys.hpp"
+#include "scene/story_part.hpp"
 
 namespace piblocks {
 namespace {
 
-void add_problems(const Card& card, const std::string& place, std::vector<std::string>& problems) {
+std::vector<Problem> problems_of(const Card& card) {
+  std::vector<Problem> problems;
   if (card.lines.empty() || card.lines.size() > kMaxCardLines) {
-    problems.push_back(fmt::format("{}: card: must have from 1 to {} lines", place, kMaxCardLines));
+    problems.push_back({"card", fmt::format("must be from 1 to {} lines of text", kMaxCardLines)});
   }
   if (std::ranges::any_of(card.lines, &std::string::empty)) {
-    problems.push_back(fmt::format("{}: card: must not have an empty line", place));
+    problems.push_back({"card", "must not have an empty line"});
+  }
+  for (const std::string& line : card.lines) {
+    const std::string problem = problem_of_line(line);
+    if (!problem.empty()) problems.push_back({"card", problem});
   }
   if (card.length_s <= 0) {
     problems.push_back(
-        fmt::format("{}: seconds = {}: must be greater than 0", place, to_text(card.length_s)));
+        {"seconds", fmt::format("= {}: must be greater than 0", to_text(card.length_s))});
   }
+  return problems;
 }
 
-void add_problems(const Runs& runs, const View& film, const std::string& place,
-                  std::vector<std::string>& problems) {
-  if (runs.empty() || runs.size() > kMaxCompared) {
-    problems.push_back(fmt::format("{}: compare: must be from 2 to {} runs", place, kMaxCompared));
-  }
-  for (const Scene& run : runs) {
-    for (const Problem& problem : problems_of(with_film_view(run, film))) {
-      problems.push_back(fmt::format("{}: {} {}", place, problem.key, problem.reason));
-    }
-  }
+std::vector<Problem> problems_of(const Runs& runs) {
+  if (!runs.empty() && runs.size() <= kMaxCompared) return {};
+  return {{"compare", fmt::format("must be from 2 to {} runs", kMaxCompared)}};
 }
 
 /// No value has a tab in it, so nothing can be taken for something else.
@@ -73,6 +74,20 @@ Scene with_film_view(Scene scene, const View& film) {
   return scene;
 }
 
+std::vector<Problem> problems_of(const StoryPart& part, bool is_first) {
+  std::vector<Problem> problems =
+      std::visit([](const auto& content) { return problems_of(content); }, part.content);
+  if (part.fade_s < 0) {
+    problems.push_back(
+        {"fade", fmt::format("= {}: must not be less than 0", to_text(part.fade_s))});
+  }
+  if (part.fade_s > 0 && is_first) {
+    problems.push_back({"fade", fmt::format("= {}: no part is before the first; leave it out",
+                                            to_text(part.fade_s))});
+  }
+  return problems;
+}
+
 std::vector<std::string> problems_of(const Storyboard& story) {
   std::vector<std::string> problems;
   if (story.parts.empty() || story.parts.size() > kMaxStoryParts) {
@@ -83,19 +98,18 @@ std::vector<std::string> problems_of(const Storyboard& story) {
   for (const Problem& problem : problems_of(with_film_view(film, story.view))) {
     problems.push_back(fmt::format("storyboard: {} {}", problem.key, problem.reason));
   }
+  const auto add = [&](const std::string& place, const std::vector<Problem>& more) {
+    for (const Problem& problem : more) {
+      problems.push_back(fmt::format("{}: {} {}", place, problem.key, problem.reason));
+    }
+  };
   for (std::size_t i = 0; i < story.parts.size(); ++i) {
     const StoryPart& part = story.parts[i];
     const std::string place = part.origin.empty() ? fmt::format("part {}", i + 1) : part.origin;
-    if (part.fade_s < 0 || (part.fade_s > 0 && i == 0)) {
-      problems.push_back(
-          fmt::format("{}: fade = {}: must {}", place, to_text(part.fade_s),
-                      i == 0 ? "be 0, since no part is before the first" : "not be less than 0"));
-    }
-    if (const auto* card = std::get_if<Card>(&part.content)) {
-      add_problems(*card, place, problems);
-    } else {
-      add_problems(std::get<Runs>(part.content), story.view, place, problems);
-    }
+    add(place, problems_of(part, i == 0));
+    const Runs* const runs = std::get_if<Runs>(&part.content);
+    if (runs == nullptr) continue;
+    for (const Scene& run : *runs) add(place, problems_of(with_film_view(run, story.view)));
   }
   return problems;
 }

@@ -92,19 +92,20 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     System, BadInputTest,
-    testing::Values(BadInput{{"count", "--digits", "0"}, "--digits 0: must be a whole number"},
-                    BadInput{{"count", "--digits", "-1"}, "--digits -1: must be a whole number"},
-                    BadInput{{"count", "--digits", "1.5"}, "--digits 1.5: must be a whole number"},
-                    BadInput{{"count", "--digits", "abc"}, "--digits abc: must be a whole number"},
-                    BadInput{{"count", "--digits", "1e9"}, "--digits 1e9: must be a whole number"},
-                    BadInput{{"count", "--digits", ""}, "--digits : must be a whole number"},
-                    BadInput{{"count", "--mass-ratio", "0"}, "--mass-ratio 0: must be greater"},
-                    BadInput{{"count", "--mass-ratio", "-2"}, "--mass-ratio -2: must be greater"},
-                    BadInput{{"count", "--mass-ratio", "inf"}, "--mass-ratio inf: not a number"},
-                    BadInput{{"count", "--mass-ratio", "nan"}, "--mass-ratio nan: not a number"},
-                    BadInput{{"count", "--mass-ratio", "1/0"}, "--mass-ratio 1/0: division by"},
-                    BadInput{{"count", "--mass-ratio", ""}, "--mass-ratio : not a number"},
-                    BadInput{{"count", "--mass-ratio", "9^99999999"}, "longer than"}));
+    testing::Values(
+        BadInput{{"count", "--digits", "0"}, "--digits: digits = 0: must be a whole number"},
+        BadInput{{"count", "--digits", "-1"}, "--digits: digits = -1: must be a whole number"},
+        BadInput{{"count", "--digits", "1.5"}, "--digits: digits = 1.5: must be a whole number"},
+        BadInput{{"count", "--digits", "abc"}, "--digits: digits = abc: must be a whole number"},
+        BadInput{{"count", "--digits", "1e9"}, "--digits: digits = 1e9: must be a whole number"},
+        BadInput{{"count", "--digits", ""}, "--digits: digits = : must be a whole number"},
+        BadInput{{"count", "--mass-ratio", "0"}, "--mass-ratio: red.mass = 0: must be greater"},
+        BadInput{{"count", "--mass-ratio", "-2"}, "--mass-ratio: red.mass = -2: must be greater"},
+        BadInput{{"count", "--mass-ratio", "inf"}, "--mass-ratio: mass-ratio = inf: not a number"},
+        BadInput{{"count", "--mass-ratio", "nan"}, "--mass-ratio: mass-ratio = nan: not a number"},
+        BadInput{{"count", "--mass-ratio", "1/0"}, "--mass-ratio: mass-ratio = 1/0: division by"},
+        BadInput{{"count", "--mass-ratio", ""}, "--mass-ratio: mass-ratio = : not a number"},
+        BadInput{{"count", "--mass-ratio", "9^99999999"}, "longer than"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Scene, BadInputTest,
@@ -127,7 +128,8 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Limits, BadInputTest,
     testing::Values(
-        BadInput{{"count", "--digits", "100001"}, "--digits 100001: must be a whole number from 1"},
+        BadInput{{"count", "--digits", "100001"},
+                 "--digits: digits = 100001: must be a whole number from 1"},
         BadInput{{"count", "--mass-ratio", "2^4000001"}, "longer than"},
         BadInput{{"count", "scene.toml"}, "longer than 1048576 bytes", std::string(1048577, '#')},
         BadInput{{"count", "scene.toml"}, "scene.toml:1: ", "a = " + std::string(257, '[')},

@@ -1,6 +1,7 @@
 // Overlays and diagrams of systems whose mass ratio, or a root of it, is beyond a double.
 #include <gtest/gtest.h>
 #include <piblocks/composition.hpp>
+#include <piblocks/script_builder.hpp>
 
 #include <algorithm>
 #include <numbers>
@@ -44,13 +45,13 @@ double number_after(std::string text, const std::string& word) {
 
 /// No collisions: then red may be as light as one likes.
 Scene apart(const char* mass_ratio, std::vector<Setting> settings) {
-  SceneBuilder builder;
+  ScriptBuilder builder;
   settings.insert(settings.begin(), {{"mass-ratio", mass_ratio},
                                      {"red.velocity", "1"},
                                      {"blue.velocity", "0"},
                                      {"time.to", "5"}});
   for (const auto& [key, text] : settings) builder.set("test", key, text);
-  return builder.build();
+  return builder.build_scene();
 }
 
 TEST(Overlays, MomentumAndArrowsHoldAnyMasses) {

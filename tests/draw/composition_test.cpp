@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
+#include <piblocks/script_builder.hpp>
 
 #include <algorithm>
 #include <array>
@@ -25,10 +26,10 @@ constexpr const char* kAllPanels = "velocity,position,unfolded,time,rate";
 constexpr const char* kLongTitle = "Counting the digits of π with two blocks and a wall";
 
 Scene scene_with(int digits, const std::vector<Setting>& settings) {
-  SceneBuilder builder;
-  builder.set_mass_ratio("test", power(100, static_cast<unsigned long>(digits - 1)));
+  ScriptBuilder builder;
+  builder.set("test", "digits", std::to_string(digits));
   for (const auto& [key, text] : settings) builder.set("test", key, text);
-  return builder.build();
+  return builder.build_scene();
 }
 
 Scene full_scene(int digits, const std::string& size, const std::string& theme = "article") {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <piblocks/canvas.hpp>
 #include <piblocks/composition.hpp>
+#include <piblocks/script_builder.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +79,7 @@ DrawList frame(const Composition& composition, const CollisionLog& log, const Ra
 
 void expect_exact_updates(Background background) {
   for (const auto& [width, height] : {std::pair{320, 180}, {101, 75}, {64, 240}}) {
-    Scene scene = SceneBuilder().build();
+    Scene scene = ScriptBuilder().build_scene();
     scene.view.background = background;
     scene.view.width_px = width;
     scene.view.height_px = height;
@@ -100,7 +101,7 @@ TEST(Damage, OfWholeScenesWithoutABackgroundIsExact) {
 }
 
 TEST(Damage, OfAScenesFrameIsSmall) {
-  Scene scene = SceneBuilder().build();
+  Scene scene = ScriptBuilder().build_scene();
   scene.view.width_px = 1280;
   scene.view.height_px = 720;
   const auto log = make_collision_log(scene.system);
@@ -113,13 +114,13 @@ TEST(Damage, OfAScenesFrameIsSmall) {
 
 TEST(Damage, OfPicturesWithAllThatCanBeShownIsExact) {
   for (const char* theme : {"article", "colorblind"}) {
-    SceneBuilder builder;
+    ScriptBuilder builder;
     builder.set("test", "view.size", "800x600");
     builder.set("test", "view.theme", theme);
     builder.set("test", "show.title", "π");
     builder.set("test", "show.overlays", "digits,masses,velocities,energy,momentum,time,ruler");
     builder.set("test", "show.panels", "velocity,position,unfolded,time,rate");
-    const Scene scene = builder.build();
+    const Scene scene = builder.build_scene();
     const auto log = make_collision_log(scene.system);
     const Composition composition(scene, *log);
     Canvas canvas(800, 600);

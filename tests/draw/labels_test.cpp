@@ -1,6 +1,7 @@
 // What is written and drawn beside the blocks keeps clear of them, of the wall and of each other.
 #include <gtest/gtest.h>
 #include <piblocks/composition.hpp>
+#include <piblocks/script_builder.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -31,10 +32,10 @@ class Labels {
 
  private:
   static Scene scene_with(int digits, const Settings& settings) {
-    SceneBuilder builder;
-    builder.set_mass_ratio("test", power(100, static_cast<unsigned long>(digits - 1)));
+    ScriptBuilder builder;
+    builder.set("test", "digits", std::to_string(digits));
     for (const auto& [key, text] : settings) builder.set("test", key, text);
-    return builder.build();
+    return builder.build_scene();
   }
 
   Scene scene_;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
+#include <piblocks/script_builder.hpp>
 
 #include <array>
 #include <cmath>
@@ -99,11 +100,11 @@ class Checker {
 
 /// Nothing if the feature is drawn or refused as it should be.
 std::string problem_with(const Feature& feature, int width_px, int height_px, bool& is_drawn) {
-  SceneBuilder builder;
-  builder.set_mass_ratio("test", 100);
+  ScriptBuilder builder;
+  builder.set("test", "digits", "2");
   builder.set("test", "view.size", std::to_string(width_px) + "x" + std::to_string(height_px));
   builder.set("test", feature.key, feature.text);
-  const Scene scene = builder.build();
+  const Scene scene = builder.build_scene();
   const auto log = make_collision_log(scene.system);
   const auto logo = std::make_shared<const Image>(Image{3, 2, std::vector<std::uint32_t>(6)});
   try {

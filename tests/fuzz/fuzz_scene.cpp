@@ -3,6 +3,7 @@
 #include <piblocks/error.hpp>
 #include <piblocks/interpolator.hpp>
 #include <piblocks/schedule.hpp>
+#include <piblocks/script_builder.hpp>
 #include <piblocks/storyboard.hpp>
 
 #include <cstdlib>

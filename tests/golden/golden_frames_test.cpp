@@ -6,6 +6,7 @@
 #include <piblocks/composition.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/png.hpp>
+#include <piblocks/script_builder.hpp>
 
 #include <cstdlib>
 #include <cstring>
@@ -113,10 +114,10 @@ const std::vector<GoldenFrame> kFrames{
 };
 
 DrawList draw_list_of(const GoldenFrame& frame) {
-  SceneBuilder builder;
-  builder.set_mass_ratio("digits", power(100, static_cast<unsigned long>(frame.digits - 1)));
+  ScriptBuilder builder;
+  builder.set("digits", "digits", std::to_string(frame.digits));
   for (const auto& [key, value] : frame.keys) builder.set("golden", key, value);
-  const Scene scene = builder.build();
+  const Scene scene = builder.build_scene();
   const auto log = make_collision_log(scene.system);
   const Rational time = time_of(parse_instant(frame.instant), *log);
   std::vector<ExposurePart> exposure;

@@ -6,6 +6,7 @@
 #include <piblocks/error.hpp>
 #include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
+#include <piblocks/script_builder.hpp>
 
 #include <algorithm>
 #include <cstring>

@@ -4,6 +4,7 @@
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 #include <piblocks/schedule.hpp>
+#include <piblocks/script_builder.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -17,10 +18,10 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 Scene scene_of(const char* size) {
-  SceneBuilder builder;
+  ScriptBuilder builder;
   builder.set("test", "view.size", size);
   builder.set("test", "view.fps", "20");
-  return builder.build();
+  return builder.build_scene();
 }
 
 Bytes bytes_of(const ImageView& image) {

@@ -2,6 +2,7 @@
 #include <piblocks/error.hpp>
 #include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
+#include <piblocks/script_builder.hpp>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -24,12 +25,12 @@ class JoinTest : public testing::Test {
 
   /// Five seconds of video, with one thing changed.
   static Scene scene(const std::string& key = "time.from", const std::string& value = "1") {
-    SceneBuilder builder;
+    ScriptBuilder builder;
     builder.set("test", "view.size", "64x36");
     builder.set("test", "view.fps", "24");
     builder.set("test", "time.to", "6");
     builder.set("test", key, value);
-    return builder.build();
+    return builder.build_scene();
   }
 
   std::string rendered_part(const Part& part, const RenderJob& job) const {

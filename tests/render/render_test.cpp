@@ -4,6 +4,7 @@
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 #include <piblocks/schedule.hpp>
+#include <piblocks/script_builder.hpp>
 
 #include <cstring>
 
@@ -23,11 +24,11 @@ class RenderTest : public testing::Test {
   std::string path(const char* name) const { return folder_ / name; }
 
   static Scene scene(const char* from, const char* to) {
-    SceneBuilder builder;
+    ScriptBuilder builder;
     builder.set("test", "view.size", "320x180");
     builder.set("test", "time.from", from);
     builder.set("test", "time.to", to);
-    return builder.build();
+    return builder.build_scene();
   }
 
   TemporaryFolder folder_;
@@ -131,12 +132,12 @@ TEST_F(RenderTest, AStillIsTheFrameOfItsInstant) {
 }
 
 TEST_F(RenderTest, AStillInSlowMotionSaysSoAsTheFrameDoes) {
-  SceneBuilder builder;
+  ScriptBuilder builder;
   builder.set("test", "view.size", "640x360");
   builder.set("test", "time.from", "3.5");
   builder.set("test", "time.to", "3.51");
   builder.set("test", "time.slow-motion", "turn-0.1:turn+0.1:10");
-  const Scene slow = builder.build();
+  const Scene slow = builder.build_scene();
   render({slow, path("frame%d.png"), {}, 1}, [](const Progress&) {});
   render_still(slow, Rational(7, 2), path("still.png"));
   EXPECT_EQ(file_contents(path("frame1.png")), file_contents(path("still.png")));

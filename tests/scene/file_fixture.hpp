@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
+#include <piblocks/script_builder.hpp>
 
 #include <fstream>
 #include <string>
@@ -13,20 +14,18 @@
 
 namespace piblocks {
 
-/// @tparam Builder  SceneBuilder or ScriptBuilder.
-template <typename Builder>
 class FileFixture : public testing::Test {
  protected:
-  auto load(const std::string& text) {
+  Script script(const std::string& text) {
     std::ofstream(path_) << text;
-    Builder builder;
+    ScriptBuilder builder;
     builder.read_file(path_);
     return builder.build();
   }
 
   std::vector<std::string> problems(const std::string& text) {
     try {
-      load(text);
+      script(text);
     } catch (const SceneError& error) {
       return error.problems();
     }

@@ -2,17 +2,18 @@
 #include <piblocks/error.hpp>
 #include <piblocks/interpolator.hpp>
 #include <piblocks/schedule.hpp>
+#include <piblocks/script_builder.hpp>
 
 namespace piblocks {
 namespace {
 
 Scene scene_with(int digits, const char* from, const char* to, const char* speed, const char* fps) {
-  SceneBuilder builder;
+  ScriptBuilder builder;
   builder.set("from", "time.from", from);
   builder.set("to", "time.to", to);
   builder.set("speed", "time.speed", speed);
   builder.set("fps", "view.fps", fps);
-  Scene scene = builder.build();
+  Scene scene = builder.build_scene();
   scene.system = article_system(digits);
   return scene;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/script_builder.hpp>
 
 #include <algorithm>
 #include <map>
@@ -117,21 +118,21 @@ TEST(SceneKeys, RefuseOtherNames) {
                                   {"show.overlays", "mass"},
                                   {"show.overlays", "time,time"},
                                   {"show.panels", "circle"}}) {
-    SceneBuilder builder;
+    ScriptBuilder builder;
     builder.set("--option", key, text);
-    EXPECT_THROW(builder.build(), SceneError) << key << " = " << text;
+    EXPECT_THROW(builder.build_scene(), SceneError) << key << " = " << text;
   }
 }
 
 TEST(SceneKeys, WidthByMassFollowsTheMassesInTheEnd) {
-  SceneBuilder builder;
+  ScriptBuilder builder;
   builder.set("--width-by-mass", "red.width", "by-mass");
-  builder.set_mass_ratio("--digits", 10000);
-  EXPECT_EQ(builder.build().system.red.width, Rational(5, 4));
+  builder.set("--digits", "digits", "3");
+  EXPECT_EQ(builder.build_scene().system.red.width, Rational(5, 4));
   builder.set("test", "red.width", "2");
-  EXPECT_EQ(builder.build().system.red.width, 2);
+  EXPECT_EQ(builder.build_scene().system.red.width, 2);
   builder.set("test", "blue.width", "by-mass");
-  EXPECT_THROW(builder.build(), SceneError) << "red alone is wide by its mass";
+  EXPECT_THROW(builder.build_scene(), SceneError) << "red alone is wide by its mass";
 }
 
 }  // namespace

@@ -43,6 +43,24 @@ TEST(SceneByHand, IsToldWhatIsWrongWithIt) {
        }},
       {"show.title", [](Scene& s) { s.show.title = std::string(kMaxLine_bytes + 1, 'a'); }},
       {"show.caption", [](Scene& s) { s.show.caption = std::string(kMaxLine_bytes + 1, 'a'); }},
+      {"show.title", [](Scene& s) { s.show.title = "a\tb"; }},
+      {"show.logo", [](Scene& s) { s.show.logo = "a\n.png"; }},
+      {"show.overlays",
+       [](Scene& s) {
+         s.show.overlays = {Overlay::time, Overlay::time};
+       }},
+      {"show.panels",
+       [](Scene& s) {
+         s.show.panels = {Panel::rate, Panel::time, Panel::rate};
+       }},
+      {"golden.frames",
+       [](Scene& s) {
+         s.golden.frames = {"last", "0", "last"};
+       }},
+      {"golden.frames",
+       [](Scene& s) {
+         s.golden.frames = {"0", "lost"};
+       }},
   };
   EXPECT_TRUE(problems_of(Scene{}).empty());
   int number = 0;

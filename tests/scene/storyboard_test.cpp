@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
+#include <piblocks/script_builder.hpp>
 #include <piblocks/storyboard.hpp>
 
 #include <fstream>
@@ -9,23 +10,23 @@
 namespace piblocks {
 namespace {
 
-class StoryboardFileTest : public FileFixture<ScriptBuilder> {
+class StoryboardFileTest : public FileFixture {
  protected:
-  Storyboard story(const std::string& text) { return std::get<Storyboard>(load(text)); }
+  Storyboard story(const std::string& text) { return std::get<Storyboard>(script(text)); }
 };
 
 const Scene& only_run(const StoryPart& part) { return std::get<Runs>(part.content).at(0); }
 
 TEST_F(StoryboardFileTest, AFileWithoutPartsIsAScene) {
-  const Script script = load("digits = 2\n[time]\nspeed = 3\n");
-  const Scene& scene = std::get<Scene>(script);
+  const Script read = script("digits = 2\n[time]\nspeed = 3\n");
+  const Scene& scene = std::get<Scene>(read);
   EXPECT_EQ(scene.system.red.mass, 100);
   EXPECT_EQ(scene.time.speed, 3);
 }
 
 TEST_F(StoryboardFileTest, DigitsAndMassRatioSetTheMassOfRed) {
   const auto red_mass = [&](const std::string& text) {
-    return std::get<Scene>(load(text)).system.red.mass;
+    return std::get<Scene>(script(text)).system.red.mass;
   };
   EXPECT_EQ(red_mass("digits = 1"), 1);
   EXPECT_EQ(red_mass("digits = \"4\"\nblue.mass = 3"), 3'000'000);
@@ -108,7 +109,7 @@ TEST_F(StoryboardFileTest, EveryProblemNamesItsLine) {
       {"[[part]]\ndigits = 0", ":2: digits = 0: must be a whole number from 1"},
       {"[[part]]\ndigits = 1.5", ":2: digits = 1.5: must be a whole number from 1"},
       {"[[part]]\ndigits = [1, 2]", ":2: digits = [1, 2]: must be one value"},
-      {"[[part]]\nmass-ratio = -1", ":2: mass-ratio = -1: must be greater than 0"},
+      {"[[part]]\nmass-ratio = -1", ":2: red.mass = -1: must be greater than 0"},
       {"[[part]]\ndigits = 1\nmass-ratio = 3", ":1: digits and mass-ratio both set the mass"},
       {"digits = 1\nmass-ratio = 3\nred.mass = 3", ": digits and mass-ratio and red.mass all set"},
       {"[[part]]\ntime.speed = 1\ntime.duration = 3", ":1: time.speed and time.duration both set"},
@@ -117,16 +118,16 @@ TEST_F(StoryboardFileTest, EveryProblemNamesItsLine) {
       {"[[part]]\n[part.view]\nfps = 10", ":3: view.fps: holds for the whole film"},
       {"[[part]]\nview.theme = 'dark'", ":2: view.theme: holds for the whole film"},
       {"[[part]]\ngolden.frames = [1]", ":2: golden.frames: holds for the whole film"},
-      {"[[part]]\nfade = 1", ":2: fade: no part is before the first"},
-      {"[[part]]\n[[part]]\nfade = -1", ":3: fade: must not be less than 0"},
+      {"[[part]]\nfade = 1", ":2: fade = 1: no part is before the first"},
+      {"[[part]]\n[[part]]\nfade = -1", ":3: fade = -1: must not be less than 0"},
       {"[[part]]\n[[part]]\nfade = 'x'", ":3: fade: not a number"},
       {"[[part]]\n[[part]]\nfade = [[1]]", ":3: fade: "},
-      {"[[part]]\ncard = ''", ":2: card: must not have an empty line"},
-      {"[[part]]\ncard = ['a', '']", ":2: card: must not have an empty line"},
-      {"[[part]]\ncard = [1,2,3,4,5,6,7,8,9]", ":2: card: must be from 1 to 8 lines"},
-      {"[[part]]\ncard = \"a\\n\\nb\"", ":2: card: must not have an empty line"},
-      {"[[part]]\ncard = \"a\\tb\"", ":2: card: must be one line of text"},
-      {"[[part]]\ncard = 'a'\nseconds = 0", ":3: seconds: must be greater than 0"},
+      {"[[part]]\ncard = ''", ":2: card must not have an empty line"},
+      {"[[part]]\ncard = ['a', '']", ":2: card must not have an empty line"},
+      {"[[part]]\ncard = [1,2,3,4,5,6,7,8,9]", ":2: card must be from 1 to 8 lines"},
+      {"[[part]]\ncard = \"a\\n\\nb\"", ":2: card must not have an empty line"},
+      {"[[part]]\ncard = \"a\\tb\"", ":2: card must be one line of text"},
+      {"[[part]]\ncard = 'a'\nseconds = 0", ":3: seconds = 0: must be greater than 0"},
       {"[[part]]\ncard = 'a'\ndigits = 3", ":3: digits: a card has nothing but"},
       {"[[part]]\ncard = 'a'\ncompare = [{}, {}]", ":3: compare: a card has nothing but"},
       {"[[part]]\nseconds = 3", ":2: seconds: is the length of a card"},
@@ -190,7 +191,7 @@ TEST_F(StoryboardFileTest, OptionsSetKeysOfTheWholeFilmOnly) {
   EXPECT_EQ(story.view.height_px, 48);
   EXPECT_EQ(story.view.frame_rate, 12);
   builder.set("--speed", "time.speed", "2");
-  builder.set_mass_ratio("--digits", 100);
+  builder.set("--digits", "digits", "2");
   builder.set("--size", "view.size", "0x48");
   try {
     builder.build();
@@ -203,11 +204,11 @@ TEST_F(StoryboardFileTest, OptionsSetKeysOfTheWholeFilmOnly) {
   }
 }
 
-TEST_F(StoryboardFileTest, ASceneBuilderRefusesParts) {
+TEST_F(StoryboardFileTest, IsNotBuiltAsAScene) {
   std::ofstream(path_) << "[[part]]\n";
-  SceneBuilder builder;
+  ScriptBuilder builder;
   builder.read_file(path_);
-  EXPECT_THROW(builder.build(), SceneError);
+  EXPECT_THROW(builder.build_scene(), SceneError);
 }
 
 /// Parts of a rendering are told apart by descriptions.

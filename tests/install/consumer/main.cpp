@@ -4,6 +4,7 @@
 #include <piblocks/event_simulator.hpp>
 #include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
+#include <piblocks/script_builder.hpp>
 #include <piblocks/version.hpp>
 
 #include <exception>
@@ -15,10 +16,10 @@
 namespace {
 
 piblocks::Scene small_scene() {
-  piblocks::SceneBuilder builder;
+  piblocks::ScriptBuilder builder;
   builder.set("consumer", "view.size", "320x180");
   builder.set("consumer", "view.fps", "20");
-  return builder.build();
+  return builder.build_scene();
 }
 
 void write_last_frame(const piblocks::Scene& scene, const std::string& path) {

@@ -2,6 +2,7 @@
 #include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/script_builder.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -11,7 +12,10 @@
 namespace piblocks {
 namespace {
 
-using SceneFileTest = FileFixture<SceneBuilder>;
+class SceneFileTest : public FileFixture {
+ protected:
+  Scene load(const std::string& text) { return std::get<Scene>(script(text)); }
+};
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -75,10 +79,10 @@ TEST_F(SceneFileTest, BlanksAroundNamesOfAListAreNone) {
 
 TEST_F(SceneFileTest, SpeedAndDurationExcludeEachOther) {
   EXPECT_EQ(problems("[time]\nspeed = 2\nduration = 3\n").size(), 1U);
-  SceneBuilder builder;
+  ScriptBuilder builder;
   builder.set("--duration", "time.duration", "3");
   builder.set("--speed", "time.speed", "2");
-  EXPECT_FALSE(builder.build().pacing.duration_s);
+  EXPECT_FALSE(builder.build_scene().pacing.duration_s);
 }
 
 TEST_F(SceneFileTest, ReadsEveryKey) {
@@ -184,6 +188,7 @@ TEST_F(SceneFileTest, ColumnsBehindOtherScriptsAreFound) {
 TEST_F(SceneFileTest, RefusesInvalidValuesOneByOne) {
   const std::pair<const char*, const char*> cases[] = {
       {"[red]\nmass = -1", "red.mass"},
+      {"mass-ratio = 0", ":1: red.mass = 0: must be greater"},
       {"[red]\nmass = nan", "red.mass"},
       {"[blue]\nmass = inf", "blue.mass"},
       {"[blue]\nwidth = 0", "blue.width"},
@@ -214,6 +219,11 @@ TEST_F(SceneFileTest, RefusesInvalidValuesOneByOne) {
       {"[time]\nfrom = '#1.5'", "time.from"},
       {"[time]\nto = 'last+-1'", "time.to"},
       {"[time]\nto = [1, 2]", "time.to"},
+      {"[time]\nfreeze = 'turn:0'", ":2: time.freeze has a freeze of 0 s"},
+      {"[time]\nslow-motion = '1:2:-3'", ":2: time.slow-motion has a window whose factor is -3"},
+      {"[show]\npanels = ['time', 'rate', 'time']", ":2: show.panels has 'time' more than once"},
+      {"[golden]\nframes = ['last', 'last']", ":2: golden.frames has 'last' more than once"},
+      {"[golden]\nframes = ['first']", ":2: golden.frames has 'first': "},
       {"wall = 3", "wall"},
       {"[wall]\nface = []", "wall.face"},
       {"[wall]\nface = { x = 1 }", "wall.face"},
@@ -234,7 +244,7 @@ TEST_F(SceneFileTest, SyntaxErrorsNameTheirLine) {
 }
 
 TEST_F(SceneFileTest, RefusesWhatItCannotRead) {
-  SceneBuilder builder;
+  ScriptBuilder builder;
   EXPECT_THROW(builder.read_file(folder_ / "missing.toml"), SceneError);
   EXPECT_THROW(builder.read_file(folder_.path().string()), SceneError);
   EXPECT_THROW(load(std::string((1 << 20) + 1, '#')), SceneError);
@@ -243,11 +253,11 @@ TEST_F(SceneFileTest, RefusesWhatItCannotRead) {
 
 TEST_F(SceneFileTest, OptionsWinAndAreNamed) {
   std::ofstream(path_) << "[view]\nsize = [640, 480]\n[red]\nmass = 7\n[blue]\nmass = 3\n";
-  SceneBuilder builder;
+  ScriptBuilder builder;
   builder.read_file(path_);
   builder.set("--size", "view.size", "1280x720");
-  builder.set_mass_ratio("--digits", 100);
-  const Scene scene = builder.build();
+  builder.set("--digits", "digits", "2");
+  const Scene scene = builder.build_scene();
   EXPECT_EQ(scene.view.width_px, 1280);
   EXPECT_EQ(scene.view.height_px, 720);
   EXPECT_EQ(scene.system.red.mass, 300) << "the ratio is to the blue mass of the file";
@@ -255,7 +265,7 @@ TEST_F(SceneFileTest, OptionsWinAndAreNamed) {
   builder.set("--size", "view.size", "1280");
   builder.set("--fps", "view.fps", "-1");
   try {
-    builder.build();
+    builder.build_scene();
     FAIL();
   } catch (const SceneError& error) {
     ASSERT_EQ(error.problems().size(), 2u);

@@ -1,14 +1,12 @@
+#include "scene/scene_draft.hpp"
+
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/scene.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <charconv>
 #include <filesystem>
-#include <utility>
-
-#include "scene/scene_keys.hpp"
-#include "scene/toml_file.hpp"
+#include <string_view>
 
 namespace piblocks {
 
@@ -34,24 +32,19 @@ std::string rivalry(const TomlTable& table, const Rivals& rivals) {
 
 /// The mass ratio that counts so many digits.
 Rational mass_ratio_of_digits(const Values& values) {
-  const Rational digits = parse_rational(single(values));
-  if (digits.get_den() != 1 || digits < 1 || digits > kMaxDigits) {
+  const std::string& text = single(values);
+  unsigned digits = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), digits);
+  const bool is_number = error == std::errc{} && end == text.data() + text.size();
+  if (!is_number || digits < 1 || digits > kMaxDigits) {
     throw UsageError(fmt::format("must be a whole number from 1 to {}", kMaxDigits));
   }
-  return power(100, digits.get_num().get_ui() - 1);
-}
-
-Rational positive(const Values& values) {
-  Rational value = parse_rational(single(values));
-  if (value <= 0) throw UsageError("must be greater than 0");
-  return value;
+  return power(100, digits - 1);
 }
 
 }  // namespace
 
-void SceneBuilder::read_file(const std::string& path) { read(path, read_toml(path)); }
-
-void SceneBuilder::read(const std::string& path, const TomlTable& table) {
+void SceneDraft::read(const std::string& path, const TomlTable& table) {
   for (const Rivals& rivals : {Rivals{{"time.speed", "time.duration"}, "the speed"},
                                Rivals{{"digits", "mass-ratio", "red.mass"}, "the mass of red"}}) {
     const std::string problem = rivalry(table, rivals);
@@ -63,7 +56,7 @@ void SceneBuilder::read(const std::string& path, const TomlTable& table) {
     if (entry.key == "part" && !entry.tables.empty()) {
       add_problem(origin, "part: a single scene has no parts; this is a storyboard");
     } else if (entry.problem.empty()) {
-      set_values(origin, entry.key, entry.values);
+      set(origin, entry.key, entry.values);
       // Found from where the scene is, wherever the program is started.
       if (entry.key == "show.logo" && !scene_.show.logo.empty()) {
         scene_.show.logo = std::filesystem::path(path).parent_path() / scene_.show.logo;
@@ -74,17 +67,7 @@ void SceneBuilder::read(const std::string& path, const TomlTable& table) {
   }
 }
 
-void SceneBuilder::set(const std::string& origin, const std::string& key, const std::string& text) {
-  set_values(origin, key, {text});
-}
-
-void SceneBuilder::set_mass_ratio(const std::string& origin, const Rational& ratio) {
-  mass_ratio_ = ratio;
-  origins_["red.mass"] = origin;
-}
-
-void SceneBuilder::set_values(const std::string& origin, const std::string& key,
-                              const Values& values) {
+void SceneDraft::set(const std::string& origin, const std::string& key, const Values& values) {
   try {
     set_key(origin, key, values);
   } catch (const UsageError& error) {
@@ -92,10 +75,12 @@ void SceneBuilder::set_values(const std::string& origin, const std::string& key,
   }
 }
 
-void SceneBuilder::set_key(const std::string& origin, const std::string& key,
-                           const Values& values) {
-  if (key == "digits") return set_mass_ratio(origin, mass_ratio_of_digits(values));
-  if (key == "mass-ratio") return set_mass_ratio(origin, positive(values));
+void SceneDraft::set_key(const std::string& origin, const std::string& key, const Values& values) {
+  if (key == "digits" || key == "mass-ratio") {
+    mass_ratio_ = key == "digits" ? mass_ratio_of_digits(values) : parse_rational(single(values));
+    origins_["red.mass"] = origin;
+    return;
+  }
   const std::span<const SceneKey> keys = scene_keys();
   const auto found = std::ranges::find(keys, std::string_view(key), &SceneKey::name);
   if (found == keys.end()) {
@@ -111,47 +96,42 @@ void SceneBuilder::set_key(const std::string& origin, const std::string& key,
   found->set(scene_, values);
 }
 
-void SceneBuilder::add_problem(const std::string& origin, const std::string& text) {
+void SceneDraft::add_problem(const std::string& origin, const std::string& text) {
   problems_.push_back(fmt::format("{}: {}", origin, text));
 }
 
-std::string SceneBuilder::described(const Problem& problem) const {
+std::string SceneDraft::described(const Problem& problem) const {
   const auto origin = origins_.find(problem.key);
   const std::string& place = origin == origins_.end() ? place_ : origin->second;
   return fmt::format("{}: {} {}", place, problem.key, problem.reason);
 }
 
-Scene SceneBuilder::build() const {
+SceneDraft SceneDraft::next(const std::string& place) const {
+  SceneDraft draft = *this;
+  draft.problems_.clear();
+  draft.place_ = place;
+  return draft;
+}
+
+Scene SceneDraft::scene() const {
   Scene scene = scene_;
   if (mass_ratio_) scene.system.red.mass = scene.system.blue.mass * *mass_ratio_;
   if (width_by_mass_) scene.system.red.width = width_by_mass(scene.system);
-  std::vector<std::string> problems = problems_;
-  for (const Problem& problem : problems_of(scene)) problems.push_back(described(problem));
-  if (!problems.empty()) throw SceneError(std::move(problems));
   return scene;
 }
 
-Rational width_by_mass(const BlockSystem& system) {
-  if (system.blue.mass <= 0 || system.red.mass <= 0) return system.red.width;
-  // Either mass may be beyond what a double holds.
-  const auto log_2 = [](const Integer& value) {
-    long exponent = 0;
-    const double mantissa = mpz_get_d_2exp(&exponent, value.get_mpz_t());
-    return static_cast<double>(exponent) + std::log2(mantissa);
-  };
-  const Rational ratio = system.red.mass / system.blue.mass;
-  const double hundreds = (log_2(ratio.get_num()) - log_2(ratio.get_den())) / std::log2(100.0);
-  const double factor = std::clamp(1 + hundreds / 8, 0.5, 1.5);
-  // To a thousandth, which makes the eighths exact.
-  return system.blue.width * Rational(Integer(std::lround(factor * 1000))) / 1000;
+std::vector<std::string> SceneDraft::problems() const {
+  std::vector<std::string> problems = problems_;
+  for (const Problem& problem : problems_of(scene())) problems.push_back(described(problem));
+  return problems;
 }
 
-std::vector<std::pair<std::string, std::string>> describe(const Scene& scene) {
-  std::vector<std::pair<std::string, std::string>> values;
-  for (const SceneKey& key : scene_keys()) {
-    values.emplace_back(key.name, fmt::format("{}", fmt::join(key.get(scene), ", ")));
+std::vector<std::string> SceneDraft::film_problems() const {
+  std::vector<std::string> problems = problems_;
+  for (const Problem& problem : problems_of(scene())) {
+    if (is_film_key(problem.key)) problems.push_back(described(problem));
   }
-  return values;
+  return problems;
 }
 
 }  // namespace piblocks

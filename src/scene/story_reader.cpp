@@ -1,0 +1,155 @@
+#include "scene/story_reader.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include "scene/scene_keys.hpp"
+#include "scene/story_part.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr auto kPartKeys = std::to_array<std::string_view>({"card", "seconds", "compare", "fade"});
+
+const TomlEntry* find(const TomlTable& table, std::string_view key) {
+  const auto found = std::ranges::find(table.entries, key, &TomlEntry::key);
+  return found == table.entries.end() ? nullptr : &*found;
+}
+
+/// A list, or one text of several lines.
+std::vector<std::string> lines_of(const Values& values) {
+  std::vector<std::string> lines;
+  for (const std::string& value : values) {
+    if (value.empty()) lines.emplace_back();
+    std::istringstream text(value);
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+  }
+  return lines;
+}
+
+Rational number_of(const Values& values) { return parse_rational(single(values)); }
+
+}  // namespace
+
+StoryReader::StoryReader(std::string path, const SceneDraft& film)
+    : path_(std::move(path)), film_(film) {
+  const Scene scene = film.scene();
+  story_ = {scene.view, scene.sound, scene.golden, {}};
+}
+
+void StoryReader::read(const TomlTable& table) {
+  Places places;
+  StoryPart part = part_of(table, places);
+  for (const Problem& problem : problems_of(part, story_.parts.empty())) {
+    // What is wrong with text that could not be read is told already.
+    const auto place = places.find(problem.key);
+    const bool is_told = place == places.end() && find(table, problem.key) != nullptr;
+    if (is_told) continue;
+    problems_.push_back(fmt::format("{}: {} {}",
+                                    place == places.end() ? part.origin : place->second,
+                                    problem.key, problem.reason));
+  }
+  story_.parts.push_back(std::move(part));
+}
+
+StoryPart StoryReader::part_of(const TomlTable& table, Places& places) {
+  StoryPart part;
+  part.origin = fmt::format("{}:{}", path_, table.line);
+  take(table, "fade", part.fade_s, number_of, places);
+  if (find(table, "card") != nullptr) {
+    part.content = card_of(table, places);
+  } else {
+    part.content = runs_of(table);
+  }
+  return part;
+}
+
+Card StoryReader::card_of(const TomlTable& table, Places& places) {
+  Card card;
+  take(table, "card", card.lines, lines_of, places);
+  take(table, "seconds", card.length_s, number_of, places);
+  for (const TomlEntry& entry : table.entries) {
+    if (entry.key == "card" || entry.key == "seconds" || entry.key == "fade") continue;
+    add_problem(entry, "a card has nothing but 'card', 'seconds' and 'fade'");
+  }
+  return card;
+}
+
+Runs StoryReader::runs_of(const TomlTable& table) {
+  TomlTable keys{{}, table.line};
+  for (const TomlEntry& entry : table.entries) {
+    if (entry.key == "seconds") {
+      add_problem(entry, "is the length of a card; a run has time.duration");
+    } else if (is_film_key(entry.key)) {
+      add_problem(entry, "holds for the whole film; put it above the parts");
+    } else if (std::ranges::count(kPartKeys, entry.key) == 0) {
+      keys.entries.push_back(entry);
+    }
+  }
+  SceneDraft common = film_.next(fmt::format("{}:{}", path_, table.line));
+  common.read(path_, keys);
+  std::vector<SceneDraft> drafts = {common};
+  if (const TomlEntry* compare = find(table, "compare")) drafts = compared(*compare, common);
+  Runs runs;
+  for (const SceneDraft& draft : drafts) {
+    for (std::string& problem : draft.problems()) problems_.push_back(std::move(problem));
+    runs.push_back(draft.scene());
+  }
+  return runs;
+}
+
+/// What the part says holds for each of them.
+std::vector<SceneDraft> StoryReader::compared(const TomlEntry& compare, const SceneDraft& common) {
+  if (compare.tables.size() < 2 || compare.tables.size() > kMaxCompared) {
+    add_problem(compare, fmt::format("must be a list of 2 to {} tables, as [{{digits = 1}}, "
+                                     "{{digits = 2}}]",
+                                     kMaxCompared));
+    return {common};
+  }
+  std::vector<SceneDraft> drafts;
+  for (const TomlTable& table : compare.tables) {
+    TomlTable keys{{}, table.line};
+    for (const TomlEntry& entry : table.entries) {
+      if (is_film_key(entry.key)) {
+        add_problem(entry, "holds for the whole film; put it above the parts");
+      } else if (entry.key.starts_with("time.")) {
+        add_problem(entry, "what is compared has one clock; say it for the part");
+      } else {
+        keys.entries.push_back(entry);
+      }
+    }
+    drafts.emplace_back(common).read(path_, keys);
+  }
+  return drafts;
+}
+
+/// Takes the key's value if the table has it, and notes its place, or what is wrong with its text.
+template <typename Target, typename Parse>
+void StoryReader::take(const TomlTable& table, const char* key, Target& target, const Parse& parse,
+                       Places& places) {
+  const TomlEntry* const entry = find(table, key);
+  if (entry == nullptr) return;
+  if (!entry->problem.empty()) return add_problem(*entry, entry->problem);
+  try {
+    target = parse(entry->values);
+    places.emplace(key, place_of(*entry));
+  } catch (const UsageError& error) {
+    add_problem(*entry, error.what());
+  }
+}
+
+void StoryReader::add_problem(const TomlEntry& entry, const std::string& text) {
+  problems_.push_back(fmt::format("{}: {}: {}", place_of(entry), entry.key, text));
+}
+
+std::string StoryReader::place_of(const TomlEntry& entry) const {
+  return fmt::format("{}:{}", path_, entry.line);
+}
+
+}  // namespace piblocks

@@ -1,0 +1,49 @@
+// The parts of a storyboard, from the tables of its file.
+// In: what holds for all parts, and a table for each. Out: the storyboard, and what is wrong with
+// it.
+#pragma once
+
+#include <piblocks/storyboard.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/scene_draft.hpp"
+#include "scene/toml_file.hpp"
+
+namespace piblocks {
+
+class StoryReader {
+ public:
+  /// @param path  of the file, named in messages.
+  StoryReader(std::string path, const SceneDraft& film);
+
+  /// Adds the part that a [[part]] describes.
+  void read(const TomlTable& table);
+
+  const Storyboard& story() const { return story_; }
+  /// Of the parts.
+  const std::vector<std::string>& problems() const { return problems_; }
+
+ private:
+  /// Where the keys of a part stand that are no scene's.
+  using Places = std::map<std::string, std::string>;
+
+  StoryPart part_of(const TomlTable& table, Places& places);
+  Card card_of(const TomlTable& table, Places& places);
+  Runs runs_of(const TomlTable& table);
+  std::vector<SceneDraft> compared(const TomlEntry& compare, const SceneDraft& common);
+  template <typename Target, typename Parse>
+  void take(const TomlTable& table, const char* key, Target& target, const Parse& parse,
+            Places& places);
+  void add_problem(const TomlEntry& entry, const std::string& text);
+  std::string place_of(const TomlEntry& entry) const;
+
+  std::string path_;
+  const SceneDraft& film_;
+  Storyboard story_;
+  std::vector<std::string> problems_;
+};
+
+}  // namespace piblocks
