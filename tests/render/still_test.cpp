@@ -1,9 +1,11 @@
-// A still is the film's frame: random scenes, every kind of instant, pixel by pixel.
+// A still is the film's frame: random scenes and storyboards, every kind of instant, rendered whole
+// and in parts, pixel by pixel.
 #include "render/still.hpp"
 
 #include <gtest/gtest.h>
 #include <piblocks/canvas.hpp>
 #include <piblocks/error.hpp>
+#include <piblocks/render.hpp>
 #include <piblocks/schedule.hpp>
 
 #include <algorithm>
@@ -11,17 +13,15 @@
 #include <utility>
 #include <vector>
 
+#include "media/frame_reader.hpp"
 #include "render/film.hpp"
 #include "support/property.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace piblocks {
 namespace {
 
-std::string pixels_of(const DrawList& list) {
-  Canvas canvas(list.width_px, list.height_px,
-                list.background ? Ground::opaque : Ground::transparent);
-  canvas.paint(list);
-  const ImageView image = canvas.view();
+std::string pixels_of(const ImageView& image) {
   std::string pixels;
   for (int y = 0; y < image.height_px; ++y) {
     pixels.append(reinterpret_cast<const char*>(image.row(y)),
@@ -29,6 +29,37 @@ std::string pixels_of(const DrawList& list) {
   }
   return pixels;
 }
+
+std::string pixels_of(const DrawList& list) {
+  Canvas canvas(list.width_px, list.height_px,
+                list.background ? Ground::opaque : Ground::transparent);
+  canvas.paint(list);
+  return pixels_of(canvas.view());
+}
+
+/// Frames as files, rendered in a number of parts that are joined.
+class RenderedFrames {
+ public:
+  RenderedFrames(const Script& script, int parts) {
+    std::vector<std::string> names;
+    for (int number = 1; number <= parts; ++number) {
+      RenderJob job{script, folder_ / "%d.png"};
+      job.part = Part{number, parts};
+      render(job, [](const Progress&) {});
+      names.push_back(part_name(job.output, *job.part));
+    }
+    count_ = join(names, folder_ / "%d.png");
+  }
+
+  std::int64_t count() const { return count_; }
+  std::string pixels(std::int64_t frame) const {
+    return pixels_of(read_png(folder_ / (std::to_string(frame + 1) + ".png")).view());
+  }
+
+ private:
+  testing_support::TemporaryFolder folder_;
+  std::int64_t count_ = 0;
+};
 
 Instant any_instant(Random& random, const Integer& total) {
   const Rational offset = random.rational(0, 4, 30) - 2;
@@ -128,6 +159,57 @@ TEST(Still, IsTheFilmsFrameInAnyScene) {
     }
   }
   EXPECT_GT(compared, 8000);
+}
+
+/// Cards, single runs and comparisons, with and without fades.
+Storyboard any_storyboard(Random& random) {
+  Storyboard story;
+  story.view = any_scene(random).view;
+  for (std::int64_t i = random.integer(1, 4); i > 0; --i) {
+    StoryPart part;
+    if (random.integer(0, 2) == 0) {
+      part.content = Card{{"Counting"}, random.rational(0, 3, 7) + Rational(1, 4)};
+    } else {
+      Runs runs(static_cast<std::size_t>(random.integer(1, 3)), any_scene(random));
+      for (Scene& run : runs) run.system = any_scene(random).system;
+      part.content = std::move(runs);
+    }
+    if (!story.parts.empty() && random.integer(0, 1) == 0) part.fade_s = random.rational(0, 1, 4);
+    story.parts.push_back(std::move(part));
+  }
+  return story;
+}
+
+TEST(Still, IsTheFrameOfAFilmThatIsRenderedInParts) {
+  Random random(2236);
+  SCOPED_TRACE(random.trace());
+  int films = 0;
+  int compared = 0;
+  for (int i = 0; films < 300; ++i) {
+    ASSERT_LT(i, 3000) << "too many films are refused";
+    const Script script = i % 2 == 0 ? Script(any_scene(random)) : Script(any_storyboard(random));
+    try {
+      const Film film(script);
+      if (film.frame_count() < 3 || film.frame_count() > 300) continue;
+      const RenderedFrames frames(script, static_cast<int>(random.integer(1, 3)));
+      ++films;
+      ASSERT_EQ(frames.count(), film.frame_count());
+      for (int picked = 0; picked < 10; ++picked) {
+        std::int64_t frame = random.integer(0, frames.count() - 1);
+        Rational instant = frame / view_of(script).frame_rate;  // of a storyboard's video
+        if (std::holds_alternative<Scene>(script)) {
+          const Schedule& schedule = *film.parts().front().part.schedule();
+          instant = schedule.time_of(frame);
+          frame = first_at(schedule, instant, frames.count());
+        }
+        ++compared;
+        ASSERT_TRUE(pixels_of(still_picture(script, instant)) == frames.pixels(frame))
+            << "film " << i << ", frame " << frame << " of " << frames.count();
+      }
+    } catch (const UsageError&) {  // spans without time, fades without room
+    }
+  }
+  EXPECT_EQ(compared, 3000);
 }
 
 // Where collisions anchor them, too: what a freeze or an end shows is what a still of it shows.
