@@ -118,14 +118,18 @@ void PngFile::read_rows() {
   png_read_end(png_, nullptr);
 }
 
+void PngFile::read_rows_to(void* rows, std::size_t row_bytes) {
+  rows_ = static_cast<png_bytep>(rows);
+  row_bytes_ = row_bytes;
+  run(&PngFile::read_rows);
+}
+
 DeepImage PngFile::read_deep() {
   const png_uint_32 width = png_get_image_width(png_, info_);
   const png_uint_32 height = png_get_image_height(png_, info_);
   DeepImage image{static_cast<int>(width), static_cast<int>(height), 65535, {}};
   image.words.resize(std::size_t{width} * height);
-  rows_ = reinterpret_cast<png_bytep>(image.words.data());
-  row_bytes_ = sizeof(std::uint64_t) * width;
-  run(&PngFile::read_rows);
+  read_rows_to(image.words.data(), sizeof(std::uint64_t) * width);
   return image;
 }
 
@@ -134,10 +138,8 @@ Image PngFile::read_flat() {
   const png_uint_32 height = png_get_image_height(png_, info_);
   Image image{static_cast<int>(width), static_cast<int>(height), {}};
   image.words.resize(std::size_t{width} * height);
-  rows_ = reinterpret_cast<png_bytep>(image.words.data());
-  row_bytes_ = sizeof(std::uint32_t) * width;
   is_flat_ = true;
-  run(&PngFile::read_rows);
+  read_rows_to(image.words.data(), sizeof(std::uint32_t) * width);
   return image;
 }
 

@@ -46,6 +46,7 @@ class PngFile {
   void run(Step step);
   void read_header();
   void read_rows();
+  void read_rows_to(void* rows, std::size_t row_bytes);
   void close();
   void check_size() const;
   [[noreturn]] void fail(const std::string& reason) const;

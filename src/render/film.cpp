@@ -66,10 +66,11 @@ void Film::place_parts(const Storyboard& story) {
     const Integer fade = floor(fade_s * view_.frame_rate + Rational(1, 2));
     const std::int64_t room = i == 0 ? 0 : std::min(before, own - 1);
     if (fade > room) {
-      problems.push_back(fmt::format(
-          "{}: fade = {}: takes {} frames; there is room for {}, since it must be shorter than the "
-          "part before, less the fade of that, and than its own part",
-          place_of(story, i), to_text(fade_s), readable(fade), room));
+      problems.push_back(
+          fmt::format("{}: fade = {}: must take at most {} frames, not {}: a fade is shorter than "
+                      "its own part, "
+                      "and than what the fade before leaves of the part before",
+                      place_of(story, i), to_text(fade_s), room, readable(fade)));
     } else {
       placed.fade_frames = fade.get_si();
     }

@@ -140,7 +140,8 @@ void StoryReader::take(const TomlTable& table, const char* key, Target& target, 
     target = parse(entry->values);
     places.emplace(key, place_of(*entry));
   } catch (const UsageError& error) {
-    add_problem(*entry, error.what());
+    problems_.push_back(
+        fmt::format("{}: {} = {}: {}", place_of(*entry), key, joined(entry->values), error.what()));
   }
 }
 

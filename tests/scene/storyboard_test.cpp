@@ -120,7 +120,7 @@ TEST_F(StoryboardFileTest, EveryProblemNamesItsLine) {
       {"[[part]]\ngolden.frames = [1]", ":2: golden.frames: holds for the whole film"},
       {"[[part]]\nfade = 1", ":2: fade = 1: no part is before the first"},
       {"[[part]]\n[[part]]\nfade = -1", ":3: fade = -1: must not be less than 0"},
-      {"[[part]]\n[[part]]\nfade = 'x'", ":3: fade: not a number"},
+      {"[[part]]\n[[part]]\nfade = 'x'", ":3: fade = x: not a number"},
       {"[[part]]\n[[part]]\nfade = [[1]]", ":3: fade: "},
       {"[[part]]\ncard = ''", ":2: card must not have an empty line"},
       {"[[part]]\ncard = ['a', '']", ":2: card must not have an empty line"},
