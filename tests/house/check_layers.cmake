@@ -22,7 +22,7 @@ set(cli_may ${layers})
 set(core_headers color error exact geometry image time version)
 set(physics_headers blocks collision_log event_simulator exposure interpolator particle
     physics_versions)
-set(scene_headers instant pacing scene schedule show storyboard)
+set(scene_headers instant pacing scene schedule script_builder show storyboard)
 set(sound_headers soundtrack)
 set(draw_headers canvas composition draw_list exposed_item item_id shapes sheet)
 set(media_headers frame_sink png)
