@@ -1,7 +1,11 @@
 #include "draw/stage.hpp"
 
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -23,6 +27,8 @@ constexpr double kMaxBannerText = 2.2;
 // A unit of the scene at least this large is rounded to an even number of pixels, so that edges
 // that do not move are sharp, and so are the upper and lower edges of blocks of width 1.
 constexpr double kMinRounded_px = 16;
+/// From one position to the next that a double can hold.
+constexpr double kMostStep_px = 0.25;
 // In ems of the label.
 constexpr double kCapHeight = 0.73;
 constexpr double kLabelGap = 1.0;  // between the label's baseline and the view
@@ -65,6 +71,19 @@ std::size_t lit_length(std::string_view count, std::string_view expected) {
   return length;
 }
 
+/// Positions are doubles: where the axis is shown far from 0 and close up, blocks would be drawn
+/// where they are not.
+void check_resolution(const View& view, double scale) {
+  const double farthest =
+      std::max(std::abs(to_double(view.x.low)), std::abs(to_double(view.x.high)));
+  const double step_px = farthest * std::numeric_limits<double>::epsilon() * scale;
+  if (step_px <= kMostStep_px) return;
+  throw UsageError(
+      fmt::format("view.x: so far from 0 positions are {:.1e} apart, which would be {:.1f} pixels; "
+                  "show more of the axis, or move wall, blocks and view towards 0",
+                  step_px / scale, step_px));
+}
+
 }  // namespace
 
 double short_measure(const Rectangle& area) { return std::min(area.height, kNarrow * area.width); }
@@ -98,6 +117,7 @@ Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle
   const bool rounded = layout.scale >= kMinRounded_px;
   const auto to_pixel = [&](double px) { return rounded ? std::round(px) : px; };
   if (rounded) layout.scale = 2 * std::floor(layout.scale / 2);
+  check_resolution(view, layout.scale);
   const double view_width = layout.scale * length(view.x);
   const double view_height = layout.scale * length(view.y);
   const double top = area.y + (area.height - view_height - label_height) / 2;

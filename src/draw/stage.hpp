@@ -54,7 +54,8 @@ double line_width_px(const View& view);
 /// at 0.
 double base_of(const BlockSystem& system);
 
-/// @param longest_count  the last count that will be shown.
+/// @param longest_count  of those that will be shown.
+/// @throws UsageError if the view is closer up than positions are known.
 Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
                const Font& font);
 

@@ -376,5 +376,30 @@ TEST(Composition, SaysWhyItCannotBeShown) {
                   .starts_with("show.overlays: there are no digits of pi"));
 }
 
+TEST(Composition, RefusesAViewThatIsCloserThanPositionsAreKnown) {
+  const auto problem_at = [](const Rational& far, const Rational& unit) {
+    Scene scene = scene_with(3, {});
+    scene.system.wall_face = far;
+    scene.system.blue.position = far + 2 * unit;
+    scene.system.red.position = far + 5 * unit;
+    scene.system.blue.width = scene.system.red.width = unit;
+    scene.view.x = {far - unit, far + 12 * unit};
+    scene.view.y = {-unit, unit};
+    try {
+      Pictures pictures(scene);
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(problem_at(parse_rational("1e15"), 1),
+            "view.x: so far from 0 positions are 2.2e-01 apart, which would be 31.1 pixels; show "
+            "more of the axis, or move wall, blocks and view towards 0");
+  EXPECT_TRUE(problem_at(1, parse_rational("1e-15")).starts_with("view.x: so far from 0"));
+  EXPECT_EQ(problem_at(parse_rational("1e12"), 1), "accepted");
+  EXPECT_EQ(problem_at(parse_rational("1e15"), parse_rational("1e5")), "accepted");
+  EXPECT_EQ(problem_at(0, parse_rational("1e-300")), "accepted");
+}
+
 }  // namespace
 }  // namespace piblocks
