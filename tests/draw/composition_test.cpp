@@ -272,6 +272,13 @@ TEST(Overlays, TimeHasTheDecimalsThatTheSpeedNeeds) {
   EXPECT_EQ(with("time.duration", "1"), "t = 2.50");
 }
 
+/// A double has no more than 17 digits, and no quarter here.
+TEST(Overlays, TimeIsExactHoweverLate) {
+  const Pictures pictures(scene_with(3, {{"show.overlays", "time"}}));
+  const DrawList list = pictures.at(parse_rational("123456789012345678.25"));
+  EXPECT_TRUE(has_text(list, "t = 123,456,789,012,345,678.25"));
+}
+
 /// How far the sectors of the velocity circle reach that are lit, in radians, of both sides.
 double lit_angle(const DrawList& list) {
   double sum = 0;
