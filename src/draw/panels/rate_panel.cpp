@@ -19,6 +19,8 @@ constexpr double kTick_em = 0.4;
 constexpr double kBesideTick_em = 0.2;
 /// The span is cut into so many bins or somewhat fewer.
 constexpr int kMostBins = 120;
+/// Of a bin: no time at all, for a picture.
+const Rational kNegligible{1, 1'000'000'000'000};
 
 /// How often blocks meet each other or the wall in each of equal bins of time. A bin is a round
 /// step long and begins at a multiple of it, so that its rate depends on nothing that is drawn.
@@ -26,7 +28,8 @@ struct Rates {
   Rates(const CollisionLog& log, const Span& span)
       : bin(round_step((span.to - span.from) / kMostBins)), first(floor(span.from / bin)) {
     const Integer end = ceil(span.to / bin);
-    Integer before = state_at(log, first * bin).count;
+    // What happens at the very beginning is part of the first bin.
+    Integer before = state_at(log, Rational(first * bin - bin * kNegligible)).count;
     for (Integer k = first + 1; k <= end; k += 1) {
       const Integer count = state_at(log, k * bin).count;
       of_bins.push_back(magnitude_of(Rational(count - before) / bin));
