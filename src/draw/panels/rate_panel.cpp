@@ -19,8 +19,8 @@ constexpr double kTick_em = 0.4;
 constexpr double kBesideTick_em = 0.2;
 /// The span is cut into so many bins or somewhat fewer.
 constexpr int kMostBins = 120;
-/// Of a bin: no time at all, for a picture.
-const Rational kNegligible{1, 1'000'000'000'000};
+/// So small a part of a bin is no time at all, in a picture.
+constexpr long kNegligiblePart = 1'000'000'000'000;
 
 /// How often blocks meet each other or the wall in each of equal bins of time. A bin is a round
 /// step long and begins at a multiple of it, so that its rate depends on nothing that is drawn.
@@ -29,7 +29,7 @@ struct Rates {
       : bin(round_step((span.to - span.from) / kMostBins)), first(floor(span.from / bin)) {
     const Integer end = ceil(span.to / bin);
     // What happens at the very beginning is part of the first bin.
-    Integer before = state_at(log, Rational(first * bin - bin * kNegligible)).count;
+    Integer before = state_at(log, Rational(first * bin - bin / kNegligiblePart)).count;
     for (Integer k = first + 1; k <= end; k += 1) {
       const Integer count = state_at(log, k * bin).count;
       of_bins.push_back(magnitude_of(Rational(count - before) / bin));
