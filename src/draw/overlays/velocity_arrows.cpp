@@ -51,6 +51,7 @@ class VelocityArrows final : public PicturePart {
         widths_(setting.font, kNumberCharacters),
         usual_speed_(usual_speed(setting.scene.system)),
         line_px_(setting.line_px),
+        width_px_(setting.scene.view.width_px),
         top_(top_of(setting.scene.system)),
         room_px_((to_double(setting.scene.view.y.high) - top_) * layout_.scale + layout_.above_px),
         text_px_(std::min(kTextSize * room_px_, setting.text_px)) {
@@ -59,7 +60,6 @@ class VelocityArrows final : public PicturePart {
     const double face_px = layout_.at(to_double(system.wall_face), 0).x;
     const double margin_px = kBetweenFigures_em / 2 * text_px_;
     least_left_px_ = std::max(0.0, face_px) + margin_px;
-    width_px_ = setting.scene.view.width_px;
     most_right_px_ = width_px_ - margin_px;
     blue_px_ = to_double(system.blue.width) * layout_.scale;
     red_px_ = to_double(system.red.width) * layout_.scale;
@@ -161,13 +161,13 @@ class VelocityArrows final : public PicturePart {
   TextWidths widths_;
   mpf_class usual_speed_;
   double line_px_;
+  double width_px_;
   double top_;
   double room_px_;
   double text_px_;
   double longest_px_ = 0;
   double least_left_px_ = 0;
   double most_right_px_ = 0;
-  double width_px_ = 0;
   double blue_px_ = 0;
   double red_px_ = 0;
 };
