@@ -11,6 +11,7 @@
 #include <memory>
 #include <new>
 #include <sstream>
+#include <string_view>
 
 #include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
@@ -26,7 +27,7 @@ namespace {
 using piblocks::cli::kFailed;
 using piblocks::cli::kWrongUsage;
 
-int fail(const char* message, int exit_code) {
+int fail(std::string_view message, int exit_code) {
   piblocks::cli::say("piblocks: {}\n", message);
   return exit_code;
 }
@@ -35,7 +36,7 @@ int fail_by_interruption() { return fail("interrupted", kFailed); }
 
 int fail(const piblocks::UsageError& error) {
   if (piblocks::cli::stop_was_requested()) return fail_by_interruption();
-  for (const std::string& problem : error.problems()) fail(problem.c_str(), kWrongUsage);
+  for (const std::string& problem : error.problems()) fail(problem, kWrongUsage);
   return kWrongUsage;
 }
 
@@ -65,7 +66,7 @@ int fail(const std::exception& error, int exit_code) {
 /// What CLI11 throws when it stops early: --help and --version, or an error.
 int finish(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() != 0) {
-    return fail(piblocks::cli::usage_message(app, error).c_str(), kWrongUsage);
+    return fail(piblocks::cli::usage_message(app, error), kWrongUsage);
   }
   std::ostringstream text;
   app.exit(error, text, text);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
+#include <piblocks/schedule.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,15 @@ std::string lit_digits(const Scene& scene, const CollisionLog& log) {
   throw UsageError(
       "show.overlays: there are no digits of pi to light up, since this scene does not count them; "
       "leave out 'digits', or give a mass ratio of 100^(D-1) and a blue.velocity of 0");
+}
+
+/// Of the counts that the film shows: before time 0 they are negative, and may be longer than the
+/// last one.
+Integer longest_count(const Scene& scene, const CollisionLog& log) {
+  const Integer& last = log.size();
+  if (log.first_index() > 0 || !has_span(scene, log)) return last;
+  const Integer first = state_at(log, span_of(scene, log).from).count;
+  return first.get_str().size() > last.get_str().size() ? first : last;
 }
 
 std::vector<ReadOut> read_outs_of(const Setting& setting) {
@@ -137,7 +147,7 @@ Composition::Contents::Contents(const Scene& scene, const CollisionLog& log,
       std::make_unique<ReadOutRows>(read_outs_of({scene, log, palette, font, nowhere, text_px, 1}),
                                     read_out_area(scene.view), text_px, font);
   const FramePlan plan = plan_frame(scene, palette, font, rows->height());
-  const Layout layout = lay_out(scene, log.size(), plan.stage, font);
+  const Layout layout = lay_out(scene, longest_count(scene, log), plan.stage, font);
   stage = std::make_unique<StagePicture>(scene, layout, palette, font, lit_digits(scene, log));
 
   const Setting setting{scene, log, palette, font, layout, plan.text_px, plan.line_px};

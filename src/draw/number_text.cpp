@@ -60,6 +60,22 @@ std::string fixed_text(double value, int decimals) {
   return (value < 0 && !is_zero ? std::string(kMinus) : "") + with_commas(digits);
 }
 
+std::string fixed_text(const Rational& value, int decimals) {
+  const Rational scaled = abs(value) * power(10, static_cast<unsigned long>(decimals));
+  const Integer below = floor(scaled);
+  const Rational rest = scaled - below;
+  // A tie goes to the even digit, as it does where doubles are printed.
+  const bool is_up = rest > Rational(1, 2) || (rest == Rational(1, 2) && below % 2 != 0);
+  const Integer rounded = below + (is_up ? 1 : 0);
+  std::string digits = rounded.get_str();
+  if (decimals > 0) {
+    const auto places = static_cast<std::size_t>(decimals);
+    if (digits.size() <= places) digits.insert(0, places + 1 - digits.size(), '0');
+    digits.insert(digits.size() - places, ".");
+  }
+  return (value < 0 && rounded != 0 ? std::string(kMinus) : "") + with_commas(digits);
+}
+
 std::string rounded_text(double value) {
   constexpr double kMostFixed = 1e5;
   if (std::abs(value) < kMostFixed || !std::isfinite(value)) return fixed_text(value, 2);

@@ -31,6 +31,8 @@ Magnitude written_with(int decimals, Magnitude size);
 /// With so many decimals, commas between thousands and a true minus sign: "−1,234.50". Zero has no
 /// sign.
 std::string fixed_text(double value, int decimals);
+/// The same of an exact number, every digit of it. @param decimals  >= 0
+std::string fixed_text(const Rational& value, int decimals);
 
 /// With two decimals; from 100,000 on as "−1.23×10⁹".
 std::string rounded_text(double value);

@@ -1,7 +1,11 @@
 #include "draw/stage.hpp"
 
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -11,6 +15,7 @@ namespace piblocks {
 namespace {
 
 constexpr std::string_view kLabelText = "Collisions:";
+constexpr std::string_view kCountCharacters = "0123456789,-";
 
 // In parts of the area's short measure, see short_measure().
 constexpr double kTextSize = 0.074;
@@ -22,10 +27,14 @@ constexpr double kMaxBannerText = 2.2;
 // A unit of the scene at least this large is rounded to an even number of pixels, so that edges
 // that do not move are sharp, and so are the upper and lower edges of blocks of width 1.
 constexpr double kMinRounded_px = 16;
+/// From one position to the next that a double can hold.
+constexpr double kMostStep_px = 0.25;
 // In ems of the label.
 constexpr double kCapHeight = 0.73;
 constexpr double kLabelGap = 1.0;  // between the label's baseline and the view
 constexpr double kWordSpace = 0.34;
+/// Sums of advances differ by so little, in whatever order they are added.
+constexpr double kNegligible_em = 1e-6;
 // In parts of a block's height: from the edge to the first bar, and from bar to bar.
 constexpr double kBarStep = 0.1;
 // In line widths.
@@ -62,6 +71,19 @@ std::size_t lit_length(std::string_view count, std::string_view expected) {
   return length;
 }
 
+/// Positions are doubles: where the axis is shown far from 0 and close up, blocks would be drawn
+/// where they are not.
+void check_resolution(const View& view, double scale) {
+  const double farthest =
+      std::max(std::abs(to_double(view.x.low)), std::abs(to_double(view.x.high)));
+  const double step_px = farthest * std::numeric_limits<double>::epsilon() * scale;
+  if (step_px <= kMostStep_px) return;
+  throw UsageError(
+      fmt::format("view.x: so far from 0 positions are {:.1e} apart, which would be {:.1f} pixels; "
+                  "show more of the axis, or move wall, blocks and view towards 0",
+                  step_px / scale, step_px));
+}
+
 }  // namespace
 
 double short_measure(const Rectangle& area) { return std::min(area.height, kNarrow * area.width); }
@@ -95,6 +117,7 @@ Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle
   const bool rounded = layout.scale >= kMinRounded_px;
   const auto to_pixel = [&](double px) { return rounded ? std::round(px) : px; };
   if (rounded) layout.scale = 2 * std::floor(layout.scale / 2);
+  check_resolution(view, layout.scale);
   const double view_width = layout.scale * length(view.x);
   const double view_height = layout.scale * length(view.y);
   const double top = area.y + (area.height - view_height - label_height) / 2;
@@ -103,7 +126,10 @@ Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle
       to_pixel(top + label_height + to_double(view.y.high) * layout.scale)};
   layout.label = {area.x + (area.width - line_em * layout.text_px) / 2,
                   to_pixel(top + kCapHeight * layout.text_px)};
-  layout.count_x = layout.label.x + label_em * layout.text_px;
+  layout.label_em = label_em;
+  layout.count_em = line_em - label_em;
+  layout.line_left_px = area.x + margin;
+  layout.line_room_px = inner_width;
   layout.above_px = kLabelGap * layout.text_px / 2;
   layout.below_px = area.y + area.height - (top + label_height + view_height);
   return layout;
@@ -119,7 +145,7 @@ StagePicture::StagePicture(const Scene& scene, const Layout& layout, const Palet
       blue_side_(to_double(scene.system.blue.width)),
       red_side_(to_double(scene.system.red.width)),
       lit_digits_(std::move(lit_digits)),
-      widths_(font, lit_digits_.empty() ? "" : kNumberCharacters) {}
+      widths_(font, kCountCharacters) {}
 
 ExposedBlock StagePicture::block(double side, const Motion& motion,
                                  const BlockColors& colors) const {
@@ -139,21 +165,30 @@ ExposedBlock StagePicture::block(double side, const Motion& motion,
   return block;
 }
 
-void StagePicture::add_count(const Integer& count, std::vector<DrawItem>& items) const {
+/// Label and count. A count that is longer than any of those the layout was made for, as that of a
+/// picture from outside of the film can be, has a line of its own measure: it is never cut off.
+void StagePicture::add_line(const Integer& count, std::vector<DrawItem>& items) const {
   const std::string text = with_thousands_separators(count);
   const std::size_t lit = lit_length(text, lit_digits_);
-  const Point origin{layout_.count_x, layout_.label.y};
+  Point label = layout_.label;
+  double text_px = layout_.text_px;
+  const double count_em = widths_.width_em(text);
+  if (count_em > layout_.count_em + kNegligible_em) {
+    const double line_em = layout_.label_em + count_em;
+    text_px = std::min(text_px, layout_.line_room_px / line_em);
+    label.x = layout_.line_left_px + (layout_.line_room_px - line_em * text_px) / 2;
+  }
+  const Point origin{label.x + layout_.label_em * text_px, label.y};
+  items.emplace_back(
+      TextItem{ItemId::label, label, std::string(kLabelText), text_px, palette_.muted});
   if (lit > 0) {
     items.emplace_back(
-        TextItem{ItemId::lit_count, origin, text.substr(0, lit), layout_.text_px, palette_.accent});
+        TextItem{ItemId::lit_count, origin, text.substr(0, lit), text_px, palette_.accent});
   }
   if (lit < text.size()) {
-    const double lit_px = lit > 0 ? widths_.width_em(text.substr(0, lit)) * layout_.text_px : 0;
-    items.emplace_back(TextItem{ItemId::count,
-                                {origin.x + lit_px, origin.y},
-                                text.substr(lit),
-                                layout_.text_px,
-                                palette_.text});
+    const double lit_px = lit > 0 ? widths_.width_em(text.substr(0, lit)) * text_px : 0;
+    items.emplace_back(TextItem{
+        ItemId::count, {origin.x + lit_px, origin.y}, text.substr(lit), text_px, palette_.text});
   }
 }
 
@@ -169,9 +204,7 @@ void StagePicture::add(const BlockState& state, std::span<const ExposurePart> ex
     items.emplace_back(expose(std::move(red), std::move(blue),
                               {layout_.origin.x, layout_.scale, width_px_}, exposure));
   }
-  items.emplace_back(TextItem{ItemId::label, layout_.label, std::string(kLabelText),
-                              layout_.text_px, palette_.muted});
-  add_count(state.count, items);
+  add_line(state.count, items);
 }
 
 }  // namespace piblocks

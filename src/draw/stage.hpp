@@ -25,15 +25,19 @@ struct Layout {
   Point origin;      ///< pixel position of the scene's (0, 0)
   double line_px = 1;
   double text_px = 16;
-  Point label;          ///< baseline of "Collisions: "
-  double count_x = 0;   ///< where the count starts on that baseline
-  double above_px = 0;  ///< room between label and view, half of it
-  double below_px = 0;  ///< room from the view to the area's end
+  Point label;              ///< baseline of "Collisions: "
+  double label_em = 0;      ///< from there to where the count starts
+  double count_em = 0;      ///< width of the longest count
+  double line_left_px = 0;  ///< where label and count may begin at most
+  double line_room_px = 0;  ///< and how long they may be together
+  double above_px = 0;      ///< room between label and view, half of it
+  double below_px = 0;      ///< room from the view to the area's end
 
   /// Pixel position of a point of the scene.
   Point at(double x, double y) const noexcept {
     return {origin.x + x * scale, origin.y - y * scale};
   }
+  double count_x() const noexcept { return label.x + label_em * text_px; }
 };
 
 /// The length that type and lines are measured by: the area's height, or less where the area is
@@ -50,7 +54,8 @@ double line_width_px(const View& view);
 /// at 0.
 double base_of(const BlockSystem& system);
 
-/// @param longest_count  the last count that will be shown.
+/// @param longest_count  of those that will be shown.
+/// @throws UsageError if the view is closer up than positions are known.
 Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
                const Font& font);
 
@@ -67,7 +72,7 @@ class StagePicture {
 
  private:
   ExposedBlock block(double side, const Motion& motion, const BlockColors& colors) const;
-  void add_count(const Integer& count, std::vector<DrawItem>& items) const;
+  void add_line(const Integer& count, std::vector<DrawItem>& items) const;
 
   Layout layout_;
   Palette palette_;

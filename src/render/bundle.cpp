@@ -61,7 +61,8 @@ void check(const RenderJob& job) {
   if (job.part) {
     problems.emplace_back("bundle: there are no parts of a bundle; leave the part out");
   }
-  if (!std::holds_alternative<Scene>(job.script)) {
+  const auto* scene = std::get_if<Scene>(&job.script);
+  if (scene == nullptr) {
     problems.emplace_back(
         "bundle: captions count one run, and a storyboard has several; render it without a bundle, "
         "or a scene without [[part]]");
@@ -71,6 +72,12 @@ void check(const RenderJob& job) {
         "bundle: '{}' is no name for the video in it; use one such as pi-3.mp4, without a folder, "
         "of letters, digits, '-', '_' and '.'",
         job.output));
+  }
+  if (scene != nullptr && scene->view.background == Background::transparent) {
+    problems.push_back(
+        fmt::format("bundle: '{}' cannot be transparent; use an opaque background, or write a "
+                    "*.mov or *.webm without a bundle",
+                    job.output));
   }
   if (job.bundle->folder.empty()) problems.emplace_back("bundle: the name of the folder is empty");
   if (!problems.empty()) throw UsageError(std::move(problems));

@@ -138,6 +138,7 @@ void write_page(const Scene& scene, const fs::path& video, OutputFile& file) {
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   const PageFacts facts(scene, *log, schedule);
+  facts.check_range();
   const VideoCount count{facts.most(), log->size()};
   PageText page(file);
   page.add(fmt::format(

@@ -108,8 +108,10 @@ PageFacts::PageFacts(const Scene& scene, const CollisionLog& log, const Schedule
       forth_(std::min(frames_forth(schedule, scene.view.frame_rate), frames_)),
       from_(schedule.time_of(0)),
       first_(state_at(log, from_).count),
-      most_(state_at(log, schedule.time_of(forth_ - 1)).count) {
-  if (to_double(schedule.time_of(forth_ - 1) - from_) <= kLargest) return;
+      most_(state_at(log, schedule.time_of(forth_ - 1)).count) {}
+
+void PageFacts::check_range() const {
+  if (to_double(schedule_.time_of(forth_ - 1) - from_) <= kLargest) return;
   throw UsageError(
       "page: the times that it would step through are too far apart for a browser's numbers; write "
       "an MP4, or bring time.from and time.to nearer to each other");

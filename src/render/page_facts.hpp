@@ -32,6 +32,8 @@ class PageFacts {
   /// @throws UsageError as film_frames().
   PageFacts(const Scene& scene, const CollisionLog& log, const Schedule& schedule);
 
+  /// @throws UsageError if a browser cannot hold the times; what has no page can.
+  void check_range() const;
   /// Collisions that the frames count, at most.
   const Integer& most() const noexcept { return most_; }
   /// Frames until the video runs back; all, if it does not.

@@ -10,13 +10,13 @@
 #include <piblocks/sheet.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <string_view>
 #include <utility>
 
 #include "core/ending.hpp"
 #include "core/output_file.hpp"
+#include "draw/number_text.hpp"
 #include "render/logo.hpp"
 
 namespace piblocks {
@@ -32,7 +32,9 @@ constexpr int kPageHeight_px = 1654;
 
 /// Of a time.
 constexpr int kUsualDigits = 6;
-constexpr int kMostDigits = 17;
+constexpr int kMostDigits = 40;
+/// Before the first digit of a time.
+constexpr int kMostZeros = 10;
 
 struct Paper {
   int width_px;
@@ -52,15 +54,26 @@ Paper paper_for(std::string_view output) {
       output));
 }
 
-/// With so many significant digits, but no zeros behind the last one.
-std::string time_text(double time, int digits) {
-  const double exponent = time == 0 ? 0 : std::floor(std::log10(std::abs(time)));
-  const int decimals = std::max(0, digits - 1 - static_cast<int>(exponent));
-  std::string text = fmt::format("{:.{}f}", time, decimals);
-  if (text.find('.') == std::string::npos) return text;
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
+void drop_last_zeros(std::string& decimal) {
+  if (decimal.find('.') == std::string::npos) return;
+  decimal.erase(decimal.find_last_not_of('0') + 1);
+  if (decimal.back() == '.') decimal.pop_back();
+}
+
+/// With so many significant digits, but no zeros behind the last one; a time that is beyond that is
+/// written with a power of ten.
+std::string time_text(const Rational& time, int digits) {
+  // What is rounded to ten times as much keeps a digit more than was asked for.
+  const long exponent = time == 0 ? 0 : magnitude_of(abs(time)).exponent;
+  const bool is_short = exponent > -kMostZeros && exponent < kMostDigits;
+  const long unit = is_short ? 0 : exponent;
+  const Rational scaled = unit > 0 ? Rational(time / power(10, static_cast<unsigned long>(unit)))
+                                   : Rational(time * power(10, static_cast<unsigned long>(-unit)));
+  const int decimals = static_cast<int>(std::max(0L, digits - 1 - (exponent - unit)));
+  std::string text = fixed_text(scaled, decimals);
+  std::erase(text, ',');  // the count follows behind one
+  drop_last_zeros(text);
+  return is_short ? text : fmt::format("{}×10{}", text, superscript(unit));
 }
 
 /// As short as can be where different times are still written differently.
@@ -68,12 +81,11 @@ std::vector<std::string> time_texts(const std::vector<Shown>& pictures) {
   std::vector<std::string> texts;
   for (int digits = kUsualDigits; digits <= kMostDigits; ++digits) {
     texts.clear();
-    std::map<std::string, double> times;
+    std::map<std::string, Rational> times;
     bool are_distinct = true;
     for (const Shown& shown : pictures) {
-      const double time = to_double(shown.time);
-      texts.push_back(time_text(time, digits));
-      are_distinct &= times.try_emplace(texts.back(), time).first->second == time;
+      texts.push_back(time_text(shown.time, digits));
+      are_distinct &= times.try_emplace(texts.back(), shown.time).first->second == shown.time;
     }
     if (are_distinct) break;
   }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -65,6 +66,52 @@ class SourceText {
 
   std::vector<std::string_view> lines_;
 };
+
+/// No key of a scene has as many. toml++ keeps a table for each but the last, and removes tables
+/// within tables by recursion.
+constexpr int kMostKeyParts = 16;
+
+/// The end of a string that begins here; a string without an end goes on to that of its line, or of
+/// the text.
+std::size_t end_of_string(std::string_view text, std::size_t begin) {
+  const char quote = text[begin];
+  const std::string triple(3, quote);
+  const bool is_long = text.substr(begin).starts_with(triple);
+  for (std::size_t i = begin + (is_long ? 3 : 1); i < text.size(); ++i) {
+    if (text[i] == '\\' && quote == '"') {
+      ++i;
+    } else if (is_long && text.substr(i).starts_with(triple)) {
+      return i + 3;
+    } else if (!is_long && (text[i] == quote || text[i] == '\n')) {
+      return text[i] == quote ? i + 1 : i;
+    }
+  }
+  return text.size();
+}
+
+/// @throws SceneError for a key of too many parts, before toml++ makes tables of them.
+void check_keys(const std::string& path, std::string_view text) {
+  std::int64_t line = 1;
+  int dots = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    std::size_t end = i + 1;
+    if (c == '"' || c == '\'') {
+      end = end_of_string(text, i);
+    } else if (c == '#') {
+      end = std::min(text.find('\n', i), text.size());
+    } else if (c == '.') {
+      if (++dots >= kMostKeyParts) {
+        throw SceneError(
+            fmt::format("{}:{}: a key has more than {} parts", path, line, kMostKeyParts));
+      }
+    } else if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) {
+      dots = 0;
+    }
+    line += std::count(text.begin() + std::ptrdiff_t(i), text.begin() + std::ptrdiff_t(end), '\n');
+    i = end;
+  }
+}
 
 /// Tables of toml++ as ours.
 class Reader {
@@ -136,6 +183,7 @@ class Reader {
 
 TomlTable read_toml(const std::string& path) {
   const std::string text = read_text(path);
+  check_keys(path, text);
   const SourceText source(text);
   try {
     TomlTable root = Reader(source).table_of(toml::parse(text, path));

@@ -30,6 +30,12 @@ TEST_P(BadInputTest, IsRefused) {
   EXPECT_EQ(entries(), before);
 }
 
+std::string repeated(std::string_view text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
 Arguments render(const Arguments& more) { return Arguments{"render", "-o", "a.mp4"} + more; }
 Arguments still(const Arguments& more) { return Arguments{"still", "-o", "a.png"} + more; }
 
@@ -115,6 +121,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"count", "scene.toml"}, "scene.toml:2: ", "[red]\nmass = = 3\n"},
         BadInput{{"count", "scene.toml"}, "scene.toml:2: red.mas: unknown key", "[red]\nmas = 3\n"},
         BadInput{{"count", "scene.toml"}, "scene.toml:2: red.mass = 0: must be", "[red]\nmass = 0"},
+        BadInput{{"count", "scene.toml"},
+                 "scene.toml:1: red.mass = 3\\x00: not a number",
+                 "red.mass = \"3\\u0000\"\n"},
         BadInput{{"count", "scene.toml"}, "blue.mass = -1", "[blue]\nmass = -1"},
         BadInput{{"count", "scene.toml"}, "blue.mass = inf", "[blue]\nmass = inf"},
         BadInput{{"count", "scene.toml"}, "blue.velocity = nan", "[blue]\nvelocity = nan"},
@@ -135,6 +144,16 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"count", "scene.toml"}, "scene.toml:1: ", "a = " + std::string(257, '[')},
         BadInput{render({"--part", "1/100001"}), "--part 1/100001: must be a whole number"},
         BadInput{render({"--jobs", "257"}), "--jobs 257: must be a whole number from 1 to 256"},
+        BadInput{{"count", "scene.toml"},
+                 "scene.toml:4: a key has more than 16 parts",
+                 "# a.b\n'a.b' = \"\"\"\n.\"\"\"\n" + repeated("a.", 100'000) + "b = 1\n"},
+        BadInput{{"count", "scene.toml"},
+                 "scene.toml:1: a key has more than 16 parts",
+                 "[" + repeated("'a' . \"b\".", 50'000) + "b]\n"},
+        BadInput{{"count", "scene.toml"},
+                 "exceeds length limit of 128 digits",
+                 "red.mass = 3." + std::string(127, '1')},
+        BadInput{{"count", "scene.toml"}, "a.a: must be a number", repeated("a.", 15) + "b = 1"},
         BadInput{{"log", "--digits", "10"}, "3,141,592,653 rows are more than 100,000,000"},
         BadInput{{"log", "--digits", "8", "--engine", "events"}, "5,000,000"}));
 

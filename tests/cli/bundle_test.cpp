@@ -150,6 +150,25 @@ TEST_F(BundleTest, IsAllOrNothing) {
   EXPECT_EQ(contents("talk/alt.txt"), "old");
 }
 
+TEST_F(BundleTest, SaysWhereAFilmEndsThatIsBeforeTimeZero) {
+  write("scene.toml",
+        "digits = 1\nblue = { position = 3, velocity = 1 }\nred.velocity = '1/3'\n"
+        "time = { from = -20, to = -10 }\n");
+  output_of(Arguments{"render", "scene.toml", "--quiet", "--size", "64x36", "--bundle", "talk",
+                      "-o", "pi.mp4"});
+  EXPECT_TRUE(contents("talk/alt.txt")
+                  .ends_with("a counter reaches -2: 2 collisions are to go until time 0.\n"))
+      << contents("talk/alt.txt");
+}
+
+/// A page has to step through times; captions are in seconds of the video.
+TEST_F(BundleTest, HoldsTimesThatAPageCannot) {
+  write("scene.toml", "red.velocity = '-1e-300'\n");
+  output_of(Arguments{"render", "scene.toml", "--quiet", "--size", "64x36", "--duration", "1",
+                      "--bundle", "talk", "-o", "pi.mp4"});
+  EXPECT_EQ(number_of(cues_of(contents("talk/captions.vtt")).back().text), "314");
+}
+
 TEST_F(BundleTest, RefusesWhatItCannotBe) {
   const Arguments bundle{"render", "--quiet", "--bundle", "talk", "-o"};
   expect_refusal(bundle + Arguments{"new/pi.mp4"}, "'new/pi.mp4' is no name for the video in it");
@@ -157,6 +176,8 @@ TEST_F(BundleTest, RefusesWhatItCannotBe) {
   expect_refusal(bundle + Arguments{"a b.mp4"}, "'a b.mp4' is no name for the video in it");
   expect_refusal(bundle + Arguments{"pi.mp4", "--part", "1/2"}, "there are no parts of a bundle");
   expect_refusal(bundle + Arguments{"pi.mp4", "--poster", "#9999"}, "9999");
+  expect_refusal(bundle + Arguments{"pi.mp4", "--transparent"},
+                 "bundle: 'pi.mp4' cannot be transparent");
   expect_refusal({"render", "--poster", "3", "-o", "pi.mp4"}, "--poster is for a bundle");
 }
 

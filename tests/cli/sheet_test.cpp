@@ -76,6 +76,19 @@ TEST_F(SheetTest, TellsInstantsApart) {
             text.substr(second, text.find(',', second) - second));
 }
 
+TEST_F(SheetTest, TimesAreExactAndNeverLong) {
+  if (std::system("command -v pdftotext > /dev/null") != 0) GTEST_SKIP() << "no pdftotext here";
+  output_of({"sheet", "--at=-1e300,1e-50,0.333333333,1/3,123456789012345678.25", "-o", "a.pdf"});
+  const std::string command =
+      "pdftotext -layout " + (folder_ / "a.pdf") + " " + (folder_ / "a.txt");
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  const std::string text = contents("a.txt");
+  for (const char* caption : {"time −1×10³⁰⁰,", "time 1×10⁻⁵⁰,", "time 0.333333333,",
+                              "time 0.3333333333,", "time 123456789012345678,"}) {
+    EXPECT_EQ(count_of(text, caption), 1u) << caption << " is not in " << text;
+  }
+}
+
 TEST_F(SheetTest, TakesTheLargestNumberThereIs) {
   EXPECT_EQ(output_of({"sheet", "--frames", "200", "-o", "a.pdf"}), "");
 }

@@ -273,6 +273,13 @@ TEST(Overlays, TimeHasTheDecimalsThatTheSpeedNeeds) {
   EXPECT_EQ(with("time.duration", "1"), "t = 2.50");
 }
 
+/// A double has no more than 17 digits, and no quarter here.
+TEST(Overlays, TimeIsExactHoweverLate) {
+  const Pictures pictures(scene_with(3, {{"show.overlays", "time"}}));
+  const DrawList list = pictures.at(parse_rational("123456789012345678.25"));
+  EXPECT_TRUE(has_text(list, "t = 123,456,789,012,345,678.25"));
+}
+
 /// How far the sectors of the velocity circle reach that are lit, in radians, of both sides.
 double lit_angle(const DrawList& list) {
   double sum = 0;
@@ -341,6 +348,29 @@ TEST(Panels, TheUnfoldedLineStaysInItsPlace) {
   }
 }
 
+/// Where the blocks arrive together at the wall at time 0, nothing happens later.
+TEST(Panels, RatesHoldWhatHappensAtTheVeryBeginning) {
+  const auto height_of_bars = [](const std::vector<Setting>& settings) {
+    const DrawList list = Pictures(scene_with(3, settings)).at(1);
+    for (const DrawItem& item : list.items) {
+      const auto* plate = std::get_if<PlateItem>(&item);
+      if (plate == nullptr) continue;
+      for (const DrawItem& part : plate->plate->items) {
+        const auto* path = std::get_if<PathItem>(&part);
+        if (path != nullptr && path->fill) return path->points.bounds().height;
+      }
+    }
+    return -1.0;
+  };
+  EXPECT_GT(height_of_bars({{"show.panels", "rate"},
+                            {"time.to", "1"},
+                            {"blue.position", "1/2"},
+                            {"red.position", "3/2"},
+                            {"blue.velocity", "-1"}}),
+            50);
+  EXPECT_EQ(height_of_bars({{"show.panels", "rate"}, {"time.to", "1"}, {"red.velocity", "1"}}), 0);
+}
+
 TEST(Panels, CostLittleForAnyNumberOfDigits) {
   for (const int digits : {1, 9, 20, 100, 200, 300}) {
     const Pictures pictures(scene_with(digits, {{"show.panels", kAllPanels}}));
@@ -375,6 +405,31 @@ TEST(Composition, SaysWhyItCannotBeShown) {
                   .starts_with("show.overlays: the ruler needs"));
   EXPECT_TRUE(problem_of({{"show.overlays", "digits"}, {"blue.velocity", "1/7"}})
                   .starts_with("show.overlays: there are no digits of pi"));
+}
+
+TEST(Composition, RefusesAViewThatIsCloserThanPositionsAreKnown) {
+  const auto problem_at = [](const Rational& far, const Rational& unit) {
+    Scene scene = scene_with(3, {});
+    scene.system.wall_face = far;
+    scene.system.blue.position = far + 2 * unit;
+    scene.system.red.position = far + 5 * unit;
+    scene.system.blue.width = scene.system.red.width = unit;
+    scene.view.x = {far - unit, far + 12 * unit};
+    scene.view.y = {-unit, unit};
+    try {
+      Pictures pictures(scene);
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(problem_at(parse_rational("1e15"), 1),
+            "view.x: so far from 0 positions are 2.2e-01 apart, which would be 31.1 pixels; show "
+            "more of the axis, or move wall, blocks and view towards 0");
+  EXPECT_TRUE(problem_at(1, parse_rational("1e-15")).starts_with("view.x: so far from 0"));
+  EXPECT_EQ(problem_at(parse_rational("1e12"), 1), "accepted");
+  EXPECT_EQ(problem_at(parse_rational("1e15"), parse_rational("1e5")), "accepted");
+  EXPECT_EQ(problem_at(0, parse_rational("1e-300")), "accepted");
 }
 
 }  // namespace

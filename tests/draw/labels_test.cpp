@@ -106,6 +106,42 @@ TEST(Labels, FiguresOfVelocitiesMeetNeitherEachOtherNorTheWall) {
   }
 }
 
+/// Half a figure, at the frame's edge, is another number.
+TEST(Labels, FiguresOfVelocitiesAreWholeAndOfBlocksInTheFrame) {
+  const Font font;
+  const auto expect_whole = [&](const Range& view, const char* red_position, std::size_t count) {
+    SceneBuilder builder;
+    builder.set("test", "show.overlays", "velocities");
+    builder.set("test", "view.size", "640x360");
+    builder.set("test", "blue.velocity", "-7654321");
+    builder.set("test", "red.velocity", "-1234567");
+    builder.set("test", "red.position", red_position);
+    Scene scene = builder.build();
+    scene.view.x = view;
+    const auto log = make_collision_log(scene.system);
+    const std::vector<TextItem> figures =
+        texts_of(Composition(scene, *log).frame({state_at(*log, 0)}), ItemId::velocities);
+    EXPECT_EQ(figures.size(), count) << red_position;
+    for (const TextItem& figure : figures) {
+      EXPECT_GE(figure.origin.x, 0) << red_position;
+      EXPECT_LE(figure.origin.x + font.width_em(figure.text) * figure.size_px, 640) << red_position;
+    }
+    if (count == 2) {
+      EXPECT_LT(figures[1].origin.x + font.width_em(figures[1].text) * figures[1].size_px,
+                figures[0].origin.x)
+          << red_position;
+    }
+  };
+  for (const char* position : {"5", "5.6", "5.9", "6.2", "6.45", "6.6"}) {
+    expect_whole({-1, 6}, position, 2);
+  }
+  expect_whole({-1, 6}, "100", 1);
+  expect_whole({-1, Rational(34, 10)}, "3.1", 2);
+  expect_whole({2, 9}, "5", 2);
+  expect_whole({4, 9}, "5", 1);
+  expect_whole({1000, 1010}, "5", 0);
+}
+
 /// Straight lines of two points, also those of diagrams.
 void add_lines(const std::vector<DrawItem>& items, std::vector<std::pair<Point, Point>>& lines) {
   for (const DrawItem& item : items) {

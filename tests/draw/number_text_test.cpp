@@ -15,6 +15,21 @@ TEST(NumberText, FixedHasSeparatorsAndATrueMinus) {
   EXPECT_EQ(fixed_text(123, 0), "123");
 }
 
+TEST(NumberText, FixedHoldsEveryDigitOfAnExactNumber) {
+  const auto fixed = [](const char* text, int decimals) {
+    return fixed_text(parse_rational(text), decimals);
+  };
+  EXPECT_EQ(fixed("123456789012345678.25", 2), "123,456,789,012,345,678.25");
+  EXPECT_EQ(fixed("-1e25", 1), "−10,000,000,000,000,000,000,000,000.0");
+  EXPECT_EQ(fixed("0", 2), "0.00");
+  EXPECT_EQ(fixed("-0.001", 2), "0.00");
+  EXPECT_EQ(fixed("-0.006", 2), "−0.01");
+  EXPECT_EQ(fixed("0.125", 2), "0.12") << "a tie, as of a double";
+  EXPECT_EQ(fixed("0.375", 2), "0.38");
+  EXPECT_EQ(fixed("999.6", 0), "1,000");
+  EXPECT_EQ(fixed("2/3", 4), "0.6667");
+}
+
 TEST(NumberText, RoundedStaysShort) {
   EXPECT_EQ(rounded_text(-1.978), "−1.98");
   EXPECT_EQ(rounded_text(99999.99), "99,999.99");

@@ -141,6 +141,32 @@ TEST(Stage, NothingMovesButTheBlocksAndTheCount) {
   EXPECT_NE(rectangle(start, ItemId::blue_block), rectangle(later, ItemId::blue_block));
 }
 
+/// Before time 0 a count may have more digits than the last one, here 0, and any instant can be
+/// shown, also one that the film does not.
+TEST(Stage, ACountBeforeTimeZeroIsWhole) {
+  const Font font;
+  for (const int digits : {5, 41, 80}) {
+    for (const char* from : {"-20", "0"}) {
+      Scene scene = scene_of(digits, 640, 360);
+      scene.system.red.velocity = 1;
+      scene.time.from = parse_instant(from);
+      scene.time.to = parse_instant("1");
+      const auto log = make_collision_log(scene.system);
+      const DrawList list = compose(scene, state_at(*log, -20));
+      const TextItem& count = text(list, ItemId::count);
+      const TextItem& label = text(list, ItemId::label);
+      const double end = count.origin.x + font.width_em(count.text) * count.size_px;
+      EXPECT_GT(count.text.size(), std::size_t(digits));
+      EXPECT_GT(label.origin.x, 0);
+      EXPECT_GT(count.origin.x, label.origin.x + font.width_em(label.text) * label.size_px);
+      EXPECT_NEAR(label.origin.x, 640 - end, 1e-6) << "in the middle";
+      if (from == std::string_view("0")) continue;
+      EXPECT_EQ(text(compose(scene, state_at(*log, 0)), ItemId::label), label)
+          << "nothing moves during the film";
+    }
+  }
+}
+
 TEST(Stage, EverythingScalesWithTheFrame) {
   const Scene small = scene_of(3, 1280, 720);
   const Scene large = scene_of(3, 3840, 2160);
@@ -149,7 +175,7 @@ TEST(Stage, EverythingScalesWithTheFrame) {
   EXPECT_NEAR(b.scale, 3 * a.scale, 6) << "to even pixels";
   EXPECT_NEAR(b.text_px, 3 * a.text_px, 1e-9);
   EXPECT_NEAR(b.line_px, 3 * a.line_px, 1.5) << "to whole pixels";
-  EXPECT_NEAR(b.count_x, 3 * a.count_x, 1e-9);
+  EXPECT_NEAR(b.count_x(), 3 * a.count_x(), 1e-9);
 }
 
 TEST(Stage, EdgesThatDoNotMoveAreSharp) {

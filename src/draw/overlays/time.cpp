@@ -36,15 +36,15 @@ int decimals_for(double speed) {
 
 ReadOut time_read_out(const Setting& setting) {
   const int decimals = decimals_for(least_speed(setting));
-  const auto text = [decimals](double time) {
+  const auto text = [decimals](const Rational& time) {
     return fmt::format("t = {}", fixed_text(time, decimals));
   };
-  double end = 0;
+  Rational end = 0;
   if (has_span(setting.scene, setting.log)) {
     const Span span = span_of(setting.scene, setting.log);
-    end = std::max(std::abs(to_double(span.from)), std::abs(to_double(span.to)));
+    end = std::max(Rational(abs(span.from)), Rational(abs(span.to)));
   }
-  return {"time", text(-end), [=](const Shown& shown) { return text(to_double(shown.time)); },
+  return {"time", text(-end), [=](const Shown& shown) { return text(shown.time); },
           setting.palette.text};
 }
 

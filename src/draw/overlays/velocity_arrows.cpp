@@ -51,13 +51,18 @@ class VelocityArrows final : public PicturePart {
         widths_(setting.font, kNumberCharacters),
         usual_speed_(usual_speed(setting.scene.system)),
         line_px_(setting.line_px),
+        width_px_(setting.scene.view.width_px),
         top_(top_of(setting.scene.system)),
         room_px_((to_double(setting.scene.view.y.high) - top_) * layout_.scale + layout_.above_px),
         text_px_(std::min(kTextSize * room_px_, setting.text_px)) {
     const BlockSystem& system = setting.scene.system;
     longest_px_ = kLongest * to_double(system.blue.width + system.red.width) / 2 * layout_.scale;
     const double face_px = layout_.at(to_double(system.wall_face), 0).x;
-    least_left_px_ = std::max(0.0, face_px) + kBetweenFigures_em / 2 * text_px_;
+    const double margin_px = kBetweenFigures_em / 2 * text_px_;
+    least_left_px_ = std::max(0.0, face_px) + margin_px;
+    most_right_px_ = width_px_ - margin_px;
+    blue_px_ = to_double(system.blue.width) * layout_.scale;
+    red_px_ = to_double(system.red.width) * layout_.scale;
     if (room_px_ < kLeastRoom_px) {
       throw UsageError(fmt::format(
           "show.overlays: the velocities need {} pixels above the blocks, and there are {:.0f}; "
@@ -67,16 +72,36 @@ class VelocityArrows final : public PicturePart {
   }
 
   void add(const Shown& shown, std::vector<DrawItem>& items) const override {
+    const bool has_red = is_seen(shown.state.red, red_px_);
+    const bool has_blue = is_seen(shown.state.blue, blue_px_);
     Figure red = figure_of(shown.state.red);
     Figure blue = figure_of(shown.state.blue);
-    keep_apart(blue, red);
-    add_arrow(0, shown.state.red, palette_.red.fill, items);
-    add_figure(2, std::move(red), items);
-    add_arrow(4, shown.state.blue, palette_.blue.fill, items);
-    add_figure(6, std::move(blue), items);
+    if (has_red) red.left = std::min(red.left, most_right_px_ - red.width);
+    if (has_blue) blue.left = std::min(blue.left, most_right_px_ - blue.width);
+    if (has_red && has_blue) {
+      keep_apart(blue, red);
+    } else {
+      red.left = std::max(red.left, least_left_px_);
+      blue.left = std::max(blue.left, least_left_px_);
+    }
+    if (has_red) {
+      add_arrow(0, shown.state.red, palette_.red.fill, items);
+      add_figure(2, std::move(red), items);
+    }
+    if (has_blue) {
+      add_arrow(4, shown.state.blue, palette_.blue.fill, items);
+      add_figure(6, std::move(blue), items);
+    }
   }
 
  private:
+  /// A block that has left the frame has no figure: half of one, at the frame's edge, would be
+  /// another number.
+  bool is_seen(const Motion& motion, double side_px) const {
+    const double x = layout_.at(motion.position, top_).x;
+    return x + side_px / 2 > 0 && x - side_px / 2 < width_px_;
+  }
+
   double length_px(double velocity) const {
     const double speed = std::abs(velocity);
     if (!(usual_speed_ > 0) || !(speed > 0)) return 0;
@@ -91,12 +116,15 @@ class VelocityArrows final : public PicturePart {
     return {std::move(text), foot.x - width / 2, width, foot.y - kBaseline * room_px_};
   }
 
-  /// Each gives way by half, but blue's, which is the left one, not into the wall.
+  /// Each gives way by half, but blue's, which is the left one, not into the wall, and red's not
+  /// out of the frame, as long as there is room for both between them.
   void keep_apart(Figure& blue, Figure& red) const {
     blue.left = std::max(blue.left, least_left_px_);
     const double overlap = blue.left + blue.width + kBetweenFigures_em * text_px_ - red.left;
     if (overlap <= 0) return;
-    const double to_left = std::clamp(blue.left - least_left_px_, 0.0, overlap / 2);
+    const double room_right = std::max(0.0, most_right_px_ - red.width - red.left);
+    const double wanted = std::max(overlap / 2, overlap - room_right);
+    const double to_left = std::clamp(wanted, 0.0, blue.left - least_left_px_);
     blue.left -= to_left;
     red.left += overlap - to_left;
   }
@@ -133,11 +161,15 @@ class VelocityArrows final : public PicturePart {
   TextWidths widths_;
   mpf_class usual_speed_;
   double line_px_;
+  double width_px_;
   double top_;
   double room_px_;
   double text_px_;
   double longest_px_ = 0;
   double least_left_px_ = 0;
+  double most_right_px_ = 0;
+  double blue_px_ = 0;
+  double red_px_ = 0;
 };
 
 }  // namespace

@@ -19,6 +19,8 @@ constexpr double kTick_em = 0.4;
 constexpr double kBesideTick_em = 0.2;
 /// The span is cut into so many bins or somewhat fewer.
 constexpr int kMostBins = 120;
+/// So small a part of a bin is no time at all, in a picture.
+constexpr long kNegligiblePart = 1'000'000'000'000;
 
 /// How often blocks meet each other or the wall in each of equal bins of time. A bin is a round
 /// step long and begins at a multiple of it, so that its rate depends on nothing that is drawn.
@@ -26,7 +28,8 @@ struct Rates {
   Rates(const CollisionLog& log, const Span& span)
       : bin(round_step((span.to - span.from) / kMostBins)), first(floor(span.from / bin)) {
     const Integer end = ceil(span.to / bin);
-    Integer before = state_at(log, first * bin).count;
+    // What happens at the very beginning is part of the first bin.
+    Integer before = state_at(log, Rational(first * bin - bin / kNegligiblePart)).count;
     for (Integer k = first + 1; k <= end; k += 1) {
       const Integer count = state_at(log, k * bin).count;
       of_bins.push_back(magnitude_of(Rational(count - before) / bin));
