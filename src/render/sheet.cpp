@@ -18,6 +18,7 @@
 #include "core/ending.hpp"
 #include "core/output_file.hpp"
 #include "render/logo.hpp"
+#include "render/require_valid.hpp"
 
 namespace piblocks {
 namespace {
@@ -86,6 +87,7 @@ std::vector<Instant> spread_instants(const Scene& scene, int count) {
   if (count < 1 || count > kMaxSheetPictures) {
     throw UsageError(fmt::format("sheet: {} pictures: use 1 to {}", count, kMaxSheetPictures));
   }
+  require_valid(scene);
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Span span = span_of(scene, *log);
   std::vector<Instant> instants = {span.from};
@@ -97,6 +99,7 @@ std::vector<Instant> spread_instants(const Scene& scene, int count) {
 
 std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
                                              const std::vector<Instant>& instants) {
+  require_valid(scene);
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Composition composition(scene, *log, read_logo(scene));
   std::vector<Shown> shown;
