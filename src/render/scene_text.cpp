@@ -17,6 +17,16 @@ std::string collisions(const Integer& count) {
                      count == 1 ? "collision" : "collisions");
 }
 
+std::string reached(const VideoCount& count) {
+  const std::string number = with_thousands_separators(count.at_end);
+  if (count.at_end < 0) {
+    return fmt::format("{}: {} to go until time 0", number, collisions(-count.at_end));
+  }
+  if (count.total == 0) return number + ": there are no collisions from time 0 on";
+  if (count.at_end == count.total) return collisions(count.total) + ", which is all there are";
+  return fmt::format("{} of {}", number, collisions(count.total));
+}
+
 }  // namespace
 
 std::string title_of(const Scene& scene, const VideoCount& count) {
@@ -27,16 +37,12 @@ std::string title_of(const Scene& scene, const VideoCount& count) {
 
 std::string describe_video(const Scene& scene, const VideoCount& count) {
   const BlockSystem& system = scene.system;
-  const std::string reached = count.at_end == count.total
-                                  ? collisions(count.total) + ", which is all there are"
-                                  : fmt::format("{} of {}", with_thousands_separators(count.at_end),
-                                                collisions(count.total));
   return fmt::format(
       "Two blocks slide along a line without friction: the inner one, beside a wall on the left, "
       "has mass {}, the outer one mass {}. At time 0 the inner one {} and the outer one {}. All "
       "collisions are elastic, and a counter reaches {}.",
       short_text(system.blue.mass), short_text(system.red.mass), motion_of(system.blue),
-      motion_of(system.red), reached);
+      motion_of(system.red), reached(count));
 }
 
 }  // namespace piblocks
