@@ -214,11 +214,33 @@ TEST(Schedule, AutomaticWindowsTellCollisionsApart) {
   }
 }
 
+// A scene in other units is the same video.
+TEST(Schedule, AutomaticWindowsDoNotDependOnUnits) {
+  const std::vector<Setting> settings = {{"time.to", "last"}, {"time.slow-motion", "auto"}};
+  const Schedule usual = schedule_of(settings);
+  for (const char* velocity : {"1e-200", "1e200"}) {
+    Scene scene = scene_with(settings);
+    scene.system.red.velocity *= parse_rational(velocity);
+    scene.time.speed /= parse_rational(velocity);
+    const Schedule schedule = schedule_of(scene);
+    EXPECT_EQ(schedule.stretches().size(), usual.stretches().size()) << velocity;
+    EXPECT_EQ(schedule.frame_count(), usual.frame_count()) << velocity;
+  }
+}
+
 TEST(Schedule, AutomaticWindowsStopWhereNothingMovesAnyMore) {
   const Schedule schedule = schedule_of({{"time.slow-motion", "auto"}}, 20);
   const auto stretches = schedule.stretches();
   EXPECT_EQ(std::ranges::max_element(stretches, {}, &Stretch::slower)->slower, 1000);
   EXPECT_EQ(stretches.size(), 7U);
+}
+
+TEST(Schedule, AutomaticWindowsAreAlsoAroundATurnBeforeTimeZero) {
+  Scene scene = scene_with({{"time.from", "-20"}, {"time.to", "1"}, {"time.slow-motion", "auto"}});
+  scene.system.red.velocity = 1;
+  const Schedule schedule = schedule_of(scene);
+  EXPECT_EQ(schedule.stretches().size(), 7U);
+  expect_no_gaps(schedule);
 }
 
 TEST(Schedule, FewCollisionsNeedNoSlowMotion) {
