@@ -13,17 +13,18 @@ namespace piblocks {
 
 class CollisionLog;
 
-/// So long after an anchor, or before it.
+/// An anchor, and an offset in simulation time: after the anchor if it is positive, before it if it
+/// is negative.
 struct Instant {
   enum class Anchor : std::uint8_t {
     time_zero,
     turn,      ///< when the blocks are nearest to the corner; collisions are densest then
-    last,      ///< the last collision
-    collision  ///< the collision with an index of its own
+    last,      ///< the last collision, if one happens from time 0 on
+    collision  ///< the collision with the index that the instant gives
   };
   Anchor anchor = Anchor::time_zero;
   Integer index = 0;    ///< of Anchor::collision, as CollisionLog counts
-  Rational offset = 0;  ///< simulation time from the anchor on
+  Rational offset = 0;  ///< in simulation time
 
   Instant() = default;
   /// A time is an instant.
@@ -43,7 +44,8 @@ struct Instant {
 };
 
 /// Reads a time, or "turn", "last" or "#K", alone or with an offset: "last+1.5", "#314-1/1000".
-/// @throws UsageError if the text is none, or beyond the range of a double.
+/// @throws UsageError if the text is not an instant, or its time or offset is beyond the range of a
+///         double.
 Instant parse_instant(std::string_view text);
 
 /// Exact text, which reads back as the same.
@@ -52,9 +54,10 @@ std::string exact_text(const Instant& instant);
 /// Whether the run has the anchor of this instant.
 bool exists(const Instant& instant, const CollisionLog& log);
 
-/// The time that the instant stands for. A collision stands for CollisionLog::time_after(): at that
-/// time it has happened, and the next one has not.
-/// @throws UsageError if the run has no such turn or collision, or as time_after().
+/// The time that the instant stands for. That of a collision is CollisionLog::time_after(): it has
+/// happened then, and the next one has not.
+/// @throws UsageError if the run has no such turn or collision, or as time_after(); SimulationError
+///         as time_after().
 Rational time_of(const Instant& instant, const CollisionLog& log);
 
 }  // namespace piblocks

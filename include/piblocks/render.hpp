@@ -99,7 +99,8 @@ std::int64_t join(const std::vector<std::string>& parts, const std::string& outp
 /// The picture is that of the film's first frame that shows the instant. Of a storyboard an instant
 /// is a second of its video, and "last" the last frame.
 /// @param stop  asks to give up: Interrupted is thrown when the picture is drawn.
-/// @throws UsageError, DrawError, MediaError, IoError, SimulationError, Interrupted
+/// @throws SceneError if problems_of() the scene or storyboard is not empty; UsageError, DrawError,
+///         MediaError, IoError, SimulationError, Interrupted
 void render_still(const Script& script, const Instant& instant, const std::string& output,
                   const std::stop_token& stop = {});
 
@@ -108,13 +109,15 @@ inline constexpr int kMaxSheetPictures = 200;
 
 /// So many instants of the scene's span of time: its two ends, and others between them at equal
 /// distances.
-/// @throws UsageError unless 1 <= count <= kMaxSheetPictures; as span_of(). SimulationError
+/// @throws UsageError unless 1 <= count <= kMaxSheetPictures, or as span_of(); SceneError if
+///         problems_of(scene) is not empty; SimulationError
 std::vector<Instant> spread_instants(const Scene& scene, int count);
 
 /// Renders these instants side by side on one page, time and count below each: a `.pdf`, `.svg` or
 /// `.png` file of the shape of A4 in landscape, or PNG on standard output for "-".
 /// @param stop  asks to give up: Interrupted is thrown when the page is drawn.
-/// @throws UsageError, DrawError, MediaError, IoError, SimulationError, Interrupted
+/// @throws SceneError if problems_of(scene) is not empty; UsageError, DrawError, MediaError,
+///         IoError, SimulationError, Interrupted
 void render_sheet(const Scene& scene, const std::vector<Instant>& instants,
                   const std::string& output, const std::stop_token& stop = {});
 

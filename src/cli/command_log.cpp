@@ -18,6 +18,7 @@
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "core/output_file.hpp"
+#include "physics/exact_motion.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -70,10 +71,12 @@ Integer first_since(const CollisionLog& log, const Bound& bound) {
   const auto& [instant, time] = bound;
   if (instant.offset == 0 && instant.anchor == Instant::Anchor::collision) return instant.index;
   if (instant.offset == 0 && instant.anchor == Instant::Anchor::last) return log.size();
-  const Time rounded = to_time(time);
-  Integer first = log.flight_at(time).count + 1;
-  while (first > log.first_index() && log.at(first - 1).time == rounded) first -= 1;
-  return first;
+  const Integer last = log.flight_at(time).count;
+  if (last < log.first_index()) return log.first_index();
+  // Collisions happen together only in the corner, and there all of them do.
+  const ExactMotion motion(log.system());
+  if (motion.through_corner() && motion.closest_approach == time) return log.first_index();
+  return log.at(last).time == to_time(time) ? last : Integer(last + 1);
 }
 
 Rows rows_within_times(const LogOptions& options, const CollisionLog& log) {

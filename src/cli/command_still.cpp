@@ -14,9 +14,9 @@ void add_still(CLI::App& app) {
   SceneOptions scene(*command);
   const CLI::Option* instant =
       add_value_option(*command, "--at", "T",
-                       "Instant: a time, 'turn', 'last' or '#K', the K-th collision, or\n"
-                       "so long before or after these: turn-0.3, last+1; of a\n"
-                       "storyboard, a second of its video, or 'last' for its end")
+                       "Instant: a time, 'turn', 'last', or '#K' for collision K; an\n"
+                       "offset may follow, as in turn-0.3 and last+1. Of a storyboard:\n"
+                       "a second of its video, or 'last' for its last frame")
           .required();
   const CLI::Option* output =
       add_value_option(*command, "-o,--output", "OUT",

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "physics/block_motion.hpp"
 #include "physics/event_loop.hpp"
 #include "physics/exact_log.hpp"
 #include "physics/stored_log.hpp"
@@ -13,12 +14,6 @@ namespace piblocks {
 namespace {
 
 using Simulate = std::vector<StoredCollision>(const BlockSystem&);
-
-BlockSystem reversed(BlockSystem system) {
-  system.blue.velocity = -system.blue.velocity;
-  system.red.velocity = -system.red.velocity;
-  return system;
-}
 
 std::unique_ptr<CollisionLog> store(const BlockSystem& system, Simulate* simulate) {
   return std::make_unique<StoredLog>(system, simulate(system), simulate(reversed(system)));

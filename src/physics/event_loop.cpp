@@ -39,15 +39,22 @@ Simulator::Body wall_of(const BlockSystem& system) {
 
 Motion motion_of(const Simulator::Body& body) { return {body.position[0], body.velocity[0]}; }
 
+/// Whether the first collision happens exactly at time 0.
+bool is_contact_at_start(const ExactMotion& motion) {
+  return !motion.through_corner() &&
+         (motion.blocks_first ? motion.y1 == motion.y2 : motion.y1 == 0);
+}
+
 /// Records a collision. An engine that finds many more than there are is lost, and stopped.
 class Recorder {
  public:
-  Recorder(const char* engine, const BlockSystem& system)
+  Recorder(const char* engine, const ExactMotion& motion)
       : engine_(engine),
-        collisions_(ExactMotion(system).total()),
+        starts_in_contact_(is_contact_at_start(motion)),
+        collisions_(motion.total()),
         limit_(2 * collisions_.get_ui() + 100) {}
 
-  void record(const StoredCollision& collision) {
+  void record(StoredCollision collision) {
     if (log_.size() == limit_) {
       throw SimulationError(
           fmt::format("{}: {} collisions and more in double precision, where there are {}; use the "
@@ -55,12 +62,15 @@ class Recorder {
                       engine_, limit_, collisions_.get_str()));
     }
     require_finite(collision.time, collision.blue, collision.red, engine_);
+    // Rounding must not carry a collision past time 0, nor away from it.
+    if (collision.time.hi < 0 || (starts_in_contact_ && log_.empty())) collision.time = {};
     log_.push_back(collision);
   }
   std::vector<StoredCollision> take() { return std::move(log_); }
 
  private:
   const char* engine_;
+  bool starts_in_contact_;
   Integer collisions_;
   std::size_t limit_;
   std::vector<StoredCollision> log_;
@@ -77,7 +87,7 @@ Rational unit_of_time(const ExactMotion& motion) {
 
 std::vector<StoredCollision> event_loop(const BlockSystem& system) {
   Simulator simulator({body_of(system.blue), body_of(system.red), wall_of(system)});
-  Recorder recorder("event loop", system);
+  Recorder recorder("event loop", ExactMotion(system));
   while (const auto event = simulator.step()) {
     const bool blocks = event->second == kRed;
     recorder.record({{event->time, 0},
@@ -100,7 +110,7 @@ std::vector<StoredCollision> velocity_loop(const BlockSystem& system) {
   const Time turn = to_time(motion.closest_approach);
   const double blue_offset = to_double(system.wall_face + system.blue.width / 2);
   const double red_offset = to_double(system.wall_face + system.blue.width + system.red.width / 2);
-  Recorder recorder("velocity loop", system);
+  Recorder recorder("velocity loop", motion);
   while (loop.step()) {
     Time time = two_sum(turn.hi, loop.tau());
     time = two_sum(time.hi, time.lo + turn.lo);

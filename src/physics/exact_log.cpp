@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "physics/block_motion.hpp"
 #include "physics/indexed_stream.hpp"
 #include "physics/require_alone.hpp"
 #include "physics/require_finite.hpp"
@@ -25,11 +26,6 @@ std::optional<Rational> closing_time(const Rational& gap, const Rational& rate) 
 void advance(BlockSystem& system, const Rational& duration) {
   system.blue.position += system.blue.velocity * duration;
   system.red.position += system.red.velocity * duration;
-}
-
-void reverse(BlockSystem& system) {
-  system.blue.velocity = -system.blue.velocity;
-  system.red.velocity = -system.red.velocity;
 }
 
 /// The relative velocity is reversed, the centre of mass keeps its own.
@@ -71,15 +67,6 @@ std::vector<ExactCollision> run(const BlockSystem& system) {
   return events;
 }
 
-BlockSystem reversed(BlockSystem system) {
-  reverse(system);
-  return system;
-}
-
-Motion motion_of(const Block& block) {
-  return {to_double(block.position), to_double(block.velocity)};
-}
-
 /// The blocks of one instant as the nearest doubles.
 struct Rounded {
   Time time;
@@ -97,7 +84,8 @@ Rounded rounded(const Rational& time, const BlockSystem& system) {
 
 ExactLog::ExactLog(const BlockSystem& system)
     : CollisionLog(system), start_{0, CollisionKind::wall, system} {
-  // A collision of the reversed run ends, seen forwards, with what was before it.
+  // Before time 0 the velocities just after a collision are the opposite of those just before it in
+  // the reversed run.
   for (ExactCollision& event : run(reversed(system))) {
     ExactCollision collision{-event.time, event.kind, event.blocks};
     collision.blocks.blue.velocity = start_.blocks.blue.velocity;

@@ -106,7 +106,7 @@ Real ExactMotion::final_phase(const Real& sigma, const Real& theta) const {
   return angle / theta;
 }
 
-Fan ExactMotion::fan(mpfr_prec_t bits) const {
+Wedge ExactMotion::wedge(mpfr_prec_t bits) const {
   const long size = magnitude();
   Real s(MPFR_PREC_MIN);  // not computed yet
   Real theta(MPFR_PREC_MIN);
@@ -162,7 +162,7 @@ std::optional<Rational> ExactMotion::short_crossing(const Integer& ray) const {
 }
 
 Rational ExactMotion::rounded_crossing(const Integer& ray, mpfr_prec_t bits) const {
-  const Fan rays = fan(bits);
+  const Wedge rays = wedge(bits);
   // The angle from the nearer end of time: a sum of two positive numbers.
   const Real from_past = Real(bits, Rational(ray - rays.past.ray)) + rays.past.beyond;
   const Real to_future = Real(bits, Rational(rays.future.ray - ray)) + rays.future.beyond;
@@ -192,7 +192,7 @@ Rational ExactMotion::time_past(const Integer& ray) const {
       fmt::format("collision: {} bits do not tell its time from the next one's", kMaxDecisionBits));
 }
 
-DecidedPhase ExactMotion::phase_at(const Rational& t) const {
+Phase ExactMotion::phase_at(const Rational& t) const {
   const Rational along = (t - closest_approach) * speed_squared;  // |V|^2 tau
   const auto phase = [&](mpfr_prec_t bits) {
     const Real s = sigma(bits);

@@ -20,7 +20,7 @@
 namespace piblocks {
 
 /// A phase split where floor() has been decided.
-struct DecidedPhase {
+struct Phase {
   Integer ray;      ///< index of the last ray crossed: floor(phase)
   double fraction;  ///< phase - ray, in [0, 1]
 };
@@ -32,7 +32,7 @@ struct Asymptote {
 };
 
 /// The wedge and both ends of the line in it, all to one precision.
-struct Fan {
+struct Wedge {
   Real sigma;
   Real theta;
   Asymptote past;
@@ -66,7 +66,7 @@ struct ExactMotion {
 
   /// All of it with a relative error below 2^-bits, also what is beyond the last rays.
   /// @throws SimulationError as total().
-  Fan fan(mpfr_prec_t bits) const;
+  Wedge wedge(mpfr_prec_t bits) const;
   /// Number of collisions at times >= 0, by what comes after them.
   Integer total(const Asymptote& future) const;
 
@@ -83,7 +83,7 @@ struct ExactMotion {
   Rational time_past(const Integer& ray) const;
   /// The phase at time t for a motion that is not through_corner().
   /// @throws SimulationError as total().
-  DecidedPhase phase_at(const Rational& t) const;
+  Phase phase_at(const Rational& t) const;
 
  private:
   /// q: the phase as t grows without bound; q - pi/theta is that of the infinite past.

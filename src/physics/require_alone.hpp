@@ -1,5 +1,5 @@
 // Collisions that happen together have no instant between them.
-// In: a collision, and the last one that happens when it does. Out: nothing, or an exception.
+// In: a collision, and the last one of those at the same time. Out: nothing, or an exception.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,8 +12,7 @@ namespace piblocks {
 inline void require_alone(const Integer& index, const Integer& last) {
   if (index == last) return;
   throw UsageError(
-      fmt::format("collision #{}: others up to #{} happen at the same time; name the "
-                  "last of them",
+      fmt::format("collision #{}: happens at the same time as all up to #{}; name the last of them",
                   index.get_str(), last.get_str()));
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "physics/block_motion.hpp"
 #include "physics/indexed_stream.hpp"
 
 namespace piblocks {
@@ -35,10 +36,6 @@ std::size_t count_before(const std::vector<StoredCollision>& collisions, const T
   return static_cast<std::size_t>(next - collisions.begin());
 }
 
-Motion motion_of(const Block& block) {
-  return {to_double(block.position), to_double(block.velocity)};
-}
-
 }  // namespace
 
 StoredLog::StoredLog(const BlockSystem& system, std::vector<StoredCollision> forward,
@@ -50,7 +47,8 @@ StoredLog::StoredLog(const BlockSystem& system, std::vector<StoredCollision> for
       size_(forward_.size()),
       first_index_(1 - Integer(backward_.size())) {}
 
-/// A collision of the reversed run ends, seen forwards, with what was before it.
+/// Before time 0 the velocities just after a collision are the opposite of those just before it in
+/// the reversed run.
 Collision StoredLog::at(const Integer& index) const {
   if (index > 0) {
     const StoredCollision& c = forward_[index.get_ui() - 1];
@@ -92,8 +90,8 @@ FreeFlight StoredLog::flight_at(const Rational& time) const {
     since = c.time;
     flight = {Integer(happened), 0, c.blue, c.red};
   } else if (const std::size_t to_come = count_before(backward_, negated(t)); to_come > 0) {
-    // Seen forwards, what the reversed run does after a collision ends with that collision; one
-    // exactly at `time` has happened.
+    // The velocities just before a collision are the opposite of those just after it in the
+    // reversed run. A collision exactly at `time` has happened.
     const StoredCollision& c = backward_[to_come - 1];
     since = negated(c.time);
     flight = {-Integer(to_come), 0, reversed(c.blue), reversed(c.red)};

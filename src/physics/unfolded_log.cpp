@@ -19,9 +19,7 @@ namespace {
 constexpr double kUnitRoundoff = 0x1p-53;
 
 /// Relative precision of what the doubles of the closed form are rounded from: two doubles'.
-constexpr mpfr_prec_t kFan_bits = 110;
-
-bool is_odd(const Integer& n) { return mpz_odd_p(n.get_mpz_t()) != 0; }
+constexpr mpfr_prec_t kWedge_bits = 110;
 
 /// Half the sum.
 DoubleDouble mean(const DoubleDouble& a, const DoubleDouble& b) {
@@ -45,14 +43,14 @@ ExactMotion checked(const BlockSystem& system) {
 UnfoldedLog::UnfoldedLog(const BlockSystem& system) : UnfoldedLog(system, checked(system)) {}
 
 UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion)
-    : UnfoldedLog(system, motion, motion.fan(kFan_bits)) {}
+    : UnfoldedLog(system, motion, motion.wedge(kWedge_bits)) {}
 
-UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion, const Fan& fan)
+UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion, const Wedge& wedge)
     : CollisionLog(system),
       exact_(motion),
-      form_(system, motion, fan),
-      size_(motion.total(fan.future)),
-      first_index_(motion.first_index(fan.past)) {
+      form_(system, motion, wedge),
+      size_(motion.total(wedge.future)),
+      first_index_(motion.first_index(wedge.past)) {
   const bool touches = motion.y1 == 0 || motion.y1 == motion.y2;
   if (touches && !motion.through_corner()) contact_ = flight_at(0).count;
 }
@@ -76,63 +74,58 @@ double UnfoldedLog::tau_at(const Rational& time, const Time& t) const {
   return to_double((time - exact_.closest_approach) / Rational(form_.time_unit));
 }
 
-UnfoldedLog::Sighting UnfoldedLog::sight(double tau) const {
+UnfoldedLog::LinePoint UnfoldedLog::point_at(double tau) const {
   // The view of the line from the corner in units of ell, in which it passes at sigma.
   const double ahead = exact_.through_corner() ? kFarAway : form_.ahead(tau);
   const double range = std::hypot(form_.sigma, ahead);
 
-  Sighting seen;
-  seen.end = tau < 0 ? &form_.past : &form_.future;
-  seen.distance = std::hypot(form_.impact, form_.speed * tau);
-  seen.sine = form_.sigma / range;
-  seen.cosine = ahead / range;
+  LinePoint point;
+  point.end = tau < 0 ? &form_.past : &form_.future;
+  point.distance = std::hypot(form_.impact, form_.speed * tau);
+  point.sine = form_.sigma / range;
+  point.cosine = ahead / range;
   const double to_go = std::atan2(form_.sigma, ahead) / form_.theta.hi;
-  seen.phase = seen.end->sign * (seen.end->beyond.hi - to_go);
+  point.phase = point.end->sign * (point.end->beyond.hi - to_go);
 
   // Eleven roundings at most in to_go, and three in the difference.
   const double error = 16 * kUnitRoundoff * (to_go + 1);
-  seen.decided = std::floor(seen.phase - error) == std::floor(seen.phase + error);
-  return seen;
+  point.decided = std::floor(point.phase - error) == std::floor(point.phase + error);
+  return point;
 }
 
-UnfoldedLog::Place UnfoldedLog::place(const Sighting& seen, const Rational& time) const {
-  const FarEnd& end = *seen.end;
+Phase UnfoldedLog::phase_of(const LinePoint& point, const Rational& time) const {
+  const RoundedAsymptote& end = *point.end;
   if (exact_.through_corner()) {
     // All rays are crossed at once: the line keeps the direction of the nearer end.
     const bool on_ray = end.beyond.hi == 0;
     if (time < exact_.closest_approach) {
-      return on_ray ? Place{0, end.ray} : Place{1 - end.beyond.hi, end.ray - 1};
+      return on_ray ? Phase{end.ray, 0} : Phase{end.ray - 1, 1 - end.beyond.hi};
     }
-    return on_ray ? Place{1, end.ray - 1} : Place{end.beyond.hi, end.ray};
+    return on_ray ? Phase{end.ray - 1, 1} : Phase{end.ray, end.beyond.hi};
   }
-  if (!seen.decided) {
-    const DecidedPhase exact = exact_.phase_at(time);
-    return {exact.fraction, exact.ray};
-  }
-  const double whole = std::floor(seen.phase);
-  Place result{seen.phase - whole, Integer(whole)};
-  result.ray += end.ray;
-  return result;
+  if (!point.decided) return exact_.phase_at(time);
+  const double whole = std::floor(point.phase);
+  return {end.ray + Integer(whole), point.phase - whole};
 }
 
 FreeFlight UnfoldedLog::flight_at(const Rational& time) const {
   const Time rounded = to_time(time);
-  const Sighting seen = sight(tau_at(time, rounded));
-  Place at = place(seen, time);
-  // Folded back by the even number of rays next to it, the place is at this angle to the wall: an
-  // odd ray leaves it on the other side, and one reflection of the velocity.
+  const LinePoint point = point_at(tau_at(time, rounded));
+  Phase at = phase_of(point, time);
+  // Folded back by an even number of rays, the point is at this angle to the wall. After an odd ray
+  // it is on the other side, and its velocity is reflected once more.
   const bool odd = is_odd(at.ray);
   const double angle = (odd ? 1 - at.fraction : at.fraction) * form_.theta.hi;
   const double sine = std::sin(angle);
   const double cosine = std::cos(angle);
-  const double y2 = seen.distance * cosine;
-  const double y1 = std::min(seen.distance * (sine / form_.sigma), y2);  // never past contact
+  const double y2 = point.distance * cosine;
+  const double y1 = std::min(point.distance * (sine / form_.sigma), y2);  // never past contact
 
-  // The line's direction is the place's and the angle to go.
-  const int sign = seen.end->sign;
+  // The line's direction is that of the point, turned by the angle to go.
+  const int sign = point.end->sign;
   const double side = odd ? -sign : sign;
-  const double ahead_sine = seen.sine * cosine + side * (seen.cosine * sine);
-  const double ahead_cosine = seen.cosine * cosine - side * (seen.sine * sine);
+  const double ahead_sine = point.sine * cosine + side * (point.cosine * sine);
+  const double ahead_cosine = point.cosine * cosine - side * (point.sine * sine);
   FreeFlight flight;
   flight.count = exact_.blocks_first ? std::move(at.ray) : Integer(at.ray + 1);
   flight.blue = {form_.blue_offset + y1, (odd ? -1 : 1) * (form_.blue_speed * ahead_sine)};
@@ -146,7 +139,7 @@ Collision UnfoldedLog::at(const Integer& index) const {
   const DoubleDouble from_past = form_.past.steps_from(ray);
   const DoubleDouble to_future = form_.future.steps_from(ray);
   const bool late = to_future.hi < from_past.hi;
-  const FarEnd& end = late ? form_.future : form_.past;
+  const RoundedAsymptote& end = late ? form_.future : form_.past;
   const bool odd = is_odd(ray);
   const Direction seen = form_.direction(late ? to_future : from_past, end.beyond);
   const Direction step{-end.sign * form_.step.sine, form_.step.cosine};
@@ -178,7 +171,7 @@ std::optional<Impact> UnfoldedLog::impact(CollisionKind kind, const Integer& fir
 
   const DoubleDouble from_past = mean(form_.past.steps_from(from), form_.past.steps_from(to));
   const DoubleDouble to_future = mean(form_.future.steps_from(from), form_.future.steps_from(to));
-  const FarEnd& end = to_future.hi < from_past.hi ? form_.future : form_.past;
+  const RoundedAsymptote& end = to_future.hi < from_past.hi ? form_.future : form_.past;
   const Direction seen = form_.direction(&end == &form_.future ? to_future : from_past, end.beyond);
   // What one collision in the middle has, for each of n, and how far they fall short of that:
   // they lie 2 theta apart, and sin(d - (n-1) theta) + … + sin(d + (n-1) theta) is
@@ -196,10 +189,10 @@ std::optional<Impact> UnfoldedLog::impact(CollisionKind kind, const Integer& fir
 }
 
 Integer UnfoldedLog::count_near(const Time& time) const {
-  Sighting seen = sight(tau_near(time));
-  seen.decided = true;
+  LinePoint point = point_at(tau_near(time));
+  point.decided = true;
   const Rational exact = exact_.through_corner() ? to_rational(time) : Rational(0);
-  Integer ray = place(seen, exact).ray;
+  Integer ray = phase_of(point, exact).ray;
   return exact_.blocks_first ? ray : Integer(ray + 1);
 }
 
@@ -215,7 +208,7 @@ std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,
 }
 
 RayPhase UnfoldedLog::phase_of(const Integer& ray) const {
-  const auto from = [&](const FarEnd& end) {
+  const auto from = [&](const RoundedAsymptote& end) {
     const DoubleDouble steps = end.steps_from(ray);
     return steps.hi + (steps.lo + end.beyond.hi);
   };

@@ -44,29 +44,25 @@ class UnfoldedLog final : public CollisionLog {
 
  private:
   UnfoldedLog(const BlockSystem& system, const ExactMotion& motion);
-  UnfoldedLog(const BlockSystem& system, const ExactMotion& motion, const Fan& fan);
+  UnfoldedLog(const BlockSystem& system, const ExactMotion& motion, const Wedge& wedge);
 
-  /// A point on the line as the nearer end of time sees it.
-  struct Sighting {
-    const FarEnd* end = nullptr;
+  /// A point on the line, seen from the nearer end of time.
+  struct LinePoint {
+    const RoundedAsymptote* end = nullptr;
     double distance = 0;  // R
     double sine = 0;      // of the angle to go to that end, from the line's point of view
     double cosine = 1;
     double phase = 0;  // minus end->ray
     bool decided = false;
   };
-  /// A phase of ray + fraction.
-  struct Place {
-    double fraction = 0;
-    Integer ray;
-  };
 
   /// Scaled time since closest approach; `magnitude` is that of the times it is the difference of.
   double tau_near(const Time& t, double* magnitude = nullptr) const;
   /// Scaled time since closest approach, rounded once. `t` is the time as a double-double.
   double tau_at(const Rational& time, const Time& t) const;
-  Sighting sight(double tau) const;
-  Place place(const Sighting& seen, const Rational& time) const;
+  LinePoint point_at(double tau) const;
+  /// Computed exactly if the point's own phase has not decided between two rays.
+  Phase phase_of(const LinePoint& point, const Rational& time) const;
   std::unique_ptr<Exposure> expose_corner(const Rational& begin, const Rational& end) const;
   double total_phase() const;
   RayPhase phase_of(const Integer& ray) const;

@@ -8,8 +8,6 @@
 namespace piblocks {
 namespace {
 
-bool is_odd(const Integer& n) { return mpz_odd_p(n.get_mpz_t()) != 0; }
-
 Integer middle(const Integer& a, const Integer& b) {
   Integer result;
   mpz_fdiv_q_2exp(result.get_mpz_t(), Integer(a + b).get_mpz_t(), 1);
@@ -126,7 +124,7 @@ void UnfoldedStream::keep_within(CollisionBatch& batch) const {
 }
 
 /// Rows begin … begin + rows - 1 of the batch, which are the rays from next_ + begin on.
-void UnfoldedStream::fill(const FarEnd& end, std::size_t begin, std::size_t rows,
+void UnfoldedStream::fill(const RoundedAsymptote& end, std::size_t begin, std::size_t rows,
                           CollisionBatch& batch) {
   if (rows == 0) return;
   const ClosedForm& form = form_;

@@ -43,7 +43,8 @@ class UnfoldedStream final : public CollisionStream {
   bool read(CollisionBatch& batch) override;
 
  private:
-  void fill(const FarEnd& end, std::size_t begin, std::size_t rows, CollisionBatch& batch);
+  void fill(const RoundedAsymptote& end, std::size_t begin, std::size_t rows,
+            CollisionBatch& batch);
   const RayTable& table(int sign, bool anchor_is_odd);
   void keep_within(CollisionBatch& batch) const;
 

@@ -17,7 +17,7 @@ DoubleDouble to_double_double(const Real& value) {
   return {hi, (value - hi).to_double()};
 }
 
-FarEnd to_end(const Asymptote& asymptote, int sign) {
+RoundedAsymptote to_end(const Asymptote& asymptote, int sign) {
   return {asymptote.ray, to_double_double(asymptote.beyond), sign};
 }
 
@@ -35,7 +35,7 @@ long unit_exponent(const ExactMotion& exact, const Real& ell, const Real& speed)
 
 }  // namespace
 
-DoubleDouble FarEnd::steps_from(const Integer& other) const {
+DoubleDouble RoundedAsymptote::steps_from(const Integer& other) const {
   constexpr long kNoOverflow = 1L << 62;
   if (mpz_cmpabs_ui(ray.get_mpz_t(), kNoOverflow) < 0 &&
       mpz_cmpabs_ui(other.get_mpz_t(), kNoOverflow) < 0) {  // a shortcut
@@ -48,21 +48,21 @@ DoubleDouble FarEnd::steps_from(const Integer& other) const {
   return to_time(Rational(steps));
 }
 
-Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact, const Fan& fan)
-    : past(to_end(fan.past, -1)), future(to_end(fan.future, +1)) {
-  const mpfr_prec_t bits = fan.sigma.bits();
+Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact, const Wedge& wedge)
+    : past(to_end(wedge.past, -1)), future(to_end(wedge.future, +1)) {
+  const mpfr_prec_t bits = wedge.sigma.bits();
   const Real exact_speed = sqrt(Real(bits, exact.speed_squared));
   const Real exact_ell = Real(bits, abs(exact.area)) / exact_speed;
   const long exponent = unit_exponent(exact, exact_ell, exact_speed);
   const Real scaled_speed = scaled(exact_speed, exponent);
 
-  sigma = fan.sigma.to_double();
-  theta = to_double_double(fan.theta);
+  sigma = wedge.sigma.to_double();
+  theta = to_double_double(wedge.theta);
   step = direction({1, 0}, {});
   ell = exact_ell.to_double();
-  impact = (fan.sigma * exact_ell).to_double();
+  impact = (wedge.sigma * exact_ell).to_double();
   speed = scaled_speed.to_double();
-  passage = (fan.sigma * exact_ell / scaled_speed).to_double();
+  passage = (wedge.sigma * exact_ell / scaled_speed).to_double();
   speed_over_ell = exact.through_corner() ? 0 : (scaled_speed / exact_ell).to_double();
   // In the chosen unit of time the speed is a typical length.
   const double least = exact.through_corner() ? speed : std::min({ell, speed, passage});
@@ -74,7 +74,7 @@ Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact, const 
   time_unit = std::scalbln(1.0, exponent);
   closest_approach = to_time(exact.closest_approach / Rational(time_unit));
   red_speed = exact_speed.to_double();
-  blue_speed = (exact_speed / fan.sigma).to_double();
+  blue_speed = (exact_speed / wedge.sigma).to_double();
   blue_offset = to_double(system.wall_face + system.blue.width / 2);
   red_offset = to_double(system.wall_face + system.blue.width + system.red.width / 2);
 }

@@ -23,9 +23,11 @@ inline constexpr double kFarAway = 0x1p1000;
 /// A number as hi + lo; what Time is for instants.
 using DoubleDouble = Time;
 
+inline bool is_odd(const Integer& ray) { return mpz_odd_p(ray.get_mpz_t()) != 0; }
+
 /// One end of time. Its phase is beyond that of `ray`: past it for the infinite future, before it
 /// for the infinite past.
-struct FarEnd {
+struct RoundedAsymptote {
   Integer ray;
   DoubleDouble beyond;
   int sign = 1;  ///< of t
@@ -130,15 +132,15 @@ inline Time time_within(const Integer& index, const std::optional<Integer>& cont
 
 struct Unfolding : ClosedForm {
   /// @throws SimulationError if ell, or the time it takes, is too small for a double, but not 0.
-  Unfolding(const BlockSystem& system, const ExactMotion& exact, const Fan& fan);
+  Unfolding(const BlockSystem& system, const ExactMotion& exact, const Wedge& wedge);
 
   /// Distance along the line from where it is nearest to the corner, in units of ell and
   /// at most kFarAway, for a line that is not through the corner. @param tau  scaled time since
   /// then
   double ahead(double tau) const;
 
-  FarEnd past;
-  FarEnd future;
+  RoundedAsymptote past;
+  RoundedAsymptote future;
 };
 
 }  // namespace piblocks

@@ -14,8 +14,8 @@ struct Cue {
   Integer milestone;
 };
 
-/// The largest power of ten that is not larger than the count, with the count's sign; the count
-/// itself if there are no more, or none.
+/// The largest power of ten that is not larger than the count, with the count's sign. The count
+/// itself if it is 0, or the most that the film shows.
 Integer milestone_of(const Integer& count, const Integer& most) {
   if (count == 0 || (count == most && count > 0)) return count;
   Integer power;
@@ -32,7 +32,7 @@ struct Extremes {
 
 std::string text_of(const Integer& milestone, const Extremes& counts) {
   if (milestone == 0) {
-    return counts.least < 0 ? "Time 0, from which collisions are counted" : "No collision yet";
+    return counts.least < 0 ? "No collision between now and time 0" : "No collision yet";
   }
   const std::string number = with_thousands_separators(abs(milestone));
   const char* noun = abs(milestone) == 1 ? "collision" : "collisions";

@@ -1,4 +1,4 @@
-// How far the count is, for those who read along.
+// How far the count is, for viewers who read captions.
 // In: the count of every frame. Out: captions in WebVTT.
 #pragma once
 
@@ -9,10 +9,10 @@
 
 namespace piblocks {
 
-/// A caption from the first frame on that shows a first collision, ten, a hundred and so on, and
-/// the most there are in the video; each until the next one. Times are those of frames, rounded up
-/// to milliseconds. Before time 0, where counts are negative, captions say how many collisions are
-/// to go until then.
+/// A caption begins with the first frame that counts 1 collision, 10, 100 and so on, and with the
+/// first that counts as many as any frame does. It ends where the next one begins. Times are those
+/// of frames, rounded up to milliseconds. Before time 0 counts are negative, and captions say how
+/// many collisions are to go until then.
 /// @throws UsageError as film_frames().
 std::string captions(const CollisionLog& log, const Schedule& schedule, const Rational& frame_rate);
 

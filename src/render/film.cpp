@@ -7,15 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "render/require_valid.hpp"
+
 namespace piblocks {
 namespace {
-
-/// Whoever fills in a Scene by hand has not been told what is wrong with it.
-const Scene& checked(const Scene& scene) {
-  const std::vector<Problem> problems = problems_of(scene);
-  if (!problems.empty()) throw SceneError(describe(problems));
-  return scene;
-}
 
 FilmPart made_from(const StoryPart& part, const View& view, FilmUse use) {
   if (const auto* card = std::get_if<Card>(&part.content)) return {*card, view, use};
@@ -31,7 +26,8 @@ std::string place_of(const Storyboard& story, std::size_t part) {
 
 Film::Film(const Script& script, FilmUse use) : view_(view_of(script)) {
   if (const auto* scene = std::get_if<Scene>(&script)) {
-    parts_.push_back({FilmPart(checked(*scene), use)});
+    require_valid(*scene);
+    parts_.push_back({FilmPart(*scene, use)});
     frame_count_ = parts_.front().part.frame_count();
     return;
   }

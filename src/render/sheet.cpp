@@ -18,6 +18,7 @@
 #include "core/output_file.hpp"
 #include "draw/number_text.hpp"
 #include "render/logo.hpp"
+#include "render/require_valid.hpp"
 
 namespace piblocks {
 namespace {
@@ -98,6 +99,7 @@ std::vector<Instant> spread_instants(const Scene& scene, int count) {
   if (count < 1 || count > kMaxSheetPictures) {
     throw UsageError(fmt::format("sheet: {} pictures: use 1 to {}", count, kMaxSheetPictures));
   }
+  require_valid(scene);
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Span span = span_of(scene, *log);
   std::vector<Instant> instants = {span.from};
@@ -109,6 +111,7 @@ std::vector<Instant> spread_instants(const Scene& scene, int count) {
 
 std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
                                              const std::vector<Instant>& instants) {
+  require_valid(scene);
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Composition composition(scene, *log, read_logo(scene));
   std::vector<Shown> shown;

@@ -10,7 +10,8 @@
 
 namespace piblocks {
 
-/// @throws UsageError, DrawError, MediaError, SimulationError
+/// @throws SceneError if problems_of(scene) is not empty; UsageError, DrawError, MediaError,
+///         SimulationError
 std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
                                              const std::vector<Instant>& instants);
 

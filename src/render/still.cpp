@@ -12,6 +12,7 @@
 #include "core/ending.hpp"
 #include "core/output_file.hpp"
 #include "render/film.hpp"
+#include "render/require_valid.hpp"
 
 namespace piblocks {
 namespace {
@@ -35,6 +36,7 @@ Draw* drawing_for(std::string_view output) {
 }
 
 DrawList picture_of(const Scene& scene, const Instant& instant) {
+  require_valid(scene);
   const Run run(scene, make_collision_log(scene.system), FilmUse::seen);
   return run.picture(still_time(scene, run.log(), time_of(instant, run.log())));
 }

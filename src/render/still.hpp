@@ -10,7 +10,8 @@ namespace piblocks {
 
 /// What render_still() draws: the first frame of the film that shows the instant, or where none
 /// does, what still_time() says.
-/// @throws UsageError, DrawError, MediaError, SimulationError
+/// @throws SceneError if problems_of() the script is not empty; UsageError, DrawError, MediaError,
+///         SimulationError
 DrawList still_picture(const Script& script, const Instant& instant);
 
 }  // namespace piblocks

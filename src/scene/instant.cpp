@@ -14,10 +14,10 @@ namespace {
 using Anchor = Instant::Anchor;
 
 constexpr const char* kExpected =
-    "must be a time, or 'turn', 'last' or '#K' for the K-th collision, or so long before or after "
-    "one of these, such as turn-0.3";
+    "must be a time, 'turn', 'last', or '#K' for collision K; an offset may follow the last three, "
+    "as in turn-0.3";
 
-/// Longest index that is read.
+/// The longest index that is accepted.
 constexpr std::size_t kMaxIndex_bytes = 1000;
 
 struct NamedAnchor {
@@ -29,7 +29,7 @@ constexpr std::array kNamedAnchors = {NamedAnchor{"turn", Anchor::turn},
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Takes an anchor from the front of the text; leaves a text that is a time as it is.
+/// Removes the anchor from the front of the text. A time has none: its text stays as it is.
 Instant take_anchor(std::string_view& text) {
   for (const auto& [name, anchor] : kNamedAnchors) {
     if (!text.starts_with(name)) continue;
@@ -47,28 +47,26 @@ Instant take_anchor(std::string_view& text) {
   return instant;
 }
 
-/// The offset behind an anchor: nothing, or a sign and a number without one.
+Rational parse_number(std::string_view text) {
+  try {
+    return parse_rational(text);
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("{}; {}", error.what(), kExpected));
+  }
+}
+
+/// The offset behind an anchor: nothing, or a sign and an unsigned number.
 Rational parse_offset(std::string_view text) {
   if (text.empty()) return 0;
   const bool is_signed = text.front() == '+' || text.front() == '-';
   if (!is_signed || text.size() < 2 || !(is_digit(text[1]) || text[1] == '.')) {
     throw UsageError(kExpected);
   }
-  return parse_rational(text.front() == '+' ? text.substr(1) : text);
+  return parse_number(text.front() == '+' ? text.substr(1) : text);
 }
 
-Instant parse(std::string_view text) {
-  Instant instant = take_anchor(text);
-  try {
-    instant.offset = instant.is_time() ? parse_rational(text) : parse_offset(text);
-  } catch (const UsageError& error) {
-    if (std::string_view(error.what()) == kExpected) throw;
-    throw UsageError(fmt::format("{}; {}", error.what(), kExpected));
-  }
-  return instant;
-}
-
-/// When the anchor happens; nothing if it never does.
+/// The index of the collision that the anchor names. Nothing if it names none, or the run has no
+/// such collision.
 std::optional<Integer> anchoring_collision(const Instant& instant, const CollisionLog& log) {
   if (instant.anchor == Anchor::last && log.size() > 0) return log.size();
   const bool is_there = instant.index >= log.first_index() && instant.index <= log.size();
@@ -81,7 +79,7 @@ std::optional<Integer> anchoring_collision(const Instant& instant, const Collisi
     throw UsageError("'turn': no block moves, so there is none; give a time");
   }
   if (instant.anchor == Anchor::last) {
-    throw UsageError("'last': the scene has no collisions; give a time");
+    throw UsageError("'last': no collision happens from time 0 on; give a time");
   }
   const std::string has =
       log.size() < log.first_index()
@@ -93,7 +91,8 @@ std::optional<Integer> anchoring_collision(const Instant& instant, const Collisi
 }  // namespace
 
 Instant parse_instant(std::string_view text) {
-  Instant instant = parse(text);
+  Instant instant = take_anchor(text);
+  instant.offset = instant.is_time() ? parse_number(text) : parse_offset(text);
   if (std::isfinite(to_double(instant.offset))) return instant;
   throw UsageError("is beyond the range of a double (about 1.8e308)");
 }

@@ -144,7 +144,8 @@ bool has_span(const Scene& scene, const CollisionLog& log) {
 Span span_of(const Scene& scene, const CollisionLog& log) {
   if (scene.time.to.anchor == Instant::Anchor::last && log.size() == 0) {
     throw UsageError(
-        "time.to: the scene has no collision to end after; give a time, such as to = 10 in [time]");
+        "time.to: no collision happens from time 0 on, so the video cannot end with the last one; "
+        "give a time, as time.to = 10");
   }
   return {time_of(scene.time.from, "time.from", log), time_of(scene.time.to, "time.to", log)};
 }

@@ -4,7 +4,7 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "physics/exact_motion.hpp"
 
@@ -13,27 +13,30 @@ namespace {
 
 constexpr const char* kKey = "time.slow-motion";
 
-// Automatic windows: each takes so long to either side of the turn, and is so many times slower
-// than the one around it, until no more collisions than this happen in a second of video.
+// Automatic windows are around the turn. Each is 10 times slower than the one around it, and would
+// show 3 s of video on either side of the turn if no other were inside it. There are so many that
+// at most 10 collisions happen in a second of the innermost one.
 constexpr int kHalfWindow_s = 3;
 constexpr int kStep = 10;
 constexpr double kTellApart_per_s = 10;
 
-/// Collisions per second of simulation time at the turn: one takes theta b/|V| (the notation is
-/// that of src/physics/README.md). Infinite where all happen at once.
-double rate_at_turn(const BlockSystem& system) {
+/// Collisions per second of video at the turn: one takes theta b/|V| (the notation is that of
+/// src/physics/README.md). Infinite if all happen at once.
+double rate_at_turn(const BlockSystem& system, const Rational& speed) {
+  constexpr mpfr_prec_t kBits = 64;  // squares of velocities can be beyond the range of a double
   const ExactMotion motion(system);
-  const double sigma = std::sqrt(to_double(motion.ratio));
-  return to_double(motion.speed_squared) /
-         (std::atan(sigma) * sigma * std::abs(to_double(motion.area)));
+  if (motion.through_corner()) return std::numeric_limits<double>::infinity();
+  const Real sigma = motion.sigma(kBits);
+  const Real rate(kBits, motion.speed_squared * speed / abs(motion.area));
+  return (rate / (atan(sigma) * sigma)).to_double();
 }
 
 std::vector<SlowWindow> automatic_windows(const Scene& scene, const CollisionLog& log) {
   const std::optional<Rational> turn = turn_of(scene.system);
-  if (!turn || log.size() == 0) return {};
+  if (!turn || log.size() < log.first_index()) return {};
   // A duration sets the speed for the windows too, once they are known.
   const Rational speed = scene.pacing.duration_s ? Rational(1) : scene.time.speed;
-  const double rate = rate_at_turn(scene.system) * to_double(speed);
+  const double rate = rate_at_turn(scene.system, speed);
   std::vector<Rational> halves;
   int factor = 1;
   while (factor < kMaxAutomaticFactor && rate > kTellApart_per_s * factor) {

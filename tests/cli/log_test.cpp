@@ -96,6 +96,23 @@ TEST_F(LogTest, BoundsMayBeAnyInstant) {
             (std::vector<std::string>{"158", "159"}));
 }
 
+// However many happen at once: none of them is asked for its time.
+TEST_F(LogTest, BoundsOfTimeIncludeAllThatHappensAtOnce) {
+  write("corner.toml", "blue.position = 0.5\n");
+  const auto rows = [&](const Arguments& selection) {
+    return indices(piblocks(Arguments{"log", "corner.toml"} + selection).out);
+  };
+  for (const char* digits : {"2", "5", "20", "150"}) {
+    for (const char* from : {"3.5", "turn"}) {
+      EXPECT_EQ(rows({"--digits", digits, "--from", from, "--limit", "2"}),
+                (std::vector<std::string>{"1", "2"}))
+          << digits << " digits from " << from;
+    }
+  }
+  EXPECT_TRUE(rows({"--from", "3.5000001"}).empty());
+  EXPECT_EQ(rows({"--digits", "2", "--from", "3.5", "--engine", "events"}).size(), 31U);
+}
+
 TEST_F(LogTest, GoesOnBeforeTimeZero) {
   write("recede.toml", "red.velocity = 1\nred.position = 3\n");
   EXPECT_TRUE(indices(output_of({"log", "recede.toml"})).empty());

@@ -148,6 +148,26 @@ TEST(Flights, CountACollisionAtTimeZero) {
             1);
 }
 
+// The rounding of an engine must not carry the first collision past time 0, nor away from it.
+TEST(Flights, OfEveryEngineBeginToCountAtTimeZero) {
+  for (const Start& start :
+       {Start{"1000", "5/12", "0", "0", "12/7"}, Start{"23122/3", "2/3", "0", "0", "15/2"},
+        Start{"52429/84", "5/2", "0", "40/3", "-17/2"}, Start{"1", "5", "0", "5", "29/14"},
+        Start{"66096/61", "69/4", "0", "-29/19", "-9/13"}, Start{"7", "0", "2/7", "-1", "-1/3"},
+        Start{"100", "1/3", "0", "34/19", "-8/9"}, Start{"31", "56/22", "0", "0", "-1/2"},
+        Start{"7", "0", "2/7", "1/3", "-1/3"}, Start{"37", "35/12", "0", "-35", "-3/5"}}) {
+    const BlockSystem system = start.system();
+    const auto exact = make_collision_log(system);
+    for (const Engine engine : {Engine::events, Engine::velocities}) {
+      const auto log = make_collision_log(system, engine);
+      EXPECT_EQ(state_at(*log, 0).count, state_at(*exact, 0).count) << start.ratio;
+      EXPECT_EQ(log->first_index(), exact->first_index()) << start.ratio;
+      EXPECT_TRUE(log->size() == 0 || log->at(1).time.hi >= 0) << start.ratio;
+      EXPECT_TRUE(log->first_index() == 1 || log->at(0).time.hi <= 0) << start.ratio;
+    }
+  }
+}
+
 TEST(Flights, GoOnBeforeTheFirstAndAfterTheLastCollision) {
   for (const Engine engine : {Engine::unfolded, Engine::events, Engine::velocities}) {
     const auto log = make_collision_log(article_system(3), engine);

@@ -10,6 +10,7 @@
 #include "render/captions.hpp"
 #include "render/film.hpp"
 #include "render/page_facts.hpp"
+#include "render/scene_text.hpp"
 #include "render/sheet.hpp"
 #include "render/still.hpp"
 #include "support/property.hpp"
@@ -162,6 +163,22 @@ TEST(CountsShown, AreRightInTimesBeforeZero) {
   const auto log = make_collision_log(system);
   const std::string text = captions(*log, make_schedule(film, *log), film.view.frame_rate);
   EXPECT_NE(text.find("100 collisions or more to go until time 0"), std::string::npos) << text;
+  // Count 0 is reached before time 0, and kept after it.
+  EXPECT_TRUE(text.ends_with("\nNo collision between now and time 0\n")) << text;
+}
+
+TEST(CountsShown, AreRightInWords) {
+  Scene scene = scene_of(article_system(3));
+  const auto sentence = [&](const Integer& at_end, const Integer& total) {
+    const std::string text = describe_video(scene, {at_end, total});
+    return text.substr(text.find("a counter"));
+  };
+  EXPECT_EQ(sentence(314, 314), "a counter reaches 314 collisions, which is all there are.");
+  EXPECT_EQ(sentence(7, 1000), "a counter reaches 7 of 1,000 collisions.");
+  EXPECT_EQ(sentence(0, 314), "a counter reaches 0 of 314 collisions.");
+  EXPECT_EQ(sentence(0, 0), "a counter reaches 0: there are no collisions from time 0 on.");
+  EXPECT_EQ(sentence(-1000, 0), "a counter reaches -1,000: 1,000 collisions to go until time 0.");
+  EXPECT_EQ(sentence(-1, 314), "a counter reaches -1: 1 collision to go until time 0.");
 }
 
 TEST(CountsShown, AreRightInTheSecondsOfAStoryboard) {

@@ -9,12 +9,14 @@
 #include <piblocks/schedule.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "media/frame_reader.hpp"
 #include "render/film.hpp"
+#include "render/sheet.hpp"
 #include "support/property.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -134,6 +136,15 @@ std::string described(const Scene& scene) {
   return text;
 }
 
+/// Nothing if the scene has none: its span is empty, or a freeze is outside of it.
+std::optional<Film> film_of(const Scene& scene) {
+  try {
+    return std::optional<Film>(std::in_place, scene);
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+}
+
 TEST(Still, IsTheFilmsFrameInAnyScene) {
   Random random(1618);
   SCOPED_TRACE(random.trace());
@@ -142,20 +153,18 @@ TEST(Still, IsTheFilmsFrameInAnyScene) {
   for (int i = 0; scenes < 1000; ++i) {
     ASSERT_LT(i, 5000) << "too many scenes are refused";
     const Scene scene = any_scene(random);
-    try {
-      const Film film(scene);
-      const Schedule& schedule = *film.parts().front().part.schedule();
-      const std::int64_t count = film.frame_count();
-      ++scenes;
-      for (const std::int64_t frame : some_frames(random, schedule, count, scene.view.frame_rate)) {
-        const Rational time = schedule.time_of(frame);
-        const std::int64_t first = first_at(schedule, time, count);
-        const DrawList still = still_picture(scene, time);
-        ++compared;
-        ASSERT_TRUE(still == film.frame(first) || pixels_of(still) == pixels_of(film.frame(first)))
-            << "scene " << i << ", frame " << first << " of " << count << described(scene);
-      }
-    } catch (const UsageError&) {  // spans without time, freezes outside of them
+    const std::optional<Film> film = film_of(scene);
+    if (!film) continue;
+    ++scenes;
+    const Schedule& schedule = *film->parts().front().part.schedule();
+    const std::int64_t count = film->frame_count();
+    for (const std::int64_t frame : some_frames(random, schedule, count, scene.view.frame_rate)) {
+      const Rational time = schedule.time_of(frame);
+      const std::int64_t first = first_at(schedule, time, count);
+      const DrawList still = still_picture(scene, time);
+      ++compared;
+      ASSERT_TRUE(still == film->frame(first) || pixels_of(still) == pixels_of(film->frame(first)))
+          << "scene " << i << ", frame " << first << " of " << count << described(scene);
     }
   }
   EXPECT_GT(compared, 8000);
@@ -229,6 +238,19 @@ TEST(Still, OfAnAnchorIsWhereTheFilmStops) {
               pixels_of(film.frame(film.frame_count() - 1)))
         << digits;
   }
+}
+
+// A frame rate of 0 would be divided by.
+TEST(Still, RefusesASceneFilledInWrongly) {
+  Scene endless;
+  endless.view.frame_rate = 0;
+  endless.view.shutter = Rational(1, 2);
+  EXPECT_THROW(still_picture(endless, Rational(3)), SceneError);
+  Scene flat;
+  flat.view.x.high = flat.view.x.low;
+  EXPECT_THROW(still_picture(flat, Rational(3)), SceneError);
+  EXPECT_THROW(sheet_pictures(flat, {Rational(3)}), SceneError);
+  EXPECT_THROW(spread_instants(endless, 3), SceneError);
 }
 
 }  // namespace

@@ -32,9 +32,9 @@ TEST(Instant, GivesTheSignToTheWholeOffset) {
 
 TEST(Instant, RefusesOtherTexts) {
   for (const char* text :
-       {"",      "#",       "#1.5",   "##1",   "# 1",      "#+1",       "#--1",
-        "end",   "turning", "turn*2", "turn+", "turn--1",  "turn+-1",   "turn - 1",
-        "last1", "last-",   "middle", "1:2",   "last+1+1", "turn+1e400"}) {
+       {"",      "#",       "#1.5",   "##1",    "# 1",     "#+1",      "#--1",
+        "end",   "turning", "turn*2", "turn+",  "turn--1", "turn+-1",  "turn - 1",
+        "last1", "last-",   "last+-", "middle", "1:2",     "last+1+1", "turn+1e400"}) {
     EXPECT_THROW(parse_instant(text), UsageError) << text;
   }
 }
@@ -164,7 +164,11 @@ TEST(Instant, SaysWhatTheSceneHas) {
   BlockSystem resting;
   resting.red.velocity = 0;
   EXPECT_EQ(problem(resting, "turn"), "'turn': no block moves, so there is none; give a time");
-  EXPECT_EQ(problem(resting, "last"), "'last': the scene has no collisions; give a time");
+  EXPECT_EQ(problem(resting, "last"), "'last': no collision happens from time 0 on; give a time");
+  BlockSystem receding = article_system(2);
+  receding.red.velocity = 1;
+  EXPECT_EQ(problem(receding, "last"), "'last': no collision happens from time 0 on; give a time");
+  EXPECT_EQ(problem(receding, "#1"), "collision #1: the scene has collisions #-30 to #0");
   EXPECT_EQ(problem(resting, "#1"), "collision #1: the scene has no collisions");
   EXPECT_EQ(problem(article_system(2), "#32"), "collision #32: the scene has collisions #1 to #31");
   EXPECT_EQ(problem(article_system(2), "#0"), "collision #0: the scene has collisions #1 to #31");

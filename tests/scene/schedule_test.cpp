@@ -215,11 +215,33 @@ TEST(Schedule, AutomaticWindowsTellCollisionsApart) {
   }
 }
 
+// A scene in other units is the same video.
+TEST(Schedule, AutomaticWindowsDoNotDependOnUnits) {
+  const std::vector<Setting> settings = {{"time.to", "last"}, {"time.slow-motion", "auto"}};
+  const Schedule usual = schedule_of(settings);
+  for (const char* velocity : {"1e-200", "1e200"}) {
+    Scene scene = scene_with(settings);
+    scene.system.red.velocity *= parse_rational(velocity);
+    scene.time.speed /= parse_rational(velocity);
+    const Schedule schedule = schedule_of(scene);
+    EXPECT_EQ(schedule.stretches().size(), usual.stretches().size()) << velocity;
+    EXPECT_EQ(schedule.frame_count(), usual.frame_count()) << velocity;
+  }
+}
+
 TEST(Schedule, AutomaticWindowsStopWhereNothingMovesAnyMore) {
   const Schedule schedule = schedule_of({{"time.slow-motion", "auto"}}, 20);
   const auto stretches = schedule.stretches();
   EXPECT_EQ(std::ranges::max_element(stretches, {}, &Stretch::slower)->slower, 1000);
   EXPECT_EQ(stretches.size(), 7U);
+}
+
+TEST(Schedule, AutomaticWindowsAreAlsoAroundATurnBeforeTimeZero) {
+  Scene scene = scene_with({{"time.from", "-20"}, {"time.to", "1"}, {"time.slow-motion", "auto"}});
+  scene.system.red.velocity = 1;
+  const Schedule schedule = schedule_of(scene);
+  EXPECT_EQ(schedule.stretches().size(), 7U);
+  expect_no_gaps(schedule);
 }
 
 TEST(Schedule, FewCollisionsNeedNoSlowMotion) {
@@ -335,7 +357,7 @@ TEST(Schedule, RefusesWhatCannotBe) {
   EXPECT_EQ(problem({{"time.freeze", "turn:1"}, {"time.to", "3"}}, 0),
             "time.freeze: 'turn': no block moves, so there is none; give a time");
   EXPECT_EQ(problem({{"time.freeze", "last:1"}, {"time.to", "3"}}, 1),
-            "time.freeze: 'last': the scene has no collisions; give a time");
+            "time.freeze: 'last': no collision happens from time 0 on; give a time");
   EXPECT_EQ(problem({{"time.freeze", "#315:1"}, {"time.to", "3"}}),
             "time.freeze: collision #315: the scene has collisions #1 to #314");
   EXPECT_EQ(problem({{"time.freeze", "turn:1"}, {"time.to", "3"}}),
@@ -353,7 +375,6 @@ TEST(Schedule, RefusesWhatCannotBe) {
 
 TEST(Pacing, TextsReadBackAsTheSame) {
   for (const char* text : {"0", "-7/3", "turn", "turn-1/3", "last+5", "last-5/2", "#7+1/2"}) {
-    EXPECT_EQ(exact_text(parse_instant(text)), text);
     const std::string window = std::string(text) + ":turn+1:10";
     EXPECT_EQ(exact_text(parse_slow_motion(window)), window);
     const std::string freeze = std::string(text) + ":3/2";
@@ -362,9 +383,6 @@ TEST(Pacing, TextsReadBackAsTheSame) {
 }
 
 TEST(Pacing, RefusesOtherTexts) {
-  for (const char* text : {"", "turning", "turn*2", "turn+", "last+-", "middle", "1:2"}) {
-    EXPECT_THROW(parse_instant(text), UsageError) << text;
-  }
   for (const char* text : {"", "1", "1:2", "1:2:3:4", "a:b:c", "::"}) {
     EXPECT_THROW(parse_slow_motion(text), UsageError) << text;
   }
@@ -376,7 +394,7 @@ TEST(Pacing, RefusesOtherTexts) {
       parse_instant(text);
       FAIL() << text;
     } catch (const UsageError& error) {
-      EXPECT_NE(std::string(error.what()).find("must be a time, or 'turn', 'last' or '#K'"),
+      EXPECT_NE(std::string(error.what()).find("must be a time, 'turn', 'last', or '#K'"),
                 std::string::npos)
           << text;
     }

@@ -1,0 +1,22 @@
+// A block's motion as doubles, and a system whose time runs backwards.
+// In: exact blocks. Out: what every engine makes of them at its start.
+#pragma once
+
+#include <piblocks/blocks.hpp>
+#include <piblocks/collision_log.hpp>
+#include <piblocks/exact.hpp>
+
+namespace piblocks {
+
+inline Motion motion_of(const Block& block) {
+  return {to_double(block.position), to_double(block.velocity)};
+}
+
+/// The same blocks with opposite velocities: what they do is the past of `system`, backwards.
+inline BlockSystem reversed(BlockSystem system) {
+  system.blue.velocity = -system.blue.velocity;
+  system.red.velocity = -system.red.velocity;
+  return system;
+}
+
+}  // namespace piblocks
