@@ -17,25 +17,16 @@ std::string collisions(const Integer& count) {
                      count == 1 ? "collision" : "collisions");
 }
 
-<<<<<<< HEAD
-/// What the counter comes to.
-std::string reached(const VideoCount& count) {
-  if (count.at_end == count.total) return collisions(count.total) + ", which is all there are";
-  const std::string at_end = with_thousands_separators(count.at_end);
-  if (count.at_end >= 0) return fmt::format("{} of {}", at_end, collisions(count.total));
-  const Integer left = -count.at_end;
-  return fmt::format("{}: {} {} to go until time 0", at_end, collisions(left),
-                     left == 1 ? "is" : "are");
-=======
 std::string reached(const VideoCount& count) {
   const std::string number = with_thousands_separators(count.at_end);
   if (count.at_end < 0) {
-    return fmt::format("{}: {} to go until time 0", number, collisions(-count.at_end));
+    const Integer left = -count.at_end;
+    return fmt::format("{}: {} {} to go until time 0", number, collisions(left),
+                       left == 1 ? "is" : "are");
   }
   if (count.total == 0) return number + ": there are no collisions from time 0 on";
   if (count.at_end == count.total) return collisions(count.total) + ", which is all there are";
   return fmt::format("{} of {}", number, collisions(count.total));
->>>>>>> review
 }
 
 }  // namespace
