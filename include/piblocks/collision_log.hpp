@@ -1,4 +1,4 @@
-// Who meets whom, and when: the events of a run as a random-access sequence.
+// What collides, and when: the collisions of a run as a random-access sequence.
 // In: a BlockSystem. Out: any collision by its index, and the free flight that holds at any
 // time. Stored and computed logs look alike.
 #pragma once
@@ -44,8 +44,8 @@ struct FreeFlight {
   Motion red;
 };
 
-/// Consecutive collisions in columns, for those who read millions of them. 24 KiB of numbers: a
-/// batch stays in the first-level cache between its producer and its consumer.
+/// Consecutive collisions in columns, for reading millions of them. 24 KiB of numbers: a batch
+/// stays in the first-level cache between its producer and its consumer.
 struct CollisionBatch {
   static constexpr std::size_t kCapacity = 512;
   using Column = std::array<double, kCapacity>;
@@ -69,9 +69,10 @@ class CollisionStream {
   virtual bool read(CollisionBatch& batch) = 0;
 };
 
-/// Counting begins at time 0: the collisions from then on have the indices 1, 2, …, size(). Before
-/// time 0 the motion runs back, and the count goes on below 0: the collisions before it have the
-/// indices 0, -1, … down to first_index(). Const members are thread-safe.
+/// Counting begins at time 0: the collisions from then on have the indices 1, 2, …, size(), those
+/// before time 0 the indices 0, -1, … down to first_index(). Blocks that touch at time 0 and move
+/// apart, or blue that then leaves the wall, have had collision 0 at time 0. Const members are
+/// thread-safe.
 class CollisionLog {
  public:
   virtual ~CollisionLog() = default;
@@ -130,8 +131,8 @@ std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system,
 /// @throws SceneError if problems_of(system) is not empty.
 Integer count_collisions(const BlockSystem& system);
 
-/// A run whose collisions all happen at once, in the corner of wall and blocks. How many there are
-/// depends on who is taken to meet first.
+/// A run whose collisions all happen at once, in the corner of wall and blocks. Their number
+/// depends on which is taken to be first, the wall or the blocks.
 struct Corner {
   Rational time;        ///< of all collisions
   bool blocks_first;    ///< the convention; the wall where the blocks arrive touching

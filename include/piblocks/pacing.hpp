@@ -25,24 +25,24 @@ struct Freeze {
   Rational length_s;  ///< of video, > 0
 };
 
-/// Slowest that automatic slow motion goes; beyond it nothing moves by a pixel any more.
+/// Most times slower that automatic slow motion becomes. Slower still, nothing would move by a
+/// pixel.
 inline constexpr int kMaxAutomaticFactor = 1000;
 
 /// Lengths are seconds of video, and are rounded up to whole frames; that of a loop to an even
 /// number of them.
 struct Pacing {
-  /// Of the whole video, holds and freezes included; the speed follows from it, and that of the
-  /// scene's TimeSpan has no say.
+  /// Of the whole video, holds and freezes included. It sets the speed; TimeSpan::speed is ignored.
   std::optional<Rational> duration_s = {};
-  /// Windows around the turn, each ten times slower than the one around it, down to where single
-  /// collisions can be told apart, but not beyond kMaxAutomaticFactor. With a duration they are
-  /// those of speed 1, and take their share of it as all else does.
+  /// Windows around the turn, each ten times slower than the one around it, until single collisions
+  /// can be told apart or kMaxAutomaticFactor is reached. With a duration they are those of speed
+  /// 1, and scale with the rest of the video.
   bool automatic_slow_motion = false;
   std::vector<SlowMotion> slow_motion = {};
   std::vector<Freeze> freezes = {};
   Rational hold_start_s = 0;  ///< how long the first picture stands still, >= 0
   Rational hold_end_s = 0;    ///< how long the last picture stands still, >= 0
-  /// Plays forwards and then backwards, so that the first frame may follow the last without a jump.
+  /// Plays forwards and then backwards, so that the first frame follows the last without a jump.
   bool loop = false;
 };
 

@@ -1,4 +1,4 @@
-// Which instant of the run is shown at each moment of the video.
+// Which instant of the run the video shows at each of its times.
 // In: a scene and its collision log. Out: stretches of video in which simulation time runs evenly,
 // exactly rational, without gaps. Pictures and sound follow the same ones.
 #pragma once
@@ -16,10 +16,11 @@ namespace piblocks {
 /// Most frames of one rendering; four and a half hours at 60 frames per second.
 inline constexpr std::int64_t kMaxFrames = 1'000'000;
 
-/// From `video_s` on to the next stretch, simulation time is time + speed * (v - video_s).
+/// At v seconds of video, from `video_s` to the next stretch, simulation time is
+/// time + speed * (v - video_s).
 struct Stretch {
   Rational video_s;     ///< seconds since the video began
-  Rational time;        ///< simulation time at that moment
+  Rational time;        ///< simulation time then
   Rational speed;       ///< per second of video; 0 while it stands still, negative backwards
   Rational slower = 1;  ///< how many times slower than the scene runs elsewhere
 };
@@ -53,8 +54,8 @@ bool has_span(const Scene& scene, const CollisionLog& log);
 /// @throws UsageError unless has_span().
 Span span_of(const Scene& scene, const CollisionLog& log);
 
-/// Frame k shows the moment k / frame_rate of the video. Nothing is accumulated, so no frame
-/// depends on another.
+/// Frame k shows what the video shows at k / frame_rate seconds. Nothing is accumulated, so no
+/// frame depends on another.
 class Schedule {
  public:
   /// @param stretches  in the order of the video, the first from 0 s; at least one.
@@ -73,9 +74,10 @@ class Schedule {
   }
   /// Simulation time of a frame.
   Rational time_of(std::int64_t number) const { return frame(number).time; }
-  /// When the video shows this instant: the moment of the first frame that does; if none does, the
-  /// first moment between two frames at which it passes. Nothing if the video never shows it.
-  std::optional<Rational> moment_of(const Rational& time) const;
+  /// When the video first shows this time, in seconds of video: at the first frame that shows it,
+  /// or, if no frame does, where the video first passes it between two frames. Nothing if it never
+  /// does.
+  std::optional<Rational> first_shown_s(const Rational& time) const;
   /// What passes from `video_s` >= 0 on, for a length > 0, in order; shares add up to 1. Past the
   /// end the last stretch goes on.
   std::vector<TimeSlice> during(const Rational& video_s, const Rational& length_s) const;
@@ -86,8 +88,8 @@ class Schedule {
   Rational frame_rate_;
 };
 
-/// A span that ends at a time T holds the moments before T. A span whose end is named by what
-/// happens then goes on to the first frame at or past it, so that this is seen.
+/// If scene.time.to is a time, the video ends before it. If it is a turn or a collision, the video
+/// goes on to the first frame at or after it, so that it is seen.
 /// @throws UsageError as span_of(); if the span is empty; if windows of slow motion overlap; if a
 ///         window or a freeze is outside of the span; if the duration leaves no time for the
 ///         motion.
@@ -100,9 +102,9 @@ std::int64_t film_frames(const Schedule& schedule);
 /// How long each frame is exposed, in seconds of video.
 inline Rational open_s(const View& view) { return view.shutter / view.frame_rate; }
 
-/// What a still shows: what the first frame does that shows this instant, or would do if a frame
-/// began when the video first passes it. Where the video never shows it, time runs at
-/// scene.time.speed.
+/// What a still of this time shows: the same as the first frame that shows the time. If no frame
+/// does, a frame that begins where the video first passes it. If the video never passes it, time
+/// runs at scene.time.speed.
 /// @throws UsageError as make_schedule(), if slow motion or the shutter ask for a schedule.
 FrameTime still_time(const Scene& scene, const CollisionLog& log, const Rational& time);
 

@@ -23,7 +23,7 @@ inline Ground ground_of(const View& view) {
 struct PlacedPart {
   FilmPart part;
   std::int64_t first_frame = 0;
-  std::int64_t fade_frames = 0;  ///< of its first frames, which are the last of the part before
+  std::int64_t fade_frames = 0;  ///< first frames, during which the part before fades out
 };
 
 /// Const members are thread-safe.
@@ -31,14 +31,14 @@ class Film {
  public:
   /// @throws SceneError if problems_of() what it is made from is not empty; UsageError if a fade is
   ///         not shorter than its parts, or as FilmPart; SimulationError, DrawError
-  explicit Film(const Script& script, FilmUse use = FilmUse::seen);
+  explicit Film(const Script& script, FilmUse use = FilmUse::pictures);
 
   const View& view() const noexcept { return view_; }
   Ground ground() const noexcept { return ground_of(view_); }
   std::int64_t frame_count() const noexcept { return frame_count_; }
   /// @param number  from 0 to frame_count() - 1.
   DrawList frame(std::int64_t number) const;
-  /// In the order of the film; at least one. Frame k is seen from k / frame_rate seconds on.
+  /// In the order of the film; at least one. Frame k is shown from k / frame_rate seconds on.
   std::span<const PlacedPart> parts() const noexcept { return parts_; }
 
  private:

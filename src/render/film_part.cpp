@@ -31,7 +31,7 @@ std::size_t longest(const std::vector<std::unique_ptr<CollisionLog>>& logs) {
 
 Run::Run(Scene scene, std::unique_ptr<CollisionLog> log, FilmUse use)
     : scene_(std::move(scene)), log_(std::move(log)) {
-  if (use == FilmUse::seen) composition_.emplace(scene_, *log_, read_logo(scene_));
+  if (use == FilmUse::pictures) composition_.emplace(scene_, *log_, read_logo(scene_));
 }
 
 DrawList Run::picture(const FrameTime& shown) const {
@@ -50,7 +50,7 @@ FilmPart::FilmPart(const Runs& runs, const View& film, FilmUse use) {
 }
 
 FilmPart::FilmPart(const Card& card, const View& film, FilmUse use) {
-  if (use == FilmUse::seen) card_ = compose_card(card.lines, film);
+  if (use == FilmUse::pictures) card_ = compose_card(card.lines, film);
   const Integer frames = ceil(card.length_s * film.frame_rate);
   if (frames > kMaxFrames) {
     throw UsageError(fmt::format("seconds = {}: {} frames are more than {}", to_text(card.length_s),

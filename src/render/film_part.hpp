@@ -17,9 +17,9 @@
 
 namespace piblocks {
 
-/// What is asked of a film: of one that is only heard nothing is laid out, and no frame may be
-/// asked for.
-enum class FilmUse : std::uint8_t { seen, heard };
+/// What a film is made for. For its sound alone nothing is laid out, and frame() must not be
+/// called.
+enum class FilmUse : std::uint8_t { pictures, audio_only };
 
 /// A scene, its collisions, and what its frames are composed by. Const members are thread-safe.
 class Run {
@@ -40,7 +40,7 @@ class Run {
  private:
   Scene scene_;
   std::unique_ptr<CollisionLog> log_;
-  std::optional<Composition> composition_;  ///< of a run that is seen
+  std::optional<Composition> composition_;  ///< unless FilmUse::audio_only
 };
 
 /// Const members are thread-safe.

@@ -1,7 +1,7 @@
 // What a video's page knows of the run: which instant and which count each frame shows, and when
 // collisions happen.
-// In: a scene, its collision log, its schedule. Out: one JSON object, every number of it exact
-// where it is one to be read.
+// In: a scene, its collision log, its schedule. Out: one JSON object. Counts and times that a
+// viewer reads are exact; what only positions the video is rounded to doubles.
 #pragma once
 
 #include <piblocks/collision_log.hpp>
@@ -14,8 +14,8 @@
 
 namespace piblocks {
 
-/// Of so many collisions at the beginning, and so many at the end, the page has the times; of all,
-/// if there are no more than both.
+/// The page has the times of so many collisions at the beginning, and of as many at the end. It has
+/// all of them if there are no more than twice as many.
 inline constexpr int kListedAtEachEnd = 2000;
 
 /// Consecutive collisions.
@@ -36,7 +36,7 @@ class PageFacts {
   void check_range() const;
   /// Collisions that the frames count, at most.
   const Integer& most() const noexcept { return most_; }
-  /// Frames until the video runs back; all, if it does not.
+  /// Number of frames until a loop turns back; of all frames without a loop.
   std::int64_t forth() const noexcept { return forth_; }
   /// Writes the object in pieces. Times are given in units of 10^-scale; of sequences, what each
   /// number adds to the one before, "0~7" being seven times 0. No "<" is in it.

@@ -21,7 +21,7 @@ namespace {
 /// Everything that decides what the frames show, how they sound, and how they are encoded.
 struct Plan {
   explicit Plan(const RenderJob& job)
-      : film(job.script, is_sound_alone(job.output) ? FilmUse::heard : FilmUse::seen),
+      : film(job.script, is_sound_alone(job.output) ? FilmUse::audio_only : FilmUse::pictures),
         sound(soundtrack_of(job, film)),
         output(set_up_output(job.output,
                              {film.view().width_px, film.view().height_px, film.view().frame_rate,

@@ -8,7 +8,7 @@
 
 namespace piblocks {
 
-/// What render_still() draws: the first frame of the film that shows the instant, or where none
+/// What render_still() draws: the first frame of the film that shows the instant or, if no frame
 /// does, what still_time() says.
 /// @throws SceneError if problems_of() the script is not empty; UsageError, DrawError, MediaError,
 ///         SimulationError

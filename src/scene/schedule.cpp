@@ -11,17 +11,17 @@ namespace piblocks {
 namespace {
 
 /// A freeze at its time, in whole frames.
-struct Stop {
+struct TimedFreeze {
   Rational time;
   Rational length_s;
 };
 
-/// Even motion from one time to another, or a stop, before it is known how fast the motion is.
+/// Even motion from one time to another, or a freeze, before its speed is known.
 struct Move {
   Rational from;
-  Rational to;  ///< as `from`, of a stop
+  Rational to;  ///< as `from`, of a freeze
   Rational slower = 1;
-  Rational stop_s = 0;
+  Rational frozen_s = 0;
 };
 
 /// Lengths of video at which the picture stands still before and after the motion.
@@ -37,44 +37,44 @@ Rational whole_frames(const Rational& length_s, const Rational& frame_rate) {
 /// Whether the first frame at or past the end is shown.
 bool shows_end(const Scene& scene) { return !scene.time.to.is_time(); }
 
-std::vector<Stop> stops_of(const Scene& scene, const CollisionLog& log, const Span& span) {
-  std::vector<Stop> stops;
+std::vector<TimedFreeze> freezes_of(const Scene& scene, const CollisionLog& log, const Span& span) {
+  std::vector<TimedFreeze> freezes;
   for (const Freeze& freeze : scene.pacing.freezes) {
     const Rational time = time_of(freeze.at, "time.freeze", log);
     if (time < span.from || time > span.to) {
       throw UsageError(fmt::format("time.freeze: {} is outside of what is shown, {} to {}",
                                    exact_text(freeze.at), to_text(span.from), to_text(span.to)));
     }
-    stops.push_back({time, whole_frames(freeze.length_s, scene.view.frame_rate)});
+    freezes.push_back({time, whole_frames(freeze.length_s, scene.view.frame_rate)});
   }
-  std::ranges::stable_sort(stops, {}, &Stop::time);
-  return stops;
+  std::ranges::stable_sort(freezes, {}, &TimedFreeze::time);
+  return freezes;
 }
 
 /// @param windows  in order, apart, inside the span
-/// @param stops    in order, inside the span
+/// @param freezes    in order, inside the span
 std::vector<Move> moves_of(const Span& span, const std::vector<SlowWindow>& windows,
-                           const std::vector<Stop>& stops) {
+                           const std::vector<TimedFreeze>& freezes) {
   std::vector<Move> moves;
   Rational now = span.from;
-  auto stop = stops.begin();
+  auto freeze = freezes.begin();
   const auto move_to = [&](const Rational& time, const Rational& slower) {
     if (time > now) moves.push_back({now, time, slower});
     now = std::max(now, time);
   };
-  const auto pass_stops = [&](const Rational& time, const Rational& slower) {
-    for (; stop != stops.end() && stop->time < time; ++stop) {
-      move_to(stop->time, slower);
-      moves.push_back({now, now, slower, stop->length_s});
+  const auto pass_freezes = [&](const Rational& time, const Rational& slower) {
+    for (; freeze != freezes.end() && freeze->time < time; ++freeze) {
+      move_to(freeze->time, slower);
+      moves.push_back({now, now, slower, freeze->length_s});
     }
     move_to(time, slower);
   };
   for (const SlowWindow& window : windows) {
-    pass_stops(window.from, 1);
-    pass_stops(window.to, window.factor);
+    pass_freezes(window.from, 1);
+    pass_freezes(window.to, window.factor);
   }
-  pass_stops(span.to, 1);
-  for (; stop != stops.end(); ++stop) moves.push_back({now, now, 1, stop->length_s});
+  pass_freezes(span.to, 1);
+  for (; freeze != freezes.end(); ++freeze) moves.push_back({now, now, 1, freeze->length_s});
   return moves;
 }
 
@@ -89,7 +89,7 @@ Rational speed_for_duration(const Scene& scene, const std::vector<Move>& moves,
   Rational still_s = holds.start_s + holds.end_s;
   for (const Move& move : moves) {
     length += (move.to - move.from) * move.slower;
-    still_s += move.stop_s;
+    still_s += move.frozen_s;
   }
   const Rational moving_s = Rational(frames) / scene.view.frame_rate - still_s;
   if (moving_s > 0) return length / moving_s;
@@ -118,9 +118,9 @@ struct StretchList {
   }
 };
 
-/// The same again from the last frame to the first, neither of which is repeated.
+/// The stretches, and the same backwards. The first and the last frame are shown once only.
 std::vector<Stretch> played_back(std::vector<Stretch> stretches, const Rational& last_frame_s) {
-  // What begins after the last frame is shown by none.
+  // No frame shows a stretch that begins after the last frame.
   while (stretches.back().video_s > last_frame_s) stretches.pop_back();
   StretchList back{{}, last_frame_s};
   Rational end_s = last_frame_s;
@@ -129,7 +129,7 @@ std::vector<Stretch> played_back(std::vector<Stretch> stretches, const Rational&
     back.add(stretch->time + stretch->speed * length_s, -stretch->speed, stretch->slower, length_s);
     end_s = stretch->video_s;
   }
-  // What begins at the last frame begins with the way back.
+  // A stretch that begins at the last frame would have no length: the way back begins there.
   if (stretches.back().video_s == last_frame_s) stretches.pop_back();
   stretches.insert(stretches.end(), back.stretches.begin(), back.stretches.end());
   return stretches;
@@ -161,16 +161,16 @@ Schedule make_schedule(const Scene& scene, const CollisionLog& log) {
   const Holds holds{whole_frames(scene.pacing.hold_start_s, rate),
                     whole_frames(scene.pacing.hold_end_s, rate)};
   const std::vector<Move> moves =
-      moves_of(span, slow_windows(scene, log, span), stops_of(scene, log, span));
+      moves_of(span, slow_windows(scene, log, span), freezes_of(scene, log, span));
   const Rational speed =
       scene.pacing.duration_s ? speed_for_duration(scene, moves, holds) : scene.time.speed;
 
   StretchList video;
   video.add(span.from, 0, 1, holds.start_s);
   for (const Move& move : moves) {
-    const bool stops = move.stop_s > 0;
-    video.add(move.from, stops ? Rational(0) : Rational(speed / move.slower), move.slower,
-              stops ? move.stop_s : Rational((move.to - move.from) * move.slower / speed));
+    const bool is_frozen = move.frozen_s > 0;
+    video.add(move.from, is_frozen ? Rational(0) : Rational(speed / move.slower), move.slower,
+              is_frozen ? move.frozen_s : Rational((move.to - move.from) * move.slower / speed));
   }
   Integer frame_count = ceil(video.end_s * rate);
   Rational end = span.to;
@@ -205,7 +205,7 @@ FrameTime still_time(const Scene& scene, const CollisionLog& log, const Rational
   if (is_even && scene.view.shutter == 0) return {time};
   if (has_span(scene, log)) {
     const Schedule schedule = make_schedule(scene, log);
-    if (const auto video_s = schedule.moment_of(time))
+    if (const auto video_s = schedule.first_shown_s(time))
       return schedule.at(*video_s, open_s(scene.view));
   }
   FrameTime alone{time};
@@ -228,7 +228,7 @@ FrameTime Schedule::at(const Rational& video_s, const Rational& open_s) const {
   return shown;
 }
 
-std::optional<Rational> Schedule::moment_of(const Rational& time) const {
+std::optional<Rational> Schedule::first_shown_s(const Rational& time) const {
   std::optional<Rational> between;  // two frames
   const Rational length_s = Rational(frame_count_) / frame_rate_;
   for (std::size_t i = 0; i < stretches_.size(); ++i) {

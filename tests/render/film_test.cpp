@@ -99,7 +99,7 @@ TEST_F(FilmTest, PartsFollowEachOther) {
 TEST_F(FilmTest, OfASceneIsTheScene) {
   const Script script = read("digits = 2");
   const Film made(script);
-  const FilmPart part(std::get<Scene>(script), FilmUse::seen);
+  const FilmPart part(std::get<Scene>(script), FilmUse::pictures);
   ASSERT_EQ(made.parts().size(), 1U);
   EXPECT_EQ(made.frame_count(), part.frame_count());
   EXPECT_EQ(made.frame(17), part.frame(17));

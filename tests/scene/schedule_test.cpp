@@ -329,12 +329,12 @@ TEST(Schedule, KnowsWhenAnInstantIsFirstShown) {
                                          {"time.freeze", "4:1"},
                                          {"time.hold-start", "2"},
                                          {"time.loop", "true"}});
-  EXPECT_EQ(schedule.moment_of(1), 0);
-  EXPECT_EQ(schedule.moment_of(Rational(3, 2)), Rational(5, 2));
-  EXPECT_EQ(schedule.moment_of(Rational(5, 2)), 4);
-  EXPECT_EQ(schedule.moment_of(4), 6);
-  EXPECT_EQ(schedule.moment_of(Rational(9, 2)), Rational(15, 2));
-  EXPECT_EQ(schedule.moment_of(Rational(1, 2)), std::nullopt);
+  EXPECT_EQ(schedule.first_shown_s(1), 0);
+  EXPECT_EQ(schedule.first_shown_s(Rational(3, 2)), Rational(5, 2));
+  EXPECT_EQ(schedule.first_shown_s(Rational(5, 2)), 4);
+  EXPECT_EQ(schedule.first_shown_s(4), 6);
+  EXPECT_EQ(schedule.first_shown_s(Rational(9, 2)), Rational(15, 2));
+  EXPECT_EQ(schedule.first_shown_s(Rational(1, 2)), std::nullopt);
 }
 
 TEST(Schedule, RefusesWhatCannotBe) {
