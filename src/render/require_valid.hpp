@@ -1,4 +1,4 @@
-// A scene that a program fills in by hand, instead of a SceneBuilder, is checked before it is used.
+// A scene that a program fills in by hand, instead of a ScriptBuilder, is checked before it is used.
 // In: a scene. Out: nothing, or an exception.
 #pragma once
 

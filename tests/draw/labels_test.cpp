@@ -110,13 +110,13 @@ TEST(Labels, FiguresOfVelocitiesMeetNeitherEachOtherNorTheWall) {
 TEST(Labels, FiguresOfVelocitiesAreWholeAndOfBlocksInTheFrame) {
   const Font font;
   const auto expect_whole = [&](const Range& view, const char* red_position, std::size_t count) {
-    SceneBuilder builder;
+    ScriptBuilder builder;
     builder.set("test", "show.overlays", "velocities");
     builder.set("test", "view.size", "640x360");
     builder.set("test", "blue.velocity", "-7654321");
     builder.set("test", "red.velocity", "-1234567");
     builder.set("test", "red.position", red_position);
-    Scene scene = builder.build();
+    Scene scene = builder.build_scene();
     scene.view.x = view;
     const auto log = make_collision_log(scene.system);
     const std::vector<TextItem> figures =
