@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 #include "media/av.hpp"
 #include "media/cut_off.hpp"
@@ -106,9 +107,10 @@ std::string turn_of(const std::int32_t* matrix) {
 
 class VideoReader final : public FrameReader {
  public:
-  explicit VideoReader(const std::string& path)
+  VideoReader(const std::string& path, std::stop_token stop)
       : path_(path),
-        input_(open_av_input(path)),
+        stop_(std::move(stop)),
+        input_(open_av_input(path, &stop_)),
         read_to_(avio_tell(input_->pb)),
         stream_(find_video(*input_, path)),
         decoder_(open_decoder(*input_->streams[stream_], path)),
@@ -131,6 +133,7 @@ class VideoReader final : public FrameReader {
   void check_end() const;
 
   std::string path_;
+  std::stop_token stop_;  // libavformat has its address
   AvInputPtr input_;
   std::int64_t read_to_;  // where the last packet ended, or the header
   int stream_;
@@ -208,8 +211,9 @@ void VideoReader::check_end() const {
 
 }  // namespace
 
-std::unique_ptr<FrameReader> decode_video_file(const std::string& path) {
-  return std::make_unique<VideoReader>(path);
+std::unique_ptr<FrameReader> decode_video_file(const std::string& path,
+                                               const std::stop_token& stop) {
+  return std::make_unique<VideoReader>(path, stop);
 }
 
 }  // namespace piblocks
