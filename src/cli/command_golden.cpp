@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <system_error>
 #include <thread>
 
 #include "cli/commands.hpp"
@@ -12,6 +13,7 @@
 #include "cli/options.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
+#include "core/ending.hpp"
 #include "core/file_set.hpp"
 #include "core/overwrite_check.hpp"
 #include "core/unfinished.hpp"
@@ -73,9 +75,10 @@ void claim_inputs(OverwriteCheck& check, const GoldenOptions& options, const Wor
   check.writes_standard_output();
 }
 
-/// Where the differences from a reference go.
-fs::path diff_folder_of(const std::string& diff, const std::string& file) {
-  return fs::path(diff) / fs::path(file).stem();
+/// Where the differences from a reference go. Those of hashes are no pictures.
+std::optional<fs::path> diff_folder_of(const Work& work, const std::string& file) {
+  if (!work.diff || !has_ending(file, ".png")) return std::nullopt;
+  return fs::path(*work.diff) / fs::path(file).stem();
 }
 
 void check_diff(const GoldenOptions& options, const Work& work) {
@@ -85,7 +88,7 @@ void check_diff(const GoldenOptions& options, const Work& work) {
   if (work.diff) claim_diff_folder(check, *work.diff);
   for (const References& references : work.all) {
     for (const std::string& file : references.files()) {
-      if (work.diff) claim_diff_folder(check, diff_folder_of(*work.diff, file));
+      if (const auto folder = diff_folder_of(work, file)) claim_diff_folder(check, *folder);
     }
   }
   check.check();
@@ -104,7 +107,8 @@ void check_references(const GoldenOptions& options, const Work& work) {
 void check_pictures(const References& references, const fs::path& folder) {
   if (references.exist()) return;
   for (const std::string& file : references.files()) {
-    if (!fs::exists(fs::symlink_status(folder / file))) continue;
+    std::error_code none;
+    if (!fs::exists(fs::symlink_status(folder / file, none))) continue;
     throw UsageError(fmt::format(
         "golden: cannot record '{}': '{}' is there, and belongs to no references; move it away",
         references.name(), (folder / file).string()));
@@ -144,17 +148,29 @@ void conclude(const References& references, const char* verdict, TextOutput& out
   out.flush();
 }
 
+/// @throws UsageError
+fs::path temporary_folder() {
+  std::error_code error;
+  fs::path folder = fs::temp_directory_path(error);
+  if (!error) return folder;
+  throw UsageError(
+      fmt::format("golden: cannot use the folder for temporary files, $TMPDIR or /tmp: {}; set "
+                  "TMPDIR to one that is there",
+                  error.message()));
+}
+
 bool check(const References& references, Work& work, const std::stop_token& stop) {
-  const Unfinished scratch(fs::temp_directory_path() / "piblocks-golden", Unfinished::Kind::folder);
+  const Unfinished scratch(temporary_folder() / "piblocks-golden", Unfinished::Kind::folder);
   references.render_into(scratch.path(), processors(), stop);
   bool is_equal = true;
   for (const std::string& file : references.files()) {
-    if (!fs::exists(work.folder / file)) {
+    if (!references.has(file)) {
       throw ExitCode(kMissingReference,
                      fmt::format("golden: there is no reference '{}'; see 'piblocks golden record'",
                                  (work.folder / file).string()));
     }
-    const auto report = work.diff ? diff_folder(diff_folder_of(*work.diff, file)) : nullptr;
+    const auto folder = diff_folder_of(work, file);
+    const auto report = folder ? diff_folder(*folder) : nullptr;
     is_equal &= compare_file(work.folder / file, scratch.path() / file, report.get(), work.out);
   }
   note_fingerprint(references, work.out);
@@ -218,7 +234,7 @@ void approve(const References& references, Work& work, const std::stop_token& st
   NewReferences found(references, work.folder, stop);
   bool is_equal = true;
   for (const std::string& file : references.files()) {
-    const bool is_there = fs::exists(work.folder / file);
+    const bool is_there = references.has(file);
     if (!is_there) work.out.format_line("{}: new", file);
     is_equal &= is_there && compare_file(work.folder / file, found.path(file), nullptr, work.out);
   }

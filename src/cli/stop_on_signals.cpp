@@ -8,6 +8,8 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
+#include <filesystem>
 #include <string_view>
 #include <system_error>
 
@@ -57,6 +59,18 @@ Descriptor opened(int descriptor, const char* what) {
   return Descriptor(descriptor);
 }
 
+/// In all threads but this one.
+void break_off_calls() {
+  const pid_t process = ::getpid();
+  const pid_t self = ::gettid();
+  std::error_code ended;  // a thread may end at any time
+  std::filesystem::directory_iterator task("/proc/self/task", ended);
+  for (; !ended && task != std::filesystem::directory_iterator(); task.increment(ended)) {
+    const int thread = std::atoi(task->path().filename().c_str());
+    if (thread != self) ::tgkill(process, thread, kBreakOff);
+  }
+}
+
 }  // namespace
 
 void end_at_once_on_signals() {
@@ -82,8 +96,8 @@ StopOnSignals::~StopOnSignals() {
   waiter_.join();  // the signals stay blocked: what is done is done
 }
 
-/// Once a stop is requested, the worker is not left waiting for input: it may come to a call that
-/// waits only after it was told to break off, hence again and again.
+/// Once a stop is requested, no thread is left waiting for input: it may come to a call that waits
+/// only after it was told to break off, hence again and again.
 void StopOnSignals::wait_for_signals() {
   std::array<pollfd, 2> events{{{pending_.get(), POLLIN, 0}, {end_.get(), POLLIN, 0}}};
   while (true) {
@@ -96,7 +110,7 @@ void StopOnSignals::wait_for_signals() {
       is_stop_requested = true;
       if (!stop_.request_stop()) _exit(kFailed);
     }
-    if (stop_.stop_requested()) ::pthread_kill(worker_, kBreakOff);
+    if (stop_.stop_requested()) break_off_calls();
   }
 }
 

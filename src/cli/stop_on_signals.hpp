@@ -35,7 +35,6 @@ class StopOnSignals {
   void wait_for_signals();
 
   sigset_t signals_{};
-  pthread_t worker_ = ::pthread_self();
   Descriptor pending_;  // readable when one of the signals has come
   Descriptor end_;      // readable when the work is done
   std::stop_source stop_;

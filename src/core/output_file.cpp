@@ -67,6 +67,7 @@ fs::path follow_links(const fs::path& path) {
 std::string problem_of_replacing(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
+  if (error == std::errc::filename_too_long) return error.message();
   if (!fs::exists(status)) return {};
   if (fs::is_directory(status)) return reason(EISDIR);
   if (!fs::is_regular_file(status)) return "not a file";
@@ -87,11 +88,28 @@ void take_permissions(int descriptor, const fs::path& replaced) {
   if (!has_them) fail_io("keep the permissions of", replaced, error);
 }
 
+namespace {
+
+/// A link in /proc/self/fd leads to a file that may have no name any more; what the link says then
+/// is none.
+fs::path followed(const fs::path& path) {
+  fs::path target = follow_links(path);
+  std::error_code error;
+  if (fs::exists(path, error) && !fs::equivalent(path, target, error)) {
+    fail_open(path, reason(ENOENT));
+  }
+  return target;
+}
+
+}  // namespace
+
 TemporaryFile::TemporaryFile(fs::path final_path) : final_path_(std::move(final_path)) {
   if (final_path_.empty()) throw UsageError("output: the name is empty");
-  final_path_ = follow_links(final_path_);
+  const fs::path name = final_path_.filename();
+  if (name.empty() || name == "." || name == "..") fail_open(final_path_, reason(EISDIR));
   const std::string problem = problem_of_replacing(final_path_);
   if (!problem.empty()) fail_open(final_path_, problem);
+  final_path_ = followed(final_path_);
   folders_.emplace(final_path_.parent_path());
   file_.emplace(final_path_, Unfinished::Kind::file);
   take_permissions(file_->descriptor(), final_path_);

@@ -36,26 +36,31 @@ std::optional<OverwriteCheck::FileId> OverwriteCheck::id_of(const fs::path& path
   return FileId(status.st_dev, status.st_ino);
 }
 
+std::optional<OverwriteCheck::Place> OverwriteCheck::place_of(const fs::path& folder) {
+  fs::path rest;
+  for (fs::path at = folder;; at = at.parent_path()) {
+    if (const auto id = id_of(at.empty() ? "." : at, S_IFDIR)) {
+      return Place(*id, rest.lexically_normal());
+    }
+    if (at.empty() || at == at.parent_path()) return std::nullopt;
+    if (at.has_filename()) rest = rest.empty() ? at.filename() : at.filename() / rest;
+  }
+}
+
 OverwriteCheck::Claim OverwriteCheck::file_claim(const std::string& what, const fs::path& file) {
   Claim claim{what, file.string()};
   if (const auto id = id_of(file, S_IFREG)) claim.files.push_back(*id);
   const fs::path target = target_of(file);
-  fs::path rest = target.filename();
-  for (fs::path at = target.parent_path();; at = at.parent_path()) {
-    if (const auto id = id_of(at.empty() ? "." : at, S_IFDIR)) {
-      claim.place.emplace(*id, rest.lexically_normal().string());
-      return claim;
-    }
-    if (at.empty() || at == at.parent_path()) return claim;
-    rest = at.filename() / rest;
-  }
+  claim.folder = place_of(target.parent_path());
+  claim.name = target.filename();
+  return claim;
 }
 
 OverwriteCheck::Claim OverwriteCheck::folder_claim(const std::string& what, const fs::path& folder,
                                                    Names names) {
   const fs::path path = folder.empty() ? "." : folder;
   Claim claim{what, path.string()};
-  claim.folder = id_of(path, S_IFDIR);
+  claim.folder = place_of(path);
   std::error_code error;
   for (fs::directory_iterator at(path, error), end; !error && at != end; at.increment(error)) {
     if (names && !names(at->path().filename())) continue;
@@ -94,18 +99,15 @@ void OverwriteCheck::writes_standard_output() {
   outputs_.push_back({"standard output", "", {FileId(status.st_dev, status.st_ino)}});
 }
 
-bool OverwriteCheck::is_within(const Claim& file, const Claim& folder) {
-  if (!file.place || !folder.folder || file.place->first != *folder.folder) return false;
-  const std::string& name = file.place->second;
-  return name.find('/') == std::string::npos && (!folder.names || folder.names(name));
-}
-
 bool OverwriteCheck::meet(const Claim& one, const Claim& other) {
   std::vector<FileId> both;
   std::ranges::set_intersection(one.files, other.files, std::back_inserter(both));
-  if (!both.empty() || is_within(one, other) || is_within(other, one)) return true;
-  if (one.folder && one.folder == other.folder) return !one.names || !other.names;
-  return one.place && one.place == other.place;
+  if (!both.empty()) return true;
+  if (!one.folder || one.folder != other.folder) return false;
+  if (one.name && other.name) return one.name == other.name;
+  if (one.name) return !other.names || other.names(*one.name);
+  if (other.name) return !one.names || one.names(*other.name);
+  return !one.names || !other.names;
 }
 
 void OverwriteCheck::check() const {
@@ -113,9 +115,9 @@ void OverwriteCheck::check() const {
   for (auto output = outputs_.begin(); output != outputs_.end(); ++output) {
     for (const Claim& input : inputs_) {
       if (!meet(*output, input)) continue;
-      problems.push_back(fmt::format(
-          "{}: would write {} {}; choose another name", quoted(output->what, output->path),
-          input.folder ? "into" : "over", quoted(input.what, input.path)));
+      problems.push_back(fmt::format("{}: would write {} {}; choose another name",
+                                     quoted(output->what, output->path),
+                                     input.name ? "over" : "into", quoted(input.what, input.path)));
     }
     for (auto other = outputs_.begin(); other != output; ++other) {
       if (!meet(*output, *other)) continue;

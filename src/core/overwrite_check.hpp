@@ -42,23 +42,24 @@ class OverwriteCheck {
 
  private:
   using FileId = std::pair<dev_t, ino_t>;
+  /// A folder: the nearest one that exists, and the rest of the path.
+  using Place = std::pair<FileId, std::string>;
 
-  /// Files, or a folder with names in it.
+  /// A file, or a folder with names in it.
   struct Claim {
     std::string what;
     std::string path;
-    std::vector<FileId> files = {};  ///< those that exist, sorted
-    /// The nearest folder that exists, and the rest of the path.
-    std::optional<std::pair<FileId, std::string>> place = {};
-    std::optional<FileId> folder = {};  ///< whose names are claimed
-    Names names = {};                   ///< all if empty
+    std::vector<FileId> files = {};        ///< those that exist, sorted
+    std::optional<Place> folder = {};      ///< in which the file is, or whose names are claimed
+    std::optional<std::string> name = {};  ///< of the file
+    Names names = {};                      ///< in the folder; all if empty
   };
 
   static std::optional<FileId> id_of(const std::filesystem::path& path, mode_t type);
+  static std::optional<Place> place_of(const std::filesystem::path& folder);
   static Claim file_claim(const std::string& what, const std::filesystem::path& file);
   static Claim folder_claim(const std::string& what, const std::filesystem::path& folder,
                             Names names);
-  static bool is_within(const Claim& file, const Claim& folder);
   static bool meet(const Claim& one, const Claim& other);
 
   std::vector<Claim> inputs_;

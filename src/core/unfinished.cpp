@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <climits>
 #include <cstdint>
 #include <new>
 #include <string>
@@ -60,6 +61,12 @@ std::string letters_of(std::uint64_t bits, std::size_t count) {
   return letters;
 }
 
+/// What the temporary name begins with: so much of the name as leaves room for the rest.
+std::string_view start_of(const std::string& final_name) {
+  constexpr std::size_t kRest = kMark.size() + kRandom_letters + kCheck_letters;
+  return std::string_view(final_name).substr(0, NAME_MAX - kRest);
+}
+
 /// The part of the temporary name behind the random letters.
 std::string check_letters(const std::string& final_name, std::string_view random) {
   const std::uint64_t hash = hash_of(final_name + '/' + std::string(random));
@@ -70,17 +77,18 @@ std::string temporary_name(const std::string& final_name) {
   std::uint64_t bits = 0;
   if (::getrandom(&bits, sizeof bits, 0) != sizeof bits) throw IoError("output: no random numbers");
   const std::string random = letters_of(bits, kRandom_letters);
-  return fmt::format("{}{}{}{}", final_name, kMark, random, check_letters(final_name, random));
+  return fmt::format("{}{}{}{}", start_of(final_name), kMark, random,
+                     check_letters(final_name, random));
 }
 
 bool is_temporary_name(std::string_view name, const std::string& final_name) {
-  const std::size_t start = final_name.size() + kMark.size();
-  if (name.size() != start + kRandom_letters + kCheck_letters) return false;
-  if (!name.starts_with(final_name) || !name.substr(final_name.size()).starts_with(kMark)) {
-    return false;
-  }
-  const std::string_view random = name.substr(start, kRandom_letters);
-  return name.substr(start + kRandom_letters) == check_letters(final_name, random);
+  const std::string_view start = start_of(final_name);
+  if (!name.starts_with(start)) return false;
+  name.remove_prefix(start.size());
+  if (name.size() != kMark.size() + kRandom_letters + kCheck_letters) return false;
+  if (!name.starts_with(kMark)) return false;
+  const std::string_view random = name.substr(kMark.size(), kRandom_letters);
+  return name.substr(kMark.size() + kRandom_letters) == check_letters(final_name, random);
 }
 
 bool take_lock(int descriptor) { return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0; }

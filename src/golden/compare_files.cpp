@@ -67,12 +67,15 @@ std::string count_mismatch(std::int64_t reference, std::int64_t actual) {
 
 class PictureComparison {
  public:
-  explicit PictureComparison(const ComparisonJob& job)
-      : job_(job), reference_(open_frames(job.reference)), actual_(open_frames(job.actual)) {}
+  PictureComparison(const ComparisonJob& job, std::stop_token stop)
+      : job_(job),
+        stop_(std::move(stop)),
+        reference_(open_frames(job.reference, stop_)),
+        actual_(open_frames(job.actual, stop_)) {}
 
-  ComparisonResult run(const OnFrame& on_frame, const std::stop_token& stop) {
+  ComparisonResult run(const OnFrame& on_frame) {
     while (true) {
-      if (stop.stop_requested()) throw Interrupted("compare: interrupted");
+      if (stop_.stop_requested()) throw Interrupted("compare: interrupted");
       // Reading is nearly all of the work.
       auto reading = std::async(std::launch::async, [this] { return reference_->next(); });
       const bool has_actual = actual_->next();
@@ -143,6 +146,7 @@ class PictureComparison {
   }
 
   const ComparisonJob& job_;
+  std::stop_token stop_;
   std::unique_ptr<FrameReader> reference_;
   std::unique_ptr<FrameReader> actual_;
   ComparisonResult result_;
@@ -189,7 +193,7 @@ ComparisonResult compare_files(const ComparisonJob& job, const OnFrame& on_frame
                                const std::stop_token& stop) {
   const bool has_hashes = is_framehash(job.reference) || is_framehash(job.actual);
   ComparisonResult result =
-      has_hashes ? compare_hashes(job, on_frame) : PictureComparison(job).run(on_frame, stop);
+      has_hashes ? compare_hashes(job, on_frame) : PictureComparison(job, stop).run(on_frame);
   if (result.frames == 0 && result.mismatch.empty()) {
     throw IoError(fmt::format("compare: there is no frame in '{}' and none in '{}'", job.reference,
                               job.actual));

@@ -17,6 +17,18 @@ namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
+/// Also if the system does not say, as in a folder that may not be searched: reading it reports
+/// that.
+bool may_exist(const fs::path& path) {
+  std::error_code unknown;
+  return fs::status(path, unknown).type() != fs::file_type::not_found;
+}
+
+bool is_folder(const fs::path& path) {
+  std::error_code unknown;
+  return fs::is_directory(path, unknown);
+}
+
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// The number that `text` begins with, without its leading zeros; removed from `text`.
@@ -73,7 +85,7 @@ fs::path numbered(const FramePattern& pattern, std::int64_t number) {
 /// FFmpeg counts from 0 or from 1.
 std::optional<std::int64_t> first_number(const FramePattern& pattern) {
   for (const std::int64_t number : {0, 1}) {
-    if (fs::exists(numbered(pattern, number))) return number;
+    if (may_exist(numbered(pattern, number))) return number;
   }
   return std::nullopt;
 }
@@ -109,7 +121,12 @@ std::vector<fs::path> png_files_of(const std::string& name) {
   std::vector<fs::path> paths;
   for (std::int64_t number = first_number(pattern).value_or(0);; ++number) {
     fs::path path = numbered(pattern, number);
-    if (!fs::exists(path)) {
+    std::error_code error;
+    const bool is_there = fs::exists(path, error);
+    if (error) {
+      throw IoError(fmt::format("compare: cannot read '{}': {}", path.string(), error.message()));
+    }
+    if (!is_there) {
       if (!paths.empty()) check_for_gap(pattern, number);
       break;
     }
@@ -121,30 +138,30 @@ std::vector<fs::path> png_files_of(const std::string& name) {
 
 /// A file may have a percent sign in its name.
 bool is_pattern(const std::string& name) {
-  return has_ending(name, ".png") && name.find('%') != std::string::npos && !fs::exists(name);
+  return has_ending(name, ".png") && name.find('%') != std::string::npos && !may_exist(name);
 }
 
 }  // namespace
 
 bool frames_exist(const std::string& name) {
-  return is_pattern(name) ? first_number(FramePattern(name)).has_value() : fs::exists(name);
+  return is_pattern(name) ? first_number(FramePattern(name)).has_value() : may_exist(name);
 }
 
 void claim_frames(OverwriteCheck& check, const std::string& what, const std::string& name) {
   if (is_pattern(name)) {
     check.reads_some_of(what, FramePattern(name).folder(), names_of_pattern(name));
-  } else if (fs::is_directory(name)) {
+  } else if (is_folder(name)) {
     check.reads_all_of(what, name);
   } else {
     check.reads(what, name);
   }
 }
 
-std::unique_ptr<FrameReader> open_frames(const std::string& name) {
+std::unique_ptr<FrameReader> open_frames(const std::string& name, const std::stop_token& stop) {
   if (is_pattern(name)) return read_png_files(png_files_of(name));
-  if (fs::is_directory(name)) return read_png_files(png_files_in(name));
+  if (is_folder(name)) return read_png_files(png_files_in(name));
   if (has_ending(name, ".png") && !is_animated_png(name)) return read_png_files({name});
-  return read_video(name);
+  return read_video(name, stop);
 }
 
 }  // namespace piblocks

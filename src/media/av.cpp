@@ -21,14 +21,39 @@ bool is_io_failure(int code) {
   return std::ranges::any_of(kErrors, [&](int error) { return code == AVERROR(error); });
 }
 
+/// libavformat asks this before it tries a call again that a signal broke off.
+int is_stop_requested(void* stop) {
+  return static_cast<const std::stop_token*>(stop)->stop_requested() ? 1 : 0;
+}
+
+/// What such a file names is in nobody's command line, and could be written over.
+bool is_list_of_files(const AVInputFormat& format) {
+  constexpr std::array<std::string_view, 5> kLists = {"concat", "dash", "hls", "imf", "sdp"};
+  return std::ranges::find(kLists, format.name) != kLists.end();
+}
+
 }  // namespace
 
-AvInputPtr open_av_input(const std::string& path) {
-  AVFormatContext* allocated = nullptr;
+AvInputPtr open_av_input(const std::string& path, const std::stop_token* stop) {
+  AVFormatContext* allocated = avformat_alloc_context();
+  if (allocated == nullptr) throw std::bad_alloc();
+  if (stop != nullptr) {
+    allocated->interrupt_callback = {is_stop_requested, const_cast<std::stop_token*>(stop)};
+  }
   // The protocol's name keeps libav from taking a colon in the path for one.
   const std::string url = "file:" + path;
-  check_av_read(avformat_open_input(&allocated, url.c_str(), nullptr, nullptr), "read", path);
-  return AvInputPtr(allocated);
+  // A picture may have a percent sign in its name, which libav takes for a sequence of others.
+  AVDictionary* options = nullptr;
+  check_av(av_dict_set(&options, "pattern_type", "none", 0), "read", path);
+  const int code = avformat_open_input(&allocated, url.c_str(), nullptr, &options);
+  av_dict_free(&options);  // where it is no picture, the option is still there
+  check_av_read(code, "read", path);
+  AvInputPtr input(allocated);
+  if (is_list_of_files(*input->iformat)) {
+    throw MediaError(fmt::format(
+        "video: cannot read '{}': it is a list of other files; name one of these", path));
+  }
+  return input;
 }
 
 std::string av_error_text(int code) {

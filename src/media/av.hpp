@@ -10,6 +10,7 @@ extern "C" {
 }
 
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,8 +43,9 @@ using AvHashPtr = std::unique_ptr<AVHashContext, AvDeleter<av_hash_freep>>;
 using AvOutputPtr = std::unique_ptr<AVFormatContext, AvOutputDeleter>;
 
 /// Opens a media file for reading.
+/// @param stop  breaks off calls that wait; has to live as long.
 /// @throws IoError, MediaError if it cannot be read.
-AvInputPtr open_av_input(const std::string& path);
+AvInputPtr open_av_input(const std::string& path, const std::stop_token* stop = nullptr);
 
 /// libav's words for an error code.
 std::string av_error_text(int code);

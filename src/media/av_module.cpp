@@ -81,8 +81,8 @@ const AvModule& av_module() {
   return module;
 }
 
-std::unique_ptr<FrameReader> read_video(const std::string& path) {
-  return av_module().decode_video_file(path);
+std::unique_ptr<FrameReader> read_video(const std::string& path, const std::stop_token& stop) {
+  return av_module().decode_video_file(path, stop);
 }
 
 std::string hash_of_bytes(std::span<const std::uint8_t> bytes) {

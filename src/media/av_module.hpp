@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct AvModule {
   std::unique_ptr<Output> (*webm_output)(const OutputRequest& request);
   std::unique_ptr<Output> (*gif_output)(const OutputRequest& request);
   std::unique_ptr<Output> (*framehash_output)(const OutputRequest& request);
-  std::unique_ptr<FrameReader> (*decode_video_file)(const std::string& path);
+  std::unique_ptr<FrameReader> (*decode_video_file)(const std::string& path,
+                                                    const std::stop_token& stop);
   std::string (*compute_hash)(std::span<const std::uint8_t> bytes);
   std::vector<std::string> (*usable_h264_encoders)();
   std::vector<std::string> (*usable_webm_encoders)();

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,6 +59,7 @@ std::unique_ptr<FrameReader> read_png_files(std::vector<std::filesystem::path> p
 
 /// The first video stream of any file that libavformat reads.
 /// @throws IoError, MediaError
-std::unique_ptr<FrameReader> read_video(const std::string& path);
+/// @param stop  breaks off a call that waits, such as for somebody to write to a pipe.
+std::unique_ptr<FrameReader> read_video(const std::string& path, const std::stop_token& stop = {});
 
 }  // namespace piblocks

@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 #include "media/av.hpp"
+#include "media/cut_off.hpp"
 #include "media/video_samples.hpp"
 
 extern "C" {
@@ -16,12 +20,6 @@ extern "C" {
 
 namespace piblocks {
 namespace {
-
-AvInputPtr open_input(const std::string& path) {
-  AvInputPtr input = open_av_input(path);
-  check_av_read(avformat_find_stream_info(input.get(), nullptr), "read", path);
-  return input;
-}
 
 /// libavformat takes the end of a file that was cut off for the end of the video.
 [[noreturn]] void refuse_cut_file(const std::string& path) {
@@ -39,6 +37,26 @@ void check_index(AVFormatContext& input, AVStream& stream, const std::string& pa
   }
 }
 
+bool is_cover(const AVStream& stream) {
+  return (stream.disposition & AV_DISPOSITION_ATTACHED_PIC) != 0;
+}
+
+/// The one that there is: of several, all but one would not be compared, and nobody would be told.
+int find_video(AVFormatContext& input, const std::string& path) {
+  check_av_read(avformat_find_stream_info(&input, nullptr), "read", path);
+  const int best = check_av_read(
+      av_find_best_stream(&input, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0), "find a video in", path);
+  const auto count =
+      std::count_if(input.streams, input.streams + input.nb_streams, [](const AVStream* stream) {
+        return stream->codecpar->codec_type == AVMEDIA_TYPE_VIDEO && !is_cover(*stream);
+      });
+  if (count <= 1) return best;
+  throw MediaError(
+      fmt::format("video: cannot compare '{}': it has {} videos; take one out of it, such as by "
+                  "ffmpeg -map 0:v:0 -c copy",
+                  path, count));
+}
+
 /// libavcodec's own decoders of VP8 and VP9 leave alpha out, which Matroska keeps beside the
 /// pictures.
 const AVCodec* find_decoder(const AVStream& stream) {
@@ -48,6 +66,16 @@ const AVCodec* find_decoder(const AVStream& stream) {
   if (has_alpha && codec == AV_CODEC_ID_VP9) return avcodec_find_decoder_by_name("libvpx-vp9");
   if (has_alpha && codec == AV_CODEC_ID_VP8) return avcodec_find_decoder_by_name("libvpx");
   return avcodec_find_decoder(codec);
+}
+
+/// Several frames at a time, by decoders that survive damage then: in libavcodec 59 that of MPEG-4
+/// Part 2 for one ends the process, by an assertion. Others have slices decoded at a time, if they
+/// can.
+int threads_of(AVCodecID codec) {
+  constexpr std::array kByFrames = {AV_CODEC_ID_H264, AV_CODEC_ID_HEVC, AV_CODEC_ID_VP9,
+                                    AV_CODEC_ID_FFV1, AV_CODEC_ID_PRORES};
+  const bool is_safe = std::ranges::find(kByFrames, codec) != kByFrames.end();
+  return is_safe ? FF_THREAD_FRAME | FF_THREAD_SLICE : FF_THREAD_SLICE;
 }
 
 AvCodecContextPtr open_decoder(const AVStream& stream, const std::string& path) {
@@ -60,6 +88,7 @@ AvCodecContextPtr open_decoder(const AVStream& stream, const std::string& path) 
   check_av_read(avcodec_parameters_to_context(context.get(), stream.codecpar), "decode", path);
   context->max_pixels = kMaxFrame_px;
   context->err_recognition = AV_EF_EXPLODE;
+  context->thread_type = threads_of(codec->id);
   context->thread_count = 0;  // as many as there are processors; the pictures are the same
   check_av_read(avcodec_open2(context.get(), codec, nullptr), "decode", path);
   return context;
@@ -78,16 +107,17 @@ std::string turn_of(const std::int32_t* matrix) {
 
 class VideoReader final : public FrameReader {
  public:
-  explicit VideoReader(const std::string& path)
+  VideoReader(const std::string& path, std::stop_token stop)
       : path_(path),
-        input_(open_input(path)),
-        stream_(
-            check_av_read(av_find_best_stream(input_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0),
-                          "find a video in", path)),
+        stop_(std::move(stop)),
+        input_(open_av_input(path, &stop_)),
+        read_to_(avio_tell(input_->pb)),
+        stream_(find_video(*input_, path)),
         decoder_(open_decoder(*input_->streams[stream_], path)),
         packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")),
         frame_(own_av<AvFramePtr>(av_frame_alloc(), "frame")) {
     check_index(*input_, *input_->streams[stream_], path_);
+    if (is_cut_off(path_)) refuse_cut_file(path_);
   }
 
   bool next() override;
@@ -99,9 +129,13 @@ class VideoReader final : public FrameReader {
 
  private:
   void feed();
+  void check_damage() const;
+  void check_end() const;
 
   std::string path_;
+  std::stop_token stop_;  // libavformat has its address
   AvInputPtr input_;
+  std::int64_t read_to_;  // where the last packet ended, or the header
   int stream_;
   AvCodecContextPtr decoder_;
   AvPacketPtr packet_;
@@ -119,6 +153,7 @@ bool VideoReader::next() {
       continue;
     }
     check_av_read(code, "decode", path_);
+    check_damage();
     check_pixel_format(*frame_, path_);
     ++frames_;
     return true;
@@ -148,6 +183,7 @@ void VideoReader::feed() {
     const int code = av_read_frame(input_.get(), packet_.get());
     if (code == AVERROR_EOF) break;
     check_av_read(code, "read", path_);
+    read_to_ = packet_->pos + packet_->size;
     const bool is_video = packet_->stream_index == stream_;
     if (is_video) {
       if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) refuse_cut_file(path_);
@@ -156,13 +192,28 @@ void VideoReader::feed() {
     av_packet_unref(packet_.get());
     if (is_video) return;
   }
+  check_end();
   check_av_read(avcodec_send_packet(decoder_.get(), nullptr), "decode", path_);
+}
+
+/// Some decoders, that of ProRes for one, hand out a frame of which they could read a part. The
+/// rest of it is what was in memory.
+void VideoReader::check_damage() const {
+  if (frame_->decode_error_flags == 0 && (frame_->flags & AV_FRAME_FLAG_CORRUPT) == 0) return;
+  throw MediaError(fmt::format("video: cannot decode '{}': frame {} is damaged", path_, frames_));
+}
+
+/// Of YUV4MPEG2, which has no index, libavformat leaves half a frame out.
+void VideoReader::check_end() const {
+  const bool is_y4m = std::string_view(input_->iformat->name) == "yuv4mpegpipe";
+  if (is_y4m && avio_tell(input_->pb) != read_to_) refuse_cut_file(path_);
 }
 
 }  // namespace
 
-std::unique_ptr<FrameReader> decode_video_file(const std::string& path) {
-  return std::make_unique<VideoReader>(path);
+std::unique_ptr<FrameReader> decode_video_file(const std::string& path,
+                                               const std::stop_token& stop) {
+  return std::make_unique<VideoReader>(path, stop);
 }
 
 }  // namespace piblocks

@@ -10,6 +10,7 @@
 namespace piblocks {
 
 /// @throws IoError, MediaError
-std::unique_ptr<FrameReader> decode_video_file(const std::string& path);
+std::unique_ptr<FrameReader> decode_video_file(const std::string& path,
+                                               const std::stop_token& stop = {});
 
 }  // namespace piblocks

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 #include <piblocks/canvas.hpp>
+#include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/render.hpp>
 #include <piblocks/script_builder.hpp>
 
 #include <algorithm>
 #include <fstream>
+#include <system_error>
 #include <utility>
 
 #include "core/output_file.hpp"
@@ -82,11 +84,22 @@ std::vector<std::string> References::files() const {
   return files;
 }
 
-bool References::exist() const { return fs::exists(folder_ / files().front()); }
+bool References::exist() const { return has(files().front()); }
+
+bool References::has(const std::string& file) const {
+  const fs::path path = folder_ / file;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::none) {
+    throw IoError(fmt::format("golden: cannot read '{}': {}", path.string(), error.message()));
+  }
+  return fs::exists(status);
+}
 
 std::string References::fingerprint() const {
   std::ifstream file(folder_ / files().front());
   for (std::string line; std::getline(file, line) && line.starts_with('#');) {
+    if (line.ends_with('\r')) line.pop_back();  // from an editor of another system
     if (line.starts_with(kSoftware)) return line.substr(kSoftware.size());
   }
   return {};

@@ -28,7 +28,10 @@ class References {
   const Script& script() const noexcept { return script_; }
   /// The files of the references, without the folder; hashes first.
   std::vector<std::string> files() const;
+  /// @throws IoError if the system does not say, as also below.
   bool exist() const;
+  /// Whether this one of the files is there.
+  bool has(const std::string& file) const;
   /// What painted the references; empty if they do not say.
   std::string fingerprint() const;
 

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "cli/cli_fixture.hpp"
+#include "support/ordinary_user.hpp"
 
 namespace piblocks {
 namespace {
@@ -237,6 +238,35 @@ TEST_F(CompareTest, NoPicturesAreLeftOfWhatIsEqual) {
   EXPECT_EQ(compare({"a", "a", "--diff", "d", "--junit", "r.xml"}).exit_code, 0);
   EXPECT_TRUE(fs::is_empty(folder_ / "d"));
   EXPECT_NE(contents("r.xml").find("tests=\"12\" failures=\"0\""), std::string::npos);
+}
+
+// 1 would say that they differ.
+TEST_F(CompareTest, WhatMayNotBeLookedAtCannotBeRead) {
+  fs::create_directory(folder_ / "closed");
+  output_of({"still", "--size", "64x36", "--at", "1", "-o", "closed/1.png"});
+  output_of({"still", "--size", "64x36", "--at", "1", "-o", "1.png"});
+  fs::permissions(folder_.path(), fs::perms(0755));
+  fs::permissions(folder_ / "closed", fs::perms(0600));
+  const std::string long_name = std::string(256, 'x') + ".png";
+  const std::vector<std::pair<Arguments, std::string>> cases = {
+      {{"closed/1.png", "1.png"}, "cannot read 'closed/1.png': Permission denied"},
+      {{"1.png", "closed/1.png"}, "cannot read 'closed/1.png': Permission denied"},
+      {{"closed/%d.png", "1.png"}, "cannot read 'closed/%d.png': Permission denied"},
+      {{"closed/a.framehash", "closed/a.framehash"}, "'closed/a.framehash': Permission denied"},
+      {{long_name, "1.png"}, "x.png': File name too long"}};
+  for (const auto& [arguments, message] : cases) {
+    const testing_support::OrdinaryUser user;
+    const CommandResult result = piblocks(Arguments{"compare"} + arguments);
+    EXPECT_EQ(result.exit_code, 5) << result.out;
+    EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
+    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+  }
+  fs::permissions(folder_ / "closed", fs::perms(0700));
+}
+
+TEST_F(CompareTest, WhatIsMissingIsNamed) {
+  expect_refusal({"compare", "a"}, "compare: missing ACTUAL; see");
+  expect_refusal({"compare"}, "compare: missing REFERENCE and ACTUAL; see");
 }
 
 }  // namespace

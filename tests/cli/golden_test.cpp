@@ -1,5 +1,6 @@
 // golden: references are recorded, held to, and replaced only by approval.
 #include "cli/cli_fixture.hpp"
+#include "support/ordinary_user.hpp"
 
 namespace piblocks {
 namespace {
@@ -121,6 +122,57 @@ TEST_F(GoldenTest, SaysWhatElsePaintedTheReferences) {
   const CommandResult result = golden("check");
   expect(result, 0, "scene: equal");
   EXPECT_NE(result.out.find("scene: the references were painted by cairo 9."), std::string::npos);
+}
+
+// The hashes of scene "scene-0" and the first picture of "scene" have names that differ by their
+// endings alone.
+TEST_F(GoldenTest, PicturesOfDifferencesAreNotLostToAnotherScenesHashes) {
+  write("scene-0.toml", contents("scene.toml"));
+  const auto both = [&](const char* action, const Arguments& more = {}) {
+    return piblocks(Arguments{"golden", action, "scene.toml", "scene-0.toml", "--dir", "refs"} +
+                    more);
+  };
+  expect(both("record"), 0, "scene-0: recorded");
+  fs::copy_file(folder_ / "refs/scene-last.png", folder_ / "refs/scene-0.png",
+                fs::copy_options::overwrite_existing);
+  for (int run = 0; run < 2; ++run) {
+    expect(both("check", {"--diff", "diff"}), 1, "scene-0: equal");
+    EXPECT_TRUE(fs::exists(folder_ / "diff/scene-0/000000.png"));
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "diff/scene"));
+}
+
+TEST_F(GoldenTest, SaysThatThereIsNoRoomForTemporaryFiles) {
+  expect(golden("record"), 0, "scene: recorded");
+  const CommandResult result = testing_support::run_command(
+      {"golden", "check", "scene.toml", "--dir", "refs"},
+      {.folder = folder_.path(), .environment = {"TMPDIR=/nonexistent"}});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err,
+            "piblocks: golden: cannot use the folder for temporary files, $TMPDIR or /tmp: No such "
+            "file or directory; set TMPDIR to one that is there\n");
+}
+
+TEST_F(GoldenTest, EndsOfLinesAreNoDifference) {
+  expect(golden("record"), 0, "scene: recorded");
+  std::string text;
+  for (const std::string& line : lines(contents("refs/scene.framehash"))) text += line + "\r\n";
+  write("refs/scene.framehash", text);
+  EXPECT_EQ(golden("check").out, "scene: equal\n");
+}
+
+TEST_F(GoldenTest, ReferencesThatMayNotBeLookedAtAreNamed) {
+  fs::create_directory(folder_ / "refs");
+  fs::permissions(folder_.path(), fs::perms(0755));
+  fs::permissions(folder_ / "refs", fs::perms(0600));
+  for (const char* action : {"check", "record", "approve"}) {
+    const testing_support::OrdinaryUser user;
+    const CommandResult result = golden(action);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.err,
+              "piblocks: golden: cannot read 'refs/scene.framehash': Permission denied\n");
+  }
+  fs::permissions(folder_ / "refs", fs::perms(0700));
 }
 
 }  // namespace

@@ -108,7 +108,8 @@ INSTANTIATE_TEST_SUITE_P(AsInput, PipeTest,
                                          "render --logo pipe -o a.html",
                                          "render --logo pipe --bundle new -o a.mp4",
                                          "still --logo pipe --at 1 -o a.png",
-                                         "sheet --logo pipe -o a.pdf"));
+                                         "sheet --logo pipe -o a.pdf", "compare pipe pipe",
+                                         "golden check pipe --dir ."));
 
 /// A writer that has opened the pipe holds the program in a read.
 TEST_F(InterruptionTest, APipeThatStaysSilentCanBeLeft) {
@@ -125,6 +126,28 @@ TEST_F(InterruptionTest, APipeThatStaysSilentCanBeLeft) {
     EXPECT_EQ(command.wait().exit_code, 1);
     EXPECT_EQ(entries(), (std::vector<std::string>{"pipe"}));
     std::filesystem::remove(pipe);
+  }
+}
+
+/// Both sides of a comparison are read at a time, by threads of their own.
+TEST_F(InterruptionTest, AComparisonThatWaitsCanBeLeft) {
+  output_of({"still", "--size", "64x36", "--at", "1", "-o", "a.png"});
+  std::filesystem::create_directory(folder_ / "f");
+  ASSERT_EQ(::mkfifo((folder_ / "f/1.png").c_str(), 0600), 0);
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  const Descriptor writer(::open((folder_ / "pipe").c_str(), O_RDWR | O_CLOEXEC));
+  const auto before = entries();
+  for (const Arguments& arguments :
+       {Arguments{"compare", "f", "a.png"}, Arguments{"compare", "a.png", "f"},
+        Arguments{"compare", "pipe", "a.png"}, Arguments{"compare", "a.png", "pipe"}}) {
+    RunningCommand command(arguments, {.folder = folder_.path()});
+    EXPECT_FALSE(wait_until([&] { return command.has_ended(); }, std::chrono::milliseconds(500)));
+    command.send(SIGINT);
+    EXPECT_TRUE(wait_until([&] { return command.has_ended(); }, std::chrono::seconds(5)));
+    const CommandResult result = command.wait();
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.err, "piblocks: interrupted\n");
+    EXPECT_EQ(entries(), before);
   }
 }
 

@@ -98,6 +98,13 @@ INSTANTIATE_TEST_SUITE_P(
              "would write into the reference"},
         Case{"ReportByReport", "compare pictures others --report new --junit ./new",
              "--junit './new': would write over --report 'new'"},
+        Case{"ReportByDiffInANewFolder",
+             "compare pictures/000001.png pictures/000002.png --diff new --junit new/000000.png",
+             "--junit 'new/000000.png': would write over --diff 'new'"},
+        Case{
+            "DiffByReportInANewFolder",
+            "compare pictures/000001.png pictures/000002.png --report ./a/b/000000.png --diff a/b/",
+            "--report './a/b/000000.png': would write over --diff 'a/b/'"},
         Case{"FolderOfReferences", "golden check scene.toml --dir golden --diff golden",
              "--diff 'golden': would write into the folder of the references 'golden'"},
         Case{"FolderOfReferencesBelow",

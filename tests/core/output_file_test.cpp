@@ -1,11 +1,15 @@
 #include "core/output_file.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <array>
 #include <fstream>
 #include <iterator>
+#include <string>
 
 #include "support/ordinary_user.hpp"
 #include "support/temporary_folder.hpp"
@@ -132,6 +136,58 @@ TEST_F(OutputFileTest, NamesAFolderThatMayNotBeSearched) {
     EXPECT_THROW(OutputFile{folder_ / name}, UsageError) << name;
   }
   fs::permissions(folder_.path(), fs::perms::owner_all);
+}
+
+TEST_F(OutputFileTest, TakesTheLongestNameThatThereIs) {
+  const std::string longest(255, 'x');
+  {
+    OutputFile file(folder_ / longest);
+    OutputFile other(folder_ / (longest.substr(1) + 'y'));  // begins alike
+    file.write("hello");
+    file.finish();
+  }
+  EXPECT_EQ(file_contents(folder_ / longest), "hello");
+  EXPECT_EQ(entries(), 1u);
+  EXPECT_THROW(OutputFile(folder_ / (longest + 'x')), UsageError);
+  EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(OutputFileTest, TheNameOfAFolderIsRefusedBeforeAnythingIsMade) {
+  for (const std::string name : {"new/", "new/.", "new/..", ".", ".."}) {
+    EXPECT_THROW(OutputFile(folder_ / name), UsageError) << name;
+    EXPECT_EQ(entries(), 0u) << name;
+  }
+}
+
+TEST_F(OutputFileTest, AFileThatHasLostItsNameGetsNoOther) {
+  const fs::path path = folder_ / "out.txt";
+  const Descriptor open_file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+  fs::remove(path);
+  EXPECT_THROW(OutputFile("/proc/self/fd/" + std::to_string(open_file.get())), UsageError);
+  EXPECT_EQ(entries(), 0u);
+}
+
+TEST_F(OutputFileTest, AFileThatIsOpenGoesByItsNumber) {
+  const fs::path path = folder_ / "out.txt";
+  const Descriptor open_file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+  OutputFile file("/proc/self/fd/" + std::to_string(open_file.get()));
+  file.write("hello");
+  file.finish();
+  EXPECT_EQ(file_contents(path), "hello");
+}
+
+TEST_F(OutputFileTest, APipeIsNamedAsItWasGiven) {
+  std::array<int, 2> pipe{};
+  ASSERT_EQ(::pipe(pipe.data()), 0);
+  const Descriptor out(pipe[0]);
+  const Descriptor in(pipe[1]);
+  const std::string name = "/proc/self/fd/" + std::to_string(in.get());
+  try {
+    const OutputFile file(name);
+    ADD_FAILURE();
+  } catch (const UsageError& error) {
+    EXPECT_EQ(std::string(error.what()), "output: cannot open '" + name + "': not a file");
+  }
 }
 
 }  // namespace

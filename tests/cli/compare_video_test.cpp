@@ -1,0 +1,132 @@
+// compare: files that are damaged, cut off, or more than they seem.
+#include <cstdlib>
+
+#include "cli/cli_fixture.hpp"
+
+namespace piblocks {
+namespace {
+namespace fs = std::filesystem;
+
+class CompareVideoTest : public CliFixture {
+ protected:
+  CommandResult compare(const Arguments& arguments) const {
+    return piblocks(Arguments{"compare"} + arguments);
+  }
+  /// If ffmpeg is there.
+  bool ffmpeg(const std::string& options) const {
+    const std::string command =
+        "cd '" + folder_.path().string() + "' && ffmpeg -nostdin -loglevel error -y " + options;
+    return std::system(command.c_str()) == 0;
+  }
+  void expect_complaint(const Arguments& arguments, const std::string& what) const {
+    const CommandResult result = compare(arguments);
+    EXPECT_EQ(result.exit_code, 5) << result.out;
+    EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
+    EXPECT_NE(result.err.find(what), std::string::npos) << result.err;
+  }
+  void render(const std::string& name, const Arguments& options = {}) const {
+    output_of(
+        Arguments{"render", "--quiet", "--size", "64x36", "--fps", "10", "--to", "1", "-o", name} +
+        options);
+  }
+};
+
+const std::string kTestPicture = "-f lavfi -i testsrc2=s=64x48:d=1:r=10 ";
+
+// libavcodec 59 ended the process where several threads came upon damage.
+TEST_F(CompareVideoTest, DamagedMpeg4IsRefused) {
+  if (!ffmpeg(kTestPicture + "-c:v mpeg4 a.avi")) GTEST_SKIP() << "no ffmpeg here";
+  const std::string whole = contents("a.avi");
+  EXPECT_EQ(compare({"a.avi", "a.avi"}).exit_code, 0);
+  int refused = 0;
+  for (std::size_t at = 6000; at < 9000; at += 150) {
+    std::string damaged = whole;
+    damaged.replace(at, 8, 8, '\x5a');
+    write("b.avi", damaged);
+    const CommandResult result = compare({"b.avi", "b.avi"});
+    EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 5) << at << result.err;
+    refused += result.exit_code == 5 ? 1 : 0;
+  }
+  EXPECT_GT(refused, 0);
+}
+
+// The decoder leaves what it could not read as the memory was.
+TEST_F(CompareVideoTest, DamagedProresIsRefused) {
+  render("a.mov", {"--encoder", "prores_ks"});
+  const std::string whole = contents("a.mov");
+  int refused = 0;
+  for (std::size_t at = whole.size() / 4; at < whole.size() / 2; at += whole.size() / 80) {
+    std::string damaged = whole;
+    damaged.replace(at, 40, 40, '\xff');
+    write("b.mov", damaged);
+    const int code = compare({"b.mov", "b.mov"}).exit_code;
+    EXPECT_TRUE(code == 0 || code == 5) << at << ": " << code;
+    refused += code == 5 ? 1 : 0;
+  }
+  EXPECT_GT(refused, 10);
+}
+
+TEST_F(CompareVideoTest, WhatIsCutOffIsNotAShorterOne) {
+  render("a.y4m");
+  render("a.webm");
+  render("a.gif");
+  std::vector<std::string> names = {"a.y4m", "a.webm", "a.gif"};
+  if (ffmpeg(kTestPicture + "-c:v ffv1 a.mkv")) names.emplace_back("a.mkv");
+  for (const std::string& name : names) {
+    EXPECT_EQ(compare({name, name}).exit_code, 0) << name;
+    const std::string whole = contents(name);
+    const std::string cut = "cut" + name;
+    write(cut, whole.substr(0, whole.size() - 1));
+    expect_complaint({name, cut}, "'" + cut + "': it is cut off");
+    for (std::size_t size = 1; size < whole.size(); size += whole.size() / 9) {
+      write(cut, whole.substr(0, size));
+      EXPECT_EQ(compare({cut, cut}).exit_code, 5) << name << " " << size;
+    }
+  }
+}
+
+// Nobody knows how long a live stream is going to be.
+TEST_F(CompareVideoTest, AStreamThatDoesNotKnowItsSizeIsWhole) {
+  if (!ffmpeg(kTestPicture + "-c:v ffv1 -f matroska -live 1 a.mkv")) {
+    GTEST_SKIP() << "no ffmpeg here";
+  }
+  EXPECT_EQ(compare({"a.mkv", "a.mkv"}).exit_code, 0);
+}
+
+TEST_F(CompareVideoTest, SeveralVideosInAFileAreRefused) {
+  const std::string two = kTestPicture + "-f lavfi -i color=red:s=64x48:d=1:r=10 ";
+  if (!ffmpeg(two + "-map 0 -map 1 a.mkv")) GTEST_SKIP() << "no ffmpeg here";
+  ASSERT_TRUE(ffmpeg(kTestPicture + "b.mkv"));
+  expect_complaint({"a.mkv", "b.mkv"}, "cannot compare 'a.mkv': it has 2 videos");
+  expect_complaint({"b.mkv", "a.mkv"}, "cannot compare 'a.mkv': it has 2 videos");
+}
+
+TEST_F(CompareVideoTest, ACoverIsNoVideo) {
+  output_of({"still", "--size", "64x36", "--at", "1", "-o", "cover.png"});
+  if (!ffmpeg(kTestPicture + "-pix_fmt yuv420p -c:v libx264 a.mp4")) {
+    GTEST_SKIP() << "no ffmpeg here";
+  }
+  ASSERT_TRUE(
+      ffmpeg("-i a.mp4 -i cover.png -map 0 -map 1 -c copy -disposition:v:1 attached_pic b.mp4"));
+  EXPECT_EQ(compare({"a.mp4", "b.mp4"}).exit_code, 0);
+}
+
+// libavformat takes the first for the pattern of a sequence, and reads the second.
+TEST_F(CompareVideoTest, APictureMayHaveAPercentSignInItsName) {
+  const std::string picture = "P6 1 1 255\n";
+  write("a%d.ppm", picture + "abc");
+  write("a1.ppm", picture + "abd");
+  write("b.ppm", picture + "abc");
+  EXPECT_EQ(compare({"a%d.ppm", "b.ppm"}).exit_code, 0);
+  EXPECT_EQ(compare({"a%d.ppm", "a1.ppm"}).exit_code, 1);
+}
+
+// Nobody would keep a report from being written over these.
+TEST_F(CompareVideoTest, AListOfFilesIsRefused) {
+  render("a.y4m");
+  write("list", "ffconcat version 1.0\nfile a.y4m\n");
+  expect_complaint({"list", "a.y4m"}, "cannot read 'list': it is a list of other files");
+}
+
+}  // namespace
+}  // namespace piblocks
