@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <utility>
 #include <vector>
+
+#include "cli/help_formatter.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -48,8 +51,9 @@ std::string about_missing(const CLI::App& command) {
   std::vector<std::string> missing;
   for (const CLI::Option* option : command.get_options()) {
     if (!option->get_required() || option->count() > 0) continue;
-    missing.push_back(
-        fmt::format("{} {}", option->get_name(false, true), option->get_option_text()));
+    std::string name = option->get_name(false, true);
+    if (option->get_option_text() != kNoText) name += ' ' + option->get_option_text();
+    missing.push_back(std::move(name));
   }
   return fmt::format("{}: missing {}; {}", full_name(command), fmt::join(missing, " and "),
                      help_of(command));

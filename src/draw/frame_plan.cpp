@@ -95,9 +95,12 @@ void check_panels(const FramePlan& plan, const View& view) {
     const double least = kLeastPanel_em * plan.text_px;
     if (std::min(panel.width, panel.height) >= least) continue;
     throw UsageError(
-        fmt::format("show.panels: {} of them do not fit into {}x{}; leave some out, or "
-                    "make the frame larger",
-                    plan.panels.size(), view.width_px, view.height_px));
+        plan.panels.size() == 1
+            ? fmt::format("show.panels: a diagram does not fit into {}x{}; make the frame larger",
+                          view.width_px, view.height_px)
+            : fmt::format("show.panels: {} diagrams do not fit into {}x{}; leave some out, or "
+                          "make the frame larger",
+                          plan.panels.size(), view.width_px, view.height_px));
   }
 }
 

@@ -366,7 +366,7 @@ TEST(Composition, SaysWhyItCannotBeShown) {
   EXPECT_EQ(problem_of({{"show.caption", "\xff\xfe"}}), "show.caption: is not valid UTF-8");
   EXPECT_TRUE(problem_of({{"show.title", std::string(200, 'w')}}).starts_with("show.title: 'www"));
   EXPECT_EQ(problem_of({{"show.panels", kAllPanels}, {"view.size", "320x180"}}),
-            "show.panels: 5 of them do not fit into 320x180; leave some out, or make the frame "
+            "show.panels: 5 diagrams do not fit into 320x180; leave some out, or make the frame "
             "larger");
   EXPECT_TRUE(problem_of({{"show.overlays", "velocities"}, {"view.size", "160x90"}})
                   .starts_with("show.overlays: the velocities need"));
