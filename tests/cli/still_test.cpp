@@ -108,7 +108,7 @@ TEST_F(StillTest, SaysWhatAFrameHasNoRoomFor) {
          "out, or make the frame higher");
   expect("120x16000", {"--title", "fi"}, "make the frame wider");
   expect("64x36", {"--show", "masses"}, "show.overlays: the mass '10,000'");
-  expect("400x60", {"--panels", "time"}, "show.panels: 1 of them do not fit into 400x60");
+  expect("400x60", {"--panels", "time"}, "show.panels: a diagram does not fit into 400x60");
   expect("100x1000", {"--show", "ruler"}, "show.overlays: the ruler needs");
 }
 
