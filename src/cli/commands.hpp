@@ -17,5 +17,6 @@ void add_count(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_golden(CLI::App& app);
 void add_info(CLI::App& app);
+void add_manual(CLI::App& app);
 
 }  // namespace piblocks::cli

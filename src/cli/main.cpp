@@ -1,21 +1,22 @@
 // The command line: options in, exit code out. 0 done, 1 failed, 2 wrong usage.
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/version.hpp>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <memory>
 #include <new>
 #include <sstream>
+#include <string>
 #include <string_view>
+#include <vector>
 
-#include "cli/commands.hpp"
+#include "cli/app.hpp"
 #include "cli/exit_code.hpp"
-#include "cli/help_formatter.hpp"
 #include "cli/say.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/usage_message.hpp"
@@ -50,8 +51,7 @@ int fail(const std::exception& error, int exit_code) {
 /// Where nothing can be passed on: below GMP.
 [[noreturn]] void end_without_memory() { _exit(fail("out of memory", kFailed)); }
 
-/// An exception in a destructor, for one. Of memory the user is to be told; all else is a fault of
-/// the program.
+/// Reports out-of-memory. Any other exception that reaches this place is a bug.
 [[noreturn]] void end_of_exception() {
   try {
     if (const auto exception = std::current_exception()) std::rethrow_exception(exception);
@@ -76,42 +76,28 @@ int finish(const CLI::App& app, const CLI::ParseError& error) {
   return 0;
 }
 
-void add_commands(CLI::App& app) {
-  using namespace piblocks;
-  const std::string version = fmt::format("piblocks {}", kVersion);
-  app.formatter(std::make_shared<cli::HelpFormatter>());
-  app.set_help_flag("-h,--help", "Print this text and exit");
-  app.require_subcommand(1);
-  cli::add_render(app);
-  cli::add_join(app);
-  cli::add_still(app);
-  cli::add_sheet(app);
-  cli::add_log(app);
-  cli::add_state(app);
-  cli::add_count(app);
-  cli::add_compare(app);
-  cli::add_golden(app);
-  cli::add_info(app);
-  app.set_version_flag("--version", version, "Print the version and exit");
-  for (CLI::App* command : app.get_subcommands({})) {
-    command->group("Commands");
-    command->set_version_flag("--version", version, "Print the version and exit");
+/// "piblocks help COMMAND" is "piblocks COMMAND --help". CLI11 takes arguments from the back.
+std::vector<std::string> arguments_of(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (!arguments.empty() && arguments.front() == "help") {
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
   }
-  app.get_formatter()->label("Positionals", "Arguments");
-  app.footer(
-      "'piblocks COMMAND --help' explains a command.\n"
-      "Exit codes: 0 done, 1 failed, 2 wrong usage.");
+  std::ranges::reverse(arguments);
+  return arguments;
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Renders two sliding blocks and a wall whose collisions count the digits of pi.",
-               "piblocks");
-  add_commands(app);
+  const std::unique_ptr<CLI::App> app = piblocks::cli::make_app();
+  if (argc <= 1) {
+    std::fputs(app->help().c_str(), stderr);
+    return kWrongUsage;
+  }
   try {
-    app.parse(argc, argv);
+    app->parse(arguments_of(argc, argv));
     return 0;
   } catch (const CLI::ParseError& error) {
-    return finish(app, error);
+    return finish(*app, error);
   }
 }
 

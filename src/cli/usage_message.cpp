@@ -2,28 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "cli/app.hpp"
 #include "cli/help_formatter.hpp"
+#include "cli/nearest_name.hpp"
 
 namespace piblocks::cli {
 namespace {
 
-std::string command_names(const CLI::App& app) {
+std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    names.push_back(command->get_name());
-  }
-  return fmt::format("{}", fmt::join(names, ", "));
+  for (const CLI::App* command : commands_of(app)) names.push_back(command->get_name());
+  return names;
 }
 
-/// "golden check", without the program's own name.
-std::string full_name(const CLI::App& command) {
-  const CLI::App* const parent = command.get_parent();
-  if (parent == nullptr) return {};
-  const std::string before = full_name(*parent);
-  return before.empty() ? command.get_name() : before + ' ' + command.get_name();
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
 }
 
 std::string help_of(const CLI::App& command) {
@@ -31,20 +32,33 @@ std::string help_of(const CLI::App& command) {
   return fmt::format("see 'piblocks {}--help'", name.empty() ? name : name + ' ');
 }
 
-/// @param extras  what nobody knew, if anything.
+std::string question(const std::string& near) {
+  return near.empty() ? "" : fmt::format("; did you mean '{}'?", near);
+}
+
+/// @param extras  arguments that no command takes.
 std::string without_command(const CLI::App& app, const std::vector<std::string>& extras) {
   const std::string name = full_name(app);
   const std::string who = name.empty() ? name : name + ": ";
-  const std::string advice = fmt::format("use one of {}; {}", command_names(app), help_of(app));
+  const std::string advice =
+      fmt::format("use one of {}; {}", fmt::join(command_names(app), ", "), help_of(app));
   if (extras.empty()) return fmt::format("{}no command: {}", who, advice);
-  const char* what = extras.front().starts_with('-') ? "option" : "command";
-  return fmt::format("{}unknown {} '{}': {}", who, what, extras.front(), advice);
+  const std::string& extra = extras.front();
+  const bool is_option = extra.starts_with('-');
+  const std::string near = nearest_name(extra, is_option ? option_names(app) : command_names(app));
+  return fmt::format("{}unknown {} '{}'{} {}", who, is_option ? "option" : "command", extra,
+                     near.empty() ? ":" : question(near), advice);
 }
 
 std::string about_extra(const CLI::App& command, const std::string& extra) {
-  const char* what =
-      extra.starts_with('-') && extra.size() > 1 ? "unknown option" : "unexpected argument";
-  return fmt::format("{}: {} '{}'; {}", full_name(command), what, extra, help_of(command));
+  const bool is_option = extra.starts_with('-') && extra.size() > 1;
+  if (!is_option) {
+    return fmt::format("{}: unexpected argument '{}'; {}", full_name(command), extra,
+                       help_of(command));
+  }
+  const std::string near = nearest_name(extra.substr(0, extra.find('=')), option_names(command));
+  return fmt::format("{}: unknown option '{}'{} {}", full_name(command), extra,
+                     near.empty() ? ";" : question(near), help_of(command));
 }
 
 std::string about_missing(const CLI::App& command) {

@@ -1,6 +1,6 @@
 // From how much change on libx264 is the better encoder: time and size of both ways to an MP4 for
 // pictures of which a part is new in every frame.
-// In: nothing. Out: CSV on standard output; src/media/README.md holds the table.
+// In: nothing. Out: CSV on standard output; encoders.md holds the table.
 #include <fmt/format.h>
 #include <piblocks/frame_sink.hpp>
 

@@ -1,5 +1,5 @@
 // What each of libx264's presets makes of the animation: speed, size and fidelity.
-// In: nothing, or the number of frames. Out: CSV on standard output; src/media/README.md holds the
+// In: nothing, or the number of frames. Out: CSV on standard output; encoders.md holds the
 // table that the defaults were chosen from.
 
 #include <fmt/chrono.h>

@@ -42,10 +42,13 @@ Arguments still(const Arguments& more) { return Arguments{"still", "-o", "a.png"
 INSTANTIATE_TEST_SUITE_P(
     Commands, BadInputTest,
     testing::Values(
-        BadInput{{},
-                 "no command: use one of render, join, still, sheet, log, state, count, compare, "
-                 "golden, info"},
-        BadInput{{"frobnicate"}, "unknown command 'frobnicate'"},
+        BadInput{{"frobnicate"},
+                 "unknown command 'frobnicate': use one of render, join, still, sheet, log, state, "
+                 "count, compare, golden, info, manual; see 'piblocks --help'"},
+        BadInput{{"redner"}, "unknown command 'redner'; did you mean 'render'? use one of"},
+        BadInput{{"help", "cuont"}, "unknown command 'cuont'; did you mean 'count'?"},
+        BadInput{{"golden", "chek"}, "golden: unknown command 'chek'; did you mean 'check'?"},
+        BadInput{{"render", "--digit=3", "-o", "a.mp4"}, "'--digit=3'; did you mean '--digits'?"},
         BadInput{{"-x"}, "unknown option '-x'"},
         BadInput{{"--digits", "3"}, "unknown option '--digits'"},
         BadInput{{"count", "--frames", "3"}, "count: unknown option '--frames'"},

@@ -1,0 +1,87 @@
+// The manual page and what shells need to complete options, asked as these programs would.
+#include <cstdlib>
+
+#include "cli/cli_fixture.hpp"
+
+namespace piblocks {
+namespace {
+
+class ManualTest : public CliFixture {
+ protected:
+  /// What a shell's command prints, in the test's folder.
+  std::string shell(const std::string& command) {
+    const std::string all = "cd '" + folder_.path().string() + "' && " + command + " > out 2> err";
+    EXPECT_EQ(std::system(all.c_str()), 0) << command << '\n' << contents("err");
+    EXPECT_EQ(contents("err"), "");
+    return contents("out");
+  }
+
+  /// What bash offers for the last of these words.
+  std::string completed(const std::string& words) {
+    write("piblocks.bash", output_of({"manual", "bash"}));
+    write("ask.bash", "source ./piblocks.bash\nCOMP_WORDS=(" + words +
+                          ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_piblocks\n"
+                          "echo \"${COMPREPLY[*]}\"\n");
+    return shell("bash -u ask.bash");
+  }
+
+  bool is_there(const std::string& program) {
+    return std::system(("command -v " + program + " > /dev/null").c_str()) == 0;
+  }
+};
+
+TEST_F(ManualTest, TheManualPageHasEveryOption) {
+  if (!is_there("groff")) GTEST_SKIP() << "groff is not installed";
+  write("piblocks.1", output_of({"manual", "man"}));
+  const std::string page = shell("groff -Kutf8 -man -ww -Tutf8 -P-cbou piblocks.1");
+  for (const char* part :
+       {"PIBLOCKS(1)", "piblocks render", "piblocks golden check", "--slow-motion", "turn-0.3",
+        "--max-delta", "Example: piblocks render", "EXIT STATUS"}) {
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  }
+}
+
+TEST_F(ManualTest, BashCompletesCommandsOptionsAndWords) {
+  EXPECT_EQ(completed("piblocks s"), "still sheet state\n");
+  EXPECT_EQ(completed("piblocks golden ''"), "record check approve\n");
+  EXPECT_EQ(completed("piblocks golden check --d"), "--dir --diff\n");
+  EXPECT_EQ(completed("piblocks render a.toml --slow"), "--slow-motion\n");
+  EXPECT_EQ(completed("piblocks still --theme c"), "chalkboard colorblind\n");
+  EXPECT_EQ(completed("piblocks render ''"), "\n") << "names of files are left to bash";
+}
+
+TEST_F(ManualTest, ZshAndFishReadTheirs) {
+  for (const std::string program : {"zsh", "fish"}) {
+    const std::string text = output_of({"manual", program});
+    EXPECT_NE(text.find("slow-motion"), std::string::npos);
+    EXPECT_NE(text.find("chalkboard dark"), std::string::npos);
+    write("completion", text);
+    if (is_there(program)) shell(program + " -n completion");
+  }
+  if (is_there("fish")) {
+    EXPECT_EQ(shell("fish -c 'source completion; complete -C \"piblocks golden \"'"),
+              "approve\ncheck\nrecord\n");
+  }
+  if (!is_there("zsh") || !is_there("fish")) {
+    GTEST_SKIP() << "zsh or fish is not installed: their syntax is not checked";
+  }
+}
+
+TEST_F(ManualTest, OtherKindsAreRefused) {
+  const CommandResult result = piblocks({"manual", "tcsh"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err, "piblocks: manual: 'tcsh' must be one of: man, bash, zsh, fish\n");
+}
+
+TEST_F(ManualTest, HelpIsACommandToo) {
+  EXPECT_EQ(output_of({"help"}), output_of({"--help"}));
+  EXPECT_EQ(output_of({"help", "golden", "check"}), output_of({"golden", "check", "--help"}));
+  const CommandResult bare = piblocks({});
+  EXPECT_EQ(bare.exit_code, 2);
+  EXPECT_EQ(bare.out, "");
+  EXPECT_EQ(bare.err, output_of({"--help"}));
+  EXPECT_NE(bare.err.find("Example: piblocks render --digits 3 -o pi-3.mp4"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace piblocks
