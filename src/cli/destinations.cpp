@@ -12,7 +12,7 @@ namespace {
 
 /// README.md has the reasons.
 const std::vector<Destination>& destinations() {
-  static const std::vector<Destination> kDestinations = {
+  static const std::vector<Destination> all = {
       {"powerpoint", {{"view.size", "1920x1080"}, {"view.fps", "60"}}, {".mp4"}},
       {"keynote", {{"view.size", "1920x1080"}, {"view.fps", "60"}}, {".mp4", ".mov"}},
       {"web",
@@ -24,7 +24,7 @@ const std::vector<Destination>& destinations() {
        "prores_ks"},
       {"shorts", {{"view.size", "1080x1920"}, {"view.fps", "60"}}, {".mp4"}},
       {"beamer", {{"view.size", "1280x720"}, {"view.fps", "25"}}, {".mp4", ".png"}}};
-  return kDestinations;
+  return all;
 }
 
 }  // namespace

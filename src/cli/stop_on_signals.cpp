@@ -23,6 +23,7 @@ constexpr int kBreakOff = SIGURG;
 constexpr int kBreakOffInterval_ms = 50;
 constexpr int kForEver = -1;
 
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): signals are the process's too
 std::atomic<bool> is_stop_requested = false;
 
 void say_and_exit(int /*signal*/) {

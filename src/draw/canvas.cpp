@@ -81,13 +81,15 @@ void Canvas::Pixels::paint_tiles(const DrawList& list, std::span<const PixelRect
   for (const PixelRect& rect : rects) {
     for (int y = rect.y_px / kTile_px; y * kTile_px < rect.y_px + rect.height_px; ++y) {
       for (int x = rect.x_px / kTile_px; x * kTile_px < rect.x_px + rect.width_px; ++x) {
-        is_touched[static_cast<std::size_t>(y * columns + x)] = true;
+        const int tile = y * columns + x;
+        is_touched[static_cast<std::size_t>(tile)] = true;
       }
     }
   }
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) {
-      if (!is_touched[static_cast<std::size_t>(y * columns + x)]) continue;
+      const int tile = y * columns + x;
+      if (!is_touched[static_cast<std::size_t>(tile)]) continue;
       const int left = x * kTile_px;
       const int top = y * kTile_px;
       paint_part(list, {left, top, std::min(kTile_px, list.width_px - left),

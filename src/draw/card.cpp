@@ -50,7 +50,7 @@ DrawList compose_card(const std::vector<std::string>& lines, const View& view) {
   for (std::size_t i = 1; i < lines.size(); ++i) {
     line_px = std::min(line_px, fitted_px(lines[i], kLine * measure, inner_px, font));
   }
-  const double others = double(lines.size() - 1);
+  const auto others = double(lines.size() - 1);
   const double between = (kCapHeight + kBetweenLines) * line_px;
   double below = 0;
   if (lines.size() > 1) {

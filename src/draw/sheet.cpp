@@ -102,8 +102,9 @@ Sheet arrange(std::vector<CaptionedPicture> pictures, int width_px, int height_p
   const Stroke line{kFrame, std::max(0.5, side / 1200), 0};
   for (int i = 0; i < static_cast<int>(pictures.size()); ++i) {
     CaptionedPicture& source = pictures[static_cast<std::size_t>(i)];
-    const Rectangle place{left + i % grid.columns * step_x, top + i / grid.columns * step_y,
-                          grid.width, grid.height};
+    const int column = i % grid.columns;
+    const int row = i / grid.columns;
+    const Rectangle place{left + column * step_x, top + row * step_y, grid.width, grid.height};
     sheet.page.items.emplace_back(
         RectangleItem{ItemId::wall,
                       {place.x - line.width_px / 2, place.y - line.width_px / 2,

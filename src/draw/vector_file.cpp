@@ -60,7 +60,8 @@ std::vector<std::uint8_t> with_fixed_ids(const std::vector<std::uint8_t>& svg) {
   std::vector<std::string_view> counts;
   std::string fixed;
   std::size_t copied = 0;
-  for (auto at = text.find(kCounted); at != text.npos; at = text.find(kCounted, at + 1)) {
+  for (auto at = text.find(kCounted); at != std::string_view::npos;
+       at = text.find(kCounted, at + 1)) {
     const bool is_name = text.substr(0, at).ends_with("id=\"") || text.substr(0, at).ends_with('#');
     const std::size_t begin = at + kCounted.size();
     std::size_t end = begin;

@@ -133,7 +133,7 @@ class PictureComparison {
     return compare(a, b, job_.tolerance, job_.masks);
   }
 
-  static std::string shown(std::string presentation) {
+  static std::string shown(const std::string& presentation) {
     return presentation.empty() ? "as it is stored" : presentation;
   }
 

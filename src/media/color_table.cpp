@@ -46,9 +46,10 @@ void ColorTable::choose(std::size_t room) {
   for (auto& [color, place] : counts_) {
     const auto at = std::ranges::lower_bound(colors_, color);
     const bool is_kept = at != colors_.end() && *at == color;
-    const auto nearest = is_kept ? at : std::ranges::min_element(colors_, {}, [&](std::uint32_t c) {
-      return distance(c, color);
-    });
+    const auto nearest =
+        is_kept ? at : std::ranges::min_element(colors_, {}, [wanted = color](std::uint32_t c) {
+          return distance(c, wanted);
+        });
     place = nearest - colors_.begin();
   }
 }

@@ -15,8 +15,10 @@
 namespace piblocks {
 namespace fs = std::filesystem;
 
-PngFile::PngFile(fs::path path) : path_(std::move(path)), file_(open(path_)) {
-  png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
+PngFile::PngFile(fs::path path)
+    : path_(std::move(path)),
+      file_(open(path_)),
+      png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning)) {
   if (png_ != nullptr) info_ = png_create_info_struct(png_);
   if (info_ == nullptr) {
     close();

@@ -54,7 +54,7 @@ class PngFile {
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, FileCloser> file_;
   std::array<char, 128> message_{};
-  png_structp png_ = nullptr;
+  png_structp png_;
   png_infop info_ = nullptr;
   // Where the rows go, which read_rows() must not own.
   png_bytep rows_ = nullptr;

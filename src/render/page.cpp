@@ -149,7 +149,7 @@ void write_page(const Scene& scene, const fs::path& video, OutputFile& file) {
   page.add(kControls);
   page.add(fmt::format("<p id=\"description\">{}</p>\n</main>\n",
                        escaped(describe_video(scene, count))));
-  page.add("<script id=\"facts\" type=\"application/json\">");
+  page.add(R"(<script id="facts" type="application/json">)");
   facts.write([&](std::string_view text) { page.add(text); });
   page.add(fmt::format("</script>\n<script>{}</script>\n", kPageScript));
   page.flush();

@@ -39,8 +39,7 @@ Instant take_anchor(std::string_view& text) {
   if (!text.starts_with('#')) return {};
   text.remove_prefix(1);
   const std::size_t sign = text.starts_with('-') ? 1 : 0;
-  const auto end = std::find_if_not(text.begin() + std::ptrdiff_t(sign), text.end(), is_digit);
-  const auto length = static_cast<std::size_t>(end - text.begin());
+  const std::size_t length = std::min(text.find_first_not_of("0123456789", sign), text.size());
   if (length == sign || length > kMaxIndex_bytes) throw UsageError(kExpected);
   Instant instant = Instant::collision(Integer(std::string(text.substr(0, length)), 10));
   text.remove_prefix(length);
@@ -98,7 +97,7 @@ Instant parse_instant(std::string_view text) {
 }
 
 std::string exact_text(const Instant& instant) {
-  const std::string offset = instant.offset.get_str();
+  std::string offset = instant.offset.get_str();
   if (instant.is_time()) return offset;
   std::string text = "#" + instant.index.get_str();
   for (const auto& [name, anchor] : kNamedAnchors) {

@@ -184,10 +184,10 @@ Schedule make_schedule(const Scene& scene, const CollisionLog& log) {
   video.add(end, 0, 1, holds.end_s);
   frame_count += ceil(holds.end_s * rate);
   if (!scene.pacing.loop || frame_count < 2) {
-    return Schedule(std::move(video.stretches), frame_count, rate);
+    return {std::move(video.stretches), frame_count, rate};
   }
   const Rational last_frame_s = Rational(frame_count - 1) / rate;
-  return Schedule(played_back(std::move(video.stretches), last_frame_s), 2 * frame_count - 2, rate);
+  return {played_back(std::move(video.stretches), last_frame_s), 2 * frame_count - 2, rate};
 }
 
 std::int64_t film_frames(const Schedule& schedule) {

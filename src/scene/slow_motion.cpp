@@ -18,7 +18,7 @@ constexpr const char* kKey = "time.slow-motion";
 // at most 10 collisions happen in a second of the innermost one.
 constexpr int kHalfWindow_s = 3;
 constexpr int kStep = 10;
-constexpr double kTellApart_per_s = 10;
+constexpr double kTellApart_hz = 10;
 
 /// Collisions per second of video at the turn: one takes theta b/|V| (the notation is that of
 /// src/physics/README.md). Infinite if all happen at once.
@@ -39,9 +39,9 @@ std::vector<SlowWindow> automatic_windows(const Scene& scene, const CollisionLog
   const double rate = rate_at_turn(scene.system, speed);
   std::vector<Rational> halves;
   int factor = 1;
-  while (factor < kMaxAutomaticFactor && rate > kTellApart_per_s * factor) {
+  while (factor < kMaxAutomaticFactor && rate > kTellApart_hz * factor) {
     factor *= kStep;
-    halves.push_back(speed * kHalfWindow_s / factor);
+    halves.emplace_back(speed * kHalfWindow_s / factor);
   }
   // From the outermost to the innermost and out again.
   std::vector<SlowWindow> windows;

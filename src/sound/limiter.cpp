@@ -24,9 +24,9 @@ Limiter::Limiter(double ceiling, double rate_hz)
     : ceiling_(ceiling), recovery_(1 - std::exp(-1 / (kRecovery_s * rate_hz))) {
   for (int phase = 0; phase < kPhases; ++phase) {
     for (int tap = 0; tap < kTaps; ++tap) {
-      const double distance = tap - (kTaps / 2 - 1) - double(phase) / kPhases;
+      const double distance = tap - (kHalf - 1) - double(phase) / kPhases;
       kernel_[std::size_t(phase)][std::size_t(tap)] =
-          sinc(distance) * kaiser(distance / (kTaps / 2), kBeta);
+          sinc(distance) * kaiser(distance / kHalf, kBeta);
     }
   }
 }
@@ -38,7 +38,7 @@ double Limiter::peak_around(std::int64_t number) const {
     for (int channel = 0; channel < 2; ++channel) {
       double value = 0;
       for (int tap = 0; tap < kTaps; ++tap) {
-        value += taps[std::size_t(tap)] * at(number - (kTaps / 2 - 1) + tap, channel);
+        value += taps[std::size_t(tap)] * at(number - (kHalf - 1) + tap, channel);
       }
       peak = std::max(peak, std::fabs(value));
     }
@@ -51,7 +51,7 @@ Limiter::Pair Limiter::next(const Pair& pair) {
   if (std::max(std::fabs(pair[0]), std::fabs(pair[1])) * kOvershoot > ceiling_) last_high_ = count_;
 
   // The gain that the samples on both sides of an interval may have at most.
-  const std::int64_t judged = count_ - kTaps / 2;
+  const std::int64_t judged = count_ - kHalf;
   const double peak = count_ - last_high_ < kTaps ? peak_around(judged) : 0;
   const double allowed = peak > ceiling_ ? ceiling_ / peak : 1;
   const double before = gain(judged - 1);
@@ -61,7 +61,7 @@ Limiter::Pair Limiter::next(const Pair& pair) {
   if (gain(judged) < 1) last_below_one_ = judged;
 
   // The mean of kTurn lowest gains, each of which has this sample within its reach.
-  static_assert(kDelay == kTaps / 2 + kTurn + 1);
+  static_assert(kDelay == kHalf + kTurn + 1);
   const std::int64_t now = judged - kTurn - 1;
   double applied = 1;
   if (judged - last_below_one_ <= 2 * kTurn + 2) {

@@ -27,6 +27,7 @@ class Limiter {
 
  private:
   static constexpr int kTaps = 24;
+  static constexpr int kHalf = kTaps / 2;  ///< on either side
   /// Over so many samples the gain goes to where it has to be.
   static constexpr int kTurn = 192;
   static constexpr std::size_t kRing = 512;  // more than kDelay + kTurn + kTaps

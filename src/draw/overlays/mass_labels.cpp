@@ -30,11 +30,10 @@ struct Label {
 class MassLabels final : public PicturePart {
  public:
   explicit MassLabels(const Setting& setting)
-      : layout_(setting.stage), base_(base_of(setting.scene.system)) {
-    const BlockSystem& system = setting.scene.system;
-    red_ = label_of(system.red, setting.palette.red, setting.font);
-    blue_ = label_of(system.blue, setting.palette.blue, setting.font);
-  }
+      : layout_(setting.stage),
+        base_(base_of(setting.scene.system)),
+        red_(label_of(setting.scene.system.red, setting.palette.red, setting.font)),
+        blue_(label_of(setting.scene.system.blue, setting.palette.blue, setting.font)) {}
 
   void add(const Shown& shown, std::vector<DrawItem>& items) const override {
     add_label(0, red_, shown.state.red, items);

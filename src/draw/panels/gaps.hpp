@@ -25,7 +25,7 @@ struct PanelGaps {
         sine(root_of(system.blue.mass / (system.blue.mass + system.red.mass))),
         cosine(root_of(system.red.mass / (system.blue.mass + system.red.mass))),
         theta(std::atan2(sine, cosine)),
-        tangent_(root_magnitude_of(system.blue.mass / system.red.mass)) {}
+        tangent(root_magnitude_of(system.blue.mass / system.red.mass)) {}
 
   GapPoint of(const Motion& blue, const Motion& red) const {
     return {blue.position - blue_offset, red.position - red_offset};
@@ -36,11 +36,11 @@ struct PanelGaps {
   double angle(const Magnitude& times) const {
     if (theta > kNarrow) return theta * to_double(times);
     return to_double(
-        Magnitude{tangent_.mantissa * times.mantissa, tangent_.exponent + times.exponent});
+        Magnitude{tangent.mantissa * times.mantissa, tangent.exponent + times.exponent});
   }
   double log10_theta() const {
     if (theta > kNarrow) return std::log10(theta);
-    return std::log10(tangent_.mantissa) + double(tangent_.exponent);
+    return std::log10(tangent.mantissa) + double(tangent.exponent);
   }
 
   double blue_offset;
@@ -50,12 +50,11 @@ struct PanelGaps {
   double sine;
   double cosine;
   double theta;  ///< 0 where it is below the range of a double
+  Magnitude tangent;
 
  private:
   /// Below this atan(s) is s to a part of s^2/3.
   static constexpr double kNarrow = 1e-7;
-
-  Magnitude tangent_;
 };
 
 }  // namespace piblocks

@@ -67,9 +67,11 @@ class PositionPanel final : public PicturePart {
   void add_piece(const TrajectoryPiece& piece) {
     const Color& color = sheet_.palette().text;
     std::vector<Point> points;
-    for (const TimedGaps& corner : piece.corners) points.push_back(at(corner.gaps));
-    if (!points.empty()) sheet_.line(std::move(points), color);
-    if (piece.bands.empty()) return;
+    if (piece.bands.empty()) {
+      for (const TimedGaps& corner : piece.corners) points.push_back(at(corner.gaps));
+      sheet_.line(std::move(points), color);
+      return;
+    }
     for (const Band& band : piece.bands) {
       points.push_back(at({std::min(band.high, band.from.gaps.y2), band.from.gaps.y2}));
     }

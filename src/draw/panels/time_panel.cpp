@@ -55,11 +55,13 @@ class TimePanel final : public PicturePart {
   void add_blue(const TrajectoryPiece& piece) {
     const Color color = sheet_.palette().blue.line;
     std::vector<Point> points;
-    for (const TimedGaps& corner : piece.corners) {
-      points.push_back(at(corner.time, corner.gaps.y1));
+    if (piece.bands.empty()) {
+      for (const TimedGaps& corner : piece.corners) {
+        points.push_back(at(corner.time, corner.gaps.y1));
+      }
+      sheet_.line(std::move(points), color);
+      return;
     }
-    if (!points.empty()) sheet_.line(std::move(points), color);
-    if (piece.bands.empty()) return;
     for (const Band& band : piece.bands) {
       points.push_back(at(band.from.time, band.high));
       points.push_back(at(band.to.time, band.high));

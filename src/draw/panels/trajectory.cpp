@@ -30,14 +30,14 @@ class TrajectoryBuilder {
     time_ = next_time;
   }
 
-  std::vector<TrajectoryPiece> pieces;
+  std::vector<TrajectoryPiece> take_pieces() { return std::move(pieces_); }
 
  private:
   void add_corners(const TimedGaps& end, const Integer& count) {
-    if (pieces.empty() || pieces.back().corners.empty()) {
-      pieces.push_back({{{time_, gaps_.of(state_)}}, {}});
+    if (pieces_.empty() || pieces_.back().corners.empty()) {
+      pieces_.push_back({{{time_, gaps_.of(state_)}}, {}});
     }
-    std::vector<TimedGaps>& corners = pieces.back().corners;
+    std::vector<TimedGaps>& corners = pieces_.back().corners;
     for (Integer k = state_.count + 1; k <= count; k += 1) {
       const Collision collision = log_.at(k);
       corners.push_back({collision.time.hi, gaps_.of(collision.blue, collision.red)});
@@ -46,7 +46,7 @@ class TrajectoryBuilder {
   }
 
   void add_band(const TimedGaps& end, const Integer& count) {
-    if (pieces.empty() || pieces.back().bands.empty()) pieces.push_back({});
+    if (pieces_.empty() || pieces_.back().bands.empty()) pieces_.push_back({});
     Band band{{time_, gaps_.of(state_)}, end, 0};
     // Between the wall and red, whose distance falls to the turn and rises again: it is largest at
     // the first contact or at the last one.
@@ -55,13 +55,14 @@ class TrajectoryBuilder {
       const Collision collision = log_.at(k);
       band.high = std::max(band.high, gaps_.of(collision.blue, collision.red).y1);
     }
-    pieces.back().bands.push_back(band);
+    pieces_.back().bands.push_back(band);
   }
 
   const CollisionLog& log_;
   const PanelGaps& gaps_;
   BlockState state_;
   double time_ = 0;
+  std::vector<TrajectoryPiece> pieces_;
 };
 
 }  // namespace
@@ -73,7 +74,7 @@ std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const PanelG
   for (int column = 1; column <= columns; ++column) {
     builder.run_to(from + (to - from) * column / columns);
   }
-  return std::move(builder.pieces);
+  return builder.take_pieces();
 }
 
 }  // namespace piblocks
