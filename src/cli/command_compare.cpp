@@ -22,17 +22,17 @@ namespace {
 constexpr int kMaxLines = 20;
 
 struct CompareOptions {
-  const CLI::Option* reference;
-  const CLI::Option* actual;
-  const CLI::Option* max_delta;
-  const CLI::Option* max_pixels;
-  const CLI::Option* hard_delta;
-  const CLI::Option* max_window;
-  const CLI::Option* masks;
-  const CLI::Option* diff;
-  const CLI::Option* html;
-  const CLI::Option* junit;
-  const CLI::Option* quiet;
+  Option reference;
+  Option actual;
+  Option max_delta;
+  Option max_pixels;
+  Option hard_delta;
+  Option max_window;
+  Option masks;
+  Option diff;
+  Option html;
+  Option junit;
+  Option quiet;
 };
 
 Rational parse_delta(const std::string& text) {
@@ -71,19 +71,18 @@ PixelRect parse_mask(const std::string& text) {
 
 Tolerance tolerance_of(const CompareOptions& options) {
   Tolerance tolerance;
-  tolerance.max_delta = value_of(*options.max_delta, parse_delta).value_or(0);
-  tolerance.hard_delta = value_of(*options.hard_delta, parse_delta).value_or(255);
-  tolerance.window = value_of(*options.max_window, parse_window);
+  tolerance.max_delta = value_of(options.max_delta, parse_delta).value_or(0);
+  tolerance.hard_delta = value_of(options.hard_delta, parse_delta).value_or(255);
+  tolerance.window = value_of(options.max_window, parse_window);
   // Who bounds the pixels of any place need not bound those of the whole frame.
   const std::int64_t otherwise = tolerance.window ? kMaxFrame_px : 0;
-  tolerance.max_pixels = value_of(*options.max_pixels, parse_pixels).value_or(otherwise);
+  tolerance.max_pixels = value_of(options.max_pixels, parse_pixels).value_or(otherwise);
   return tolerance;
 }
 
 ComparisonJob job_of(const CompareOptions& options) {
-  ComparisonJob job{
-      *text_of(*options.reference), *text_of(*options.actual), tolerance_of(options), {}};
-  for (const std::string& mask : options.masks->results()) {
+  ComparisonJob job{*options.reference.text(), *options.actual.text(), tolerance_of(options), {}};
+  for (const std::string& mask : options.masks.texts()) {
     try {
       job.masks.push_back(parse_mask(mask));
     } catch (const UsageError& error) {
@@ -95,9 +94,9 @@ ComparisonJob job_of(const CompareOptions& options) {
 
 std::vector<std::unique_ptr<Report>> reports_of(const CompareOptions& options) {
   std::vector<std::unique_ptr<Report>> reports;
-  if (const auto name = text_of(*options.diff)) reports.push_back(diff_folder(*name));
-  if (const auto name = text_of(*options.html)) reports.push_back(html_report(*name));
-  if (const auto name = text_of(*options.junit)) reports.push_back(junit_report(*name));
+  if (const auto name = options.diff.text()) reports.push_back(diff_folder(*name));
+  if (const auto name = options.html.text()) reports.push_back(html_report(*name));
+  if (const auto name = options.junit.text()) reports.push_back(junit_report(*name));
   return reports;
 }
 
@@ -152,10 +151,10 @@ void check_reports(const CompareOptions& options, const ComparisonJob& job) {
   OverwriteCheck check;
   claim_frames(check, "the reference", job.reference);
   claim_frames(check, "the actual pictures", job.actual);
-  if (const auto name = text_of(*options.diff)) claim_diff_folder(check, *name);
-  if (const auto name = text_of(*options.html)) check.writes("--report", *name);
-  if (const auto name = text_of(*options.junit)) check.writes("--junit", *name);
-  if (options.quiet->count() == 0) check.writes_standard_output();
+  if (const auto name = options.diff.text()) claim_diff_folder(check, *name);
+  if (const auto name = options.html.text()) check.writes("--report", *name);
+  if (const auto name = options.junit.text()) check.writes("--junit", *name);
+  if (!options.quiet.is_given()) check.writes_standard_output();
   check.check();
 }
 
@@ -184,7 +183,7 @@ void write_outputs(const std::function<void()>& write) {
 ComparisonResult run_comparison(const CompareOptions& options, const ComparisonJob& job) {
   const StopOnSignals signals;
   const auto reports = reports_of(options);
-  Printer printer(options.quiet->count() > 0);
+  Printer printer(options.quiet.is_given());
   const auto on_frame = [&](const FrameComparison& frame) {
     write_outputs([&] {
       printer.add(frame);
@@ -210,12 +209,12 @@ void run(const CompareOptions& options) {
   if (verdict == Verdict::mismatch) throw ExitCode(kMismatch);
 }
 
-CompareOptions add_options(CLI::App& command) {
+CompareOptions add_options(Command& command) {
   const auto input = [&](const char* name, const char* help) {
-    return command.add_option(name)->description(help)->required()->option_text(kNoText);
+    return command.add_argument(name, help);
   };
   const auto option = [&](const char* name, const char* placeholder, const char* help) {
-    return &add_value_option(command, name, placeholder, help);
+    return command.add_value(name, placeholder, help);
   };
   return {input("REFERENCE",
                 "What is expected: a PNG file, a folder of them, FRAMES/%06d.png,\n"
@@ -227,23 +226,21 @@ CompareOptions add_options(CLI::App& command) {
           option("--max-pixels", "N", "Accept up to N pixels of a frame that differ by more"),
           option("--hard-delta", "D", "Accept no sample at all that differs by more than D"),
           option("--max-window", "N:K", "Accept up to K such pixels in any square of NxN"),
-          option("--mask", "WxH+X+Y", "Leave this rectangle out; may be given again")
-              ->allow_extra_args(false)
-              ->expected(1, -1),
+          command.add_values("--mask", "WxH+X+Y", "Leave this rectangle out; may be given again"),
           option("--diff", "DIR",
                  "Write expected, difference and actual, side by side, of each\n"
                  "frame that is not accepted (the first hundred)"),
           option("--report", "FILE.html", "Write a page to look at the differences"),
           option("--junit", "FILE.xml", "Write a list of tests, one a frame"),
-          command.add_flag("--quiet")->description("Print nothing but errors")};
+          command.add_flag("--quiet", "Print nothing but errors")};
 }
 
 }  // namespace
 
-void add_compare(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("compare", "Compare pictures, sequences or videos");
-  const CompareOptions options = add_options(*command);
-  command->footer(
+void add_compare(Command& app) {
+  Command command = app.add_command("compare", "Compare pictures, sequences or videos");
+  const CompareOptions options = add_options(command);
+  command.set_footer(
       "Every sample has to be equal unless a tolerance is given; of several, all have to hold.\n"
       "Samples are compared as they are stored, alpha too, at up to 16 bits.\n"
       "Exit codes: 0 equal or accepted, 1 different, 2 wrong usage, 3 no reference, 4 sizes,\n"
@@ -252,7 +249,7 @@ void add_compare(CLI::App& app) {
       "  piblocks compare expected.png actual.png --diff differences\n"
       "  piblocks compare golden/%06d.png frames/%06d.png --report report.html\n"
       "  piblocks compare pi.mp4 frames --max-delta 96");
-  command->callback([options] { run(options); });
+  command.on_run([options] { run(options); });
 }
 
 }  // namespace piblocks::cli

@@ -5,14 +5,14 @@
 
 namespace piblocks::cli {
 
-void add_count(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("count", "Print the total number of collisions");
-  const SceneOptions scene(*command);
-  command->footer(
+void add_count(Command& app) {
+  Command command = app.add_command("count", "Print the total number of collisions");
+  const SceneOptions scene(command);
+  command.set_footer(
       "Examples:\n"
       "  piblocks count --digits 12\n"
       "  piblocks count --mass-ratio 1/3");
-  command->callback([scene] {
+  command.on_run([scene] {
     TextOutput out("-");
     const BlockSystem system = scene.scene().system;
     out.line(count_collisions(system).get_str());

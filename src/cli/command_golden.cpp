@@ -27,10 +27,10 @@ namespace fs = std::filesystem;
 namespace {
 
 struct GoldenOptions {
-  const CLI::Option* scenes;
-  const CLI::Option* folder;
-  const CLI::Option* frames;
-  const CLI::Option* diff;
+  Option scenes;
+  Option folder;
+  Option frames;
+  std::optional<Option> diff;
 };
 
 int processors() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
@@ -38,9 +38,9 @@ int processors() { return static_cast<int>(std::max(1U, std::thread::hardware_co
 std::vector<References> references_of(const GoldenOptions& options) {
   std::vector<References> all;
   std::vector<std::string> problems;
-  for (const std::string& scene : options.scenes->results()) {
+  for (const std::string& scene : options.scenes.texts()) {
     try {
-      all.emplace_back(scene, *text_of(*options.folder), text_of(*options.frames).value_or(""));
+      all.emplace_back(scene, *options.folder.text(), options.frames.text().value_or(""));
     } catch (const UsageError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -57,8 +57,8 @@ std::vector<References> references_of(const GoldenOptions& options) {
 /// What a command on references works with.
 struct Work {
   explicit Work(const GoldenOptions& options)
-      : folder(*text_of(*options.folder)),
-        diff(options.diff == nullptr ? std::nullopt : text_of(*options.diff)),
+      : folder(*options.folder.text()),
+        diff(options.diff ? options.diff->text() : std::nullopt),
         all(references_of(options)) {}
 
   fs::path folder;
@@ -68,7 +68,7 @@ struct Work {
 };
 
 void claim_inputs(OverwriteCheck& check, const GoldenOptions& options, const Work& work) {
-  for (const std::string& scene : options.scenes->results()) check.reads("the scene file", scene);
+  for (const std::string& scene : options.scenes.texts()) check.reads("the scene file", scene);
   for (const References& references : work.all) {
     for (const std::string& logo : logos_of(references.script())) check.reads("the logo", logo);
   }
@@ -252,38 +252,33 @@ void run_approve(const GoldenOptions& options) {
   work.out.finish();
 }
 
-GoldenOptions add_options(CLI::App& command, bool with_diff) {
-  return {command.add_option("SCENE")
-              ->description("Scene files; [golden] in them says which pictures are kept")
-              ->required()
-              ->expected(1, -1)
-              ->allow_extra_args()
-              ->option_text("..."),
-          add_value_option(command, "--dir", "DIR", "The folder of the references").required(),
-          &add_value_option(command, "--frames", "T,…",
-                            "Instants kept as pictures, instead of the scene's: 3.5, last, #K"),
-          with_diff ? &add_value_option(command, "--diff", "DIR",
-                                        "Write expected, difference and actual of pictures")
-                    : nullptr};
+GoldenOptions add_options(Command& command, bool with_diff) {
+  return {
+      command.add_arguments("SCENE", "Scene files; [golden] in them says which pictures are kept"),
+      command.add_required_value("--dir", "DIR", "The folder of the references"),
+      command.add_value("--frames", "T,…",
+                        "Instants kept as pictures, instead of the scene's: 3.5, last, #K"),
+      with_diff ? std::optional(command.add_value(
+                      "--diff", "DIR", "Write expected, difference and actual of pictures"))
+                : std::nullopt};
 }
 
-void add_action(CLI::App& golden, const char* name, const char* help,
+void add_action(Command& golden, const char* name, const char* help,
                 void (*run)(const GoldenOptions&)) {
-  CLI::App* command = golden.add_subcommand(name, help);
-  const GoldenOptions options = add_options(*command, run == run_check);
-  command->callback([=] { run(options); });
+  Command command = golden.add_command(name, help);
+  const GoldenOptions options = add_options(command, run == run_check);
+  command.on_run([=] { run(options); });
 }
 
 }  // namespace
 
-void add_golden(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("golden", "Hold scenes to references: record, check, approve");
-  command->require_subcommand(1);
-  add_action(*command, "record", "Keep references of scenes that have none", run_record);
-  add_action(*command, "check", "Compare scenes with their references; writes none", run_check);
-  add_action(*command, "approve", "Replace references, and tell what changes", run_approve);
-  command->footer(
+void add_golden(Command& app) {
+  Command command = app.add_command("golden", "Hold scenes to references: record, check, approve");
+  command.require_command();
+  add_action(command, "record", "Keep references of scenes that have none", run_record);
+  add_action(command, "check", "Compare scenes with their references; writes none", run_check);
+  add_action(command, "approve", "Replace references, and tell what changes", run_approve);
+  command.set_footer(
       "Exit codes of check: 0 equal, 1 different, 2 wrong usage, 3 no references.\n\n"
       "Examples:\n"
       "  piblocks golden record scenes/*.toml --dir golden\n"

@@ -63,10 +63,10 @@ void run() {
 
 }  // namespace
 
-void add_info(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("info", "Print versions of the libraries, encoders found, limits");
-  command->callback(run);
+void add_info(Command& app) {
+  Command command =
+      app.add_command("info", "Print versions of the libraries, encoders found, limits");
+  command.on_run(run);
 }
 
 }  // namespace piblocks::cli

@@ -25,13 +25,13 @@ namespace {
 
 struct LogOptions {
   SceneOptions scene;
-  const CLI::Option* engine;
-  const CLI::Option* from;
-  const CLI::Option* to;
-  const CLI::Option* first;
-  const CLI::Option* limit;
-  const CLI::Option* format;
-  const CLI::Option* output;
+  Option engine;
+  Option from;
+  Option to;
+  Option first;
+  Option limit;
+  Option format;
+  Option output;
 };
 
 /// Rows first … last, by index; none if last < first.
@@ -58,7 +58,7 @@ struct Bound {
 };
 
 /// Nothing if the option was not given.
-std::optional<Bound> bound_of(const CLI::Option& option, const CollisionLog& log) {
+std::optional<Bound> bound_of(const Option& option, const CollisionLog& log) {
   return value_of(option, [&](const std::string& text) {
     Instant instant = parse_instant(text);
     Rational time = time_of(instant, log);
@@ -80,8 +80,8 @@ Integer first_since(const CollisionLog& log, const Bound& bound) {
 }
 
 Rows rows_within_times(const LogOptions& options, const CollisionLog& log) {
-  const auto from = bound_of(*options.from, log);
-  const auto to = bound_of(*options.to, log);
+  const auto from = bound_of(options.from, log);
+  const auto to = bound_of(options.to, log);
   if (from && to && to->time < from->time) {
     throw UsageError(fmt::format("--to {}: is before --from {}", exact_text(to->instant),
                                  exact_text(from->instant)));
@@ -94,7 +94,7 @@ Rows rows_within_times(const LogOptions& options, const CollisionLog& log) {
 
 Rows select_rows(const LogOptions& options, const CollisionLog& log) {
   Rows rows = rows_within_times(options, log);
-  if (const auto first = value_of(*options.first, parse_index)) {
+  if (const auto first = value_of(options.first, parse_index)) {
     if (*first > log.size() || *first < log.first_index()) {
       throw UsageError(
           fmt::format("--first {}: the scene has {}", readable(*first),
@@ -103,12 +103,12 @@ Rows select_rows(const LogOptions& options, const CollisionLog& log) {
                           : fmt::format("collisions {} to {}", readable(log.first_index()),
                                         readable(log.size()))));
     }
-    rows.first = options.from->count() > 0 ? std::max(rows.first, *first) : *first;
+    rows.first = options.from.is_given() ? std::max(rows.first, *first) : *first;
   }
-  if (const auto limit = value_of(*options.limit, parse_positive)) {
+  if (const auto limit = value_of(options.limit, parse_positive)) {
     rows.last = std::min<Integer>(rows.last, rows.first + *limit - 1);
   }
-  if (rows.count() > kMaxRows && options.limit->count() == 0) {
+  if (rows.count() > kMaxRows && !options.limit.is_given()) {
     throw UsageError(fmt::format(
         "log: {} rows are more than {}; narrow them with --from, --to or --first, or allow them "
         "with --limit",
@@ -187,16 +187,16 @@ void write(CollisionStream& collisions, const Format& format, OutputFile& file,
 }
 
 void run(const LogOptions& options) {
-  const Format format = value_of(*options.format, parse_format).value_or(parse_format("csv"));
-  if (!format.is_text) refuse_terminal(*options.output);
-  options.scene.refuse_as_output(*options.output);
+  const Format format = value_of(options.format, parse_format).value_or(parse_format("csv"));
+  if (!format.is_text) refuse_terminal(options.output);
+  options.scene.refuse_as_output(options.output);
   const BlockSystem system = options.scene.scene().system;
-  const auto log = make_log(system, *options.engine);
+  const auto log = make_log(system, options.engine);
   const Rows rows = select_rows(options, *log);
   const std::string header = format.header(rows);
   const StopOnSignals signals;
   using Contents = OutputFile::Contents;
-  OutputFile file(text_of(*options.output).value_or("-"),
+  OutputFile file(options.output.text().value_or("-"),
                   format.is_text ? Contents::text : Contents::bytes);
   file.write(header);
   write(*log->stream(rows.first, rows.last), format, file, signals.token());
@@ -204,32 +204,30 @@ void run(const LogOptions& options) {
   note_convention(system);
 }
 
-LogOptions add_options(CLI::App& command) {
+LogOptions add_options(Command& command) {
   const SceneOptions scene(command);
   return {scene,
-          &add_engine(command),
-          &add_value_option(command, "--from", "T",
-                            "Leave out collisions before this instant (default 0)"),
-          &add_value_option(command, "--to", "T", "Leave out collisions after this instant"),
-          &add_value_option(command, "--first", "K", "Start with this collision (default 1)"),
-          &add_value_option(command, "--limit", "N", "Print at most so many rows"),
-          &add_value_option(command, "--format", "NAME",
+          add_engine(command),
+          command.add_value("--from", "T", "Leave out collisions before this instant (default 0)"),
+          command.add_value("--to", "T", "Leave out collisions after this instant"),
+          command.add_value("--first", "K", "Start with this collision (default 1)"),
+          command.add_value("--limit", "N", "Print at most so many rows"),
+          command.add_value("--format", "NAME",
                             "csv (default), jsonl, or npy, which numpy.load() reads"),
-          &add_value_option(command, "-o,--output", "FILE",
-                            "File to write (default: standard output)")};
+          command.add_value("-o,--output", "FILE", "File to write (default: standard output)")};
 }
 
 }  // namespace
 
-void add_log(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("log", "Print every collision, a row each");
-  const LogOptions options = add_options(*command);
-  command->footer(
+void add_log(Command& app) {
+  Command command = app.add_command("log", "Print every collision, a row each");
+  const LogOptions options = add_options(command);
+  command.set_footer(
       "Examples:\n"
       "  piblocks log --from 3 --to 4 --format jsonl\n"
       "  piblocks log --digits 7 --format npy -o log.npy\n"
       "  piblocks log --digits 20 --first 15707963267948966190 --limit 5 -o turn.csv");
-  command->callback([options] { run(options); });
+  command.on_run([options] { run(options); });
 }
 
 }  // namespace piblocks::cli

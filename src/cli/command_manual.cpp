@@ -5,7 +5,6 @@
 #include <array>
 #include <string_view>
 
-#include "cli/app.hpp"
 #include "cli/commands.hpp"
 #include "cli/manual.hpp"
 #include "cli/options.hpp"
@@ -16,7 +15,7 @@ namespace {
 
 struct Kind {
   std::string_view name;
-  std::string (*text)(const CLI::App& app);
+  std::string (*text)();
 };
 constexpr auto kKinds = std::to_array<Kind>({{"man", man_page},
                                              {"bash", bash_completion},
@@ -29,18 +28,17 @@ void run_manual(const std::string& name) {
     throw UsageError(fmt::format("manual: '{}' must be one of: man, bash, zsh, fish", name));
   }
   OutputFile out("-", OutputFile::Contents::text);
-  out.write(kind->text(*make_app()));
+  out.write(kind->text());
   out.finish();
 }
 
 }  // namespace
 
-void add_manual(CLI::App& app) {
-  CLI::App* const command = app.add_subcommand(
-      "manual", "Print the manual page, or what a shell needs to complete options");
-  const CLI::Option* const kind =
-      add_value_option(*command, "KIND", "", "man, bash, zsh or fish").required();
-  command->callback([=] { run_manual(*text_of(*kind)); });
+void add_manual(Command& app) {
+  Command command =
+      app.add_command("manual", "Print the manual page, or what a shell needs to complete options");
+  const Option kind = command.add_argument("KIND", "man, bash, zsh or fish");
+  command.on_run([=] { run_manual(*kind.text()); });
 }
 
 }  // namespace piblocks::cli

@@ -27,19 +27,19 @@ namespace {
 
 struct RenderOptions {
   SceneOptions scene;
-  const CLI::Option* output;
-  const CLI::Option* destination;
-  const CLI::Option* crf;
-  const CLI::Option* preset;
-  const CLI::Option* encoder;
-  const CLI::Option* smallest;
-  const CLI::Option* jobs;
-  const CLI::Option* part;
-  const CLI::Option* profile;
-  const CLI::Option* quiet;
-  const CLI::Option* bundle;
-  const CLI::Option* poster;
-  const CLI::Option* max_flashes;
+  Option output;
+  Option destination;
+  Option crf;
+  Option preset;
+  Option encoder;
+  Option smallest;
+  Option jobs;
+  Option part;
+  Option profile;
+  Option quiet;
+  Option bundle;
+  Option poster;
+  Option max_flashes;
 };
 
 int parse_jobs(const std::string& text) {
@@ -65,29 +65,29 @@ double parse_crf(const std::string& text) { return to_double(parse_rational(text
 EncoderSettings smallest_file() { return {.crf = 18, .preset = "slower", .encoder = "libx264"}; }
 
 EncoderSettings settings_of(const RenderOptions& options) {
-  if (options.smallest->count() == 0) {
-    return {value_of(*options.crf, parse_crf), text_of(*options.preset), text_of(*options.encoder)};
+  if (!options.smallest.is_given()) {
+    return {value_of(options.crf, parse_crf), options.preset.text(), options.encoder.text()};
   }
-  for (const CLI::Option* option : {options.crf, options.preset, options.encoder}) {
-    if (option->count() == 0) continue;
+  for (const Option& option : {options.crf, options.preset, options.encoder}) {
+    if (!option.is_given()) continue;
     throw UsageError(fmt::format("--smallest chooses the encoder and its settings; leave out {}",
-                                 option->get_name()));
+                                 option.name()));
   }
   return smallest_file();
 }
 
 std::optional<Bundle> bundle_of(const RenderOptions& options) {
-  const auto poster = value_of(*options.poster, parse_instant);
-  if (const auto folder = text_of(*options.bundle)) return Bundle{*folder, poster};
+  const auto poster = value_of(options.poster, parse_instant);
+  if (const auto folder = options.bundle.text()) return Bundle{*folder, poster};
   if (!poster) return std::nullopt;
   throw UsageError("--poster is for a bundle; add --bundle DIR or leave it out");
 }
 
 const Destination* destination_of(const RenderOptions& options) {
-  const auto found = value_of(*options.destination,
+  const auto found = value_of(options.destination,
                               [](const std::string& name) { return &parse_destination(name); });
   if (!found) return nullptr;
-  check_ending(**found, *text_of(*options.output));
+  check_ending(**found, *options.output.text());
   return *found;
 }
 
@@ -95,7 +95,7 @@ const Destination* destination_of(const RenderOptions& options) {
 RenderJob job_of(const RenderOptions& options) {
   const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
   const Destination* const destination = destination_of(options);
-  const std::string output = *text_of(*options.output);
+  const std::string output = *options.output.text();
   EncoderSettings settings = settings_of(options);
   Script script =
       destination == nullptr
@@ -107,11 +107,11 @@ RenderJob job_of(const RenderOptions& options) {
   return {std::move(script),
           output,
           std::move(settings),
-          value_of(*options.jobs, parse_jobs).value_or(static_cast<int>(processors)),
-          value_of(*options.part, parse_part),
-          options.profile->count() > 0,
+          value_of(options.jobs, parse_jobs).value_or(static_cast<int>(processors)),
+          value_of(options.part, parse_part),
+          options.profile.is_given(),
           bundle_of(options),
-          value_of(*options.max_flashes, parse_flashes)};
+          value_of(options.max_flashes, parse_flashes)};
 }
 
 /// What is written, for messages.
@@ -137,11 +137,11 @@ void check_outputs(const RenderOptions& options, const RenderJob& job) {
 }
 
 void run(const RenderOptions& options) {
-  refuse_terminal(*options.output);
-  options.scene.refuse_silence(*options.output);
+  refuse_terminal(options.output);
+  options.scene.refuse_silence(options.output);
   const RenderJob job = job_of(options);
   check_outputs(options, job);
-  const bool quiet = options.quiet->count() > 0;
+  const bool quiet = options.quiet.is_given();
   const StopOnSignals signals;
   ProgressReport report(name_of(job), quiet);
   const Rendered rendered = render(
@@ -151,65 +151,73 @@ void run(const RenderOptions& options) {
   if (!quiet) note_convention(job.script);
 }
 
-RenderOptions add_options(CLI::App& command) {
+RenderOptions add_options(Command& command) {
   SceneOptions scene(command);
-  const CLI::Option& output =
-      *add_value_option(command, "-o,--output", "OUT",
-                        "What to write: NAME.mp4, NAME.mov, NAME.webm, NAME.gif,\n"
-                        "NAME.apng, FRAMES/%06d.png, NAME.y4m, - (y4m on standard\n"
-                        "output), NAME.framehash, null, NAME.wav: the sound alone, or\n"
-                        "NAME.html: a page to step through time and collisions")
-           .required();
-  const CLI::Option& destination =
-      add_value_option(command, "--for", "WHERE",
-                       "Size, rate and background that suit one of:\n" + destination_names());
+  const Option output =
+      command.add_required_value("-o,--output", "OUT",
+                                 "What to write: NAME.mp4, NAME.mov, NAME.webm, NAME.gif,\n"
+                                 "NAME.apng, FRAMES/%06d.png, NAME.y4m, - (y4m on standard\n"
+                                 "output), NAME.framehash, null, NAME.wav: the sound alone, or\n"
+                                 "NAME.html: a page to step through time and collisions");
+  const Option destination = command.add_value(
+      "--for", "WHERE", "Size, rate and background that suit one of:\n" + destination_names());
   scene.add_picture();
   scene.add_show();
   scene.add_exposure();
   scene.add_timing();
   scene.add_sound();
-  const CLI::Option& crf = add_value_option(
-      command, "--crf", "Q", "Rate factor, 1 (best) to 51 (worst); 0 to 63 for WebM");
-  const CLI::Option& preset =
-      add_value_option(command, "--preset", "P", "The encoder's speed preset, such as veryfast");
-  const CLI::Option& encoder =
-      add_value_option(command, "--encoder", "NAME", "Video encoder; 'piblocks info' lists them");
-  const CLI::Option& smallest =
-      *command.add_flag("--smallest")
-           ->description("Smallest MP4, by libx264: under half the size, and many\ntimes the time");
-  const CLI::Option& jobs = add_value_option(
-      command, "--jobs", "N", "Threads (default: one a processor); changes no byte of the output");
-  const CLI::Option& part =
-      add_value_option(command, "--part", "I/N",
-                       "Render the I-th of N shares to OUT.part-I-of-N,\nfor 'piblocks join'");
-  const CLI::Option& bundle =
-      add_value_option(command, "--bundle", "DIR",
-                       "Write OUT, an MP4, into DIR, with a poster, captions, alt text\n"
-                       "and snippets for LaTeX beamer and reveal.js beside it");
-  const CLI::Option& poster = add_value_option(
-      command, "--poster", "T", "Instant that the poster shows (default: the last frame)");
-  const CLI::Option& max_flashes =
-      add_value_option(command, "--max-flashes", "N",
-                       "Render nothing if the film would flash more than N times\n"
-                       "within a second; 3 are held to be harmless (WCAG 2.3.1)");
-  const CLI::Option& profile =
-      *command.add_flag("--profile")->description("Print what each stage cost, on standard error");
-  const CLI::Option& quiet = *command.add_flag("--quiet")->description("Print nothing but errors");
-  return {scene, &output, &destination, &crf,   &preset, &encoder, &smallest,
-          &jobs, &part,   &profile,     &quiet, &bundle, &poster,  &max_flashes};
+  const Option crf =
+      command.add_value("--crf", "Q", "Rate factor, 1 (best) to 51 (worst); 0 to 63 for WebM");
+  const Option preset =
+      command.add_value("--preset", "P", "The encoder's speed preset, such as veryfast");
+  const Option encoder =
+      command.add_value("--encoder", "NAME", "Video encoder; 'piblocks info' lists them");
+  const Option smallest = command.add_flag(
+      "--smallest", "Smallest MP4, by libx264: under half the size, and many\ntimes the time");
+  const Option jobs = command.add_value(
+      "--jobs", "N", "Threads (default: one a processor); changes no byte of the output");
+  const Option part = command.add_value(
+      "--part", "I/N", "Render the I-th of N shares to OUT.part-I-of-N,\nfor 'piblocks join'");
+  const Option bundle =
+      command.add_value("--bundle", "DIR",
+                        "Write OUT, an MP4, into DIR, with a poster, captions, alt text\n"
+                        "and snippets for LaTeX beamer and reveal.js beside it");
+  const Option poster =
+      command.add_value("--poster", "T", "Instant that the poster shows (default: the last frame)");
+  const Option max_flashes =
+      command.add_value("--max-flashes", "N",
+                        "Render nothing if the film would flash more than N times\n"
+                        "within a second; 3 are held to be harmless (WCAG 2.3.1)");
+  const Option profile =
+      command.add_flag("--profile", "Print what each stage cost, on standard error");
+  const Option quiet = command.add_flag("--quiet", "Print nothing but errors");
+  return {.scene = scene,
+          .output = output,
+          .destination = destination,
+          .crf = crf,
+          .preset = preset,
+          .encoder = encoder,
+          .smallest = smallest,
+          .jobs = jobs,
+          .part = part,
+          .profile = profile,
+          .quiet = quiet,
+          .bundle = bundle,
+          .poster = poster,
+          .max_flashes = max_flashes};
 }
 
 }  // namespace
 
-void add_render(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("render", "Render a video or a sequence of frames");
-  const RenderOptions options = add_options(*command);
-  command->footer(
+void add_render(Command& app) {
+  Command command = app.add_command("render", "Render a video or a sequence of frames");
+  const RenderOptions options = add_options(command);
+  command.set_footer(
       "Examples:\n"
       "  piblocks render -o pi.mp4\n"
       "  piblocks render --digits 5 --speed 1/2 --size 1280x720 -o frames/%06d.png\n"
       "  piblocks render scene.toml --to last+3 -o - | ffplay -");
-  command->callback([options] { run(options); });
+  command.on_run([options] { run(options); });
 }
 
 }  // namespace piblocks::cli

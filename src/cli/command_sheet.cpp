@@ -15,9 +15,9 @@ constexpr int kUsualCount = 12;
 
 struct SheetOptions {
   SceneOptions scene;
-  const CLI::Option* frames;
-  const CLI::Option* at;
-  const CLI::Option* output;
+  Option frames;
+  Option at;
+  Option output;
 };
 
 int parse_count(const std::string& text) {
@@ -25,42 +25,40 @@ int parse_count(const std::string& text) {
 }
 
 void run(const SheetOptions& options) {
-  refuse_terminal(*options.output);
-  if (options.frames->count() > 0 && options.at->count() > 0) {
+  refuse_terminal(options.output);
+  if (options.frames.is_given() && options.at.is_given()) {
     throw UsageError("--frames and --at both say which instants are shown; give one of them");
   }
   const Scene scene = options.scene.scene();
-  options.scene.refuse_as_output(*options.output, scene);
-  const auto named = value_of(*options.at, parse_instants);
-  const int count = value_of(*options.frames, parse_count).value_or(kUsualCount);
+  options.scene.refuse_as_output(options.output, scene);
+  const auto named = value_of(options.at, parse_instants);
+  const int count = value_of(options.frames, parse_count).value_or(kUsualCount);
   const StopOnSignals signals;
-  render_sheet(scene, named ? *named : spread_instants(scene, count), *text_of(*options.output),
+  render_sheet(scene, named ? *named : spread_instants(scene, count), *options.output.text(),
                signals.token());
   note_convention(scene.system);
 }
 
 }  // namespace
 
-void add_sheet(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("sheet", "Render several instants on one page, for paper");
-  SceneOptions scene(*command);
-  const CLI::Option* frames = &add_value_option(
-      *command, "--frames", "N", "So many instants, spread over the run (default 12)");
-  const CLI::Option* at = &add_value_option(*command, "--at", "T[,T...]",
-                                            "Or these instants: 3.5, turn-0.3, last+1, '#314'");
-  const CLI::Option* output =
-      add_value_option(*command, "-o,--output", "OUT",
-                       "NAME.pdf, NAME.png, NAME.svg, or - (PNG on standard output)")
-          .required();
+void add_sheet(Command& app) {
+  Command command = app.add_command("sheet", "Render several instants on one page, for paper");
+  SceneOptions scene(command);
+  const Option frames =
+      command.add_value("--frames", "N", "So many instants, spread over the run (default 12)");
+  const Option at =
+      command.add_value("--at", "T[,T...]", "Or these instants: 3.5, turn-0.3, last+1, '#314'");
+  const Option output = command.add_required_value(
+      "-o,--output", "OUT", "NAME.pdf, NAME.png, NAME.svg, or - (PNG on standard output)");
   scene.add_size();
   scene.add_show();
   scene.add_span();
-  command->footer(
+  command.set_footer(
       "Examples:\n"
       "  piblocks sheet -o sheet.pdf\n"
       "  piblocks sheet --digits 2 --at '0,#1,#10,#20,last' -o collisions.svg");
   const SheetOptions options{scene, frames, at, output};
-  command->callback([options] { run(options); });
+  command.on_run([options] { run(options); });
 }
 
 }  // namespace piblocks::cli

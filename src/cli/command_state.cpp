@@ -43,20 +43,20 @@ void write(const Rational& time, const BlockState& state,
 
 struct StateOptions {
   SceneOptions scene;
-  const CLI::Option* at;
-  const CLI::Option* bounds;
-  const CLI::Option* engine;
+  Option at;
+  Option bounds;
+  Option engine;
 };
 
 void run(const StateOptions& options) {
-  const std::vector<Instant> instants = *value_of(*options.at, parse_instants);
+  const std::vector<Instant> instants = *value_of(options.at, parse_instants);
   const BlockSystem system = options.scene.scene().system;
-  const auto log = make_log(system, *options.engine);
+  const auto log = make_log(system, options.engine);
   TextOutput out("-");
   for (const Instant& instant : instants) {
     const Rational time = time_of(instant, *log);
     std::optional<PositionBounds> bounds;
-    if (options.bounds->count() > 0) bounds = bounds_at(*log, time);
+    if (options.bounds.is_given()) bounds = bounds_at(*log, time);
     write(time, state_at(*log, time), bounds, out);
   }
   out.finish();
@@ -65,23 +65,21 @@ void run(const StateOptions& options) {
 
 }  // namespace
 
-void add_state(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("state", "Print positions, velocities and count, one JSON object a line");
-  const SceneOptions scene(*command);
-  const CLI::Option* at =
-      add_value_option(*command, "--at", "T[,T...]", "Instants: 3.5, turn-0.3, last+1, '#314'")
-          .required();
-  const CLI::Option* bounds =
-      command->add_flag("--bounds")
-          ->description("Add position_bound: how far a position may be from the truth at most");
-  const CLI::Option* engine = &add_engine(*command);
-  command->footer(
+void add_state(Command& app) {
+  Command command =
+      app.add_command("state", "Print positions, velocities and count, one JSON object a line");
+  const SceneOptions scene(command);
+  const Option at =
+      command.add_required_value("--at", "T[,T...]", "Instants: 3.5, turn-0.3, last+1, '#314'");
+  const Option bounds = command.add_flag(
+      "--bounds", "Add position_bound: how far a position may be from the truth at most");
+  const Option engine = add_engine(command);
+  command.set_footer(
       "Examples:\n"
       "  piblocks state --at 0,3.5,last\n"
       "  piblocks state --digits 20 --at '#15707963267948966192' --bounds");
   const StateOptions options{scene, at, bounds, engine};
-  command->callback([options] { run(options); });
+  command.on_run([options] { run(options); });
 }
 
 }  // namespace piblocks::cli

@@ -9,32 +9,29 @@
 
 namespace piblocks::cli {
 
-void add_still(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("still", "Render one instant as a picture");
-  SceneOptions scene(*command);
-  const CLI::Option* instant =
-      add_value_option(*command, "--at", "T",
-                       "Instant: a time, 'turn', 'last', or '#K' for collision K; an\n"
-                       "offset may follow, as in turn-0.3 and last+1. Of a storyboard:\n"
-                       "a second of its video, or 'last' for its last frame")
-          .required();
-  const CLI::Option* output =
-      add_value_option(*command, "-o,--output", "OUT",
-                       "NAME.png, NAME.svg, NAME.pdf, or - (PNG on standard output)")
-          .required();
+void add_still(Command& app) {
+  Command command = app.add_command("still", "Render one instant as a picture");
+  SceneOptions scene(command);
+  const Option instant =
+      command.add_required_value("--at", "T",
+                                 "Instant: a time, 'turn', 'last', or '#K' for collision K; an\n"
+                                 "offset may follow, as in turn-0.3 and last+1. Of a storyboard:\n"
+                                 "a second of its video, or 'last' for its last frame");
+  const Option output = command.add_required_value(
+      "-o,--output", "OUT", "NAME.png, NAME.svg, NAME.pdf, or - (PNG on standard output)");
   scene.add_picture();
   scene.add_show();
   scene.add_exposure();
-  command->footer(
+  command.set_footer(
       "Examples:\n"
       "  piblocks still --at 3.5 -o turn.svg\n"
       "  piblocks still scene.toml --at '#10' --size 640x360 -o tenth.png");
-  command->callback([=] {
-    refuse_terminal(*output);
+  command.on_run([=] {
+    refuse_terminal(output);
     const Script shown = scene.script();
-    scene.refuse_as_output(*output, shown);
+    scene.refuse_as_output(output, shown);
     const StopOnSignals signals;
-    render_still(shown, *value_of(*instant, parse_instant), *text_of(*output), signals.token());
+    render_still(shown, *value_of(instant, parse_instant), *output.text(), signals.token());
     note_convention(shown);
   });
 }

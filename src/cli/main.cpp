@@ -3,23 +3,17 @@
 #include <piblocks/error.hpp>
 #include <unistd.h>
 
-#include <algorithm>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <memory>
 #include <new>
-#include <sstream>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "cli/app.hpp"
+#include "cli/command_line.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/say.hpp"
 #include "cli/stop_on_signals.hpp"
-#include "cli/usage_message.hpp"
 #include "core/gmp_memory.hpp"
 #include "core/output_file.hpp"
 
@@ -63,44 +57,6 @@ int fail(const std::exception& error, int exit_code) {
   std::abort();
 }
 
-/// What CLI11 throws when it stops early: --help and --version, or an error.
-int finish(const CLI::App& app, const CLI::ParseError& error) {
-  if (error.get_exit_code() != 0) {
-    return fail(piblocks::cli::usage_message(app, error), kWrongUsage);
-  }
-  std::ostringstream text;
-  app.exit(error, text, text);
-  piblocks::OutputFile out("-", piblocks::OutputFile::Contents::text);
-  out.write(text.str());
-  out.finish();
-  return 0;
-}
-
-/// "piblocks help COMMAND" is "piblocks COMMAND --help". CLI11 takes arguments from the back.
-std::vector<std::string> arguments_of(int argc, char** argv) {
-  std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (!arguments.empty() && arguments.front() == "help") {
-    arguments.erase(arguments.begin());
-    arguments.emplace_back("--help");
-  }
-  std::ranges::reverse(arguments);
-  return arguments;
-}
-
-int run(int argc, char** argv) {
-  const std::unique_ptr<CLI::App> app = piblocks::cli::make_app();
-  if (argc <= 1) {
-    std::fputs(app->help().c_str(), stderr);
-    return kWrongUsage;
-  }
-  try {
-    app->parse(arguments_of(argc, argv));
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    return finish(*app, error);
-  }
-}
-
 /// A file that is opened takes the lowest free number: were a standard stream closed, it could take
 /// the stream's, and messages would end up in a video. Reading only, so that writing still fails.
 void fill_closed_streams() {
@@ -124,7 +80,7 @@ int main(int argc, char** argv) {
   piblocks::end_when_gmp_has_no_memory(end_without_memory);
   std::set_terminate(end_of_exception);
   try {
-    return run(argc, argv);
+    return piblocks::cli::run_command_line(argc, argv);
   } catch (const piblocks::UsageError& error) {
     return fail(error);
   } catch (const piblocks::ReaderGone&) {

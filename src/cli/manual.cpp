@@ -97,7 +97,9 @@ std::string condition_of(const CLI::App& command) {
 
 }  // namespace
 
-std::string man_page(const CLI::App& app) {
+std::string man_page() {
+  const auto made = make_app();
+  const CLI::App& app = *made;
   std::string text = fmt::format(
       ".TH PIBLOCKS 1 \"\" \"piblocks {}\" \"User Commands\"\n"
       ".SH NAME\npiblocks \\- render the colliding blocks that count the digits of pi\n"
@@ -111,7 +113,9 @@ std::string man_page(const CLI::App& app) {
          "number of frames, 5 for what cannot be read.\n";
 }
 
-std::string bash_completion(const CLI::App& app) {
+std::string bash_completion() {
+  const auto made = make_app();
+  const CLI::App& app = *made;
   std::string text =
       "_piblocks() {\n"
       "  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words= i\n"
@@ -145,7 +149,9 @@ std::string bash_completion(const CLI::App& app) {
          "complete -o default -F _piblocks piblocks\n";
 }
 
-std::string zsh_completion(const CLI::App& app) {
+std::string zsh_completion() {
+  const auto made = make_app();
+  const CLI::App& app = *made;
   std::string text =
       "#compdef piblocks\n"
       "local command\n"
@@ -192,7 +198,9 @@ std::string zsh_completion(const CLI::App& app) {
   return text + "esac\n_arguments $options '*:file:_files'\n";
 }
 
-std::string fish_completion(const CLI::App& app) {
+std::string fish_completion() {
+  const auto made = make_app();
+  const CLI::App& app = *made;
   std::string text;
   for (const CLI::App* command : commands_of(app)) {
     text += fmt::format("complete -c piblocks -n __fish_use_subcommand -f -a {} -d {}\n",

@@ -15,16 +15,6 @@ std::optional<Integer> whole_number(const std::string& text) {
 
 }  // namespace
 
-CLI::Option& add_value_option(CLI::App& command, const std::string& name,
-                              const std::string& placeholder, const std::string& help) {
-  return *command.add_option(name, help)->option_text(placeholder);
-}
-
-std::optional<std::string> text_of(const CLI::Option& option) {
-  if (option.count() == 0) return std::nullopt;
-  return option.results().front();
-}
-
 Integer parse_whole_number(const std::string& text, const Integer& low,
                            const std::optional<Integer>& high) {
   const std::optional<Integer> value = whole_number(text);

@@ -2,7 +2,6 @@
 // In: the text of an option. Out: its value, or a UsageError that names the option and the text.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/exact.hpp>
@@ -12,27 +11,20 @@
 #include <utility>
 #include <vector>
 
+#include "cli/command.hpp"
+
 namespace piblocks::cli {
-
-/// Adds an option with one value. CLI11 only collects the text: what it says of text that it
-/// cannot convert is not for users.
-/// @param placeholder  what stands for the value in the help, as in "--size WxH".
-CLI::Option& add_value_option(CLI::App& command, const std::string& name,
-                              const std::string& placeholder, const std::string& help);
-
-/// The option's text; nothing if it was not given.
-std::optional<std::string> text_of(const CLI::Option& option);
 
 /// The option's value as `parse` makes it of the text; nothing if it was not given.
 template <typename Parse>
-auto value_of(const CLI::Option& option, const Parse& parse)
+auto value_of(const Option& option, const Parse& parse)
     -> std::optional<decltype(parse(std::string()))> {
-  const std::optional<std::string> text = text_of(option);
+  const std::optional<std::string> text = option.text();
   if (!text) return std::nullopt;
   try {
     return parse(*text);
   } catch (const UsageError& error) {
-    throw UsageError(fmt::format("{} {}: {}", option.get_name(), *text, error.what()));
+    throw UsageError(fmt::format("{} {}: {}", option.name(), *text, error.what()));
   }
 }
 

@@ -10,8 +10,8 @@ namespace piblocks::cli {
 
 /// @throws UsageError if the output is "-", as it is where the option is not given, and standard
 /// output is a terminal.
-inline void refuse_terminal(const CLI::Option& output) {
-  if (text_of(output).value_or("-") != "-" || isatty(STDOUT_FILENO) == 0) return;
+inline void refuse_terminal(const Option& output) {
+  if (output.text().value_or("-") != "-" || isatty(STDOUT_FILENO) == 0) return;
   throw UsageError("--output -: standard output is a terminal; pipe it or redirect it to a file");
 }
 

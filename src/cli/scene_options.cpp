@@ -9,22 +9,23 @@
 #include "render/logo.hpp"
 
 namespace piblocks::cli {
-SceneOptions::SceneOptions(CLI::App& command)
-    : command_(&command),
-      file_(&add_value_option(command, "SCENE.toml", "",
-                              "Scene file; without it, the article's scene: three digits")) {
+
+SceneOptions::SceneOptions(Command& command)
+    : command_(command),
+      file_(command.add_optional_argument(
+          "SCENE.toml", "Scene file; without it, the article's scene: three digits")) {
   add_key("digits", "--digits", "D", "Count this many digits of pi: m_red = 100^(D-1) m_blue");
   add_key("mass-ratio", "--mass-ratio", "R", "m_red / m_blue, exactly: 16, 2.5, 1/3, 100^7");
 }
 
 void SceneOptions::add_key(const std::string& key, const std::string& option,
                            const std::string& placeholder, const std::string& help) {
-  keys_.emplace_back(key, &add_value_option(*command_, option, placeholder, help));
+  keys_.emplace_back(key, command_.add_value(option, placeholder, help));
 }
 
 void SceneOptions::add_flag(const std::string& key, const std::string& value,
                             const std::string& option, const std::string& help) {
-  flags_.push_back({key, value, command_->add_flag(option)->description(help)});
+  flags_.push_back({key, value, command_.add_flag(option, help)});
 }
 
 void SceneOptions::add_size() {
@@ -89,8 +90,7 @@ void SceneOptions::add_show() {
 void SceneOptions::refuse_both(const std::string& first, const std::string& second,
                                const char* what) const {
   for (const std::string& name : {first, second}) {
-    const CLI::Option* option = command_->get_option_no_throw(name);
-    if (option == nullptr || option->count() == 0) return;
+    if (!command_.is_given(name)) return;
   }
   throw UsageError(fmt::format("{} and {} both set {}; give one of them", first, second, what));
 }
@@ -99,7 +99,7 @@ Scene SceneOptions::scene() const {
   const Script made = script();
   if (const auto* scene = std::get_if<Scene>(&made)) return *scene;
   throw UsageError(fmt::format("'{}' is a storyboard; '{}' takes a scene without [[part]]",
-                               *text_of(*file_), command_->get_name()));
+                               *file_.text(), command_.name()));
 }
 
 Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
@@ -109,13 +109,13 @@ Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
   refuse_both("--transparent", "--opaque", "the background");
   refuse_both("--sound", "--no-sound", "the sound");
   ScriptBuilder builder;
-  if (const auto file = text_of(*file_)) builder.read_file(*file);
+  if (const auto file = file_.text()) builder.read_file(*file);
   for (const auto& [key, text] : defaults) builder.set(origin, key, text);
   for (const auto& [key, option] : keys_) {
-    if (const auto text = text_of(*option)) builder.set(option->get_name(), key, *text);
+    if (const auto text = option.text()) builder.set(option.name(), key, *text);
   }
   for (const Flag& flag : flags_) {
-    if (flag.option->count() > 0) builder.set(flag.option->get_name(), flag.key, flag.value);
+    if (flag.option.is_given()) builder.set(flag.option.name(), flag.key, flag.value);
   }
   Script made = builder.build();
   OverwriteCheck check;
@@ -126,38 +126,37 @@ Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
 }
 
 void SceneOptions::add_inputs(OverwriteCheck& check, const Script& script) const {
-  if (const auto scene = text_of(*file_)) check.reads("the scene file", *scene);
+  if (const auto scene = file_.text()) check.reads("the scene file", *scene);
   for (const std::string& logo : logos_of(script)) check.reads("the logo", logo);
 }
 
-void SceneOptions::refuse_as_output(const CLI::Option& output) const {
+void SceneOptions::refuse_as_output(const Option& output) const {
   refuse_as_output(output, Script());
 }
 
-void SceneOptions::refuse_as_output(const CLI::Option& output, const Script& script) const {
+void SceneOptions::refuse_as_output(const Option& output, const Script& script) const {
   OverwriteCheck check;
   add_inputs(check, script);
-  const std::string name = text_of(output).value_or("-");
-  name == "-" ? check.writes_standard_output() : check.writes(output.get_name(), name);
+  const std::string name = output.text().value_or("-");
+  name == "-" ? check.writes_standard_output() : check.writes(output.name(), name);
   check.check();
 }
 
-void SceneOptions::refuse_silence(const CLI::Option& output) const {
-  const CLI::Option* const silent = command_->get_option_no_throw("--no-sound");
-  const auto name = text_of(output);
-  if (silent == nullptr || silent->count() == 0 || !name || !is_sound_alone(*name)) return;
+void SceneOptions::refuse_silence(const Option& output) const {
+  const auto name = output.text();
+  if (!command_.is_given("--no-sound") || !name || !is_sound_alone(*name)) return;
   throw UsageError(
       fmt::format("--no-sound: '{}' is the sound alone; leave one of them out", *name));
 }
 
-CLI::Option& add_engine(CLI::App& command) {
-  return add_value_option(command, "--engine", "NAME",
-                          "unfolded: closed form (default);\n"
-                          "events: the event loop, in double precision;\n"
-                          "velocities: a loop over velocities alone, in double precision");
+Option add_engine(Command& command) {
+  return command.add_value("--engine", "NAME",
+                           "unfolded: closed form (default);\n"
+                           "events: the event loop, in double precision;\n"
+                           "velocities: a loop over velocities alone, in double precision");
 }
 
-std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const CLI::Option& engine) {
+std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const Option& engine) {
   const auto parse_engine = [](const std::string& text) {
     return parse_choice<Engine>(text, {{"unfolded", Engine::unfolded},
                                        {"events", Engine::events},

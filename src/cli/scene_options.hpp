@@ -2,7 +2,6 @@
 // In: the command line. Out: a valid scene or storyboard, and the log of its collisions.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <piblocks/collision_log.hpp>
 #include <piblocks/storyboard.hpp>
 
@@ -11,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/command.hpp"
 #include "core/overwrite_check.hpp"
 
 namespace piblocks::cli {
@@ -21,11 +21,11 @@ struct SceneDefault {
   std::string text;
 };
 
-/// Refers to options of the App it was made for, and is valid as long as that.
+/// Refers to options of the command it was made for, and is valid as long as they are.
 class SceneOptions {
  public:
   /// Adds [SCENE.toml], --digits and --mass-ratio.
-  explicit SceneOptions(CLI::App& command);
+  explicit SceneOptions(Command& command);
   /// Adds --size.
   void add_size();
   /// Adds --size, --transparent and --opaque.
@@ -52,11 +52,11 @@ class SceneOptions {
   /// Adds the scene file, and the logos of what was made of it.
   void add_inputs(OverwriteCheck& check, const Script& script) const;
   /// @throws UsageError if the option names the scene file as the output.
-  void refuse_as_output(const CLI::Option& output) const;
+  void refuse_as_output(const Option& output) const;
   /// @throws UsageError if the option names the scene file or a logo as the output.
-  void refuse_as_output(const CLI::Option& output, const Script& script) const;
+  void refuse_as_output(const Option& output, const Script& script) const;
   /// @throws UsageError if it names the sound alone, and there is to be none.
-  void refuse_silence(const CLI::Option& output) const;
+  void refuse_silence(const Option& output) const;
 
  private:
   /// Adds an option that sets a key of the scene file.
@@ -69,22 +69,22 @@ class SceneOptions {
   /// @throws UsageError if both options are given; `what` they set.
   void refuse_both(const std::string& first, const std::string& second, const char* what) const;
 
-  CLI::App* command_;
-  CLI::Option* file_;
-  std::vector<std::pair<std::string, CLI::Option*>> keys_;
+  Command command_;
+  Option file_;
+  std::vector<std::pair<std::string, Option>> keys_;
   struct Flag {
     std::string key;
     std::string value;
-    CLI::Option* option;
+    Option option;
   };
   std::vector<Flag> flags_;
 };
 
 /// Adds --engine, for the commands that offer both engines.
-CLI::Option& add_engine(CLI::App& command);
+Option add_engine(Command& command);
 
 /// The system's log, made by the engine that the option names.
 /// @throws UsageError if that engine would have to store too many collisions.
-std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const CLI::Option& engine);
+std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const Option& engine);
 
 }  // namespace piblocks::cli
