@@ -419,7 +419,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{render({"scene.toml", "--shutter", "1"}), "put view.shutter into it", kStory},
         BadInput{render({"scene.toml"}), "scene.toml:2: view.shutter asks for light from behind",
                  "[[part]]\nview.shutter = 1\n[view]\nbackground = 'transparent'\n"},
-        BadInput{render({"scene.toml"}), "scene.toml:5: fade = 9: takes 540 frames",
+        BadInput{render({"scene.toml"}), "scene.toml:5: fade = 9: must take at most",
                  std::string(kStory) + "[[part]]\nfade = 9\n"},
         BadInput{still({"scene.toml", "--at", "#3"}), "'#3' is an instant of one run", kStory},
         BadInput{still({"scene.toml", "--at", "-1"}), "-1: the storyboard's video lasts", kStory},
