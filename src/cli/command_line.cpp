@@ -17,12 +17,23 @@
 namespace piblocks::cli {
 namespace {
 
+bool names_command(const CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* named = &app;
+  for (const std::string& word : words) {
+    const std::vector<const CLI::App*> commands = commands_of(*named);
+    const auto found = std::ranges::find(commands, word, &CLI::App::get_name);
+    if (found == commands.end()) return false;
+    named = *found;
+  }
+  return true;
+}
+
 /// "piblocks help COMMAND" is "piblocks COMMAND --help". CLI11 takes arguments from the back.
-std::vector<std::string> arguments_of(int argc, char** argv) {
+std::vector<std::string> arguments_of(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   if (!arguments.empty() && arguments.front() == "help") {
     arguments.erase(arguments.begin());
-    arguments.emplace_back("--help");
+    if (names_command(app, arguments)) arguments.emplace_back("--help");
   }
   std::ranges::reverse(arguments);
   return arguments;
@@ -46,7 +57,7 @@ int run_command_line(int argc, char** argv) {
     return kWrongUsage;
   }
   try {
-    app->parse(arguments_of(argc, argv));
+    app->parse(arguments_of(*app, argc, argv));
   } catch (const CLI::ParseError& stop) {
     if (stop.get_exit_code() != 0) throw UsageError(usage_message(*app, stop));
     print(*app, stop);

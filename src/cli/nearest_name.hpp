@@ -25,13 +25,13 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// @returns an empty text if more than a third of the word's letters would have to change.
+/// @returns an empty text if more than about a third of its letters would have to change.
 inline std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
   constexpr std::size_t kMaxWord = 40;  // nothing longer is a misspelt name
   if (names.empty() || word.size() > kMaxWord) return {};
   const auto distance = [&](const std::string& name) { return edit_distance(word, name); };
   const auto nearest = std::ranges::min_element(names, {}, distance);
-  return distance(*nearest) <= std::max<std::size_t>(1, word.size() / 3) ? *nearest : "";
+  return distance(*nearest) <= std::max<std::size_t>(1, (word.size() + 1) / 3) ? *nearest : "";
 }
 
 }  // namespace piblocks::cli

@@ -1,5 +1,5 @@
-// A scene that a program fills in by hand, instead of a ScriptBuilder, is checked before it is used.
-// In: a scene. Out: nothing, or an exception.
+// A scene that a program fills in by hand, instead of a ScriptBuilder, is checked before it is
+// used. In: a scene. Out: nothing, or an exception.
 #pragma once
 
 #include <piblocks/error.hpp>

@@ -177,7 +177,8 @@ TEST(CountsShown, AreRightInWords) {
   EXPECT_EQ(sentence(7, 1000), "a counter reaches 7 of 1,000 collisions.");
   EXPECT_EQ(sentence(0, 314), "a counter reaches 0 of 314 collisions.");
   EXPECT_EQ(sentence(0, 0), "a counter reaches 0: there are no collisions from time 0 on.");
-  EXPECT_EQ(sentence(-1000, 0), "a counter reaches -1,000: 1,000 collisions are to go until time 0.");
+  EXPECT_EQ(sentence(-1000, 0),
+            "a counter reaches -1,000: 1,000 collisions are to go until time 0.");
   EXPECT_EQ(sentence(-1, 314), "a counter reaches -1: 1 collision is to go until time 0.");
 }
 
