@@ -18,13 +18,16 @@ namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
 
-/// Relative precision of what the doubles of the closed form are rounded from: two doubles'.
-constexpr mpfr_prec_t kWedge_bits = 110;
-
 /// Half the sum.
 DoubleDouble mean(const DoubleDouble& a, const DoubleDouble& b) {
   const DoubleDouble sum = two_sum(a.hi, b.hi);
   return {sum.hi / 2, (sum.lo + a.lo + b.lo) / 2};
+}
+
+/// Where a landmark is from the ray half-way between two.
+DoubleDouble steps_from(const Landmark& landmark, const Integer& from, const Integer& to) {
+  const DoubleDouble steps = landmark.steps_from(from);
+  return from == to ? steps : mean(steps, landmark.steps_from(to));
 }
 
 ExactMotion checked(const BlockSystem& system) {
@@ -43,7 +46,7 @@ ExactMotion checked(const BlockSystem& system) {
 UnfoldedLog::UnfoldedLog(const BlockSystem& system) : UnfoldedLog(system, checked(system)) {}
 
 UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion)
-    : UnfoldedLog(system, motion, motion.wedge(kWedge_bits)) {}
+    : UnfoldedLog(system, motion, motion.wedge(kLandmark_bits)) {}
 
 UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion, const Wedge& wedge)
     : CollisionLog(system),
@@ -94,7 +97,7 @@ UnfoldedLog::LinePoint UnfoldedLog::point_at(double tau) const {
 }
 
 Phase UnfoldedLog::phase_of(const LinePoint& point, const Rational& time) const {
-  const RoundedAsymptote& end = *point.end;
+  const Landmark& end = *point.end;
   if (exact_.through_corner()) {
     // All rays are crossed at once: the line keeps the direction of the nearer end.
     const bool on_ray = end.beyond.hi == 0;
@@ -134,19 +137,34 @@ FreeFlight UnfoldedLog::flight_at(const Rational& time) const {
   return flight;
 }
 
+UnfoldedLog::Sight UnfoldedLog::sight(const Integer& from, const Integer& to) const {
+  const bool late = form_.is_late(floor_mean(from, to));
+  const Landmark& end = form_.end_near(late);
+  const Landmark& turn = form_.turn.seen(late);
+  const DoubleDouble to_end = steps_from(end, from, to);
+  const DoubleDouble to_turn = steps_from(turn, from, to);
+  return {&end, to_turn.hi < to_end.hi ? form_.direction(to_turn, turn.beyond).complement()
+                                       : form_.direction(to_end, end.beyond)};
+}
+
+Time UnfoldedLog::time(const Integer& from, const Integer& to, const Sight& sight) const {
+  const Integer middle = floor_mean(from, to);
+  if (!form_.is_near_start(middle)) return form_.time(sight.end->sign, sight.ray);
+  const Landmark& start = form_.start.seen(middle > form_.start.ahead.ray);
+  const Direction from_start = form_.direction(steps_from(start, from, to), start.beyond);
+  return {form_.time_from_start(-start.sign, from_start, sight.ray), 0};
+}
+
 Collision UnfoldedLog::at(const Integer& index) const {
   const Integer ray = ray_of(index);
-  const DoubleDouble from_past = form_.past.steps_from(ray);
-  const DoubleDouble to_future = form_.future.steps_from(ray);
-  const bool late = to_future.hi < from_past.hi;
-  const RoundedAsymptote& end = late ? form_.future : form_.past;
   const bool odd = is_odd(ray);
-  const Direction seen = form_.direction(late ? to_future : from_past, end.beyond);
-  const Direction step{-end.sign * form_.step.sine, form_.step.cosine};
+  const Sight seen = sight(ray, ray);
+  const int sign = seen.end->sign;
+  const Direction step{-sign * form_.step.sine, form_.step.cosine};
   const CollisionNumbers now =
-      form_.collision(end.sign, seen, odd ? seen + step : seen, form_.kind(odd));
+      form_.collision(sign, seen.ray, odd ? seen.ray + step : seen.ray, form_.kind(odd));
   Collision collision{index,
-                      time_within(index, contact_, {now.time_hi, now.time_lo}),
+                      time_within(index, contact_, time(ray, ray, seen)),
                       odd ? CollisionKind::blocks : CollisionKind::wall,
                       {now.blue_position, now.blue_velocity},
                       {now.red_position, now.red_velocity}};
@@ -169,23 +187,19 @@ std::optional<Impact> UnfoldedLog::impact(CollisionKind kind, const Integer& fir
   if (is_odd(to) != odd) --to;
   if (from > to) return std::nullopt;
 
-  const DoubleDouble from_past = mean(form_.past.steps_from(from), form_.past.steps_from(to));
-  const DoubleDouble to_future = mean(form_.future.steps_from(from), form_.future.steps_from(to));
-  const RoundedAsymptote& end = to_future.hi < from_past.hi ? form_.future : form_.past;
-  const Direction seen = form_.direction(&end == &form_.future ? to_future : from_past, end.beyond);
+  const Sight seen = sight(from, to);
   // What one collision in the middle has, for each of n, and how far they fall short of that:
   // they lie 2 theta apart, and sin(d - (n-1) theta) + … + sin(d + (n-1) theta) is
   // sin d sin(n theta)/sin theta, as is the sum of cosines, which the times are weighted by, with
   // cos d.
-  const double one = seen.sine / form_.step.sine / (odd ? 1 : form_.step.cosine);
+  const double one = seen.ray.sine / form_.step.sine / (odd ? 1 : form_.step.cosine);
   double number = 1;
   if (from != to) {
     const Integer n = (to - from) / 2 + 1;
     number = form_.direction(to_time(Rational(n)), {}).sine / form_.step.sine;
   }
-  const double reach = form_.kind(odd).blue_reach * (form_.sigma / seen.sine);
-  return Impact{kind, form_.time(end.sign, seen), one * number,
-                form_.blue_offset + reach * form_.ell};
+  const double reach = form_.kind(odd).blue_reach * (form_.sigma / seen.ray.sine);
+  return Impact{kind, time(from, to, seen), one * number, form_.blue_offset + reach * form_.ell};
 }
 
 Integer UnfoldedLog::count_near(const Time& time) const {
@@ -208,7 +222,7 @@ std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,
 }
 
 RayPhase UnfoldedLog::phase_of(const Integer& ray) const {
-  const auto from = [&](const RoundedAsymptote& end) {
+  const auto from = [&](const Landmark& end) {
     const DoubleDouble steps = end.steps_from(ray);
     return steps.hi + (steps.lo + end.beyond.hi);
   };

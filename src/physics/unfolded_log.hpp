@@ -48,7 +48,7 @@ class UnfoldedLog final : public CollisionLog {
 
   /// A point on the line, seen from the nearer end of time.
   struct LinePoint {
-    const RoundedAsymptote* end = nullptr;
+    const Landmark* end = nullptr;
     double distance = 0;  // R
     double sine = 0;      // of the angle to go to that end, from the line's point of view
     double cosine = 1;
@@ -64,6 +64,14 @@ class UnfoldedLog final : public CollisionLog {
   /// Computed exactly if the point's own phase has not decided between two rays.
   Phase phase_of(const LinePoint& point, const Rational& time) const;
   std::unique_ptr<Exposure> expose_corner(const Rational& begin, const Rational& end) const;
+  /// A direction from the end of time that it is nearer to.
+  struct Sight {
+    const Landmark* end = nullptr;
+    Direction ray{};
+  };
+  /// Of the ray half-way between two.
+  Sight sight(const Integer& from, const Integer& to) const;
+  Time time(const Integer& from, const Integer& to, const Sight& sight) const;
   double total_phase() const;
   RayPhase phase_of(const Integer& ray) const;
   Integer ray_of(const Integer& index) const { return exact_.blocks_first ? index : index - 1; }
