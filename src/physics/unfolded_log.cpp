@@ -77,7 +77,7 @@ double UnfoldedLog::tau_at(const Rational& time, const Time& t) const {
   return to_double((time - exact_.closest_approach) / Rational(form_.time_unit));
 }
 
-UnfoldedLog::LinePoint UnfoldedLog::point_at(double tau) const {
+UnfoldedLog::LinePoint UnfoldedLog::point_at(double tau, const Time& t) const {
   // The view of the line from the corner in units of ell, in which it passes at sigma.
   const double ahead = exact_.through_corner() ? kFarAway : form_.ahead(tau);
   const double range = std::hypot(form_.sigma, ahead);
@@ -87,11 +87,26 @@ UnfoldedLog::LinePoint UnfoldedLog::point_at(double tau) const {
   point.distance = std::hypot(form_.impact, form_.speed * tau);
   point.sine = form_.sigma / range;
   point.cosine = ahead / range;
-  const double to_go = std::atan2(form_.sigma, ahead) / form_.theta.hi;
-  point.phase = point.end->sign * (point.end->beyond.hi - to_go);
+  const Landmark* landmark = point.end;
+  double angle = std::atan2(form_.sigma, ahead);
+  const auto nearer = [&](const Landmark& other, double its_angle) {
+    if (its_angle >= angle) return;
+    landmark = &other;
+    angle = its_angle;
+  };
+  if (!exact_.through_corner()) {
+    nearer(form_.turn.seen(tau >= 0), std::atan2(std::fabs(tau), form_.passage));
+    const double now = t.hi / form_.time_unit;
+    if (std::fabs(now) < std::fabs(tau)) {
+      nearer(form_.start.seen(now >= 0), std::fabs(form_.angle_since_start(now)));
+    }
+  }
+  const double rays = angle / form_.theta.hi;
+  point.ray = &landmark->ray;
+  point.phase = landmark->sign * (landmark->beyond.hi - rays);
 
-  // Eleven roundings at most in to_go, and three in the difference.
-  const double error = 16 * kUnitRoundoff * (to_go + 1);
+  // Eleven roundings at most in the number of rays, and three in the difference.
+  const double error = 16 * kUnitRoundoff * (rays + 1);
   point.decided = std::floor(point.phase - error) == std::floor(point.phase + error);
   return point;
 }
@@ -108,12 +123,12 @@ Phase UnfoldedLog::phase_of(const LinePoint& point, const Rational& time) const 
   }
   if (!point.decided) return exact_.phase_at(time);
   const double whole = std::floor(point.phase);
-  return {end.ray + Integer(whole), point.phase - whole};
+  return {*point.ray + Integer(whole), point.phase - whole};
 }
 
 FreeFlight UnfoldedLog::flight_at(const Rational& time) const {
   const Time rounded = to_time(time);
-  const LinePoint point = point_at(tau_at(time, rounded));
+  const LinePoint point = point_at(tau_at(time, rounded), rounded);
   Phase at = phase_of(point, time);
   // Folded back by an even number of rays, the point is at this angle to the wall. After an odd ray
   // it is on the other side, and its velocity is reflected once more.
@@ -203,7 +218,7 @@ std::optional<Impact> UnfoldedLog::impact(CollisionKind kind, const Integer& fir
 }
 
 Integer UnfoldedLog::count_near(const Time& time) const {
-  LinePoint point = point_at(tau_near(time));
+  LinePoint point = point_at(tau_near(time), time);
   point.decided = true;
   const Rational exact = exact_.through_corner() ? to_rational(time) : Rational(0);
   Integer ray = phase_of(point, exact).ray;

@@ -52,7 +52,9 @@ class UnfoldedLog final : public CollisionLog {
     double distance = 0;  // R
     double sine = 0;      // of the angle to go to that end, from the line's point of view
     double cosine = 1;
-    double phase = 0;  // minus end->ray
+    /// Minus the ray next to the nearest landmark: an end of time, the turn or the start.
+    double phase = 0;
+    const Integer* ray = nullptr;
     bool decided = false;
   };
 
@@ -60,7 +62,8 @@ class UnfoldedLog final : public CollisionLog {
   double tau_near(const Time& t, double* magnitude = nullptr) const;
   /// Scaled time since closest approach, rounded once. `t` is the time as a double-double.
   double tau_at(const Rational& time, const Time& t) const;
-  LinePoint point_at(double tau) const;
+  /// @param t  the time, of which tau is taken
+  LinePoint point_at(double tau, const Time& t) const;
   /// Computed exactly if the point's own phase has not decided between two rays.
   Phase phase_of(const LinePoint& point, const Rational& time) const;
   std::unique_ptr<Exposure> expose_corner(const Rational& begin, const Rational& end) const;

@@ -134,6 +134,14 @@ struct ClosedForm {
     return side * (start_range * (from_start.sine / ray.sine)) * time_unit;
   }
 
+  /// What the place has turned by since time 0, for a scaled time that is nearer to 0 than to
+  /// closest approach: nothing cancels then.
+  double angle_since_start(double now) const {
+    const double share = now / start_range;
+    return std::atan2(share * (passage / start_range),
+                      1 - share * (closest_approach.hi / start_range));
+  }
+
   /// The collision on a ray.
   /// @param sign  of the end of time
   /// @param ray   direction of the ray, from that end

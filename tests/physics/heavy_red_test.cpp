@@ -189,6 +189,34 @@ TEST(HeavyRed, HasEveryCollisionInItsPlace) {
   streamed.record("stream");
 }
 
+TEST(HeavyRed, HasItsStatesBetweenCollisions) {
+  Random random(299792);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 200 && !testing::Test::HasFailure(); ++i) {
+    const BlockSystem system = random_heavy_system(random);
+    if (corner_of(system)) continue;
+    SCOPED_TRACE("masses " + system.blue.mass.get_str() + " : " + system.red.mass.get_str() +
+                 ", velocities " + system.blue.velocity.get_str() + ", " +
+                 system.red.velocity.get_str());
+    const auto log = make_collision_log(system, Engine::unfolded);
+    for (int j = 0; j < 4; ++j) {
+      const Rational time = random.rational(-10, 10, 1000);
+      SCOPED_TRACE("t = " + time.get_str());
+      const FreeFlight given = log->flight_at(time);
+      const oracle::ExactState exact = oracle::high_precision_state(system, time, 2500);
+      EXPECT_EQ(given.count, exact.count);
+      // What blue has travelled, and from where, is rounded; not how long the turn takes.
+      const Rational way = 8 + abs(exact.blue.position) + abs(exact.red.position) +
+                           (abs(system.blue.velocity) + abs(system.red.velocity)) * abs(time);
+      EXPECT_LE(quotient(Rational(given.blue.position) - exact.blue.position, way),
+                8 * kUnitRoundoff)
+          << given.blue.position << ", not " << to_double(exact.blue.position);
+      EXPECT_LE(quotient(Rational(given.red.position) - exact.red.position, way),
+                8 * kUnitRoundoff);
+    }
+  }
+}
+
 TEST(HeavyRed, IsLeftAnInstantAfterTheTimeInItsLog) {
   Random random(137035);
   SCOPED_TRACE(random.trace());
