@@ -251,6 +251,15 @@ double UnfoldedLog::total_phase() const {
   return steps.hi + (steps.lo + form_.past.beyond.hi + form_.future.beyond.hi);
 }
 
+double UnfoldedLog::time_to_ray(double tau, double rays, double sine) const {
+  return std::hypot(form_.passage, tau) * (std::sin(rays * form_.theta.hi) / sine);
+}
+
+Phase UnfoldedLog::phase_at(const Rational& time) const {
+  const Time rounded = to_time(time);
+  return phase_of(point_at(tau_at(time, rounded), rounded), time);
+}
+
 /// Until all collisions at once, and from there on.
 std::unique_ptr<Exposure> UnfoldedLog::expose_corner(const Rational& begin,
                                                      const Rational& end) const {
@@ -281,19 +290,23 @@ std::unique_ptr<Exposure> UnfoldedLog::expose(const Rational& first, const Ratio
                                               Crossing{phase_of(first_ray), is_odd(first_ray)},
                                               Crossing{phase_of(last_ray), is_odd(last_ray)}, to);
   }
-  const RaySums rays(form_, total_phase());
+  // Times between places are those of triangles with the corner, however long the turn takes.
   PieceList pieces(start.blue.position, start.red.position);
-  double now = from.tau;
+  double before = 0;  // the sine of the ray before
   for (Integer ray = first_ray; ray <= last_ray; ++ray) {
-    const RayPhase phase = phase_of(ray);
-    const double tau = rays.tau(phase);
-    const double distance = form_.ell * (form_.sigma / std::sin(phase.phase * form_.theta.hi));
+    const double sine = sight(ray, ray).ray.sine;
+    const double distance = form_.ell * (form_.sigma / sine);
     const RayKind kind = form_.kind(is_odd(ray));
-    pieces.add(std::max(0.0, tau - now), form_.blue_offset + kind.blue_reach * distance,
+    const double duration = ray == first_ray
+                                ? time_to_ray(from.tau, 1 - phase_at(first).fraction, sine)
+                                : form_.passage / before * (form_.step.sine / sine);
+    pieces.add(duration, form_.blue_offset + kind.blue_reach * distance,
                form_.red_offset + kind.red_reach * distance);
-    now = tau;
+    before = sine;
   }
-  pieces.add(std::max(0.0, to.tau - now), stop.blue.position, stop.red.position);
+  pieces.add(first_ray <= last_ray ? time_to_ray(to.tau, phase_at(last).fraction, before)
+                                   : to.tau - from.tau,
+             stop.blue.position, stop.red.position);
   return std::make_unique<ListedExposure>(pieces.take());
 }
 

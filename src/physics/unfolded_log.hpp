@@ -66,6 +66,11 @@ class UnfoldedLog final : public CollisionLog {
   LinePoint point_at(double tau, const Time& t) const;
   /// Computed exactly if the point's own phase has not decided between two rays.
   Phase phase_of(const LinePoint& point, const Rational& time) const;
+  Phase phase_at(const Rational& time) const;
+  /// Scaled time between a place and a ray that is less than one ray away from it.
+  /// @param tau   when the line is at the place, since closest approach
+  /// @param sine  of the angle from the ray to an end of time
+  double time_to_ray(double tau, double rays, double sine) const;
   std::unique_ptr<Exposure> expose_corner(const Rational& begin, const Rational& end) const;
   /// A direction from the end of time that it is nearer to.
   struct Sight {

@@ -10,6 +10,8 @@
 #include <set>
 #include <string>
 
+#include "physics/expose.hpp"
+#include "physics/impact.hpp"
 #include "support/oracle.hpp"
 #include "support/property.hpp"
 
@@ -213,6 +215,88 @@ TEST(HeavyRed, HasItsStatesBetweenCollisions) {
           << given.blue.position << ", not " << to_double(exact.blue.position);
       EXPECT_LE(quotient(Rational(given.red.position) - exact.red.position, way),
                 8 * kUnitRoundoff);
+    }
+  }
+}
+
+TEST(HeavyRed, IsHeardWhenItsCollisionsAre) {
+  Random random(667408);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 50 && !testing::Test::HasFailure(); ++i) {
+    const BlockSystem system = random_heavy_system(random);
+    if (corner_of(system)) continue;
+    const Rational turn = turn_of(system).value();
+    const auto log = make_collision_log(system, Engine::unfolded);
+    for (const Integer& index : indices_of(random, system, *log)) {
+      SCOPED_TRACE("from collision " + index.get_str());
+      const Integer last = index + random.integer(0, 5);
+      if (last > log->size()) continue;
+      Rational impulse;
+      Rational moment;
+      Rational furthest;
+      for (Integer k = index; k <= last; ++k) {
+        const oracle::ExactEvent exact = oracle::high_precision_collision(system, k, 2500);
+        if (exact.kind != CollisionKind::blocks) continue;
+        const Rational blow = exact.red.velocity - exact.blue.velocity;
+        impulse += blow;
+        moment += blow * exact.time;
+        furthest = std::max(furthest, exact.time);
+      }
+      if (impulse == 0 || !is_in_range(furthest)) continue;
+      const Rational mean = moment / impulse;
+      const auto together = impact(*log, CollisionKind::blocks, index, last);
+      ASSERT_TRUE(together.has_value());
+      EXPECT_LE(quotient(to_rational(together->time) - mean, time_bound(mean, turn)), 1)
+          << together->time.hi << ", not " << to_double(mean);
+    }
+  }
+}
+
+/// The share of [begin, end] in which blue is at most `position`, by the oracle's collisions.
+Rational share_below(const BlockSystem& system, const Rational& begin, const Rational& end,
+                     const Rational& position) {
+  Rational sum;
+  Rational now = begin;
+  oracle::ExactState state = oracle::high_precision_state(system, begin, 2500);
+  Rational from = state.blue.position;
+  const Integer last = oracle::high_precision_state(system, end, 2500).count;
+  const auto fly = [&](const Rational& until, const Rational& to) {
+    const Rational low = std::min(from, to);
+    const Rational high = std::max(from, to);
+    const Rational part = position >= high  ? Rational(1)
+                          : position <= low ? Rational(0)
+                                            : Rational((position - low) / (high - low));
+    sum += (until - now) * part;
+    now = until;
+    from = to;
+  };
+  for (Integer k = state.count + 1; k <= last; ++k) {
+    const oracle::ExactEvent exact = oracle::high_precision_collision(system, k, 2500);
+    fly(exact.time, exact.blue.position);
+  }
+  fly(end, oracle::high_precision_state(system, end, 2500).blue.position);
+  return sum / (end - begin);
+}
+
+TEST(HeavyRed, IsExposedAsLongAsItIsThere) {
+  Random random(160217);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 100 && !testing::Test::HasFailure(); ++i) {
+    const BlockSystem system = random_heavy_system(random);
+    if (corner_of(system)) continue;
+    SCOPED_TRACE("masses " + system.blue.mass.get_str() + " : " + system.red.mass.get_str() +
+                 ", velocities " + system.blue.velocity.get_str() + ", " +
+                 system.red.velocity.get_str());
+    const auto log = make_collision_log(system, Engine::unfolded);
+    const Rational begin = random.rational(0, 10, 1000);
+    const Rational end = begin + random.rational(1, 20, 1000);
+    const auto exposure = expose(*log, begin, end);
+    if (!exposure->is_listed()) continue;
+    const Travel range = exposure->range(BlockName::blue);
+    for (int j = 1; j < 5; ++j) {
+      const double position = range.from + (range.to - range.from) * j / 5;
+      EXPECT_NEAR(exposure->share_below(BlockName::blue, position),
+                  to_double(share_below(system, begin, end, Rational(position))), 1e-13);
     }
   }
 }
