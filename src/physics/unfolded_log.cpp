@@ -71,9 +71,9 @@ double UnfoldedLog::tau_at(const Rational& time, const Time& t) const {
   const double tau = tau_near(t, &magnitude);
 
   // Both times are right to 2^-106 of them. Where the difference is so small that this would
-  // matter beside the time that passing the corner takes, it is taken of the exact times.
+  // matter beside it, it is taken of the exact times.
   const double error = 0x1p-104 * magnitude;
-  if (error <= 0x1p-56 * (std::fabs(tau) + form_.passage)) return tau;
+  if (error <= 0x1p-56 * std::fabs(tau)) return tau;
   return to_double((time - exact_.closest_approach) / Rational(form_.time_unit));
 }
 
