@@ -305,7 +305,7 @@ std::unique_ptr<Exposure> UnfoldedLog::expose(const Rational& first, const Ratio
     before = sine;
   }
   pieces.add(first_ray <= last_ray ? time_to_ray(to.tau, phase_at(last).fraction, before)
-                                   : to.tau - from.tau,
+                                   : std::max(0.0, to.tau - from.tau),
              stop.blue.position, stop.red.position);
   return std::make_unique<ListedExposure>(pieces.take());
 }
