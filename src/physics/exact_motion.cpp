@@ -129,6 +129,37 @@ Wedge ExactMotion::wedge(mpfr_prec_t bits) const {
   return {s, theta, past, future};
 }
 
+template <typename PhaseFunction>
+Bracket ExactMotion::bracket(const PhaseFunction& phase, const Rational& x, const Rational& y,
+                             mpfr_prec_t bits) const {
+  const auto at = [&](mpfr_prec_t wanted) {
+    const Real s = sigma(wanted);
+    return phase(s, atan(s));
+  };
+  // Mirrored, phases fall.
+  const auto mirrored = [&](mpfr_prec_t wanted) { return Real(wanted, 0) - at(wanted); };
+  const long size = magnitude();
+  Bracket result{split(at, size, bits, x, y, ratio),
+                 split(mirrored, size, bits, Rational(-x), y, ratio)};
+  result.above.ray = -result.above.ray;
+  return result;
+}
+
+Bracket ExactMotion::turn(mpfr_prec_t bits) const {
+  const auto phase = [this](const Real& s, const Real& theta) {
+    return final_phase(s, theta) - scaled(Real::pi(s.bits()), -1) / theta;
+  };
+  // At right angles to the line.
+  return bracket(phase, Rational(-u2), Rational(ratio * turned(u1)), bits);
+}
+
+Bracket ExactMotion::start(mpfr_prec_t bits) const {
+  const auto phase = [this](const Real& s, const Real& theta) {
+    return atan2(s * Real(s.bits(), turned(y1)), Real(s.bits(), y2)) / theta;
+  };
+  return bracket(phase, turned(y1), y2, bits);
+}
+
 Integer ExactMotion::total(const Asymptote& future) const {
   // A ray that the line only reaches at infinity is not crossed.
   const Integer last = future.beyond.sign() == 0 ? Integer(future.ray - 1) : future.ray;

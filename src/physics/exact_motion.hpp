@@ -31,6 +31,12 @@ struct Asymptote {
   Real beyond;  ///< how far its phase is past that ray, in [0, 1); 0 if the line is parallel to it
 };
 
+/// A direction between two rays, or on one, by its distances from both: 0 or positive.
+struct Bracket {
+  Asymptote below;  ///< the ray before it, and how far it is past that
+  Asymptote above;  ///< the ray after it, and how far it falls short of that
+};
+
 /// The wedge and both ends of the line in it, all to one precision.
 struct Wedge {
   Real sigma;
@@ -67,6 +73,10 @@ struct ExactMotion {
   /// All of it with a relative error below 2^-bits, also what is beyond the last rays.
   /// @throws SimulationError as total().
   Wedge wedge(mpfr_prec_t bits) const;
+  /// The direction of the point nearest to the corner, as exact as wedge().
+  Bracket turn(mpfr_prec_t bits) const;
+  /// The direction of the point at time 0, as exact as wedge().
+  Bracket start(mpfr_prec_t bits) const;
   /// Number of collisions at times >= 0, by what comes after them.
   Integer total(const Asymptote& future) const;
 
@@ -88,6 +98,11 @@ struct ExactMotion {
  private:
   /// q: the phase as t grows without bound; q - pi/theta is that of the infinite past.
   Real final_phase(const Real& sigma, const Real& theta) const;
+  /// Splits a phase from both sides. `phase(sigma, theta)`; (x, y) is a point in its direction, in
+  /// the frame in which the phase grows.
+  template <typename PhaseFunction>
+  Bracket bracket(const PhaseFunction& phase, const Rational& x, const Rational& y,
+                  mpfr_prec_t bits) const;
   /// When the line crosses the ray; nothing if that is too long a number to be of use.
   std::optional<Rational> short_crossing(const Integer& ray) const;
   /// The same, rounded up by no more than 2^-bits of what time_past() says.

@@ -18,13 +18,16 @@ namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
 
-/// Relative precision of what the doubles of the closed form are rounded from: two doubles'.
-constexpr mpfr_prec_t kWedge_bits = 110;
-
 /// Half the sum.
 DoubleDouble mean(const DoubleDouble& a, const DoubleDouble& b) {
   const DoubleDouble sum = two_sum(a.hi, b.hi);
   return {sum.hi / 2, (sum.lo + a.lo + b.lo) / 2};
+}
+
+/// Where a landmark is from the ray half-way between two.
+DoubleDouble steps_from(const Landmark& landmark, const Integer& from, const Integer& to) {
+  const DoubleDouble steps = landmark.steps_from(from);
+  return from == to ? steps : mean(steps, landmark.steps_from(to));
 }
 
 ExactMotion checked(const BlockSystem& system) {
@@ -43,7 +46,7 @@ ExactMotion checked(const BlockSystem& system) {
 UnfoldedLog::UnfoldedLog(const BlockSystem& system) : UnfoldedLog(system, checked(system)) {}
 
 UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion)
-    : UnfoldedLog(system, motion, motion.wedge(kWedge_bits)) {}
+    : UnfoldedLog(system, motion, motion.wedge(kLandmark_bits)) {}
 
 UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion, const Wedge& wedge)
     : CollisionLog(system),
@@ -68,13 +71,13 @@ double UnfoldedLog::tau_at(const Rational& time, const Time& t) const {
   const double tau = tau_near(t, &magnitude);
 
   // Both times are right to 2^-106 of them. Where the difference is so small that this would
-  // matter beside the time that passing the corner takes, it is taken of the exact times.
+  // matter beside it, it is taken of the exact times.
   const double error = 0x1p-104 * magnitude;
-  if (error <= 0x1p-56 * (std::fabs(tau) + form_.passage)) return tau;
+  if (error <= 0x1p-56 * std::fabs(tau)) return tau;
   return to_double((time - exact_.closest_approach) / Rational(form_.time_unit));
 }
 
-UnfoldedLog::LinePoint UnfoldedLog::point_at(double tau) const {
+UnfoldedLog::LinePoint UnfoldedLog::point_at(double tau, const Time& t) const {
   // The view of the line from the corner in units of ell, in which it passes at sigma.
   const double ahead = exact_.through_corner() ? kFarAway : form_.ahead(tau);
   const double range = std::hypot(form_.sigma, ahead);
@@ -84,17 +87,32 @@ UnfoldedLog::LinePoint UnfoldedLog::point_at(double tau) const {
   point.distance = std::hypot(form_.impact, form_.speed * tau);
   point.sine = form_.sigma / range;
   point.cosine = ahead / range;
-  const double to_go = std::atan2(form_.sigma, ahead) / form_.theta.hi;
-  point.phase = point.end->sign * (point.end->beyond.hi - to_go);
+  const Landmark* landmark = point.end;
+  double angle = std::atan2(form_.sigma, ahead);
+  const auto nearer = [&](const Landmark& other, double its_angle) {
+    if (its_angle >= angle) return;
+    landmark = &other;
+    angle = its_angle;
+  };
+  if (!exact_.through_corner()) {
+    nearer(form_.turn.seen(tau >= 0), std::atan2(std::fabs(tau), form_.passage));
+    const double now = t.hi / form_.time_unit;
+    if (std::fabs(now) < std::fabs(tau)) {
+      nearer(form_.start.seen(now >= 0), std::fabs(form_.angle_since_start(now)));
+    }
+  }
+  const double rays = angle / form_.theta.hi;
+  point.ray = &landmark->ray;
+  point.phase = landmark->sign * (landmark->beyond.hi - rays);
 
-  // Eleven roundings at most in to_go, and three in the difference.
-  const double error = 16 * kUnitRoundoff * (to_go + 1);
+  // Eleven roundings at most in the number of rays, and three in the difference.
+  const double error = 16 * kUnitRoundoff * (rays + 1);
   point.decided = std::floor(point.phase - error) == std::floor(point.phase + error);
   return point;
 }
 
 Phase UnfoldedLog::phase_of(const LinePoint& point, const Rational& time) const {
-  const RoundedAsymptote& end = *point.end;
+  const Landmark& end = *point.end;
   if (exact_.through_corner()) {
     // All rays are crossed at once: the line keeps the direction of the nearer end.
     const bool on_ray = end.beyond.hi == 0;
@@ -105,12 +123,12 @@ Phase UnfoldedLog::phase_of(const LinePoint& point, const Rational& time) const 
   }
   if (!point.decided) return exact_.phase_at(time);
   const double whole = std::floor(point.phase);
-  return {end.ray + Integer(whole), point.phase - whole};
+  return {*point.ray + Integer(whole), point.phase - whole};
 }
 
 FreeFlight UnfoldedLog::flight_at(const Rational& time) const {
   const Time rounded = to_time(time);
-  const LinePoint point = point_at(tau_at(time, rounded));
+  const LinePoint point = point_at(tau_at(time, rounded), rounded);
   Phase at = phase_of(point, time);
   // Folded back by an even number of rays, the point is at this angle to the wall. After an odd ray
   // it is on the other side, and its velocity is reflected once more.
@@ -134,19 +152,34 @@ FreeFlight UnfoldedLog::flight_at(const Rational& time) const {
   return flight;
 }
 
+UnfoldedLog::Sight UnfoldedLog::sight(const Integer& from, const Integer& to) const {
+  const bool late = form_.is_late(floor_mean(from, to));
+  const Landmark& end = form_.end_near(late);
+  const Landmark& turn = form_.turn.seen(late);
+  const DoubleDouble to_end = steps_from(end, from, to);
+  const DoubleDouble to_turn = steps_from(turn, from, to);
+  return {&end, to_turn.hi < to_end.hi ? form_.direction(to_turn, turn.beyond).complement()
+                                       : form_.direction(to_end, end.beyond)};
+}
+
+Time UnfoldedLog::time(const Integer& from, const Integer& to, const Sight& sight) const {
+  const Integer middle = floor_mean(from, to);
+  if (!form_.is_near_start(middle)) return form_.time(sight.end->sign, sight.ray);
+  const Landmark& start = form_.start.seen(middle > form_.start.ahead.ray);
+  const Direction from_start = form_.direction(steps_from(start, from, to), start.beyond);
+  return {form_.time_from_start(-start.sign, from_start, sight.ray), 0};
+}
+
 Collision UnfoldedLog::at(const Integer& index) const {
   const Integer ray = ray_of(index);
-  const DoubleDouble from_past = form_.past.steps_from(ray);
-  const DoubleDouble to_future = form_.future.steps_from(ray);
-  const bool late = to_future.hi < from_past.hi;
-  const RoundedAsymptote& end = late ? form_.future : form_.past;
   const bool odd = is_odd(ray);
-  const Direction seen = form_.direction(late ? to_future : from_past, end.beyond);
-  const Direction step{-end.sign * form_.step.sine, form_.step.cosine};
+  const Sight seen = sight(ray, ray);
+  const int sign = seen.end->sign;
+  const Direction step{-sign * form_.step.sine, form_.step.cosine};
   const CollisionNumbers now =
-      form_.collision(end.sign, seen, odd ? seen + step : seen, form_.kind(odd));
+      form_.collision(sign, seen.ray, odd ? seen.ray + step : seen.ray, form_.kind(odd));
   Collision collision{index,
-                      time_within(index, contact_, {now.time_hi, now.time_lo}),
+                      time_within(index, contact_, time(ray, ray, seen)),
                       odd ? CollisionKind::blocks : CollisionKind::wall,
                       {now.blue_position, now.blue_velocity},
                       {now.red_position, now.red_velocity}};
@@ -169,27 +202,23 @@ std::optional<Impact> UnfoldedLog::impact(CollisionKind kind, const Integer& fir
   if (is_odd(to) != odd) --to;
   if (from > to) return std::nullopt;
 
-  const DoubleDouble from_past = mean(form_.past.steps_from(from), form_.past.steps_from(to));
-  const DoubleDouble to_future = mean(form_.future.steps_from(from), form_.future.steps_from(to));
-  const RoundedAsymptote& end = to_future.hi < from_past.hi ? form_.future : form_.past;
-  const Direction seen = form_.direction(&end == &form_.future ? to_future : from_past, end.beyond);
+  const Sight seen = sight(from, to);
   // What one collision in the middle has, for each of n, and how far they fall short of that:
   // they lie 2 theta apart, and sin(d - (n-1) theta) + … + sin(d + (n-1) theta) is
   // sin d sin(n theta)/sin theta, as is the sum of cosines, which the times are weighted by, with
   // cos d.
-  const double one = seen.sine / form_.step.sine / (odd ? 1 : form_.step.cosine);
+  const double one = seen.ray.sine / form_.step.sine / (odd ? 1 : form_.step.cosine);
   double number = 1;
   if (from != to) {
     const Integer n = (to - from) / 2 + 1;
     number = form_.direction(to_time(Rational(n)), {}).sine / form_.step.sine;
   }
-  const double reach = form_.kind(odd).blue_reach * (form_.sigma / seen.sine);
-  return Impact{kind, form_.time(end.sign, seen), one * number,
-                form_.blue_offset + reach * form_.ell};
+  const double reach = form_.kind(odd).blue_reach * (form_.sigma / seen.ray.sine);
+  return Impact{kind, time(from, to, seen), one * number, form_.blue_offset + reach * form_.ell};
 }
 
 Integer UnfoldedLog::count_near(const Time& time) const {
-  LinePoint point = point_at(tau_near(time));
+  LinePoint point = point_at(tau_near(time), time);
   point.decided = true;
   const Rational exact = exact_.through_corner() ? to_rational(time) : Rational(0);
   Integer ray = phase_of(point, exact).ray;
@@ -208,7 +237,7 @@ std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,
 }
 
 RayPhase UnfoldedLog::phase_of(const Integer& ray) const {
-  const auto from = [&](const RoundedAsymptote& end) {
+  const auto from = [&](const Landmark& end) {
     const DoubleDouble steps = end.steps_from(ray);
     return steps.hi + (steps.lo + end.beyond.hi);
   };
@@ -220,6 +249,15 @@ RayPhase UnfoldedLog::phase_of(const Integer& ray) const {
 double UnfoldedLog::total_phase() const {
   const DoubleDouble steps = form_.future.steps_from(form_.past.ray);
   return steps.hi + (steps.lo + form_.past.beyond.hi + form_.future.beyond.hi);
+}
+
+double UnfoldedLog::time_to_ray(double tau, double rays, double sine) const {
+  return std::hypot(form_.passage, tau) * (std::sin(rays * form_.theta.hi) / sine);
+}
+
+Phase UnfoldedLog::phase_at(const Rational& time) const {
+  const Time rounded = to_time(time);
+  return phase_of(point_at(tau_at(time, rounded), rounded), time);
 }
 
 /// Until all collisions at once, and from there on.
@@ -252,19 +290,23 @@ std::unique_ptr<Exposure> UnfoldedLog::expose(const Rational& first, const Ratio
                                               Crossing{phase_of(first_ray), is_odd(first_ray)},
                                               Crossing{phase_of(last_ray), is_odd(last_ray)}, to);
   }
-  const RaySums rays(form_, total_phase());
+  // Times between places are those of triangles with the corner, however long the turn takes.
   PieceList pieces(start.blue.position, start.red.position);
-  double now = from.tau;
+  double before = 0;  // the sine of the ray before
   for (Integer ray = first_ray; ray <= last_ray; ++ray) {
-    const RayPhase phase = phase_of(ray);
-    const double tau = rays.tau(phase);
-    const double distance = form_.ell * (form_.sigma / std::sin(phase.phase * form_.theta.hi));
+    const double sine = sight(ray, ray).ray.sine;
+    const double distance = form_.ell * (form_.sigma / sine);
     const RayKind kind = form_.kind(is_odd(ray));
-    pieces.add(std::max(0.0, tau - now), form_.blue_offset + kind.blue_reach * distance,
+    const double duration = ray == first_ray
+                                ? time_to_ray(from.tau, 1 - phase_at(first).fraction, sine)
+                                : form_.passage / before * (form_.step.sine / sine);
+    pieces.add(duration, form_.blue_offset + kind.blue_reach * distance,
                form_.red_offset + kind.red_reach * distance);
-    now = tau;
+    before = sine;
   }
-  pieces.add(std::max(0.0, to.tau - now), stop.blue.position, stop.red.position);
+  pieces.add(first_ray <= last_ray ? time_to_ray(to.tau, phase_at(last).fraction, before)
+                                   : std::max(0.0, to.tau - from.tau),
+             stop.blue.position, stop.red.position);
   return std::make_unique<ListedExposure>(pieces.take());
 }
 

@@ -48,11 +48,13 @@ class UnfoldedLog final : public CollisionLog {
 
   /// A point on the line, seen from the nearer end of time.
   struct LinePoint {
-    const RoundedAsymptote* end = nullptr;
+    const Landmark* end = nullptr;
     double distance = 0;  // R
     double sine = 0;      // of the angle to go to that end, from the line's point of view
     double cosine = 1;
-    double phase = 0;  // minus end->ray
+    /// Minus the ray next to the nearest landmark: an end of time, the turn or the start.
+    double phase = 0;
+    const Integer* ray = nullptr;
     bool decided = false;
   };
 
@@ -60,10 +62,24 @@ class UnfoldedLog final : public CollisionLog {
   double tau_near(const Time& t, double* magnitude = nullptr) const;
   /// Scaled time since closest approach, rounded once. `t` is the time as a double-double.
   double tau_at(const Rational& time, const Time& t) const;
-  LinePoint point_at(double tau) const;
+  /// @param t  the time, of which tau is taken
+  LinePoint point_at(double tau, const Time& t) const;
   /// Computed exactly if the point's own phase has not decided between two rays.
   Phase phase_of(const LinePoint& point, const Rational& time) const;
+  Phase phase_at(const Rational& time) const;
+  /// Scaled time between a place and a ray that is less than one ray away from it.
+  /// @param tau   when the line is at the place, since closest approach
+  /// @param sine  of the angle from the ray to an end of time
+  double time_to_ray(double tau, double rays, double sine) const;
   std::unique_ptr<Exposure> expose_corner(const Rational& begin, const Rational& end) const;
+  /// A direction from the end of time that it is nearer to.
+  struct Sight {
+    const Landmark* end = nullptr;
+    Direction ray{};
+  };
+  /// Of the ray half-way between two.
+  Sight sight(const Integer& from, const Integer& to) const;
+  Time time(const Integer& from, const Integer& to, const Sight& sight) const;
   double total_phase() const;
   RayPhase phase_of(const Integer& ray) const;
   Integer ray_of(const Integer& index) const { return exact_.blocks_first ? index : index - 1; }

@@ -15,8 +15,8 @@ namespace piblocks {
 /// Rays that share one anchor.
 inline constexpr std::size_t kBlockRays = 64;
 
-/// Directions of up to kBlockRays rays from the first or the last of them, in columns, and what
-/// else depends on their order alone.
+/// Directions of up to kBlockRays rays from the first or the last of them, as angles that grow
+/// towards the middle of time or fall, in columns, and what else depends on their order alone.
 struct RayTable {
   using Column = std::array<double, kBlockRays>;
 
@@ -29,8 +29,10 @@ struct RayTable {
   alignas(64) Column side;
 };
 
-/// Near the past a block's anchor is its first ray, near the future its last one: the angles of the
-/// others are then a sum of two positive ones, with sines that nothing cancels in.
+/// A block's anchor is that of its rays which is nearest to the landmark from which they are
+/// counted. If this is an end of time, the angles of the others are a sum of two positive ones,
+/// with sines that nothing cancels in. If it is the turn, what they lack of a right angle is such a
+/// sum, and nothing cancels in their cosines, which say how long before or after the turn they are.
 /// Every ray costs two rotations, two divisions and some thirty multiplications and additions, all
 /// without branches, so that the compiler makes vectors of them.
 class UnfoldedStream final : public CollisionStream {
@@ -43,9 +45,19 @@ class UnfoldedStream final : public CollisionStream {
   bool read(CollisionBatch& batch) override;
 
  private:
-  void fill(const RoundedAsymptote& end, std::size_t begin, std::size_t rows,
-            CollisionBatch& batch);
-  const RayTable& table(int sign, bool anchor_is_odd);
+  /// Rays that are computed in one way.
+  struct Stretch {
+    Integer last;
+    int end_sign = 0;  ///< of the nearer end of time; 0 if there is no stretch yet
+    const Landmark* landmark = nullptr;  ///< nearest: that end, or the turn
+    bool is_near_start = false;
+
+    bool is_near_turn() const { return landmark->sign != end_sign; }
+  };
+
+  Stretch stretch_from(const Integer& ray) const;
+  void fill(std::size_t begin, std::size_t rows, CollisionBatch& batch);
+  const RayTable& table(const Landmark& landmark, int end_sign, bool anchor_is_odd);
   void keep_within(CollisionBatch& batch) const;
 
   const Unfolding& form_;
@@ -53,8 +65,12 @@ class UnfoldedStream final : public CollisionStream {
   Integer last_;
   Integer index_;
   std::optional<Integer> contact_;
-  Integer last_of_past_;  // later rays are nearer to the future
-  std::array<std::array<std::unique_ptr<RayTable>, 2>, 2> tables_;  // by end and parity of anchor
+  Stretch stretch_;
+  Integer last_by_past_;  // later rays are nearer to the turn
+  Integer last_by_turn_;  // later rays are nearer to the future
+  // By the side on which the landmark lies, by that of the nearer end of time, and by the parity of
+  // the anchor.
+  std::array<std::array<std::array<std::unique_ptr<RayTable>, 2>, 2>, 2> tables_;
 };
 
 }  // namespace piblocks

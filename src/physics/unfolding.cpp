@@ -17,8 +17,12 @@ DoubleDouble to_double_double(const Real& value) {
   return {hi, (value - hi).to_double()};
 }
 
-RoundedAsymptote to_end(const Asymptote& asymptote, int sign) {
+Landmark to_landmark(const Asymptote& asymptote, int sign) {
   return {asymptote.ray, to_double_double(asymptote.beyond), sign};
+}
+
+TwoSided to_two_sided(const Bracket& bracket) {
+  return {to_landmark(bracket.below, +1), to_landmark(bracket.above, -1)};
 }
 
 /// Exponent of a unit of time in which the line takes about 1 to pass ell, or to reach the corner,
@@ -35,7 +39,7 @@ long unit_exponent(const ExactMotion& exact, const Real& ell, const Real& speed)
 
 }  // namespace
 
-DoubleDouble RoundedAsymptote::steps_from(const Integer& other) const {
+DoubleDouble Landmark::steps_from(const Integer& other) const {
   constexpr long kNoOverflow = 1L << 62;
   if (mpz_cmpabs_ui(ray.get_mpz_t(), kNoOverflow) < 0 &&
       mpz_cmpabs_ui(other.get_mpz_t(), kNoOverflow) < 0) {  // a shortcut
@@ -49,7 +53,10 @@ DoubleDouble RoundedAsymptote::steps_from(const Integer& other) const {
 }
 
 Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact, const Wedge& wedge)
-    : past(to_end(wedge.past, -1)), future(to_end(wedge.future, +1)) {
+    : past(to_landmark(wedge.past, -1)),
+      future(to_landmark(wedge.future, +1)),
+      turn(to_two_sided(exact.turn(kLandmark_bits))),
+      start(to_two_sided(exact.start(kLandmark_bits))) {
   const mpfr_prec_t bits = wedge.sigma.bits();
   const Real exact_speed = sqrt(Real(bits, exact.speed_squared));
   const Real exact_ell = Real(bits, abs(exact.area)) / exact_speed;
@@ -73,6 +80,12 @@ Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact, const 
   }
   time_unit = std::scalbln(1.0, exponent);
   closest_approach = to_time(exact.closest_approach / Rational(time_unit));
+  const Real range = sqrt(Real(bits, exact.ratio * exact.y1 * exact.y1 + exact.y2 * exact.y2));
+  start_range = (range / scaled_speed).to_double();
+  if (!exact.through_corner() && exact.closest_approach != 0 && std::isfinite(start_range)) {
+    near_start = exact.closest_approach > 0 ? NearStart::until : NearStart::after;
+    half_way = exact.phase_at(exact.closest_approach / 2).ray;
+  }
   red_speed = exact_speed.to_double();
   blue_speed = (exact_speed / wedge.sigma).to_double();
   blue_offset = to_double(system.wall_face + system.blue.width / 2);

@@ -20,26 +20,46 @@ inline constexpr long kMaxRatioExponent = 2000;
 /// below anything that matters.
 inline constexpr double kFarAway = 0x1p1000;
 
+/// Relative precision of what the doubles of the closed form are rounded from: two doubles'.
+inline constexpr mpfr_prec_t kLandmark_bits = 110;
+
 /// A number as hi + lo; what Time is for instants.
 using DoubleDouble = Time;
 
 inline bool is_odd(const Integer& ray) { return mpz_odd_p(ray.get_mpz_t()) != 0; }
 
-/// One end of time. Its phase is beyond that of `ray`: past it for the infinite future, before it
-/// for the infinite past.
-struct RoundedAsymptote {
+inline Integer floor_mean(const Integer& a, const Integer& b) {
+  Integer result;
+  mpz_fdiv_q_2exp(result.get_mpz_t(), Integer(a + b).get_mpz_t(), 1);
+  return result;
+}
+
+/// A direction that rays on one side of it are counted from: an end of time, the turn or the start.
+/// It is beyond `ray`: past it if it lies ahead of those rays, before it if it lies behind them.
+struct Landmark {
   Integer ray;
   DoubleDouble beyond;
-  int sign = 1;  ///< of t
+  int sign = 1;  ///< 1 ahead, as the infinite future, -1 behind, as the infinite past
 
   /// Rays from `other` to `ray`: 0 or positive if it is crossed.
   DoubleDouble steps_from(const Integer& other) const;
+};
+
+/// One direction as rays before it and rays after it are counted from it.
+struct TwoSided {
+  Landmark ahead;
+  Landmark behind;
+
+  const Landmark& seen(bool from_later_rays) const { return from_later_rays ? behind : ahead; }
 };
 
 /// Sine and cosine of an angle.
 struct Direction {
   double sine;
   double cosine;
+
+  /// Of what it lacks of a right angle.
+  Direction complement() const { return {cosine, sine}; }
 
   friend Direction operator+(const Direction& a, const Direction& b) {
     return {a.sine * b.cosine + a.cosine * b.sine, a.cosine * b.cosine - a.sine * b.sine};
@@ -73,6 +93,7 @@ struct ClosedForm {
   double speed = 0;               ///< |V| in scaled time
   double passage = 0;             ///< b/|V| in scaled time: what the turn takes
   double speed_over_ell = 0;      ///< 0 for a line through the corner
+  double start_range = 0;         ///< |P|/|V| at time 0, in scaled time
   DoubleDouble closest_approach;  ///< in scaled time
   double time_unit = 0;           ///< a power of two
   double red_speed = 0;           ///< |V|
@@ -80,7 +101,7 @@ struct ClosedForm {
   double blue_offset = 0;         ///< x_blue - y1
   double red_offset = 0;          ///< x_red - y2
 
-  /// The direction of a ray, as an angle from the end of time that is `steps` and `beyond` away.
+  /// The angle from a ray to a landmark that is `steps` and `beyond` away.
   /// With theta and the phase to twice a double's precision only the last roundings count.
   Direction direction(const DoubleDouble& steps, const DoubleDouble& beyond) const {
     DoubleDouble phase = two_sum(steps.hi, beyond.hi);
@@ -102,6 +123,23 @@ struct ClosedForm {
         two_sum(closest_approach.hi, sign * (passage * (ray.cosine / ray.sine)));
     const DoubleDouble scaled = two_sum(sum.hi, sum.lo + closest_approach.lo);
     return {scaled.hi * time_unit, scaled.lo * time_unit};
+  }
+
+  /// The same time by the triangle that the corner makes with the places at time 0 and then. Its
+  /// relative error is that of a few roundings, however far away closest approach is.
+  /// @param side        sign of the time
+  /// @param from_start  direction of the ray from that of the place at time 0
+  /// @param ray         as in time()
+  double time_from_start(double side, const Direction& from_start, const Direction& ray) const {
+    return side * (start_range * (from_start.sine / ray.sine)) * time_unit;
+  }
+
+  /// What the place has turned by since time 0, for a scaled time that is nearer to 0 than to
+  /// closest approach: nothing cancels then.
+  double angle_since_start(double now) const {
+    const double share = now / start_range;
+    return std::atan2(share * (passage / start_range),
+                      1 - share * (closest_approach.hi / start_range));
   }
 
   /// The collision on a ray.
@@ -139,8 +177,21 @@ struct Unfolding : ClosedForm {
   /// then
   double ahead(double tau) const;
 
-  RoundedAsymptote past;
-  RoundedAsymptote future;
+  /// Whether a ray is nearer to the future than to the past.
+  bool is_late(const Integer& ray) const { return ray > turn.ahead.ray; }
+  /// Whether a ray is crossed nearer to time 0 than to closest approach.
+  bool is_near_start(const Integer& ray) const {
+    return near_start != NearStart::none && (ray <= half_way) == (near_start == NearStart::until);
+  }
+  const Landmark& end_near(bool late) const { return late ? future : past; }
+
+  Landmark past;
+  Landmark future;
+  TwoSided turn;   ///< closest approach
+  TwoSided start;  ///< time 0
+  /// Which rays are near the start: until `half_way`, or those after it.
+  enum class NearStart { none, until, after } near_start = NearStart::none;
+  Integer half_way;
 };
 
 }  // namespace piblocks

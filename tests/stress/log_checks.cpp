@@ -25,16 +25,6 @@ Wide error_of(double value, const Rational& exact) {
   return std::fabs(to_wide(Rational(value) - exact));
 }
 
-Rational to_rational(Wide value) {
-  mpfr_t wide;
-  mpfr_init2(wide, 64);
-  mpfr_set_ld(wide, value, MPFR_RNDN);
-  Rational result;
-  mpfr_get_q(result.get_mpq_t(), wide);
-  mpfr_clear(wide);
-  return result;
-}
-
 void expect_near(const char* what, Wide value, Wide wanted, Wide tolerance) {
   EXPECT_LE(std::fabs(value - wanted), tolerance) << what << ": " << value << ", not " << wanted;
 }
@@ -73,7 +63,6 @@ Bounds::Bounds(const BlockSystem& system)
   const Rational area = y2 * system.blue.velocity - y1 * system.red.velocity;
   const Rational squared = speed_squared(system);
   ell_ = root(area * area / squared);
-  passage_ = to_rational(sigma_ * ell_ / speed_);
   closest_approach_ =
       -(mass_ratio(system) * y1 * system.blue.velocity + y2 * system.red.velocity) / squared;
 }
@@ -96,8 +85,8 @@ Wide Bounds::red(const Rational& time) const {
 
 Rational Bounds::time(const Rational& time) const {
   const Rational tau = abs(time - closest_approach_);
-  return (tau + passage_) * Rational(8 * kUnit) +
-         (abs(time) + abs(closest_approach_)) * Rational(0x1p-104) + Rational(0x1p-1074);
+  return std::min<Rational>(abs(time), tau) * Rational(8 * kUnit) + abs(time) * Rational(0x1p-102) +
+         Rational(0x1p-1074);
 }
 
 void expect_possible(const BlockSystem& system, const BlockState& state) {

@@ -33,7 +33,8 @@ class Bounds {
   Wide red(const Rational& time) const;
   /// Of sigma v_blue and of v_red.
   Wide velocity() const { return 24 * kUnit * speed_ + (1 + sigma_) * kLeast; }
-  /// Of a collision's time: 8 u (|t - tc| + b/|V|), and what two doubles cannot hold of it.
+  /// Of a collision's time: 8 u of |t| or of |t - tc|, whichever is less, and what two doubles
+  /// cannot hold of it.
   Rational time(const Rational& time) const;
   /// When the last collision is at the earliest, but for a factor of 100.
   Wide last_time() const { return speed_ == 0 ? 0 : ell_ / speed_; }
@@ -49,7 +50,6 @@ class Bounds {
   Wide sigma_;
   Wide speed_;
   Wide ell_;
-  Rational passage_;  // b/|V|
   Rational closest_approach_;
 };
 

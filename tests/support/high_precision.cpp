@@ -89,13 +89,33 @@ class UnfoldedLine {
     const Integer sector = turns_up() ? count : Integer(-count);
     const PlanePoint point = fold(plane(gaps_at(t)), sector);
     const PlanePoint velocity = fold(plane(speed_), sector);
-    const Block& blue = system_.blue;
-    const Rational blue_at_corner = system_.wall_face + blue.width / 2;
-    const Rational red_at_corner = system_.wall_face + blue.width + system_.red.width / 2;
     return {
         count,
-        {blue_at_corner + to_rational(point.x / root_blue_), to_rational(velocity.x / root_blue_)},
-        {red_at_corner + to_rational(point.y / root_red_), to_rational(velocity.y / root_red_)}};
+        {blue_at_corner() + to_rational(point.x / root_blue_),
+         to_rational(velocity.x / root_blue_)},
+        {red_at_corner() + to_rational(point.y / root_red_), to_rational(velocity.y / root_red_)}};
+  }
+
+  /// Collision `index` of a line that misses the corner.
+  ExactEvent collision(const Integer& index) const {
+    const Integer ray = turns_up() ? index : Integer(1 - index);
+    const Real angle = theta_ * to_real(Rational(ray));
+    const Real along_x = sin(angle);
+    const Real along_y = cos(angle);
+    const PlanePoint start = plane(start_);
+    const PlanePoint speed = plane(speed_);
+    // Start and speed have parts at right angles to the ray that cancel then.
+    const Real t =
+        (start.y * along_x - start.x * along_y) / (speed.x * along_y - speed.y * along_x);
+    const Real distance = (start.x + speed.x * t) * along_x + (start.y + speed.y * t) * along_y;
+    const bool odd = mpz_odd_p(ray.get_mpz_t()) != 0;
+    const Real gap = odd ? Real(distance * sin(theta_) / root_blue_) : Real(0);
+    const Real red_gap = odd ? gap : Real(distance / root_red_);
+    const PlanePoint velocity = fold(speed, turns_up() ? index : Integer(-index));
+    return {odd ? CollisionKind::blocks : CollisionKind::wall,
+            to_rational(t),
+            {blue_at_corner() + to_rational(gap), to_rational(velocity.x / root_blue_)},
+            {red_at_corner() + to_rational(red_gap), to_rational(velocity.y / root_red_)}};
   }
 
   Integer total() const {
@@ -107,6 +127,11 @@ class UnfoldedLine {
   bool is_in_corner_at(const Rational& t) const { return meets_corner() && corner_time() == t; }
 
  private:
+  Rational blue_at_corner() const { return system_.wall_face + system_.blue.width / 2; }
+  Rational red_at_corner() const {
+    return system_.wall_face + system_.blue.width + system_.red.width / 2;
+  }
+
   Gaps gaps_at(const Rational& t) const {
     return {start_.blue + speed_.blue * t, start_.red + speed_.red * t};
   }
@@ -219,6 +244,12 @@ ExactState high_precision_state(const BlockSystem& system, const Rational& t,
   state.blue.velocity = -state.blue.velocity;
   state.red.velocity = -state.red.velocity;
   return state;
+}
+
+ExactEvent high_precision_collision(const BlockSystem& system, const Integer& index,
+                                    std::int64_t extra_bits) {
+  const PrecisionScope precision(bits_for(system, extra_bits));
+  return UnfoldedLine(system).collision(index);
 }
 
 Integer high_precision_total(const BlockSystem& system, std::int64_t extra_bits) {

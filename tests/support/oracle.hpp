@@ -59,6 +59,11 @@ ExactState exact_state(const BlockSystem& system, const std::vector<ExactEvent>&
 ExactState high_precision_state(const BlockSystem& system, const Rational& t,
                                 std::int64_t extra_bits = 0);
 
+/// One collision by the same geometry: where the line crosses its ray. For a line that misses the
+/// corner and crosses it. @param index  as in CollisionLog
+ExactEvent high_precision_collision(const BlockSystem& system, const Integer& index,
+                                    std::int64_t extra_bits = 0);
+
 /// Number of collisions from time 0 on, by the same geometry.
 Integer high_precision_total(const BlockSystem& system, std::int64_t extra_bits = 0);
 
