@@ -38,8 +38,8 @@ class UnfoldedLog final : public CollisionLog {
   /// As the functions of these names in impact.hpp.
   std::optional<Impact> impact(CollisionKind kind, const Integer& first, const Integer& last) const;
   Integer count_near(const Time& time) const;
-  /// As in expose.hpp, for begin <= end.
-  std::unique_ptr<Exposure> expose(const Rational& begin, const Rational& end) const;
+  /// As in expose.hpp, for first <= last.
+  std::unique_ptr<Exposure> expose(const Rational& first, const Rational& last) const;
   PositionBounds bounds_at(const Rational& time) const;
 
  private:

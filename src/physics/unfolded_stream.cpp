@@ -114,12 +114,12 @@ constexpr auto kKinds = []() {
 }  // namespace
 
 UnfoldedStream::UnfoldedStream(const Unfolding& form, Integer first, Integer last, Integer index,
-                               const std::optional<Integer>& contact)
+                               std::optional<Integer> contact)
     : form_(form),
       next_(std::move(first)),
       last_(std::move(last)),
       index_(std::move(index)),
-      contact_(contact),
+      contact_(std::move(contact)),
       last_by_past_(floor_mean(form.past.ray, form.turn.ahead.ray)),
       last_by_turn_(floor_mean(form.turn.ahead.ray, form.future.ray)) {}
 

@@ -40,7 +40,7 @@ class UnfoldedStream final : public CollisionStream {
   /// Rays first … last in the order of time; the collision on `first` has index `index`.
   /// @param contact  as in time_within()
   UnfoldedStream(const Unfolding& form, Integer first, Integer last, Integer index,
-                 const std::optional<Integer>& contact);
+                 std::optional<Integer> contact);
 
   bool read(CollisionBatch& batch) override;
 
