@@ -12,6 +12,11 @@ inline Motion motion_of(const Block& block) {
   return {to_double(block.position), to_double(block.velocity)};
 }
 
+/// The motion at a time until which the block meets nothing, rounded once.
+inline Motion motion_at(const Block& block, const Rational& time) {
+  return {to_double(block.position + block.velocity * time), to_double(block.velocity)};
+}
+
 /// The same blocks with opposite velocities: what they do is the past of `system`, backwards.
 inline BlockSystem reversed(BlockSystem system) {
   system.blue.velocity = -system.blue.velocity;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "physics/block_motion.hpp"
 #include "physics/listed_exposure.hpp"
 #include "physics/require_alone.hpp"
 #include "physics/require_finite.hpp"
@@ -148,6 +149,10 @@ FreeFlight UnfoldedLog::flight_at(const Rational& time) const {
   flight.count = exact_.blocks_first ? std::move(at.ray) : Integer(at.ray + 1);
   flight.blue = {form_.blue_offset + y1, (odd ? -1 : 1) * (form_.blue_speed * ahead_sine)};
   flight.red = {form_.red_offset + y2, sign * (form_.red_speed * ahead_cosine)};
+  if (flight.count == 0) {  // as the system begins: no angle is as exact, least of all one at rest
+    flight.blue = motion_at(system().blue, time);
+    flight.red = motion_at(system().red, time);
+  }
   require_finite(rounded, flight.blue, flight.red, "closed form");
   return flight;
 }
