@@ -13,8 +13,8 @@
 
 namespace piblocks {
 
-/// What a frame shows.
-struct Shown {
+/// The state that a frame shows.
+struct FrameState {
   BlockState state;
   Rational time = 0;    ///< simulation time of the state
   Rational slower = 1;  ///< as in Stretch
@@ -44,7 +44,7 @@ class Composition {
 
   /// @param exposure  where the blocks are while the frame is exposed; empty shows the instant. All
   ///                  else is shown as it is at the instant.
-  DrawList frame(const Shown& shown, std::span<const ExposurePart> exposure = {}) const;
+  DrawList frame(const FrameState& shown, std::span<const ExposurePart> exposure = {}) const;
 
  private:
   struct Contents;

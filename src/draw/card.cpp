@@ -20,7 +20,6 @@ constexpr double kLine = 0.06;
 /// A line may be set so much smaller than planned; beyond that it is too long.
 constexpr double kLeastShrink = 0.4;
 // In ems.
-constexpr double kCapHeight = 0.73;
 constexpr double kBelowHeading = 0.75;  // of the heading, to the next line's capitals
 constexpr double kBetweenLines = 0.8;
 
@@ -51,18 +50,18 @@ DrawList compose_card(const std::vector<std::string>& lines, const View& view) {
     line_px = std::min(line_px, fitted_px(lines[i], kLine * measure, inner_px, font));
   }
   const auto others = double(lines.size() - 1);
-  const double between = (kCapHeight + kBetweenLines) * line_px;
+  const double between = (Font::kCapHeight_em + kBetweenLines) * line_px;
   double below = 0;
   if (lines.size() > 1) {
-    below = kBelowHeading * heading_px + kCapHeight * line_px + (others - 1) * between;
+    below = kBelowHeading * heading_px + Font::kCapHeight_em * line_px + (others - 1) * between;
   }
-  const double top = (height - kCapHeight * heading_px - below) / 2;
+  const double top = (height - Font::kCapHeight_em * heading_px - below) / 2;
 
   DrawList list{view.width_px, view.height_px, background_of(view), {}};
-  double baseline = top + kCapHeight * heading_px;
+  double baseline = top + Font::kCapHeight_em * heading_px;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const double size_px = i == 0 ? heading_px : line_px;
-    if (i == 1) baseline += kBelowHeading * heading_px + kCapHeight * line_px;
+    if (i == 1) baseline += kBelowHeading * heading_px + Font::kCapHeight_em * line_px;
     if (i > 1) baseline += between;
     const Point origin{(width - font.width_em(lines[i]) * size_px) / 2, std::round(baseline)};
     list.items.emplace_back(TextItem{nth(ItemId::card, i), origin, lines[i], size_px,

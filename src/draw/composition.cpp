@@ -88,7 +88,7 @@ std::unique_ptr<PicturePart> make_panel(Panel panel, const Setting& setting,
                   short_text(time)));
 }
 
-void check_finite(const Shown& shown) {
+void check_finite(const FrameState& shown) {
   for (const Motion& motion : {shown.state.blue, shown.state.red}) {
     if (!std::isfinite(motion.position) || !std::isfinite(motion.velocity)) refuse_time(shown.time);
   }
@@ -186,7 +186,7 @@ Composition::~Composition() = default;
 Composition::Composition(Composition&&) noexcept = default;
 Composition& Composition::operator=(Composition&&) noexcept = default;
 
-DrawList Composition::frame(const Shown& shown, std::span<const ExposurePart> exposure) const {
+DrawList Composition::frame(const FrameState& shown, std::span<const ExposurePart> exposure) const {
   check_finite(shown);
   DrawList list{contents_->width_px, contents_->height_px, contents_->background, {}};
   contents_->stage->add(shown.state, exposure, list.items);

@@ -56,19 +56,20 @@ Extent extent_of(const PathItem& path) {
   return {points.left - reach, points.top - reach, points.right + reach, points.bottom + reach};
 }
 
-/// Where a block's left edge is at some time.
-struct Way {
+/// From one coordinate to another, in pixels.
+struct Interval {
   double from;
   double to;
 };
 
-Way way_of(const ExposedBlock& block) {
+/// Where the left edge is while the frame is exposed.
+Interval left_edges_of(const ExposedBlock& block) {
   if (block.stops.empty()) return {block.bounds.x, block.bounds.x};
   return {block.stops.front().x, block.stops.back().x};
 }
 
 Extent extent_of(const ExposedBlock& block) {
-  const auto [from, to] = way_of(block);
+  const auto [from, to] = left_edges_of(block);
   const Rectangle& r = block.bounds;
   return {from, r.y, to + r.width, r.y + r.height};
 }
@@ -175,14 +176,14 @@ void compare(const GroupItem& before, const GroupItem& after, const MeasureText&
 }
 
 /// Rows of both blocks: where one passes, the other is painted with it.
-Way rows_of(const ExposedItem& before, const ExposedItem& after) {
+Interval rows_of(const ExposedItem& before, const ExposedItem& after) {
   const Extent a = extent_of(before);
   const Extent b = extent_of(after);
   return {std::min(a.top, b.top), std::max(a.bottom, b.bottom)};
 }
 
 /// Between its ends a block that moves has the same pixels, wherever its ends are.
-void compare(const ExposedBlock& before, const ExposedBlock& after, const Way& rows,
+void compare(const ExposedBlock& before, const ExposedBlock& after, const Interval& rows,
              Damage& damage) {
   if (before == after) return;
   const Rectangle& a = before.bounds;
@@ -190,8 +191,8 @@ void compare(const ExposedBlock& before, const ExposedBlock& after, const Way& r
   const bool alike = before.fill == after.fill && before.stroke == after.stroke &&
                      before.bars == after.bars && a.y == b.y && a.height == b.height &&
                      a.width == b.width && before.stops.empty() == after.stops.empty();
-  const Way first = way_of(before);
-  const Way second = way_of(after);
+  const Interval first = left_edges_of(before);
+  const Interval second = left_edges_of(after);
   if (!alike) {
     damage.add({first.from, rows.from, first.to + a.width, rows.to});
     damage.add({second.from, rows.from, second.to + b.width, rows.to});
@@ -206,7 +207,7 @@ void compare(const ExposedBlock& before, const ExposedBlock& after, const Way& r
 
 void compare(const ExposedItem& before, const ExposedItem& after, const MeasureText& /*width_em*/,
              Damage& damage) {
-  const Way rows = rows_of(before, after);
+  const Interval rows = rows_of(before, after);
   compare(before.behind, after.behind, rows, damage);
   compare(before.front, after.front, rows, damage);
   if (before.contacts == after.contacts) return;

@@ -14,6 +14,9 @@ namespace piblocks {
 /// Each Font has a FreeType library of its own: fonts of different threads share nothing.
 class Font {
  public:
+  /// Height of capitals above the baseline, in ems.
+  static constexpr double kCapHeight_em = 0.73;
+
   /// @throws DrawError if FreeType or Cairo refuses the font.
   Font();
   ~Font();

@@ -19,7 +19,6 @@ constexpr double kLogoHeight = 0.09;
 constexpr double kLogoWidth = 0.24;
 constexpr double kPanelGap = 0.035;
 // In ems.
-constexpr double kCapHeight = 0.73;
 constexpr double kDescent = 0.24;
 constexpr double kBelowTitle = 0.25;
 /// A line may be set so much smaller than planned; beyond that it is too long.
@@ -161,7 +160,7 @@ void place_title(const Show& show, const FrameMeasures& frame, const Palette& pa
     const double size_px = kTitleSize * frame.measure;
     plan.title = set_line(ItemId::title, "show.title", show.title, size_px, frame.line(),
                           frame.view, palette.text, font);
-    plan.title->origin.y = std::round(frame.margin + kCapHeight * size_px);
+    plan.title->origin.y = std::round(frame.margin + Font::kCapHeight_em * size_px);
     top = plan.title->origin.y + (kDescent + kBelowTitle) * size_px;
   } else if (!show.panels.empty()) {
     // Else the counter would stick to the upper edge.
@@ -188,8 +187,9 @@ void place_foot(const Show& show, const FrameMeasures& frame, const Palette& pal
     const double size_px = kCaptionSize * frame.measure;
     plan.caption = set_line(ItemId::caption, "show.caption", show.caption, size_px, line,
                             frame.view, palette.muted, font);
-    height = std::max(height, (kCapHeight + kDescent) * size_px);
-    plan.caption->origin.y = std::round(frame.bottom - (height - kCapHeight * size_px) / 2);
+    height = std::max(height, (Font::kCapHeight_em + kDescent) * size_px);
+    plan.caption->origin.y =
+        std::round(frame.bottom - (height - Font::kCapHeight_em * size_px) / 2);
   }
   if (height > 0) plan.stage.height -= height + frame.margin;
 }

@@ -31,7 +31,7 @@ class PicturePart {
   PicturePart(const PicturePart&) = delete;
   PicturePart& operator=(const PicturePart&) = delete;
 
-  virtual void add(const Shown& shown, std::vector<DrawItem>& items) const = 0;
+  virtual void add(const FrameState& shown, std::vector<DrawItem>& items) const = 0;
 };
 
 }  // namespace piblocks

@@ -30,7 +30,6 @@ constexpr double kMinRounded_px = 16;
 /// From one position to the next that a double can hold.
 constexpr double kMostStep_px = 0.25;
 // In ems of the label.
-constexpr double kCapHeight = 0.73;
 constexpr double kLabelGap = 1.0;  // between the label's baseline and the view
 constexpr double kWordSpace = 0.34;
 /// Sums of advances differ by so little, in whatever order they are added.
@@ -111,7 +110,7 @@ Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle
   layout.text_px = std::min(text_size(area), inner_width / line_em);
 
   // Label and view form one group, centred in the area.
-  const double label_height = (kCapHeight + kLabelGap) * layout.text_px;
+  const double label_height = (Font::kCapHeight_em + kLabelGap) * layout.text_px;
   const double inner_height = area.height - 2 * margin - label_height;
   layout.scale = std::min(inner_width / length(view.x), inner_height / length(view.y));
   const bool rounded = layout.scale >= kMinRounded_px;
@@ -125,7 +124,7 @@ Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle
       to_pixel(area.x + (area.width - view_width) / 2 - to_double(view.x.low) * layout.scale),
       to_pixel(top + label_height + to_double(view.y.high) * layout.scale)};
   layout.label = {area.x + (area.width - line_em * layout.text_px) / 2,
-                  to_pixel(top + kCapHeight * layout.text_px)};
+                  to_pixel(top + Font::kCapHeight_em * layout.text_px)};
   layout.label_em = label_em;
   layout.count_em = line_em - label_em;
   layout.line_left_px = area.x + margin;

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/base64.hpp"
+#include "core/markup.hpp"
 #include "core/output_file.hpp"
 #include "golden/describe.hpp"
 #include "golden/diff_picture.hpp"

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
+#include "core/markup.hpp"
 #include "core/output_file.hpp"
-#include "core/printable.hpp"
 #include "golden/describe.hpp"
 #include "golden/reports.hpp"
 
@@ -49,25 +49,6 @@ class JunitReport final : public Report {
 
 std::unique_ptr<Report> junit_report(const std::string& path) {
   return std::make_unique<JunitReport>(path);
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : printable(text)) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else if (c == '\'')
-      result += "&#39;";
-    else
-      result += c;
-  }
-  return result;
 }
 
 }  // namespace piblocks

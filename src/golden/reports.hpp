@@ -38,8 +38,4 @@ std::unique_ptr<Report> html_report(const std::string& path);
 /// @throws UsageError if it cannot be written.
 std::unique_ptr<Report> junit_report(const std::string& path);
 
-/// Text as HTML and XML have it, in attributes too; what XML does not allow is escaped as
-/// printable() does.
-std::string escaped(const std::string& text);
-
 }  // namespace piblocks

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "physics/check_finite.hpp"
 #include "physics/exact_motion.hpp"
 
 namespace piblocks {
@@ -14,12 +15,12 @@ void check_positive(const char* key, const Rational& value, std::vector<Problem>
   problems.push_back({key, fmt::format("= {}: must be greater than 0", to_text(value))});
 }
 
+}  // namespace
+
 void check_finite(const char* key, const Rational& value, std::vector<Problem>& problems) {
   if (std::isfinite(to_double(value))) return;
   problems.push_back({key, "is beyond the range of a double (about 1.8e308)"});
 }
-
-}  // namespace
 
 std::optional<Rational> turn_of(const BlockSystem& system) {
   const ExactMotion motion(system);

@@ -14,6 +14,7 @@
 
 #include "core/ending.hpp"
 #include "core/file_set.hpp"
+#include "core/markup.hpp"
 #include "core/output_file.hpp"
 #include "golden/reports.hpp"
 #include "render/captions.hpp"

@@ -19,6 +19,7 @@
 #include "core/descriptor.hpp"
 #include "core/ending.hpp"
 #include "core/file_set.hpp"
+#include "core/markup.hpp"
 #include "core/output_file.hpp"
 #include "golden/reports.hpp"
 #include "render/page_facts.hpp"

@@ -78,13 +78,13 @@ std::string time_text(const Rational& time, int digits) {
 }
 
 /// As short as can be where different times are still written differently.
-std::vector<std::string> time_texts(const std::vector<Shown>& pictures) {
+std::vector<std::string> time_texts(const std::vector<FrameState>& pictures) {
   std::vector<std::string> texts;
   for (int digits = kUsualDigits; digits <= kMostDigits; ++digits) {
     texts.clear();
     std::map<std::string, Rational> times;
     bool are_distinct = true;
-    for (const Shown& shown : pictures) {
+    for (const FrameState& shown : pictures) {
       texts.push_back(time_text(shown.time, digits));
       are_distinct &= times.try_emplace(texts.back(), shown.time).first->second == shown.time;
     }
@@ -114,7 +114,7 @@ std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
   require_valid(scene);
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Composition composition(scene, *log, read_logo(scene));
-  std::vector<Shown> shown;
+  std::vector<FrameState> shown;
   shown.reserve(instants.size());
   for (const Instant& instant : instants) {
     const Rational time = time_of(instant, *log);

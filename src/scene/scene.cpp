@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/check_finite.hpp"
 #include "scene/line.hpp"
 
 namespace piblocks {
@@ -57,11 +58,6 @@ void check_shutter(const View& view, std::vector<Problem>& problems) {
       {"view.shutter", fmt::format("= {}: must be from 0 (the instant alone) to 1 (all of the time "
                                    "to the next frame)",
                                    to_text(shutter))});
-}
-
-void check_finite(const char* key, const Rational& value, std::vector<Problem>& problems) {
-  if (std::isfinite(to_double(value))) return;
-  problems.push_back({key, "is beyond the range of a double (about 1.8e308)"});
 }
 
 void check_time(const TimeSpan& time, std::vector<Problem>& problems) {

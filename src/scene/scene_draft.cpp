@@ -9,24 +9,23 @@
 #include <string_view>
 
 namespace piblocks {
-
 namespace {
 
-/// Keys of which a table may have one only, and what they set.
-struct Rivals {
+/// Keys that set the same value: a table may have one of them.
+struct ExclusiveKeys {
   std::vector<std::string_view> keys;
   const char* what;
 };
 
 /// @returns what is wrong; empty if nothing is.
-std::string rivalry(const TomlTable& table, const Rivals& rivals) {
+std::string conflict_of(const TomlTable& table, const ExclusiveKeys& exclusive) {
   std::vector<std::string_view> present;
-  for (const std::string_view key : rivals.keys) {
+  for (const std::string_view key : exclusive.keys) {
     if (std::ranges::count(table.entries, key, &TomlEntry::key) > 0) present.push_back(key);
   }
   if (present.size() < 2) return {};
   return fmt::format("{} {} set {}; leave out {} of them", fmt::join(present, " and "),
-                     present.size() == 2 ? "both" : "all", rivals.what,
+                     present.size() == 2 ? "both" : "all", exclusive.what,
                      present.size() == 2 ? "one" : "all but one");
 }
 
@@ -45,9 +44,10 @@ Rational mass_ratio_of_digits(const Values& values) {
 }  // namespace
 
 void SceneDraft::read(const std::string& path, const TomlTable& table) {
-  for (const Rivals& rivals : {Rivals{{"time.speed", "time.duration"}, "the speed"},
-                               Rivals{{"digits", "mass-ratio", "red.mass"}, "the mass of red"}}) {
-    const std::string problem = rivalry(table, rivals);
+  for (const ExclusiveKeys& exclusive :
+       {ExclusiveKeys{{"time.speed", "time.duration"}, "the speed"},
+        ExclusiveKeys{{"digits", "mass-ratio", "red.mass"}, "the mass of red"}}) {
+    const std::string problem = conflict_of(table, exclusive);
     const std::string place = table.line > 0 ? fmt::format("{}:{}", path, table.line) : path;
     if (!problem.empty()) add_problem(place, problem);
   }

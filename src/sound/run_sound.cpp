@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "sound/loudness.hpp"
+#include "sound/compressor.hpp"
 
 namespace piblocks {
 namespace {

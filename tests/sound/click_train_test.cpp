@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "sound/loudness.hpp"
+#include "sound/compressor.hpp"
 
 namespace piblocks {
 namespace {

@@ -43,7 +43,7 @@ ReadOut energy_read_out(const Setting& setting) {
   // Red's velocity if it had all the energy. It may be beyond a double where red's velocity is not.
   const mpf_class fastest = wide_root_of(2 * sum / system.red.mass);
   return {"energy", text(scale.sum, scale.sum),
-          [=](const Shown& shown) {
+          [=](const FrameState& shown) {
             const double share =
                 fastest > 0 ? mpf_class(shown.state.red.velocity / fastest).get_d() : 0;
             const double red = scale.sum * std::min(1.0, share * share);

@@ -35,7 +35,7 @@ class MassLabels final : public PicturePart {
         red_(label_of(setting.scene.system.red, setting.palette.red, setting.font)),
         blue_(label_of(setting.scene.system.blue, setting.palette.blue, setting.font)) {}
 
-  void add(const Shown& shown, std::vector<DrawItem>& items) const override {
+  void add(const FrameState& shown, std::vector<DrawItem>& items) const override {
     add_label(0, red_, shown.state.red, items);
     add_label(1, blue_, shown.state.blue, items);
   }

@@ -41,7 +41,7 @@ ReadOut momentum_read_out(const Setting& setting) {
   const mpf_class red_factor = factor(system.red);
   const mpf_class blue_factor = factor(system.blue);
   return {"momentum", text(-largest, -largest),
-          [=](const Shown& shown) {
+          [=](const FrameState& shown) {
             return text(mpf_class(red_factor * shown.state.red.velocity).get_d(),
                         mpf_class(blue_factor * shown.state.blue.velocity).get_d());
           },

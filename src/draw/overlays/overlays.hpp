@@ -26,9 +26,9 @@ std::unique_ptr<PicturePart> ruler(const Setting& setting);
 
 /// A short text that changes with what is shown, beside others in a row.
 struct ReadOut {
-  const char* name;                               ///< in messages
-  std::string widest;                             ///< what takes most room
-  std::function<std::string(const Shown&)> text;  ///< empty where there is nothing to say
+  const char* name;                                    ///< in messages
+  std::string widest;                                  ///< what takes most room
+  std::function<std::string(const FrameState&)> text;  ///< empty where there is nothing to say
   Color color;
 };
 
@@ -51,7 +51,7 @@ class ReadOutRows : public PicturePart {
   double height() const noexcept { return height_; }
   /// Moves all rows down.
   void move(double y);
-  void add(const Shown& shown, std::vector<DrawItem>& items) const override;
+  void add(const FrameState& shown, std::vector<DrawItem>& items) const override;
 
  private:
   struct Placed {

@@ -64,7 +64,7 @@ void ReadOutRows::move(double y) {
   for (Placed& placed : placed_) placed.origin.y += y;
 }
 
-void ReadOutRows::add(const Shown& shown, std::vector<DrawItem>& items) const {
+void ReadOutRows::add(const FrameState& shown, std::vector<DrawItem>& items) const {
   // An instant outside of the scene's span may need more room than any in it.
   double shift = 0;
   for (std::size_t n = 0; n < placed_.size(); ++n) {

@@ -132,7 +132,7 @@ class Ruler final : public PicturePart {
         "frame wider, or show another part of the x axis");
   }
 
-  void add(const Shown& /*shown*/, std::vector<DrawItem>& items) const override {
+  void add(const FrameState& /*shown*/, std::vector<DrawItem>& items) const override {
     items.insert(items.end(), items_.begin(), items_.end());
   }
 

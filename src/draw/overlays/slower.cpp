@@ -24,7 +24,7 @@ ReadOut slower_read_out(const Setting& setting) {
   const Pacing& pacing = setting.scene.pacing;
   ReadOut read_out{"slow motion",
                    {},
-                   [](const Shown& shown) { return text_of(shown.slower); },
+                   [](const FrameState& shown) { return text_of(shown.slower); },
                    setting.palette.accent};
   const auto make_room = [&](const Rational& slower) {
     std::string text = text_of(slower);

@@ -44,7 +44,7 @@ ReadOut time_read_out(const Setting& setting) {
     const Span span = span_of(setting.scene, setting.log);
     end = std::max(Rational(abs(span.from)), Rational(abs(span.to)));
   }
-  return {"time", text(-end), [=](const Shown& shown) { return text(shown.time); },
+  return {"time", text(-end), [=](const FrameState& shown) { return text(shown.time); },
           setting.palette.text};
 }
 

@@ -71,7 +71,7 @@ class VelocityArrows final : public PicturePart {
     }
   }
 
-  void add(const Shown& shown, std::vector<DrawItem>& items) const override {
+  void add(const FrameState& shown, std::vector<DrawItem>& items) const override {
     const bool has_red = is_seen(shown.state.red, red_px_);
     const bool has_blue = is_seen(shown.state.blue, blue_px_);
     Figure red = figure_of(shown.state.red);

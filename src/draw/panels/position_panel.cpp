@@ -32,7 +32,7 @@ class PositionPanel final : public PicturePart {
     sheet_.finish();
   }
 
-  void add(const Shown& shown, std::vector<DrawItem>& items) const override {
+  void add(const FrameState& shown, std::vector<DrawItem>& items) const override {
     items.emplace_back(sheet_.item());
     const GapPoint gaps = gaps_.of(shown.state);
     if (gaps.y2 > most_ * (1 + 1e-9)) return;

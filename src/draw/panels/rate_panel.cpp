@@ -77,7 +77,7 @@ class RatePanel final : public PicturePart {
     sheet_.finish();
   }
 
-  void add(const Shown& shown, std::vector<DrawItem>& items) const override {
+  void add(const FrameState& shown, std::vector<DrawItem>& items) const override {
     items.emplace_back(sheet_.item());
     const double x = axis_.x_of(to_double(shown.time));
     if (axis_.shows(x)) items.emplace_back(axis_.cursor(sheet_, x));

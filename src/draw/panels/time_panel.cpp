@@ -29,7 +29,7 @@ class TimePanel final : public PicturePart {
     sheet_.finish();
   }
 
-  void add(const Shown& shown, std::vector<DrawItem>& items) const override {
+  void add(const FrameState& shown, std::vector<DrawItem>& items) const override {
     items.emplace_back(sheet_.item());
     const double x = axis_.x_of(to_double(shown.time));
     if (!axis_.shows(x)) return;

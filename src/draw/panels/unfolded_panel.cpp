@@ -58,7 +58,7 @@ class UnfoldedPanel final : public PicturePart {
     sheet_.finish();
   }
 
-  void add(const Shown& shown, std::vector<DrawItem>& items) const override {
+  void add(const FrameState& shown, std::vector<DrawItem>& items) const override {
     items.emplace_back(sheet_.item());
     const Point present = plane_at(to_double(shown.time));
     if (std::hypot(present.x, present.y) > most_ * (1 + 1e-9)) return;

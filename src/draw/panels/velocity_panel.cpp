@@ -48,7 +48,7 @@ class VelocityPanel final : public PicturePart {
     sheet_.finish();
   }
 
-  void add(const Shown& shown, std::vector<DrawItem>& items) const override {
+  void add(const FrameState& shown, std::vector<DrawItem>& items) const override {
     items.emplace_back(sheet_.item());
     if (!moves_) return;
     const Point velocity = point_of(shown.state.blue.velocity, shown.state.red.velocity);

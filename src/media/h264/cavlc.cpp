@@ -44,14 +44,14 @@ void put(const Code& code, BitWriter& bits) {
   bits.put(code.bits, code.length);
 }
 
-void put_token(const Coefficients& block, int context, BitWriter& bits) {
+void put_token(const Coefficients& block, int nc, BitWriter& bits) {
   const auto put_from = [&](const auto& table) {
     put(table[block.total][block.trailing_ones], bits);
   };
-  if (context == kChromaDc) return put_from(kChromaDcTokens);
-  if (context < 2) return put_from(kCoefficientTokens[0]);
-  if (context < 4) return put_from(kCoefficientTokens[1]);
-  if (context < 8) return put_from(kCoefficientTokens[2]);
+  if (nc == kChromaDc) return put_from(kChromaDcTokens);
+  if (nc < 2) return put_from(kCoefficientTokens[0]);
+  if (nc < 4) return put_from(kCoefficientTokens[1]);
+  if (nc < 8) return put_from(kCoefficientTokens[2]);
   // TotalCoeff - 1 and TrailingOnes; for no levels a pair that cannot occur.
   const std::size_t token = block.total == 0 ? 3 : (block.total - 1) << 2 | block.trailing_ones;
   bits.put(static_cast<std::uint32_t>(token), 6);
@@ -110,21 +110,21 @@ void put_runs(const Coefficients& block, BitWriter& bits) {
 
 }  // namespace
 
-bool write_levels(std::span<const std::int16_t> levels, int total, int context, BitWriter& bits) {
+bool write_levels(std::span<const std::int16_t> levels, int total, int nc, BitWriter& bits) {
   assert(levels.size() == 15 || levels.size() == kMaxLevels || levels.size() == kChromaDcLevels);
-  assert((context == kChromaDc) == (levels.size() == kChromaDcLevels));
+  assert((nc == kChromaDc) == (levels.size() == kChromaDcLevels));
   if (total == 0) {
-    put_token({}, context, bits);
+    put_token({}, nc, bits);
     return true;
   }
   const Coefficients block = coefficients_of(levels);
   assert(block.total == static_cast<std::size_t>(total));
-  put_token(block, context, bits);
+  put_token(block, nc, bits);
   for (std::size_t i = 0; i < block.trailing_ones; ++i) bits.put_flag(block.levels[i] < 0);
   if (!put_large_levels(block, bits)) return false;
   if (block.total == levels.size()) return true;
-  put(context == kChromaDc ? kChromaDcTotalZeros[block.total - 1][block.total_zeros]
-                           : kTotalZeros[block.total - 1][block.total_zeros],
+  put(nc == kChromaDc ? kChromaDcTotalZeros[block.total - 1][block.total_zeros]
+                      : kTotalZeros[block.total - 1][block.total_zeros],
       bits);
   put_runs(block, bits);
   return true;

@@ -15,9 +15,9 @@ inline constexpr int kChromaDc = -1;
 
 /// @param levels  4 of chroma DC, 15 of AC, or 16.
 /// @param total  TotalCoeff: how many of them are not zero.
-/// @param context  nC, from 0 to 16, or kChromaDc.
+/// @param nc  nC, from 0 to 16, or kChromaDc.
 /// @return false if a level is too large for the profiles without long escapes (9.2.2.1); what has
 ///         been written is then of no use.
-bool write_levels(std::span<const std::int16_t> levels, int total, int context, BitWriter& bits);
+bool write_levels(std::span<const std::int16_t> levels, int total, int nc, BitWriter& bits);
 
 }  // namespace piblocks::h264

@@ -14,10 +14,10 @@ namespace {
 constexpr std::size_t kMaxBits = 3080;
 
 // mb_type in I slices (table 7-11); in P slices those of P macroblocks come first (table 7-13).
-constexpr unsigned kSquares = 0;
-constexpr unsigned kPredicted = 1;  // plus the way, without coefficients
-constexpr unsigned kSamples = 25;
-constexpr unsigned kDifference = 0;
+constexpr unsigned kINxN = 0;
+constexpr unsigned kI16x16 = 1;  // plus the mode, without coefficients
+constexpr unsigned kIPcm = 25;
+constexpr unsigned kPL016x16 = 0;
 constexpr unsigned kIntraInP = 5;
 
 /// Table 9-4, for 4:2:0: entry k is the coded_block_pattern with codeNum k.
@@ -51,9 +51,9 @@ void write_type(SliceKind slice, unsigned intra_type, BitWriter& bits) {
 }
 
 // With the bits of mb_type in an I slice, and of intra_chroma_pred_mode.
-constexpr Ways kLumaWays = {
+constexpr ModeCosts kLumaModes = {
     {{Prediction::vertical, 3}, {Prediction::horizontal, 3}, {Prediction::dc, 5}}};
-constexpr Ways kChromaWays = {
+constexpr ModeCosts kChromaModes = {
     {{Prediction::dc, 1}, {Prediction::horizontal, 3}, {Prediction::vertical, 3}}};
 
 /// prev_intra4x4_pred_mode_flag and rem_intra4x4_pred_mode, 7.3.5.1.
@@ -81,11 +81,11 @@ Beside beside_square(const Borders& borders, const Samples& samples, BlockPlace 
 int error_of(const Samples& a, const Samples& b) { return luma_error(a, b) + chroma_error(a, b); }
 
 /// mb_qp_delta of 0, and the residual; nothing if there is none.
-bool write_rest(const Residual& residual, int pattern, const Neighbours& beside,
+bool write_rest(const Residual& residual, int cbp, const Neighbours& beside,
                 CodedMacroblock& macroblock) {
-  if (pattern == 0) return true;
+  if (cbp == 0) return true;
   macroblock.bits.put_signed(0);
-  return write_residual(residual, pattern, macroblock.state, beside, macroblock.bits);
+  return write_residual(residual, cbp, macroblock.state, beside, macroblock.bits);
 }
 
 }  // namespace
@@ -100,17 +100,17 @@ const CodedMacroblock& MacroblockCoder::code(const MacroblockInput& input) {
   // Bits that make it worth while to look at a way: half of what those with coefficients take in
   // the article's scene. At 12 and 24 instead of 110 and 120 luma is as near, chroma by 2 dB nearer
   // (71 and 73 dB), and the time half as long again.
-  constexpr int kFewPrediction = 6;
-  constexpr int kFewDifference = 110;
-  constexpr int kFewSquares = 120;
+  constexpr int kLeastI16x16_bits = 6;
+  constexpr int kLeastP16x16_bits = 110;
+  constexpr int kLeastINxN_bits = 120;
   best_cost_ = std::numeric_limits<std::int64_t>::max();
   if (input.slice == SliceKind::p) try_skip(input);
-  if (is_beyond(kFewPrediction)) return *best_;
-  predict_best_samples(input);
-  try_prediction(input);
-  if (input.slice == SliceKind::p && !is_beyond(kFewDifference)) try_difference(input);
-  if (!is_beyond(kFewSquares)) try_squares(input);
-  if (best_cost_ == std::numeric_limits<std::int64_t>::max()) take_samples(input);
+  if (is_beyond(kLeastI16x16_bits)) return *best_;
+  predict_i_16x16(input);
+  try_i_16x16(input);
+  if (input.slice == SliceKind::p && !is_beyond(kLeastP16x16_bits)) try_p_l0_16x16(input);
+  if (!is_beyond(kLeastINxN_bits)) try_i_nxn(input);
+  if (best_cost_ == std::numeric_limits<std::int64_t>::max()) take_i_pcm(input);
   return *best_;
 }
 
@@ -129,16 +129,16 @@ void MacroblockCoder::try_skip(const MacroblockInput& input) {
   trial_->samples = input.before;
   trial_->state = {};
   trial_->bits.clear();
-  judge(MacroblockKind::skipped, error_of(input.source, trial_->samples));
+  judge(MacroblockKind::p_skip, error_of(input.source, trial_->samples));
 }
 
 template <typename Predict>
-MacroblockCoder::Guess MacroblockCoder::predict_best(const Ways& ways, const Borders& borders,
-                                                     Predict predict) {
-  Guess best{Prediction::dc, std::numeric_limits<int>::max()};
+MacroblockCoder::Candidate MacroblockCoder::predict_best(const ModeCosts& modes,
+                                                         const Borders& borders, Predict predict) {
+  Candidate best{Prediction::dc, std::numeric_limits<int>::max()};
   Prediction last{};
   std::int64_t least = std::numeric_limits<std::int64_t>::max();
-  for (const auto& [prediction, bits] : ways) {
+  for (const auto& [prediction, bits] : modes) {
     if (!is_possible(prediction, borders.has_above, borders.has_left)) continue;
     last = prediction;
     const int error = predict(prediction);
@@ -152,12 +152,12 @@ MacroblockCoder::Guess MacroblockCoder::predict_best(const Ways& ways, const Bor
   return best;
 }
 
-void MacroblockCoder::predict_best_samples(const MacroblockInput& input) {
-  const Guess luma = predict_best(kLumaWays, input.borders, [&](Prediction prediction) {
+void MacroblockCoder::predict_i_16x16(const MacroblockInput& input) {
+  const Candidate luma = predict_best(kLumaModes, input.borders, [&](Prediction prediction) {
     predict_luma(prediction, input.borders, predicted_);
     return luma_error(input.source, predicted_);
   });
-  const Guess chroma = predict_best(kChromaWays, input.borders, [&](Prediction prediction) {
+  const Candidate chroma = predict_best(kChromaModes, input.borders, [&](Prediction prediction) {
     predict_chroma(prediction, input.borders, predicted_);
     return chroma_error(input.source, predicted_);
   });
@@ -166,21 +166,21 @@ void MacroblockCoder::predict_best_samples(const MacroblockInput& input) {
   predicted_error_ = luma.error + chroma.error;
 }
 
-void MacroblockCoder::try_prediction(const MacroblockInput& input) {
+void MacroblockCoder::try_i_16x16(const MacroblockInput& input) {
   if (largest_difference(input.source, predicted_) > largest_left_) return;
   trial_->samples = predicted_;
   trial_->state = {};
   trial_->bits.clear();
-  write_type(input.slice, kPredicted + static_cast<unsigned>(luma_prediction_), trial_->bits);
+  write_type(input.slice, kI16x16 + static_cast<unsigned>(luma_prediction_), trial_->bits);
   trial_->bits.put_unsigned(chroma_number(chroma_prediction_));
   trial_->bits.put_signed(0);  // mb_qp_delta
   // Intra16x16DCLevel is never left out.
-  const int context = context_of(trial_->state, input.beside, kBlockGrids[0], 0, 0);
-  write_levels(Levels{}, 0, context, trial_->bits);
-  judge(MacroblockKind::predicted, predicted_error_);
+  const int nc = nc_of(trial_->state, input.beside, kBlockGrids[0], 0, 0);
+  write_levels(Levels{}, 0, nc, trial_->bits);
+  judge(MacroblockKind::i_16x16, predicted_error_);
 }
 
-void MacroblockCoder::try_difference(const MacroblockInput& input) {
+void MacroblockCoder::try_p_l0_16x16(const MacroblockInput& input) {
   trial_->samples = input.before;
   for (int block = 0; block < 16; ++block) {
     code_luma_block(inter_.luma, luma_place(block), input.source, trial_->samples, residual_);
@@ -188,19 +188,19 @@ void MacroblockCoder::try_difference(const MacroblockInput& input) {
   code_chroma(inter_.chroma, input.source, trial_->samples, residual_);
   trial_->state = {};
   trial_->state.totals = residual_.totals;
-  const int pattern = pattern_of(residual_);
-  if (pattern == 0) return;  // nothing left of the difference
+  const int cbp = cbp_of(residual_);
+  if (cbp == 0) return;  // nothing left of the difference
   trial_->bits.clear();
-  trial_->bits.put_unsigned(kDifference);
+  trial_->bits.put_unsigned(kPL016x16);
   trial_->bits.put_signed(0);  // mvd_l0: no motion here, and none anywhere to predict other
   trial_->bits.put_signed(0);
-  trial_->bits.put_unsigned(kInterCodes[pattern]);
-  if (write_rest(residual_, pattern, input.beside, *trial_)) {
-    judge(MacroblockKind::difference, error_of(input.source, trial_->samples));
+  trial_->bits.put_unsigned(kInterCodes[cbp]);
+  if (write_rest(residual_, cbp, input.beside, *trial_)) {
+    judge(MacroblockKind::p_l0_16x16, error_of(input.source, trial_->samples));
   }
 }
 
-void MacroblockCoder::predict_best_square(const MacroblockInput& input, BlockPlace place) {
+void MacroblockCoder::code_4x4_block(const MacroblockInput& input, BlockPlace place) {
   const Beside beside = beside_square(input.borders, trial_->samples, place);
   const int guess = predicted_mode(trial_->state, input.beside, place.x, place.y);
   const int offset = 4 * place.y * kLumaSide + 4 * place.x;
@@ -225,36 +225,36 @@ void MacroblockCoder::predict_best_square(const MacroblockInput& input, BlockPla
   write_mode(mode, guess, trial_->bits);
 }
 
-void MacroblockCoder::try_squares(const MacroblockInput& input) {
+void MacroblockCoder::try_i_nxn(const MacroblockInput& input) {
   trial_->samples = predicted_;  // of which the chroma stays
   trial_->state = {};
   trial_->bits.clear();
-  write_type(input.slice, kSquares, trial_->bits);
+  write_type(input.slice, kINxN, trial_->bits);
   for (int block = 0; block < 16; ++block) {
-    predict_best_square(input, luma_place(block));
+    code_4x4_block(input, luma_place(block));
     code_luma_block(intra_.luma, luma_place(block), input.source, trial_->samples, residual_);
   }
   trial_->bits.put_unsigned(chroma_number(chroma_prediction_));
   code_chroma(intra_.chroma, input.source, trial_->samples, residual_);
   trial_->state.totals = residual_.totals;
-  const int pattern = pattern_of(residual_);
-  trial_->bits.put_unsigned(kIntraCodes[pattern]);
-  if (write_rest(residual_, pattern, input.beside, *trial_)) {
-    judge(MacroblockKind::squares, error_of(input.source, trial_->samples));
+  const int cbp = cbp_of(residual_);
+  trial_->bits.put_unsigned(kIntraCodes[cbp]);
+  if (write_rest(residual_, cbp, input.beside, *trial_)) {
+    judge(MacroblockKind::i_nxn, error_of(input.source, trial_->samples));
   }
 }
 
-void MacroblockCoder::take_samples(const MacroblockInput& input) {
+void MacroblockCoder::take_i_pcm(const MacroblockInput& input) {
   constexpr std::uint8_t kAll = 16;  // TotalCoeff of I_PCM, 9.2.1
-  best_->kind = MacroblockKind::samples;
+  best_->kind = MacroblockKind::i_pcm;
   best_->samples = input.source;
   best_->state = {};
   best_->state.totals.fill(kAll);
   best_->bits.clear();
 }
 
-void write_samples(SliceKind slice, const Samples& samples, BitWriter& bits) {
-  write_type(slice, kSamples, bits);
+void write_i_pcm(SliceKind slice, const Samples& samples, BitWriter& bits) {
+  write_type(slice, kIPcm, bits);
   bits.align();
   for (const std::uint8_t value : samples.values) bits.put(value, 8);
 }

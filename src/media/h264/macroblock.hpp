@@ -1,4 +1,4 @@
-// How one macroblock is coded: the cheapest of the ways, in bits and in error.
+// How one macroblock is coded: the cheapest of the modes, in bits and in error.
 // In: what it should be, what is beside it and what was there before. Out: macroblock_layer() of
 // ITU-T H.264, 7.3.5, and the samples that every decoder makes of it.
 #pragma once
@@ -24,27 +24,28 @@ struct MacroblockInput {
   Neighbours beside{};
 };
 
+/// mb_type, tables 7-11 and 7-13, as far as it is used here.
 enum class MacroblockKind : std::uint8_t {
-  skipped,     ///< stays as it was: P_Skip
-  predicted,   ///< I_16x16 that is all prediction
-  difference,  ///< P_L0_16x16 without motion
-  squares,     ///< I_NxN of 4x4
-  samples      ///< I_PCM
+  p_skip,      ///< stays as it was
+  i_16x16,     ///< without coefficients
+  p_l0_16x16,  ///< without motion
+  i_nxn,       ///< of 4x4
+  i_pcm
 };
 
 struct CodedMacroblock {
   MacroblockKind kind{};
   Samples samples;
   MacroblockState state;
-  BitWriter bits;  ///< none if skipped; those of `samples` have to be written where they stand
+  BitWriter bits;  ///< none of P_Skip and I_PCM; write_i_pcm() writes the latter in its place
 };
 
-/// A way to predict, and how many bits it takes to say so.
-struct Way {
+/// A prediction mode, and how many bits it takes to write it.
+struct ModeCost {
   Prediction prediction;
   int bits;
 };
-using Ways = std::array<Way, 3>;
+using ModeCosts = std::array<ModeCost, 3>;
 
 class MacroblockCoder {
  public:
@@ -59,28 +60,28 @@ class MacroblockCoder {
   const CodedMacroblock& code(const MacroblockInput& input);
 
  private:
-  struct Guess {
+  struct Candidate {
     Prediction prediction;
     int error;
   };
 
   void try_skip(const MacroblockInput& input);
-  /// Predicts with the cheapest of the ways.
+  /// Predicts with the cheapest of the modes.
   /// @param predict  does so, and returns the squared error.
   template <typename Predict>
-  Guess predict_best(const Ways& ways, const Borders& borders, Predict predict);
-  void predict_best_samples(const MacroblockInput& input);
-  void try_prediction(const MacroblockInput& input);
-  void try_difference(const MacroblockInput& input);
-  void try_squares(const MacroblockInput& input);
-  void take_samples(const MacroblockInput& input);
+  Candidate predict_best(const ModeCosts& modes, const Borders& borders, Predict predict);
+  void predict_i_16x16(const MacroblockInput& input);
+  void try_i_16x16(const MacroblockInput& input);
+  void try_p_l0_16x16(const MacroblockInput& input);
+  void try_i_nxn(const MacroblockInput& input);
+  void take_i_pcm(const MacroblockInput& input);
   /// Keeps the trial if it costs less than the best so far.
   void judge(MacroblockKind kind, int squared_error);
-  /// Whether no way with at least so many bits can be cheaper than the best so far.
+  /// Whether no type with at least so many bits can be cheaper than the best so far.
   bool is_beyond(int bits) const { return best_cost_ <= lambda_ * bits; }
   static std::int64_t error_cost(int squared_error) { return std::int64_t{squared_error} << 10; }
-  /// Predicts a square of the trial, and writes how.
-  void predict_best_square(const MacroblockInput& input, BlockPlace place);
+  /// Predicts a block of 4x4 of the trial, and writes its mode and coefficients.
+  void code_4x4_block(const MacroblockInput& input, BlockPlace place);
 
   std::int64_t lambda_;  // what a bit costs, in 1024ths of a squared error
   int largest_left_;     // difference that may stay where nothing mends it
@@ -98,6 +99,6 @@ class MacroblockCoder {
 };
 
 /// mb_type I_PCM and the samples, which have to begin at a whole byte (7.3.5).
-void write_samples(SliceKind slice, const Samples& samples, BitWriter& bits);
+void write_i_pcm(SliceKind slice, const Samples& samples, BitWriter& bits);
 
 }  // namespace piblocks::h264

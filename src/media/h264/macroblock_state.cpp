@@ -27,8 +27,8 @@ int above(const MacroblockState& own, const Neighbours& beside, Values values,
 
 }  // namespace
 
-int context_of(const MacroblockState& own, const Neighbours& beside, const BlockGrid& grid, int x,
-               int y) {
+int nc_of(const MacroblockState& own, const Neighbours& beside, const BlockGrid& grid, int x,
+          int y) {
   const int a = left_of(own, beside, &MacroblockState::totals, grid, x, y);
   const int b = above(own, beside, &MacroblockState::totals, grid, x, y);
   if (a == kNone || b == kNone) return std::max({a, b, 0});

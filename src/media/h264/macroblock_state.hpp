@@ -33,8 +33,8 @@ struct Neighbours {
 };
 
 /// nC of 9.2.1 for the block at column `x` and row `y` of a grid.
-int context_of(const MacroblockState& own, const Neighbours& beside, const BlockGrid& grid, int x,
-               int y);
+int nc_of(const MacroblockState& own, const Neighbours& beside, const BlockGrid& grid, int x,
+          int y);
 /// predIntra4x4PredMode of 8.3.1.1.
 int predicted_mode(const MacroblockState& own, const Neighbours& beside, int x, int y);
 

@@ -25,9 +25,9 @@ std::vector<std::uint8_t> without_emulation_prevention(Bytes bytes) {
 
 }  // namespace
 
-void append_unit(UnitType type, int importance, Bytes rbsp, std::vector<std::uint8_t>& stream) {
+void append_unit(UnitType type, int nal_ref_idc, Bytes rbsp, std::vector<std::uint8_t>& stream) {
   stream.insert(stream.end(), kStartCode.begin(), kStartCode.end());
-  stream.push_back(static_cast<std::uint8_t>(importance << 5 | static_cast<int>(type)));
+  stream.push_back(static_cast<std::uint8_t>(nal_ref_idc << 5 | static_cast<int>(type)));
   int zeros = 0;
   for (const std::uint8_t byte : rbsp) {
     if (zeros == 2 && byte <= kEmulationPrevention) {

@@ -19,9 +19,9 @@ enum class UnitType : std::uint8_t {
 
 /// Appends a start code of four bytes, the header and the RBSP, in which 3 stands after two zeros
 /// wherever a start code could be seen (7.4.1).
-/// @param importance  nal_ref_idc, from 0 to 3.
+/// @param nal_ref_idc  nal_ref_idc, from 0 to 3.
 /// @param rbsp  with its trailing bits; only whole words of zeros may follow them.
-void append_unit(UnitType type, int importance, std::span<const std::uint8_t> rbsp,
+void append_unit(UnitType type, int nal_ref_idc, std::span<const std::uint8_t> rbsp,
                  std::vector<std::uint8_t>& stream);
 
 struct Unit {

@@ -85,15 +85,15 @@ void PictureEncoder::add(int address, const Picture& source) {
   input_.beside = {y > 0 ? &states_[address - sets_.width_mb] : nullptr,
                    x > 0 ? &states_[address - 1] : nullptr};
   const CodedMacroblock& coded = coder_.code(input_);
-  if (coded.kind == MacroblockKind::skipped) return;
-  if (coded.kind != MacroblockKind::predicted) ++transformed_;
+  if (coded.kind == MacroblockKind::p_skip) return;
+  if (coded.kind != MacroblockKind::i_16x16) ++transformed_;
 
   // mb_skip_run, 7.3.4.
   if (input_.slice == SliceKind::p) {
     bits_.put_unsigned(static_cast<std::uint32_t>(address - next_address_));
   }
-  if (coded.kind == MacroblockKind::samples) {
-    write_samples(input_.slice, coded.samples, bits_);
+  if (coded.kind == MacroblockKind::i_pcm) {
+    write_i_pcm(input_.slice, coded.samples, bits_);
   } else {
     bits_.append(coded.bits);
   }

@@ -58,13 +58,13 @@ void code_chroma_plane(const Quantiser& quantiser, int plane, const Samples& sou
   }
 }
 
-bool write_luma(const Residual& residual, int pattern, const MacroblockState& own,
+bool write_luma(const Residual& residual, int cbp, const MacroblockState& own,
                 const Neighbours& beside, BitWriter& bits) {
   for (int block = 0; block < 16; ++block) {
-    if ((pattern >> block / 4 & 1) == 0) continue;
+    if ((cbp >> block / 4 & 1) == 0) continue;
     const auto [x, y] = luma_place(block);
-    const int context = context_of(own, beside, kBlockGrids[0], x, y);
-    if (!write_levels(residual.luma[4 * y + x], own.totals[4 * y + x], context, bits)) return false;
+    const int nc = nc_of(own, beside, kBlockGrids[0], x, y);
+    if (!write_levels(residual.luma[4 * y + x], own.totals[4 * y + x], nc, bits)) return false;
   }
   return true;
 }
@@ -73,8 +73,8 @@ bool write_chroma_ac(const Residual& residual, const MacroblockState& own, const
                      BitWriter& bits) {
   for (int block = 0; block < 8; ++block) {
     const BlockGrid& grid = kBlockGrids[1 + block / 4];
-    const int context = context_of(own, beside, grid, block % 2, block / 2 % 2);
-    if (!write_levels(ac(residual.chroma_ac[block]), own.totals[16 + block], context, bits)) {
+    const int nc = nc_of(own, beside, grid, block % 2, block / 2 % 2);
+    if (!write_levels(ac(residual.chroma_ac[block]), own.totals[16 + block], nc, bits)) {
       return false;
     }
   }
@@ -105,27 +105,27 @@ void code_chroma(const Quantiser& quantiser, const Samples& source, Samples& sam
   }
 }
 
-int pattern_of(const Residual& residual) {
+int cbp_of(const Residual& residual) {
   const auto& totals = residual.totals;
-  int pattern = 0;
+  int cbp = 0;
   for (int block = 0; block < 16; ++block) {
     const auto [x, y] = luma_place(block);
-    if (totals[4 * y + x] != 0) pattern |= 1 << block / 4;
+    if (totals[4 * y + x] != 0) cbp |= 1 << block / 4;
   }
   if (std::any_of(totals.begin() + 16, totals.end(), [](int total) { return total != 0; })) {
-    return pattern | kHasChromaAc;
+    return cbp | kHasChromaAc;
   }
-  return residual.dc_totals[0] + residual.dc_totals[1] > 0 ? pattern | kHasChromaDc : pattern;
+  return residual.dc_totals[0] + residual.dc_totals[1] > 0 ? cbp | kHasChromaDc : cbp;
 }
 
-bool write_residual(const Residual& residual, int pattern, const MacroblockState& own,
+bool write_residual(const Residual& residual, int cbp, const MacroblockState& own,
                     const Neighbours& beside, BitWriter& bits) {
-  if (!write_luma(residual, pattern, own, beside, bits)) return false;
-  if (pattern < kHasChromaDc) return true;
+  if (!write_luma(residual, cbp, own, beside, bits)) return false;
+  if (cbp < kHasChromaDc) return true;
   for (int i = 0; i < 2; ++i) {
     if (!write_levels(residual.chroma_dc[i], residual.dc_totals[i], kChromaDc, bits)) return false;
   }
-  return pattern < kHasChromaAc || write_chroma_ac(residual, own, beside, bits);
+  return cbp < kHasChromaAc || write_chroma_ac(residual, own, beside, bits);
 }
 
 }  // namespace piblocks::h264

@@ -48,10 +48,10 @@ void code_chroma(const Quantiser& quantiser, const Samples& source, Samples& sam
                  Residual& residual);
 
 /// coded_block_pattern, 7.4.5.
-int pattern_of(const Residual& residual);
-/// residual(), 7.3.5.3, for a pattern.
+int cbp_of(const Residual& residual);
+/// residual(), 7.3.5.3, for a coded_block_pattern.
 /// @return false if a level is too large for its code.
-bool write_residual(const Residual& residual, int pattern, const MacroblockState& own,
+bool write_residual(const Residual& residual, int cbp, const MacroblockState& own,
                     const Neighbours& beside, BitWriter& bits);
 
 }  // namespace piblocks::h264

@@ -55,9 +55,8 @@ TEST_F(MacroblockStateTest, MeansOfNeighboursAreTheContext) {
         const int expected = a >= 0 && b >= 0 ? (a + b + 1) >> 1 : a >= 0 ? a : b >= 0 ? b : 0;
         const int x_mb = x / grid.side;
         const int y_mb = y / grid.side;
-        EXPECT_EQ(
-            context_of(at(x_mb, y_mb), beside(x_mb, y_mb), grid, x % grid.side, y % grid.side),
-            expected)
+        EXPECT_EQ(nc_of(at(x_mb, y_mb), beside(x_mb, y_mb), grid, x % grid.side, y % grid.side),
+                  expected)
             << "plane at " << grid.start << ", block " << x << ", " << y;
       }
     }

@@ -117,19 +117,19 @@ class RandomInputs {
 
 /// Of the macroblock alone, wherever in a byte it begins.
 std::size_t most_bits(SliceKind slice, const CodedMacroblock& coded) {
-  if (coded.kind != MacroblockKind::samples) return coded.bits.bit_count();
+  if (coded.kind != MacroblockKind::i_pcm) return coded.bits.bit_count();
   std::size_t most = 0;
   for (int start = 0; start < 8; ++start) {
     BitWriter bits;
     bits.put(0, start);
-    write_samples(slice, coded.samples, bits);
+    write_i_pcm(slice, coded.samples, bits);
     most = std::max(most, bits.bit_count() - static_cast<std::size_t>(start));
   }
   return most;
 }
 
 bool stays_uncorrected(const CodedMacroblock& coded) {
-  return coded.kind == MacroblockKind::skipped || coded.kind == MacroblockKind::predicted;
+  return coded.kind == MacroblockKind::p_skip || coded.kind == MacroblockKind::i_16x16;
 }
 
 void for_each_qp(const std::function<void(int, MacroblockCoder&)>& check) {
@@ -146,7 +146,7 @@ TEST(MacroblockCoder, SkipsWhatHasNotChanged) {
   for_each_qp([&](int, MacroblockCoder& coder) {
     for (const Samples& samples : {flat(200), text(random), noise(random, 128, 255)}) {
       const CodedMacroblock& coded = coder.code(inside(samples, samples, 128));
-      EXPECT_EQ(coded.kind, MacroblockKind::skipped);
+      EXPECT_EQ(coded.kind, MacroblockKind::p_skip);
       EXPECT_EQ(coded.bits.bit_count(), 0u);
       EXPECT_EQ(coded.samples.values, samples.values);
     }
@@ -170,7 +170,7 @@ TEST(MacroblockCoder, PredictsWhatEqualsTheRowAboveOrTheColumnLeft) {
       for (const SliceKind slice : {SliceKind::p, SliceKind::i}) {
         input.slice = slice;
         const CodedMacroblock& coded = coder.code(input);
-        EXPECT_EQ(coded.kind, MacroblockKind::predicted);
+        EXPECT_EQ(coded.kind, MacroblockKind::i_16x16);
         EXPECT_LE(largest_difference(coded.samples, input.source), qp < 40 ? 0 : cap(qp));
         EXPECT_LE(coded.bits.bit_count(), 16u);
       }
@@ -206,7 +206,7 @@ TEST(MacroblockCoder, WritesDifferencesAsTheTablesSay) {
       input.source.plane(0)[16 * i + j] = byte(input.before.plane(0)[16 * i + j] ^ 8);
   }
   const CodedMacroblock& coded = coder.code(input);
-  ASSERT_EQ(coded.kind, MacroblockKind::difference);
+  ASSERT_EQ(coded.kind, MacroblockKind::p_l0_16x16);
   // mb_type 0, two vectors of 0, coded_block_pattern 1 with codeNum 2, mb_qp_delta of 0.
   EXPECT_EQ(text_of(coded.bits).substr(0, 7),
             "1"
@@ -223,7 +223,7 @@ TEST(MacroblockCoder, TakesTheSamplesOfNoiseAtALowQp) {
   for (int i = 0; i < 50; ++i) {
     const MacroblockInput input = inside(noise(random, 128, 255), noise(random, 128, 255), 128);
     const CodedMacroblock& coded = coder.code(input);
-    EXPECT_EQ(coded.kind, MacroblockKind::samples);
+    EXPECT_EQ(coded.kind, MacroblockKind::i_pcm);
     EXPECT_EQ(coded.samples.values, input.source.values);
     EXPECT_TRUE(std::ranges::all_of(coded.state.totals, [](int total) { return total == 16; }));
   }
@@ -232,7 +232,7 @@ TEST(MacroblockCoder, TakesTheSamplesOfNoiseAtALowQp) {
 TEST(MacroblockCoder, WritesSamplesAtAWholeByte) {
   BitWriter bits;
   bits.put(1, 1);
-  write_samples(SliceKind::i, flat(0x5a), bits);
+  write_i_pcm(SliceKind::i, flat(0x5a), bits);
   // mb_type 25
   EXPECT_EQ(text_of(bits).substr(0, 24),
             "1"

@@ -10,9 +10,9 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-Bytes unit_of(const Bytes& rbsp, UnitType type = UnitType::slice, int importance = 2) {
+Bytes unit_of(const Bytes& rbsp, UnitType type = UnitType::slice, int nal_ref_idc = 2) {
   Bytes stream;
-  append_unit(type, importance, rbsp, stream);
+  append_unit(type, nal_ref_idc, rbsp, stream);
   return stream;
 }
 

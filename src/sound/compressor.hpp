@@ -1,4 +1,4 @@
-// How loud a clack is.
+// Compresses impulses to heights of clicks.
 // In: clacks with their impulses, in order. Out: the height of the click that each becomes.
 #pragma once
 

@@ -1,4 +1,4 @@
-#include "sound/loudness.hpp"
+#include "sound/compressor.hpp"
 
 #include <algorithm>
 #include <cmath>
