@@ -23,7 +23,7 @@ constexpr auto kKinds = std::to_array<Kind>({{"man", man_page},
                                              {"fish", fish_completion}});
 
 void run_manual(const std::string& name) {
-  const auto kind = std::ranges::find(kKinds, std::string_view(name), &Kind::name);
+  const auto* const kind = std::ranges::find(kKinds, std::string_view(name), &Kind::name);
   if (kind == kKinds.end()) {
     throw UsageError(fmt::format("manual: '{}' must be one of: man, bash, zsh, fish", name));
   }

@@ -38,6 +38,7 @@ AvInputPtr open_av_input(const std::string& path, const std::stop_token* stop) {
   AVFormatContext* allocated = avformat_alloc_context();
   if (allocated == nullptr) throw std::bad_alloc();
   if (stop != nullptr) {
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): libav hands it back as it is
     allocated->interrupt_callback = {is_stop_requested, const_cast<std::stop_token*>(stop)};
   }
   // The protocol's name keeps libav from taking a colon in the path for one.

@@ -9,6 +9,13 @@
 
 namespace piblocks::testing_support {
 
+/// LeakSanitizer fails in a process that has given up rights.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr bool kOrdinaryUsersCanRun = false;
+#else
+inline constexpr bool kOrdinaryUsersCanRun = true;
+#endif
+
 class OrdinaryUser {
  public:
   OrdinaryUser() {

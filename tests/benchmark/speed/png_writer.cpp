@@ -7,7 +7,7 @@
 #include <piblocks/collision_log.hpp>
 #include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/timeline.hpp>
+#include <piblocks/schedule.hpp>
 #include <png.h>
 
 #include <cstdio>
@@ -82,12 +82,12 @@ const std::map<std::string, Write>& writers() {
 void write_frames(const Options& options, std::int64_t begin, std::int64_t end) {
   const Scene scene;
   const auto log = make_collision_log(scene.system);
-  const Timeline timeline(scene, *log);
+  const Schedule schedule = make_schedule(scene, *log);
   const Composition composition(scene, *log);
   const Write& write = writers().at(options.writer);
   Canvas canvas(scene.view.width_px, scene.view.height_px);
   for (std::int64_t frame = begin; frame < end; ++frame) {
-    canvas.update(composition.frame({state_at(*log, timeline.time_of(frame))}));
+    canvas.update(composition.frame({state_at(*log, schedule.time_of(frame))}));
     write(canvas.view(), fmt::format("{}/{:06}.png", options.folder, frame));
   }
 }

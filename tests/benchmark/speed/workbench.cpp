@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <piblocks/collision_log.hpp>
 #include <piblocks/scene.hpp>
-#include <piblocks/timeline.hpp>
+#include <piblocks/schedule.hpp>
 
 namespace piblocks::benchmark {
 namespace fs = std::filesystem;
@@ -53,8 +53,8 @@ std::int64_t article_frames(int digits, const std::string& to, int frames_per_s)
   Scene scene;
   scene.view.frame_rate = frames_per_s;
   scene.system = article_system(digits);
-  scene.time.to = parse_end(to);
-  return Timeline(scene, *make_collision_log(scene.system)).frame_count();
+  scene.time.to = parse_instant(to);
+  return film_frames(make_schedule(scene, *make_collision_log(scene.system)));
 }
 
 }  // namespace piblocks::benchmark
