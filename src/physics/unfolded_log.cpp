@@ -42,6 +42,12 @@ ExactMotion checked(const BlockSystem& system) {
   return motion;
 }
 
+/// @throws SimulationError if a position or a velocity is not finite.
+FreeFlight finite(const Time& time, const Integer& count, const Motion& blue, const Motion& red) {
+  require_finite(time, blue, red, "closed form");
+  return {.count = count, .blue = blue, .red = red};
+}
+
 }  // namespace
 
 UnfoldedLog::UnfoldedLog(const BlockSystem& system) : UnfoldedLog(system, checked(system)) {}
@@ -84,6 +90,8 @@ UnfoldedLog::LinePoint UnfoldedLog::point_at(double tau, const Time& t) const {
   const double range = std::hypot(form_.sigma, ahead);
 
   LinePoint point;
+  point.time = t;
+  point.tau = tau;
   point.end = tau < 0 ? &form_.past : &form_.future;
   point.distance = std::hypot(form_.impact, form_.speed * tau);
   point.sine = form_.sigma / range;
@@ -112,6 +120,11 @@ UnfoldedLog::LinePoint UnfoldedLog::point_at(double tau, const Time& t) const {
   return point;
 }
 
+UnfoldedLog::LinePoint UnfoldedLog::point_at(const Rational& time) const {
+  const Time rounded = to_time(time);
+  return point_at(tau_at(time, rounded), rounded);
+}
+
 Phase UnfoldedLog::phase_of(const LinePoint& point, const Rational& time) const {
   const Landmark& end = *point.end;
   if (exact_.through_corner()) {
@@ -128,9 +141,17 @@ Phase UnfoldedLog::phase_of(const LinePoint& point, const Rational& time) const 
 }
 
 FreeFlight UnfoldedLog::flight_at(const Rational& time) const {
-  const Time rounded = to_time(time);
-  const LinePoint point = point_at(tau_at(time, rounded), rounded);
-  Phase at = phase_of(point, time);
+  const LinePoint point = point_at(time);
+  return flight_of(point, phase_of(point, time), time);
+}
+
+FreeFlight UnfoldedLog::flight_of(const LinePoint& point, const Phase& at,
+                                  const Rational& time) const {
+  const Integer count = exact_.blocks_first ? at.ray : Integer(at.ray + 1);
+  // Until the first collision the blocks move as the system begins: no angle is as exact.
+  if (count == 0) {
+    return finite(point.time, count, motion_at(system().blue, time), motion_at(system().red, time));
+  }
   // Folded back by an even number of rays, the point is at this angle to the wall. After an odd ray
   // it is on the other side, and its velocity is reflected once more.
   const bool odd = is_odd(at.ray);
@@ -145,19 +166,12 @@ FreeFlight UnfoldedLog::flight_at(const Rational& time) const {
   const double side = odd ? -sign : sign;
   const double ahead_sine = point.sine * cosine + side * (point.cosine * sine);
   const double ahead_cosine = point.cosine * cosine - side * (point.sine * sine);
-  FreeFlight flight;
-  flight.count = exact_.blocks_first ? std::move(at.ray) : Integer(at.ray + 1);
-  flight.blue = {form_.blue_offset + y1, (odd ? -1 : 1) * (form_.blue_speed * ahead_sine)};
-  flight.red = {form_.red_offset + y2, sign * (form_.red_speed * ahead_cosine)};
-  if (flight.count == 0) {  // as the system begins: no angle is as exact, least of all one at rest
-    flight.blue = motion_at(system().blue, time);
-    flight.red = motion_at(system().red, time);
-  }
-  require_finite(rounded, flight.blue, flight.red, "closed form");
-  return flight;
+  return finite(point.time, count,
+                {form_.blue_offset + y1, (odd ? -1 : 1) * (form_.blue_speed * ahead_sine)},
+                {form_.red_offset + y2, sign * (form_.red_speed * ahead_cosine)});
 }
 
-UnfoldedLog::Sight UnfoldedLog::sight(const Integer& from, const Integer& to) const {
+UnfoldedLog::RayView UnfoldedLog::view_of(const Integer& from, const Integer& to) const {
   const bool late = form_.is_late(floor_mean(from, to));
   const Landmark& end = form_.end_near(late);
   const Landmark& turn = form_.turn.seen(late);
@@ -167,18 +181,18 @@ UnfoldedLog::Sight UnfoldedLog::sight(const Integer& from, const Integer& to) co
                                        : form_.direction(to_end, end.beyond)};
 }
 
-Time UnfoldedLog::time(const Integer& from, const Integer& to, const Sight& sight) const {
+Time UnfoldedLog::time(const Integer& from, const Integer& to, const RayView& view) const {
   const Integer middle = floor_mean(from, to);
-  if (!form_.is_near_start(middle)) return form_.time(sight.end->sign, sight.ray);
+  if (!form_.is_near_start(middle)) return form_.time(view.end->sign, view.ray);
   const Landmark& start = form_.start.seen(middle > form_.start.ahead.ray);
   const Direction from_start = form_.direction(steps_from(start, from, to), start.beyond);
-  return {form_.time_from_start(-start.sign, from_start, sight.ray), 0};
+  return {form_.time_from_start(-start.sign, from_start, view.ray), 0};
 }
 
 Collision UnfoldedLog::at(const Integer& index) const {
   const Integer ray = ray_of(index);
   const bool odd = is_odd(ray);
-  const Sight seen = sight(ray, ray);
+  const RayView seen = view_of(ray, ray);
   const int sign = seen.end->sign;
   const Direction step{-sign * form_.step.sine, form_.step.cosine};
   const CollisionNumbers now =
@@ -207,7 +221,7 @@ std::optional<Impact> UnfoldedLog::impact(CollisionKind kind, const Integer& fir
   if (is_odd(to) != odd) --to;
   if (from > to) return std::nullopt;
 
-  const Sight seen = sight(from, to);
+  const RayView seen = view_of(from, to);
   // What one collision in the middle has, for each of n, and how far they fall short of that:
   // they lie 2 theta apart, and sin(d - (n-1) theta) + … + sin(d + (n-1) theta) is
   // sin d sin(n theta)/sin theta, as is the sum of cosines, which the times are weighted by, with
@@ -260,11 +274,6 @@ double UnfoldedLog::time_to_ray(double tau, double rays, double sine) const {
   return std::hypot(form_.passage, tau) * (std::sin(rays * form_.theta.hi) / sine);
 }
 
-Phase UnfoldedLog::phase_at(const Rational& time) const {
-  const Time rounded = to_time(time);
-  return phase_of(point_at(tau_at(time, rounded), rounded), time);
-}
-
 /// Until all collisions at once, and from there on.
 std::unique_ptr<Exposure> UnfoldedLog::expose_corner(const Rational& begin,
                                                      const Rational& end) const {
@@ -282,11 +291,15 @@ std::unique_ptr<Exposure> UnfoldedLog::expose_corner(const Rational& begin,
 
 std::unique_ptr<Exposure> UnfoldedLog::expose(const Rational& first, const Rational& last) const {
   if (exact_.through_corner()) return expose_corner(first, last);
-  const FreeFlight start = flight_at(first);
-  const FreeFlight stop = flight_at(last);
-  const Gaps from{tau_at(first, to_time(first)), start.blue.position - form_.blue_offset,
+  const LinePoint first_point = point_at(first);
+  const LinePoint last_point = point_at(last);
+  const Phase first_phase = phase_of(first_point, first);
+  const Phase last_phase = phase_of(last_point, last);
+  const FreeFlight start = flight_of(first_point, first_phase, first);
+  const FreeFlight stop = flight_of(last_point, last_phase, last);
+  const Gaps from{first_point.tau, start.blue.position - form_.blue_offset,
                   start.red.position - form_.red_offset};
-  const Gaps to{tau_at(last, to_time(last)), stop.blue.position - form_.blue_offset,
+  const Gaps to{last_point.tau, stop.blue.position - form_.blue_offset,
                 stop.red.position - form_.red_offset};
   const Integer first_ray = ray_of(start.count) + 1;
   const Integer last_ray = ray_of(stop.count);
@@ -299,17 +312,16 @@ std::unique_ptr<Exposure> UnfoldedLog::expose(const Rational& first, const Ratio
   PieceList pieces(start.blue.position, start.red.position);
   double before = 0;  // the sine of the ray before
   for (Integer ray = first_ray; ray <= last_ray; ++ray) {
-    const double sine = sight(ray, ray).ray.sine;
+    const double sine = view_of(ray, ray).ray.sine;
     const double distance = form_.ell * (form_.sigma / sine);
     const RayKind kind = form_.kind(is_odd(ray));
-    const double duration = ray == first_ray
-                                ? time_to_ray(from.tau, 1 - phase_at(first).fraction, sine)
-                                : form_.passage / before * (form_.step.sine / sine);
+    const double duration = ray == first_ray ? time_to_ray(from.tau, 1 - first_phase.fraction, sine)
+                                             : form_.passage / before * (form_.step.sine / sine);
     pieces.add(duration, form_.blue_offset + kind.blue_reach * distance,
                form_.red_offset + kind.red_reach * distance);
     before = sine;
   }
-  pieces.add(first_ray <= last_ray ? time_to_ray(to.tau, phase_at(last).fraction, before)
+  pieces.add(first_ray <= last_ray ? time_to_ray(to.tau, last_phase.fraction, before)
                                    : std::max(0.0, to.tau - from.tau),
              stop.blue.position, stop.red.position);
   return std::make_unique<ListedExposure>(pieces.take());

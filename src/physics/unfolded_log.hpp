@@ -48,6 +48,8 @@ class UnfoldedLog final : public CollisionLog {
 
   /// A point on the line, seen from the nearer end of time.
   struct LinePoint {
+    Time time;       // as a double-double
+    double tau = 0;  // scaled, since closest approach
     const Landmark* end = nullptr;
     double distance = 0;  // R
     double sine = 0;      // of the angle to go to that end, from the line's point of view
@@ -64,22 +66,24 @@ class UnfoldedLog final : public CollisionLog {
   double tau_at(const Rational& time, const Time& t) const;
   /// @param t  the time, of which tau is taken
   LinePoint point_at(double tau, const Time& t) const;
+  LinePoint point_at(const Rational& time) const;
   /// Computed exactly if the point's own phase has not decided between two rays.
   Phase phase_of(const LinePoint& point, const Rational& time) const;
-  Phase phase_at(const Rational& time) const;
+  /// @param at  the phase of the point at the time
+  FreeFlight flight_of(const LinePoint& point, const Phase& at, const Rational& time) const;
   /// Scaled time between a place and a ray that is less than one ray away from it.
   /// @param tau   when the line is at the place, since closest approach
   /// @param sine  of the angle from the ray to an end of time
   double time_to_ray(double tau, double rays, double sine) const;
   std::unique_ptr<Exposure> expose_corner(const Rational& begin, const Rational& end) const;
   /// A direction from the end of time that it is nearer to.
-  struct Sight {
+  struct RayView {
     const Landmark* end = nullptr;
     Direction ray{};
   };
   /// Of the ray half-way between two.
-  Sight sight(const Integer& from, const Integer& to) const;
-  Time time(const Integer& from, const Integer& to, const Sight& sight) const;
+  RayView view_of(const Integer& from, const Integer& to) const;
+  Time time(const Integer& from, const Integer& to, const RayView& view) const;
   double total_phase() const;
   RayPhase phase_of(const Integer& ray) const;
   Integer ray_of(const Integer& index) const { return exact_.blocks_first ? index : index - 1; }

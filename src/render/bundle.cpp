@@ -16,7 +16,6 @@
 #include "core/file_set.hpp"
 #include "core/markup.hpp"
 #include "core/output_file.hpp"
-#include "golden/reports.hpp"
 #include "render/captions.hpp"
 #include "render/page_facts.hpp"
 #include "render/scene_text.hpp"

@@ -64,8 +64,7 @@ void Film::place_parts(const Storyboard& story) {
     if (fade > room) {
       problems.push_back(
           fmt::format("{}: fade = {}: must take at most {} frames, not {}: a fade is shorter than "
-                      "its own part, "
-                      "and than what the fade before leaves of the part before",
+                      "its own part, and than what the fade before leaves of the part before",
                       place_of(story, i), to_text(fade_s), room, readable(fade)));
     } else {
       placed.fade_frames = fade.get_si();

@@ -21,7 +21,6 @@
 #include "core/file_set.hpp"
 #include "core/markup.hpp"
 #include "core/output_file.hpp"
-#include "golden/reports.hpp"
 #include "render/page_facts.hpp"
 #include "render/page_source.hpp"
 #include "render/scene_text.hpp"
