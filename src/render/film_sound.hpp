@@ -9,7 +9,7 @@
 #include <stop_token>
 #include <string>
 
-#include "media/part_file.hpp"
+#include "media/output/part_file.hpp"
 #include "render/film.hpp"
 
 namespace piblocks {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "media/byte_hash.hpp"
+#include "media/libav/byte_hash.hpp"
 #include "render/logo.hpp"
 
 namespace piblocks {

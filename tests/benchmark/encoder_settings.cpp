@@ -17,7 +17,7 @@
 #include <iterator>
 
 #include "circumstances.hpp"
-#include "media/yuv420.hpp"
+#include "media/pixels/yuv420.hpp"
 #include "support/article_frames.hpp"
 #include "support/decode_video.hpp"
 

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "media/frame_reader.hpp"
+#include "media/output/frame_reader.hpp"
 #include "render/film.hpp"
 #include "render/sheet.hpp"
 #include "support/property.hpp"
