@@ -3,10 +3,9 @@
 // stream, made here or, where too much changes, by the stream's own encoder.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
-
 #include <optional>
 
+#include "media/frame_sink.hpp"
 #include "media/h264/macroblock_set.hpp"
 #include "media/h264/picture.hpp"
 #include "media/h264/picture_encoder.hpp"

@@ -2,8 +2,7 @@
 // In: frames. Out: packets with the time stamps they have in the whole video.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
-
+#include "media/frame_sink.hpp"
 #include "media/video_encoder.hpp"
 
 namespace piblocks {

@@ -3,10 +3,9 @@
 // encoders that all make pieces of the same stream.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
-
 #include "media/av.hpp"
 #include "media/codec_choice.hpp"
+#include "media/frame_sink.hpp"
 
 namespace piblocks {
 

@@ -2,14 +2,13 @@
 // In: chunks of packets, in order. Out: a file whose index comes first, or no trace of it.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
-
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "media/frame_sink.hpp"
 #include "media/sound_encoder.hpp"
 #include "media/video_encoder.hpp"
 
