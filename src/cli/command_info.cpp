@@ -12,7 +12,7 @@
 #include "cli/limits.hpp"
 #include "cli/text_output.hpp"
 #include "draw/canvas.hpp"
-#include "media/frame_sink.hpp"
+#include "media/output/frame_sink.hpp"
 #include "physics/physics_versions.hpp"
 #include "scene/schedule.hpp"
 

@@ -10,8 +10,8 @@
 #include <system_error>
 
 #include "core/ending.hpp"
-#include "media/claim_output.hpp"
-#include "media/frame_pattern.hpp"
+#include "media/output/claim_output.hpp"
+#include "media/output/frame_pattern.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;

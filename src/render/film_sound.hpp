@@ -6,8 +6,8 @@
 #include <stop_token>
 #include <string>
 
-#include "media/frame_sink.hpp"
-#include "media/part_file.hpp"
+#include "media/output/frame_sink.hpp"
+#include "media/output/part_file.hpp"
 #include "render/film.hpp"
 #include "sound/soundtrack.hpp"
 

@@ -16,8 +16,8 @@
 #include <iterator>
 
 #include "circumstances.hpp"
-#include "media/frame_sink.hpp"
-#include "media/yuv420.hpp"
+#include "media/output/frame_sink.hpp"
+#include "media/pixels/yuv420.hpp"
 #include "support/article_frames.hpp"
 #include "support/decode_video.hpp"
 

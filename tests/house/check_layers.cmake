@@ -5,21 +5,24 @@ cmake_minimum_required(VERSION 3.25)
 
 # Layers, which are the folders of src, and the layers whose headers each may include. An entry
 # LAYER/HEADER admits one header of a layer, public or private.
-set(layers core physics scene sound draw media golden render cli)
+set(layers core h264 physics scene sound draw media golden render cli)
 set(core_may core)
+# An encoder that others could use: standard library only.
+set(h264_may h264)
 set(physics_may core physics)
 set(scene_may core physics scene)
 set(sound_may core physics scene sound)
 # Drawing sees states and collisions, not the engines that make them.
 set(draw_may core physics/run physics/exposure scene draw)
 # Sinks know pixels and packets, nothing of blocks.
-set(media_may core media)
+set(media_may core h264 media)
 set(golden_may core media golden)
 set(render_may core physics scene sound draw media golden render)
 set(cli_may ${layers})
 
 # The layer of each header in include/piblocks.
 set(core_headers error exact image version)
+set(h264_headers)
 set(physics_headers event_simulator run)
 set(scene_headers instant scene script)
 set(media_headers encode)
@@ -53,7 +56,7 @@ set(zlib_users media)
 set(CLI11_form "CLI/.+")
 set(CLI11_users cli)
 set(fmt_form "fmt/.+")
-set(fmt_users ${layers})
+set(fmt_users core physics scene sound draw media golden render cli)
 # The libraries that a user of the public headers has to have.
 set(public_libraries GMP Eigen)
 

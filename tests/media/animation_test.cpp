@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "media/color_table.hpp"
-#include "media/frame_reader.hpp"
-#include "media/frame_sink.hpp"
+#include "media/libav/color_table.hpp"
+#include "media/output/frame_reader.hpp"
+#include "media/output/frame_sink.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
 #include "support/property.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "media/frame_sink.hpp"
+#include "media/output/frame_sink.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
 #include "support/temporary_folder.hpp"

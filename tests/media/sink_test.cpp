@@ -8,9 +8,9 @@
 #include <csignal>
 #include <cstdio>
 
-#include "media/frame_sink.hpp"
+#include "media/output/frame_sink.hpp"
+#include "media/pixels/yuv420.hpp"
 #include "media/write_frames.hpp"
-#include "media/yuv420.hpp"
 #include "support/decode_video.hpp"
 #include "support/ordinary_user.hpp"
 #include "support/temporary_folder.hpp"

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "media/frame_sink.hpp"
+#include "media/output/frame_sink.hpp"
 #include "support/decode_video.hpp"
 #include "support/temporary_folder.hpp"
 
