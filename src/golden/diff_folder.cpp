@@ -1,6 +1,6 @@
 #include <fmt/format.h>
+#include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/png.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,9 +1,7 @@
 #include "render/job_description.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/canvas.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/schedule.hpp>
 #include <piblocks/version.hpp>
 
 #include <algorithm>
@@ -11,7 +9,9 @@
 #include <utility>
 
 #include "media/libav/byte_hash.hpp"
+#include "draw/canvas.hpp"
 #include "render/logo.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <piblocks/png.hpp>
+#include <piblocks/encode.hpp>
 
 #include <cstdlib>
 #include <fstream>

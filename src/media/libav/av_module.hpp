@@ -3,8 +3,6 @@
 // a count or a PNG sequence can do without.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
-
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "media/output/frame_reader.hpp"
+#include "media/output/frame_sink.hpp"
 #include "media/output/output_request.hpp"
 
 namespace piblocks {

@@ -3,13 +3,12 @@
 // encoders, the pixels it takes, and how it is set up.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
-
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "media/libav/av.hpp"
+#include "media/output/frame_sink.hpp"
 
 namespace piblocks {
 

@@ -3,8 +3,6 @@
 // stream, made here or, where too much changes, by the stream's own encoder.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
-
 #include <optional>
 
 #include "h264/macroblock_set.hpp"
@@ -12,6 +10,7 @@
 #include "h264/picture_encoder.hpp"
 #include "media/libav/video_chunk.hpp"
 #include "media/libav/video_encoder.hpp"
+#include "media/output/frame_sink.hpp"
 #include "media/pixels/yuv420.hpp"
 
 namespace piblocks {

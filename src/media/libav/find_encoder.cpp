@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/frame_sink.hpp>
 
 #include <algorithm>
 #include <iterator>
+
+#include "media/output/frame_sink.hpp"
 
 namespace piblocks {
 namespace {

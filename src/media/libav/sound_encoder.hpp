@@ -2,9 +2,8 @@
 // In: the format of the sound and the codec that a container has for it. Out: packets.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
-
 #include "media/libav/av.hpp"
+#include "media/output/frame_sink.hpp"
 
 namespace piblocks {
 

@@ -2,9 +2,8 @@
 // In: frames. Out: packets with the time stamps they have in the whole video.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
-
 #include "media/libav/video_encoder.hpp"
+#include "media/output/frame_sink.hpp"
 
 namespace piblocks {
 

@@ -3,10 +3,9 @@
 // encoders that all make pieces of the same stream.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
-
 #include "media/libav/av.hpp"
 #include "media/libav/codec_choice.hpp"
+#include "media/output/frame_sink.hpp"
 
 namespace piblocks {
 

@@ -2,8 +2,6 @@
 // In: chunks of packets, in order. Out: a file whose index comes first, or no trace of it.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
-
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -12,6 +10,7 @@
 
 #include "media/libav/sound_encoder.hpp"
 #include "media/libav/video_encoder.hpp"
+#include "media/output/frame_sink.hpp"
 
 namespace piblocks {
 

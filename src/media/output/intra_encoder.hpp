@@ -2,7 +2,7 @@
 // In: frames. Out: chunks with one packet a frame.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
+#include "media/output/frame_sink.hpp"
 
 namespace piblocks {
 

@@ -3,10 +3,10 @@
 // wrong size or order deserves.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
-
 #include <optional>
 #include <string>
+
+#include "media/output/frame_sink.hpp"
 
 namespace piblocks {
 

@@ -10,12 +10,12 @@
 // that one that was cut off is found out.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
-
 #include <fstream>
 #include <optional>
 #include <string>
 #include <utility>
+
+#include "media/output/frame_sink.hpp"
 
 namespace piblocks {
 

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/frame_sink.hpp>
 #include <zlib.h>
 
 #include <array>
@@ -9,6 +8,7 @@
 
 #include "core/ending.hpp"
 #include "media/libav/av_module.hpp"
+#include "media/output/frame_sink.hpp"
 #include "media/output/output_kinds.hpp"
 
 namespace piblocks {

@@ -1,5 +1,5 @@
+#include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/png.hpp>
 
 #include <algorithm>
 #include <cstring>

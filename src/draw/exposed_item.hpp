@@ -3,10 +3,10 @@
 // Shares are of the exposure's time.
 #pragma once
 
-#include <piblocks/item_id.hpp>
-#include <piblocks/shapes.hpp>
-
 #include <vector>
+
+#include "draw/item_id.hpp"
+#include "draw/shapes.hpp"
 
 namespace piblocks {
 

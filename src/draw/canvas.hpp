@@ -2,7 +2,6 @@
 // In: a draw list. Out: pixels, or a vector file, from the same painter.
 #pragma once
 
-#include <piblocks/draw_list.hpp>
 #include <piblocks/image.hpp>
 
 #include <cstdint>
@@ -10,6 +9,8 @@
 #include <span>
 #include <string>
 #include <vector>
+
+#include "draw/draw_list.hpp"
 
 namespace piblocks {
 

@@ -2,14 +2,14 @@
 // In: a scene and its collision log, once; a state, for every frame. Out: a draw list.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
-#include <piblocks/draw_list.hpp>
-#include <piblocks/exposure.hpp>
-#include <piblocks/interpolator.hpp>
+#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
 #include <memory>
 #include <span>
+
+#include "draw/draw_list.hpp"
+#include "physics/exposure.hpp"
 
 namespace piblocks {
 

@@ -2,10 +2,7 @@
 // In: composition. Out: what the canvas paints and what two frames are compared by.
 #pragma once
 
-#include <piblocks/exposed_item.hpp>
 #include <piblocks/image.hpp>
-#include <piblocks/item_id.hpp>
-#include <piblocks/shapes.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -16,6 +13,10 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "draw/exposed_item.hpp"
+#include "draw/item_id.hpp"
+#include "draw/shapes.hpp"
 
 namespace piblocks {
 

@@ -3,12 +3,13 @@
 // one, in pixels or as a vector file.
 #pragma once
 
-#include <piblocks/draw_list.hpp>
 #include <piblocks/image.hpp>
 
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "draw/draw_list.hpp"
 
 namespace piblocks {
 

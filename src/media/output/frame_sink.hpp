@@ -3,6 +3,7 @@
 // written in order by one thread, that bears its final name only when it is complete.
 #pragma once
 
+#include <piblocks/encode.hpp>
 #include <piblocks/exact.hpp>
 #include <piblocks/image.hpp>
 
@@ -21,16 +22,6 @@ struct VideoFormat {
   int height_px = 1080;      ///< 1 … kMaxSide_px
   Rational frame_rate = 60;  ///< frames per second, > 0
   bool has_alpha = false;    ///< whether the frames do, as ImageView says
-};
-
-/// What may be said to a video encoder; unset means the measured default.
-struct EncoderSettings {
-  /// Constant rate factor, 1 (best) … 51; for WebM whole, 0 … 63.
-  std::optional<double> crf = {};
-  std::optional<std::string> preset = {};  ///< the encoder's own name for a speed
-  /// An encoder that h264_encoders(), webm_encoders() or prores_encoders() names; of these "damage"
-  /// is the one by which nothing but what changes is coded.
-  std::optional<std::string> encoder = {};
 };
 
 /// Sound that goes with the frames, from their first moment on: left and right.
@@ -157,15 +148,6 @@ std::unique_ptr<Output> set_up_output(const std::string& name, const VideoFormat
 
 /// Whether an output of this name has sound without being asked for it: `*.wav`.
 bool is_sound_alone(const std::string& name);
-
-/// Names of the encoders that MP4 and MOV may be made with, the default first.
-std::vector<std::string> h264_encoders();
-/// The same for WebM.
-std::vector<std::string> webm_encoders();
-/// The same for MOV with alpha.
-std::vector<std::string> prores_encoders();
-/// Names of the encoders that sound is made with: that of MP4 and MOV, that of WebM.
-std::vector<std::string> sound_encoders();
 
 /// Name and version of each codec library that is linked, such as "libavcodec 59.37.100".
 std::vector<std::string> media_library_versions();

@@ -3,7 +3,7 @@
 // exactly rational, without gaps. Pictures and sound follow the same ones.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
 #include <cstdint>

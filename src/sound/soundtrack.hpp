@@ -2,9 +2,8 @@
 // In: runs, and when and where in the film each is heard. Out: its samples, in order.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
-#include <piblocks/schedule.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +11,8 @@
 #include <optional>
 #include <span>
 #include <vector>
+
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 
