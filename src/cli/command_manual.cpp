@@ -8,11 +8,15 @@ namespace {
 
 using MakeText = std::string (*)();
 
-void run_manual(const std::string& kind) {
-  const auto make_text = parse_choice<MakeText>(kind, {{"man", man_page},
-                                                       {"bash", bash_completion},
-                                                       {"zsh", zsh_completion},
-                                                       {"fish", fish_completion}});
+MakeText parse_kind(const std::string& text) {
+  return parse_choice<MakeText>(text, {{"man", man_page},
+                                       {"bash", bash_completion},
+                                       {"zsh", zsh_completion},
+                                       {"fish", fish_completion}});
+}
+
+void run_manual(const Command& command) {
+  const MakeText make_text = *command.value("KIND", parse_kind);
   OutputFile out("-", OutputFile::Contents::text);
   out.write(make_text());
   out.finish();
@@ -24,7 +28,7 @@ void add_manual(Command& app) {
   Command command =
       app.add_command("manual", "Print the manual page, or what a shell needs to complete options");
   command.add_argument("KIND", "man, bash, zsh or fish");
-  command.on_run([=] { run_manual(*command.text("KIND")); });
+  command.on_run([=] { run_manual(command); });
 }
 
 }  // namespace piblocks::cli

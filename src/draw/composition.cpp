@@ -1,7 +1,7 @@
+#include "draw/composition.hpp"
+
 #include <fmt/format.h>
-#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/schedule.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +15,7 @@
 #include "draw/overlays/overlays.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/stage.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

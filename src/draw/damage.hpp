@@ -4,12 +4,13 @@
 // Knows items, not scenes: whatever is drawn with stable ids is compared in the same way.
 #pragma once
 
-#include <piblocks/draw_list.hpp>
 #include <piblocks/image.hpp>
 
 #include <functional>
 #include <string_view>
 #include <vector>
+
+#include "draw/draw_list.hpp"
 
 namespace piblocks {
 

@@ -2,9 +2,9 @@
 // In: items. Out: whether every place and length in them is a number.
 #pragma once
 
-#include <piblocks/draw_list.hpp>
-
 #include <span>
+
+#include "draw/draw_list.hpp"
 
 namespace piblocks {
 

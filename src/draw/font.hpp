@@ -3,11 +3,12 @@
 #pragma once
 
 #include <cairo.h>
-#include <piblocks/draw_list.hpp>
 
 #include <memory>
 #include <string_view>
 #include <vector>
+
+#include "draw/draw_list.hpp"
 
 namespace piblocks {
 

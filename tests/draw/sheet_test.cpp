@@ -1,5 +1,6 @@
+#include "draw/sheet.hpp"
+
 #include <gtest/gtest.h>
-#include <piblocks/sheet.hpp>
 
 #include <cmath>
 #include <cstdlib>

@@ -1,13 +1,13 @@
 #include "draw/panels/time_axis.hpp"
 
 #include <piblocks/error.hpp>
-#include <piblocks/schedule.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "draw/ticks.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

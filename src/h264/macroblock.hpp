@@ -1,0 +1,90 @@
+// How one macroblock is coded: by the cheapest mb_type, in bits and in error.
+// In: what it should show, what is beside it and what was there before. Out: macroblock_layer() of
+// ITU-T H.264, 7.3.5, and the samples that every decoder makes of it.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "h264/bit_writer.hpp"
+#include "h264/intra_prediction.hpp"
+#include "h264/macroblock_state.hpp"
+#include "h264/picture.hpp"
+#include "h264/residual.hpp"
+
+namespace piblocks::h264 {
+
+enum class SliceType : std::uint8_t { p, i };
+
+/// mb_type, tables 7-11 and 7-13, as far as it is used here.
+enum class MbType : std::uint8_t {
+  p_skip,      ///< stays as it was
+  i_16x16,     ///< without coefficients
+  p_l0_16x16,  ///< without motion
+  i_nxn,       ///< of 4x4 blocks
+  i_pcm
+};
+
+struct MacroblockInput {
+  SliceType slice_type{};
+  Samples source;
+  Samples before;  ///< of the decoded picture before; not used in I slices
+  Borders borders{};
+  Neighbours neighbours{};
+};
+
+struct CodedMacroblock {
+  static constexpr std::int64_t kImpossible = std::numeric_limits<std::int64_t>::max();
+
+  explicit CodedMacroblock(MbType mb_type) : type(mb_type) {}
+
+  MbType type;
+  PredMode chroma_mode{};  ///< of intra types
+  Samples samples;         ///< as decoders have them
+  MacroblockState state{};
+  BitWriter bits{};  ///< empty for P_Skip and I_PCM; write_i_pcm() writes the latter
+  std::int64_t cost = kImpossible;
+};
+
+class MacroblockCoder {
+ public:
+  /// @param qp  QPY, the same for all macroblocks, from 0 to 51.
+  /// @param chroma_qp_offset  chroma_qp_index_offset
+  MacroblockCoder(int qp, int chroma_qp_offset);
+
+  CodedMacroblock code(const MacroblockInput& input) const;
+
+ private:
+  struct Quantisers {
+    Quantiser luma;
+    Quantiser chroma;
+  };
+
+  // Each codes the macroblock by one mb_type. The cost stays kImpossible if that would leave too
+  // large an error or take too many bits.
+  CodedMacroblock p_skip(const MacroblockInput& input) const;
+  CodedMacroblock i_16x16(const MacroblockInput& input) const;
+  CodedMacroblock p_l0_16x16(const MacroblockInput& input) const;
+  /// Its chroma is predicted as that of `i_16x16`.
+  CodedMacroblock i_nxn(const MacroblockInput& input, const CodedMacroblock& i_16x16) const;
+  /// Predicts one luma block of I_NxN into the macroblock, and writes its mode.
+  void predict_block(const MacroblockInput& input, BlockPlace place, CodedMacroblock& coded) const;
+  /// For an error and so many bits, in 1024ths of a squared error.
+  std::int64_t cost(int squared_error, std::int64_t bits) const {
+    return (std::int64_t{squared_error} << 10) + lambda_ * bits;
+  }
+  void set_cost(CodedMacroblock& coded, int squared_error) const;
+  /// Writes coded_block_pattern and the residual, if there is any, and sets the cost.
+  void finish(const MacroblockInput& input, const Residual& residual, int pattern,
+              CodedMacroblock& coded) const;
+
+  std::int64_t lambda_;  // what a bit costs
+  int tolerance_;        // the largest difference that may stay where nothing corrects it
+  Quantisers intra_;
+  Quantisers inter_;
+};
+
+/// mb_type I_PCM and the samples, which begin at a whole byte (7.3.5).
+void write_i_pcm(SliceType slice_type, const Samples& samples, BitWriter& bits);
+
+}  // namespace piblocks::h264

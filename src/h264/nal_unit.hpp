@@ -1,0 +1,35 @@
+// NAL units in a byte stream (ITU-T H.264, 7.3.1 and annex B).
+// In: an RBSP. Out: a NAL unit with a start code, and back.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace piblocks::h264 {
+
+/// nal_unit_type, table 7-1.
+enum class UnitType : std::uint8_t {
+  slice = 1,
+  idr_slice = 5,
+  sei = 6,
+  sequence_parameters = 7,
+  picture_parameters = 8
+};
+
+/// Appends a start code of four bytes, the header, and the RBSP with
+/// emulation_prevention_three_byte (7.4.1).
+/// @param nal_ref_idc  from 0 to 3.
+/// @param rbsp  with its trailing bits, after which only cabac_zero_words may follow.
+void append_unit(UnitType type, int nal_ref_idc, std::span<const std::uint8_t> rbsp,
+                 std::vector<std::uint8_t>& stream);
+
+struct Unit {
+  int type;
+  std::vector<std::uint8_t> rbsp;
+};
+
+/// The units of a stream with start codes of three or four bytes.
+std::vector<Unit> read_units(std::span<const std::uint8_t> stream);
+
+}  // namespace piblocks::h264

@@ -1,0 +1,83 @@
+// Pictures in 4:2:0, cut into macroblocks of 16x16 pixels.
+// In: samples, written into the planes. Out: the samples of a macroblock, and those beside it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "h264/block4x4.hpp"
+
+namespace piblocks::h264 {
+
+inline constexpr int kLumaSide = 16;
+inline constexpr int kChromaSide = 8;
+
+/// Y, Cb, Cr of a macroblock, row by row, one plane after the other.
+struct Samples {
+  static constexpr int kCount = kLumaSide * kLumaSide + 2 * kChromaSide * kChromaSide;
+  /// Where a plane begins: 0 Y, 1 Cb, 2 Cr.
+  static constexpr int start(int plane) { return plane == 0 ? 0 : 192 + 64 * plane; }
+
+  std::uint8_t* plane(int number) { return values.data() + start(number); }
+  const std::uint8_t* plane(int number) const { return values.data() + start(number); }
+
+  alignas(16) std::array<std::uint8_t, kCount> values;
+};
+
+/// Length of a row of a macroblock's plane.
+constexpr int side_of(int plane) { return plane == 0 ? kLumaSide : kChromaSide; }
+
+/// Sums of squared differences.
+inline int luma_error(const Samples& a, const Samples& b) {
+  return squared_error(a.plane(0), b.plane(0), 256);
+}
+inline int chroma_error(const Samples& a, const Samples& b) {
+  return squared_error(a.plane(1), b.plane(1), 128);
+}
+/// Of all samples.
+int largest_difference(const Samples& a, const Samples& b);
+
+/// The row above a macroblock and the column left of it.
+struct Border {
+  alignas(16) std::array<std::uint8_t, kLumaSide> above;
+  alignas(16) std::array<std::uint8_t, kLumaSide> left;
+};
+
+struct Borders {
+  bool has_above;  ///< false at the edge of the picture, where `above` is undefined
+  bool has_left;
+  std::array<Border, 3> planes;
+};
+
+/// Planes of whole macroblocks.
+class Picture {
+ public:
+  Picture(int width_mb, int height_mb);
+
+  int width_mb() const noexcept { return width_mb_; }
+  int height_mb() const noexcept { return height_mb_; }
+  std::uint8_t* plane(int number) noexcept { return planes_[std::size_t(number)].data(); }
+  const std::uint8_t* plane(int number) const noexcept {
+    return planes_[std::size_t(number)].data();
+  }
+  std::ptrdiff_t stride_bytes(int plane) const noexcept {
+    return std::ptrdiff_t{width_mb_} * side_of(plane);
+  }
+
+  void load(int x_mb, int y_mb, Samples& samples) const;
+  void store(int x_mb, int y_mb, const Samples& samples);
+  void load_borders(int x_mb, int y_mb, Borders& borders) const;
+
+ private:
+  std::ptrdiff_t offset(int plane, int x_mb, int y_mb) const noexcept {
+    return side_of(plane) * (y_mb * stride_bytes(plane) + x_mb);
+  }
+
+  int width_mb_;
+  int height_mb_;
+  std::array<std::vector<std::uint8_t>, 3> planes_;
+};
+
+}  // namespace piblocks::h264
