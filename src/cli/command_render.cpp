@@ -15,6 +15,7 @@
 #include "core/ending.hpp"
 #include "core/overwrite_check.hpp"
 #include "media/output/claim_output.hpp"
+#include "media/output/frame_sink.hpp"
 #include "render/bundle.hpp"
 
 namespace piblocks::cli {
