@@ -22,9 +22,6 @@ struct Range {
   Rational high;
 };
 
-/// What is behind everything: a colour, or nothing, so that another picture can be put there.
-enum class Background : std::uint8_t { opaque, transparent };
-
 /// What part of the plane a frame shows, and how many frames and pixels that takes.
 struct View {
   Range x = {-1, 12};

@@ -16,6 +16,10 @@ enum class Theme {
   colorblind   ///< blue and orange that all can tell apart, and that differ in pattern
 };
 
+/// What is behind everything: the theme's colour, or nothing, so that another picture can be put
+/// there.
+enum class Background { opaque, transparent };
+
 /// What is drawn over and around the blocks.
 enum class Overlay {
   digits,      ///< the counter's digits light up when they are those of pi

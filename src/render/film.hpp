@@ -2,7 +2,6 @@
 // In: a scene or a storyboard, once, and the number of a frame. Out: its draw list.
 #pragma once
 
-#include <piblocks/canvas.hpp>
 #include <piblocks/draw_list.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/storyboard.hpp>
@@ -14,10 +13,6 @@
 #include "render/film_part.hpp"
 
 namespace piblocks {
-
-inline Ground ground_of(const View& view) {
-  return view.background == Background::transparent ? Ground::transparent : Ground::opaque;
-}
 
 /// A part and its place in the film.
 struct PlacedPart {
@@ -34,7 +29,6 @@ class Film {
   explicit Film(const Script& script, FilmUse use = FilmUse::pictures);
 
   const View& view() const noexcept { return view_; }
-  Ground ground() const noexcept { return ground_of(view_); }
   std::int64_t frame_count() const noexcept { return frame_count_; }
   /// @param number  from 0 to frame_count() - 1.
   DrawList frame(std::int64_t number) const;
