@@ -1,6 +1,6 @@
 // Exact numbers: what a user writes is what is computed with.
 // In: text such as "100^7", "1/3", "-2.5e-3". Out: GMP integers and rationals, never rounded.
-// Rounding to double happens once, at the border to floating point, by to_double().
+// Rounding happens once, at the border to floating point: to_double(), to_time().
 #pragma once
 
 #include <gmpxx.h>
@@ -50,5 +50,21 @@ std::string with_thousands_separators(const Integer& value);
 
 /// The integer for a message: with separators, or as a power of ten if that would fill the line.
 std::string readable(const Integer& value);
+
+/// Simulation time as the sum hi + lo of two doubles with |lo| <= ulp(hi)/2. Near the turn of many
+/// digits thousands of collisions share one double; two doubles tell them apart.
+struct Time {
+  double hi = 0;
+  double lo = 0;
+
+  friend bool operator==(const Time&, const Time&) = default;
+};
+
+/// Nearest sum of two doubles to an exact time.
+Time to_time(const Rational& exact);
+
+/// The exact value of hi + lo.
+/// @throws SimulationError if hi or lo is not finite.
+Rational to_rational(const Time& time);
 
 }  // namespace piblocks

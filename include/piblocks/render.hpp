@@ -3,10 +3,10 @@
 // exception and no trace of it. Or, frame by frame, pixels in memory.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
+#include <piblocks/encode.hpp>
 #include <piblocks/image.hpp>
 #include <piblocks/instant.hpp>
-#include <piblocks/storyboard.hpp>
+#include <piblocks/script.hpp>
 
 #include <array>
 #include <cstddef>

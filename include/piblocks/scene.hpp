@@ -1,20 +1,125 @@
-// What is asked for: the system, the picture's frame, the span of time.
-// In: plain values, filled in by hand or by script_builder.hpp. Out: everything that is wrong with
-// them, and their exact text.
+// A scene: the blocks, what part of space and time is shown, how, and what is heard.
+// In: plain values, filled in by hand or by ScriptBuilder (script.hpp). Out: everything that is
+// wrong with them, and their exact text.
 #pragma once
 
-#include <piblocks/blocks.hpp>
 #include <piblocks/exact.hpp>
-#include <piblocks/pacing.hpp>
-#include <piblocks/show.hpp>
+#include <piblocks/instant.hpp>
+#include <piblocks/run.hpp>
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace piblocks {
+
+/// A window of simulation time that takes `factor` times as long as it would.
+struct SlowMotion {
+  Instant from;
+  Instant to;
+  Rational factor = 1;  ///< > 0
+};
+
+/// The picture stands still at an instant.
+struct Freeze {
+  Instant at;
+  Rational length_s;  ///< of video, > 0
+};
+
+/// Most times slower that automatic slow motion becomes. Slower still, nothing would move by a
+/// pixel.
+inline constexpr int kMaxAutomaticFactor = 1000;
+
+/// Lengths are seconds of video, and are rounded up to whole frames; that of a loop to an even
+/// number of them.
+struct Pacing {
+  /// Of the whole video, holds and freezes included. It sets the speed; TimeSpan::speed is ignored.
+  std::optional<Rational> duration_s = {};
+  /// Windows around the turn, each ten times slower than the one around it, until single collisions
+  /// can be told apart or kMaxAutomaticFactor is reached. With a duration they are those of speed
+  /// 1, and scale with the rest of the video.
+  bool automatic_slow_motion = false;
+  std::vector<SlowMotion> slow_motion = {};
+  std::vector<Freeze> freezes = {};
+  Rational hold_start_s = 0;  ///< how long the first picture stands still, >= 0
+  Rational hold_end_s = 0;    ///< how long the last picture stands still, >= 0
+  /// Plays forwards and then backwards, so that the first frame follows the last without a jump.
+  bool loop = false;
+};
+
+/// Most windows of slow motion, and most freezes, of one scene.
+inline constexpr std::size_t kMaxWindows = 1000;
+
+/// Reads "FROM:TO:FACTOR", as "turn-0.3:turn+0.3:10". @throws UsageError
+SlowMotion parse_slow_motion(std::string_view text);
+/// Reads "AT:SECONDS", as "turn:2". @throws UsageError
+Freeze parse_freeze(std::string_view text);
+
+/// Exact text of a value, which reads back as the same.
+std::string exact_text(const SlowMotion& window);
+std::string exact_text(const Freeze& freeze);
+
+enum class Theme {
+  article,     ///< on white, as in the article
+  chalkboard,  ///< chalk on dark green
+  dark,        ///< on near-black
+  print,       ///< black and greys; the blocks differ in pattern
+  colorblind   ///< blue and orange that all can tell apart, and that differ in pattern
+};
+
+/// What is behind everything: the theme's colour, or nothing, so that another picture can be put
+/// there.
+enum class Background { opaque, transparent };
+
+/// What is drawn over and around the blocks.
+enum class Overlay {
+  digits,      ///< the counter's digits light up when they are those of pi
+  masses,      ///< each block's mass, on it
+  velocities,  ///< an arrow above each block, and its velocity
+  energy,      ///< kinetic energy of each block, and their sum
+  momentum,    ///< momentum of each block, and their sum
+  time,        ///< simulation time
+  ruler        ///< a scale of positions below the blocks
+};
+
+/// Diagrams beside the blocks, in step with them.
+enum class Panel {
+  velocity,  ///< circle of (sqrt(m_red) v_red, sqrt(m_blue) v_blue) with each collision's sector
+  position,  ///< path in the plane of both gaps, in the wedge between wall and contact
+  unfolded,  ///< the wedge reflected again and again, and the straight line through it
+  time,      ///< positions against time
+  rate       ///< collisions per second against time
+};
+
+struct Show {
+  std::vector<Overlay> overlays = {};
+  std::vector<Panel> panels = {};  ///< in this order
+  std::string title = {};          ///< one line of UTF-8 above all
+  std::string caption = {};        ///< one line of UTF-8 below all
+  std::string logo = {};           ///< a PNG file for the corner that is kept free for it
+
+  bool has(Overlay overlay) const noexcept;
+};
+
+/// Longest title or caption.
+inline constexpr std::size_t kMaxLine_bytes = 1000;
+
+/// @throws UsageError that lists the names there are.
+Theme parse_theme(std::string_view name);
+Overlay parse_overlay(std::string_view name);
+Panel parse_panel(std::string_view name);
+
+std::string exact_text(Theme theme);
+std::string exact_text(Overlay overlay);
+std::string exact_text(Panel panel);
+
+/// All names, with commas, for messages and help.
+std::string theme_names();
+std::string overlay_names();
+std::string panel_names();
 
 /// Closed interval in scene units, low < high.
 struct Range {

@@ -1,4 +1,4 @@
-#include <piblocks/compare_files.hpp>
+#include <piblocks/compare.hpp>
 
 #include <functional>
 #include <memory>

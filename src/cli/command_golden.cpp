@@ -1,6 +1,5 @@
 #include <fmt/format.h>
-#include <piblocks/canvas.hpp>
-#include <piblocks/compare_files.hpp>
+#include <piblocks/compare.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -17,6 +16,7 @@
 #include "core/file_set.hpp"
 #include "core/overwrite_check.hpp"
 #include "core/unfinished.hpp"
+#include "draw/canvas.hpp"
 #include "golden/describe.hpp"
 #include "golden/reports.hpp"
 #include "render/logo.hpp"

@@ -1,21 +1,20 @@
 #include <fmt/format.h>
-#include <piblocks/blocks.hpp>
-#include <piblocks/canvas.hpp>
-#include <piblocks/collision_log.hpp>
-#include <piblocks/compare_files.hpp>
+#include <piblocks/compare.hpp>
 #include <piblocks/exact.hpp>
-#include <piblocks/frame_sink.hpp>
 #include <piblocks/image.hpp>
-#include <piblocks/physics_versions.hpp>
 #include <piblocks/render.hpp>
+#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
-#include <piblocks/schedule.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 #include <piblocks/version.hpp>
 
 #include "cli/commands.hpp"
 #include "cli/limits.hpp"
 #include "cli/text_output.hpp"
+#include "draw/canvas.hpp"
+#include "media/output/frame_sink.hpp"
+#include "physics/physics_versions.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks::cli {
 namespace {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
-#include <piblocks/interpolator.hpp>
+#include <piblocks/run.hpp>
 
 #include <optional>
 #include <string>

@@ -1,6 +1,6 @@
 #include "cli/convention_note.hpp"
 
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 
 #include "cli/say.hpp"
 

@@ -3,7 +3,7 @@
 // their number depends on a convention; nothing otherwise.
 #pragma once
 
-#include <piblocks/storyboard.hpp>
+#include <piblocks/script.hpp>
 
 namespace piblocks::cli {
 

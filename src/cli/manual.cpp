@@ -1,7 +1,7 @@
 #include "cli/manual.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/show.hpp>
+#include <piblocks/scene.hpp>
 #include <piblocks/version.hpp>
 
 #include <array>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 
 #include <cstdint>
 #include <limits>

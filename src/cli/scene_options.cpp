@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/frame_sink.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 
 #include "cli/options.hpp"
+#include "media/output/frame_sink.hpp"
 #include "render/logo.hpp"
 
 namespace piblocks::cli {

@@ -1,6 +1,7 @@
+#include "draw/canvas.hpp"
+
 #include <fmt/format.h>
 #include <ft2build.h>
-#include <piblocks/canvas.hpp>
 #include <pixman.h>
 
 #include <algorithm>

@@ -2,11 +2,12 @@
 // In: the lines, and the view of the film. Out: a draw list.
 #pragma once
 
-#include <piblocks/draw_list.hpp>
 #include <piblocks/scene.hpp>
 
 #include <string>
 #include <vector>
+
+#include "draw/draw_list.hpp"
 
 namespace piblocks {
 

@@ -1,7 +1,7 @@
+#include "draw/composition.hpp"
+
 #include <fmt/format.h>
-#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/schedule.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,7 @@
 #include "draw/panels/panels.hpp"
 #include "draw/stage.hpp"
 #include "draw/style.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

@@ -2,12 +2,11 @@
 // In: a setting, once; what is shown, for every frame. Out: items, in the order of their ids.
 #pragma once
 
-#include <piblocks/composition.hpp>
-
 #include <functional>
 #include <utility>
 #include <vector>
 
+#include "draw/composition.hpp"
 #include "draw/font.hpp"
 #include "draw/stage.hpp"
 #include "draw/theme.hpp"

@@ -3,10 +3,10 @@
 // item with the places that each of them takes. Or, without exposure, plain rectangles.
 #pragma once
 
-#include <piblocks/composition.hpp>
-
 #include <span>
 #include <vector>
+
+#include "draw/composition.hpp"
 
 namespace piblocks {
 

@@ -3,12 +3,11 @@
 // column's pixels in linear light.
 #pragma once
 
-#include <piblocks/draw_list.hpp>
-
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "draw/draw_list.hpp"
 #include "draw/light.hpp"
 
 namespace piblocks {

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <cairo.h>
-#include <piblocks/draw_list.hpp>
 #include <piblocks/image.hpp>
 
 #include <cstdint>
 #include <functional>
 #include <vector>
 
+#include "draw/draw_list.hpp"
 #include "draw/light.hpp"
 
 namespace piblocks {

@@ -2,12 +2,13 @@
 // In: items. Out: what they may have painted, and whether every place in them is a number.
 #pragma once
 
-#include <piblocks/draw_list.hpp>
 #include <piblocks/image.hpp>
 
 #include <functional>
 #include <span>
 #include <string_view>
+
+#include "draw/draw_list.hpp"
 
 namespace piblocks {
 

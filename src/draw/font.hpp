@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cairo.h>
-#include <piblocks/draw_list.hpp>
 
 #include <algorithm>
 #include <functional>
@@ -12,6 +11,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "draw/draw_list.hpp"
 
 namespace piblocks {
 

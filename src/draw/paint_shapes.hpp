@@ -3,7 +3,8 @@
 #pragma once
 
 #include <cairo.h>
-#include <piblocks/draw_list.hpp>
+
+#include "draw/draw_list.hpp"
 
 namespace piblocks {
 

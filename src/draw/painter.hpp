@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cairo.h>
-#include <piblocks/draw_list.hpp>
 #include <piblocks/image.hpp>
 
 #include <functional>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "draw/cairo_handles.hpp"
+#include "draw/draw_list.hpp"
 #include "draw/exposed_painter.hpp"
 #include "draw/font.hpp"
 

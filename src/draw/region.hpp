@@ -3,11 +3,11 @@
 // Knows items, not scenes: whatever is drawn with stable ids is compared in the same way.
 #pragma once
 
-#include <piblocks/draw_list.hpp>
 #include <piblocks/image.hpp>
 
 #include <vector>
 
+#include "draw/draw_list.hpp"
 #include "draw/extent.hpp"
 
 namespace piblocks {

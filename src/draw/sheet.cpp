@@ -1,4 +1,4 @@
-#include <piblocks/sheet.hpp>
+#include "draw/sheet.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -2,11 +2,12 @@
 // In: draw lists. Out: a draw list that shows them.
 #pragma once
 
-#include <piblocks/draw_list.hpp>
 #include <piblocks/scene.hpp>
 
 #include <optional>
 #include <vector>
+
+#include "draw/draw_list.hpp"
 
 namespace piblocks {
 

@@ -2,15 +2,15 @@
 // In: a scene and the part of the frame it may take, once; a state, for every frame. Out: items.
 #pragma once
 
-#include <piblocks/composition.hpp>
-#include <piblocks/draw_list.hpp>
-#include <piblocks/interpolator.hpp>
+#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
 #include <span>
 #include <string>
 #include <vector>
 
+#include "draw/composition.hpp"
+#include "draw/draw_list.hpp"
 #include "draw/font.hpp"
 #include "draw/theme.hpp"
 

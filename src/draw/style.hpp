@@ -4,9 +4,10 @@
 #pragma once
 
 #include <piblocks/scene.hpp>
-#include <piblocks/shapes.hpp>
 
 #include <algorithm>
+
+#include "draw/shapes.hpp"
 
 namespace piblocks {
 

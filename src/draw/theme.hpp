@@ -2,10 +2,11 @@
 // In: a theme's name. Out: a palette whose text meets WCAG 2.1's contrast of 4.5 : 1 (AA).
 #pragma once
 
-#include <piblocks/draw_list.hpp>
 #include <piblocks/scene.hpp>
 
 #include <optional>
+
+#include "draw/draw_list.hpp"
 
 namespace piblocks {
 

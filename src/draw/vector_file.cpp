@@ -1,6 +1,5 @@
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
-#include <piblocks/canvas.hpp>
 
 #include <algorithm>
 #include <new>
@@ -8,6 +7,7 @@
 #include <string_view>
 
 #include "draw/cairo_handles.hpp"
+#include "draw/canvas.hpp"
 #include "draw/painter.hpp"
 
 namespace piblocks {

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <piblocks/compare_files.hpp>
+#include <piblocks/compare.hpp>
 #include <piblocks/error.hpp>
 
 #include <algorithm>

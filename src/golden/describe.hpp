@@ -2,7 +2,7 @@
 // In: the comparison of a frame. Out: a line for people, the same in every report.
 #pragma once
 
-#include <piblocks/compare_files.hpp>
+#include <piblocks/compare.hpp>
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
+#include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/png.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -14,9 +14,9 @@
 #include "core/file_set.hpp"
 #include "golden/diff_picture.hpp"
 #include "golden/reports.hpp"
-#include "media/claim_output.hpp"
-#include "media/frame_pattern.hpp"
-#include "media/png_chunk.hpp"
+#include "media/output/claim_output.hpp"
+#include "media/output/frame_pattern.hpp"
+#include "media/png/png_chunk.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;

@@ -1,7 +1,7 @@
 #include "golden/frame_source.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/compare_files.hpp>
+#include <piblocks/compare.hpp>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 #include <system_error>
 
 #include "core/ending.hpp"
-#include "media/claim_output.hpp"
-#include "media/frame_pattern.hpp"
+#include "media/output/claim_output.hpp"
+#include "media/output/frame_pattern.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;

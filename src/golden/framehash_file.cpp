@@ -1,7 +1,7 @@
 #include "golden/framehash_file.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/compare_files.hpp>
+#include <piblocks/compare.hpp>
 #include <piblocks/error.hpp>
 
 #include <algorithm>

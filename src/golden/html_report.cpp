@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <piblocks/png.hpp>
+#include <piblocks/encode.hpp>
 
 #include <string_view>
 

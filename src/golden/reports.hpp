@@ -2,7 +2,7 @@
 // In: the comparison of every frame, in order. Out: a folder of pictures, a page, a list of tests.
 #pragma once
 
-#include <piblocks/compare_files.hpp>
+#include <piblocks/compare.hpp>
 
 #include <memory>
 #include <string>

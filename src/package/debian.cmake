@@ -24,9 +24,11 @@ as raw video or as a still, and states the exact count and all collisions.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpiblocks-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-"piblocks (= ${PROJECT_VERSION}), libgmp-dev, libmpfr-dev, libeigen3-dev, libtomlplusplus-dev, \
+"piblocks (= ${PROJECT_VERSION}), libgmp-dev, libmpfr-dev, libtomlplusplus-dev, \
 libcairo2-dev, libfreetype-dev, libpixman-1-dev, libpng-dev, zlib1g-dev, \
 libfmt-dev")
+# For event_simulator.hpp.
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS libeigen3-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
 "The library behind the program piblocks, for development: its C++ headers, the
 static library, and what CMake and pkg-config need to find them.")

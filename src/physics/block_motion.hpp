@@ -2,9 +2,8 @@
 // In: exact blocks. Out: what every engine makes of them at its start.
 #pragma once
 
-#include <piblocks/blocks.hpp>
-#include <piblocks/collision_log.hpp>
 #include <piblocks/exact.hpp>
+#include <piblocks/run.hpp>
 
 namespace piblocks {
 

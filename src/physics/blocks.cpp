@@ -1,6 +1,6 @@
 #include <fmt/format.h>
-#include <piblocks/blocks.hpp>
 #include <piblocks/error.hpp>
+#include <piblocks/run.hpp>
 
 #include <cmath>
 

@@ -2,8 +2,8 @@
 // In: a value and its key. Out: a problem if a double cannot hold it.
 #pragma once
 
-#include <piblocks/blocks.hpp>
 #include <piblocks/exact.hpp>
+#include <piblocks/run.hpp>
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
-#include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
+#include <piblocks/run.hpp>
 
 #include <algorithm>
 

@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "core/two_sum.hpp"
 #include "physics/exact_motion.hpp"
 #include "physics/require_finite.hpp"
 #include "physics/velocity_loop.hpp"

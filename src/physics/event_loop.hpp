@@ -2,7 +2,7 @@
 // In: a BlockSystem. Out: every collision from time 0 on, in the order met.
 #pragma once
 
-#include <piblocks/blocks.hpp>
+#include <piblocks/run.hpp>
 
 #include <vector>
 

@@ -3,8 +3,7 @@
 // once.
 #pragma once
 
-#include <piblocks/blocks.hpp>
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 
 #include <vector>
 

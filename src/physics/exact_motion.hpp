@@ -10,8 +10,8 @@
 // at k theta. The *phase* is the angle swept over theta; even rays are wall, odd ones blocks.
 #pragma once
 
-#include <piblocks/blocks.hpp>
 #include <piblocks/exact.hpp>
+#include <piblocks/run.hpp>
 
 #include <optional>
 

@@ -1,6 +1,6 @@
 #include "physics/expose.hpp"
 
-#include <piblocks/interpolator.hpp>
+#include <piblocks/run.hpp>
 
 #include <algorithm>
 

@@ -2,10 +2,11 @@
 // In: a collision log and two times. Out: an Exposure (exposure.hpp).
 #pragma once
 
-#include <piblocks/collision_log.hpp>
-#include <piblocks/exposure.hpp>
+#include <piblocks/run.hpp>
 
 #include <memory>
+
+#include "physics/exposure.hpp"
 
 namespace piblocks {
 

@@ -2,7 +2,7 @@
 // In: a collision log and a range of its indices. Out: one impact that stands for all of them.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 
 #include <optional>
 

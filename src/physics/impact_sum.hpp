@@ -2,9 +2,11 @@
 // In: collisions with their impulses. Out: the Impact that stands for all of them.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 
 #include <optional>
+
+#include "core/two_sum.hpp"
 
 namespace piblocks {
 

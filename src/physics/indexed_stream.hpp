@@ -2,7 +2,7 @@
 // In: a log and a range of indices. Out: the log's own answers, in batches.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 
 #include <utility>
 

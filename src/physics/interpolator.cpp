@@ -1,5 +1,5 @@
 #include <piblocks/error.hpp>
-#include <piblocks/interpolator.hpp>
+#include <piblocks/run.hpp>
 
 #include <cmath>
 #include <utility>

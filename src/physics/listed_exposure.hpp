@@ -2,9 +2,9 @@
 // In: uniform pieces, in order. Out: their sums.
 #pragma once
 
-#include <piblocks/exposure.hpp>
-
 #include <vector>
+
+#include "physics/exposure.hpp"
 
 namespace piblocks {
 

@@ -1,7 +1,8 @@
+#include "physics/physics_versions.hpp"
+
 #include <fmt/format.h>
 #include <gmp.h>
 #include <mpfr.h>
-#include <piblocks/physics_versions.hpp>
 
 #include <Eigen/Core>
 

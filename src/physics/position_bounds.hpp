@@ -2,7 +2,7 @@
 // In: a collision log and a time. Out: bounds for the positions of the state at it.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 
 #include <optional>
 

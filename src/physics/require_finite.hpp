@@ -3,8 +3,8 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
+#include <piblocks/run.hpp>
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 // by time (binary search).
 #pragma once
 
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 
 #include <vector>
 

@@ -3,10 +3,9 @@
 // of some hundred sines each.
 #pragma once
 
-#include <piblocks/exposure.hpp>
-
 #include <vector>
 
+#include "physics/exposure.hpp"
 #include "physics/ray_sums.hpp"
 
 namespace piblocks {

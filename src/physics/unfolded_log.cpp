@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/two_sum.hpp"
 #include "physics/block_motion.hpp"
 #include "physics/listed_exposure.hpp"
 #include "physics/require_alone.hpp"

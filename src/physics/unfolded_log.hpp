@@ -2,14 +2,13 @@
 // In: a BlockSystem whose red block is heavier than the blue one. Out: any collision, any state.
 #pragma once
 
-#include <piblocks/blocks.hpp>
-#include <piblocks/collision_log.hpp>
-#include <piblocks/exposure.hpp>
+#include <piblocks/run.hpp>
 
 #include <memory>
 #include <optional>
 
 #include "physics/exact_motion.hpp"
+#include "physics/exposure.hpp"
 #include "physics/impact.hpp"
 #include "physics/position_bounds.hpp"
 #include "physics/ray_sums.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/two_sum.hpp"
 #include "core/vector_clones.hpp"
 
 namespace piblocks {

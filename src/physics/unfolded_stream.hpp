@@ -2,7 +2,7 @@
 // In: a range of rays. Out: the collisions on them, in batches.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 
 #include <array>
 #include <memory>

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/two_sum.hpp"
+
 namespace piblocks {
 namespace {
 

@@ -3,11 +3,12 @@
 // them. Notation and error bounds: README.md.
 #pragma once
 
-#include <piblocks/time.hpp>
+#include <piblocks/exact.hpp>
 
 #include <cmath>
 #include <optional>
 
+#include "core/two_sum.hpp"
 #include "physics/exact_motion.hpp"
 
 namespace piblocks {

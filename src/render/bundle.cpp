@@ -1,11 +1,9 @@
 #include "render/bundle.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/collision_log.hpp>
+#include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/interpolator.hpp>
-#include <piblocks/png.hpp>
-#include <piblocks/schedule.hpp>
+#include <piblocks/run.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -19,6 +17,7 @@
 #include "render/captions.hpp"
 #include "render/page_facts.hpp"
 #include "render/scene_text.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

@@ -1,7 +1,7 @@
 #include "render/captions.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/interpolator.hpp>
+#include <piblocks/run.hpp>
 
 #include <algorithm>
 #include <vector>

@@ -2,10 +2,11 @@
 // In: the count of every frame. Out: captions in WebVTT.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
-#include <piblocks/schedule.hpp>
+#include <piblocks/run.hpp>
 
 #include <string>
+
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 

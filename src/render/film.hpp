@@ -2,14 +2,15 @@
 // In: a scene or a storyboard, once, and the number of a frame. Out: its draw list.
 #pragma once
 
-#include <piblocks/draw_list.hpp>
 #include <piblocks/instant.hpp>
-#include <piblocks/storyboard.hpp>
+#include <piblocks/script.hpp>
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "draw/canvas.hpp"
+#include "draw/draw_list.hpp"
 #include "render/film_part.hpp"
 
 namespace piblocks {

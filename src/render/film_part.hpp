@@ -2,10 +2,8 @@
 // In: scenes or lines of text, once, and the number of a frame. Out: its draw list.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
-#include <piblocks/composition.hpp>
-#include <piblocks/schedule.hpp>
-#include <piblocks/storyboard.hpp>
+#include <piblocks/run.hpp>
+#include <piblocks/script.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -13,7 +11,9 @@
 #include <span>
 #include <vector>
 
+#include "draw/composition.hpp"
 #include "draw/split_screen.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 

@@ -2,15 +2,14 @@
 // In: a film. Out: its samples; or from a part file, its packets.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
-#include <piblocks/soundtrack.hpp>
-
 #include <functional>
 #include <stop_token>
 #include <string>
 
-#include "media/part_file.hpp"
+#include "media/output/frame_sink.hpp"
+#include "media/output/part_file.hpp"
 #include "render/film.hpp"
+#include "sound/soundtrack.hpp"
 
 namespace piblocks {
 

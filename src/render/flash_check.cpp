@@ -1,12 +1,12 @@
 #include "render/flash_check.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/canvas.hpp>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
 #include <optional>
 
+#include "draw/canvas.hpp"
 #include "render/flash_meter.hpp"
 
 namespace piblocks {

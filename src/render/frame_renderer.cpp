@@ -1,10 +1,10 @@
 #include <fmt/format.h>
-#include <piblocks/canvas.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 
 #include <algorithm>
 
+#include "draw/canvas.hpp"
 #include "render/film.hpp"
 
 namespace piblocks {

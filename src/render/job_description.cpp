@@ -1,17 +1,17 @@
 #include "render/job_description.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/canvas.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/schedule.hpp>
 #include <piblocks/version.hpp>
 
 #include <algorithm>
 #include <string_view>
 #include <utility>
 
-#include "media/byte_hash.hpp"
+#include "draw/canvas.hpp"
+#include "media/libav/byte_hash.hpp"
 #include "render/logo.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

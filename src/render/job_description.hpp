@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "media/part_file.hpp"
+#include "media/output/part_file.hpp"
 #include "render/chunks.hpp"
 
 namespace piblocks {

@@ -7,8 +7,8 @@
 #include <charconv>
 
 #include "core/overwrite_check.hpp"
-#include "media/claim_output.hpp"
-#include "media/part_file.hpp"
+#include "media/output/claim_output.hpp"
+#include "media/output/part_file.hpp"
 #include "render/film_sound.hpp"
 #include "render/job_description.hpp"
 #include "render/page.hpp"

@@ -4,7 +4,7 @@
 
 #include <piblocks/image.hpp>
 #include <piblocks/scene.hpp>
-#include <piblocks/storyboard.hpp>
+#include <piblocks/script.hpp>
 
 #include <memory>
 #include <string>

@@ -2,9 +2,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/schedule.hpp>
+#include <piblocks/run.hpp>
 #include <unistd.h>
 
 #include <cerrno>
@@ -25,6 +24,7 @@
 #include "render/page_source.hpp"
 #include "render/scene_text.hpp"
 #include "render/stage_clock.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

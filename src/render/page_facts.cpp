@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/interpolator.hpp>
+#include <piblocks/run.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,13 +4,14 @@
 // viewer reads are exact; what only positions the video is rounded to doubles.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
-#include <piblocks/schedule.hpp>
 
 #include <functional>
 #include <string_view>
 #include <vector>
+
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 

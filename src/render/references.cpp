@@ -1,11 +1,10 @@
 #include "render/references.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/canvas.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "core/output_file.hpp"
+#include "draw/canvas.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;

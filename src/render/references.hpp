@@ -6,8 +6,8 @@
 // painted the frames.
 #pragma once
 
-#include <piblocks/compare_files.hpp>
-#include <piblocks/storyboard.hpp>
+#include <piblocks/compare.hpp>
+#include <piblocks/script.hpp>
 
 #include <filesystem>
 #include <stop_token>

@@ -1,10 +1,10 @@
 // The order of all stages: script -> log -> state -> draw list -> pixels -> packets -> sink.
 #include <fmt/format.h>
-#include <piblocks/canvas.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 
-#include "media/part_file.hpp"
+#include "draw/canvas.hpp"
+#include "media/output/part_file.hpp"
 #include "render/bundle.hpp"
 #include "render/chunks.hpp"
 #include "render/film.hpp"

@@ -1,13 +1,9 @@
 #include "render/sheet.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/canvas.hpp>
-#include <piblocks/composition.hpp>
+#include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/schedule.hpp>
-#include <piblocks/sheet.hpp>
 
 #include <algorithm>
 #include <map>
@@ -16,9 +12,13 @@
 
 #include "core/ending.hpp"
 #include "core/output_file.hpp"
+#include "draw/canvas.hpp"
+#include "draw/composition.hpp"
 #include "draw/number_text.hpp"
+#include "draw/sheet.hpp"
 #include "render/logo.hpp"
 #include "render/require_valid.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

@@ -4,9 +4,10 @@
 
 #include <piblocks/instant.hpp>
 #include <piblocks/scene.hpp>
-#include <piblocks/sheet.hpp>
 
 #include <vector>
+
+#include "draw/sheet.hpp"
 
 namespace piblocks {
 

@@ -2,12 +2,13 @@
 // In: what passes of time meanwhile. Out: what Composition draws.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
-#include <piblocks/composition.hpp>
-#include <piblocks/schedule.hpp>
+#include <piblocks/run.hpp>
 
 #include <span>
 #include <vector>
+
+#include "draw/composition.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 

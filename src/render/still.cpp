@@ -1,18 +1,18 @@
 #include "render/still.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/canvas.hpp>
+#include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/schedule.hpp>
 
 #include <string_view>
 
 #include "core/ending.hpp"
 #include "core/output_file.hpp"
+#include "draw/canvas.hpp"
 #include "render/film.hpp"
 #include "render/require_valid.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

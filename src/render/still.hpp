@@ -2,9 +2,10 @@
 // In: a script and an instant. Out: its draw list, which is that of the film's frame.
 #pragma once
 
-#include <piblocks/draw_list.hpp>
 #include <piblocks/instant.hpp>
-#include <piblocks/storyboard.hpp>
+#include <piblocks/script.hpp>
+
+#include "draw/draw_list.hpp"
 
 namespace piblocks {
 

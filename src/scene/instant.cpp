@@ -1,7 +1,7 @@
 #include <fmt/format.h>
-#include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
+#include <piblocks/run.hpp>
 
 #include <algorithm>
 #include <array>

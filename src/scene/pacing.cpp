@@ -1,5 +1,5 @@
 #include <piblocks/error.hpp>
-#include <piblocks/pacing.hpp>
+#include <piblocks/scene.hpp>
 
 #include <array>
 #include <string>

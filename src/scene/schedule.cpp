@@ -1,6 +1,7 @@
+#include "scene/schedule.hpp"
+
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/schedule.hpp>
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <string_view>

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/show.hpp>
+#include <piblocks/scene.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,11 +2,12 @@
 // In: a scene, its log, the span that is shown. Out: intervals inside the span, in order, apart.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
-#include <piblocks/schedule.hpp>
 
 #include <vector>
+
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 

@@ -2,7 +2,7 @@
 // In: a part. Out: what is wrong with it.
 #pragma once
 
-#include <piblocks/storyboard.hpp>
+#include <piblocks/script.hpp>
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 // it.
 #pragma once
 
-#include <piblocks/storyboard.hpp>
+#include <piblocks/script.hpp>
 
 #include <map>
 #include <string>

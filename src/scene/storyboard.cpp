@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/storyboard.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 #include <toml++/toml.h>
 
 #include <algorithm>

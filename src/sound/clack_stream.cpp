@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/two_sum.hpp"
 #include "physics/impact.hpp"
 
 namespace piblocks {

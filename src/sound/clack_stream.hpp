@@ -4,13 +4,14 @@
 // sample are one clack.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
-#include <piblocks/schedule.hpp>
+#include <piblocks/run.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 

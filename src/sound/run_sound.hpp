@@ -2,8 +2,6 @@
 // In: a voice. Out: pairs of samples of any height, from the first that it is heard in.
 #pragma once
 
-#include <piblocks/soundtrack.hpp>
-
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -11,6 +9,7 @@
 
 #include "sound/clack_stream.hpp"
 #include "sound/click_kernel.hpp"
+#include "sound/soundtrack.hpp"
 #include "sound/timbre.hpp"
 
 namespace piblocks {

@@ -1,6 +1,7 @@
 // The order of the stages: runs -> mix -> limiter.
+#include "sound/soundtrack.hpp"
+
 #include <piblocks/error.hpp>
-#include <piblocks/soundtrack.hpp>
 
 #include <algorithm>
 #include <limits>

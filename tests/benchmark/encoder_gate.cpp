@@ -2,13 +2,13 @@
 // pictures of which a part is new in every frame.
 // In: nothing. Out: CSV on standard output; encoders.md holds the table.
 #include <fmt/format.h>
-#include <piblocks/frame_sink.hpp>
 
 #include <ctime>
 #include <filesystem>
 #include <random>
 
 #include "circumstances.hpp"
+#include "media/output/frame_sink.hpp"
 #include "support/article_frames.hpp"
 
 namespace piblocks {

@@ -5,7 +5,6 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
-#include <piblocks/frame_sink.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,7 +16,8 @@
 #include <iterator>
 
 #include "circumstances.hpp"
-#include "media/yuv420.hpp"
+#include "media/output/frame_sink.hpp"
+#include "media/pixels/yuv420.hpp"
 #include "support/article_frames.hpp"
 #include "support/decode_video.hpp"
 

@@ -1,6 +1,6 @@
 // Sound as a user gets it: in MP4 and WAV, decoded by ffmpeg.
 #include <fmt/format.h>
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 
 #include <array>
 #include <cmath>

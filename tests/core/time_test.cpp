@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/time.hpp>
+#include <piblocks/exact.hpp>
 
 #include <limits>
+
+#include "core/two_sum.hpp"
 
 namespace piblocks {
 namespace {

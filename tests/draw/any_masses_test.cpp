@@ -1,7 +1,6 @@
 // Overlays and diagrams of systems whose mass ratio, or a root of it, is beyond a double.
 #include <gtest/gtest.h>
-#include <piblocks/composition.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <numbers>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "draw/composition.hpp"
 #include "draw/panels/gaps.hpp"
 
 namespace piblocks {

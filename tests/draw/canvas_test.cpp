@@ -1,5 +1,6 @@
+#include "draw/canvas.hpp"
+
 #include <gtest/gtest.h>
-#include <piblocks/canvas.hpp>
 
 #include <cstring>
 #include <string>

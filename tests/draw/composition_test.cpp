@@ -1,8 +1,9 @@
 // Whole pictures with all that can be shown: in the frame, apart from each other, right.
+#include "draw/composition.hpp"
+
 #include <gtest/gtest.h>
-#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <array>

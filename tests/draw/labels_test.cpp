@@ -1,7 +1,6 @@
 // What is written and drawn beside the blocks keeps clear of them, of the wall and of each other.
 #include <gtest/gtest.h>
-#include <piblocks/composition.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "draw/composition.hpp"
 #include "draw/font.hpp"
 #include "support/state_after.hpp"
 

@@ -2,8 +2,6 @@
 // In: a source of random numbers, the size of a frame. Out: items in or around it.
 #pragma once
 
-#include <piblocks/draw_list.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -12,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "draw/draw_list.hpp"
 #include "support/property.hpp"
 
 namespace piblocks {

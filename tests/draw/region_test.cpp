@@ -1,9 +1,7 @@
 // Updating a picture against painting it anew: every byte must be equal, and no pixel may change
 // outside of the rectangles that are said to have changed.
 #include <gtest/gtest.h>
-#include <piblocks/canvas.hpp>
-#include <piblocks/composition.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "draw/canvas.hpp"
+#include "draw/composition.hpp"
 #include "draw/random_items.hpp"
 #include "support/property.hpp"
 

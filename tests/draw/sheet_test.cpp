@@ -1,12 +1,14 @@
+#include "draw/sheet.hpp"
+
 #include <gtest/gtest.h>
-#include <piblocks/canvas.hpp>
-#include <piblocks/sheet.hpp>
 
 #include <cmath>
 #include <cstdlib>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "draw/canvas.hpp"
 
 namespace piblocks {
 namespace {

@@ -1,15 +1,15 @@
 // Frames of every size and shape: what a scene shows is either drawn inside the frame or refused by
 // its name.
 #include <gtest/gtest.h>
-#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 
 #include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "draw/composition.hpp"
 #include "draw/font.hpp"
 
 namespace piblocks {

@@ -1,10 +1,11 @@
 #include "draw/split_screen.hpp"
 
 #include <gtest/gtest.h>
-#include <piblocks/canvas.hpp>
 #include <piblocks/error.hpp>
 
 #include <cstring>
+
+#include "draw/canvas.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>

@@ -1,11 +1,11 @@
 #include "draw/stage.hpp"
 
 #include <gtest/gtest.h>
-#include <piblocks/collision_log.hpp>
-#include <piblocks/composition.hpp>
+#include <piblocks/run.hpp>
 
 #include <cmath>
 
+#include "draw/composition.hpp"
 #include "draw/font.hpp"
 #include "support/state_after.hpp"
 

@@ -9,8 +9,8 @@
 #include <span>
 #include <string>
 
-#include "media/h264/random_pictures.hpp"
-#include "media/h264/stream_fixture.hpp"
+#include "h264/random_pictures.hpp"
+#include "h264/stream_fixture.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <piblocks/render.hpp>
 
 #include "fuzz/input_file.hpp"
-#include "media/part_file.hpp"
+#include "media/output/part_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const piblocks::fuzz::InputFile file(data, size);

@@ -1,14 +1,12 @@
 // Scene files and storyboards: read, checked, and, if they are good, asked where the blocks are.
-#include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/interpolator.hpp>
-#include <piblocks/schedule.hpp>
-#include <piblocks/script_builder.hpp>
-#include <piblocks/storyboard.hpp>
+#include <piblocks/run.hpp>
+#include <piblocks/script.hpp>
 
 #include <cstdlib>
 
 #include "fuzz/input_file.hpp"
+#include "scene/schedule.hpp"
 
 namespace {
 using namespace piblocks;

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "media/frame_pattern.hpp"
+#include "media/output/frame_pattern.hpp"
 
 namespace {
 

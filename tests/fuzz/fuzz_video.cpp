@@ -2,8 +2,8 @@
 #include <piblocks/error.hpp>
 
 #include "fuzz/input_file.hpp"
-#include "media/av.hpp"
-#include "media/video_reader.hpp"
+#include "media/libav/av.hpp"
+#include "media/libav/video_reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   constexpr int kFrames = 4;

@@ -1,13 +1,13 @@
 // compare() against a comparison that looks at every window by itself.
 #include <gtest/gtest.h>
-#include <piblocks/canvas.hpp>
 #include <piblocks/compare.hpp>
-#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 
 #include <cstdlib>
 
+#include "draw/canvas.hpp"
+#include "draw/composition.hpp"
 #include "support/property.hpp"
 
 namespace piblocks {

@@ -2,11 +2,9 @@
 // PIBLOCKS_APPROVE_GOLDEN=1 replaces the references by what is drawn now: look at every one.
 #include <cairo.h>
 #include <gtest/gtest.h>
-#include <piblocks/canvas.hpp>
-#include <piblocks/composition.hpp>
+#include <piblocks/encode.hpp>
 #include <piblocks/instant.hpp>
-#include <piblocks/png.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 
 #include <cstdlib>
 #include <cstring>
@@ -17,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "draw/canvas.hpp"
+#include "draw/composition.hpp"
 #include "physics/expose.hpp"
 
 namespace piblocks {

@@ -1,4 +1,4 @@
-#include "media/alpha_packet.hpp"
+#include "media/libav/alpha_packet.hpp"
 
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>

@@ -1,12 +1,12 @@
 // GIF and APNG, read back by libavcodec: every pixel, every time.
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/frame_sink.hpp>
 
 #include <algorithm>
 
-#include "media/color_table.hpp"
-#include "media/frame_reader.hpp"
+#include "media/libav/color_table.hpp"
+#include "media/output/frame_reader.hpp"
+#include "media/output/frame_sink.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
 #include "support/property.hpp"

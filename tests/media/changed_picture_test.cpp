@@ -1,4 +1,4 @@
-#include "media/changed_picture.hpp"
+#include "media/pixels/changed_picture.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Chunks that are coded from what changes, as the product makes them.
-#include "media/damage_chunk.hpp"
+#include "media/libav/damage_chunk.hpp"
 
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
 
-#include "media/h264/stream_fixture.hpp"
+#include "h264/stream_fixture.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
 #include "support/property.hpp"

@@ -1,4 +1,4 @@
-#include "media/frame_pattern.hpp"
+#include "media/output/frame_pattern.hpp"
 
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/frame_sink.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "media/output/frame_sink.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
 #include "support/temporary_folder.hpp"

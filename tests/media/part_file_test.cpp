@@ -1,4 +1,4 @@
-#include "media/part_file.hpp"
+#include "media/output/part_file.hpp"
 
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "media/frame_reader.hpp"
+#include "media/output/frame_reader.hpp"
 #include "support/hand_made_png.hpp"
 #include "support/property.hpp"
 #include "support/temporary_folder.hpp"

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <piblocks/png.hpp>
+#include <piblocks/encode.hpp>
 
 #include <cstdlib>
 #include <fstream>
@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "media/frame_reader.hpp"
-#include "media/png_encoder.hpp"
+#include "media/output/frame_reader.hpp"
+#include "media/png/png_encoder.hpp"
 #include "support/decode_video.hpp"
 #include "support/property.hpp"
 #include "support/temporary_folder.hpp"

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
+#include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/frame_sink.hpp>
-#include <piblocks/png.hpp>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -9,8 +8,9 @@
 #include <csignal>
 #include <cstdio>
 
+#include "media/output/frame_sink.hpp"
+#include "media/pixels/yuv420.hpp"
 #include "media/write_frames.hpp"
-#include "media/yuv420.hpp"
 #include "support/decode_video.hpp"
 #include "support/ordinary_user.hpp"
 #include "support/temporary_folder.hpp"

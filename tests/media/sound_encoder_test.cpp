@@ -1,5 +1,5 @@
 // Sound that is encoded and decoded again is at the same place.
-#include "media/sound_encoder.hpp"
+#include "media/libav/sound_encoder.hpp"
 
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>

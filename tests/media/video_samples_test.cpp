@@ -1,5 +1,5 @@
 // Pictures of every pixel format that libavutil knows.
-#include "media/video_samples.hpp"
+#include "media/libav/video_samples.hpp"
 
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/frame_sink.hpp>
 
 #include <cstring>
 
+#include "media/output/frame_sink.hpp"
 #include "support/decode_video.hpp"
 #include "support/temporary_folder.hpp"
 

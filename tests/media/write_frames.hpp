@@ -2,14 +2,13 @@
 // In: an output and a function that paints frame n. Out: the complete output.
 #pragma once
 
-#include <piblocks/frame_sink.hpp>
-
 #include <algorithm>
 #include <functional>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "media/output/frame_sink.hpp"
 #include "support/article_frames.hpp"
 
 namespace piblocks {

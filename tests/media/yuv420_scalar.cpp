@@ -1,4 +1,4 @@
-// The conversion of src/media/yuv420.cpp once more, compiled without vector instructions.
+// The conversion of src/media/pixels/yuv420.cpp once more, compiled without vector instructions.
 #define convert_to_yuv420 convert_to_yuv420_scalar
 #define chroma_aligned chroma_aligned_scalar
-#include "media/yuv420.cpp"
+#include "media/pixels/yuv420.cpp"

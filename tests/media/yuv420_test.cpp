@@ -1,4 +1,4 @@
-#include "media/yuv420.hpp"
+#include "media/pixels/yuv420.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The conversions of transparent pictures, against exact values.
-#include "media/yuva.hpp"
+#include "media/pixels/yuva.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <vector>
 
-#include "media/rgb24.hpp"
-#include "media/yuv420.hpp"
+#include "media/pixels/rgb24.hpp"
+#include "media/pixels/yuv420.hpp"
 #include "support/article_frames.hpp"
 #include "support/property.hpp"
 

@@ -1,7 +1,6 @@
 // The library against an oracle that shares nothing with it.
 #include <gtest/gtest.h>
-#include <piblocks/collision_log.hpp>
-#include <piblocks/interpolator.hpp>
+#include <piblocks/run.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
-#include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/interpolator.hpp>
+#include <piblocks/run.hpp>
 
 #include <algorithm>
 #include <cmath>

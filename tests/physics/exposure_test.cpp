@@ -1,9 +1,9 @@
 // Where blocks spend an interval of time: against sums over all collisions, against many instants,
 // and by what must hold at any number of collisions.
+#include "physics/exposure.hpp"
+
 #include <gtest/gtest.h>
-#include <piblocks/collision_log.hpp>
-#include <piblocks/exposure.hpp>
-#include <piblocks/interpolator.hpp>
+#include <piblocks/run.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // Collisions beside a red block that is heavy and slow, against an oracle in multiple precision.
 // The turn then takes 1e39 s, or 1e300 s, while the next collision is seconds away.
 #include <gtest/gtest.h>
-#include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
+#include <piblocks/run.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "physics/impact.hpp"
 
 #include <gtest/gtest.h>
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 
 #include <cmath>
 #include <memory>

@@ -1,7 +1,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
 #include <gtest/gtest.h>
-#include <piblocks/particle.hpp>
+#include <piblocks/event_simulator.hpp>
 
 #include <cmath>
 #include <limits>

@@ -1,7 +1,6 @@
 // The count that is on the picture, at every kind of anchor, in every kind of output.
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/schedule.hpp>
 
 #include <algorithm>
 #include <string>
@@ -13,6 +12,7 @@
 #include "render/scene_text.hpp"
 #include "render/sheet.hpp"
 #include "render/still.hpp"
+#include "scene/schedule.hpp"
 #include "support/property.hpp"
 
 namespace piblocks {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <piblocks/render.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,16 +2,16 @@
 #include "render/film.hpp"
 
 #include <gtest/gtest.h>
-#include <piblocks/canvas.hpp>
+#include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <cstring>
 #include <fstream>
 
+#include "draw/canvas.hpp"
 #include "support/decode_video.hpp"
 #include "support/temporary_folder.hpp"
 

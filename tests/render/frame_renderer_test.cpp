@@ -1,15 +1,15 @@
 #include <gtest/gtest.h>
-#include <piblocks/canvas.hpp>
-#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/schedule.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
+#include "draw/canvas.hpp"
+#include "draw/composition.hpp"
+#include "scene/schedule.hpp"
 #include "support/property.hpp"
 
 namespace piblocks {

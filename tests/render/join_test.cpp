@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
+#include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/png.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 #include <sys/resource.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "render/page_facts.hpp"
 
 #include <gtest/gtest.h>
-#include <piblocks/interpolator.hpp>
+#include <piblocks/run.hpp>
 
 #include <algorithm>
 #include <sstream>

@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
-#include <piblocks/canvas.hpp>
-#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/schedule.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 
 #include <cstring>
 
+#include "draw/canvas.hpp"
+#include "draw/composition.hpp"
+#include "scene/schedule.hpp"
 #include "support/decode_video.hpp"
 #include "support/temporary_folder.hpp"
 

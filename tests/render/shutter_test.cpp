@@ -1,10 +1,7 @@
 // Exposed frames against the mean of many instants, and what must hold of them at any rate.
 #include <gtest/gtest.h>
-#include <piblocks/canvas.hpp>
-#include <piblocks/composition.hpp>
-#include <piblocks/png.hpp>
+#include <piblocks/encode.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/schedule.hpp>
 
 #include <algorithm>
 #include <array>
@@ -14,7 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "draw/canvas.hpp"
+#include "draw/composition.hpp"
 #include "render/film.hpp"
+#include "scene/schedule.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace piblocks {

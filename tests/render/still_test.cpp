@@ -3,10 +3,8 @@
 #include "render/still.hpp"
 
 #include <gtest/gtest.h>
-#include <piblocks/canvas.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
-#include <piblocks/schedule.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -14,9 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "media/frame_reader.hpp"
+#include "media/output/frame_reader.hpp"
+#include "draw/canvas.hpp"
 #include "render/film.hpp"
 #include "render/sheet.hpp"
+#include "scene/schedule.hpp"
 #include "support/property.hpp"
 #include "support/temporary_folder.hpp"
 

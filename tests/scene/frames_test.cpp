@@ -1,8 +1,9 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/interpolator.hpp>
-#include <piblocks/schedule.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/run.hpp>
+#include <piblocks/script.hpp>
+
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

@@ -1,9 +1,8 @@
 // Instants: their texts, and the times that they stand for.
 #include <gtest/gtest.h>
-#include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
-#include <piblocks/interpolator.hpp>
+#include <piblocks/run.hpp>
 
 #include <string>
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
-#include <piblocks/collision_log.hpp>
 #include <piblocks/error.hpp>
+#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <fstream>

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 #include <piblocks/scene.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <map>

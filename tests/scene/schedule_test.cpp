@@ -1,8 +1,9 @@
+#include "scene/schedule.hpp"
+
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/interpolator.hpp>
-#include <piblocks/schedule.hpp>
-#include <piblocks/script_builder.hpp>
+#include <piblocks/run.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <iterator>

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/script_builder.hpp>
-#include <piblocks/storyboard.hpp>
+#include <piblocks/script.hpp>
 
 #include <fstream>
 

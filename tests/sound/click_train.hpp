@@ -2,7 +2,7 @@
 // In: clacks or collisions. Out: the band-limited pulses they become, added up.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 
 #include <cmath>
 #include <cstddef>

@@ -1,7 +1,8 @@
 // The soundtrack as a whole: where clacks begin, how high it gets, and what it costs.
+#include "sound/soundtrack.hpp"
+
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
-#include <piblocks/soundtrack.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Mass ratios nearest to those whose last collision is never reached.
 #include <gtest/gtest.h>
 #include <mpfr.h>
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,7 @@
 // In: a system, its log, and a time or an index. Out: GoogleTest failures.
 #pragma once
 
-#include <piblocks/blocks.hpp>
-#include <piblocks/collision_log.hpp>
-#include <piblocks/interpolator.hpp>
+#include <piblocks/run.hpp>
 
 namespace piblocks::stress {
 

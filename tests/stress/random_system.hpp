@@ -2,7 +2,7 @@
 // In: a source of random numbers. Out: a valid BlockSystem.
 #pragma once
 
-#include <piblocks/blocks.hpp>
+#include <piblocks/run.hpp>
 
 #include <string>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "media/av.hpp"
+#include "media/libav/av.hpp"
 
 extern "C" {
 #include <libavutil/pixdesc.h>

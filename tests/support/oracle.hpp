@@ -3,9 +3,8 @@
 // Slow, and meant to be: clarity and certainty are all that counts here.
 #pragma once
 
-#include <piblocks/blocks.hpp>
-#include <piblocks/collision_log.hpp>
 #include <piblocks/exact.hpp>
+#include <piblocks/run.hpp>
 
 #include <cstdint>
 #include <vector>

@@ -2,8 +2,7 @@
 // In: a log and the index of a collision. Out: the state just after it, whose count is the index.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
-#include <piblocks/interpolator.hpp>
+#include <piblocks/run.hpp>
 
 namespace piblocks {
 

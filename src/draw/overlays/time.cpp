@@ -1,11 +1,11 @@
 #include <fmt/format.h>
-#include <piblocks/schedule.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

@@ -3,7 +3,7 @@
 // less the widths between, so that 0 <= y1 <= y2, with equality where something meets.
 #pragma once
 
-#include <piblocks/interpolator.hpp>
+#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
 #include <algorithm>

@@ -1,11 +1,10 @@
-#include <piblocks/schedule.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "draw/panels/panels.hpp"
 #include "draw/panels/trajectory.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

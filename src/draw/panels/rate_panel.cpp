@@ -1,6 +1,5 @@
 #include <fmt/format.h>
-#include <piblocks/interpolator.hpp>
-#include <piblocks/schedule.hpp>
+#include <piblocks/run.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "draw/panels/panels.hpp"
 #include "draw/panels/time_axis.hpp"
 #include "draw/ticks.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "draw/ticks.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

@@ -2,12 +2,11 @@
 // In: a setting and a sheet. Out: places of instants, ticks below, a line that marks the present.
 #pragma once
 
-#include <piblocks/schedule.hpp>
-
 #include <string>
 #include <vector>
 
 #include "draw/panels/panels.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 

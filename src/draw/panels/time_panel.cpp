@@ -1,11 +1,10 @@
-#include <piblocks/schedule.hpp>
-
 #include <algorithm>
 #include <cmath>
 
 #include "draw/panels/panels.hpp"
 #include "draw/panels/time_axis.hpp"
 #include "draw/panels/trajectory.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

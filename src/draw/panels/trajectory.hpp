@@ -3,7 +3,7 @@
 // column, and what blue's gap covers where there are more: exactly, in either case.
 #pragma once
 
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 
 #include <vector>
 

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <piblocks/schedule.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include "draw/number_text.hpp"
 #include "draw/panels/gaps.hpp"
 #include "draw/panels/panels.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

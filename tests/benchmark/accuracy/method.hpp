@@ -4,8 +4,8 @@
 // methods.cpp.
 #pragma once
 
-#include <piblocks/blocks.hpp>
 #include <piblocks/exact.hpp>
+#include <piblocks/run.hpp>
 
 #include <cstdint>
 #include <memory>

@@ -1,5 +1,4 @@
-#include <piblocks/collision_log.hpp>
-#include <piblocks/interpolator.hpp>
+#include <piblocks/run.hpp>
 
 #include <memory>
 #include <span>

@@ -2,7 +2,7 @@
 // In: a number of digits of pi. Out: the article's system, and events and positions of it.
 #pragma once
 
-#include <piblocks/blocks.hpp>
+#include <piblocks/run.hpp>
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 // Every collision of the program's logs, against the closed form in fifty digits.
 #include <gtest/gtest.h>
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 
 #include <algorithm>
 #include <memory>

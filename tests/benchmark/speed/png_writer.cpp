@@ -3,11 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <cairo.h>
 #include <fmt/format.h>
-#include <piblocks/canvas.hpp>
-#include <piblocks/collision_log.hpp>
-#include <piblocks/composition.hpp>
 #include <piblocks/error.hpp>
-#include <piblocks/schedule.hpp>
+#include <piblocks/run.hpp>
 #include <png.h>
 
 #include <cstdio>
@@ -17,6 +14,10 @@
 #include <optional>
 #include <thread>
 #include <vector>
+
+#include "draw/canvas.hpp"
+#include "draw/composition.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks::benchmark {
 namespace {

@@ -1,9 +1,10 @@
 #include "speed/workbench.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/collision_log.hpp>
+#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
-#include <piblocks/schedule.hpp>
+
+#include "scene/schedule.hpp"
 
 namespace piblocks::benchmark {
 namespace fs = std::filesystem;

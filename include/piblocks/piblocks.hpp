@@ -1,0 +1,16 @@
+// The whole library, but for event_simulator.hpp, which needs Eigen as well.
+// In: a scene, from a file or filled in by hand. Out: videos, pictures, counts, states,
+// comparisons.
+#pragma once
+
+#include <piblocks/compare.hpp>
+#include <piblocks/encode.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/exact.hpp>
+#include <piblocks/image.hpp>
+#include <piblocks/instant.hpp>
+#include <piblocks/render.hpp>
+#include <piblocks/run.hpp>
+#include <piblocks/scene.hpp>
+#include <piblocks/script.hpp>
+#include <piblocks/version.hpp>

@@ -1,0 +1,208 @@
+// A run: the blocks, all their collisions, their state at any time, and the exact count.
+// In: a BlockSystem. Out: numbers; stored and computed logs look alike.
+#pragma once
+
+#include <piblocks/exact.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace piblocks {
+
+/// A block that slides without friction along the x axis. Lengths, times and masses are in the
+/// scene's own units.
+struct Block {
+  Rational mass;      ///< > 0
+  Rational position;  ///< of the block's centre at time 0
+  Rational velocity;  ///< at time 0; positive away from the wall
+  Rational width;     ///< > 0
+};
+
+/// Order along the x axis: wall face, blue block, red block. Touching is allowed.
+struct BlockSystem {
+  Rational wall_face = 0;  ///< where the wall ends; blue never passes it
+  Block blue = {1, 2, 0, 1};
+  Block red = {10000, 5, -1, 1};
+
+  /// Distance from the wall's face to blue's near side, at time 0.
+  Rational blue_gap() const { return blue.position - blue.width / 2 - wall_face; }
+  /// Distance from blue's far side to red's near side, at time 0.
+  Rational blocks_gap() const {
+    return red.position - red.width / 2 - (blue.position + blue.width / 2);
+  }
+};
+
+/// When the blocks are nearest to the corner of wall and blocks, as the plane with axes
+/// (sqrt(m) x gap) measures it: the middle of all collisions. It may be before time 0. Nothing if
+/// neither block moves.
+std::optional<Rational> turn_of(const BlockSystem& system);
+
+/// Most digits that article_system() accepts.
+inline constexpr int kMaxDigits = 100'000;
+
+/// The article's system, in which the collisions count the first `digits` digits of pi:
+/// m_red / m_blue = 100^(digits - 1).
+/// @throws UsageError unless 1 <= digits <= kMaxDigits.
+BlockSystem article_system(int digits);
+
+/// What is wrong with one value of a scene.
+struct Problem {
+  std::string key;     ///< as in a scene file: "red.mass"
+  std::string reason;  ///< with the value: "= -1: must be greater than 0"
+};
+
+/// Everything that is wrong with a system; empty if nothing is.
+std::vector<Problem> problems_of(const BlockSystem& system);
+
+/// One line a problem: key and reason.
+std::vector<std::string> describe(const std::vector<Problem>& problems);
+
+/// Text of a value for messages: exact where that is short.
+std::string to_text(const Rational& value);
+
+enum class CollisionKind : std::uint8_t {
+  wall,   ///< blue meets the wall
+  blocks  ///< blue meets red
+};
+
+/// A block's centre and velocity at one instant.
+struct Motion {
+  double position = 0;
+  double velocity = 0;
+};
+
+/// One collision; velocities are those just after it.
+struct Collision {
+  Integer index;  ///< as CollisionLog counts
+  Time time;
+  CollisionKind kind = CollisionKind::blocks;
+  Motion blue;
+  Motion red;
+};
+
+/// Uniform motion between two collisions, known at one instant of it.
+struct FreeFlight {
+  Integer count;   ///< index of the last collision; negative before time 0, as CollisionLog says
+  double age = 0;  ///< time from when the blocks are where blue and red say to the time asked for
+  Motion blue;
+  Motion red;
+};
+
+/// Consecutive collisions in columns, for reading millions of them. 24 KiB of numbers: a batch
+/// stays in the first-level cache between its producer and its consumer.
+struct CollisionBatch {
+  static constexpr std::size_t kCapacity = 512;
+  using Column = std::array<double, kCapacity>;
+
+  Integer first;         ///< index of row 0
+  std::size_t size = 0;  ///< rows in use
+  std::array<CollisionKind, kCapacity> kind;
+  Column time_hi;  ///< as Time
+  Column time_lo;
+  Column blue_position;
+  Column blue_velocity;  ///< just after the collision, as in Collision
+  Column red_position;
+  Column red_velocity;
+};
+
+/// Reads a range of a log from its first collision to its last. Must not outlive the log.
+class CollisionStream {
+ public:
+  virtual ~CollisionStream() = default;
+  /// Fills `batch` with the next collisions; false, and no rows, if there are no more.
+  virtual bool read(CollisionBatch& batch) = 0;
+};
+
+/// Counting begins at time 0: the collisions from then on have the indices 1, 2, …, size(), those
+/// before time 0 the indices 0, -1, … down to first_index(). Blocks that touch at time 0 and move
+/// apart, or blue that then leaves the wall, have had collision 0 at time 0. Const members are
+/// thread-safe.
+class CollisionLog {
+ public:
+  virtual ~CollisionLog() = default;
+  CollisionLog(const CollisionLog&) = delete;
+  CollisionLog& operator=(const CollisionLog&) = delete;
+
+  const BlockSystem& system() const noexcept { return system_; }
+  /// Number of collisions from time 0 on, and the index of the last collision of all time.
+  virtual const Integer& size() const = 0;
+  /// Index of the first collision of all time; 1 if there are none before time 0.
+  virtual const Integer& first_index() const = 0;
+  /// The collision with first_index() <= index <= size().
+  /// @throws SimulationError if its time or state is beyond the range of a double.
+  virtual Collision at(const Integer& index) const = 0;
+  /// A time at which exactly the collisions up to this one have happened: that of the collision if
+  /// its exact value is short, otherwise one so little later that no picture can show the
+  /// difference. first_index() <= index <= size().
+  /// @throws UsageError if the next collision happens at the same time.
+  /// @throws SimulationError if a stepping engine cannot tell the two times apart.
+  virtual Rational time_after(const Integer& index) const = 0;
+  /// Collisions first … last, where first_index() <= first and last <= size(); none if last <
+  /// first.
+  /// @throws SimulationError as at().
+  virtual std::unique_ptr<CollisionStream> stream(const Integer& first,
+                                                  const Integer& last) const = 0;
+  /// The flight that holds at `time`. Flights are half-open, t_i <= time < t_{i+1}: a collision
+  /// exactly at `time` has happened.
+  /// @throws SimulationError as at().
+  virtual FreeFlight flight_at(const Rational& time) const = 0;
+
+ protected:
+  explicit CollisionLog(BlockSystem system) : system_(std::move(system)) {}
+
+ private:
+  BlockSystem system_;
+};
+
+enum class Engine {
+  unfolded,   ///< closed form; any number of collisions at the price of one
+  events,     ///< the article's event loop in double precision, stored
+  velocities  ///< a loop over velocities alone in double precision, stored
+};
+
+/// Most collisions that Engine::events and Engine::velocities store, at 56 bytes each: seven digits
+/// of pi.
+inline constexpr std::int64_t kMaxStoredCollisions = 5'000'000;
+
+/// @throws SceneError if problems_of(system) is not empty.
+/// @throws UsageError if an engine would have to store more than kMaxStoredCollisions, or the
+///         closed form is asked for a mass ratio beyond 2^2000.
+/// @throws SimulationError if a number of an event loop leaves the range of a double.
+std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system,
+                                                 Engine engine = Engine::unfolded);
+
+/// Number of collisions of the whole run, decided beyond doubt at any mass ratio, without a log.
+/// @throws SceneError if problems_of(system) is not empty.
+Integer count_collisions(const BlockSystem& system);
+
+/// A run whose collisions all happen at once, in the corner of wall and blocks. Their number
+/// depends on which is taken to be first, the wall or the blocks.
+struct Corner {
+  Rational time;        ///< of all collisions
+  bool blocks_first;    ///< the convention; the wall where the blocks arrive touching
+  Integer count;        ///< collisions by the convention
+  Integer other_count;  ///< collisions if the others had met first
+};
+
+/// The corner of a system that has collisions and has them all at once.
+/// @throws SceneError if problems_of(system) is not empty.
+std::optional<Corner> corner_of(const BlockSystem& system);
+
+/// What a frame needs to know of the physics.
+struct BlockState {
+  Integer count;  ///< index of the last collision so far, as CollisionLog counts
+  Motion blue;
+  Motion red;
+};
+
+/// The state at `time`. Before the first and after the last collision the motion goes on with
+/// its velocity, as far as one likes.
+BlockState state_at(const CollisionLog& log, const Rational& time);
+
+}  // namespace piblocks

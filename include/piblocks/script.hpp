@@ -1,0 +1,111 @@
+// What a film is made of: a scene, or a storyboard of several; and how a file becomes one.
+// In: plain values, or a scene file (TOML) and keys with their text. Out: one valid script, or
+// every problem at once.
+#pragma once
+
+#include <piblocks/exact.hpp>
+#include <piblocks/scene.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace piblocks {
+
+/// Lines of text in the middle of the frame; the first is the heading.
+struct Card {
+  std::vector<std::string> lines;  ///< 1 … kMaxCardLines, not empty
+  Rational length_s = 2;           ///< of video, > 0; rounded up to whole frames
+};
+
+/// One run that fills the frame, or 2 … kMaxCompared side by side, or one above the other in a
+/// frame that is not wider than high. These have one clock, that of the run whose last collision
+/// comes last: its scene.time and scene.pacing hold for all, and so do moments such as "turn".
+using Runs = std::vector<Scene>;
+
+struct StoryPart {
+  std::variant<Runs, Card> content;
+  /// Cross-fade from the part before, in seconds of video, rounded to whole frames, in which both
+  /// parts are seen; 0 for a cut.
+  Rational fade_s = 0;
+  std::string origin = {};  ///< named in messages, such as "story.toml:12"
+};
+
+struct Storyboard {
+  // Of the whole film, whatever the scenes say.
+  View view = {};  ///< size, frame rate, theme and background
+  Sound sound = {};
+  Golden golden = {};
+  std::vector<StoryPart> parts = {};  ///< 1 … kMaxStoryParts
+};
+
+inline constexpr std::size_t kMaxCardLines = 8;
+inline constexpr std::size_t kMaxCompared = 4;
+inline constexpr std::size_t kMaxStoryParts = 100;
+
+/// What a film is made from.
+using Script = std::variant<Scene, Storyboard>;
+
+/// Size, frame rate, theme and background of the whole film.
+const View& view_of(const Script& script);
+
+/// Of the whole film.
+const Sound& sound_of(const Script& script);
+
+/// The scene as the film shows it: with the film's size, frame rate, theme and background.
+Scene with_film_view(Scene scene, const View& film);
+
+/// Everything that is wrong with it, but for what takes the length of a run to know; empty if
+/// nothing is.
+std::vector<std::string> problems_of(const Storyboard& story);
+
+/// All that changes a frame, as exact text in a fixed order: a line for the film and one for each
+/// part. Two storyboards with equal descriptions are the same film.
+std::vector<std::pair<std::string, std::string>> describe(const Storyboard& story);
+
+/// Longest scene file that is read.
+inline constexpr std::size_t kMaxSceneFile_bytes = 1 << 20;
+/// Deepest lists and tables in it.
+inline constexpr int kMaxSceneNesting = 256;
+
+/// Collects values from a file and from options, and remembers where each came from.
+///
+/// The keys of a scene are "digits" or "mass-ratio", which set red.mass; "wall.face"; "blue." and
+/// "red." with "mass", "position", "velocity", "width" ("by-mass" for red: width_by_mass());
+/// "view.x", "view.y", "view.size", "view.fps", "view.shutter", "view.background", "view.theme";
+/// "time.from", "time.to", "time.speed", "time.duration", "time.slow-motion", "time.freeze",
+/// "time.hold-start", "time.hold-end", "time.loop"; "show.overlays", "show.panels", "show.title",
+/// "show.caption", "show.logo"; "sound.on"; "golden.frames", "golden.size".
+///
+/// A file with [[part]] is a storyboard: its other keys hold for all parts. A part takes the keys
+/// of a scene but those of the whole film, and beside them "card" and "seconds", "compare", "fade".
+class ScriptBuilder {
+ public:
+  ScriptBuilder();
+  ~ScriptBuilder();
+  ScriptBuilder(const ScriptBuilder&) = delete;
+  ScriptBuilder& operator=(const ScriptBuilder&) = delete;
+
+  /// Reads a scene file; called once. Values set before it are overwritten, values set after it
+  /// win.
+  /// @throws SceneError if it cannot be read or is no TOML; other problems wait for build().
+  void read_file(const std::string& path);
+  /// Sets one key from text, as an option of the command line does. A storyboard takes keys of the
+  /// whole film only, whether it is read before or after.
+  /// @param origin  named in messages, such as "--size".
+  void set(const std::string& origin, const std::string& key, const std::string& text);
+
+  /// @throws SceneError with every problem: origin, key, value and reason.
+  Script build() const;
+  /// As build(), for those who want one scene. @throws SceneError if the file is a storyboard
+  Scene build_scene() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace piblocks

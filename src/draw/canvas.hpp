@@ -1,0 +1,57 @@
+// Draw lists made visible.
+// In: a draw list. Out: pixels, or a vector file, from the same painter.
+#pragma once
+
+#include <piblocks/image.hpp>
+#include <piblocks/scene.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "draw/draw_list.hpp"
+
+namespace piblocks {
+
+/// Pixels that are painted again and again. Used by one thread at a time; different canvases
+/// are independent.
+class Canvas {
+ public:
+  /// Its pixels have alpha if the background is transparent.
+  /// @throws DrawError if there is no memory for it.
+  Canvas(int width_px, int height_px, Background background = Background::opaque);
+  ~Canvas();
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  /// Replaces the whole picture. The list must be of the canvas's size, and have a background
+  /// unless the canvas is transparent.
+  /// @throws DrawError
+  void paint(const DrawList& list);
+  /// Makes the picture what paint() would make it, but paints only where it may differ from the
+  /// last list.
+  /// @returns rectangles that cover every pixel that has changed; valid until the next call. The
+  ///          whole frame if nothing was painted before.
+  /// @throws DrawError
+  std::span<const PixelRect> update(DrawList list);
+  /// The picture; valid until the next paint() or update().
+  ImageView view() const;
+
+ private:
+  struct Pixels;
+  std::unique_ptr<Pixels> pixels_;
+};
+
+/// The picture as an SVG file: text as outlines, one unit a pixel.
+std::vector<std::uint8_t> draw_svg(const DrawList& list);
+/// The picture as a PDF file of one page, one point a pixel; text stays text.
+std::vector<std::uint8_t> draw_pdf(const DrawList& list);
+
+/// Name and version of each drawing library that is linked, such as "cairo 1.16.0".
+std::vector<std::string> draw_library_versions();
+/// All that may change a pixel, in one line: versions of these libraries and the font.
+std::string painter_fingerprint();
+
+}  // namespace piblocks

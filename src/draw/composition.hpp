@@ -1,0 +1,54 @@
+// What to draw: everything a scene shows, at one instant.
+// In: a scene and its collision log, once; a state, for every frame. Out: a draw list.
+#pragma once
+
+#include <piblocks/run.hpp>
+#include <piblocks/scene.hpp>
+
+#include <memory>
+#include <span>
+
+#include "draw/draw_list.hpp"
+#include "physics/exposure.hpp"
+
+namespace piblocks {
+
+/// The state that a frame shows.
+struct FrameState {
+  BlockState state;
+  Rational time = 0;    ///< simulation time of the state
+  Rational slower = 1;  ///< as in Stretch
+};
+
+/// A part of the time for which a frame is exposed.
+struct WeightedExposure {
+  double share = 1;  ///< of that time; 1 in all
+  std::unique_ptr<Exposure> exposure;
+};
+
+/// The layout and everything in it that does not move. Only what the scene asks for is made; the
+/// log is read while it is made, not afterwards. Const members are thread-safe.
+class Composition {
+ public:
+  /// @param logo  the picture that scene.show.logo names, if it does.
+  /// @throws UsageError if something the scene asks for cannot be shown: a glyph that the font does
+  ///         not have, a line too long, a diagram too small to be read; DrawError if the font
+  ///         cannot be loaded.
+  Composition(const Scene& scene, const CollisionLog& log,
+              std::shared_ptr<const Image> logo = nullptr);
+  ~Composition();
+  Composition(Composition&& other) noexcept;
+  Composition& operator=(Composition&& other) noexcept;
+  Composition(const Composition&) = delete;
+  Composition& operator=(const Composition&) = delete;
+
+  /// @param exposure  where the blocks are while the frame is exposed; empty shows the instant. All
+  ///                  else is shown as it is at the instant.
+  DrawList frame(const FrameState& shown, std::span<const WeightedExposure> exposure = {}) const;
+
+ private:
+  struct Contents;
+  std::unique_ptr<const Contents> contents_;
+};
+
+}  // namespace piblocks

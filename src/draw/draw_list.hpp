@@ -1,0 +1,148 @@
+// One frame as plain data: what is where, in pixels, from back to front.
+// In: composition. Out: what the canvas paints and what two frames are compared by.
+#pragma once
+
+#include <piblocks/image.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "draw/exposed_item.hpp"
+#include "draw/item_id.hpp"
+#include "draw/shapes.hpp"
+
+namespace piblocks {
+
+struct RectangleItem {
+  ItemId id = ItemId::wall;
+  Rectangle bounds;
+  std::optional<Color> fill;
+  std::optional<Stroke> stroke;
+
+  friend bool operator==(const RectangleItem&, const RectangleItem&) = default;
+};
+
+/// One line of text, set from the left end of its baseline.
+struct TextItem {
+  ItemId id = ItemId::label;
+  Point origin;
+  std::string text;     ///< UTF-8
+  double size_px = 16;  ///< of the em
+  Color color;
+
+  friend bool operator==(const TextItem&, const TextItem&) = default;
+};
+
+/// Points that may be many and are shared by all frames in which they are the same.
+class Points {
+ public:
+  Points() = default;
+  Points(std::vector<Point> points)
+      : bounds_(bounds_of(points)),
+        points_(std::make_shared<const std::vector<Point>>(std::move(points))) {}
+
+  std::span<const Point> view() const noexcept {
+    return points_ ? std::span<const Point>(*points_) : std::span<const Point>();
+  }
+  /// The least rectangle around them.
+  const Rectangle& bounds() const noexcept { return bounds_; }
+  friend bool operator==(const Points& a, const Points& b) {
+    return a.points_ == b.points_ || std::ranges::equal(a.view(), b.view());
+  }
+
+ private:
+  static Rectangle bounds_of(std::span<const Point> points) {
+    if (points.empty()) return {};
+    const auto [left, right] = std::ranges::minmax(points, {}, &Point::x);
+    const auto [top, bottom] = std::ranges::minmax(points, {}, &Point::y);
+    return {left.x, top.y, right.x - left.x, bottom.y - top.y};
+  }
+
+  Rectangle bounds_;
+  std::shared_ptr<const std::vector<Point>> points_;
+};
+
+/// Straight lines from point to point, with round joints.
+struct PathItem {
+  ItemId id = ItemId::wall;
+  Points points;
+  bool closed = false;
+  std::optional<Color> fill;  ///< of the closed path, by the non-zero rule
+  std::optional<Stroke> stroke;
+
+  friend bool operator==(const PathItem&, const PathItem&) = default;
+};
+
+struct DiskItem {
+  ItemId id = ItemId::wall;
+  Point centre;
+  double radius = 0;
+  std::optional<Color> fill;
+  std::optional<Stroke> stroke;
+
+  friend bool operator==(const DiskItem&, const DiskItem&) = default;
+};
+
+/// A picture, scaled to its bounds. Equal if it is the same picture in memory.
+struct ImageItem {
+  ItemId id = ItemId::wall;
+  Rectangle bounds;
+  std::shared_ptr<const Image> image;  ///< straight alpha
+
+  friend bool operator==(const ImageItem&, const ImageItem&) = default;
+};
+
+struct Plate;
+
+/// Items that never change, as one: a canvas paints them once and keeps their picture. Equal if it
+/// is the same plate in memory.
+struct PlateItem {
+  ItemId id = ItemId::wall;
+  Rectangle bounds;  ///< in whole pixels; nothing of the plate is seen outside
+  std::shared_ptr<const Plate> plate;
+
+  friend bool operator==(const PlateItem&, const PlateItem&) = default;
+};
+
+struct DrawList;
+
+/// A picture of its own within the picture, scaled to its bounds and cut off at them. At opacity 1
+/// it hides everything behind it, even where its own background is transparent.
+struct GroupItem {
+  ItemId id = ItemId::compared;
+  Rectangle bounds;  ///< of the list's shape
+  std::shared_ptr<const DrawList> list;
+  double opacity = 1;  ///< 0 … 1
+
+  friend bool operator==(const GroupItem& a, const GroupItem& b);
+};
+
+using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, PlateItem,
+                              GroupItem, ExposedItem>;
+
+struct Plate {
+  std::vector<DrawItem> items;  ///< from back to front; none that is exposed
+};
+
+struct DrawList {
+  int width_px = 0;
+  int height_px = 0;
+  std::optional<Color> background = Color{255, 255, 255};  ///< transparent without
+  std::vector<DrawItem> items;                             ///< from back to front
+
+  friend bool operator==(const DrawList&, const DrawList&) = default;
+};
+
+inline bool operator==(const GroupItem& a, const GroupItem& b) {
+  return a.id == b.id && a.bounds == b.bounds && a.opacity == b.opacity &&
+         (a.list == b.list || *a.list == *b.list);
+}
+
+}  // namespace piblocks

@@ -1,0 +1,144 @@
+#include "h264/parameter_sets.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "h264/bit_reader.hpp"
+#include "h264/error.hpp"
+#include "h264/nal_unit.hpp"
+
+namespace piblocks::h264 {
+namespace {
+
+/// Of the highest level, A.3.1: the square root of 8 MaxFS.
+constexpr std::uint32_t kMaxSide_mb = 1055;
+
+struct Sequence {
+  std::uint32_t id;
+  int log2_max_frame_num;
+  int width_mb;
+  int height_mb;
+};
+
+void refuse_if(bool is_other, std::string_view property) {
+  if (is_other) throw HeaderError(message("h264: cannot continue a stream with ", property));
+}
+
+template <typename Number>
+Number in_range(Number value, Number least, Number most, std::string_view name) {
+  if (least <= value && value <= most) return value;
+  throw HeaderError(
+      message("h264: ", name, " of a header is ", value, ", not in [", least, ", ", most, "]"));
+}
+
+/// The profiles with more fields in their sequence parameter sets, 7.3.2.1.1.
+bool is_high_profile(std::uint32_t profile) {
+  constexpr std::array<std::uint32_t, 13> kProfiles = {100, 110, 122, 244, 44,  83, 86,
+                                                       118, 128, 138, 139, 134, 135};
+  return std::ranges::find(kProfiles, profile) != kProfiles.end();
+}
+
+void read_high_profile_fields(BitReader& bits) {
+  refuse_if(bits.get_unsigned() != 1, "chroma other than 4:2:0");
+  const bool has_more_luma_bits = bits.get_unsigned() != 0;
+  const bool has_more_chroma_bits = bits.get_unsigned() != 0;
+  refuse_if(has_more_luma_bits || has_more_chroma_bits, "samples of more than 8 bits");
+  refuse_if(bits.get_flag(), "lossless macroblocks");  // qpprime_y_zero_transform_bypass_flag
+  refuse_if(bits.get_flag(), "scaling matrices");
+}
+
+/// @param size  in samples; offsets are in pairs of samples.
+void read_cropping(BitReader& bits, std::uint32_t size, std::string_view name) {
+  const std::uint64_t before = bits.get_unsigned();
+  const std::uint64_t after = bits.get_unsigned();
+  if (2 * (before + after) >= size) {
+    throw HeaderError(message("h264: nothing is left of a picture's ", name, " ", size));
+  }
+}
+
+/// seq_parameter_set_data(), 7.3.2.1.1, up to the VUI, after which nothing comes.
+Sequence read_sequence(std::span<const std::uint8_t> rbsp) {
+  BitReader bits(rbsp);
+  const std::uint32_t profile = bits.get(8);
+  bits.get(16);  // constraint flags, level
+  Sequence sequence{};
+  sequence.id = in_range(bits.get_unsigned(), 0U, 31U, "seq_parameter_set_id");
+  if (is_high_profile(profile)) read_high_profile_fields(bits);
+  sequence.log2_max_frame_num =
+      static_cast<int>(4 + in_range(bits.get_unsigned(), 0U, 12U, "log2_max_frame_num_minus4"));
+  const std::uint32_t order_type = bits.get_unsigned();
+  refuse_if(order_type != 2,
+            message("picture order type ", order_type, " (as for B-frames and fields)"));
+  refuse_if(bits.get_unsigned() == 0, "no reference pictures");
+  bits.get_flag();  // gaps_in_frame_num_value_allowed_flag
+  const std::uint32_t width_mb =
+      1 + in_range(bits.get_unsigned(), 0U, kMaxSide_mb - 1, "pic_width_in_mbs_minus1");
+  const std::uint32_t height_mb =
+      1 + in_range(bits.get_unsigned(), 0U, kMaxSide_mb - 1, "pic_height_in_map_units_minus1");
+  refuse_if(!bits.get_flag(), "fields");
+  bits.get_flag();  // direct_8x8_inference_flag
+  if (bits.get_flag()) {
+    read_cropping(bits, 16 * width_mb, "width");
+    read_cropping(bits, 16 * height_mb, "height");
+  }
+  bits.get_flag();  // vui_parameters_present_flag
+  sequence.width_mb = static_cast<int>(width_mb);
+  sequence.height_mb = static_cast<int>(height_mb);
+  return sequence;
+}
+
+/// The end of pic_parameter_set_rbsp(), which only high profiles have.
+void read_picture_extension(BitReader& bits, int chroma_qp_offset) {
+  refuse_if(bits.get_flag(), "8x8 transforms");
+  refuse_if(bits.get_flag(), "scaling matrices");
+  refuse_if(bits.get_signed() != chroma_qp_offset, "different quantisers for Cb and Cr");
+}
+
+/// pic_parameter_set_rbsp(), 7.3.2.2.
+ParameterSets read_picture(std::span<const std::uint8_t> rbsp, const Sequence& sequence) {
+  BitReader bits(rbsp);
+  ParameterSets sets{};
+  sets.width_mb = sequence.width_mb;
+  sets.height_mb = sequence.height_mb;
+  sets.log2_max_frame_num = sequence.log2_max_frame_num;
+  sets.picture_parameter_set_id = in_range(bits.get_unsigned(), 0U, 255U, "pic_parameter_set_id");
+  in_range(bits.get_unsigned(), sequence.id, sequence.id, "seq_parameter_set_id");
+  refuse_if(bits.get_flag(), "CABAC");
+  bits.get_flag();  // bottom_field_pic_order_in_frame_present_flag: of no use to type 2
+  refuse_if(bits.get_unsigned() != 0, "slice groups");
+  const std::uint32_t references =
+      1 + in_range(bits.get_unsigned(), 0U, 31U, "num_ref_idx_l0_default_active_minus1");
+  sets.overrides_reference_count = references != 1;
+  in_range(bits.get_unsigned(), 0U, 31U, "num_ref_idx_l1_default_active_minus1");
+  refuse_if(bits.get_flag(), "weighted prediction");
+  bits.get(2);  // weighted_bipred_idc: of B slices
+  sets.initial_qp = 26 + in_range(bits.get_signed(), -26, 25, "pic_init_qp_minus26");
+  in_range(bits.get_signed(), -26, 25, "pic_init_qs_minus26");
+  sets.chroma_qp_offset = in_range(bits.get_signed(), -12, 12, "chroma_qp_index_offset");
+  const bool controls_deblocking = bits.get_flag();
+  refuse_if(!controls_deblocking, "deblocking that slices cannot switch off");
+  refuse_if(bits.get_flag(), "constrained intra prediction");
+  refuse_if(bits.get_flag(), "redundant pictures");
+  if (bits.has_more_data()) read_picture_extension(bits, sets.chroma_qp_offset);
+  if (bits.has_more_data()) throw HeaderError("h264: a picture parameter set has more than it may");
+  return sets;
+}
+
+}  // namespace
+
+ParameterSets read_parameter_sets(std::span<const std::uint8_t> stream) {
+  std::vector<Unit> units = read_units(stream);
+  std::erase_if(units, [](const Unit& unit) {
+    return unit.type != static_cast<int>(UnitType::sequence_parameters) &&
+           unit.type != static_cast<int>(UnitType::picture_parameters);
+  });
+  if (units.size() != 2 || units[0].type != static_cast<int>(UnitType::sequence_parameters) ||
+      units[1].type != static_cast<int>(UnitType::picture_parameters)) {
+    throw HeaderError("h264: a stream needs one sequence and then one picture parameter set");
+  }
+  return read_picture(units[1].rbsp, read_sequence(units[0].rbsp));
+}
+
+}  // namespace piblocks::h264

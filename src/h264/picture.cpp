@@ -1,0 +1,77 @@
+#include "h264/picture.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace piblocks::h264 {
+namespace {
+
+/// Of some of the samples. Differences of bytes, and no more than 16 bits, in the inner product:
+/// what the processor squares and adds up at once.
+template <int begin, int end>
+int squared_error(const Samples& a, const Samples& b) {
+  int sum = 0;
+  for (int i = begin; i < end; ++i) {
+    const auto difference = static_cast<std::int16_t>(a.values[i] - b.values[i]);
+    sum += difference * difference;
+  }
+  return sum;
+}
+
+/// A square.
+template <int side>
+void copy(const std::uint8_t* from, std::ptrdiff_t from_stride, std::uint8_t* to,
+          std::ptrdiff_t to_stride) {
+  for (int y = 0; y < side; ++y, from += from_stride, to += to_stride) std::memcpy(to, from, side);
+}
+
+}  // namespace
+
+int luma_error(const Samples& a, const Samples& b) { return squared_error<0, 256>(a, b); }
+int chroma_error(const Samples& a, const Samples& b) { return squared_error<256, 384>(a, b); }
+
+int largest_difference(const Samples& a, const Samples& b) {
+  std::uint8_t largest = 0;
+  for (int i = 0; i < Samples::kCount; ++i) {
+    const std::uint8_t x = a.values[i];
+    const std::uint8_t y = b.values[i];
+    largest = std::max(largest, static_cast<std::uint8_t>(std::max(x, y) - std::min(x, y)));
+  }
+  return largest;
+}
+
+Picture::Picture(int width_mb, int height_mb) : width_mb_(width_mb), height_mb_(height_mb) {
+  const std::size_t macroblocks = static_cast<std::size_t>(width_mb) * height_mb;
+  for (int i = 0; i < 3; ++i) planes_[i].resize(macroblocks * side_of(i) * side_of(i));
+}
+
+void Picture::load(int x_mb, int y_mb, Samples& samples) const {
+  copy<kLumaSide>(plane(0) + offset(0, x_mb, y_mb), stride_bytes(0), samples.plane(0), kLumaSide);
+  for (int i = 1; i < 3; ++i) {
+    copy<kChromaSide>(plane(i) + offset(i, x_mb, y_mb), stride_bytes(i), samples.plane(i),
+                      kChromaSide);
+  }
+}
+
+void Picture::store(int x_mb, int y_mb, const Samples& samples) {
+  copy<kLumaSide>(samples.plane(0), kLumaSide, plane(0) + offset(0, x_mb, y_mb), stride_bytes(0));
+  for (int i = 1; i < 3; ++i) {
+    copy<kChromaSide>(samples.plane(i), kChromaSide, plane(i) + offset(i, x_mb, y_mb),
+                      stride_bytes(i));
+  }
+}
+
+void Picture::load_borders(int x_mb, int y_mb, Borders& borders) const {
+  borders.has_above = y_mb > 0;
+  borders.has_left = x_mb > 0;
+  for (int i = 0; i < 3; ++i) {
+    const int side = side_of(i);
+    const std::uint8_t* const corner = plane(i) + offset(i, x_mb, y_mb);
+    Border& border = borders.planes[i];
+    if (borders.has_above) std::memcpy(border.above.data(), corner - stride_bytes(i), side);
+    if (!borders.has_left) continue;
+    for (int y = 0; y < side; ++y) border.left[y] = corner[y * stride_bytes(i) - 1];
+  }
+}
+
+}  // namespace piblocks::h264

@@ -1,0 +1,93 @@
+#include "media/libav/av.hpp"
+
+#include <fmt/format.h>
+#include <gif_lib.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <new>
+
+extern "C" {
+#include <libavutil/log.h>
+}
+
+namespace piblocks {
+namespace {
+
+bool is_io_failure(int code) {
+  constexpr std::array kErrors = {EACCES, EDQUOT, EFBIG, EIO, ENOENT, ENOSPC, EPIPE, EROFS};
+  return std::ranges::any_of(kErrors, [&](int error) { return code == AVERROR(error); });
+}
+
+/// libavformat asks this before it tries a call again that a signal broke off.
+int is_stop_requested(void* stop) {
+  return static_cast<const std::stop_token*>(stop)->stop_requested() ? 1 : 0;
+}
+
+/// What such a file names is in nobody's command line, and could be written over.
+bool is_list_of_files(const AVInputFormat& format) {
+  constexpr std::array<std::string_view, 5> kLists = {"concat", "dash", "hls", "imf", "sdp"};
+  return std::ranges::find(kLists, format.name) != kLists.end();
+}
+
+}  // namespace
+
+AvInputPtr open_av_input(const std::string& path, const std::stop_token* stop) {
+  AVFormatContext* allocated = avformat_alloc_context();
+  if (allocated == nullptr) throw std::bad_alloc();
+  if (stop != nullptr) {
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): libav hands it back as it is
+    allocated->interrupt_callback = {is_stop_requested, const_cast<std::stop_token*>(stop)};
+  }
+  // The protocol's name keeps libav from taking a colon in the path for one.
+  const std::string url = "file:" + path;
+  // A picture may have a percent sign in its name, which libav takes for a sequence of others.
+  AVDictionary* options = nullptr;
+  check_av(av_dict_set(&options, "pattern_type", "none", 0), "read", path);
+  const int code = avformat_open_input(&allocated, url.c_str(), nullptr, &options);
+  av_dict_free(&options);  // where it is no picture, the option is still there
+  check_av_read(code, "read", path);
+  AvInputPtr input(allocated);
+  if (is_list_of_files(*input->iformat)) {
+    throw MediaError(fmt::format(
+        "video: cannot read '{}': it is a list of other files; name one of these", path));
+  }
+  return input;
+}
+
+std::string av_error_text(int code) {
+  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
+  av_strerror(code, text.data(), text.size());
+  return text.data();
+}
+
+int check_av(int code, std::string_view operation, std::string_view object) {
+  if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
+  return check_av_read(code, operation, object);
+}
+
+int check_av_read(int code, std::string_view operation, std::string_view object) {
+  if (code >= 0) return code;
+  const std::string message =
+      fmt::format("video: cannot {} '{}': {}", operation, object, av_error_text(code));
+  if (is_io_failure(code)) throw IoError(message);
+  throw MediaError(message);
+}
+
+void silence_av() { av_log_set_level(AV_LOG_QUIET); }
+
+std::string version_text(unsigned number) {
+  return fmt::format("{}.{}.{}", AV_VERSION_MAJOR(number), AV_VERSION_MINOR(number),
+                     AV_VERSION_MICRO(number));
+}
+
+std::vector<std::string> av_library_versions() {
+  return {"libavformat " + version_text(avformat_version()),
+          "libavcodec " + version_text(avcodec_version()),
+          "libavutil " + version_text(avutil_version()),
+          fmt::format("giflib {}.{}.{}", GIFLIB_MAJOR, GIFLIB_MINOR, GIFLIB_RELEASE)};
+}
+
+}  // namespace piblocks

@@ -1,0 +1,100 @@
+#include "media/libav/av_module.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <link.h>
+#include <piblocks/error.hpp>
+#include <piblocks/version.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "media/libav/byte_hash.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr const char* kFile = "libpiblocks_av.so";
+
+/// The program or shared library that this code was linked into; empty if the system does not say.
+std::filesystem::path own_binary() {
+  Dl_info info{};
+  void* extra = nullptr;
+  const void* here = reinterpret_cast<const void*>(&own_binary);
+  const bool is_known = ::dladdr1(here, &info, &extra, RTLD_DL_LINKMAP) != 0;
+  const std::string_view name = is_known ? static_cast<const link_map*>(extra)->l_name : "";
+  if (!name.empty()) return name;
+  // A program has no name there.
+  std::error_code unreadable;
+  return std::filesystem::read_symlink("/proc/self/exe", unreadable);
+}
+
+/// Where the module may be, best first.
+std::vector<std::string> candidates() {
+  const std::filesystem::path folder = PIBLOCKS_MODULE_FOLDER;
+  // As the search path of the binary says: the program's own, the build's, or the one that the
+  // library's users are linked with.
+  std::vector<std::string> files = {kFile};
+  // For those who are linked without it, or have moved since. Never from the working folder, which
+  // is anybody's.
+  const std::filesystem::path binary = own_binary();
+  if (binary.is_absolute()) files.push_back(binary.parent_path() / ".." / folder / kFile);
+  files.push_back(std::filesystem::path(PIBLOCKS_PREFIX) / folder / kFile);
+  return files;
+}
+
+struct LibraryCloser {
+  void operator()(void* library) const { ::dlclose(library); }
+};
+using Library = std::unique_ptr<void, LibraryCloser>;
+
+/// The module in this file; nothing, and one more of the reasons, if it cannot be used.
+const AvModule* load(const std::string& file, std::string& reasons) {
+  Library library(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL));
+  void* const entry = library ? ::dlsym(library.get(), kAvModuleEntry) : nullptr;
+  if (entry == nullptr) {
+    reasons += fmt::format("; {}", ::dlerror());
+    return nullptr;
+  }
+  const AvModule* const module = reinterpret_cast<const AvModule* (*)()>(entry)();
+  if (std::string_view(module->version) != kVersion) {
+    reasons += fmt::format("; {} is of version {}, not {}", file, module->version, kVersion);
+    return nullptr;
+  }
+  static_cast<void>(library.release());  // its code is called until the program ends
+  return module;
+}
+
+const AvModule& load() {
+  std::string reasons;
+  for (const std::string& file : candidates()) {
+    if (const AvModule* const module = load(file, reasons)) return *module;
+  }
+  throw MediaError("output: cannot load the encoders: is piblocks whole?" + reasons);
+}
+
+}  // namespace
+
+const AvModule& av_module() {
+  static const AvModule& module = load();
+  return module;
+}
+
+std::unique_ptr<FrameReader> read_video(const std::string& path, const std::stop_token& stop) {
+  return av_module().decode_video_file(path, stop);
+}
+
+std::string hash_of_bytes(std::span<const std::uint8_t> bytes) {
+  return av_module().compute_hash(bytes);
+}
+
+std::vector<std::string> webm_encoders() { return av_module().usable_webm_encoders(); }
+
+std::vector<std::string> prores_encoders() { return av_module().usable_prores_encoders(); }
+
+std::vector<std::string> sound_encoders() { return av_module().usable_sound_encoders(); }
+
+std::vector<std::string> h264_encoders() { return av_module().usable_h264_encoders(); }
+
+}  // namespace piblocks

@@ -1,0 +1,95 @@
+#include "media/libav/cut_off.hpp"
+
+#include <bit>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+namespace piblocks {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::uint32_t kSegment = 0x18538067;
+
+/// The next number of EBML, whose first byte says by its leading zeros how many follow.
+/// @param with_mark  whether the bit behind the zeros belongs to it, as it does to an element's ID.
+/// @return nothing at the end of the file, and for a size that says that it is unknown.
+std::optional<std::uint64_t> ebml_number(std::istream& file, bool with_mark) {
+  const int first = file.get();
+  if (first <= 0) return std::nullopt;
+  const int others = std::countl_zero(static_cast<std::uint8_t>(first));
+  const auto mark = static_cast<std::uint64_t>(0x80 >> others);
+  std::uint64_t number = static_cast<std::uint64_t>(first) & (with_mark ? 0xff : mark - 1);
+  std::uint64_t unknown = mark - 1;
+  for (int i = 0; i < others; ++i) {
+    number = number << 8 | static_cast<std::uint8_t>(file.get());
+    unknown = unknown << 8 | 0xff;
+  }
+  if (!file || (!with_mark && number == unknown)) return std::nullopt;
+  return number;
+}
+
+/// All of Matroska and WebM is in one element.
+bool is_cut_matroska(std::istream& file, std::uint64_t file_bytes) {
+  while (true) {
+    const auto id = ebml_number(file, true);
+    const auto bytes = ebml_number(file, false);
+    const std::int64_t begin = file.tellg();
+    if (!id || !bytes || begin < 0) return false;
+    const bool goes_on = *bytes > file_bytes - static_cast<std::uint64_t>(begin);
+    if (goes_on || *id == kSegment) return goes_on;
+    file.seekg(static_cast<std::int64_t>(*bytes), std::ios::cur);
+  }
+}
+
+/// The table of colours that a byte of flags says to follow.
+void skip_colours(std::istream& file, int flags) {
+  constexpr int kHas_table = 0x80;
+  if ((flags & kHas_table) != 0) file.ignore(3 << ((flags & 7) + 1));
+}
+
+void skip_sub_blocks(std::istream& file) {
+  for (int bytes = file.get(); file && bytes > 0; bytes = file.get()) file.ignore(bytes);
+}
+
+/// Whether the blocks of a GIF end without the trailer. What is none of them is left to the
+/// decoder.
+bool is_cut_gif(std::istream& file) {
+  constexpr int kScreen_bytes = 10;  // up to the flags
+  constexpr int kImage_bytes = 8;    // likewise
+  file.ignore(kScreen_bytes);
+  const int flags = file.get();
+  file.ignore(2);
+  skip_colours(file, flags);
+  while (true) {
+    const int block = file.get();
+    if (!file) return true;
+    if (block == 0x21) {  // an extension
+      file.ignore(1);
+    } else if (block == 0x2c) {  // a picture
+      file.ignore(kImage_bytes);
+      skip_colours(file, file.get());
+      file.ignore(1);
+    } else {
+      return false;
+    }
+    skip_sub_blocks(file);
+  }
+}
+
+}  // namespace
+
+bool is_cut_off(const std::string& path) {
+  std::error_code no_file;
+  if (!fs::is_regular_file(path, no_file)) return false;
+  const std::uintmax_t bytes = fs::file_size(path, no_file);
+  std::ifstream file(path, std::ios::binary);
+  std::string start(4, '\0');
+  if (no_file || !file.read(start.data(), static_cast<std::streamsize>(start.size()))) return false;
+  file.seekg(0);
+  if (start == "GIF8") return is_cut_gif(file);
+  return start == "\x1a\x45\xdf\xa3" && is_cut_matroska(file, bytes);
+}
+
+}  // namespace piblocks

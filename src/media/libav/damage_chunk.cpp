@@ -1,0 +1,128 @@
+#include "media/libav/damage_chunk.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+#include <utility>
+
+#include "media/libav/find_encoder.hpp"
+
+namespace piblocks {
+namespace {
+
+/// Repeats the last column and the last row of a plane up to whole macroblocks, which costs fewer
+/// bits than anything else there.
+void extend(std::uint8_t* plane, std::ptrdiff_t stride, int width, int height, int whole_height) {
+  const auto rest = static_cast<std::size_t>(stride - width);
+  for (int y = 0; y < height && rest > 0; ++y) {
+    std::uint8_t* const end = plane + y * stride + width;
+    std::memset(end, end[-1], rest);
+  }
+  const std::uint8_t* const last = plane + (height - 1) * stride;
+  for (int y = height; y < whole_height; ++y) {
+    std::memcpy(plane + y * stride, last, static_cast<std::size_t>(stride));
+  }
+}
+
+void extend(h264::Picture& picture, const VideoFormat& format) {
+  for (int i = 0; i < 3; ++i) {
+    const int step = i == 0 ? 1 : 2;
+    extend(picture.plane(i), picture.stride_bytes(i), format.width_px / step,
+           format.height_px / step, picture.height_mb() * h264::side_of(i));
+  }
+}
+
+}  // namespace
+
+YuvView view_of(h264::Picture& picture) {
+  return {.y = picture.plane(0),
+          .cb = picture.plane(1),
+          .cr = picture.plane(2),
+          .y_stride_bytes = picture.stride_bytes(0),
+          .cb_stride_bytes = picture.stride_bytes(1),
+          .cr_stride_bytes = picture.stride_bytes(2)};
+}
+
+DamageChunkEncoder::DamageChunkEncoder(const VideoEncoder& encoder, const h264::ParameterSets& sets,
+                                       int qp, WhenTooMuch when_too_much)
+    : ChunkEncoder(encoder.format()),
+      encoder_(encoder),
+      when_too_much_(when_too_much),
+      picture_(sets.width_mb, sets.height_mb),
+      changed_(sets.width_mb, sets.height_mb),
+      coder_(sets, qp) {}
+
+void DamageChunkEncoder::begin(std::int64_t first_frame) {
+  next_frame_ = first_frame;
+  transformed_ = 0;
+  is_left_ = false;
+}
+
+/// The stream's encoder looks at every macroblock: it is the faster one where more than a twentieth
+/// of them have to be transformed (src/media/README.md). A few are no trouble in any picture.
+bool DamageChunkEncoder::has_too_much() const {
+  constexpr std::int64_t kOneIn = 20;
+  constexpr std::int64_t kFew = 64;
+  const std::int64_t macroblocks = std::int64_t{picture_.width_mb()} * picture_.height_mb();
+  return when_too_much_ == WhenTooMuch::leave_to_stream_encoder &&
+         transformed_ > std::max(kFew, macroblocks / kOneIn) * encoder_.frames_per_chunk();
+}
+
+void DamageChunkEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
+  const PixelRect whole{0, 0, frame.width_px, frame.height_px};
+  const std::span<const PixelRect> all(&whole, 1);
+  if (is_left_) {
+    stream_encoder_->take(frame, rects);
+  } else if (has_too_much()) {
+    leave();
+    stream_encoder_->take(frame, all);
+  } else {
+    convert_here(frame, std::exchange(is_behind_, false) ? all : rects);
+  }
+}
+
+void DamageChunkEncoder::convert_here(const ImageView& frame, std::span<const PixelRect> rects) {
+  bool reaches_edge = false;
+  for (const PixelRect& rect : rects) {
+    const PixelRect aligned = chroma_aligned(rect, frame);
+    convert_to_yuv420(frame, aligned, view_of(picture_));
+    changed_.add(aligned.x_px, aligned.y_px, aligned.width_px, aligned.height_px);
+    reaches_edge = reaches_edge || aligned.x_px + aligned.width_px == frame.width_px ||
+                   aligned.y_px + aligned.height_px == frame.height_px;
+  }
+  if (reaches_edge) extend(picture_, encoder_.format());
+}
+
+/// The next frame becomes a key frame.
+void DamageChunkEncoder::leave() {
+  is_left_ = true;
+  is_behind_ = true;
+  if (!stream_encoder_) stream_encoder_.emplace(encoder_);
+  stream_encoder_->begin(next_frame_);
+}
+
+void DamageChunkEncoder::encode() {
+  if (is_left_) return stream_encoder_->encode();
+  const bool is_first = chunk_.empty();
+  chunk_.push_back({.bytes = is_first ? coder_.encode_whole(picture_)
+                                      : coder_.encode_changes(picture_, changed_),
+                    .pts = next_frame_,
+                    .dts = next_frame_,
+                    .key_frame = is_first});
+  if (!is_first) transformed_ += coder_.transformed_macroblocks();
+  changed_.clear();
+  ++next_frame_;
+}
+
+std::string DamageChunkEncoder::method() const {
+  const std::string damage(kDamage);
+  return is_left_ ? damage + ", then " + encoder_.name() : damage;
+}
+
+EncodedChunk DamageChunkEncoder::finish() {
+  EncodedChunk chunk = std::exchange(chunk_, {});
+  if (is_left_) std::ranges::move(stream_encoder_->finish(), std::back_inserter(chunk));
+  return chunk;
+}
+
+}  // namespace piblocks

@@ -1,0 +1,239 @@
+// GIF 89a by giflib: what changes of each frame, with its own colours.
+#include <fmt/format.h>
+#include <gif_lib.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "media/libav/color_table.hpp"
+#include "media/output/intra_encoder.hpp"
+#include "media/output/output_kinds.hpp"
+#include "media/output/stream_sink.hpp"
+#include "media/pixels/changed_picture.hpp"
+
+namespace piblocks {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// A chunk begins with a whole picture.
+constexpr std::int64_t kFramesPerChunk = 50;
+/// Delays are whole hundredths of a second, and viewers take less than two for ten.
+constexpr int kMaxFrameRate_gif = 50;
+constexpr int kMaxDelay_cs = 65535;
+constexpr std::size_t kMaxColors = 256;
+constexpr std::uint8_t kTrailer = 0x3b;
+
+/// When frame `number` is shown first, rounded to the nearest hundredth of a second. What is
+/// rounded is the time, not the delay: no frame is more than half a hundredth late or early.
+Integer time_cs(std::int64_t number, const Rational& frame_rate) {
+  return floor(Rational(number) * 100 / frame_rate + Rational(1, 2));
+}
+
+void check_gif(int code, const char* operation) {
+  if (code != GIF_ERROR) return;
+  throw MediaError(fmt::format("gif: cannot {}: giflib reports an error", operation));
+}
+
+struct ColorMapDeleter {
+  void operator()(ColorMapObject* map) const noexcept { GifFreeMapObject(map); }
+};
+
+/// giflib wants a power of two of colours, two at least.
+std::unique_ptr<ColorMapObject, ColorMapDeleter> color_map(const std::vector<std::uint32_t>& colors,
+                                                           std::size_t count) {
+  std::array<GifColorType, kMaxColors> table{};
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    table.at(i) = {static_cast<GifByteType>(colors[i] >> 16),
+                   static_cast<GifByteType>(colors[i] >> 8), static_cast<GifByteType>(colors[i])};
+  }
+  const auto size = static_cast<int>(std::bit_ceil(std::max<std::size_t>(2, count)));
+  std::unique_ptr<ColorMapObject, ColorMapDeleter> map(GifMakeMapObject(size, table.data()));
+  if (!map) throw std::bad_alloc();
+  return map;
+}
+
+/// giflib's writer, into memory. Not movable: giflib has its address.
+class GifWriter {
+ public:
+  explicit GifWriter(const VideoFormat& format);
+  ~GifWriter() { EGifCloseFile(file_, nullptr); }
+  GifWriter(const GifWriter&) = delete;
+  GifWriter& operator=(const GifWriter&) = delete;
+
+  GifFileType& file() noexcept { return *file_; }
+  /// What was written since the last call.
+  Bytes take() { return std::exchange(bytes_, {}); }
+
+ private:
+  void put_screen(const VideoFormat& format);
+  void put_loop();
+
+  Bytes bytes_;
+  GifFileType* file_;
+};
+
+/// Called by giflib, which no exception may pass through.
+int append_bytes(GifFileType* file, const GifByteType* data, int count) {
+  auto& bytes = *static_cast<Bytes*>(file->UserData);
+  try {
+    bytes.insert(bytes.end(), data, data + count);
+  } catch (const std::bad_alloc&) {
+    return 0;
+  }
+  return count;
+}
+
+GifWriter::GifWriter(const VideoFormat& format) : file_(EGifOpen(&bytes_, append_bytes, nullptr)) {
+  if (file_ == nullptr) throw std::bad_alloc();
+  try {
+    put_screen(format);
+    put_loop();
+  } catch (...) {
+    EGifCloseFile(file_, nullptr);
+    throw;
+  }
+}
+
+void GifWriter::put_screen(const VideoFormat& format) {
+  constexpr int kColorResolution_bits = 8;
+  EGifSetGifVersion(file_, true);
+  check_gif(EGifPutScreenDesc(file_, format.width_px, format.height_px, kColorResolution_bits, 0,
+                              nullptr),
+            "write the header");
+}
+
+/// Netscape's extension, which every viewer knows: over and over.
+void GifWriter::put_loop() {
+  constexpr std::array<std::uint8_t, 3> kForEver = {1, 0, 0};
+  check_gif(EGifPutExtensionLeader(file_, APPLICATION_EXT_FUNC_CODE), "write the header");
+  check_gif(EGifPutExtensionBlock(file_, 11, "NETSCAPE2.0"), "write the header");
+  check_gif(EGifPutExtensionBlock(file_, kForEver.size(), kForEver.data()), "write the header");
+  check_gif(EGifPutExtensionTrailer(file_), "write the header");
+}
+
+class GifEncoder final : public IntraEncoder {
+ public:
+  explicit GifEncoder(const VideoFormat& format)
+      : IntraEncoder(format),
+        frame_rate_(format.frame_rate),
+        picture_(format.width_px, format.height_px, ChangedPicture::Marks::new_pixels),
+        writer_(format),
+        header_(writer_.take()) {}
+
+  void begin(std::int64_t first_frame) override {
+    IntraEncoder::begin(first_frame);
+    is_whole_ = true;
+  }
+
+ private:
+  void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
+    picture_.take(frame, rects);
+  }
+  std::vector<std::uint8_t> encode_picture(std::int64_t number) override;
+  bool choose_colors(const PixelRect& rect);
+  void put_control(std::int64_t number, int transparent);
+  void put_image(const PixelRect& rect, int transparent);
+  bool is_left_out(const std::uint8_t* news, int x) const { return !is_whole_ && news[x] == 0; }
+
+  Rational frame_rate_;
+  ChangedPicture picture_;
+  GifWriter writer_;
+  Bytes header_;
+  ColorTable colors_;
+  bool is_whole_ = true;
+  Bytes row_;
+};
+
+/// Counts the colours of the pixels that have to be written. @return whether others are between.
+bool GifEncoder::choose_colors(const PixelRect& rect) {
+  bool has_others = false;
+  colors_.clear();
+  for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
+    const std::uint32_t* const pixels = picture_.row(y);
+    const std::uint8_t* const news = picture_.news(y);
+    for (int x = rect.x_px; x < rect.x_px + rect.width_px; ++x) {
+      if (is_left_out(news, x)) {
+        has_others = true;
+      } else {
+        colors_.count(pixels[x] & 0xffffff);
+      }
+    }
+  }
+  colors_.choose(kMaxColors - (has_others ? 1 : 0));
+  return has_others;
+}
+
+std::vector<std::uint8_t> GifEncoder::encode_picture(std::int64_t number) {
+  const PixelRect rect = is_whole_ ? picture_.whole() : picture_.changed();
+  const bool has_others = choose_colors(rect);
+  const int transparent =
+      has_others ? static_cast<int>(colors_.colors().size()) : NO_TRANSPARENT_COLOR;
+  put_control(number, transparent);
+  put_image(rect, transparent);
+  picture_.settle();
+  is_whole_ = false;
+  Bytes bytes = writer_.take();
+  if (number == 0) bytes.insert(bytes.begin(), header_.begin(), header_.end());
+  return bytes;
+}
+
+void GifEncoder::put_control(std::int64_t number, int transparent) {
+  const Integer delay = time_cs(number + 1, frame_rate_) - time_cs(number, frame_rate_);
+  const GraphicsControlBlock control = {DISPOSE_DO_NOT, false, static_cast<int>(delay.get_si()),
+                                        transparent};
+  std::array<GifByteType, 4> block{};
+  EGifGCBToExtension(&control, block.data());
+  check_gif(EGifPutExtension(&writer_.file(), GRAPHICS_EXT_FUNC_CODE, block.size(), block.data()),
+            "write a frame");
+}
+
+void GifEncoder::put_image(const PixelRect& rect, int transparent) {
+  const std::size_t colors = colors_.colors().size() + (transparent >= 0 ? 1 : 0);
+  const auto map = color_map(colors_.colors(), colors);
+  check_gif(EGifPutImageDesc(&writer_.file(), rect.x_px, rect.y_px, rect.width_px, rect.height_px,
+                             false, map.get()),
+            "write a frame");
+  row_.resize(std::size_t(rect.width_px));
+  for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
+    const std::uint32_t* const pixels = picture_.row(y) + rect.x_px;
+    const std::uint8_t* const news = picture_.news(y) + rect.x_px;
+    for (int x = 0; x < rect.width_px; ++x) {
+      row_[std::size_t(x)] = is_left_out(news, x) ? static_cast<std::uint8_t>(transparent)
+                                                  : colors_.index_of(pixels[x] & 0xffffff);
+    }
+    check_gif(EGifPutLine(&writer_.file(), row_.data(), rect.width_px), "write a frame");
+  }
+}
+
+std::string frame_rate_problem(const Rational& rate) {
+  if (rate > kMaxFrameRate_gif) {
+    return fmt::format(
+        "gif: frame rate {} is too high: the shortest delay is a fiftieth of a "
+        "second; use --fps 50 or 25",
+        rate.get_str());
+  }
+  if (100 / rate <= kMaxDelay_cs) return {};
+  return fmt::format(
+      "gif: frame rate {} is too low: the longest delay is {} hundredths of a second",
+      rate.get_str(), kMaxDelay_cs);
+}
+
+}  // namespace
+
+std::unique_ptr<Output> gif_output(const OutputRequest& request) {
+  const std::string problem = frame_rate_problem(request.format.frame_rate);
+  if (!problem.empty()) throw UsageError(problem);
+  return std::make_unique<StreamOutput<GifEncoder>>(
+      request, kFramesPerChunk,
+      fmt::format("gif by giflib {}.{}.{}", GIFLIB_MAJOR, GIFLIB_MINOR, GIFLIB_RELEASE),
+      Bytes{kTrailer});
+}
+
+}  // namespace piblocks

@@ -1,0 +1,241 @@
+#include "media/libav/video_file.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <new>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/output_file.hpp"
+#include "media/libav/alpha_packet.hpp"
+#include "media/libav/find_encoder.hpp"
+#include "media/libav/sound_stream.hpp"
+#include "media/output/output_request.hpp"
+
+extern "C" {
+#include <libavutil/opt.h>
+}
+
+namespace piblocks {
+namespace {
+
+/// Where the pictures begin, if boxes fill the file and those of the pictures are the last.
+/// ISO/IEC 14496-12, 4.2: a box begins with its size, four letters, and the size in 64 bits if 1
+/// stands in place of it.
+std::optional<std::int64_t> start_of_pictures(AVIOContext& file) {
+  const std::int64_t end = avio_size(&file);
+  std::int64_t at = 0;
+  for (int boxes = 0; boxes < 8 && avio_seek(&file, at, SEEK_SET) == at; ++boxes) {
+    std::int64_t size = avio_rb32(&file);
+    const bool is_last = avio_rl32(&file) == MKTAG('m', 'd', 'a', 't');
+    if (size == 1) size = static_cast<std::int64_t>(avio_rb64(&file));
+    if (is_last) return at + size == end ? std::optional(avio_tell(&file)) : std::nullopt;
+    if (size < 8 || size > end - at) return std::nullopt;
+    at += size;
+  }
+  return std::nullopt;
+}
+
+/// Whether the indices name these numbers of packets, one by one from there to the end, in whatever
+/// order the streams take turns.
+bool is_complete(std::span<AVStream* const> streams, std::span<const std::int64_t> packets,
+                 std::int64_t start, std::int64_t end) {
+  if (streams.size() != packets.size()) return false;
+  std::vector<int> next(streams.size(), 0);
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    if (avformat_index_get_entries_count(streams[i]) != packets[i]) return false;
+  }
+  bool found = true;
+  while (found) {
+    found = false;
+    for (std::size_t i = 0; i < streams.size(); ++i) {
+      while (next[i] < packets[i]) {
+        const AVIndexEntry* const entry = avformat_index_get_entry(streams[i], next[i]);
+        if (entry->pos != start) break;
+        start += entry->size;
+        ++next[i];
+        found = true;
+      }
+    }
+  }
+  return start == end;
+}
+
+/// The index comes first, the packets are behind it to the end of the file.
+bool is_whole_mov(AVFormatContext& file, std::span<const std::int64_t> packets) {
+  const auto start = start_of_pictures(*file.pb);
+  return start && is_complete({file.streams, file.nb_streams}, packets, *start, avio_size(file.pb));
+}
+
+/// As many packets of each stream can be read as were written.
+bool is_whole_webm(AVFormatContext& file, std::span<const std::int64_t> packets) {
+  std::vector<std::int64_t> left(packets.begin(), packets.end());
+  const auto packet = own_av<AvPacketPtr>(av_packet_alloc(), "packet");
+  int code = 0;
+  while ((code = av_read_frame(&file, packet.get())) >= 0) {
+    const auto stream = static_cast<std::size_t>(packet->stream_index);
+    if (stream >= left.size()) return false;
+    --left[stream];
+    av_packet_unref(packet.get());
+  }
+  return code == AVERROR_EOF && std::ranges::count(left, 0) == std::ssize(left);
+}
+
+class VideoFile final : public FrameSink {
+ public:
+  /// @param sound  of the second stream, if there is one.
+  VideoFile(const std::string& name, const VideoEncoder& encoder, const Container& container,
+            const SoundEncoder* sound);
+
+  void take_sound(PacketSource& sound) override;
+  void append(const EncodedChunk& chunk) override;
+  void finish() override;
+
+ private:
+  void add_stream();
+  void write_header();
+  void write(const Packet& packet);
+  void check() const;
+  void add_alpha(std::span<const std::uint8_t> alpha);
+
+  std::string name_;
+  const VideoEncoder& encoder_;
+  const Container& container_;
+  TemporaryFile file_;
+  AvOutputPtr muxer_;  // after file_: closed before the file is removed
+  AvPacketPtr packet_;
+  std::optional<SoundStream> sound_;
+  FrameCounter counter_;
+  std::int64_t packets_ = 0;
+};
+
+/// A muxer that writes to `path`. The protocol's name keeps libav from taking a colon in the path
+/// for one.
+AvOutputPtr open_muxer(const std::string& path, const std::string& name, const char* format) {
+  const std::string url = "file:" + path;
+  AVFormatContext* allocated = nullptr;
+  check_av(avformat_alloc_output_context2(&allocated, nullptr, format, url.c_str()), "open", name);
+  AvOutputPtr muxer(allocated);
+  check_av(avio_open(&muxer->pb, url.c_str(), AVIO_FLAG_WRITE), "open", name);
+  return muxer;
+}
+
+VideoFile::VideoFile(const std::string& name, const VideoEncoder& encoder,
+                     const Container& container, const SoundEncoder* sound)
+    : name_(name),
+      encoder_(encoder),
+      container_(container),
+      file_(name),
+      muxer_(open_muxer(file_.path(), name_, container.muxer)),
+      packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {
+  add_stream();
+  if (sound != nullptr) sound_.emplace(*sound, *muxer_, container_.sound_from_zero, name_);
+  write_header();
+}
+
+void VideoFile::take_sound(PacketSource& sound) {
+  if (!sound_) return FrameSink::take_sound(sound);
+  sound_->take(sound);
+}
+
+void VideoFile::add_stream() {
+  AVStream* stream = avformat_new_stream(muxer_.get(), nullptr);
+  if (stream == nullptr) throw std::bad_alloc();
+  check_av(avcodec_parameters_copy(stream->codecpar, &encoder_.parameters()),
+           "describe the stream of", name_);
+  stream->time_base = av_inv_q(encoder_.frame_rate());
+  stream->avg_frame_rate = encoder_.frame_rate();
+  stream->r_frame_rate = encoder_.frame_rate();
+  stream->sample_aspect_ratio = {1, 1};
+}
+
+void VideoFile::write_header() {
+  // Neither the library's version nor the time of day: equal frames give equal bytes.
+  muxer_->flags |= AVFMT_FLAG_BITEXACT;
+  check_av(av_opt_set(muxer_->priv_data, container_.index_option, container_.index_value, 0),
+           "set up the muxer of", name_);
+  check_av(avformat_write_header(muxer_.get(), nullptr), "write the header of", name_);
+}
+
+void VideoFile::append(const EncodedChunk& chunk) {
+  counter_.take(chunk);
+  for (const Packet& packet : chunk) write(packet);
+}
+
+void VideoFile::write(const Packet& packet) {
+  if (sound_) sound_->write_until(packet.dts, av_inv_q(encoder_.frame_rate()));
+  av_packet_unref(packet_.get());
+  std::span<const std::uint8_t> picture = packet.bytes;
+  if (encoder_.parameters().format == AV_PIX_FMT_YUVA420P) {
+    const PictureAndAlpha both = without_alpha(packet.bytes);
+    picture = both.picture;
+    if (!both.alpha.empty()) add_alpha(both.alpha);
+  }
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): the muxer only reads what has no owner
+  packet_->data = const_cast<std::uint8_t*>(picture.data());
+  packet_->size = static_cast<int>(picture.size());
+  packet_->pts = packet.pts;
+  packet_->dts = packet.dts;
+  packet_->duration = 1;
+  packet_->flags = packet.key_frame ? AV_PKT_FLAG_KEY : 0;
+  packet_->stream_index = 0;
+  av_packet_rescale_ts(packet_.get(), av_inv_q(encoder_.frame_rate()),
+                       muxer_->streams[0]->time_base);
+  check_av(av_write_frame(muxer_.get(), packet_.get()), "write to", name_);
+  ++packets_;
+}
+
+void VideoFile::add_alpha(std::span<const std::uint8_t> alpha) {
+  std::uint8_t* const data =
+      av_packet_new_side_data(packet_.get(), AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, alpha.size());
+  if (data == nullptr) throw std::bad_alloc();
+  std::ranges::copy(alpha, data);
+}
+
+/// Reads the file back: short of memory, libavformat may leave something out of it and report
+/// nothing.
+void VideoFile::check() const {
+  const AvInputPtr file = open_av_input(file_.path());
+  const AVCodecParameters& written = encoder_.parameters();
+  const auto is_ours = [&](const AVCodecParameters& read) {
+    return read.codec_id == written.codec_id &&
+           (read.extradata_size > 0) == (written.extradata_size > 0);
+  };
+  std::vector<std::int64_t> packets = {packets_};
+  if (sound_) packets.push_back(sound_->packets());
+  if (file->nb_streams != packets.size() || !is_ours(*file->streams[0]->codecpar) ||
+      !container_.is_whole(*file, packets)) {
+    // A demuxer may take a read that fails for the end.
+    check_av_read(std::min(file->pb->error, 0), "read back", name_);
+    throw MediaError(fmt::format("video: the index of '{}' was not written whole", name_));
+  }
+}
+
+void VideoFile::finish() {
+  if (sound_) sound_->write_all();
+  check_av(av_write_trailer(muxer_.get()), "write the index of", name_);
+  avio_flush(muxer_->pb);
+  check_av(muxer_->pb->error, "write to", name_);
+  check_av(avio_closep(&muxer_->pb), "close", name_);
+  check();
+  file_.commit();
+}
+
+}  // namespace
+
+const Container kMp4 = {"mp4", "movflags",           "+faststart", is_whole_mov,
+                        kAac,  usable_h264_encoders, false};
+const Container kMov = {"mov", "movflags",          "+faststart", is_whole_mov,
+                        kAac,  usable_mov_encoders, false};
+const Container kWebm = {"webm", "cues_to_front",      "1", is_whole_webm,
+                         kOpus,  usable_webm_encoders, true};
+
+std::unique_ptr<FrameSink> open_video_file(const std::string& name, const VideoEncoder& encoder,
+                                           const Container& container, const SoundEncoder* sound) {
+  return std::make_unique<VideoFile>(name, encoder, container, sound);
+}
+
+}  // namespace piblocks

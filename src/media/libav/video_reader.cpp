@@ -1,0 +1,219 @@
+#include "media/libav/video_reader.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+#include <utility>
+
+#include "media/libav/av.hpp"
+#include "media/libav/cut_off.hpp"
+#include "media/libav/video_samples.hpp"
+
+extern "C" {
+#include <libavutil/display.h>
+}
+
+namespace piblocks {
+namespace {
+
+/// libavformat takes the end of a file that was cut off for the end of the video.
+[[noreturn]] void refuse_cut_file(const std::string& path) {
+  throw MediaError(
+      fmt::format("video: cannot read '{}': it is cut off: it has not all of its frames", path));
+}
+
+/// Refuses a file whose own index says that it goes on behind its end.
+void check_index(AVFormatContext& input, AVStream& stream, const std::string& path) {
+  const std::int64_t size = avio_size(input.pb);
+  const int count = avformat_index_get_entries_count(&stream);
+  for (int i = 0; size > 0 && i < count; ++i) {
+    const AVIndexEntry& entry = *avformat_index_get_entry(&stream, i);
+    if (entry.pos + entry.size > size) refuse_cut_file(path);
+  }
+}
+
+bool is_cover(const AVStream& stream) {
+  return (stream.disposition & AV_DISPOSITION_ATTACHED_PIC) != 0;
+}
+
+/// The one that there is: of several, all but one would not be compared, and nobody would be told.
+int find_video(AVFormatContext& input, const std::string& path) {
+  check_av_read(avformat_find_stream_info(&input, nullptr), "read", path);
+  const int best = check_av_read(
+      av_find_best_stream(&input, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0), "find a video in", path);
+  const auto count =
+      std::count_if(input.streams, input.streams + input.nb_streams, [](const AVStream* stream) {
+        return stream->codecpar->codec_type == AVMEDIA_TYPE_VIDEO && !is_cover(*stream);
+      });
+  if (count <= 1) return best;
+  throw MediaError(
+      fmt::format("video: cannot compare '{}': it has {} videos; take one out of it, such as by "
+                  "ffmpeg -map 0:v:0 -c copy",
+                  path, count));
+}
+
+/// libavcodec's own decoders of VP8 and VP9 leave alpha out, which Matroska keeps beside the
+/// pictures.
+const AVCodec* find_decoder(const AVStream& stream) {
+  const AVCodecID codec = stream.codecpar->codec_id;
+  const AVDictionaryEntry* const mode = av_dict_get(stream.metadata, "alpha_mode", nullptr, 0);
+  const bool has_alpha = mode != nullptr && std::string_view(mode->value) == "1";
+  if (has_alpha && codec == AV_CODEC_ID_VP9) return avcodec_find_decoder_by_name("libvpx-vp9");
+  if (has_alpha && codec == AV_CODEC_ID_VP8) return avcodec_find_decoder_by_name("libvpx");
+  return avcodec_find_decoder(codec);
+}
+
+/// Several frames at a time, by decoders that survive damage then: in libavcodec 59 that of MPEG-4
+/// Part 2 for one ends the process, by an assertion. Others have slices decoded at a time, if they
+/// can.
+int threads_of(AVCodecID codec) {
+  constexpr std::array kByFrames = {AV_CODEC_ID_H264, AV_CODEC_ID_HEVC, AV_CODEC_ID_VP9,
+                                    AV_CODEC_ID_FFV1, AV_CODEC_ID_PRORES};
+  const bool is_safe = std::ranges::find(kByFrames, codec) != kByFrames.end();
+  return is_safe ? FF_THREAD_FRAME | FF_THREAD_SLICE : FF_THREAD_SLICE;
+}
+
+AvCodecContextPtr open_decoder(const AVStream& stream, const std::string& path) {
+  const AVCodec* codec = find_decoder(stream);
+  if (codec == nullptr) {
+    throw MediaError(fmt::format("video: cannot decode '{}': no decoder for {}", path,
+                                 avcodec_get_name(stream.codecpar->codec_id)));
+  }
+  auto context = own_av<AvCodecContextPtr>(avcodec_alloc_context3(codec), codec->name);
+  check_av_read(avcodec_parameters_to_context(context.get(), stream.codecpar), "decode", path);
+  context->max_pixels = kMaxFrame_px;
+  context->err_recognition = AV_EF_EXPLODE;
+  context->thread_type = threads_of(codec->id);
+  context->thread_count = 0;  // as many as there are processors; the pictures are the same
+  check_av_read(avcodec_open2(context.get(), codec, nullptr), "decode", path);
+  return context;
+}
+
+/// How a display matrix moves the corners of the picture; empty if it leaves them.
+std::string turn_of(const std::int32_t* matrix) {
+  constexpr std::int32_t kOne = 1 << 16;
+  if (matrix[0] == kOne && matrix[1] == 0 && matrix[3] == 0 && matrix[4] == kOne) return {};
+  const bool is_mirrored =
+      std::int64_t{matrix[0]} * matrix[4] - std::int64_t{matrix[1]} * matrix[3] < 0;
+  const double degrees = std::fmod(360 - av_display_rotation_get(matrix), 360);
+  return fmt::format("{}turned clockwise by {:.0f} degrees", is_mirrored ? "mirrored and " : "",
+                     degrees);
+}
+
+class VideoReader final : public FrameReader {
+ public:
+  VideoReader(const std::string& path, std::stop_token stop)
+      : path_(path),
+        stop_(std::move(stop)),
+        input_(open_av_input(path, &stop_)),
+        read_to_(avio_tell(input_->pb)),
+        stream_(find_video(*input_, path)),
+        decoder_(open_decoder(*input_->streams[stream_], path)),
+        packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")),
+        frame_(own_av<AvFramePtr>(av_frame_alloc(), "frame")) {
+    check_index(*input_, *input_->streams[stream_], path_);
+    if (is_cut_off(path_)) refuse_cut_file(path_);
+  }
+
+  bool next() override;
+  std::string layout() const override { return layout_of(*frame_); }
+  std::string presentation() const override;
+  Samples samples() override { return samples_of(*frame_); }
+  Samples rgb() override { return rgb_of(*frame_, sws_); }
+  std::string name() const override { return fmt::format("frame {}", frames_ - 1); }
+
+ private:
+  void feed();
+  void check_damage() const;
+  void check_end() const;
+
+  std::string path_;
+  std::stop_token stop_;  // libavformat has its address
+  AvInputPtr input_;
+  std::int64_t read_to_;  // where the last packet ended, or the header
+  int stream_;
+  AvCodecContextPtr decoder_;
+  AvPacketPtr packet_;
+  AvFramePtr frame_;
+  SwsPtr sws_;
+  std::int64_t frames_ = 0;
+};
+
+bool VideoReader::next() {
+  while (true) {
+    const int code = avcodec_receive_frame(decoder_.get(), frame_.get());
+    if (code == AVERROR_EOF) return false;
+    if (code == AVERROR(EAGAIN)) {
+      feed();
+      continue;
+    }
+    check_av_read(code, "decode", path_);
+    check_damage();
+    check_pixel_format(*frame_, path_);
+    ++frames_;
+    return true;
+  }
+}
+
+std::string VideoReader::presentation() const {
+  AVStream* const stream = input_->streams[stream_];
+  const AVFrameSideData* const own =
+      av_frame_get_side_data(frame_.get(), AV_FRAME_DATA_DISPLAYMATRIX);
+  const std::uint8_t* const matrix =
+      own != nullptr ? own->data
+                     : av_stream_get_side_data(stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+  std::string text =
+      matrix == nullptr ? "" : turn_of(reinterpret_cast<const std::int32_t*>(matrix));
+  const AVRational aspect = av_guess_sample_aspect_ratio(input_.get(), stream, frame_.get());
+  if (aspect.num > 0 && aspect.num != aspect.den) {
+    if (!text.empty()) text += ", ";
+    text += fmt::format("with pixels of {}:{}", aspect.num, aspect.den);
+  }
+  return text;
+}
+
+/// Hands one packet to the decoder, or tells it that there are no more.
+void VideoReader::feed() {
+  while (true) {
+    const int code = av_read_frame(input_.get(), packet_.get());
+    if (code == AVERROR_EOF) break;
+    check_av_read(code, "read", path_);
+    read_to_ = packet_->pos + packet_->size;
+    const bool is_video = packet_->stream_index == stream_;
+    if (is_video) {
+      if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) refuse_cut_file(path_);
+      check_av_read(avcodec_send_packet(decoder_.get(), packet_.get()), "decode", path_);
+    }
+    av_packet_unref(packet_.get());
+    if (is_video) return;
+  }
+  check_end();
+  check_av_read(avcodec_send_packet(decoder_.get(), nullptr), "decode", path_);
+}
+
+/// Some decoders, that of ProRes for one, hand out a frame of which they could read a part. The
+/// rest of it is what was in memory.
+void VideoReader::check_damage() const {
+  if (frame_->decode_error_flags == 0 && (frame_->flags & AV_FRAME_FLAG_CORRUPT) == 0) return;
+  throw MediaError(fmt::format("video: cannot decode '{}': frame {} is damaged", path_, frames_));
+}
+
+/// Of YUV4MPEG2, which has no index, libavformat leaves half a frame out.
+void VideoReader::check_end() const {
+  const bool is_y4m = std::string_view(input_->iformat->name) == "yuv4mpegpipe";
+  if (is_y4m && avio_tell(input_->pb) != read_to_) refuse_cut_file(path_);
+}
+
+}  // namespace
+
+std::unique_ptr<FrameReader> decode_video_file(const std::string& path,
+                                               const std::stop_token& stop) {
+  return std::make_unique<VideoReader>(path, stop);
+}
+
+}  // namespace piblocks

@@ -1,0 +1,330 @@
+#include "media/libav/video_samples.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "media/output/frame_reader.hpp"
+
+extern "C" {
+#include <libavutil/imgutils.h>
+#include <libavutil/pixdesc.h>
+}
+
+namespace piblocks {
+namespace {
+
+constexpr int kChannels = 4;
+constexpr int kAlpha = 3;
+
+AVPixelFormat pixel_format_of(const AVFrame& frame) {
+  return static_cast<AVPixelFormat>(frame.format);
+}
+
+const AVPixFmtDescriptor& descriptor_of(const AVFrame& frame) {
+  return *av_pix_fmt_desc_get(pixel_format_of(frame));
+}
+
+bool has_flag(const AVPixFmtDescriptor& format, std::uint64_t flag) {
+  return (format.flags & flag) != 0;
+}
+
+bool is_grey(const AVPixFmtDescriptor& format) {
+  return format.nb_components <= 2 && !has_flag(format, AV_PIX_FMT_FLAG_PAL);
+}
+
+/// What a player assumes where the file does not say: YUV is of limited range, grey of the full.
+bool is_full_range(const AVFrame& frame) {
+  if (frame.color_range != AVCOL_RANGE_UNSPECIFIED) return frame.color_range == AVCOL_RANGE_JPEG;
+  const AVPixFmtDescriptor& format = descriptor_of(frame);
+  return is_grey(format) || std::strncmp(format.name, "yuvj", 4) == 0;
+}
+
+/// What a player assumes where the file does not say.
+int matrix_of(const AVFrame& frame) {
+  if (frame.colorspace != AVCOL_SPC_UNSPECIFIED) return frame.colorspace;
+  constexpr int kHdLines = 720;
+  return frame.height >= kHdLines ? AVCOL_SPC_BT709 : AVCOL_SPC_SMPTE170M;
+}
+
+/// Whether the samples are red, green and blue, or are so when grey is repeated.
+bool is_rgb(const AVFrame& frame) {
+  const AVPixFmtDescriptor& format = descriptor_of(frame);
+  return has_flag(format, AV_PIX_FMT_FLAG_RGB) || has_flag(format, AV_PIX_FMT_FLAG_PAL) ||
+         (is_grey(format) && is_full_range(frame));
+}
+
+int greatest_depth(const AVPixFmtDescriptor& format) {
+  int depth = 0;
+  for (int i = 0; i < format.nb_components; ++i) depth = std::max(depth, format.comp[i].depth);
+  return depth;
+}
+
+/// The component that a channel shows; -1 for an alpha that is not stored. Grey is shown by three.
+int component_of(const AVPixFmtDescriptor& format, int channel) {
+  const bool has_alpha = has_flag(format, AV_PIX_FMT_FLAG_ALPHA);
+  if (channel == kAlpha) return has_alpha ? format.nb_components - 1 : -1;
+  return is_grey(format) ? 0 : channel;
+}
+
+bool is_chroma(const AVPixFmtDescriptor& format, int component) {
+  return (component == 1 || component == 2) && !is_grey(format) &&
+         !has_flag(format, AV_PIX_FMT_FLAG_RGB);
+}
+
+int x_shift_of(const AVPixFmtDescriptor& format, int component) {
+  return is_chroma(format, component) ? format.log2_chroma_w : 0;
+}
+
+int y_shift_of(const AVPixFmtDescriptor& format, int component) {
+  return is_chroma(format, component) ? format.log2_chroma_h : 0;
+}
+
+/// The samples of a row of this component.
+int samples_in_row(const AVFrame& frame, int component) {
+  return AV_CEIL_RSHIFT(frame.width, x_shift_of(descriptor_of(frame), component));
+}
+
+/// False where libavutil's distance between samples leads out of the row, as that of uyyvyy411
+/// does, in which the distance is not always the same.
+bool rows_hold_components(const AVFrame& frame) {
+  const AVPixFmtDescriptor& format = descriptor_of(frame);
+  const bool is_bits = has_flag(format, AV_PIX_FMT_FLAG_BITSTREAM);
+  for (int i = 0; i < format.nb_components; ++i) {
+    const AVComponentDescriptor& component = format.comp[i];
+    const int row_bytes =
+        av_image_get_linesize(pixel_format_of(frame), frame.width, component.plane);
+    const std::int64_t last =
+        component.offset + std::int64_t{samples_in_row(frame, i) - 1} * component.step;
+    // Of single bits the distance is in bits, and the shift has no meaning.
+    const std::int64_t end_bits =
+        is_bits ? last + component.depth : 8 * last + component.shift + component.depth;
+    if (row_bytes < 0 || end_bits > std::int64_t{8} * row_bytes) return false;
+  }
+  return true;
+}
+
+/// Every sample a byte of its own.
+bool is_made_of_bytes(const AVPixFmtDescriptor& format) {
+  if (has_flag(format, AV_PIX_FMT_FLAG_BITSTREAM | AV_PIX_FMT_FLAG_PAL)) return false;
+  return std::all_of(format.comp, format.comp + format.nb_components,
+                     [](const AVComponentDescriptor& c) { return c.depth == 8 && c.shift == 0; });
+}
+
+/// A row of one channel: what is `step` bytes behind, once for 2^shift pixels.
+struct ByteRow {
+  const std::uint8_t* data;
+  int step;
+  int x_shift;
+
+  std::uint32_t at(int x) const { return data[std::ptrdiff_t{x >> x_shift} * step]; }
+};
+
+constexpr std::uint8_t kOpaque = 255;
+
+ByteRow byte_row(const AVFrame& frame, int channel, int y) {
+  const AVPixFmtDescriptor& format = descriptor_of(frame);
+  const int index = component_of(format, channel);
+  if (index < 0) return {&kOpaque, 0, 0};
+  const AVComponentDescriptor& component = format.comp[index];
+  const std::ptrdiff_t line = y >> y_shift_of(format, index);
+  return {frame.data[component.plane] + line * frame.linesize[component.plane] + component.offset,
+          component.step, x_shift_of(format, index)};
+}
+
+/// The usual layout, in which 2^kShift pixels share chroma. By the general loop below, comparing
+/// two videos of 4:2:0 takes half as long again.
+template <int kShift>
+void read_planes(const std::array<ByteRow, 3>& rows, int width, std::uint32_t* words) {
+  constexpr int kPixels = 1 << kShift;
+  const auto& [luma, cb, cr] = rows;
+  for (int x = 0; x < width; x += kPixels) {
+    const int at = x >> kShift;
+    const std::uint32_t chroma =
+        0xff000000U | std::uint32_t{cb.data[at]} << 8 | std::uint32_t{cr.data[at]};
+    const int count = std::min(kPixels, width - x);
+    for (int i = 0; i < count; ++i) words[x + i] = chroma | std::uint32_t{luma.data[x + i]} << 16;
+  }
+}
+
+void read_bytes(const AVFrame& frame, std::vector<std::uint32_t>& words) {
+  const int width = frame.width;
+  for (int y = 0; y < frame.height; ++y) {
+    std::uint32_t* const to = words.data() + std::ptrdiff_t{y} * width;
+    const std::array rows = {byte_row(frame, 0, y), byte_row(frame, 1, y), byte_row(frame, 2, y)};
+    const ByteRow alpha = byte_row(frame, kAlpha, y);
+    const bool is_planar = alpha.step == 0 && std::ranges::all_of(rows, [](const ByteRow& row) {
+                             return row.step == 1;
+                           });
+    if (is_planar && rows[1].x_shift == 0) {
+      read_planes<0>(rows, width, to);
+    } else if (is_planar && rows[1].x_shift == 1) {
+      read_planes<1>(rows, width, to);
+    } else {
+      for (int x = 0; x < width; ++x) {
+        to[x] = alpha.at(x) << 24 | rows[0].at(x) << 16 | rows[1].at(x) << 8 | rows[2].at(x);
+      }
+    }
+  }
+}
+
+/// Indices into a table of words 0xAARRGGBB.
+void read_palette(const AVFrame& frame, std::vector<std::uint32_t>& words) {
+  for (int y = 0; y < frame.height; ++y) {
+    const std::uint8_t* const row = frame.data[0] + std::ptrdiff_t{y} * frame.linesize[0];
+    std::uint32_t* const to = words.data() + std::ptrdiff_t{y} * frame.width;
+    for (int x = 0; x < frame.width; ++x) {
+      std::memcpy(to + x, frame.data[1] + std::ptrdiff_t{row[x]} * 4, sizeof *to);
+    }
+  }
+}
+
+/// Any arrangement of bits, by libavutil's own description of it.
+template <typename Word>
+class BitReader {
+ public:
+  BitReader(const AVFrame& frame, int max_level)
+      : frame_(frame),
+        format_(descriptor_of(frame)),
+        max_level_(max_level),
+        levels_(static_cast<std::size_t>(frame.width)) {}
+
+  void read(std::vector<Word>& words) {
+    for (int y = 0; y < frame_.height; ++y) {
+      Word* const row = words.data() + std::ptrdiff_t{y} * frame_.width;
+      for (int channel = 0; channel < kChannels; ++channel) add_channel(channel, y, row);
+    }
+  }
+
+ private:
+  void add_channel(int channel, int y, Word* row) {
+    constexpr int kBits = sizeof(Word) * 2;
+    constexpr std::array kPlaces = {2, 1, 0, 3};
+    const int shift = kBits * kPlaces[static_cast<std::size_t>(channel)];
+    const int index = component_of(format_, channel);
+    if (index < 0) {
+      for (int x = 0; x < frame_.width; ++x) row[x] |= static_cast<Word>(max_level_) << shift;
+      return;
+    }
+    read_line(index, y >> y_shift_of(format_, index));
+    const int x_shift = x_shift_of(format_, index);
+    for (int x = 0; x < frame_.width; ++x) {
+      row[x] |= static_cast<Word>(levels_[static_cast<std::size_t>(x >> x_shift)]) << shift;
+    }
+  }
+
+  void read_line(int index, int line) {
+    std::array<const std::uint8_t*, 4> planes{};
+    std::copy_n(frame_.data, planes.size(), planes.begin());
+    const int count = samples_in_row(frame_, index);
+    av_read_image_line2(levels_.data(), planes.data(), frame_.linesize, &format_, 0, line, index,
+                        count, 0, sizeof(std::uint16_t));
+    const int own_max = (1 << format_.comp[index].depth) - 1;
+    const bool is_inverted = pixel_format_of(frame_) == AV_PIX_FMT_MONOWHITE;
+    if (own_max == max_level_ && !is_inverted) return;
+    for (int i = 0; i < count; ++i) {
+      std::uint16_t& level = levels_[static_cast<std::size_t>(i)];
+      const int shown = is_inverted ? own_max - level : level;
+      level = static_cast<std::uint16_t>(scaled_level(shown, own_max, max_level_));
+    }
+  }
+
+  const AVFrame& frame_;
+  const AVPixFmtDescriptor& format_;
+  int max_level_;
+  std::vector<std::uint16_t> levels_;
+};
+
+/// A picture of words of its own, all 0.
+template <typename Picture>
+Picture blank(const AVFrame& frame) {
+  Picture picture;
+  picture.width_px = frame.width;
+  picture.height_px = frame.height;
+  picture.words.resize(static_cast<std::size_t>(frame.width) *
+                       static_cast<std::size_t>(frame.height));
+  return picture;
+}
+
+template <typename Picture>
+Picture converted(const AVFrame& frame, AVPixelFormat to, SwsPtr& sws) {
+  constexpr int kFlags = SWS_BILINEAR | SWS_FULL_CHR_H_INT | SWS_ACCURATE_RND | SWS_BITEXACT;
+  sws.reset(sws_getCachedContext(sws.release(), frame.width, frame.height, pixel_format_of(frame),
+                                 frame.width, frame.height, to, kFlags, nullptr, nullptr, nullptr));
+  if (!sws) {
+    throw MediaError(fmt::format("video: cannot convert pictures of the pixel format {} to RGB",
+                                 descriptor_of(frame).name));
+  }
+  const int* const matrix = sws_getCoefficients(matrix_of(frame));
+  constexpr int kOne = 1 << 16;
+  sws_setColorspaceDetails(sws.get(), matrix, is_full_range(frame) ? 1 : 0, matrix, 1, 0, kOne,
+                           kOne);
+  auto picture = blank<Picture>(frame);
+  const std::array<std::uint8_t*, 1> data = {reinterpret_cast<std::uint8_t*>(picture.words.data())};
+  const std::array<int, 1> stride = {static_cast<int>(sizeof picture.words[0]) * frame.width};
+  check_av_read(
+      sws_scale(sws.get(), frame.data, frame.linesize, 0, frame.height, data.data(), stride.data()),
+      "convert", "picture");
+  return picture;
+}
+
+}  // namespace
+
+void check_pixel_format(const AVFrame& frame, const std::string& path) {
+  constexpr std::uint64_t kOther =
+      AV_PIX_FMT_FLAG_HWACCEL | AV_PIX_FMT_FLAG_BAYER | AV_PIX_FMT_FLAG_FLOAT;
+  const AVPixFmtDescriptor* const format = av_pix_fmt_desc_get(pixel_format_of(frame));
+  const bool is_known = format != nullptr && format->nb_components > 0 &&
+                        !has_flag(*format, kOther) && greatest_depth(*format) <= 16 &&
+                        rows_hold_components(frame);
+  if (is_known) return;
+  throw MediaError(
+      fmt::format("video: cannot compare '{}': its pixel format {} has no samples of up to 16 bits "
+                  "in regular rows; convert it, such as by ffmpeg -pix_fmt gbrp16",
+                  path, format == nullptr ? "unknown" : format->name));
+}
+
+std::string layout_of(const AVFrame& frame) {
+  if (is_rgb(frame)) return std::string(kRgba);
+  const AVPixFmtDescriptor& format = descriptor_of(frame);
+  return fmt::format("{} of {} bits{}, chroma {}x{}, {} range, {}",
+                     is_grey(format) ? "grey" : "yuv", greatest_depth(format),
+                     has_flag(format, AV_PIX_FMT_FLAG_ALPHA) ? " with alpha" : "",
+                     1 << format.log2_chroma_w, 1 << format.log2_chroma_h,
+                     is_full_range(frame) ? "full" : "limited", matrix_of(frame));
+}
+
+Samples samples_of(const AVFrame& frame) {
+  const AVPixFmtDescriptor& format = descriptor_of(frame);
+  const int depth = greatest_depth(format);
+  if (depth > 8) {
+    auto image = blank<DeepImage>(frame);
+    image.max_level = (1 << depth) - 1;
+    BitReader<std::uint64_t>(frame, image.max_level).read(image.words);
+    return image;
+  }
+  auto image = blank<Image>(frame);
+  if (has_flag(format, AV_PIX_FMT_FLAG_PAL)) {
+    read_palette(frame, image.words);
+  } else if (is_made_of_bytes(format)) {
+    read_bytes(frame, image.words);
+  } else {
+    BitReader<std::uint32_t>(frame, 255).read(image.words);
+  }
+  return image;
+}
+
+Samples rgb_of(const AVFrame& frame, SwsPtr& sws) {
+  if (is_rgb(frame)) return samples_of(frame);
+  if (greatest_depth(descriptor_of(frame)) <= 8) {
+    return converted<Image>(frame, AV_PIX_FMT_BGRA, sws);
+  }
+  return converted<DeepImage>(frame, AV_PIX_FMT_BGRA64LE, sws);
+}
+
+}  // namespace piblocks

@@ -1,0 +1,77 @@
+#include "media/output/frame_pattern.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <charconv>
+#include <optional>
+
+namespace piblocks {
+namespace {
+
+[[noreturn]] void fail(std::string_view text, std::string_view why) {
+  throw UsageError(fmt::format(
+      "output: cannot use '{}': {}; write one number field, as in frames/%06d.png", text, why));
+}
+
+/// What a percent sign starts: the length of it all, and the digits if it is a field.
+struct Escape {
+  std::size_t length = 0;
+  std::optional<int> digits;
+};
+
+/// `rest` starts with a percent sign. Length 0 if it is none of %%, %d, %0Nd.
+Escape parse_escape(std::string_view rest) {
+  if (rest.starts_with("%%")) return {2, std::nullopt};
+  if (rest.starts_with("%d")) return {2, 1};
+  const bool padded =
+      rest.size() >= 4 && rest[1] == '0' && rest[2] >= '1' && rest[2] <= '9' && rest[3] == 'd';
+  if (padded) return {4, rest[2] - '0'};
+  return {};
+}
+
+}  // namespace
+
+FramePattern::FramePattern(std::string_view text) {
+  bool has_field = false;
+  for (std::size_t at = 0; at < text.size();) {
+    std::string& literal = has_field ? after_ : before_;
+    if (text[at] != '%') {
+      literal += text[at++];
+      continue;
+    }
+    const Escape escape = parse_escape(text.substr(at));
+    if (escape.length == 0)
+      fail(text, fmt::format("'{}' starts none of %d, %0Nd and %%", text.substr(at, 2)));
+    at += escape.length;
+    if (!escape.digits) {
+      literal += '%';
+      continue;
+    }
+    if (has_field) fail(text, "it has two number fields");
+    has_field = true;
+    digits_ = *escape.digits;
+  }
+  if (!has_field) fail(text, "an image sequence needs a number in its name");
+  if (after_.find('/') != std::string::npos) fail(text, "the number is in the name of a folder");
+  const std::size_t slash = before_.rfind('/');
+  if (slash == std::string::npos) return;
+  folder_ = before_.substr(0, slash + 1);
+  before_.erase(0, slash + 1);
+}
+
+std::string FramePattern::name(std::int64_t number) const {
+  return fmt::format("{}{:0{}}{}", before_, number, digits_, after_);
+}
+
+std::optional<std::int64_t> FramePattern::number_of(std::string_view name) const {
+  if (name.size() <= before_.size() + after_.size()) return std::nullopt;
+  const std::string_view digits =
+      name.substr(before_.size(), name.size() - before_.size() - after_.size());
+  std::int64_t number = 0;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (read.ec != std::errc() || number < 0 || this->name(number) != name) return std::nullopt;
+  return number;
+}
+
+}  // namespace piblocks

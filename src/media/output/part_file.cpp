@@ -1,0 +1,197 @@
+#include "media/output/part_file.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <zlib.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "core/output_file.hpp"
+#include "media/output/little_endian.hpp"
+
+namespace piblocks {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::string_view kMagic = "piblocks part 1";
+constexpr std::uint8_t kChunk = 'C';
+constexpr std::uint8_t kSound = 'S';
+constexpr std::uint8_t kEnd = 'E';
+/// Packets of sound that stand together.
+constexpr std::size_t kSoundPackets = 64;
+/// A line of the header: numbers of a scene may have 100,000 digits each.
+constexpr std::size_t kMaxLine_bytes = 4 * 1024 * 1024;
+constexpr std::size_t kMaxHeaderLines = 200;
+
+template <typename Unsigned>
+void append_number(Bytes& bytes, Unsigned value) {
+  append_little_endian(bytes, value, sizeof value);
+}
+
+template <typename Unsigned>
+Unsigned number_at(const Bytes& bytes, std::size_t at) {
+  return static_cast<Unsigned>(from_little_endian(std::span(bytes).subspan(at, sizeof(Unsigned))));
+}
+
+// What precedes the bytes of a packet: pts, dts, key frame, size.
+constexpr std::size_t kPacketHeader_bytes = 8 + 8 + 1 + 4;
+
+void append_packet(Bytes& bytes, const Packet& packet) {
+  append_number(bytes, static_cast<std::uint64_t>(packet.pts));
+  append_number(bytes, static_cast<std::uint64_t>(packet.dts));
+  append_number(bytes, static_cast<std::uint8_t>(packet.key_frame));
+  append_number(bytes, static_cast<std::uint32_t>(packet.bytes.size()));
+  bytes.insert(bytes.end(), packet.bytes.begin(), packet.bytes.end());
+}
+
+std::uint32_t checksum(std::uint32_t before, const Bytes& bytes) {
+  if (bytes.empty()) return before;  // zlib would start anew
+  return static_cast<std::uint32_t>(crc32_z(before, bytes.data(), bytes.size()));
+}
+
+class PartSink final : public FrameSink {
+ public:
+  PartSink(const std::string& path, const PartHeader& header) : file_(path) {
+    file_.write(fmt::format("{}\n", kMagic));
+    for (const auto& [name, value] : header) file_.write(fmt::format("{}: {}\n", name, value));
+    file_.write("\n");
+  }
+
+  /// All of it at once: whoever joins reads it beside the chunks.
+  void take_sound(PacketSource& sound) override {
+    EncodedChunk packets;
+    while (auto packet = sound.next()) {
+      packets.push_back(std::move(*packet));
+      if (packets.size() < kSoundPackets) continue;
+      write(kSound, packets);
+      packets.clear();
+    }
+    if (!packets.empty()) write(kSound, packets);
+  }
+
+  void append(const EncodedChunk& chunk) override { write(kChunk, chunk); }
+
+  void finish() override {
+    file_.write({&kEnd, 1});
+    file_.finish();
+  }
+
+ private:
+  void write(const std::uint8_t& kind, const EncodedChunk& chunk) {
+    Bytes bytes;
+    append_number(bytes, static_cast<std::uint32_t>(chunk.size()));
+    for (const Packet& packet : chunk) append_packet(bytes, packet);
+    append_number(bytes, checksum(checksum(0, {kind}), bytes));
+    file_.write({&kind, 1});
+    file_.write(bytes);
+  }
+
+  OutputFile file_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSink> open_part(const std::string& path, const PartHeader& header) {
+  for (const auto& [name, value] : header) {
+    if (name.find_first_of(":\n") == std::string::npos && value.find('\n') == std::string::npos) {
+      continue;
+    }
+    throw UsageError(
+        fmt::format("part: cannot write '{}': {} cannot be said in one line", path, name));
+  }
+  return std::make_unique<PartSink>(path, header);
+}
+
+PartReader::PartReader(std::string path) : path_(std::move(path)) {
+  std::error_code error;
+  left_bytes_ = std::filesystem::file_size(path_, error);
+  if (!error) {
+    file_.open(path_, std::ios::binary);
+    if (!file_) error.assign(errno, std::generic_category());
+  }
+  if (error) throw UsageError(fmt::format("part: cannot open '{}': {}", path_, error.message()));
+  read_header();
+}
+
+void PartReader::read_header() {
+  bool is_part = read_line(kMagic.size()) == kMagic;
+  while (is_part && header_.size() < kMaxHeaderLines) {
+    const std::optional<std::string> line = read_line(kMaxLine_bytes);
+    if (line && line->empty()) return;
+    const std::size_t colon = line ? line->find(": ") : std::string::npos;
+    is_part = colon != std::string::npos;
+    if (is_part) header_.emplace_back(line->substr(0, colon), line->substr(colon + 2));
+  }
+  throw UsageError(fmt::format("part: '{}' is no part file of this version", path_));
+}
+
+std::optional<std::string> PartReader::read_line(std::size_t max_bytes) {
+  std::string line;
+  while (left_bytes_ > 0 && line.size() <= max_bytes) {
+    const int byte = file_.get();
+    if (!file_) fail_to_read();
+    --left_bytes_;
+    if (byte == '\n') return line;
+    line.push_back(static_cast<char>(byte));
+  }
+  return std::nullopt;
+}
+
+std::optional<EncodedChunk> PartReader::next() {
+  while (auto record = next_record()) {
+    if (record->kind == kChunk) return std::move(record->packets);
+  }
+  return std::nullopt;
+}
+
+std::optional<EncodedChunk> PartReader::next_sound() {
+  auto record = next_record();
+  if (!record || record->kind != kSound) return std::nullopt;
+  return std::move(record->packets);
+}
+
+std::optional<PartReader::Record> PartReader::next_record() {
+  const std::uint8_t kind = read(1).front();
+  if (kind == kEnd && left_bytes_ == 0) return std::nullopt;
+  if (kind != kChunk && kind != kSound) fail_damaged();
+
+  const Bytes count = read(4);
+  std::uint32_t sum = checksum(checksum(0, {kind}), count);
+  EncodedChunk chunk;
+  for (auto left = number_at<std::uint32_t>(count, 0); left > 0; --left) {
+    const Bytes header = read(kPacketHeader_bytes);
+    Bytes bytes = read(number_at<std::uint32_t>(header, 17));
+    sum = checksum(checksum(sum, header), bytes);
+    chunk.push_back({.bytes = std::move(bytes),
+                     .pts = static_cast<std::int64_t>(number_at<std::uint64_t>(header, 0)),
+                     .dts = static_cast<std::int64_t>(number_at<std::uint64_t>(header, 8)),
+                     .key_frame = header[16] == 1});
+  }
+  if (number_at<std::uint32_t>(read(4), 0) != sum) fail_damaged();
+  return Record{kind, std::move(chunk)};
+}
+
+Bytes PartReader::read(std::uint64_t count) {
+  if (count > left_bytes_) fail_damaged();
+  Bytes bytes(count);
+  file_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
+  if (!file_) fail_to_read();
+  left_bytes_ -= count;
+  return bytes;
+}
+
+void PartReader::fail_to_read() const {
+  const std::string reason = std::generic_category().message(errno);
+  throw IoError(fmt::format("part: cannot read '{}': {}", path_, reason));
+}
+
+void PartReader::fail_damaged() const {
+  throw IoError(fmt::format("part: '{}' is damaged or cut off; render it again", path_));
+}
+
+}  // namespace piblocks

@@ -1,0 +1,139 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "core/output_file.hpp"
+#include "media/output/little_endian.hpp"
+#include "media/output/output_kinds.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr int kChannels = 2;
+constexpr int kSample_bytes = 3;
+constexpr int kPair_bytes = kChannels * kSample_bytes;
+constexpr std::int64_t kHeader_bytes = 44;
+/// What the file says of its own length has 32 bits, and leaves out the first 8 bytes.
+constexpr std::int64_t kMaxFile_bytes = 0xFFFFFFFF;
+
+void append_number(std::vector<std::uint8_t>& bytes, std::int64_t value, std::size_t size_bytes) {
+  append_little_endian(bytes, static_cast<std::uint64_t>(value), size_bytes);
+}
+
+void append_text(std::vector<std::uint8_t>& bytes, std::string_view text) {
+  bytes.insert(bytes.end(), text.begin(), text.end());
+}
+
+/// RIFF WAVE with one "fmt " chunk of PCM and one "data" chunk (Multimedia Programming Interface
+/// and Data Specifications 1.0, 1991).
+std::vector<std::uint8_t> header(const SoundFormat& sound) {
+  constexpr int kPcm = 1;
+  const std::int64_t data_bytes = sound.size * kPair_bytes;
+  std::vector<std::uint8_t> bytes;
+  append_text(bytes, "RIFF");
+  append_number(bytes, kHeader_bytes - 8 + data_bytes, 4);
+  append_text(bytes, "WAVEfmt ");
+  append_number(bytes, 16, 4);
+  append_number(bytes, kPcm, 2);
+  append_number(bytes, kChannels, 2);
+  append_number(bytes, sound.rate_hz, 4);
+  append_number(bytes, std::int64_t{sound.rate_hz} * kPair_bytes, 4);
+  append_number(bytes, kPair_bytes, 2);
+  append_number(bytes, 8 * kSample_bytes, 2);
+  append_text(bytes, "data");
+  append_number(bytes, data_bytes, 4);
+  return bytes;
+}
+
+class PcmPackets final : public PacketSource {
+ public:
+  explicit PcmPackets(SampleSource& samples) : samples_(samples) {}
+
+  std::optional<Packet> next() override {
+    constexpr double kFullScale = (1 << (8 * kSample_bytes - 1)) - 1;
+    std::array<float, 8192> block{};
+    const std::size_t count = samples_.read(block) * kChannels;
+    if (count == 0) return std::nullopt;
+    Packet packet{.bytes = {}, .pts = next_, .dts = next_};
+    packet.bytes.reserve(count * kSample_bytes);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double value = std::clamp(double(block[i]), -1.0, 1.0);
+      append_number(packet.bytes, std::lround(kFullScale * value), kSample_bytes);
+    }
+    next_ += static_cast<std::int64_t>(count / kChannels);
+    return packet;
+  }
+
+ private:
+  SampleSource& samples_;
+  std::int64_t next_ = 0;
+};
+
+class WavSink final : public FrameSink {
+ public:
+  WavSink(const std::string& name, const SoundFormat& format)
+      : name_(name), format_(format), file_(name) {}
+
+  void take_sound(PacketSource& sound) override { sound_ = &sound; }
+  void append(const EncodedChunk& /*chunk*/) override {
+    throw MediaError("output: cannot append frames to sound alone");
+  }
+  void finish() override {
+    file_.write(header(format_));
+    std::int64_t left_bytes = format_.size * kPair_bytes;
+    while (auto packet = sound_ == nullptr ? std::nullopt : sound_->next()) {
+      left_bytes -= static_cast<std::int64_t>(packet->bytes.size());
+      file_.write(packet->bytes);
+    }
+    if (left_bytes != 0) {
+      throw MediaError(fmt::format("output: the sound of '{}' is not as long as announced", name_));
+    }
+    file_.finish();
+  }
+
+ private:
+  std::string name_;
+  SoundFormat format_;
+  OutputFile file_;
+  PacketSource* sound_ = nullptr;
+};
+
+class WavOutput final : public Output {
+ public:
+  WavOutput(std::string name, const SoundFormat& sound) : name_(std::move(name)), sound_(sound) {}
+  std::int64_t frames_per_chunk() const override { return 1; }
+  std::unique_ptr<ChunkEncoder> make_encoder() const override {
+    throw MediaError("output: cannot encode frames as sound");
+  }
+  bool has_frames() const override { return false; }
+  std::unique_ptr<PacketSource> encode_sound(SampleSource& samples) const override {
+    return std::make_unique<PcmPackets>(samples);
+  }
+  std::string signature() const override { return "wav"; }
+  std::unique_ptr<FrameSink> open() const override {
+    return std::make_unique<WavSink>(name_, sound_);
+  }
+
+ private:
+  std::string name_;
+  SoundFormat sound_;
+};
+
+}  // namespace
+
+std::unique_ptr<Output> wav_output(const OutputRequest& request) {
+  const SoundFormat sound = request.sound.value_or(SoundFormat{});
+  if (sound.size > (kMaxFile_bytes - kHeader_bytes) / kPair_bytes) {
+    throw UsageError(fmt::format(
+        "output: '{}' cannot be that long: WAV ends at 4 GiB, which is {} s; write *.mp4 --sound",
+        request.name, (kMaxFile_bytes - kHeader_bytes) / kPair_bytes / sound.rate_hz));
+  }
+  return std::make_unique<WavOutput>(request.name, sound);
+}
+
+}  // namespace piblocks

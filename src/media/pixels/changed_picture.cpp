@@ -1,0 +1,60 @@
+#include "media/pixels/changed_picture.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace piblocks {
+
+ChangedPicture::ChangedPicture(int width_px, int height_px, Marks marks)
+    : width_px_(width_px),
+      height_px_(height_px),
+      words_(std::size_t(width_px) * std::size_t(height_px)),
+      news_(marks == Marks::new_pixels ? words_.size() : 0) {}
+
+void ChangedPicture::take(const ImageView& frame, std::span<const PixelRect> rects) {
+  for (const PixelRect& rect : rects) {
+    for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) take_row(frame, rect, y);
+  }
+}
+
+void ChangedPicture::take_row(const ImageView& frame, const PixelRect& rect, int y) {
+  const std::uint8_t* const from = frame.row(y) + std::ptrdiff_t{4} * rect.x_px;
+  std::uint32_t* const to = words_.data() + offset(y) + rect.x_px;
+  std::uint8_t* const news = news_.empty() ? nullptr : news_.data() + offset(y) + rect.x_px;
+  // What is in place of an opaque pixel's alpha is not said.
+  const std::uint32_t unsaid = frame.has_alpha ? 0 : 0xff000000;
+  int first = rect.width_px;
+  int last = 0;
+  for (int x = 0; x < rect.width_px; ++x) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, from + std::ptrdiff_t{4} * x, sizeof word);
+    word |= unsaid;
+    if (word == to[x]) continue;
+    to[x] = word;
+    if (news != nullptr) news[x] = 1;
+    first = std::min(first, x);
+    last = x;
+  }
+  if (first == rect.width_px) return;
+  const bool is_first = left_ >= right_;
+  const int left = rect.x_px + first;
+  const int right = rect.x_px + last + 1;
+  left_ = is_first ? left : std::min(left_, left);
+  right_ = is_first ? right : std::max(right_, right);
+  top_ = is_first ? y : std::min(top_, y);
+  bottom_ = is_first ? y + 1 : std::max(bottom_, y + 1);
+}
+
+void ChangedPicture::settle() {
+  for (int y = top_; !news_.empty() && y < bottom_; ++y) {
+    std::fill_n(news_.data() + offset(y) + left_, right_ - left_, std::uint8_t{0});
+  }
+  left_ = top_ = right_ = bottom_ = 0;
+}
+
+PixelRect ChangedPicture::changed() const noexcept {
+  if (left_ >= right_) return {0, 0, 1, 1};
+  return {left_, top_, right_ - left_, bottom_ - top_};
+}
+
+}  // namespace piblocks

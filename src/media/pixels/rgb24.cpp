@@ -1,0 +1,42 @@
+#include "media/pixels/rgb24.hpp"
+
+#include <cstring>
+
+namespace piblocks {
+
+void pack_rgb24(const std::uint8_t* __restrict row, int width_px, std::uint8_t* __restrict bytes) {
+  for (int x = 0; x < width_px; ++x) {
+    std::uint32_t pixel = 0;
+    std::memcpy(&pixel, row + 4 * x, sizeof pixel);
+    bytes[3 * x] = static_cast<std::uint8_t>(pixel >> 16);
+    bytes[3 * x + 1] = static_cast<std::uint8_t>(pixel >> 8);
+    bytes[3 * x + 2] = static_cast<std::uint8_t>(pixel);
+  }
+}
+
+void pack_rgba32(const std::uint8_t* __restrict row, int width_px, std::uint8_t* __restrict bytes) {
+  for (int x = 0; x < width_px; ++x) {
+    std::uint32_t pixel = 0;
+    std::memcpy(&pixel, row + 4 * x, sizeof pixel);
+    const std::uint32_t alpha = pixel >> 24;
+    if (alpha == 0 || alpha == 255) {
+      pixel = (pixel & 0xff00ff00) | (pixel >> 16 & 0xff) | (pixel & 0xff) << 16;
+      std::memcpy(bytes + 4 * x, &pixel, sizeof pixel);
+      continue;
+    }
+    bytes[4 * x] = unmultiplied(pixel >> 16 & 0xff, alpha);
+    bytes[4 * x + 1] = unmultiplied(pixel >> 8 & 0xff, alpha);
+    bytes[4 * x + 2] = unmultiplied(pixel & 0xff, alpha);
+    bytes[4 * x + 3] = static_cast<std::uint8_t>(alpha);
+  }
+}
+
+void subtract_bytes(const std::uint8_t* __restrict minuend,
+                    const std::uint8_t* __restrict subtrahend, std::size_t count,
+                    std::uint8_t* __restrict difference) {
+  for (std::size_t i = 0; i < count; ++i) {
+    difference[i] = static_cast<std::uint8_t>(minuend[i] - subtrahend[i]);
+  }
+}
+
+}  // namespace piblocks

@@ -1,0 +1,163 @@
+#include "media/pixels/yuva.hpp"
+
+#include <cassert>
+#include <cstring>
+
+namespace piblocks {
+namespace {
+
+// BT.709 in ten thousandths (ITU-R BT.709-6, 3.2); blue minus luma is at most 9278 of them, red
+// minus luma 7874.
+constexpr std::int64_t kRed = 2126;
+constexpr std::int64_t kGreen = 7152;
+constexpr std::int64_t kBlue = 722;
+constexpr std::int64_t kOne = kRed + kGreen + kBlue;
+
+/// Sums of samples that were multiplied by alpha, and of as many alphas.
+struct Sums {
+  std::int64_t red = 0;
+  std::int64_t green = 0;
+  std::int64_t blue = 0;
+  std::int64_t alpha = 0;
+
+  friend bool operator==(const Sums&, const Sums&) = default;
+};
+
+std::int64_t rounded_quotient(std::int64_t dividend, std::int64_t divisor) {
+  const std::int64_t twice = 2 * dividend + divisor;
+  const std::int64_t quotient = twice / (2 * divisor);
+  return twice % (2 * divisor) < 0 ? quotient - 1 : quotient;
+}
+
+/// Limited range: `steps` of luma above black.
+std::int64_t luma(const Sums& c, std::int64_t steps) {
+  if (c.alpha == 0) return 0;
+  return rounded_quotient(steps * (kRed * c.red + kGreen * c.green + kBlue * c.blue),
+                          kOne * c.alpha);
+}
+
+/// Limited range: `steps` of chroma from one end to the other.
+std::int64_t chroma_blue(const Sums& c, std::int64_t steps) {
+  if (c.alpha == 0) return 0;
+  const std::int64_t difference = (kOne - kBlue) * c.blue - kRed * c.red - kGreen * c.green;
+  return rounded_quotient(steps * difference, 2 * (kOne - kBlue) * c.alpha);
+}
+
+std::int64_t chroma_red(const Sums& c, std::int64_t steps) {
+  if (c.alpha == 0) return 0;
+  const std::int64_t difference = (kOne - kRed) * c.red - kGreen * c.green - kBlue * c.blue;
+  return rounded_quotient(steps * difference, 2 * (kOne - kRed) * c.alpha);
+}
+
+/// Reads the pixels of one picture.
+class Reader {
+ public:
+  explicit Reader(const ImageView& image)
+      : image_(image), unsaid_(image.has_alpha ? 0 : 0xff000000) {}
+
+  std::uint32_t word(int x, int y) const {
+    std::uint32_t word = 0;
+    std::memcpy(&word, image_.row(y) + std::ptrdiff_t{4} * x, sizeof word);
+    return word | unsaid_;
+  }
+  void add(int x, int y, std::int64_t weight, Sums& sums) const {
+    const std::uint32_t pixel = word(x, y);
+    sums.red += weight * (pixel >> 16 & 0xff);
+    sums.green += weight * (pixel >> 8 & 0xff);
+    sums.blue += weight * (pixel & 0xff);
+    sums.alpha += weight * (pixel >> 24);
+  }
+
+ private:
+  const ImageView& image_;
+  std::uint32_t unsaid_;
+};
+
+struct Sample444 {
+  std::uint16_t y, cb, cr, alpha;
+};
+
+Sample444 sample_444(const Sums& c) {
+  constexpr std::int64_t kFull8 = 255;
+  constexpr std::int64_t kFull10 = 1023;
+  return {static_cast<std::uint16_t>(64 + luma(c, 876)),
+          static_cast<std::uint16_t>(512 + chroma_blue(c, 896)),
+          static_cast<std::uint16_t>(512 + chroma_red(c, 896)),
+          static_cast<std::uint16_t>(rounded_quotient(kFull10 * c.alpha, kFull8))};
+}
+
+void convert_luma_420(const Reader& reader, const PixelRect& rect, int y,
+                      const Yuva420View& picture) {
+  std::uint32_t last = 0;
+  std::uint8_t value = 16;
+  for (int x = rect.x_px; x < rect.x_px + rect.width_px; ++x) {
+    const std::uint32_t word = reader.word(x, y);
+    if (word != last) {
+      Sums pixel;
+      reader.add(x, y, 1, pixel);
+      value = static_cast<std::uint8_t>(16 + luma(pixel, 219));
+      last = word;
+    }
+    picture.y.row(y)[x] = value;
+    picture.alpha.row(y)[x] = static_cast<std::uint8_t>(word >> 24);
+  }
+}
+
+void convert_chroma_420(const Reader& reader, const PixelRect& rect, int y,
+                        const Yuva420View& picture) {
+  Sums last;
+  std::uint8_t cb = 128;
+  std::uint8_t cr = 128;
+  for (int x = rect.x_px; x < rect.x_px + rect.width_px; x += 2) {
+    Sums sums;
+    for (const int line : {y, y + 1}) {
+      reader.add(x > 0 ? x - 1 : x, line, 1, sums);
+      reader.add(x, line, 2, sums);
+      reader.add(x + 1, line, 1, sums);
+    }
+    if (sums != last) {
+      cb = static_cast<std::uint8_t>(128 + chroma_blue(sums, 224));
+      cr = static_cast<std::uint8_t>(128 + chroma_red(sums, 224));
+      last = sums;
+    }
+    picture.cb.row(y / 2)[x / 2] = cb;
+    picture.cr.row(y / 2)[x / 2] = cr;
+  }
+}
+
+}  // namespace
+
+void convert_to_yuva444p10(const ImageView& image, const PixelRect& rect,
+                           const Yuva444p10View& picture) {
+  const Reader reader(image);
+  std::uint32_t last = 0;
+  Sample444 sample = sample_444({});
+  for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
+    for (int x = rect.x_px; x < rect.x_px + rect.width_px; ++x) {
+      const std::uint32_t word = reader.word(x, y);
+      if (word != last) {
+        Sums pixel;
+        reader.add(x, y, 1, pixel);
+        sample = sample_444(pixel);
+        last = word;
+      }
+      picture.y.row(y)[x] = sample.y;
+      picture.cb.row(y)[x] = sample.cb;
+      picture.cr.row(y)[x] = sample.cr;
+      if (picture.alpha.samples != nullptr) picture.alpha.row(y)[x] = sample.alpha;
+    }
+  }
+}
+
+void convert_to_yuva420(const ImageView& image, const PixelRect& rect, const Yuva420View& picture) {
+  assert((image.width_px | image.height_px) % 2 == 0);
+  assert((rect.x_px | rect.y_px | rect.width_px | rect.height_px) % 2 == 0);
+  const Reader reader(image);
+  for (int y = rect.y_px; y < rect.y_px + rect.height_px; y += 2) {
+    convert_luma_420(reader, rect, y, picture);
+    convert_luma_420(reader, rect, y + 1, picture);
+    convert_chroma_420(reader, rect, y, picture);
+  }
+}
+
+}  // namespace piblocks

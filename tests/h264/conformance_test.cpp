@@ -1,0 +1,107 @@
+// Whether decoders show what the encoder believes they show, sample for sample.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <ostream>
+#include <vector>
+
+#include "h264/random_pictures.hpp"
+#include "h264/stream_fixture.hpp"
+#include "support/property.hpp"
+#ifdef PIBLOCKS_HAS_OPENH264
+#include "h264/openh264_decoder.hpp"
+#endif
+
+namespace piblocks::h264 {
+namespace {
+
+struct Case {
+  int width_px;
+  int height_px;
+  int qp;
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& c) {
+  return out << c.width_px << 'x' << c.height_px << " at QP " << c.qp;
+}
+
+/// Groups of pictures of a stream; scripts/test --long asks for more.
+int groups() { return std::getenv("PIBLOCKS_STRESS_LONG") != nullptr ? 100 : 5; }
+
+template <typename Decoder>
+void expect_every_picture(const Case& c) {
+  constexpr int kFramesInGroup = 12;
+  const StreamHeaders headers({.width_px = c.width_px, .height_px = c.height_px});
+  Random random(static_cast<std::uint64_t>(1000 * c.qp + c.width_px));
+  SCOPED_TRACE(random.trace());
+  RandomPictures pictures(headers.sets.width_mb, headers.sets.height_mb, random);
+  PictureEncoder encoder(headers.sets, c.qp);
+  Decoder decoder(headers.bytes);
+  for (int frame = 0; frame < groups() * kFramesInGroup; ++frame) {
+    if (frame > 0) pictures.advance();
+    const auto unit = frame % kFramesInGroup == 0
+                          ? encoder.encode_whole(pictures.picture())
+                          : encoder.encode_changes(pictures.picture(), pictures.changed());
+    const auto shown = decoder.decode(unit);
+    ASSERT_TRUE(shown) << "frame " << frame;
+    ASSERT_GE(shown->width, c.width_px);
+    ASSERT_GE(shown->height, c.height_px);
+    ASSERT_EQ(difference(encoder.decoded(), *shown), "") << "frame " << frame;
+  }
+}
+
+class ConformanceTest : public testing::TestWithParam<Case> {};
+
+TEST_P(ConformanceTest, LibavcodecShowsEveryPictureAsItWasMade) {
+  expect_every_picture<StrictDecoder>(GetParam());
+}
+
+TEST_P(ConformanceTest, OpenH264ShowsEveryPictureAsItWasMade) {
+#ifdef PIBLOCKS_HAS_OPENH264
+  expect_every_picture<OpenH264Decoder>(GetParam());
+#else
+  GTEST_SKIP() << "openh264 (Debian package libopenh264-dev) was not there when this was built";
+#endif
+}
+
+TEST(Conformance, LibavcodecShowsTheLargestDifferencesAsTheyWereMade) {
+  constexpr int kSide_px = 64;
+  const StreamHeaders headers({.width_px = kSide_px, .height_px = kSide_px});
+  Random random(255);
+  SCOPED_TRACE(random.trace());
+  for (int qp = 0; qp <= kMaxQp; ++qp) {
+    PictureEncoder encoder(headers.sets, qp);
+    StrictDecoder decoder(headers.bytes);
+    Picture picture(headers.sets.width_mb, headers.sets.height_mb);
+    MacroblockSet changed(headers.sets.width_mb, headers.sets.height_mb);
+    for (int frame = 0; frame < 20; ++frame) {
+      // Black and white in all luma, and the other way round in the next picture.
+      for (int i = 0; i < kSide_px * kSide_px; ++i) {
+        std::uint8_t& value = picture.plane(0)[i];
+        value = frame % 2 == 1 ? static_cast<std::uint8_t>(255 - value)
+                               : static_cast<std::uint8_t>(255 * random.integer(0, 1));
+      }
+      changed.add(0, 0, kSide_px, kSide_px);
+      const auto shown = decoder.decode(frame == 0 ? encoder.encode_whole(picture)
+                                                   : encoder.encode_changes(picture, changed));
+      ASSERT_TRUE(shown) << "frame " << frame << " at QP " << qp;
+      ASSERT_EQ(difference(encoder.decoded(), *shown), "") << "frame " << frame << " at QP " << qp;
+    }
+  }
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> cases;
+  for (int qp = 0; qp <= kMaxQp; ++qp) {
+    cases.push_back({2, 2, qp});
+    cases.push_back({250, 234, qp});
+  }
+  cases.push_back({1922, 1078, 14});
+  cases.push_back({3840, 2160, 20});
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, ConformanceTest, testing::ValuesIn(cases()));
+
+}  // namespace
+}  // namespace piblocks::h264

@@ -1,0 +1,176 @@
+// Predictions from neighbours, against their definitions in ITU-T H.264, 8.3.
+#include "h264/intra_prediction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "support/property.hpp"
+
+namespace piblocks::h264 {
+namespace {
+
+using Row = std::vector<int>;
+
+/// The samples above and left; nothing where there are none.
+struct Sides {
+  Row above;
+  Row left;
+};
+
+int sum_of(std::span<const int> values) { return std::accumulate(values.begin(), values.end(), 0); }
+
+/// 8.3.1.2.3, 8.3.3.3: the rounded mean of what is there.
+int mean(const Sides& sides) {
+  const int count = static_cast<int>(sides.above.size() + sides.left.size());
+  if (count == 0) return 128;
+  return (sum_of(sides.above) + sum_of(sides.left) + count / 2) / count;
+}
+
+int predicted_at(Prediction prediction, const Sides& sides, std::size_t x, std::size_t y) {
+  if (prediction == Prediction::vertical) return sides.above[x];
+  if (prediction == Prediction::horizontal) return sides.left[y];
+  return mean(sides);
+}
+
+/// 8.3.4.1 to 8.3.4.3, of chroma.
+int chroma_dc_at(const Sides& sides, std::size_t x, std::size_t y) {
+  const auto half = [](const Row& side, std::size_t at) {
+    return side.empty() ? Row{}
+                        : Row(side.begin() + (at < 4 ? 0 : 4), side.begin() + (at < 4 ? 4 : 8));
+  };
+  const Row above = half(sides.above, x);
+  const Row left = half(sides.left, y);
+  const bool is_upper_right = x >= 4 && y < 4;
+  const bool is_lower_left = x < 4 && y >= 4;
+  if (is_upper_right && !above.empty()) return mean({above, {}});
+  if (is_lower_left && !left.empty()) return mean({{}, left});
+  return mean({above, left});
+}
+
+std::uint8_t random_byte(Random& random) {
+  return static_cast<std::uint8_t>(random.integer(0, 255));
+}
+
+Borders random_borders(Random& random, bool has_above, bool has_left) {
+  Borders borders{.has_above = has_above, .has_left = has_left, .planes = {}};
+  for (Border& border : borders.planes) {
+    std::ranges::generate(border.above, [&] { return random_byte(random); });
+    std::ranges::generate(border.left, [&] { return random_byte(random); });
+  }
+  return borders;
+}
+
+Sides sides_of(const Borders& borders, int plane) {
+  const Border& border = borders.planes[static_cast<std::size_t>(plane)];
+  Sides sides;
+  if (borders.has_above)
+    sides.above.assign(border.above.begin(), border.above.begin() + side_of(plane));
+  if (borders.has_left)
+    sides.left.assign(border.left.begin(), border.left.begin() + side_of(plane));
+  return sides;
+}
+
+class IntraPredictionTest : public testing::Test {
+ protected:
+  /// With and without neighbours, for every way that can be.
+  void for_each_case(const std::function<void(Prediction, bool, bool)>& check) {
+    constexpr int kTimes = 50;
+    SCOPED_TRACE(random_.trace());
+    for (int i = 0; i < 4 * kTimes; ++i) {
+      const bool has_above = (i & 1) != 0;
+      const bool has_left = (i & 2) != 0;
+      for (const Prediction prediction : kPredictions) {
+        if (is_possible(prediction, has_above, has_left)) check(prediction, has_above, has_left);
+      }
+    }
+  }
+
+  Random random_{83};
+};
+
+TEST_F(IntraPredictionTest, NeedsWhatItCopies) {
+  for (const bool other : {false, true}) {
+    EXPECT_TRUE(is_possible(Prediction::dc, other, !other));
+    EXPECT_TRUE(is_possible(Prediction::vertical, true, other));
+    EXPECT_FALSE(is_possible(Prediction::vertical, false, other));
+    EXPECT_TRUE(is_possible(Prediction::horizontal, other, true));
+    EXPECT_FALSE(is_possible(Prediction::horizontal, other, false));
+  }
+  EXPECT_TRUE(is_possible(Prediction::dc, false, false));
+}
+
+TEST_F(IntraPredictionTest, NumbersItsWaysAsTheTablesDo) {
+  // Tables 8-2 and 8-4 for luma, 8-5 for chroma.
+  EXPECT_EQ(static_cast<int>(Prediction::vertical), 0);
+  EXPECT_EQ(static_cast<int>(Prediction::horizontal), 1);
+  EXPECT_EQ(static_cast<int>(Prediction::dc), 2);
+  EXPECT_EQ(chroma_number(Prediction::dc), 0u);
+  EXPECT_EQ(chroma_number(Prediction::horizontal), 1u);
+  EXPECT_EQ(chroma_number(Prediction::vertical), 2u);
+}
+
+TEST_F(IntraPredictionTest, PredictsSquares) {
+  for_each_case([&](Prediction prediction, bool has_above, bool has_left) {
+    const auto step = static_cast<std::size_t>(random_.integer(1, 16));
+    std::array<std::uint8_t, 4> above{};
+    std::array<std::uint8_t, 64> left{};
+    std::ranges::generate(above, [&] { return random_byte(random_); });
+    std::ranges::generate(left, [&] { return random_byte(random_); });
+    Sides sides;
+    if (has_above) sides.above.assign(above.begin(), above.end());
+    for (std::size_t y = 0; y < 4 && has_left; ++y) sides.left.push_back(left[y * step]);
+
+    const Beside beside{has_above ? above.data() : nullptr, has_left ? left.data() : nullptr,
+                        static_cast<int>(step)};
+    const Square square = predict_square(prediction, beside);
+    for (std::size_t i = 0; i < 16; ++i) {
+      ASSERT_EQ(square[i], predicted_at(prediction, sides, i % 4, i / 4))
+          << static_cast<int>(prediction) << " at " << i;
+    }
+  });
+}
+
+TEST_F(IntraPredictionTest, PredictsLumaAndNothingElse) {
+  for_each_case([&](Prediction prediction, bool has_above, bool has_left) {
+    const Borders borders = random_borders(random_, has_above, has_left);
+    Samples samples;
+    samples.values.fill(77);
+    predict_luma(prediction, borders, samples);
+    const Sides sides = sides_of(borders, 0);
+    for (std::size_t i = 0; i < 256; ++i) {
+      ASSERT_EQ(samples.values[i], predicted_at(prediction, sides, i % 16, i / 16))
+          << static_cast<int>(prediction) << " at " << i;
+    }
+    EXPECT_TRUE(std::all_of(samples.values.begin() + 256, samples.values.end(),
+                            [](int value) { return value == 77; }));
+  });
+}
+
+TEST_F(IntraPredictionTest, PredictsChromaWithAMeanForEachQuarter) {
+  for_each_case([&](Prediction prediction, bool has_above, bool has_left) {
+    const Borders borders = random_borders(random_, has_above, has_left);
+    Samples samples;
+    samples.values.fill(77);
+    predict_chroma(prediction, borders, samples);
+    for (int plane = 1; plane < 3; ++plane) {
+      const Sides sides = sides_of(borders, plane);
+      for (std::size_t i = 0; i < 64; ++i) {
+        const int expected = prediction == Prediction::dc
+                                 ? chroma_dc_at(sides, i % 8, i / 8)
+                                 : predicted_at(prediction, sides, i % 8, i / 8);
+        ASSERT_EQ(samples.plane(plane)[i], expected)
+            << static_cast<int>(prediction) << " at " << i << " of plane " << plane;
+      }
+    }
+    EXPECT_TRUE(std::all_of(samples.values.begin(), samples.values.begin() + 256,
+                            [](int value) { return value == 77; }));
+  });
+}
+
+}  // namespace
+}  // namespace piblocks::h264

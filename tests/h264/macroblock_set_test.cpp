@@ -1,0 +1,88 @@
+#include "h264/macroblock_set.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "support/property.hpp"
+
+namespace piblocks::h264 {
+namespace {
+
+using Addresses = std::vector<int>;
+
+Addresses addresses_of(const MacroblockSet& set) {
+  Addresses addresses;
+  set.for_each([&](int address) { addresses.push_back(address); });
+  return addresses;
+}
+
+TEST(MacroblockSet, IsEmptyAtFirst) { EXPECT_EQ(addresses_of(MacroblockSet(4, 3)), Addresses{}); }
+
+TEST(MacroblockSet, HasEveryMacroblockThatARectangleTouches) {
+  MacroblockSet set(4, 3);
+  set.add(15, 15, 2, 2);
+  EXPECT_EQ(addresses_of(set), (Addresses{0, 1, 4, 5}));
+}
+
+TEST(MacroblockSet, HasNoMacroblockThatARectangleOnlyBordersOn) {
+  MacroblockSet set(4, 3);
+  set.add(16, 16, 16, 16);
+  EXPECT_EQ(addresses_of(set), Addresses{5});
+}
+
+TEST(MacroblockSet, ReachesTheEdgesOfThePicture) {
+  MacroblockSet set(4, 3);
+  set.add(63, 47, 1, 1);
+  set.add(0, 0, 1, 1);
+  EXPECT_EQ(addresses_of(set), (Addresses{0, 11}));
+  set.add(0, 0, 64, 48);
+  EXPECT_EQ(addresses_of(set).size(), 12u);
+}
+
+TEST(MacroblockSet, PassesOverEmptyRectangles) {
+  MacroblockSet set(4, 3);
+  set.add(5, 5, 0, 7);
+  set.add(5, 5, 7, 0);
+  EXPECT_EQ(addresses_of(set), Addresses{});
+}
+
+TEST(MacroblockSet, ForgetsAllAtOnce) {
+  MacroblockSet set(20, 20);
+  set.add(0, 0, 320, 320);
+  set.clear();
+  EXPECT_EQ(addresses_of(set), Addresses{});
+  set.add(319, 319, 1, 1);
+  EXPECT_EQ(addresses_of(set), Addresses{399});
+}
+
+TEST(MacroblockSet, VisitsWhatIsTouchedOnceAndInOrder) {
+  Random random(6);
+  SCOPED_TRACE(random.trace());
+  for (int run = 0; run < 200; ++run) {
+    const int width_mb = static_cast<int>(random.integer(1, 20));
+    const int height_mb = static_cast<int>(random.integer(1, 20));
+    MacroblockSet set(width_mb, height_mb);
+    std::set<int> touched;
+    for (auto count = random.integer(0, 5); count > 0; --count) {
+      const int x = static_cast<int>(random.integer(0, 16 * width_mb - 1));
+      const int y = static_cast<int>(random.integer(0, 16 * height_mb - 1));
+      const int width = static_cast<int>(random.integer(1, 16 * width_mb - x));
+      const int height = static_cast<int>(random.integer(1, 16 * height_mb - y));
+      set.add(x, y, width, height);
+      for (int address = 0; address < width_mb * height_mb; ++address) {
+        const int left = 16 * (address % width_mb);
+        const int top = 16 * (address / width_mb);
+        if (x < left + 16 && left < x + width && y < top + 16 && top < y + height) {
+          touched.insert(address);
+        }
+      }
+    }
+    EXPECT_EQ(addresses_of(set), Addresses(touched.begin(), touched.end()));
+  }
+}
+
+}  // namespace
+}  // namespace piblocks::h264

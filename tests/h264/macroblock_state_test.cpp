@@ -1,0 +1,93 @@
+// Contexts and predicted modes, looked up in a picture as a whole.
+#include "h264/macroblock_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "support/property.hpp"
+
+namespace piblocks::h264 {
+namespace {
+
+constexpr int kWidth = 3;
+constexpr int kHeight = 3;
+
+/// Pictures of 3x3 macroblocks.
+class MacroblockStateTest : public testing::Test {
+ protected:
+  MacroblockStateTest() : states_(kWidth * kHeight) {
+    for (MacroblockState& state : states_) {
+      for (auto& total : state.totals) total = static_cast<std::uint8_t>(random_.integer(0, 16));
+      for (auto& mode : state.modes) mode = static_cast<std::uint8_t>(random_.integer(0, 8));
+    }
+  }
+
+  const MacroblockState& at(int x_mb, int y_mb) const {
+    return states_[static_cast<std::size_t>(y_mb * kWidth + x_mb)];
+  }
+  Neighbours beside(int x_mb, int y_mb) const {
+    return {y_mb > 0 ? &at(x_mb, y_mb - 1) : nullptr, x_mb > 0 ? &at(x_mb - 1, y_mb) : nullptr};
+  }
+  /// Of the block at a place of the whole picture, or -1 outside.
+  int total(const BlockGrid& grid, int x, int y) const {
+    if (x < 0 || y < 0) return -1;
+    const int inside = y % grid.side * grid.side + x % grid.side;
+    return at(x / grid.side, y / grid.side).totals[static_cast<std::size_t>(grid.start + inside)];
+  }
+  int mode(int x, int y) const {
+    if (x < 0 || y < 0) return -1;
+    return at(x / 4, y / 4).modes[static_cast<std::size_t>(y % 4 * 4 + x % 4)];
+  }
+
+  Random random_{921};
+  std::vector<MacroblockState> states_;
+};
+
+TEST_F(MacroblockStateTest, MeansOfNeighboursAreTheContext) {
+  for (const BlockGrid& grid : kBlockGrids) {
+    for (int y = 0; y < kHeight * grid.side; ++y) {
+      for (int x = 0; x < kWidth * grid.side; ++x) {
+        const int a = total(grid, x - 1, y);
+        const int b = total(grid, x, y - 1);
+        // 9.2.1
+        const int expected = a >= 0 && b >= 0 ? (a + b + 1) >> 1 : a >= 0 ? a : b >= 0 ? b : 0;
+        const int x_mb = x / grid.side;
+        const int y_mb = y / grid.side;
+        EXPECT_EQ(nc_of(at(x_mb, y_mb), beside(x_mb, y_mb), grid, x % grid.side, y % grid.side),
+                  expected)
+            << "plane at " << grid.start << ", block " << x << ", " << y;
+      }
+    }
+  }
+}
+
+TEST_F(MacroblockStateTest, TheLesserOfTheNeighboursModesIsPredicted) {
+  for (int y = 0; y < 4 * kHeight; ++y) {
+    for (int x = 0; x < 4 * kWidth; ++x) {
+      // 8.3.1.1: DC, where one of the two is not there.
+      const int expected = x > 0 && y > 0 ? std::min(mode(x - 1, y), mode(x, y - 1)) : 2;
+      EXPECT_EQ(predicted_mode(at(x / 4, y / 4), beside(x / 4, y / 4), x % 4, y % 4), expected)
+          << "block " << x << ", " << y;
+    }
+  }
+}
+
+TEST_F(MacroblockStateTest, BeginsAsThatOfOneThatIsSkipped) {
+  const MacroblockState state;
+  EXPECT_TRUE(std::ranges::all_of(state.totals, [](int total) { return total == 0; }));
+  EXPECT_TRUE(std::ranges::all_of(state.modes, [](int mode) { return mode == 2; }));
+}
+
+TEST_F(MacroblockStateTest, KeepsTheBlocksOfItsPlanesApart) {
+  int start = 0;
+  for (const BlockGrid& grid : kBlockGrids) {
+    EXPECT_EQ(grid.start, start);
+    start += grid.side * grid.side;
+  }
+  EXPECT_EQ(static_cast<std::size_t>(start), MacroblockState{}.totals.size());
+}
+
+}  // namespace
+}  // namespace piblocks::h264

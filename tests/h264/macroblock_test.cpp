@@ -1,0 +1,326 @@
+// How macroblocks come to be coded.
+#include "h264/macroblock.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "h264/bit_text.hpp"
+#include "support/property.hpp"
+
+namespace piblocks::h264 {
+namespace {
+
+constexpr int kDefaultQp = 14;
+/// A.3.1
+constexpr std::size_t kMostBits = 3200;
+
+/// What may stay uncorrected, in every sample.
+int cap(int qp) { return 1 + (1 << qp / 6) / 4; }
+
+std::uint8_t byte(std::int64_t value) {
+  return static_cast<std::uint8_t>(std::clamp<std::int64_t>(value, 0, 255));
+}
+
+Samples flat(int value) {
+  Samples samples;
+  samples.values.fill(byte(value));
+  return samples;
+}
+
+/// Black strokes on white, which is what has to stay readable.
+Samples text(Random& random) {
+  Samples samples = flat(235);
+  for (auto& value : samples.values) value = random.integer(0, 7) == 0 ? 16 : value;
+  return samples;
+}
+
+Samples noise(Random& random, int base, int most) {
+  Samples samples;
+  std::ranges::generate(samples.values, [&] { return byte(base + random.integer(-most, most)); });
+  return samples;
+}
+
+Samples random_samples(Random& random) {
+  const int base = static_cast<int>(random.integer(0, 255));
+  switch (random.integer(0, 3)) {
+    case 0:
+      return flat(base);
+    case 1:
+      return text(random);
+    default:
+      return noise(random, base, 1 << random.integer(0, 8));
+  }
+}
+
+/// A P macroblock inside the picture, with everything beside it and before it of one value.
+MacroblockInput inside(const Samples& source, const Samples& before, int beside) {
+  static const MacroblockState skipped;
+  MacroblockInput input{};
+  input.slice = SliceKind::p;
+  input.source = source;
+  input.before = before;
+  input.borders.has_above = true;
+  input.borders.has_left = true;
+  for (Border& border : input.borders.planes) {
+    border.above.fill(byte(beside));
+    border.left.fill(byte(beside));
+  }
+  input.beside = {&skipped, &skipped};
+  return input;
+}
+
+/// Anything anywhere, sometimes nearly what was there or what is beside it.
+class RandomInputs {
+ public:
+  explicit RandomInputs(Random& random) : random_(random) {}
+
+  MacroblockInput next() {
+    const Samples source = random_samples(random_);
+    MacroblockInput input = inside(source, random_samples(random_), source.values[0]);
+    if (random_.integer(0, 1) == 0) input.before = near(source);
+    if (random_.integer(0, 3) == 0) input.slice = SliceKind::i;
+    input.borders.has_above = random_.integer(0, 3) > 0;
+    input.borders.has_left = random_.integer(0, 3) > 0;
+    for (Border& border : input.borders.planes) border.above = changed(border.above);
+    for (auto* state : {&above_, &left_}) {
+      for (auto& total : state->totals) total = static_cast<std::uint8_t>(random_.integer(0, 16));
+      for (auto& mode : state->modes) mode = static_cast<std::uint8_t>(random_.integer(0, 2));
+    }
+    input.beside = {input.borders.has_above ? &above_ : nullptr,
+                    input.borders.has_left ? &left_ : nullptr};
+    return input;
+  }
+
+ private:
+  template <typename Values>
+  Values changed(Values values) {
+    const std::int64_t most = random_.integer(0, 1) == 0 ? 0 : 1 << random_.integer(0, 7);
+    for (auto& value : values) value = byte(value + random_.integer(-most, most));
+    return values;
+  }
+  /// All samples by a little, or a few of them by more.
+  Samples near(const Samples& samples) {
+    Samples result{changed(samples.values)};
+    for (auto count = random_.integer(0, 3); count > 0; --count) {
+      result.values[static_cast<std::size_t>(random_.integer(0, 383))] =
+          byte(random_.integer(0, 255));
+    }
+    return result;
+  }
+
+  Random& random_;
+  MacroblockState above_;
+  MacroblockState left_;
+};
+
+/// Of the macroblock alone, wherever in a byte it begins.
+std::size_t most_bits(SliceKind slice, const CodedMacroblock& coded) {
+  if (coded.kind != MacroblockKind::i_pcm) return coded.bits.bit_count();
+  std::size_t most = 0;
+  for (int start = 0; start < 8; ++start) {
+    BitWriter bits;
+    bits.put(0, start);
+    write_i_pcm(slice, coded.samples, bits);
+    most = std::max(most, bits.bit_count() - static_cast<std::size_t>(start));
+  }
+  return most;
+}
+
+bool stays_uncorrected(const CodedMacroblock& coded) {
+  return coded.kind == MacroblockKind::p_skip || coded.kind == MacroblockKind::i_16x16;
+}
+
+void for_each_qp(const std::function<void(int, MacroblockCoder&)>& check) {
+  for (int qp = 0; qp <= 51; ++qp) {
+    SCOPED_TRACE("QP " + std::to_string(qp));
+    MacroblockCoder coder(qp, 0);
+    check(qp, coder);
+  }
+}
+
+TEST(MacroblockCoder, SkipsWhatHasNotChanged) {
+  Random random(1);
+  SCOPED_TRACE(random.trace());
+  for_each_qp([&](int, MacroblockCoder& coder) {
+    for (const Samples& samples : {flat(200), text(random), noise(random, 128, 255)}) {
+      const CodedMacroblock& coded = coder.code(inside(samples, samples, 128));
+      EXPECT_EQ(coded.kind, MacroblockKind::p_skip);
+      EXPECT_EQ(coded.bits.bit_count(), 0u);
+      EXPECT_EQ(coded.samples.values, samples.values);
+    }
+  });
+}
+
+TEST(MacroblockCoder, PredictsWhatEqualsTheRowAboveOrTheColumnLeft) {
+  for_each_qp([&](int qp, MacroblockCoder& coder) {
+    for (const bool is_above : {false, true}) {
+      MacroblockInput input = inside(flat(0), flat(255), 255);
+      for (int plane = 0; plane < 3; ++plane) {
+        const int side = side_of(plane);
+        Border& border = input.borders.planes[static_cast<std::size_t>(plane)];
+        auto& line = is_above ? border.above : border.left;
+        for (std::size_t i = 0; i < line.size(); ++i) line[i] = byte(8 * std::int64_t(i) + plane);
+        for (int i = 0; i < side * side; ++i) {
+          const int at = is_above ? i % side : i / side;
+          input.source.plane(plane)[i] = line[static_cast<std::size_t>(at)];
+        }
+      }
+      for (const SliceKind slice : {SliceKind::p, SliceKind::i}) {
+        input.slice = slice;
+        const CodedMacroblock& coded = coder.code(input);
+        EXPECT_EQ(coded.kind, MacroblockKind::i_16x16);
+        EXPECT_LE(largest_difference(coded.samples, input.source), qp < 40 ? 0 : cap(qp));
+        EXPECT_LE(coded.bits.bit_count(), 16u);
+      }
+    }
+  });
+}
+
+TEST(MacroblockCoder, WritesPredictionAsTheTablesSay) {
+  MacroblockCoder coder(kDefaultQp, 0);
+  MacroblockInput input = inside(flat(90), flat(255), 90);
+  // I_16x16 that predicts from above has mb_type 1, and 5 more in P slices; intra_chroma_pred_mode
+  // is 0, mb_qp_delta is 0, and the coeff_token of no DC levels is 1.
+  EXPECT_EQ(text_of(coder.code(input).bits),
+            "00111"
+            "1"
+            "1"
+            "1");
+  input.slice = SliceKind::i;
+  EXPECT_EQ(text_of(coder.code(input).bits),
+            "010"
+            "1"
+            "1"
+            "1");
+}
+
+TEST(MacroblockCoder, WritesDifferencesAsTheTablesSay) {
+  MacroblockCoder coder(kDefaultQp, 0);
+  MacroblockInput input = inside(flat(100), flat(100), 255);
+  Random random(5);
+  input.source = input.before = noise(random, 100, 90);
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j)
+      input.source.plane(0)[16 * i + j] = byte(input.before.plane(0)[16 * i + j] ^ 8);
+  }
+  const CodedMacroblock& coded = coder.code(input);
+  ASSERT_EQ(coded.kind, MacroblockKind::p_l0_16x16);
+  // mb_type 0, two vectors of 0, coded_block_pattern 1 with codeNum 2, mb_qp_delta of 0.
+  EXPECT_EQ(text_of(coded.bits).substr(0, 7),
+            "1"
+            "1"
+            "1"
+            "011"
+            "1");
+}
+
+TEST(MacroblockCoder, TakesTheSamplesOfNoiseAtALowQp) {
+  Random random(2);
+  SCOPED_TRACE(random.trace());
+  MacroblockCoder coder(0, 0);
+  for (int i = 0; i < 50; ++i) {
+    const MacroblockInput input = inside(noise(random, 128, 255), noise(random, 128, 255), 128);
+    const CodedMacroblock& coded = coder.code(input);
+    EXPECT_EQ(coded.kind, MacroblockKind::i_pcm);
+    EXPECT_EQ(coded.samples.values, input.source.values);
+    EXPECT_TRUE(std::ranges::all_of(coded.state.totals, [](int total) { return total == 16; }));
+  }
+}
+
+TEST(MacroblockCoder, WritesSamplesAtAWholeByte) {
+  BitWriter bits;
+  bits.put(1, 1);
+  write_i_pcm(SliceKind::i, flat(0x5a), bits);
+  // mb_type 25
+  EXPECT_EQ(text_of(bits).substr(0, 24),
+            "1"
+            "000011010"
+            "000000"
+            "01011010");
+  EXPECT_EQ(bits.bit_count(), 16u + 8 * 384);
+}
+
+TEST(MacroblockCoder, NeverTakesMoreBitsThanAMacroblockMayHave) {
+  constexpr int kTimes = 200;
+  Random random(3);
+  SCOPED_TRACE(random.trace());
+  RandomInputs inputs(random);
+  std::array<int, 5> kinds{};
+  for_each_qp([&](int, MacroblockCoder& coder) {
+    for (int i = 0; i < kTimes; ++i) {
+      const MacroblockInput input = inputs.next();
+      const CodedMacroblock& coded = coder.code(input);
+      ASSERT_LE(most_bits(input.slice, coded), kMostBits);
+      ++kinds[static_cast<std::size_t>(coded.kind)];
+    }
+  });
+  for (const int count : kinds) EXPECT_GT(count, 50);  // no kind goes untested
+}
+
+// What is uncorrected stays until the place changes again, however long that takes.
+TEST(MacroblockCoder, LeavesNoSampleFarOffWithoutCorrection) {
+  constexpr int kTimes = 200;
+  Random random(4);
+  SCOPED_TRACE(random.trace());
+  RandomInputs inputs(random);
+  int uncorrected = 0;
+  for_each_qp([&](int qp, MacroblockCoder& coder) {
+    for (int i = 0; i < kTimes; ++i) {
+      const MacroblockInput input = inputs.next();
+      const CodedMacroblock& coded = coder.code(input);
+      if (!stays_uncorrected(coded)) continue;
+      ++uncorrected;
+      ASSERT_LE(largest_difference(coded.samples, input.source), cap(qp));
+    }
+  });
+  EXPECT_GT(uncorrected, 1000);
+}
+
+TEST(MacroblockCoder, DoesNotLeaveOneSampleThatIsFurtherOff) {
+  for_each_qp([&](int qp, MacroblockCoder& coder) {
+    for (const std::size_t place : {0u, 100u, 255u, 256u, 319u, 320u, 383u}) {
+      MacroblockInput input = inside(flat(120), flat(120), 120);
+      input.source.values[place] = byte(120 + cap(qp));
+      EXPECT_TRUE(stays_uncorrected(coder.code(input))) << place;
+      input.source.values[place] = byte(120 + cap(qp) + 1);
+      EXPECT_FALSE(stays_uncorrected(coder.code(input))) << place;
+    }
+  });
+}
+
+TEST(MacroblockCoder, KeepsTextReadableAtTheDefaultQp) {
+  constexpr int kMost = 10;
+  Random random(6);
+  SCOPED_TRACE(random.trace());
+  RandomInputs inputs(random);
+  MacroblockCoder coder(kDefaultQp, 0);
+  int largest = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const MacroblockInput input = inputs.next();
+    largest = std::max(largest, largest_difference(coder.code(input).samples, input.source));
+  }
+  EXPECT_LE(largest, kMost);
+}
+
+TEST(MacroblockCoder, HasForgottenWhatItCodedBefore) {
+  Random random(9);
+  SCOPED_TRACE(random.trace());
+  RandomInputs inputs(random);
+  MacroblockCoder used(kDefaultQp, 0);
+  for (int i = 0; i < 500; ++i) {
+    const MacroblockInput input = inputs.next();
+    const CodedMacroblock& coded = used.code(input);
+    MacroblockCoder fresh(kDefaultQp, 0);
+    const CodedMacroblock& expected = fresh.code(input);
+    ASSERT_EQ(coded.kind, expected.kind);
+    ASSERT_EQ(coded.samples.values, expected.samples.values);
+    ASSERT_EQ(coded.state.totals, expected.state.totals);
+    ASSERT_EQ(coded.state.modes, expected.state.modes);
+    ASSERT_EQ(text_of(coded.bits), text_of(expected.bits));
+  }
+}
+
+}  // namespace
+}  // namespace piblocks::h264

@@ -1,0 +1,216 @@
+// Whole pictures: what they cost, how good they are, and what they depend on.
+#include "h264/picture_encoder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "h264/bit_reader.hpp"
+#include "h264/nal_unit.hpp"
+#include "h264/random_pictures.hpp"
+#include "h264/stream_fixture.hpp"
+#include "media/libav/damage_chunk.hpp"
+#include "support/article_frames.hpp"
+#include "support/property.hpp"
+
+namespace piblocks::h264 {
+namespace {
+using testing_support::article_frame;
+using testing_support::Pixels;
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr int kDefaultQp = 14;
+
+const VideoFormat kFormat = {.width_px = 320, .height_px = 176, .frame_rate = 10};
+
+/// Sets a rectangle of all planes to a value, and notes that it has changed.
+void fill(Picture& picture, MacroblockSet& changed, const PixelRect& rect, std::uint8_t value) {
+  for (int plane = 0; plane < 3; ++plane) {
+    const int step = plane == 0 ? 1 : 2;
+    for (int y = rect.y_px / step; y < (rect.y_px + rect.height_px) / step; ++y) {
+      std::uint8_t* const row = picture.plane(plane) + y * picture.stride_bytes(plane);
+      std::fill_n(row + rect.x_px / step, rect.width_px / step, value);
+    }
+  }
+  changed.add(rect.x_px, rect.y_px, rect.width_px, rect.height_px);
+}
+
+void convert(const Pixels& pixels, Picture& picture) {
+  convert_to_yuv420(pixels.view(), {0, 0, pixels.width_px, pixels.height_px}, view_of(picture));
+}
+
+struct Error {
+  double psnr_db;
+  int largest;
+};
+
+Error error_of(const Picture& wanted, const Picture& shown) {
+  double sum = 0;
+  double count = 0;
+  int largest = 0;
+  for (int plane = 0; plane < 3; ++plane) {
+    const std::ptrdiff_t samples = wanted.stride_bytes(plane) * wanted.height_mb() * side_of(plane);
+    for (std::ptrdiff_t i = 0; i < samples; ++i) {
+      const int difference = wanted.plane(plane)[i] - shown.plane(plane)[i];
+      sum += difference * difference;
+      largest = std::max(largest, std::abs(difference));
+    }
+    count += static_cast<double>(samples);
+  }
+  return {10 * std::log10(255 * 255 * count / std::max(sum, 1e-9)), largest};
+}
+
+class PictureEncoderTest : public testing::Test {
+ protected:
+  PictureEncoderTest()
+      : headers_(kFormat),
+        picture_(headers_.sets.width_mb, headers_.sets.height_mb),
+        changed_(headers_.sets.width_mb, headers_.sets.height_mb) {
+    fill(picture_, changed_, {0, 0, kFormat.width_px, kFormat.height_px}, 235);
+    changed_.clear();
+  }
+
+  StreamHeaders headers_;
+  Picture picture_;
+  MacroblockSet changed_;
+};
+
+TEST_F(PictureEncoderTest, SpendsAFewBytesOnAPictureThatStays) {
+  constexpr std::size_t kFewBytes = 12;  // with 5 of start code and header
+  convert(article_frame(kFormat.width_px, kFormat.height_px, 0.5), picture_);
+  PictureEncoder encoder(headers_.sets, kDefaultQp);
+  encoder.encode_whole(picture_);
+  EXPECT_LE(encoder.encode_changes(picture_, changed_).size(), kFewBytes);
+  EXPECT_EQ(encoder.transformed_macroblocks(), 0);
+
+  // Also if all of it is said to change, but does not.
+  const Picture shown = encoder.decoded();
+  changed_.add(0, 0, kFormat.width_px, kFormat.height_px);
+  EXPECT_LE(encoder.encode_changes(shown, changed_).size(), kFewBytes);
+  EXPECT_EQ(encoder.transformed_macroblocks(), 0);
+  EXPECT_EQ(error_of(shown, encoder.decoded()).largest, 0);
+}
+
+TEST_F(PictureEncoderTest, LeavesAloneWhatIsNotSaidToChange) {
+  PictureEncoder encoder(headers_.sets, kDefaultQp);
+  encoder.encode_whole(picture_);
+  const Picture before = encoder.decoded();
+  fill(picture_, changed_, {32, 32, 64, 64}, 100);
+  changed_.clear();
+  encoder.encode_changes(picture_, changed_);
+  EXPECT_EQ(error_of(before, encoder.decoded()).largest, 0);
+}
+
+TEST_F(PictureEncoderTest, CountsWhatIsTransformed) {
+  PictureEncoder encoder(headers_.sets, kDefaultQp);
+  encoder.encode_whole(picture_);
+  fill(picture_, changed_, {36, 36, 8, 8}, 16);
+  encoder.encode_changes(picture_, changed_);
+  EXPECT_EQ(encoder.transformed_macroblocks(), 1);
+  changed_.clear();
+  fill(picture_, changed_, {32, 32, 16, 16}, 235);
+  encoder.encode_changes(picture_, changed_);
+  EXPECT_EQ(encoder.transformed_macroblocks(), 0) << "it is what is beside it";
+}
+
+/// The unit's type and its frame_num (7.3.3).
+std::pair<int, int> number_of(const Bytes& access_unit, const ParameterSets& sets) {
+  const std::vector<Unit> units = read_units(access_unit);
+  if (units.size() != 1) return {};
+  BitReader bits(units[0].rbsp);
+  bits.get_unsigned();  // first_mb_in_slice
+  bits.get_unsigned();  // slice_type
+  EXPECT_EQ(bits.get_unsigned(), sets.picture_parameter_set_id);
+  return {units[0].type, static_cast<int>(bits.get(sets.log2_max_frame_num))};
+}
+
+TEST_F(PictureEncoderTest, NumbersThePicturesOfEveryGroup) {
+  using Number = std::pair<int, int>;
+  const int numbers = 1 << headers_.sets.log2_max_frame_num;
+  PictureEncoder encoder(headers_.sets, kDefaultQp);
+  for (const int pictures : {3, 2 * numbers + 1, 1, 2}) {
+    EXPECT_EQ(number_of(encoder.encode_whole(picture_), headers_.sets), Number(5, 0));
+    for (int i = 1; i < pictures; ++i) {
+      EXPECT_EQ(number_of(encoder.encode_changes(picture_, changed_), headers_.sets),
+                Number(1, i % numbers));
+    }
+  }
+}
+
+TEST_F(PictureEncoderTest, GoesOnWhereFrameNumbersBeginAgain) {
+  const int pictures = std::max(300, 3 << headers_.sets.log2_max_frame_num);
+  PictureEncoder encoder(headers_.sets, kDefaultQp);
+  StrictDecoder decoder(headers_.bytes);
+  ASSERT_TRUE(decoder.decode(encoder.encode_whole(picture_)));
+  for (int i = 1; i < pictures; ++i) {
+    changed_.clear();
+    if (i % 3 > 0) {
+      const PixelRect rect = {2 * (i % 140), 2 * (i % 70), 24, 18};
+      fill(picture_, changed_, rect, static_cast<std::uint8_t>(i));
+    }
+    const auto shown = decoder.decode(encoder.encode_changes(picture_, changed_));
+    ASSERT_TRUE(shown) << "picture " << i;
+    ASSERT_EQ(difference(encoder.decoded(), *shown), "") << "picture " << i;
+  }
+}
+
+TEST_F(PictureEncoderTest, KeepsFlatColoursExactWithinOne) {
+  Random random(10);
+  SCOPED_TRACE(random.trace());
+  PictureEncoder encoder(headers_.sets, kDefaultQp);
+  encoder.encode_whole(picture_);
+  for (int i = 0; i < 200; ++i) {
+    changed_.clear();
+    const PixelRect rect = {16 * static_cast<int>(random.integer(0, 15)),
+                            16 * static_cast<int>(random.integer(0, 6)), 64, 64};
+    fill(picture_, changed_, rect, static_cast<std::uint8_t>(random.integer(0, 255)));
+    encoder.encode_changes(picture_, changed_);
+    ASSERT_LE(error_of(picture_, encoder.decoded()).largest, 1) << i;
+    encoder.encode_whole(picture_);
+    ASSERT_LE(error_of(picture_, encoder.decoded()).largest, 1) << i;
+  }
+}
+
+TEST_F(PictureEncoderTest, ShowsWhatWasDrawn) {
+  constexpr double kLeast_dB = 60;
+  const VideoFormat format = {.width_px = 1280, .height_px = 720, .frame_rate = 10};
+  const StreamHeaders headers(format);
+  Picture picture(headers.sets.width_mb, headers.sets.height_mb);
+  MacroblockSet changed(headers.sets.width_mb, headers.sets.height_mb);
+  changed.add(0, 0, format.width_px, format.height_px);
+  PictureEncoder encoder(headers.sets, kDefaultQp);
+  for (int i = 0; i < 20; ++i) {
+    convert(article_frame(format.width_px, format.height_px, i / 10.0), picture);
+    i == 0 ? encoder.encode_whole(picture) : encoder.encode_changes(picture, changed);
+    const Error error = error_of(picture, encoder.decoded());
+    EXPECT_GE(error.psnr_db, kLeast_dB) << i;
+    EXPECT_LE(error.largest, 10) << i;
+  }
+}
+
+/// A group of pictures, always the same for a seed.
+Bytes encode_group(PictureEncoder& encoder, const ParameterSets& sets, std::uint64_t seed) {
+  Random random(seed);
+  RandomPictures pictures(sets.width_mb, sets.height_mb, random);
+  Bytes stream = encoder.encode_whole(pictures.picture());
+  for (int i = 1; i < 12; ++i) {
+    pictures.advance();
+    const Bytes unit = encoder.encode_changes(pictures.picture(), pictures.changed());
+    stream.insert(stream.end(), unit.begin(), unit.end());
+  }
+  return stream;
+}
+
+TEST_F(PictureEncoderTest, MakesTheSameOfAGroupWhateverCameBefore) {
+  PictureEncoder used(headers_.sets, kDefaultQp);
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    PictureEncoder fresh(headers_.sets, kDefaultQp);
+    EXPECT_EQ(encode_group(used, headers_.sets, seed), encode_group(fresh, headers_.sets, seed))
+        << seed;
+  }
+}
+
+}  // namespace
+}  // namespace piblocks::h264

@@ -1,0 +1,105 @@
+// Streams of the encoder, and other people's decoders for them.
+// In: a size, a quantiser, pictures and what changes in them. Out: whether a decoder shows exactly
+// what the encoder believes it shows.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "h264/picture_encoder.hpp"
+#include "media/libav/av.hpp"
+#include "media/libav/find_encoder.hpp"
+#include "media/libav/video_encoder.hpp"
+
+namespace piblocks::h264 {
+
+/// What libx264 says of its stream at the product's own settings.
+struct StreamHeaders {
+  explicit StreamHeaders(const VideoFormat& format)
+      : encoder(format, h264_choice(format, {}, usable_h264_encoders)) {
+    const AVCodecParameters& parameters = encoder.parameters();
+    bytes.assign(parameters.extradata, parameters.extradata + parameters.extradata_size);
+    sets = read_parameter_sets(bytes);
+  }
+  VideoEncoder encoder;
+  std::vector<std::uint8_t> bytes;
+  ParameterSets sets{};
+};
+
+/// A picture in 4:2:0, as a decoder gives it away, until it is called again.
+struct ShownPicture {
+  int width;
+  int height;
+  std::array<const std::uint8_t*, 3> planes;
+  std::array<std::ptrdiff_t, 3> strides;
+};
+
+/// libavcodec's decoder, which is to take offence at everything.
+class StrictDecoder {
+ public:
+  explicit StrictDecoder(const std::vector<std::uint8_t>& headers) {
+    const AVCodec* codec = avcodec_find_decoder(AV_CODEC_ID_H264);
+    context_ = own_av<AvCodecContextPtr>(avcodec_alloc_context3(codec), "decoder");
+    context_->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE |
+                                AV_EF_CAREFUL | AV_EF_COMPLIANT | AV_EF_AGGRESSIVE;
+    context_->thread_count = 1;
+    context_->flags |= AV_CODEC_FLAG_LOW_DELAY;
+    context_->apply_cropping = 0;  // what is predicted from has to be right too
+    context_->extradata =
+        static_cast<std::uint8_t*>(av_mallocz(headers.size() + AV_INPUT_BUFFER_PADDING_SIZE));
+    std::copy(headers.begin(), headers.end(), context_->extradata);
+    context_->extradata_size = static_cast<int>(headers.size());
+    check_av(avcodec_open2(context_.get(), codec, nullptr), "open", "decoder");
+    frame_ = own_av<AvFramePtr>(av_frame_alloc(), "frame");
+    packet_ = own_av<AvPacketPtr>(av_packet_alloc(), "packet");
+  }
+
+  /// The picture of one access unit, with what is cut off when it is shown, or nothing.
+  std::optional<ShownPicture> decode(std::vector<std::uint8_t> unit) {
+    packet_->size = static_cast<int>(unit.size());
+    unit.resize(unit.size() + AV_INPUT_BUFFER_PADDING_SIZE);
+    packet_->data = unit.data();
+    if (avcodec_send_packet(context_.get(), packet_.get()) < 0) return std::nullopt;
+    if (avcodec_receive_frame(context_.get(), frame_.get()) < 0) return std::nullopt;
+    const bool is_damaged =
+        frame_->decode_error_flags != 0 || (frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0;
+    if (is_damaged) return std::nullopt;
+    const AVFrame& shown = *frame_;
+    return ShownPicture{.width = shown.width,
+                        .height = shown.height,
+                        .planes = {shown.data[0], shown.data[1], shown.data[2]},
+                        .strides = {shown.linesize[0], shown.linesize[1], shown.linesize[2]}};
+  }
+
+ private:
+  AvCodecContextPtr context_;
+  AvFramePtr frame_;
+  AvPacketPtr packet_;
+};
+
+/// "" if every sample that is shown is equal, else where the first one is not.
+inline std::string difference(const Picture& expected, const ShownPicture& shown) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int plane = static_cast<int>(i);
+    const int step = plane == 0 ? 1 : 2;
+    for (int y = 0; y < shown.height / step; ++y) {
+      const std::uint8_t* const a = expected.plane(plane) + y * expected.stride_bytes(plane);
+      const std::uint8_t* const b = shown.planes[i] + y * shown.strides[i];
+      for (int x = 0; x < shown.width / step; ++x) {
+        if (a[x] != b[x]) {
+          return "plane " + std::to_string(plane) + " at " + std::to_string(x) + ", " +
+                 std::to_string(y) + ": " + std::to_string(a[x]) + " became " +
+                 std::to_string(b[x]);
+        }
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace piblocks::h264
