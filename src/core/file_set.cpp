@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/descriptor.hpp"
+#include "core/system_error.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;
@@ -25,7 +26,7 @@ constexpr const char* kOld = "old";
 }
 
 [[noreturn]] void fail(const char* operation, const fs::path& path, int error_number) {
-  fail(operation, path, std::generic_category().message(error_number));
+  fail(operation, path, text_of_error(error_number));
 }
 
 void make_folder(const fs::path& path) {

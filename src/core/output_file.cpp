@@ -10,18 +10,19 @@
 #include <system_error>
 #include <utility>
 
+#include "core/system_error.hpp"
+
 namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
-
-std::string reason(int error_number) { return std::generic_category().message(error_number); }
 
 [[noreturn]] void fail_open(const fs::path& path, const std::string& why) {
   throw UsageError(fmt::format("output: cannot open '{}': {}", path.string(), why));
 }
 
 [[noreturn]] void fail_io(const char* operation, const std::string& name, int error_number) {
-  throw IoError(fmt::format("output: cannot {} '{}': {}", operation, name, reason(error_number)));
+  throw IoError(
+      fmt::format("output: cannot {} '{}': {}", operation, name, text_of_error(error_number)));
 }
 
 }  // namespace
@@ -61,7 +62,7 @@ fs::path follow_links(const fs::path& path) {
     if (error) return at;
     at = at.parent_path() / target;  // which is the target alone if that is absolute
   }
-  fail_open(path, reason(ELOOP));
+  fail_open(path, text_of_error(ELOOP));
 }
 
 std::string problem_of_replacing(const fs::path& path) {
@@ -69,9 +70,9 @@ std::string problem_of_replacing(const fs::path& path) {
   const fs::file_status status = fs::status(path, error);
   if (error == std::errc::filename_too_long) return error.message();
   if (!fs::exists(status)) return {};
-  if (fs::is_directory(status)) return reason(EISDIR);
+  if (fs::is_directory(status)) return text_of_error(EISDIR);
   if (!fs::is_regular_file(status)) return "not a file";
-  return ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0 ? "" : reason(errno);
+  return ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0 ? "" : text_of_error(errno);
 }
 
 void take_permissions(int descriptor, const fs::path& replaced) {
@@ -96,7 +97,7 @@ fs::path followed(const fs::path& path) {
   fs::path target = follow_links(path);
   std::error_code error;
   if (fs::exists(path, error) && !fs::equivalent(path, target, error)) {
-    fail_open(path, reason(ENOENT));
+    fail_open(path, text_of_error(ENOENT));
   }
   return target;
 }
@@ -106,7 +107,7 @@ fs::path followed(const fs::path& path) {
 TemporaryFile::TemporaryFile(fs::path final_path) : final_path_(std::move(final_path)) {
   if (final_path_.empty()) throw UsageError("output: the name is empty");
   const fs::path name = final_path_.filename();
-  if (name.empty() || name == "." || name == "..") fail_open(final_path_, reason(EISDIR));
+  if (name.empty() || name == "." || name == "..") fail_open(final_path_, text_of_error(EISDIR));
   const std::string problem = problem_of_replacing(final_path_);
   if (!problem.empty()) fail_open(final_path_, problem);
   final_path_ = followed(final_path_);
@@ -132,7 +133,7 @@ OutputFile::OutputFile(const std::string& name, Contents contents)
     temporary_ = std::make_unique<TemporaryFile>(name);
     descriptor_ = Descriptor(::open(temporary_->path().c_str(), O_WRONLY | O_CLOEXEC));
   }
-  if (!descriptor_.is_open()) fail_open(name_, reason(errno));
+  if (!descriptor_.is_open()) fail_open(name_, text_of_error(errno));
 }
 
 void OutputFile::write(std::span<const std::uint8_t> bytes) {

@@ -16,6 +16,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/system_error.hpp"
+
 namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
@@ -34,14 +36,13 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-std::string reason(int error_number) { return std::generic_category().message(error_number); }
-
 [[noreturn]] void fail(const fs::path& final_path, Kind kind, int error_number) {
   const std::string message =
       kind == Kind::folder
           ? fmt::format("output: cannot write into '{}': {}", folder_of(final_path).string(),
-                        reason(error_number))
-          : fmt::format("output: cannot open '{}': {}", final_path.string(), reason(error_number));
+                        text_of_error(error_number))
+          : fmt::format("output: cannot open '{}': {}", final_path.string(),
+                        text_of_error(error_number));
   if (error_number == EIO || error_number == ENOSPC || error_number == EDQUOT) {
     throw IoError(message);
   }
@@ -188,7 +189,8 @@ void sync_folder(const fs::path& folder) {
   // One may write into a folder without being allowed to read it; some file systems sync none.
   if (!descriptor.is_open() && errno == EACCES) return;
   if (descriptor.is_open() && (::fsync(descriptor.get()) == 0 || errno == EINVAL)) return;
-  throw IoError(fmt::format("output: cannot sync folder '{}': {}", path.string(), reason(errno)));
+  throw IoError(
+      fmt::format("output: cannot sync folder '{}': {}", path.string(), text_of_error(errno)));
 }
 
 }  // namespace piblocks

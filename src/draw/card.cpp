@@ -14,7 +14,7 @@ namespace piblocks {
 namespace {
 
 /// A line may be set so much smaller than planned; beyond that it is too long.
-constexpr double kLeastShrink = 0.4;
+constexpr double kLeastCardShrink = 0.4;
 // In ems.
 constexpr double kBelowHeading = 0.75;  // of the heading, to the next line's capitals
 constexpr double kBetweenLines = 0.8;
@@ -22,7 +22,7 @@ constexpr double kBetweenLines = 0.8;
 double fitted_px(const std::string& text, double size_px, double width_px, const Font& font) {
   font.check(text, "card");
   const double fitted = font.fitted_px(text, size_px, width_px);
-  if (fitted >= kLeastShrink * size_px) return fitted;
+  if (fitted >= kLeastCardShrink * size_px) return fitted;
   throw UsageError(fmt::format(
       "card: '{}' is too long to be read in {:.0f} pixels; break it into lines, or make the frame "
       "wider",

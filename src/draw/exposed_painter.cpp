@@ -11,14 +11,14 @@ namespace piblocks {
 namespace {
 
 /// Pixels from `begin` to `end`, not included.
-struct Span {
+struct PixelSpan {
   int begin = 0;
   int end = 0;
 
   bool has(int pixel) const { return pixel >= begin && pixel < end; }
 };
 
-Span pixels_between(double from, double to, int begin, int length) {
+PixelSpan pixels_between(double from, double to, int begin, int length) {
   const auto pixel = [&](double at) {
     return static_cast<int>(std::clamp(at, double(begin), double(begin + length)));
   };
@@ -26,13 +26,13 @@ Span pixels_between(double from, double to, int begin, int length) {
 }
 
 /// The columns into which a block reaches if it moves.
-Span columns_of(const ExposedBlock& block, const PixelRect& part) {
+PixelSpan columns_of(const ExposedBlock& block, const PixelRect& part) {
   if (block.dwells.empty()) return {};
   return pixels_between(block.dwells.front().x, block.dwells.back().x + block.bounds.width,
                         part.x_px, part.width_px);
 }
 
-Span rows_of(const ExposedBlock& block, const PixelRect& part) {
+PixelSpan rows_of(const ExposedBlock& block, const PixelRect& part) {
   return pixels_between(block.bounds.y, block.bounds.y + block.bounds.height, part.y_px,
                         part.height_px);
 }
@@ -65,7 +65,7 @@ class Words {
 PixelRect moving_area(const ExposedItem& item, const PixelRect& part) {
   PixelRect all{};
   for (const ExposedBlock* block : {&item.behind, &item.front}) {
-    const Span columns = columns_of(*block, part);
+    const PixelSpan columns = columns_of(*block, part);
     if (columns.begin >= columns.end) continue;
     const int begin = all.width_px > 0 ? std::min(all.x_px, columns.begin) : columns.begin;
     const int end = all.width_px > 0 ? std::max(all.x_px + all.width_px, columns.end) : columns.end;
@@ -73,8 +73,8 @@ PixelRect moving_area(const ExposedItem& item, const PixelRect& part) {
     all.width_px = end - begin;
   }
   // Where one moves, the other is painted with it.
-  const Span behind = rows_of(item.behind, part);
-  const Span front = rows_of(item.front, part);
+  const PixelSpan behind = rows_of(item.behind, part);
+  const PixelSpan front = rows_of(item.front, part);
   all.y_px = std::min(behind.begin, front.begin);
   all.height_px = std::max(behind.end, front.end) - all.y_px;
   return all;
@@ -110,8 +110,8 @@ void ExposedPainter::paint(cairo_surface_t& surface, const PixelRect& part, cons
   for (int y = area.y_px; y < area.y_px + area.height_px; ++y) {
     rows.push_back({row_cover(column.behind(), y), row_cover(column.front(), y)});
   }
-  const Span behind = columns_of(item.behind, part);
-  const Span front = columns_of(item.front, part);
+  const PixelSpan behind = columns_of(item.behind, part);
+  const PixelSpan front = columns_of(item.front, part);
   auto background = background_.begin();
   for (int x = area.x_px; x < area.x_px + area.width_px; ++x) {
     if (!behind.has(x) && !front.has(x)) {

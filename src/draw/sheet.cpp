@@ -18,7 +18,7 @@ constexpr Color kFrame = {160, 160, 160};
 constexpr Color kCaption = {32, 32, 32};
 
 // In ems of the caption.
-constexpr double kBaseline = 1.25;  // below the picture
+constexpr double kCaptionBaseline = 1.25;  // below the picture
 constexpr double kCaptionHeight = 1.6;
 
 TextItem caption_below(const Rectangle& place, const std::string& text, double size_px,
@@ -26,7 +26,7 @@ TextItem caption_below(const Rectangle& place, const std::string& text, double s
   const double fitted_px = font.fitted_px(text, size_px, place.width);
   return {ItemId::label,
           {place.x + (place.width - font.width_em(text) * fitted_px) / 2,
-           place.y + place.height + kBaseline * size_px},
+           place.y + place.height + kCaptionBaseline * size_px},
           text,
           fitted_px,
           kCaption};

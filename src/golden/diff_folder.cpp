@@ -24,7 +24,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr int kMaxPictures = 100;
+constexpr int kMaxDiffPictures = 100;
 constexpr const char* kPattern = "%06d.png";
 
 /// Where the chunks behind IHDR begin.
@@ -77,7 +77,7 @@ class DiffFolder final : public Report {
 };
 
 void DiffFolder::add(const FrameComparison& frame) {
-  if (frame.is_accepted || !frame.difference || names_.size() == kMaxPictures) return;
+  if (frame.is_accepted || !frame.difference || names_.size() == kMaxDiffPictures) return;
   const std::string name = pattern_.name(frame.number);
   const fs::path path = folder_ / name;
   std::error_code none;

@@ -8,7 +8,8 @@
 #include <cerrno>
 #include <fstream>
 #include <string_view>
-#include <system_error>
+
+#include "core/system_error.hpp"
 
 namespace piblocks {
 namespace {
@@ -44,8 +45,7 @@ std::string without_blanks(std::string line) {
 FramehashFile read_framehash(const std::string& path) {
   std::ifstream file(path);
   if (!file) {
-    throw IoError(fmt::format("framehash: cannot read '{}': {}", path,
-                              std::generic_category().message(errno)));
+    throw IoError(fmt::format("framehash: cannot read '{}': {}", path, text_of_error(errno)));
   }
   FramehashFile result;
   std::vector<char> line(kMaxLine);

@@ -13,7 +13,7 @@
 namespace piblocks {
 namespace {
 
-constexpr int kMaxPictures = 40;
+constexpr int kMaxReportPictures = 40;
 
 constexpr std::string_view kHead = R"(<!DOCTYPE html>
 <html lang="en">
@@ -111,7 +111,7 @@ class HtmlReport final : public Report {
     sections_ += fmt::format("<section class=\"{}\">\n<h2>{}</h2>\n<p>{}</p>\n",
                              frame.is_accepted ? "accepted" : "refused", escaped(frame.name),
                              escaped(describe(frame)));
-    if (frame.difference && pictures_ < kMaxPictures) {
+    if (frame.difference && pictures_ < kMaxReportPictures) {
       ++pictures_;
       sections_ += pictures_of(frame);
     }
@@ -131,7 +131,7 @@ class HtmlReport final : public Report {
   void write_sections() {
     file_.write(kControls);
     file_.write(sections_);
-    if (pictures_ == kMaxPictures) {
+    if (pictures_ == kMaxReportPictures) {
       file_.write(fmt::format("<p>Pictures are shown of the first {} frames.</p>\n", pictures_));
     }
     file_.write(kScript);

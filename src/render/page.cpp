@@ -11,7 +11,6 @@
 #include <memory>
 #include <span>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "core/base64.hpp"
@@ -20,6 +19,7 @@
 #include "core/file_set.hpp"
 #include "core/markup.hpp"
 #include "core/output_file.hpp"
+#include "core/system_error.hpp"
 #include "render/page_facts.hpp"
 #include "render/page_source.hpp"
 #include "render/render_film.hpp"
@@ -112,8 +112,8 @@ void check(const RenderJob& job) {
 }
 
 [[noreturn]] void fail_to_read(const fs::path& path, int error_number) {
-  throw IoError(fmt::format("page: cannot read '{}': {}", path.string(),
-                            std::generic_category().message(error_number)));
+  throw IoError(
+      fmt::format("page: cannot read '{}': {}", path.string(), text_of_error(error_number)));
 }
 
 /// Piece by piece, however long the video is.

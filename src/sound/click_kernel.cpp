@@ -10,7 +10,7 @@ namespace {
 /// Of the rate; half-way down the slope from 18 to 23 kHz.
 constexpr double kCutoff = 20.5 / 48;
 /// For 80 dB.
-constexpr double kBeta = 7.857;
+constexpr double kClickBeta = 7.857;
 
 /// The modified Bessel function of order 0, by its power series.
 double bessel(double x) {
@@ -40,7 +40,7 @@ ClickKernel::ClickKernel() {
     for (int tap = 0; tap < 2 * kReach; ++tap) {
       const double distance = tap - (kReach - 1) - double(phase) / kPhases;
       phases_.push_back(2 * kCutoff * sinc(2 * kCutoff * distance) *
-                        kaiser(distance / kReach, kBeta));
+                        kaiser(distance / kReach, kClickBeta));
     }
   }
 }

@@ -14,7 +14,7 @@ constexpr double kRecovery_s = 0.05;
 /// Between samples no higher than 1 the interpolated signal is no higher than this.
 constexpr double kOvershoot = 2.7;
 
-constexpr double kBeta = 6;
+constexpr double kLimiterBeta = 6;
 
 constexpr double kAsGoodAsOne = 1 - 1e-5;
 
@@ -26,7 +26,7 @@ Limiter::Limiter(double ceiling, double rate_hz)
     for (int tap = 0; tap < kTaps; ++tap) {
       const double distance = tap - (kHalf - 1) - double(phase) / kPhases;
       kernel_[std::size_t(phase)][std::size_t(tap)] =
-          sinc(distance) * kaiser(distance / kHalf, kBeta);
+          sinc(distance) * kaiser(distance / kHalf, kLimiterBeta);
     }
   }
 }

@@ -14,7 +14,7 @@ namespace {
 // In ems.
 constexpr double kGap = 2.0;
 constexpr double kRowHeight = 1.6;
-constexpr double kBaseline = 1.1;
+constexpr double kRowBaseline = 1.1;
 
 /// With what a figure may have in another instant.
 std::string characters_of(const std::vector<ReadOut>& read_outs) {
@@ -55,7 +55,7 @@ ReadOutRows::ReadOutRows(std::vector<ReadOut> read_outs, const Setting& setting)
     double x = margin + (room_px - width) / 2;
     for (; first < end; ++first) {
       placed_.push_back(
-          {std::move(read_outs[first]), {x, height_ + kBaseline * text_px_}, widths[first]});
+          {std::move(read_outs[first]), {x, height_ + kRowBaseline * text_px_}, widths[first]});
       x += widths[first] + gap;
     }
     height_ += kRowHeight * text_px_;

@@ -15,7 +15,7 @@ namespace piblocks {
 namespace {
 
 constexpr double kBetweenTicks_em = 1.8;
-constexpr double kTick_em = 0.4;
+constexpr double kRateTick_em = 0.4;
 constexpr double kBesideTick_em = 0.2;
 /// The span is cut into so many bins or somewhat fewer.
 constexpr int kMostBins = 120;
@@ -59,7 +59,7 @@ PanelTitle title_of(const Rates& rates) {
 
 /// Left of the axis, for powers of ten and their ticks.
 double indent_em(const Rates& rates, const Font& font) {
-  return kTick_em + kBesideTick_em +
+  return kRateTick_em + kBesideTick_em +
          std::max(font.width_em(power_text(rates.low)), font.width_em(power_text(rates.high)));
 }
 
@@ -112,7 +112,7 @@ class RatePanel {
     const long step = std::lround(std::ceil(double(rates_.high - rates_.low) / fit));
     for (long power = rates_.low + step; power <= rates_.high; power += step) {
       const double y = y_of(double(power));
-      const double tick = axis_.plot().x - kTick_em * em;
+      const double tick = axis_.plot().x - kRateTick_em * em;
       sheet_.line({{tick, y}, {axis_.plot().x, y}}, sheet_.palette().muted);
       sheet_.text(power_text(power), {tick - kBesideTick_em * em, y + kHalfFigure_em * em}, 1,
                   sheet_.palette().muted);

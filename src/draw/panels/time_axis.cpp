@@ -14,8 +14,8 @@ namespace {
 
 // In ems.
 constexpr double kBelow = 1.7;
-constexpr double kTick = 0.25;
-constexpr double kBaseline = 1.4;
+constexpr double kTimeTick_em = 0.25;
+constexpr double kTimeBaseline_em = 1.4;
 constexpr double kBetweenTicks = 4;
 constexpr double kLeastGap = 0.6;  // between figures
 constexpr double kSlack_px = 0.5;
@@ -80,9 +80,9 @@ void TimeAxis::add_base(PanelSheet& sheet) const {
   const Color& color = sheet.palette().muted;
   sheet.line({{plot_.x, bottom()}, {plot_.x + plot_.width, bottom()}}, color);
   for (const Figure& figure : figures_) {
-    sheet.line({{figure.x, bottom()}, {figure.x, bottom() + kTick * em}}, color);
+    sheet.line({{figure.x, bottom()}, {figure.x, bottom() + kTimeTick_em * em}}, color);
     if (figure.text.empty()) continue;
-    sheet.text(figure.text, {figure.x, bottom() + kBaseline * em}, 0.5, color);
+    sheet.text(figure.text, {figure.x, bottom() + kTimeBaseline_em * em}, 0.5, color);
   }
 }
 

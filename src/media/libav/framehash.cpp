@@ -16,7 +16,7 @@ namespace {
 /// Of libavutil's hashes the fastest that is wide enough to tell frames apart. One 1080p frame, on
 /// an AMD EPYC with libavutil 57: murmur3 (128 bits) 0.84 ms, MD5 8.6 ms, SHA256 16.2 ms.
 constexpr const char* kHash = "murmur3";
-constexpr std::int64_t kFramesPerChunk = 32;
+constexpr std::int64_t kHashFramesPerChunk = 32;
 
 /// What FFmpeg 5.1 writes. A PNG file tells no pixel aspect ratio, hence 0/1.
 std::string file_header(const VideoFormat& format) {
@@ -89,7 +89,7 @@ std::string compute_hash(std::span<const std::uint8_t> bytes) {
 }
 
 std::unique_ptr<Output> framehash_output(const OutputRequest& request) {
-  return std::make_unique<StreamOutput<FramehashEncoder>>(request, kFramesPerChunk,
+  return std::make_unique<StreamOutput<FramehashEncoder>>(request, kHashFramesPerChunk,
                                                           std::string("framehash by ") + kHash);
 }
 

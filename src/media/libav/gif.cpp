@@ -23,7 +23,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 /// A chunk begins with a whole picture.
-constexpr std::int64_t kFramesPerChunk = 50;
+constexpr std::int64_t kGifFramesPerChunk = 50;
 /// Delays are whole hundredths of a second, and viewers take less than two for ten.
 constexpr int kMaxFrameRate_gif = 50;
 constexpr int kMaxDelay_cs = 65535;
@@ -231,7 +231,7 @@ std::unique_ptr<Output> gif_output(const OutputRequest& request) {
   const std::string problem = frame_rate_problem(request.format.frame_rate);
   if (!problem.empty()) throw UsageError(problem);
   return std::make_unique<StreamOutput<GifEncoder>>(
-      request, kFramesPerChunk,
+      request, kGifFramesPerChunk,
       fmt::format("gif by giflib {}.{}.{}", GIFLIB_MAJOR, GIFLIB_MINOR, GIFLIB_RELEASE),
       Bytes{kTrailer});
 }

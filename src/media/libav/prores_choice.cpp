@@ -15,7 +15,7 @@ constexpr const char* kProres = "prores_ks";
 /// Chosen from the table in src/media/README.md.
 constexpr int kQuantiser = 4;
 /// No picture depends on another: few wait for their turn to be written.
-constexpr int kFramesPerChunk = 8;
+constexpr int kProresFramesPerChunk = 8;
 
 void set_up(AVCodecContext& context) {
   // Without a quantiser it aims at a number of bits, and searches long for it.
@@ -56,7 +56,7 @@ CodecChoice prores_choice(const VideoFormat& format, const EncoderSettings& sett
   if (!problems.empty()) throw UsageError(std::move(problems));
   return {.codec = codec,
           .pixel_format = format.has_alpha ? AV_PIX_FMT_YUVA444P10 : AV_PIX_FMT_YUV444P10,
-          .frames_per_chunk = kFramesPerChunk,
+          .frames_per_chunk = kProresFramesPerChunk,
           .set_up = set_up,
           .usable = usable_prores_encoders};
 }

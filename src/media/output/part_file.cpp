@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/output_file.hpp"
+#include "core/system_error.hpp"
 #include "media/output/little_endian.hpp"
 
 namespace piblocks {
@@ -186,7 +187,7 @@ Bytes PartReader::read(std::uint64_t count) {
 }
 
 void PartReader::fail_to_read() const {
-  const std::string reason = std::generic_category().message(errno);
+  const std::string reason = text_of_error(errno);
   throw IoError(fmt::format("part: cannot read '{}': {}", path_, reason));
 }
 

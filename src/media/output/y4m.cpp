@@ -13,7 +13,7 @@ namespace piblocks {
 namespace {
 
 /// A frame is 3 MB at 1080p: as few as possible wait for their turn to be written.
-constexpr std::int64_t kFramesPerChunk = 1;
+constexpr std::int64_t kY4mFramesPerChunk = 1;
 
 constexpr std::string_view kFrameHeader = "FRAME\n";
 
@@ -71,7 +71,7 @@ std::vector<std::uint8_t> Y4mEncoder::encode_picture(std::int64_t number) {
 std::unique_ptr<Output> y4m_output(const OutputRequest& request) {
   const std::string problem = odd_size_problem(request.format, "y4m in 4:2:0");
   if (!problem.empty()) throw UsageError(problem);
-  return std::make_unique<StreamOutput<Y4mEncoder>>(request, kFramesPerChunk, "y4m");
+  return std::make_unique<StreamOutput<Y4mEncoder>>(request, kY4mFramesPerChunk, "y4m");
 }
 
 }  // namespace piblocks

@@ -22,7 +22,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 /// A chunk begins with a whole picture. A second or so, as in a video.
-constexpr std::int64_t kFramesPerChunk = 64;
+constexpr std::int64_t kApngFramesPerChunk = 64;
 /// A delay is a fraction of two numbers of 16 bits.
 constexpr int kMaxTerm = 65535;
 
@@ -163,7 +163,7 @@ class ApngSink final : public FrameSink {
 class ApngOutput final : public Output {
  public:
   explicit ApngOutput(OutputRequest request) : request_(std::move(request)) {}
-  std::int64_t frames_per_chunk() const override { return kFramesPerChunk; }
+  std::int64_t frames_per_chunk() const override { return kApngFramesPerChunk; }
   std::unique_ptr<ChunkEncoder> make_encoder() const override {
     return std::make_unique<ApngEncoder>(request_.format);
   }

@@ -12,6 +12,8 @@
 #include <system_error>
 #include <utility>
 
+#include "core/system_error.hpp"
+
 namespace piblocks {
 namespace fs = std::filesystem;
 
@@ -65,8 +67,7 @@ void PngFile::run(Step step) {
 
 void PngFile::fail(const std::string& reason) const {
   if (std::ferror(file_.get()) != 0) {
-    throw IoError(fmt::format("png: cannot read '{}': {}", path_.string(),
-                              std::generic_category().message(EIO)));
+    throw IoError(fmt::format("png: cannot read '{}': {}", path_.string(), text_of_error(EIO)));
   }
   throw MediaError(fmt::format("png: cannot read '{}': {}", path_.string(), reason));
 }

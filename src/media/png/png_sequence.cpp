@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Few frames wait for their turn to be written, and the workers end at nearly the same time.
-constexpr std::int64_t kFramesPerChunk = 16;
+constexpr std::int64_t kPngFramesPerChunk = 16;
 /// Number of the first file, as that of FFmpeg's image2 muxer.
 constexpr std::int64_t kFirstNumber = 1;
 
@@ -81,7 +81,7 @@ class PngOutput final : public Output {
  public:
   explicit PngOutput(const OutputRequest& request)
       : format_(request.format), pattern_(request.name) {}
-  std::int64_t frames_per_chunk() const override { return kFramesPerChunk; }
+  std::int64_t frames_per_chunk() const override { return kPngFramesPerChunk; }
   std::unique_ptr<ChunkEncoder> make_encoder() const override {
     return std::make_unique<PngFrameEncoder>(format_);
   }
