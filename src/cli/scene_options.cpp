@@ -5,7 +5,7 @@
 #include <piblocks/script.hpp>
 
 #include "cli/options.hpp"
-#include "media/output/frame_sink.hpp"
+#include "media/output/outputs.hpp"
 #include "render/logo.hpp"
 
 namespace piblocks::cli {

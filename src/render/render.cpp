@@ -3,8 +3,9 @@
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 
-#include "media/output/part_file.hpp"
 #include "draw/canvas.hpp"
+#include "media/output/outputs.hpp"
+#include "media/output/part_file.hpp"
 #include "render/bundle.hpp"
 #include "render/chunks.hpp"
 #include "render/film.hpp"

@@ -3,9 +3,10 @@
 #pragma once
 
 #include <memory>
+#include <stop_token>
 #include <string>
 
-#include "media/output/frame_reader.hpp"
+#include "media/pixels/frame_reader.hpp"
 
 namespace piblocks {
 

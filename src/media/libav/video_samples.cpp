@@ -9,7 +9,7 @@
 #include <cstring>
 #include <vector>
 
-#include "media/output/frame_reader.hpp"
+#include "media/pixels/frame_reader.hpp"
 
 extern "C" {
 #include <libavutil/imgutils.h>
