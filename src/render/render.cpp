@@ -14,6 +14,7 @@
 #include "render/job_description.hpp"
 #include "render/ordered_pool.hpp"
 #include "render/page.hpp"
+#include "render/render_film.hpp"
 #include "render/stage_clock.hpp"
 
 namespace piblocks {
@@ -26,7 +27,7 @@ struct Plan {
         sound(soundtrack_of(job, film)),
         output(set_up_output(job.output,
                              {film.view().width_px, film.view().height_px, film.view().frame_rate,
-                              film.ground() == Ground::transparent},
+                              film.view().background == Background::transparent},
                              job.encoder, sound)),
         chunks{output->has_frames() ? film.frame_count() : 0, output->frames_per_chunk()} {}
 
@@ -53,7 +54,7 @@ class Worker {
   Worker(const Plan& plan, bool profile)
       : plan_(plan),
         profile_(profile),
-        canvas_(plan.film.view().width_px, plan.film.view().height_px, plan.film.ground()),
+        canvas_(plan.film.view().width_px, plan.film.view().height_px, plan.film.view().background),
         encoder_(plan.output->make_encoder()) {}
 
   EncodedWork work(std::int64_t chunk, const std::stop_token& stop) {
@@ -164,10 +165,8 @@ void add(StageSeconds& sum, const StageSeconds& spent) {
 
 }  // namespace
 
-Rendered render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
-                const std::stop_token& stop) {
-  if (job.bundle) return render_bundle(job, on_progress, stop);
-  if (is_page(job.output)) return render_page(job, on_progress, stop);
+Rendered render_film(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
+                     const std::stop_token& stop) {
   check_part(job);
   const Plan plan(job);
   if (job.max_flashes && plan.output->has_frames()) {
@@ -206,6 +205,13 @@ Rendered render(const RenderJob& job, const std::function<void(const Progress&)>
     rendered.profile.total_s = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
   }
   return rendered;
+}
+
+Rendered render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
+                const std::stop_token& stop) {
+  if (job.bundle) return render_bundle(job, on_progress, stop);
+  if (is_page(job.output)) return render_page(job, on_progress, stop);
+  return render_film(job, on_progress, stop);
 }
 
 std::string part_name(const std::string& output, const Part& part) {
