@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <new>
 
+#include "media/libav/module_functions.hpp"
+
 extern "C" {
 #include <libavutil/log.h>
 }

@@ -72,7 +72,4 @@ void silence_av();
 /// "59.37.100" for the result of avcodec_version() and the like.
 std::string version_text(unsigned number);
 
-/// Name and version of each library that the module needs.
-std::vector<std::string> av_library_versions();
-
 }  // namespace piblocks

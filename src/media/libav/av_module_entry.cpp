@@ -3,9 +3,7 @@
 
 #include "media/libav/av.hpp"
 #include "media/libav/av_module.hpp"
-#include "media/libav/codec_choice.hpp"
-#include "media/libav/framehash.hpp"
-#include "media/libav/video_reader.hpp"
+#include "media/libav/module_functions.hpp"
 #include "media/output/output_kinds.hpp"
 
 extern "C" const piblocks::AvModule* piblocks_av_module() {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "media/libav/av.hpp"
+#include "media/libav/module_functions.hpp"
 #include "media/output/output_request.hpp"
 
 namespace piblocks {
@@ -41,8 +42,6 @@ CodecChoice prores_choice(const VideoFormat& format, const EncoderSettings& sett
 /// @throws UsageError as h264_choice().
 CodecChoice webm_choice(const VideoFormat& format, const EncoderSettings& settings);
 
-/// The module's side of encoder_names().
-std::vector<std::string> usable_encoders(EncoderKind kind);
 /// The names of all these kinds, as a message lists them.
 std::string usable_encoders(std::span<const EncoderKind> kinds);
 // The rows of usable_encoders().

@@ -1,11 +1,10 @@
-#include "media/libav/framehash.hpp"
-
 #include <fmt/format.h>
 
 #include <array>
 #include <utility>
 
 #include "media/libav/av.hpp"
+#include "media/libav/module_functions.hpp"
 #include "media/output/output_kinds.hpp"
 #include "media/output/simple_output.hpp"
 #include "media/pixels/rgb24.hpp"
