@@ -18,7 +18,7 @@
 namespace piblocks {
 namespace {
 
-constexpr double kUnitRoundoff = 0x1p-53;
+constexpr double kRoundoff = 0x1p-53;
 /// Beyond them a log refuses to place a collision, or has no room for small numbers.
 constexpr double kLongest = 1e290;
 constexpr double kShortest = 1e-290;
@@ -51,7 +51,7 @@ double quotient(const Rational& error, const Rational& unit) {
 
 /// 8 u of the time or of the time to the turn, whichever is less, and what two doubles do not hold.
 Rational time_bound(const Rational& time, const Rational& turn) {
-  return Rational(8 * kUnitRoundoff) * std::min<Rational>(abs(time), abs(time - turn)) +
+  return Rational(8 * kRoundoff) * std::min<Rational>(abs(time), abs(time - turn)) +
          Rational(0x1p-102) * abs(time);
 }
 
@@ -110,7 +110,7 @@ void compare(const BlockSystem& system, const oracle::ExactEvent& exact, const R
   const auto check = [&](const char* what, double& most, double given, const Rational& wanted,
                          const Rational& unit) {
     if (abs(wanted) < least || abs(wanted) > Rational(kLongest)) return;
-    note(most, quotient(Rational(given) - wanted, Rational(kUnitRoundoff) * unit));
+    note(most, quotient(Rational(given) - wanted, Rational(kRoundoff) * unit));
     EXPECT_LE(most, 8) << what << ": " << given << ", not " << to_double(wanted);
   };
   check("blue", worst.blue_position, blue.position, exact.blue.position,
@@ -211,10 +211,10 @@ TEST(HeavyRed, HasItsStatesBetweenCollisions) {
       const Rational way = 8 + abs(exact.blue.position) + abs(exact.red.position) +
                            (abs(system.blue.velocity) + abs(system.red.velocity)) * abs(time);
       EXPECT_LE(quotient(Rational(given.blue.position) - exact.blue.position, way),
-                8 * kUnitRoundoff)
+                8 * kRoundoff)
           << given.blue.position << ", not " << to_double(exact.blue.position);
       EXPECT_LE(quotient(Rational(given.red.position) - exact.red.position, way),
-                8 * kUnitRoundoff);
+                8 * kRoundoff);
     }
   }
 }

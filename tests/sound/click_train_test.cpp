@@ -16,7 +16,7 @@ namespace {
 using testing_support::clacks_of;
 using testing_support::ClickTrain;
 
-constexpr double kRate_hz = 48000;
+constexpr double kTrainRate_hz = 48000;
 constexpr double kTurn_s = 0.2;  // after the film's begin
 
 double level_db(const std::vector<double>& samples) {
@@ -45,7 +45,7 @@ TEST(ClickTrain, OfCollisionsTakenTogetherIsThatOfAllOfThem) {
         const double blow =
             batch.kind[i] == CollisionKind::wall ? (1 + r) * std::fabs(u1) : std::fabs(u2 - u1);
         const double time = (batch.time_hi[i] - to_double(begin)) + batch.time_lo[i];
-        all.add(time * kRate_hz, blow / std::hypot(std::sqrt(r) * u1, u2));
+        all.add(time * kTrainRate_hz, blow / std::hypot(std::sqrt(r) * u1, u2));
       }
     }
     std::vector<double> error = together.samples();
@@ -71,10 +71,10 @@ std::vector<double> clicks() {
 double band_energy(const std::vector<double>& samples, double tau_s, double low_hz,
                    double high_hz) {
   constexpr int kSize = 128;
-  const auto begin = std::size_t((kTurn_s - tau_s) * kRate_hz) - kSize / 2;
+  const auto begin = std::size_t((kTurn_s - tau_s) * kTrainRate_hz) - kSize / 2;
   double energy = 0;
   for (int bin = 0; bin <= kSize / 2; ++bin) {
-    const double frequency_hz = bin * kRate_hz / kSize;
+    const double frequency_hz = bin * kTrainRate_hz / kSize;
     if (frequency_hz < low_hz || frequency_hz > high_hz) continue;
     std::complex<double> sum = 0;
     for (int i = 0; i < kSize; ++i) {

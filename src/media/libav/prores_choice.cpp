@@ -10,7 +10,7 @@ constexpr int kQuantiser = 4;
 /// No picture depends on another; few wait to be written.
 constexpr int kProresFramesPerChunk = 8;
 
-void set_up(AVCodecContext& context) {
+void set_up_prores(AVCodecContext& context) {
   // Without a quantiser the encoder aims at a number of bits, and searches long for it.
   context.flags |= AV_CODEC_FLAG_QSCALE;
   context.global_quality = kQuantiser * FF_QP2LAMBDA;
@@ -40,7 +40,7 @@ CodecChoice prores_choice(const VideoFormat& format, const EncoderSettings& sett
   return {.codec = codec,
           .pixel_format = format.has_alpha ? AV_PIX_FMT_YUVA444P10 : AV_PIX_FMT_YUV444P10,
           .frames_per_chunk = kProresFramesPerChunk,
-          .set_up = set_up,
+          .set_up = set_up_prores,
           .alternatives = {EncoderKind::prores}};
 }
 
