@@ -29,7 +29,7 @@ void check_flashes(const Film& film, int most, const std::stop_token& stop) {
   if (!first) return;
   throw UsageError(fmt::format(
       "render: the film would flash more than {} times within a second, first at {:.3f} s, and at "
-      "{:.3f} s on {:.0f} % of a field of sight ({:.0f} % are harmless, WCAG 2.3.1); expose frames "
+      "{:.3f} s on {:.0f} % of a field of view ({:.0f} % are harmless, WCAG 2.3.1); expose frames "
       "for longer (--shutter 1), slow the film down (--slow-motion auto, --speed), or show it "
       "smaller in the frame",
       most, double(first->frame) / frames_per_s, double(worst.frame) / frames_per_s,

@@ -20,23 +20,25 @@ struct Flashing {
   double share = 0;  ///< of the field of sight that is covered most; more than kMostFlashing
 };
 
-/// Of ten degrees of sight.
+/// The harmless share of ten degrees of sight.
 inline constexpr double kMostFlashing = 0.25;
 
 /// A flash is a pair of opposing changes: of relative luminance by a tenth of that of white, the
 /// darker state being below 0.8; or of saturated red by 20 of 320 (R - G - B), which is red where
 /// R / (R + G + B) >= 0.8 (all of them linear; definition of general and red flash thresholds in
 /// WCAG 2.1). It matters if it covers more than a quarter of ten degrees of sight: of 341 x 256
-/// pixels on a screen of 1024 x 768 that the picture fills. Measured in the cells of a grid, of
-/// which a flash that covers a part counts as a weaker one. Changes count whether or not they are
-/// simultaneous, and half a flash too many is too many: this errs on the safe side.
+/// pixels on a screen of 1024 x 768 that the picture fills. The meter averages over the cells of a
+/// grid: a flash that covers a part of a cell counts as a weaker flash of the whole cell. Changes
+/// count whether or not they are simultaneous, and half a flash too many is too many: this errs on
+/// the safe side.
 class FlashMeter {
  public:
   /// @param most  flashes within a second that are allowed, >= 1.
   FlashMeter(int width_px, int height_px, double frames_per_s, int most);
 
   /// @param changed  where the frame differs from the last one; the first one is read as a whole.
-  /// @returns what is too much within the second up to this frame. Transparency is taken as black.
+  /// @returns the flashing within the second up to this frame, if it is too much. Transparent is
+  ///          black.
   std::optional<Flashing> take(const ImageView& frame, std::span<const PixelRect> changed);
 
  private:

@@ -1,4 +1,4 @@
-// What is to be seen, in words, for those who cannot see it.
+// A video in words, for people who cannot see it.
 // In: a scene, and how far its video goes. Out: sentences in plain English, and a title.
 #pragma once
 

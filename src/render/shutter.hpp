@@ -1,5 +1,5 @@
 // Where the blocks are while the shutter is open.
-// In: what passes of time meanwhile. Out: what Composition draws.
+// In: slices of time. Out: what Composition draws of them.
 #pragma once
 
 #include <piblocks/run.hpp>
