@@ -18,8 +18,8 @@
 #include "draw/canvas.hpp"
 #include "golden/describe.hpp"
 #include "golden/reports.hpp"
-#include "render/logo.hpp"
 #include "render/references.hpp"
+#include "render/run.hpp"
 
 namespace piblocks::cli {
 namespace fs = std::filesystem;

@@ -1,4 +1,3 @@
-#include <fmt/compile.h>
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
@@ -8,8 +7,7 @@
 #include <utility>
 
 #include "cli/commands.hpp"
-#include "cli/decimal_counter.hpp"
-#include "cli/npy.hpp"
+#include "cli/log_format.hpp"
 #include "cli/options.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/stop_on_signals.hpp"
@@ -19,14 +17,6 @@
 
 namespace piblocks::cli {
 namespace {
-
-/// Rows first … last, by index; none if last < first.
-struct Rows {
-  Integer first;
-  Integer last;
-
-  Integer count() const { return last < first ? Integer(0) : Integer(last - first + 1); }
-};
 
 Integer parse_positive(const std::string& text) { return parse_whole_number(text, 1); }
 
@@ -102,66 +92,8 @@ Rows select_rows(const Command& options, const CollisionLog& log) {
   return rows;
 }
 
-const char* name_of(CollisionKind kind) { return kind == CollisionKind::wall ? "wall" : "blocks"; }
-
-/// Appends a row each, its text as `format` says: index, time, kind, positions, velocities.
-template <typename CompiledFormat>
-void append_rows(const CollisionBatch& batch, const CompiledFormat& format,
-                 fmt::memory_buffer& out) {
-  DecimalCounter index(batch.first);
-  constexpr std::size_t kMaxRest_bytes = 256;  // five numbers of at most 24 bytes, and names
-  const std::size_t begin = out.size();
-  out.resize(begin + batch.size * (index.text().size() + 1 + kMaxRest_bytes));
-  char* end = out.data() + begin;  // fmt writes to a plain pointer a fifth faster
-  for (std::size_t i = 0; i < batch.size; ++i, index.increment()) {
-    end = fmt::format_to(end, format, index.text(), shown(batch.time_hi[i]), name_of(batch.kind[i]),
-                         shown(batch.blue_position[i]), shown(batch.red_position[i]),
-                         shown(batch.blue_velocity[i]), shown(batch.red_velocity[i]));
-  }
-  out.resize(static_cast<std::size_t>(end - out.data()));
-}
-
-std::string csv_header(const Rows& /*rows*/) {
-  return "index,time,kind,x_blue,x_red,v_blue,v_red\n";
-}
-
-void append_csv(const CollisionBatch& batch, fmt::memory_buffer& out) {
-  append_rows(batch, FMT_COMPILE("{},{},{},{},{},{},{}\n"), out);
-}
-
-void append_jsonl(const CollisionBatch& batch, fmt::memory_buffer& out) {
-  append_rows(batch,
-              FMT_COMPILE("{{\"index\":\"{}\",\"time\":{},\"kind\":\"{}\",\"x_blue\":{},"
-                          "\"x_red\":{},\"v_blue\":{},\"v_red\":{}}}\n"),
-              out);
-}
-
-std::string no_header(const Rows& /*rows*/) { return {}; }
-
-std::string npy_header_of(const Rows& rows) {
-  for (const Integer& index : {rows.first, rows.last}) {
-    if (rows.count() == 0 || abs(index) <= kMaxNpyIndex) continue;
-    throw UsageError(fmt::format("--format npy: index {} does not fit in 64 bits; use csv or jsonl",
-                                 readable(index)));
-  }
-  return npy_header(rows.count());
-}
-
-/// How a log is written.
-struct Format {
-  bool is_text;
-  std::string (*header)(const Rows& rows);  // bytes before the rows
-  void (*append)(const CollisionBatch& batch, fmt::memory_buffer& out);
-};
-
-Format parse_format(const std::string& text) {
-  return parse_choice<Format>(text, {{"csv", {true, csv_header, append_csv}},
-                                     {"jsonl", {true, no_header, append_jsonl}},
-                                     {"npy", {false, npy_header_of, append_npy}}});
-}
-
 /// @throws Interrupted soon after the token asks for it.
-void write(CollisionStream& collisions, const Format& format, OutputFile& file,
+void write(CollisionStream& collisions, const LogFormat& format, OutputFile& file,
            const std::stop_token& stop) {
   fmt::memory_buffer rows;
   for (CollisionBatch batch{}; collisions.read(batch); rows.clear()) {
@@ -172,7 +104,8 @@ void write(CollisionStream& collisions, const Format& format, OutputFile& file,
 }
 
 void run_log(const Command& options, const SceneOptions& scene_options) {
-  const Format format = options.value("--format", parse_format).value_or(parse_format("csv"));
+  const LogFormat format =
+      options.value("--format", parse_log_format).value_or(parse_log_format("csv"));
   if (!format.is_text) refuse_terminal(options);
   scene_options.check_output();
   const Scene scene = scene_options.scene();

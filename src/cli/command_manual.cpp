@@ -1,5 +1,4 @@
 #include "cli/commands.hpp"
-#include "cli/manual.hpp"
 #include "cli/options.hpp"
 #include "core/output_file.hpp"
 

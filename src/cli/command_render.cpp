@@ -8,14 +8,13 @@
 #include "cli/commands.hpp"
 #include "cli/destinations.hpp"
 #include "cli/options.hpp"
-#include "cli/profile_report.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "core/ending.hpp"
 #include "core/overwrite_check.hpp"
 #include "media/output/outputs.hpp"
-#include "render/bundle.hpp"
+#include "render/renderings.hpp"
 
 namespace piblocks::cli {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/say.hpp"
 #include "cli/stop_on_signals.hpp"

@@ -1,5 +1,3 @@
-#include "cli/manual.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/scene.hpp>
 #include <piblocks/version.hpp>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "cli/app.hpp"
+#include "cli/commands.hpp"
 
 namespace piblocks::cli {
 namespace {

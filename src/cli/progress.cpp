@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -24,6 +26,17 @@ std::string minutes_and_seconds(double duration_s) {
 /// What is written, for people: not the name of a pipe.
 std::string subject(const std::string& output) {
   return output == "-" ? "standard output" : output;
+}
+
+/// Chunks in a row that were encoded alike share a line.
+void print_methods(const std::vector<std::string>& methods) {
+  for (auto begin = methods.begin(); begin != methods.end();) {
+    const auto end = std::find_if(begin, methods.end(), [&](const auto& m) { return m != *begin; });
+    if (!begin->empty()) {
+      say("  chunks {} to {} by {}\n", begin - methods.begin() + 1, end - methods.begin(), *begin);
+    }
+    begin = end;
+  }
 }
 
 }  // namespace
@@ -79,6 +92,21 @@ void ProgressReport::finish() {
   say("{}: {} {} in {:.2f} s ({:.0f} frames/s)\n", subject(output_), progress_.frame_count,
       progress_.frame_count == 1 ? "frame" : "frames", duration_s,
       double(progress_.frame_count) / duration_s);
+}
+
+void print_profile(const Rendered& rendered) {
+  const Profile& profile = rendered.profile;
+  const double frames = double(std::max<std::int64_t>(1, rendered.frame_count));
+  const auto print = [&](std::string_view name, double spent_s) {
+    say("  {:<8} {:8.3f} s {:8.4f} ms/frame {:5.1f} %\n", name, spent_s, 1000 * spent_s / frames,
+        100 * spent_s / profile.total_s);
+  };
+  say("processor time of {} frames:\n", rendered.frame_count);
+  for (std::size_t i = 0; i < profile.stages.size(); ++i) print(kStageNames[i], profile.stages[i]);
+  const double staged_s = std::accumulate(profile.stages.begin(), profile.stages.end(), 0.0);
+  print("other", profile.total_s - staged_s);  // start-up and set-up
+  print("total", profile.total_s);
+  print_methods(profile.chunk_methods);
 }
 
 }  // namespace piblocks::cli

@@ -1,6 +1,6 @@
-// How far a rendering has come.
-// In: frame counts, as they grow. Out: on standard error a bar on a terminal, plain lines
-// otherwise, nothing when quiet.
+// How far a rendering has come, and what it cost.
+// In: frame counts as they grow; a profile. Out: on standard error a bar on a terminal, plain lines
+// otherwise, nothing when quiet; a table of stages.
 #pragma once
 
 #include <piblocks/render.hpp>
@@ -36,5 +36,7 @@ class ProgressReport {
   Progress progress_;
   bool bar_visible_ = false;
 };
+
+void print_profile(const Rendered& rendered);
 
 }  // namespace piblocks::cli

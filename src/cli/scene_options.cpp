@@ -6,7 +6,7 @@
 
 #include "cli/options.hpp"
 #include "cli/say.hpp"
-#include "render/logo.hpp"
+#include "render/run.hpp"
 
 namespace piblocks::cli {
 namespace {

@@ -1,5 +1,3 @@
-#include "render/bundle.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
@@ -14,10 +12,9 @@
 #include "core/file_set.hpp"
 #include "core/markup.hpp"
 #include "core/output_file.hpp"
-#include "render/captions.hpp"
 #include "render/page_facts.hpp"
-#include "render/render_film.hpp"
-#include "render/scene_text.hpp"
+#include "render/renderings.hpp"
+#include "render/video_text.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -56,7 +53,7 @@ bool is_plain(const std::string& name) {
          !name.starts_with('-');
 }
 
-void check(const RenderJob& job) {
+void check_bundle(const RenderJob& job) {
   std::vector<std::string> problems;
   if (job.part) {
     problems.emplace_back("bundle: there are no parts of a bundle; leave the part out");
@@ -125,7 +122,7 @@ std::vector<std::string> bundle_files(const RenderJob& job) {
 Rendered render_bundle(const RenderJob& job,
                        const std::function<void(const Progress&)>& on_progress,
                        const std::stop_token& stop) {
-  check(job);
+  check_bundle(job);
   FileSet files(job.bundle->folder, "bundle");
   const auto& scene = std::get<Scene>(job.script);
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);

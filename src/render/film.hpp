@@ -1,19 +1,59 @@
-// What every frame of a film shows.
-// In: a scene or a storyboard, once, and the number of a frame. Out: its draw list.
+// A film: a scene, or a storyboard of runs side by side and title cards.
+// In: a script, once, and the number of a frame. Out: the draw list of the frame.
 #pragma once
 
 #include <piblocks/instant.hpp>
+#include <piblocks/run.hpp>
 #include <piblocks/script.hpp>
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "draw/canvas.hpp"
 #include "draw/draw_list.hpp"
-#include "render/film_part.hpp"
+#include "draw/split_screen.hpp"
+#include "render/run.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
+
+/// Const members are thread-safe.
+class FilmPart {
+ public:
+  /// Scenes and cards must have no problems. @throws UsageError, SimulationError, DrawError
+  FilmPart(const Scene& scene, FilmUse use);
+  FilmPart(const Runs& runs, const View& film, FilmUse use);
+  FilmPart(const Card& card, const View& film, FilmUse use);
+  FilmPart(FilmPart&&) = default;
+  FilmPart& operator=(FilmPart&&) = default;
+  FilmPart(const FilmPart&) = delete;
+  FilmPart& operator=(const FilmPart&) = delete;
+  ~FilmPart() = default;
+
+  std::int64_t frame_count() const noexcept { return frame_count_; }
+  /// @param number  within the part, from 0 to frame_count() - 1.
+  DrawList frame(std::int64_t number) const;
+
+  /// What is shown at the same time; none of a card.
+  std::span<const Run> runs() const noexcept { return runs_; }
+  /// Where a run's picture is in the frame. @param run  its place in runs().
+  PixelRect cell(std::size_t run) const;
+  /// The one clock of all runs, in seconds since the part began; none of a card.
+  const Schedule* schedule() const noexcept { return schedule_ ? &*schedule_ : nullptr; }
+
+ private:
+  void show_one(Scene scene, FilmUse use);
+  void compare(const Runs& runs, const View& film, FilmUse use);
+
+  std::int64_t frame_count_ = 0;
+  std::vector<Run> runs_;
+  std::optional<Schedule> schedule_;
+  std::optional<SplitScreen> split_;  ///< if there are several runs
+  DrawList card_;                     ///< if there are none
+};
 
 /// A part and its place in the film.
 struct PlacedPart {

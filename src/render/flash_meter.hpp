@@ -1,6 +1,6 @@
 // How much a film flashes, by the general and the red flash thresholds of WCAG 2.3.1.
-// In: every frame, in order, and where it differs from the one before. Out: where there are more
-// flashes within a second than are allowed.
+// In: every frame, in order, and where it differs from the one before; or a film. Out: where there
+// are more flashes within a second than are allowed.
 #pragma once
 
 #include <piblocks/image.hpp>
@@ -10,7 +10,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <vector>
+
+#include "render/film.hpp"
 
 namespace piblocks {
 
@@ -80,5 +83,10 @@ class FlashMeter {
   std::vector<Swing> swings_;             ///< by cell and measure
   std::vector<std::int64_t> changed_at_;  ///< the last too_many_ frames of each swing, as a ring
 };
+
+/// Paints every frame once, without encoding any.
+/// @param most  flashes within a second that are allowed (WCAG 2.3.1: 3), >= 1.
+/// @throws UsageError as FlashMeter finds; SimulationError, DrawError, Interrupted
+void check_flashes(const Film& film, int most, const std::stop_token& stop);
 
 }  // namespace piblocks

@@ -10,7 +10,7 @@
 
 #include "draw/canvas.hpp"
 #include "media/libav/av_module.hpp"
-#include "render/logo.hpp"
+#include "render/run.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {

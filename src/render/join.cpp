@@ -11,7 +11,7 @@
 #include "media/output/part_file.hpp"
 #include "render/film_sound.hpp"
 #include "render/job_description.hpp"
-#include "render/page.hpp"
+#include "render/renderings.hpp"
 
 namespace piblocks {
 namespace {

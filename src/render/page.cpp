@@ -1,5 +1,3 @@
-#include "render/page.hpp"
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
@@ -22,9 +20,9 @@
 #include "core/system_error.hpp"
 #include "render/page_facts.hpp"
 #include "render/page_source.hpp"
-#include "render/render_film.hpp"
-#include "render/scene_text.hpp"
+#include "render/renderings.hpp"
 #include "render/stage_clock.hpp"
+#include "render/video_text.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -87,7 +85,7 @@ class PageText {
   std::string text_;
 };
 
-void check(const RenderJob& job) {
+void check_page(const RenderJob& job) {
   if (job.part) {
     throw UsageError(fmt::format(
         "part: there are no parts of page '{}'; render it whole, or the parts of an MP4",
@@ -158,7 +156,7 @@ bool is_page(const std::string& output) { return has_ending(output, ".html"); }
 
 Rendered render_page(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
                      const std::stop_token& stop) {
-  check(job);
+  check_page(job);
   const auto& scene = std::get<Scene>(job.script);
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);

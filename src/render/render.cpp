@@ -6,15 +6,13 @@
 #include "draw/canvas.hpp"
 #include "media/output/outputs.hpp"
 #include "media/output/part_file.hpp"
-#include "render/bundle.hpp"
 #include "render/chunks.hpp"
 #include "render/film.hpp"
 #include "render/film_sound.hpp"
-#include "render/flash_check.hpp"
+#include "render/flash_meter.hpp"
 #include "render/job_description.hpp"
 #include "render/ordered_pool.hpp"
-#include "render/page.hpp"
-#include "render/render_film.hpp"
+#include "render/renderings.hpp"
 #include "render/stage_clock.hpp"
 
 namespace piblocks {

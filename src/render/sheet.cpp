@@ -1,4 +1,4 @@
-#include "render/sheet.hpp"
+#include "draw/sheet.hpp"
 
 #include <fmt/format.h>
 #include <piblocks/encode.hpp>
@@ -15,9 +15,8 @@
 #include "draw/canvas.hpp"
 #include "draw/composition.hpp"
 #include "draw/number_text.hpp"
-#include "draw/sheet.hpp"
-#include "render/logo.hpp"
-#include "render/require_valid.hpp"
+#include "render/renderings.hpp"
+#include "render/run.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {

@@ -1,5 +1,3 @@
-#include "render/still.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
@@ -11,7 +9,7 @@
 #include "core/output_file.hpp"
 #include "draw/canvas.hpp"
 #include "render/film.hpp"
-#include "render/require_valid.hpp"
+#include "render/renderings.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {

@@ -6,12 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "render/captions.hpp"
 #include "render/film.hpp"
 #include "render/page_facts.hpp"
-#include "render/scene_text.hpp"
-#include "render/sheet.hpp"
-#include "render/still.hpp"
+#include "render/renderings.hpp"
+#include "render/video_text.hpp"
 #include "scene/schedule.hpp"
 #include "support/property.hpp"
 

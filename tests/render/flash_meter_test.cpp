@@ -9,7 +9,7 @@
 #include <stop_token>
 #include <string>
 
-#include "render/flash_check.hpp"
+#include "render/flash_meter.hpp"
 
 namespace piblocks {
 namespace {

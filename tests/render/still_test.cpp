@@ -1,7 +1,5 @@
 // A still is the film's frame: random scenes and storyboards, every kind of instant, rendered whole
 // and in parts, pixel by pixel.
-#include "render/still.hpp"
-
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
@@ -15,7 +13,7 @@
 #include "draw/canvas.hpp"
 #include "media/png/png_reader.hpp"
 #include "render/film.hpp"
-#include "render/sheet.hpp"
+#include "render/renderings.hpp"
 #include "scene/schedule.hpp"
 #include "support/property.hpp"
 #include "support/temporary_folder.hpp"

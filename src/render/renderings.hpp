@@ -1,0 +1,61 @@
+// What render(), render_still() and render_sheet() are made of.
+// In: a job or a scene. Out: files, or the draw lists that go into them.
+#pragma once
+
+#include <piblocks/error.hpp>
+#include <piblocks/instant.hpp>
+#include <piblocks/render.hpp>
+#include <piblocks/scene.hpp>
+#include <piblocks/script.hpp>
+
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "draw/draw_list.hpp"
+#include "draw/sheet.hpp"
+
+namespace piblocks {
+
+/// render() of a job that is neither a bundle nor a page.
+Rendered render_film(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
+                     const std::stop_token& stop);
+
+/// Renders the job's video into the bundle's folder, with poster.png, captions.vtt, alt.txt,
+/// latex.tex and reveal.html beside it.
+/// @throws UsageError if the output is no MP4 by a plain name, or a part is asked for; as render()
+Rendered render_bundle(const RenderJob& job,
+                       const std::function<void(const Progress&)>& on_progress,
+                       const std::stop_token& stop);
+
+/// The names of all these files, in the bundle's folder.
+std::vector<std::string> bundle_files(const RenderJob& job);
+
+/// Whether an output of this name is a page: `*.html`.
+bool is_page(const std::string& output);
+
+/// Renders the job's video as MP4, to the bytes that an output `*.mp4` would have, and the page
+/// that holds it.
+/// @throws UsageError if a part is asked for or nothing is behind the blocks; as render()
+Rendered render_page(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
+                     const std::stop_token& stop);
+
+/// What render_still() draws: the first frame of the film that shows the instant or, if no frame
+/// does, what still_time() says.
+/// @throws SceneError if problems_of() the script is not empty; UsageError, DrawError, MediaError,
+///         SimulationError
+DrawList still_picture(const Script& script, const Instant& instant);
+
+/// @throws SceneError if problems_of(scene) is not empty; UsageError, DrawError, MediaError,
+///         SimulationError
+std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
+                                             const std::vector<Instant>& instants);
+
+/// @throws SceneError if problems_of(scene) is not empty.
+inline void require_valid(const Scene& scene) {
+  const std::vector<Problem> problems = problems_of(scene);
+  if (!problems.empty()) throw SceneError(describe(problems));
+}
+
+}  // namespace piblocks
