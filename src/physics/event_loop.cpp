@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/two_sum.hpp"
+#include "physics/blocks.hpp"
 #include "physics/exact_motion.hpp"
-#include "physics/require_finite.hpp"
 #include "physics/velocity_loop.hpp"
 
 namespace piblocks {

@@ -23,7 +23,7 @@ struct Impact {
 std::optional<Impact> impact(const CollisionLog& log, CollisionKind kind, const Integer& first,
                              const Integer& last);
 
-/// The count of flight_at(), but collisions within the rounding of `time` and of the engine may
+/// The count of state_at(), but collisions within the rounding of `time` and of the engine may
 /// be taken for earlier or later. Costs no more, however many collisions there are.
 Integer count_near(const CollisionLog& log, const Time& time);
 

@@ -8,10 +8,7 @@
 #include <cstdlib>
 
 #include "core/two_sum.hpp"
-#include "physics/block_motion.hpp"
-#include "physics/listed_exposure.hpp"
-#include "physics/require_alone.hpp"
-#include "physics/require_finite.hpp"
+#include "physics/blocks.hpp"
 #include "physics/unfolded_exposure.hpp"
 #include "physics/unfolded_stream.hpp"
 
@@ -44,9 +41,9 @@ ExactMotion checked(const BlockSystem& system) {
 }
 
 /// @throws SimulationError if a position or a velocity is not finite.
-FreeFlight finite(const Time& time, const Integer& count, const Motion& blue, const Motion& red) {
+BlockState finite(const Time& time, const Integer& count, const Motion& blue, const Motion& red) {
   require_finite(time, blue, red, "closed form");
-  return {.count = count, .blue = blue, .red = red};
+  return {count, blue, red};
 }
 
 }  // namespace
@@ -57,13 +54,10 @@ UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion)
     : UnfoldedLog(system, motion, motion.wedge(kLandmark_bits)) {}
 
 UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion, const Wedge& wedge)
-    : CollisionLog(system),
-      exact_(motion),
-      form_(system, motion, wedge),
-      size_(motion.total(wedge.future)),
-      first_index_(motion.first_index(wedge.past)) {
+    : CollisionLog(system), exact_(motion), form_(system, motion, wedge) {
+  set_range(motion.first_index(wedge.past), motion.total(wedge.future));
   const bool touches = motion.y1 == 0 || motion.y1 == motion.y2;
-  if (touches && !motion.through_corner()) contact_ = flight_at(0).count;
+  if (touches && !motion.through_corner()) contact_ = state_at(0).count;
 }
 
 double UnfoldedLog::tau_near(const Time& t, double* magnitude) const {
@@ -141,13 +135,13 @@ Phase UnfoldedLog::phase_of(const LinePoint& point, const Rational& time) const 
   return {*point.ray + Integer(whole), point.phase - whole};
 }
 
-FreeFlight UnfoldedLog::flight_at(const Rational& time) const {
+BlockState UnfoldedLog::state_at(const Rational& time) const {
   const LinePoint point = point_at(time);
-  return flight_of(point, phase_of(point, time), time);
+  return state_of(point, phase_of(point, time), time);
 }
 
-FreeFlight UnfoldedLog::flight_of(const LinePoint& point, const Phase& at,
-                                  const Rational& time) const {
+BlockState UnfoldedLog::state_of(const LinePoint& point, const Phase& at,
+                                 const Rational& time) const {
   const Integer count = exact_.blocks_first ? at.ray : Integer(at.ray + 1);
   // Until the first collision the blocks move as the system begins: no angle is as exact.
   if (count == 0) {
@@ -190,7 +184,7 @@ Time UnfoldedLog::time(const Integer& from, const Integer& to, const RayView& vi
   return {form_.time_from_start(-start.sign, from_start, view.ray), 0};
 }
 
-Collision UnfoldedLog::at(const Integer& index) const {
+Collision UnfoldedLog::collision(const Integer& index) const {
   const Integer ray = ray_of(index);
   const bool odd = is_odd(ray);
   const RayView seen = view_of(ray, ray);
@@ -209,7 +203,7 @@ Collision UnfoldedLog::at(const Integer& index) const {
 
 Rational UnfoldedLog::time_after(const Integer& index) const {
   if (!exact_.through_corner()) return exact_.time_past(ray_of(index));
-  require_alone(index, flight_at(exact_.closest_approach).count);
+  require_last(index, state_at(exact_.closest_approach).count);
   return exact_.closest_approach;
 }
 
@@ -250,8 +244,8 @@ std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,
   // Times and distances are greatest at the ends of a range: nothing between is out of range if
   // they are not.
   if (first <= last) {
-    at(first);
-    at(last);
+    collision(first);
+    collision(last);
   }
   return std::make_unique<UnfoldedStream>(form_, ray_of(first), ray_of(last), first, contact_);
 }
@@ -276,10 +270,9 @@ double UnfoldedLog::time_to_ray(double tau, double rays, double sine) const {
 }
 
 /// Until all collisions at once, and from there on.
-std::unique_ptr<Exposure> UnfoldedLog::expose_corner(const Rational& begin,
-                                                     const Rational& end) const {
-  const FreeFlight start = flight_at(begin);
-  const FreeFlight stop = flight_at(end);
+Exposure UnfoldedLog::expose_corner(const Rational& begin, const Rational& end) const {
+  const BlockState start = state_at(begin);
+  const BlockState stop = state_at(end);
   PieceList pieces(start.blue.position, start.red.position);
   Rational now = begin;
   if (begin < exact_.closest_approach && exact_.closest_approach < end) {
@@ -287,17 +280,17 @@ std::unique_ptr<Exposure> UnfoldedLog::expose_corner(const Rational& begin,
     pieces.add(to_double(now - begin), form_.blue_offset, form_.red_offset);
   }
   pieces.add(to_double(end - now), stop.blue.position, stop.red.position);
-  return std::make_unique<ListedExposure>(pieces.take());
+  return pieces.exposure();
 }
 
-std::unique_ptr<Exposure> UnfoldedLog::expose(const Rational& first, const Rational& last) const {
+Exposure UnfoldedLog::expose(const Rational& first, const Rational& last) const {
   if (exact_.through_corner()) return expose_corner(first, last);
   const LinePoint first_point = point_at(first);
   const LinePoint last_point = point_at(last);
   const Phase first_phase = phase_of(first_point, first);
   const Phase last_phase = phase_of(last_point, last);
-  const FreeFlight start = flight_of(first_point, first_phase, first);
-  const FreeFlight stop = flight_of(last_point, last_phase, last);
+  const BlockState start = state_of(first_point, first_phase, first);
+  const BlockState stop = state_of(last_point, last_phase, last);
   const Gaps from{first_point.tau, start.blue.position - form_.blue_offset,
                   start.red.position - form_.red_offset};
   const Gaps to{last_point.tau, stop.blue.position - form_.blue_offset,
@@ -305,9 +298,8 @@ std::unique_ptr<Exposure> UnfoldedLog::expose(const Rational& first, const Ratio
   const Integer first_ray = ray_of(start.count) + 1;
   const Integer last_ray = ray_of(stop.count);
   if (last_ray - first_ray >= Integer(long(kMaxListedCollisions))) {
-    return std::make_unique<UnfoldedExposure>(form_, total_phase(), from,
-                                              Crossing{phase_of(first_ray), is_odd(first_ray)},
-                                              Crossing{phase_of(last_ray), is_odd(last_ray)}, to);
+    return expose_bounces(form_, total_phase(), {from, phase_of(first_ray), is_odd(first_ray)},
+                          {to, phase_of(last_ray), is_odd(last_ray)});
   }
   // Times between places are those of triangles with the corner, however long the turn takes.
   PieceList pieces(start.blue.position, start.red.position);
@@ -325,7 +317,7 @@ std::unique_ptr<Exposure> UnfoldedLog::expose(const Rational& first, const Ratio
   pieces.add(first_ray <= last_ray ? time_to_ray(to.tau, last_phase.fraction, before)
                                    : std::max(0.0, to.tau - from.tau),
              stop.blue.position, stop.red.position);
-  return std::make_unique<ListedExposure>(pieces.take());
+  return pieces.exposure();
 }
 
 PositionBounds UnfoldedLog::bounds_at(const Rational& time) const {

@@ -10,7 +10,6 @@
 #include "physics/exact_motion.hpp"
 #include "physics/exposure.hpp"
 #include "physics/impact.hpp"
-#include "physics/position_bounds.hpp"
 #include "physics/ray_sums.hpp"
 #include "physics/unfolding.hpp"
 
@@ -27,18 +26,16 @@ class UnfoldedLog final : public CollisionLog {
   /// @throws SimulationError if the blocks pass the corner closer than a double can tell.
   explicit UnfoldedLog(const BlockSystem& system);
 
-  const Integer& size() const override { return size_; }
-  const Integer& first_index() const override { return first_index_; }
-  Collision at(const Integer& index) const override;
+  Collision collision(const Integer& index) const override;
+  BlockState state_at(const Rational& time) const override;
   Rational time_after(const Integer& index) const override;
   std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const override;
-  FreeFlight flight_at(const Rational& time) const override;
 
   /// As the functions of these names in impact.hpp.
   std::optional<Impact> impact(CollisionKind kind, const Integer& first, const Integer& last) const;
   Integer count_near(const Time& time) const;
-  /// As in expose.hpp, for first <= last.
-  std::unique_ptr<Exposure> expose(const Rational& first, const Rational& last) const;
+  /// As in exposure.hpp, for first <= last.
+  Exposure expose(const Rational& first, const Rational& last) const;
   PositionBounds bounds_at(const Rational& time) const;
 
  private:
@@ -69,12 +66,12 @@ class UnfoldedLog final : public CollisionLog {
   /// Computed exactly if the point's own phase has not decided between two rays.
   Phase phase_of(const LinePoint& point, const Rational& time) const;
   /// @param at  the phase of the point at the time
-  FreeFlight flight_of(const LinePoint& point, const Phase& at, const Rational& time) const;
+  BlockState state_of(const LinePoint& point, const Phase& at, const Rational& time) const;
   /// Scaled time between a place and a ray that is less than one ray away from it.
   /// @param tau   when the line is at the place, since closest approach
   /// @param sine  of the angle from the ray to an end of time
   double time_to_ray(double tau, double rays, double sine) const;
-  std::unique_ptr<Exposure> expose_corner(const Rational& begin, const Rational& end) const;
+  Exposure expose_corner(const Rational& begin, const Rational& end) const;
   /// A direction from the end of time that it is nearer to.
   struct RayView {
     const Landmark* end = nullptr;
@@ -89,8 +86,6 @@ class UnfoldedLog final : public CollisionLog {
 
   ExactMotion exact_;
   Unfolding form_;
-  Integer size_;
-  Integer first_index_;
   std::optional<Integer> contact_;  // index of the collision that happens exactly at time 0
 };
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "render/require_valid.hpp"
+#include "physics/blocks.hpp"
 
 namespace piblocks {
 namespace {
@@ -26,7 +26,7 @@ std::string place_of(const Storyboard& story, std::size_t part) {
 
 Film::Film(const Script& script, FilmUse use) : view_(view_of(script)) {
   if (const auto* scene = std::get_if<Scene>(&script)) {
-    require_valid(*scene);
+    require_valid(problems_of(*scene));
     parts_.push_back({FilmPart(*scene, use)});
     frame_count_ = parts_.front().part.frame_count();
     return;

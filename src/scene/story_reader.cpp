@@ -9,8 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "scene/rules.hpp"
 #include "scene/scene_keys.hpp"
-#include "scene/story_part.hpp"
 
 namespace piblocks {
 namespace {

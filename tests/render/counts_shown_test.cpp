@@ -58,7 +58,7 @@ std::vector<Anchored> anchors_of(const CollisionLog& log) {
           {Instant::collision(total), total},
           {Instant::collision(1), 1},
           {Instant::collision((total + 1) / 2), (total + 1) / 2},
-          {Instant::turn(), log.flight_at(turn).count}};
+          {Instant::turn(), log.state_at(turn).count}};
 }
 
 std::string last_count(const Scene& scene) {

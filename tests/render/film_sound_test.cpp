@@ -102,7 +102,8 @@ mass-ratio = 3
       }
       const CollisionLog& log = placed.part.runs().front().log();
       const Stretch& first = placed.part.schedule()->stretches().front();
-      const double at_s = (log.at(1).time.hi - to_double(first.time)) / to_double(first.speed);
+      const double at_s =
+          (log.collision(1).time.hi - to_double(first.time)) / to_double(first.speed);
       const double expected = begin + at_s * kRate_hz;
       EXPECT_NEAR(double(onset(heard.left, std::size_t(begin))), expected, 1) << rate;
     }

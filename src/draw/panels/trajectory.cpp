@@ -14,12 +14,12 @@ class TrajectoryBuilder {
   TrajectoryBuilder(const CollisionLog& log, const PanelGaps& gaps) : log_(log), gaps_(gaps) {}
 
   void begin(const Rational& time) {
-    state_ = state_at(log_, time);
+    state_ = log_.state_at(time);
     time_ = to_double(time);
   }
 
   void run_to(const Rational& time) {
-    const BlockState next = state_at(log_, time);
+    const BlockState next = log_.state_at(time);
     const double next_time = to_double(time);
     if (next.count - state_.count > kMostCorners) {
       add_band({next_time, gaps_.of(next)}, next.count);
@@ -39,7 +39,7 @@ class TrajectoryBuilder {
     }
     std::vector<TimedGaps>& corners = pieces_.back().corners;
     for (Integer k = state_.count + 1; k <= count; k += 1) {
-      const Collision collision = log_.at(k);
+      const Collision collision = log_.collision(k);
       corners.push_back({collision.time.hi, gaps_.of(collision.blue, collision.red)});
     }
     corners.push_back(end);
@@ -52,7 +52,7 @@ class TrajectoryBuilder {
     // the first contact or at the last one.
     for (const Integer& k :
          {Integer(state_.count + 1), Integer(state_.count + 2), Integer(count - 1), count}) {
-      const Collision collision = log_.at(k);
+      const Collision collision = log_.collision(k);
       band.high = std::max(band.high, gaps_.of(collision.blue, collision.red).y1);
     }
     pieces_.back().bands.push_back(band);

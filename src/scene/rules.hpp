@@ -1,0 +1,21 @@
+// Rules that several kinds of values share.
+// In: a line of text, or a part of a storyboard. Out: what is wrong with it.
+#pragma once
+
+#include <piblocks/script.hpp>
+
+#include <string_view>
+#include <vector>
+
+#include "physics/blocks.hpp"
+
+namespace piblocks {
+
+/// A title, a caption or a line of a card.
+void check_line(const char* key, std::string_view text, Problems& problems);
+
+/// What is wrong with "fade", "card", "seconds" and "compare" of a part; the scenes in it have
+/// their own problems_of().
+std::vector<Problem> problems_of(const StoryPart& part, bool is_first);
+
+}  // namespace piblocks
