@@ -1,5 +1,6 @@
 // Comparison: two images, or two pictures, sequences or videos frame by frame.
-// In: images or file names, and what may differ. Out: how many pixels differ, by how much and where.
+// In: images or file names, and what may differ. Out: how many pixels differ, by how much and
+// where.
 #pragma once
 
 #include <piblocks/exact.hpp>

@@ -31,7 +31,8 @@ std::vector<std::string> prores_encoders();
 std::vector<std::string> sound_encoders();
 
 /// The picture as a PNG file: 8-bit RGB in sRGB, with alpha if the view has it. Equal pixels give
-/// equal bytes. PNG keeps colours that are not multiplied by alpha; these are rounded to the nearest.
+/// equal bytes. PNG keeps colours that are not multiplied by alpha; these are rounded to the
+/// nearest.
 /// @throws MediaError if memory for the compressor runs out.
 std::vector<std::uint8_t> encode_png(const ImageView& image);
 

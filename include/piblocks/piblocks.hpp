@@ -1,5 +1,6 @@
 // The whole library, but for event_simulator.hpp, which needs Eigen as well.
-// In: a scene, from a file or filled in by hand. Out: videos, pictures, counts, states, comparisons.
+// In: a scene, from a file or filled in by hand. Out: videos, pictures, counts, states,
+// comparisons.
 #pragma once
 
 #include <piblocks/compare.hpp>

@@ -1,6 +1,6 @@
 // A scene: the blocks, what part of space and time is shown, how, and what is heard.
-// In: plain values, filled in by hand or by ScriptBuilder (script.hpp). Out: everything that is wrong
-// with them, and their exact text.
+// In: plain values, filled in by hand or by ScriptBuilder (script.hpp). Out: everything that is
+// wrong with them, and their exact text.
 #pragma once
 
 #include <piblocks/exact.hpp>
@@ -70,6 +70,10 @@ enum class Theme {
   colorblind   ///< blue and orange that all can tell apart, and that differ in pattern
 };
 
+/// What is behind everything: the theme's colour, or nothing, so that another picture can be put
+/// there.
+enum class Background { opaque, transparent };
+
 /// What is drawn over and around the blocks.
 enum class Overlay {
   digits,      ///< the counter's digits light up when they are those of pi
@@ -122,9 +126,6 @@ struct Range {
   Rational low;
   Rational high;
 };
-
-/// What is behind everything: a colour, or nothing, so that another picture can be put there.
-enum class Background : std::uint8_t { opaque, transparent };
 
 /// What part of the plane a frame shows, and how many frames and pixels that takes.
 struct View {

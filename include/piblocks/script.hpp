@@ -1,6 +1,6 @@
 // What a film is made of: a scene, or a storyboard of several; and how a file becomes one.
-// In: plain values, or a scene file (TOML) and keys with their text. Out: one valid script, or every
-// problem at once.
+// In: plain values, or a scene file (TOML) and keys with their text. Out: one valid script, or
+// every problem at once.
 #pragma once
 
 #include <piblocks/exact.hpp>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <piblocks/image.hpp>
+#include <piblocks/scene.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -14,16 +15,13 @@
 
 namespace piblocks {
 
-/// Whether the ground of a picture can be seen through.
-enum class Ground : std::uint8_t { opaque, transparent };
-
 /// Pixels that are painted again and again. Used by one thread at a time; different canvases
 /// are independent.
 class Canvas {
  public:
-  /// @param ground  whether the pixels have alpha.
+  /// Its pixels have alpha if the background is transparent.
   /// @throws DrawError if there is no memory for it.
-  Canvas(int width_px, int height_px, Ground ground = Ground::opaque);
+  Canvas(int width_px, int height_px, Background background = Background::opaque);
   ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;

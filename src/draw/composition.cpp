@@ -9,12 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include "draw/finite.hpp"
+#include "draw/extent.hpp"
 #include "draw/frame_plan.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/stage.hpp"
+#include "draw/style.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -56,17 +57,14 @@ std::vector<ReadOut> read_outs_of(const Setting& setting) {
   const Scene& scene = setting.scene;
   std::vector<ReadOut> read_outs;
   if (scene.show.has(Overlay::time)) read_outs.push_back(time_read_out(setting));
-  if (has_slow_motion(scene.pacing)) {
-    read_outs.push_back(slower_read_out(setting));
-  }
+  if (has_slow_motion(scene.pacing)) read_outs.push_back(slower_read_out(setting));
   if (scene.show.has(Overlay::energy)) read_outs.push_back(energy_read_out(setting));
   if (scene.show.has(Overlay::momentum)) read_outs.push_back(momentum_read_out(setting));
   return read_outs;
 }
 
-std::unique_ptr<PicturePart> make_panel(Panel panel, const Setting& setting,
-                                        const PanelPlace& place) {
-  switch (panel) {
+Drawable make_panel(const Setting& setting, const PanelPlace& place) {
+  switch (place.panel) {
     case Panel::velocity:
       return velocity_panel(setting, place);
     case Panel::position:
@@ -81,22 +79,18 @@ std::unique_ptr<PicturePart> make_panel(Panel panel, const Setting& setting,
   return nullptr;
 }
 
-[[noreturn]] void refuse_time(const Rational& time) {
+/// @throws UsageError if something at this time is beyond the range of numbers.
+void check(bool is_finite, const Rational& time) {
+  if (is_finite) return;
   throw UsageError(
       fmt::format("frame: at time {} something is at a place beyond the range of a double (about "
-                  "1.8e308); show "
-                  "another time, or use less extreme positions, velocities and widths",
+                  "1.8e308); show another time, or use less extreme positions, velocities and "
+                  "widths",
                   short_text(time)));
 }
 
-void check_finite(const FrameState& shown) {
-  for (const Motion& motion : {shown.state.blue, shown.state.red}) {
-    if (!std::isfinite(motion.position) || !std::isfinite(motion.velocity)) refuse_time(shown.time);
-  }
-}
-
-void check_finite(std::span<const DrawItem> items, const Rational& time) {
-  if (!are_finite(items)) refuse_time(time);
+bool is_finite(const Motion& motion) {
+  return std::isfinite(motion.position) && std::isfinite(motion.velocity);
 }
 
 /// As large as fits, in the lower right corner of its place.
@@ -121,53 +115,46 @@ ImageItem place_logo(const Rectangle& place, std::shared_ptr<const Image> logo) 
 struct Composition::Contents {
   Contents(const Scene& scene, const CollisionLog& log, std::shared_ptr<const Image> logo);
 
-  int width_px;
-  int height_px;
-  Palette palette;
-  std::optional<Color> background;
-  std::unique_ptr<const StagePicture> stage;
-  std::vector<std::unique_ptr<const PicturePart>> parts;  ///< in the order of their ids
-  std::vector<DrawItem> lines;                            ///< title, caption and logo
-  std::vector<std::unique_ptr<const PicturePart>> panels;
+  DrawList empty;
+  std::optional<StagePicture> stage;
+  std::vector<Drawable> drawables;  ///< in the order of their ids
 
  private:
-  void add_parts(const Setting& setting);
+  void add_overlays(const Setting& setting);
   void add_panels(const Setting& setting, const std::vector<Rectangle>& places);
 };
 
 Composition::Contents::Contents(const Scene& scene, const CollisionLog& log,
                                 std::shared_ptr<const Image> logo)
-    : width_px(scene.view.width_px),
-      height_px(scene.view.height_px),
-      palette(palette_of(scene.view.theme)),
-      background(background_of(scene.view)) {
+    : empty{scene.view.width_px, scene.view.height_px, background_of(scene.view), {}} {
   const Font font;
-  const Layout nowhere;
-  const double text_px = small_text_px(scene.view);
-  auto rows =
-      std::make_unique<ReadOutRows>(read_outs_of({scene, log, palette, font, nowhere, text_px, 1}),
-                                    read_out_area(scene.view), text_px, font);
-  const FramePlan plan = plan_frame(scene, palette, font, rows->height());
-  const Layout layout = lay_out(scene, longest_count(scene, log), plan.stage, font);
-  stage = std::make_unique<StagePicture>(scene, layout, palette, font, lit_digits(scene, log));
+  const Palette palette = palette_of(scene.view.theme);
+  Layout layout;  // made below: the height of the read-outs decides it
+  const Setting setting{
+      scene, log, palette, font, layout, small_text_px(scene.view), thin_line_px(scene.view)};
+  ReadOutRows rows(read_outs_of(setting), setting);
+  const FramePlan plan = plan_frame(setting, rows.height());
+  layout = lay_out(scene, longest_count(scene, log), plan.stage, font);
 
-  const Setting setting{scene, log, palette, font, layout, plan.text_px, plan.line_px};
-  add_parts(setting);
-  if (rows->height() > 0) {
-    rows->move(plan.stage.y + plan.stage.height);
-    parts.push_back(std::move(rows));
+  stage.emplace(scene, layout, palette, font, lit_digits(scene, log));
+  add_overlays(setting);
+  if (rows.height() > 0) {
+    rows.move(plan.stage.y + plan.stage.height);
+    drawables.emplace_back(std::move(rows));
   }
+  std::vector<DrawItem> lines;
   if (plan.title) lines.emplace_back(*plan.title);
   if (plan.caption) lines.emplace_back(*plan.caption);
   if (logo) lines.emplace_back(place_logo(plan.logo, std::move(logo)));
+  drawables.push_back(unchanging(std::move(lines)));
   add_panels(setting, plan.panels);
 }
 
-void Composition::Contents::add_parts(const Setting& setting) {
+void Composition::Contents::add_overlays(const Setting& setting) {
   const Show& show = setting.scene.show;
-  if (show.has(Overlay::masses)) parts.push_back(mass_labels(setting));
-  if (show.has(Overlay::velocities)) parts.push_back(velocity_arrows(setting));
-  if (show.has(Overlay::ruler)) parts.push_back(ruler(setting));
+  if (show.has(Overlay::masses)) drawables.push_back(mass_labels(setting));
+  if (show.has(Overlay::velocities)) drawables.push_back(velocity_arrows(setting));
+  if (show.has(Overlay::ruler)) drawables.push_back(ruler(setting));
 }
 
 void Composition::Contents::add_panels(const Setting& setting,
@@ -176,7 +163,7 @@ void Composition::Contents::add_panels(const Setting& setting,
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +
                                  ids_from(static_cast<std::uint32_t>(i))};
-    panels.push_back(make_panel(shown[i], setting, {places[i], first_id, shown[i]}));
+    drawables.push_back(make_panel(setting, {places[i], first_id, shown[i]}));
   }
 }
 
@@ -187,14 +174,13 @@ Composition::~Composition() = default;
 Composition::Composition(Composition&&) noexcept = default;
 Composition& Composition::operator=(Composition&&) noexcept = default;
 
-DrawList Composition::frame(const FrameState& shown, std::span<const ExposurePart> exposure) const {
-  check_finite(shown);
-  DrawList list{contents_->width_px, contents_->height_px, contents_->background, {}};
+DrawList Composition::frame(const FrameState& shown,
+                            std::span<const WeightedExposure> exposure) const {
+  check(is_finite(shown.state.blue) && is_finite(shown.state.red), shown.time);
+  DrawList list = contents_->empty;
   contents_->stage->add(shown.state, exposure, list.items);
-  for (const auto& part : contents_->parts) part->add(shown, list.items);
-  list.items.insert(list.items.end(), contents_->lines.begin(), contents_->lines.end());
-  for (const auto& panel : contents_->panels) panel->add(shown, list.items);
-  check_finite(list.items, shown.time);
+  for (const Drawable& drawable : contents_->drawables) drawable(shown, list.items);
+  check(are_finite(list.items), shown.time);
   return list;
 }
 

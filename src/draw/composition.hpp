@@ -21,7 +21,7 @@ struct FrameState {
 };
 
 /// A part of the time for which a frame is exposed.
-struct ExposurePart {
+struct WeightedExposure {
   double share = 1;  ///< of that time; 1 in all
   Exposure exposure;
 };
@@ -44,7 +44,7 @@ class Composition {
 
   /// @param exposure  where the blocks are while the frame is exposed; empty shows the instant. All
   ///                  else is shown as it is at the instant.
-  DrawList frame(const FrameState& shown, std::span<const ExposurePart> exposure = {}) const;
+  DrawList frame(const FrameState& shown, std::span<const WeightedExposure> exposure = {}) const;
 
  private:
   struct Contents;

@@ -113,12 +113,11 @@ struct PlateItem {
 
 struct DrawList;
 
-/// A picture of its own within the picture, cut off at its edges. It is seen in the place of what
-/// is behind it, at opacity 1 wholly.
+/// A picture of its own within the picture, scaled to its bounds and cut off at them. At opacity 1
+/// it hides everything behind it, even where its own background is transparent.
 struct GroupItem {
   ItemId id = ItemId::compared;
-  int x_px = 0;  ///< of its upper left corner
-  int y_px = 0;
+  Rectangle bounds;  ///< of the list's shape
   std::shared_ptr<const DrawList> list;
   double opacity = 1;  ///< 0 … 1
 
@@ -142,7 +141,7 @@ struct DrawList {
 };
 
 inline bool operator==(const GroupItem& a, const GroupItem& b) {
-  return a.id == b.id && a.x_px == b.x_px && a.y_px == b.y_px && a.opacity == b.opacity &&
+  return a.id == b.id && a.bounds == b.bounds && a.opacity == b.opacity &&
          (a.list == b.list || *a.list == *b.list);
 }
 

@@ -61,13 +61,13 @@ class StopTable {
     }
   }
 
-  std::vector<Stop> take() const {
-    std::vector<Stop> stops;
+  std::vector<Dwell> take() const {
+    std::vector<Dwell> dwells;
     for (std::size_t i = 0; i < shares_.size(); ++i) {
       // Differences of equal areas leave roundings.
-      if (shares_[i] > 1e-12) stops.push_back({place(i), shares_[i]});
+      if (shares_[i] > 1e-12) dwells.push_back({place(i), shares_[i]});
     }
-    return stops;
+    return dwells;
   }
 
  private:
@@ -82,9 +82,9 @@ class StopTable {
 };
 
 /// Where the left edge of a block goes.
-Travel range_px(BlockName block, const ToPixels& to_px, std::span<const ExposurePart> parts) {
+Travel range_px(BlockName block, const ToPixels& to_px, std::span<const WeightedExposure> parts) {
   Travel all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  for (const ExposurePart& part : parts) {
+  for (const WeightedExposure& part : parts) {
     const Travel range = part.exposure.range(block);
     all.from = std::min(all.from, to_px(range.from));
     all.to = std::max(all.to, to_px(range.to));
@@ -93,8 +93,8 @@ Travel range_px(BlockName block, const ToPixels& to_px, std::span<const Exposure
 }
 
 /// @param width_px  of the block
-std::vector<Stop> stops_of(BlockName block, const ToPixels& to_px, double width_px, int frame_px,
-                           std::span<const ExposurePart> parts) {
+std::vector<Dwell> stops_of(BlockName block, const ToPixels& to_px, double width_px, int frame_px,
+                            std::span<const WeightedExposure> parts) {
   Travel range = range_px(block, to_px, parts);
   if (!(range.to - range.from > kStill_px)) return {};
   // What cannot be seen is left out.
@@ -102,7 +102,7 @@ std::vector<Stop> stops_of(BlockName block, const ToPixels& to_px, double width_
   range.to = std::min(range.to, frame_px + kMargin_px);
   if (!(range.to > range.from)) return {};
   StopTable table(range, spacing_px(range.to - range.from));
-  for (const ExposurePart& part : parts) {
+  for (const WeightedExposure& part : parts) {
     if (part.exposure.area_below) {
       const Travel own = part.exposure.range(block);
       table.add(part.share, to_px(own.from), to_px(own.to), [&](double x) {
@@ -167,17 +167,17 @@ class Contacts {
 }  // namespace
 
 ExposedItem expose(ExposedBlock red, ExposedBlock blue, const SceneColumns& columns,
-                   std::span<const ExposurePart> parts) {
+                   std::span<const WeightedExposure> parts) {
   const ToPixels red_px(columns, red);
   const ToPixels blue_px(columns, blue);
   ExposedItem item{ItemId::red_block, std::move(red), std::move(blue), {}};
-  item.behind.stops =
+  item.behind.dwells =
       stops_of(BlockName::red, red_px, item.behind.bounds.width, columns.width_px, parts);
-  item.front.stops =
+  item.front.dwells =
       stops_of(BlockName::blue, blue_px, item.front.bounds.width, columns.width_px, parts);
-  if (item.behind.stops.empty() && item.front.stops.empty()) return item;
+  if (item.behind.dwells.empty() && item.front.dwells.empty()) return item;
   Contacts contacts(item.front.bounds.width);
-  for (const ExposurePart& part : parts) {
+  for (const WeightedExposure& part : parts) {
     for (const UniformPiece& piece : part.exposure.pieces) {
       contacts.add(part.share * piece.share, {red_px(piece.red.from), red_px(piece.red.to)},
                    {blue_px(piece.blue.from), blue_px(piece.blue.to)});

@@ -17,9 +17,9 @@ struct SceneColumns {
   int width_px = 0;    ///< of the frame
 };
 
-/// @param red, blue  at the picture's instant, without stops.
+/// @param red, blue  at the picture's instant, without dwells.
 ExposedItem expose(ExposedBlock red, ExposedBlock blue, const SceneColumns& columns,
-                   std::span<const ExposurePart> parts);
+                   std::span<const WeightedExposure> parts);
 
 /// A block that stays, as one rectangle, and one for each of its bars.
 void add_rectangles(ItemId id, const ExposedBlock& block, std::vector<DrawItem>& items);

@@ -41,15 +41,15 @@ BlockTimes::BlockTimes(const ExposedBlock& block)
     : block_(block),
       // A shape thinner than its stroke is all stroke.
       line_px_(std::min({block.stroke.width_px, block.bounds.width, block.bounds.height})),
-      first_x_(block.stops.empty() ? block.bounds.x : block.stops.front().x) {
-  sums_.reserve(block.stops.size() + 1);
+      first_x_(block.dwells.empty() ? block.bounds.x : block.dwells.front().x) {
+  sums_.reserve(block.dwells.size() + 1);
   sums_.push_back(0);
-  for (const Stop& stop : block.stops) sums_.push_back(sums_.back() + stop.share);
+  for (const Dwell& stop : block.dwells) sums_.push_back(sums_.back() + stop.share);
 }
 
 std::size_t BlockTimes::first_at(double x) const {
-  return static_cast<std::size_t>(std::ranges::lower_bound(block_.stops, x, {}, &Stop::x) -
-                                  block_.stops.begin());
+  return static_cast<std::size_t>(std::ranges::lower_bound(block_.dwells, x, {}, &Dwell::x) -
+                                  block_.dwells.begin());
 }
 
 /// Stops in [from, to), all of which cover the pixel in the same way.
@@ -58,13 +58,13 @@ void BlockTimes::add_alike(double pixel, double from, double to,
   const std::size_t begin = first_at(from);
   const std::size_t end = first_at(to);
   if (begin >= end) return;
-  covered.push_back({cover(pixel, block_.stops[begin].x), sums_[end] - sums_[begin]});
+  covered.push_back({cover(pixel, block_.dwells[begin].x), sums_[end] - sums_[begin]});
 }
 
 void BlockTimes::add_each(double pixel, double from, double to,
                           std::vector<Covered>& covered) const {
-  for (std::size_t i = first_at(from); i < block_.stops.size() && block_.stops[i].x < to; ++i) {
-    covered.push_back({cover(pixel, block_.stops[i].x), block_.stops[i].share});
+  for (std::size_t i = first_at(from); i < block_.dwells.size() && block_.dwells[i].x < to; ++i) {
+    covered.push_back({cover(pixel, block_.dwells[i].x), block_.dwells[i].share});
   }
 }
 

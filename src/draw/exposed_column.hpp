@@ -36,13 +36,13 @@ struct RowCover {
   friend bool operator==(const RowCover&, const RowCover&) = default;
 };
 
-/// The stops of a block, with the sums of their shares.
+/// The dwells of a block, with the sums of their shares.
 class BlockTimes {
  public:
   explicit BlockTimes(const ExposedBlock& block);
 
   const ExposedBlock& block() const noexcept { return block_; }
-  bool moves() const noexcept { return !block_.stops.empty(); }
+  bool moves() const noexcept { return !block_.dwells.empty(); }
   double line_px() const noexcept { return line_px_; }
   Cover cover(double pixel, double x) const {
     return cover_of(pixel, x, block_.bounds.width, line_px_);

@@ -11,11 +11,11 @@
 namespace piblocks {
 
 /// Where the left edge of a block is for a share of an exposure.
-struct Stop {
+struct Dwell {
   double x = 0;
   double share = 0;
 
-  friend bool operator==(const Stop&, const Stop&) = default;
+  friend bool operator==(const Dwell&, const Dwell&) = default;
 };
 
 /// Rows across a block.
@@ -30,10 +30,11 @@ struct Bar {
 struct ExposedBlock {
   Rectangle bounds;  ///< at the picture's instant
   Color fill;
-  Stroke stroke;            ///< solid
-  std::vector<Bar> bars;    ///< in the stroke's colour, inside the bounds
-  std::vector<Stop> stops;  ///< from left to right, none if it stays; shares of 1 in all, less
-                            ///< what is outside of the frame
+  Stroke stroke;          ///< solid
+  std::vector<Bar> bars;  ///< in the stroke's colour, inside the bounds
+  /// From left to right; none if the block stays. The shares add up to 1, less what is outside of
+  /// the frame.
+  std::vector<Dwell> dwells;
 
   friend bool operator==(const ExposedBlock&, const ExposedBlock&) = default;
 };

@@ -27,9 +27,9 @@ Span pixels_between(double from, double to, int begin, int length) {
 
 /// The columns into which a block reaches if it moves.
 Span columns_of(const ExposedBlock& block, const PixelRect& part) {
-  if (block.stops.empty()) return {};
-  return pixels_between(block.stops.front().x, block.stops.back().x + block.bounds.width, part.x_px,
-                        part.width_px);
+  if (block.dwells.empty()) return {};
+  return pixels_between(block.dwells.front().x, block.dwells.back().x + block.bounds.width,
+                        part.x_px, part.width_px);
 }
 
 Span rows_of(const ExposedBlock& block, const PixelRect& part) {
@@ -62,7 +62,7 @@ class Words {
 
 }  // namespace
 
-PixelRect moving_part(const ExposedItem& item, const PixelRect& part) {
+PixelRect moving_area(const ExposedItem& item, const PixelRect& part) {
   PixelRect all{};
   for (const ExposedBlock* block : {&item.behind, &item.front}) {
     const Span columns = columns_of(*block, part);
@@ -83,7 +83,7 @@ PixelRect moving_part(const ExposedItem& item, const PixelRect& part) {
 std::vector<DrawItem> still_blocks(const ExposedItem& item) {
   std::vector<DrawItem> still;
   for (const ExposedBlock* block : {&item.behind, &item.front}) {
-    if (block->stops.empty()) add_rectangles(item.id, *block, still);
+    if (block->dwells.empty()) add_rectangles(item.id, *block, still);
   }
   return still;
 }
@@ -92,7 +92,7 @@ std::vector<DrawItem> still_blocks(const ExposedItem& item) {
 /// has the pixels of the whole. What stays is Cairo's but where the other one passes.
 void ExposedPainter::paint(cairo_surface_t& surface, const PixelRect& part, const ExposedItem& item,
                            const PaintStill& paint_still) {
-  const PixelRect area = moving_part(item, part);
+  const PixelRect area = moving_area(item, part);
   cairo_surface_flush(&surface);
   const Words words(surface, part);
   background_.clear();

@@ -15,7 +15,7 @@
 namespace piblocks {
 
 /// The pixels that a moving block reaches into; empty if nothing moves.
-PixelRect moving_part(const ExposedItem& item, const PixelRect& part);
+PixelRect moving_area(const ExposedItem& item, const PixelRect& part);
 
 /// The blocks that stay, as rectangles.
 std::vector<DrawItem> still_blocks(const ExposedItem& item);

@@ -4,7 +4,11 @@
 
 #include <cairo.h>
 
+#include <algorithm>
+#include <functional>
+#include <map>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -34,10 +38,27 @@ class Font {
   void check(std::string_view utf8, const char* what) const;
   /// Width of a line of text, in ems.
   double width_em(std::string_view utf8) const;
+  /// The size, at most `size_px`, at which a line of text is no wider than `width_px`.
+  double fitted_px(std::string_view utf8, double size_px, double width_px) const {
+    return std::min(size_px, width_px / width_em(utf8));
+  }
 
  private:
   struct Faces;
   std::unique_ptr<Faces> faces_;
+};
+
+/// Widths of texts that change from frame to frame, without the font. Const members are
+/// thread-safe.
+class TextWidths {
+ public:
+  /// @param characters  all that may occur, in UTF-8.
+  TextWidths(const Font& font, std::string_view characters);
+  /// Width of a line of these characters, in ems.
+  double width_em(std::string_view text) const;
+
+ private:
+  std::map<std::string, double, std::less<>> advances_;
 };
 
 }  // namespace piblocks

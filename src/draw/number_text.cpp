@@ -15,7 +15,7 @@ constexpr std::size_t kShort = 7;
 
 std::string with_commas(std::string digits) {
   const std::size_t point = std::min(digits.find('.'), digits.size());
-  for (std::size_t i = point; i > 3; i -= 3) digits.insert(i - 3, ",");
+  for (std::size_t i = point; i > 3; i -= 3) digits.insert(i - 3, 1, ',');
   return digits;
 }
 
@@ -43,11 +43,14 @@ double to_double(const Magnitude& value) {
   return value.mantissa * std::pow(10, double(half)) * std::pow(10, double(exponent - half));
 }
 
-Magnitude root_magnitude_of(const Rational& value) { return split(wide_root_of(value)); }
+Rational power_of_ten(long exponent) {
+  const Rational power = piblocks::power(10, static_cast<unsigned long>(std::abs(exponent)));
+  return exponent < 0 ? Rational(1 / power) : power;
+}
 
-double root_of(const Rational& value) { return wide_root_of(value).get_d(); }
+Magnitude root_magnitude_of(const Rational& value) { return split(root_of(value)); }
 
-mpf_class wide_root_of(const Rational& value) { return sqrt(mpf_class(value, kBits)); }
+mpf_class root_of(const Rational& value) { return sqrt(mpf_class(value, kBits)); }
 
 Magnitude written_with(int decimals, Magnitude size) {
   if (size.mantissa < 10 - 0.5 * std::pow(10, -decimals)) return size;
@@ -61,7 +64,7 @@ std::string fixed_text(double value, int decimals) {
 }
 
 std::string fixed_text(const Rational& value, int decimals) {
-  const Rational scaled = abs(value) * power(10, static_cast<unsigned long>(decimals));
+  const Rational scaled = abs(value) * power_of_ten(decimals);
   const Integer below = floor(scaled);
   const Rational rest = scaled - below;
   // A tie goes to the even digit, as it does where doubles are printed.
@@ -81,14 +84,14 @@ std::string rounded_text(double value) {
   if (std::abs(value) < kMostFixed || !std::isfinite(value)) return fixed_text(value, 2);
   const std::string digits = fmt::format("{:.2e}", std::abs(value));
   const std::size_t e = digits.find('e');
-  return fmt::format("{}{}×10{}", value < 0 ? kMinus : "", digits.substr(0, e),
-                     superscript(std::stol(digits.substr(e + 1))));
+  return fmt::format("{}{}×{}", value < 0 ? kMinus : "", digits.substr(0, e),
+                     power_text(std::stol(digits.substr(e + 1))));
 }
 
-std::string superscript(long exponent) {
+std::string power_text(long exponent) {
   constexpr std::array<std::string_view, 10> kDigits{"⁰", "¹", "²", "³", "⁴",
                                                      "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text;
+  std::string text = "10";
   for (const char c : std::to_string(exponent)) {
     text += c == '-' ? std::string_view("⁻") : kDigits[static_cast<std::size_t>(c - '0')];
   }
@@ -96,32 +99,27 @@ std::string superscript(long exponent) {
 }
 
 std::string short_text(const Rational& value) {
-  if (value.get_den() == 1 && abs(value) < 10'000'000) {
-    return fixed_text(to_double(value), 0);
-  }
+  if (value.get_den() == 1 && abs(value) < 10'000'000) return fixed_text(to_double(value), 0);
   const Magnitude size = magnitude_of(abs(value));
   const std::string sign = value < 0 ? std::string(kMinus) : "";
-  const Rational ten = size.exponent >= 0
-                           ? power(10, static_cast<unsigned long>(size.exponent))
-                           : 1 / power(10, static_cast<unsigned long>(-size.exponent));
-  if (abs(value) == ten && std::abs(size.exponent) > 2) {
-    return sign + "10" + superscript(size.exponent);
+  if (std::abs(size.exponent) > 2 && abs(value) == power_of_ten(size.exponent)) {
+    return sign + power_text(size.exponent);
   }
   // Exactly as a decimal, if it is one of few digits.
   if (std::abs(size.exponent) <= 4) {
     for (int decimals = 1; decimals <= 4; ++decimals) {
-      if (Rational(value * power(10, static_cast<unsigned long>(decimals))).get_den() == 1) {
+      if (Rational(value * power_of_ten(decimals)).get_den() == 1) {
         return fixed_text(to_double(value), decimals);
       }
     }
   }
-  std::string fraction = value.get_str();
+  const std::string fraction = value.get_str();
   if (fraction.size() <= kShort) return fraction;
   if (size.exponent >= -2 && size.exponent < 7) {
     return fixed_text(to_double(value), std::max(0, 2 - static_cast<int>(size.exponent)));
   }
   const Magnitude rounded = written_with(2, size);
-  return fmt::format("{}{:.2f}×10{}", sign, rounded.mantissa, superscript(rounded.exponent));
+  return fmt::format("{}{:.2f}×{}", sign, rounded.mantissa, power_text(rounded.exponent));
 }
 
 }  // namespace piblocks

@@ -5,10 +5,14 @@
 #include <piblocks/exact.hpp>
 
 #include <string>
+#include <string_view>
 
 namespace piblocks {
 
-/// A positive number as mantissa 10^exponent, 1 <= mantissa < 10; zero as 0.
+/// All that numbers are written with in pictures.
+inline constexpr std::string_view kNumberCharacters = "0123456789,.−×⁰¹²³⁴⁵⁶⁷⁸⁹";
+
+/// A positive number as mantissa · 10^exponent, 1 <= mantissa < 10; zero as 0.
 struct Magnitude {
   double mantissa = 0;
   long exponent = 0;
@@ -16,16 +20,15 @@ struct Magnitude {
 Magnitude magnitude_of(const Rational& value);
 /// Infinity or 0 where it is beyond the range of a double.
 double to_double(const Magnitude& value);
+Rational power_of_ten(long exponent);
 
 /// The square root of a number >= 0 of any size, to 16 digits.
 Magnitude root_magnitude_of(const Rational& value);
-/// The same as a double; infinity or 0 where it is beyond the range.
-double root_of(const Rational& value);
 /// The same with 64-bit exponents and at least 128 bits.
-mpf_class wide_root_of(const Rational& value);
+mpf_class root_of(const Rational& value);
 
-/// The same number for a mantissa of so many decimals: one that would be rounded to 10 is given as
-/// a tenth of that, slightly less than 1.
+/// The same number for a mantissa of so many decimals: one that would be rounded to 10 becomes a
+/// tenth of that, slightly less than 1.
 Magnitude written_with(int decimals, Magnitude size);
 
 /// With so many decimals, commas between thousands and a true minus sign: "−1,234.50". Zero has no
@@ -37,8 +40,8 @@ std::string fixed_text(const Rational& value, int decimals);
 /// With two decimals; from 100,000 on as "−1.23×10⁹".
 std::string rounded_text(double value);
 
-/// "⁻¹²" for -12.
-std::string superscript(long exponent);
+/// "10⁻¹²" for -12.
+std::string power_text(long exponent);
 
 /// Exact where that is short: "10,000", "2.5", "1/3", "10¹⁶"; otherwise rounded to three digits:
 /// "1.23×10⁹".

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "draw/expose.hpp"
+#include "draw/style.hpp"
 
 namespace piblocks {
 namespace {
@@ -17,13 +18,8 @@ namespace {
 constexpr std::string_view kLabelText = "Collisions:";
 constexpr std::string_view kCountCharacters = "0123456789,-";
 
-// In parts of the area's short measure, see short_measure().
-constexpr double kTextSize = 0.074;
-constexpr double kMargin = 0.045;
 constexpr double kUsualAspect = 16.0 / 9;
-/// Of the frame's short measure.
-constexpr double kLineWidth = 0.0032;
-constexpr double kMaxBannerText = 2.2;
+constexpr double kMostBannerText = 2.2;
 // A unit of the scene at least this large is rounded to an even number of pixels, so that edges
 // that do not move are sharp, and so are the upper and lower edges of blocks of width 1.
 constexpr double kMinRounded_px = 16;
@@ -42,7 +38,8 @@ constexpr double kDash = 4;
 /// Size of type: a banner has little height and much width, and its text may have more of it.
 double text_size(const Rectangle& area) {
   const double aspect = area.width / area.height;
-  return kTextSize * short_measure(area) * std::clamp(aspect / kUsualAspect, 1.0, kMaxBannerText);
+  return style::kCounter * short_measure(area) *
+         std::clamp(aspect / kUsualAspect, 1.0, kMostBannerText);
 }
 
 double length(const Range& range) { return to_double(range.high - range.low); }
@@ -85,21 +82,19 @@ void check_resolution(const View& view, double scale) {
 
 }  // namespace
 
-double short_measure(const Rectangle& area) { return std::min(area.height, kNarrow * area.width); }
-
-double line_width_px(const View& view) {
-  return kLineWidth * short_measure({0, 0, double(view.width_px), double(view.height_px)});
-}
-
 double base_of(const BlockSystem& system) {
   return -to_double(std::max(system.blue.width, system.red.width)) / 2;
+}
+
+Rational twice_energy(const BlockSystem& system) {
+  return system.blue.mass * system.blue.velocity * system.blue.velocity +
+         system.red.mass * system.red.velocity * system.red.velocity;
 }
 
 Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
                const Font& font) {
   const View& view = scene.view;
-  const double measure = short_measure(area);
-  const double margin = kMargin * measure;
+  const double margin = style::kMargin * short_measure(area);
   const double inner_width = area.width - 2 * margin;
 
   const double label_em = font.width_em(kLabelText) + kWordSpace;
@@ -191,7 +186,7 @@ void StagePicture::add_line(const Integer& count, std::vector<DrawItem>& items) 
   }
 }
 
-void StagePicture::add(const BlockState& state, std::span<const ExposurePart> exposure,
+void StagePicture::add(const BlockState& state, std::span<const WeightedExposure> exposure,
                        std::vector<DrawItem>& items) const {
   items.emplace_back(wall_);
   ExposedBlock red = block(red_side_, state.red, palette_.red);

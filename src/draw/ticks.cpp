@@ -28,6 +28,18 @@ Ticks ticks_of(double low, double high, double least) {
   return ticks;
 }
 
+Ticks with_room_for_figures(Ticks ticks, const FigureAxis& axis, const Font& font) {
+  const auto is_crowded = [&] {
+    const double widest = std::max(font.width_em(tick_text(axis.low, ticks.step)),
+                                   font.width_em(tick_text(axis.high, ticks.step)));
+    return ticks.step < (widest + axis.gap_em) * axis.em;
+  };
+  while (ticks.values.size() > 1 && is_crowded()) {
+    ticks = ticks_of(axis.low, axis.high, 1.5 * ticks.step);
+  }
+  return ticks;
+}
+
 std::string tick_text(double value, double step) {
   constexpr double kLeastPlain = 1e-4;
   constexpr double kMostPlain = 1e6;
@@ -38,18 +50,15 @@ std::string tick_text(double value, double step) {
   // A step is 1, 2 or 5 times a power of ten: values are whole multiples of that.
   const double multiple = std::round(value / step) * std::round(step / std::pow(10, exponent));
   const std::string text = fixed_text(multiple, 0);
-  return multiple == 0 ? text : text + "×10" + superscript(std::lround(exponent));
+  return multiple == 0 ? text : text + "×" + power_text(std::lround(exponent));
 }
 
 Rational round_step(const Rational& least) {
-  const long exponent = magnitude_of(least).exponent;
-  const Rational power_of_ten = exponent >= 0
-                                    ? power(10, static_cast<unsigned long>(exponent))
-                                    : 1 / power(10, static_cast<unsigned long>(-exponent));
+  const Rational power = power_of_ten(magnitude_of(least).exponent);
   for (const int factor : {1, 2, 5}) {
-    if (factor * power_of_ten >= least) return factor * power_of_ten;
+    if (factor * power >= least) return factor * power;
   }
-  return 10 * power_of_ten;
+  return 10 * power;
 }
 
 }  // namespace piblocks

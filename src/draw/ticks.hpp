@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "draw/font.hpp"
+
 namespace piblocks {
 
 struct Ticks {
@@ -16,6 +18,17 @@ struct Ticks {
 
 /// Multiples of the smallest step >= least, from low to high, both included; at most a thousand.
 Ticks ticks_of(double low, double high, double least);
+
+/// An axis with figures at its ticks.
+struct FigureAxis {
+  double low;
+  double high;
+  double em;      ///< size of type, in units of the axis
+  double gap_em;  ///< least gap between figures
+};
+
+/// The same ticks, or those of a larger step if their figures would touch.
+Ticks with_room_for_figures(Ticks ticks, const FigureAxis& axis, const Font& font);
 
 /// With as many decimals as the step has, or with the step's power of ten if these are many:
 /// "−0.25", "5×10⁹".

@@ -1,5 +1,3 @@
-#include "draw/vector_file.hpp"
-
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 
@@ -9,6 +7,8 @@
 #include <string_view>
 
 #include "draw/cairo_handles.hpp"
+#include "draw/canvas.hpp"
+#include "draw/painter.hpp"
 
 namespace piblocks {
 namespace {
@@ -40,12 +40,11 @@ cairo_surface_t* make_pdf(cairo_write_func_t write, void* bytes, double width, d
   return surface;
 }
 
-std::vector<std::uint8_t> write_file(int width_px, int height_px, const PaintPicture& paint,
-                                     MakeSurface make) {
+std::vector<std::uint8_t> draw_file(const DrawList& list, MakeSurface make) {
   std::vector<std::uint8_t> bytes;
-  const CairoSurfacePtr surface(make(append_bytes, &bytes, width_px, height_px));
+  const CairoSurfacePtr surface(make(append_bytes, &bytes, list.width_px, list.height_px));
   const CairoPtr cr(cairo_create(surface.get()));
-  paint(*cr);
+  Painter(TextSetting::lines).paint(*cr, list);
   cairo_surface_finish(surface.get());
   check_cairo(cairo_surface_status(surface.get()), "finish the vector file");
   return bytes;
@@ -81,12 +80,10 @@ std::vector<std::uint8_t> with_fixed_ids(const std::vector<std::uint8_t>& svg) {
 
 }  // namespace
 
-std::vector<std::uint8_t> write_svg(int width_px, int height_px, const PaintPicture& paint) {
-  return with_fixed_ids(write_file(width_px, height_px, paint, make_svg));
+std::vector<std::uint8_t> draw_svg(const DrawList& list) {
+  return with_fixed_ids(draw_file(list, make_svg));
 }
 
-std::vector<std::uint8_t> write_pdf(int width_px, int height_px, const PaintPicture& paint) {
-  return write_file(width_px, height_px, paint, make_pdf);
-}
+std::vector<std::uint8_t> draw_pdf(const DrawList& list) { return draw_file(list, make_pdf); }
 
 }  // namespace piblocks

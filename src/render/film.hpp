@@ -15,10 +15,6 @@
 
 namespace piblocks {
 
-inline Ground ground_of(const View& view) {
-  return view.background == Background::transparent ? Ground::transparent : Ground::opaque;
-}
-
 /// A part and its place in the film.
 struct PlacedPart {
   FilmPart part;
@@ -34,7 +30,6 @@ class Film {
   explicit Film(const Script& script, FilmUse use = FilmUse::pictures);
 
   const View& view() const noexcept { return view_; }
-  Ground ground() const noexcept { return ground_of(view_); }
   std::int64_t frame_count() const noexcept { return frame_count_; }
   /// @param number  from 0 to frame_count() - 1.
   DrawList frame(std::int64_t number) const;

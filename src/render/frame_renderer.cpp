@@ -32,7 +32,7 @@ void check_buffer(const View& view, std::size_t size_bytes, std::ptrdiff_t strid
 
 struct FrameRenderer::State {
   explicit State(const Script& script)
-      : film(script), canvas(film.view().width_px, film.view().height_px, film.ground()) {}
+      : film(script), canvas(film.view().width_px, film.view().height_px, film.view().background) {}
 
   Film film;
   Canvas canvas;

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "media/libav/byte_hash.hpp"
 #include "draw/canvas.hpp"
+#include "media/libav/byte_hash.hpp"
 #include "render/logo.hpp"
 #include "scene/schedule.hpp"
 

@@ -3,8 +3,8 @@
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 
-#include "media/output/part_file.hpp"
 #include "draw/canvas.hpp"
+#include "media/output/part_file.hpp"
 #include "render/bundle.hpp"
 #include "render/chunks.hpp"
 #include "render/film.hpp"
@@ -25,7 +25,7 @@ struct Plan {
         sound(soundtrack_of(job, film)),
         output(set_up_output(job.output,
                              {film.view().width_px, film.view().height_px, film.view().frame_rate,
-                              film.ground() == Ground::transparent},
+                              film.view().background == Background::transparent},
                              job.encoder, sound)),
         chunks{output->has_frames() ? film.frame_count() : 0, output->frames_per_chunk()} {}
 
@@ -52,7 +52,7 @@ class Worker {
   Worker(const Plan& plan, bool profile)
       : plan_(plan),
         profile_(profile),
-        canvas_(plan.film.view().width_px, plan.film.view().height_px, plan.film.ground()),
+        canvas_(plan.film.view().width_px, plan.film.view().height_px, plan.film.view().background),
         encoder_(plan.output->make_encoder()) {}
 
   EncodedWork work(std::int64_t chunk, const std::stop_token& stop) {

@@ -40,13 +40,13 @@ constexpr int kMostZeros = 10;
 struct Paper {
   int width_px;
   int height_px;
-  Bytes (*draw)(const Sheet& sheet);
+  Bytes (*draw)(const DrawList& page);
 };
 
 Paper paper_for(std::string_view output) {
   if (output == "-" || has_ending(output, ".png")) {
     return {kPageWidth_px, kPageHeight_px,
-            [](const Sheet& sheet) { return encode_png(draw_pixels(sheet).view()); }};
+            [](const DrawList& page) { return encode_png(draw_pixels(page).view()); }};
   }
   if (has_ending(output, ".svg")) return {kPageWidth_pt, kPageHeight_pt, draw_svg};
   if (has_ending(output, ".pdf")) return {kPageWidth_pt, kPageHeight_pt, draw_pdf};
@@ -74,7 +74,7 @@ std::string time_text(const Rational& time, int digits) {
   std::string text = fixed_text(scaled, decimals);
   std::erase(text, ',');  // the count follows behind one
   drop_last_zeros(text);
-  return is_short ? text : fmt::format("{}×10{}", text, superscript(unit));
+  return is_short ? text : fmt::format("{}×{}", text, power_text(unit));
 }
 
 /// As short as can be where different times are still written differently.

@@ -13,6 +13,6 @@
 namespace piblocks {
 
 /// Empty if nothing passes, because the scene has no shutter.
-std::vector<ExposurePart> expose(const CollisionLog& log, std::span<const TimeSlice> slices);
+std::vector<WeightedExposure> expose(const CollisionLog& log, std::span<const TimeSlice> slices);
 
 }  // namespace piblocks

@@ -19,7 +19,7 @@ namespace {
 
 std::vector<std::uint8_t> draw_png(const DrawList& list) {
   Canvas canvas(list.width_px, list.height_px,
-                list.background ? Ground::opaque : Ground::transparent);
+                list.background ? Background::opaque : Background::transparent);
   canvas.paint(list);
   return encode_png(canvas.view());
 }

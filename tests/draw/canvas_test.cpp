@@ -103,7 +103,7 @@ std::uint32_t word(const Canvas& canvas, int x, int y) {
 TEST(Canvas, WithoutABackgroundHasAlphaAndColoursMultipliedByIt) {
   DrawList list = with_rectangle({10.25, 5, 20, 10});
   list.background.reset();
-  Canvas canvas(40, 30, Ground::transparent);
+  Canvas canvas(40, 30, Background::transparent);
   EXPECT_TRUE(canvas.view().has_alpha);
   EXPECT_FALSE(Canvas(40, 30).view().has_alpha);
   canvas.paint(list);
@@ -122,7 +122,7 @@ TEST(Canvas, WithoutABackgroundLooksTheSameOnWhite) {
   Canvas opaque(40, 30);
   opaque.paint(list);
   list.background.reset();
-  Canvas transparent(40, 30, Ground::transparent);
+  Canvas transparent(40, 30, Background::transparent);
   transparent.paint(list);
   for (int y = 0; y < 30; ++y) {
     for (int x = 0; x < 40; ++x) {

@@ -85,7 +85,7 @@ inline ImageItem any_image(Random& random, ItemId id, int width, int height) {
 
 inline DrawItem any_item(Random& random, ItemId id, int width, int height);
 
-/// A picture of a few items, in or around the frame, often seen through.
+/// A picture of a few items, in or around the frame, often seen through, sometimes scaled.
 inline GroupItem any_group(Random& random, ItemId id, int width, int height) {
   DrawList list{static_cast<int>(random.integer(1, width)),
                 static_cast<int>(random.integer(1, height)),
@@ -95,7 +95,10 @@ inline GroupItem any_group(Random& random, ItemId id, int width, int height) {
     if (random.integer(0, 2) == 0) continue;
     list.items.push_back(any_item(random, inner, list.width_px, list.height_px));
   }
-  return {id, static_cast<int>(anywhere(random, width)), static_cast<int>(anywhere(random, height)),
+  const double scale = random.integer(0, 2) == 0 ? random.uniform(0.3, 2) : 1;
+  return {id,
+          {std::trunc(anywhere(random, width)), std::trunc(anywhere(random, height)),
+           scale * list.width_px, scale * list.height_px},
           std::make_shared<const DrawList>(list),
           random.integer(0, 1) == 0 ? 1 : random.uniform(0, 1)};
 }
@@ -114,7 +117,7 @@ inline ExposedBlock any_exposed_block(Random& random, int width, int height) {
   const auto count = random.integer(0, 2) == 0 ? 0 : random.integer(1, 40);
   double x = block.bounds.x;
   for (std::int64_t i = 0; i < count; ++i) {
-    block.stops.push_back({x, 1.0 / double(count)});
+    block.dwells.push_back({x, 1.0 / double(count)});
     x += random.uniform(0.01, 1);
   }
   return block;

@@ -129,7 +129,7 @@ TEST(CrossFade, OfTransparentPicturesIsTheirMean) {
   const DrawList from{40, 30, std::nullopt, {block}};
   const DrawList to{40, 30, std::nullopt, {text}};
   const auto painted = [](const DrawList& list) {
-    Canvas canvas(40, 30, Ground::transparent);
+    Canvas canvas(40, 30, Background::transparent);
     canvas.paint(list);
     std::vector<std::uint8_t> bytes;
     for (int y = 0; y < 30; ++y) {

@@ -13,7 +13,7 @@ struct Traced {
       : system(article_system(digits)),
         gaps(system),
         log(make_collision_log(system)),
-        pieces(trajectory_of(*log, gaps, from, to, columns)) {}
+        pieces(trajectory_of(*log, gaps, {from, to, columns})) {}
 
   BlockSystem system;
   PanelGaps gaps;

@@ -120,7 +120,7 @@ DrawList draw_list_of(const GoldenFrame& frame) {
   const Scene scene = builder.build_scene();
   const auto log = make_collision_log(scene.system);
   const Rational time = time_of(parse_instant(frame.instant), *log);
-  std::vector<ExposurePart> exposure;
+  std::vector<WeightedExposure> exposure;
   if (scene.view.shutter > 0) {
     const Rational open_s = scene.view.shutter / scene.view.frame_rate;
     exposure.push_back({1, expose(*log, time, time + scene.time.speed * open_s)});

@@ -34,7 +34,7 @@ std::string pixels_of(const ImageView& image) {
 
 std::string pixels_of(const DrawList& list) {
   Canvas canvas(list.width_px, list.height_px,
-                list.background ? Ground::opaque : Ground::transparent);
+                list.background ? Background::opaque : Background::transparent);
   canvas.paint(list);
   return pixels_of(canvas.view());
 }

@@ -19,64 +19,43 @@ constexpr double kWidth = 0.84;
 constexpr double kLeast_px = 4;
 
 struct Label {
-  std::string text;
-  double size_px;
-  double half_width_px;
+  TextItem text;
   double centre_y;  ///< of the block, in units of the scene
-  double down_px;   ///< from there to the baseline
-  Color color;
+  Point offset;     ///< from there to the text's origin
 };
 
-class MassLabels final : public PicturePart {
- public:
-  explicit MassLabels(const Setting& setting)
-      : layout_(setting.stage),
-        base_(base_of(setting.scene.system)),
-        red_(label_of(setting.scene.system.red, setting.palette.red, setting.font)),
-        blue_(label_of(setting.scene.system.blue, setting.palette.blue, setting.font)) {}
-
-  void add(const FrameState& shown, std::vector<DrawItem>& items) const override {
-    add_label(0, red_, shown.state.red, items);
-    add_label(1, blue_, shown.state.blue, items);
+Label label_of(ItemId id, const Block& block, const BlockColors& colors, const Setting& setting) {
+  const double side_px = to_double(block.width) * setting.stage.scale;
+  std::string text = short_text(block.mass);
+  const double width_em = setting.font.width_em(text);
+  const double size_px = setting.font.fitted_px(text, kHeight * side_px, kWidth * side_px);
+  if (size_px < kLeast_px) {
+    throw UsageError(fmt::format(
+        "show.overlays: the mass '{}' would be {:.1f} pixels high on its block, which cannot be "
+        "read; leave out 'masses', or make the frame or the block larger",
+        text, size_px));
   }
-
- private:
-  Label label_of(const Block& block, const BlockColors& colors, const Font& font) const {
-    const double side_px = to_double(block.width) * layout_.scale;
-    std::string text = short_text(block.mass);
-    const double width_em = font.width_em(text);
-    const double size_px = std::min(kHeight * side_px, kWidth * side_px / width_em);
-    if (size_px < kLeast_px) {
-      throw UsageError(fmt::format(
-          "show.overlays: the mass '{}' would be {:.1f} pixels high on its block, which cannot be "
-          "read; leave out 'masses', or make the frame or the block larger",
-          text, size_px));
-    }
-    return {std::move(text),          size_px,
-            width_em * size_px / 2,   base_ + to_double(block.width) / 2,
-            kHalfFigure_em * size_px, colors.text};
-  }
-
-  void add_label(std::size_t n, const Label& label, const Motion& motion,
-                 std::vector<DrawItem>& items) const {
-    const Point centre = layout_.at(motion.position, label.centre_y);
-    items.emplace_back(TextItem{nth(ItemId::masses, n),
-                                {centre.x - label.half_width_px, centre.y + label.down_px},
-                                label.text,
-                                label.size_px,
-                                label.color});
-  }
-
-  Layout layout_;
-  double base_;
-  Label red_;
-  Label blue_;
-};
+  return {{id, {}, std::move(text), size_px, colors.text},
+          base_of(setting.scene.system) + to_double(block.width) / 2,
+          {-width_em * size_px / 2, kHalfFigure_em * size_px}};
+}
 
 }  // namespace
 
-std::unique_ptr<PicturePart> mass_labels(const Setting& setting) {
-  return std::make_unique<MassLabels>(setting);
+Drawable mass_labels(const Setting& setting) {
+  const BlockSystem& system = setting.scene.system;
+  const Label red = label_of(nth(ItemId::masses, 0), system.red, setting.palette.red, setting);
+  const Label blue = label_of(nth(ItemId::masses, 1), system.blue, setting.palette.blue, setting);
+  return [=, layout = setting.stage](const FrameState& shown, std::vector<DrawItem>& items) {
+    const auto add = [&](const Label& label, const Motion& motion) {
+      TextItem text = label.text;
+      const Point centre = layout.at(motion.position, label.centre_y);
+      text.origin = {centre.x + label.offset.x, centre.y + label.offset.y};
+      items.emplace_back(std::move(text));
+    };
+    add(red, shown.state.red);
+    add(blue, shown.state.blue);
+  };
 }
 
 }  // namespace piblocks

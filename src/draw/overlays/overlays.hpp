@@ -1,5 +1,5 @@
 // The overlays there are, one file each.
-// In: a setting. Out: a part of the picture.
+// In: a setting. Out: a drawable, or a read-out for a row of them.
 #pragma once
 
 #include <functional>
@@ -7,22 +7,21 @@
 #include <string>
 #include <vector>
 
-#include "draw/part.hpp"
-#include "draw/text_widths.hpp"
+#include "draw/drawable.hpp"
 
 namespace piblocks {
 
 /// Each block's mass on it, as large as fits.
-std::unique_ptr<PicturePart> mass_labels(const Setting& setting);
+Drawable mass_labels(const Setting& setting);
 
 /// Arrows above the blocks. Velocities of one run differ by the square root of the mass ratio, so
 /// lengths grow less and less, up to a longest one; the figure says the value.
 /// @throws UsageError if the view has no room above the blocks.
-std::unique_ptr<PicturePart> velocity_arrows(const Setting& setting);
+Drawable velocity_arrows(const Setting& setting);
 
 /// A scale of positions below the blocks.
 /// @throws UsageError if the view has no room there.
-std::unique_ptr<PicturePart> ruler(const Setting& setting);
+Drawable ruler(const Setting& setting);
 
 /// A short text that changes with what is shown, beside others in a row.
 struct ReadOut {
@@ -40,18 +39,16 @@ bool has_slow_motion(const Pacing& pacing);
 /// "10× slower".
 ReadOut slower_read_out(const Setting& setting);
 
-/// Read-outs in rows.
-class ReadOutRows : public PicturePart {
+/// Read-outs in centred rows, from the frame's top on. A Drawable.
+class ReadOutRows {
  public:
-  /// @param area  as wide as the rows may be; they are centred in it from its top on.
   /// @throws UsageError if one has to be too small to be read.
-  ReadOutRows(std::vector<ReadOut> read_outs, const Rectangle& area, double text_px,
-              const Font& font);
+  ReadOutRows(std::vector<ReadOut> read_outs, const Setting& setting);
 
   double height() const noexcept { return height_; }
   /// Moves all rows down.
   void move(double y);
-  void add(const FrameState& shown, std::vector<DrawItem>& items) const override;
+  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const;
 
  private:
   struct Placed {

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "draw/frame_plan.hpp"
+#include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
+#include "draw/style.hpp"
 
 namespace piblocks {
 namespace {
@@ -24,36 +25,37 @@ std::string characters_of(const std::vector<ReadOut>& read_outs) {
 
 }  // namespace
 
-ReadOutRows::ReadOutRows(std::vector<ReadOut> read_outs, const Rectangle& area, double text_px,
-                         const Font& font)
-    : widths_(font, characters_of(read_outs)), text_px_(text_px) {
-  std::vector<double> widths;
-  for (const ReadOut& read_out : read_outs) {
-    widths.push_back(font.width_em(read_out.widest) * text_px);
-    text_px_ = std::min(text_px_, text_px * area.width / widths.back());
-  }
-  if (text_px_ < kLeastText_px) {
-    const ReadOut& widest = std::ranges::max(
-        read_outs, {}, [&](const ReadOut& read_out) { return font.width_em(read_out.widest); });
+ReadOutRows::ReadOutRows(std::vector<ReadOut> read_outs, const Setting& setting)
+    : widths_(setting.font, characters_of(read_outs)), text_px_(setting.text_px) {
+  const View& view = setting.scene.view;
+  const double margin = style::kMargin * short_measure(view);
+  const double room_px = view.width_px - 2 * margin;
+  if (read_outs.empty()) return;
+  const auto width_em = [&](const ReadOut& read_out) {
+    return setting.font.width_em(read_out.widest);
+  };
+  const ReadOut& widest = *std::ranges::max_element(read_outs, {}, width_em);
+  text_px_ = setting.font.fitted_px(widest.widest, setting.text_px, room_px);
+  if (text_px_ < style::kLeastText_px) {
     throw UsageError(
         fmt::format("show.overlays: '{}' cannot be read in {:.0f} pixels; leave it out, or make "
                     "the frame wider",
-                    widest.name, area.width));
+                    widest.name, room_px));
   }
-  for (double& width : widths) width *= text_px_ / text_px;
+  std::vector<double> widths;
+  for (const ReadOut& read_out : read_outs) widths.push_back(width_em(read_out) * text_px_);
   const double gap = kGap * text_px_;
   std::size_t first = 0;
   while (first < read_outs.size()) {
     double width = widths[first];
     std::size_t end = first + 1;
-    for (; end < read_outs.size() && width + gap + widths[end] <= area.width; ++end) {
+    for (; end < read_outs.size() && width + gap + widths[end] <= room_px; ++end) {
       width += gap + widths[end];
     }
-    double x = area.x + (area.width - width) / 2;
+    double x = margin + (room_px - width) / 2;
     for (; first < end; ++first) {
-      placed_.push_back({std::move(read_outs[first]),
-                         {x, area.y + height_ + kBaseline * text_px_},
-                         widths[first]});
+      placed_.push_back(
+          {std::move(read_outs[first]), {x, height_ + kBaseline * text_px_}, widths[first]});
       x += widths[first] + gap;
     }
     height_ += kRowHeight * text_px_;
@@ -64,7 +66,7 @@ void ReadOutRows::move(double y) {
   for (Placed& placed : placed_) placed.origin.y += y;
 }
 
-void ReadOutRows::add(const FrameState& shown, std::vector<DrawItem>& items) const {
+void ReadOutRows::operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
   // An instant outside of the scene's span may need more room than any in it.
   double shift = 0;
   for (std::size_t n = 0; n < placed_.size(); ++n) {

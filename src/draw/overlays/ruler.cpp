@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "draw/frame_plan.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
+#include "draw/style.hpp"
 #include "draw/ticks.hpp"
 
 namespace piblocks {
@@ -28,26 +29,14 @@ constexpr double kBelowTick_em = 0.3;
 constexpr double kBelowWall_em = 0.15;
 constexpr double kBesideWall_em = 0.25;
 constexpr double kBesideEdge_em = 0.1;
-/// Of the type that would fill the room below the wall; and rather than be set smaller than so much
-/// of the usual type, figures stand beside the wall.
+/// Size of type below the wall, in parts of what would fill the room there.
 constexpr double kFitting = 0.95;
+/// Where figures below the wall would be smaller than this part of the usual size, they stand
+/// beside it.
 constexpr double kLeastShrink = 0.7;
 constexpr double kLeastGap_em = 1.0;  // between figures
 
-/// So far apart that their figures do not touch.
-Ticks spaced_ticks(double low, double high, double em, const Font& font) {
-  Ticks ticks = ticks_of(low, high, kLeastGap_em * em);
-  const auto widest = [&] {
-    return std::max(font.width_em(tick_text(low, ticks.step)),
-                    font.width_em(tick_text(high, ticks.step)));
-  };
-  while (ticks.values.size() > 1 && ticks.step < (widest() + kLeastGap_em) * em) {
-    ticks = ticks_of(low, high, 1.5 * ticks.step);
-  }
-  return ticks;
-}
-
-/// Where the ruler has its place.
+/// Where the ruler is, from top to bottom.
 struct Room {
   double top;
   double height;
@@ -88,7 +77,8 @@ Rows rows_of(const Setting& setting, const Room& room) {
   const double baseline = foot + layout.line_px + (kBelowWall_em + kFigure_em) * size_px;
   const double tick_end = baseline - (kFigure_em + kBelowTick_em) * size_px;
   const double axis = std::round(tick_end - kTick_em * size_px);
-  const double least_px = std::max(kLeastShrink * usual_px, std::min(usual_px, kLeastText_px));
+  const double least_px =
+      std::max(kLeastShrink * usual_px, std::min(usual_px, style::kLeastText_px));
   if (size_px >= least_px && axis > room.at(kLeastDown)) {
     return {axis, tick_end, baseline, size_px, true};
   }
@@ -97,59 +87,52 @@ Rows rows_of(const Setting& setting, const Room& room) {
           false};
 }
 
-class Ruler final : public PicturePart {
- public:
-  explicit Ruler(const Setting& setting) {
-    const Layout& layout = setting.stage;
-    const Room room = room_for(setting);
-    const Rows rows = rows_of(setting, room);
-    const double size_px = rows.size_px;
-    const double left =
-        to_double(std::max(setting.scene.view.x.low, setting.scene.system.wall_face));
-    const double right = to_double(setting.scene.view.x.high);
-    const Stroke stroke{setting.palette.muted, setting.line_px};
-    add_line({layout.at(left, 0).x, rows.axis}, {layout.at(right, 0).x, rows.axis}, stroke);
-    const double wall_px = layout.at(to_double(setting.scene.system.wall_face), 0).x;
-    const double wall_end_px = rows.are_below_wall ? 0 : wall_px + kBesideWall_em * size_px;
-    const double first_px = std::max(kBesideEdge_em * size_px, wall_end_px);
-    const double end_px = setting.scene.view.width_px - kBesideEdge_em * size_px;
-    const Ticks ticks = spaced_ticks(left, right, size_px / layout.scale, setting.font);
-    int figures = 0;
-    for (const double value : ticks.values) {
-      const double x = layout.at(value, 0).x;
-      add_line({x, rows.axis}, {x, rows.tick_end}, stroke);
-      const std::string text = tick_text(value, ticks.step);
-      const double half_px = setting.font.width_em(text) * size_px / 2;
-      // A figure beside its mark would name another place.
-      if (x - half_px < first_px || x + half_px > end_px) continue;
-      ++figures;
-      items_.emplace_back(
-          TextItem{next_id(), {x - half_px, rows.baseline}, text, size_px, setting.palette.muted});
-    }
-    if (figures >= kLeastFigures) return;
+PathItem line_between(const Point& from, const Point& to, const Stroke& stroke) {
+  return {{}, std::vector<Point>{from, to}, false, std::nullopt, stroke};
+}
+
+}  // namespace
+
+Drawable ruler(const Setting& setting) {
+  const Layout& layout = setting.stage;
+  const Scene& scene = setting.scene;
+  const Rows rows = rows_of(setting, room_for(setting));
+  const double size_px = rows.size_px;
+  const double left = to_double(std::max(scene.view.x.low, scene.system.wall_face));
+  const double right = to_double(scene.view.x.high);
+  const double wall_px = layout.at(to_double(scene.system.wall_face), 0).x;
+  const double wall_end_px = rows.are_below_wall ? 0 : wall_px + kBesideWall_em * size_px;
+  const double first_px = std::max(kBesideEdge_em * size_px, wall_end_px);
+  const double end_px = scene.view.width_px - kBesideEdge_em * size_px;
+  const FigureAxis axis{left, right, size_px / layout.scale, kLeastGap_em};
+  const Ticks ticks =
+      with_room_for_figures(ticks_of(left, right, kLeastGap_em * axis.em), axis, setting.font);
+
+  const Stroke stroke{setting.palette.muted, setting.line_px};
+  std::vector<DrawItem> items;
+  items.emplace_back(
+      line_between({layout.at(left, 0).x, rows.axis}, {layout.at(right, 0).x, rows.axis}, stroke));
+  int figures = 0;
+  for (const double value : ticks.values) {
+    const double x = layout.at(value, 0).x;
+    items.emplace_back(line_between({x, rows.axis}, {x, rows.tick_end}, stroke));
+    const std::string text = tick_text(value, ticks.step);
+    const double half_px = setting.font.width_em(text) * size_px / 2;
+    // A figure beside its mark would name another place.
+    if (x - half_px < first_px || x + half_px > end_px) continue;
+    ++figures;
+    items.emplace_back(
+        TextItem{{}, {x - half_px, rows.baseline}, text, size_px, setting.palette.muted});
+  }
+  if (figures < kLeastFigures) {
     throw UsageError(
         "show.overlays: the ruler has no room for two of its figures; leave out 'ruler', make the "
         "frame wider, or show another part of the x axis");
   }
-
-  void add(const FrameState& /*shown*/, std::vector<DrawItem>& items) const override {
-    items.insert(items.end(), items_.begin(), items_.end());
+  for (std::size_t n = 0; n < items.size(); ++n) {
+    std::visit([n](auto& item) { item.id = nth(ItemId::ruler, n); }, items[n]);
   }
-
- private:
-  ItemId next_id() const { return nth(ItemId::ruler, items_.size()); }
-  void add_line(const Point& from, const Point& to, const Stroke& stroke) {
-    items_.emplace_back(
-        PathItem{next_id(), std::vector<Point>{from, to}, false, std::nullopt, stroke});
-  }
-
-  std::vector<DrawItem> items_;
-};
-
-}  // namespace
-
-std::unique_ptr<PicturePart> ruler(const Setting& setting) {
-  return std::make_unique<Ruler>(setting);
+  return unchanging(std::move(items));
 }
 
 }  // namespace piblocks

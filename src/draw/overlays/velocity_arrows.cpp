@@ -8,7 +8,6 @@
 
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
-#include "draw/text_widths.hpp"
 
 namespace piblocks {
 namespace {
@@ -28,22 +27,17 @@ constexpr double kHalfLength = 2;
 
 /// The heavier block's largest speed: all energy its own. It may be below the range of a double.
 mpf_class usual_speed(const BlockSystem& system) {
-  const Rational twice_energy = system.blue.mass * system.blue.velocity * system.blue.velocity +
-                                system.red.mass * system.red.velocity * system.red.velocity;
-  return wide_root_of(twice_energy / std::max(system.blue.mass, system.red.mass));
+  return root_of(twice_energy(system) / std::max(system.blue.mass, system.red.mass));
 }
 
-/// The larger block's upper edge, in units of the scene.
-double top_of(const BlockSystem& system) { return -base_of(system); }
-
 struct Figure {
-  std::string text;
-  double left;  ///< in pixels
+  TextItem item;
   double width;
-  double baseline;
+
+  double& left() { return item.origin.x; }
 };
 
-class VelocityArrows final : public PicturePart {
+class VelocityArrows {
  public:
   explicit VelocityArrows(const Setting& setting)
       : layout_(setting.stage),
@@ -52,7 +46,7 @@ class VelocityArrows final : public PicturePart {
         usual_speed_(usual_speed(setting.scene.system)),
         line_px_(setting.line_px),
         width_px_(setting.scene.view.width_px),
-        top_(top_of(setting.scene.system)),
+        top_(-base_of(setting.scene.system)),
         room_px_((to_double(setting.scene.view.y.high) - top_) * layout_.scale + layout_.above_px),
         text_px_(std::min(kTextSize * room_px_, setting.text_px)) {
     const BlockSystem& system = setting.scene.system;
@@ -71,26 +65,26 @@ class VelocityArrows final : public PicturePart {
     }
   }
 
-  void add(const FrameState& shown, std::vector<DrawItem>& items) const override {
+  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     const bool has_red = is_seen(shown.state.red, red_px_);
     const bool has_blue = is_seen(shown.state.blue, blue_px_);
-    Figure red = figure_of(shown.state.red);
-    Figure blue = figure_of(shown.state.blue);
-    if (has_red) red.left = std::min(red.left, most_right_px_ - red.width);
-    if (has_blue) blue.left = std::min(blue.left, most_right_px_ - blue.width);
+    Figure red = figure_of(2, shown.state.red);
+    Figure blue = figure_of(6, shown.state.blue);
+    if (has_red) red.left() = std::min(red.left(), most_right_px_ - red.width);
+    if (has_blue) blue.left() = std::min(blue.left(), most_right_px_ - blue.width);
     if (has_red && has_blue) {
       keep_apart(blue, red);
     } else {
-      red.left = std::max(red.left, least_left_px_);
-      blue.left = std::max(blue.left, least_left_px_);
+      red.left() = std::max(red.left(), least_left_px_);
+      blue.left() = std::max(blue.left(), least_left_px_);
     }
     if (has_red) {
       add_arrow(0, shown.state.red, palette_.red.fill, items);
-      add_figure(2, std::move(red), items);
+      items.emplace_back(std::move(red.item));
     }
     if (has_blue) {
       add_arrow(4, shown.state.blue, palette_.blue.fill, items);
-      add_figure(6, std::move(blue), items);
+      items.emplace_back(std::move(blue.item));
     }
   }
 
@@ -109,24 +103,30 @@ class VelocityArrows final : public PicturePart {
     return std::copysign(share * longest_px_, velocity);
   }
 
-  Figure figure_of(const Motion& motion) const {
+  /// @param n  of its id
+  Figure figure_of(std::size_t n, const Motion& motion) const {
     std::string text = rounded_text(motion.velocity);
     const double width = widths_.width_em(text) * text_px_;
     const Point foot = layout_.at(motion.position, top_);
-    return {std::move(text), foot.x - width / 2, width, foot.y - kBaseline * room_px_};
+    return {{nth(ItemId::velocities, n),
+             {foot.x - width / 2, foot.y - kBaseline * room_px_},
+             std::move(text),
+             text_px_,
+             palette_.text},
+            width};
   }
 
   /// Each gives way by half, but blue's, which is the left one, not into the wall, and red's not
   /// out of the frame, as long as there is room for both between them.
   void keep_apart(Figure& blue, Figure& red) const {
-    blue.left = std::max(blue.left, least_left_px_);
-    const double overlap = blue.left + blue.width + kBetweenFigures_em * text_px_ - red.left;
+    blue.left() = std::max(blue.left(), least_left_px_);
+    const double overlap = blue.left() + blue.width + kBetweenFigures_em * text_px_ - red.left();
     if (overlap <= 0) return;
-    const double room_right = std::max(0.0, most_right_px_ - red.width - red.left);
+    const double room_right = std::max(0.0, most_right_px_ - red.width - red.left());
     const double wanted = std::max(overlap / 2, overlap - room_right);
-    const double to_left = std::clamp(wanted, 0.0, blue.left - least_left_px_);
-    blue.left -= to_left;
-    red.left += overlap - to_left;
+    const double to_left = std::clamp(wanted, 0.0, blue.left() - least_left_px_);
+    blue.left() -= to_left;
+    red.left() += overlap - to_left;
   }
 
   void add_arrow(std::size_t n, const Motion& motion, const Color& color,
@@ -148,21 +148,13 @@ class VelocityArrows final : public PicturePart {
                                 true, color, Stroke{edge, line_px_}});
   }
 
-  void add_figure(std::size_t n, Figure figure, std::vector<DrawItem>& items) const {
-    items.emplace_back(TextItem{nth(ItemId::velocities, n),
-                                {figure.left, figure.baseline},
-                                std::move(figure.text),
-                                text_px_,
-                                palette_.text});
-  }
-
   Layout layout_;
   Palette palette_;
   TextWidths widths_;
   mpf_class usual_speed_;
   double line_px_;
   double width_px_;
-  double top_;
+  double top_;  ///< of the larger block, in units of the scene
   double room_px_;
   double text_px_;
   double longest_px_ = 0;
@@ -174,8 +166,6 @@ class VelocityArrows final : public PicturePart {
 
 }  // namespace
 
-std::unique_ptr<PicturePart> velocity_arrows(const Setting& setting) {
-  return std::make_unique<VelocityArrows>(setting);
-}
+Drawable velocity_arrows(const Setting& setting) { return VelocityArrows(setting); }
 
 }  // namespace piblocks

@@ -22,8 +22,8 @@ struct PanelGaps {
   explicit PanelGaps(const BlockSystem& system)
       : blue_offset(to_double(system.wall_face + system.blue.width / 2)),
         red_offset(to_double(system.wall_face + system.blue.width + system.red.width / 2)),
-        sine(root_of(system.blue.mass / (system.blue.mass + system.red.mass))),
-        cosine(root_of(system.red.mass / (system.blue.mass + system.red.mass))),
+        sine(root_of(system.blue.mass / (system.blue.mass + system.red.mass)).get_d()),
+        cosine(root_of(system.red.mass / (system.blue.mass + system.red.mass)).get_d()),
         theta(std::atan2(sine, cosine)),
         tangent(root_magnitude_of(system.blue.mass / system.red.mass)) {}
 

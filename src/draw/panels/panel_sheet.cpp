@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "draw/finite.hpp"
-#include "draw/frame_plan.hpp"
+#include "draw/extent.hpp"
 #include "draw/panels/panels.hpp"
+#include "draw/style.hpp"
 
 namespace piblocks {
 namespace {
@@ -38,16 +38,14 @@ PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const Pa
       text_px_(setting.text_px),
       line_px_(setting.line_px) {
   const Rectangle& whole = place.area;
-  const auto fitting_px = [&](const std::string& text) {
-    return std::min(text_px_, whole.width / font_->width_em(text));
-  };
-  const bool is_full = fitting_px(title.full) >= std::max(kLeastText_px, kLeastShrink * text_px_);
-  const std::string& text = is_full ? title.full : title.brief;
-  items_.emplace_back(TextItem{next_id(),
-                               {whole.x, whole.y + kTitleBaseline * text_px_},
-                               text,
-                               fitting_px(text),
-                               palette_.muted});
+  const double full_px = font_->fitted_px(title.full, text_px_, whole.width);
+  const bool is_full = full_px >= std::max(style::kLeastText_px, kLeastShrink * text_px_);
+  items_.emplace_back(
+      TextItem{next_id(),
+               {whole.x, whole.y + kTitleBaseline * text_px_},
+               is_full ? title.full : title.brief,
+               is_full ? full_px : font_->fitted_px(title.brief, text_px_, whole.width),
+               palette_.muted});
   const double top = kTitleHeight * text_px_;
   inside_ = {whole.x, whole.y + top, whole.width, whole.height - top};
   // Lines along its border are wider than the area.
@@ -65,17 +63,32 @@ void PanelSheet::finish() {
   font_ = nullptr;
 }
 
-void PanelSheet::path(std::vector<Point> points, bool closed, const std::optional<Color>& fill,
-                      const std::optional<Stroke>& stroke) {
-  items_.emplace_back(PathItem{next_id(), std::move(points), closed, fill, stroke});
-}
-
 void PanelSheet::line(std::vector<Point> points, const Color& color, double width, double dash) {
-  path(std::move(points), false, std::nullopt, Stroke{color, width * line_px_, dash * line_px_});
+  items_.emplace_back(PathItem{next_id(), std::move(points), false, std::nullopt,
+                               Stroke{color, width * line_px_, dash * line_px_}});
 }
 
-void PanelSheet::area(std::vector<Point> points, const Color& fill) {
-  path(std::move(points), true, fill, std::nullopt);
+PathItem PanelSheet::shape_item(ItemId id, std::vector<Point> outline,
+                                const std::optional<Color>& fill,
+                                const std::optional<Color>& line) const {
+  PathItem item{id, std::move(outline), true, fill, std::nullopt};
+  if (line) item.stroke = Stroke{*line, line_px_};
+  return item;
+}
+
+void PanelSheet::shape(std::vector<Point> outline, const std::optional<Color>& fill,
+                       const std::optional<Color>& line) {
+  items_.emplace_back(shape_item(next_id(), std::move(outline), fill, line));
+}
+
+PathItem PanelSheet::moving_line(std::size_t n, std::vector<Point> points, const Color& color,
+                                 double width) const {
+  return {moving(n), std::move(points), false, std::nullopt, Stroke{color, width * line_px_}};
+}
+
+PathItem PanelSheet::moving_shape(std::size_t n, std::vector<Point> outline, const Color& fill,
+                                  const std::optional<Color>& line) const {
+  return shape_item(moving(n), std::move(outline), fill, line);
 }
 
 void PanelSheet::text(const std::string& text, const Point& at, double anchor, const Color& color) {

@@ -1,12 +1,12 @@
 // The diagrams there are, one file each.
-// In: a setting and the place of the diagram. Out: a part of the picture.
+// In: a setting and the place of the diagram. Out: a drawable.
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "draw/part.hpp"
+#include "draw/drawable.hpp"
 
 namespace piblocks {
 
@@ -18,15 +18,15 @@ struct PanelPlace {
 };
 
 /// The state as a point on a circle, and a sector for each collision.
-std::unique_ptr<PicturePart> velocity_panel(const Setting& setting, const PanelPlace& place);
+Drawable velocity_panel(const Setting& setting, const PanelPlace& place);
 /// The path through the plane of both gaps.
-std::unique_ptr<PicturePart> position_panel(const Setting& setting, const PanelPlace& place);
+Drawable position_panel(const Setting& setting, const PanelPlace& place);
 /// The straight line through the unfolded wedge.
-std::unique_ptr<PicturePart> unfolded_panel(const Setting& setting, const PanelPlace& place);
+Drawable unfolded_panel(const Setting& setting, const PanelPlace& place);
 /// Both gaps against time.
-std::unique_ptr<PicturePart> time_panel(const Setting& setting, const PanelPlace& place);
+Drawable time_panel(const Setting& setting, const PanelPlace& place);
 /// Collisions per second against time.
-std::unique_ptr<PicturePart> rate_panel(const Setting& setting, const PanelPlace& place);
+Drawable rate_panel(const Setting& setting, const PanelPlace& place);
 
 /// The brief one is for diagrams too narrow for the full one.
 struct PanelTitle {
@@ -34,7 +34,7 @@ struct PanelTitle {
   std::string brief;
 };
 
-/// What a diagram is made of: items that stay, with ids in the order they are added, and its title.
+/// What a diagram is made of: its title, items that stay, and forms for those that move.
 class PanelSheet {
  public:
   PanelSheet(const Setting& setting, const PanelPlace& place, const PanelTitle& title);
@@ -45,17 +45,20 @@ class PanelSheet {
   double line_px() const noexcept { return line_px_; }
   const Palette& palette() const noexcept { return palette_; }
 
-  /// Adds something that stays.
+  // Add something that stays. Widths and dashes are in line widths.
   void line(std::vector<Point> points, const Color& color, double width = 1, double dash = 0);
-  void area(std::vector<Point> points, const Color& fill);
-  void path(std::vector<Point> points, bool closed, const std::optional<Color>& fill,
-            const std::optional<Stroke>& stroke);
+  void shape(std::vector<Point> outline, const std::optional<Color>& fill,
+             const std::optional<Color>& line = std::nullopt);
   /// @param anchor  what part of the text's width is left of `at`: 0, 0.5 or 1.
   void text(const std::string& text, const Point& at, double anchor, const Color& color);
 
-  /// Ids for what moves: above those of what stays.
+  // The n-th of the things that move, which are above all that stays.
   ItemId moving(std::size_t n) const { return nth(first_id_, kMoving + n); }
-  /// A dot that marks the present.
+  PathItem moving_line(std::size_t n, std::vector<Point> points, const Color& color,
+                       double width = 1) const;
+  PathItem moving_shape(std::size_t n, std::vector<Point> outline, const Color& fill,
+                        const std::optional<Color>& line = std::nullopt) const;
+  /// Marks the present.
   DiskItem dot(std::size_t n, const Point& at, const Color& color) const;
 
   /// All that stays as one item; nothing can be added to it any more.
@@ -66,7 +69,9 @@ class PanelSheet {
  private:
   static constexpr std::size_t kMoving = 32768;
 
-  ItemId next_id() { return nth(first_id_, items_.size()); }
+  PathItem shape_item(ItemId id, std::vector<Point> outline, const std::optional<Color>& fill,
+                      const std::optional<Color>& line) const;
+  ItemId next_id() const { return nth(first_id_, items_.size()); }
 
   Palette palette_;
   const Font* font_;  ///< of the set-up, which ends with finish()

@@ -14,7 +14,7 @@ namespace {
 constexpr double kLeastAngle = 0.2;
 constexpr double kBelow_em = 1.5;
 
-class PositionPanel final : public PicturePart {
+class PositionPanel {
  public:
   PositionPanel(const Setting& setting, const PanelPlace& place)
       : gaps_(setting.scene.system),
@@ -23,15 +23,15 @@ class PositionPanel final : public PicturePart {
                {is_true_ ? "Positions √m·x" : "Positions (not to scale)", "Positions"}) {
     const auto [from, to] = span_of(setting.scene, setting.log);
     const int columns = std::max(1, static_cast<int>(sheet_.inside().width));
-    const auto pieces = trajectory_of(setting.log, gaps_, from, to, columns);
-    for (const TrajectoryPiece& piece : pieces) make_room(piece);
+    const auto pieces = trajectory_of(setting.log, gaps_, {from, to, columns});
+    most_ = greatest_y2(pieces);
     place_wedge();
     for (const TrajectoryPiece& piece : pieces) add_piece(piece);
     add_names();
     sheet_.finish();
   }
 
-  void add(const FrameState& shown, std::vector<DrawItem>& items) const override {
+  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     items.emplace_back(sheet_.item());
     const GapPoint gaps = gaps_.of(shown.state);
     if (gaps.y2 > most_ * (1 + 1e-9)) return;
@@ -39,12 +39,6 @@ class PositionPanel final : public PicturePart {
   }
 
  private:
-  void make_room(const TrajectoryPiece& piece) {
-    for (const TimedGaps& corner : piece.corners) most_ = std::max(most_, corner.gaps.y2);
-    for (const Band& band : piece.bands)
-      most_ = std::max({most_, band.from.gaps.y2, band.to.gaps.y2});
-  }
-
   double slope() const { return is_true_ ? gaps_.sine / gaps_.cosine : 1; }
 
   /// The corner is at the lower left.
@@ -55,7 +49,7 @@ class PositionPanel final : public PicturePart {
     scale_ = std::min(inside.width / most, height / (most * slope()));
     corner_ = {inside.x + (inside.width - scale_ * most) / 2, inside.y + height};
     const Point far = at({most, most});
-    sheet_.area({corner_, far, {far.x, corner_.y}}, sheet_.palette().shade);
+    sheet_.shape({corner_, far, {far.x, corner_.y}}, sheet_.palette().shade);
     sheet_.line({far, corner_, {far.x, corner_.y}}, sheet_.palette().muted, 1.5);
   }
 
@@ -80,7 +74,7 @@ class PositionPanel final : public PicturePart {
       points.push_back(at({0, band->to.gaps.y2}));
     }
     points.push_back(at({0, piece.bands.front().from.gaps.y2}));
-    sheet_.path(std::move(points), true, color, Stroke{color, sheet_.line_px()});
+    sheet_.shape(std::move(points), color, color);
   }
 
   void add_names() {
@@ -102,8 +96,8 @@ class PositionPanel final : public PicturePart {
 
 }  // namespace
 
-std::unique_ptr<PicturePart> position_panel(const Setting& setting, const PanelPlace& place) {
-  return std::make_unique<PositionPanel>(setting, place);
+Drawable position_panel(const Setting& setting, const PanelPlace& place) {
+  return PositionPanel(setting, place);
 }
 
 }  // namespace piblocks

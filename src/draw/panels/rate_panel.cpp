@@ -57,15 +57,13 @@ PanelTitle title_of(const Rates& rates) {
           "Collision rate"};
 }
 
-std::string power_text(long exponent) { return "10" + superscript(exponent); }
-
 /// Left of the axis, for powers of ten and their ticks.
 double indent_em(const Rates& rates, const Font& font) {
   return kTick_em + kBesideTick_em +
          std::max(font.width_em(power_text(rates.low)), font.width_em(power_text(rates.high)));
 }
 
-class RatePanel final : public PicturePart {
+class RatePanel {
  public:
   RatePanel(const Setting& setting, const PanelPlace& place)
       : rates_(setting.log, span_of(setting.scene, setting.log)),
@@ -77,7 +75,7 @@ class RatePanel final : public PicturePart {
     sheet_.finish();
   }
 
-  void add(const FrameState& shown, std::vector<DrawItem>& items) const override {
+  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     items.emplace_back(sheet_.item());
     const double x = axis_.x_of(to_double(shown.time));
     if (axis_.shows(x)) items.emplace_back(axis_.cursor(sheet_, x));
@@ -86,16 +84,16 @@ class RatePanel final : public PicturePart {
  private:
   double y_of(double logarithm) const {
     const double share = (logarithm - double(rates_.low)) / double(rates_.high - rates_.low);
-    return axis_.bottom() - std::clamp(share, 0.0, 1.0) * axis_.height();
+    return axis_.bottom() - std::clamp(share, 0.0, 1.0) * axis_.plot().height;
   }
 
   void add_bars() {
     const auto x_of = [&](const Integer& bins) {
-      return std::clamp(axis_.x_of(to_double(bins * rates_.bin)), axis_.left(),
-                        axis_.left() + axis_.width());
+      return std::clamp(axis_.x_of(to_double(bins * rates_.bin)), axis_.plot().x,
+                        axis_.plot().x + axis_.plot().width);
     };
     std::vector<Point> points;
-    points.push_back({axis_.left(), axis_.bottom()});
+    points.push_back({axis_.plot().x, axis_.bottom()});
     Integer k = rates_.first;
     for (const Magnitude& rate : rates_.of_bins) {
       const double y = rate.mantissa > 0
@@ -104,19 +102,18 @@ class RatePanel final : public PicturePart {
       points.push_back({x_of(k), y});
       points.push_back({x_of(++k), y});
     }
-    points.push_back({axis_.left() + axis_.width(), axis_.bottom()});
-    sheet_.path(std::move(points), true, sheet_.palette().shade,
-                Stroke{sheet_.palette().muted, sheet_.line_px()});
+    points.push_back({axis_.plot().x + axis_.plot().width, axis_.bottom()});
+    sheet_.shape(std::move(points), sheet_.palette().shade, sheet_.palette().muted);
   }
 
   void add_powers() {
     const double em = sheet_.text_px();
-    const double fit = std::max(1.0, axis_.height() / (kBetweenTicks_em * em));
+    const double fit = std::max(1.0, axis_.plot().height / (kBetweenTicks_em * em));
     const long step = std::lround(std::ceil(double(rates_.high - rates_.low) / fit));
     for (long power = rates_.low + step; power <= rates_.high; power += step) {
       const double y = y_of(double(power));
-      const double tick = axis_.left() - kTick_em * em;
-      sheet_.line({{tick, y}, {axis_.left(), y}}, sheet_.palette().muted);
+      const double tick = axis_.plot().x - kTick_em * em;
+      sheet_.line({{tick, y}, {axis_.plot().x, y}}, sheet_.palette().muted);
       sheet_.text(power_text(power), {tick - kBesideTick_em * em, y + kHalfFigure_em * em}, 1,
                   sheet_.palette().muted);
     }
@@ -129,8 +126,8 @@ class RatePanel final : public PicturePart {
 
 }  // namespace
 
-std::unique_ptr<PicturePart> rate_panel(const Setting& setting, const PanelPlace& place) {
-  return std::make_unique<RatePanel>(setting, place);
+Drawable rate_panel(const Setting& setting, const PanelPlace& place) {
+  return RatePanel(setting, place);
 }
 
 }  // namespace piblocks

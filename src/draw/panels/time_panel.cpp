@@ -9,18 +9,16 @@
 namespace piblocks {
 namespace {
 
-/// Columns as wide as this show every line that a picture can.
-constexpr double kColumn_px = 1;
-
-class TimePanel final : public PicturePart {
+class TimePanel {
  public:
   TimePanel(const Setting& setting, const PanelPlace& place)
       : sheet_(setting, place, {"Distance from the wall", "Distances"}),
         gaps_(setting.scene.system),
         axis_(setting, sheet_, 0) {
+    const int columns = std::max(1, static_cast<int>(std::ceil(axis_.plot().width)));
     const auto pieces =
-        trajectory_of(setting.log, gaps_, axis_.from(), axis_.to(), axis_.columns(kColumn_px));
-    for (const TrajectoryPiece& piece : pieces) make_room(piece);
+        trajectory_of(setting.log, gaps_, {axis_.span().from, axis_.span().to, columns});
+    top_ = greatest_y2(pieces);
     // What blue covers is behind, and red's line over it.
     for (const TrajectoryPiece& piece : pieces) add_blue(piece);
     add_red(pieces);
@@ -28,7 +26,7 @@ class TimePanel final : public PicturePart {
     sheet_.finish();
   }
 
-  void add(const FrameState& shown, std::vector<DrawItem>& items) const override {
+  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     items.emplace_back(sheet_.item());
     const double x = axis_.x_of(to_double(shown.time));
     if (!axis_.shows(x)) return;
@@ -39,15 +37,8 @@ class TimePanel final : public PicturePart {
   }
 
  private:
-  void make_room(const TrajectoryPiece& piece) {
-    for (const TimedGaps& corner : piece.corners) top_ = std::max(top_, corner.gaps.y2);
-    for (const Band& band : piece.bands) {
-      top_ = std::max({top_, band.from.gaps.y2, band.to.gaps.y2});
-    }
-  }
-
   double y_of(double gap) const {
-    return axis_.bottom() - (top_ > 0 ? gap / top_ : 0) * axis_.height();
+    return axis_.bottom() - (top_ > 0 ? gap / top_ : 0) * axis_.plot().height;
   }
   Point at(double time, double gap) const { return {axis_.x_of(time), y_of(gap)}; }
 
@@ -67,7 +58,7 @@ class TimePanel final : public PicturePart {
     }
     points.push_back(at(piece.bands.back().to.time, 0));
     points.push_back(at(piece.bands.front().from.time, 0));
-    sheet_.path(std::move(points), true, color, Stroke{color, sheet_.line_px()});
+    sheet_.shape(std::move(points), color, color);
   }
 
   void add_red(const std::vector<TrajectoryPiece>& pieces) {
@@ -92,8 +83,8 @@ class TimePanel final : public PicturePart {
 
 }  // namespace
 
-std::unique_ptr<PicturePart> time_panel(const Setting& setting, const PanelPlace& place) {
-  return std::make_unique<TimePanel>(setting, place);
+Drawable time_panel(const Setting& setting, const PanelPlace& place) {
+  return TimePanel(setting, place);
 }
 
 }  // namespace piblocks

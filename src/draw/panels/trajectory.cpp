@@ -1,80 +1,77 @@
 #include "draw/panels/trajectory.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace piblocks {
 namespace {
 
-/// More collisions than this between two columns are drawn as a band.
+/// More collisions than this in a column are drawn as a band.
 constexpr int kMostCorners = 2;
 
-class TrajectoryBuilder {
- public:
-  TrajectoryBuilder(const CollisionLog& log, const PanelGaps& gaps) : log_(log), gaps_(gaps) {}
-
-  void begin(const Rational& time) {
-    state_ = log_.state_at(time);
-    time_ = to_double(time);
-  }
-
-  void run_to(const Rational& time) {
-    const BlockState next = log_.state_at(time);
-    const double next_time = to_double(time);
-    if (next.count - state_.count > kMostCorners) {
-      add_band({next_time, gaps_.of(next)}, next.count);
-    } else {
-      add_corners({next_time, gaps_.of(next)}, next.count);
-    }
-    state_ = next;
-    time_ = next_time;
-  }
-
-  std::vector<TrajectoryPiece> take_pieces() { return std::move(pieces_); }
-
- private:
-  void add_corners(const TimedGaps& end, const Integer& count) {
-    if (pieces_.empty() || pieces_.back().corners.empty()) {
-      pieces_.push_back({{{time_, gaps_.of(state_)}}, {}});
-    }
-    std::vector<TimedGaps>& corners = pieces_.back().corners;
-    for (Integer k = state_.count + 1; k <= count; k += 1) {
-      const Collision collision = log_.collision(k);
-      corners.push_back({collision.time.hi, gaps_.of(collision.blue, collision.red)});
-    }
-    corners.push_back(end);
-  }
-
-  void add_band(const TimedGaps& end, const Integer& count) {
-    if (pieces_.empty() || pieces_.back().bands.empty()) pieces_.push_back({});
-    Band band{{time_, gaps_.of(state_)}, end, 0};
-    // Between the wall and red, whose distance falls to the turn and rises again: it is largest at
-    // the first contact or at the last one.
-    for (const Integer& k :
-         {Integer(state_.count + 1), Integer(state_.count + 2), Integer(count - 1), count}) {
-      const Collision collision = log_.collision(k);
-      band.high = std::max(band.high, gaps_.of(collision.blue, collision.red).y1);
-    }
-    pieces_.back().bands.push_back(band);
-  }
-
-  const CollisionLog& log_;
-  const PanelGaps& gaps_;
-  BlockState state_;
-  double time_ = 0;
-  std::vector<TrajectoryPiece> pieces_;
+struct Column {
+  TimedGaps from;
+  TimedGaps to;
+  Integer first;  ///< of its collisions
+  Integer last;
 };
+
+GapPoint gaps_at(const Collision& collision, const PanelGaps& gaps) {
+  return gaps.of(collision.blue, collision.red);
+}
+
+void add_corners(const Column& column, const CollisionLog& log, const PanelGaps& gaps,
+                 std::vector<TrajectoryPiece>& pieces) {
+  if (pieces.empty() || pieces.back().corners.empty()) pieces.push_back({{column.from}, {}});
+  std::vector<TimedGaps>& corners = pieces.back().corners;
+  for (Integer k = column.first; k <= column.last; k += 1) {
+    const Collision collision = log.collision(k);
+    corners.push_back({collision.time.hi, gaps_at(collision, gaps)});
+  }
+  corners.push_back(column.to);
+}
+
+void add_band(const Column& column, const CollisionLog& log, const PanelGaps& gaps,
+              std::vector<TrajectoryPiece>& pieces) {
+  if (pieces.empty() || pieces.back().bands.empty()) pieces.push_back({});
+  Band band{column.from, column.to, 0};
+  // Blue is between the wall and red, whose distance falls to the turn and rises again: it is
+  // farthest from the wall at the first contact or at the last one.
+  for (const Integer& k :
+       {column.first, Integer(column.first + 1), Integer(column.last - 1), column.last}) {
+    band.high = std::max(band.high, gaps_at(log.collision(k), gaps).y1);
+  }
+  pieces.back().bands.push_back(band);
+}
 
 }  // namespace
 
 std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const PanelGaps& gaps,
-                                           const Rational& from, const Rational& to, int columns) {
-  TrajectoryBuilder builder(log, gaps);
-  builder.begin(from);
-  for (int column = 1; column <= columns; ++column) {
-    builder.run_to(from + (to - from) * column / columns);
+                                           const TrajectorySpan& span) {
+  std::vector<TrajectoryPiece> pieces;
+  BlockState state = log.state_at(span.from);
+  TimedGaps from{to_double(span.from), gaps.of(state)};
+  for (int i = 1; i <= span.columns; ++i) {
+    const Rational time = span.from + (span.to - span.from) * i / span.columns;
+    const BlockState next = log.state_at(time);
+    const TimedGaps to{to_double(time), gaps.of(next)};
+    const bool is_dense = next.count - state.count > kMostCorners;
+    const auto add = is_dense ? add_band : add_corners;
+    add({from, to, state.count + 1, next.count}, log, gaps, pieces);
+    state = next;
+    from = to;
   }
-  return builder.take_pieces();
+  return pieces;
+}
+
+double greatest_y2(const std::vector<TrajectoryPiece>& pieces) {
+  double greatest = 0;
+  for (const TrajectoryPiece& piece : pieces) {
+    for (const TimedGaps& corner : piece.corners) greatest = std::max(greatest, corner.gaps.y2);
+    for (const Band& band : piece.bands) {
+      greatest = std::max({greatest, band.from.gaps.y2, band.to.gaps.y2});
+    }
+  }
+  return greatest;
 }
 
 }  // namespace piblocks

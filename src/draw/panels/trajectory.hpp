@@ -29,8 +29,17 @@ struct TrajectoryPiece {
   std::vector<Band> bands;
 };
 
+struct TrajectorySpan {
+  Rational from;
+  Rational to;
+  int columns;  ///< >= 1; of one pixel, they show every line that a picture can
+};
+
 /// Pieces from one end of the span to the other.
 std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const PanelGaps& gaps,
-                                           const Rational& from, const Rational& to, int columns);
+                                           const TrajectorySpan& span);
+
+/// The greatest of red's gaps at corners and at ends of bands; at least 0.
+double greatest_y2(const std::vector<TrajectoryPiece>& pieces);
 
 }  // namespace piblocks

@@ -37,7 +37,7 @@ double angle_between(const Point& from, const Point& to) {
 
 /// Reflected again and again instead of the path, the wedge fills the half-plane, and the path is a
 /// straight line: it crosses a ray at every collision.
-class UnfoldedPanel final : public PicturePart {
+class UnfoldedPanel {
  public:
   UnfoldedPanel(const Setting& setting, const PanelPlace& place)
       : gaps_(setting.scene.system),
@@ -58,14 +58,12 @@ class UnfoldedPanel final : public PicturePart {
     sheet_.finish();
   }
 
-  void add(const FrameState& shown, std::vector<DrawItem>& items) const override {
+  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     items.emplace_back(sheet_.item());
     const Point present = plane_at(to_double(shown.time));
     if (std::hypot(present.x, present.y) > most_ * (1 + 1e-9)) return;
     if (stride_exponent_ == 0) add_present_wedge(present, items);
-    items.emplace_back(PathItem{sheet_.moving(1), std::vector<Point>{at(from_), at(present)}, false,
-                                std::nullopt,
-                                Stroke{sheet_.palette().accent, 2 * sheet_.line_px()}});
+    items.emplace_back(sheet_.moving_line(1, {at(from_), at(present)}, sheet_.palette().accent, 2));
     items.emplace_back(sheet_.dot(2, at(present), sheet_.palette().accent));
   }
 
@@ -117,8 +115,7 @@ class UnfoldedPanel final : public PicturePart {
     for (double angle = 0; angle < std::numbers::pi; angle += kRimStep)
       rim.push_back(on_rim(angle));
     rim.push_back(on_rim(std::numbers::pi));
-    sheet_.path(std::move(rim), true, std::nullopt,
-                Stroke{sheet_.palette().muted, sheet_.line_px()});
+    sheet_.shape(std::move(rim), std::nullopt, sheet_.palette().muted);
     if (stride_exponent_ > 0) {
       sheet_.text(fmt::format("1 ray in {}", short_text(Rational(power(10, stride_exponent_)))),
                   {corner_.x, corner_.y + 1.2 * sheet_.text_px()}, 0.5, sheet_.palette().muted);
@@ -132,8 +129,8 @@ class UnfoldedPanel final : public PicturePart {
     std::vector<Point> outline{corner_};
     const int steps = std::max(1, static_cast<int>(std::ceil((end - begin) / kRimStep)));
     for (int i = 0; i <= steps; ++i) outline.push_back(on_rim(begin + (end - begin) * i / steps));
-    items.emplace_back(PathItem{sheet_.moving(0), std::move(outline), true, sheet_.palette().shade,
-                                Stroke{sheet_.palette().muted, sheet_.line_px()}});
+    items.emplace_back(
+        sheet_.moving_shape(0, std::move(outline), sheet_.palette().shade, sheet_.palette().muted));
   }
 
   PanelGaps gaps_;
@@ -152,8 +149,8 @@ class UnfoldedPanel final : public PicturePart {
 
 }  // namespace
 
-std::unique_ptr<PicturePart> unfolded_panel(const Setting& setting, const PanelPlace& place) {
-  return std::make_unique<UnfoldedPanel>(setting, place);
+Drawable unfolded_panel(const Setting& setting, const PanelPlace& place) {
+  return UnfoldedPanel(setting, place);
 }
 
 }  // namespace piblocks

@@ -24,17 +24,16 @@ PanelTitle title_of(const Palette& palette) {
 /// The velocities as a point of the plane whose distance from the origin never changes. A collision
 /// of the blocks turns it by two wedge angles to below the axis, and the wall mirrors it to above:
 /// on either side sector joins sector, until none fits any more.
-class VelocityPanel final : public PicturePart {
+class VelocityPanel {
  public:
   VelocityPanel(const Setting& setting, const PanelPlace& place)
       : sheet_(setting, place, title_of(setting.palette)), gaps_(setting.scene.system) {
     const BlockSystem& system = setting.scene.system;
-    const Rational twice_energy = system.blue.mass * system.blue.velocity * system.blue.velocity +
-                                  system.red.mass * system.red.velocity * system.red.velocity;
-    if (twice_energy > 0) {
+    const Rational energy = twice_energy(system);
+    if (energy > 0) {
       moves_ = true;
-      red_factor_ = wide_root_of(system.red.mass / twice_energy);
-      blue_factor_ = wide_root_of(system.blue.mass / twice_energy);
+      red_factor_ = root_of(system.red.mass / energy);
+      blue_factor_ = root_of(system.blue.mass / energy);
       const Point start = point_of(to_double(system.blue.velocity), to_double(system.red.velocity));
       start_angle_ = std::abs(std::atan2(start.y, start.x));
     }
@@ -48,7 +47,7 @@ class VelocityPanel final : public PicturePart {
     sheet_.finish();
   }
 
-  void add(const FrameState& shown, std::vector<DrawItem>& items) const override {
+  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     items.emplace_back(sheet_.item());
     if (!moves_) return;
     const Point velocity = point_of(shown.state.blue.velocity, shown.state.red.velocity);
@@ -61,9 +60,7 @@ class VelocityPanel final : public PicturePart {
     add_lit(velocity.y < 0 && !is_over ? angle + 2 * gaps_.theta : angle, above_, 1, items);
     if (rays_.plate) items.emplace_back(rays_);
     const Point at{centre_.x + radius_ * velocity.x, centre_.y - radius_ * velocity.y};
-    items.emplace_back(PathItem{sheet_.moving(3), std::vector<Point>{centre_, at}, false,
-                                std::nullopt,
-                                Stroke{sheet_.palette().accent, 1.5 * sheet_.line_px()}});
+    items.emplace_back(sheet_.moving_line(3, {centre_, at}, sheet_.palette().accent, 1.5));
     items.emplace_back(sheet_.dot(4, at, sheet_.palette().accent));
   }
 
@@ -110,8 +107,7 @@ class VelocityPanel final : public PicturePart {
     const double reach = radius_ + 0.5 * em;
     sheet_.line({{centre_.x - reach, centre_.y}, {centre_.x + reach, centre_.y}}, palette.grid);
     sheet_.line({{centre_.x, centre_.y - reach}, {centre_.x, centre_.y + reach}}, palette.grid);
-    sheet_.path(arc(0, 2 * std::numbers::pi), true, std::nullopt,
-                Stroke{palette.muted, sheet_.line_px()});
+    sheet_.shape(arc(0, 2 * std::numbers::pi), std::nullopt, palette.muted);
   }
 
   /// Between all sectors, lit or not; they are over what is lit, and painted once.
@@ -124,8 +120,7 @@ class VelocityPanel final : public PicturePart {
       for (double angle = start_angle_; angle > end; angle -= 2 * gaps_.theta) {
         const double at = side.sign * std::max(0.0, angle);
         plate.items.emplace_back(
-            PathItem{sheet_.moving(2), std::vector<Point>{on_circle(inner, at), on_rim(at)}, false,
-                     std::nullopt, Stroke{sheet_.palette().grid, sheet_.line_px()}});
+            sheet_.moving_line(2, {on_circle(inner, at), on_rim(at)}, sheet_.palette().grid));
       }
     }
     rays_ = {sheet_.moving(2), sheet_.item().bounds,
@@ -138,8 +133,7 @@ class VelocityPanel final : public PicturePart {
     if (end > start_angle_ - gaps_.theta / 2) return;
     std::vector<Point> outline = arc(side.sign * start_angle_, side.sign * end);
     outline.push_back(centre_);
-    items.emplace_back(
-        PathItem{sheet_.moving(n), std::move(outline), true, sheet_.palette().shade, std::nullopt});
+    items.emplace_back(sheet_.moving_shape(n, std::move(outline), sheet_.palette().shade));
   }
 
   PanelSheet sheet_;
@@ -159,8 +153,8 @@ class VelocityPanel final : public PicturePart {
 
 }  // namespace
 
-std::unique_ptr<PicturePart> velocity_panel(const Setting& setting, const PanelPlace& place) {
-  return std::make_unique<VelocityPanel>(setting, place);
+Drawable velocity_panel(const Setting& setting, const PanelPlace& place) {
+  return VelocityPanel(setting, place);
 }
 
 }  // namespace piblocks

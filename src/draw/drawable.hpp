@@ -2,6 +2,8 @@
 // In: a setting, once; what is shown, for every frame. Out: items, in the order of their ids.
 #pragma once
 
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "draw/composition.hpp"
@@ -11,7 +13,7 @@
 
 namespace piblocks {
 
-/// What parts are set up from; it does not outlive the set-up.
+/// What drawables are made from. It does not outlive their making.
 struct Setting {
   const Scene& scene;
   const CollisionLog& log;
@@ -22,15 +24,14 @@ struct Setting {
   double line_px;
 };
 
-/// Const members are thread-safe.
-class PicturePart {
- public:
-  PicturePart() = default;
-  virtual ~PicturePart() = default;
-  PicturePart(const PicturePart&) = delete;
-  PicturePart& operator=(const PicturePart&) = delete;
+/// Appends the items that show it at one instant. Thread-safe.
+using Drawable = std::function<void(const FrameState& shown, std::vector<DrawItem>& items)>;
 
-  virtual void add(const FrameState& shown, std::vector<DrawItem>& items) const = 0;
-};
+/// What is the same in every frame.
+inline Drawable unchanging(std::vector<DrawItem> same) {
+  return [same = std::move(same)](const FrameState& /*shown*/, std::vector<DrawItem>& items) {
+    items.insert(items.end(), same.begin(), same.end());
+  };
+}
 
 }  // namespace piblocks

@@ -28,8 +28,8 @@ std::uint32_t pixel(const ImageView& image, int x, int y) {
 }
 
 /// What a list has to be painted on.
-Ground ground_for(const DrawList& list) {
-  return list.background ? Ground::opaque : Ground::transparent;
+Background background_for(const DrawList& list) {
+  return list.background ? Background::opaque : Background::transparent;
 }
 
 bool contains(const PixelRect& r, int x, int y) {
@@ -50,7 +50,7 @@ void expect_update(Canvas& canvas, const DrawList& list) {
   const std::vector<std::uint32_t> before = pixels_of(canvas);
   const auto span = canvas.update(list);
   const std::vector<PixelRect> changed(span.begin(), span.end());
-  Canvas fresh(list.width_px, list.height_px, ground_for(list));
+  Canvas fresh(list.width_px, list.height_px, background_for(list));
   fresh.paint(list);
   const std::vector<std::uint32_t> after = pixels_of(canvas);
   const std::vector<std::uint32_t> wanted = pixels_of(fresh);
@@ -85,7 +85,7 @@ void expect_exact_updates(Background background) {
     scene.view.height_px = height;
     const auto log = make_collision_log(scene.system);
     const Composition composition(scene, *log);
-    Canvas canvas(width, height, ground_for(frame(composition, *log, 0)));
+    Canvas canvas(width, height, background_for(frame(composition, *log, 0)));
     for (int i = 0; i < 120; ++i) {
       expect_update(canvas, frame(composition, *log, Rational(i) / 12));
       ASSERT_FALSE(testing::Test::HasFailure())
@@ -94,13 +94,13 @@ void expect_exact_updates(Background background) {
   }
 }
 
-TEST(Damage, OfWholeScenesIsExact) { expect_exact_updates(Background::opaque); }
+TEST(Region, OfWholeScenesIsExact) { expect_exact_updates(Background::opaque); }
 
-TEST(Damage, OfWholeScenesWithoutABackgroundIsExact) {
+TEST(Region, OfWholeScenesWithoutABackgroundIsExact) {
   expect_exact_updates(Background::transparent);
 }
 
-TEST(Damage, OfAScenesFrameIsSmall) {
+TEST(Region, OfAScenesFrameIsSmall) {
   Scene scene = ScriptBuilder().build_scene();
   scene.view.width_px = 1280;
   scene.view.height_px = 720;
@@ -112,7 +112,7 @@ TEST(Damage, OfAScenesFrameIsSmall) {
   EXPECT_LT(area(canvas.update(frame(composition, *log, Rational(61, 60)))), 0.005 * 1280 * 720);
 }
 
-TEST(Damage, OfPicturesWithAllThatCanBeShownIsExact) {
+TEST(Region, OfPicturesWithAllThatCanBeShownIsExact) {
   for (const char* theme : {"article", "colorblind"}) {
     ScriptBuilder builder;
     builder.set("test", "view.size", "800x600");
@@ -135,8 +135,8 @@ TEST(Damage, OfPicturesWithAllThatCanBeShownIsExact) {
 void move(Random& random, ExposedBlock& block) {
   const double step = random.uniform(-5, 5);
   block.bounds.x += step;
-  for (Stop& stop : block.stops) stop.x += step;
-  if (random.integer(0, 4) == 0) block.stops.clear();
+  for (Dwell& dwell : block.dwells) dwell.x += step;
+  if (random.integer(0, 4) == 0) block.dwells.clear();
 }
 
 void change(Random& random, DrawList& list);
@@ -187,7 +187,7 @@ void add_or_remove(Random& random, DrawList& list) {
   }
 }
 
-TEST(Damage, OfRandomPicturesIsExact) {
+TEST(Region, OfRandomPicturesIsExact) {
   Random random(271);
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < 400; ++i) {
@@ -199,7 +199,7 @@ TEST(Damage, OfRandomPicturesIsExact) {
          {ItemId::wall, ItemId::red_block, ItemId::blue_block, ItemId::label, ItemId::count}) {
       list.items.push_back(any_item(random, id, width, height));
     }
-    Canvas canvas(width, height, ground_for(list));
+    Canvas canvas(width, height, background_for(list));
     for (int step = 0; step < 20; ++step) {
       expect_update(canvas, list);
       ASSERT_FALSE(HasFailure()) << "picture " << i << ", step " << step;
@@ -208,7 +208,7 @@ TEST(Damage, OfRandomPicturesIsExact) {
   }
 }
 
-TEST(Damage, OfItemsThatComeAndGoIsExact) {
+TEST(Region, OfItemsThatComeAndGoIsExact) {
   Random random(828);
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < 200; ++i) {
@@ -225,7 +225,7 @@ TEST(Damage, OfItemsThatComeAndGoIsExact) {
   }
 }
 
-TEST(Damage, OfAnItemThatComesIsItsOwn) {
+TEST(Region, OfAnItemThatComesIsItsOwn) {
   DrawList list{200, 100, kWhite, {}};
   const auto dot = [](std::size_t n) {
     return DiskItem{nth(ItemId::count, n), {10.0 * double(n), 50}, 4, kGreen, std::nullopt};
@@ -238,7 +238,7 @@ TEST(Damage, OfAnItemThatComesIsItsOwn) {
   EXPECT_LT(area(canvas.update(list)), 2 * 11 * 11);
 }
 
-TEST(Damage, OfOtherItemsInAnyOrderIsTheWholeFrame) {
+TEST(Region, OfOtherItemsInAnyOrderIsTheWholeFrame) {
   const RectangleItem wall{ItemId::wall, {1, 1, 5, 5}, kGreen, std::nullopt};
   const TextItem count{ItemId::count, {2, 20}, "31", 18, kBlack};
   Canvas canvas(40, 30);
@@ -248,11 +248,11 @@ TEST(Damage, OfOtherItemsInAnyOrderIsTheWholeFrame) {
 }
 
 /// Of two cells, one of which changes, with a line between them.
-TEST(Damage, WithinAPictureIsAsSmallAsItsOwn) {
+TEST(Region, WithinAPictureIsAsSmallAsItsOwn) {
   const auto list = [](const char* text) {
     DrawList left{200, 40, kWhite, {TextItem{ItemId::count, {10, 30}, text, 20, kBlack}}};
     const auto cell = std::make_shared<const DrawList>(std::move(left));
-    return DrawList{420, 40, kWhite, {GroupItem{ItemId::compared, 220, 0, cell, 1}}};
+    return DrawList{420, 40, kWhite, {GroupItem{ItemId::compared, {220, 0, 200, 40}, cell, 1}}};
   };
   Canvas canvas(420, 40);
   expect_update(canvas, list("3,141,591"));
@@ -262,7 +262,7 @@ TEST(Damage, WithinAPictureIsAsSmallAsItsOwn) {
   for (const PixelRect& rect : changed) EXPECT_GT(rect.x_px, 220 + 90);
 }
 
-TEST(Damage, OfAFadeIsTheFrameOnce) {
+TEST(Region, OfAFadeIsTheFrameOnce) {
   const auto list = [](double opacity) {
     const DrawList next{40, 30, kGreen, {}};
     const RectangleItem block{ItemId::red_block, {10 * opacity, 1, 5, 5}, kBlack, std::nullopt};
@@ -270,14 +270,15 @@ TEST(Damage, OfAFadeIsTheFrameOnce) {
         40,
         30,
         kWhite,
-        {block, GroupItem{ItemId::fade, 0, 0, std::make_shared<const DrawList>(next), opacity}}};
+        {block,
+         GroupItem{ItemId::fade, {0, 0, 40, 30}, std::make_shared<const DrawList>(next), opacity}}};
   };
   Canvas canvas(40, 30);
   expect_update(canvas, list(0.25));
   EXPECT_EQ(area(canvas.update(list(0.5))), 40 * 30);
 }
 
-TEST(Damage, OfACounterStartsAtTheFirstNewDigit) {
+TEST(Region, OfACounterStartsAtTheFirstNewDigit) {
   const auto list = [](const char* text) {
     return DrawList{200, 40, kWhite, {TextItem{ItemId::count, {10, 30}, text, 20, kBlack}}};
   };

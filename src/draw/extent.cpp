@@ -1,0 +1,101 @@
+#include "draw/extent.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <optional>
+
+namespace piblocks {
+namespace {
+
+// Of the embedded font, in ems, with room to spare: marks above capitals, tails below the baseline,
+// and how far a glyph may reach out of its advance.
+constexpr double kAscent = 1.1;
+constexpr double kDescent = 0.35;
+constexpr double kOverhang = 0.15;
+
+/// How far a centred line reaches beyond the outline it is drawn on.
+double reach_of(const std::optional<Stroke>& stroke) { return stroke ? stroke->width_px / 2 : 0; }
+
+struct ExtentOf {
+  const MeasureText& width_em;
+
+  Extent operator()(const TextItem& text) const { return extent_of(text, 0, width_em(text.text)); }
+  Extent operator()(const PathItem& path) const {
+    return extent_of(path.points.bounds()).grown(reach_of(path.stroke));
+  }
+  Extent operator()(const DiskItem& disk) const {
+    return Extent{disk.centre.x, disk.centre.y, disk.centre.x, disk.centre.y}.grown(
+        disk.radius + reach_of(disk.stroke));
+  }
+  Extent operator()(const ExposedItem& item) const {
+    const Extent a = extent_of(item.behind);
+    const Extent b = extent_of(item.front);
+    return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right),
+            std::max(a.bottom, b.bottom)};
+  }
+  /// A line on these is inside their bounds.
+  Extent operator()(const auto& item) const { return extent_of(item.bounds); }
+};
+
+bool all_finite(std::initializer_list<double> numbers) {
+  return std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
+}
+
+bool is_finite(const Rectangle& r) { return all_finite({r.x, r.y, r.width, r.height}); }
+
+struct IsFinite {
+  bool operator()(const TextItem& text) const {
+    return all_finite({text.origin.x, text.origin.y, text.size_px});
+  }
+  bool operator()(const PathItem& path) const {
+    return std::ranges::all_of(path.points.view(), [](const Point& point) {
+      return all_finite({point.x, point.y});
+    });
+  }
+  bool operator()(const DiskItem& disk) const {
+    return all_finite({disk.centre.x, disk.centre.y, disk.radius});
+  }
+  bool operator()(const ExposedItem& item) const {
+    return is_finite(item.behind.bounds) && is_finite(item.front.bounds);
+  }
+  bool operator()(const auto& item) const { return is_finite(item.bounds); }
+};
+
+}  // namespace
+
+Extent extent_of(const Rectangle& r) { return {r.x, r.y, r.x + r.width, r.y + r.height}; }
+
+Extent extent_of(const ExposedBlock& block) {
+  Extent extent = extent_of(block.bounds);
+  if (!block.dwells.empty()) {
+    extent.left = block.dwells.front().x;
+    extent.right = block.dwells.back().x + block.bounds.width;
+  }
+  return extent;
+}
+
+Extent extent_of(const TextItem& text, double left_em, double right_em) {
+  const double em = text.size_px;
+  return {text.origin.x + (left_em - kOverhang) * em, text.origin.y - kAscent * em,
+          text.origin.x + (right_em + kOverhang) * em, text.origin.y + kDescent * em};
+}
+
+Extent extent_of(const DrawItem& item, const MeasureText& width_em) {
+  return std::visit(ExtentOf{width_em}, item);
+}
+
+bool reaches(const DrawItem& item, const PixelRect& rect) {
+  // A line of text is taken as endless rather than measured.
+  static const MeasureText endless_em = [](std::string_view /*text*/) { return 1e6; };
+  const Extent extent = extent_of(item, endless_em).grown(kRounding_px);
+  return extent.left < rect.x_px + rect.width_px && extent.right > rect.x_px &&
+         extent.top < rect.y_px + rect.height_px && extent.bottom > rect.y_px;
+}
+
+bool are_finite(std::span<const DrawItem> items) {
+  return std::ranges::all_of(items,
+                             [](const DrawItem& item) { return std::visit(IsFinite{}, item); });
+}
+
+}  // namespace piblocks

@@ -1,0 +1,45 @@
+// Where draw items are.
+// In: items. Out: what they may have painted, and whether every place in them is a number.
+#pragma once
+
+#include <piblocks/image.hpp>
+
+#include <functional>
+#include <span>
+#include <string_view>
+
+#include "draw/draw_list.hpp"
+
+namespace piblocks {
+
+/// In pixels, but not whole ones.
+struct Extent {
+  double left;
+  double top;
+  double right;
+  double bottom;
+
+  Extent grown(double px) const { return {left - px, top - px, right + px, bottom + px}; }
+};
+
+/// Cairo rounds every coordinate to 1/256 pixel, and some sums of them again: an item may paint so
+/// far out of its extent.
+inline constexpr double kRounding_px = 1.0 / 64;
+
+/// Width of a line of text, in ems.
+using MeasureText = std::function<double(std::string_view utf8)>;
+
+Extent extent_of(const Rectangle& rectangle);
+Extent extent_of(const ExposedBlock& block);
+/// The characters of a line of text between two distances from its origin.
+Extent extent_of(const TextItem& text, double left_em, double right_em);
+Extent extent_of(const DrawItem& item, const MeasureText& width_em);
+
+/// Whether the item may have painted something into the rectangle; no promise that it has.
+bool reaches(const DrawItem& item, const PixelRect& rect);
+
+/// Whether no place or length is infinite or not a number. What is inside plates and groups was
+/// checked when these were made.
+bool are_finite(std::span<const DrawItem> items);
+
+}  // namespace piblocks

@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/number_text.hpp"
+#include "draw/overlays/overlays.hpp"
+
+namespace piblocks {
+namespace {
+
+/// How values up to a largest one are written: with six digits of it, and as multiples of a power
+/// of ten where that is shorter.
+struct Scale {
+  explicit Scale(const Magnitude& most)
+      : largest(written_with(kDigits - 1, most)),
+        is_plain(largest.exponent >= -2 && largest.exponent < kDigits),
+        decimals(kDigits - 1 - (is_plain ? static_cast<int>(largest.exponent) : 0)),
+        unit(is_plain ? "" : " ×" + power_text(largest.exponent)) {}
+
+  std::string text(double value) const { return fixed_text(value, decimals); }
+
+  static constexpr int kDigits = 6;
+  Magnitude largest;
+  bool is_plain;
+  int decimals;
+  std::string unit;
+};
+
+}  // namespace
+
+ReadOut energy_read_out(const Setting& setting) {
+  const BlockSystem& system = setting.scene.system;
+  const Rational exact_sum = twice_energy(system) / 2;
+  const Scale scale(magnitude_of(exact_sum));
+  const double sum = scale.is_plain ? to_double(exact_sum) : scale.largest.mantissa;
+  const char* const red_name = setting.palette.red.name;
+  const char* const blue_name = setting.palette.blue.name;
+  const auto text = [=](double red, double blue) {
+    return fmt::format("Energy{}: {} {} + {} {} = {}", scale.unit, red_name, scale.text(red),
+                       blue_name, scale.text(blue), scale.text(sum));
+  };
+  // Red's velocity if it had all the energy. It may be beyond a double where red's velocity is not.
+  const mpf_class fastest = root_of(2 * exact_sum / system.red.mass);
+  return {"energy", text(sum, sum),
+          [=](const FrameState& shown) {
+            const double share =
+                fastest > 0 ? mpf_class(shown.state.red.velocity / fastest).get_d() : 0;
+            const double red = sum * std::min(1.0, share * share);
+            return text(red, sum - red);
+          },
+          setting.palette.text};
+}
+
+ReadOut momentum_read_out(const Setting& setting) {
+  const BlockSystem& system = setting.scene.system;
+  // The most that one block can have: all energy its own, and it the heavier one.
+  const Rational most_squared = twice_energy(system) * std::max(system.blue.mass, system.red.mass);
+  const Scale scale(root_magnitude_of(most_squared));
+  const char* const red_name = setting.palette.red.name;
+  const char* const blue_name = setting.palette.blue.name;
+  const auto text = [=](double red, double blue) {
+    return fmt::format("Momentum{}: {} {}, {} {}, sum {}", scale.unit, red_name, scale.text(red),
+                       blue_name, scale.text(blue), scale.text(red + blue));
+  };
+  const double most =
+      scale.largest.mantissa * (scale.is_plain ? std::pow(10, double(scale.largest.exponent)) : 1);
+  // In parts of the most: masses may be beyond a double, and so may what a velocity of 1 gives.
+  const auto momentum_per_velocity = [&](const Block& block) -> mpf_class {
+    if (most_squared == 0) return 0;
+    return most * root_of(block.mass * block.mass / most_squared);
+  };
+  const mpf_class red_factor = momentum_per_velocity(system.red);
+  const mpf_class blue_factor = momentum_per_velocity(system.blue);
+  return {"momentum", text(-most, -most),
+          [=](const FrameState& shown) {
+            return text(mpf_class(red_factor * shown.state.red.velocity).get_d(),
+                        mpf_class(blue_factor * shown.state.blue.velocity).get_d());
+          },
+          setting.palette.text};
+}
+
+}  // namespace piblocks

@@ -1,0 +1,112 @@
+#include "draw/paint_shapes.hpp"
+
+#include <piblocks/image.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace piblocks {
+namespace {
+
+/// Dashes along one side, fitted so that a dash ends in each corner and the pattern looks the
+/// same from both ends.
+void stroke_side(cairo_t& cr, const Point& from, const Point& to, double dash_px) {
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const double periods = std::max(1.0, std::round((length / dash_px - 1) / 2));
+  const double fitted = length / (2 * periods + 1);
+  cairo_set_dash(&cr, &fitted, 1, 0);
+  cairo_move_to(&cr, from.x, from.y);
+  cairo_line_to(&cr, to.x, to.y);
+  cairo_stroke(&cr);
+}
+
+void stroke_inside(cairo_t& cr, const Rectangle& bounds, const Stroke& stroke) {
+  // A shape thinner than its stroke is all stroke.
+  const double width_px = std::min({stroke.width_px, bounds.width, bounds.height});
+  const double inset = width_px / 2;
+  const double left = bounds.x + inset;
+  const double top = bounds.y + inset;
+  const double right = bounds.x + bounds.width - inset;
+  const double bottom = bounds.y + bounds.height - inset;
+  set_color(cr, stroke.color);
+  cairo_set_line_width(&cr, width_px);
+  if (stroke.dash_px <= 0 || width_px < stroke.width_px) {
+    cairo_set_dash(&cr, nullptr, 0, 0);
+    cairo_rectangle(&cr, left, top, right - left, bottom - top);
+    cairo_stroke(&cr);
+    return;
+  }
+  cairo_set_line_cap(&cr, CAIRO_LINE_CAP_SQUARE);
+  const std::array<Point, 4> corners{{{left, top}, {right, top}, {right, bottom}, {left, bottom}}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    stroke_side(cr, corners.at(i), corners.at((i + 1) % 4), stroke.dash_px);
+  }
+  cairo_set_line_cap(&cr, CAIRO_LINE_CAP_BUTT);
+}
+
+/// Cairo's coordinates end at 2^23 pixels, and beyond it they come back on the other side. No frame
+/// and no line reaches as far as this.
+double within_reach(double px) {
+  constexpr double kFar_px = 1 << 22;
+  return std::clamp(px, -kFar_px, kFar_px);
+}
+
+Rectangle within_reach(const Rectangle& r) {
+  const double x = within_reach(r.x);
+  const double y = within_reach(r.y);
+  if (x == r.x && y == r.y && r.width <= kMaxSide_px && r.height <= kMaxSide_px) return r;
+  return {x, y, within_reach(r.x + r.width) - x, within_reach(r.y + r.height) - y};
+}
+
+/// The fill of the current path, then its line, centred on it.
+void fill_and_stroke(cairo_t& cr, const std::optional<Color>& fill,
+                     const std::optional<Stroke>& stroke) {
+  if (fill) {
+    set_color(cr, *fill);
+    cairo_fill_preserve(&cr);
+  }
+  if (stroke) {
+    set_color(cr, stroke->color);
+    cairo_set_line_width(&cr, stroke->width_px);
+    cairo_set_dash(&cr, &stroke->dash_px, stroke->dash_px > 0 ? 1 : 0, 0);
+    cairo_set_line_join(&cr, CAIRO_LINE_JOIN_ROUND);
+    cairo_stroke_preserve(&cr);
+    cairo_set_line_join(&cr, CAIRO_LINE_JOIN_MITER);
+  }
+  cairo_new_path(&cr);
+}
+
+}  // namespace
+
+void set_color(cairo_t& cr, const Color& color) {
+  cairo_set_source_rgb(&cr, color.red / 255.0, color.green / 255.0, color.blue / 255.0);
+}
+
+void paint_shape(cairo_t& cr, const RectangleItem& item) {
+  const Rectangle bounds = within_reach(item.bounds);
+  if (item.fill) {
+    set_color(cr, *item.fill);
+    cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);
+    cairo_fill(&cr);
+  }
+  if (item.stroke) stroke_inside(cr, bounds, *item.stroke);
+}
+
+void paint_shape(cairo_t& cr, const PathItem& item) {
+  for (const Point& point : item.points.view()) {
+    cairo_line_to(&cr, within_reach(point.x), within_reach(point.y));
+  }
+  if (item.closed) cairo_close_path(&cr);
+  fill_and_stroke(cr, item.fill, item.stroke);
+}
+
+void paint_shape(cairo_t& cr, const DiskItem& item) {
+  cairo_arc(&cr, item.centre.x, item.centre.y, item.radius, 0, 2 * std::numbers::pi);
+  cairo_close_path(&cr);
+  fill_and_stroke(cr, item.fill, item.stroke);
+}
+
+}  // namespace piblocks
