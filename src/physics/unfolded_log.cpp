@@ -23,7 +23,7 @@ DoubleDouble mean(const DoubleDouble& a, const DoubleDouble& b) {
   return {sum.hi / 2, (sum.lo + a.lo + b.lo) / 2};
 }
 
-/// Where a landmark is from the ray half-way between two.
+/// Rays to a landmark from the direction half-way between two rays.
 DoubleDouble steps_from(const Landmark& landmark, const Integer& from, const Integer& to) {
   const DoubleDouble steps = landmark.steps_from(from);
   return from == to ? steps : mean(steps, landmark.steps_from(to));
@@ -48,16 +48,11 @@ BlockState finite(const Time& time, const Integer& count, const Motion& blue, co
 
 }  // namespace
 
-UnfoldedLog::UnfoldedLog(const BlockSystem& system) : UnfoldedLog(system, checked(system)) {}
-
-UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion)
-    : UnfoldedLog(system, motion, motion.wedge(kLandmark_bits)) {}
-
-UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion, const Wedge& wedge)
-    : CollisionLog(system), exact_(motion), form_(system, motion, wedge) {
-  set_range(motion.first_index(wedge.past), motion.total(wedge.future));
-  const bool touches = motion.y1 == 0 || motion.y1 == motion.y2;
-  if (touches && !motion.through_corner()) contact_ = state_at(0).count;
+UnfoldedLog::UnfoldedLog(const BlockSystem& system)
+    : CollisionLog(system), exact_(checked(system)), form_(system, exact_) {
+  set_range(form_.first_index, form_.size);
+  const bool touches = exact_.y1 == 0 || exact_.y1 == exact_.y2;
+  if (touches && !exact_.through_corner()) contact_ = state_at(0).count;
 }
 
 double UnfoldedLog::tau_near(const Time& t, double* magnitude) const {
@@ -80,7 +75,7 @@ double UnfoldedLog::tau_at(const Rational& time, const Time& t) const {
 }
 
 UnfoldedLog::LinePoint UnfoldedLog::point_at(double tau, const Time& t) const {
-  // The view of the line from the corner in units of ell, in which it passes at sigma.
+  // Seen from the corner, in units of ell; the line passes it at distance sigma.
   const double ahead = exact_.through_corner() ? kFarAway : form_.ahead(tau);
   const double range = std::hypot(form_.sigma, ahead);
 
@@ -143,7 +138,7 @@ BlockState UnfoldedLog::state_at(const Rational& time) const {
 BlockState UnfoldedLog::state_of(const LinePoint& point, const Phase& at,
                                  const Rational& time) const {
   const Integer count = exact_.blocks_first ? at.ray : Integer(at.ray + 1);
-  // Until the first collision the blocks move as the system begins: no angle is as exact.
+  // Until the first collision the motion of the system is more exact than any angle.
   if (count == 0) {
     return finite(point.time, count, motion_at(system().blue, time), motion_at(system().red, time));
   }
@@ -217,10 +212,8 @@ std::optional<Impact> UnfoldedLog::impact(CollisionKind kind, const Integer& fir
   if (from > to) return std::nullopt;
 
   const RayView seen = view_of(from, to);
-  // What one collision in the middle has, for each of n, and how far they fall short of that:
-  // they lie 2 theta apart, and sin(d - (n-1) theta) + … + sin(d + (n-1) theta) is
-  // sin d sin(n theta)/sin theta, as is the sum of cosines, which the times are weighted by, with
-  // cos d.
+  // The impulse of a collision in the middle, times sin(n theta)/sin theta (README.md, "Many
+  // collisions as one").
   const double one = seen.ray.sine / form_.step.sine / (odd ? 1 : form_.step.cosine);
   double number = 1;
   if (from != to) {
@@ -241,8 +234,8 @@ Integer UnfoldedLog::count_near(const Time& time) const {
 
 std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,
                                                      const Integer& last) const {
-  // Times and distances are greatest at the ends of a range: nothing between is out of range if
-  // they are not.
+  // Times and distances are greatest at the ends of a range. If a double can hold those, it can
+  // hold all between.
   if (first <= last) {
     collision(first);
     collision(last);
@@ -269,7 +262,7 @@ double UnfoldedLog::time_to_ray(double tau, double rays, double sine) const {
   return std::hypot(form_.passage, tau) * (std::sin(rays * form_.theta.hi) / sine);
 }
 
-/// Until all collisions at once, and from there on.
+/// Before all collisions, which happen at once, and after them.
 Exposure UnfoldedLog::expose_corner(const Rational& begin, const Rational& end) const {
   const BlockState start = state_at(begin);
   const BlockState stop = state_at(end);
@@ -301,7 +294,7 @@ Exposure UnfoldedLog::expose(const Rational& first, const Rational& last) const 
     return expose_bounces(form_, total_phase(), {from, phase_of(first_ray), is_odd(first_ray)},
                           {to, phase_of(last_ray), is_odd(last_ray)});
   }
-  // Times between places are those of triangles with the corner, however long the turn takes.
+  // Durations come from triangles with the corner, so that a long turn costs no precision.
   PieceList pieces(start.blue.position, start.red.position);
   double before = 0;  // the sine of the ray before
   for (Integer ray = first_ray; ray <= last_ray; ++ray) {

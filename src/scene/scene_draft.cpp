@@ -100,12 +100,6 @@ void SceneDraft::add_problem(const std::string& origin, const std::string& text)
   problems_.push_back(fmt::format("{}: {}", origin, text));
 }
 
-std::string SceneDraft::described(const Problem& problem) const {
-  const auto origin = origins_.find(problem.key);
-  const std::string& place = origin == origins_.end() ? place_ : origin->second;
-  return fmt::format("{}: {} {}", place, problem.key, problem.reason);
-}
-
 SceneDraft SceneDraft::next(const std::string& place) const {
   SceneDraft draft = *this;
   draft.problems_.clear();
@@ -120,16 +114,13 @@ Scene SceneDraft::scene() const {
   return scene;
 }
 
-std::vector<std::string> SceneDraft::problems() const {
+std::vector<std::string> SceneDraft::problems(bool of_film) const {
   std::vector<std::string> problems = problems_;
-  for (const Problem& problem : problems_of(scene())) problems.push_back(described(problem));
-  return problems;
-}
-
-std::vector<std::string> SceneDraft::film_problems() const {
-  std::vector<std::string> problems = problems_;
-  for (const Problem& problem : problems_of(scene())) {
-    if (is_film_key(problem.key)) problems.push_back(described(problem));
+  for (const auto& [key, reason] : problems_of(scene())) {
+    if (of_film && !is_film_key(key)) continue;
+    const auto origin = origins_.find(key);
+    problems.push_back(
+        fmt::format("{}: {} {}", origin == origins_.end() ? place_ : origin->second, key, reason));
   }
   return problems;
 }

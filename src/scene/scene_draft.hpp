@@ -28,15 +28,13 @@ class SceneDraft {
   SceneDraft next(const std::string& place) const;
 
   Scene scene() const;
-  /// Everything that is wrong: origin, key, value and reason.
-  std::vector<std::string> problems() const;
-  /// Those that hold for a storyboard: of text, and of keys for a whole film.
-  std::vector<std::string> film_problems() const;
+  /// Everything that is wrong, also with text: origin, key, value and reason.
+  /// @param of_film  leaves out values that are no keys of a whole film.
+  std::vector<std::string> problems(bool of_film = false) const;
 
  private:
   void set_key(const std::string& origin, const std::string& key, const Values& values);
   void add_problem(const std::string& origin, const std::string& text);
-  std::string described(const Problem& problem) const;
 
   Scene scene_;
   std::optional<Rational> mass_ratio_;

@@ -14,18 +14,17 @@ namespace {
 
 constexpr std::string_view kPart = "part";
 
-struct SetKey {
-  std::string origin;
-  std::string key;
-};
-
 }  // namespace
 
 struct ScriptBuilder::State {
+  struct SetKey {
+    std::string origin;
+    std::string key;
+  };
   SceneDraft film{"scene"};  // of a storyboard: what holds for all parts
   std::string path;
   std::vector<TomlTable> parts;
-  std::vector<std::string> problems;  // of what is no part
+  std::vector<std::string> problems;  // of entries that are no parts
   std::vector<SetKey> set_keys;       // by set(), in order
 
   void add_problem(std::size_t line, const std::string& text) {
@@ -81,13 +80,13 @@ Script ScriptBuilder::build() const {
   if (state_->parts.empty() && state_->problems.empty()) return build_scene();
   std::vector<std::string> problems = state_->problems;
   const auto add = [&](const std::vector<std::string>& more) {
-    // What is wrong for every part is told once.
+    // A problem of every part is reported once.
     for (const std::string& problem : more) {
       if (std::ranges::count(problems, problem) == 0) problems.push_back(problem);
     }
   };
   if (!state_->parts.empty()) add(state_->misplaced_keys());
-  add(state_->film.film_problems());
+  add(state_->film.problems(true));
   StoryReader reader(state_->path, state_->film);
   for (const TomlTable& part : state_->parts) reader.read(part);
   add(reader.problems());

@@ -15,8 +15,6 @@
 namespace piblocks {
 namespace {
 
-constexpr auto kPartKeys = std::to_array<std::string_view>({"card", "seconds", "compare", "fade"});
-
 const TomlEntry* find(const TomlTable& table, std::string_view key) {
   const auto found = std::ranges::find(table.entries, key, &TomlEntry::key);
   return found == table.entries.end() ? nullptr : &*found;
@@ -81,17 +79,29 @@ Card StoryReader::card_of(const TomlTable& table, Places& places) {
   return card;
 }
 
-Runs StoryReader::runs_of(const TomlTable& table) {
+template <typename Rule>
+TomlTable StoryReader::checked(const TomlTable& table, const Rule& problem_of) {
   TomlTable keys{{}, table.line};
   for (const TomlEntry& entry : table.entries) {
-    if (entry.key == "seconds") {
-      add_problem(entry, "is the length of a card; a run has time.duration");
-    } else if (is_film_key(entry.key)) {
-      add_problem(entry, "holds for the whole film; put it above the parts");
-    } else if (std::ranges::count(kPartKeys, entry.key) == 0) {
+    const char* const problem = is_film_key(entry.key)
+                                    ? "holds for the whole film; put it above the parts"
+                                    : problem_of(entry.key);
+    if (problem != nullptr) {
+      add_problem(entry, problem);
+    } else {
       keys.entries.push_back(entry);
     }
   }
+  return keys;
+}
+
+Runs StoryReader::runs_of(const TomlTable& table) {
+  TomlTable keys = checked(table, [](const std::string& key) {
+    return key == "seconds" ? "is the length of a card; a run has time.duration" : nullptr;
+  });
+  std::erase_if(keys.entries, [](const TomlEntry& entry) {
+    return entry.key == "compare" || entry.key == "fade";
+  });
   SceneDraft common = film_.next(fmt::format("{}:{}", path_, table.line));
   common.read(path_, keys);
   std::vector<SceneDraft> drafts = {common};
@@ -104,7 +114,7 @@ Runs StoryReader::runs_of(const TomlTable& table) {
   return runs;
 }
 
-/// What the part says holds for each of them.
+/// The values of the part hold for each of the compared runs.
 std::vector<SceneDraft> StoryReader::compared(const TomlEntry& compare, const SceneDraft& common) {
   if (compare.tables.size() < 2 || compare.tables.size() > kMaxCompared) {
     add_problem(compare, fmt::format("must be a list of 2 to {} tables, as [{{digits = 1}}, "
@@ -114,17 +124,11 @@ std::vector<SceneDraft> StoryReader::compared(const TomlEntry& compare, const Sc
   }
   std::vector<SceneDraft> drafts;
   for (const TomlTable& table : compare.tables) {
-    TomlTable keys{{}, table.line};
-    for (const TomlEntry& entry : table.entries) {
-      if (is_film_key(entry.key)) {
-        add_problem(entry, "holds for the whole film; put it above the parts");
-      } else if (entry.key.starts_with("time.")) {
-        add_problem(entry, "what is compared has one clock; say it for the part");
-      } else {
-        keys.entries.push_back(entry);
-      }
-    }
-    drafts.emplace_back(common).read(path_, keys);
+    drafts.emplace_back(common).read(
+        path_, checked(table, [](const std::string& key) {
+          return key.starts_with("time.") ? "what is compared has one clock; say it for the part"
+                                          : nullptr;
+        }));
   }
   return drafts;
 }

@@ -11,7 +11,8 @@
 #include <fstream>
 #include <optional>
 #include <string_view>
-#include <system_error>
+
+#include "core/descriptor.hpp"
 
 namespace piblocks {
 namespace {
@@ -23,8 +24,7 @@ std::string read_text(const std::string& path) {
   std::string text(kMaxSceneFile_bytes + 1, '\0');
   if (file) file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (!file.eof() && file.fail()) {
-    throw SceneError(
-        fmt::format("scene: cannot read '{}': {}", path, std::generic_category().message(errno)));
+    throw SceneError(fmt::format("scene: cannot read '{}': {}", path, error_text(errno)));
   }
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > kMaxSceneFile_bytes) {

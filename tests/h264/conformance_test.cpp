@@ -25,8 +25,8 @@ std::ostream& operator<<(std::ostream& out, const Case& c) {
   return out << c.width_px << 'x' << c.height_px << " at QP " << c.qp;
 }
 
-/// Groups of pictures of a stream; scripts/test --long asks for more.
-int groups() { return std::getenv("PIBLOCKS_STRESS_LONG") != nullptr ? 100 : 5; }
+/// Groups of pictures of a stream; scripts/test --long sets PIBLOCKS_STRESS.
+int groups() { return std::getenv("PIBLOCKS_STRESS") != nullptr ? 100 : 5; }
 
 template <typename Decoder>
 void expect_every_picture(const Case& c) {
