@@ -113,9 +113,9 @@ class CollisionStream {
 };
 
 /// All collisions of a run, by index. The collisions from time 0 on have the indices 1, 2, …,
-/// size(), those before time 0 the indices 0, -1, … down to first_index(). Blocks that touch at time
-/// 0 and move apart, or blue that then leaves the wall, have had collision 0 at time 0. Const members
-/// are thread-safe.
+/// size(), those before time 0 the indices 0, -1, … down to first_index(). Blocks that touch at
+/// time 0 and move apart, or blue that then leaves the wall, have had collision 0 at time 0. Const
+/// members are thread-safe.
 class CollisionLog {
  public:
   virtual ~CollisionLog() = default;

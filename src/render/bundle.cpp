@@ -58,7 +58,7 @@ bool is_plain(const std::string& name) {
 
 void check(const RenderJob& job) {
   std::vector<std::string> problems;
-  if (job.part) {
+  if (job.shard) {
     problems.emplace_back("bundle: there are no parts of a bundle; leave the part out");
   }
   const auto* scene = std::get_if<Scene>(&job.script);

@@ -88,7 +88,7 @@ class PageText {
 };
 
 void check(const RenderJob& job) {
-  if (job.part) {
+  if (job.shard) {
     throw UsageError(fmt::format(
         "part: there are no parts of page '{}'; render it whole, or the parts of an MP4",
         job.output));

@@ -16,6 +16,6 @@ void check_line(const char* key, std::string_view text, Problems& problems);
 
 /// What is wrong with "fade", "card", "seconds" and "compare" of a part; the scenes in it have
 /// their own problems_of().
-std::vector<Problem> problems_of(const StoryPart& part, bool is_first);
+std::vector<Problem> problems_of(const Segment& segment, bool is_first);
 
 }  // namespace piblocks

@@ -63,10 +63,10 @@ void ScriptBuilder::read_file(const std::string& path) {
   });
   state_->film.read(path, root);
   std::vector<TomlTable>& parts = state_->parts;
-  if (parts.size() > kMaxStoryParts) {
-    state_->add_problem(parts[kMaxStoryParts].line,
-                        fmt::format("part: there must be at most {} of them", kMaxStoryParts));
-    parts.resize(kMaxStoryParts);
+  if (parts.size() > kMaxSegments) {
+    state_->add_problem(parts[kMaxSegments].line,
+                        fmt::format("part: there must be at most {} of them", kMaxSegments));
+    parts.resize(kMaxSegments);
   }
 }
 

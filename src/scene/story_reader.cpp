@@ -43,29 +43,29 @@ StoryReader::StoryReader(std::string path, const SceneDraft& film)
 
 void StoryReader::read(const TomlTable& table) {
   Places places;
-  StoryPart part = part_of(table, places);
-  for (const Problem& problem : problems_of(part, story_.parts.empty())) {
+  Segment segment = segment_of(table, places);
+  for (const Problem& problem : problems_of(segment, story_.segments.empty())) {
     // What is wrong with text that could not be read is told already.
     const auto place = places.find(problem.key);
     const bool is_told = place == places.end() && find(table, problem.key) != nullptr;
     if (is_told) continue;
     problems_.push_back(fmt::format("{}: {} {}",
-                                    place == places.end() ? part.origin : place->second,
+                                    place == places.end() ? segment.origin : place->second,
                                     problem.key, problem.reason));
   }
-  story_.parts.push_back(std::move(part));
+  story_.segments.push_back(std::move(segment));
 }
 
-StoryPart StoryReader::part_of(const TomlTable& table, Places& places) {
-  StoryPart part;
-  part.origin = fmt::format("{}:{}", path_, table.line);
-  take(table, "fade", part.fade_s, number_of, places);
+Segment StoryReader::segment_of(const TomlTable& table, Places& places) {
+  Segment segment;
+  segment.origin = fmt::format("{}:{}", path_, table.line);
+  take(table, "fade", segment.fade_s, number_of, places);
   if (find(table, "card") != nullptr) {
-    part.content = card_of(table, places);
+    segment.content = card_of(table, places);
   } else {
-    part.content = runs_of(table);
+    segment.content = runs_of(table);
   }
-  return part;
+  return segment;
 }
 
 Card StoryReader::card_of(const TomlTable& table, Places& places) {

@@ -28,7 +28,7 @@ class StoryReader {
   /// Where the keys stand that are not a scene's, by key.
   using Places = std::map<std::string, std::string>;
 
-  StoryPart part_of(const TomlTable& table, Places& places);
+  Segment segment_of(const TomlTable& table, Places& places);
   Card card_of(const TomlTable& table, Places& places);
   Runs runs_of(const TomlTable& table);
   /// The keys of one scene. @param problem_of  says why a key may not be here, or nullptr.

@@ -33,13 +33,13 @@ std::string described(const Scene& scene) {
   return text;
 }
 
-std::string described(const StoryPart& part) {
-  std::string text = "fade = " + part.fade_s.get_str();
-  if (const auto* card = std::get_if<Card>(&part.content)) {
+std::string described(const Segment& segment) {
+  std::string text = "fade = " + segment.fade_s.get_str();
+  if (const auto* card = std::get_if<Card>(&segment.content)) {
     return fmt::format("{}\tseconds = {}\t{}", text, card->length_s.get_str(),
                        fmt::join(card->lines, "\t"));
   }
-  for (const Scene& run : std::get<Runs>(part.content)) text += described(run);
+  for (const Scene& run : std::get<Runs>(segment.content)) text += described(run);
   return text;
 }
 
@@ -63,19 +63,19 @@ Scene with_film_view(Scene scene, const View& film) {
   return scene;
 }
 
-std::vector<Problem> problems_of(const StoryPart& part, bool is_first) {
+std::vector<Problem> problems_of(const Segment& segment, bool is_first) {
   Problems problems;
-  std::visit([&](const auto& content) { check(content, problems); }, part.content);
-  problems.require(part.fade_s >= 0, "fade", "= {}: must not be less than 0", part.fade_s);
-  problems.require(part.fade_s <= 0 || !is_first, "fade",
-                   "= {}: no part is before the first; leave it out", part.fade_s);
+  std::visit([&](const auto& content) { check(content, problems); }, segment.content);
+  problems.require(segment.fade_s >= 0, "fade", "= {}: must not be less than 0", segment.fade_s);
+  problems.require(segment.fade_s <= 0 || !is_first, "fade",
+                   "= {}: no part is before the first; leave it out", segment.fade_s);
   return problems.take();
 }
 
 std::vector<std::string> problems_of(const Storyboard& story) {
   std::vector<std::string> problems;
-  if (story.parts.empty() || story.parts.size() > kMaxStoryParts) {
-    problems.push_back(fmt::format("storyboard: must have from 1 to {} parts", kMaxStoryParts));
+  if (story.segments.empty() || story.segments.size() > kMaxSegments) {
+    problems.push_back(fmt::format("storyboard: must have from 1 to {} parts", kMaxSegments));
   }
   const auto add = [&](const std::string& place, const std::vector<Problem>& more) {
     for (const auto& [key, reason] : more) {
@@ -85,11 +85,12 @@ std::vector<std::string> problems_of(const Storyboard& story) {
   Scene film;
   film.golden = story.golden;
   add("storyboard", problems_of(with_film_view(film, story.view)));
-  for (std::size_t i = 0; i < story.parts.size(); ++i) {
-    const StoryPart& part = story.parts[i];
-    const std::string place = part.origin.empty() ? fmt::format("part {}", i + 1) : part.origin;
-    add(place, problems_of(part, i == 0));
-    const Runs* const runs = std::get_if<Runs>(&part.content);
+  for (std::size_t i = 0; i < story.segments.size(); ++i) {
+    const Segment& segment = story.segments[i];
+    const std::string place =
+        segment.origin.empty() ? fmt::format("part {}", i + 1) : segment.origin;
+    add(place, problems_of(segment, i == 0));
+    const Runs* const runs = std::get_if<Runs>(&segment.content);
     if (runs == nullptr) continue;
     for (const Scene& run : *runs) add(place, problems_of(with_film_view(run, story.view)));
   }
@@ -103,8 +104,8 @@ std::vector<std::pair<std::string, std::string>> describe(const Storyboard& stor
   for (auto& [key, value] : describe(with_film_view(film, story.view))) {
     if (is_film_key(key)) values.emplace_back(std::move(key), std::move(value));
   }
-  for (std::size_t i = 0; i < story.parts.size(); ++i) {
-    values.emplace_back(fmt::format("part-{}", i + 1), described(story.parts[i]));
+  for (std::size_t i = 0; i < story.segments.size(); ++i) {
+    values.emplace_back(fmt::format("part-{}", i + 1), described(story.segments[i]));
   }
   return values;
 }

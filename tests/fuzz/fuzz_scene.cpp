@@ -23,8 +23,8 @@ void ask(const Scene& scene) {
 void ask(const Storyboard& story) {
   if (!problems_of(story).empty()) std::abort();
   describe(story);
-  for (const StoryPart& part : story.parts) {
-    if (const auto* runs = std::get_if<Runs>(&part.content)) {
+  for (const Segment& segment : story.segments) {
+    if (const auto* runs = std::get_if<Runs>(&segment.content)) {
       for (const Scene& run : *runs) ask(run);
     }
   }

@@ -207,9 +207,9 @@ TEST_F(FilmSoundTest, BytesDoNotDependOnJobsNorOnParts) {
   std::vector<std::string> parts;
   RenderJob job{script, folder_ / "part.mp4"};
   for (int i = 1; i <= 3; ++i) {
-    job.part = Part{i, 3};
+    job.shard = Shard{i, 3};
     render(job, [](const Progress&) {});
-    parts.push_back(part_name(job.output, *job.part));
+    parts.push_back(shard_name(job.output, *job.shard));
   }
   join(parts, folder_ / "joined.mp4");
   EXPECT_EQ(file_contents(whole) == file_contents(folder_ / "joined.mp4"), true);
