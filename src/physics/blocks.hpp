@@ -36,11 +36,18 @@ inline bool is_finite(const Rational& value) { return std::isfinite(to_double(va
 /// Collects what is wrong with the values of a scene.
 class Problems {
  public:
-  /// Adds a problem, with arguments as fmt::format() takes them, unless `holds`.
+  /// @param list  known already.
+  explicit Problems(std::vector<Problem> list = {}) : list_(std::move(list)) {}
+  /// @param reason, args  as fmt::format() takes them.
+  template <typename... Args>
+  void add(const char* key, fmt::format_string<const Args&...> reason, const Args&... args) {
+    list_.push_back({key, fmt::format(reason, args...)});
+  }
+  /// Adds a problem unless `holds`.
   template <typename... Args>
   void require(bool holds, const char* key, fmt::format_string<const Args&...> reason,
                const Args&... args) {
-    if (!holds) list_.push_back({key, fmt::format(reason, args...)});
+    if (!holds) add(key, reason, args...);
   }
   void require_positive(const char* key, const Rational& value) {
     require(value > 0, key, "= {}: must be greater than 0", value);
@@ -50,9 +57,6 @@ class Problems {
   }
 
   bool empty() const { return list_.empty(); }
-  void add(std::vector<Problem> more) {
-    for (Problem& problem : more) list_.push_back(std::move(problem));
-  }
   std::vector<Problem> take() { return std::move(list_); }
 
  private:

@@ -1,5 +1,5 @@
 // Rules that several kinds of values share.
-// In: a line of text, or a part of a storyboard. Out: what is wrong with it.
+// In: a line of text, or a segment of a storyboard. Out: its problems.
 #pragma once
 
 #include <piblocks/script.hpp>
@@ -14,8 +14,8 @@ namespace piblocks {
 /// A title, a caption or a line of a card.
 void check_line(const char* key, std::string_view text, Problems& problems);
 
-/// What is wrong with "fade", "card", "seconds" and "compare" of a part; the scenes in it have
-/// their own problems_of().
+/// Problems with "fade", "card", "seconds" and "compare" of a segment; its scenes have their own
+/// problems_of().
 std::vector<Problem> problems_of(const Segment& segment, bool is_first);
 
 }  // namespace piblocks

@@ -72,7 +72,7 @@ void check_slow_motion(const Scene& scene, Problems& problems) {
   const std::vector<SlowMotion>& windows = scene.pacing.slow_motion;
   problems.require(windows.size() <= kMaxWindows, kKey, "must have at most {} of them",
                    kMaxWindows);
-  // All of these numbers are told to other programs.
+  // Other programs get all of these numbers.
   const auto is_usable = [&](const Rational& factor) {
     return factor > 0 && is_finite(factor) && is_finite(1 / factor) &&
            is_finite(scene.time.speed / factor);
@@ -80,12 +80,14 @@ void check_slow_motion(const Scene& scene, Problems& problems) {
   const auto wrong = std::ranges::find_if_not(windows, is_usable, &SlowMotion::factor);
   if (wrong == windows.end()) return;
   const Rational& factor = wrong->factor;
-  problems.require(factor > 0, kKey, "has a window whose factor is {}: it must be greater than 0",
-                   factor);
-  problems.require(factor <= 0, kKey,
-                   "has a window whose factor is {}: it, or the speed by it, is beyond the range "
-                   "of a double (about 1.8e308)",
-                   factor);
+  if (factor <= 0) {
+    problems.add(kKey, "has a window whose factor is {}: it must be greater than 0", factor);
+  } else {
+    problems.add(kKey,
+                 "has a window whose factor is {}: it, or the speed by it, is beyond the range of "
+                 "a double (about 1.8e308)",
+                 factor);
+  }
 }
 
 void check_pacing(const Scene& scene, Problems& problems) {
@@ -95,8 +97,7 @@ void check_pacing(const Scene& scene, Problems& problems) {
                    "must have at most {} of them", kMaxWindows);
   for (const Freeze& freeze : pacing.freezes) {
     if (freeze.length_s > 0) continue;
-    problems.require(false, "time.freeze", "has a freeze of {} s: it must be longer than 0",
-                     freeze.length_s);
+    problems.add("time.freeze", "has a freeze of {} s: it must be longer than 0", freeze.length_s);
     break;
   }
   for (const auto& [key, seconds] : {std::pair("time.hold-start", pacing.hold_start_s),
@@ -113,7 +114,7 @@ void check_each_once(const char* key, const std::vector<Value>& list, const auto
                      Problems& problems) {
   for (auto value = list.begin(); value != list.end(); ++value) {
     if (std::find(list.begin(), value, *value) == value) continue;
-    problems.require(false, key, "has '{}' more than once", name_of(*value));
+    problems.add(key, "has '{}' more than once", name_of(*value));
     return;
   }
 }
@@ -135,7 +136,7 @@ void check_golden(const Golden& golden, Problems& problems) {
     try {
       parse_instant(text);
     } catch (const UsageError& error) {
-      problems.require(false, kKey, "has '{}': {}", text, error.what());
+      problems.add(kKey, "has '{}': {}", text, std::string(error.what()));
       return;
     }
   }
@@ -151,7 +152,7 @@ void check_line(const char* key, std::string_view text, Problems& problems) {
 
 Rational width_by_mass(const BlockSystem& system) {
   if (system.blue.mass <= 0 || system.red.mass <= 0) return system.red.width;
-  // Either mass may be beyond what a double holds.
+  // Either mass may be beyond the range of a double.
   const auto log_2 = [](const Integer& value) {
     long exponent = 0;
     const double mantissa = mpz_get_d_2exp(&exponent, value.get_mpz_t());
@@ -165,8 +166,7 @@ Rational width_by_mass(const BlockSystem& system) {
 }
 
 std::vector<Problem> problems_of(const Scene& scene) {
-  Problems problems;
-  problems.add(problems_of(scene.system));
+  Problems problems(problems_of(scene.system));
   check_view(scene.view, problems);
   check_time(scene.time, problems);
   check_pacing(scene, problems);

@@ -11,13 +11,13 @@
 namespace piblocks {
 namespace {
 
-/// Keys that set the same value: a table may have one of them.
+/// Keys that set the same value, of which a table may have only one.
 struct ExclusiveKeys {
   std::vector<std::string_view> keys;
   const char* what;
 };
 
-/// @returns what is wrong; empty if nothing is.
+/// @return a message if the table has several of them; otherwise empty.
 std::string conflict_of(const TomlTable& table, const ExclusiveKeys& exclusive) {
   std::vector<std::string_view> present;
   for (const std::string_view key : exclusive.keys) {
@@ -29,7 +29,7 @@ std::string conflict_of(const TomlTable& table, const ExclusiveKeys& exclusive) 
                      present.size() == 2 ? "one" : "all but one");
 }
 
-/// The mass ratio that counts so many digits.
+/// The mass ratio whose collisions count this number of digits.
 Rational mass_ratio_of_digits(const Values& values) {
   const std::string& text = single(values);
   unsigned digits = 0;
@@ -57,7 +57,7 @@ void SceneDraft::read(const std::string& path, const TomlTable& table) {
       add_problem(origin, "part: a single scene has no parts; this is a storyboard");
     } else if (entry.problem.empty()) {
       set(origin, entry.key, entry.values);
-      // Found from where the scene is, wherever the program is started.
+      // Relative to the folder of the scene file.
       if (entry.key == "show.logo" && !scene_.show.logo.empty()) {
         scene_.show.logo = std::filesystem::path(path).parent_path() / scene_.show.logo;
       }

@@ -47,7 +47,7 @@ Values list_of(const Values& values) {
   return list;
 }
 
-/// Each of a list; messages name the one that is wrong.
+/// Parses each value of a list; messages name the one that is wrong.
 template <typename Value>
 std::vector<Value> parse_each(const Values& values, Value (*parse)(std::string_view text)) {
   std::vector<Value> parsed;
@@ -60,6 +60,10 @@ std::vector<Value> parse_each(const Values& values, Value (*parse)(std::string_v
   }
   return parsed;
 }
+template <typename Value>
+std::vector<Value> parse_list(const Values& values, Value (*parse)(std::string_view text)) {
+  return parse_each(list_of(values), parse);
+}
 
 // read() sets a value from its texts, texts_of() gives them back.
 
@@ -69,15 +73,9 @@ void read(Theme& target, const Values& values) { target = parse_theme(single(val
 void read(std::string& target, const Values& values) { target = single(values); }
 void read(Values& target, const Values& values) { target = list_of(values); }
 void read(std::optional<FrameSize>& target, const Values& values) { target = parse_size(values); }
-void read(std::vector<Freeze>& target, const Values& values) {
-  target = parse_each(list_of(values), parse_freeze);
-}
-void read(std::vector<Overlay>& target, const Values& values) {
-  target = parse_each(list_of(values), parse_overlay);
-}
-void read(std::vector<Panel>& target, const Values& values) {
-  target = parse_each(list_of(values), parse_panel);
-}
+void read(std::vector<Freeze>& list, const Values& v) { list = parse_list(v, parse_freeze); }
+void read(std::vector<Overlay>& list, const Values& v) { list = parse_list(v, parse_overlay); }
+void read(std::vector<Panel>& list, const Values& v) { list = parse_list(v, parse_panel); }
 void read(Range& target, const Values& values) {
   if (values.size() != 2) throw UsageError("must be two numbers, as [-1, 12]");
   target = {parse_rational(values[0]), parse_rational(values[1])};
@@ -117,11 +115,11 @@ Values texts_of(const std::vector<Value>& list) {
   return texts;
 }
 
-/// A key for one member of a scene. @param member  returns a reference to it.
-template <typename Member>
-constexpr SceneKey key_of(const char* name, Member /*member*/) {
-  return {name, [](Scene& scene, const Values& values) { read(Member{}(scene), values); },
-          [](const Scene& scene) { return texts_of(Member{}(scene)); }};
+/// A key for one member of a scene, given by pointers to members.
+template <auto... Path>
+constexpr SceneKey key(const char* name) {
+  return {name, [](Scene& scene, const Values& values) { read((scene.*....*Path), values); },
+          [](const Scene& scene) { return texts_of((scene.*....*Path)); }};
 }
 
 void set_size(Scene& scene, const Values& values) {
@@ -159,68 +157,39 @@ Values slow_motion_of(const Scene& scene) {
 }
 
 constexpr auto kKeys = std::to_array<SceneKey>({
-    key_of(
-        "wall.face", [](auto& s) -> auto& { return s.system.wall_face; }),
-    key_of(
-        "blue.mass", [](auto& s) -> auto& { return s.system.blue.mass; }),
-    key_of(
-        "blue.position", [](auto& s) -> auto& { return s.system.blue.position; }),
-    key_of(
-        "blue.velocity", [](auto& s) -> auto& { return s.system.blue.velocity; }),
-    key_of(
-        "blue.width", [](auto& s) -> auto& { return s.system.blue.width; }),
-    key_of(
-        "red.mass", [](auto& s) -> auto& { return s.system.red.mass; }),
-    key_of(
-        "red.position", [](auto& s) -> auto& { return s.system.red.position; }),
-    key_of(
-        "red.velocity", [](auto& s) -> auto& { return s.system.red.velocity; }),
-    key_of(
-        "red.width", [](auto& s) -> auto& { return s.system.red.width; }),
-    key_of(
-        "view.x", [](auto& s) -> auto& { return s.view.x; }),
-    key_of(
-        "view.y", [](auto& s) -> auto& { return s.view.y; }),
+    key<&Scene::system, &BlockSystem::wall_face>("wall.face"),
+    key<&Scene::system, &BlockSystem::blue, &Block::mass>("blue.mass"),
+    key<&Scene::system, &BlockSystem::blue, &Block::position>("blue.position"),
+    key<&Scene::system, &BlockSystem::blue, &Block::velocity>("blue.velocity"),
+    key<&Scene::system, &BlockSystem::blue, &Block::width>("blue.width"),
+    key<&Scene::system, &BlockSystem::red, &Block::mass>("red.mass"),
+    key<&Scene::system, &BlockSystem::red, &Block::position>("red.position"),
+    key<&Scene::system, &BlockSystem::red, &Block::velocity>("red.velocity"),
+    key<&Scene::system, &BlockSystem::red, &Block::width>("red.width"),
+    key<&Scene::view, &View::x>("view.x"),
+    key<&Scene::view, &View::y>("view.y"),
     SceneKey{"view.size", set_size, size_of},
-    key_of(
-        "view.fps", [](auto& s) -> auto& { return s.view.frame_rate; }),
-    key_of(
-        "view.shutter", [](auto& s) -> auto& { return s.view.shutter; }),
-    key_of(
-        "view.background", [](auto& s) -> auto& { return s.view.background; }),
-    key_of(
-        "view.theme", [](auto& s) -> auto& { return s.view.theme; }),
-    key_of(
-        "time.from", [](auto& s) -> auto& { return s.time.from; }),
-    key_of(
-        "time.to", [](auto& s) -> auto& { return s.time.to; }),
+    key<&Scene::view, &View::frame_rate>("view.fps"),
+    key<&Scene::view, &View::shutter>("view.shutter"),
+    key<&Scene::view, &View::background>("view.background"),
+    key<&Scene::view, &View::theme>("view.theme"),
+    key<&Scene::time, &TimeSpan::from>("time.from"),
+    key<&Scene::time, &TimeSpan::to>("time.to"),
     SceneKey{"time.speed", set_speed, speed_of},
     SceneKey{"time.duration", set_duration, duration_of},
     SceneKey{"time.slow-motion", set_slow_motion, slow_motion_of},
-    key_of(
-        "time.freeze", [](auto& s) -> auto& { return s.pacing.freezes; }),
-    key_of(
-        "time.hold-start", [](auto& s) -> auto& { return s.pacing.hold_start_s; }),
-    key_of(
-        "time.hold-end", [](auto& s) -> auto& { return s.pacing.hold_end_s; }),
-    key_of(
-        "time.loop", [](auto& s) -> auto& { return s.pacing.loop; }),
-    key_of(
-        "sound.on", [](auto& s) -> auto& { return s.sound.on; }),
-    key_of(
-        "show.overlays", [](auto& s) -> auto& { return s.show.overlays; }),
-    key_of(
-        "show.panels", [](auto& s) -> auto& { return s.show.panels; }),
-    key_of(
-        "show.title", [](auto& s) -> auto& { return s.show.title; }),
-    key_of(
-        "show.caption", [](auto& s) -> auto& { return s.show.caption; }),
-    key_of(
-        "show.logo", [](auto& s) -> auto& { return s.show.logo; }),
-    key_of(
-        "golden.frames", [](auto& s) -> auto& { return s.golden.frames; }),
-    key_of(
-        "golden.size", [](auto& s) -> auto& { return s.golden.size; }),
+    key<&Scene::pacing, &Pacing::freezes>("time.freeze"),
+    key<&Scene::pacing, &Pacing::hold_start_s>("time.hold-start"),
+    key<&Scene::pacing, &Pacing::hold_end_s>("time.hold-end"),
+    key<&Scene::pacing, &Pacing::loop>("time.loop"),
+    key<&Scene::sound, &Sound::on>("sound.on"),
+    key<&Scene::show, &Show::overlays>("show.overlays"),
+    key<&Scene::show, &Show::panels>("show.panels"),
+    key<&Scene::show, &Show::title>("show.title"),
+    key<&Scene::show, &Show::caption>("show.caption"),
+    key<&Scene::show, &Show::logo>("show.logo"),
+    key<&Scene::golden, &Golden::frames>("golden.frames"),
+    key<&Scene::golden, &Golden::size>("golden.size"),
 });
 
 }  // namespace

@@ -21,7 +21,7 @@ struct ScriptBuilder::State {
     std::string origin;
     std::string key;
   };
-  SceneDraft film{"scene"};  // of a storyboard: what holds for all parts
+  SceneDraft film{"scene"};  // in a storyboard the values for all parts
   std::string path;
   std::vector<TomlTable> parts;
   std::vector<std::string> problems;  // of entries that are no parts
@@ -31,7 +31,7 @@ struct ScriptBuilder::State {
     problems.push_back(fmt::format("{}:{}: {}", path, line, text));
   }
 
-  /// Keys of one run that were set from outside of the storyboard, before it was read or after.
+  /// Keys of a single run that set() got, though the file is a storyboard.
   std::vector<std::string> misplaced_keys() const {
     std::vector<std::string> misplaced;
     for (const auto& [origin, key] : set_keys) {

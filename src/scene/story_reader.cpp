@@ -45,10 +45,10 @@ void StoryReader::read(const TomlTable& table) {
   Places places;
   Segment segment = segment_of(table, places);
   for (const Problem& problem : problems_of(segment, story_.segments.empty())) {
-    // What is wrong with text that could not be read is told already.
+    // Text that could not be read has been reported already.
     const auto place = places.find(problem.key);
-    const bool is_told = place == places.end() && find(table, problem.key) != nullptr;
-    if (is_told) continue;
+    const bool is_reported = place == places.end() && find(table, problem.key) != nullptr;
+    if (is_reported) continue;
     problems_.push_back(fmt::format("{}: {} {}",
                                     place == places.end() ? segment.origin : place->second,
                                     problem.key, problem.reason));
@@ -133,7 +133,7 @@ std::vector<SceneDraft> StoryReader::compared(const TomlEntry& compare, const Sc
   return drafts;
 }
 
-/// Takes the key's value if the table has it, and notes its place, or what is wrong with its text.
+/// Takes the value of the key if the table has it, and notes its place or its problem.
 template <typename Target, typename Parse>
 void StoryReader::take(const TomlTable& table, const char* key, Target& target, const Parse& parse,
                        Places& places) {

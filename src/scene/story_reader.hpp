@@ -18,14 +18,14 @@ class StoryReader {
   /// @param path  of the file, named in messages.
   StoryReader(std::string path, const SceneDraft& film);
 
-  /// Adds the part that a [[part]] describes.
+  /// Adds the segment that a [[part]] describes.
   void read(const TomlTable& table);
 
   const Storyboard& story() const { return story_; }
   const std::vector<std::string>& problems() const { return problems_; }
 
  private:
-  /// Where the keys stand that are not a scene's, by key.
+  /// Places in the file of the keys that are not a scene's, by key.
   using Places = std::map<std::string, std::string>;
 
   Segment segment_of(const TomlTable& table, Places& places);

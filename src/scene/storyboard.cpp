@@ -24,7 +24,7 @@ void check(const Runs& runs, Problems& problems) {
                    "must be from 2 to {} runs", kMaxCompared);
 }
 
-/// No value has a tab in it, so nothing can be taken for something else.
+/// Values have no tabs, so the text is unambiguous.
 std::string described(const Scene& scene) {
   std::string text;
   for (const auto& [key, value] : describe(scene)) {
