@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "draw/canvas.hpp"
-#include "media/output/frame_reader.hpp"
+#include "media/png/png_reader.hpp"
 #include "render/film.hpp"
 #include "render/sheet.hpp"
 #include "scene/schedule.hpp"
