@@ -23,7 +23,7 @@ BlockSystem article_system(int digits) {
 
 std::vector<Problem> problems_of(const BlockSystem& system) {
   const auto& [wall_face, blue, red] = system;
-  Problems problems;
+  SceneProblems problems;
   problems.require_positive("blue.mass", blue.mass);
   problems.require_positive("red.mass", red.mass);
   problems.require_positive("blue.width", blue.width);

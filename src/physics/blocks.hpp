@@ -34,10 +34,10 @@ inline BlockSystem reversed(BlockSystem system) {
 inline bool is_finite(const Rational& value) { return std::isfinite(to_double(value)); }
 
 /// Collects what is wrong with the values of a scene.
-class Problems {
+class SceneProblems {
  public:
   /// @param list  known already.
-  explicit Problems(std::vector<Problem> list = {}) : list_(std::move(list)) {}
+  explicit SceneProblems(std::vector<Problem> list = {}) : list_(std::move(list)) {}
   /// @param reason, args  as fmt::format() takes them.
   template <typename... Args>
   void add(const char* key, fmt::format_string<const Args&...> reason, const Args&... args) {

@@ -12,7 +12,7 @@
 namespace piblocks {
 
 /// A title, a caption or a line of a card.
-void check_line(const char* key, std::string_view text, Problems& problems);
+void check_line(const char* key, std::string_view text, SceneProblems& problems);
 
 /// Problems with "fade", "card", "seconds" and "compare" of a segment; its scenes have their own
 /// problems_of().

@@ -18,14 +18,14 @@ bool has_control_characters(std::string_view text) {
   return std::ranges::any_of(text, [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; });
 }
 
-void check_range(const char* key, const Range& range, Problems& problems) {
+void check_range(const char* key, const Range& range, SceneProblems& problems) {
   const bool rises = range.low < range.high && is_finite(range.low) && is_finite(range.high) &&
                      to_double(range.high - range.low) > 0;
   problems.require(rises, key, "= [{}, {}]: must be two finite numbers in rising order", range.low,
                    range.high);
 }
 
-void check_size(const char* key, const FrameSize& size, Problems& problems) {
+void check_size(const char* key, const FrameSize& size, SceneProblems& problems) {
   const auto [width, height] = size;
   const auto is_side = [](int side) { return side >= 1 && side <= kMaxSide_px; };
   const bool has_sides = is_side(width) && is_side(height);
@@ -36,7 +36,7 @@ void check_size(const char* key, const FrameSize& size, Problems& problems) {
                    kMaxFrame_px);
 }
 
-void check_view(const View& view, Problems& problems) {
+void check_view(const View& view, SceneProblems& problems) {
   check_range("view.x", view.x, problems);
   check_range("view.y", view.y, problems);
   check_size("view.size", {view.width_px, view.height_px}, problems);
@@ -57,7 +57,7 @@ void check_view(const View& view, Problems& problems) {
                    shutter);
 }
 
-void check_time(const TimeSpan& time, Problems& problems) {
+void check_time(const TimeSpan& time, SceneProblems& problems) {
   problems.require_finite("time.from", time.from.offset);
   problems.require_finite("time.to", time.to.offset);
   problems.require_finite("time.speed", time.speed);
@@ -67,7 +67,7 @@ void check_time(const TimeSpan& time, Problems& problems) {
                    "= {}: must be after time.from = {}", time.to.offset, time.from.offset);
 }
 
-void check_slow_motion(const Scene& scene, Problems& problems) {
+void check_slow_motion(const Scene& scene, SceneProblems& problems) {
   constexpr const char* kKey = "time.slow-motion";
   const std::vector<SlowMotion>& windows = scene.pacing.slow_motion;
   problems.require(windows.size() <= kMaxWindows, kKey, "must have at most {} of them",
@@ -90,7 +90,7 @@ void check_slow_motion(const Scene& scene, Problems& problems) {
   }
 }
 
-void check_pacing(const Scene& scene, Problems& problems) {
+void check_pacing(const Scene& scene, SceneProblems& problems) {
   const Pacing& pacing = scene.pacing;
   check_slow_motion(scene, problems);
   problems.require(pacing.freezes.size() <= kMaxWindows, "time.freeze",
@@ -111,7 +111,7 @@ void check_pacing(const Scene& scene, Problems& problems) {
 /// Each value may be there once: a panel has one place, a kept picture one file.
 template <typename Value>
 void check_each_once(const char* key, const std::vector<Value>& list, const auto& name_of,
-                     Problems& problems) {
+                     SceneProblems& problems) {
   for (auto value = list.begin(); value != list.end(); ++value) {
     if (std::find(list.begin(), value, *value) == value) continue;
     problems.add(key, "has '{}' more than once", name_of(*value));
@@ -119,7 +119,7 @@ void check_each_once(const char* key, const std::vector<Value>& list, const auto
   }
 }
 
-void check_show(const Show& show, Problems& problems) {
+void check_show(const Show& show, SceneProblems& problems) {
   const auto name_of = [](auto value) { return exact_text(value); };
   check_each_once("show.overlays", show.overlays, name_of, problems);
   check_each_once("show.panels", show.panels, name_of, problems);
@@ -128,7 +128,7 @@ void check_show(const Show& show, Problems& problems) {
   problems.require(!has_control_characters(show.logo), "show.logo", "must be one line of text");
 }
 
-void check_golden(const Golden& golden, Problems& problems) {
+void check_golden(const Golden& golden, SceneProblems& problems) {
   constexpr const char* kKey = "golden.frames";
   if (golden.size) check_size("golden.size", *golden.size, problems);
   check_each_once(kKey, golden.frames, std::identity(), problems);
@@ -144,7 +144,7 @@ void check_golden(const Golden& golden, Problems& problems) {
 
 }  // namespace
 
-void check_line(const char* key, std::string_view text, Problems& problems) {
+void check_line(const char* key, std::string_view text, SceneProblems& problems) {
   const bool is_short = text.size() <= kMaxLine_bytes;
   problems.require(is_short, key, "is longer than {} bytes", kMaxLine_bytes);
   problems.require(!is_short || !has_control_characters(text), key, "must be one line of text");
@@ -166,7 +166,7 @@ Rational width_by_mass(const BlockSystem& system) {
 }
 
 std::vector<Problem> problems_of(const Scene& scene) {
-  Problems problems(problems_of(scene.system));
+  SceneProblems problems(problems_of(scene.system));
   check_view(scene.view, problems);
   check_time(scene.time, problems);
   check_pacing(scene, problems);

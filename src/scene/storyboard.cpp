@@ -10,7 +10,7 @@
 namespace piblocks {
 namespace {
 
-void check(const Card& card, Problems& problems) {
+void check(const Card& card, SceneProblems& problems) {
   problems.require(!card.lines.empty() && card.lines.size() <= kMaxCardLines, "card",
                    "must be from 1 to {} lines of text", kMaxCardLines);
   problems.require(std::ranges::none_of(card.lines, &std::string::empty), "card",
@@ -19,7 +19,7 @@ void check(const Card& card, Problems& problems) {
   problems.require_positive("seconds", card.length_s);
 }
 
-void check(const Runs& runs, Problems& problems) {
+void check(const Runs& runs, SceneProblems& problems) {
   problems.require(!runs.empty() && runs.size() <= kMaxCompared, "compare",
                    "must be from 2 to {} runs", kMaxCompared);
 }
@@ -64,7 +64,7 @@ Scene with_film_view(Scene scene, const View& film) {
 }
 
 std::vector<Problem> problems_of(const Segment& segment, bool is_first) {
-  Problems problems;
+  SceneProblems problems;
   std::visit([&](const auto& content) { check(content, problems); }, segment.content);
   problems.require(segment.fade_s >= 0, "fade", "= {}: must not be less than 0", segment.fade_s);
   problems.require(segment.fade_s <= 0 || !is_first, "fade",
