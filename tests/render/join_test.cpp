@@ -35,7 +35,7 @@ class JoinTest : public testing::Test {
 
   std::string rendered_part(const Shard& part, const RenderJob& job) const {
     RenderJob share = job;
-    share.shard = shard;
+    share.shard = part;
     render(share, [](const Progress&) {});
     return shard_name(job.output, part);
   }
