@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string_view>
 
-#include "core/system_error.hpp"
+#include "core/descriptor.hpp"
 
 namespace piblocks {
 namespace {
@@ -45,7 +45,7 @@ std::string without_blanks(std::string line) {
 FramehashFile read_framehash(const std::string& path) {
   std::ifstream file(path);
   if (!file) {
-    throw IoError(fmt::format("framehash: cannot read '{}': {}", path, text_of_error(errno)));
+    throw IoError(fmt::format("framehash: cannot read '{}': {}", path, error_text(errno)));
   }
   FramehashFile result;
   std::vector<char> line(kMaxLine);

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "draw/card.hpp"
-#include "render/renderings.hpp"
+#include "physics/blocks.hpp"
 
 namespace piblocks {
 namespace {
@@ -28,13 +28,13 @@ std::size_t longest(const std::vector<std::unique_ptr<CollisionLog>>& logs) {
   return found;
 }
 
-FilmPart made_from(const StoryPart& part, const View& view, FilmUse use) {
+FilmPart made_from(const Segment& part, const View& view, FilmUse use) {
   if (const auto* card = std::get_if<Card>(&part.content)) return {*card, view, use};
   return {std::get<Runs>(part.content), view, use};
 }
 
 std::string place_of(const Storyboard& story, std::size_t part) {
-  const std::string& origin = story.parts[part].origin;
+  const std::string& origin = story.segments[part].origin;
   return origin.empty() ? fmt::format("part {}", part + 1) : origin;
 }
 
@@ -103,7 +103,7 @@ DrawList FilmPart::frame(std::int64_t number) const {
 
 Film::Film(const Script& script, FilmUse use) : view_(view_of(script)) {
   if (const auto* scene = std::get_if<Scene>(&script)) {
-    require_valid(*scene);
+    require_valid(problems_of(*scene));
     parts_.push_back({FilmPart(*scene, use)});
     frame_count_ = parts_.front().part.frame_count();
     return;
@@ -117,9 +117,9 @@ Film::Film(const Script& script, FilmUse use) : view_(view_of(script)) {
 
 void Film::add_parts(const Storyboard& story, FilmUse use) {
   std::vector<std::string> problems;
-  for (std::size_t i = 0; i < story.parts.size(); ++i) {
+  for (std::size_t i = 0; i < story.segments.size(); ++i) {
     try {
-      parts_.push_back({made_from(story.parts[i], view_, use)});
+      parts_.push_back({made_from(story.segments[i], view_, use)});
     } catch (const UsageError& error) {
       for (const std::string& problem : error.problems()) {
         problems.push_back(fmt::format("{}: {}", place_of(story, i), problem));
@@ -135,7 +135,7 @@ void Film::place_parts(const Storyboard& story) {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     PlacedPart& placed = parts_[i];
     const std::int64_t own = placed.part.frame_count();
-    const Rational& fade_s = story.parts[i].fade_s;
+    const Rational& fade_s = story.segments[i].fade_s;
     const Integer fade = floor(fade_s * view_.frame_rate + Rational(1, 2));
     const std::int64_t room = i == 0 ? 0 : std::min(before, own - 1);
     if (fade > room) {

@@ -2,7 +2,6 @@
 // In: a job or a scene. Out: files, or the draw lists that go into them.
 #pragma once
 
-#include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/render.hpp>
 #include <piblocks/scene.hpp>
@@ -51,11 +50,5 @@ DrawList still_picture(const Script& script, const Instant& instant);
 ///         SimulationError
 std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
                                              const std::vector<Instant>& instants);
-
-/// @throws SceneError if problems_of(scene) is not empty.
-inline void require_valid(const Scene& scene) {
-  const std::vector<Problem> problems = problems_of(scene);
-  if (!problems.empty()) throw SceneError(describe(problems));
-}
 
 }  // namespace piblocks

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "media/png/png_reader.hpp"
-#include "physics/expose.hpp"
+#include "physics/exposure.hpp"
 
 namespace piblocks {
 
@@ -13,7 +13,7 @@ Run::Run(Scene scene, std::unique_ptr<CollisionLog> log, FilmUse use)
 }
 
 DrawList Run::picture(const FrameTime& shown) const {
-  return composition_->frame({state_at(*log_, shown.time), shown.time, shown.slower},
+  return composition_->frame({log_->state_at(shown.time), shown.time, shown.slower},
                              expose(*log_, shown.exposure));
 }
 
@@ -31,8 +31,8 @@ std::vector<std::string> logos_of(const Script& script) {
     add(*scene);
     return logos;
   }
-  for (const StoryPart& part : std::get<Storyboard>(script).parts) {
-    if (const auto* const runs = std::get_if<Runs>(&part.content)) {
+  for (const Segment& segment : std::get<Storyboard>(script).segments) {
+    if (const auto* const runs = std::get_if<Runs>(&segment.content)) {
       for (const Scene& run : *runs) add(run);
     }
   }

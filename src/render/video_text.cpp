@@ -11,7 +11,7 @@
 namespace piblocks {
 namespace {
 
-std::string motion_of(const Block& block) {
+std::string motion_words(const Block& block) {
   if (block.velocity == 0) return "rests";
   return block.velocity < 0 ? "slides towards the wall" : "slides away from the wall";
 }
@@ -86,8 +86,8 @@ std::string describe_video(const Scene& scene, const VideoCount& count) {
       "Two blocks slide along a line without friction: the inner one, beside a wall on the left, "
       "has mass {}, the outer one mass {}. At time 0 the inner one {} and the outer one {}. All "
       "collisions are elastic, and a counter reaches {}.",
-      short_text(system.blue.mass), short_text(system.red.mass), motion_of(system.blue),
-      motion_of(system.red), reached(count));
+      short_text(system.blue.mass), short_text(system.red.mass), motion_words(system.blue),
+      motion_words(system.red), reached(count));
 }
 
 std::string captions(const CollisionLog& log, const Schedule& schedule,
@@ -95,7 +95,7 @@ std::string captions(const CollisionLog& log, const Schedule& schedule,
   const std::int64_t frames = film_frames(schedule);
   std::vector<Integer> shown;
   for (std::int64_t frame = 0; frame < frames; ++frame) {
-    shown.push_back(state_at(log, schedule.time_of(frame)).count);
+    shown.push_back(log.state_at(schedule.time_of(frame)).count);
   }
   const Extremes counts{*std::ranges::min_element(shown), *std::ranges::max_element(shown),
                         log.size()};

@@ -7,8 +7,6 @@ namespace {
 
 /// Chosen from the table in src/media/README.md.
 constexpr int kQuantiser = 4;
-/// No picture depends on another; few wait to be written.
-constexpr int kProresFramesPerChunk = 8;
 
 void set_up_prores(AVCodecContext& context) {
   // Without a quantiser the encoder aims at a number of bits, and searches long for it.
@@ -22,6 +20,7 @@ void set_up_prores(AVCodecContext& context) {
 }  // namespace
 
 CodecChoice prores_choice(const VideoFormat& format, const EncoderSettings& settings) {
+  constexpr int kFramesPerChunk = 8;  // no picture depends on another; few wait to be written
   const AVCodec* const codec = avcodec_find_encoder_by_name(kProres.data());
   Problems problems;
   if (codec == nullptr) {
@@ -39,7 +38,7 @@ CodecChoice prores_choice(const VideoFormat& format, const EncoderSettings& sett
   problems.check();
   return {.codec = codec,
           .pixel_format = format.has_alpha ? AV_PIX_FMT_YUVA444P10 : AV_PIX_FMT_YUV444P10,
-          .frames_per_chunk = kProresFramesPerChunk,
+          .frames_per_chunk = kFramesPerChunk,
           .set_up = set_up_prores,
           .alternatives = {EncoderKind::prores}};
 }

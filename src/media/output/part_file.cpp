@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/output_file.hpp"
-#include "core/system_error.hpp"
+#include "core/descriptor.hpp"
 #include "media/output/little_endian.hpp"
 
 namespace piblocks {
@@ -186,7 +186,7 @@ Bytes PartReader::read(std::uint64_t count) {
 }
 
 void PartReader::fail_to_read() const {
-  throw IoError(fmt::format("part: cannot read '{}': {}", path_, text_of_error(errno)));
+  throw IoError(fmt::format("part: cannot read '{}': {}", path_, error_text(errno)));
 }
 
 void PartReader::fail_damaged() const {

@@ -16,7 +16,7 @@
 #include <system_error>
 #include <utility>
 
-#include "core/system_error.hpp"
+#include "core/descriptor.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;
@@ -120,7 +120,7 @@ void PngFile::run(Step step) {
 
 void PngFile::fail(const std::string& reason) const {
   if (std::ferror(file_.get()) != 0) {
-    throw IoError(fmt::format("png: cannot read '{}': {}", path_.string(), text_of_error(EIO)));
+    throw IoError(fmt::format("png: cannot read '{}': {}", path_.string(), error_text(EIO)));
   }
   throw MediaError(fmt::format("png: cannot read '{}': {}", path_.string(), reason));
 }
