@@ -9,13 +9,13 @@ namespace {
 using PartTest = CliFixture;
 using Names = std::vector<std::string>;
 
-const Arguments kRender{"render", "--size", "64x36", "--fps", "24", "--to", "5", "-o", "a.mp4"};
+const Arguments kRenderPart{"render", "--size", "64x36", "--fps", "24", "--to", "5", "-o", "a.mp4"};
 
 TEST_F(PartTest, JoinsToTheFileOfASingleRun) {
-  output_of(kRender + Arguments{"--quiet"});
+  output_of(kRenderPart + Arguments{"--quiet"});
   const std::string whole = contents("a.mp4");
   for (const char* part : {"1/3", "2/3", "3/3"}) {
-    const CommandResult result = piblocks(kRender + Arguments{"--part", part});
+    const CommandResult result = piblocks(kRenderPart + Arguments{"--part", part});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.out, "");
     EXPECT_TRUE(result.err.starts_with(fmt::format("a.mp4.part-{}-of-3: ", part[0])));
@@ -31,7 +31,7 @@ TEST_F(PartTest, JoinsToTheFileOfASingleRun) {
 }
 
 TEST_F(PartTest, JoinsToStandardOutput) {
-  Arguments render = kRender + Arguments{"--quiet"};
+  Arguments render = kRenderPart + Arguments{"--quiet"};
   *std::ranges::find(render, "a.mp4") = "a.y4m";
   output_of(render);
   output_of(render + Arguments{"--part", "1/1"});
@@ -53,7 +53,7 @@ TEST_F(PartTest, AShareMayBeEmpty) {
 }
 
 TEST_F(PartTest, ADamagedPartFailsAndLeavesTheOldFile) {
-  output_of(kRender + Arguments{"--quiet", "--part", "1/1"});
+  output_of(kRenderPart + Arguments{"--quiet", "--part", "1/1"});
   const std::string part = contents("a.mp4.part-1-of-1");
   write("a.mp4.part-1-of-1", part.substr(0, part.size() / 2));
   write("b.mp4", "old");
@@ -77,14 +77,14 @@ std::vector<std::string> row(const std::string& table, const std::string& name) 
 
 TEST_F(PartTest, AProfileNamesTheEncoderOfEachChunk) {
   const auto profile = [this](const Arguments& arguments) {
-    return piblocks(kRender + arguments + Arguments{"--profile", "--quiet"}).err;
+    return piblocks(kRenderPart + arguments + Arguments{"--profile", "--quiet"}).err;
   };
   EXPECT_NE(profile({}).find("by damage\n"), std::string::npos) << profile({});
   EXPECT_EQ(profile({"--encoder", "libx264"}).find("chunks"), std::string::npos);
 }
 
 TEST_F(PartTest, AProfileAddsUp) {
-  const CommandResult result = piblocks(kRender + Arguments{"--profile", "--quiet"});
+  const CommandResult result = piblocks(kRenderPart + Arguments{"--profile", "--quiet"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.out, "");
   double spent_s = 0;

@@ -13,7 +13,7 @@
 namespace piblocks {
 namespace {
 
-const Arguments kSmall{"--size", "64x36", "--fps", "10", "--quiet"};
+const Arguments kSmallSound{"--size", "64x36", "--fps", "10", "--quiet"};
 
 class SoundTest : public CliFixture {
  protected:
@@ -63,8 +63,8 @@ int lag(const std::vector<float>& one, const std::vector<float>& other, std::siz
 
 TEST_F(SoundTest, ClacksOfTheVideoAreWhereThoseOfTheSoundAloneAre) {
   for (const std::string digits : {"1", "2", "3"}) {
-    output_of(Arguments{"render", "--sound", "--digits", digits, "-o", "a.mp4"} + kSmall);
-    output_of(Arguments{"render", "--digits", digits, "-o", "a.wav"} + kSmall);
+    output_of(Arguments{"render", "--sound", "--digits", digits, "-o", "a.mp4"} + kSmallSound);
+    output_of(Arguments{"render", "--digits", digits, "-o", "a.wav"} + kSmallSound);
     const std::vector<float> sound = left("a.wav");
     const std::vector<float> decoded = left("a.mp4");
     ASSERT_GE(decoded.size(), sound.size());
@@ -79,7 +79,7 @@ TEST_F(SoundTest, ClacksOfTheVideoAreWhereThoseOfTheSoundAloneAre) {
 
 TEST_F(SoundTest, IsInPlaceInEveryKindOfVideo) {
   const auto log = make_collision_log(article_system(2));
-  output_of(Arguments{"render", "--digits", "2", "-o", "a.wav"} + kSmall);
+  output_of(Arguments{"render", "--digits", "2", "-o", "a.wav"} + kSmallSound);
   const std::vector<float> sound = left("a.wav");
   for (const auto& [name, codec] : {std::pair{"a.mp4", "aac"},
                                     {"a.mov", "aac"},
@@ -88,7 +88,7 @@ TEST_F(SoundTest, IsInPlaceInEveryKindOfVideo) {
                                     {"clear.webm", "opus"}}) {
     Arguments render{"render", "--sound", "--digits", "2", "-o", name};
     if (std::string(name).starts_with("clear")) render.emplace_back("--transparent");
-    output_of(render + kSmall);
+    output_of(render + kSmallSound);
     EXPECT_EQ(
         shell(std::string("ffprobe -v error -select_streams a -show_entries stream=codec_name "
                           "-of default=nk=1:nw=1 ") +
@@ -109,7 +109,7 @@ TEST_F(SoundTest, IsInPlaceInEveryKindOfVideo) {
 }
 
 TEST_F(SoundTest, BeginsWithTheVideoAndLastsAsLong) {
-  output_of(Arguments{"render", "--sound", "-o", "a.mp4"} + kSmall);
+  output_of(Arguments{"render", "--sound", "-o", "a.mp4"} + kSmallSound);
   const std::string audio = shell(
       "ffprobe -v error -select_streams a -show_entries stream=start_time,codec_name,channels,"
       "sample_rate,duration -of default=nk=1:nw=1 a.mp4");
@@ -122,7 +122,7 @@ TEST_F(SoundTest, BeginsWithTheVideoAndLastsAsLong) {
 }
 
 TEST_F(SoundTest, PacketsTakeTurnsWithPictures) {
-  output_of(Arguments{"render", "--sound", "-o", "a.mp4"} + kSmall);
+  output_of(Arguments{"render", "--sound", "-o", "a.mp4"} + kSmallSound);
   const std::string packets =
       shell("ffprobe -v error -show_entries packet=codec_type,dts_time,pos -of csv=p=0 a.mp4");
   std::vector<std::pair<std::int64_t, double>> by_place;
@@ -140,8 +140,8 @@ TEST_F(SoundTest, PacketsTakeTurnsWithPictures) {
 
 TEST_F(SoundTest, StaysBelowFullScaleForFfmpegToo) {
   for (const std::string digits : {"1", "3", "6", "20"}) {
-    output_of(Arguments{"render", "--sound", "--digits", digits, "-o", "a.mp4"} + kSmall);
-    output_of(Arguments{"render", "--digits", digits, "-o", "a.wav"} + kSmall);
+    output_of(Arguments{"render", "--sound", "--digits", digits, "-o", "a.mp4"} + kSmallSound);
+    output_of(Arguments{"render", "--digits", digits, "-o", "a.wav"} + kSmallSound);
     EXPECT_LE(peak_db("a.wav"), -2.4) << digits;
     EXPECT_LE(peak_db("a.mp4"), -1.3) << digits;
   }
@@ -149,11 +149,11 @@ TEST_F(SoundTest, StaysBelowFullScaleForFfmpegToo) {
 
 TEST_F(SoundTest, HasTheSameBytesByAnyNumberOfThreadsAndInParts) {
   const Arguments render = Arguments{"render", "--sound", "--to", "5", "-o"};
-  output_of(render + Arguments{"a.mp4", "--jobs", "1"} + kSmall);
-  output_of(render + Arguments{"b.mp4", "--jobs", "2"} + kSmall);
+  output_of(render + Arguments{"a.mp4", "--jobs", "1"} + kSmallSound);
+  output_of(render + Arguments{"b.mp4", "--jobs", "2"} + kSmallSound);
   EXPECT_TRUE(contents("a.mp4") == contents("b.mp4"));
   for (const char* part : {"1/3", "2/3", "3/3"}) {
-    output_of(render + Arguments{"c.mp4", "--part", part} + kSmall);
+    output_of(render + Arguments{"c.mp4", "--part", part} + kSmallSound);
   }
   output_of({"join", "--quiet", "c.mp4.part-3-of-3", "c.mp4.part-1-of-3", "c.mp4.part-2-of-3", "-o",
              "c.mp4"});
@@ -162,11 +162,12 @@ TEST_F(SoundTest, HasTheSameBytesByAnyNumberOfThreadsAndInParts) {
 
 TEST_F(SoundTest, IsAKeyOfTheScene) {
   write("scene.toml", "[sound]\non = true\n");
-  output_of(Arguments{"render", "scene.toml", "--to", "1", "-o", "on.mp4"} + kSmall);
-  output_of(Arguments{"render", "scene.toml", "--no-sound", "--to", "1", "-o", "off.mp4"} + kSmall);
+  output_of(Arguments{"render", "scene.toml", "--to", "1", "-o", "on.mp4"} + kSmallSound);
+  output_of(Arguments{"render", "scene.toml", "--no-sound", "--to", "1", "-o", "off.mp4"} +
+            kSmallSound);
   EXPECT_NE(contents("on.mp4").find("mp4a"), std::string::npos);
   EXPECT_EQ(contents("off.mp4").find("mp4a"), std::string::npos);
-  output_of(Arguments{"render", "--to", "1", "-o", "plain.mp4"} + kSmall);
+  output_of(Arguments{"render", "--to", "1", "-o", "plain.mp4"} + kSmallSound);
   EXPECT_TRUE(contents("off.mp4") == contents("plain.mp4"));
   write("scene.toml", "[sound]\non = 1\n");
   const CommandResult result = piblocks({"render", "scene.toml", "-o", "a.mp4"});
