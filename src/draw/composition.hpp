@@ -23,7 +23,7 @@ struct FrameState {
 /// A part of the time for which a frame is exposed.
 struct WeightedExposure {
   double share = 1;  ///< of that time; 1 in all
-  std::unique_ptr<Exposure> exposure;
+  Exposure exposure;
 };
 
 /// The layout and everything in it that does not move. Only what the scene asks for is made; the

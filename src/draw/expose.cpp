@@ -36,13 +36,6 @@ struct ToPixels {
   double back(double x_px) const { return (x_px - zero_px) / scale; }
 };
 
-/// The integral of the share of time that an even motion from one place to another is below x.
-double area_below(double low, double high, double x) {
-  if (x >= high) return (x - low) / 2 + (x - high) / 2;
-  if (x <= low) return 0;
-  return (x - low) * ((x - low) / (high - low)) / 2;
-}
-
 /// Shares of time by place, such that whatever changes evenly from place to place has the right
 /// mean: the second differences of the integral of F.
 class StopTable {
@@ -92,7 +85,7 @@ class StopTable {
 Travel range_px(BlockName block, const ToPixels& to_px, std::span<const WeightedExposure> parts) {
   Travel all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const WeightedExposure& part : parts) {
-    const Travel range = part.exposure->range(block);
+    const Travel range = part.exposure.range(block);
     all.from = std::min(all.from, to_px(range.from));
     all.to = std::max(all.to, to_px(range.to));
   }
@@ -110,19 +103,20 @@ std::vector<Dwell> stops_of(BlockName block, const ToPixels& to_px, double width
   if (!(range.to > range.from)) return {};
   StopTable table(range, spacing_px(range.to - range.from));
   for (const WeightedExposure& part : parts) {
-    if (!part.exposure->is_listed()) {
-      const Travel own = part.exposure->range(block);
+    if (part.exposure.area_below) {
+      const Travel own = part.exposure.range(block);
       table.add(part.share, to_px(own.from), to_px(own.to), [&](double x) {
-        return part.exposure->area_below(block, to_px.back(x)) * to_px.scale;
+        return part.exposure.area_below(block, to_px.back(x)) * to_px.scale;
       });
       continue;
     }
-    for (const UniformPiece& piece : part.exposure->pieces()) {
+    for (const UniformPiece& piece : part.exposure.pieces) {
       const Travel& way = piece.of(block);
       const double low = to_px(std::min(way.from, way.to));
       const double high = to_px(std::max(way.from, way.to));
-      table.add(part.share * piece.share, low, high,
-                [&](double x) { return area_below(low, high, x); });
+      table.add(part.share * piece.share, low, high, [&](double x) {
+        return Travel{low, high}.area_below(x);
+      });
     }
   }
   return table.take();
@@ -184,7 +178,7 @@ ExposedItem expose(ExposedBlock red, ExposedBlock blue, const SceneColumns& colu
   if (item.behind.dwells.empty() && item.front.dwells.empty()) return item;
   Contacts contacts(item.front.bounds.width);
   for (const WeightedExposure& part : parts) {
-    for (const UniformPiece& piece : part.exposure->pieces()) {
+    for (const UniformPiece& piece : part.exposure.pieces) {
       contacts.add(part.share * piece.share, {red_px(piece.red.from), red_px(piece.red.to)},
                    {blue_px(piece.blue.from), blue_px(piece.blue.to)});
     }

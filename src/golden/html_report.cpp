@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "core/base64.hpp"
-#include "core/markup.hpp"
 #include "core/output_file.hpp"
+#include "core/printable.hpp"
 #include "golden/describe.hpp"
 #include "golden/diff_picture.hpp"
 #include "golden/reports.hpp"

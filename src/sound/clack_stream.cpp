@@ -73,7 +73,7 @@ void ClackStream::enter(const Segment& segment) {
   // Exact, as for the pictures: what happens just there may have to wait until the film moves on.
   const bool is_early = sample_ < segment.begin && segment.time_per_sample > 0;
   const Rational time = is_early ? to_rational(segment.time_at(sample_)) : segment.begin_time;
-  count_ = log_.flight_at(time).count;
+  count_ = log_.state_at(time).count;
 }
 
 void ClackStream::read_until(std::int64_t sample, std::vector<Clack>& clacks) {
@@ -93,14 +93,14 @@ Integer ClackStream::count_at(const Segment& segment, double sample) const {
   const Time time = segment.time_at(sample);
   // So slow that the rounding of count_near() would be heard.
   const bool is_slow = std::fabs(segment.time_per_sample) < 0x1p-45 * std::fabs(time.hi);
-  return is_slow ? log_.flight_at(to_rational(time)).count : count_near(log_, time);
+  return is_slow ? log_.state_at(to_rational(time)).count : count_near(log_, time);
 }
 
 /// Between the ends of a stretch it does not matter in which piece a collision is found, as long as
 /// none is found twice.
 Integer ClackStream::count_at_end(const Segment& segment, double end, bool is_last) const {
   if (segment.time_per_sample == 0) return count_;
-  const Integer count = is_last ? log_.flight_at(segment.end_time).count : count_at(segment, end);
+  const Integer count = is_last ? log_.state_at(segment.end_time).count : count_at(segment, end);
   return segment.time_per_sample > 0 ? std::max(count, count_) : std::min(count, count_);
 }
 

@@ -30,7 +30,7 @@ class ClackStream {
 
   /// Adds to `clacks` those before this sample that were not read yet, none of them more than an
   /// eighth of a sample before the one ahead of it.
-  /// @throws SimulationError as CollisionLog::flight_at().
+  /// @throws SimulationError as CollisionLog::state_at().
   void read_until(std::int64_t sample, std::vector<Clack>& clacks);
 
  private:
