@@ -15,14 +15,14 @@ constexpr double kStill_px = 1e-6;
 constexpr double kMargin_px = 4;
 
 /// Most places that stand for the way of one block.
-constexpr double kMaxStops = 1 << 15;
+constexpr double kMaxDwells = 1 << 15;
 
 /// Distance of the places in which a block is drawn. Between two of them the light of a pixel is
 /// taken as changing evenly. The error falls with the square of the distance, and counts the less
 /// the shorter a block is in a pixel.
 double spacing_px(double range_px) {
   const double fine = range_px <= 64 ? 1.0 / 32 : range_px <= 512 ? 1.0 / 16 : 1.0 / 4;
-  return std::max(fine, range_px / kMaxStops);
+  return std::max(fine, range_px / kMaxDwells);
 }
 
 /// The map from the position of a block's centre to the column of its left edge.
@@ -45,9 +45,9 @@ double area_below(double low, double high, double x) {
 
 /// Shares of time by place, such that whatever changes evenly from place to place has the right
 /// mean: the second differences of the integral of F.
-class StopTable {
+class DwellTable {
  public:
-  StopTable(const Travel& range_px, double spacing)
+  DwellTable(const Travel& range_px, double spacing)
       : spacing_(spacing), first_(std::floor(range_px.from / spacing) - 1) {
     const double last = std::ceil(range_px.to / spacing) + 1;
     shares_.assign(static_cast<std::size_t>(last - first_) + 1, 0);
@@ -68,7 +68,7 @@ class StopTable {
     }
   }
 
-  std::vector<Dwell> take() const {
+  std::vector<Dwell> dwells() const {
     std::vector<Dwell> dwells;
     for (std::size_t i = 0; i < shares_.size(); ++i) {
       // Differences of equal areas leave roundings.
@@ -100,15 +100,15 @@ Travel range_px(BlockName block, const ToPixels& to_px, std::span<const Weighted
 }
 
 /// @param width_px  of the block
-std::vector<Dwell> stops_of(BlockName block, const ToPixels& to_px, double width_px, int frame_px,
-                            std::span<const WeightedExposure> parts) {
+std::vector<Dwell> dwells_of(BlockName block, const ToPixels& to_px, double width_px, int frame_px,
+                             std::span<const WeightedExposure> parts) {
   Travel range = range_px(block, to_px, parts);
   if (!(range.to - range.from > kStill_px)) return {};
   // What cannot be seen is left out.
   range.from = std::max(range.from, -width_px - kMargin_px);
   range.to = std::min(range.to, frame_px + kMargin_px);
   if (!(range.to > range.from)) return {};
-  StopTable table(range, spacing_px(range.to - range.from));
+  DwellTable table(range, spacing_px(range.to - range.from));
   for (const WeightedExposure& part : parts) {
     if (!part.exposure->is_listed()) {
       const Travel own = part.exposure->range(block);
@@ -125,50 +125,34 @@ std::vector<Dwell> stops_of(BlockName block, const ToPixels& to_px, double width
                 [&](double x) { return area_below(low, high, x); });
     }
   }
-  return table.take();
+  return table.dwells();
 }
 
-/// Places of both blocks along an even motion, as far as they are less than a pixel apart.
-class Contacts {
- public:
-  explicit Contacts(double front_width) : front_width_(front_width) {}
-
-  void add(double share, const Travel& behind, const Travel& front) {
-    const Travel gap{behind.from - front.from - front_width_, behind.to - front.to - front_width_};
-    double begin = 0;
-    double end = 1;
-    if (gap.from >= 1 && gap.to >= 1) return;
-    if (gap.from > 1) begin = (gap.from - 1) / (gap.from - gap.to);
-    if (gap.to > 1) end = (gap.from - 1) / (gap.from - gap.to);
-    const auto way = [&](const Travel& travel) { return std::fabs(travel.to - travel.from); };
-    const double way_px = std::max(way(behind), way(front)) * (end - begin);
-    if (!std::isfinite(way_px)) return;  // far outside of any frame
-    const int count = static_cast<int>(std::clamp(std::ceil(way_px * kPerPixel), 1.0, kMax));
-    for (int i = 0; i < count; ++i) {
-      const double at = begin + (end - begin) * (i + 0.5) / count;
-      add({behind.from + (behind.to - behind.from) * at, front.from + (front.to - front.from) * at,
-           share * (end - begin) / count});
-    }
+/// Adds places of both blocks along an even motion, as far as they are less than a pixel apart.
+/// @param behind, front  left edges
+void add_contacts(double share, const Travel& behind, const Travel& front, double front_width,
+                  std::vector<Contact>& contacts) {
+  constexpr double kPerPixel = 16;
+  constexpr double kMost = 4096;
+  const Travel gap{behind.from - front.from - front_width, behind.to - front.to - front_width};
+  double begin = 0;
+  double end = 1;
+  if (gap.from >= 1 && gap.to >= 1) return;
+  if (gap.from > 1) begin = (gap.from - 1) / (gap.from - gap.to);
+  if (gap.to > 1) end = (gap.from - 1) / (gap.from - gap.to);
+  const double way_px =
+      std::max(std::fabs(behind.to - behind.from), std::fabs(front.to - front.from)) *
+      (end - begin);
+  if (!std::isfinite(way_px)) return;  // far outside of any frame
+  const int count = static_cast<int>(std::clamp(std::ceil(way_px * kPerPixel), 1.0, kMost));
+  for (int i = 0; i < count; ++i) {
+    const double at = begin + (end - begin) * (i + 0.5) / count;
+    const Contact contact{behind.from + (behind.to - behind.from) * at,
+                          front.from + (front.to - front.from) * at, share * (end - begin) / count};
+    // If there is a pixel that both reach into.
+    if (contact.front_x + front_width > std::floor(contact.behind_x)) contacts.push_back(contact);
   }
-
-  std::vector<Contact> take() {
-    std::ranges::sort(contacts_, {}, &Contact::behind_x);
-    return std::move(contacts_);
-  }
-
- private:
-  static constexpr double kPerPixel = 16;
-  static constexpr double kMax = 4096;  // of one motion
-
-  /// If there is a pixel that both reach into.
-  void add(const Contact& contact) {
-    if (contact.front_x + front_width_ <= std::floor(contact.behind_x)) return;
-    contacts_.push_back(contact);
-  }
-
-  double front_width_;
-  std::vector<Contact> contacts_;
-};
+}
 
 }  // namespace
 
@@ -178,18 +162,18 @@ ExposedItem expose(ExposedBlock red, ExposedBlock blue, const SceneColumns& colu
   const ToPixels blue_px(columns, blue);
   ExposedItem item{ItemId::red_block, std::move(red), std::move(blue), {}};
   item.behind.dwells =
-      stops_of(BlockName::red, red_px, item.behind.bounds.width, columns.width_px, parts);
+      dwells_of(BlockName::red, red_px, item.behind.bounds.width, columns.width_px, parts);
   item.front.dwells =
-      stops_of(BlockName::blue, blue_px, item.front.bounds.width, columns.width_px, parts);
+      dwells_of(BlockName::blue, blue_px, item.front.bounds.width, columns.width_px, parts);
   if (item.behind.dwells.empty() && item.front.dwells.empty()) return item;
-  Contacts contacts(item.front.bounds.width);
   for (const WeightedExposure& part : parts) {
     for (const UniformPiece& piece : part.exposure->pieces()) {
-      contacts.add(part.share * piece.share, {red_px(piece.red.from), red_px(piece.red.to)},
-                   {blue_px(piece.blue.from), blue_px(piece.blue.to)});
+      add_contacts(part.share * piece.share, {red_px(piece.red.from), red_px(piece.red.to)},
+                   {blue_px(piece.blue.from), blue_px(piece.blue.to)}, item.front.bounds.width,
+                   item.contacts);
     }
   }
-  item.contacts = contacts.take();
+  std::ranges::sort(item.contacts, {}, &Contact::behind_x);
   return item;
 }
 

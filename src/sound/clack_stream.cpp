@@ -49,7 +49,7 @@ ClackStream::ClackStream(const CollisionLog& log, std::span<const Stretch> stret
   }
   // A collision at the very beginning has happened in the first frame, and is to be heard.
   sample_ = segments_.front().begin - 0.5;
-  enter(segments_.front());
+  enter_segment();
 }
 
 /// A film that begins standing still hears what happens just then as if it had come there moving.
@@ -68,82 +68,76 @@ void ClackStream::add_first_instant(std::span<const Stretch> stretches, int rate
                        .continues = false});
 }
 
-void ClackStream::enter(const Segment& segment) {
-  if (segment.continues) return;
+void ClackStream::enter_segment() {
+  if (segment().continues) return;
   // Exact, as for the pictures: what happens just there may have to wait until the film moves on.
-  const bool is_early = sample_ < segment.begin && segment.time_per_sample > 0;
-  const Rational time = is_early ? to_rational(segment.time_at(sample_)) : segment.begin_time;
+  const bool is_early = sample_ < segment().begin && segment().time_per_sample > 0;
+  const Rational time = is_early ? to_rational(segment().time_at(sample_)) : segment().begin_time;
   count_ = log_.flight_at(time).count;
 }
 
 void ClackStream::read_until(std::int64_t sample, std::vector<Clack>& clacks) {
   while (current_ < segments_.size() && sample_ < double(sample)) {
-    const Segment& segment = segments_[current_];
-    const double end = std::min({double(sample), segment.end, sample_ + kPiece_samples});
-    const bool is_last = end == segment.end;
-    const Integer count = count_at_end(segment, end, is_last);
-    add({sample_, end, count_, count}, segment, clacks);
+    const double end = std::min({double(sample), segment().end, sample_ + kPiece_samples});
+    const bool is_last = end == segment().end;
+    const Integer count = count_at_end(end, is_last);
+    add({sample_, end, count_, count}, clacks);
     sample_ = end;
     count_ = count;
-    if (is_last && ++current_ < segments_.size()) enter(segments_[current_]);
+    if (is_last && ++current_ < segments_.size()) enter_segment();
   }
 }
 
-Integer ClackStream::count_at(const Segment& segment, double sample) const {
-  const Time time = segment.time_at(sample);
+Integer ClackStream::count_at(double sample) const {
+  const Time time = segment().time_at(sample);
   // So slow that the rounding of count_near() would be heard.
-  const bool is_slow = std::fabs(segment.time_per_sample) < 0x1p-45 * std::fabs(time.hi);
+  const bool is_slow = std::fabs(segment().time_per_sample) < 0x1p-45 * std::fabs(time.hi);
   return is_slow ? log_.flight_at(to_rational(time)).count : count_near(log_, time);
 }
 
-/// Between the ends of a stretch it does not matter in which piece a collision is found, as long as
+/// Between the ends of a segment it does not matter in which piece a collision is found, as long as
 /// none is found twice.
-Integer ClackStream::count_at_end(const Segment& segment, double end, bool is_last) const {
-  if (segment.time_per_sample == 0) return count_;
-  const Integer count = is_last ? log_.flight_at(segment.end_time).count : count_at(segment, end);
-  return segment.time_per_sample > 0 ? std::max(count, count_) : std::min(count, count_);
+Integer ClackStream::count_at_end(double end, bool is_last) const {
+  if (segment().time_per_sample == 0) return count_;
+  const Integer count = is_last ? log_.flight_at(segment().end_time).count : count_at(end);
+  return segment().time_per_sample > 0 ? std::max(count, count_) : std::min(count, count_);
 }
 
-void ClackStream::add(const Piece& piece, const Segment& segment,
-                      std::vector<Clack>& clacks) const {
+void ClackStream::add(const Piece& piece, std::vector<Clack>& clacks) const {
   const auto& [begin, end, at_begin, at_end] = piece;
   const Integer number = abs(at_end - at_begin);
   if (number == 0) return;
-  if (number <= kFew) return add_one_by_one(piece, segment, clacks);
+  if (number <= kFew) return add_one_by_one(piece, clacks);
   const Integer first = std::min(at_begin, at_end) + 1;
   const Integer last = std::max(at_begin, at_end);
-  if (end - begin <= kWidth_samples) {
-    add_impact(CollisionKind::wall, first, last, piece, segment, clacks);
-    add_impact(CollisionKind::blocks, first, last, piece, segment, clacks);
-    return;
-  }
+  if (end - begin <= kWidth_samples) return add_impacts(first, last, piece, clacks);
   const double middle = (begin + end) / 2;
-  const Integer count = std::clamp<Integer>(count_at(segment, middle), first - 1, last);
-  add({begin, middle, at_begin, count}, segment, clacks);
-  add({middle, end, count, at_end}, segment, clacks);
+  const Integer count = std::clamp<Integer>(count_at(middle), first - 1, last);
+  add({begin, middle, at_begin, count}, clacks);
+  add({middle, end, count, at_end}, clacks);
 }
 
-void ClackStream::add_one_by_one(const Piece& piece, const Segment& segment,
-                                 std::vector<Clack>& clacks) const {
+void ClackStream::add_one_by_one(const Piece& piece, std::vector<Clack>& clacks) const {
   const bool forwards = piece.count_at_begin < piece.count_at_end;
   Integer index = piece.count_at_begin;
   while (index != piece.count_at_end) {
     if (forwards) ++index;
-    add_impact(CollisionKind::wall, index, index, piece, segment, clacks);
-    add_impact(CollisionKind::blocks, index, index, piece, segment, clacks);
+    add_impacts(index, index, piece, clacks);
     if (!forwards) --index;
   }
 }
 
-void ClackStream::add_impact(CollisionKind kind, const Integer& first, const Integer& last,
-                             const Piece& piece, const Segment& segment,
-                             std::vector<Clack>& clacks) const {
-  const std::optional<Impact> together = impact(log_, kind, first, last);
-  if (!together) return;
-  // Where a count was rounded the time may be on the other side of the piece's end.
-  const double sample =
-      std::max(piece.begin, std::min(piece.end, segment.sample_at(together->time)));
-  clacks.push_back({sample, kind, together->impulse, together->blue_position});
+/// One clack of the collisions with the wall, and one of those of the blocks.
+void ClackStream::add_impacts(const Integer& first, const Integer& last, const Piece& piece,
+                              std::vector<Clack>& clacks) const {
+  for (const CollisionKind kind : {CollisionKind::wall, CollisionKind::blocks}) {
+    const std::optional<Impact> together = impact(log_, kind, first, last);
+    if (!together) continue;
+    // Where a count was rounded the time may be on the other side of the piece's end.
+    const double sample =
+        std::max(piece.begin, std::min(piece.end, segment().sample_at(together->time)));
+    clacks.push_back({sample, kind, together->impulse, together->blue_position});
+  }
 }
 
 }  // namespace piblocks

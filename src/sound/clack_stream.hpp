@@ -56,13 +56,14 @@ class ClackStream {
   };
 
   void add_first_instant(std::span<const Stretch> stretches, int rate_hz);
-  void enter(const Segment& segment);
-  Integer count_at(const Segment& segment, double sample) const;
-  Integer count_at_end(const Segment& segment, double end, bool is_last) const;
-  void add(const Piece& piece, const Segment& segment, std::vector<Clack>& clacks) const;
-  void add_one_by_one(const Piece& piece, const Segment& segment, std::vector<Clack>& clacks) const;
-  void add_impact(CollisionKind kind, const Integer& first, const Integer& last, const Piece& piece,
-                  const Segment& segment, std::vector<Clack>& clacks) const;
+  const Segment& segment() const { return segments_[current_]; }
+  void enter_segment();
+  Integer count_at(double sample) const;
+  Integer count_at_end(double end, bool is_last) const;
+  void add(const Piece& piece, std::vector<Clack>& clacks) const;
+  void add_one_by_one(const Piece& piece, std::vector<Clack>& clacks) const;
+  void add_impacts(const Integer& first, const Integer& last, const Piece& piece,
+                   std::vector<Clack>& clacks) const;
 
   const CollisionLog& log_;
   std::vector<Segment> segments_;

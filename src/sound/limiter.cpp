@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sound/click_kernel.hpp"
+#include "sound/click.hpp"
 
 namespace piblocks {
 namespace {

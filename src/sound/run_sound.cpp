@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "sound/compressor.hpp"
+#include "sound/click.hpp"
 
 namespace piblocks {
 namespace {

@@ -2,17 +2,39 @@
 // In: a voice. Out: pairs of samples of any height, from the first that it is heard in.
 #pragma once
 
+#include <piblocks/scene.hpp>
+
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "sound/clack_stream.hpp"
-#include "sound/click_kernel.hpp"
-#include "sound/soundtrack.hpp"
+#include "sound/click.hpp"
 #include "sound/timbre.hpp"
 
 namespace piblocks {
+
+/// An even change of weight between two instants of the film, in seconds.
+struct Ramp {
+  Rational begin_s;
+  Rational end_s;  ///< > begin_s
+};
+
+/// A run as a film has it.
+struct Voice {
+  const Scene& scene;              ///< must outlive the sound
+  const CollisionLog& log;         ///< must outlive the sound
+  std::vector<Stretch> stretches;  ///< as Schedule has them, from begin_s on
+  Rational begin_s = 0;            ///< when it begins in the film, >= 0
+  Rational end_s = 0;              ///< > begin_s; nothing of it is heard from then on
+  std::optional<Ramp> rise = {};   ///< its weight goes from 0 to 1
+  std::optional<Ramp> fall = {};   ///< and from 1 to 0; without it, it ends with a cut
+  /// Where its picture is in the frame, from 0, the left edge, to 1, the right one.
+  double left = 0;
+  double right = 1;
+};
 
 /// Takes the same memory for a run of any length. Used by one thread at a time.
 class RunSound {

@@ -1,11 +1,28 @@
-// A click between two samples.
-// In: its time and height. Out: a band-limited pulse in the samples around it.
+// How high a clack's click is, and its form between two samples.
+// In: clacks with their impulses, in order. Out: band-limited pulses in the samples around them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "sound/clack_stream.hpp"
+
 namespace piblocks {
+
+/// Clacks closer than this are heard together, the less the farther apart.
+inline constexpr int kTogether_samples = 4;
+
+/// What becomes of an impulse: of a small one itself, of 1 0.8, of 100 3.2, and of none 8 or more.
+/// Those that come within one sample grow like the mass ratio, without limit in the number of
+/// digits.
+double compressed(double impulse);
+
+/// The height of the click for clack `index`. The impulses around it decide how much it is
+/// compressed, so that a crowd of collisions is as loud as one blow of all of them.
+/// @param clacks  those within kTogether_samples of it included, in the order of `sample`.
+double height(std::span<const Clack> clacks, std::size_t index);
 
 /// A sinc in a Kaiser window: even to 18 kHz at a rate of 48 kHz; 80 dB down from 23 kHz on, so
 /// that nothing is folded back that could be heard.

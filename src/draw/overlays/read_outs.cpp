@@ -5,9 +5,38 @@
 
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {
+
+constexpr int kDecimals = 2;
+constexpr int kMostDecimals = 9;
+
+/// Simulation time per second of video where it runs slowest; 1 at most.
+double least_speed(const Setting& setting) {
+  // A scene that ends after a collision that never comes can still be seen at one instant.
+  if (!has_span(setting.scene, setting.log))
+    return std::min(1.0, to_double(setting.scene.time.speed));
+  double least = 1;
+  const Schedule schedule = make_schedule(setting.scene, setting.log);
+  for (const Stretch& stretch : schedule.stretches()) {
+    if (stretch.speed != 0) least = std::min(least, std::abs(to_double(stretch.speed)));
+  }
+  return least;
+}
+
+/// More in slow motion, where less of time passes.
+int decimals_for(double speed) {
+  const double more = std::ceil(-std::log10(speed) - 1e-9);
+  return static_cast<int>(std::clamp<double>(kDecimals + more, kDecimals, kMostDecimals));
+}
+
+std::string slower_text(const Rational& slower) {
+  if (slower == 1) return {};
+  if (slower < 1) return fmt::format("{}× faster", short_text(1 / slower));
+  return fmt::format("{}× slower", short_text(slower));
+}
 
 /// How values up to a largest one are written: with six digits of it, and as multiples of a power
 /// of ten where that is shorter.
@@ -28,6 +57,41 @@ struct Scale {
 };
 
 }  // namespace
+
+ReadOut time_read_out(const Setting& setting) {
+  const int decimals = decimals_for(least_speed(setting));
+  const auto text = [decimals](const Rational& time) {
+    return fmt::format("t = {}", fixed_text(time, decimals));
+  };
+  Rational end = 0;
+  if (has_span(setting.scene, setting.log)) {
+    const Span span = span_of(setting.scene, setting.log);
+    end = std::max(Rational(abs(span.from)), Rational(abs(span.to)));
+  }
+  return {"time", text(-end), [=](const FrameState& shown) { return text(shown.time); },
+          setting.palette.text};
+}
+
+bool has_slow_motion(const Pacing& pacing) {
+  return pacing.automatic_slow_motion || !pacing.slow_motion.empty();
+}
+
+ReadOut slower_read_out(const Setting& setting) {
+  const Pacing& pacing = setting.scene.pacing;
+  ReadOut read_out{"slow motion",
+                   {},
+                   [](const FrameState& shown) { return slower_text(shown.slower); },
+                   setting.palette.accent};
+  const auto make_room = [&](const Rational& slower) {
+    std::string text = slower_text(slower);
+    if (setting.font.width_em(text) > setting.font.width_em(read_out.widest)) {
+      read_out.widest = std::move(text);
+    }
+  };
+  for (const SlowMotion& slow : pacing.slow_motion) make_room(slow.factor);
+  if (pacing.automatic_slow_motion) make_room(kMaxAutomaticFactor);
+  return read_out;
+}
 
 ReadOut energy_read_out(const Setting& setting) {
   const BlockSystem& system = setting.scene.system;

@@ -1,9 +1,9 @@
-#include "golden/describe.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/exact.hpp>
 
 #include <array>
+
+#include "golden/reports.hpp"
 
 namespace piblocks {
 namespace {
@@ -38,7 +38,7 @@ std::string largest_delta(const Difference& d) {
 
 }  // namespace
 
-std::string describe(const FrameComparison& frame) {
+std::string difference_text(const FrameComparison& frame) {
   if (!frame.difference) return frame.is_accepted ? "equal hashes" : "different hashes";
   const Difference& d = *frame.difference;
   if (d.is_equal()) return "equal";
