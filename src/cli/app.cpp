@@ -4,9 +4,39 @@
 #include <piblocks/version.hpp>
 
 #include "cli/commands.hpp"
-#include "cli/help_formatter.hpp"
 
 namespace piblocks::cli {
+namespace {
+
+std::string shortest_name(const CLI::Option& option) {
+  return option.get_snames().empty() ? option.get_name() : "-" + option.get_snames().front();
+}
+
+/// CLI11's form, but for short descriptions and a usage line that shows what has to be given.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() { column_width(24); }
+
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    std::string usage = "Usage: " + name;
+    if (app->get_require_subcommand_min() > 0) return usage + " COMMAND [OPTIONS]\n";
+    for (const CLI::Option* option : app->get_options()) {
+      if (option->get_required()) {
+        usage += " " + shortest_name(*option);
+        if (option->get_option_text() != kNoText) usage += " " + option->get_option_text();
+      } else if (option->get_positional()) {
+        usage += " [" + option->get_name() + "]";
+      }
+    }
+    return usage + " [OPTIONS]\n";
+  }
+
+  std::string make_description(const CLI::App* app) const override {
+    return app->get_description() + "\n\n";
+  }
+};
+
+}  // namespace
 
 std::unique_ptr<CLI::App> make_app() {
   auto app = std::make_unique<CLI::App>(

@@ -1,5 +1,5 @@
-// The command line as a whole.
-// In: nothing. Out: all commands with their options.
+// The command line as a whole, by CLI11.
+// In: nothing. Out: all commands with their options, and a help of at most 100 columns.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,6 +9,9 @@
 #include <vector>
 
 namespace piblocks::cli {
+
+/// The text of an option whose name says all: an empty one would be replaced by CLI11.
+inline constexpr const char* kNoText = " ";
 
 std::unique_ptr<CLI::App> make_app();
 

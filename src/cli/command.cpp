@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "cli/help_formatter.hpp"
+#include "cli/app.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -13,52 +13,41 @@ constexpr int kAnyNumber = -1;
 
 }  // namespace
 
-bool Option::is_given() const { return option_->count() > 0; }
-
-std::string Option::name() const { return option_->get_name(); }
-
-std::optional<std::string> Option::text() const {
-  if (!is_given()) return std::nullopt;
-  return option_->results().front();
-}
-
-std::vector<std::string> Option::texts() const { return option_->results(); }
-
 Command Command::add_command(const std::string& name, const std::string& help) {
   return Command(*app_->add_subcommand(name, help));
 }
 
-Option Command::add_flag(const std::string& name, const std::string& help) {
-  return Option(*app_->add_flag(name)->description(help));
+void Command::add_flag(const std::string& name, const std::string& help) {
+  app_->add_flag(name)->description(help);
 }
 
-Option Command::add_value(const std::string& name, const std::string& placeholder,
-                          const std::string& help) {
-  return Option(*app_->add_option(name, help)->option_text(placeholder));
+void Command::add_value(const std::string& name, const std::string& placeholder,
+                        const std::string& help) {
+  app_->add_option(name, help)->option_text(placeholder);
 }
 
-Option Command::add_required_value(const std::string& name, const std::string& placeholder,
-                                   const std::string& help) {
-  return Option(*app_->add_option(name, help)->option_text(placeholder)->required());
+void Command::add_required_value(const std::string& name, const std::string& placeholder,
+                                 const std::string& help) {
+  app_->add_option(name, help)->option_text(placeholder)->required();
 }
 
-Option Command::add_values(const std::string& name, const std::string& placeholder,
-                           const std::string& help) {
+void Command::add_values(const std::string& name, const std::string& placeholder,
+                         const std::string& help) {
   CLI::Option* const option = app_->add_option(name, help)->option_text(placeholder);
-  return Option(*option->allow_extra_args(false)->expected(1, kAnyNumber));
+  option->allow_extra_args(false)->expected(1, kAnyNumber);
 }
 
-Option Command::add_argument(const std::string& name, const std::string& help) {
-  return Option(*app_->add_option(name, help)->required()->option_text(kNoText));
+void Command::add_argument(const std::string& name, const std::string& help) {
+  app_->add_option(name, help)->required()->option_text(kNoText);
 }
 
-Option Command::add_optional_argument(const std::string& name, const std::string& help) {
-  return Option(*app_->add_option(name, help)->option_text(""));
+void Command::add_optional_argument(const std::string& name, const std::string& help) {
+  app_->add_option(name, help)->option_text("");
 }
 
-Option Command::add_arguments(const std::string& name, const std::string& help) {
+void Command::add_arguments(const std::string& name, const std::string& help) {
   CLI::Option* const option = app_->add_option(name, help)->required()->option_text("...");
-  return Option(*option->expected(1, kAnyNumber)->allow_extra_args());
+  option->expected(1, kAnyNumber)->allow_extra_args();
 }
 
 void Command::set_footer(const std::string& text) { app_->footer(text); }
@@ -72,6 +61,15 @@ std::string Command::name() const { return app_->get_name(); }
 bool Command::is_given(const std::string& option) const {
   const CLI::Option* const found = app_->get_option_no_throw(option);
   return found != nullptr && found->count() > 0;
+}
+
+std::optional<std::string> Command::text(const std::string& option) const {
+  if (app_->get_option(option)->count() == 0) return std::nullopt;
+  return texts(option).front();
+}
+
+std::vector<std::string> Command::texts(const std::string& option) const {
+  return app_->get_option(option)->results();
 }
 
 }  // namespace piblocks::cli

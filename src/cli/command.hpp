@@ -1,7 +1,10 @@
-// A command of the program and its options.
-// In: names and help texts. Out: what the command line says, for the command that runs.
+// A command of the program, its options, and what the command line says of them.
+// In: names and help texts; later the command line. Out: the options' texts and values, by name.
 // CLI11 is behind this: it costs a compiler seconds wherever it is included.
 #pragma once
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
 
 #include <functional>
 #include <optional>
@@ -16,23 +19,8 @@ class Option;
 
 namespace piblocks::cli {
 
-/// Refers to an option of a Command, and is valid as long as the program's command line.
-class Option {
- public:
-  explicit Option(CLI::Option& option) : option_(&option) {}
-
-  bool is_given() const;
-  std::string name() const;
-  /// The value's text; nothing if the option was not given.
-  std::optional<std::string> text() const;
-  /// Of an option that may be given several times.
-  std::vector<std::string> texts() const;
-
- private:
-  CLI::Option* option_;
-};
-
-/// Refers to a command, and is valid as long as the program's command line.
+/// Refers to a command, and is valid as long as the program's command line. An option is named as
+/// in messages: "--output", or "SCENE" for an argument without a name.
 /// CLI11 only collects texts: what it says of a text that it cannot convert is not for users.
 class Command {
  public:
@@ -41,20 +29,18 @@ class Command {
   /// A command below this one.
   Command add_command(const std::string& name, const std::string& help);
   /// An option without a value.
-  Option add_flag(const std::string& name, const std::string& help);
-  /// @param placeholder  what stands for the value in the help, as in "--size WxH".
-  Option add_value(const std::string& name, const std::string& placeholder,
-                   const std::string& help);
-  Option add_required_value(const std::string& name, const std::string& placeholder,
-                            const std::string& help);
+  void add_flag(const std::string& name, const std::string& help);
+  /// @param placeholder  stands for the value in the help, as in "--size WxH".
+  void add_value(const std::string& name, const std::string& placeholder, const std::string& help);
+  void add_required_value(const std::string& name, const std::string& placeholder,
+                          const std::string& help);
   /// A value that may be given several times.
-  Option add_values(const std::string& name, const std::string& placeholder,
-                    const std::string& help);
-  /// What stands behind the command without a name.
-  Option add_argument(const std::string& name, const std::string& help);
-  Option add_optional_argument(const std::string& name, const std::string& help);
+  void add_values(const std::string& name, const std::string& placeholder, const std::string& help);
+  /// A text that stands behind the command without a name.
+  void add_argument(const std::string& name, const std::string& help);
+  void add_optional_argument(const std::string& name, const std::string& help);
   /// One or more of them.
-  Option add_arguments(const std::string& name, const std::string& help);
+  void add_arguments(const std::string& name, const std::string& help);
 
   /// Text below the help.
   void set_footer(const std::string& text);
@@ -63,8 +49,25 @@ class Command {
   void on_run(std::function<void()> run);
 
   std::string name() const;
-  /// Whether it has this option and the option is given.
+  /// False also if the command has no such option.
   bool is_given(const std::string& option) const;
+  /// Nothing if the option was not given.
+  std::optional<std::string> text(const std::string& option) const;
+  /// Of an option that may be given several times.
+  std::vector<std::string> texts(const std::string& option) const;
+  /// The option's value as `parse` makes it of the text; nothing if it was not given.
+  /// @throws UsageError that names option and text if `parse` throws one
+  template <typename Parse>
+  auto value(const std::string& option, const Parse& parse) const
+      -> std::optional<decltype(parse(std::string()))> {
+    const std::optional<std::string> given = text(option);
+    if (!given) return std::nullopt;
+    try {
+      return parse(*given);
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("{} {}: {}", option, *given, error.what()));
+    }
+  }
 
  private:
   CLI::App* app_;

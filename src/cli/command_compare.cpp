@@ -1,12 +1,10 @@
 #include <piblocks/compare.hpp>
 
-#include <functional>
 #include <memory>
 #include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
-#include "cli/help_formatter.hpp"
 #include "cli/options.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
@@ -17,22 +15,7 @@
 namespace piblocks::cli {
 namespace {
 
-/// Of more frames nobody reads the lines.
 constexpr int kMaxLines = 20;
-
-struct CompareOptions {
-  Option reference;
-  Option actual;
-  Option max_delta;
-  Option max_pixels;
-  Option hard_delta;
-  Option max_window;
-  Option masks;
-  Option diff;
-  Option html;
-  Option junit;
-  Option quiet;
-};
 
 Rational parse_delta(const std::string& text) {
   Rational delta = parse_rational(text);
@@ -48,8 +31,7 @@ std::int64_t parse_pixels(const std::string& text) {
 Window parse_window(const std::string& text) {
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos) throw UsageError("must be N:K, such as 16:40");
-  const Integer side = parse_whole_number(text.substr(0, colon), 1, Integer(kMaxSide_px));
-  return {static_cast<int>(side.get_si()), parse_pixels(text.substr(colon + 1))};
+  return {parse_int(text.substr(0, colon), 1, kMaxSide_px), parse_pixels(text.substr(colon + 1))};
 }
 
 /// "640x80+100+20", from the left and the top.
@@ -61,27 +43,26 @@ PixelRect parse_mask(const std::string& text) {
     throw UsageError("must be WxH+X+Y, such as 640x80+100+20");
   }
   const auto number = [&](std::size_t begin, std::size_t end, int low) {
-    const std::string digits = text.substr(begin, end - begin);
-    return static_cast<int>(parse_whole_number(digits, low, Integer(kMaxSide_px)).get_si());
+    return parse_int(text.substr(begin, end - begin), low, kMaxSide_px);
   };
   return {number(left + 1, top, 0), number(top + 1, std::string::npos, 0), number(0, x, 1),
           number(x + 1, left, 1)};
 }
 
-Tolerance tolerance_of(const CompareOptions& options) {
+Tolerance tolerance_of(const Command& options) {
   Tolerance tolerance;
-  tolerance.max_delta = value_of(options.max_delta, parse_delta).value_or(0);
-  tolerance.hard_delta = value_of(options.hard_delta, parse_delta).value_or(255);
-  tolerance.window = value_of(options.max_window, parse_window);
-  // Who bounds the pixels of any place need not bound those of the whole frame.
+  tolerance.max_delta = options.value("--max-delta", parse_delta).value_or(0);
+  tolerance.hard_delta = options.value("--hard-delta", parse_delta).value_or(255);
+  tolerance.window = options.value("--max-window", parse_window);
+  // A bound on any window replaces the default bound on the whole frame.
   const std::int64_t otherwise = tolerance.window ? kMaxFrame_px : 0;
-  tolerance.max_pixels = value_of(options.max_pixels, parse_pixels).value_or(otherwise);
+  tolerance.max_pixels = options.value("--max-pixels", parse_pixels).value_or(otherwise);
   return tolerance;
 }
 
-ComparisonJob job_of(const CompareOptions& options) {
-  ComparisonJob job{*options.reference.text(), *options.actual.text(), tolerance_of(options), {}};
-  for (const std::string& mask : options.masks.texts()) {
+ComparisonJob job_of(const Command& options) {
+  ComparisonJob job{*options.text("REFERENCE"), *options.text("ACTUAL"), tolerance_of(options), {}};
+  for (const std::string& mask : options.texts("--mask")) {
     try {
       job.masks.push_back(parse_mask(mask));
     } catch (const UsageError& error) {
@@ -91,11 +72,11 @@ ComparisonJob job_of(const CompareOptions& options) {
   return job;
 }
 
-std::vector<std::unique_ptr<Report>> reports_of(const CompareOptions& options) {
+std::vector<std::unique_ptr<Report>> reports_of(const Command& options) {
   std::vector<std::unique_ptr<Report>> reports;
-  if (const auto name = options.diff.text()) reports.push_back(diff_folder(*name));
-  if (const auto name = options.html.text()) reports.push_back(html_report(*name));
-  if (const auto name = options.junit.text()) reports.push_back(junit_report(*name));
+  if (const auto name = options.text("--diff")) reports.push_back(diff_folder(*name));
+  if (const auto name = options.text("--report")) reports.push_back(html_report(*name));
+  if (const auto name = options.text("--junit")) reports.push_back(junit_report(*name));
   return reports;
 }
 
@@ -146,57 +127,47 @@ class Printer {
 };
 
 /// @throws UsageError if a report would replace what is compared.
-void check_reports(const CompareOptions& options, const ComparisonJob& job) {
+void check_reports(const Command& options, const ComparisonJob& job) {
   OverwriteCheck check;
   claim_frames(check, "the reference", job.reference);
   claim_frames(check, "the actual pictures", job.actual);
-  if (const auto name = options.diff.text()) claim_diff_folder(check, *name);
-  if (const auto name = options.html.text()) check.writes("--report", *name);
-  if (const auto name = options.junit.text()) check.writes("--junit", *name);
-  if (!options.quiet.is_given()) check.writes_standard_output();
+  if (const auto name = options.text("--diff")) claim_diff_folder(check, *name);
+  if (const auto name = options.text("--report")) check.writes("--report", *name);
+  if (const auto name = options.text("--junit")) check.writes("--junit", *name);
+  if (!options.is_given("--quiet")) check.writes_standard_output();
   check.check();
 }
 
-/// Runs `read`, whose failures have an exit code of their own.
-ComparisonResult read_inputs(const std::function<ComparisonResult()>& read) {
+/// Runs `work`; gives its failures this exit code.
+template <typename Work>
+auto with_exit_code(int code, const Work& work) {
   try {
-    return read();
+    return work();
   } catch (const IoError& error) {
-    throw ExitCode(kUnreadable, error.what());
+    throw ExitCode(code, error.what());
   } catch (const MediaError& error) {
-    throw ExitCode(kUnreadable, error.what());
+    throw ExitCode(code, error.what());
   }
 }
 
-/// Runs `write`, whose failures are no failures to read.
-void write_outputs(const std::function<void()>& write) {
-  try {
-    write();
-  } catch (const IoError& error) {
-    throw ExitCode(kFailed, error.what());
-  } catch (const MediaError& error) {
-    throw ExitCode(kFailed, error.what());
-  }
-}
-
-ComparisonResult run_comparison(const CompareOptions& options, const ComparisonJob& job) {
+ComparisonResult run_comparison(const Command& options, const ComparisonJob& job) {
   const StopOnSignals signals;
   const auto reports = reports_of(options);
-  Printer printer(options.quiet.is_given());
+  Printer printer(options.is_given("--quiet"));
   const auto on_frame = [&](const FrameComparison& frame) {
-    write_outputs([&] {
+    with_exit_code(kFailed, [&] {
       printer.add(frame);
       for (const auto& report : reports) report->add(frame);
     });
   };
   ComparisonResult result =
-      read_inputs([&] { return compare_files(job, on_frame, signals.token()); });
+      with_exit_code(kUnreadable, [&] { return compare_files(job, on_frame, signals.token()); });
   for (const auto& report : reports) report->finish(job, result);
   printer.finish(result);
   return result;
 }
 
-void run(const CompareOptions& options) {
+void run_compare(const Command& options) {
   const ComparisonJob job = job_of(options);
   if (!frames_exist(job.reference)) {
     throw ExitCode(kMissingReference,
@@ -208,37 +179,28 @@ void run(const CompareOptions& options) {
   if (verdict == Verdict::mismatch) throw ExitCode(kMismatch);
 }
 
-CompareOptions add_options(Command& command) {
-  const auto input = [&](const char* name, const char* help) {
-    return command.add_argument(name, help);
-  };
-  const auto option = [&](const char* name, const char* placeholder, const char* help) {
-    return command.add_value(name, placeholder, help);
-  };
-  return {input("REFERENCE",
-                "What is expected: a PNG file, a folder of them, FRAMES/%06d.png,\n"
-                "a video, or hashes (*.framehash)"),
-          input("ACTUAL", "What is to be judged: the same; a video may be compared with pictures"),
-          option("--max-delta", "D",
-                 "Accept samples that differ by up to D, where 255 is the full\n"
-                 "range at any depth: 0.25 is one level of 10 bits"),
-          option("--max-pixels", "N", "Accept up to N pixels of a frame that differ by more"),
-          option("--hard-delta", "D", "Accept no sample at all that differs by more than D"),
-          option("--max-window", "N:K", "Accept up to K such pixels in any square of NxN"),
-          command.add_values("--mask", "WxH+X+Y", "Leave this rectangle out; may be given again"),
-          option("--diff", "DIR",
-                 "Write expected, difference and actual, side by side, of each\n"
-                 "frame that is not accepted (the first hundred)"),
-          option("--report", "FILE.html", "Write a page to look at the differences"),
-          option("--junit", "FILE.xml", "Write a list of tests, one a frame"),
-          command.add_flag("--quiet", "Print nothing but errors")};
-}
-
 }  // namespace
 
 void add_compare(Command& app) {
   Command command = app.add_command("compare", "Compare pictures, sequences or videos");
-  const CompareOptions options = add_options(command);
+  command.add_argument("REFERENCE",
+                       "What is expected: a PNG file, a folder of them, FRAMES/%06d.png,\n"
+                       "a video, or hashes (*.framehash)");
+  command.add_argument("ACTUAL",
+                       "What is to be judged: the same; a video may be compared with pictures");
+  command.add_value("--max-delta", "D",
+                    "Accept samples that differ by up to D, where 255 is the full\n"
+                    "range at any depth: 0.25 is one level of 10 bits");
+  command.add_value("--max-pixels", "N", "Accept up to N pixels of a frame that differ by more");
+  command.add_value("--hard-delta", "D", "Accept no sample at all that differs by more than D");
+  command.add_value("--max-window", "N:K", "Accept up to K such pixels in any square of NxN");
+  command.add_values("--mask", "WxH+X+Y", "Leave this rectangle out; may be given again");
+  command.add_value("--diff", "DIR",
+                    "Write expected, difference and actual, side by side, of each\n"
+                    "frame that is not accepted (the first hundred)");
+  command.add_value("--report", "FILE.html", "Write a page to look at the differences");
+  command.add_value("--junit", "FILE.xml", "Write a list of tests, one a frame");
+  command.add_flag("--quiet", "Print nothing but errors");
   command.set_footer(
       "Every sample has to be equal unless a tolerance is given; of several, all have to hold.\n"
       "Samples are compared as they are stored, alpha too, at up to 16 bits.\n"
@@ -248,7 +210,7 @@ void add_compare(Command& app) {
       "  piblocks compare expected.png actual.png --diff differences\n"
       "  piblocks compare golden/%06d.png frames/%06d.png --report report.html\n"
       "  piblocks compare pi.mp4 frames --max-delta 96");
-  command.on_run([options] { run(options); });
+  command.on_run([command] { run_compare(command); });
 }
 
 }  // namespace piblocks::cli

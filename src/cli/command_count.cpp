@@ -1,5 +1,4 @@
 #include "cli/commands.hpp"
-#include "cli/convention_note.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/text_output.hpp"
 
@@ -7,17 +6,17 @@ namespace piblocks::cli {
 
 void add_count(Command& app) {
   Command command = app.add_command("count", "Print the total number of collisions");
-  const SceneOptions scene(command);
+  const SceneOptions options(command);
   command.set_footer(
       "Examples:\n"
       "  piblocks count --digits 12\n"
       "  piblocks count --mass-ratio 1/3");
-  command.on_run([scene] {
+  command.on_run([options] {
     TextOutput out("-");
-    const BlockSystem system = scene.scene().system;
-    out.line(count_collisions(system).get_str());
+    const Scene scene = options.scene();
+    out.line(count_collisions(scene.system).get_str());
     out.finish();
-    note_convention(system);
+    note_convention(scene);
   });
 }
 

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 #include <system_error>
-#include <thread>
 
 #include "cli/commands.hpp"
 #include "cli/exit_code.hpp"
@@ -25,21 +24,12 @@ namespace piblocks::cli {
 namespace fs = std::filesystem;
 namespace {
 
-struct GoldenOptions {
-  Option scenes;
-  Option folder;
-  Option frames;
-  std::optional<Option> diff;
-};
-
-int processors() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
-
-std::vector<References> references_of(const GoldenOptions& options) {
+std::vector<References> references_of(const Command& options) {
   std::vector<References> all;
   std::vector<std::string> problems;
-  for (const std::string& scene : options.scenes.texts()) {
+  for (const std::string& scene : options.texts("SCENE")) {
     try {
-      all.emplace_back(scene, *options.folder.text(), options.frames.text().value_or(""));
+      all.emplace_back(scene, *options.text("--dir"), options.text("--frames").value_or(""));
     } catch (const UsageError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -55,19 +45,20 @@ std::vector<References> references_of(const GoldenOptions& options) {
 
 /// What a command on references works with.
 struct Work {
-  explicit Work(const GoldenOptions& options)
-      : folder(*options.folder.text()),
-        diff(options.diff ? options.diff->text() : std::nullopt),
+  explicit Work(const Command& options)
+      : scenes(options.texts("SCENE")),
+        folder(*options.text("--dir")),
         all(references_of(options)) {}
 
+  std::vector<std::string> scenes;
   fs::path folder;
-  std::optional<std::string> diff;
+  std::optional<std::string> diff = {};
   std::vector<References> all;
   TextOutput out{"-"};
 };
 
-void claim_inputs(OverwriteCheck& check, const GoldenOptions& options, const Work& work) {
-  for (const std::string& scene : options.scenes.texts()) check.reads("the scene file", scene);
+void claim_inputs(OverwriteCheck& check, const Work& work) {
+  for (const std::string& scene : work.scenes) check.reads("the scene file", scene);
   for (const References& references : work.all) {
     for (const std::string& logo : logos_of(references.script())) check.reads("the logo", logo);
   }
@@ -80,9 +71,9 @@ std::optional<fs::path> diff_folder_of(const Work& work, const std::string& file
   return fs::path(*work.diff) / fs::path(file).stem();
 }
 
-void check_diff(const GoldenOptions& options, const Work& work) {
+void check_diff(const Work& work) {
   OverwriteCheck check;
-  claim_inputs(check, options, work);
+  claim_inputs(check, work);
   check.reads_all_of("the folder of the references", work.folder);
   if (work.diff) claim_diff_folder(check, *work.diff);
   for (const References& references : work.all) {
@@ -93,9 +84,9 @@ void check_diff(const GoldenOptions& options, const Work& work) {
   check.check();
 }
 
-void check_references(const GoldenOptions& options, const Work& work) {
+void check_references(const Work& work) {
   OverwriteCheck check;
-  claim_inputs(check, options, work);
+  claim_inputs(check, work);
   for (const References& references : work.all) {
     for (const std::string& file : references.files()) check.writes("--dir", work.folder / file);
   }
@@ -161,7 +152,7 @@ fs::path temporary_folder() {
 
 bool check(const References& references, Work& work, const std::stop_token& stop) {
   const Unfinished scratch(temporary_folder() / "piblocks-golden", Unfinished::Kind::folder);
-  references.render_into(scratch.path(), processors(), stop);
+  references.render_into(scratch.path(), processor_count(), stop);
   bool is_equal = true;
   for (const std::string& file : references.files()) {
     if (!references.has(file)) {
@@ -178,9 +169,10 @@ bool check(const References& references, Work& work, const std::stop_token& stop
   return is_equal;
 }
 
-void run_check(const GoldenOptions& options) {
+void run_check(const Command& options) {
   Work work(options);
-  check_diff(options, work);
+  work.diff = options.text("--diff");
+  check_diff(work);
   const StopOnSignals signals;
   bool is_equal = true;
   for (const References& references : work.all) {
@@ -200,7 +192,7 @@ class NewReferences {
     for (auto name = names.rbegin(); name != names.rend(); ++name) {
       folder_ = files_.add(*name).parent_path();
     }
-    references.render_into(folder_, processors(), stop);
+    references.render_into(folder_, processor_count(), stop);
   }
 
   fs::path path(const std::string& file) const { return folder_ / file; }
@@ -211,9 +203,9 @@ class NewReferences {
   fs::path folder_;
 };
 
-void run_record(const GoldenOptions& options) {
+void run_record(const Command& options) {
   Work work(options);
-  check_references(options, work);
+  check_references(work);
   for (const References& references : work.all) {
     if (references.exist()) {
       throw UsageError(
@@ -243,31 +235,26 @@ void approve(const References& references, Work& work, const std::stop_token& st
   conclude(references, is_equal ? "equal" : "replaced", work.out);
 }
 
-void run_approve(const GoldenOptions& options) {
+void run_approve(const Command& options) {
   Work work(options);
-  check_references(options, work);
+  check_references(work);
   for (const References& references : work.all) check_pictures(references, work.folder);
   const StopOnSignals signals;
   for (const References& references : work.all) approve(references, work, signals.token());
   work.out.finish();
 }
 
-GoldenOptions add_options(Command& command, bool with_diff) {
-  return {
-      command.add_arguments("SCENE", "Scene files; [golden] in them says which pictures are kept"),
-      command.add_required_value("--dir", "DIR", "The folder of the references"),
-      command.add_value("--frames", "T,…",
-                        "Instants kept as pictures, instead of the scene's: 3.5, last, #K"),
-      with_diff ? std::optional(command.add_value(
-                      "--diff", "DIR", "Write expected, difference and actual of pictures"))
-                : std::nullopt};
-}
-
 void add_action(Command& golden, const char* name, const char* help,
-                void (*run)(const GoldenOptions&)) {
+                void (*run)(const Command& options)) {
   Command command = golden.add_command(name, help);
-  const GoldenOptions options = add_options(command, run == run_check);
-  command.on_run([=] { run(options); });
+  command.add_arguments("SCENE", "Scene files; [golden] in them says which pictures are kept");
+  command.add_required_value("--dir", "DIR", "The folder of the references");
+  command.add_value("--frames", "T,…",
+                    "Instants kept as pictures, instead of the scene's: 3.5, last, #K");
+  if (run == run_check) {
+    command.add_value("--diff", "DIR", "Write expected, difference and actual of pictures");
+  }
+  command.on_run([=] { run(command); });
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <piblocks/version.hpp>
 
 #include "cli/commands.hpp"
-#include "cli/limits.hpp"
+#include "cli/options.hpp"
 #include "cli/text_output.hpp"
 #include "draw/canvas.hpp"
 #include "media/output/frame_sink.hpp"
@@ -43,7 +43,7 @@ void print_limits(TextOutput& out) {
   out.format_line("  lines of a framehash file: {}", kMaxHashes);
 }
 
-void run() {
+void run_info() {
   TextOutput out("-");
   out.format_line("piblocks {}", kVersion);
   out.line("libraries:");
@@ -65,7 +65,7 @@ void run() {
 void add_info(Command& app) {
   Command command =
       app.add_command("info", "Print versions of the libraries, encoders found, limits");
-  command.on_run(run);
+  command.on_run(run_info);
 }
 
 }  // namespace piblocks::cli

@@ -2,26 +2,19 @@
 
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
-#include "cli/refuse_terminal.hpp"
 #include "cli/say.hpp"
 #include "cli/stop_on_signals.hpp"
 
 namespace piblocks::cli {
 namespace {
 
-struct JoinOptions {
-  Option parts;
-  Option output;
-  Option quiet;
-};
-
-void run(const JoinOptions& options) {
+void run_join(const Command& options) {
   const StopOnSignals signals;
-  refuse_terminal(options.output);
-  const std::vector<std::string> parts = options.parts.texts();
-  const std::string output = *options.output.text();
+  refuse_terminal(options);
+  const std::vector<std::string> parts = options.texts("PART");
+  const std::string output = output_of(options);
   const std::int64_t frames = join(parts, output, signals.token());
-  if (options.quiet.is_given()) return;
+  if (options.is_given("--quiet")) return;
   say("{}: {} {} from {} {}\n", output == "-" ? "standard output" : output, frames,
       frames == 1 ? "frame" : "frames", parts.size(), parts.size() == 1 ? "part" : "parts");
 }
@@ -30,17 +23,15 @@ void run(const JoinOptions& options) {
 
 void add_join(Command& app) {
   Command command = app.add_command("join", "Join the parts of a rendering");
-  const Option parts = command.add_arguments("PART", "Every file of 'render --part', in any order");
-  const Option output =
-      command.add_required_value("-o,--output", "OUT", "The name that the parts were rendered for");
-  const Option quiet = command.add_flag("--quiet", "Print nothing but errors");
+  command.add_arguments("PART", "Every file of 'render --part', in any order");
+  command.add_required_value("-o,--output", "OUT", "The name that the parts were rendered for");
+  command.add_flag("--quiet", "Print nothing but errors");
   command.set_footer(
       "Examples:\n"
       "  piblocks render --part 1/2 -o pi.mp4    # on one machine: pi.mp4.part-1-of-2\n"
       "  piblocks render --part 2/2 -o pi.mp4    # on another: pi.mp4.part-2-of-2\n"
       "  piblocks join pi.mp4.part-* -o pi.mp4   # the bytes of 'piblocks render -o pi.mp4'");
-  const JoinOptions options{parts, output, quiet};
-  command.on_run([options] { run(options); });
+  command.on_run([=] { run_join(command); });
 }
 
 }  // namespace piblocks::cli

@@ -8,12 +8,9 @@
 #include <utility>
 
 #include "cli/commands.hpp"
-#include "cli/convention_note.hpp"
 #include "cli/decimal_counter.hpp"
-#include "cli/limits.hpp"
 #include "cli/npy.hpp"
 #include "cli/options.hpp"
-#include "cli/refuse_terminal.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
@@ -22,17 +19,6 @@
 
 namespace piblocks::cli {
 namespace {
-
-struct LogOptions {
-  SceneOptions scene;
-  Option engine;
-  Option from;
-  Option to;
-  Option first;
-  Option limit;
-  Option format;
-  Option output;
-};
 
 /// Rows first … last, by index; none if last < first.
 struct Rows {
@@ -45,9 +31,8 @@ struct Rows {
 Integer parse_positive(const std::string& text) { return parse_whole_number(text, 1); }
 
 Integer parse_index(const std::string& text) {
-  constexpr const char* kExpected = "must be a whole number";
   const Rational index = parse_rational(text);
-  if (index.get_den() != 1) throw UsageError(kExpected);
+  if (index.get_den() != 1) throw UsageError("must be a whole number");
   return index.get_num();
 }
 
@@ -58,8 +43,8 @@ struct Bound {
 };
 
 /// Nothing if the option was not given.
-std::optional<Bound> bound_of(const Option& option, const CollisionLog& log) {
-  return value_of(option, [&](const std::string& text) {
+std::optional<Bound> bound_of(const Command& options, const char* option, const CollisionLog& log) {
+  return options.value(option, [&](const std::string& text) {
     Instant instant = parse_instant(text);
     Rational time = time_of(instant, log);
     return Bound{std::move(instant), std::move(time)};
@@ -79,9 +64,9 @@ Integer first_since(const CollisionLog& log, const Bound& bound) {
   return log.at(last).time == to_time(time) ? last : Integer(last + 1);
 }
 
-Rows rows_within_times(const LogOptions& options, const CollisionLog& log) {
-  const auto from = bound_of(options.from, log);
-  const auto to = bound_of(options.to, log);
+Rows rows_within_times(const Command& options, const CollisionLog& log) {
+  const auto from = bound_of(options, "--from", log);
+  const auto to = bound_of(options, "--to", log);
   if (from && to && to->time < from->time) {
     throw UsageError(fmt::format("--to {}: is before --from {}", exact_text(to->instant),
                                  exact_text(from->instant)));
@@ -92,9 +77,9 @@ Rows rows_within_times(const LogOptions& options, const CollisionLog& log) {
   return rows;
 }
 
-Rows select_rows(const LogOptions& options, const CollisionLog& log) {
+Rows select_rows(const Command& options, const CollisionLog& log) {
   Rows rows = rows_within_times(options, log);
-  if (const auto first = value_of(options.first, parse_index)) {
+  if (const auto first = options.value("--first", parse_index)) {
     if (*first > log.size() || *first < log.first_index()) {
       throw UsageError(
           fmt::format("--first {}: the scene has {}", readable(*first),
@@ -103,12 +88,12 @@ Rows select_rows(const LogOptions& options, const CollisionLog& log) {
                           : fmt::format("collisions {} to {}", readable(log.first_index()),
                                         readable(log.size()))));
     }
-    rows.first = options.from.is_given() ? std::max(rows.first, *first) : *first;
+    rows.first = options.is_given("--from") ? std::max(rows.first, *first) : *first;
   }
-  if (const auto limit = value_of(options.limit, parse_positive)) {
+  if (const auto limit = options.value("--limit", parse_positive)) {
     rows.last = std::min<Integer>(rows.last, rows.first + *limit - 1);
   }
-  if (rows.count() > kMaxRows && !options.limit.is_given()) {
+  if (rows.count() > kMaxRows && !options.is_given("--limit")) {
     throw UsageError(fmt::format(
         "log: {} rows are more than {}; narrow them with --from, --to or --first, or allow them "
         "with --limit",
@@ -186,48 +171,41 @@ void write(CollisionStream& collisions, const Format& format, OutputFile& file,
   }
 }
 
-void run(const LogOptions& options) {
-  const Format format = value_of(options.format, parse_format).value_or(parse_format("csv"));
-  if (!format.is_text) refuse_terminal(options.output);
-  options.scene.refuse_as_output(options.output);
-  const BlockSystem system = options.scene.scene().system;
-  const auto log = make_log(system, options.engine);
+void run_log(const Command& options, const SceneOptions& scene_options) {
+  const Format format = options.value("--format", parse_format).value_or(parse_format("csv"));
+  if (!format.is_text) refuse_terminal(options);
+  scene_options.check_output();
+  const Scene scene = scene_options.scene();
+  const auto log = make_log(scene.system, options);
   const Rows rows = select_rows(options, *log);
   const std::string header = format.header(rows);
   const StopOnSignals signals;
   using Contents = OutputFile::Contents;
-  OutputFile file(options.output.text().value_or("-"),
-                  format.is_text ? Contents::text : Contents::bytes);
+  OutputFile file(output_of(options), format.is_text ? Contents::text : Contents::bytes);
   file.write(header);
   write(*log->stream(rows.first, rows.last), format, file, signals.token());
   file.finish();
-  note_convention(system);
-}
-
-LogOptions add_options(Command& command) {
-  const SceneOptions scene(command);
-  return {scene,
-          add_engine(command),
-          command.add_value("--from", "T", "Leave out collisions before this instant (default 0)"),
-          command.add_value("--to", "T", "Leave out collisions after this instant"),
-          command.add_value("--first", "K", "Start with this collision (default 1)"),
-          command.add_value("--limit", "N", "Print at most so many rows"),
-          command.add_value("--format", "NAME",
-                            "csv (default), jsonl, or npy, which numpy.load() reads"),
-          command.add_value("-o,--output", "FILE", "File to write (default: standard output)")};
+  note_convention(scene);
 }
 
 }  // namespace
 
 void add_log(Command& app) {
   Command command = app.add_command("log", "Print every collision, a row each");
-  const LogOptions options = add_options(command);
+  const SceneOptions scene(command);
+  add_engine(command);
+  command.add_value("--from", "T", "Leave out collisions before this instant (default 0)");
+  command.add_value("--to", "T", "Leave out collisions after this instant");
+  command.add_value("--first", "K", "Start with this collision (default 1)");
+  command.add_value("--limit", "N", "Print at most so many rows");
+  command.add_value("--format", "NAME", "csv (default), jsonl, or npy, which numpy.load() reads");
+  command.add_value("-o,--output", "FILE", "File to write (default: standard output)");
   command.set_footer(
       "Examples:\n"
       "  piblocks log --from 3 --to 4 --format jsonl\n"
       "  piblocks log --digits 7 --format npy -o log.npy\n"
       "  piblocks log --digits 20 --first 15707963267948966190 --limit 5 -o turn.csv");
-  command.on_run([options] { run(options); });
+  command.on_run([=] { run_log(command, scene); });
 }
 
 }  // namespace piblocks::cli

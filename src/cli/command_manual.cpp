@@ -1,10 +1,3 @@
-#include <fmt/format.h>
-#include <piblocks/error.hpp>
-
-#include <algorithm>
-#include <array>
-#include <string_view>
-
 #include "cli/commands.hpp"
 #include "cli/manual.hpp"
 #include "cli/options.hpp"
@@ -13,22 +6,19 @@
 namespace piblocks::cli {
 namespace {
 
-struct Kind {
-  std::string_view name;
-  std::string (*text)();
-};
-constexpr auto kKinds = std::to_array<Kind>({{"man", man_page},
-                                             {"bash", bash_completion},
-                                             {"zsh", zsh_completion},
-                                             {"fish", fish_completion}});
+using MakeText = std::string (*)();
 
-void run_manual(const std::string& name) {
-  const auto* const kind = std::ranges::find(kKinds, std::string_view(name), &Kind::name);
-  if (kind == kKinds.end()) {
-    throw UsageError(fmt::format("manual: '{}' must be one of: man, bash, zsh, fish", name));
-  }
+MakeText parse_kind(const std::string& text) {
+  return parse_choice<MakeText>(text, {{"man", man_page},
+                                       {"bash", bash_completion},
+                                       {"zsh", zsh_completion},
+                                       {"fish", fish_completion}});
+}
+
+void run_manual(const Command& command) {
+  const MakeText make_text = *command.value("KIND", parse_kind);
   OutputFile out("-", OutputFile::Contents::text);
-  out.write(kind->text());
+  out.write(make_text());
   out.finish();
 }
 
@@ -37,8 +27,8 @@ void run_manual(const std::string& name) {
 void add_manual(Command& app) {
   Command command =
       app.add_command("manual", "Print the manual page, or what a shell needs to complete options");
-  const Option kind = command.add_argument("KIND", "man, bash, zsh or fish");
-  command.on_run([=] { run_manual(*kind.text()); });
+  command.add_argument("KIND", "man, bash, zsh or fish");
+  command.on_run([=] { run_manual(command); });
 }
 
 }  // namespace piblocks::cli

@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "cli/commands.hpp"
-#include "cli/convention_note.hpp"
-#include "cli/instant_list.hpp"
 #include "cli/options.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/text_output.hpp"
@@ -41,26 +39,19 @@ void write(const Rational& time, const BlockState& state,
                   described(state.red, red_bound));
 }
 
-struct StateOptions {
-  SceneOptions scene;
-  Option at;
-  Option bounds;
-  Option engine;
-};
-
-void run(const StateOptions& options) {
-  const std::vector<Instant> instants = *value_of(options.at, parse_instants);
-  const BlockSystem system = options.scene.scene().system;
-  const auto log = make_log(system, options.engine);
+void run_state(const Command& options, const SceneOptions& scene_options) {
+  const std::vector<Instant> instants = *options.value("--at", parse_instants);
+  const Scene scene = scene_options.scene();
+  const auto log = make_log(scene.system, options);
   TextOutput out("-");
   for (const Instant& instant : instants) {
     const Rational time = time_of(instant, *log);
     std::optional<PositionBounds> bounds;
-    if (options.bounds.is_given()) bounds = bounds_at(*log, time);
+    if (options.is_given("--bounds")) bounds = bounds_at(*log, time);
     write(time, state_at(*log, time), bounds, out);
   }
   out.finish();
-  note_convention(system);
+  note_convention(scene);
 }
 
 }  // namespace
@@ -69,17 +60,15 @@ void add_state(Command& app) {
   Command command =
       app.add_command("state", "Print positions, velocities and count, one JSON object a line");
   const SceneOptions scene(command);
-  const Option at =
-      command.add_required_value("--at", "T[,T...]", "Instants: 3.5, turn-0.3, last+1, '#314'");
-  const Option bounds = command.add_flag(
-      "--bounds", "Add position_bound: how far a position may be from the truth at most");
-  const Option engine = add_engine(command);
+  command.add_required_value("--at", "T[,T...]", "Instants: 3.5, turn-0.3, last+1, '#314'");
+  command.add_flag("--bounds",
+                   "Add position_bound: how far a position may be from the truth at most");
+  add_engine(command);
   command.set_footer(
       "Examples:\n"
       "  piblocks state --at 0,3.5,last\n"
       "  piblocks state --digits 20 --at '#15707963267948966192' --bounds");
-  const StateOptions options{scene, at, bounds, engine};
-  command.on_run([options] { run(options); });
+  command.on_run([=] { run_state(command, scene); });
 }
 
 }  // namespace piblocks::cli

@@ -1,10 +1,9 @@
-// Options that take a value, kept as text until a command reads it.
-// In: the text of an option. Out: its value, or a UsageError that names the option and the text.
+// Values that options of several commands have.
+// In: the text of an option. Out: its value, or a UsageError that says what is expected.
 #pragma once
 
-#include <fmt/format.h>
-#include <piblocks/error.hpp>
 #include <piblocks/exact.hpp>
+#include <piblocks/instant.hpp>
 
 #include <optional>
 #include <string>
@@ -15,22 +14,24 @@
 
 namespace piblocks::cli {
 
-/// The option's value as `parse` makes it of the text; nothing if it was not given.
-template <typename Parse>
-auto value_of(const Option& option, const Parse& parse)
-    -> std::optional<decltype(parse(std::string()))> {
-  const std::optional<std::string> text = option.text();
-  if (!text) return std::nullopt;
-  try {
-    return parse(*text);
-  } catch (const UsageError& error) {
-    throw UsageError(fmt::format("{} {}: {}", option.name(), *text, error.what()));
-  }
-}
+/// Rows of a log that are written unless --limit asks for more.
+inline constexpr long kMaxRows = 100'000'000;
+/// Threads of --jobs.
+inline constexpr int kMaxJobs = 256;
+/// Shards of --part.
+inline constexpr int kMaxParts = 100'000;
+/// Flashes of --max-flashes: as many as there can be at 60 frames a second.
+inline constexpr int kMaxFlashes = 30;
 
 /// @throws UsageError unless the text is a whole number >= low and, if there is a high, <= high.
 Integer parse_whole_number(const std::string& text, const Integer& low,
                            const std::optional<Integer>& high = std::nullopt);
+
+/// The same for a number that fits into an int.
+int parse_int(const std::string& text, int low, int high);
+
+/// "0,3.5,#10,last"
+std::vector<Instant> parse_instants(const std::string& text);
 
 /// The value whose name the text is.
 /// @throws UsageError with all the names otherwise.
@@ -45,5 +46,13 @@ Value parse_choice(const std::string& text,
   }
   throw UsageError("must be " + names);
 }
+
+/// The name that --output gives; "-" if it is not given.
+std::string output_of(const Command& command);
+/// @throws UsageError if the output is "-" and standard output is a terminal.
+void refuse_terminal(const Command& command);
+
+/// As many threads as run at once here.
+int processor_count();
 
 }  // namespace piblocks::cli

@@ -1,17 +1,28 @@
 // Messages for people.
-// In: text; what stands in place of {} is made printable. Out: standard error, if it can be
-// written: work does not fail because nobody can be told about it, on a terminal that was closed
-// for example.
+// In: text and values; what a terminal cannot show in them is escaped. Out: standard error, if it
+// can be written: work does not fail because a terminal was closed.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <exception>
+#include <string_view>
+#include <type_traits>
 
-#include "cli/printable_value.hpp"
+#include "core/printable.hpp"
 
 namespace piblocks::cli {
+
+/// The value itself, or a text that a terminal can show.
+template <typename Value>
+decltype(auto) printable_value(const Value& value) {
+  if constexpr (std::is_convertible_v<const Value&, std::string_view>) {
+    return printable(value);
+  } else {
+    return (value);
+  }
+}
 
 template <typename... Values>
 void say(fmt::format_string<const Values&...> format, const Values&... values) noexcept {

@@ -5,27 +5,43 @@
 #include <piblocks/script.hpp>
 
 #include "cli/options.hpp"
-#include "media/output/frame_sink.hpp"
+#include "cli/say.hpp"
 #include "render/logo.hpp"
 
 namespace piblocks::cli {
+namespace {
 
-SceneOptions::SceneOptions(Command& command)
-    : command_(command),
-      file_(command.add_optional_argument(
-          "SCENE.toml", "Scene file; without it, the article's scene: three digits")) {
+constexpr const char* kFile = "SCENE.toml";
+
+void note_convention(const BlockSystem& system) {
+  const auto corner = corner_of(system);
+  if (!corner) return;
+  say("piblocks: note: all collisions happen at once, at t = {}, when blue touches both wall "
+      "and red: by convention {}, which makes {} ({} first: {})\n",
+      to_text(corner->time),
+      corner->blocks_first ? "the blocks meet first" : "blue meets the wall first",
+      readable(corner->count), corner->blocks_first ? "wall" : "blocks",
+      readable(corner->other_count));
+}
+
+}  // namespace
+
+SceneOptions::SceneOptions(const Command& command) : command_(command) {
+  command_.add_optional_argument(kFile,
+                                 "Scene file; without it, the article's scene: three digits");
   add_key("digits", "--digits", "D", "Count this many digits of pi: m_red = 100^(D-1) m_blue");
   add_key("mass-ratio", "--mass-ratio", "R", "m_red / m_blue, exactly: 16, 2.5, 1/3, 100^7");
 }
 
 void SceneOptions::add_key(const std::string& key, const std::string& option,
                            const std::string& placeholder, const std::string& help) {
-  keys_.emplace_back(key, command_.add_value(option, placeholder, help));
+  values_.push_back({key, option});
+  command_.add_value(option, placeholder, help);
 }
 
-void SceneOptions::add_flag(const std::string& key, const std::string& value,
-                            const std::string& option, const std::string& help) {
-  flags_.push_back({key, value, command_.add_flag(option, help)});
+void SceneOptions::add_flag(const Key& flag, const std::string& help) {
+  flags_.push_back(flag);
+  command_.add_flag(flag.option, help);
 }
 
 void SceneOptions::add_size() {
@@ -34,9 +50,10 @@ void SceneOptions::add_size() {
 
 void SceneOptions::add_picture() {
   add_size();
-  add_flag("view.background", "transparent", "--transparent",
+  add_flag({"view.background", "--transparent", "transparent"},
            "No background: another picture can be put behind");
-  add_flag("view.background", "opaque", "--opaque", "A background, also where there would be none");
+  add_flag({"view.background", "--opaque", "opaque"},
+           "A background, also where there would be none");
 }
 
 void SceneOptions::add_span() {
@@ -56,10 +73,6 @@ void SceneOptions::add_exposure() {
 
 void SceneOptions::add_timing() {
   add_span();
-  add_pacing();
-}
-
-void SceneOptions::add_pacing() {
   add_key("time.duration", "--duration", "S", "Length of the video in seconds; sets the speed");
   add_key("time.slow-motion", "--slow-motion", "auto|FROM:TO:N",
           "Windows in which time runs N times slower, separated by\ncommas; FROM and TO as 3.2, "
@@ -68,12 +81,13 @@ void SceneOptions::add_pacing() {
           "Instants, as above, at which the picture stands still for S s");
   add_key("time.hold-start", "--hold-start", "S", "Show the first picture for S s more");
   add_key("time.hold-end", "--hold-end", "S", "Show the last picture for S s more");
-  add_flag("time.loop", "true", "--loop", "Play forwards and backwards, so that the video repeats");
+  add_flag({"time.loop", "--loop", "true"},
+           "Play forwards and backwards, so that the video repeats");
 }
 
 void SceneOptions::add_sound() {
-  add_flag("sound.on", "true", "--sound", "A clack at every collision, in MP4, MOV and WebM");
-  add_flag("sound.on", "false", "--no-sound", "None, also where the scene wants it");
+  add_flag({"sound.on", "--sound", "true"}, "A clack at every collision, in MP4, MOV and WebM");
+  add_flag({"sound.on", "--no-sound", "false"}, "None, also where the scene wants it");
 }
 
 void SceneOptions::add_show() {
@@ -84,7 +98,7 @@ void SceneOptions::add_show() {
   add_key("show.title", "--title", "TEXT", "One line above all");
   add_key("show.caption", "--caption", "TEXT", "One line below all");
   add_key("show.logo", "--logo", "FILE.png", "Picture in the lower right corner");
-  add_flag("red.width", "by-mass", "--width-by-mass", "Make red as wide as its mass suggests");
+  add_flag({"red.width", "--width-by-mass", "by-mass"}, "Make red as wide as its mass suggests");
 }
 
 void SceneOptions::refuse_both(const std::string& first, const std::string& second,
@@ -99,7 +113,7 @@ Scene SceneOptions::scene() const {
   const Script made = script();
   if (const auto* scene = std::get_if<Scene>(&made)) return *scene;
   throw UsageError(fmt::format("'{}' is a storyboard; '{}' takes a scene without [[part]]",
-                               *file_.text(), command_.name()));
+                               *command_.text(kFile), command_.name()));
 }
 
 Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
@@ -109,13 +123,13 @@ Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
   refuse_both("--transparent", "--opaque", "the background");
   refuse_both("--sound", "--no-sound", "the sound");
   ScriptBuilder builder;
-  if (const auto file = file_.text()) builder.read_file(*file);
+  if (const auto file = command_.text(kFile)) builder.read_file(*file);
   for (const auto& [key, text] : defaults) builder.set(origin, key, text);
-  for (const auto& [key, option] : keys_) {
-    if (const auto text = option.text()) builder.set(option.name(), key, *text);
+  for (const auto& [key, option, value] : values_) {
+    if (const auto text = command_.text(option)) builder.set(option, key, *text);
   }
-  for (const Flag& flag : flags_) {
-    if (flag.option.is_given()) builder.set(flag.option.name(), flag.key, flag.value);
+  for (const auto& [key, option, value] : flags_) {
+    if (command_.is_given(option)) builder.set(option, key, *value);
   }
   Script made = builder.build();
   OverwriteCheck check;
@@ -126,43 +140,42 @@ Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
 }
 
 void SceneOptions::add_inputs(OverwriteCheck& check, const Script& script) const {
-  if (const auto scene = file_.text()) check.reads("the scene file", *scene);
+  if (const auto scene = command_.text(kFile)) check.reads("the scene file", *scene);
   for (const std::string& logo : logos_of(script)) check.reads("the logo", logo);
 }
 
-void SceneOptions::refuse_as_output(const Option& output) const {
-  refuse_as_output(output, Script());
-}
-
-void SceneOptions::refuse_as_output(const Option& output, const Script& script) const {
+void SceneOptions::check_output(const Script& script) const {
   OverwriteCheck check;
   add_inputs(check, script);
-  const std::string name = output.text().value_or("-");
-  name == "-" ? check.writes_standard_output() : check.writes(output.name(), name);
+  const std::string output = output_of(command_);
+  output == "-" ? check.writes_standard_output() : check.writes("--output", output);
   check.check();
 }
 
-void SceneOptions::refuse_silence(const Option& output) const {
-  const auto name = output.text();
-  if (!command_.is_given("--no-sound") || !name || !is_sound_alone(*name)) return;
-  throw UsageError(
-      fmt::format("--no-sound: '{}' is the sound alone; leave one of them out", *name));
+void add_engine(Command& command) {
+  command.add_value("--engine", "NAME",
+                    "unfolded: closed form (default);\n"
+                    "events: the event loop, in double precision;\n"
+                    "velocities: a loop over velocities alone, in double precision");
 }
 
-Option add_engine(Command& command) {
-  return command.add_value("--engine", "NAME",
-                           "unfolded: closed form (default);\n"
-                           "events: the event loop, in double precision;\n"
-                           "velocities: a loop over velocities alone, in double precision");
-}
-
-std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const Option& engine) {
+std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const Command& command) {
   const auto parse_engine = [](const std::string& text) {
     return parse_choice<Engine>(text, {{"unfolded", Engine::unfolded},
                                        {"events", Engine::events},
                                        {"velocities", Engine::velocities}});
   };
-  return make_collision_log(system, value_of(engine, parse_engine).value_or(Engine::unfolded));
+  return make_collision_log(system,
+                            command.value("--engine", parse_engine).value_or(Engine::unfolded));
+}
+
+void note_convention(const Script& script) {
+  if (const auto* scene = std::get_if<Scene>(&script)) return note_convention(scene->system);
+  for (const StoryPart& part : std::get<Storyboard>(script).parts) {
+    const auto* const runs = std::get_if<Runs>(&part.content);
+    if (runs == nullptr) continue;
+    for (const Scene& run : *runs) note_convention(run.system);
+  }
 }
 
 }  // namespace piblocks::cli

@@ -1,4 +1,4 @@
-// Options that describe a scene, shared by the subcommands.
+// Options that describe a scene, shared by several commands.
 // In: the command line. Out: a valid scene or storyboard, and the log of its collisions.
 #pragma once
 
@@ -7,7 +7,6 @@
 
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cli/command.hpp"
@@ -25,7 +24,7 @@ struct SceneDefault {
 class SceneOptions {
  public:
   /// Adds [SCENE.toml], --digits and --mass-ratio.
-  explicit SceneOptions(Command& command);
+  explicit SceneOptions(const Command& command);
   /// Adds --size.
   void add_size();
   /// Adds --size, --transparent and --opaque.
@@ -38,7 +37,6 @@ class SceneOptions {
   void add_span();
   /// Adds --from, --to and what else says how time runs in the video.
   void add_timing();
-
   /// Adds --sound and --no-sound.
   void add_sound();
 
@@ -51,40 +49,38 @@ class SceneOptions {
                 const std::string& origin = {}) const;
   /// Adds the scene file, and the logos of what was made of it.
   void add_inputs(OverwriteCheck& check, const Script& script) const;
-  /// @throws UsageError if the option names the scene file as the output.
-  void refuse_as_output(const Option& output) const;
-  /// @throws UsageError if the option names the scene file or a logo as the output.
-  void refuse_as_output(const Option& output, const Script& script) const;
-  /// @throws UsageError if it names the sound alone, and there is to be none.
-  void refuse_silence(const Option& output) const;
+  /// @throws UsageError if --output names the scene file or a logo of the script.
+  void check_output(const Script& script = {}) const;
 
  private:
-  /// Adds an option that sets a key of the scene file.
+  /// An option that sets a key of the scene file to its text, or to a fixed one.
+  struct Key {
+    std::string key;
+    std::string option;
+    std::optional<std::string> value = {};
+  };
+
   void add_key(const std::string& key, const std::string& option, const std::string& placeholder,
                const std::string& help);
-  /// Adds an option without a value that sets a key of the scene file to this one.
-  void add_flag(const std::string& key, const std::string& value, const std::string& option,
-                const std::string& help);
-  void add_pacing();
+  void add_flag(const Key& flag, const std::string& help);
   /// @throws UsageError if both options are given; `what` they set.
   void refuse_both(const std::string& first, const std::string& second, const char* what) const;
 
   Command command_;
-  Option file_;
-  std::vector<std::pair<std::string, Option>> keys_;
-  struct Flag {
-    std::string key;
-    std::string value;
-    Option option;
-  };
-  std::vector<Flag> flags_;
+  std::vector<Key> values_;
+  std::vector<Key> flags_;
 };
 
-/// Adds --engine, for the commands that offer both engines.
-Option add_engine(Command& command);
+/// Adds --engine.
+void add_engine(Command& command);
 
-/// The system's log, made by the engine that the option names.
+/// The system's log, made by the engine that --engine names.
 /// @throws UsageError if that engine would have to store too many collisions.
-std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const Option& engine);
+std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const Command& command);
+
+/// Says on standard error which of two equally good counts is shown, if all collisions of a run
+/// happen at once: their number then depends on a convention.
+/// @throws SceneError if problems_of() of the system is not empty.
+void note_convention(const Script& script);
 
 }  // namespace piblocks::cli

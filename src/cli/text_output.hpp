@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "cli/printable_value.hpp"
+#include "cli/say.hpp"
 #include "core/output_file.hpp"
 
 namespace piblocks::cli {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "cli/app.hpp"
-#include "cli/help_formatter.hpp"
 #include "cli/nearest_name.hpp"
 
 namespace piblocks::cli {

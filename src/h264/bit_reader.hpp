@@ -1,4 +1,4 @@
-// Numbers out of the bits of an H.264 stream, as BitWriter writes them.
+// Reads the numbers that BitWriter writes.
 // In: the bytes of an RBSP. Out: numbers in the codes of ITU-T H.264, clauses 7.2 and 9.1.
 #pragma once
 
@@ -15,8 +15,8 @@ namespace piblocks::h264 {
 /// Every function that reads throws HeaderError where the bits end.
 class BitReader {
  public:
-  /// @param rbsp  has to outlive the reader.
-  explicit BitReader(std::span<const std::uint8_t> rbsp) : bytes_(rbsp), end_(last_one(rbsp)) {}
+  /// @param rbsp  must outlive the reader.
+  explicit BitReader(std::span<const std::uint8_t> rbsp) : bytes_(rbsp), end_(stop_bit(rbsp)) {}
 
   /// u(n): `count` is from 0 to 32.
   std::uint32_t get(int count) {
@@ -27,8 +27,8 @@ class BitReader {
   }
   bool get_flag() {
     if (!has_more_data()) throw HeaderError("h264: a header ends too early");
-    const bool flag = (bytes_[place_ / 8] >> (7 - place_ % 8) & 1) != 0;
-    ++place_;
+    const bool flag = (bytes_[position_ / 8] >> (7 - position_ % 8) & 1) != 0;
+    ++position_;
     return flag;
   }
   /// ue(v), 9.1
@@ -44,19 +44,19 @@ class BitReader {
     const auto half = static_cast<std::int32_t>(code / 2);
     return code % 2 == 0 ? -half : half + 1;
   }
-  /// more_rbsp_data(), 7.2: whether something comes before the trailing bits.
-  bool has_more_data() const noexcept { return place_ < end_; }
+  /// more_rbsp_data(), 7.2: whether there are bits before the trailing bits.
+  bool has_more_data() const noexcept { return position_ < end_; }
 
  private:
-  /// The place of rbsp_stop_one_bit, or 0 if there is none.
-  static std::size_t last_one(std::span<const std::uint8_t> bytes) {
+  /// The position of rbsp_stop_one_bit, or 0 if there is none.
+  static std::size_t stop_bit(std::span<const std::uint8_t> bytes) {
     while (!bytes.empty() && bytes.back() == 0) bytes = bytes.first(bytes.size() - 1);
     if (bytes.empty()) return 0;
     return 8 * bytes.size() - 1 - static_cast<std::size_t>(std::countr_zero(bytes.back()));
   }
 
   std::span<const std::uint8_t> bytes_;
-  std::size_t place_ = 0;
+  std::size_t position_ = 0;
   std::size_t end_;  // of the data, in bits
 };
 

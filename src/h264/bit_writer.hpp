@@ -67,11 +67,14 @@ class BitWriter {
   }
 
  private:
+  static constexpr std::size_t kFirstRoom_bytes = 512;  // more than any macroblock has
+
   /// The highest bytes of a word.
   void store(std::uint32_t word, int count) {
     const std::array<std::uint8_t, 4> bytes = {
         static_cast<std::uint8_t>(word >> 24), static_cast<std::uint8_t>(word >> 16),
         static_cast<std::uint8_t>(word >> 8), static_cast<std::uint8_t>(word)};
+    if (bytes_.capacity() == 0) bytes_.reserve(kFirstRoom_bytes);
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.begin() + count);
   }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kMaxLevels = 16;
 constexpr std::size_t kChromaDcLevels = 4;
 
-/// Levels that are not zero, in the order they are written in: the last one of the scan first.
+/// The levels that are not zero, in the order of writing: the last one of the scan first.
 struct Coefficients {
   std::size_t total = 0;
   std::size_t trailing_ones = 0;
@@ -52,7 +52,7 @@ void put_token(const Coefficients& block, int nc, BitWriter& bits) {
   if (nc < 2) return put_from(kCoefficientTokens[0]);
   if (nc < 4) return put_from(kCoefficientTokens[1]);
   if (nc < 8) return put_from(kCoefficientTokens[2]);
-  // TotalCoeff - 1 and TrailingOnes; for no levels a pair that cannot occur.
+  // TotalCoeff - 1 and TrailingOnes; for no levels a pair that does not occur.
   const std::size_t token = block.total == 0 ? 3 : (block.total - 1) << 2 | block.trailing_ones;
   bits.put(static_cast<std::uint32_t>(token), 6);
 }
@@ -89,7 +89,7 @@ bool put_large_levels(const Coefficients& block, BitWriter& bits) {
   for (std::size_t i = block.trailing_ones; i < block.total; ++i) {
     const int level = block.levels[i];
     int code = level > 0 ? 2 * level - 2 : -2 * level - 1;
-    // 1 and -1 would have been one more trailing one.
+    // 1 and -1 would be one more trailing one.
     if (i == block.trailing_ones && i < 3) code -= 2;
     if (!put_level_code(code, suffix_length, bits)) return false;
     suffix_length = std::max(suffix_length, 1);

@@ -5,8 +5,6 @@
 namespace piblocks::h264 {
 namespace {
 
-constexpr int kMiddle = 128;
-
 template <int side>
 int sum_of(const std::uint8_t* samples, int step = 1) {
   int sum = 0;
@@ -16,12 +14,13 @@ int sum_of(const std::uint8_t* samples, int step = 1) {
 
 /// The rounded mean of the samples that are there.
 template <int side>
-int mean(const Beside& beside) {
-  if (beside.above == nullptr && beside.left == nullptr) return kMiddle;
-  const int left = beside.left == nullptr ? 0 : sum_of<side>(beside.left, beside.left_step);
-  const int above = beside.above == nullptr ? 0 : sum_of<side>(beside.above);
-  if (beside.above == nullptr || beside.left == nullptr) return (above + left + side / 2) / side;
-  return (above + left + side) / (2 * side);
+int mean(const AdjacentSamples& adjacent) {
+  const auto [above, left, left_step] = adjacent;
+  if (above == nullptr && left == nullptr) return 128;
+  const int sum = (above == nullptr ? 0 : sum_of<side>(above)) +
+                  (left == nullptr ? 0 : sum_of<side>(left, left_step));
+  const bool is_one_side = above == nullptr || left == nullptr;
+  return is_one_side ? (sum + side / 2) / side : (sum + side) / (2 * side);
 }
 
 template <int side>
@@ -30,57 +29,56 @@ void fill(int value, std::uint8_t* out, int stride) {
 }
 
 template <int side>
-void predict(Prediction prediction, const Beside& beside, std::uint8_t* out, int stride) {
-  if (prediction == Prediction::dc) return fill<side>(mean<side>(beside), out, stride);
+void predict(PredMode mode, const AdjacentSamples& adjacent, std::uint8_t* out, int stride) {
+  if (mode == PredMode::dc) return fill<side>(mean<side>(adjacent), out, stride);
   for (int y = 0; y < side; ++y, out += stride) {
-    if (prediction == Prediction::vertical) {
-      std::memcpy(out, beside.above, side);
+    if (mode == PredMode::vertical) {
+      std::memcpy(out, adjacent.above, side);
     } else {
-      std::memset(out, beside.left[y * beside.left_step], side);
+      std::memset(out, adjacent.left[y * adjacent.left_step], side);
     }
   }
 }
 
-Beside beside_of(const Borders& borders, int plane) {
+AdjacentSamples adjacent_samples(const Borders& borders, int plane) {
   const Border& border = borders.planes[plane];
   return {borders.has_above ? border.above.data() : nullptr,
-          borders.has_left ? border.left.data() : nullptr, 1};
+          borders.has_left ? border.left.data() : nullptr};
 }
 
-/// 8.3.4.1 to 8.3.4.3: each quarter has a mean of its own. Those off the diagonal look to one side
-/// only, if it is there.
-void predict_chroma_dc(const Beside& plane, std::uint8_t* out) {
-  constexpr int kHalf = kChromaSide / 2;
-  for (int y = 0; y < kChromaSide; y += kHalf) {
-    for (int x = 0; x < kChromaSide; x += kHalf) {
-      Beside beside{plane.above == nullptr ? nullptr : plane.above + x,
-                    plane.left == nullptr ? nullptr : plane.left + y, 1};
-      if (x > y && beside.above != nullptr) beside.left = nullptr;
-      if (y > x && beside.left != nullptr) beside.above = nullptr;
-      fill<kHalf>(mean<kHalf>(beside), out + y * kChromaSide + x, kChromaSide);
+/// 8.3.4.1 to 8.3.4.3: each 4x4 block has a mean of its own. The blocks off the diagonal use one
+/// side only, if it is there.
+void predict_chroma_dc(const AdjacentSamples& plane, std::uint8_t* out) {
+  for (int y = 0; y < kChromaSide; y += 4) {
+    for (int x = 0; x < kChromaSide; x += 4) {
+      AdjacentSamples adjacent{plane.above == nullptr ? nullptr : plane.above + x,
+                               plane.left == nullptr ? nullptr : plane.left + y};
+      if (x > y && adjacent.above != nullptr) adjacent.left = nullptr;
+      if (y > x && adjacent.left != nullptr) adjacent.above = nullptr;
+      fill<4>(mean<4>(adjacent), out + y * kChromaSide + x, kChromaSide);
     }
   }
 }
 
 }  // namespace
 
-Square predict_square(Prediction prediction, const Beside& beside) {
-  Square square;
-  predict<4>(prediction, beside, square.data(), 4);
-  return square;
+Block4x4 predict_4x4(PredMode mode, const AdjacentSamples& adjacent) {
+  Block4x4 block;
+  predict<4>(mode, adjacent, block.data(), 4);
+  return block;
 }
 
-void predict_luma(Prediction prediction, const Borders& borders, Samples& samples) {
-  predict<kLumaSide>(prediction, beside_of(borders, 0), samples.plane(0), kLumaSide);
+void predict_luma(PredMode mode, const Borders& borders, Samples& samples) {
+  predict<kLumaSide>(mode, adjacent_samples(borders, 0), samples.plane(0), kLumaSide);
 }
 
-void predict_chroma(Prediction prediction, const Borders& borders, Samples& samples) {
+void predict_chroma(PredMode mode, const Borders& borders, Samples& samples) {
   for (int plane = 1; plane < 3; ++plane) {
-    const Beside beside = beside_of(borders, plane);
-    if (prediction == Prediction::dc) {
-      predict_chroma_dc(beside, samples.plane(plane));
+    const AdjacentSamples adjacent = adjacent_samples(borders, plane);
+    if (mode == PredMode::dc) {
+      predict_chroma_dc(adjacent, samples.plane(plane));
     } else {
-      predict<kChromaSide>(prediction, beside, samples.plane(plane), kChromaSide);
+      predict<kChromaSide>(mode, adjacent, samples.plane(plane), kChromaSide);
     }
   }
 }

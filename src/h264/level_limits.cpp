@@ -5,40 +5,26 @@
 #include "h264/error.hpp"
 
 namespace piblocks::h264 {
-namespace {
-
-constexpr std::int64_t kMacroblock_px = 16;
-
-constexpr std::int64_t macroblocks_along(int side_px) {
-  return (side_px + kMacroblock_px - 1) / kMacroblock_px;
-}
-
-}  // namespace
-
-std::int64_t max_side_mb(const LevelLimits& limits) {
-  std::int64_t side = 0;
-  while ((side + 1) * (side + 1) <= 8 * limits.macroblocks) ++side;
-  return side;
-}
 
 std::string level_problem(int width_px, int height_px, std::int64_t rate_numerator,
                           std::int64_t rate_denominator) {
-  const std::int64_t width = macroblocks_along(width_px);
-  const std::int64_t height = macroblocks_along(height_px);
-  const LevelLimits& limits = kHighestLevel;
-  if (std::max(width, height) > max_side_mb(limits)) {
+  constexpr std::int64_t kMaxRate_mb = 16'711'680;  // MaxMBPS, a second
+  const std::int64_t width_mb = (std::int64_t{width_px} + 15) / 16;
+  const std::int64_t height_mb = (std::int64_t{height_px} + 15) / 16;
+  const std::int64_t size_mb = width_mb * height_mb;
+  if (std::max(width_mb, height_mb) > kMaxSide_mb) {
     return message("a side of ", std::max(width_px, height_px), " px is longer than the ",
-                   kMacroblock_px * max_side_mb(limits), " px of level 6.2, the highest");
+                   16 * kMaxSide_mb, " px of level 6.2, the highest");
   }
-  if (width * height > limits.macroblocks) {
-    return message(width_px, "x", height_px, " are ", width * height,
-                   " macroblocks of 16x16 pixels, more than the ", limits.macroblocks,
+  if (size_mb > kMaxPicture_mb) {
+    return message(width_px, "x", height_px, " are ", size_mb,
+                   " macroblocks of 16x16 pixels, more than the ", kMaxPicture_mb,
                    " of level 6.2, the highest");
   }
-  if (width * height * rate_numerator > limits.macroblocks_per_second * rate_denominator) {
+  if (size_mb * rate_numerator > kMaxRate_mb * rate_denominator) {
     const std::string divisor = rate_denominator == 1 ? "" : message("/", rate_denominator);
-    return message(width * height, " macroblocks of 16x16 pixels in each of ", rate_numerator,
-                   divisor, " frames a second are more than the ", limits.macroblocks_per_second,
+    return message(size_mb, " macroblocks of 16x16 pixels in each of ", rate_numerator, divisor,
+                   " frames a second are more than the ", kMaxRate_mb,
                    " a second of level 6.2, the highest");
   }
   return {};

@@ -1,10 +1,10 @@
-// How one macroblock is coded: the cheapest of the modes, in bits and in error.
-// In: what it should be, what is beside it and what was there before. Out: macroblock_layer() of
+// How one macroblock is coded: by the cheapest mb_type, in bits and in error.
+// In: what it should show, what is beside it and what was there before. Out: macroblock_layer() of
 // ITU-T H.264, 7.3.5, and the samples that every decoder makes of it.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <limits>
 
 #include "h264/bit_writer.hpp"
 #include "h264/intra_prediction.hpp"
@@ -14,91 +14,77 @@
 
 namespace piblocks::h264 {
 
-enum class SliceKind : std::uint8_t { p, i };
-
-struct MacroblockInput {
-  SliceKind slice{};
-  Samples source;
-  Samples before;  ///< of the picture before, as decoders have it; not used in I slices
-  Borders borders{};
-  Neighbours beside{};
-};
+enum class SliceType : std::uint8_t { p, i };
 
 /// mb_type, tables 7-11 and 7-13, as far as it is used here.
-enum class MacroblockKind : std::uint8_t {
+enum class MbType : std::uint8_t {
   p_skip,      ///< stays as it was
   i_16x16,     ///< without coefficients
   p_l0_16x16,  ///< without motion
-  i_nxn,       ///< of 4x4
+  i_nxn,       ///< of 4x4 blocks
   i_pcm
 };
 
-struct CodedMacroblock {
-  MacroblockKind kind{};
-  Samples samples;
-  MacroblockState state;
-  BitWriter bits;  ///< none of P_Skip and I_PCM; write_i_pcm() writes the latter in its place
+struct MacroblockInput {
+  SliceType slice_type{};
+  Samples source;
+  Samples before;  ///< of the decoded picture before; not used in I slices
+  Borders borders{};
+  Neighbours neighbours{};
 };
 
-/// A prediction mode, and how many bits it takes to write it.
-struct ModeCost {
-  Prediction prediction;
-  int bits;
+struct CodedMacroblock {
+  static constexpr std::int64_t kImpossible = std::numeric_limits<std::int64_t>::max();
+
+  explicit CodedMacroblock(MbType mb_type) : type(mb_type) {}
+
+  MbType type;
+  PredMode chroma_mode{};  ///< of intra types
+  Samples samples;         ///< as decoders have them
+  MacroblockState state{};
+  BitWriter bits{};  ///< empty for P_Skip and I_PCM; write_i_pcm() writes the latter
+  std::int64_t cost = kImpossible;
 };
-using ModeCosts = std::array<ModeCost, 3>;
 
 class MacroblockCoder {
  public:
-  /// @param qp  QPy, the same for all, from 0 to 51.
+  /// @param qp  QPY, the same for all macroblocks, from 0 to 51.
   /// @param chroma_qp_offset  chroma_qp_index_offset
   MacroblockCoder(int qp, int chroma_qp_offset);
-  ~MacroblockCoder() = default;
-  MacroblockCoder(const MacroblockCoder&) = delete;
-  MacroblockCoder& operator=(const MacroblockCoder&) = delete;
 
-  /// The result stays until the next call.
-  const CodedMacroblock& code(const MacroblockInput& input);
+  CodedMacroblock code(const MacroblockInput& input) const;
 
  private:
-  struct Candidate {
-    Prediction prediction;
-    int error;
+  struct Quantisers {
+    Quantiser luma;
+    Quantiser chroma;
   };
 
-  void try_skip(const MacroblockInput& input);
-  /// Predicts with the cheapest of the modes.
-  /// @param predict  does so, and returns the squared error.
-  template <typename Predict>
-  Candidate predict_best(const ModeCosts& modes, const Borders& borders, Predict predict);
-  void predict_i_16x16(const MacroblockInput& input);
-  void try_i_16x16(const MacroblockInput& input);
-  void try_p_l0_16x16(const MacroblockInput& input);
-  void try_i_nxn(const MacroblockInput& input);
-  void take_i_pcm(const MacroblockInput& input);
-  /// Keeps the trial if it costs less than the best so far.
-  void judge(MacroblockKind kind, int squared_error);
-  /// Whether no type with at least so many bits can be cheaper than the best so far.
-  bool is_beyond(int bits) const { return best_cost_ <= lambda_ * bits; }
-  static std::int64_t error_cost(int squared_error) { return std::int64_t{squared_error} << 10; }
-  /// Predicts a block of 4x4 of the trial, and writes its mode and coefficients.
-  void code_4x4_block(const MacroblockInput& input, BlockPlace place);
+  // Each codes the macroblock by one mb_type. The cost stays kImpossible if that would leave too
+  // large an error or take too many bits.
+  CodedMacroblock p_skip(const MacroblockInput& input) const;
+  CodedMacroblock i_16x16(const MacroblockInput& input) const;
+  CodedMacroblock p_l0_16x16(const MacroblockInput& input) const;
+  /// Its chroma is predicted as that of `i_16x16`.
+  CodedMacroblock i_nxn(const MacroblockInput& input, const CodedMacroblock& i_16x16) const;
+  /// Predicts one luma block of I_NxN into the macroblock, and writes its mode.
+  void predict_block(const MacroblockInput& input, BlockPlace place, CodedMacroblock& coded) const;
+  /// For an error and so many bits, in 1024ths of a squared error.
+  std::int64_t cost(int squared_error, std::int64_t bits) const {
+    return (std::int64_t{squared_error} << 10) + lambda_ * bits;
+  }
+  void set_cost(CodedMacroblock& coded, int squared_error) const;
+  /// Writes coded_block_pattern and the residual, if there is any, and sets the cost.
+  void finish(const MacroblockInput& input, const Residual& residual, int pattern,
+              CodedMacroblock& coded) const;
 
-  std::int64_t lambda_;  // what a bit costs, in 1024ths of a squared error
-  int largest_left_;     // difference that may stay where nothing mends it
+  std::int64_t lambda_;  // what a bit costs
+  int tolerance_;        // the largest difference that may stay where nothing corrects it
   Quantisers intra_;
   Quantisers inter_;
-  std::array<CodedMacroblock, 2> memory_{};
-  CodedMacroblock* best_ = memory_.data();
-  CodedMacroblock* trial_ = memory_.data() + 1;
-  Residual residual_{};
-  Samples predicted_;  // as well as neighbours can
-  Prediction luma_prediction_{};
-  Prediction chroma_prediction_{};
-  int predicted_error_ = 0;
-  std::int64_t best_cost_ = 0;
 };
 
-/// mb_type I_PCM and the samples, which have to begin at a whole byte (7.3.5).
-void write_i_pcm(SliceKind slice, const Samples& samples, BitWriter& bits);
+/// mb_type I_PCM and the samples, which begin at a whole byte (7.3.5).
+void write_i_pcm(SliceType slice_type, const Samples& samples, BitWriter& bits);
 
 }  // namespace piblocks::h264

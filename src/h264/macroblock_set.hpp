@@ -1,5 +1,5 @@
-// Which macroblocks of a picture have to be looked at.
-// In: rectangles of pixels. Out: macroblocks in the order of the raster.
+// The macroblocks of a picture that may have changed.
+// In: rectangles of pixels. Out: macroblock addresses in raster order.
 #pragma once
 
 #include <bit>
@@ -14,7 +14,7 @@ class MacroblockSet {
   MacroblockSet(int width_mb, int height_mb)
       : width_mb_(width_mb), words_((static_cast<std::size_t>(width_mb * height_mb) + 63) / 64) {}
 
-  /// All that have a pixel of a rectangle that lies inside the picture.
+  /// Adds all macroblocks that share a pixel with a rectangle inside the picture.
   void add(int x_px, int y_px, int width_px, int height_px) {
     if (width_px <= 0 || height_px <= 0) return;
     for (int y = y_px / 16; y <= (y_px + height_px - 1) / 16; ++y) {

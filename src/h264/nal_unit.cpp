@@ -41,8 +41,7 @@ void append_unit(UnitType type, int nal_ref_idc, Bytes rbsp, std::vector<std::ui
 }
 
 std::vector<Unit> read_units(Bytes stream) {
-  // A zero before these three bytes, as in a start code of four, is one of those that may follow
-  // any unit.
+  // A fourth zero before the start code is one of those that may follow any unit.
   const Bytes start_code = Bytes(kStartCode).last(3);
   const auto next_unit = [&](Bytes::iterator from) {
     return std::search(from, stream.end(), start_code.begin(), start_code.end());

@@ -1,5 +1,5 @@
-// What surrounds a piece of an H.264 stream.
-// In: an RBSP. Out: a NAL unit with a start code (ITU-T H.264, 7.3.1 and annex B), and back.
+// NAL units in a byte stream (ITU-T H.264, 7.3.1 and annex B).
+// In: an RBSP. Out: a NAL unit with a start code, and back.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ enum class UnitType : std::uint8_t {
   picture_parameters = 8
 };
 
-/// Appends a start code of four bytes, the header and the RBSP, in which 3 stands after two zeros
-/// wherever a start code could be seen (7.4.1).
-/// @param nal_ref_idc  nal_ref_idc, from 0 to 3.
-/// @param rbsp  with its trailing bits; only whole words of zeros may follow them.
+/// Appends a start code of four bytes, the header, and the RBSP with
+/// emulation_prevention_three_byte (7.4.1).
+/// @param nal_ref_idc  from 0 to 3.
+/// @param rbsp  with its trailing bits, after which only cabac_zero_words may follow.
 void append_unit(UnitType type, int nal_ref_idc, std::span<const std::uint8_t> rbsp,
                  std::vector<std::uint8_t>& stream);
 
@@ -29,7 +29,7 @@ struct Unit {
   std::vector<std::uint8_t> rbsp;
 };
 
-/// The units of a stream with start codes of three or four bytes, without the inserted threes.
+/// The units of a stream with start codes of three or four bytes.
 std::vector<Unit> read_units(std::span<const std::uint8_t> stream);
 
 }  // namespace piblocks::h264

@@ -7,13 +7,11 @@
 
 #include "h264/bit_reader.hpp"
 #include "h264/error.hpp"
+#include "h264/level_limits.hpp"
 #include "h264/nal_unit.hpp"
 
 namespace piblocks::h264 {
 namespace {
-
-/// Of the highest level, A.3.1: the square root of 8 MaxFS.
-constexpr std::uint32_t kMaxSide_mb = 1055;
 
 struct Sequence {
   std::uint32_t id;
@@ -58,8 +56,9 @@ void read_cropping(BitReader& bits, std::uint32_t size, std::string_view name) {
   }
 }
 
-/// seq_parameter_set_data(), 7.3.2.1.1, up to the VUI, after which nothing comes.
+/// seq_parameter_set_data(), 7.3.2.1.1, up to the VUI, which is its end.
 Sequence read_sequence(std::span<const std::uint8_t> rbsp) {
+  constexpr auto kLastSide_mb = static_cast<std::uint32_t>(kMaxSide_mb - 1);
   BitReader bits(rbsp);
   const std::uint32_t profile = bits.get(8);
   bits.get(16);  // constraint flags, level
@@ -74,9 +73,9 @@ Sequence read_sequence(std::span<const std::uint8_t> rbsp) {
   refuse_if(bits.get_unsigned() == 0, "no reference pictures");
   bits.get_flag();  // gaps_in_frame_num_value_allowed_flag
   const std::uint32_t width_mb =
-      1 + in_range(bits.get_unsigned(), 0U, kMaxSide_mb - 1, "pic_width_in_mbs_minus1");
+      1 + in_range(bits.get_unsigned(), 0U, kLastSide_mb, "pic_width_in_mbs_minus1");
   const std::uint32_t height_mb =
-      1 + in_range(bits.get_unsigned(), 0U, kMaxSide_mb - 1, "pic_height_in_map_units_minus1");
+      1 + in_range(bits.get_unsigned(), 0U, kLastSide_mb, "pic_height_in_map_units_minus1");
   refuse_if(!bits.get_flag(), "fields");
   bits.get_flag();  // direct_8x8_inference_flag
   if (bits.get_flag()) {

@@ -6,19 +6,6 @@
 namespace piblocks::h264 {
 namespace {
 
-/// Of some of the samples. Differences of bytes, and no more than 16 bits, in the inner product:
-/// what the processor squares and adds up at once.
-template <int begin, int end>
-int squared_error(const Samples& a, const Samples& b) {
-  int sum = 0;
-  for (int i = begin; i < end; ++i) {
-    const auto difference = static_cast<std::int16_t>(a.values[i] - b.values[i]);
-    sum += difference * difference;
-  }
-  return sum;
-}
-
-/// A square.
 template <int side>
 void copy(const std::uint8_t* from, std::ptrdiff_t from_stride, std::uint8_t* to,
           std::ptrdiff_t to_stride) {
@@ -26,9 +13,6 @@ void copy(const std::uint8_t* from, std::ptrdiff_t from_stride, std::uint8_t* to
 }
 
 }  // namespace
-
-int luma_error(const Samples& a, const Samples& b) { return squared_error<0, 256>(a, b); }
-int chroma_error(const Samples& a, const Samples& b) { return squared_error<256, 384>(a, b); }
 
 int largest_difference(const Samples& a, const Samples& b) {
   std::uint8_t largest = 0;

@@ -1,11 +1,13 @@
-// Pictures as the encoder has them: planes in 4:2:0, cut into macroblocks of 16x16 pixels.
-// In: samples, however they come into the planes. Out: one macroblock after the other.
+// Pictures in 4:2:0, cut into macroblocks of 16x16 pixels.
+// In: samples, written into the planes. Out: the samples of a macroblock, and those beside it.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "h264/block4x4.hpp"
 
 namespace piblocks::h264 {
 
@@ -15,21 +17,25 @@ inline constexpr int kChromaSide = 8;
 /// Y, Cb, Cr of a macroblock, row by row, one plane after the other.
 struct Samples {
   static constexpr int kCount = kLumaSide * kLumaSide + 2 * kChromaSide * kChromaSide;
-  /// Where a plane begins: 0 is Y, 1 is Cb, 2 is Cr.
+  /// Where a plane begins: 0 Y, 1 Cb, 2 Cr.
   static constexpr int start(int plane) { return plane == 0 ? 0 : 192 + 64 * plane; }
 
   std::uint8_t* plane(int number) { return values.data() + start(number); }
   const std::uint8_t* plane(int number) const { return values.data() + start(number); }
 
-  alignas(16) std::array<std::uint8_t, kCount> values{};
+  alignas(16) std::array<std::uint8_t, kCount> values;
 };
 
 /// Length of a row of a macroblock's plane.
 constexpr int side_of(int plane) { return plane == 0 ? kLumaSide : kChromaSide; }
 
 /// Sums of squared differences.
-int luma_error(const Samples& a, const Samples& b);
-int chroma_error(const Samples& a, const Samples& b);
+inline int luma_error(const Samples& a, const Samples& b) {
+  return squared_error(a.plane(0), b.plane(0), 256);
+}
+inline int chroma_error(const Samples& a, const Samples& b) {
+  return squared_error(a.plane(1), b.plane(1), 128);
+}
 /// Of all samples.
 int largest_difference(const Samples& a, const Samples& b);
 
@@ -40,12 +46,12 @@ struct Border {
 };
 
 struct Borders {
-  bool has_above;  ///< false at the edge of the picture: nothing is in `above` then
+  bool has_above;  ///< false at the edge of the picture, where `above` is undefined
   bool has_left;
   std::array<Border, 3> planes;
 };
 
-/// Owns its planes, of whole macroblocks.
+/// Planes of whole macroblocks.
 class Picture {
  public:
   Picture(int width_mb, int height_mb);
@@ -62,7 +68,6 @@ class Picture {
 
   void load(int x_mb, int y_mb, Samples& samples) const;
   void store(int x_mb, int y_mb, const Samples& samples);
-  /// Of what is stored now.
   void load_borders(int x_mb, int y_mb, Borders& borders) const;
 
  private:

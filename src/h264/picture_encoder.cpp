@@ -7,11 +7,11 @@
 namespace piblocks::h264 {
 namespace {
 
-// slice_type, table 7-6: all slices of the picture are of this kind.
+// slice_type, table 7-6: all slices of the picture are of this type.
 constexpr unsigned kAllP = 5;
 constexpr unsigned kAllI = 7;
 
-/// Any but that of an IDR picture of libx264 next to it (7.4.3), which counts from 0.
+/// Differs from that of an adjacent IDR picture of libx264 (7.4.3), which counts from 0.
 constexpr unsigned kIdrPicId = 1;
 
 }  // namespace
@@ -25,43 +25,37 @@ PictureEncoder::PictureEncoder(const ParameterSets& sets, int qp)
   assert(0 <= qp && qp <= kMaxQp);
 }
 
-std::vector<std::uint8_t> PictureEncoder::encode_whole(const Picture& source) {
+std::vector<std::uint8_t> PictureEncoder::encode_idr(const Picture& source) {
   frame_num_ = 0;
-  begin_slice(SliceKind::i);
+  begin_slice(SliceType::i);
   const int count = sets_.width_mb * sets_.height_mb;
   for (int address = 0; address < count; ++address) add(address, source);
   return finish_slice();
 }
 
-std::vector<std::uint8_t> PictureEncoder::encode_changes(const Picture& source,
-                                                         const MacroblockSet& changed) {
+std::vector<std::uint8_t> PictureEncoder::encode_p(const Picture& source,
+                                                   const MacroblockSet& changed) {
   frame_num_ = (frame_num_ + 1) & ((1U << sets_.log2_max_frame_num) - 1);
-  begin_slice(SliceKind::p);
+  begin_slice(SliceType::p);
   changed.for_each([&](int address) { add(address, source); });
-  // mb_skip_run to the end.
-  if (const int left = sets_.width_mb * sets_.height_mb - next_address_; left > 0) {
-    bits_.put_unsigned(static_cast<std::uint32_t>(left));
-  }
+  const int skipped = sets_.width_mb * sets_.height_mb - next_address_;
+  if (skipped > 0) bits_.put_unsigned(static_cast<std::uint32_t>(skipped));  // mb_skip_run
   return finish_slice();
 }
 
-void PictureEncoder::begin_slice(SliceKind slice) {
+void PictureEncoder::begin_slice(SliceType type) {
   for (const int address : coded_) states_[address] = {};
   coded_.clear();
   bits_.clear();
   transformed_ = 0;
   next_address_ = 0;
-  input_.slice = slice;
-  write_slice_header(slice);
-}
-
-/// slice_header(), 7.3.3.
-void PictureEncoder::write_slice_header(SliceKind slice) {
+  input_.slice_type = type;
+  // slice_header(), 7.3.3
   bits_.put_unsigned(0);  // first_mb_in_slice
-  bits_.put_unsigned(slice == SliceKind::i ? kAllI : kAllP);
+  bits_.put_unsigned(type == SliceType::i ? kAllI : kAllP);
   bits_.put_unsigned(sets_.picture_parameter_set_id);
   bits_.put(frame_num_, sets_.log2_max_frame_num);
-  if (slice == SliceKind::i) {
+  if (type == SliceType::i) {
     bits_.put_unsigned(kIdrPicId);
     // dec_ref_pic_marking(), 7.3.3.3
     bits_.put_flag(false);  // no_output_of_prior_pics_flag
@@ -80,20 +74,20 @@ void PictureEncoder::add(int address, const Picture& source) {
   const int x = address % sets_.width_mb;
   const int y = address / sets_.width_mb;
   source.load(x, y, input_.source);
-  if (input_.slice == SliceKind::p) decoded_.load(x, y, input_.before);
+  if (input_.slice_type == SliceType::p) decoded_.load(x, y, input_.before);
   decoded_.load_borders(x, y, input_.borders);
-  input_.beside = {y > 0 ? &states_[address - sets_.width_mb] : nullptr,
-                   x > 0 ? &states_[address - 1] : nullptr};
-  const CodedMacroblock& coded = coder_.code(input_);
-  if (coded.kind == MacroblockKind::p_skip) return;
-  if (coded.kind != MacroblockKind::i_16x16) ++transformed_;
+  input_.neighbours = {y > 0 ? &states_[address - sets_.width_mb] : nullptr,
+                       x > 0 ? &states_[address - 1] : nullptr};
+  const CodedMacroblock coded = coder_.code(input_);
+  if (coded.type == MbType::p_skip) return;
+  if (coded.type != MbType::i_16x16) ++transformed_;
 
   // mb_skip_run, 7.3.4.
-  if (input_.slice == SliceKind::p) {
+  if (input_.slice_type == SliceType::p) {
     bits_.put_unsigned(static_cast<std::uint32_t>(address - next_address_));
   }
-  if (coded.kind == MacroblockKind::i_pcm) {
-    write_i_pcm(input_.slice, coded.samples, bits_);
+  if (coded.type == MbType::i_pcm) {
+    write_i_pcm(input_.slice_type, coded.samples, bits_);
   } else {
     bits_.append(coded.bits);
   }
@@ -106,7 +100,7 @@ void PictureEncoder::add(int address, const Picture& source) {
 std::vector<std::uint8_t> PictureEncoder::finish_slice() {
   bits_.put_trailing_bits();
   std::vector<std::uint8_t> stream;
-  const bool is_idr = input_.slice == SliceKind::i;
+  const bool is_idr = input_.slice_type == SliceType::i;
   append_unit(is_idr ? UnitType::idr_slice : UnitType::slice, is_idr ? 3 : 2, bits_.bytes(),
               stream);
   return stream;

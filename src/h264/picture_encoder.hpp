@@ -1,9 +1,9 @@
 // Pictures of which little changes, as H.264.
 // In: a picture, and which of its macroblocks may differ from the picture before. Out: an access
-// unit: a slice that skips all the others.
+// unit of one slice, which skips all other macroblocks.
 //
-// No vector is anything but zero, so that the one predicted for a skipped macroblock is zero too
-// (8.4.1.1), and a picture can be made in the place of the one before it.
+// All motion vectors are zero. So are the vectors predicted for skipped macroblocks (8.4.1.1), and
+// a picture can be decoded over the one before it.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@
 
 namespace piblocks::h264 {
 
-/// Decoders have 16 bits for what they add up of a block's coefficients (8.5.12): 16320 stands for
-/// the largest difference that a sample can have, and rounding adds up to 5/6 of the steps of all
-/// 16 coefficients, to 31000 in all at 41. At 51, libavcodec has shown 0 in place of 255.
+/// Decoders add up a block's coefficients in 16 bits (8.5.12.2). The largest difference of a sample
+/// takes 16320; rounding adds up to 5/6 of the steps of all 16 coefficients, in all 31000 at QP 41.
+/// At QP 51, libavcodec has shown 0 where 255 is right.
 inline constexpr int kMaxQp = 41;
 
 class PictureEncoder {
@@ -26,19 +26,18 @@ class PictureEncoder {
   /// @param qp  from 0 to kMaxQp.
   PictureEncoder(const ParameterSets& sets, int qp);
 
-  /// An IDR picture, with which a decoder can begin, with a start code of four bytes.
-  std::vector<std::uint8_t> encode_whole(const Picture& source);
-  /// The next picture.
-  std::vector<std::uint8_t> encode_changes(const Picture& source, const MacroblockSet& changed);
+  /// An IDR picture, with a start code of four bytes.
+  std::vector<std::uint8_t> encode_idr(const Picture& source);
+  /// The next picture, a P picture.
+  std::vector<std::uint8_t> encode_p(const Picture& source, const MacroblockSet& changed);
 
   /// The last picture as every decoder has it.
   const Picture& decoded() const noexcept { return decoded_; }
-  /// How many macroblocks of the last picture neither stayed nor were predicted whole.
+  /// How many macroblocks of the last picture are neither P_Skip nor I_16x16.
   int transformed_macroblocks() const noexcept { return transformed_; }
 
  private:
-  void begin_slice(SliceKind slice);
-  void write_slice_header(SliceKind slice);
+  void begin_slice(SliceType type);
   void add(int address, const Picture& source);
   std::vector<std::uint8_t> finish_slice();
 
@@ -47,10 +46,10 @@ class PictureEncoder {
   MacroblockCoder coder_;
   Picture decoded_;
   std::vector<MacroblockState> states_;
-  std::vector<int> coded_;  // addresses whose states are to be forgotten
+  std::vector<int> coded_;  // addresses of the macroblocks whose states are set
   MacroblockInput input_{};
   BitWriter bits_;
-  int next_address_ = 0;  // after the last one that is in the slice
+  int next_address_ = 0;  // after the last macroblock that is not skipped
   std::uint32_t frame_num_ = 0;
   int transformed_ = 0;
 };

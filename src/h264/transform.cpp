@@ -69,7 +69,7 @@ std::array<std::int32_t, 4> transform_2x2(const std::array<std::int32_t, 4>& v) 
           v[0] - v[1] - v[2] + v[3]};
 }
 
-/// The product of numbers that have 16 bits each, which SSE2 has an instruction for.
+/// The product of 16-bit numbers: SSE2 has no instruction for 32 bits.
 Row multiplied(Row a, Row b) {
 #ifdef __SSE2__
   return reinterpret_cast<Row>(
@@ -79,10 +79,10 @@ Row multiplied(Row a, Row b) {
 #endif
 }
 
-Row load(const Square& square, int y) {
+Row load(const Block4x4& block, int y) {
   using Four = std::uint8_t __attribute__((vector_size(4)));
   Four four;
-  std::memcpy(&four, square.data() + 4 * y, sizeof four);
+  std::memcpy(&four, block.data() + 4 * y, sizeof four);
   return __builtin_convertvector(four, Row);
 }
 
@@ -144,22 +144,22 @@ int Quantiser::quantise_chroma_dc(std::array<std::int32_t, 4>& dc,
   return total;
 }
 
-Coefficients transform_difference(const Square& source, const Square& predicted) {
+Coefficients transform_difference(const Block4x4& source, const Block4x4& predicted) {
   Coefficients rows;
   for (int y = 0; y < 4; ++y) rows[y] = load(source, y) - load(predicted, y);
   return transform(transposed(transform(rows)));
 }
 
-Square add_inverse(Coefficients coefficients, const Square& predicted) {
+Block4x4 add_inverse(Coefficients coefficients, const Block4x4& predicted) {
   coefficients = inverse(transposed(inverse(coefficients)));
-  Square square;
+  Block4x4 block;
   for (int y = 0; y < 4; ++y) {
     const Row sum = load(predicted, y) + ((coefficients[y] + 32) >> 6);
     for (int x = 0; x < 4; ++x) {
-      square[4 * y + x] = static_cast<std::uint8_t>(std::clamp(sum[x], 0, 255));
+      block[4 * y + x] = static_cast<std::uint8_t>(std::clamp(sum[x], 0, 255));
     }
   }
-  return square;
+  return block;
 }
 
 }  // namespace piblocks::h264

@@ -16,6 +16,7 @@
 #include "core/output_file.hpp"
 #include "render/captions.hpp"
 #include "render/page_facts.hpp"
+#include "render/render_film.hpp"
 #include "render/scene_text.hpp"
 #include "scene/schedule.hpp"
 
@@ -130,12 +131,12 @@ Rendered render_bundle(const RenderJob& job,
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   const PageFacts facts(scene, *log, schedule);
-  write_poster(job, facts.forth() - 1, files.add(kPoster));
+  write_poster(job, facts.frames_before_reversal() - 1, files.add(kPoster));
   write_texts(job, *log, schedule, {facts.most(), log->size()}, files);
   RenderJob video = job;
   video.bundle.reset();
   video.output = files.add(job.output);
-  Rendered rendered = render(video, on_progress, stop);
+  Rendered rendered = render_film(video, on_progress, stop);
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
   files.commit();
   return rendered;

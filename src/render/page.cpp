@@ -22,6 +22,7 @@
 #include "core/output_file.hpp"
 #include "render/page_facts.hpp"
 #include "render/page_source.hpp"
+#include "render/render_film.hpp"
 #include "render/scene_text.hpp"
 #include "render/stage_clock.hpp"
 #include "scene/schedule.hpp"
@@ -134,12 +135,8 @@ void add_video(const fs::path& path, PageText& page) {
   }
 }
 
-void write_page(const Scene& scene, const fs::path& video, OutputFile& file) {
-  const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
-  const Schedule schedule = make_schedule(scene, *log);
-  const PageFacts facts(scene, *log, schedule);
-  facts.check_range();
-  const VideoCount count{facts.most(), log->size()};
+void write_page(const Scene& scene, const PageFacts& facts, const VideoCount& count,
+                const fs::path& video, OutputFile& file) {
   PageText page(file);
   page.add(fmt::format(
       kHead, fmt::arg("script_hash", kPageScriptHash), fmt::arg("style_hash", kPageStyleHash),
@@ -162,14 +159,19 @@ bool is_page(const std::string& output) { return has_ending(output, ".html"); }
 Rendered render_page(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
                      const std::stop_token& stop) {
   check(job);
+  const auto& scene = std::get<Scene>(job.script);
+  const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
+  const Schedule schedule = make_schedule(scene, *log);
+  const PageFacts facts(scene, *log, schedule);
+  facts.check_range();
   const fs::path path = follow_links(job.output);
   FileSet files(path.parent_path(), path.filename(), Unfinished::Rivals::allowed);
   OutputFile page(files.add(path.filename()));
   RenderJob video = job;
   video.output = files.workshop() / "video.mp4";
-  Rendered rendered = render(video, on_progress, stop);
+  Rendered rendered = render_film(video, on_progress, stop);
   StageClock clock(job.profile, Stage::write);
-  write_page(std::get<Scene>(job.script), video.output, page);
+  write_page(scene, facts, {facts.most(), log->size()}, video.output, page);
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
   page.finish();
   files.commit();

@@ -75,7 +75,7 @@ std::optional<Rational> least_distance(const std::vector<Rational>& times) {
   return least;
 }
 
-std::int64_t frames_forth(const Schedule& schedule, const Rational& frame_rate) {
+std::int64_t count_before_reversal(const Schedule& schedule, const Rational& frame_rate) {
   for (const Stretch& stretch : schedule.stretches()) {
     if (stretch.speed < 0) return ceil(stretch.video_s * frame_rate).get_si() + 1;
   }
@@ -105,13 +105,14 @@ PageFacts::PageFacts(const Scene& scene, const CollisionLog& log, const Schedule
       log_(log),
       schedule_(schedule),
       frames_(film_frames(schedule)),
-      forth_(std::min(frames_forth(schedule, scene.view.frame_rate), frames_)),
+      frames_before_reversal_(
+          std::min(count_before_reversal(schedule, scene.view.frame_rate), frames_)),
       from_(schedule.time_of(0)),
       first_(state_at(log, from_).count),
-      most_(state_at(log, schedule.time_of(forth_ - 1)).count) {}
+      most_(state_at(log, schedule.time_of(frames_before_reversal_ - 1)).count) {}
 
 void PageFacts::check_range() const {
-  if (to_double(schedule_.time_of(forth_ - 1) - from_) <= kLargest) return;
+  if (to_double(schedule_.time_of(frames_before_reversal_ - 1) - from_) <= kLargest) return;
   throw UsageError(
       "page: the times that it would step through are too far apart for a browser's numbers; write "
       "an MP4, or bring time.from and time.to nearer to each other");
@@ -128,7 +129,7 @@ void PageFacts::write_counts(const Sink& sink) const {
 
 void PageFacts::write(const Sink& sink) const {
   const Rational& rate = scene_.view.frame_rate;
-  const Rational span = schedule_.time_of(forth_ - 1) - from_;
+  const Rational span = schedule_.time_of(frames_before_reversal_ - 1) - from_;
   const int decimals =
       decimals_for(span > 0 ? least_step(schedule_, rate, span) : Rational(1), span);
   const std::vector<CollisionRange> listed = listed_collisions(first_, most_);
@@ -142,8 +143,8 @@ void PageFacts::write(const Sink& sink) const {
   }
   sink(fmt::format(
       R"({{"rate":[{},{}],"frames":{},"forth":{},"loop":{},"sound":{},"decimals":{},"scale":{},"from":"{}",)",
-      rate.get_num().get_str(), rate.get_den().get_str(), frames_, forth_, scene_.pacing.loop,
-      scene_.sound.on, decimals, scale, scaled(from_, scale).get_str()));
+      rate.get_num().get_str(), rate.get_den().get_str(), frames_, frames_before_reversal_,
+      scene_.pacing.loop, scene_.sound.on, decimals, scale, scaled(from_, scale).get_str()));
   sink(R"("stretches":[)");
   const char* comma = "";
   for (const Stretch& stretch : schedule_.stretches()) {

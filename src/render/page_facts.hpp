@@ -33,12 +33,12 @@ class PageFacts {
   /// @throws UsageError as film_frames().
   PageFacts(const Scene& scene, const CollisionLog& log, const Schedule& schedule);
 
-  /// @throws UsageError if a browser cannot hold the times; what has no page can.
+  /// @throws UsageError if the times exceed a browser's numbers. Other outputs can have them.
   void check_range() const;
   /// Collisions that the frames count, at most.
   const Integer& most() const noexcept { return most_; }
   /// Number of frames until a loop turns back; of all frames without a loop.
-  std::int64_t forth() const noexcept { return forth_; }
+  std::int64_t frames_before_reversal() const noexcept { return frames_before_reversal_; }
   /// Writes the object in pieces. Times are given in units of 10^-scale; of sequences, what each
   /// number adds to the one before, "0~7" being seven times 0. No "<" is in it.
   void write(const std::function<void(std::string_view)>& sink) const;
@@ -50,7 +50,7 @@ class PageFacts {
   const CollisionLog& log_;
   const Schedule& schedule_;
   std::int64_t frames_;
-  std::int64_t forth_;
+  std::int64_t frames_before_reversal_;
   Rational from_;
   Integer first_;
   Integer most_;

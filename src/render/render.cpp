@@ -13,6 +13,7 @@
 #include "render/job_description.hpp"
 #include "render/ordered_pool.hpp"
 #include "render/page.hpp"
+#include "render/render_film.hpp"
 #include "render/stage_clock.hpp"
 
 namespace piblocks {
@@ -163,10 +164,8 @@ void add(StageSeconds& sum, const StageSeconds& spent) {
 
 }  // namespace
 
-Rendered render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
-                const std::stop_token& stop) {
-  if (job.bundle) return render_bundle(job, on_progress, stop);
-  if (is_page(job.output)) return render_page(job, on_progress, stop);
+Rendered render_film(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
+                     const std::stop_token& stop) {
   check_part(job);
   const Plan plan(job);
   if (job.max_flashes && plan.output->has_frames()) {
@@ -205,6 +204,13 @@ Rendered render(const RenderJob& job, const std::function<void(const Progress&)>
     rendered.profile.total_s = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
   }
   return rendered;
+}
+
+Rendered render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
+                const std::stop_token& stop) {
+  if (job.bundle) return render_bundle(job, on_progress, stop);
+  if (is_page(job.output)) return render_page(job, on_progress, stop);
+  return render_film(job, on_progress, stop);
 }
 
 std::string part_name(const std::string& output, const Part& part) {

@@ -14,14 +14,13 @@ namespace {
 
 constexpr std::string_view kPart = "part";
 
-struct SetKey {
-  std::string origin;
-  std::string key;
-};
-
 }  // namespace
 
 struct ScriptBuilder::State {
+  struct SetKey {
+    std::string origin;
+    std::string key;
+  };
   SceneDraft film{"scene"};  // of a storyboard: what holds for all parts
   std::string path;
   std::vector<TomlTable> parts;

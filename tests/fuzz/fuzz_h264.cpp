@@ -77,12 +77,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   PictureEncoder encoder(headers.sets, numbers.integer(0, kMaxQp));
   RandomPictures pictures(headers.sets.width_mb, headers.sets.height_mb, numbers);
   StrictDecoder decoder(headers.bytes);
-  check(encoder.decoded(), decoder.decode(encoder.encode_whole(pictures.picture())));
+  check(encoder.decoded(), decoder.decode(encoder.encode_idr(pictures.picture())));
   for (int frame = 1; frame < kMostFrames && numbers.has_more(); ++frame) {
     pictures.advance();
     const bool is_key_frame = numbers.integer(1, kOneKeyFrameIn) == kOneKeyFrameIn;
-    const auto unit = is_key_frame ? encoder.encode_whole(pictures.picture())
-                                   : encoder.encode_changes(pictures.picture(), pictures.changed());
+    const auto unit = is_key_frame ? encoder.encode_idr(pictures.picture())
+                                   : encoder.encode_p(pictures.picture(), pictures.changed());
     check(encoder.decoded(), decoder.decode(unit));
   }
   return 0;

@@ -25,8 +25,8 @@ std::ostream& operator<<(std::ostream& out, const Case& c) {
   return out << c.width_px << 'x' << c.height_px << " at QP " << c.qp;
 }
 
-/// Groups of pictures of a stream; scripts/test --long asks for more.
-int groups() { return std::getenv("PIBLOCKS_STRESS_LONG") != nullptr ? 100 : 5; }
+/// Groups of pictures of a stream; scripts/test --long sets PIBLOCKS_STRESS.
+int groups() { return std::getenv("PIBLOCKS_STRESS") != nullptr ? 100 : 5; }
 
 template <typename Decoder>
 void expect_every_picture(const Case& c) {
@@ -40,8 +40,8 @@ void expect_every_picture(const Case& c) {
   for (int frame = 0; frame < groups() * kFramesInGroup; ++frame) {
     if (frame > 0) pictures.advance();
     const auto unit = frame % kFramesInGroup == 0
-                          ? encoder.encode_whole(pictures.picture())
-                          : encoder.encode_changes(pictures.picture(), pictures.changed());
+                          ? encoder.encode_idr(pictures.picture())
+                          : encoder.encode_p(pictures.picture(), pictures.changed());
     const auto shown = decoder.decode(unit);
     ASSERT_TRUE(shown) << "frame " << frame;
     ASSERT_GE(shown->width, c.width_px);
@@ -82,8 +82,8 @@ TEST(Conformance, LibavcodecShowsTheLargestDifferencesAsTheyWereMade) {
                                : static_cast<std::uint8_t>(255 * random.integer(0, 1));
       }
       changed.add(0, 0, kSide_px, kSide_px);
-      const auto shown = decoder.decode(frame == 0 ? encoder.encode_whole(picture)
-                                                   : encoder.encode_changes(picture, changed));
+      const auto shown = decoder.decode(frame == 0 ? encoder.encode_idr(picture)
+                                                   : encoder.encode_p(picture, changed));
       ASSERT_TRUE(shown) << "frame " << frame << " at QP " << qp;
       ASSERT_EQ(difference(encoder.decoded(), *shown), "") << "frame " << frame << " at QP " << qp;
     }

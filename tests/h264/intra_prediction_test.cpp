@@ -31,9 +31,9 @@ int mean(const Sides& sides) {
   return (sum_of(sides.above) + sum_of(sides.left) + count / 2) / count;
 }
 
-int predicted_at(Prediction prediction, const Sides& sides, std::size_t x, std::size_t y) {
-  if (prediction == Prediction::vertical) return sides.above[x];
-  if (prediction == Prediction::horizontal) return sides.left[y];
+int predicted_at(PredMode mode, const Sides& sides, std::size_t x, std::size_t y) {
+  if (mode == PredMode::vertical) return sides.above[x];
+  if (mode == PredMode::horizontal) return sides.left[y];
   return mean(sides);
 }
 
@@ -78,14 +78,14 @@ Sides sides_of(const Borders& borders, int plane) {
 class IntraPredictionTest : public testing::Test {
  protected:
   /// With and without neighbours, for every way that can be.
-  void for_each_case(const std::function<void(Prediction, bool, bool)>& check) {
+  void for_each_case(const std::function<void(PredMode, bool, bool)>& check) {
     constexpr int kTimes = 50;
     SCOPED_TRACE(random_.trace());
     for (int i = 0; i < 4 * kTimes; ++i) {
       const bool has_above = (i & 1) != 0;
       const bool has_left = (i & 2) != 0;
-      for (const Prediction prediction : kPredictions) {
-        if (is_possible(prediction, has_above, has_left)) check(prediction, has_above, has_left);
+      for (const PredMode mode : {PredMode::vertical, PredMode::horizontal, PredMode::dc}) {
+        if (is_possible(mode, has_above, has_left)) check(mode, has_above, has_left);
       }
     }
   }
@@ -95,27 +95,27 @@ class IntraPredictionTest : public testing::Test {
 
 TEST_F(IntraPredictionTest, NeedsWhatItCopies) {
   for (const bool other : {false, true}) {
-    EXPECT_TRUE(is_possible(Prediction::dc, other, !other));
-    EXPECT_TRUE(is_possible(Prediction::vertical, true, other));
-    EXPECT_FALSE(is_possible(Prediction::vertical, false, other));
-    EXPECT_TRUE(is_possible(Prediction::horizontal, other, true));
-    EXPECT_FALSE(is_possible(Prediction::horizontal, other, false));
+    EXPECT_TRUE(is_possible(PredMode::dc, other, !other));
+    EXPECT_TRUE(is_possible(PredMode::vertical, true, other));
+    EXPECT_FALSE(is_possible(PredMode::vertical, false, other));
+    EXPECT_TRUE(is_possible(PredMode::horizontal, other, true));
+    EXPECT_FALSE(is_possible(PredMode::horizontal, other, false));
   }
-  EXPECT_TRUE(is_possible(Prediction::dc, false, false));
+  EXPECT_TRUE(is_possible(PredMode::dc, false, false));
 }
 
-TEST_F(IntraPredictionTest, NumbersItsWaysAsTheTablesDo) {
+TEST_F(IntraPredictionTest, NumbersItsModesAsTheTablesDo) {
   // Tables 8-2 and 8-4 for luma, 8-5 for chroma.
-  EXPECT_EQ(static_cast<int>(Prediction::vertical), 0);
-  EXPECT_EQ(static_cast<int>(Prediction::horizontal), 1);
-  EXPECT_EQ(static_cast<int>(Prediction::dc), 2);
-  EXPECT_EQ(chroma_number(Prediction::dc), 0u);
-  EXPECT_EQ(chroma_number(Prediction::horizontal), 1u);
-  EXPECT_EQ(chroma_number(Prediction::vertical), 2u);
+  EXPECT_EQ(static_cast<int>(PredMode::vertical), 0);
+  EXPECT_EQ(static_cast<int>(PredMode::horizontal), 1);
+  EXPECT_EQ(static_cast<int>(PredMode::dc), 2);
+  EXPECT_EQ(chroma_number(PredMode::dc), 0u);
+  EXPECT_EQ(chroma_number(PredMode::horizontal), 1u);
+  EXPECT_EQ(chroma_number(PredMode::vertical), 2u);
 }
 
-TEST_F(IntraPredictionTest, PredictsSquares) {
-  for_each_case([&](Prediction prediction, bool has_above, bool has_left) {
+TEST_F(IntraPredictionTest, Predicts4x4Blocks) {
+  for_each_case([&](PredMode mode, bool has_above, bool has_left) {
     const auto step = static_cast<std::size_t>(random_.integer(1, 16));
     std::array<std::uint8_t, 4> above{};
     std::array<std::uint8_t, 64> left{};
@@ -125,26 +125,26 @@ TEST_F(IntraPredictionTest, PredictsSquares) {
     if (has_above) sides.above.assign(above.begin(), above.end());
     for (std::size_t y = 0; y < 4 && has_left; ++y) sides.left.push_back(left[y * step]);
 
-    const Beside beside{has_above ? above.data() : nullptr, has_left ? left.data() : nullptr,
-                        static_cast<int>(step)};
-    const Square square = predict_square(prediction, beside);
+    const AdjacentSamples adjacent{has_above ? above.data() : nullptr,
+                                   has_left ? left.data() : nullptr, static_cast<int>(step)};
+    const Block4x4 block = predict_4x4(mode, adjacent);
     for (std::size_t i = 0; i < 16; ++i) {
-      ASSERT_EQ(square[i], predicted_at(prediction, sides, i % 4, i / 4))
-          << static_cast<int>(prediction) << " at " << i;
+      ASSERT_EQ(block[i], predicted_at(mode, sides, i % 4, i / 4))
+          << static_cast<int>(mode) << " at " << i;
     }
   });
 }
 
 TEST_F(IntraPredictionTest, PredictsLumaAndNothingElse) {
-  for_each_case([&](Prediction prediction, bool has_above, bool has_left) {
+  for_each_case([&](PredMode mode, bool has_above, bool has_left) {
     const Borders borders = random_borders(random_, has_above, has_left);
     Samples samples;
     samples.values.fill(77);
-    predict_luma(prediction, borders, samples);
+    predict_luma(mode, borders, samples);
     const Sides sides = sides_of(borders, 0);
     for (std::size_t i = 0; i < 256; ++i) {
-      ASSERT_EQ(samples.values[i], predicted_at(prediction, sides, i % 16, i / 16))
-          << static_cast<int>(prediction) << " at " << i;
+      ASSERT_EQ(samples.values[i], predicted_at(mode, sides, i % 16, i / 16))
+          << static_cast<int>(mode) << " at " << i;
     }
     EXPECT_TRUE(std::all_of(samples.values.begin() + 256, samples.values.end(),
                             [](int value) { return value == 77; }));
@@ -152,19 +152,18 @@ TEST_F(IntraPredictionTest, PredictsLumaAndNothingElse) {
 }
 
 TEST_F(IntraPredictionTest, PredictsChromaWithAMeanForEachQuarter) {
-  for_each_case([&](Prediction prediction, bool has_above, bool has_left) {
+  for_each_case([&](PredMode mode, bool has_above, bool has_left) {
     const Borders borders = random_borders(random_, has_above, has_left);
     Samples samples;
     samples.values.fill(77);
-    predict_chroma(prediction, borders, samples);
+    predict_chroma(mode, borders, samples);
     for (int plane = 1; plane < 3; ++plane) {
       const Sides sides = sides_of(borders, plane);
       for (std::size_t i = 0; i < 64; ++i) {
-        const int expected = prediction == Prediction::dc
-                                 ? chroma_dc_at(sides, i % 8, i / 8)
-                                 : predicted_at(prediction, sides, i % 8, i / 8);
+        const int expected = mode == PredMode::dc ? chroma_dc_at(sides, i % 8, i / 8)
+                                                  : predicted_at(mode, sides, i % 8, i / 8);
         ASSERT_EQ(samples.plane(plane)[i], expected)
-            << static_cast<int>(prediction) << " at " << i << " of plane " << plane;
+            << static_cast<int>(mode) << " at " << i << " of plane " << plane;
       }
     }
     EXPECT_TRUE(std::all_of(samples.values.begin(), samples.values.begin() + 256,

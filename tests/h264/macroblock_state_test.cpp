@@ -19,8 +19,9 @@ class MacroblockStateTest : public testing::Test {
  protected:
   MacroblockStateTest() : states_(kWidth * kHeight) {
     for (MacroblockState& state : states_) {
-      for (auto& total : state.totals) total = static_cast<std::uint8_t>(random_.integer(0, 16));
-      for (auto& mode : state.modes) mode = static_cast<std::uint8_t>(random_.integer(0, 8));
+      for (auto& total : state.total_coeff)
+        total = static_cast<std::uint8_t>(random_.integer(0, 16));
+      for (auto& mode : state.pred_modes) mode = static_cast<std::uint8_t>(random_.integer(0, 8));
     }
   }
 
@@ -30,15 +31,16 @@ class MacroblockStateTest : public testing::Test {
   Neighbours beside(int x_mb, int y_mb) const {
     return {y_mb > 0 ? &at(x_mb, y_mb - 1) : nullptr, x_mb > 0 ? &at(x_mb - 1, y_mb) : nullptr};
   }
-  /// Of the block at a place of the whole picture, or -1 outside.
-  int total(const BlockGrid& grid, int x, int y) const {
+  /// TotalCoeff of the block at a place of the whole picture, or -1 outside.
+  int total(int plane, int x, int y) const {
     if (x < 0 || y < 0) return -1;
-    const int inside = y % grid.side * grid.side + x % grid.side;
-    return at(x / grid.side, y / grid.side).totals[static_cast<std::size_t>(grid.start + inside)];
+    const int side = plane == 0 ? 4 : 2;
+    const BlockPlace place = {x % side, y % side, plane};
+    return at(x / side, y / side).total_coeff[place.number()];
   }
   int mode(int x, int y) const {
     if (x < 0 || y < 0) return -1;
-    return at(x / 4, y / 4).modes[static_cast<std::size_t>(y % 4 * 4 + x % 4)];
+    return at(x / 4, y / 4).pred_modes[static_cast<std::size_t>(y % 4 * 4 + x % 4)];
   }
 
   Random random_{921};
@@ -46,18 +48,18 @@ class MacroblockStateTest : public testing::Test {
 };
 
 TEST_F(MacroblockStateTest, MeansOfNeighboursAreTheContext) {
-  for (const BlockGrid& grid : kBlockGrids) {
-    for (int y = 0; y < kHeight * grid.side; ++y) {
-      for (int x = 0; x < kWidth * grid.side; ++x) {
-        const int a = total(grid, x - 1, y);
-        const int b = total(grid, x, y - 1);
+  for (int plane = 0; plane < 3; ++plane) {
+    const int side = plane == 0 ? 4 : 2;
+    for (int y = 0; y < kHeight * side; ++y) {
+      for (int x = 0; x < kWidth * side; ++x) {
+        const int a = total(plane, x - 1, y);
+        const int b = total(plane, x, y - 1);
         // 9.2.1
         const int expected = a >= 0 && b >= 0 ? (a + b + 1) >> 1 : a >= 0 ? a : b >= 0 ? b : 0;
-        const int x_mb = x / grid.side;
-        const int y_mb = y / grid.side;
-        EXPECT_EQ(nc_of(at(x_mb, y_mb), beside(x_mb, y_mb), grid, x % grid.side, y % grid.side),
-                  expected)
-            << "plane at " << grid.start << ", block " << x << ", " << y;
+        const int x_mb = x / side;
+        const int y_mb = y / side;
+        EXPECT_EQ(nc_of(at(x_mb, y_mb), beside(x_mb, y_mb), {x % side, y % side, plane}), expected)
+            << "plane " << plane << ", block " << x << ", " << y;
       }
     }
   }
@@ -68,7 +70,7 @@ TEST_F(MacroblockStateTest, TheLesserOfTheNeighboursModesIsPredicted) {
     for (int x = 0; x < 4 * kWidth; ++x) {
       // 8.3.1.1: DC, where one of the two is not there.
       const int expected = x > 0 && y > 0 ? std::min(mode(x - 1, y), mode(x, y - 1)) : 2;
-      EXPECT_EQ(predicted_mode(at(x / 4, y / 4), beside(x / 4, y / 4), x % 4, y % 4), expected)
+      EXPECT_EQ(predicted_mode(at(x / 4, y / 4), beside(x / 4, y / 4), {x % 4, y % 4}), expected)
           << "block " << x << ", " << y;
     }
   }
@@ -76,17 +78,19 @@ TEST_F(MacroblockStateTest, TheLesserOfTheNeighboursModesIsPredicted) {
 
 TEST_F(MacroblockStateTest, BeginsAsThatOfOneThatIsSkipped) {
   const MacroblockState state;
-  EXPECT_TRUE(std::ranges::all_of(state.totals, [](int total) { return total == 0; }));
-  EXPECT_TRUE(std::ranges::all_of(state.modes, [](int mode) { return mode == 2; }));
+  EXPECT_TRUE(std::ranges::all_of(state.total_coeff, [](int total) { return total == 0; }));
+  EXPECT_TRUE(std::ranges::all_of(state.pred_modes, [](int mode) { return mode == 2; }));
 }
 
 TEST_F(MacroblockStateTest, KeepsTheBlocksOfItsPlanesApart) {
-  int start = 0;
-  for (const BlockGrid& grid : kBlockGrids) {
-    EXPECT_EQ(grid.start, start);
-    start += grid.side * grid.side;
+  std::size_t number = 0;
+  for (int plane = 0; plane < 3; ++plane) {
+    const int side = plane == 0 ? 4 : 2;
+    for (int i = 0; i < side * side; ++i) {
+      EXPECT_EQ((BlockPlace{i % side, i / side, plane}.number()), number++);
+    }
   }
-  EXPECT_EQ(static_cast<std::size_t>(start), MacroblockState{}.totals.size());
+  EXPECT_EQ(number, MacroblockState{}.total_coeff.size());
 }
 
 }  // namespace

@@ -81,37 +81,37 @@ TEST_F(PictureEncoderTest, SpendsAFewBytesOnAPictureThatStays) {
   constexpr std::size_t kFewBytes = 12;  // with 5 of start code and header
   convert(article_frame(kFormat.width_px, kFormat.height_px, 0.5), picture_);
   PictureEncoder encoder(headers_.sets, kDefaultQp);
-  encoder.encode_whole(picture_);
-  EXPECT_LE(encoder.encode_changes(picture_, changed_).size(), kFewBytes);
+  encoder.encode_idr(picture_);
+  EXPECT_LE(encoder.encode_p(picture_, changed_).size(), kFewBytes);
   EXPECT_EQ(encoder.transformed_macroblocks(), 0);
 
   // Also if all of it is said to change, but does not.
   const Picture shown = encoder.decoded();
   changed_.add(0, 0, kFormat.width_px, kFormat.height_px);
-  EXPECT_LE(encoder.encode_changes(shown, changed_).size(), kFewBytes);
+  EXPECT_LE(encoder.encode_p(shown, changed_).size(), kFewBytes);
   EXPECT_EQ(encoder.transformed_macroblocks(), 0);
   EXPECT_EQ(error_of(shown, encoder.decoded()).largest, 0);
 }
 
 TEST_F(PictureEncoderTest, LeavesAloneWhatIsNotSaidToChange) {
   PictureEncoder encoder(headers_.sets, kDefaultQp);
-  encoder.encode_whole(picture_);
+  encoder.encode_idr(picture_);
   const Picture before = encoder.decoded();
   fill(picture_, changed_, {32, 32, 64, 64}, 100);
   changed_.clear();
-  encoder.encode_changes(picture_, changed_);
+  encoder.encode_p(picture_, changed_);
   EXPECT_EQ(error_of(before, encoder.decoded()).largest, 0);
 }
 
 TEST_F(PictureEncoderTest, CountsWhatIsTransformed) {
   PictureEncoder encoder(headers_.sets, kDefaultQp);
-  encoder.encode_whole(picture_);
+  encoder.encode_idr(picture_);
   fill(picture_, changed_, {36, 36, 8, 8}, 16);
-  encoder.encode_changes(picture_, changed_);
+  encoder.encode_p(picture_, changed_);
   EXPECT_EQ(encoder.transformed_macroblocks(), 1);
   changed_.clear();
   fill(picture_, changed_, {32, 32, 16, 16}, 235);
-  encoder.encode_changes(picture_, changed_);
+  encoder.encode_p(picture_, changed_);
   EXPECT_EQ(encoder.transformed_macroblocks(), 0) << "it is what is beside it";
 }
 
@@ -131,9 +131,9 @@ TEST_F(PictureEncoderTest, NumbersThePicturesOfEveryGroup) {
   const int numbers = 1 << headers_.sets.log2_max_frame_num;
   PictureEncoder encoder(headers_.sets, kDefaultQp);
   for (const int pictures : {3, 2 * numbers + 1, 1, 2}) {
-    EXPECT_EQ(number_of(encoder.encode_whole(picture_), headers_.sets), Number(5, 0));
+    EXPECT_EQ(number_of(encoder.encode_idr(picture_), headers_.sets), Number(5, 0));
     for (int i = 1; i < pictures; ++i) {
-      EXPECT_EQ(number_of(encoder.encode_changes(picture_, changed_), headers_.sets),
+      EXPECT_EQ(number_of(encoder.encode_p(picture_, changed_), headers_.sets),
                 Number(1, i % numbers));
     }
   }
@@ -143,14 +143,14 @@ TEST_F(PictureEncoderTest, GoesOnWhereFrameNumbersBeginAgain) {
   const int pictures = std::max(300, 3 << headers_.sets.log2_max_frame_num);
   PictureEncoder encoder(headers_.sets, kDefaultQp);
   StrictDecoder decoder(headers_.bytes);
-  ASSERT_TRUE(decoder.decode(encoder.encode_whole(picture_)));
+  ASSERT_TRUE(decoder.decode(encoder.encode_idr(picture_)));
   for (int i = 1; i < pictures; ++i) {
     changed_.clear();
     if (i % 3 > 0) {
       const PixelRect rect = {2 * (i % 140), 2 * (i % 70), 24, 18};
       fill(picture_, changed_, rect, static_cast<std::uint8_t>(i));
     }
-    const auto shown = decoder.decode(encoder.encode_changes(picture_, changed_));
+    const auto shown = decoder.decode(encoder.encode_p(picture_, changed_));
     ASSERT_TRUE(shown) << "picture " << i;
     ASSERT_EQ(difference(encoder.decoded(), *shown), "") << "picture " << i;
   }
@@ -160,15 +160,15 @@ TEST_F(PictureEncoderTest, KeepsFlatColoursExactWithinOne) {
   Random random(10);
   SCOPED_TRACE(random.trace());
   PictureEncoder encoder(headers_.sets, kDefaultQp);
-  encoder.encode_whole(picture_);
+  encoder.encode_idr(picture_);
   for (int i = 0; i < 200; ++i) {
     changed_.clear();
     const PixelRect rect = {16 * static_cast<int>(random.integer(0, 15)),
                             16 * static_cast<int>(random.integer(0, 6)), 64, 64};
     fill(picture_, changed_, rect, static_cast<std::uint8_t>(random.integer(0, 255)));
-    encoder.encode_changes(picture_, changed_);
+    encoder.encode_p(picture_, changed_);
     ASSERT_LE(error_of(picture_, encoder.decoded()).largest, 1) << i;
-    encoder.encode_whole(picture_);
+    encoder.encode_idr(picture_);
     ASSERT_LE(error_of(picture_, encoder.decoded()).largest, 1) << i;
   }
 }
@@ -183,7 +183,7 @@ TEST_F(PictureEncoderTest, ShowsWhatWasDrawn) {
   PictureEncoder encoder(headers.sets, kDefaultQp);
   for (int i = 0; i < 20; ++i) {
     convert(article_frame(format.width_px, format.height_px, i / 10.0), picture);
-    i == 0 ? encoder.encode_whole(picture) : encoder.encode_changes(picture, changed);
+    i == 0 ? encoder.encode_idr(picture) : encoder.encode_p(picture, changed);
     const Error error = error_of(picture, encoder.decoded());
     EXPECT_GE(error.psnr_db, kLeast_dB) << i;
     EXPECT_LE(error.largest, 10) << i;
@@ -194,10 +194,10 @@ TEST_F(PictureEncoderTest, ShowsWhatWasDrawn) {
 Bytes encode_group(PictureEncoder& encoder, const ParameterSets& sets, std::uint64_t seed) {
   Random random(seed);
   RandomPictures pictures(sets.width_mb, sets.height_mb, random);
-  Bytes stream = encoder.encode_whole(pictures.picture());
+  Bytes stream = encoder.encode_idr(pictures.picture());
   for (int i = 1; i < 12; ++i) {
     pictures.advance();
-    const Bytes unit = encoder.encode_changes(pictures.picture(), pictures.changed());
+    const Bytes unit = encoder.encode_p(pictures.picture(), pictures.changed());
     stream.insert(stream.end(), unit.begin(), unit.end());
   }
   return stream;

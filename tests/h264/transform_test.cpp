@@ -40,7 +40,7 @@ Matrix product(const Matrix& a, const Matrix& b) {
   return result;
 }
 
-Matrix forward(const Square& source, const Square& predicted) {
+Matrix forward(const Block4x4& source, const Block4x4& predicted) {
   Matrix difference{};
   for (std::size_t i = 0; i < 16; ++i) difference[i / 4][i % 4] = source[i] - predicted[i];
   return product(product(kForward, difference), transposed(kForward));
@@ -126,7 +126,7 @@ std::array<int, 4> inverse_line(const std::array<int, 4>& d, Range& range) {
 }
 
 /// 8.5.12.2 and 8.5.14
-Square inverse(const Matrix& d, const Square& predicted, Range& range) {
+Block4x4 inverse(const Matrix& d, const Block4x4& predicted, Range& range) {
   Matrix f{};
   for (std::size_t i = 0; i < 4; ++i) {
     for (const int value : d[i]) range(value);
@@ -134,20 +134,20 @@ Square inverse(const Matrix& d, const Square& predicted, Range& range) {
   }
   Matrix h = transposed(f);
   for (std::array<int, 4>& column : h) column = inverse_line(column, range);
-  Square square{};
+  Block4x4 block{};
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j) {
       const int residual = range(h[j][i] + 32) >> 6;
-      square[4 * i + j] =
+      block[4 * i + j] =
           static_cast<std::uint8_t>(std::clamp(predicted[4 * i + j] + residual, 0, 255));
     }
   }
-  return square;
+  return block;
 }
 
 struct Pair {
-  Square source;
-  Square predicted;
+  Block4x4 source;
+  Block4x4 predicted;
 };
 
 std::uint8_t byte(std::int64_t value) {
@@ -204,7 +204,7 @@ void check_block(const Quantiser& quantiser, int qp, Rounding rounding, const Pa
   ASSERT_EQ(levels, expected);
   ASSERT_EQ(total, 16 - std::ranges::count(expected, 0));
 
-  const Square shown = inverse(scaled_levels, pair.predicted, range);
+  const Block4x4 shown = inverse(scaled_levels, pair.predicted, range);
   if (total == 0) {
     ASSERT_EQ(shown, pair.predicted);
   } else {

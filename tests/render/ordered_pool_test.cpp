@@ -62,11 +62,6 @@ TEST(OrderedPool, RethrowsWhatMakingAWorkerThrows) {
   EXPECT_THROW(pool.take({}), DrawError);
 }
 
-TEST(OrderedPool, EndsWhenAbandoned) {
-  Pool pool(1000, 4, [] { return square(); });
-  pool.take({});
-}
-
 TEST(OrderedPool, StopsWhenAsked) {
   std::stop_source stop;
   Pool pool(10, 1, [] {

@@ -13,9 +13,10 @@
 
 namespace piblocks::stress {
 
-/// Cases of an ordinary run; PIBLOCKS_STRESS_LONG multiplies them by 20.
+/// The number of cases to try. PIBLOCKS_STRESS=N multiplies those of an ordinary run by N.
 inline std::int64_t many(std::int64_t ordinary) {
-  return std::getenv("PIBLOCKS_STRESS_LONG") != nullptr ? 20 * ordinary : ordinary;
+  const char* factor = std::getenv("PIBLOCKS_STRESS");
+  return factor == nullptr ? ordinary : ordinary * std::atoll(factor);
 }
 
 /// Whether one case is run again, alone.

@@ -41,7 +41,7 @@ void expect_finite(const Simulator& simulator) {
 }
 
 TEST(EventSimulatorStress, EndsWithAResultOrATypedError) {
-  for_each_case(100'000, 6'000'000, [](Random& random) {
+  for_each_case(5'000, 6'000'000, [](Random& random) {
     try {
       Simulator simulator(random_bodies(random));
       double before = 0;

@@ -104,8 +104,8 @@ void DamageChunkEncoder::leave() {
 void DamageChunkEncoder::encode() {
   if (is_left_) return stream_encoder_->encode();
   const bool is_first = chunk_.empty();
-  chunk_.push_back({.bytes = is_first ? coder_.encode_whole(picture_)
-                                      : coder_.encode_changes(picture_, changed_),
+  chunk_.push_back({.bytes = is_first ? coder_.encode_idr(picture_)
+                                      : coder_.encode_p(picture_, changed_),
                     .pts = next_frame_,
                     .dts = next_frame_,
                     .key_frame = is_first});
