@@ -38,7 +38,7 @@ struct TextItem {
   friend bool operator==(const TextItem&, const TextItem&) = default;
 };
 
-/// Points that may be many and are shared by all frames in which they are the same.
+/// Points, shared by all frames in which they are the same.
 class Points {
  public:
   Points() = default;
@@ -88,7 +88,7 @@ struct DiskItem {
   friend bool operator==(const DiskItem&, const DiskItem&) = default;
 };
 
-/// A picture, scaled to its bounds. Equal if it is the same picture in memory.
+/// An image, scaled to its bounds. Equal if it is the same image in memory.
 struct ImageItem {
   ItemId id = ItemId::wall;
   Rectangle bounds;
@@ -99,11 +99,11 @@ struct ImageItem {
 
 struct Plate;
 
-/// Items that never change, as one: a canvas paints them once and keeps their picture. Equal if it
-/// is the same plate in memory.
+/// Items that never change: a canvas paints them once and keeps their pixels. Equal if it is the
+/// same plate in memory.
 struct PlateItem {
   ItemId id = ItemId::wall;
-  Rectangle bounds;  ///< in whole pixels; nothing of the plate is seen outside
+  Rectangle bounds;  ///< in whole pixels; the plate is cut off at them
   std::shared_ptr<const Plate> plate;
 
   friend bool operator==(const PlateItem&, const PlateItem&) = default;
@@ -122,7 +122,7 @@ struct GroupItem {
   friend bool operator==(const GroupItem& a, const GroupItem& b);
 };
 
-/// Where the left edge of a block is for a share of an exposure.
+/// A place of a block's left edge, and for which share of the exposure it is there.
 struct Dwell {
   double x = 0;
   double share = 0;
@@ -151,8 +151,8 @@ struct ExposedBlock {
   friend bool operator==(const ExposedBlock&, const ExposedBlock&) = default;
 };
 
-/// A share of an exposure in which the left edge of the block behind and the right edge of the one
-/// in front are less than a pixel apart: left edges of both.
+/// A share of an exposure during which the left edge of the block behind and the right edge of the
+/// one in front are less than a pixel apart. Both places are left edges.
 struct Contact {
   double behind_x = 0;
   double front_x = 0;
@@ -162,7 +162,7 @@ struct Contact {
 };
 
 /// Two blocks, exposed: the mean, in linear light, of the pictures that rectangles would make at
-/// each instant. In a vector file this is a picture; what stays is not.
+/// each instant. A vector file has moving blocks as pixels, and others as rectangles.
 struct ExposedItem {
   ItemId id = ItemId::red_block;
   ExposedBlock behind;  ///< on the right
@@ -182,7 +182,7 @@ struct Plate {
 struct DrawList {
   int width_px = 0;
   int height_px = 0;
-  std::optional<Color> background = Color{255, 255, 255};  ///< transparent without
+  std::optional<Color> background = Color{255, 255, 255};  ///< transparent if empty
   std::vector<DrawItem> items;                             ///< from back to front
 
   friend bool operator==(const DrawList&, const DrawList&) = default;

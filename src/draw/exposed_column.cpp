@@ -17,7 +17,7 @@ Cover cover_of(double pixel, double begin, double length, double line_px) {
           overlap(pixel, begin + line_px, begin + length - line_px)};
 }
 
-/// A block's fill and its line, painted over a sample one after the other as Cairo does.
+/// A sample after a block's fill, its line and its bars are painted over it, as Cairo does.
 double painted(double sample, const ExposedBlock& block, const Cover& column, const Cover& row,
                std::uint8_t Color::*channel) {
   const double outer = column.outer * row.outer;
@@ -31,7 +31,7 @@ double painted(double sample, const ExposedBlock& block, const Cover& column, co
 
 BlockCover::BlockCover(const ExposedBlock& block)
     : block_(block),
-      // A shape thinner than its stroke is all stroke.
+      // A shape thinner than its stroke is nothing but stroke.
       line_px_(std::min({block.stroke.width_px, block.bounds.width, block.bounds.height})),
       sums_{0} {
   for (const Dwell& dwell : block.dwells) sums_.push_back(sums_.back() + dwell.share);
@@ -39,7 +39,7 @@ BlockCover::BlockCover(const ExposedBlock& block)
 
 Cover BlockCover::of_row(int y) const {
   Cover cover = cover_of(y, block_.bounds.y, block_.bounds.height, line_px_);
-  // One after the other.
+  // Each bar covers a part of what the ones before left uncovered.
   for (const Bar& bar : block_.bars) {
     cover.bars += (1 - cover.bars) * overlap(y, bar.y, bar.y + bar.height);
   }
@@ -55,7 +55,7 @@ std::size_t BlockCover::first_at(double x) const {
                                   block_.dwells.begin());
 }
 
-/// Dwells in [from, to), all of which cover the column in the same way.
+/// Adds up the dwells in [from, to), all of which cover the column in the same way.
 void BlockCover::add_alike(double column, double from, double to) {
   const std::size_t begin = first_at(from);
   const std::size_t end = first_at(to);
@@ -78,8 +78,8 @@ std::span<const BlockCover::Share> BlockCover::shares_of_column(double column) {
   } else if (line_px_ < 1 || width - 2 * line_px_ < 1) {
     add_each(column, column - width, column + 1);
   } else {
-    // From the left: the right edge in the column, only the line, the line's inner edge, only the
-    // fill, and the same on the other side.
+    // The column has, in this order: the block's right edge, only its line, the line's inner edge,
+    // only its fill, and the same on the other side.
     add_each(column, column - width, column + 1 - width);
     add_alike(column, column + 1 - width, column - width + line_px_);
     add_each(column, column - width + line_px_, column + 1 - width + line_px_);
@@ -117,8 +117,8 @@ std::uint32_t ExposedColumn::pixel(const RowCover& row, std::uint32_t background
   return pixel;
 }
 
-/// What each block takes from the light behind it, and, since that is not additive where both are
-/// in one pixel at the same time, how much more or less both take together.
+/// Each block changes the light behind it by its share of time. Where both are in one pixel at the
+/// same time, these changes do not add up: contacts correct that.
 double ExposedColumn::light_of(const RowCover& row, double background,
                                std::uint8_t Color::*channel) const {
   const ExposedBlock& behind = item_.behind;

@@ -12,8 +12,8 @@
 
 namespace piblocks {
 
-/// How much of a row or a column of pixels is covered by a block, by what is inside its line, and,
-/// of a row, by its bars.
+/// How much of a row or a column of pixels a block covers, the part inside its line, and, of a row,
+/// its bars.
 struct Cover {
   double outer = 0;
   double inner = 0;
@@ -30,7 +30,7 @@ struct RowCover {
   friend bool operator==(const RowCover&, const RowCover&) = default;
 };
 
-/// A block, and for which share of the exposure it covers a column in which way.
+/// How a block covers a row, and a column over the time of the exposure.
 class BlockCover {
  public:
   explicit BlockCover(const ExposedBlock& block);
@@ -43,7 +43,7 @@ class BlockCover {
     Cover cover;
     double share = 0;
   };
-  /// All ways in which the block covers some of a column; valid until the next call.
+  /// All ways in which the block covers a column; valid until the next call.
   std::span<const Share> shares_of_column(double column);
 
  private:
@@ -57,7 +57,7 @@ class BlockCover {
   std::vector<Share> shares_;
 };
 
-/// Used for one column after another.
+/// One column after another.
 class ExposedColumn {
  public:
   ExposedColumn(const ExposedItem& item, const Light& light)
@@ -66,7 +66,7 @@ class ExposedColumn {
   RowCover row_cover(int y) const { return {behind_.of_row(y), front_.of_row(y)}; }
   /// Turns to the column from `x` to `x` + 1. False if no block is ever in it.
   bool enter(int x);
-  /// The pixel of a row in front of this one: words 0x00RRGGBB.
+  /// The pixel of a row over a background; both 0x00RRGGBB.
   std::uint32_t pixel(const RowCover& row, std::uint32_t background);
 
  private:

@@ -38,7 +38,7 @@ PixelRect moving_area(const ExposedItem& item, const PixelRect& area) {
     left = std::min(left, front.x_px);
     right = std::max(right, front.x_px + front.width_px);
   }
-  // Where one moves, the other is painted with it.
+  // Where one block moves, the other is painted with it.
   const int top = std::min(behind.y_px, front.y_px);
   const int bottom = std::max(behind.y_px + behind.height_px, front.y_px + front.height_px);
   return {left, top, std::max(0, right - left), bottom - top};
@@ -52,8 +52,8 @@ std::vector<DrawItem> still_blocks(const ExposedItem& item) {
   return still;
 }
 
-/// A pixel's value depends on the column and what is behind alone, so that a part of the picture
-/// has the pixels of the whole. What stays is Cairo's but where the other one passes.
+/// A pixel depends on its column and its background alone, so that a part of the picture has the
+/// pixels of the whole. Cairo paints a block that stays, except where the other one passes.
 void ExposedPainter::paint(cairo_surface_t& surface, const PixelRect& area, const ExposedItem& item,
                            const PaintStill& paint_still) {
   const PixelRect moving = moving_area(item, area);

@@ -11,8 +11,8 @@ namespace piblocks {
 constexpr std::uint32_t ids_from(std::uint32_t thing) { return thing << 16; }
 
 /// What an item shows, the same from frame to frame. Where several items show one thing, nth()
-/// tells them apart. Lists whose ids rise from back to front may gain and lose items from frame to
-/// frame, and only these are painted.
+/// tells them apart. Where ids rise from back to front, a frame may have more or fewer items than
+/// the one before, and only these are painted.
 enum class ItemId : std::uint32_t {
   wall = ids_from(0),
   red_block = ids_from(1),
@@ -47,8 +47,8 @@ struct Color {
   friend bool operator==(const Color&, const Color&) = default;
 };
 
-/// In pixels, y downwards, origin at the frame's upper left corner; whole numbers are the lines
-/// between pixels.
+/// y points down; the origin is the frame's upper left corner; whole numbers are the lines between
+/// pixels.
 struct Point {
   double x = 0;
   double y = 0;
@@ -56,7 +56,7 @@ struct Point {
   friend bool operator==(const Point&, const Point&) = default;
 };
 
-/// In pixels, from its upper left corner.
+/// From its upper left corner.
 struct Rectangle {
   double x = 0;
   double y = 0;

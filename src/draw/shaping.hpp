@@ -8,9 +8,8 @@
 
 namespace piblocks {
 
-/// A character that is set right only by a program that shapes text.
 struct Unshaped {
-  std::string name;    ///< "U+0301", and a letter itself before it
+  std::string name;    ///< "U+0301"; of a letter "'ش' (U+0634)"
   const char* reason;  ///< "is in a script that needs shaping"
   const char* remedy;  ///< "use another script"
 };

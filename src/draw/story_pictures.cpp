@@ -14,7 +14,7 @@
 namespace piblocks {
 namespace {
 
-/// A line may be set so much smaller than planned; beyond that it is too long.
+/// A line that has to be smaller than this part of its planned size is too long.
 constexpr double kLeastShrink = 0.4;
 // In ems.
 constexpr double kBelowHeading = 0.75;  // of the heading, to the next line's capitals
@@ -30,7 +30,7 @@ double fitted_px(const std::string& text, double size_px, double width_px, const
       text, width_px));
 }
 
-/// Below this a cell shows nothing.
+/// A smaller cell shows nothing.
 constexpr int kLeastCell_px = 8;
 
 Rectangle to_rectangle(const PixelRect& r) {
@@ -46,7 +46,7 @@ DrawList compose_card(const std::vector<std::string>& lines, const View& view) {
   const double inner_px = view.width_px - 2 * style::kCardMargin * measure;
 
   const double heading_px = fitted_px(lines.front(), style::kCardHeading * measure, inner_px, font);
-  // Lines of one size, so that none seems to matter more.
+  // All other lines have one size, so that none seems to matter more.
   double line_px = style::kCardLine * measure;
   for (std::size_t i = 1; i < lines.size(); ++i) {
     line_px = std::min(line_px, fitted_px(lines[i], style::kCardLine * measure, inner_px, font));

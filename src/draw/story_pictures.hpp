@@ -11,8 +11,8 @@
 
 namespace piblocks {
 
-/// A title card: lines of text in the middle of the frame.
-/// The first line is set as a heading; all are made smaller where they would not fit.
+/// A title card: lines of text in the middle of the frame. The first one is a heading. Lines that
+/// do not fit are made smaller.
 /// @param lines  at least one, not empty.
 /// @throws UsageError if a line cannot be set, or is too long for the frame.
 DrawList compose_card(const std::vector<std::string>& lines, const View& view);

@@ -126,7 +126,7 @@ void OffPixels::find_densest(int side_px, Difference& result) const {
 
 void OffPixels::add_row(int y, int sign, std::vector<int>& columns) const {
   if (y < top_ || y > bottom_) return;
-  // Local copies: the compiler has to load members again after every write to a column.
+  // Local copies: else the compiler loads members again after every write to a column.
   const int count = width_px_;
   const std::uint8_t* const row = is_off_.data() + std::ptrdiff_t{y} * count;
   int* const column = columns.data();
@@ -155,8 +155,7 @@ void check_tolerance(const Tolerance& tolerance) {
   if (!is_valid) throw UsageError("compare: the tolerance is out of range");
 }
 
-/// How many levels a delta is, of which 255 are the full range: down to a whole number, since
-/// deltas of samples are whole.
+/// The number of whole levels in a delta, of which 255 are the full range.
 int levels_of(const Rational& delta, int max_level) {
   return static_cast<int>(floor(delta * max_level / 255).get_si());
 }
@@ -169,7 +168,7 @@ Difference compare_pictures(const Picture<Word>& reference, const Picture<Word>&
   const int max_delta = levels_of(tolerance.max_delta, max_level);
   Difference result;
   result.max_level = max_level;
-  std::optional<OffPixels> off;  // made when there is something to hold
+  std::optional<OffPixels> off;  // most frames need none
   for_each_difference(
       reference, actual, masks, [&](const std::array<int, 4>& deltas, int x, int y) {
         if (result.different_pixels++ == 0) {

@@ -21,7 +21,6 @@ bool is_framehash(const std::string& name) {
   return has_ending(name, ".framehash") || has_ending(name, ".framemd5");
 }
 
-/// Two frames at one depth.
 struct SamplePair {
   Samples reference;
   Samples actual;
@@ -48,7 +47,6 @@ std::string size_of(const Samples& samples) {
       samples);
 }
 
-/// Counts what every frame comes to.
 void take(const FrameComparison& frame, ComparisonResult& result) {
   ++result.frames;
   result.different_frames += frame.is_equal() ? 0 : 1;

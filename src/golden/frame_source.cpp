@@ -31,7 +31,7 @@ bool is_folder(const fs::path& path) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The number that `text` begins with, without its leading zeros; removed from `text`.
+/// Removes the number that `text` begins with, and returns it without its leading zeros.
 std::string_view take_number(std::string_view& text) {
   std::size_t end = 0;
   while (end < text.size() && is_digit(text[end])) ++end;
@@ -41,7 +41,7 @@ std::string_view take_number(std::string_view& text) {
   return number;
 }
 
-/// frame2 before frame10.
+/// By the numbers in names: frame2 comes before frame10.
 bool comes_before(const fs::path& one, const fs::path& other) {
   const std::string one_name = one.filename();
   const std::string other_name = other.filename();

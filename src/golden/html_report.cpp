@@ -6,7 +6,6 @@
 #include "core/base64.hpp"
 #include "core/markup.hpp"
 #include "core/output_file.hpp"
-#include "golden/diff_picture.hpp"
 #include "golden/report_source.hpp"
 #include "golden/reports.hpp"
 
@@ -33,7 +32,7 @@ std::string picture(const Image& image, std::string_view kind) {
                      base64(encode_png(image.view())));
 }
 
-/// What is left of the slider is expected, what is right of it was found.
+/// The expected picture is left of the slider, the actual one right of it.
 std::string pictures_of(const FrameComparison& frame) {
   const Image reference = frame.reference();
   const Image actual = frame.actual();

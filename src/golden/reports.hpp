@@ -4,8 +4,10 @@
 
 #include <piblocks/compare.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/overwrite_check.hpp"
 
@@ -14,6 +16,15 @@ namespace piblocks {
 /// What a comparison found: "3 pixels differ, largest delta 200 of 255, first at x=10 y=20 (red)
 /// …".
 std::string difference_text(const FrameComparison& frame);
+
+/// The reference in pale grey, with red where pixels differ, stronger where they differ more.
+/// @param deltas  as pixel_deltas() returns them
+Image difference_picture(const Image& reference, const std::vector<std::uint8_t>& deltas);
+
+/// Expected, difference, actual, from left to right. If three pictures are wider than kMaxSide_px,
+/// only a part around `focus` is shown.
+Image difference_strip(const Image& reference, const std::vector<std::uint8_t>& deltas,
+                       const Image& actual, const PixelRect& focus);
 
 class Report {
  public:

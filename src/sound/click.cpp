@@ -7,7 +7,7 @@
 namespace piblocks {
 namespace {
 
-/// Sums of impulses go on as (m_red / m_blue), which may be more than a double holds.
+/// Sums of impulses grow like m_red / m_blue, which may be beyond the range of a double.
 constexpr double kMost = 1e300;
 
 constexpr double kHighest = 8;
@@ -21,9 +21,9 @@ double nearness(double distance_samples) {
 
 double bounded(double impulse) { return std::min(impulse, kMost); }
 
-/// Of the rate; half-way down the slope from 18 to 23 kHz.
+/// In parts of the rate: the middle of the slope from 18 to 23 kHz.
 constexpr double kCutoff = 20.5 / 48;
-/// For 80 dB.
+/// Shape of the window, for 80 dB.
 constexpr double kBeta = 7.857;
 
 /// The modified Bessel function of order 0, by its power series.

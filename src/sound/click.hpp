@@ -11,21 +11,20 @@
 
 namespace piblocks {
 
-/// Clacks closer than this are heard together, the less the farther apart.
+/// The ear hears clacks closer than this together, the less the farther apart they are.
 inline constexpr int kTogether_samples = 4;
 
-/// What becomes of an impulse: of a small one itself, of 1 0.8, of 100 3.2, and of none 8 or more.
-/// Those that come within one sample grow like the mass ratio, without limit in the number of
-/// digits.
+/// The height for an impulse: a small one stays as it is, 1 gives 0.8, 100 gives 3.2, and all are
+/// below 8. The sum of the impulses within a sample grows like the mass ratio, without a limit.
 double compressed(double impulse);
 
 /// The height of the click for clack `index`. The impulses around it decide how much it is
-/// compressed, so that a crowd of collisions is as loud as one blow of all of them.
-/// @param clacks  those within kTogether_samples of it included, in the order of `sample`.
+/// compressed, so that many collisions are as loud as one of their total impulse.
+/// @param clacks  in the order of `sample`; all within kTogether_samples of it are among them
 double height(std::span<const Clack> clacks, std::size_t index);
 
-/// A sinc in a Kaiser window: even to 18 kHz at a rate of 48 kHz; 80 dB down from 23 kHz on, so
-/// that nothing is folded back that could be heard.
+/// A sinc in a Kaiser window: flat to 18 kHz at a rate of 48 kHz, and 80 dB down from 23 kHz on, so
+/// that aliasing is inaudible.
 class ClickKernel {
  public:
   /// Samples it reaches to both sides.
@@ -33,9 +32,8 @@ class ClickKernel {
 
   ClickKernel();
 
-  /// The pulse of height 1 at `fraction` of a sample, 0 <= fraction < 1, multiplied by `left` and
-  /// `right`, is added to the pairs of samples from `samples` on: 2 * kReach of them, of which the
-  /// one with index kReach - 1 is at fraction 0.
+  /// Adds a pulse with these heights to 2 * kReach pairs of samples. The pulse is `fraction` of a
+  /// sample, 0 <= fraction < 1, after the pair with index kReach - 1.
   void add(double fraction, double left, double right, double* samples) const;
 
  private:

@@ -16,19 +16,20 @@
 
 namespace piblocks {
 
-/// 48 kHz in stereo. A collision is heard at the very moment when the film shows it; where the film
-/// stands still there is none, where it goes backwards they come in the reverse order. Slow motion
-/// moves clacks apart and leaves each as it is. Takes the same memory for a film of any length, and
-/// the same bits come out each time. Used by one thread at a time.
+/// 48 kHz in stereo. Each collision sounds exactly when the film shows it. A freeze has none, and a
+/// film that goes backwards has them in reverse order. Slow motion moves clacks apart and does not
+/// change them. Takes the same memory for a film of any length, and makes the same bits each time.
+/// Used by one thread at a time.
 class Soundtrack {
  public:
   static constexpr int kRate_hz = 48000;
 
-  /// @param voices      in the order in which they begin; none is silence.
-  /// @param duration_s  of the film, > 0.
+  /// @param voices      in the order in which they begin; may be empty
+  /// @param duration_s  of the film, > 0
   /// @throws UsageError if stretches do not begin at 0 s, or are not in the film's order.
   Soundtrack(std::vector<Voice> voices, const Rational& duration_s);
-  /// Pairs of samples in the whole: the film's duration, to the nearest.
+
+  /// Pairs of samples: the film's duration, to the nearest.
   std::int64_t size() const noexcept { return size_; }
   /// Writes the next samples, left and right in turn, from -1 to 1.
   /// @return how many pairs; less than there is room for only at the end.

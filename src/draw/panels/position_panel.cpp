@@ -9,8 +9,8 @@
 namespace piblocks {
 namespace {
 
-/// A wedge narrower than this could not be seen, nor one that is so near to a right angle: it is
-/// drawn as half a right angle then.
+/// A wedge angle so near to 0 or to a right angle could not be seen. The wedge is then drawn as
+/// half a right angle.
 constexpr double kLeastAngle = 0.2;
 constexpr double kBelow_em = 1.5;
 
@@ -41,7 +41,6 @@ class PositionPanel {
  private:
   double slope() const { return is_true_ ? gaps_.sine / gaps_.cosine : 1; }
 
-  /// The corner is at the lower left.
   void place_wedge() {
     const Rectangle& inside = sheet_.inside();
     const double height = inside.height - kBelow_em * sheet_.text_px();

@@ -19,7 +19,7 @@ class TimePanel {
     const auto pieces =
         trajectory_of(setting.log, gaps_, {axis_.span().from, axis_.span().to, columns});
     top_ = greatest_y2(pieces);
-    // What blue covers is behind, and red's line over it.
+    // Red's line is over what blue covers.
     for (const TrajectoryPiece& piece : pieces) add_blue(piece);
     add_red(pieces);
     axis_.add_base(sheet_);

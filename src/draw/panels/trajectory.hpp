@@ -1,6 +1,6 @@
 // A run over a span of time as lines that can be drawn, however many collisions it has.
-// In: a log and the span, cut into columns. Out: corners of the motion where there are few in a
-// column, and what blue's gap covers where there are more: exactly, in either case.
+// In: a log and the span, cut into columns. Out: the corners of the motion where a column has few,
+// and elsewhere the band that blue's gap covers. Both are exact.
 #pragma once
 
 #include <piblocks/run.hpp>
@@ -16,7 +16,7 @@ struct TimedGaps {
   GapPoint gaps;
 };
 
-/// What blue's gap covers from one instant to the next: all from the wall to `high`.
+/// From one instant to the next, blue's gap takes all values from 0 to `high`.
 struct Band {
   TimedGaps from;
   TimedGaps to;
@@ -32,7 +32,7 @@ struct TrajectoryPiece {
 struct TrajectorySpan {
   Rational from;
   Rational to;
-  int columns;  ///< >= 1; of one pixel, they show every line that a picture can
+  int columns;  ///< >= 1; columns of one pixel show all that a picture can
 };
 
 /// Pieces from one end of the span to the other.
