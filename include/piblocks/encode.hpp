@@ -16,19 +16,16 @@ struct EncoderSettings {
   /// Constant rate factor, 1 (best) … 51; for WebM whole, 0 … 63.
   std::optional<double> crf = {};
   std::optional<std::string> preset = {};  ///< the encoder's own name for a speed
-  /// One of h264_encoders(), webm_encoders() or prores_encoders(). "damage" is the one that encodes
-  /// only what changes.
+  /// One of encoder_names(). "damage" is the one that encodes only what changes.
   std::optional<std::string> encoder = {};
 };
 
-/// Names of the encoders for MP4 and MOV, the default first.
-std::vector<std::string> h264_encoders();
-/// The same for WebM.
-std::vector<std::string> webm_encoders();
-/// The same for MOV with alpha.
-std::vector<std::string> prores_encoders();
-/// Names of the sound encoders: that of MP4 and MOV, that of WebM.
-std::vector<std::string> sound_encoders();
+/// What an encoder is for: MP4 and MOV, WebM, MOV with alpha, or sound.
+enum class EncoderKind : std::uint8_t { h264, webm, prores, sound };
+
+/// Names of the encoders that can be used on this machine, the default first. Of sound: that of MP4
+/// and MOV, that of WebM.
+std::vector<std::string> encoder_names(EncoderKind kind);
 
 /// The picture as a PNG file: 8-bit RGB in sRGB, with alpha if the view has it. Equal pixels give
 /// equal bytes. PNG keeps colours that are not multiplied by alpha; these are rounded to the

@@ -12,7 +12,7 @@
 #include "cli/options.hpp"
 #include "cli/text_output.hpp"
 #include "draw/canvas.hpp"
-#include "media/output/frame_sink.hpp"
+#include "media/output/outputs.hpp"
 #include "physics/physics_versions.hpp"
 #include "scene/schedule.hpp"
 
@@ -52,10 +52,11 @@ void run_info() {
   for (const std::string& library : media_library_versions()) out.format_line("  {}", library);
   out.format_line("  fmt {}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
                   FMT_VERSION % 100);
-  print_encoders(out, "H.264 encoders, the default first", h264_encoders(), "MP4");
-  print_encoders(out, "WebM encoders, the default first", webm_encoders(), "WebM");
-  print_encoders(out, "ProRes encoders", prores_encoders(), "MOV with transparency");
-  print_encoders(out, "sound encoders", sound_encoders(), "videos with sound");
+  print_encoders(out, "H.264 encoders, the default first", encoder_names(EncoderKind::h264), "MP4");
+  print_encoders(out, "WebM encoders, the default first", encoder_names(EncoderKind::webm), "WebM");
+  print_encoders(out, "ProRes encoders", encoder_names(EncoderKind::prores),
+                 "MOV with transparency");
+  print_encoders(out, "sound encoders", encoder_names(EncoderKind::sound), "videos with sound");
   print_limits(out);
   out.finish();
 }

@@ -14,8 +14,7 @@
 #include "cli/stop_on_signals.hpp"
 #include "core/ending.hpp"
 #include "core/overwrite_check.hpp"
-#include "media/output/claim_output.hpp"
-#include "media/output/frame_sink.hpp"
+#include "media/output/outputs.hpp"
 #include "render/bundle.hpp"
 
 namespace piblocks::cli {

@@ -13,7 +13,6 @@
 
 #include "core/file_set.hpp"
 #include "golden/reports.hpp"
-#include "media/output/claim_output.hpp"
 #include "media/output/frame_pattern.hpp"
 #include "media/png/png_chunk.hpp"
 

@@ -10,8 +10,9 @@
 #include <system_error>
 
 #include "core/ending.hpp"
-#include "media/output/claim_output.hpp"
+#include "media/libav/av_module.hpp"
 #include "media/output/frame_pattern.hpp"
+#include "media/png/png_reader.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/overwrite_check.hpp"
-#include "media/output/frame_reader.hpp"
+#include "media/pixels/frame_reader.hpp"
 
 namespace piblocks {
 

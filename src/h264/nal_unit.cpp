@@ -23,6 +23,11 @@ std::vector<std::uint8_t> without_emulation_prevention(Bytes bytes) {
   return rbsp;
 }
 
+/// A fourth zero before the start code is one of those that may follow any unit.
+Bytes::iterator next_unit(Bytes stream, Bytes::iterator from) {
+  return std::search(from, stream.end(), kStartCode.begin() + 1, kStartCode.end());
+}
+
 }  // namespace
 
 void append_unit(UnitType type, int nal_ref_idc, Bytes rbsp, std::vector<std::uint8_t>& stream) {
@@ -41,15 +46,10 @@ void append_unit(UnitType type, int nal_ref_idc, Bytes rbsp, std::vector<std::ui
 }
 
 std::vector<Unit> read_units(Bytes stream) {
-  // A fourth zero before the start code is one of those that may follow any unit.
-  const Bytes start_code = Bytes(kStartCode).last(3);
-  const auto next_unit = [&](Bytes::iterator from) {
-    return std::search(from, stream.end(), start_code.begin(), start_code.end());
-  };
   std::vector<Unit> units;
-  for (auto start = next_unit(stream.begin()); start != stream.end();) {
+  for (auto start = next_unit(stream, stream.begin()); start != stream.end();) {
     const auto begin = start + 3;
-    start = next_unit(begin);
+    start = next_unit(stream, begin);
     auto end = start;
     while (end != begin && end[-1] == 0) --end;
     if (begin == end) continue;
@@ -58,6 +58,17 @@ std::vector<Unit> read_units(Bytes stream) {
         {.type = *begin & kTypeMask, .rbsp = without_emulation_prevention(Bytes(begin + 1, end))});
   }
   return units;
+}
+
+Bytes without_user_data(Bytes access_unit) {
+  constexpr std::uint8_t kUnregisteredUserData = 5;  // payloadType
+  const auto first = next_unit(access_unit, access_unit.begin());
+  const bool is_user_data = access_unit.end() - first > 4 &&
+                            first[3] == static_cast<int>(UnitType::sei) &&
+                            first[4] == kUnregisteredUserData;
+  if (!is_user_data) return access_unit;
+  const auto second = next_unit(access_unit, first + 3);
+  return second == access_unit.end() ? access_unit : Bytes(second, access_unit.end());
 }
 
 }  // namespace piblocks::h264

@@ -32,4 +32,7 @@ struct Unit {
 /// The units of a stream with start codes of three or four bytes.
 std::vector<Unit> read_units(std::span<const std::uint8_t> stream);
 
+/// The access unit without an SEI of user data (D.1.6) at its start, if other units follow.
+std::span<const std::uint8_t> without_user_data(std::span<const std::uint8_t> access_unit);
+
 }  // namespace piblocks::h264

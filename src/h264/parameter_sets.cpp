@@ -13,13 +13,6 @@
 namespace piblocks::h264 {
 namespace {
 
-struct Sequence {
-  std::uint32_t id;
-  int log2_max_frame_num;
-  int width_mb;
-  int height_mb;
-};
-
 void refuse_if(bool is_other, std::string_view property) {
   if (is_other) throw HeaderError(message("h264: cannot continue a stream with ", property));
 }
@@ -57,87 +50,75 @@ void read_cropping(BitReader& bits, std::uint32_t size, std::string_view name) {
 }
 
 /// seq_parameter_set_data(), 7.3.2.1.1, up to the VUI, which is its end.
-Sequence read_sequence(std::span<const std::uint8_t> rbsp) {
-  constexpr auto kLastSide_mb = static_cast<std::uint32_t>(kMaxSide_mb - 1);
-  BitReader bits(rbsp);
+/// @return seq_parameter_set_id
+std::uint32_t read_sequence(BitReader bits, ParameterSets& sets) {
   const std::uint32_t profile = bits.get(8);
   bits.get(16);  // constraint flags, level
-  Sequence sequence{};
-  sequence.id = in_range(bits.get_unsigned(), 0U, 31U, "seq_parameter_set_id");
+  const std::uint32_t id = in_range(bits.get_unsigned(), 0U, 31U, "seq_parameter_set_id");
   if (is_high_profile(profile)) read_high_profile_fields(bits);
-  sequence.log2_max_frame_num =
+  sets.log2_max_frame_num =
       static_cast<int>(4 + in_range(bits.get_unsigned(), 0U, 12U, "log2_max_frame_num_minus4"));
   const std::uint32_t order_type = bits.get_unsigned();
   refuse_if(order_type != 2,
             message("picture order type ", order_type, " (as for B-frames and fields)"));
   refuse_if(bits.get_unsigned() == 0, "no reference pictures");
   bits.get_flag();  // gaps_in_frame_num_value_allowed_flag
-  const std::uint32_t width_mb =
-      1 + in_range(bits.get_unsigned(), 0U, kLastSide_mb, "pic_width_in_mbs_minus1");
-  const std::uint32_t height_mb =
-      1 + in_range(bits.get_unsigned(), 0U, kLastSide_mb, "pic_height_in_map_units_minus1");
+  const auto side_mb = [&](std::string_view name) {
+    constexpr auto kLast = static_cast<std::uint32_t>(kMaxSide_mb - 1);
+    return 1 + static_cast<int>(in_range(bits.get_unsigned(), 0U, kLast, name));
+  };
+  sets.width_mb = side_mb("pic_width_in_mbs_minus1");
+  sets.height_mb = side_mb("pic_height_in_map_units_minus1");
   refuse_if(!bits.get_flag(), "fields");
   bits.get_flag();  // direct_8x8_inference_flag
   if (bits.get_flag()) {
-    read_cropping(bits, 16 * width_mb, "width");
-    read_cropping(bits, 16 * height_mb, "height");
+    read_cropping(bits, 16U * sets.width_mb, "width");
+    read_cropping(bits, 16U * sets.height_mb, "height");
   }
   bits.get_flag();  // vui_parameters_present_flag
-  sequence.width_mb = static_cast<int>(width_mb);
-  sequence.height_mb = static_cast<int>(height_mb);
-  return sequence;
-}
-
-/// The end of pic_parameter_set_rbsp(), which only high profiles have.
-void read_picture_extension(BitReader& bits, int chroma_qp_offset) {
-  refuse_if(bits.get_flag(), "8x8 transforms");
-  refuse_if(bits.get_flag(), "scaling matrices");
-  refuse_if(bits.get_signed() != chroma_qp_offset, "different quantisers for Cb and Cr");
+  return id;
 }
 
 /// pic_parameter_set_rbsp(), 7.3.2.2.
-ParameterSets read_picture(std::span<const std::uint8_t> rbsp, const Sequence& sequence) {
-  BitReader bits(rbsp);
-  ParameterSets sets{};
-  sets.width_mb = sequence.width_mb;
-  sets.height_mb = sequence.height_mb;
-  sets.log2_max_frame_num = sequence.log2_max_frame_num;
+void read_picture(BitReader bits, std::uint32_t sequence_id, ParameterSets& sets) {
   sets.picture_parameter_set_id = in_range(bits.get_unsigned(), 0U, 255U, "pic_parameter_set_id");
-  in_range(bits.get_unsigned(), sequence.id, sequence.id, "seq_parameter_set_id");
+  in_range(bits.get_unsigned(), sequence_id, sequence_id, "seq_parameter_set_id");
   refuse_if(bits.get_flag(), "CABAC");
   bits.get_flag();  // bottom_field_pic_order_in_frame_present_flag: of no use to type 2
   refuse_if(bits.get_unsigned() != 0, "slice groups");
-  const std::uint32_t references =
-      1 + in_range(bits.get_unsigned(), 0U, 31U, "num_ref_idx_l0_default_active_minus1");
-  sets.overrides_reference_count = references != 1;
+  sets.overrides_reference_count =
+      in_range(bits.get_unsigned(), 0U, 31U, "num_ref_idx_l0_default_active_minus1") != 0;
   in_range(bits.get_unsigned(), 0U, 31U, "num_ref_idx_l1_default_active_minus1");
   refuse_if(bits.get_flag(), "weighted prediction");
   bits.get(2);  // weighted_bipred_idc: of B slices
   sets.initial_qp = 26 + in_range(bits.get_signed(), -26, 25, "pic_init_qp_minus26");
   in_range(bits.get_signed(), -26, 25, "pic_init_qs_minus26");
   sets.chroma_qp_offset = in_range(bits.get_signed(), -12, 12, "chroma_qp_index_offset");
-  const bool controls_deblocking = bits.get_flag();
-  refuse_if(!controls_deblocking, "deblocking that slices cannot switch off");
+  refuse_if(!bits.get_flag(), "deblocking that slices cannot switch off");
   refuse_if(bits.get_flag(), "constrained intra prediction");
   refuse_if(bits.get_flag(), "redundant pictures");
-  if (bits.has_more_data()) read_picture_extension(bits, sets.chroma_qp_offset);
+  if (bits.has_more_data()) {  // only in high profiles
+    refuse_if(bits.get_flag(), "8x8 transforms");
+    refuse_if(bits.get_flag(), "scaling matrices");
+    refuse_if(bits.get_signed() != sets.chroma_qp_offset, "different quantisers for Cb and Cr");
+  }
   if (bits.has_more_data()) throw HeaderError("h264: a picture parameter set has more than it may");
-  return sets;
 }
 
 }  // namespace
 
 ParameterSets read_parameter_sets(std::span<const std::uint8_t> stream) {
+  constexpr auto kSequence = static_cast<int>(UnitType::sequence_parameters);
+  constexpr auto kPicture = static_cast<int>(UnitType::picture_parameters);
   std::vector<Unit> units = read_units(stream);
-  std::erase_if(units, [](const Unit& unit) {
-    return unit.type != static_cast<int>(UnitType::sequence_parameters) &&
-           unit.type != static_cast<int>(UnitType::picture_parameters);
-  });
-  if (units.size() != 2 || units[0].type != static_cast<int>(UnitType::sequence_parameters) ||
-      units[1].type != static_cast<int>(UnitType::picture_parameters)) {
+  std::erase_if(units, [](const Unit& u) { return u.type != kSequence && u.type != kPicture; });
+  if (units.size() != 2 || units[0].type != kSequence || units[1].type != kPicture) {
     throw HeaderError("h264: a stream needs one sequence and then one picture parameter set");
   }
-  return read_picture(units[1].rbsp, read_sequence(units[0].rbsp));
+  ParameterSets sets{};
+  const std::uint32_t sequence_id = read_sequence(BitReader(units[0].rbsp), sets);
+  read_picture(BitReader(units[1].rbsp), sequence_id, sets);
+  return sets;
 }
 
 }  // namespace piblocks::h264

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "h264/block4x4.hpp"
+#include "h264/picture.hpp"
 
 namespace piblocks::h264 {
 

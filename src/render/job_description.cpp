@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "draw/canvas.hpp"
-#include "media/libav/byte_hash.hpp"
+#include "media/libav/av_module.hpp"
 #include "render/logo.hpp"
 #include "scene/schedule.hpp"
 

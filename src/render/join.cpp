@@ -7,7 +7,7 @@
 #include <charconv>
 
 #include "core/overwrite_check.hpp"
-#include "media/output/claim_output.hpp"
+#include "media/output/outputs.hpp"
 #include "media/output/part_file.hpp"
 #include "render/film_sound.hpp"
 #include "render/job_description.hpp"

@@ -1,6 +1,6 @@
 #include "render/logo.hpp"
 
-#include "media/output/frame_reader.hpp"
+#include "media/png/png_reader.hpp"
 
 namespace piblocks {
 

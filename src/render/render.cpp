@@ -4,6 +4,7 @@
 #include <piblocks/render.hpp>
 
 #include "draw/canvas.hpp"
+#include "media/output/outputs.hpp"
 #include "media/output/part_file.hpp"
 #include "render/bundle.hpp"
 #include "render/chunks.hpp"

@@ -16,7 +16,7 @@
 #include <iterator>
 
 #include "circumstances.hpp"
-#include "media/output/frame_sink.hpp"
+#include "media/output/outputs.hpp"
 #include "media/pixels/yuv420.hpp"
 #include "support/article_frames.hpp"
 #include "support/decode_video.hpp"
@@ -86,12 +86,9 @@ double luma_error(const Pixels& source, const std::vector<std::uint8_t>& decoded
   std::vector<std::uint8_t> chroma(decoded.size() / 2);
   const std::ptrdiff_t width = source.width_px;
   convert_to_yuv420(source.view(), {0, 0, source.width_px, source.height_px},
-                    {.y = y.data(),
-                     .cb = chroma.data(),
-                     .cr = chroma.data() + chroma.size() / 2,
-                     .y_stride_bytes = width,
-                     .cb_stride_bytes = width / 2,
-                     .cr_stride_bytes = width / 2});
+                    {.y = {y.data(), width},
+                     .cb = {chroma.data(), width / 2},
+                     .cr = {chroma.data() + chroma.size() / 2, width / 2}});
   std::int64_t sum = 0;
   for (std::size_t i = 0; i < y.size(); ++i) sum += (y[i] - decoded[i]) * (y[i] - decoded[i]);
   return static_cast<double>(sum) / static_cast<double>(y.size());

@@ -2,7 +2,7 @@
 #include <piblocks/error.hpp>
 
 #include "fuzz/input_file.hpp"
-#include "media/output/frame_reader.hpp"
+#include "media/png/png_reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const piblocks::fuzz::InputFile file(data, size);

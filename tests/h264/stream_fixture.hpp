@@ -13,7 +13,7 @@
 
 #include "h264/picture_encoder.hpp"
 #include "media/libav/av.hpp"
-#include "media/libav/find_encoder.hpp"
+#include "media/libav/codec_choice.hpp"
 #include "media/libav/video_encoder.hpp"
 
 namespace piblocks::h264 {
@@ -21,7 +21,7 @@ namespace piblocks::h264 {
 /// What libx264 says of its stream at the product's own settings.
 struct StreamHeaders {
   explicit StreamHeaders(const VideoFormat& format)
-      : encoder(format, h264_choice(format, {}, usable_h264_encoders)) {
+      : encoder(format, h264_choice(format, {}, {EncoderKind::h264})) {
     const AVCodecParameters& parameters = encoder.parameters();
     bytes.assign(parameters.extradata, parameters.extradata + parameters.extradata_size);
     sets = read_parameter_sets(bytes);

@@ -13,7 +13,7 @@ using Bytes = std::vector<std::uint8_t>;
 TEST(AlphaPacket, GivesBackWhatWasPutIn) {
   for (const Bytes& picture : {Bytes{}, Bytes{1}, Bytes(300, 7)}) {
     for (const Bytes& alpha : {Bytes{}, Bytes{9}, Bytes(70000, 3)}) {
-      const Bytes bytes = with_alpha(picture, alpha);
+      const Bytes bytes = with_alpha({picture, alpha});
       const PictureAndAlpha both = without_alpha(bytes);
       EXPECT_TRUE(std::ranges::equal(both.picture, picture));
       EXPECT_TRUE(std::ranges::equal(both.alpha, alpha));

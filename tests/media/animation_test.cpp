@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "media/libav/color_table.hpp"
-#include "media/output/frame_reader.hpp"
-#include "media/output/frame_sink.hpp"
+#include "media/output/outputs.hpp"
+#include "media/libav/av_module.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
 #include "support/property.hpp"

@@ -14,7 +14,7 @@ using Marks = ChangedPicture::Marks;
 
 TEST(ChangedPicture, KnowsTheLeastRectangleAndEachPixelOfIt) {
   Pixels pixels = random_frame(40, 30, 1);
-  ChangedPicture picture(40, 30, Marks::new_pixels);
+  ChangedPicture picture(40, 30, Marks::changed_pixels);
   const PixelRect whole{0, 0, 40, 30};
   picture.take(pixels.view(), {&whole, 1});
   EXPECT_EQ(picture.changed(), whole);
@@ -26,7 +26,7 @@ TEST(ChangedPicture, KnowsTheLeastRectangleAndEachPixelOfIt) {
   for (int y = 0; y < 30; ++y) {
     for (int x = 0; x < 40; ++x) {
       EXPECT_EQ(picture.row(y)[x], pixels.at(x, y));
-      EXPECT_EQ(picture.news(y)[x], (x == 7 && y == 5) || (x == 20 && y == 11)) << x << ' ' << y;
+      EXPECT_EQ(picture.marks(y)[x], (x == 7 && y == 5) || (x == 20 && y == 11)) << x << ' ' << y;
     }
   }
   picture.settle();
@@ -36,7 +36,7 @@ TEST(ChangedPicture, KnowsTheLeastRectangleAndEachPixelOfIt) {
 
 TEST(ChangedPicture, LooksAtTheGivenRectanglesAlone) {
   Pixels pixels = random_frame(40, 30, 2);
-  ChangedPicture picture(40, 30, Marks::new_pixels);
+  ChangedPicture picture(40, 30, Marks::changed_pixels);
   const PixelRect whole = picture.whole();
   picture.take(pixels.view(), {&whole, 1});
   picture.settle();
@@ -49,7 +49,7 @@ TEST(ChangedPicture, LooksAtTheGivenRectanglesAlone) {
 
 TEST(ChangedPicture, KnowsTheSameRectangleWithoutMarks) {
   Pixels pixels = random_frame(40, 30, 4);
-  ChangedPicture marked(40, 30, Marks::new_pixels);
+  ChangedPicture marked(40, 30, Marks::changed_pixels);
   ChangedPicture plain(40, 30, Marks::none);
   const PixelRect whole = plain.whole();
   for (const int x : {0, 39, 7}) {
@@ -66,7 +66,7 @@ TEST(ChangedPicture, KnowsTheSameRectangleWithoutMarks) {
 
 TEST(ChangedPicture, WhatIsInPlaceOfAnOpaquePixelsAlphaDoesNotMatter) {
   Pixels pixels = random_frame(4, 3, 3);
-  ChangedPicture picture(4, 3, Marks::new_pixels);
+  ChangedPicture picture(4, 3, Marks::changed_pixels);
   const PixelRect whole = picture.whole();
   picture.take(pixels.view(), {&whole, 1});
   picture.settle();

@@ -74,7 +74,8 @@ int largest_error(const Pixels& drawn, const h264::ShownPicture& shown) {
 class DamageChunkTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (h264_encoders().empty() || h264_encoders().front() != "damage") {
+    if (encoder_names(EncoderKind::h264).empty() ||
+        encoder_names(EncoderKind::h264).front() != "damage") {
       GTEST_SKIP() << "the headers are libx264's";
     }
   }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "media/output/frame_sink.hpp"
+#include "media/output/outputs.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
 #include "support/temporary_folder.hpp"
@@ -25,14 +25,14 @@ const VideoFormat kFormat = {
 constexpr std::int64_t kFramesPerChunk = 29;  // floor(29.97)
 
 bool has_x264() {
-  const std::vector<std::string> names = h264_encoders();
+  const std::vector<std::string> names = encoder_names(EncoderKind::h264);
   return std::ranges::find(names, "libx264") != names.end();
 }
 
 class Mp4Test : public testing::Test {
  protected:
   void SetUp() override {
-    if (h264_encoders().empty()) GTEST_SKIP() << "libavcodec has no H.264 encoder";
+    if (encoder_names(EncoderKind::h264).empty()) GTEST_SKIP() << "libavcodec has no H.264 encoder";
   }
 
   DecodedVideo written_and_read(const EncoderSettings& settings, std::int64_t frames,
@@ -71,7 +71,7 @@ TEST_F(Mp4Test, ShowsEveryFrameAtItsExactTime) {
 TEST_F(Mp4Test, EveryChunkAndNothingElseStartsWithAKeyFrame) {
   // By default a chunk may change its encoder, at a key frame: damage_chunk_test.cpp.
   const DecodedVideo video =
-      written_and_read({.encoder = h264_encoders().front()}, 3 * kFramesPerChunk);
+      written_and_read({.encoder = encoder_names(EncoderKind::h264).front()}, 3 * kFramesPerChunk);
   for (std::size_t i = 0; i < video.frames.size(); ++i) {
     EXPECT_EQ(video.frames[i].key_frame, i % kFramesPerChunk == 0) << i;
   }
@@ -221,7 +221,7 @@ TEST_F(Mp4Test, NamesTheSettingThatIsWrong) {
 }
 
 TEST(H264Encoders, AreOnesThatCanBeOpened) {
-  for (const std::string& name : h264_encoders()) {
+  for (const std::string& name : encoder_names(EncoderKind::h264)) {
     const TemporaryFolder folder;
     EXPECT_NO_THROW(set_up_output(folder / "out.mp4", kFormat, {.encoder = name})) << name;
   }

@@ -1,4 +1,6 @@
 // PNG files of every depth and colour type, read as they are stored.
+#include "media/png/png_reader.hpp"
+
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
@@ -6,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "media/output/frame_reader.hpp"
 #include "support/hand_made_png.hpp"
 #include "support/property.hpp"
 #include "support/temporary_folder.hpp"

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "media/output/frame_reader.hpp"
 #include "media/png/png_encoder.hpp"
+#include "media/png/png_reader.hpp"
 #include "support/decode_video.hpp"
 #include "support/property.hpp"
 #include "support/temporary_folder.hpp"

@@ -8,7 +8,7 @@
 #include <csignal>
 #include <cstdio>
 
-#include "media/output/frame_sink.hpp"
+#include "media/output/outputs.hpp"
 #include "media/pixels/yuv420.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
@@ -279,7 +279,7 @@ TEST(Y4m, HasTheHeaderAndThePlanesOfEveryFrame) {
   for (int i = 0; i < 6; ++i) {
     std::vector<std::uint8_t> planes(300);
     convert_to_yuv420(paint(i).view(), {0, 0, 20, 10},
-                      {planes.data(), planes.data() + 200, planes.data() + 250, 20, 10, 10});
+                      {{planes.data(), 20}, {planes.data() + 200, 10}, {planes.data() + 250, 10}});
     expected += "FRAME\n" + std::string(planes.begin(), planes.end());
   }
   EXPECT_TRUE(file_contents(folder / "out.y4m") == expected);

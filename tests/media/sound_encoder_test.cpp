@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Codecs, SoundEncoderTest, testing::Values(kAac, kOpus),
 
 TEST(SoundEncoder, SaysWhatToDoWithoutAnEncoder) {
   try {
-    SoundEncoder({"nosuch", 1}, {});
+    SoundEncoder({.name = "nosuch", .bit_rate = 1}, {});
     FAIL();
   } catch (const UsageError& error) {
     EXPECT_NE(std::string(error.what()).find("'nosuch'; leave the sound out"), std::string::npos);

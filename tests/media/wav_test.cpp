@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "media/output/frame_sink.hpp"
+#include "media/output/outputs.hpp"
 #include "support/decode_video.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "media/output/frame_sink.hpp"
+#include "media/output/outputs.hpp"
 #include "support/article_frames.hpp"
 
 namespace piblocks {

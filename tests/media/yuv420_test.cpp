@@ -13,7 +13,7 @@
 namespace piblocks {
 
 void convert_to_yuv420_scalar(const ImageView& image, const PixelRect& rect,
-                              const YuvView& picture);
+                              const Yuv420View& picture);
 
 namespace {
 using testing_support::Pixels;
@@ -30,7 +30,9 @@ struct Picture {
         cb(y.size() / 4, filling),
         cr(y.size() / 4, filling) {}
 
-  YuvView view() { return {y.data(), cb.data(), cr.data(), width_px, width_px / 2, width_px / 2}; }
+  Yuv420View view() {
+    return {{y.data(), width_px}, {cb.data(), width_px / 2}, {cr.data(), width_px / 2}};
+  }
   std::size_t luma_index(int x, int row) const {
     return static_cast<std::size_t>(row * width_px + x);
   }

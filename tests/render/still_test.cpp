@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "media/output/frame_reader.hpp"
 #include "draw/canvas.hpp"
+#include "media/png/png_reader.hpp"
 #include "render/film.hpp"
 #include "render/sheet.hpp"
 #include "scene/schedule.hpp"

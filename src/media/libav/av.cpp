@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <new>
 
+#include "media/libav/module_functions.hpp"
+
 extern "C" {
 #include <libavutil/log.h>
 }
@@ -21,15 +23,21 @@ bool is_io_failure(int code) {
   return std::ranges::any_of(kErrors, [&](int error) { return code == AVERROR(error); });
 }
 
-/// libavformat asks this before it tries a call again that a signal broke off.
+/// libavformat asks this before it repeats a call that a signal interrupted.
 int is_stop_requested(void* stop) {
   return static_cast<const std::stop_token*>(stop)->stop_requested() ? 1 : 0;
 }
 
-/// What such a file names is in nobody's command line, and could be written over.
+/// The overwrite check does not know the files in such a list.
 bool is_list_of_files(const AVInputFormat& format) {
   constexpr std::array<std::string_view, 5> kLists = {"concat", "dash", "hls", "imf", "sdp"};
   return std::ranges::find(kLists, format.name) != kLists.end();
+}
+
+std::string av_error_text(int code) {
+  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
+  av_strerror(code, text.data(), text.size());
+  return text.data();
 }
 
 }  // namespace
@@ -41,13 +49,13 @@ AvInputPtr open_av_input(const std::string& path, const std::stop_token* stop) {
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): libav hands it back as it is
     allocated->interrupt_callback = {is_stop_requested, const_cast<std::stop_token*>(stop)};
   }
-  // The protocol's name keeps libav from taking a colon in the path for one.
+  // "file:" keeps libav from reading a protocol out of a path with a colon.
   const std::string url = "file:" + path;
-  // A picture may have a percent sign in its name, which libav takes for a sequence of others.
+  // Otherwise libav takes a picture with a percent sign in its name for a sequence.
   AVDictionary* options = nullptr;
   check_av(av_dict_set(&options, "pattern_type", "none", 0), "read", path);
   const int code = avformat_open_input(&allocated, url.c_str(), nullptr, &options);
-  av_dict_free(&options);  // where it is no picture, the option is still there
+  av_dict_free(&options);  // only the picture demuxer takes the option
   check_av_read(code, "read", path);
   AvInputPtr input(allocated);
   if (is_list_of_files(*input->iformat)) {
@@ -55,12 +63,6 @@ AvInputPtr open_av_input(const std::string& path, const std::stop_token* stop) {
         "video: cannot read '{}': it is a list of other files; name one of these", path));
   }
   return input;
-}
-
-std::string av_error_text(int code) {
-  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
-  av_strerror(code, text.data(), text.size());
-  return text.data();
 }
 
 int check_av(int code, std::string_view operation, std::string_view object) {

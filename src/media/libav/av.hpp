@@ -1,6 +1,6 @@
-// libav's objects owned by C++, and its error codes as exceptions.
-// In: what libav's functions return. Out: typed owners that free it, or one exception.
-// Only this folder includes libav; pass AVFrame& and the like onward, never the owners.
+// libav's objects with C++ owners, and its error codes as exceptions.
+// In: what libav's functions return. Out: typed owners, or an exception.
+// Only this folder includes libav. Pass AVFrame& and the like onward, never the owners.
 #pragma once
 
 extern "C" {
@@ -26,7 +26,7 @@ struct AvDeleter {
   }
 };
 
-/// Closes the file of an output, if it is still open, and frees the muxer.
+/// Closes the file of a muxer, if it is still open, and frees the muxer.
 struct AvOutputDeleter {
   void operator()(AVFormatContext* muxer) const noexcept {
     avio_closep(&muxer->pb);
@@ -47,22 +47,19 @@ using AvOutputPtr = std::unique_ptr<AVFormatContext, AvOutputDeleter>;
 /// @throws IoError, MediaError if it cannot be read.
 AvInputPtr open_av_input(const std::string& path, const std::stop_token* stop = nullptr);
 
-/// libav's words for an error code.
-std::string av_error_text(int code);
-
-/// Passes on what a call into libav returned.
-/// @param operation what was being done, such as "open encoder"; `object` what it was done to.
-/// @throws IoError if the code is the system's (disk full, pipe closed), std::bad_alloc if
-///         memory ran out, MediaError if it is another error.
+/// Returns the result of a call into libav, or throws if it is an error.
+/// @param operation  such as "open encoder", of the object.
+/// @throws IoError for errors of the system (disk full, pipe closed), std::bad_alloc if memory ran
+/// out,
+///         MediaError for others.
 int check_av(int code, std::string_view operation, std::string_view object);
 
-/// The same for what is read: there, running out of memory is a fault of a file that asks for too
-/// much of it.
+/// The same for reading, where running out of memory is the fault of a file that asks for too much.
 /// @throws IoError, MediaError
 int check_av_read(int code, std::string_view operation, std::string_view object);
 
 /// Owns what an allocating call returned.
-/// @throws std::bad_alloc if that is null, which libav returns when memory runs out.
+/// @throws std::bad_alloc if it is null.
 template <typename Owner>
 Owner own_av(typename Owner::pointer object, std::string_view name) {
   if (object == nullptr) check_av(AVERROR(ENOMEM), "allocate", name);
@@ -72,10 +69,7 @@ Owner own_av(typename Owner::pointer object, std::string_view name) {
 /// Keeps libav from printing; its error codes carry the cause. Affects the whole process.
 void silence_av();
 
-/// "59.37.100" of what one of libav's functions such as avcodec_version() returned.
+/// "59.37.100" for the result of avcodec_version() and the like.
 std::string version_text(unsigned number);
-
-/// Name and version of each library that the module needs.
-std::vector<std::string> av_library_versions();
 
 }  // namespace piblocks

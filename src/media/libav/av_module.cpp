@@ -10,8 +10,6 @@
 #include <memory>
 #include <string_view>
 
-#include "media/libav/byte_hash.hpp"
-
 namespace piblocks {
 namespace {
 
@@ -25,7 +23,7 @@ std::filesystem::path own_binary() {
   const bool is_known = ::dladdr1(here, &info, &extra, RTLD_DL_LINKMAP) != 0;
   const std::string_view name = is_known ? static_cast<const link_map*>(extra)->l_name : "";
   if (!name.empty()) return name;
-  // A program has no name there.
+  // The main program has no name there.
   std::error_code unreadable;
   return std::filesystem::read_symlink("/proc/self/exe", unreadable);
 }
@@ -33,11 +31,11 @@ std::filesystem::path own_binary() {
 /// Where the module may be, best first.
 std::vector<std::string> candidates() {
   const std::filesystem::path folder = PIBLOCKS_MODULE_FOLDER;
-  // As the search path of the binary says: the program's own, the build's, or the one that the
-  // library's users are linked with.
+  // By the search path of the binary: the program's own, the build's, or that of the library's
+  // users.
   std::vector<std::string> files = {kFile};
-  // For those who are linked without it, or have moved since. Never from the working folder, which
-  // is anybody's.
+  // For binaries without such a path, or moved since. Never from the working folder, which is
+  // anybody's.
   const std::filesystem::path binary = own_binary();
   if (binary.is_absolute()) files.push_back(binary.parent_path() / ".." / folder / kFile);
   files.push_back(std::filesystem::path(PIBLOCKS_PREFIX) / folder / kFile);
@@ -49,7 +47,7 @@ struct LibraryCloser {
 };
 using Library = std::unique_ptr<void, LibraryCloser>;
 
-/// The module in this file; nothing, and one more of the reasons, if it cannot be used.
+/// The module in this file; null, and one more reason, if it cannot be used.
 const AvModule* load(const std::string& file, std::string& reasons) {
   Library library(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL));
   void* const entry = library ? ::dlsym(library.get(), kAvModuleEntry) : nullptr;
@@ -82,19 +80,13 @@ const AvModule& av_module() {
 }
 
 std::unique_ptr<FrameReader> read_video(const std::string& path, const std::stop_token& stop) {
-  return av_module().decode_video_file(path, stop);
+  return av_module().read_video(path, stop);
 }
 
 std::string hash_of_bytes(std::span<const std::uint8_t> bytes) {
-  return av_module().compute_hash(bytes);
+  return av_module().hash_of_bytes(bytes);
 }
 
-std::vector<std::string> webm_encoders() { return av_module().usable_webm_encoders(); }
-
-std::vector<std::string> prores_encoders() { return av_module().usable_prores_encoders(); }
-
-std::vector<std::string> sound_encoders() { return av_module().usable_sound_encoders(); }
-
-std::vector<std::string> h264_encoders() { return av_module().usable_h264_encoders(); }
+std::vector<std::string> encoder_names(EncoderKind kind) { return av_module().encoder_names(kind); }
 
 }  // namespace piblocks

@@ -1,6 +1,9 @@
 #include "media/libav/codec_choice.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
 
 extern "C" {
 #include <libavutil/opt.h>
@@ -8,8 +11,30 @@ extern "C" {
 
 namespace piblocks {
 
-/// At least two: of two IDR pictures in a row with equal headers a decoder cannot tell that they
-/// are two (H.264, 7.4.1.2.4).
+std::vector<std::string> usable_encoders(EncoderKind kind) {
+  switch (kind) {
+    case EncoderKind::h264:
+      return usable_h264_encoders();
+    case EncoderKind::webm:
+      return usable_webm_encoders();
+    case EncoderKind::prores:
+      if (avcodec_find_encoder_by_name(kProres.data()) == nullptr) return {};
+      return {std::string(kProres)};
+    case EncoderKind::sound:
+      return usable_sound_encoders();
+  }
+  return {};
+}
+
+std::string usable_encoders(std::span<const EncoderKind> kinds) {
+  std::vector<std::string> names;
+  for (const EncoderKind kind : kinds)
+    std::ranges::move(usable_encoders(kind), std::back_inserter(names));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// At least two: decoders cannot tell two successive IDR pictures with equal headers apart (H.264,
+/// 7.4.1.2.4).
 int frames_in_a_second(const Rational& frame_rate) {
   constexpr int kMaxFramesPerChunk = 300;
   const Integer frames = floor(frame_rate);
@@ -21,6 +46,30 @@ bool has_option(const AVCodec& codec, const char* name) {
   if (codec.priv_class == nullptr) return false;
   const AVClass* options = codec.priv_class;
   return av_opt_find(&options, name, nullptr, 0, AV_OPT_SEARCH_FAKE_OBJ) != nullptr;
+}
+
+void set_option(AVCodecContext& context, const char* name, const std::string& value) {
+  check_av(av_opt_set(context.priv_data, name, value.c_str(), 0),
+           fmt::format("set {} {} of encoder", name, value), context.codec->name);
+}
+
+bool can_be_opened(const AVCodec& codec, const std::function<void(AVCodecContext&)>& set_up) {
+  const auto context = own_av<AvCodecContextPtr>(avcodec_alloc_context3(&codec), codec.name);
+  context->width = 64;
+  context->height = 64;
+  context->pix_fmt = AV_PIX_FMT_YUV420P;
+  context->time_base = {1, 60};
+  context->thread_count = 1;
+  if (set_up) set_up(*context);
+  return avcodec_open2(context.get(), &codec, nullptr) >= 0;
+}
+
+std::string no_crf(std::string_view encoder) {
+  return fmt::format("video: encoder '{}' has no crf; leave it out", encoder);
+}
+
+std::string no_preset(std::string_view encoder) {
+  return fmt::format("video: encoder '{}' has no presets; leave the preset out", encoder);
 }
 
 }  // namespace piblocks

@@ -1,16 +1,24 @@
-// What the pictures of a video are encoded by.
-// In: the format of the output and what the user said to the encoder. Out: one of libavcodec's
-// encoders, the pixels it takes, and how it is set up.
+// The encoder of a video's pictures.
+// In: the format of the output and the encoder settings. Out: one of libavcodec's encoders, the
+// pixels it takes, and how it is set up.
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "media/libav/av.hpp"
-#include "media/output/frame_sink.hpp"
+#include "media/libav/module_functions.hpp"
+#include "media/output/output_request.hpp"
 
 namespace piblocks {
+
+/// Our own encoder, which codes what changes. Its stream has the headers of libx264.
+inline constexpr std::string_view kDamage = "damage";
+inline constexpr std::string_view kX264 = "libx264";
+inline constexpr std::string_view kProres = "prores_ks";
 
 struct CodecChoice {
   const AVCodec* codec;  ///< libavcodec's, which lives as long as the program
@@ -18,28 +26,45 @@ struct CodecChoice {
   int frames_per_chunk;
   /// Applies the settings to an encoder that is not open yet. Thread-safe.
   std::function<void(AVCodecContext& context)> set_up;
-  /// Names of the encoders to use if this one cannot be opened.
-  std::vector<std::string> (*usable)();
+  /// What may be used if this encoder cannot be opened.
+  std::vector<EncoderKind> alternatives;
 };
+
+/// H.264 in 4:2:0.
+/// @param kinds  of the encoders that may be asked for.
+/// @throws UsageError listing everything that is wrong with the size and the settings.
+CodecChoice h264_choice(const VideoFormat& format, const EncoderSettings& settings,
+                        const std::vector<EncoderKind>& kinds);
+/// ProRes 4444, with alpha if the frames have it.
+/// @throws UsageError if a setting is given, or the encoder is missing.
+CodecChoice prores_choice(const VideoFormat& format, const EncoderSettings& settings);
+/// VP9 or AV1 in 4:2:0; VP9 with alpha if the frames have it.
+/// @throws UsageError as h264_choice().
+CodecChoice webm_choice(const VideoFormat& format, const EncoderSettings& settings);
+
+/// The names of all these kinds, as a message lists them.
+std::string usable_encoders(std::span<const EncoderKind> kinds);
+// The rows of usable_encoders().
+std::vector<std::string> usable_h264_encoders();
+std::vector<std::string> usable_webm_encoders();
+std::vector<std::string> usable_sound_encoders();
 
 /// Frames of a closed group of pictures that lasts about a second; 2 to 300.
 int frames_in_a_second(const Rational& frame_rate);
 
 /// Whether the encoder has an option of its own with this name.
 bool has_option(const AVCodec& codec, const char* name);
+/// Sets it.
+/// @throws MediaError if the encoder does not take the value.
+void set_option(AVCodecContext& context, const char* name, const std::string& value);
 
-/// H.264 in 4:2:0.
-/// @param usable  names the encoders that may be asked for.
-/// @throws UsageError listing everything that is wrong with the size and the settings.
-CodecChoice h264_choice(const VideoFormat& format, const EncoderSettings& settings,
-                        std::vector<std::string> (*usable)());
+/// Whether the encoder opens for a small picture in 4:2:0. Being registered is not enough: wrappers
+/// load what they wrap only when they are opened.
+/// @param set_up  sets the encoder's own options.
+bool can_be_opened(const AVCodec& codec, const std::function<void(AVCodecContext&)>& set_up = {});
 
-/// ProRes 4444, with alpha if the frames have it.
-/// @throws UsageError if something is said to it, or it is not there.
-CodecChoice prores_choice(const VideoFormat& format, const EncoderSettings& settings);
-
-/// VP9 or AV1 in 4:2:0; VP9 with alpha if the frames have it.
-/// @throws UsageError listing everything that is wrong with the size and the settings.
-CodecChoice webm_choice(const VideoFormat& format, const EncoderSettings& settings);
+// What to say about a setting that an encoder does not take.
+std::string no_crf(std::string_view encoder);
+std::string no_preset(std::string_view encoder);
 
 }  // namespace piblocks

@@ -1,5 +1,5 @@
 // The colours of one frame of a GIF.
-// In: the colours of its pixels, counted. Out: at most 256 of them, and for every other the nearest
+// In: the colours of its pixels. Out: at most 256 of them, and for every other colour the nearest
 // of these.
 #pragma once
 
@@ -15,19 +15,18 @@ class ColorTable {
   /// Forgets all colours.
   void clear();
   void count(std::uint32_t color);
-  /// Keeps all colours, or the most frequent if there are more than `room`: those of flat shapes,
-  /// rather than of the edges that are smoothed. What is kept depends on the counts alone.
+  /// Keeps all colours, or the most frequent if there are more than `room`: those of flat shapes
+  /// rather than of smoothed edges. The choice depends on the counts alone.
   void choose(std::size_t room);
 
-  /// The colours that are kept.
   const std::vector<std::uint32_t>& colors() const noexcept { return colors_; }
-  /// The place of the colour among them, or of the nearest. Of a colour that was counted.
+  /// The place in colors() of a counted colour, or of the nearest colour that is kept.
   std::uint8_t index_of(std::uint32_t color);
 
  private:
   std::unordered_map<std::uint32_t, std::int64_t> counts_;  // then places
   std::vector<std::uint32_t> colors_;
-  // The last colour that was looked up: most pixels are of the colour of their neighbour.
+  // The last colour that was looked up: most pixels have the colour of their neighbour.
   std::uint32_t last_color_ = 0;
   std::int64_t* last_ = nullptr;
 };

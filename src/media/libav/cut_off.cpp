@@ -12,9 +12,10 @@ namespace {
 
 constexpr std::uint32_t kSegment = 0x18538067;
 
-/// The next number of EBML, whose first byte says by its leading zeros how many follow.
-/// @param with_mark  whether the bit behind the zeros belongs to it, as it does to an element's ID.
-/// @return nothing at the end of the file, and for a size that says that it is unknown.
+/// The next number of EBML (RFC 8794, 4). The leading zeros of its first byte tell how many bytes
+/// follow.
+/// @param with_mark  whether the bit behind the zeros belongs to the number, as in an element's ID.
+/// @return nothing at the end of the file, and for an unknown size.
 std::optional<std::uint64_t> ebml_number(std::istream& file, bool with_mark) {
   const int first = file.get();
   if (first <= 0) return std::nullopt;
@@ -30,7 +31,7 @@ std::optional<std::uint64_t> ebml_number(std::istream& file, bool with_mark) {
   return number;
 }
 
-/// All of Matroska and WebM is in one element.
+/// One element, the segment, holds all of a Matroska or WebM file.
 bool is_cut_matroska(std::istream& file, std::uint64_t file_bytes) {
   while (true) {
     const auto id = ebml_number(file, true);
@@ -43,18 +44,17 @@ bool is_cut_matroska(std::istream& file, std::uint64_t file_bytes) {
   }
 }
 
-/// The table of colours that a byte of flags says to follow.
+/// The colour table that follows if a byte of flags says so.
 void skip_colours(std::istream& file, int flags) {
-  constexpr int kHas_table = 0x80;
-  if ((flags & kHas_table) != 0) file.ignore(3 << ((flags & 7) + 1));
+  constexpr int kHasTable = 0x80;
+  if ((flags & kHasTable) != 0) file.ignore(3 << ((flags & 7) + 1));
 }
 
 void skip_sub_blocks(std::istream& file) {
   for (int bytes = file.get(); file && bytes > 0; bytes = file.get()) file.ignore(bytes);
 }
 
-/// Whether the blocks of a GIF end without the trailer. What is none of them is left to the
-/// decoder.
+/// Whether the blocks of a GIF end without the trailer. The decoder deals with unknown blocks.
 bool is_cut_gif(std::istream& file) {
   constexpr int kScreen_bytes = 10;  // up to the flags
   constexpr int kImage_bytes = 8;    // likewise

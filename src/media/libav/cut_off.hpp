@@ -1,13 +1,13 @@
-// Tells a file that was cut off from a shorter one, where libavformat does not: GIF, Matroska,
-// WebM. In: a file. Out: whether it says of itself that it goes on behind its end.
+// Finds files that were cut off, where libavformat does not: GIF, Matroska, WebM.
+// In: a file. Out: whether its own structure continues beyond its end.
 #pragma once
 
 #include <string>
 
 namespace piblocks {
 
-/// False for a file of another kind, for one that does not know its size, as of a live stream, and
-/// for a pipe.
+/// False for other kinds of files, for a file without its size, such as a live stream, and for a
+/// pipe.
 bool is_cut_off(const std::string& path);
 
 }  // namespace piblocks

@@ -5,13 +5,11 @@
 #include <iterator>
 #include <utility>
 
-#include "media/libav/find_encoder.hpp"
-
 namespace piblocks {
 namespace {
 
-/// Repeats the last column and the last row of a plane up to whole macroblocks, which costs fewer
-/// bits than anything else there.
+/// Repeats the last column and the last row of a plane up to whole macroblocks, since that costs
+/// the fewest bits.
 void extend(std::uint8_t* plane, std::ptrdiff_t stride, int width, int height, int whole_height) {
   const auto rest = static_cast<std::size_t>(stride - width);
   for (int y = 0; y < height && rest > 0; ++y) {
@@ -34,13 +32,11 @@ void extend(h264::Picture& picture, const VideoFormat& format) {
 
 }  // namespace
 
-YuvView view_of(h264::Picture& picture) {
-  return {.y = picture.plane(0),
-          .cb = picture.plane(1),
-          .cr = picture.plane(2),
-          .y_stride_bytes = picture.stride_bytes(0),
-          .cb_stride_bytes = picture.stride_bytes(1),
-          .cr_stride_bytes = picture.stride_bytes(2)};
+Yuv420View view_of(h264::Picture& picture) {
+  const auto plane = [&](int number) -> PlaneView<std::uint8_t> {
+    return {picture.plane(number), picture.stride_bytes(number)};
+  };
+  return {plane(0), plane(1), plane(2)};
 }
 
 DamageChunkEncoder::DamageChunkEncoder(const VideoEncoder& encoder, const h264::ParameterSets& sets,
@@ -58,8 +54,8 @@ void DamageChunkEncoder::begin(std::int64_t first_frame) {
   is_left_ = false;
 }
 
-/// The stream's encoder looks at every macroblock: it is the faster one where more than a twentieth
-/// of them have to be transformed (src/media/README.md). A few are no trouble in any picture.
+/// The stream's encoder is the faster one if more than a twentieth of the macroblocks, and more
+/// than a few, have to be transformed (src/media/README.md).
 bool DamageChunkEncoder::has_too_much() const {
   constexpr std::int64_t kOneIn = 20;
   constexpr std::int64_t kFew = 64;
@@ -93,7 +89,7 @@ void DamageChunkEncoder::convert_here(const ImageView& frame, std::span<const Pi
   if (reaches_edge) extend(picture_, encoder_.format());
 }
 
-/// The next frame becomes a key frame.
+/// Makes the next frame a key frame of the stream's encoder.
 void DamageChunkEncoder::leave() {
   is_left_ = true;
   is_behind_ = true;
@@ -104,11 +100,11 @@ void DamageChunkEncoder::leave() {
 void DamageChunkEncoder::encode() {
   if (is_left_) return stream_encoder_->encode();
   const bool is_first = chunk_.empty();
-  chunk_.push_back({.bytes = is_first ? coder_.encode_idr(picture_)
-                                      : coder_.encode_p(picture_, changed_),
-                    .pts = next_frame_,
-                    .dts = next_frame_,
-                    .key_frame = is_first});
+  chunk_.push_back(
+      {.bytes = is_first ? coder_.encode_idr(picture_) : coder_.encode_p(picture_, changed_),
+       .pts = next_frame_,
+       .dts = next_frame_,
+       .key_frame = is_first});
   if (!is_first) transformed_ += coder_.transformed_macroblocks();
   changed_.clear();
   ++next_frame_;

@@ -1,6 +1,6 @@
-// The chunks of a video, each coded from what changes in it.
+// The chunks of a video, coded from what changes in them.
 // In: frames, and which rectangles of them have changed. Out: packets that fit the headers of the
-// stream, made here or, where too much changes, by the stream's own encoder.
+// stream, made here or, if too much changes, by the stream's own encoder.
 #pragma once
 
 #include <optional>
@@ -15,10 +15,9 @@
 
 namespace piblocks {
 
-/// To convert into.
-YuvView view_of(h264::Picture& picture);
+Yuv420View view_of(h264::Picture& picture);
 
-/// Whether a chunk that is mostly new is left to the stream's own encoder.
+/// What happens to the rest of a chunk in which too much changes.
 enum class WhenTooMuch { leave_to_stream_encoder, go_on };
 
 class DamageChunkEncoder final : public ChunkEncoder {
@@ -44,11 +43,10 @@ class DamageChunkEncoder final : public ChunkEncoder {
   h264::PictureEncoder coder_;
   std::int64_t next_frame_ = 0;
   EncodedChunk chunk_;
-  /// Macroblocks of the chunk, but for its first picture, that had to be transformed.
-  std::int64_t transformed_ = 0;
-  bool is_left_ = false;
-  bool is_behind_ = false;  // picture_, after frames that the stream's encoder alone has taken
-  std::optional<VideoChunkEncoder> stream_encoder_;  // made when it is needed first
+  std::int64_t transformed_ = 0;  // macroblocks of the chunk's P pictures
+  bool is_left_ = false;          // to the stream's encoder
+  bool is_behind_ = false;        // picture_ lacks frames that only the stream's encoder took
+  std::optional<VideoChunkEncoder> stream_encoder_;  // made when it is first needed
 };
 
 }  // namespace piblocks

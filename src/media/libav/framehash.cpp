@@ -4,21 +4,20 @@
 #include <utility>
 
 #include "media/libav/av.hpp"
-#include "media/libav/byte_hash.hpp"
-#include "media/output/intra_encoder.hpp"
+#include "media/libav/module_functions.hpp"
 #include "media/output/output_kinds.hpp"
-#include "media/output/stream_sink.hpp"
+#include "media/output/simple_output.hpp"
 #include "media/pixels/rgb24.hpp"
 
 namespace piblocks {
 namespace {
 
-/// Of libavutil's hashes the fastest that is wide enough to tell frames apart. One 1080p frame, on
-/// an AMD EPYC with libavutil 57: murmur3 (128 bits) 0.84 ms, MD5 8.6 ms, SHA256 16.2 ms.
+/// The fastest of libavutil's hashes that are wide enough. One 1080p frame on an AMD EPYC with
+/// libavutil 57: murmur3 (128 bits) 0.84 ms, MD5 8.6 ms, SHA256 16.2 ms.
 constexpr const char* kHash = "murmur3";
 constexpr std::int64_t kFramesPerChunk = 32;
 
-/// What FFmpeg 5.1 writes. A PNG file tells no pixel aspect ratio, hence 0/1.
+/// What FFmpeg 5.1 writes for PNG files, which have no pixel aspect ratio: hence 0/1.
 std::string file_header(const VideoFormat& format) {
   return fmt::format(
       "#format: frame checksums\n#version: 2\n#hash: {}\n#tb 0: {}/{}\n#media_type 0: video\n"
@@ -42,40 +41,38 @@ std::string digits_of(AVHashContext& hash, std::span<const std::uint8_t> bytes) 
   return reinterpret_cast<const char*>(text.data());
 }
 
-class FramehashEncoder final : public IntraEncoder {
+class FramehashEncoder final : public PacketPerFrameEncoder {
  public:
   explicit FramehashEncoder(const VideoFormat& format)
-      : IntraEncoder(format),
+      : PacketPerFrameEncoder(format),
         file_header_(file_header(format)),
         hash_(allocate_hash()),
-        has_alpha_(format.has_alpha),
-        row_bytes_(std::size_t(format.width_px) * pixel_bytes()),
+        pixel_bytes_(packed_bytes(format.has_alpha)),
+        row_bytes_(std::size_t(format.width_px) * pixel_bytes_),
         samples_(row_bytes_ * std::size_t(format.height_px)) {}
 
  private:
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override;
-  std::vector<std::uint8_t> encode_picture(std::int64_t number) override;
-  std::size_t pixel_bytes() const { return has_alpha_ ? 4 : 3; }
+  std::vector<std::uint8_t> encode_picture(std::int64_t number, bool is_first) override;
 
   std::string file_header_;
   AvHashPtr hash_;
-  bool has_alpha_;
+  std::size_t pixel_bytes_;
   std::size_t row_bytes_;
   std::vector<std::uint8_t> samples_;
 };
 
 void FramehashEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
-  const auto pack = has_alpha_ ? pack_rgba32 : pack_rgb24;
   for (const PixelRect& rect : rects) {
-    const std::size_t left = std::size_t(rect.x_px) * pixel_bytes();
+    const std::size_t left = std::size_t(rect.x_px) * pixel_bytes_;
     for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
-      pack(frame.row(y) + std::ptrdiff_t{4} * rect.x_px, rect.width_px,
-           samples_.data() + std::size_t(y) * row_bytes_ + left);
+      pack_pixels(frame, rect.x_px, y, rect.width_px,
+                  samples_.data() + std::size_t(y) * row_bytes_ + left);
     }
   }
 }
 
-std::vector<std::uint8_t> FramehashEncoder::encode_picture(std::int64_t number) {
+std::vector<std::uint8_t> FramehashEncoder::encode_picture(std::int64_t number, bool /*is_first*/) {
   const std::string text = (number == 0 ? file_header_ : "") +
                            fmt::format("0, {0:10}, {0:10}, {1:8}, {2:8}, {3}\n", number, 1,
                                        samples_.size(), digits_of(*hash_, samples_));
@@ -89,8 +86,8 @@ std::string compute_hash(std::span<const std::uint8_t> bytes) {
 }
 
 std::unique_ptr<Output> framehash_output(const OutputRequest& request) {
-  return std::make_unique<StreamOutput<FramehashEncoder>>(request, kFramesPerChunk,
-                                                          std::string("framehash by ") + kHash);
+  return stream_output<FramehashEncoder>(request, kFramesPerChunk,
+                                         std::string("framehash by ") + kHash);
 }
 
 }  // namespace piblocks

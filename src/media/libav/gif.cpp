@@ -1,4 +1,4 @@
-// GIF 89a by giflib: what changes of each frame, with its own colours.
+// GIF 89a by giflib: of each frame what changes, with colours of its own.
 #include <fmt/format.h>
 #include <gif_lib.h>
 #include <piblocks/error.hpp>
@@ -12,9 +12,8 @@
 #include <vector>
 
 #include "media/libav/color_table.hpp"
-#include "media/output/intra_encoder.hpp"
 #include "media/output/output_kinds.hpp"
-#include "media/output/stream_sink.hpp"
+#include "media/output/simple_output.hpp"
 #include "media/pixels/changed_picture.hpp"
 
 namespace piblocks {
@@ -24,14 +23,13 @@ using Bytes = std::vector<std::uint8_t>;
 
 /// A chunk begins with a whole picture.
 constexpr std::int64_t kFramesPerChunk = 50;
-/// Delays are whole hundredths of a second, and viewers take less than two for ten.
+/// Delays are whole hundredths of a second, and viewers show less than two as ten.
 constexpr int kMaxFrameRate_gif = 50;
 constexpr int kMaxDelay_cs = 65535;
 constexpr std::size_t kMaxColors = 256;
-constexpr std::uint8_t kTrailer = 0x3b;
 
-/// When frame `number` is shown first, rounded to the nearest hundredth of a second. What is
-/// rounded is the time, not the delay: no frame is more than half a hundredth late or early.
+/// When frame `number` appears, rounded to the nearest hundredth of a second. Rounding times
+/// instead of delays keeps every frame within half a hundredth.
 Integer time_cs(std::int64_t number, const Rational& frame_rate) {
   return floor(Rational(number) * 100 / frame_rate + Rational(1, 2));
 }
@@ -45,7 +43,7 @@ struct ColorMapDeleter {
   void operator()(ColorMapObject* map) const noexcept { GifFreeMapObject(map); }
 };
 
-/// giflib wants a power of two of colours, two at least.
+/// giflib wants a power of two of colours, at least two.
 std::unique_ptr<ColorMapObject, ColorMapDeleter> color_map(const std::vector<std::uint32_t>& colors,
                                                            std::size_t count) {
   std::array<GifColorType, kMaxColors> table{};
@@ -72,14 +70,13 @@ class GifWriter {
   Bytes take() { return std::exchange(bytes_, {}); }
 
  private:
-  void put_screen(const VideoFormat& format);
-  void put_loop();
+  void put_header(const VideoFormat& format);
 
   Bytes bytes_;
   GifFileType* file_;
 };
 
-/// Called by giflib, which no exception may pass through.
+/// giflib calls this; no exception may pass through it.
 int append_bytes(GifFileType* file, const GifByteType* data, int count) {
   auto& bytes = *static_cast<Bytes*>(file->UserData);
   try {
@@ -93,73 +90,64 @@ int append_bytes(GifFileType* file, const GifByteType* data, int count) {
 GifWriter::GifWriter(const VideoFormat& format) : file_(EGifOpen(&bytes_, append_bytes, nullptr)) {
   if (file_ == nullptr) throw std::bad_alloc();
   try {
-    put_screen(format);
-    put_loop();
+    put_header(format);
   } catch (...) {
     EGifCloseFile(file_, nullptr);
     throw;
   }
 }
 
-void GifWriter::put_screen(const VideoFormat& format) {
+/// The screen, and Netscape's extension, which every viewer knows: repeat for ever.
+void GifWriter::put_header(const VideoFormat& format) {
   constexpr int kColorResolution_bits = 8;
-  EGifSetGifVersion(file_, true);
-  check_gif(EGifPutScreenDesc(file_, format.width_px, format.height_px, kColorResolution_bits, 0,
-                              nullptr),
-            "write the header");
-}
-
-/// Netscape's extension, which every viewer knows: over and over.
-void GifWriter::put_loop() {
   constexpr std::array<std::uint8_t, 3> kForEver = {1, 0, 0};
-  check_gif(EGifPutExtensionLeader(file_, APPLICATION_EXT_FUNC_CODE), "write the header");
-  check_gif(EGifPutExtensionBlock(file_, 11, "NETSCAPE2.0"), "write the header");
-  check_gif(EGifPutExtensionBlock(file_, kForEver.size(), kForEver.data()), "write the header");
-  check_gif(EGifPutExtensionTrailer(file_), "write the header");
+  const auto check = [](int code) { check_gif(code, "write the header"); };
+  EGifSetGifVersion(file_, true);
+  check(EGifPutScreenDesc(file_, format.width_px, format.height_px, kColorResolution_bits, 0,
+                          nullptr));
+  check(EGifPutExtensionLeader(file_, APPLICATION_EXT_FUNC_CODE));
+  check(EGifPutExtensionBlock(file_, 11, "NETSCAPE2.0"));
+  check(EGifPutExtensionBlock(file_, kForEver.size(), kForEver.data()));
+  check(EGifPutExtensionTrailer(file_));
 }
 
-class GifEncoder final : public IntraEncoder {
+class GifEncoder final : public PacketPerFrameEncoder {
  public:
   explicit GifEncoder(const VideoFormat& format)
-      : IntraEncoder(format),
+      : PacketPerFrameEncoder(format),
         frame_rate_(format.frame_rate),
-        picture_(format.width_px, format.height_px, ChangedPicture::Marks::new_pixels),
+        picture_(format.width_px, format.height_px, ChangedPicture::Marks::changed_pixels),
         writer_(format),
         header_(writer_.take()) {}
-
-  void begin(std::int64_t first_frame) override {
-    IntraEncoder::begin(first_frame);
-    is_whole_ = true;
-  }
 
  private:
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
     picture_.take(frame, rects);
   }
-  std::vector<std::uint8_t> encode_picture(std::int64_t number) override;
+  Bytes encode_picture(std::int64_t number, bool is_first) override;
   bool choose_colors(const PixelRect& rect);
   void put_control(std::int64_t number, int transparent);
   void put_image(const PixelRect& rect, int transparent);
-  bool is_left_out(const std::uint8_t* news, int x) const { return !is_whole_ && news[x] == 0; }
+  /// Whether a pixel keeps what the frames before have there.
+  bool is_left_out(int x, int y) const { return !is_whole_ && picture_.marks(y)[x] == 0; }
 
   Rational frame_rate_;
   ChangedPicture picture_;
   GifWriter writer_;
   Bytes header_;
   ColorTable colors_;
-  bool is_whole_ = true;
+  bool is_whole_ = true;  // the frame that is being encoded
   Bytes row_;
 };
 
-/// Counts the colours of the pixels that have to be written. @return whether others are between.
+/// Chooses colours for the pixels to be written. @return whether other pixels are left out.
 bool GifEncoder::choose_colors(const PixelRect& rect) {
   bool has_others = false;
   colors_.clear();
   for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
     const std::uint32_t* const pixels = picture_.row(y);
-    const std::uint8_t* const news = picture_.news(y);
     for (int x = rect.x_px; x < rect.x_px + rect.width_px; ++x) {
-      if (is_left_out(news, x)) {
+      if (is_left_out(x, y)) {
         has_others = true;
       } else {
         colors_.count(pixels[x] & 0xffffff);
@@ -170,7 +158,8 @@ bool GifEncoder::choose_colors(const PixelRect& rect) {
   return has_others;
 }
 
-std::vector<std::uint8_t> GifEncoder::encode_picture(std::int64_t number) {
+Bytes GifEncoder::encode_picture(std::int64_t number, bool is_first) {
+  is_whole_ = is_first;
   const PixelRect rect = is_whole_ ? picture_.whole() : picture_.changed();
   const bool has_others = choose_colors(rect);
   const int transparent =
@@ -178,7 +167,6 @@ std::vector<std::uint8_t> GifEncoder::encode_picture(std::int64_t number) {
   put_control(number, transparent);
   put_image(rect, transparent);
   picture_.settle();
-  is_whole_ = false;
   Bytes bytes = writer_.take();
   if (number == 0) bytes.insert(bytes.begin(), header_.begin(), header_.end());
   return bytes;
@@ -202,11 +190,11 @@ void GifEncoder::put_image(const PixelRect& rect, int transparent) {
             "write a frame");
   row_.resize(std::size_t(rect.width_px));
   for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
-    const std::uint32_t* const pixels = picture_.row(y) + rect.x_px;
-    const std::uint8_t* const news = picture_.news(y) + rect.x_px;
-    for (int x = 0; x < rect.width_px; ++x) {
-      row_[std::size_t(x)] = is_left_out(news, x) ? static_cast<std::uint8_t>(transparent)
-                                                  : colors_.index_of(pixels[x] & 0xffffff);
+    const std::uint32_t* const pixels = picture_.row(y);
+    for (int i = 0; i < rect.width_px; ++i) {
+      const int x = rect.x_px + i;
+      row_[std::size_t(i)] = is_left_out(x, y) ? static_cast<std::uint8_t>(transparent)
+                                               : colors_.index_of(pixels[x] & 0xffffff);
     }
     check_gif(EGifPutLine(&writer_.file(), row_.data(), rect.width_px), "write a frame");
   }
@@ -230,10 +218,10 @@ std::string frame_rate_problem(const Rational& rate) {
 std::unique_ptr<Output> gif_output(const OutputRequest& request) {
   const std::string problem = frame_rate_problem(request.format.frame_rate);
   if (!problem.empty()) throw UsageError(problem);
-  return std::make_unique<StreamOutput<GifEncoder>>(
+  return stream_output<GifEncoder>(
       request, kFramesPerChunk,
       fmt::format("gif by giflib {}.{}.{}", GIFLIB_MAJOR, GIFLIB_MINOR, GIFLIB_RELEASE),
-      Bytes{kTrailer});
+      [](OutputFile& file, std::int64_t /*frames*/) { file.write(";"); });  // the trailer, 0x3b
 }
 
 }  // namespace piblocks

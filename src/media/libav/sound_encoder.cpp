@@ -6,11 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "media/libav/find_encoder.hpp"
-
-extern "C" {
-#include <libavutil/opt.h>
-}
+#include "media/libav/codec_choice.hpp"
 
 namespace piblocks {
 namespace {
@@ -61,10 +57,8 @@ class SoundPackets final : public PacketSource {
     if (context_->sample_fmt == AV_SAMPLE_FMT_FLT) {
       std::copy_n(block_.begin(), count * kChannels, reinterpret_cast<float*>(frame_->data[0]));
     } else {
-      for (int channel = 0; channel < kChannels; ++channel) {
-        auto* const to = reinterpret_cast<float*>(frame_->data[channel]);
-        for (std::size_t i = 0; i < count; ++i)
-          to[i] = block_[kChannels * i + std::size_t(channel)];
+      for (std::size_t i = 0; i < count * kChannels; ++i) {
+        reinterpret_cast<float*>(frame_->data[i % kChannels])[i / kChannels] = block_[i];
       }
     }
     frame_->pts = next_;
@@ -104,17 +98,16 @@ SoundEncoder::SoundEncoder(const SoundCodec& codec, const SoundFormat& format)
 AvCodecContextPtr SoundEncoder::open() const {
   auto context = own_av<AvCodecContextPtr>(avcodec_alloc_context3(codec_), codec_->name);
   context->sample_rate = format_.rate_hz;
-  // libopus takes samples in turn, the others by channel.
+  // libopus takes interleaved samples, others one plane for each channel.
   context->sample_fmt = codec_->id == AV_CODEC_ID_OPUS ? AV_SAMPLE_FMT_FLT : AV_SAMPLE_FMT_FLTP;
   av_channel_layout_default(&context->ch_layout, kChannels);
   context->bit_rate = settings_.bit_rate;
   if (settings_.option != nullptr) {
-    check_av(av_opt_set(context->priv_data, settings_.option, settings_.value, 0), "set up encoder",
-             codec_->name);
+    set_option(*context, settings_.option, settings_.value);
   }
   context->time_base = {1, format_.rate_hz};
   context->thread_count = 1;
-  // No version of the library in the stream: equal samples give equal bytes.
+  // Leaves the library's version out of the stream.
   context->flags |= AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_BITEXACT;
   check_av(avcodec_open2(context.get(), codec_, nullptr), "open encoder", codec_->name);
   return context;

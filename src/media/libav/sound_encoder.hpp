@@ -1,5 +1,5 @@
-// Which encoder makes the sound of a file, and how it is set up.
-// In: the format of the sound and the codec that a container has for it. Out: packets.
+// The encoder of a file's sound.
+// In: the format of the sound and the codec of the container. Out: packets.
 #pragma once
 
 #include "media/libav/av.hpp"
@@ -7,34 +7,32 @@
 
 namespace piblocks {
 
-/// What a container has its sound encoded by.
 struct SoundCodec {
-  const char* name;              ///< libavcodec's name of the encoder
-  int bit_rate;                  ///< per second
-  const char* option = nullptr;  ///< one of the encoder's own
+  const char* name = nullptr;    ///< libavcodec's name of the encoder
+  int bit_rate = 0;              ///< per second
+  const char* option = nullptr;  ///< one of the encoder's own, and its value
   const char* value = nullptr;
 };
 
-/// For MP4 and MOV. In half the time of the default coder, and as near to the original where clacks
-/// are dense.
+/// For MP4 and MOV. The coder takes half the time of the default one, and is as near to the
+/// original where clacks are dense.
 inline constexpr SoundCodec kAac = {"aac", 192'000, "aac_coder", "fast"};
 /// For WebM.
 inline constexpr SoundCodec kOpus = {"libopus", 160'000};
 
-/// An encoder that is known to be there, and to open.
+/// An encoder that exists and opens.
 class SoundEncoder {
  public:
   /// @throws UsageError if libavcodec lacks it.
   SoundEncoder(const SoundCodec& codec, const SoundFormat& format);
 
   const SoundFormat& format() const noexcept { return format_; }
-  /// What the stream's header says.
   const AVCodecParameters& parameters() const noexcept { return *parameters_; }
-  /// Pairs of samples in a packet; the last may stand for less.
+  /// Pairs of samples in a packet; the last packet may have fewer.
   int packet_size() const noexcept { return parameters_->frame_size; }
   /// The encoder's name and bit rate, and libavcodec's version.
   std::string signature() const;
-  /// The first packet begins before sample 0, by as much as the encoder needs to get going.
+  /// The first packet begins before sample 0, by the delay of the encoder.
   /// @throws MediaError if the encoder cannot be opened.
   std::unique_ptr<PacketSource> encode(SampleSource& samples) const;
 

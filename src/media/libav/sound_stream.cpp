@@ -46,7 +46,7 @@ void SoundStream::write() {
   packet_->size = static_cast<int>(next_->bytes.size());
   packet_->pts = next_->pts + shift_;
   packet_->dts = next_->dts + shift_;
-  // The last one is filled up with silence, which does not belong to the sound.
+  // Silence fills up the last packet and is not counted.
   const std::int64_t whole = encoder_.packet_size();
   const std::int64_t size = encoder_.format().size;
   packet_->duration =

@@ -1,6 +1,6 @@
-// The sound beside the pictures of a file.
-// In: packets of sound, and how far the pictures are. Out: packets in the file, each before the
-// first picture that is decoded later.
+// The sound stream of a video file.
+// In: packets of sound, and the time that the pictures have reached. Out: packets in the file, each
+// before the first picture that is decoded later.
 #pragma once
 
 #include <optional>
@@ -12,19 +12,19 @@ namespace piblocks {
 
 class SoundStream {
  public:
-  /// Adds the stream to a muxer whose header is not written yet; both must outlive it.
-  /// @param from_zero  whether the file counts from the first packet, and has players leave out
-  ///                   what that begins before sample 0.
+  /// Adds the stream to a muxer whose header is not written yet. Encoder and muxer must outlive it.
+  /// @param from_zero  whether times count from the first packet; players then skip what is before
+  ///                   sample 0.
   /// @param name       of the file, for messages.
   SoundStream(const SoundEncoder& encoder, AVFormatContext& muxer, bool from_zero,
               std::string name);
 
   void take(PacketSource& sound) { source_ = &sound; }
-  /// Writes what is decoded at that time or before.
+  /// Writes the packets that are decoded at that time or before.
   /// @throws IoError, MediaError
   void write_until(std::int64_t time, AVRational time_base);
   /// Writes the rest.
-  /// @throws IoError, MediaError, also if the sound has ended too early.
+  /// @throws IoError, MediaError; MediaError if the sound ended too early.
   void write_all();
   std::int64_t packets() const noexcept { return packets_; }
 

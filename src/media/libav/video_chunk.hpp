@@ -18,11 +18,9 @@ class VideoChunkEncoder final : public ChunkEncoder {
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override;
   void send(const AVFrame* picture);
   void take_packets();
-  /// With the alpha that libavcodec keeps beside.
-  std::vector<std::uint8_t> packet_bytes(std::span<const std::uint8_t> bytes) const;
 
   const VideoEncoder& encoder_;
-  AvFramePtr picture_;  // kept for good: a frame changes little of it
+  AvFramePtr picture_;  // kept, since a frame changes little of it
   void (*convert_rect_)(const ImageView& frame, const PixelRect& rect, AVFrame& picture);
   AvCodecContextPtr context_;
   std::int64_t first_frame_ = 0;

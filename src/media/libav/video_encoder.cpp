@@ -28,12 +28,9 @@ void set_picture_format(AVCodecContext& context, const VideoFormat& format,
   context.chroma_sample_location = AVCHROMA_LOC_LEFT;
 }
 
-std::span<const std::uint8_t> extradata(const AVCodecContext& context) {
-  return {context.extradata, static_cast<std::size_t>(context.extradata_size)};
-}
-
-std::span<const std::uint8_t> extradata(const AVCodecParameters& parameters) {
-  return {parameters.extradata, static_cast<std::size_t>(parameters.extradata_size)};
+/// Of a context or of parameters.
+std::span<const std::uint8_t> extradata(const auto& stream) {
+  return {stream.extradata, static_cast<std::size_t>(stream.extradata_size)};
 }
 
 }  // namespace
@@ -64,11 +61,11 @@ VideoEncoder::VideoEncoder(const VideoFormat& format, CodecChoice choice)
     if (first->codec_id == AV_CODEC_ID_AV1 && first->extradata_size == 0) take_headers(*first);
   } catch (const Error& error) {
     throw UsageError(
-        fmt::format("{}; usable here: {}", error.what(), fmt::join(choice_.usable(), ", ")));
+        fmt::format("{}; usable here: {}", error.what(), usable_encoders(choice_.alternatives)));
   }
 }
 
-/// libaom says what belongs into the header of the file beside its first packet, not before.
+/// libaom gives the stream's headers only beside its first packet.
 void VideoEncoder::take_headers(AVCodecContext& context) {
   const AvFramePtr picture = allocate_picture(*parameters_);
   for (int plane = 0; plane < 3; ++plane) {
@@ -113,9 +110,9 @@ AvCodecContextPtr VideoEncoder::open_unchecked() const {
   set_picture_format(*context, format_, choice_.pixel_format);
   context->framerate = frame_rate_;
   context->time_base = av_inv_q(frame_rate_);
-  // Never reached: the last chunk of a video may be half as long again as the others.
+  // Never reached: the last chunk of a video may be one and a half times as long as the others.
   context->gop_size = 2 * choice_.frames_per_chunk;
-  // Threads inside an encoder may change its output; chunks are what runs in parallel.
+  // Threads inside an encoder may change its output. Chunks run in parallel instead.
   context->thread_count = 1;
   context->flags = static_cast<int>(AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_CLOSED_GOP |
                                     AV_CODEC_FLAG_BITEXACT);

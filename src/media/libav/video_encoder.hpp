@@ -1,6 +1,6 @@
 // The encoders of one stream.
-// In: the format of the output and what it is encoded by. Out: any number of open one-thread
-// encoders that all make pieces of the same stream.
+// In: the format of the output and the choice of the encoder. Out: any number of open one-thread
+// encoders that make pieces of the same stream.
 #pragma once
 
 #include "media/libav/av.hpp"
@@ -12,23 +12,23 @@ namespace piblocks {
 /// Room for a picture of the stream, with the stream's tags.
 AvFramePtr allocate_picture(const AVCodecParameters& stream);
 
-/// An encoder that is known to be there and to open with its settings.
+/// An encoder that exists and opens with its settings.
 class VideoEncoder {
  public:
   /// @throws UsageError if the encoder cannot be opened.
   VideoEncoder(const VideoFormat& format, CodecChoice choice);
 
-  /// Usually a second. A chunk is one closed group of pictures: a second lets a viewer jump about
-  /// in the video, costs little, and spreads short videos over all workers.
+  /// Usually those of a second. A chunk is one closed group of pictures: a second lets viewers
+  /// seek, costs little, and spreads short videos over all workers.
   int frames_per_chunk() const noexcept { return choice_.frames_per_chunk; }
   const VideoFormat& format() const noexcept { return format_; }
   /// libavcodec's.
   const char* name() const noexcept { return choice_.codec->name; }
   AVRational frame_rate() const noexcept { return frame_rate_; }
-  /// What the stream's header says; the same for every encoder that open() returns.
+  /// The stream's parameters, which are those of every encoder that open() returns.
   const AVCodecParameters& parameters() const noexcept { return *parameters_; }
-  /// The encoder's name, libavcodec's version and, in hexadecimal digits, what the encoder itself
-  /// wrote into the header, such as the parameter sets of H.264.
+  /// The encoder's name, libavcodec's version and, in hexadecimal digits, the encoder's own
+  /// headers, such as the parameter sets of H.264.
   std::string signature() const;
 
   /// A fresh encoder for one chunk; time stamps are counted in frames. Thread-safe.

@@ -11,7 +11,6 @@
 
 #include "core/output_file.hpp"
 #include "media/libav/alpha_packet.hpp"
-#include "media/libav/find_encoder.hpp"
 #include "media/libav/sound_stream.hpp"
 #include "media/output/output_request.hpp"
 
@@ -22,9 +21,9 @@ extern "C" {
 namespace piblocks {
 namespace {
 
-/// Where the pictures begin, if boxes fill the file and those of the pictures are the last.
-/// ISO/IEC 14496-12, 4.2: a box begins with its size, four letters, and the size in 64 bits if 1
-/// stands in place of it.
+/// Where the data of the pictures begins, if boxes fill the file and mdat is the last.
+/// ISO/IEC 14496-12, 4.2: a box begins with its size and four letters; after a size of 1 follows
+/// the size in 64 bits.
 std::optional<std::int64_t> start_of_pictures(AVIOContext& file) {
   const std::int64_t end = avio_size(&file);
   std::int64_t at = 0;
@@ -39,8 +38,8 @@ std::optional<std::int64_t> start_of_pictures(AVIOContext& file) {
   return std::nullopt;
 }
 
-/// Whether the indices name these numbers of packets, one by one from there to the end, in whatever
-/// order the streams take turns.
+/// Whether the indices list these numbers of packets without gaps from `start` to `end`, in
+/// whatever order the streams alternate.
 bool is_complete(std::span<AVStream* const> streams, std::span<const std::int64_t> packets,
                  std::int64_t start, std::int64_t end) {
   if (streams.size() != packets.size()) return false;
@@ -64,13 +63,12 @@ bool is_complete(std::span<AVStream* const> streams, std::span<const std::int64_
   return start == end;
 }
 
-/// The index comes first, the packets are behind it to the end of the file.
 bool is_whole_mov(AVFormatContext& file, std::span<const std::int64_t> packets) {
   const auto start = start_of_pictures(*file.pb);
   return start && is_complete({file.streams, file.nb_streams}, packets, *start, avio_size(file.pb));
 }
 
-/// As many packets of each stream can be read as were written.
+/// Whether as many packets of each stream can be read as were written.
 bool is_whole_webm(AVFormatContext& file, std::span<const std::int64_t> packets) {
   std::vector<std::int64_t> left(packets.begin(), packets.end());
   const auto packet = own_av<AvPacketPtr>(av_packet_alloc(), "packet");
@@ -112,8 +110,7 @@ class VideoFile final : public FrameSink {
   std::int64_t packets_ = 0;
 };
 
-/// A muxer that writes to `path`. The protocol's name keeps libav from taking a colon in the path
-/// for one.
+/// "file:" keeps libav from reading a protocol out of a path with a colon.
 AvOutputPtr open_muxer(const std::string& path, const std::string& name, const char* format) {
   const std::string url = "file:" + path;
   AVFormatContext* allocated = nullptr;
@@ -153,7 +150,7 @@ void VideoFile::add_stream() {
 }
 
 void VideoFile::write_header() {
-  // Neither the library's version nor the time of day: equal frames give equal bytes.
+  // Leaves out the library's version and the time of day.
   muxer_->flags |= AVFMT_FLAG_BITEXACT;
   check_av(av_opt_set(muxer_->priv_data, container_.index_option, container_.index_value, 0),
            "set up the muxer of", name_);
@@ -195,8 +192,7 @@ void VideoFile::add_alpha(std::span<const std::uint8_t> alpha) {
   std::ranges::copy(alpha, data);
 }
 
-/// Reads the file back: short of memory, libavformat may leave something out of it and report
-/// nothing.
+/// Reads the file back: without memory, libavformat may leave something out and not report it.
 void VideoFile::check() const {
   const AvInputPtr file = open_av_input(file_.path());
   const AVCodecParameters& written = encoder_.parameters();
@@ -208,7 +204,7 @@ void VideoFile::check() const {
   if (sound_) packets.push_back(sound_->packets());
   if (file->nb_streams != packets.size() || !is_ours(*file->streams[0]->codecpar) ||
       !container_.is_whole(*file, packets)) {
-    // A demuxer may take a read that fails for the end.
+    // A demuxer may take a failed read for the end.
     check_av_read(std::min(file->pb->error, 0), "read back", name_);
     throw MediaError(fmt::format("video: the index of '{}' was not written whole", name_));
   }
@@ -226,12 +222,25 @@ void VideoFile::finish() {
 
 }  // namespace
 
-const Container kMp4 = {"mp4", "movflags",           "+faststart", is_whole_mov,
-                        kAac,  usable_h264_encoders, false};
-const Container kMov = {"mov", "movflags",          "+faststart", is_whole_mov,
-                        kAac,  usable_mov_encoders, false};
-const Container kWebm = {"webm", "cues_to_front",      "1", is_whole_webm,
-                         kOpus,  usable_webm_encoders, true};
+const Container kMp4 = {.muxer = "mp4",
+                        .index_option = "movflags",
+                        .index_value = "+faststart",
+                        .is_whole = is_whole_mov,
+                        .sound = kAac,
+                        .encoders = {EncoderKind::h264}};
+const Container kMov = {.muxer = "mov",
+                        .index_option = "movflags",
+                        .index_value = "+faststart",
+                        .is_whole = is_whole_mov,
+                        .sound = kAac,
+                        .encoders = {EncoderKind::h264, EncoderKind::prores}};
+const Container kWebm = {.muxer = "webm",
+                         .index_option = "cues_to_front",
+                         .index_value = "1",
+                         .is_whole = is_whole_webm,
+                         .sound = kOpus,
+                         .encoders = {EncoderKind::webm},
+                         .sound_from_zero = true};
 
 std::unique_ptr<FrameSink> open_video_file(const std::string& name, const VideoEncoder& encoder,
                                            const Container& container, const SoundEncoder* sound) {

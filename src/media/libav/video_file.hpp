@@ -14,18 +14,17 @@
 
 namespace piblocks {
 
-/// How libavformat is told what kind of file to write.
+/// A kind of file that libavformat writes.
 struct Container {
-  const char* muxer = nullptr;         ///< its name
-  const char* index_option = nullptr;  ///< which, set so, brings the index to the front
+  const char* muxer = nullptr;         ///< libavformat's name
+  const char* index_option = nullptr;  ///< the muxer's option that moves the index to the front
   const char* index_value = nullptr;
   /// Whether a file that is read back has so many packets of each stream.
   bool (*is_whole)(AVFormatContext& file, std::span<const std::int64_t> packets) = nullptr;
-  SoundCodec sound;  ///< what its sound is encoded by
-  /// Names of those that its pictures may be encoded by.
-  std::vector<std::string> (*encoders)() = nullptr;
-  /// Whether sound is counted from its first packet. Otherwise that is before 0, where libavformat
-  /// moves all streams of a file that cannot have such times.
+  SoundCodec sound = {};
+  std::vector<EncoderKind> encoders = {};  ///< of its pictures
+  /// Whether sound is counted from its first packet. In other containers that packet is before 0,
+  /// and libavformat moves all streams if the file cannot have negative times.
   bool sound_from_zero = false;
 };
 
@@ -33,8 +32,8 @@ extern const Container kMp4;
 extern const Container kMov;
 extern const Container kWebm;
 
-/// @param encoder  of the pictures, and
-/// @param sound    of the sound, if there is any; they must outlive the sink.
+/// @param encoder  of the pictures; must outlive the sink.
+/// @param sound    of the sound, or null; must outlive the sink.
 /// @throws UsageError if the file cannot be opened.
 std::unique_ptr<FrameSink> open_video_file(const std::string& name, const VideoEncoder& encoder,
                                            const Container& container, const SoundEncoder* sound);

@@ -10,7 +10,6 @@
 
 #include "h264/error.hpp"
 #include "media/libav/damage_chunk.hpp"
-#include "media/libav/find_encoder.hpp"
 #include "media/libav/video_chunk.hpp"
 #include "media/libav/video_encoder.hpp"
 #include "media/libav/video_file.hpp"
@@ -19,11 +18,11 @@
 namespace piblocks {
 namespace {
 
-/// What it quantises by; src/media/README.md has the measurements.
+/// Of our own encoder; src/h264/README.md has the measurements.
 constexpr int kQp = 14;
 
-/// libavformat 59 counts time in MP4 and MOV in units of the frame rate's numerator a second,
-/// doubled until there are 10,000, and keeps in 31 bits how many of them a frame lasts (movenc.c).
+/// In MP4 and MOV, libavformat 59 counts time in units of one over the frame rate's numerator,
+/// which it doubles up to 10,000, and has 31 bits for the duration of a frame (movenc.c).
 /// @throws UsageError if a frame lasts longer.
 void check_duration_of_frame(const Rational& frame_rate) {
   constexpr int kFewestUnits = 10'000;
@@ -38,21 +37,19 @@ void check_duration_of_frame(const Rational& frame_rate) {
                   frame_rate.get_str(), longest_s.get_str()));
 }
 
-/// Those of the encoder whose headers the stream has.
-/// @throws UsageError if something else is said to an encoder of our own.
+/// The settings of the encoder whose headers the stream has.
+/// @throws UsageError if a setting is given for our own encoder.
 EncoderSettings settings_of_stream(const EncoderSettings& settings) {
   if (settings.encoder != kDamage) return settings;
-  std::vector<std::string> problems;
-  if (settings.crf) problems.emplace_back("video: encoder 'damage' has no crf; leave it out");
-  if (settings.preset) {
-    problems.emplace_back("video: encoder 'damage' has no presets; leave the preset out");
-  }
-  if (!problems.empty()) throw UsageError(std::move(problems));
+  Problems problems;
+  if (settings.crf) problems.add(no_crf(kDamage));
+  if (settings.preset) problems.add(no_preset(kDamage));
+  problems.check();
   return {};
 }
 
-/// What slices of our own have to fit, if the stream is to have such.
-/// @throws UsageError if it is to, but cannot.
+/// The parameter sets that slices of our own need; nothing if the stream gets none.
+/// @throws UsageError if such slices are asked for, but the stream cannot have them.
 std::optional<h264::ParameterSets> sets_for_damage(const VideoEncoder& encoder,
                                                    const EncoderSettings& settings) {
   const bool is_asked_for = settings.encoder == kDamage;
@@ -67,7 +64,7 @@ std::optional<h264::ParameterSets> sets_for_damage(const VideoEncoder& encoder,
   }
 }
 
-/// A stream of libavcodec's, and one of sound where that is asked for.
+/// A stream of libavcodec's, and one of sound if it is asked for.
 class EncodedOutput : public Output {
  public:
   EncodedOutput(const OutputRequest& request, const Container& container, CodecChoice choice)
@@ -100,7 +97,7 @@ class EncodedOutput : public Output {
   std::optional<SoundEncoder> sound_;
 };
 
-/// H.264 in MP4, or the same stream in MOV: slices of our own where the stream can have them.
+/// H.264 in MP4 or MOV, with slices of our own if the stream can have them.
 class H264Output final : public EncodedOutput {
  public:
   H264Output(const OutputRequest& request, const Container& container)
@@ -134,7 +131,7 @@ std::unique_ptr<Output> mp4_output(const OutputRequest& request) {
 
 std::unique_ptr<Output> mov_output(const OutputRequest& request) {
   check_duration_of_frame(request.format.frame_rate);
-  const bool is_prores = request.format.has_alpha || request.settings.encoder == "prores_ks";
+  const bool is_prores = request.format.has_alpha || request.settings.encoder == kProres;
   if (!is_prores) return std::make_unique<H264Output>(request, kMov);
   return std::make_unique<EncodedOutput>(request, kMov,
                                          prores_choice(request.format, request.settings));

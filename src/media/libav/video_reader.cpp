@@ -1,5 +1,3 @@
-#include "media/libav/video_reader.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
@@ -12,6 +10,7 @@
 
 #include "media/libav/av.hpp"
 #include "media/libav/cut_off.hpp"
+#include "media/libav/module_functions.hpp"
 #include "media/libav/video_samples.hpp"
 
 extern "C" {
@@ -21,13 +20,13 @@ extern "C" {
 namespace piblocks {
 namespace {
 
-/// libavformat takes the end of a file that was cut off for the end of the video.
+/// libavformat takes the end of a cut file for the end of the video.
 [[noreturn]] void refuse_cut_file(const std::string& path) {
   throw MediaError(
       fmt::format("video: cannot read '{}': it is cut off: it has not all of its frames", path));
 }
 
-/// Refuses a file whose own index says that it goes on behind its end.
+/// Rejects a file whose index leads beyond its end.
 void check_index(AVFormatContext& input, AVStream& stream, const std::string& path) {
   const std::int64_t size = avio_size(input.pb);
   const int count = avformat_index_get_entries_count(&stream);
@@ -41,7 +40,7 @@ bool is_cover(const AVStream& stream) {
   return (stream.disposition & AV_DISPOSITION_ATTACHED_PIC) != 0;
 }
 
-/// The one that there is: of several, all but one would not be compared, and nobody would be told.
+/// The only video stream. Of several, one alone would be compared, and nobody would know.
 int find_video(AVFormatContext& input, const std::string& path) {
   check_av_read(avformat_find_stream_info(&input, nullptr), "read", path);
   const int best = check_av_read(
@@ -57,7 +56,7 @@ int find_video(AVFormatContext& input, const std::string& path) {
                   path, count));
 }
 
-/// libavcodec's own decoders of VP8 and VP9 leave alpha out, which Matroska keeps beside the
+/// libavcodec's own decoders of VP8 and VP9 ignore the alpha that Matroska keeps beside the
 /// pictures.
 const AVCodec* find_decoder(const AVStream& stream) {
   const AVCodecID codec = stream.codecpar->codec_id;
@@ -68,9 +67,8 @@ const AVCodec* find_decoder(const AVStream& stream) {
   return avcodec_find_decoder(codec);
 }
 
-/// Several frames at a time, by decoders that survive damage then: in libavcodec 59 that of MPEG-4
-/// Part 2 for one ends the process, by an assertion. Others have slices decoded at a time, if they
-/// can.
+/// Frame threads only for decoders that survive damage with them: that of MPEG-4 Part 2 in
+/// libavcodec 59 fails an assertion. Slice threads for the others.
 int threads_of(AVCodecID codec) {
   constexpr std::array kByFrames = {AV_CODEC_ID_H264, AV_CODEC_ID_HEVC, AV_CODEC_ID_VP9,
                                     AV_CODEC_ID_FFV1, AV_CODEC_ID_PRORES};
@@ -89,7 +87,7 @@ AvCodecContextPtr open_decoder(const AVStream& stream, const std::string& path) 
   context->max_pixels = kMaxFrame_px;
   context->err_recognition = AV_EF_EXPLODE;
   context->thread_type = threads_of(codec->id);
-  context->thread_count = 0;  // as many as there are processors; the pictures are the same
+  context->thread_count = 0;  // one for each processor; the pictures are the same
   check_av_read(avcodec_open2(context.get(), codec, nullptr), "decode", path);
   return context;
 }
@@ -177,7 +175,7 @@ std::string VideoReader::presentation() const {
   return text;
 }
 
-/// Hands one packet to the decoder, or tells it that there are no more.
+/// Gives one packet, or the end, to the decoder.
 void VideoReader::feed() {
   while (true) {
     const int code = av_read_frame(input_.get(), packet_.get());
@@ -196,14 +194,14 @@ void VideoReader::feed() {
   check_av_read(avcodec_send_packet(decoder_.get(), nullptr), "decode", path_);
 }
 
-/// Some decoders, that of ProRes for one, hand out a frame of which they could read a part. The
-/// rest of it is what was in memory.
+/// Some decoders, such as that of ProRes, return a frame of which they read a part. The rest of it
+/// is what was in memory.
 void VideoReader::check_damage() const {
   if (frame_->decode_error_flags == 0 && (frame_->flags & AV_FRAME_FLAG_CORRUPT) == 0) return;
   throw MediaError(fmt::format("video: cannot decode '{}': frame {} is damaged", path_, frames_));
 }
 
-/// Of YUV4MPEG2, which has no index, libavformat leaves half a frame out.
+/// YUV4MPEG2 has no index, and libavformat drops half a frame at the end.
 void VideoReader::check_end() const {
   const bool is_y4m = std::string_view(input_->iformat->name) == "yuv4mpegpipe";
   if (is_y4m && avio_tell(input_->pb) != read_to_) refuse_cut_file(path_);

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <vector>
 
-#include "media/output/frame_reader.hpp"
+#include "media/pixels/frame_reader.hpp"
 
 extern "C" {
 #include <libavutil/imgutils.h>
@@ -38,21 +38,21 @@ bool is_grey(const AVPixFmtDescriptor& format) {
   return format.nb_components <= 2 && !has_flag(format, AV_PIX_FMT_FLAG_PAL);
 }
 
-/// What a player assumes where the file does not say: YUV is of limited range, grey of the full.
+/// If the file does not say, players assume limited range for YUV and full range for grey.
 bool is_full_range(const AVFrame& frame) {
   if (frame.color_range != AVCOL_RANGE_UNSPECIFIED) return frame.color_range == AVCOL_RANGE_JPEG;
   const AVPixFmtDescriptor& format = descriptor_of(frame);
   return is_grey(format) || std::strncmp(format.name, "yuvj", 4) == 0;
 }
 
-/// What a player assumes where the file does not say.
+/// If the file does not say, players assume a matrix by the height.
 int matrix_of(const AVFrame& frame) {
   if (frame.colorspace != AVCOL_SPC_UNSPECIFIED) return frame.colorspace;
   constexpr int kHdLines = 720;
   return frame.height >= kHdLines ? AVCOL_SPC_BT709 : AVCOL_SPC_SMPTE170M;
 }
 
-/// Whether the samples are red, green and blue, or are so when grey is repeated.
+/// Whether the samples are red, green and blue, or grey that stands for all three.
 bool is_rgb(const AVFrame& frame) {
   const AVPixFmtDescriptor& format = descriptor_of(frame);
   return has_flag(format, AV_PIX_FMT_FLAG_RGB) || has_flag(format, AV_PIX_FMT_FLAG_PAL) ||
@@ -65,7 +65,7 @@ int greatest_depth(const AVPixFmtDescriptor& format) {
   return depth;
 }
 
-/// The component that a channel shows; -1 for an alpha that is not stored. Grey is shown by three.
+/// The component that a channel shows; -1 if the format has no alpha. Three channels show grey.
 int component_of(const AVPixFmtDescriptor& format, int channel) {
   const bool has_alpha = has_flag(format, AV_PIX_FMT_FLAG_ALPHA);
   if (channel == kAlpha) return has_alpha ? format.nb_components - 1 : -1;
@@ -85,13 +85,12 @@ int y_shift_of(const AVPixFmtDescriptor& format, int component) {
   return is_chroma(format, component) ? format.log2_chroma_h : 0;
 }
 
-/// The samples of a row of this component.
 int samples_in_row(const AVFrame& frame, int component) {
   return AV_CEIL_RSHIFT(frame.width, x_shift_of(descriptor_of(frame), component));
 }
 
-/// False where libavutil's distance between samples leads out of the row, as that of uyyvyy411
-/// does, in which the distance is not always the same.
+/// False if libavutil's distance between samples leads out of the row, as for uyyvyy411, where the
+/// distance varies.
 bool rows_hold_components(const AVFrame& frame) {
   const AVPixFmtDescriptor& format = descriptor_of(frame);
   const bool is_bits = has_flag(format, AV_PIX_FMT_FLAG_BITSTREAM);
@@ -101,7 +100,7 @@ bool rows_hold_components(const AVFrame& frame) {
         av_image_get_linesize(pixel_format_of(frame), frame.width, component.plane);
     const std::int64_t last =
         component.offset + std::int64_t{samples_in_row(frame, i) - 1} * component.step;
-    // Of single bits the distance is in bits, and the shift has no meaning.
+    // For bitstreams the distance is in bits, and the shift has no meaning.
     const std::int64_t end_bits =
         is_bits ? last + component.depth : 8 * last + component.shift + component.depth;
     if (row_bytes < 0 || end_bits > std::int64_t{8} * row_bytes) return false;
@@ -109,14 +108,14 @@ bool rows_hold_components(const AVFrame& frame) {
   return true;
 }
 
-/// Every sample a byte of its own.
+/// Whether every sample is a byte of its own.
 bool is_made_of_bytes(const AVPixFmtDescriptor& format) {
   if (has_flag(format, AV_PIX_FMT_FLAG_BITSTREAM | AV_PIX_FMT_FLAG_PAL)) return false;
   return std::all_of(format.comp, format.comp + format.nb_components,
                      [](const AVComponentDescriptor& c) { return c.depth == 8 && c.shift == 0; });
 }
 
-/// A row of one channel: what is `step` bytes behind, once for 2^shift pixels.
+/// A row of one channel: a sample every `step` bytes, for 2^x_shift pixels.
 struct ByteRow {
   const std::uint8_t* data;
   int step;
@@ -137,8 +136,8 @@ ByteRow byte_row(const AVFrame& frame, int channel, int y) {
           component.step, x_shift_of(format, index)};
 }
 
-/// The usual layout, in which 2^kShift pixels share chroma. By the general loop below, comparing
-/// two videos of 4:2:0 takes half as long again.
+/// The usual layout, in which 2^kShift pixels share chroma. With the general loop below alone,
+/// comparing two videos of 4:2:0 takes half as long again.
 template <int kShift>
 void read_planes(const std::array<ByteRow, 3>& rows, int width, std::uint32_t* words) {
   constexpr int kPixels = 1 << kShift;
@@ -184,63 +183,52 @@ void read_palette(const AVFrame& frame, std::vector<std::uint32_t>& words) {
   }
 }
 
-/// Any arrangement of bits, by libavutil's own description of it.
+/// One row of a component, by libavutil's description of the arrangement of bits, as levels up to
+/// `max_level`.
+void read_levels(const AVFrame& frame, int component, int y, int max_level,
+                 std::vector<std::uint16_t>& levels) {
+  const AVPixFmtDescriptor& format = descriptor_of(frame);
+  std::array<const std::uint8_t*, 4> planes{};
+  std::copy_n(frame.data, planes.size(), planes.begin());
+  const int count = samples_in_row(frame, component);
+  levels.resize(static_cast<std::size_t>(count));
+  av_read_image_line2(levels.data(), planes.data(), frame.linesize, &format, 0,
+                      y >> y_shift_of(format, component), component, count, 0,
+                      sizeof(std::uint16_t));
+  const int own_max = (1 << format.comp[component].depth) - 1;
+  const bool is_inverted = pixel_format_of(frame) == AV_PIX_FMT_MONOWHITE;
+  if (own_max == max_level && !is_inverted) return;
+  for (std::uint16_t& level : levels) {
+    const int shown = is_inverted ? own_max - level : level;
+    level = static_cast<std::uint16_t>(scaled_level(shown, own_max, max_level));
+  }
+}
+
+/// Any arrangement of bits.
 template <typename Word>
-class BitReader {
- public:
-  BitReader(const AVFrame& frame, int max_level)
-      : frame_(frame),
-        format_(descriptor_of(frame)),
-        max_level_(max_level),
-        levels_(static_cast<std::size_t>(frame.width)) {}
-
-  void read(std::vector<Word>& words) {
-    for (int y = 0; y < frame_.height; ++y) {
-      Word* const row = words.data() + std::ptrdiff_t{y} * frame_.width;
-      for (int channel = 0; channel < kChannels; ++channel) add_channel(channel, y, row);
+void read_bits(const AVFrame& frame, int max_level, std::vector<Word>& words) {
+  constexpr std::array kPlaces = {2, 1, 0, 3};  // of the channels in a word
+  const AVPixFmtDescriptor& format = descriptor_of(frame);
+  std::vector<std::uint16_t> levels;
+  for (int y = 0; y < frame.height; ++y) {
+    Word* const row = words.data() + std::ptrdiff_t{y} * frame.width;
+    for (int channel = 0; channel < kChannels; ++channel) {
+      const int place = static_cast<int>(sizeof(Word)) * 2 * kPlaces[std::size_t(channel)];
+      const int component = component_of(format, channel);
+      int x_shift = 0;
+      if (component < 0) {
+        levels.assign(static_cast<std::size_t>(frame.width), static_cast<std::uint16_t>(max_level));
+      } else {
+        read_levels(frame, component, y, max_level, levels);
+        x_shift = x_shift_of(format, component);
+      }
+      for (int x = 0; x < frame.width; ++x) {
+        row[x] |= static_cast<Word>(levels[static_cast<std::size_t>(x >> x_shift)]) << place;
+      }
     }
   }
+}
 
- private:
-  void add_channel(int channel, int y, Word* row) {
-    constexpr int kBits = sizeof(Word) * 2;
-    constexpr std::array kPlaces = {2, 1, 0, 3};
-    const int shift = kBits * kPlaces[static_cast<std::size_t>(channel)];
-    const int index = component_of(format_, channel);
-    if (index < 0) {
-      for (int x = 0; x < frame_.width; ++x) row[x] |= static_cast<Word>(max_level_) << shift;
-      return;
-    }
-    read_line(index, y >> y_shift_of(format_, index));
-    const int x_shift = x_shift_of(format_, index);
-    for (int x = 0; x < frame_.width; ++x) {
-      row[x] |= static_cast<Word>(levels_[static_cast<std::size_t>(x >> x_shift)]) << shift;
-    }
-  }
-
-  void read_line(int index, int line) {
-    std::array<const std::uint8_t*, 4> planes{};
-    std::copy_n(frame_.data, planes.size(), planes.begin());
-    const int count = samples_in_row(frame_, index);
-    av_read_image_line2(levels_.data(), planes.data(), frame_.linesize, &format_, 0, line, index,
-                        count, 0, sizeof(std::uint16_t));
-    const int own_max = (1 << format_.comp[index].depth) - 1;
-    const bool is_inverted = pixel_format_of(frame_) == AV_PIX_FMT_MONOWHITE;
-    if (own_max == max_level_ && !is_inverted) return;
-    for (int i = 0; i < count; ++i) {
-      std::uint16_t& level = levels_[static_cast<std::size_t>(i)];
-      const int shown = is_inverted ? own_max - level : level;
-      level = static_cast<std::uint16_t>(scaled_level(shown, own_max, max_level_));
-    }
-  }
-
-  const AVFrame& frame_;
-  const AVPixFmtDescriptor& format_;
-  int max_level_;
-  std::vector<std::uint16_t> levels_;
-};
-
-/// A picture of words of its own, all 0.
 template <typename Picture>
 Picture blank(const AVFrame& frame) {
   Picture picture;
@@ -305,7 +293,7 @@ Samples samples_of(const AVFrame& frame) {
   if (depth > 8) {
     auto image = blank<DeepImage>(frame);
     image.max_level = (1 << depth) - 1;
-    BitReader<std::uint64_t>(frame, image.max_level).read(image.words);
+    read_bits(frame, image.max_level, image.words);
     return image;
   }
   auto image = blank<Image>(frame);
@@ -314,7 +302,7 @@ Samples samples_of(const AVFrame& frame) {
   } else if (is_made_of_bytes(format)) {
     read_bytes(frame, image.words);
   } else {
-    BitReader<std::uint32_t>(frame, 255).read(image.words);
+    read_bits(frame, 255, image.words);
   }
   return image;
 }

@@ -1,5 +1,5 @@
 // The samples of a decoded picture, whatever its pixel format.
-// In: a frame of libavcodec's. Out: what is stored in it, or the colours that it shows.
+// In: a frame of libavcodec's. Out: what it stores, or the colours that it shows.
 #pragma once
 
 #include <memory>
@@ -19,16 +19,16 @@ struct SwsDeleter {
 };
 using SwsPtr = std::unique_ptr<SwsContext, SwsDeleter>;
 
-/// Samples of whole numbers, up to 16 bits each, every one at its place, are what can be compared.
-/// @throws MediaError that names the pixel format, if it is another.
+/// Frames can be compared if their samples are integers of up to 16 bits in regular rows.
+/// @throws MediaError that names the pixel format, if they are not.
 void check_pixel_format(const AVFrame& frame, const std::string& path);
 
-/// What FrameReader::layout() says of the frame: the arrangement in memory is no part of it.
+/// FrameReader::layout(), in which the arrangement in memory has no part.
 std::string layout_of(const AVFrame& frame);
 
 Samples samples_of(const AVFrame& frame);
 
-/// @param sws  of the last picture, used again if it suits this one.
+/// @param sws  of the last picture, reused if it suits this one.
 /// @throws MediaError if libswscale does not know the pixel format.
 Samples rgb_of(const AVFrame& frame, SwsPtr& sws);
 

@@ -1,21 +1,12 @@
 #include <fmt/format.h>
-#include <piblocks/error.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include "media/libav/codec_choice.hpp"
-#include "media/libav/find_encoder.hpp"
-#include "media/output/output_request.hpp"
-
-extern "C" {
-#include <libavutil/opt.h>
-}
 
 namespace piblocks {
 namespace {
@@ -31,7 +22,7 @@ struct WebmEncoder {
   std::span<const Option> options;
 };
 
-// No look ahead and no pictures that are not shown: a packet is a frame.
+// Neither looks ahead nor makes hidden pictures: a packet is a frame.
 constexpr std::array<Option, 6> kVp9Options = {{{"deadline", "realtime"},
                                                 {"cpu-used", "6"},
                                                 {"lag-in-frames", "0"},
@@ -42,8 +33,16 @@ constexpr std::array<Option, 4> kAomOptions = {
     {{"usage", "realtime"}, {"cpu-used", "6"}, {"lag-in-frames", "0"}, {"row-mt", "0"}}};
 
 /// The default first.
-constexpr std::array kEncoders = {WebmEncoder{"libvpx-vp9", "vp9", true, 10, kVp9Options},
-                                  WebmEncoder{"libaom-av1", "av1", false, 5, kAomOptions}};
+constexpr std::array kEncoders = {WebmEncoder{.name = "libvpx-vp9",
+                                              .short_name = "vp9",
+                                              .has_alpha = true,
+                                              .crf = 10,
+                                              .options = kVp9Options},
+                                  WebmEncoder{.name = "libaom-av1",
+                                              .short_name = "av1",
+                                              .has_alpha = false,
+                                              .crf = 5,
+                                              .options = kAomOptions}};
 constexpr double kMaxCrf = 63;
 
 const AVCodec* codec_of(const WebmEncoder& encoder) {
@@ -59,51 +58,25 @@ const WebmEncoder* find(const std::optional<std::string>& name) {
   return nullptr;
 }
 
-std::vector<std::string> problems_of(const VideoFormat& format, const EncoderSettings& settings,
-                                     const WebmEncoder* encoder) {
-  std::vector<std::string> problems;
-  const auto report = [&](std::string problem) {
-    if (!problem.empty()) problems.push_back(std::move(problem));
-  };
-  report(odd_size_problem(format, "WebM in 4:2:0"));
-  if (settings.crf && !(*settings.crf >= 0 && *settings.crf <= kMaxCrf)) {
-    report(fmt::format("video: crf {} is out of range of *.webm; use 0 (best) to {}", *settings.crf,
-                       kMaxCrf));
-  } else if (settings.crf && *settings.crf != std::floor(*settings.crf)) {
-    report(fmt::format("video: crf {} is no whole number, as *.webm needs; use {} or {}",
-                       *settings.crf, std::floor(*settings.crf), std::ceil(*settings.crf)));
+std::string crf_problem(double crf) {
+  if (!(crf >= 0 && crf <= kMaxCrf)) {
+    return fmt::format("video: crf {} is out of range of *.webm; use 0 (best) to {}", crf, kMaxCrf);
   }
-  if (encoder == nullptr) {
-    report(fmt::format("video: cannot find encoder '{}' for *.webm; use one of: {}",
-                       settings.encoder.value_or("vp9"), fmt::join(usable_webm_encoders(), ", ")));
-    return problems;
-  }
-  if (format.has_alpha && !encoder->has_alpha) {
-    report(fmt::format("video: encoder '{}' has no transparency; use vp9, or leave the encoder out",
-                       encoder->name));
-  }
-  if (settings.preset && !has_option(*codec_of(*encoder), "preset")) {
-    report(fmt::format("video: encoder '{}' has no presets; leave the preset out", encoder->name));
-  }
-  return problems;
+  if (crf == std::floor(crf)) return {};
+  return fmt::format("video: crf {} is no whole number, as *.webm needs; use {} or {}", crf,
+                     std::floor(crf), std::ceil(crf));
+}
+
+std::string missing_encoder(const std::optional<std::string>& name) {
+  return fmt::format("video: cannot find encoder '{}' for *.webm; use one of: {}",
+                     name.value_or("vp9"), fmt::join(usable_webm_encoders(), ", "));
 }
 
 void set_up(AVCodecContext& context, const WebmEncoder& encoder, const EncoderSettings& settings) {
-  const auto set = [&](const char* name, const std::string& value) {
-    check_av(av_opt_set(context.priv_data, name, value.c_str(), 0),
-             fmt::format("set {} {} of encoder", name, value), encoder.name);
-  };
-  context.bit_rate = 0;  // of a constant quality
-  set("crf", fmt::format("{:.0f}", settings.crf.value_or(encoder.crf)));
-  for (const auto& [name, value] : encoder.options) set(name, value);
-  if (settings.preset) set("preset", *settings.preset);
-}
-
-bool can_be_opened(const WebmEncoder& encoder) {
-  const AVCodec* const codec = codec_of(encoder);
-  return codec != nullptr && piblocks::can_be_opened(*codec, [&](AVCodecContext& context) {
-           set_up(context, encoder, {});
-         });
+  context.bit_rate = 0;  // constant quality
+  set_option(context, "crf", fmt::format("{:.0f}", settings.crf.value_or(encoder.crf)));
+  for (const auto& [name, value] : encoder.options) set_option(context, name, value);
+  if (settings.preset) set_option(context, "preset", *settings.preset);
 }
 
 }  // namespace
@@ -111,21 +84,34 @@ bool can_be_opened(const WebmEncoder& encoder) {
 std::vector<std::string> usable_webm_encoders() {
   std::vector<std::string> names;
   for (const WebmEncoder& encoder : kEncoders) {
-    if (can_be_opened(encoder)) names.emplace_back(encoder.name);
+    const auto set_up_default = [&](AVCodecContext& context) { set_up(context, encoder, {}); };
+    const AVCodec* const codec = codec_of(encoder);
+    if (codec != nullptr && can_be_opened(*codec, set_up_default)) names.emplace_back(encoder.name);
   }
   return names;
 }
 
 CodecChoice webm_choice(const VideoFormat& format, const EncoderSettings& settings) {
   const WebmEncoder* const encoder = find(settings.encoder);
-  std::vector<std::string> problems = problems_of(format, settings, encoder);
-  if (!problems.empty()) throw UsageError(std::move(problems));
+  Problems problems;
+  problems.add(odd_size_problem(format, "WebM in 4:2:0"));
+  if (settings.crf) problems.add(crf_problem(*settings.crf));
+  if (encoder == nullptr) problems.add(missing_encoder(settings.encoder));
+  if (encoder != nullptr && format.has_alpha && !encoder->has_alpha) {
+    problems.add(
+        fmt::format("video: encoder '{}' has no transparency; use vp9, or leave the encoder out",
+                    encoder->name));
+  }
+  if (encoder != nullptr && settings.preset && !has_option(*codec_of(*encoder), "preset")) {
+    problems.add(no_preset(encoder->name));
+  }
+  problems.check();
   return {.codec = codec_of(*encoder),
           .pixel_format = format.has_alpha ? AV_PIX_FMT_YUVA420P : AV_PIX_FMT_YUV420P,
           .frames_per_chunk = frames_in_a_second(format.frame_rate),
-          .set_up = [encoder, settings](
-                        AVCodecContext& context) { piblocks::set_up(context, *encoder, settings); },
-          .usable = usable_webm_encoders};
+          .set_up = [encoder,
+                     settings](AVCodecContext& context) { set_up(context, *encoder, settings); },
+          .alternatives = {EncoderKind::webm}};
 }
 
 }  // namespace piblocks

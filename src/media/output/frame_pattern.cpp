@@ -14,13 +14,12 @@ namespace {
       "output: cannot use '{}': {}; write one number field, as in frames/%06d.png", text, why));
 }
 
-/// What a percent sign starts: the length of it all, and the digits if it is a field.
 struct Escape {
-  std::size_t length = 0;
-  std::optional<int> digits;
+  std::size_t length = 0;     // of %%, %d or %0Nd; 0 if it is none of these
+  std::optional<int> digits;  // of a field
 };
 
-/// `rest` starts with a percent sign. Length 0 if it is none of %%, %d, %0Nd.
+/// @param rest  starts with a percent sign.
 Escape parse_escape(std::string_view rest) {
   if (rest.starts_with("%%")) return {2, std::nullopt};
   if (rest.starts_with("%d")) return {2, 1};
@@ -72,6 +71,12 @@ std::optional<std::int64_t> FramePattern::number_of(std::string_view name) const
   const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (read.ec != std::errc() || number < 0 || this->name(number) != name) return std::nullopt;
   return number;
+}
+
+std::function<bool(const std::string& name)> names_of_pattern(const std::string& pattern) {
+  return [pattern = FramePattern(pattern)](const std::string& name) {
+    return pattern.number_of(name).has_value();
+  };
 }
 
 }  // namespace piblocks

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,15 +15,15 @@ namespace piblocks {
 class FramePattern {
  public:
   /// @throws UsageError saying what to write, if the text has no field, more than one, a field in
-  ///         a folder's name, or a percent sign followed by anything else.
+  ///         a folder's name, or another percent sign.
   explicit FramePattern(std::string_view text);
 
-  /// File name of frame `number` >= 0, without its folder. Longer numbers than the field has
-  /// digits for are written in full.
+  /// File name of frame `number` >= 0, without its folder. Numbers that are longer than the field
+  /// are written in full.
   std::string name(std::int64_t number) const;
-  /// The number of the image that has this file name; nothing if none has.
+  /// The number of the image with this file name; nothing if no image has it.
   std::optional<std::int64_t> number_of(std::string_view name) const;
-  /// Text that is the same for all patterns of a folder that differ in the width of the field only.
+  /// The same for all patterns of a folder that differ only in the width of the field.
   std::string label() const { return before_ + "%d" + after_; }
   /// The folder the files go to; empty if the pattern names none.
   const std::string& folder() const noexcept { return folder_; }
@@ -33,5 +34,8 @@ class FramePattern {
   std::string after_;
   int digits_ = 1;
 };
+
+/// Whether a file name is that of an image of this pattern, whatever its number.
+std::function<bool(const std::string& name)> names_of_pattern(const std::string& pattern);
 
 }  // namespace piblocks

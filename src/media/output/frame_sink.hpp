@@ -1,6 +1,6 @@
 // Where frames go: a video, an animated picture, a sequence, frame hashes, or nowhere.
-// In: chunks of consecutive frames, each encoded on its own by any thread. Out: one output,
-// written in order by one thread, that bears its final name only when it is complete.
+// In: chunks of consecutive frames, each encoded by any thread. Out: one output, written in order
+// by one thread, which gets its final name only when it is complete.
 #pragma once
 
 #include <piblocks/encode.hpp>
@@ -21,21 +21,21 @@ struct VideoFormat {
   int width_px = 1920;       ///< 1 … kMaxSide_px
   int height_px = 1080;      ///< 1 … kMaxSide_px
   Rational frame_rate = 60;  ///< frames per second, > 0
-  bool has_alpha = false;    ///< whether the frames do, as ImageView says
+  bool has_alpha = false;    ///< as ImageView's
 };
 
-/// Sound that goes with the frames, from their first moment on: left and right.
+/// Sound in stereo, which begins with the first frame.
 struct SoundFormat {
   int rate_hz = 48000;
   std::int64_t size = 0;  ///< pairs of samples, >= 0
 };
 
-/// Where the samples of a soundtrack come from. Used by one thread at a time.
+/// The samples of a soundtrack. Used by one thread at a time.
 class SampleSource {
  public:
   virtual ~SampleSource() = default;
   /// Writes the next samples, left and right in turn, from -1 to 1.
-  /// @return how many pairs; less than there is room for only at the end.
+  /// @return how many pairs; fewer than there is room for only at the end.
   virtual std::size_t read(std::span<float> samples) = 0;
 };
 
@@ -47,10 +47,10 @@ struct Packet {
   bool key_frame = true;
 };
 
-/// The packets of one chunk, in the order they are to be written.
+/// The packets of one chunk, in the order of writing.
 using EncodedChunk = std::vector<Packet>;
 
-/// Where the packets of a soundtrack come from, in order. Used by one thread at a time.
+/// The packets of a soundtrack, in order. Used by one thread at a time.
 class PacketSource {
  public:
   virtual ~PacketSource() = default;
@@ -71,8 +71,7 @@ class ChunkEncoder {
   /// Starts the chunk whose first frame has this number.
   /// @throws MediaError if the encoder cannot be opened.
   virtual void begin(std::int64_t first_frame) = 0;
-  /// Brings the encoder's own picture, which it keeps from frame to frame, up to date. The view
-  /// need only be valid during the call.
+  /// Updates the picture that the encoder keeps from frame to frame.
   /// @param changed  rectangles that cover every pixel in which the frame differs from the one
   ///                 taken before, in this chunk or the last. The very first is taken whole.
   /// @throws MediaError if the frame is not of the size of the output.
@@ -82,7 +81,7 @@ class ChunkEncoder {
   virtual void encode() = 0;
   /// The chunk's packets.
   virtual EncodedChunk finish() = 0;
-  /// How the chunk that was finished last was encoded, where an encoder has several ways.
+  /// How the last finished chunk was encoded, if the encoder has several ways.
   virtual std::string method() const { return {}; }
 
  protected:
@@ -98,10 +97,9 @@ class ChunkEncoder {
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
-  /// Packets are taken from there from now on, as many as go with the frames that are appended.
-  /// To be called before anything is appended, if the output was set up with sound.
+  /// Call this before append() if the output was set up with sound.
   /// @param sound  must live until finish() returns.
-  /// @throws MediaError if it has no place for sound.
+  /// @throws MediaError if the output has no place for sound.
   virtual void take_sound(PacketSource& sound);
   /// Writes the next chunk; chunks must come in the order of their frames.
   /// @throws IoError, MediaError if it cannot be written.
@@ -115,11 +113,11 @@ class FrameSink {
 class Output {
  public:
   virtual ~Output() = default;
-  /// Frames that are encoded together: how far frames of this output depend on each other.
+  /// How many frames are encoded together, since they depend on each other.
   virtual std::int64_t frames_per_chunk() const = 0;
-  /// One for each worker; it must not outlive the output. Thread-safe.
+  /// Makes an encoder for one worker; it must not outlive the output. Thread-safe.
   virtual std::unique_ptr<ChunkEncoder> make_encoder() const = 0;
-  /// Whether there are frames in it at all; if not, none is to be encoded or appended.
+  /// If false, no frames may be encoded or appended.
   virtual bool has_frames() const { return true; }
   /// The packets that this output makes of a soundtrack. `samples` must outlive them.
   /// @throws MediaError if the output was set up without sound, or its encoder cannot be opened.
@@ -131,25 +129,5 @@ class Output {
   /// @throws UsageError if it cannot be opened; nothing is left behind then.
   virtual std::unique_ptr<FrameSink> open() const = 0;
 };
-
-/// Sets up the output whose kind `name` tells:
-/// `*.mp4`, `*.mov`, `*.webm`, `*.gif`, `*.apng`, `*.png` with one integer field such as `%06d`,
-/// `*.y4m`, `-` (y4m on standard output), `*.framehash`, or the word `null`; or `*.wav`, which is
-/// sound alone.
-/// PNG files are numbered from 1, as FFmpeg numbers them; the rest counts frames from 0. Settings
-/// are for `*.mp4`, `*.mov` and `*.webm` alone, sound for these and `*.wav`; alpha is not for
-/// `*.mp4`, `*.gif`, `*.y4m` and `-`.
-/// @param sound  what sound it has, if any.
-/// @throws UsageError if the name has no known kind, the format does not suit the kind, or no
-///         encoder is there.
-std::unique_ptr<Output> set_up_output(const std::string& name, const VideoFormat& format,
-                                      const EncoderSettings& settings,
-                                      const std::optional<SoundFormat>& sound = {});
-
-/// Whether an output of this name has sound without being asked for it: `*.wav`.
-bool is_sound_alone(const std::string& name);
-
-/// Name and version of each codec library that is linked, such as "libavcodec 59.37.100".
-std::vector<std::string> media_library_versions();
 
 }  // namespace piblocks

@@ -1,5 +1,4 @@
-// Whole numbers as bytes, the lowest first.
-// In: a number, or bytes. Out: the other.
+// Whole numbers as bytes, the lowest byte first.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +16,7 @@ inline void append_little_endian(std::vector<std::uint8_t>& bytes, std::uint64_t
   }
 }
 
-/// The number that all of these bytes are, at most 8.
+/// The number in at most 8 bytes.
 inline std::uint64_t from_little_endian(std::span<const std::uint8_t> bytes) {
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < bytes.size(); ++i) value |= std::uint64_t{bytes[i]} << (8 * i);

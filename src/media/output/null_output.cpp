@@ -1,6 +1,5 @@
-#include <utility>
-
 #include "media/output/output_kinds.hpp"
+#include "media/output/simple_output.hpp"
 
 namespace piblocks {
 namespace {
@@ -22,24 +21,14 @@ class NullSink final : public FrameSink {
   void finish() override {}
 };
 
-class NullOutput final : public Output {
- public:
-  explicit NullOutput(VideoFormat format) : format_(std::move(format)) {}
-  std::int64_t frames_per_chunk() const override { return 64; }
-  std::unique_ptr<ChunkEncoder> make_encoder() const override {
-    return std::make_unique<NullEncoder>(format_);
-  }
-  std::string signature() const override { return "null"; }
-  std::unique_ptr<FrameSink> open() const override { return std::make_unique<NullSink>(); }
-
- private:
-  VideoFormat format_;
-};
-
 }  // namespace
 
 std::unique_ptr<Output> null_output(const OutputRequest& request) {
-  return std::make_unique<NullOutput>(request.format);
+  return std::make_unique<SimpleOutput>(SimpleOutput::Parts{
+      .frames_per_chunk = 64,
+      .signature = "null",
+      .make_encoder = [format = request.format] { return std::make_unique<NullEncoder>(format); },
+      .open = [] { return std::make_unique<NullSink>(); }});
 }
 
 }  // namespace piblocks

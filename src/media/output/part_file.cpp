@@ -22,9 +22,9 @@ constexpr std::string_view kMagic = "piblocks part 1";
 constexpr std::uint8_t kChunk = 'C';
 constexpr std::uint8_t kSound = 'S';
 constexpr std::uint8_t kEnd = 'E';
-/// Packets of sound that stand together.
+/// Packets in a record of sound.
 constexpr std::size_t kSoundPackets = 64;
-/// A line of the header: numbers of a scene may have 100,000 digits each.
+/// Of the header. Numbers of a scene may have 100,000 digits each.
 constexpr std::size_t kMaxLine_bytes = 4 * 1024 * 1024;
 constexpr std::size_t kMaxHeaderLines = 200;
 
@@ -38,7 +38,7 @@ Unsigned number_at(const Bytes& bytes, std::size_t at) {
   return static_cast<Unsigned>(from_little_endian(std::span(bytes).subspan(at, sizeof(Unsigned))));
 }
 
-// What precedes the bytes of a packet: pts, dts, key frame, size.
+// pts, dts, key frame, size.
 constexpr std::size_t kPacketHeader_bytes = 8 + 8 + 1 + 4;
 
 void append_packet(Bytes& bytes, const Packet& packet) {
@@ -50,7 +50,7 @@ void append_packet(Bytes& bytes, const Packet& packet) {
 }
 
 std::uint32_t checksum(std::uint32_t before, const Bytes& bytes) {
-  if (bytes.empty()) return before;  // zlib would start anew
+  if (bytes.empty()) return before;  // zlib would start again
   return static_cast<std::uint32_t>(crc32_z(before, bytes.data(), bytes.size()));
 }
 
@@ -62,7 +62,6 @@ class PartSink final : public FrameSink {
     file_.write("\n");
   }
 
-  /// All of it at once: whoever joins reads it beside the chunks.
   void take_sound(PacketSource& sound) override {
     EncodedChunk packets;
     while (auto packet = sound.next()) {
@@ -186,8 +185,8 @@ Bytes PartReader::read(std::uint64_t count) {
 }
 
 void PartReader::fail_to_read() const {
-  const std::string reason = std::generic_category().message(errno);
-  throw IoError(fmt::format("part: cannot read '{}': {}", path_, reason));
+  throw IoError(
+      fmt::format("part: cannot read '{}': {}", path_, std::generic_category().message(errno)));
 }
 
 void PartReader::fail_damaged() const {

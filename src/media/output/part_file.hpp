@@ -1,13 +1,12 @@
 // Chunks on their way from one machine to another.
-// In: chunks and the description of the job they belong to. Out: a file that holds both, and from
-// it the same chunks again.
+// In: chunks, and the description of their job. Out: a file, and from it the same chunks.
 //
-// The file starts with lines of text, "piblocks part 1", then "NAME: VALUE" each, then an empty
-// line. Then come the chunks, numbers in little-endian order: a byte 'C', the number of packets
-// (32 bits), the packets, and the CRC-32 of all these; a packet is its pts and dts (64 bits each),
-// a byte that is 1 for a key frame, its size (32 bits) and its bytes. Before all chunks there may
-// be sound, for the whole output: likewise, with 'S' in place of 'C'. A byte 'E' ends the file, so
-// that one that was cut off is found out.
+// The file starts with lines of text: "piblocks part 1", then "NAME: VALUE" each, then an empty
+// line. Records follow, with numbers in little-endian order: a byte for the kind, the number of
+// packets (32 bits), the packets, and the CRC-32 of all these. A packet is its pts and dts (64 bits
+// each), a byte that is 1 for a key frame, its size (32 bits) and its bytes. Records of the kind
+// 'S' have the sound of the whole output and come first; a record 'C' is a chunk. A byte 'E' ends
+// the file and shows that it was not cut off.
 #pragma once
 
 #include <fstream>
@@ -19,24 +18,24 @@
 
 namespace piblocks {
 
-/// Names and values, in order. Neither holds a line break, and a name no colon.
+/// Names and values, in order. Neither has a line break, and a name has no colon.
 using PartHeader = std::vector<std::pair<std::string, std::string>>;
 
-/// A sink that keeps chunks as they are.
+/// A sink that stores chunks as they are.
 /// @throws UsageError if the file cannot be opened, or the header cannot be written as lines.
 std::unique_ptr<FrameSink> open_part(const std::string& path, const PartHeader& header);
 
-/// Reads a part file, chunk by chunk. Never takes more memory than the file is long.
+/// Reads a part file, chunk by chunk. Takes no more memory than the file is long.
 class PartReader {
  public:
-  /// @throws UsageError if the file cannot be opened or is no part file.
+  /// @throws UsageError if the file cannot be opened or is not a part file.
   explicit PartReader(std::string path);
 
   const PartHeader& header() const noexcept { return header_; }
   /// The next chunk; nothing after the last.
   /// @throws IoError if the file is damaged or cut off.
   std::optional<EncodedChunk> next();
-  /// The next packets of sound; nothing after the last. Not to be mixed with next().
+  /// The next packets of sound; nothing after the last. Do not mix with next().
   /// @throws IoError as next().
   std::optional<EncodedChunk> next_sound();
 
@@ -46,10 +45,9 @@ class PartReader {
     EncodedChunk packets;
   };
 
-  /// @throws IoError as next().
   std::optional<Record> next_record();
   void read_header();
-  /// A line without its end; nothing if it is longer or the file ends in it.
+  /// A line without its end; nothing if it is longer or has no end.
   std::optional<std::string> read_line(std::size_t max_bytes);
   std::vector<std::uint8_t> read(std::uint64_t count);
   [[noreturn]] void fail_to_read() const;

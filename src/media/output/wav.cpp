@@ -18,15 +18,11 @@ constexpr int kChannels = 2;
 constexpr int kSample_bytes = 3;
 constexpr int kPair_bytes = kChannels * kSample_bytes;
 constexpr std::int64_t kHeader_bytes = 44;
-/// What the file says of its own length has 32 bits, and leaves out the first 8 bytes.
+/// The file's own length field has 32 bits and leaves out the first 8 bytes.
 constexpr std::int64_t kMaxFile_bytes = 0xFFFFFFFF;
 
 void append_number(std::vector<std::uint8_t>& bytes, std::int64_t value, std::size_t size_bytes) {
   append_little_endian(bytes, static_cast<std::uint64_t>(value), size_bytes);
-}
-
-void append_text(std::vector<std::uint8_t>& bytes, std::string_view text) {
-  bytes.insert(bytes.end(), text.begin(), text.end());
 }
 
 /// RIFF WAVE with one "fmt " chunk of PCM and one "data" chunk (Multimedia Programming Interface
@@ -35,9 +31,12 @@ std::vector<std::uint8_t> header(const SoundFormat& sound) {
   constexpr int kPcm = 1;
   const std::int64_t data_bytes = sound.size * kPair_bytes;
   std::vector<std::uint8_t> bytes;
-  append_text(bytes, "RIFF");
+  const auto append_text = [&](std::string_view text) {
+    bytes.insert(bytes.end(), text.begin(), text.end());
+  };
+  append_text("RIFF");
   append_number(bytes, kHeader_bytes - 8 + data_bytes, 4);
-  append_text(bytes, "WAVEfmt ");
+  append_text("WAVEfmt ");
   append_number(bytes, 16, 4);
   append_number(bytes, kPcm, 2);
   append_number(bytes, kChannels, 2);
@@ -45,7 +44,7 @@ std::vector<std::uint8_t> header(const SoundFormat& sound) {
   append_number(bytes, std::int64_t{sound.rate_hz} * kPair_bytes, 4);
   append_number(bytes, kPair_bytes, 2);
   append_number(bytes, 8 * kSample_bytes, 2);
-  append_text(bytes, "data");
+  append_text("data");
   append_number(bytes, data_bytes, 4);
   return bytes;
 }

@@ -4,15 +4,14 @@
 #include <string_view>
 #include <utility>
 
-#include "media/output/intra_encoder.hpp"
 #include "media/output/output_kinds.hpp"
-#include "media/output/stream_sink.hpp"
+#include "media/output/simple_output.hpp"
 #include "media/pixels/yuv420.hpp"
 
 namespace piblocks {
 namespace {
 
-/// A frame is 3 MB at 1080p: as few as possible wait for their turn to be written.
+/// A frame has 3 MB at 1080p: as few as possible wait to be written.
 constexpr std::int64_t kFramesPerChunk = 1;
 
 constexpr std::string_view kFrameHeader = "FRAME\n";
@@ -25,10 +24,10 @@ std::string file_header(const VideoFormat& format) {
                      format.frame_rate.get_den().get_str());
 }
 
-class Y4mEncoder final : public IntraEncoder {
+class Y4mEncoder final : public PacketPerFrameEncoder {
  public:
   explicit Y4mEncoder(const VideoFormat& format)
-      : IntraEncoder(format),
+      : PacketPerFrameEncoder(format),
         file_header_(file_header(format)),
         width_px_(format.width_px),
         luma_bytes_(std::size_t(format.width_px) * std::size_t(format.height_px)),
@@ -36,7 +35,7 @@ class Y4mEncoder final : public IntraEncoder {
 
  private:
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override;
-  std::vector<std::uint8_t> encode_picture(std::int64_t number) override;
+  std::vector<std::uint8_t> encode_picture(std::int64_t number, bool is_first) override;
 
   std::string file_header_;
   std::ptrdiff_t width_px_;
@@ -46,18 +45,15 @@ class Y4mEncoder final : public IntraEncoder {
 
 void Y4mEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
   std::uint8_t* const y = planes_.data();
-  const YuvView picture{.y = y,
-                        .cb = y + luma_bytes_,
-                        .cr = y + luma_bytes_ / 4 * 5,
-                        .y_stride_bytes = width_px_,
-                        .cb_stride_bytes = width_px_ / 2,
-                        .cr_stride_bytes = width_px_ / 2};
+  const Yuv420View picture{.y = {y, width_px_},
+                           .cb = {y + luma_bytes_, width_px_ / 2},
+                           .cr = {y + luma_bytes_ / 4 * 5, width_px_ / 2}};
   for (const PixelRect& rect : rects) {
     convert_to_yuv420(frame, chroma_aligned(rect, frame), picture);
   }
 }
 
-std::vector<std::uint8_t> Y4mEncoder::encode_picture(std::int64_t number) {
+std::vector<std::uint8_t> Y4mEncoder::encode_picture(std::int64_t number, bool /*is_first*/) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(file_header_.size() + kFrameHeader.size() + planes_.size());
   if (number == 0) bytes.insert(bytes.end(), file_header_.begin(), file_header_.end());
@@ -69,9 +65,10 @@ std::vector<std::uint8_t> Y4mEncoder::encode_picture(std::int64_t number) {
 }  // namespace
 
 std::unique_ptr<Output> y4m_output(const OutputRequest& request) {
-  const std::string problem = odd_size_problem(request.format, "y4m in 4:2:0");
-  if (!problem.empty()) throw UsageError(problem);
-  return std::make_unique<StreamOutput<Y4mEncoder>>(request, kFramesPerChunk, "y4m");
+  Problems problems;
+  problems.add(odd_size_problem(request.format, "y4m in 4:2:0"));
+  problems.check();
+  return stream_output<Y4mEncoder>(request, kFramesPerChunk, "y4m");
 }
 
 }  // namespace piblocks

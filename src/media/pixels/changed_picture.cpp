@@ -9,7 +9,7 @@ ChangedPicture::ChangedPicture(int width_px, int height_px, Marks marks)
     : width_px_(width_px),
       height_px_(height_px),
       words_(std::size_t(width_px) * std::size_t(height_px)),
-      news_(marks == Marks::new_pixels ? words_.size() : 0) {}
+      marks_(marks == Marks::changed_pixels ? words_.size() : 0) {}
 
 void ChangedPicture::take(const ImageView& frame, std::span<const PixelRect> rects) {
   for (const PixelRect& rect : rects) {
@@ -20,18 +20,18 @@ void ChangedPicture::take(const ImageView& frame, std::span<const PixelRect> rec
 void ChangedPicture::take_row(const ImageView& frame, const PixelRect& rect, int y) {
   const std::uint8_t* const from = frame.row(y) + std::ptrdiff_t{4} * rect.x_px;
   std::uint32_t* const to = words_.data() + offset(y) + rect.x_px;
-  std::uint8_t* const news = news_.empty() ? nullptr : news_.data() + offset(y) + rect.x_px;
-  // What is in place of an opaque pixel's alpha is not said.
-  const std::uint32_t unsaid = frame.has_alpha ? 0 : 0xff000000;
+  std::uint8_t* const row_marks = marks_.empty() ? nullptr : marks_.data() + offset(y) + rect.x_px;
+  // The byte of the alpha is undefined in opaque frames.
+  const std::uint32_t opaque = frame.has_alpha ? 0 : 0xff000000;
   int first = rect.width_px;
   int last = 0;
   for (int x = 0; x < rect.width_px; ++x) {
     std::uint32_t word = 0;
     std::memcpy(&word, from + std::ptrdiff_t{4} * x, sizeof word);
-    word |= unsaid;
+    word |= opaque;
     if (word == to[x]) continue;
     to[x] = word;
-    if (news != nullptr) news[x] = 1;
+    if (row_marks != nullptr) row_marks[x] = 1;
     first = std::min(first, x);
     last = x;
   }
@@ -46,8 +46,8 @@ void ChangedPicture::take_row(const ImageView& frame, const PixelRect& rect, int
 }
 
 void ChangedPicture::settle() {
-  for (int y = top_; !news_.empty() && y < bottom_; ++y) {
-    std::fill_n(news_.data() + offset(y) + left_, right_ - left_, std::uint8_t{0});
+  for (int y = top_; !marks_.empty() && y < bottom_; ++y) {
+    std::fill_n(marks_.data() + offset(y) + left_, right_ - left_, std::uint8_t{0});
   }
   left_ = top_ = right_ = bottom_ = 0;
 }

@@ -3,21 +3,26 @@
 #include <cstring>
 
 namespace piblocks {
+namespace {
 
-void pack_rgb24(const std::uint8_t* __restrict row, int width_px, std::uint8_t* __restrict bytes) {
-  for (int x = 0; x < width_px; ++x) {
-    std::uint32_t pixel = 0;
-    std::memcpy(&pixel, row + 4 * x, sizeof pixel);
+std::uint32_t pixel_at(const std::uint8_t* row, int x) {
+  std::uint32_t pixel = 0;
+  std::memcpy(&pixel, row + 4 * x, sizeof pixel);
+  return pixel;
+}
+
+void pack_rgb24(const std::uint8_t* __restrict row, int count, std::uint8_t* __restrict bytes) {
+  for (int x = 0; x < count; ++x) {
+    const std::uint32_t pixel = pixel_at(row, x);
     bytes[3 * x] = static_cast<std::uint8_t>(pixel >> 16);
     bytes[3 * x + 1] = static_cast<std::uint8_t>(pixel >> 8);
     bytes[3 * x + 2] = static_cast<std::uint8_t>(pixel);
   }
 }
 
-void pack_rgba32(const std::uint8_t* __restrict row, int width_px, std::uint8_t* __restrict bytes) {
-  for (int x = 0; x < width_px; ++x) {
-    std::uint32_t pixel = 0;
-    std::memcpy(&pixel, row + 4 * x, sizeof pixel);
+void pack_rgba32(const std::uint8_t* __restrict row, int count, std::uint8_t* __restrict bytes) {
+  for (int x = 0; x < count; ++x) {
+    std::uint32_t pixel = pixel_at(row, x);
     const std::uint32_t alpha = pixel >> 24;
     if (alpha == 0 || alpha == 255) {
       pixel = (pixel & 0xff00ff00) | (pixel >> 16 & 0xff) | (pixel & 0xff) << 16;
@@ -29,6 +34,13 @@ void pack_rgba32(const std::uint8_t* __restrict row, int width_px, std::uint8_t*
     bytes[4 * x + 2] = unmultiplied(pixel & 0xff, alpha);
     bytes[4 * x + 3] = static_cast<std::uint8_t>(alpha);
   }
+}
+
+}  // namespace
+
+void pack_pixels(const ImageView& frame, int x, int y, int count, std::uint8_t* bytes) {
+  const std::uint8_t* const row = frame.row(y) + std::ptrdiff_t{4} * x;
+  frame.has_alpha ? pack_rgba32(row, count, bytes) : pack_rgb24(row, count, bytes);
 }
 
 void subtract_bytes(const std::uint8_t* __restrict minuend,

@@ -4,9 +4,9 @@
 #include <array>
 #include <cassert>
 
-// Sixteen-bit arithmetic throughout, because the SSE2 that every x86-64 has multiplies sixteen
-// bits fast and thirty-two slowly. The loops are written so that GCC turns `high_half` into one
-// vector instruction; each works on a strip short enough for its buffers to stay in cache.
+// All arithmetic has 16 bits, since SSE2, which every x86-64 has, is slow at products of 32. GCC
+// turns `high_half` into one vector instruction. Strips are short enough for their buffers to stay
+// in cache.
 
 namespace piblocks {
 namespace {
@@ -52,8 +52,8 @@ inline std::int16_t high_half(std::int16_t a, std::int16_t b) {
 /// Pixels that one pass over a pair of rows takes; even.
 constexpr int kStrip_px = 512;
 
-/// Luma of `count` pixels, in 256ths until the last step. Each of the three products is floored,
-/// so that together they are 1.5 too small on average: hence the 1 beside the half.
+/// Luma of `count` pixels, in 256ths until the last step. The three products are floored, which
+/// makes their sum 1.5 too small on average: hence the 1 beside the half.
 void convert_luma(const std::uint32_t* __restrict pixels, int count, std::uint8_t* __restrict y) {
   for (int x = 0; x < count; ++x) {
     const std::uint32_t pixel = pixels[x];
@@ -90,8 +90,8 @@ inline std::uint8_t chroma(std::int16_t red, std::int16_t green, std::int16_t bl
   return static_cast<std::uint8_t>(sum >> 7);
 }
 
-/// The samples of `count` pairs of columns: the even column weighs half, its neighbours a quarter
-/// each, since a sample sited left lies on the even column.
+/// The samples of `count` pairs of columns. A sample lies on the even column, which weighs half,
+/// its neighbours a quarter each.
 void convert_chroma(const ColumnSums& sums, int count, std::uint8_t* __restrict cb,
                     std::uint8_t* __restrict cr) {
   const std::uint32_t* __restrict red_blue = sums.red_blue.data();
@@ -112,27 +112,23 @@ const std::uint32_t* pixels_at(const ImageView& image, int x, int y) {
 }
 
 /// Rows y and y + 1, columns x to x + count.
-void convert_strip(const ImageView& image, int x, int y, int count, const YuvView& picture) {
+void convert_strip(const ImageView& image, int x, int y, int count, const Yuv420View& picture) {
   const std::uint32_t* upper = pixels_at(image, x, y);
   const std::uint32_t* lower = pixels_at(image, x, y + 1);
-  std::uint8_t* luma = picture.y + y * picture.y_stride_bytes + x;
-  convert_luma(upper, count, luma);
-  convert_luma(lower, count, luma + picture.y_stride_bytes);
+  convert_luma(upper, count, picture.y.row(y) + x);
+  convert_luma(lower, count, picture.y.row(y + 1) + x);
 
   ColumnSums sums;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled where it is read
   const int left = x > 0 ? 1 : 0;  // at the edge the first column stands for its neighbour
   add_rows(upper - left, lower - left, 1, sums.red_blue.data(), sums.green.data());
   add_rows(upper, lower, count, sums.red_blue.data() + 1, sums.green.data() + 1);
-  convert_chroma(sums, count / 2,
-                 picture.cb + std::ptrdiff_t{y / 2} * picture.cb_stride_bytes + x / 2,
-                 picture.cr + y / 2 * picture.cr_stride_bytes + x / 2);
+  convert_chroma(sums, count / 2, picture.cb.row(y / 2) + x / 2, picture.cr.row(y / 2) + x / 2);
 }
 
 }  // namespace
 
 PixelRect chroma_aligned(const PixelRect& rect, const ImageView& image) {
-  // A chroma sample is made of the two rows of its pair, and of three columns: those at its place,
-  // right of it and left of it.
+  // A chroma sample depends on two rows and on three columns: its own and both beside it.
   const int left = rect.x_px & ~1;
   const int top = rect.y_px & ~1;
   const int right = std::min((rect.x_px + rect.width_px + 2) & ~1, image.width_px);
@@ -140,7 +136,7 @@ PixelRect chroma_aligned(const PixelRect& rect, const ImageView& image) {
   return {left, top, right - left, bottom - top};
 }
 
-void convert_to_yuv420(const ImageView& image, const PixelRect& rect, const YuvView& picture) {
+void convert_to_yuv420(const ImageView& image, const PixelRect& rect, const Yuv420View& picture) {
   assert((image.width_px | image.height_px) % 2 == 0);
   assert((rect.x_px | rect.y_px | rect.width_px | rect.height_px) % 2 == 0);
   assert(rect.x_px >= 0 && rect.x_px + rect.width_px <= image.width_px);

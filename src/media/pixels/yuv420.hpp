@@ -1,4 +1,4 @@
-// From a canvas's pixels to what video encoders and y4m take.
+// From pixels to 4:2:0, which video encoders and y4m take.
 // In: sRGB pixels and an even-aligned rectangle of them. Out: that part of a 4:2:0 picture with
 // the BT.709 matrix in limited range, chroma sited left (ITU-T H.273, matrix 1, location 0).
 #pragma once
@@ -10,19 +10,24 @@
 
 namespace piblocks {
 
-/// Writable planes of one 4:2:0 picture; the chroma planes have half the width and height.
-/// The memory belongs to whoever made the view.
-struct YuvView {
-  std::uint8_t* y = nullptr;
-  std::uint8_t* cb = nullptr;
-  std::uint8_t* cr = nullptr;
-  std::ptrdiff_t y_stride_bytes = 0;
-  std::ptrdiff_t cb_stride_bytes = 0;
-  std::ptrdiff_t cr_stride_bytes = 0;
+/// A plane of samples; its maker owns the memory.
+template <typename Sample>
+struct PlaneView {
+  Sample* samples = nullptr;
+  std::ptrdiff_t stride_bytes = 0;
+
+  Sample* row(int y) const noexcept {
+    return reinterpret_cast<Sample*>(reinterpret_cast<std::uint8_t*>(samples) + y * stride_bytes);
+  }
 };
 
-/// The least rectangle to convert if pixels of `rect` have changed: even, and with the chroma
-/// samples that see a changed column from beside it.
+/// The chroma planes have half the width and height.
+struct Yuv420View {
+  PlaneView<std::uint8_t> y, cb, cr;
+};
+
+/// The smallest rectangle to convert if pixels of `rect` have changed: even, and with the chroma
+/// samples to which an adjacent column contributes.
 PixelRect chroma_aligned(const PixelRect& rect, const ImageView& image);
 
 /// Converts `rect` of `image` into the same place of `picture`; no other sample is written.
@@ -31,6 +36,6 @@ PixelRect chroma_aligned(const PixelRect& rect, const ImageView& image);
 /// rectangle: a change at column x of the image can change chroma from column x-1 to x+1.
 /// @param image of even width and height.
 /// @param rect inside the image; all its numbers are even.
-void convert_to_yuv420(const ImageView& image, const PixelRect& rect, const YuvView& picture);
+void convert_to_yuv420(const ImageView& image, const PixelRect& rect, const Yuv420View& picture);
 
 }  // namespace piblocks

@@ -6,14 +6,13 @@
 namespace piblocks {
 namespace {
 
-// BT.709 in ten thousandths (ITU-R BT.709-6, 3.2); blue minus luma is at most 9278 of them, red
-// minus luma 7874.
+// BT.709 in ten thousandths (ITU-R BT.709-6, 3.2).
 constexpr std::int64_t kRed = 2126;
 constexpr std::int64_t kGreen = 7152;
 constexpr std::int64_t kBlue = 722;
 constexpr std::int64_t kOne = kRed + kGreen + kBlue;
 
-/// Sums of samples that were multiplied by alpha, and of as many alphas.
+/// Sums of samples multiplied by alpha, and of the alphas.
 struct Sums {
   std::int64_t red = 0;
   std::int64_t green = 0;
@@ -37,28 +36,30 @@ std::int64_t luma(const Sums& c, std::int64_t steps) {
 }
 
 /// Limited range: `steps` of chroma from one end to the other.
-std::int64_t chroma_blue(const Sums& c, std::int64_t steps) {
+/// @param sample, weight  of blue for Cb, of red for Cr.
+std::int64_t chroma(const Sums& c, std::int64_t sample, std::int64_t weight, std::int64_t steps) {
   if (c.alpha == 0) return 0;
-  const std::int64_t difference = (kOne - kBlue) * c.blue - kRed * c.red - kGreen * c.green;
-  return rounded_quotient(steps * difference, 2 * (kOne - kBlue) * c.alpha);
+  const std::int64_t difference =
+      kOne * sample - kRed * c.red - kGreen * c.green - kBlue * c.blue;  // sample - luma
+  return rounded_quotient(steps * difference, 2 * (kOne - weight) * c.alpha);
 }
 
-std::int64_t chroma_red(const Sums& c, std::int64_t steps) {
-  if (c.alpha == 0) return 0;
-  const std::int64_t difference = (kOne - kRed) * c.red - kGreen * c.green - kBlue * c.blue;
-  return rounded_quotient(steps * difference, 2 * (kOne - kRed) * c.alpha);
+std::int64_t chroma_blue(const Sums& c, std::int64_t steps) {
+  return chroma(c, c.blue, kBlue, steps);
 }
+
+std::int64_t chroma_red(const Sums& c, std::int64_t steps) { return chroma(c, c.red, kRed, steps); }
 
 /// Reads the pixels of one picture.
 class Reader {
  public:
   explicit Reader(const ImageView& image)
-      : image_(image), unsaid_(image.has_alpha ? 0 : 0xff000000) {}
+      : image_(image), opaque_(image.has_alpha ? 0 : 0xff000000) {}
 
   std::uint32_t word(int x, int y) const {
     std::uint32_t word = 0;
     std::memcpy(&word, image_.row(y) + std::ptrdiff_t{4} * x, sizeof word);
-    return word | unsaid_;
+    return word | opaque_;
   }
   void add(int x, int y, std::int64_t weight, Sums& sums) const {
     const std::uint32_t pixel = word(x, y);
@@ -70,7 +71,7 @@ class Reader {
 
  private:
   const ImageView& image_;
-  std::uint32_t unsaid_;
+  std::uint32_t opaque_;
 };
 
 struct Sample444 {

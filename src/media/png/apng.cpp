@@ -5,12 +5,10 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "core/output_file.hpp"
-#include "media/output/intra_encoder.hpp"
 #include "media/output/output_kinds.hpp"
+#include "media/output/simple_output.hpp"
 #include "media/pixels/changed_picture.hpp"
 #include "media/pixels/rgb24.hpp"
 #include "media/png/deflate.hpp"
@@ -21,101 +19,85 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// A chunk begins with a whole picture. A second or so, as in a video.
+/// A second or so, since a chunk begins with a whole picture.
 constexpr std::int64_t kFramesPerChunk = 64;
-/// A delay is a fraction of two numbers of 16 bits.
+/// A delay is a fraction of two 16-bit numbers.
 constexpr int kMaxTerm = 65535;
+/// Where acTL stands: behind the signature and IHDR.
+constexpr std::uint64_t kAnimationControl = 8 + 25;
 
-constexpr std::size_t kSignature_bytes = 8;
-constexpr std::size_t kIhdr_bytes = 25;
-
-/// How many frames there are, and that they are shown over and over.
-Bytes animation_control(std::int64_t frames) {
-  Bytes chunk;
-  const std::size_t start = begin_png_chunk(chunk, "acTL");
-  append_u32(chunk, static_cast<std::uint32_t>(frames));
-  append_u32(chunk, 0);
-  end_png_chunk(chunk, start);
-  return chunk;
+void append_animation_control(Bytes& bytes, std::int64_t frames) {
+  const std::size_t chunk = begin_png_chunk(bytes, "acTL");
+  append_u32(bytes, static_cast<std::uint32_t>(frames));
+  append_u32(bytes, 0);  // repeated for ever
+  end_png_chunk(bytes, chunk);
 }
 
-class ApngEncoder final : public IntraEncoder {
+class ApngEncoder final : public PacketPerFrameEncoder {
  public:
   explicit ApngEncoder(const VideoFormat& format)
-      : IntraEncoder(format),
+      : PacketPerFrameEncoder(format),
         format_(format),
-        picture_(format.width_px, format.height_px, ChangedPicture::Marks::none),
-        stream_(open_deflate(DeflateForm::zlib)) {}
-
-  void begin(std::int64_t first_frame) override {
-    IntraEncoder::begin(first_frame);
-    is_whole_ = true;
-  }
+        picture_(format.width_px, format.height_px, ChangedPicture::Marks::none) {}
 
  private:
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
     picture_.take(frame, rects);
   }
-  std::vector<std::uint8_t> encode_picture(std::int64_t number) override;
+  Bytes encode_picture(std::int64_t number, bool is_first) override;
   void append_frame_control(Bytes& bytes, std::int64_t number, const PixelRect& rect) const;
   void filter(const PixelRect& rect);
-  void append_deflated(Bytes& bytes);
 
   VideoFormat format_;
   ChangedPicture picture_;
-  DeflatePtr stream_;
-  bool is_whole_ = true;
+  Deflater deflater_{Deflater::Form::whole};
   Bytes rows_;  // filtered
 };
 
-Bytes ApngEncoder::encode_picture(std::int64_t number) {
-  const PixelRect rect = std::exchange(is_whole_, false) ? picture_.whole() : picture_.changed();
+Bytes ApngEncoder::encode_picture(std::int64_t number, bool is_first) {
+  const PixelRect rect = is_first ? picture_.whole() : picture_.changed();
   picture_.settle();
   filter(rect);
   Bytes bytes;
   if (number == 0) {
     append_png_header(bytes, format_.width_px, format_.height_px, format_.has_alpha);
-    const Bytes control = animation_control(0);  // the sink knows better
-    bytes.insert(bytes.end(), control.begin(), control.end());
+    append_animation_control(bytes, 0);  // finish_file() knows how many frames there are
     append_png_srgb(bytes);
   }
   append_frame_control(bytes, number, rect);
   const std::size_t data = begin_png_chunk(bytes, number == 0 ? "IDAT" : "fdAT");
   if (number > 0) append_u32(bytes, static_cast<std::uint32_t>(2 * number));
-  append_deflated(bytes);
+  const std::span<const std::uint8_t> compressed = deflater_.compress(rows_);
+  bytes.insert(bytes.end(), compressed.begin(), compressed.end());
   end_png_chunk(bytes, data);
   return bytes;
 }
 
-/// The control chunks of frames and the data of all but the first are numbered together.
+/// fcTL chunks and the fdAT chunks between them are numbered together.
 void ApngEncoder::append_frame_control(Bytes& bytes, std::int64_t number,
                                        const PixelRect& rect) const {
   const std::size_t control = begin_png_chunk(bytes, "fcTL");
   append_u32(bytes, number == 0 ? 0 : static_cast<std::uint32_t>(2 * number - 1));
-  append_u32(bytes, static_cast<std::uint32_t>(rect.width_px));
-  append_u32(bytes, static_cast<std::uint32_t>(rect.height_px));
-  append_u32(bytes, static_cast<std::uint32_t>(rect.x_px));
-  append_u32(bytes, static_cast<std::uint32_t>(rect.y_px));
+  for (const int value : {rect.width_px, rect.height_px, rect.x_px, rect.y_px}) {
+    append_u32(bytes, static_cast<std::uint32_t>(value));
+  }
   append_u16(bytes, static_cast<std::uint32_t>(format_.frame_rate.get_den().get_ui()));
   append_u16(bytes, static_cast<std::uint32_t>(format_.frame_rate.get_num().get_ui()));
-  bytes.push_back(0);  // stays until the next frame is put over it,
+  bytes.push_back(0);  // stays until the next frame is drawn over it,
   bytes.push_back(0);  // which replaces it
   end_png_chunk(bytes, control);
 }
 
-/// By filter Up, as in a sequence of PNG files: it leaves zeros wherever a row equals the one
-/// above.
+/// By filter Up, which leaves zeros wherever a row equals the row above.
 void ApngEncoder::filter(const PixelRect& rect) {
   constexpr std::uint8_t kUp = 2;
-  const std::size_t row_bytes = std::size_t(rect.width_px) * (format_.has_alpha ? 4 : 3);
-  const auto pack = format_.has_alpha ? pack_rgba32 : pack_rgb24;
+  const std::size_t row_bytes = std::size_t(rect.width_px) * packed_bytes(format_.has_alpha);
   Bytes above(row_bytes);
   Bytes current(row_bytes);
   rows_.resize((row_bytes + 1) * std::size_t(rect.height_px));
   std::uint8_t* to = rows_.data();
   for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
-    pack(reinterpret_cast<const std::uint8_t*>(picture_.row(y) + rect.x_px), rect.width_px,
-         current.data());
+    pack_pixels(picture_.view(format_.has_alpha), rect.x_px, y, rect.width_px, current.data());
     *to++ = kUp;
     subtract_bytes(current.data(), above.data(), row_bytes, to);
     to += row_bytes;
@@ -123,58 +105,14 @@ void ApngEncoder::filter(const PixelRect& rect) {
   }
 }
 
-void ApngEncoder::append_deflated(Bytes& bytes) {
-  z_stream& stream = *stream_;
-  deflateReset(&stream);
-  const std::size_t start = bytes.size();
-  bytes.resize(start + deflateBound(&stream, rows_.size()));
-  stream.next_in = rows_.data();
-  stream.avail_in = static_cast<uInt>(rows_.size());
-  stream.next_out = bytes.data() + start;
-  stream.avail_out = static_cast<uInt>(bytes.size() - start);
-  if (deflate(&stream, Z_FINISH) != Z_STREAM_END) throw MediaError("apng: cannot compress a frame");
-  bytes.resize(bytes.size() - stream.avail_out);
+void finish_file(OutputFile& file, std::int64_t frames) {
+  Bytes end;
+  end_png_chunk(end, begin_png_chunk(end, "IEND"));
+  file.write(end);
+  Bytes control;
+  append_animation_control(control, frames);
+  file.overwrite(kAnimationControl, control);
 }
-
-/// Writes the packets one after another, and in the end how many there were.
-class ApngSink final : public FrameSink {
- public:
-  explicit ApngSink(const std::string& name) : file_(name) {}
-
-  void append(const EncodedChunk& chunk) override {
-    counter_.take(chunk);
-    for (const Packet& packet : chunk) file_.write(packet.bytes);
-    frames_ += static_cast<std::int64_t>(chunk.size());
-  }
-  void finish() override {
-    Bytes end;
-    end_png_chunk(end, begin_png_chunk(end, "IEND"));
-    file_.write(end);
-    file_.overwrite(kSignature_bytes + kIhdr_bytes, animation_control(frames_));
-    file_.finish();
-  }
-
- private:
-  FrameCounter counter_;
-  OutputFile file_;
-  std::int64_t frames_ = 0;
-};
-
-class ApngOutput final : public Output {
- public:
-  explicit ApngOutput(OutputRequest request) : request_(std::move(request)) {}
-  std::int64_t frames_per_chunk() const override { return kFramesPerChunk; }
-  std::unique_ptr<ChunkEncoder> make_encoder() const override {
-    return std::make_unique<ApngEncoder>(request_.format);
-  }
-  std::string signature() const override { return fmt::format("apng by zlib {}", zlibVersion()); }
-  std::unique_ptr<FrameSink> open() const override {
-    return std::make_unique<ApngSink>(request_.name);
-  }
-
- private:
-  OutputRequest request_;
-};
 
 }  // namespace
 
@@ -186,7 +124,8 @@ std::unique_ptr<Output> apng_output(const OutputRequest& request) {
                     "such as 60 or 30000/1001",
                     rate.get_str(), kMaxTerm));
   }
-  return std::make_unique<ApngOutput>(request);
+  return stream_output<ApngEncoder>(request, kFramesPerChunk,
+                                    fmt::format("apng by zlib {}", zlibVersion()), finish_file);
 }
 
 }  // namespace piblocks

@@ -1,6 +1,5 @@
-// The pieces a PNG file is made of.
-// In: a type and data. Out: a chunk: length, type, data, and a CRC of type and data (PNG
-// specification, section 5.3), appended to a file in memory.
+// The chunks of a PNG file (PNG specification, section 5.3).
+// In: a type and data. Out: length, type, data and CRC, appended to a file in memory.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +13,14 @@ void append_u16(std::vector<std::uint8_t>& png, std::uint32_t value);
 void append_u32(std::vector<std::uint8_t>& png, std::uint32_t value);
 void append_text(std::vector<std::uint8_t>& png, std::string_view text);
 
-/// @return where the chunk starts, for end_png_chunk(). What is appended between is its data.
+/// Begins a chunk. What is appended before end_png_chunk() is its data.
+/// @return where the chunk starts, for end_png_chunk().
 std::size_t begin_png_chunk(std::vector<std::uint8_t>& png, std::string_view type);
 void end_png_chunk(std::vector<std::uint8_t>& png, std::size_t start);
 
-/// Signature and header of a picture of 8 bits a sample, RGB, perhaps with alpha.
+/// Signature and header of a picture with 8 bits a sample, RGB or RGBA.
 void append_png_header(std::vector<std::uint8_t>& png, int width_px, int height_px, bool has_alpha);
-/// That the colours are sRGB.
+/// The chunk that says that colours are sRGB.
 void append_png_srgb(std::vector<std::uint8_t>& png);
 
 }  // namespace piblocks

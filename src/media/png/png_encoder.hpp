@@ -1,9 +1,9 @@
 // Compresses one image after another, and of each only what differs from the one before.
-// In: views of pixels. Out: the bytes of a PNG file each.
+// In: views of pixels. Out: the bytes of a PNG file for each.
 //
-// A file is cut into strips of rows. Each is compressed by itself and stored as a chunk of its own,
-// so that its bytes depend on its rows alone: strips that stay as they were are copied. Filter Up
-// leaves of a shape that moves sideways only its upper and lower edge, so few strips change.
+// A file is cut into strips of rows. Each strip has a chunk of its own, whose bytes depend on the
+// strip's rows alone: strips that have not changed are copied. Few strips change, since filter Up
+// leaves only the upper and lower edges of a shape that moves sideways.
 #pragma once
 
 #include <piblocks/image.hpp>
@@ -16,17 +16,14 @@
 
 namespace piblocks {
 
-/// What encode_png() does, for sequences. The bytes depend on the image alone. Used by one thread
-/// at a time.
+/// encode_png() for sequences. The bytes depend on the image alone. Used by one thread at a time.
 class PngEncoder {
  public:
-  /// @throws MediaError if memory for the compressor runs out.
-  PngEncoder();
-
-  /// Takes an image of the size of the last one and equal to it outside of `changed`. The first,
-  /// or one of another size or with alpha after one without, is taken whole.
+  /// Takes an image that differs from the last one only in `changed`. The first image, and one of
+  /// another size or form, is taken whole.
   void filter(const ImageView& image, std::span<const PixelRect> changed);
-  /// The file of the image that was taken last.
+  /// The file of the last image.
+  /// @throws MediaError if memory for the compressor runs out.
   std::vector<std::uint8_t> compress();
 
  private:
@@ -45,15 +42,13 @@ class PngEncoder {
   std::span<const std::uint8_t> rows_of(std::size_t strip) const;
   std::vector<std::uint8_t> assemble() const;
 
-  DeflatePtr stream_;
+  Deflater deflater_{Deflater::Form::piece};
   int width_px_ = 0;
   int height_px_ = 0;
   bool has_alpha_ = false;
-  std::size_t pixel_bytes_ = 3;
   std::size_t row_bytes_ = 0;             // with the byte that names the filter
   std::vector<std::uint8_t> rows_;        // filtered
   std::vector<std::uint8_t> difference_;  // room for one row
-  std::vector<std::uint8_t> compressed_;  // room for one strip
   std::vector<Strip> strips_;
 };
 

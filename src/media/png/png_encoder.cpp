@@ -1,5 +1,6 @@
+#include "media/png/png_encoder.hpp"
+
 #include <piblocks/encode.hpp>
-#include <piblocks/error.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -18,8 +19,6 @@ using ByteSpan = std::span<const std::uint8_t>;
 constexpr int kStripRows = 8;
 
 }  // namespace
-
-PngEncoder::PngEncoder() : stream_(open_deflate(DeflateForm::raw)) {}
 
 void PngEncoder::filter(const ImageView& image, std::span<const PixelRect> changed) {
   const PixelRect whole{0, 0, image.width_px, image.height_px};
@@ -43,22 +42,20 @@ void PngEncoder::resize(const ImageView& image) {
   width_px_ = image.width_px;
   height_px_ = image.height_px;
   has_alpha_ = image.has_alpha;
-  pixel_bytes_ = has_alpha_ ? 4 : 3;
-  row_bytes_ = static_cast<std::size_t>(width_px_) * pixel_bytes_ + 1;
+  row_bytes_ = static_cast<std::size_t>(width_px_) * packed_bytes(has_alpha_) + 1;
   rows_.assign(row_bytes_ * static_cast<std::size_t>(height_px_), 0);
   for (std::size_t at = 0; at < rows_.size(); at += row_bytes_) rows_[at] = kUp;
   strips_.assign(static_cast<std::size_t>((height_px_ + kStripRows - 1) / kStripRows), {});
 }
 
-/// Up is the difference from the row above, so that the row below the rectangle changes too. Above
-/// the first row all is zero.
+/// Up is the difference from the row above, so the row below the rectangle changes too. Above the
+/// first row all is zero.
 void PngEncoder::filter_rect(const ImageView& image, const PixelRect& rect) {
-  const std::size_t bytes = static_cast<std::size_t>(rect.width_px) * pixel_bytes_;
+  const std::size_t bytes = static_cast<std::size_t>(rect.width_px) * packed_bytes(has_alpha_);
   Bytes above(bytes);
   Bytes current(bytes);
   const auto pack = [&](int y, Bytes& row) {
-    const auto pack_row = has_alpha_ ? pack_rgba32 : pack_rgb24;
-    pack_row(image.row(y) + std::ptrdiff_t{4} * rect.x_px, rect.width_px, row.data());
+    pack_pixels(image, rect.x_px, y, rect.width_px, row.data());
   };
   if (rect.y_px > 0) pack(rect.y_px - 1, above);
   const int end = std::min(rect.y_px + rect.height_px + 1, height_px_);
@@ -71,7 +68,7 @@ void PngEncoder::filter_rect(const ImageView& image, const PixelRect& rect) {
 
 void PngEncoder::filter_row(int y, int x, ByteSpan row, ByteSpan above) {
   std::uint8_t* const filtered = rows_.data() + static_cast<std::size_t>(y) * row_bytes_ + 1 +
-                                 static_cast<std::size_t>(x) * pixel_bytes_;
+                                 static_cast<std::size_t>(x) * packed_bytes(has_alpha_);
   difference_.resize(row.size());
   subtract_bytes(row.data(), above.data(), row.size(), difference_.data());
   if (std::memcmp(difference_.data(), filtered, row.size()) == 0) return;
@@ -85,29 +82,15 @@ ByteSpan PngEncoder::rows_of(std::size_t strip) const {
   return {rows_.data() + begin, std::min(bytes, rows_.size() - begin)};
 }
 
-/// A stream without end, cut where a byte ends: such pieces can be put behind each other. The first
-/// has the header of the whole before it.
+/// The pieces of all strips make one zlib stream, whose header the first strip has.
 void PngEncoder::compress_strip(std::size_t index) {
   const ByteSpan rows = rows_of(index);
-  z_stream& stream = *stream_;
-  deflateReset(&stream);
-  // Beside the bound, what a flush adds.
-  compressed_.resize(deflateBound(&stream, rows.size()) + 16);
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): zlib does not write to it
-  stream.next_in = const_cast<std::uint8_t*>(rows.data());
-  stream.avail_in = static_cast<uInt>(rows.size());
-  stream.next_out = compressed_.data();
-  stream.avail_out = static_cast<uInt>(compressed_.size());
-  if (deflate(&stream, Z_SYNC_FLUSH) != Z_OK || stream.avail_in != 0) {
-    throw MediaError("png: cannot compress the image");
-  }
-
+  const ByteSpan compressed = deflater_.compress(rows);
   Strip& strip = strips_[index];
   strip.chunk.clear();
   const std::size_t start = begin_png_chunk(strip.chunk, "IDAT");
-  if (index == 0)
-    append_text(strip.chunk, "\x78\x01");  // a zlib stream, compressed fast (RFC 1950)
-  strip.chunk.insert(strip.chunk.end(), compressed_.data(), stream.next_out);
+  if (index == 0) append_text(strip.chunk, "\x78\x01");  // compressed fast (RFC 1950)
+  strip.chunk.insert(strip.chunk.end(), compressed.begin(), compressed.end());
   end_png_chunk(strip.chunk, start);
   strip.checksum = static_cast<std::uint32_t>(adler32_z(1, rows.data(), rows.size()));
   strip.stale = false;
