@@ -20,7 +20,7 @@ namespace piblocks {
 /// A square that is moved over the whole image.
 struct Window {
   int side_px = 16;             ///< >= 1
-  std::int64_t max_pixels = 0;  ///< of any place of the window
+  std::int64_t max_pixels = 0;  ///< that may be off, wherever the window is
 };
 
 /// What is accepted: all of it has to hold. The default accepts nothing but equality.
@@ -32,11 +32,11 @@ struct Tolerance {
   Rational hard_delta = 255;    ///< no sample of any pixel may differ by more, 0 … 255
   std::optional<Window> window = {};  ///< bounds the pixels that are off in one place
 
-  /// Whether anything but equality may be accepted.
+  /// Whether nothing but equality is accepted.
   bool is_exact() const { return max_delta == 0 && max_pixels == 0; }
 };
 
-/// A sample: channels 0 to 3 are red, green, blue and alpha, or whatever else is in their places.
+/// A sample. Channels 0 to 3 are red, green, blue and alpha, or Y, Cb and Cr.
 struct SamplePlace {
   int x_px = 0;
   int y_px = 0;
@@ -50,16 +50,16 @@ struct Difference {
   std::int64_t off_pixels = 0;        ///< of these, by more than the tolerance's max_delta
   int largest_delta = 0;              ///< in levels of the samples
   int max_level = 255;                ///< of the samples: a delta of 255 is so many levels
-  SamplePlace first = {};             ///< that differs, row by row; of no meaning if none does
-  PixelRect densest = {};  ///< the first of the places of the window with the most pixels off
-  std::int64_t densest_off = 0;
+  SamplePlace first = {};             ///< the first that differs, row by row, if one does
+  PixelRect densest = {};             ///< where the window has the most pixels off, first such
+  std::int64_t densest_off = 0;       ///< pixels that are off there
   bool is_accepted = true;
 
   bool is_equal() const noexcept { return different_pixels == 0; }
 };
 
-/// Compares all four samples of every pixel that is in none of the masks. Without a window in the
-/// tolerance, the densest of 16x16 pixels is looked for.
+/// Compares all four samples of every pixel outside of the masks. Without a window in the
+/// tolerance, the densest 16x16 pixels are searched.
 /// @throws UsageError if the images are not of one size, or the tolerance is out of range.
 Difference compare(const ImageView& reference, const ImageView& actual,
                    const Tolerance& tolerance = {}, std::span<const PixelRect> masks = {});
@@ -86,7 +86,7 @@ struct ComparisonJob {
   std::string reference;  ///< a PNG file, a folder of them, a pattern, a video, or a framehash file
   std::string actual;     ///< the same; a video may be compared with pictures
   Tolerance tolerance = {};
-  std::vector<PixelRect> masks = {};  ///< what is in them is not compared
+  std::vector<PixelRect> masks = {};  ///< not compared
 };
 
 /// One frame of both. Valid during the call that it is given to.

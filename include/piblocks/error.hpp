@@ -10,8 +10,7 @@
 namespace piblocks {
 
 /// Base of every exception the library throws on purpose.
-class Error : public std::runtime_error {
- public:
+struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
@@ -40,38 +39,32 @@ class UsageError : public Error {
 };
 
 /// A scene file or scene value is invalid; problems() lists everything that is wrong with it.
-class SceneError : public UsageError {
- public:
+struct SceneError : UsageError {
   using UsageError::UsageError;
 };
 
 /// The physics has no answer: a step limit was reached or a number left its range.
-class SimulationError : public Error {
- public:
+struct SimulationError : Error {
   using Error::Error;
 };
 
 /// Painting failed: Cairo or FreeType reported an error.
-class DrawError : public Error {
- public:
+struct DrawError : Error {
   using Error::Error;
 };
 
 /// Encoding or muxing failed: a codec library reported an error.
-class MediaError : public Error {
- public:
+struct MediaError : Error {
   using Error::Error;
 };
 
 /// Reading or writing a file failed after it had been opened.
-class IoError : public Error {
- public:
+struct IoError : Error {
   using Error::Error;
 };
 
 /// The work was stopped on request, by a signal for example.
-class Interrupted : public Error {
- public:
+struct Interrupted : Error {
   using Error::Error;
 };
 

@@ -56,8 +56,8 @@ Eigen::Matrix<Scalar, Dim, 1> direction(const Eigen::Matrix<Scalar, Dim, 1>& v) 
   return scaled / scaled.norm();
 }
 
-/// other / (own + other), the part of a collision's velocity change that falls to the body with
-/// mass `own`. At most one mass is infinite.
+/// other / (own + other), the share of a collision's velocity change for the body with mass `own`.
+/// At most one mass is infinite.
 template <typename Scalar>
 Scalar share_of_change(const Scalar& own, const Scalar& other) {
   using std::isinf;
@@ -147,13 +147,13 @@ struct CollisionEvent {
 /// pair's is performed first. With the order blue, red, wall a corner hit thus begins with the
 /// blocks, which is the limit that counts the digits of pi.
 ///
-/// A pair that has collided cannot collide again before one of the two has met another body: two
-/// free balls separate for ever. The rule holds against rounding, so no pair can trap the run.
+/// A pair that has collided does not collide again before one of the two has met another body: two
+/// free balls separate for ever. The rule also holds against rounding, so no pair can trap the run.
 ///
-/// A step costs 2 N evaluations of collision_time() and about N^2 / 2 comparisons.
-/// Positions are absolute and time is a plain sum. In double that counts the article's system right
-/// up to nine digits, with blue within 1e-5 of its place up to eight.
-/// Not thread-safe while stepping; const members are.
+/// A step costs 2 N evaluations of collision_time() and about N^2 / 2 comparisons. Positions are
+/// absolute and time is a plain sum: double counts the article's system right up to nine digits,
+/// and its blue block is within 1e-5 of the truth up to eight. Not thread-safe while stepping;
+/// const members are.
 template <typename Scalar, int Dim>
 class EventSimulator {
  public:

@@ -51,6 +51,9 @@ std::string with_thousands_separators(const Integer& value);
 /// The integer for a message: with separators, or as a power of ten if that would fill the line.
 std::string readable(const Integer& value);
 
+/// The number for a message: exact where that is short, otherwise the nearest double.
+std::string to_text(const Rational& value);
+
 /// Simulation time as the sum hi + lo of two doubles with |lo| <= ulp(hi)/2. Near the turn of many
 /// digits thousands of collisions share one double; two doubles tell them apart.
 struct Time {

@@ -1,4 +1,4 @@
-// The whole library, but for event_simulator.hpp, which needs Eigen as well.
+// The whole library, except event_simulator.hpp, which needs Eigen.
 // In: a scene, from a file or filled in by hand. Out: videos, pictures, counts, states,
 // comparisons.
 #pragma once

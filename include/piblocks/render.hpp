@@ -1,6 +1,6 @@
-// The whole program: a scene or a storyboard becomes a video, a sequence or a still.
-// In: a script and the name of an output, or parts of one. Out: the output, complete, or an
-// exception and no trace of it. Or, frame by frame, pixels in memory.
+// Rendering: a scene or a storyboard becomes a video, a sequence, a still, a sheet or pixels.
+// In: a script and the name of an output, or shards of one. Out: the complete output, or an
+// exception and no trace of it.
 #pragma once
 
 #include <piblocks/encode.hpp>
@@ -21,16 +21,16 @@
 
 namespace piblocks {
 
-/// One of several equal shares of a rendering.
-struct Part {
+/// One of several equal shares of a rendering, for the option --part.
+struct Shard {
   int number = 1;  ///< 1 … count
   int count = 1;
 
-  friend bool operator==(const Part&, const Part&) = default;
+  friend bool operator==(const Shard&, const Shard&) = default;
 };
 
-/// A folder for a video, which has the name of the job's output there, and for what a lecture needs
-/// beside it: poster, captions, a text for those who cannot see it, ways to show it.
+/// A folder for a video under the name of the job's output, and for what a lecture needs beside it:
+/// poster, captions, a text for those who cannot see it, ways to show it.
 struct Bundle {
   std::string folder;
   /// What the poster shows; without it, the frame that comes furthest in time.
@@ -39,12 +39,15 @@ struct Bundle {
 
 struct RenderJob {
   Script script;
-  /// As set_up_output() takes it; or `*.html`, a page that holds the MP4 and steps through it.
+  /// A name whose ending selects the format: `*.mp4`, `*.mov`, `*.webm`, `*.gif`, `*.apng`, `*.png`
+  /// with one number such as `%06d`, `*.y4m`, `-` (y4m on standard output), `*.framehash`, `*.wav`,
+  /// `null`, or
+  /// `*.html`, a page that holds the MP4 and steps through it.
   std::string output;
   EncoderSettings encoder = {};
   int jobs = 1;  ///< frames painted and encoded at the same time, >= 1; does not change a byte
-  /// Renders this share only, to the file part_name().
-  std::optional<Part> part = {};
+  /// Renders this share only, to the file shard_name().
+  std::optional<Shard> shard = {};
   bool profile = false;  ///< whether to measure what each stage costs
   /// Renders a `*.mp4` into a folder, together with the rest, or nothing of it.
   std::optional<Bundle> bundle = {};
@@ -63,7 +66,7 @@ using StageSeconds = std::array<double, kStageNames.size()>;
 struct Profile {
   StageSeconds stages{};  ///< of all threads together
   double total_s = 0;     ///< of the process since its start; more than the stages
-  /// ChunkEncoder::method() of each chunk.
+  /// How each chunk was encoded, where an encoder has several ways.
   std::vector<std::string> chunk_methods = {};
 };
 
@@ -77,18 +80,19 @@ struct Progress {
   std::int64_t frame_count = 0;
 };
 
-/// Renders every frame of the film, or of a part of it.
+/// Renders every frame of the film, or of a shard of it.
 /// @param on_progress  called by the calling thread: at the start, now and then, at the end.
 /// @param stop         asks to give up: Interrupted is thrown soon after.
 /// @throws UsageError, DrawError, MediaError, IoError, SimulationError, Interrupted
 Rendered render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
                 const std::stop_token& stop = {});
 
-/// The file a part is rendered to: "OUTPUT.part-2-of-3".
-std::string part_name(const std::string& output, const Part& part);
+/// The file for a shard: "OUTPUT.part-2-of-3".
+std::string shard_name(const std::string& output, const Shard& shard);
 
-/// Joins parts, in any order, to the output that one rendering would have made, byte for byte.
-/// @param output  of the same kind as the parts were rendered for; none of them.
+/// Joins the files of all shards, in any order, to the output that one rendering would have made,
+/// byte for byte.
+/// @param output  of the same kind as the shards were rendered for; none of their files.
 /// @return the number of frames.
 /// @throws UsageError if a part is missing, given twice or of another job; MediaError, IoError,
 ///         Interrupted
@@ -96,8 +100,8 @@ std::int64_t join(const std::vector<std::string>& parts, const std::string& outp
                   const std::stop_token& stop = {});
 
 /// Renders one instant to a `.png`, `.svg` or `.pdf` file, or to standard output as PNG for "-".
-/// The picture is that of the film's first frame that shows the instant. Of a storyboard an instant
-/// is a second of its video, and "last" the last frame.
+/// The picture is that of the film's first frame that shows the instant. In a storyboard an instant
+/// is a second of its video, and "last" is the last frame.
 /// @param stop  asks to give up: Interrupted is thrown when the picture is drawn.
 /// @throws SceneError if problems_of() the scene or storyboard is not empty; UsageError, DrawError,
 ///         MediaError, IoError, SimulationError, Interrupted
@@ -127,9 +131,9 @@ void render_sheet(const Scene& scene, const std::vector<Instant>& instants,
 class FrameRenderer {
  public:
   /// @throws SceneError if problems_of() the scene or storyboard is not empty.
-  /// @throws UsageError as make_schedule(), film_frames() and make_collision_log(), or if a
-  /// storyboard's fade is not
-  ///         shorter than its parts; SimulationError, DrawError
+  /// @throws UsageError if the span, the pacing or the length of the film is impossible, as
+  ///         make_collision_log(), or if a fade is not shorter than its segments; SimulationError,
+  ///         DrawError
   explicit FrameRenderer(const Script& script);
   ~FrameRenderer();
   FrameRenderer(FrameRenderer&& other) noexcept;
@@ -139,7 +143,7 @@ class FrameRenderer {
 
   /// Frames of the whole film.
   std::int64_t frame_count() const noexcept;
-  /// The frame with this number; of a scene it shows the instant that Schedule says.
+  /// The frame with this number.
   /// @returns a picture of the size of the film's view; valid until the next call.
   /// @throws UsageError unless 0 <= number < frame_count(); SimulationError, DrawError
   ImageView frame(std::int64_t number);

@@ -60,12 +60,6 @@ struct Problem {
 /// Everything that is wrong with a system; empty if nothing is.
 std::vector<Problem> problems_of(const BlockSystem& system);
 
-/// One line a problem: key and reason.
-std::vector<std::string> describe(const std::vector<Problem>& problems);
-
-/// Text of a value for messages: exact where that is short.
-std::string to_text(const Rational& value);
-
 enum class CollisionKind : std::uint8_t {
   wall,   ///< blue meets the wall
   blocks  ///< blue meets red
@@ -86,16 +80,15 @@ struct Collision {
   Motion red;
 };
 
-/// Uniform motion between two collisions, known at one instant of it.
-struct FreeFlight {
-  Integer count;   ///< index of the last collision; negative before time 0, as CollisionLog says
-  double age = 0;  ///< time from when the blocks are where blue and red say to the time asked for
+/// The blocks at one instant.
+struct BlockState {
+  Integer count;  ///< index of the last collision until then, as CollisionLog counts
   Motion blue;
   Motion red;
 };
 
-/// Consecutive collisions in columns, for reading millions of them. 24 KiB of numbers: a batch
-/// stays in the first-level cache between its producer and its consumer.
+/// Consecutive collisions in columns. The numbers of a batch take 24 KiB, which stay in the
+/// first-level cache between producer and consumer.
 struct CollisionBatch {
   static constexpr std::size_t kCapacity = 512;
   using Column = std::array<double, kCapacity>;
@@ -119,10 +112,10 @@ class CollisionStream {
   virtual bool read(CollisionBatch& batch) = 0;
 };
 
-/// Counting begins at time 0: the collisions from then on have the indices 1, 2, …, size(), those
-/// before time 0 the indices 0, -1, … down to first_index(). Blocks that touch at time 0 and move
-/// apart, or blue that then leaves the wall, have had collision 0 at time 0. Const members are
-/// thread-safe.
+/// All collisions of a run, by index. The collisions from time 0 on have the indices 1, 2, …,
+/// size(), those before time 0 the indices 0, -1, … down to first_index(). Blocks that touch at
+/// time 0 and move apart, or blue that then leaves the wall, have had collision 0 at time 0. Const
+/// members are thread-safe.
 class CollisionLog {
  public:
   virtual ~CollisionLog() = default;
@@ -131,33 +124,38 @@ class CollisionLog {
 
   const BlockSystem& system() const noexcept { return system_; }
   /// Number of collisions from time 0 on, and the index of the last collision of all time.
-  virtual const Integer& size() const = 0;
+  const Integer& size() const noexcept { return size_; }
   /// Index of the first collision of all time; 1 if there are none before time 0.
-  virtual const Integer& first_index() const = 0;
+  const Integer& first_index() const noexcept { return first_index_; }
   /// The collision with first_index() <= index <= size().
   /// @throws SimulationError if its time or state is beyond the range of a double.
-  virtual Collision at(const Integer& index) const = 0;
+  virtual Collision collision(const Integer& index) const = 0;
+  /// The state at any time, also before the first collision and after the last. A collision exactly
+  /// at `time` has happened.
+  /// @throws SimulationError as collision().
+  virtual BlockState state_at(const Rational& time) const = 0;
+  /// Collisions first … last, where first_index() <= first and last <= size(); none if last <
+  /// first.
+  /// @throws SimulationError as collision().
+  virtual std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const;
   /// A time at which exactly the collisions up to this one have happened: that of the collision if
   /// its exact value is short, otherwise one so little later that no picture can show the
   /// difference. first_index() <= index <= size().
   /// @throws UsageError if the next collision happens at the same time.
   /// @throws SimulationError if a stepping engine cannot tell the two times apart.
   virtual Rational time_after(const Integer& index) const = 0;
-  /// Collisions first … last, where first_index() <= first and last <= size(); none if last <
-  /// first.
-  /// @throws SimulationError as at().
-  virtual std::unique_ptr<CollisionStream> stream(const Integer& first,
-                                                  const Integer& last) const = 0;
-  /// The flight that holds at `time`. Flights are half-open, t_i <= time < t_{i+1}: a collision
-  /// exactly at `time` has happened.
-  /// @throws SimulationError as at().
-  virtual FreeFlight flight_at(const Rational& time) const = 0;
 
  protected:
   explicit CollisionLog(BlockSystem system) : system_(std::move(system)) {}
+  void set_range(Integer first_index, Integer size) {
+    first_index_ = std::move(first_index);
+    size_ = std::move(size);
+  }
 
  private:
   BlockSystem system_;
+  Integer first_index_ = 1;
+  Integer size_ = 0;
 };
 
 enum class Engine {
@@ -194,15 +192,13 @@ struct Corner {
 /// @throws SceneError if problems_of(system) is not empty.
 std::optional<Corner> corner_of(const BlockSystem& system);
 
-/// What a frame needs to know of the physics.
-struct BlockState {
-  Integer count;  ///< index of the last collision so far, as CollisionLog counts
-  Motion blue;
-  Motion red;
+/// Bounds for the error of the positions of a state, in units of length.
+struct PositionBounds {
+  double blue = 0;
+  double red = 0;
 };
 
-/// The state at `time`. Before the first and after the last collision the motion goes on with
-/// its velocity, as far as one likes.
-BlockState state_at(const CollisionLog& log, const Rational& time);
+/// The bounds for state_at(time); nothing for an engine that steps, whose errors add up.
+std::optional<PositionBounds> position_bounds(const CollisionLog& log, const Rational& time);
 
 }  // namespace piblocks

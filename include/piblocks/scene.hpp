@@ -36,7 +36,8 @@ inline constexpr int kMaxAutomaticFactor = 1000;
 /// Lengths are seconds of video, and are rounded up to whole frames; that of a loop to an even
 /// number of them.
 struct Pacing {
-  /// Of the whole video, holds and freezes included. It sets the speed; TimeSpan::speed is ignored.
+  /// Length of the whole video with holds and freezes. It sets the speed; TimeSpan::speed is
+  /// ignored.
   std::optional<Rational> duration_s = {};
   /// Windows around the turn, each ten times slower than the one around it, until single collisions
   /// can be told apart or kMaxAutomaticFactor is reached. With a duration they are those of speed
@@ -146,8 +147,8 @@ inline constexpr int kMaxFrameRate = 1000;
 /// Which part of the run is shown, in simulation time.
 struct TimeSpan {
   Instant from = {};
-  /// An end that is a time is not shown itself: so many seconds make so many frames. An end that is
-  /// named by what happens then is shown, by the first frame at it or past it.
+  /// An end that is a time is not shown itself, so that two seconds have 120 frames at 60 per
+  /// second. An end at a turn or a collision is shown, by the first frame at it or past it.
   Instant to = Instant::last(Rational(3, 2));
   Rational speed = 1;  ///< simulation time per second of video, > 0
 };
@@ -188,8 +189,8 @@ Rational width_by_mass(const BlockSystem& system);
 std::vector<Problem> problems_of(const Scene& scene);
 
 /// Every key of the scene file with its value as exact text, in a fixed order; empty for what is
-/// not set. Two scenes with equal descriptions are the same, but for what is in the files they
-/// name: show.logo is a path.
+/// not set. Two scenes with equal descriptions are the same, except for the contents of the file
+/// show.logo.
 std::vector<std::pair<std::string, std::string>> describe(const Scene& scene);
 
 }  // namespace piblocks

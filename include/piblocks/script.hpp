@@ -22,29 +22,30 @@ struct Card {
 };
 
 /// One run that fills the frame, or 2 … kMaxCompared side by side, or one above the other in a
-/// frame that is not wider than high. These have one clock, that of the run whose last collision
-/// comes last: its scene.time and scene.pacing hold for all, and so do moments such as "turn".
+/// frame that is not wider than high. They have one clock, that of the run whose last collision
+/// comes last: its scene.time and scene.pacing hold for all, and so do instants such as "turn".
 using Runs = std::vector<Scene>;
 
-struct StoryPart {
+/// A [[part]] of the file.
+struct Segment {
   std::variant<Runs, Card> content;
-  /// Cross-fade from the part before, in seconds of video, rounded to whole frames, in which both
-  /// parts are seen; 0 for a cut.
+  /// Cross-fade from the segment before, in seconds of video, rounded to whole frames, in which
+  /// both are seen; 0 for a cut.
   Rational fade_s = 0;
   std::string origin = {};  ///< named in messages, such as "story.toml:12"
 };
 
 struct Storyboard {
-  // Of the whole film, whatever the scenes say.
+  // For the whole film, whatever the scenes say.
   View view = {};  ///< size, frame rate, theme and background
   Sound sound = {};
   Golden golden = {};
-  std::vector<StoryPart> parts = {};  ///< 1 … kMaxStoryParts
+  std::vector<Segment> segments = {};  ///< 1 … kMaxSegments
 };
 
 inline constexpr std::size_t kMaxCardLines = 8;
 inline constexpr std::size_t kMaxCompared = 4;
-inline constexpr std::size_t kMaxStoryParts = 100;
+inline constexpr std::size_t kMaxSegments = 100;
 
 /// What a film is made from.
 using Script = std::variant<Scene, Storyboard>;
@@ -52,18 +53,17 @@ using Script = std::variant<Scene, Storyboard>;
 /// Size, frame rate, theme and background of the whole film.
 const View& view_of(const Script& script);
 
-/// Of the whole film.
 const Sound& sound_of(const Script& script);
 
 /// The scene as the film shows it: with the film's size, frame rate, theme and background.
 Scene with_film_view(Scene scene, const View& film);
 
-/// Everything that is wrong with it, but for what takes the length of a run to know; empty if
-/// nothing is.
+/// Everything that is wrong with it, except what depends on the length of a run; empty if nothing
+/// is.
 std::vector<std::string> problems_of(const Storyboard& story);
 
 /// All that changes a frame, as exact text in a fixed order: a line for the film and one for each
-/// part. Two storyboards with equal descriptions are the same film.
+/// segment. Two storyboards with equal descriptions are the same film.
 std::vector<std::pair<std::string, std::string>> describe(const Storyboard& story);
 
 /// Longest scene file that is read.
@@ -81,7 +81,7 @@ inline constexpr int kMaxSceneNesting = 256;
 /// "show.caption", "show.logo"; "sound.on"; "golden.frames", "golden.size".
 ///
 /// A file with [[part]] is a storyboard: its other keys hold for all parts. A part takes the keys
-/// of a scene but those of the whole film, and beside them "card" and "seconds", "compare", "fade".
+/// of a scene except those of the whole film, and also "card", "seconds", "compare" and "fade".
 class ScriptBuilder {
  public:
   ScriptBuilder();
@@ -89,8 +89,7 @@ class ScriptBuilder {
   ScriptBuilder(const ScriptBuilder&) = delete;
   ScriptBuilder& operator=(const ScriptBuilder&) = delete;
 
-  /// Reads a scene file; called once. Values set before it are overwritten, values set after it
-  /// win.
+  /// Reads a scene file; called once. It overwrites values set before it, values set later win.
   /// @throws SceneError if it cannot be read or is no TOML; other problems wait for build().
   void read_file(const std::string& path);
   /// Sets one key from text, as an option of the command line does. A storyboard takes keys of the
@@ -100,7 +99,7 @@ class ScriptBuilder {
 
   /// @throws SceneError with every problem: origin, key, value and reason.
   Script build() const;
-  /// As build(), for those who want one scene. @throws SceneError if the file is a storyboard
+  /// As build(). @throws SceneError also if the file is a storyboard.
   Scene build_scene() const;
 
  private:

@@ -74,7 +74,7 @@ std::optional<fs::path> diff_folder_of(const Work& work, const std::string& file
 void check_diff(const Work& work) {
   OverwriteCheck check;
   claim_inputs(check, work);
-  check.reads_all_of("the folder of the references", work.folder);
+  check.reads_folder("the folder of the references", work.folder);
   if (work.diff) claim_diff_folder(check, *work.diff);
   for (const References& references : work.all) {
     for (const std::string& file : references.files()) {

@@ -56,12 +56,12 @@ Integer first_since(const CollisionLog& log, const Bound& bound) {
   const auto& [instant, time] = bound;
   if (instant.offset == 0 && instant.anchor == Instant::Anchor::collision) return instant.index;
   if (instant.offset == 0 && instant.anchor == Instant::Anchor::last) return log.size();
-  const Integer last = log.flight_at(time).count;
+  const Integer last = log.state_at(time).count;
   if (last < log.first_index()) return log.first_index();
   // Collisions happen together only in the corner, and there all of them do.
   const ExactMotion motion(log.system());
   if (motion.through_corner() && motion.closest_approach == time) return log.first_index();
-  return log.at(last).time == to_time(time) ? last : Integer(last + 1);
+  return log.collision(last).time == to_time(time) ? last : Integer(last + 1);
 }
 
 Rows rows_within_times(const Command& options, const CollisionLog& log) {
@@ -73,7 +73,7 @@ Rows rows_within_times(const Command& options, const CollisionLog& log) {
   }
   Rows rows{1, log.size()};
   if (from) rows.first = first_since(log, *from);
-  if (to) rows.last = log.flight_at(to->time).count;
+  if (to) rows.last = log.state_at(to->time).count;
   return rows;
 }
 

@@ -25,7 +25,7 @@ int parse_jobs(const std::string& text) { return parse_int(text, 1, kMaxJobs); }
 int parse_flashes(const std::string& text) { return parse_int(text, 1, kMaxFlashes); }
 
 /// "2/3", the second of three.
-Part parse_part(const std::string& text) {
+Shard parse_part(const std::string& text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string::npos) throw UsageError("must be I/N, such as 2/3");
   const int count = parse_int(text.substr(slash + 1), 1, kMaxParts);
@@ -85,7 +85,7 @@ RenderJob job_of(const Command& options, const SceneOptions& scene) {
           .output = output,
           .encoder = std::move(settings),
           .jobs = options.value("--jobs", parse_jobs).value_or(processor_count()),
-          .part = options.value("--part", parse_part),
+          .shard = options.value("--part", parse_part),
           .profile = options.is_given("--profile"),
           .bundle = bundle_of(options),
           .max_flashes = options.value("--max-flashes", parse_flashes)};
@@ -94,7 +94,7 @@ RenderJob job_of(const Command& options, const SceneOptions& scene) {
 /// What is written, for messages.
 std::string name_of(const RenderJob& job) {
   if (job.bundle) return std::filesystem::path(job.bundle->folder) / job.output;
-  return job.part ? part_name(job.output, *job.part) : job.output;
+  return job.shard ? shard_name(job.output, *job.shard) : job.output;
 }
 
 /// @throws UsageError if the job would write over a file that it reads.
@@ -105,8 +105,8 @@ void check_outputs(const SceneOptions& scene, const RenderJob& job) {
     for (const std::string& file : bundle_files(job)) {
       check.writes("--bundle", std::filesystem::path(job.bundle->folder) / file);
     }
-  } else if (job.part) {
-    check.writes("--part", part_name(job.output, *job.part));
+  } else if (job.shard) {
+    check.writes("--part", shard_name(job.output, *job.shard));
   } else {
     claim_output(check, "--output", job.output);
   }

@@ -11,7 +11,6 @@
 #include "cli/options.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/text_output.hpp"
-#include "physics/position_bounds.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -48,7 +47,7 @@ void run_state(const Command& options, const SceneOptions& scene_options) {
     const Rational time = time_of(instant, *log);
     std::optional<PositionBounds> bounds;
     if (options.is_given("--bounds")) bounds = bounds_at(*log, time);
-    write(time, state_at(*log, time), bounds, out);
+    write(time, log->state_at(time), bounds, out);
   }
   out.finish();
   note_convention(scene);

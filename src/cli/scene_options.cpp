@@ -171,8 +171,8 @@ std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const Command&
 
 void note_convention(const Script& script) {
   if (const auto* scene = std::get_if<Scene>(&script)) return note_convention(scene->system);
-  for (const StoryPart& part : std::get<Storyboard>(script).parts) {
-    const auto* const runs = std::get_if<Runs>(&part.content);
+  for (const Segment& segment : std::get<Storyboard>(script).segments) {
+    const auto* const runs = std::get_if<Runs>(&segment.content);
     if (runs == nullptr) continue;
     for (const Scene& run : *runs) note_convention(run.system);
   }

@@ -1,5 +1,5 @@
-// An open file of the operating system.
-// In: a descriptor. Out: an owner that closes it, also when an exception passes.
+// Open files of the operating system, and its errors.
+// In: a descriptor or an errno. Out: an owner that closes the descriptor; the text of the error.
 #pragma once
 
 #include <unistd.h>
@@ -7,9 +7,15 @@
 #include <cerrno>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <system_error>
 #include <utility>
 
 namespace piblocks {
+
+inline std::string error_text(int error_number) {
+  return std::generic_category().message(error_number);
+}
 
 class Descriptor {
  public:
@@ -37,8 +43,7 @@ class Descriptor {
     }
     return 0;
   }
-  /// What was open is closed in any case. @return 0, or an errno: a file of a network may say only
-  /// now that it has no room.
+  /// Closes it in any case. @return 0, or an errno: a network file may report a full disk only now.
   int close() noexcept { return is_open() && ::close(std::exchange(number_, -1)) != 0 ? errno : 0; }
 
  private:

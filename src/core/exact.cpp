@@ -186,6 +186,11 @@ std::string readable(const Integer& value) {
   return fmt::format("about {}10^{}", value < 0 ? "-" : "", digits.size() - 1);
 }
 
+std::string to_text(const Rational& value) {
+  const std::string exact = value.get_str();
+  return exact.size() <= 24 ? exact : fmt::format("{}", to_double(value));
+}
+
 Time to_time(const Rational& exact) {
   const auto numerator = exact_double(exact.get_num());
   const auto denominator = exact_double(exact.get_den());

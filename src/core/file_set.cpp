@@ -15,8 +15,8 @@ namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
-/// In the temporary folder: complete files on their way, and what had their names before. The
-/// second exists as soon as the first file moves.
+/// In the temporary folder: the new files, and the old ones that they replace. The folder of the
+/// old ones is made before the first file moves.
 constexpr const char* kNew = "new";
 constexpr const char* kOld = "old";
 
@@ -25,15 +25,15 @@ constexpr const char* kOld = "old";
 }
 
 [[noreturn]] void fail(const char* operation, const fs::path& path, int error_number) {
-  fail(operation, path, std::generic_category().message(error_number));
+  fail(operation, path, error_text(error_number));
 }
 
 void make_folder(const fs::path& path) {
   if (::mkdir(path.c_str(), 0777) != 0) fail("make", path, errno);
 }
 
-/// All files take their names, or none does. What else has a name waits among the old ones until
-/// all are done. Needs no new memory once it has begun.
+/// Moves files to their names, and old files out of the way, so that they can be moved back. Once
+/// it has begun it needs no new memory.
 class Renaming {
  public:
   Renaming(const fs::path& from, const fs::path& to, const fs::path& old)
@@ -58,7 +58,7 @@ class Renaming {
   void put_back(const char* name) const noexcept { move(old_, to_, name); }
 
  private:
-  /// For naming files in it only: that needs no right to read it.
+  /// O_PATH needs no right to read the folder.
   static Descriptor open_folder(const fs::path& path) {
     Descriptor folder(::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
     if (!folder.is_open()) fail("open", path, errno);
@@ -75,10 +75,10 @@ class Renaming {
 
 }  // namespace
 
-FileSet::FileSet(const fs::path& folder, const std::string& label, Unfinished::Rivals rivals)
+FileSet::FileSet(const fs::path& folder, const std::string& label, Unfinished::Sharing sharing)
     : folder_(folder.empty() ? "." : folder),
       made_folders_(folder_),
-      temporary_(folder_ / label, Unfinished::Kind::folder, rivals,
+      temporary_(folder_ / label, Unfinished::Kind::folder, sharing,
                  [this](const fs::path& left) { return finish_commit(left); }) {
   make_folder(temporary_.path() / kNew);
 }
@@ -120,7 +120,8 @@ void FileSet::remove(const std::string& name) {
 void FileSet::commit() {
   if (!names_.empty() || !removed_.empty()) {
     prepare();
-    sync();
+    // One call for the whole file system: a sync of each of thousands of files takes far longer.
+    if (::syncfs(temporary_.descriptor()) != 0) fail("sync", temporary_.path(), errno);
     move_into_place();
   }
   made_folders_.keep();
@@ -129,11 +130,6 @@ void FileSet::commit() {
   if (error) fail("remove", temporary_.path(), error.value());
   temporary_.release();
   sync_folder(folder_);
-}
-
-/// One call for the whole file system: a sync for each of thousands of files takes far longer.
-void FileSet::sync() const {
-  if (::syncfs(temporary_.descriptor()) != 0) fail("sync", temporary_.path(), errno);
 }
 
 void FileSet::check_destination(const std::string& name) const {
@@ -146,7 +142,7 @@ void FileSet::check_destination(const std::string& name) const {
   if (!problem.empty()) fail("replace", to, problem);
 }
 
-/// Finds what renaming would fail on before the first file is renamed.
+/// Finds what would make renaming fail, before the first file is renamed.
 void FileSet::prepare() const {
   for (const std::string& name : names_) {
     check_destination(name);

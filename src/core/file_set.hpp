@@ -1,6 +1,6 @@
 // Files of one folder that take their names together, or none of them does.
-// In: names, and the files, written under temporary paths. Out: all of them under their names, in
-// place of what had these, or no trace of them.
+// In: names, and files written under temporary paths. Out: all files under their names, replacing
+// older ones, or no trace of them.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,14 @@ class FileSet {
  public:
   /// Makes missing folders. If a process was killed while the files of such a set took their names,
   /// the others of these files take theirs now: they are complete.
-  /// @param label   tells which files belong together: as Unfinished's name.
-  /// @param rivals  whether another set with this label may be written at the same time.
+  /// @param label    tells which files belong together: as Unfinished's name.
+  /// @param sharing  whether another set with this label may be written at the same time.
   /// @throws UsageError, IoError as Unfinished.
   FileSet(const std::filesystem::path& folder, const std::string& label,
-          Unfinished::Rivals rivals = Unfinished::Rivals::refused);
+          Unfinished::Sharing sharing = Unfinished::Sharing::exclusive);
 
-  /// A folder for what only helps to make the files; it goes when they are done.
-  std::filesystem::path workshop() const { return temporary_.path(); }
+  /// A folder for intermediate files; removed with everything in it.
+  std::filesystem::path temporary_folder() const { return temporary_.path(); }
   /// One more file.
   /// @return where it is to be written.
   /// @throws IoError if no file can replace what has this name: a folder, a symbolic link, a file
@@ -34,16 +34,15 @@ class FileSet {
   /// One more file, and its contents.
   /// @throws IoError as add(), and if it cannot be written.
   void add(const std::string& name, std::span<const std::uint8_t> bytes);
-  /// A file that goes when the others take their names.
+  /// Removes a file when the others take their names.
   /// @throws IoError as add().
   void remove(const std::string& name);
   /// Syncs all files and gives them their names.
-  /// @throws IoError if that fails. Every name has then what it had before, unless all had their
-  ///         files already, and only removing or syncing what remains failed.
+  /// @throws IoError if that fails. Every name then has the file it had before, unless all names
+  ///         had the new files already and only removing or syncing the rest failed.
   void commit();
 
  private:
-  void sync() const;
   void check_destination(const std::string& name) const;
   void prepare() const;
   void move_into_place() const;

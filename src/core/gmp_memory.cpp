@@ -7,8 +7,7 @@
 namespace piblocks {
 namespace {
 
-// NOLINTBEGIN(cppcoreguidelines-*): GMP asks for functions like those of C, which know nothing but
-// what they are handed.
+// NOLINTBEGIN(cppcoreguidelines-*): GMP calls C functions without a context.
 
 void (*end_process)() = std::abort;
 

@@ -1,8 +1,8 @@
-// What happens when GMP, and MPFR which asks it, find no memory.
-// In: a function that ends the process. Out: a call of it, where GMP itself would abort().
+// What happens when GMP, or MPFR which uses it, finds no memory.
+// In: a function that ends the process. Out: it is called where GMP itself would abort().
 //
-// An exception will not do: "they must not return", says GMP's manual ("Custom Allocation"), and
-// mpz_mul() for one frees the old number before it asks for room for the new.
+// GMP forbids an exception (its manual, "Custom Allocation"): mpz_mul(), for one, frees the old
+// number before it allocates the new one.
 #pragma once
 
 namespace piblocks {

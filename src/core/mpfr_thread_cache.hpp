@@ -1,5 +1,5 @@
-// What MPFR keeps for each thread, given back when the thread ends.
-// In: a call before MPFR is used. Out: no memory left behind by threads that come and go.
+// Frees the memory that MPFR keeps for each thread when the thread ends.
+// In: a call before MPFR is used. Out: no leak from threads that come and go.
 #pragma once
 
 #include <mpfr.h>

@@ -14,21 +14,30 @@ namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
-std::string reason(int error_number) { return std::generic_category().message(error_number); }
-
 [[noreturn]] void fail_open(const fs::path& path, const std::string& why) {
   throw UsageError(fmt::format("output: cannot open '{}': {}", path.string(), why));
 }
 
 [[noreturn]] void fail_io(const char* operation, const std::string& name, int error_number) {
-  throw IoError(fmt::format("output: cannot {} '{}': {}", operation, name, reason(error_number)));
+  throw IoError(
+      fmt::format("output: cannot {} '{}': {}", operation, name, error_text(error_number)));
+}
+
+/// A link in /proc/self/fd may lead to a file without a name: the text of the link is then none.
+fs::path named_target(const fs::path& path) {
+  fs::path target = follow_links(path);
+  std::error_code error;
+  if (fs::exists(path, error) && !fs::equivalent(path, target, error)) {
+    fail_open(path, error_text(ENOENT));
+  }
+  return target;
 }
 
 }  // namespace
 
 MadeFolders::MadeFolders(const fs::path& folder) {
   std::vector<fs::path> missing;
-  std::error_code unknown;  // below a folder that may not be searched: making it will say so
+  std::error_code unknown;  // in a folder that may not be searched: making the folder reports it
   for (fs::path at = folder; !at.empty() && !fs::exists(at, unknown); at = at.parent_path()) {
     missing.push_back(at);
   }
@@ -44,7 +53,7 @@ MadeFolders::MadeFolders(const fs::path& folder) {
 }
 
 MadeFolders::~MadeFolders() {
-  std::error_code ignored;  // a folder that others have used meanwhile stays
+  std::error_code ignored;  // a folder stays if others have put files there
   for (auto at = made_.rbegin(); at != made_.rend(); ++at) fs::remove(*at, ignored);
 }
 
@@ -61,7 +70,7 @@ fs::path follow_links(const fs::path& path) {
     if (error) return at;
     at = at.parent_path() / target;  // which is the target alone if that is absolute
   }
-  fail_open(path, reason(ELOOP));
+  fail_open(path, error_text(ELOOP));
 }
 
 std::string problem_of_replacing(const fs::path& path) {
@@ -69,16 +78,16 @@ std::string problem_of_replacing(const fs::path& path) {
   const fs::file_status status = fs::status(path, error);
   if (error == std::errc::filename_too_long) return error.message();
   if (!fs::exists(status)) return {};
-  if (fs::is_directory(status)) return reason(EISDIR);
+  if (fs::is_directory(status)) return error_text(EISDIR);
   if (!fs::is_regular_file(status)) return "not a file";
-  return ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0 ? "" : reason(errno);
+  return ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0 ? "" : error_text(errno);
 }
 
 void take_permissions(int descriptor, const fs::path& replaced) {
   constexpr mode_t kPermissions = 0777;
   struct stat old {};
   if (::stat(replaced.c_str(), &old) != 0) return;
-  // Only root may give files away. Before the permissions, some of which a new owner takes away.
+  // Only root may change the owner. Changing it clears some permissions, so these come second.
   [[maybe_unused]] const int ignored = ::fchown(descriptor, old.st_uid, old.st_gid);
   if (::fchmod(descriptor, old.st_mode & kPermissions) == 0) return;
   const int error = errno;
@@ -88,28 +97,13 @@ void take_permissions(int descriptor, const fs::path& replaced) {
   if (!has_them) fail_io("keep the permissions of", replaced, error);
 }
 
-namespace {
-
-/// A link in /proc/self/fd leads to a file that may have no name any more; what the link says then
-/// is none.
-fs::path followed(const fs::path& path) {
-  fs::path target = follow_links(path);
-  std::error_code error;
-  if (fs::exists(path, error) && !fs::equivalent(path, target, error)) {
-    fail_open(path, reason(ENOENT));
-  }
-  return target;
-}
-
-}  // namespace
-
 TemporaryFile::TemporaryFile(fs::path final_path) : final_path_(std::move(final_path)) {
   if (final_path_.empty()) throw UsageError("output: the name is empty");
   const fs::path name = final_path_.filename();
-  if (name.empty() || name == "." || name == "..") fail_open(final_path_, reason(EISDIR));
+  if (name.empty() || name == "." || name == "..") fail_open(final_path_, error_text(EISDIR));
   const std::string problem = problem_of_replacing(final_path_);
   if (!problem.empty()) fail_open(final_path_, problem);
-  final_path_ = followed(final_path_);
+  final_path_ = named_target(final_path_);
   folders_.emplace(final_path_.parent_path());
   file_.emplace(final_path_, Unfinished::Kind::file);
   take_permissions(file_->descriptor(), final_path_);
@@ -132,7 +126,7 @@ OutputFile::OutputFile(const std::string& name, Contents contents)
     temporary_ = std::make_unique<TemporaryFile>(name);
     descriptor_ = Descriptor(::open(temporary_->path().c_str(), O_WRONLY | O_CLOEXEC));
   }
-  if (!descriptor_.is_open()) fail_open(name_, reason(errno));
+  if (!descriptor_.is_open()) fail_open(name_, error_text(errno));
 }
 
 void OutputFile::write(std::span<const std::uint8_t> bytes) {

@@ -34,15 +34,15 @@ class MadeFolders {
   std::vector<std::filesystem::path> made_;  // outermost first
 };
 
-/// The file that a name stands for: symbolic links are followed, also to what is not there yet.
+/// Follows symbolic links, also to a file that does not exist yet.
 /// @throws UsageError if they go in a circle, or the system does not let this user follow them.
 std::filesystem::path follow_links(const std::filesystem::path& path);
 
-/// Why a file may not be replaced under this name, which may be free; empty if it may be: a folder,
-/// a device, a file without the right to write to it.
+/// Why a file may not be written under this name: a folder, a device, or a file that this user may
+/// not write to; empty if it may.
 std::string problem_of_replacing(const std::filesystem::path& path);
 
-/// Gives an open file the permissions of the file that it is to replace, if there is one, and its
+/// Gives an open file the permissions of the file that it will replace, if there is one, and its
 /// owner, as far as this user may.
 /// @throws IoError if it cannot have the permissions.
 void take_permissions(int descriptor, const std::filesystem::path& replaced);
@@ -77,14 +77,13 @@ class ReaderGone : public Error {
 /// Bytes to a file (through a TemporaryFile) or, for the name "-", to standard output.
 class OutputFile {
  public:
-  /// Of bytes a part is of no use; of text it is.
+  /// A reader may take the beginning of a text and go; the beginning of other bytes is of no use.
   enum class Contents { bytes, text };
 
   explicit OutputFile(const std::string& name, Contents contents = Contents::bytes);
 
-  /// @throws IoError on a full disk, a closed pipe and the like; ReaderGone if a pipe is closed
-  /// that
-  ///         text is written to.
+  /// @throws IoError on a full disk, a closed pipe and the like; ReaderGone if text is written to a
+  ///         closed pipe.
   void write(std::span<const std::uint8_t> bytes);
   void write(std::string_view text);
   /// Replaces bytes that were written before, from this position on. Not on standard output.

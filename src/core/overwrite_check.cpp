@@ -75,12 +75,8 @@ void OverwriteCheck::reads(const std::string& what, const fs::path& file) {
   inputs_.push_back(file_claim(what, file));
 }
 
-void OverwriteCheck::reads_some_of(const std::string& what, const fs::path& folder, Names names) {
+void OverwriteCheck::reads_folder(const std::string& what, const fs::path& folder, Names names) {
   inputs_.push_back(folder_claim(what, folder, std::move(names)));
-}
-
-void OverwriteCheck::reads_all_of(const std::string& what, const fs::path& folder) {
-  inputs_.push_back(folder_claim(what, folder, {}));
 }
 
 void OverwriteCheck::writes(const std::string& what, const fs::path& file) {

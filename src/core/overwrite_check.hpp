@@ -2,8 +2,8 @@
 // In: the files that it reads, and those that it is going to write. Out: nothing, or a UsageError
 // that names both.
 //
-// Two names are the same file if the system says so, through symbolic and hard links and whatever
-// the path. A name that is not there yet is known by the folder that it will be in.
+// Files are compared by device and inode, so symbolic links, hard links and different paths do not
+// matter. A file that does not exist yet is compared by its folder and name.
 #pragma once
 
 #include <sys/types.h>
@@ -19,15 +19,14 @@ namespace piblocks {
 
 class OverwriteCheck {
  public:
-  /// Whether a file of a folder is meant.
+  /// Whether a name is one of those that are read or written.
   using Names = std::function<bool(const std::string& name)>;
 
-  /// @param what  the file's part in the command, for messages: "the scene file".
+  /// @param what  the role of the file, for messages: "the scene file".
   void reads(const std::string& what, const std::filesystem::path& file);
-  /// Reads the files of a folder that have these names.
-  void reads_some_of(const std::string& what, const std::filesystem::path& folder, Names names);
-  /// Reads a folder: nothing else may be put there.
-  void reads_all_of(const std::string& what, const std::filesystem::path& folder);
+  /// Reads the files of a folder that have these names; without names all, so that nothing may be
+  /// written into the folder.
+  void reads_folder(const std::string& what, const std::filesystem::path& folder, Names names = {});
 
   void writes(const std::string& what, const std::filesystem::path& file);
   /// Writes files of a folder, with some of these names.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -38,12 +39,23 @@ std::string printable(std::string_view text) {
       text.remove_prefix(1);
       continue;
     }
-    if (is_plain(code)) {
-      result += text.substr(0, length_bytes);
-    } else {
-      result += escape(code);
-    }
+    result += is_plain(code) ? std::string(text.substr(0, length_bytes)) : escape(code);
     text.remove_prefix(length_bytes);
+  }
+  return result;
+}
+
+std::string escaped(std::string_view text) {
+  constexpr std::string_view kSpecial = "&<>\"'";
+  constexpr std::array kEntities = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
+  std::string result;
+  for (const char c : printable(text)) {
+    const std::size_t at = kSpecial.find(c);
+    if (at == std::string_view::npos) {
+      result += c;
+    } else {
+      result += kEntities.at(at);
+    }
   }
   return result;
 }

@@ -21,10 +21,10 @@ namespace fs = std::filesystem;
 namespace {
 
 using Kind = Unfinished::Kind;
-using Rivals = Unfinished::Rivals;
+using Sharing = Unfinished::Sharing;
 using Rescue = Unfinished::Rescue;
 
-/// Never that of a part, "NAME.part-2-of-3".
+/// Parts have other names: "NAME.part-2-of-3".
 constexpr std::string_view kMark = ".unfinished-";
 constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz234567";  // 5 bits each
 constexpr std::size_t kRandom_letters = 10;
@@ -34,14 +34,12 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-std::string reason(int error_number) { return std::generic_category().message(error_number); }
-
 [[noreturn]] void fail(const fs::path& final_path, Kind kind, int error_number) {
   const std::string message =
-      kind == Kind::folder
-          ? fmt::format("output: cannot write into '{}': {}", folder_of(final_path).string(),
-                        reason(error_number))
-          : fmt::format("output: cannot open '{}': {}", final_path.string(), reason(error_number));
+      kind == Kind::folder ? fmt::format("output: cannot write into '{}': {}",
+                                         folder_of(final_path).string(), error_text(error_number))
+                           : fmt::format("output: cannot open '{}': {}", final_path.string(),
+                                         error_text(error_number));
   if (error_number == EIO || error_number == ENOSPC || error_number == EDQUOT) {
     throw IoError(message);
   }
@@ -61,7 +59,7 @@ std::string letters_of(std::uint64_t bits, std::size_t count) {
   return letters;
 }
 
-/// What the temporary name begins with: so much of the name as leaves room for the rest.
+/// The beginning of the temporary name: as much of the final name as leaves room for the rest.
 std::string_view start_of(const std::string& final_name) {
   constexpr std::size_t kRest = kMark.size() + kRandom_letters + kCheck_letters;
   return std::string_view(final_name).substr(0, NAME_MAX - kRest);
@@ -105,7 +103,7 @@ bool is_own(int descriptor) {
   return status.st_uid == ::geteuid() && (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode));
 }
 
-/// @return whether a process works on it.
+/// @return whether a process is writing it.
 bool remove_unless_locked(const fs::path& path, const Rescue& rescue) {
   Descriptor descriptor = open(path, Kind::folder);
   const bool is_folder = descriptor.is_open();
@@ -113,28 +111,28 @@ bool remove_unless_locked(const fs::path& path, const Rescue& rescue) {
   if (!descriptor.is_open() || !is_own(descriptor.get())) return false;
   if (!take_lock(descriptor.get())) return errno == EWOULDBLOCK;
   if (is_folder && rescue && !rescue(path)) return false;
-  std::error_code stays;  // the work does not depend on it
-  fs::remove_all(path, stays);
+  std::error_code ignored;  // the output does not depend on it
+  fs::remove_all(path, ignored);
   return false;
 }
 
 /// Removes what killed processes left for this name.
 /// @param own  is left out.
-/// @return whether another process works for the name.
+/// @return whether another process is writing for the same name.
 bool remove_abandoned(const fs::path& final_path, const fs::path& own, const Rescue& rescue) {
   const std::string final_name = final_path.filename();
-  bool has_rival = false;
+  bool is_shared = false;
   std::error_code unreadable;
   fs::directory_iterator entry(folder_of(final_path), unreadable);
   for (; !unreadable && entry != fs::directory_iterator(); entry.increment(unreadable)) {
     const std::string name = entry->path().filename();
     if (!is_temporary_name(name, final_name) || name == own.filename()) continue;
-    has_rival |= remove_unless_locked(entry->path(), rescue);
+    is_shared |= remove_unless_locked(entry->path(), rescue);
   }
-  return has_rival;
+  return is_shared;
 }
 
-/// @return closed, with errno set, if it cannot be made.
+/// @return a closed one, with errno set, if it cannot be made.
 Descriptor make_empty(const std::string& path, Kind kind) {
   if (kind == Kind::file) {
     return Descriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
@@ -147,11 +145,12 @@ Descriptor make_empty(const std::string& path, Kind kind) {
 
 }  // namespace
 
-Unfinished::Unfinished(const fs::path& final_path, Kind kind, Rivals rivals, const Rescue& rescue) {
+Unfinished::Unfinished(const fs::path& final_path, Kind kind, Sharing sharing,
+                       const Rescue& rescue) {
   remove_abandoned(final_path, {}, rescue);
   make(final_path, kind);
-  if (rivals == Rivals::allowed) return;
-  // Two that start together see each other here, and neither goes on.
+  if (sharing == Sharing::shared) return;
+  // Two processes that start together see each other here, and neither goes on.
   if (!remove_abandoned(final_path, path_, rescue)) return;
   remove();
   throw UsageError(fmt::format(
@@ -164,20 +163,20 @@ void Unfinished::make(const fs::path& final_path, Kind kind) {
     path_ = final_path.parent_path() / temporary_name(final_path.filename());
     lock_ = make_empty(path_, kind);
     if (!lock_.is_open() && errno != EEXIST) fail(final_path, kind, errno);
-    // Before it was locked, another process could take it for abandoned.
+    // Until it was locked, another process could take it for abandoned and remove it.
   } while (!lock_.is_open() || (!take_lock(lock_.get()) && errno == EWOULDBLOCK) ||
            ::access(path_.c_str(), F_OK) != 0);
 }
 
 Unfinished::~Unfinished() { remove(); }
 
-/// A file goes without new memory, of which there may be none left.
+/// Unlinking must not allocate: there may be no memory left.
 void Unfinished::remove() noexcept {
   if (path_.empty() || ::unlink(path_.c_str()) == 0) return;
   try {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
-  } catch (const std::bad_alloc&) {  // stays for the next owner
+  } catch (const std::bad_alloc&) {  // the next run removes it
     return;
   }
 }
@@ -185,10 +184,11 @@ void Unfinished::remove() noexcept {
 void sync_folder(const fs::path& folder) {
   const fs::path path = folder.empty() ? "." : folder;
   const Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  // One may write into a folder without being allowed to read it; some file systems sync none.
+  // A folder may be writable but not readable; some file systems cannot sync folders.
   if (!descriptor.is_open() && errno == EACCES) return;
   if (descriptor.is_open() && (::fsync(descriptor.get()) == 0 || errno == EINVAL)) return;
-  throw IoError(fmt::format("output: cannot sync folder '{}': {}", path.string(), reason(errno)));
+  throw IoError(
+      fmt::format("output: cannot sync folder '{}': {}", path.string(), error_text(errno)));
 }
 
 }  // namespace piblocks

@@ -1,11 +1,11 @@
 // A file or folder under a temporary name, for what is not complete yet.
-// In: the final name. Out: NAME.unfinished-CODE beside it, on the same device; goes with its owner
-// unless that has renamed it.
+// In: the final name. Out: NAME.unfinished-CODE beside it, on the same device. The destructor
+// removes it unless it has been renamed.
 //
-// CODE is ten random letters or digits and six that are computed from NAME and these ten: no other
-// program makes such a name, and a copy under another name does not have it. The owner holds a
-// lock (flock) on the file or folder. A killed process leaves it without a lock, and the next owner
-// for the same NAME removes it, if it belongs to the same user. File systems without locks keep it.
+// CODE is ten random letters or digits and six that are computed from NAME and these ten, so no
+// other program makes such a name. The file or folder is locked (flock) as long as it is written. A
+// killed process leaves it without a lock, and the next run for the same NAME by the same user
+// removes it. On file systems without locks it stays.
 #pragma once
 
 #include <filesystem>
@@ -19,15 +19,15 @@ namespace piblocks {
 class Unfinished {
  public:
   enum class Kind { file, folder };
-  enum class Rivals { allowed, refused };
-  /// Saves what is worth it in a folder that a killed process left.
+  /// Whether several processes may write for the same name at the same time.
+  enum class Sharing { shared, exclusive };
+  /// Saves complete files from a folder that a killed process left.
   /// @return whether the rest may be removed.
   using Rescue = std::function<bool(const std::filesystem::path& folder)>;
 
-  /// @param rivals  whether other processes may work for the same name at the same time.
-  /// @throws UsageError if it cannot be made, or a rival that is not allowed is at work; IoError if
-  ///         the disk is full or broken.
-  Unfinished(const std::filesystem::path& final_path, Kind kind, Rivals rivals = Rivals::allowed,
+  /// @throws UsageError if it cannot be made, or another process is writing for an exclusive name;
+  ///         IoError if the disk is full or broken.
+  Unfinished(const std::filesystem::path& final_path, Kind kind, Sharing sharing = Sharing::shared,
              const Rescue& rescue = {});
   ~Unfinished();
   Unfinished(const Unfinished&) = delete;

@@ -50,7 +50,7 @@ std::string lit_digits(const Scene& scene, const CollisionLog& log) {
 Integer longest_count(const Scene& scene, const CollisionLog& log) {
   const Integer& last = log.size();
   if (log.first_index() > 0 || !has_span(scene, log)) return last;
-  const Integer first = state_at(log, span_of(scene, log).from).count;
+  const Integer first = log.state_at(span_of(scene, log).from).count;
   return first.get_str().size() > last.get_str().size() ? first : last;
 }
 

@@ -22,7 +22,7 @@ struct FrameState {
 /// An interval of the time for which a frame is exposed, and its share of that time.
 struct WeightedExposure {
   double share = 1;  ///< the shares of a frame add up to 1
-  std::unique_ptr<Exposure> exposure;
+  Exposure exposure;
 };
 
 /// The layout and everything in it that does not move. It makes only what the scene asks for, and

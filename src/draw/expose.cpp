@@ -41,13 +41,6 @@ struct ToPixels {
   double back(double x_px) const { return (x_px - zero_px) / scale; }
 };
 
-/// The integral of the share of time that an even motion from one place to another is below x.
-double area_below(double low, double high, double x) {
-  if (x >= high) return (x - low) / 2 + (x - high) / 2;
-  if (x <= low) return 0;
-  return (x - low) * ((x - low) / (high - low)) / 2;
-}
-
 /// Shares of time by place: the second differences of the integral of F, the share of time below a
 /// place. With them, what changes evenly from place to place has its exact mean.
 class DwellTable {
@@ -98,7 +91,7 @@ Travel range_px(BlockName block, const ToPixels& to_px,
                 std::span<const WeightedExposure> exposures) {
   Travel all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const WeightedExposure& weighted : exposures) {
-    const Travel range = weighted.exposure->range(block);
+    const Travel range = weighted.exposure.range(block);
     all.from = std::min(all.from, to_px(range.from));
     all.to = std::max(all.to, to_px(range.to));
   }
@@ -114,19 +107,20 @@ std::vector<Dwell> dwells_of(BlockName block, const ToPixels& to_px,
   if (!(range.to > range.from)) return {};
   DwellTable table(range, spacing_px(range.to - range.from));
   for (const WeightedExposure& weighted : exposures) {
-    if (!weighted.exposure->is_listed()) {
-      const Travel own = weighted.exposure->range(block);
+    if (weighted.exposure.area_below) {
+      const Travel own = weighted.exposure.range(block);
       table.add(weighted.share, to_px(own.from), to_px(own.to), [&](double x) {
-        return weighted.exposure->area_below(block, to_px.back(x)) * to_px.scale;
+        return weighted.exposure.area_below(block, to_px.back(x)) * to_px.scale;
       });
       continue;
     }
-    for (const UniformPiece& piece : weighted.exposure->pieces()) {
+    for (const UniformPiece& piece : weighted.exposure.pieces) {
       const Travel& way = piece.of(block);
       const double low = to_px(std::min(way.from, way.to));
       const double high = to_px(std::max(way.from, way.to));
-      table.add(weighted.share * piece.share, low, high,
-                [&](double x) { return area_below(low, high, x); });
+      table.add(weighted.share * piece.share, low, high, [&](double x) {
+        return Travel{low, high}.area_below(x);
+      });
     }
   }
   return table.dwells();
@@ -169,7 +163,7 @@ ExposedItem expose(ExposedBlock red, ExposedBlock blue, const SceneColumns& colu
   item.front.dwells = dwells_of(BlockName::blue, blue_px, exposures);
   if (item.behind.dwells.empty() && item.front.dwells.empty()) return item;
   for (const WeightedExposure& weighted : exposures) {
-    for (const UniformPiece& piece : weighted.exposure->pieces()) {
+    for (const UniformPiece& piece : weighted.exposure.pieces) {
       add_contacts(weighted.share * piece.share, {red_px(piece.red.from), red_px(piece.red.to)},
                    {blue_px(piece.blue.from), blue_px(piece.blue.to)}, item.front.bounds.width,
                    item.contacts);

@@ -137,9 +137,9 @@ bool frames_exist(const std::string& name) {
 
 void claim_frames(OverwriteCheck& check, const std::string& what, const std::string& name) {
   if (is_pattern(name)) {
-    check.reads_some_of(what, FramePattern(name).folder(), names_of_pattern(name));
+    check.reads_folder(what, FramePattern(name).folder(), names_of_pattern(name));
   } else if (is_folder(name)) {
-    check.reads_all_of(what, name);
+    check.reads_folder(what, name);
   } else {
     check.reads(what, name);
   }

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "core/base64.hpp"
-#include "core/markup.hpp"
 #include "core/output_file.hpp"
+#include "core/printable.hpp"
 #include "golden/report_source.hpp"
 #include "golden/reports.hpp"
 

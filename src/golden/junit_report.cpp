@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "core/markup.hpp"
 #include "core/output_file.hpp"
+#include "core/printable.hpp"
 #include "golden/reports.hpp"
 
 namespace piblocks {

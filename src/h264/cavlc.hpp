@@ -15,9 +15,8 @@ inline constexpr int kChromaDc = -1;
 /// @param levels  4 of chroma DC, 15 of AC, or 16.
 /// @param total  TotalCoeff: how many of them are not zero.
 /// @param nc  nC, from 0 to 16, or kChromaDc.
-/// @return false if a level needs a long escape (9.2.2.1), which the profile does not have. The
-/// bits
-///         are then incomplete.
+/// @return false if a level needs a long escape (9.2.2.1), which the profile lacks. The bits are
+///         then incomplete.
 bool write_levels(std::span<const std::int16_t> levels, int total, int nc, BitWriter& bits);
 
 }  // namespace piblocks::h264

@@ -1,6 +1,6 @@
-// Differences as quantised coefficients, and back (ITU-T H.264, 8.5).
-// In: squares of 4x4 samples, and what was predicted for them. Out: levels in scan order, and the
-// samples that every decoder makes of them.
+// Differences as transform coefficient levels, and back (ITU-T H.264, 8.5).
+// In: blocks of 4x4 samples and their predictions. Out: levels in scan order, and the samples that
+// every decoder makes of them.
 #pragma once
 
 #include <array>

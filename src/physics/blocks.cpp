@@ -1,26 +1,10 @@
-#include <fmt/format.h>
+#include "physics/blocks.hpp"
+
 #include <piblocks/error.hpp>
-#include <piblocks/run.hpp>
 
-#include <cmath>
-
-#include "physics/check_finite.hpp"
 #include "physics/exact_motion.hpp"
 
 namespace piblocks {
-namespace {
-
-void check_positive(const char* key, const Rational& value, std::vector<Problem>& problems) {
-  if (value > 0) return;
-  problems.push_back({key, fmt::format("= {}: must be greater than 0", to_text(value))});
-}
-
-}  // namespace
-
-void check_finite(const char* key, const Rational& value, std::vector<Problem>& problems) {
-  if (std::isfinite(to_double(value))) return;
-  problems.push_back({key, "is beyond the range of a double (about 1.8e308)"});
-}
 
 std::optional<Rational> turn_of(const BlockSystem& system) {
   const ExactMotion motion(system);
@@ -38,44 +22,51 @@ BlockSystem article_system(int digits) {
 }
 
 std::vector<Problem> problems_of(const BlockSystem& system) {
-  std::vector<Problem> problems;
-  check_positive("blue.mass", system.blue.mass, problems);
-  check_positive("red.mass", system.red.mass, problems);
-  check_positive("blue.width", system.blue.width, problems);
-  check_positive("red.width", system.red.width, problems);
-  check_finite("wall.face", system.wall_face, problems);
-  check_finite("blue.position", system.blue.position, problems);
-  check_finite("red.position", system.red.position, problems);
-  check_finite("blue.velocity", system.blue.velocity, problems);
-  check_finite("red.velocity", system.red.velocity, problems);
-  check_finite("blue.width", system.blue.width, problems);
-  check_finite("red.width", system.red.width, problems);
-  if (!problems.empty()) return problems;  // the gaps would only repeat them
+  const auto& [wall_face, blue, red] = system;
+  SceneProblems problems;
+  problems.require_positive("blue.mass", blue.mass);
+  problems.require_positive("red.mass", red.mass);
+  problems.require_positive("blue.width", blue.width);
+  problems.require_positive("red.width", red.width);
+  problems.require_finite("wall.face", wall_face);
+  problems.require_finite("blue.position", blue.position);
+  problems.require_finite("red.position", red.position);
+  problems.require_finite("blue.velocity", blue.velocity);
+  problems.require_finite("red.velocity", red.velocity);
+  problems.require_finite("blue.width", blue.width);
+  problems.require_finite("red.width", red.width);
+  if (!problems.empty()) return problems.take();  // the gaps would only repeat them
 
-  if (system.blue_gap() < 0) {
-    problems.push_back(
-        {"blue.position", fmt::format("= {}: blue reaches {} into the wall, whose face is at {}",
-                                      to_text(system.blue.position), to_text(-system.blue_gap()),
-                                      to_text(system.wall_face))});
-  }
-  if (system.blocks_gap() < 0) {
-    problems.push_back(
-        {"red.position", fmt::format("= {}: red overlaps blue by {}", to_text(system.red.position),
-                                     to_text(-system.blocks_gap()))});
-  }
-  return problems;
+  problems.require(system.blue_gap() >= 0, "blue.position",
+                   "= {}: blue reaches {} into the wall, whose face is at {}", blue.position,
+                   Rational(-system.blue_gap()), wall_face);
+  problems.require(system.blocks_gap() >= 0, "red.position", "= {}: red overlaps blue by {}",
+                   red.position, Rational(-system.blocks_gap()));
+  return problems.take();
 }
 
-std::vector<std::string> describe(const std::vector<Problem>& problems) {
+void require_valid(const std::vector<Problem>& problems) {
+  if (problems.empty()) return;
   std::vector<std::string> lines;
-  lines.reserve(problems.size());
-  for (const Problem& problem : problems) lines.push_back(problem.key + " " + problem.reason);
-  return lines;
+  for (const auto& [key, reason] : problems) lines.push_back(key + " " + reason);
+  throw SceneError(std::move(lines));
 }
 
-std::string to_text(const Rational& value) {
-  const std::string exact = value.get_str();
-  return exact.size() <= 24 ? exact : fmt::format("{}", to_double(value));
+void require_finite(const Time& time, const Motion& blue, const Motion& red, const char* engine) {
+  for (const double number : {time.hi, blue.position, blue.velocity, red.position, red.velocity}) {
+    if (std::isfinite(number)) continue;
+    throw SimulationError(
+        fmt::format("{}: a time, position or velocity is beyond the range of a double (about "
+                    "1.8e308)",
+                    engine));
+  }
+}
+
+void require_last(const Integer& index, const Integer& last_at_its_time) {
+  if (index == last_at_its_time) return;
+  throw UsageError(
+      fmt::format("collision #{}: happens at the same time as all up to #{}; name the last of them",
+                  index.get_str(), last_at_its_time.get_str()));
 }
 
 }  // namespace piblocks

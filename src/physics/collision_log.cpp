@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "physics/block_motion.hpp"
+#include "physics/blocks.hpp"
 #include "physics/event_loop.hpp"
 #include "physics/exact_log.hpp"
 #include "physics/stored_log.hpp"
@@ -12,21 +12,6 @@
 
 namespace piblocks {
 namespace {
-
-using Simulate = std::vector<StoredCollision>(const BlockSystem&);
-
-std::unique_ptr<CollisionLog> store(const BlockSystem& system, Simulate* simulate) {
-  return std::make_unique<StoredLog>(system, simulate(system), simulate(reversed(system)));
-}
-
-bool is_at_rest(const BlockSystem& system) {
-  return system.blue.velocity == 0 && system.red.velocity == 0;
-}
-
-void check(const BlockSystem& system) {
-  const std::vector<Problem> problems = problems_of(system);
-  if (!problems.empty()) throw SceneError(describe(problems));
-}
 
 void check_storable(const BlockSystem& system, Engine engine) {
   const Integer count =
@@ -39,28 +24,62 @@ void check_storable(const BlockSystem& system, Engine engine) {
       readable(kMaxStoredCollisions)));
 }
 
+/// Asks the log for one collision after the other.
+class IndexedStream final : public CollisionStream {
+ public:
+  IndexedStream(const CollisionLog& log, Integer first, Integer last)
+      : log_(log), next_(std::move(first)), last_(std::move(last)) {}
+
+  bool read(CollisionBatch& batch) override {
+    batch.first = next_;
+    for (batch.size = 0; batch.size < CollisionBatch::kCapacity && next_ <= last_; ++batch.size) {
+      const Collision c = log_.collision(next_);
+      batch.kind[batch.size] = c.kind;
+      batch.time_hi[batch.size] = c.time.hi;
+      batch.time_lo[batch.size] = c.time.lo;
+      batch.blue_position[batch.size] = c.blue.position;
+      batch.blue_velocity[batch.size] = c.blue.velocity;
+      batch.red_position[batch.size] = c.red.position;
+      batch.red_velocity[batch.size] = c.red.velocity;
+      ++next_;
+    }
+    return batch.size > 0;
+  }
+
+ private:
+  const CollisionLog& log_;
+  Integer next_;
+  Integer last_;
+};
+
 }  // namespace
 
+std::unique_ptr<CollisionStream> CollisionLog::stream(const Integer& first,
+                                                      const Integer& last) const {
+  return std::make_unique<IndexedStream>(*this, first, last);
+}
+
 std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system, Engine engine) {
-  check(system);
+  require_valid(problems_of(system));
   if (engine != Engine::unfolded) {
     check_storable(system, engine);
-    return store(system, engine == Engine::events ? event_loop : velocity_loop);
+    const auto simulate = engine == Engine::events ? event_loop : velocity_loop;
+    return std::make_unique<StoredLog>(system, simulate(system), simulate(reversed(system)));
   }
   // At theta >= pi/4 the closed form has nothing to skip, and would lose a very light red block
   // in the rounding of its phase.
-  if (system.red.mass <= system.blue.mass || is_at_rest(system))
-    return std::make_unique<ExactLog>(system);
+  const bool is_at_rest = system.blue.velocity == 0 && system.red.velocity == 0;
+  if (system.red.mass <= system.blue.mass || is_at_rest) return std::make_unique<ExactLog>(system);
   return std::make_unique<UnfoldedLog>(system);
 }
 
 Integer count_collisions(const BlockSystem& system) {
-  check(system);
+  require_valid(problems_of(system));
   return ExactMotion(system).total();
 }
 
 std::optional<Corner> corner_of(const BlockSystem& system) {
-  check(system);
+  require_valid(problems_of(system));
   ExactMotion motion(system);
   // The line comes into the corner between the rays of wall and blocks; otherwise, starting in it,
   // only one of the two can be first.
@@ -72,6 +91,15 @@ std::optional<Corner> corner_of(const BlockSystem& system) {
   motion.blocks_first = !motion.blocks_first;
   corner.other_count = motion.total();
   return corner;
+}
+
+std::optional<PositionBounds> position_bounds(const CollisionLog& log, const Rational& time) {
+  if (const auto* const form = dynamic_cast<const UnfoldedLog*>(&log)) return form->bounds_at(time);
+  if (dynamic_cast<const ExactLog*>(&log) == nullptr) return std::nullopt;
+  constexpr double kUnitRoundoff = 0x1p-53;
+  const BlockState now = log.state_at(time);
+  return PositionBounds{kUnitRoundoff * std::fabs(now.blue.position),
+                        kUnitRoundoff * std::fabs(now.red.position)};
 }
 
 }  // namespace piblocks

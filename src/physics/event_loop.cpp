@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/two_sum.hpp"
+#include "physics/blocks.hpp"
 #include "physics/exact_motion.hpp"
-#include "physics/require_finite.hpp"
 #include "physics/velocity_loop.hpp"
 
 namespace piblocks {
@@ -46,7 +46,7 @@ bool is_contact_at_start(const ExactMotion& motion) {
          (motion.blocks_first ? motion.y1 == motion.y2 : motion.y1 == 0);
 }
 
-/// Records a collision. An engine that finds many more than there are is lost, and stopped.
+/// Records collisions, and stops an engine that finds many more than there are.
 class Recorder {
  public:
   Recorder(const char* engine, const ExactMotion& motion)

@@ -6,10 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "physics/block_motion.hpp"
-#include "physics/indexed_stream.hpp"
-#include "physics/require_alone.hpp"
-#include "physics/require_finite.hpp"
+#include "physics/blocks.hpp"
 
 namespace piblocks {
 namespace {
@@ -67,15 +64,10 @@ std::vector<ExactCollision> run(const BlockSystem& system) {
   return events;
 }
 
-/// The blocks of one instant as the nearest doubles.
-struct Rounded {
-  Time time;
-  Motion blue;
-  Motion red;
-};
-
-Rounded rounded(const Rational& time, const BlockSystem& system) {
-  const Rounded result{to_time(time), motion_of(system.blue), motion_of(system.red)};
+/// Rounded once.
+Collision rounded(const Integer& index, const ExactCollision& exact) {
+  Collision result{index, to_time(exact.time), exact.kind, motion_of(exact.blocks.blue),
+                   motion_of(exact.blocks.red)};
   require_finite(result.time, result.blue, result.red, "exact events");
   return result;
 }
@@ -93,38 +85,30 @@ ExactLog::ExactLog(const BlockSystem& system)
     start_ = {collision.time, collision.kind, reversed(event.blocks)};
     events_.insert(events_.begin(), std::move(collision));
   }
-  first_index_ = 1 - Integer(events_.size());
+  const Integer past = events_.size();
   for (ExactCollision& event : run(system)) events_.push_back(std::move(event));
-  size_ = first_index_ + Integer(events_.size()) - 1;
+  set_range(1 - past, events_.size() - past);
 }
 
 const ExactCollision& ExactLog::event(const Integer& index) const {
-  return events_[Integer(index - first_index_).get_ui()];
+  return events_[Integer(index - first_index()).get_ui()];
 }
 
-Collision ExactLog::at(const Integer& index) const {
-  const ExactCollision& collision = event(index);
-  const Rounded after = rounded(collision.time, collision.blocks);
-  return {index, after.time, collision.kind, after.blue, after.red};
-}
+Collision ExactLog::collision(const Integer& index) const { return rounded(index, event(index)); }
 
 Rational ExactLog::time_after(const Integer& index) const {
   const Rational& time = event(index).time;
-  require_alone(index, flight_at(time).count);
+  require_last(index, state_at(time).count);
   return time;
 }
 
-std::unique_ptr<CollisionStream> ExactLog::stream(const Integer& first, const Integer& last) const {
-  return std::make_unique<IndexedStream>(*this, first, last);
-}
-
-FreeFlight ExactLog::flight_at(const Rational& time) const {
+BlockState ExactLog::state_at(const Rational& time) const {
   const auto next = std::ranges::upper_bound(events_, time, {}, &ExactCollision::time);
   const ExactCollision& since = next == events_.begin() ? start_ : *std::prev(next);
-  BlockSystem now = since.blocks;
-  advance(now, time - since.time);
-  const Rounded at = rounded(time, now);
-  return {first_index_ - 1 + Integer(next - events_.begin()), 0, at.blue, at.red};
+  ExactCollision now{time, since.kind, since.blocks};
+  advance(now.blocks, time - since.time);
+  const Collision at = rounded(first_index() - 1 + Integer(next - events_.begin()), now);
+  return {at.index, at.blue, at.red};
 }
 
 }  // namespace piblocks

@@ -10,8 +10,8 @@
 namespace piblocks {
 namespace {
 
-/// Longest numerator or denominator built to test whether a point lies on a ray, in bits of the
-/// precision that has not decided it: so that the test takes no longer than more precision would.
+/// Longest numerator or denominator built to test whether a point lies on a ray, for each bit of
+/// the precision that has not decided it. The test then takes no longer than more precision would.
 constexpr double kMaxRay_bits = 16;
 
 /// Longest power of a ray's direction, in bits, from which the time of a collision is computed
@@ -42,8 +42,8 @@ RayDirection ray_direction(unsigned long n, const Rational& r) {
   return result;
 }
 
-/// Whether (sigma x, y) certainly lies on the line of ray n. False also where numbers longer than
-/// max_bits would be needed to tell.
+/// Whether (sigma x, y) certainly lies on the line of ray n. False if that takes numbers longer
+/// than max_bits.
 bool is_on_ray(const Integer& n, const Rational& x, const Rational& y, const Rational& r,
                double max_bits) {
   if (!n.fits_slong_p()) return false;
@@ -53,8 +53,8 @@ bool is_on_ray(const Integer& n, const Rational& x, const Rational& y, const Rat
   return x * ray.a == (index < 0 ? Rational(-ray.b) : ray.b) * y;
 }
 
-/// Splits a phase at the floor of it, raising the precision until that is certain, and until what
-/// is left has a relative error below 2^-relative_bits.
+/// Splits a phase at its floor, raising the precision until the floor is certain and the rest has a
+/// relative error below 2^-relative_bits.
 /// `phase(bits)` is right to 2^(magnitude + 6) units of its last place, |phase| < 2^magnitude.
 /// (x, y) is a point on its ray, in the frame in which the phase grows.
 template <typename Phase>

@@ -1,13 +1,7 @@
-// The unfolded motion in exact numbers: one straight line through a fan of rays.
+// The unfolded motion in exact numbers: a straight line that crosses rays at equal angles.
 // In: a BlockSystem. Out: how many rays the line has crossed, decided beyond doubt.
-//
-// With the gaps y1 (blue to wall) and y2 (red, reduced by both widths, so that y1 = y2 at
-// contact), r = m_blue/m_red and sigma = sqrt(r), the point P = (sigma y1, y2) has a kinetic
-// energy that is its squared speed, so that collisions are mirror reflections (Galperin,
-// "Playing pool with pi", 2003). Measured from the y2 axis the wall is the ray at angle 0 and
-// the contact of the blocks the ray at theta = atan(sigma). Reflecting the fan instead of the
-// path makes the path the straight line P + V t, and the k-th collision its crossing of the ray
-// at k theta. The *phase* is the angle swept over theta; even rays are wall, odd ones blocks.
+// Notation: README.md, "The unfolding". Even rays are collisions with the wall, odd ones of the
+// blocks.
 #pragma once
 
 #include <piblocks/exact.hpp>
@@ -25,13 +19,13 @@ struct Phase {
   double fraction;  ///< phase - ray, in [0, 1]
 };
 
-/// Where the line goes in the end: an end of time has a direction, but is never reached.
+/// The direction of the line in the infinite past or future.
 struct Asymptote {
-  Integer ray;  ///< the ray next to it on the finite side
+  Integer ray;  ///< the nearest ray on the finite side
   Real beyond;  ///< how far its phase is past that ray, in [0, 1); 0 if the line is parallel to it
 };
 
-/// A direction between two rays, or on one, by its distances from both: 0 or positive.
+/// A direction between two rays, or on one, by its distances from both, which are 0 or positive.
 struct Bracket {
   Asymptote below;  ///< the ray before it, and how far it is past that
   Asymptote above;  ///< the ray after it, and how far it falls short of that
@@ -45,7 +39,7 @@ struct Wedge {
   Asymptote future;
 };
 
-/// All members are rational: nothing is rounded before a question is asked.
+/// The data are rational; only answers are rounded.
 struct ExactMotion {
   explicit ExactMotion(const BlockSystem& system);
 
@@ -58,10 +52,10 @@ struct ExactMotion {
   bool blocks_first;          ///< turning from the blocks' ray on; otherwise mirrored, wall first
 
   bool at_rest() const { return speed_squared == 0; }
-  /// The line goes through the corner: every collision happens at closest_approach.
+  /// Whether the line goes through the corner, so that every collision happens at closest_approach.
   /// By convention the blocks meet first, as in the limit of a later red block; the wall comes
-  /// first where the blocks arrive touching, and so cannot meet before. Seen backwards the same
-  /// holds for a line that comes out of the corner.
+  /// first where the blocks arrive touching. Seen backwards the same holds for a line that comes
+  /// out of the corner.
   bool through_corner() const { return area == 0; }
 
   Real sigma(mpfr_prec_t bits) const { return sqrt(Real(bits, ratio)); }
@@ -70,7 +64,7 @@ struct ExactMotion {
   /// Collisions before the ray with this index is crossed and including it.
   Integer count_from_ray(const Integer& ray) const { return blocks_first ? ray : ray + 1; }
 
-  /// All of it with a relative error below 2^-bits, also what is beyond the last rays.
+  /// All members with a relative error below 2^-bits, also Asymptote::beyond.
   /// @throws SimulationError as total().
   Wedge wedge(mpfr_prec_t bits) const;
   /// The direction of the point nearest to the corner, as exact as wedge().

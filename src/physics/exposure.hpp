@@ -1,10 +1,13 @@
-// Where the blocks are during an interval of time, and for how much of it.
-// In: two instants, by expose() of the physics. Out: the share of the time that a block's position
-// is below a value, exactly, over any number of collisions.
+// Where the blocks are during an interval of time, and for how much of it, for motion blur.
+// In: a collision log and two times. Out: an Exposure, exact over any number of collisions.
 #pragma once
 
+#include <piblocks/run.hpp>
+
+#include <algorithm>
 #include <cstddef>
-#include <span>
+#include <functional>
+#include <vector>
 
 namespace piblocks {
 
@@ -14,6 +17,18 @@ enum class BlockName { blue, red };
 struct Travel {
   double from = 0;
   double to = 0;
+
+  /// Widens a range by a piece of the way.
+  void include(const Travel& piece);
+  /// For even motion: the integral, up to `position`, of the share of its time that the block is
+  /// below a position.
+  double area_below(double position) const {
+    const double low = std::min(from, to);
+    const double high = std::max(from, to);
+    if (position >= high) return (position - low) / 2 + (position - high) / 2;
+    if (position <= low) return 0;
+    return (position - low) * ((position - low) / (high - low)) / 2;
+  }
 };
 
 /// A part of an interval in which both blocks move evenly.
@@ -25,35 +40,49 @@ struct UniformPiece {
   const Travel& of(BlockName block) const { return block == BlockName::blue ? blue : red; }
 };
 
-/// Most collisions in an interval whose pieces the closed form lists; more it sums up. Engines that
-/// step list all they have.
+/// Collisions in an interval from which on the closed form sums its pieces up instead of listing
+/// them. The exact event list never has as many.
 inline constexpr std::size_t kMaxListedCollisions = 512;
 
-/// An interval of time, however short: in one of no length the blocks are where they are then.
-/// Valid after its log is gone; const members are thread-safe.
-class Exposure {
- public:
-  virtual ~Exposure() = default;
-  Exposure() = default;
-  Exposure(const Exposure&) = delete;
-  Exposure& operator=(const Exposure&) = delete;
-
-  /// All positions of the interval are within.
-  virtual Travel range(BlockName block) const = 0;
-  /// F: the share of the time in which the block's centre is at or below `position`. 0 below the
-  /// range, 1 at its top and beyond, and never falling by more than a rounding. Right to 1e-11 for
-  /// a position within a rounding of the one given (src/physics/README.md).
-  virtual double share_below(BlockName block, double position) const = 0;
-  /// G: the integral of F from below up to `position`, in units of length. Averaged over [a, b], F
-  /// is (G(b) - G(a)) / (b - a).
-  virtual double area_below(BlockName block, double position) const = 0;
-  /// Whether pieces() are the whole truth.
-  virtual bool is_listed() const = 0;
-  /// Both blocks together, in the order of time; shares add up to 1. If !is_listed(), those in the
-  /// middle are fewer and slower bounces between the same places, for who needs to know how near to
+/// An interval of time. In one of no length the blocks are where they are at that instant.
+struct Exposure {
+  /// Both blocks together, in the order of time; shares add up to 1. If area_below is given, those
+  /// in the middle are fewer and slower bounces between the same places, which tell how near to
   /// each other the blocks are: blue spends its time in each of them as in the many that they stand
   /// for, to the first order in the time that a bounce takes.
-  virtual std::span<const UniformPiece> pieces() const = 0;
+  std::vector<UniformPiece> pieces = {};
+  Travel blue_range = {};  ///< of all positions
+  Travel red_range = {};
+  /// If the pieces are not the whole truth: G, the integral, up to a position, of the share of the
+  /// time that the block is below a position, in units of length. Thread-safe.
+  std::function<double(BlockName block, double position)> area_below = {};
+
+  const Travel& range(BlockName block) const {
+    return block == BlockName::blue ? blue_range : red_range;
+  }
+};
+
+/// The interval between two times, in either order, and also before time 0. Valid after its log is
+/// gone.
+/// @throws SimulationError as CollisionLog::collision().
+Exposure expose(const CollisionLog& log, const Rational& begin, const Rational& end);
+
+/// Collects pieces from instant to instant.
+class PieceList {
+ public:
+  /// The blocks are here now.
+  PieceList(double blue, double red) : blue_(blue), red_(red) {}
+  /// `duration` later they are there, and have moved evenly.
+  void add(double duration, double blue, double red);
+  /// Durations as shares of `total`.
+  std::vector<UniformPiece> take(double total);
+  /// The exposure that consists of these pieces, at least one.
+  Exposure exposure();
+
+ private:
+  double blue_;
+  double red_;
+  std::vector<UniformPiece> pieces_;  // with durations as shares
 };
 
 }  // namespace piblocks

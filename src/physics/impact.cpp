@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "physics/impact_sum.hpp"
+#include "core/two_sum.hpp"
 #include "physics/real.hpp"
 #include "physics/unfolded_log.hpp"
 
@@ -30,18 +30,34 @@ std::optional<Impact> impact(const CollisionLog& log, CollisionKind kind, const 
                              const Integer& last) {
   if (const UnfoldedLog* const form = closed_form(log)) return form->impact(kind, first, last);
   const Rational mass_ratio = log.system().blue.mass / log.system().red.mass;
-  ImpactSum sum(kind);
+  std::optional<Impact> sum;
+  // Means are taken relative to the first collision: a product would lose the second double.
+  double delay = 0;
+  double shift = 0;
   for (Integer index = first; index <= last; ++index) {
-    const Collision collision = log.at(index);
+    const Collision collision = log.collision(index);
     if (collision.kind != kind) continue;
-    sum.add(collision.time, impulse_of(mass_ratio, collision), collision.blue.position);
+    const double impulse = impulse_of(mass_ratio, collision);
+    if (!sum) {
+      sum = Impact{.kind = kind, .time = collision.time, .blue_position = collision.blue.position};
+    }
+    sum->impulse += impulse;
+    const double share = sum->impulse > 0 ? impulse / sum->impulse : 0;
+    const Time& time = collision.time;
+    delay += share * ((time.hi - sum->time.hi) + (time.lo - sum->time.lo) - delay);
+    shift += share * (collision.blue.position - sum->blue_position - shift);
   }
-  return sum.result();
+  if (sum) {
+    const Time time = two_sum(sum->time.hi, delay);
+    sum->time = two_sum(time.hi, time.lo + sum->time.lo);
+    sum->blue_position += shift;
+  }
+  return sum;
 }
 
 Integer count_near(const CollisionLog& log, const Time& time) {
   if (const UnfoldedLog* const form = closed_form(log)) return form->count_near(time);
-  return log.flight_at(to_rational(time)).count;
+  return log.state_at(to_rational(time)).count;
 }
 
 }  // namespace piblocks

@@ -18,13 +18,13 @@ struct Impact {
   double blue_position = 0;  ///< of one collision; of several, a position between theirs
 };
 
-/// Those collisions first … last that are of this kind, taken together; nothing if none is. Both
-/// are indices of the log.
+/// The collisions of this kind among first … last, which are indices of the log; nothing if there
+/// are none.
 std::optional<Impact> impact(const CollisionLog& log, CollisionKind kind, const Integer& first,
                              const Integer& last);
 
-/// The count of flight_at(), but collisions within the rounding of `time` and of the engine may
-/// be taken for earlier or later. Costs no more, however many collisions there are.
+/// The count of state_at(), except that collisions within the rounding of `time` and of the engine
+/// may count as earlier or later. The cost does not depend on the number of collisions.
 Integer count_near(const CollisionLog& log, const Time& time);
 
 }  // namespace piblocks

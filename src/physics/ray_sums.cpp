@@ -7,12 +7,12 @@
 namespace piblocks {
 namespace {
 
-/// Summands taken one by one at each end. The error of the rule for the rest falls with the eighth
-/// power of it.
+/// Summands taken one by one at each end. The error of the rest falls with the eighth power of
+/// this.
 constexpr int kEndTerms = 32;
 
-/// With u = sin theta/sin(delta) at a ray and before and after it: a summand, and what it is beside
-/// u for a ray in the middle, where before * after = u^2/(1 - u^2).
+/// Summands as functions of u = sin theta/sin(delta) at a ray, at the ray before and at the ray
+/// after; and over u, as functions of u alone, since before * after = u^2/(1 - u^2).
 struct InverseSine {
   static double at(double u, double /*before*/, double /*after*/) { return u; }
   static double over_u(double /*u*/) { return 1; }

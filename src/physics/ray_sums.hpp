@@ -35,17 +35,16 @@ class RaySums {
   double tau(const RayPhase& ray) const;
   /// Scaled time from a to b.
   double duration(const RayPhase& a, const RayPhase& b) const;
-  /// What y1 = y2 is where the line crosses an odd ray.
+  /// y1 = y2 where the line crosses an odd ray.
   double contact(const RayPhase& odd_ray) const { return form_.ell * inverse_sine(odd_ray); }
-  /// Those odd rays of a range whose contact() is at most `gap`; the equality is decided to a
-  /// rounding.
+  /// The odd rays of a range whose contact() is at most `gap`, up to a rounding.
   std::optional<RayRange> nearer_than(double gap, const RayRange& odd_rays) const;
 
   /// The sum of sin theta/sin(delta), delta being the angle of a ray.
   double sum_of_inverse_sines(const RayRange& range) const;
-  /// Of the time integral of y1 from the ray before to the ray after each odd ray.
+  /// The sum over odd rays of the time integral of y1 from the ray before to the ray after.
   double integral_of_blue(const RayRange& odd_rays) const;
-  /// Of the time integral of y2 from the ray before to the ray after each even ray.
+  /// The sum over even rays of the time integral of y2 from the ray before to the ray after.
   double integral_of_red(const RayRange& even_rays) const;
 
   /// sin theta/sin(delta)

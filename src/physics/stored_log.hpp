@@ -26,19 +26,13 @@ class StoredLog final : public CollisionLog {
   StoredLog(const BlockSystem& system, std::vector<StoredCollision> forward,
             std::vector<StoredCollision> backward);
 
-  const Integer& size() const override { return size_; }
-  const Integer& first_index() const override { return first_index_; }
-  Collision at(const Integer& index) const override;
+  Collision collision(const Integer& index) const override;
+  BlockState state_at(const Rational& time) const override;
   Rational time_after(const Integer& index) const override;
-  std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const override;
-  FreeFlight flight_at(const Rational& time) const override;
 
  private:
-  FreeFlight initial_;  // at time 0, before a collision then
   std::vector<StoredCollision> forward_;
   std::vector<StoredCollision> backward_;
-  Integer size_;
-  Integer first_index_;
 };
 
 }  // namespace piblocks

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "physics/listed_exposure.hpp"
+#include <memory>
+#include <vector>
 
 namespace piblocks {
 namespace {
@@ -13,60 +13,91 @@ constexpr int kOutermost = 128;
 /// Bounces that stand for all between.
 constexpr int kSlowBounces = 128;
 
-}  // namespace
-
-UnfoldedExposure::UnfoldedExposure(const ClosedForm& form, double total_phase, const Gaps& begin,
-                                   const Crossing& first, const Crossing& last, const Gaps& end)
-    : form_(form),
-      rays_(form, total_phase),
-      duration_(end.tau - begin.tau),
-      blue_gap_{0, std::max(begin.blue, end.blue)},
-      red_gap_{std::min(begin.red, end.red), std::max(begin.red, end.red)} {
-  cut_ends(begin, first, last, end);
-  include(blue_gap_, {rays_.contact(odd_.first), rays_.contact(odd_.last)});
-  include(red_gap_, {rays_.contact(odd_.first), rays_.contact(odd_.last)});
-  // No contact is nearer to the corner than this one, at right angles to the line.
-  if (!odd_.first.late && odd_.last.late) {
-    const double nearest = form_.ell * form_.step.sine;
-    include(red_gap_, {nearest, nearest});
+class Bounces {
+ public:
+  Bounces(const ClosedForm& form, double total_phase, const IntervalEnd& begin,
+          const IntervalEnd& end)
+      : form_(form),
+        rays_(form, total_phase),
+        duration_(end.gaps.tau - begin.gaps.tau),
+        blue_gap_{0, std::max(begin.gaps.blue, end.gaps.blue)},
+        red_gap_{std::min(begin.gaps.red, end.gaps.red), std::max(begin.gaps.red, end.gaps.red)} {
+    cut_ends(begin, end);
+    const Travel contacts{rays_.contact(odd_.first), rays_.contact(odd_.last)};
+    blue_gap_.include(contacts);
+    red_gap_.include(contacts);
+    // No contact is nearer to the corner than this one, at right angles to the line.
+    if (!odd_.first.late && odd_.last.late) {
+      const double nearest = form_.ell * form_.step.sine;
+      red_gap_.include({nearest, nearest});
+    }
   }
-  make_pieces(begin, end);
-}
 
-void UnfoldedExposure::cut_ends(const Gaps& begin, const Crossing& first, const Crossing& last,
-                                const Gaps& end) {
-  const double to_first = std::max(0.0, rays_.tau(first.ray) - begin.tau);
-  const double from_last = std::max(0.0, end.tau - rays_.tau(last.ray));
-  even_ = {first.ray, last.ray};
-  odd_ = {first.ray, last.ray};
-  if (first.is_odd) {
-    const double contact = rays_.contact(first.ray);
-    even_.first = rays_.later(first.ray, 1);
-    blue_ends_.push_back({to_first, {begin.blue, contact}});
-    blue_ends_.push_back({rays_.duration(first.ray, even_.first), {contact, 0}});
-  } else {
-    odd_.first = rays_.later(first.ray, 1);
-    blue_ends_.push_back({to_first, {begin.blue, 0}});
+  Travel range(BlockName block) const;
+  std::vector<UniformPiece> pieces(const Gaps& begin, const Gaps& end) const;
+  double area_below(BlockName block, double position) const;
+
+ private:
+  /// Even motion from an end of the interval to the rays that are summed.
+  struct EndFlight {
+    double duration = 0;
+    Travel gap;
+  };
+
+  void cut_ends(const IntervalEnd& begin, const IntervalEnd& end);
+  // Integrals over the time of the share below a gap, in units of time by length.
+  double blue_below(double gap) const;
+  double red_below(double gap) const;
+  double flight_below(const RayPhase& near, const RayPhase& far, double gap) const;
+  double offset(BlockName block) const {
+    return block == BlockName::blue ? form_.blue_offset : form_.red_offset;
   }
-  if (last.is_odd) {
-    const double contact = rays_.contact(last.ray);
-    even_.last = rays_.later(last.ray, -1);
-    blue_ends_.push_back({rays_.duration(even_.last, last.ray), {0, contact}});
-    blue_ends_.push_back({from_last, {contact, end.blue}});
+
+  ClosedForm form_;
+  RaySums rays_;
+  double duration_;
+  Travel blue_gap_;
+  Travel red_gap_;
+  RayRange even_;  // between them blue flies to red and back
+  RayRange odd_;   // between them red flies evenly from each to the next
+  std::vector<EndFlight> blue_ends_;
+  std::vector<EndFlight> red_ends_;
+};
+
+void Bounces::cut_ends(const IntervalEnd& begin, const IntervalEnd& end) {
+  const RayPhase& first = begin.ray;
+  const RayPhase& last = end.ray;
+  const double to_first = std::max(0.0, rays_.tau(first) - begin.gaps.tau);
+  const double from_last = std::max(0.0, end.gaps.tau - rays_.tau(last));
+  even_ = {first, last};
+  odd_ = {first, last};
+  if (begin.ray_is_odd) {
+    const double contact = rays_.contact(first);
+    even_.first = rays_.later(first, 1);
+    blue_ends_.push_back({to_first, {begin.gaps.blue, contact}});
+    blue_ends_.push_back({rays_.duration(first, even_.first), {contact, 0}});
   } else {
-    odd_.last = rays_.later(last.ray, -1);
-    blue_ends_.push_back({from_last, {0, end.blue}});
+    odd_.first = rays_.later(first, 1);
+    blue_ends_.push_back({to_first, {begin.gaps.blue, 0}});
+  }
+  if (end.ray_is_odd) {
+    const double contact = rays_.contact(last);
+    even_.last = rays_.later(last, -1);
+    blue_ends_.push_back({rays_.duration(even_.last, last), {0, contact}});
+    blue_ends_.push_back({from_last, {contact, end.gaps.blue}});
+  } else {
+    odd_.last = rays_.later(last, -1);
+    blue_ends_.push_back({from_last, {0, end.gaps.blue}});
   }
   const auto rest = [&](double duration, const RayPhase& a, const RayPhase& b) {
     return duration + (rays_.is_before(a, b) ? rays_.duration(a, b) : 0);
   };
-  red_ends_.push_back(
-      {rest(to_first, first.ray, odd_.first), {begin.red, rays_.contact(odd_.first)}});
-  red_ends_.push_back({rest(from_last, odd_.last, last.ray), {rays_.contact(odd_.last), end.red}});
+  red_ends_ = {{rest(to_first, first, odd_.first), {begin.gaps.red, rays_.contact(odd_.first)}},
+               {rest(from_last, odd_.last, last), {rays_.contact(odd_.last), end.gaps.red}}};
 }
 
 /// The outermost collisions, which take long, as they are; between them the slow ones.
-void UnfoldedExposure::make_pieces(const Gaps& begin, const Gaps& end) {
+std::vector<UniformPiece> Bounces::pieces(const Gaps& begin, const Gaps& end) const {
   PieceList pieces(form_.blue_offset + begin.blue, form_.red_offset + begin.red);
   double now = begin.tau;
   const auto fly_to = [&](double tau, double blue, double red) {
@@ -90,39 +121,27 @@ void UnfoldedExposure::make_pieces(const Gaps& begin, const Gaps& end) {
   for (int i = kOutermost; i >= 0; --i) meet(rays_.later(even_.last, -i), i % 2 == 1);
   if (rays_.is_before(even_.last, odd_.last)) meet(odd_.last, true);
   fly_to(end.tau, end.blue, end.red);
-  pieces_ = pieces.take();
-  for (UniformPiece& piece : pieces_) piece.share /= duration_;
+  return pieces.take(duration_);
 }
 
-Travel UnfoldedExposure::range(BlockName block) const {
+Travel Bounces::range(BlockName block) const {
   const Travel& gap = block == BlockName::blue ? blue_gap_ : red_gap_;
   return {offset(block) + gap.from, offset(block) + gap.to};
 }
 
-double UnfoldedExposure::share_below(BlockName block, double position) const {
-  if (position >= range(block).to) return 1;
-  const double gap = position - offset(block);
-  return std::clamp(sums_below(block, gap).time / duration_, 0.0, 1.0);
-}
-
-double UnfoldedExposure::area_below(BlockName block, double position) const {
+double Bounces::area_below(BlockName block, double position) const {
   // Above the range every moment counts.
   const double top = range(block).to;
   const double gap = std::min(position, top) - offset(block);
-  return std::max(0.0, position - top) + sums_below(block, gap).area / duration_;
-}
-
-UnfoldedExposure::Sums UnfoldedExposure::sums_below(BlockName block, double gap) const {
-  Sums sums = block == BlockName::blue ? blue_below(gap) : red_below(gap);
-  for (const Loose& end : block == BlockName::blue ? blue_ends_ : red_ends_) {
-    sums.time += end.duration * piblocks::share_below(end.gap, gap);
-    sums.area += end.duration * piblocks::area_below(end.gap, gap);
+  double area = block == BlockName::blue ? blue_below(gap) : red_below(gap);
+  for (const EndFlight& end : block == BlockName::blue ? blue_ends_ : red_ends_) {
+    area += end.duration * end.gap.area_below(gap);
   }
-  return sums;
+  return std::max(0.0, position - top) + area / duration_;
 }
 
-UnfoldedExposure::Sums UnfoldedExposure::blue_below(double gap) const {
-  if (gap <= 0) return {};
+double Bounces::blue_below(double gap) const {
+  if (gap <= 0) return 0;
   // Flights that end farther away than `gap`, from the wall to the blocks or back.
   double passes = 0;
   const auto pass = [&](const RayPhase& first_even, const RayPhase& last_even) {
@@ -131,49 +150,55 @@ UnfoldedExposure::Sums UnfoldedExposure::blue_below(double gap) const {
     passes += 2 * rays_.sum_of_inverse_sines({first_even, last_even}) -
               rays_.inverse_sine(first_even) - rays_.inverse_sine(last_even);
   };
-  Sums sums;
+  double area = 0;
   if (const auto near =
           rays_.nearer_than(gap, {rays_.later(even_.first, 1), rays_.later(even_.last, -1)})) {
     const RayPhase from = rays_.later(near->first, -1);
     const RayPhase to = rays_.later(near->last, 1);
-    sums.time = rays_.duration(from, to);
-    sums.area = gap * sums.time - rays_.integral_of_blue(*near);
+    area = gap * rays_.duration(from, to) - rays_.integral_of_blue(*near);
     pass(even_.first, from);
     pass(to, even_.last);
   } else {
     pass(even_.first, even_.last);
   }
   const double time = gap / (form_.speed * form_.step.cosine) * passes;
-  return {sums.time + time, sums.area + time * gap / 2};
+  return area + time * gap / 2;
 }
 
-UnfoldedExposure::Sums UnfoldedExposure::red_below(double gap) const {
+double Bounces::red_below(double gap) const {
   const auto near = rays_.nearer_than(gap, odd_);
-  if (!near) return {};
-  Sums sums;
+  if (!near) return 0;
+  double area = 0;
   if (rays_.is_before(near->first, near->last)) {
-    sums.time = rays_.duration(near->first, near->last);
-    sums.area = gap * sums.time -
-                rays_.integral_of_red({rays_.later(near->first, 1), rays_.later(near->last, -1)});
+    area = gap * rays_.duration(near->first, near->last) -
+           rays_.integral_of_red({rays_.later(near->first, 1), rays_.later(near->last, -1)});
   }
   if (rays_.rays_between(odd_.first, near->first) > 1) {
-    const Sums piece = piece_below(near->first, rays_.later(near->first, -2), gap);
-    sums = {sums.time + piece.time, sums.area + piece.area};
+    area += flight_below(near->first, rays_.later(near->first, -2), gap);
   }
   if (rays_.rays_between(near->last, odd_.last) > 1) {
-    const Sums piece = piece_below(near->last, rays_.later(near->last, 2), gap);
-    sums = {sums.time + piece.time, sums.area + piece.area};
+    area += flight_below(near->last, rays_.later(near->last, 2), gap);
   }
-  return sums;
+  return area;
 }
 
 /// The flight of red between two contacts.
-UnfoldedExposure::Sums UnfoldedExposure::piece_below(const RayPhase& near, const RayPhase& far,
-                                                     double gap) const {
-  const double duration = std::fabs(rays_.duration(near, far));
+double Bounces::flight_below(const RayPhase& near, const RayPhase& far, double gap) const {
   const Travel travel{rays_.contact(near), rays_.contact(far)};
-  return {duration * piblocks::share_below(travel, gap),
-          duration * piblocks::area_below(travel, gap)};
+  return std::fabs(rays_.duration(near, far)) * travel.area_below(gap);
+}
+
+}  // namespace
+
+Exposure expose_bounces(const ClosedForm& form, double total_phase, const IntervalEnd& begin,
+                        const IntervalEnd& end) {
+  const auto bounces = std::make_shared<const Bounces>(form, total_phase, begin, end);
+  return {.pieces = bounces->pieces(begin.gaps, end.gaps),
+          .blue_range = bounces->range(BlockName::blue),
+          .red_range = bounces->range(BlockName::red),
+          .area_below = [bounces](BlockName block, double position) {
+            return bounces->area_below(block, position);
+          }};
 }
 
 }  // namespace piblocks

@@ -1,9 +1,7 @@
 // An interval of time with many collisions, in closed form.
-// In: the unfolded motion, its first and last ray of the interval. Out: shares of time at the cost
-// of some hundred sines each.
+// In: the unfolded motion, and both ends of the interval. Out: an exposure whose integrals cost
+// some hundred sines each. Formulas: README.md, "Exposure".
 #pragma once
-
-#include <vector>
 
 #include "physics/exposure.hpp"
 #include "physics/ray_sums.hpp"
@@ -17,56 +15,16 @@ struct Gaps {
   double red = 0;   ///< y2
 };
 
-/// A ray that is crossed.
-struct Crossing {
+/// One end of an interval, and the ray inside of the interval that is crossed next to it.
+struct IntervalEnd {
+  Gaps gaps;
   RayPhase ray;
-  bool is_odd = false;
+  bool ray_is_odd = false;
 };
 
-class UnfoldedExposure final : public Exposure {
- public:
-  /// @param first, last  the rays that are crossed first and last, many rays apart.
-  UnfoldedExposure(const ClosedForm& form, double total_phase, const Gaps& begin,
-                   const Crossing& first, const Crossing& last, const Gaps& end);
-
-  Travel range(BlockName block) const override;
-  double share_below(BlockName block, double position) const override;
-  double area_below(BlockName block, double position) const override;
-  bool is_listed() const override { return false; }
-  std::span<const UniformPiece> pieces() const override { return pieces_; }
-
- private:
-  /// A uniform motion at either end of the interval.
-  struct Loose {
-    double duration = 0;
-    Travel gap;
-  };
-  /// What a sum over an interval gives: in units of time, and of time by length.
-  struct Sums {
-    double time = 0;
-    double area = 0;
-  };
-
-  void cut_ends(const Gaps& begin, const Crossing& first, const Crossing& last, const Gaps& end);
-  void make_pieces(const Gaps& begin, const Gaps& end);
-  Sums sums_below(BlockName block, double gap) const;
-  Sums blue_below(double gap) const;
-  Sums red_below(double gap) const;
-  Sums piece_below(const RayPhase& near, const RayPhase& far, double gap) const;
-  double offset(BlockName block) const {
-    return block == BlockName::blue ? form_.blue_offset : form_.red_offset;
-  }
-
-  ClosedForm form_;
-  RaySums rays_;
-  double duration_;
-  Travel blue_gap_;
-  Travel red_gap_;
-  RayRange even_;  ///< between them blue flies to red and back
-  RayRange odd_;   ///< between them red flies evenly from each to the next
-  std::vector<Loose> blue_ends_;
-  std::vector<Loose> red_ends_;
-  std::vector<UniformPiece> pieces_;
-};
+/// @param total_phase  as in RaySums.
+/// @param begin, end   with many rays between them.
+Exposure expose_bounces(const ClosedForm& form, double total_phase, const IntervalEnd& begin,
+                        const IntervalEnd& end);
 
 }  // namespace piblocks

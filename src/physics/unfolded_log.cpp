@@ -8,10 +8,7 @@
 #include <cstdlib>
 
 #include "core/two_sum.hpp"
-#include "physics/block_motion.hpp"
-#include "physics/listed_exposure.hpp"
-#include "physics/require_alone.hpp"
-#include "physics/require_finite.hpp"
+#include "physics/blocks.hpp"
 #include "physics/unfolded_exposure.hpp"
 #include "physics/unfolded_stream.hpp"
 
@@ -26,7 +23,7 @@ DoubleDouble mean(const DoubleDouble& a, const DoubleDouble& b) {
   return {sum.hi / 2, (sum.lo + a.lo + b.lo) / 2};
 }
 
-/// Where a landmark is from the ray half-way between two.
+/// Rays to a landmark from the direction half-way between two rays.
 DoubleDouble steps_from(const Landmark& landmark, const Integer& from, const Integer& to) {
   const DoubleDouble steps = landmark.steps_from(from);
   return from == to ? steps : mean(steps, landmark.steps_from(to));
@@ -44,26 +41,18 @@ ExactMotion checked(const BlockSystem& system) {
 }
 
 /// @throws SimulationError if a position or a velocity is not finite.
-FreeFlight finite(const Time& time, const Integer& count, const Motion& blue, const Motion& red) {
+BlockState finite(const Time& time, const Integer& count, const Motion& blue, const Motion& red) {
   require_finite(time, blue, red, "closed form");
-  return {.count = count, .blue = blue, .red = red};
+  return {count, blue, red};
 }
 
 }  // namespace
 
-UnfoldedLog::UnfoldedLog(const BlockSystem& system) : UnfoldedLog(system, checked(system)) {}
-
-UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion)
-    : UnfoldedLog(system, motion, motion.wedge(kLandmark_bits)) {}
-
-UnfoldedLog::UnfoldedLog(const BlockSystem& system, const ExactMotion& motion, const Wedge& wedge)
-    : CollisionLog(system),
-      exact_(motion),
-      form_(system, motion, wedge),
-      size_(motion.total(wedge.future)),
-      first_index_(motion.first_index(wedge.past)) {
-  const bool touches = motion.y1 == 0 || motion.y1 == motion.y2;
-  if (touches && !motion.through_corner()) contact_ = flight_at(0).count;
+UnfoldedLog::UnfoldedLog(const BlockSystem& system)
+    : CollisionLog(system), exact_(checked(system)), form_(system, exact_) {
+  set_range(form_.first_index, form_.size);
+  const bool touches = exact_.y1 == 0 || exact_.y1 == exact_.y2;
+  if (touches && !exact_.through_corner()) contact_ = state_at(0).count;
 }
 
 double UnfoldedLog::tau_near(const Time& t, double* magnitude) const {
@@ -86,7 +75,7 @@ double UnfoldedLog::tau_at(const Rational& time, const Time& t) const {
 }
 
 UnfoldedLog::LinePoint UnfoldedLog::point_at(double tau, const Time& t) const {
-  // The view of the line from the corner in units of ell, in which it passes at sigma.
+  // Seen from the corner, in units of ell; the line passes it at distance sigma.
   const double ahead = exact_.through_corner() ? kFarAway : form_.ahead(tau);
   const double range = std::hypot(form_.sigma, ahead);
 
@@ -141,15 +130,15 @@ Phase UnfoldedLog::phase_of(const LinePoint& point, const Rational& time) const 
   return {*point.ray + Integer(whole), point.phase - whole};
 }
 
-FreeFlight UnfoldedLog::flight_at(const Rational& time) const {
+BlockState UnfoldedLog::state_at(const Rational& time) const {
   const LinePoint point = point_at(time);
-  return flight_of(point, phase_of(point, time), time);
+  return state_of(point, phase_of(point, time), time);
 }
 
-FreeFlight UnfoldedLog::flight_of(const LinePoint& point, const Phase& at,
-                                  const Rational& time) const {
+BlockState UnfoldedLog::state_of(const LinePoint& point, const Phase& at,
+                                 const Rational& time) const {
   const Integer count = exact_.blocks_first ? at.ray : Integer(at.ray + 1);
-  // Until the first collision the blocks move as the system begins: no angle is as exact.
+  // Until the first collision the motion of the system is more exact than any angle.
   if (count == 0) {
     return finite(point.time, count, motion_at(system().blue, time), motion_at(system().red, time));
   }
@@ -190,7 +179,7 @@ Time UnfoldedLog::time(const Integer& from, const Integer& to, const RayView& vi
   return {form_.time_from_start(-start.sign, from_start, view.ray), 0};
 }
 
-Collision UnfoldedLog::at(const Integer& index) const {
+Collision UnfoldedLog::collision(const Integer& index) const {
   const Integer ray = ray_of(index);
   const bool odd = is_odd(ray);
   const RayView seen = view_of(ray, ray);
@@ -209,7 +198,7 @@ Collision UnfoldedLog::at(const Integer& index) const {
 
 Rational UnfoldedLog::time_after(const Integer& index) const {
   if (!exact_.through_corner()) return exact_.time_past(ray_of(index));
-  require_alone(index, flight_at(exact_.closest_approach).count);
+  require_last(index, state_at(exact_.closest_approach).count);
   return exact_.closest_approach;
 }
 
@@ -223,10 +212,8 @@ std::optional<Impact> UnfoldedLog::impact(CollisionKind kind, const Integer& fir
   if (from > to) return std::nullopt;
 
   const RayView seen = view_of(from, to);
-  // What one collision in the middle has, for each of n, and how far they fall short of that:
-  // they lie 2 theta apart, and sin(d - (n-1) theta) + … + sin(d + (n-1) theta) is
-  // sin d sin(n theta)/sin theta, as is the sum of cosines, which the times are weighted by, with
-  // cos d.
+  // The impulse of a collision in the middle, times sin(n theta)/sin theta (README.md, "Many
+  // collisions as one").
   const double one = seen.ray.sine / form_.step.sine / (odd ? 1 : form_.step.cosine);
   double number = 1;
   if (from != to) {
@@ -247,11 +234,11 @@ Integer UnfoldedLog::count_near(const Time& time) const {
 
 std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,
                                                      const Integer& last) const {
-  // Times and distances are greatest at the ends of a range: nothing between is out of range if
-  // they are not.
+  // Times and distances are greatest at the ends of a range. If a double can hold those, it can
+  // hold all between.
   if (first <= last) {
-    at(first);
-    at(last);
+    collision(first);
+    collision(last);
   }
   return std::make_unique<UnfoldedStream>(form_, ray_of(first), ray_of(last), first, contact_);
 }
@@ -275,11 +262,10 @@ double UnfoldedLog::time_to_ray(double tau, double rays, double sine) const {
   return std::hypot(form_.passage, tau) * (std::sin(rays * form_.theta.hi) / sine);
 }
 
-/// Until all collisions at once, and from there on.
-std::unique_ptr<Exposure> UnfoldedLog::expose_corner(const Rational& begin,
-                                                     const Rational& end) const {
-  const FreeFlight start = flight_at(begin);
-  const FreeFlight stop = flight_at(end);
+/// Before all collisions, which happen at once, and after them.
+Exposure UnfoldedLog::expose_corner(const Rational& begin, const Rational& end) const {
+  const BlockState start = state_at(begin);
+  const BlockState stop = state_at(end);
   PieceList pieces(start.blue.position, start.red.position);
   Rational now = begin;
   if (begin < exact_.closest_approach && exact_.closest_approach < end) {
@@ -287,17 +273,17 @@ std::unique_ptr<Exposure> UnfoldedLog::expose_corner(const Rational& begin,
     pieces.add(to_double(now - begin), form_.blue_offset, form_.red_offset);
   }
   pieces.add(to_double(end - now), stop.blue.position, stop.red.position);
-  return std::make_unique<ListedExposure>(pieces.take());
+  return pieces.exposure();
 }
 
-std::unique_ptr<Exposure> UnfoldedLog::expose(const Rational& first, const Rational& last) const {
+Exposure UnfoldedLog::expose(const Rational& first, const Rational& last) const {
   if (exact_.through_corner()) return expose_corner(first, last);
   const LinePoint first_point = point_at(first);
   const LinePoint last_point = point_at(last);
   const Phase first_phase = phase_of(first_point, first);
   const Phase last_phase = phase_of(last_point, last);
-  const FreeFlight start = flight_of(first_point, first_phase, first);
-  const FreeFlight stop = flight_of(last_point, last_phase, last);
+  const BlockState start = state_of(first_point, first_phase, first);
+  const BlockState stop = state_of(last_point, last_phase, last);
   const Gaps from{first_point.tau, start.blue.position - form_.blue_offset,
                   start.red.position - form_.red_offset};
   const Gaps to{last_point.tau, stop.blue.position - form_.blue_offset,
@@ -305,11 +291,10 @@ std::unique_ptr<Exposure> UnfoldedLog::expose(const Rational& first, const Ratio
   const Integer first_ray = ray_of(start.count) + 1;
   const Integer last_ray = ray_of(stop.count);
   if (last_ray - first_ray >= Integer(long(kMaxListedCollisions))) {
-    return std::make_unique<UnfoldedExposure>(form_, total_phase(), from,
-                                              Crossing{phase_of(first_ray), is_odd(first_ray)},
-                                              Crossing{phase_of(last_ray), is_odd(last_ray)}, to);
+    return expose_bounces(form_, total_phase(), {from, phase_of(first_ray), is_odd(first_ray)},
+                          {to, phase_of(last_ray), is_odd(last_ray)});
   }
-  // Times between places are those of triangles with the corner, however long the turn takes.
+  // Durations come from triangles with the corner, so that a long turn costs no precision.
   PieceList pieces(start.blue.position, start.red.position);
   double before = 0;  // the sine of the ray before
   for (Integer ray = first_ray; ray <= last_ray; ++ray) {
@@ -325,7 +310,7 @@ std::unique_ptr<Exposure> UnfoldedLog::expose(const Rational& first, const Ratio
   pieces.add(first_ray <= last_ray ? time_to_ray(to.tau, last_phase.fraction, before)
                                    : std::max(0.0, to.tau - from.tau),
              stop.blue.position, stop.red.position);
-  return std::make_unique<ListedExposure>(pieces.take());
+  return pieces.exposure();
 }
 
 PositionBounds UnfoldedLog::bounds_at(const Rational& time) const {

@@ -10,53 +10,42 @@
 #include "physics/exact_motion.hpp"
 #include "physics/exposure.hpp"
 #include "physics/impact.hpp"
-#include "physics/position_bounds.hpp"
 #include "physics/ray_sums.hpp"
 #include "physics/unfolding.hpp"
 
 namespace piblocks {
 
-/// Two-sided closed form. The phase is measured from the nearer end of time: near either end
-/// the angle still to go is small and so is its rounding error, and where the angle is not
-/// small the blocks are near the wall and a phase error moves them little. A double is thereby
-/// enough for positions at any number of digits: |dy1| <= 8 u (R + ell), |dy2| <= 8 u R, with
-/// u = 2^-53, R the distance from the corner and ell = |L|/|V|.
+/// Doubles are enough for positions at any number of digits (README.md, "Why doubles are enough").
 class UnfoldedLog final : public CollisionLog {
  public:
   /// @throws UsageError if the mass ratio is beyond 2^kMaxRatioExponent.
   /// @throws SimulationError if the blocks pass the corner closer than a double can tell.
   explicit UnfoldedLog(const BlockSystem& system);
 
-  const Integer& size() const override { return size_; }
-  const Integer& first_index() const override { return first_index_; }
-  Collision at(const Integer& index) const override;
+  Collision collision(const Integer& index) const override;
+  BlockState state_at(const Rational& time) const override;
   Rational time_after(const Integer& index) const override;
   std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const override;
-  FreeFlight flight_at(const Rational& time) const override;
 
   /// As the functions of these names in impact.hpp.
   std::optional<Impact> impact(CollisionKind kind, const Integer& first, const Integer& last) const;
   Integer count_near(const Time& time) const;
-  /// As in expose.hpp, for first <= last.
-  std::unique_ptr<Exposure> expose(const Rational& first, const Rational& last) const;
+  /// As in exposure.hpp, for first <= last.
+  Exposure expose(const Rational& first, const Rational& last) const;
   PositionBounds bounds_at(const Rational& time) const;
 
  private:
-  UnfoldedLog(const BlockSystem& system, const ExactMotion& motion);
-  UnfoldedLog(const BlockSystem& system, const ExactMotion& motion, const Wedge& wedge);
-
   /// A point on the line, seen from the nearer end of time.
   struct LinePoint {
     Time time;       // as a double-double
     double tau = 0;  // scaled, since closest approach
     const Landmark* end = nullptr;
     double distance = 0;  // R
-    double sine = 0;      // of the angle to go to that end, from the line's point of view
+    double sine = 0;      // of the angle from the line of sight to that end
     double cosine = 1;
-    /// Minus the ray next to the nearest landmark: an end of time, the turn or the start.
-    double phase = 0;
-    const Integer* ray = nullptr;
-    bool decided = false;
+    const Integer* ray = nullptr;  // next to the nearest landmark: an end, the turn or the start
+    double phase = 0;              // minus that ray
+    bool decided = false;          // whether the rounding of the phase cannot change its floor
   };
 
   /// Scaled time since closest approach; `magnitude` is that of the times it is the difference of.
@@ -66,21 +55,21 @@ class UnfoldedLog final : public CollisionLog {
   /// @param t  the time, of which tau is taken
   LinePoint point_at(double tau, const Time& t) const;
   LinePoint point_at(const Rational& time) const;
-  /// Computed exactly if the point's own phase has not decided between two rays.
+  /// Computed exactly if the phase of the point is not decided.
   Phase phase_of(const LinePoint& point, const Rational& time) const;
   /// @param at  the phase of the point at the time
-  FreeFlight flight_of(const LinePoint& point, const Phase& at, const Rational& time) const;
-  /// Scaled time between a place and a ray that is less than one ray away from it.
-  /// @param tau   when the line is at the place, since closest approach
+  BlockState state_of(const LinePoint& point, const Phase& at, const Rational& time) const;
+  /// Scaled time between a point of the line and a ray that is less than one ray away from it.
+  /// @param tau   of the point, since closest approach
   /// @param sine  of the angle from the ray to an end of time
   double time_to_ray(double tau, double rays, double sine) const;
-  std::unique_ptr<Exposure> expose_corner(const Rational& begin, const Rational& end) const;
-  /// A direction from the end of time that it is nearer to.
+  Exposure expose_corner(const Rational& begin, const Rational& end) const;
+  /// A ray as seen from the nearer end of time.
   struct RayView {
     const Landmark* end = nullptr;
     Direction ray{};
   };
-  /// Of the ray half-way between two.
+  /// The ray half-way between two.
   RayView view_of(const Integer& from, const Integer& to) const;
   Time time(const Integer& from, const Integer& to, const RayView& view) const;
   double total_phase() const;
@@ -89,8 +78,6 @@ class UnfoldedLog final : public CollisionLog {
 
   ExactMotion exact_;
   Unfolding form_;
-  Integer size_;
-  Integer first_index_;
   std::optional<Integer> contact_;  // index of the collision that happens exactly at time 0
 };
 

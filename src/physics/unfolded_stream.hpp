@@ -15,8 +15,8 @@ namespace piblocks {
 /// Rays that share one anchor.
 inline constexpr std::size_t kBlockRays = 64;
 
-/// Directions of up to kBlockRays rays from the first or the last of them, as angles that grow
-/// towards the middle of time or fall, in columns, and what else depends on their order alone.
+/// Directions of up to kBlockRays rays, measured from the first or the last of them, and the other
+/// numbers that depend on their order alone, in columns.
 struct RayTable {
   using Column = std::array<double, kBlockRays>;
 
@@ -29,12 +29,10 @@ struct RayTable {
   alignas(64) Column side;
 };
 
-/// A block's anchor is that of its rays which is nearest to the landmark from which they are
-/// counted. If this is an end of time, the angles of the others are a sum of two positive ones,
-/// with sines that nothing cancels in. If it is the turn, what they lack of a right angle is such a
-/// sum, and nothing cancels in their cosines, which say how long before or after the turn they are.
-/// Every ray costs two rotations, two divisions and some thirty multiplications and additions, all
-/// without branches, so that the compiler makes vectors of them.
+/// The anchor of a block is its ray nearest to the landmark from which the rays are counted. Angles
+/// of the other rays are sums of two positive ones, so nothing cancels (README.md, "Collisions, one
+/// or all"). Every ray costs two rotations, two divisions and some thirty multiplications and
+/// additions without branches, so that the compiler makes vectors of them.
 class UnfoldedStream final : public CollisionStream {
  public:
   /// Rays first … last in the order of time; the collision on `first` has index `index`.

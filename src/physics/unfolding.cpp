@@ -54,11 +54,14 @@ DoubleDouble Landmark::steps_from(const Integer& other) const {
   return to_time(Rational(steps));
 }
 
-Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact, const Wedge& wedge)
-    : past(to_landmark(wedge.past, -1)),
-      future(to_landmark(wedge.future, +1)),
-      turn(to_two_sided(exact.turn(kLandmark_bits))),
+Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact)
+    : turn(to_two_sided(exact.turn(kLandmark_bits))),
       start(to_two_sided(exact.start(kLandmark_bits))) {
+  const Wedge wedge = exact.wedge(kLandmark_bits);
+  first_index = exact.first_index(wedge.past);
+  size = exact.total(wedge.future);
+  past = to_landmark(wedge.past, -1);
+  future = to_landmark(wedge.future, +1);
   const mpfr_prec_t bits = wedge.sigma.bits();
   const Real exact_speed = sqrt(Real(bits, exact.speed_squared));
   const Real exact_ell = Real(bits, abs(exact.area)) / exact_speed;

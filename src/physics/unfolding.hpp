@@ -17,14 +17,14 @@ namespace piblocks {
 /// leaves the range of a double.
 inline constexpr long kMaxRatioExponent = 2000;
 
-/// Stands for all greater distances along the line, in units of ell: the angle to go is then far
-/// below anything that matters.
+/// Stands for all greater distances along the line, in units of ell: the angle to the end of time
+/// is then far below anything that matters.
 inline constexpr double kFarAway = 0x1p1000;
 
 /// Relative precision of what the doubles of the closed form are rounded from: two doubles'.
 inline constexpr mpfr_prec_t kLandmark_bits = 110;
 
-/// A number as hi + lo; what Time is for instants.
+/// Any number as hi + lo.
 using DoubleDouble = Time;
 
 inline bool is_odd(const Integer& ray) { return mpz_odd_p(ray.get_mpz_t()) != 0; }
@@ -35,8 +35,8 @@ inline Integer floor_mean(const Integer& a, const Integer& b) {
   return result;
 }
 
-/// A direction that rays on one side of it are counted from: an end of time, the turn or the start.
-/// It is beyond `ray`: past it if it lies ahead of those rays, before it if it lies behind them.
+/// A direction from which the rays on one side of it are counted: an end of time, the turn or the
+/// start. It is past `ray` if it lies ahead of those rays, and before it if it lies behind them.
 struct Landmark {
   Integer ray;
   DoubleDouble beyond;
@@ -46,7 +46,7 @@ struct Landmark {
   DoubleDouble steps_from(const Integer& other) const;
 };
 
-/// One direction as rays before it and rays after it are counted from it.
+/// One direction as the landmark of the rays before it and of those after it.
 struct TwoSided {
   Landmark ahead;
   Landmark behind;
@@ -59,7 +59,7 @@ struct Direction {
   double sine;
   double cosine;
 
-  /// Of what it lacks of a right angle.
+  /// Of the complement to a right angle.
   Direction complement() const { return {cosine, sine}; }
 
   friend Direction operator+(const Direction& a, const Direction& b) {
@@ -67,14 +67,14 @@ struct Direction {
   }
 };
 
-/// What the parity of a ray says: on an even one blue meets the wall, on an odd one red.
+/// What follows from the parity of a ray: on an even one blue meets the wall, on an odd one red.
 struct RayKind {
   double blue_reach;  ///< y1/R
   double red_reach;   ///< y2/R
   double side;        ///< 1, or -1 if the reflected blue block moves the other way
 };
 
-/// A Collision but for its index and kind.
+/// A Collision without its index and kind.
 struct CollisionNumbers {
   double time_hi;
   double time_lo;
@@ -126,17 +126,17 @@ struct ClosedForm {
     return {scaled.hi * time_unit, scaled.lo * time_unit};
   }
 
-  /// The same time by the triangle that the corner makes with the places at time 0 and then. Its
-  /// relative error is that of a few roundings, however far away closest approach is.
+  /// The same time by the triangle of the corner and the points at time 0 and at that time. Its
+  /// relative error is a few roundings, however far away closest approach is.
   /// @param side        sign of the time
-  /// @param from_start  direction of the ray from that of the place at time 0
+  /// @param from_start  direction of the ray from that of the point at time 0
   /// @param ray         as in time()
   double time_from_start(double side, const Direction& from_start, const Direction& ray) const {
     return side * (start_range * (from_start.sine / ray.sine)) * time_unit;
   }
 
-  /// What the place has turned by since time 0, for a scaled time that is nearer to 0 than to
-  /// closest approach: nothing cancels then.
+  /// The angle of the point since time 0, for a scaled time that is nearer to 0 than to closest
+  /// approach, so that nothing cancels.
   double angle_since_start(double now) const {
     const double share = now / start_range;
     return std::atan2(share * (passage / start_range),
@@ -171,7 +171,7 @@ inline Time time_within(const Integer& index, const std::optional<Integer>& cont
 
 struct Unfolding : ClosedForm {
   /// @throws SimulationError if ell, or the time it takes, is too small for a double, but not 0.
-  Unfolding(const BlockSystem& system, const ExactMotion& exact, const Wedge& wedge);
+  Unfolding(const BlockSystem& system, const ExactMotion& exact);
 
   /// Distance along the line from where it is nearest to the corner, in units of ell and
   /// at most kFarAway, for a line that is not through the corner. @param tau  scaled time since
@@ -186,6 +186,8 @@ struct Unfolding : ClosedForm {
   }
   const Landmark& end_near(bool late) const { return late ? future : past; }
 
+  Integer first_index;  ///< as CollisionLog has them
+  Integer size;
   Landmark past;
   Landmark future;
   TwoSided turn;   ///< closest approach

@@ -55,7 +55,7 @@ std::string captions(const CollisionLog& log, const Schedule& schedule,
   const std::int64_t frames = film_frames(schedule);
   std::vector<Integer> shown;
   for (std::int64_t frame = 0; frame < frames; ++frame) {
-    shown.push_back(state_at(log, schedule.time_of(frame)).count);
+    shown.push_back(log.state_at(schedule.time_of(frame)).count);
   }
   const Extremes counts{*std::ranges::min_element(shown), *std::ranges::max_element(shown),
                         log.size()};

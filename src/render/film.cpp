@@ -7,18 +7,18 @@
 #include <string>
 #include <utility>
 
-#include "render/require_valid.hpp"
+#include "physics/blocks.hpp"
 
 namespace piblocks {
 namespace {
 
-FilmPart made_from(const StoryPart& part, const View& view, FilmUse use) {
+FilmPart made_from(const Segment& part, const View& view, FilmUse use) {
   if (const auto* card = std::get_if<Card>(&part.content)) return {*card, view, use};
   return {std::get<Runs>(part.content), view, use};
 }
 
 std::string place_of(const Storyboard& story, std::size_t part) {
-  const std::string& origin = story.parts[part].origin;
+  const std::string& origin = story.segments[part].origin;
   return origin.empty() ? fmt::format("part {}", part + 1) : origin;
 }
 
@@ -26,7 +26,7 @@ std::string place_of(const Storyboard& story, std::size_t part) {
 
 Film::Film(const Script& script, FilmUse use) : view_(view_of(script)) {
   if (const auto* scene = std::get_if<Scene>(&script)) {
-    require_valid(*scene);
+    require_valid(problems_of(*scene));
     parts_.push_back({FilmPart(*scene, use)});
     frame_count_ = parts_.front().part.frame_count();
     return;
@@ -40,9 +40,9 @@ Film::Film(const Script& script, FilmUse use) : view_(view_of(script)) {
 
 void Film::add_parts(const Storyboard& story, FilmUse use) {
   std::vector<std::string> problems;
-  for (std::size_t i = 0; i < story.parts.size(); ++i) {
+  for (std::size_t i = 0; i < story.segments.size(); ++i) {
     try {
-      parts_.push_back({made_from(story.parts[i], view_, use)});
+      parts_.push_back({made_from(story.segments[i], view_, use)});
     } catch (const UsageError& error) {
       for (const std::string& problem : error.problems()) {
         problems.push_back(fmt::format("{}: {}", place_of(story, i), problem));
@@ -58,7 +58,7 @@ void Film::place_parts(const Storyboard& story) {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     PlacedPart& placed = parts_[i];
     const std::int64_t own = placed.part.frame_count();
-    const Rational& fade_s = story.parts[i].fade_s;
+    const Rational& fade_s = story.segments[i].fade_s;
     const Integer fade = floor(fade_s * view_.frame_rate + Rational(1, 2));
     const std::int64_t room = i == 0 ? 0 : std::min(before, own - 1);
     if (fade > room) {

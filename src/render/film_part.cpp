@@ -35,7 +35,7 @@ Run::Run(Scene scene, std::unique_ptr<CollisionLog> log, FilmUse use)
 }
 
 DrawList Run::picture(const FrameTime& shown) const {
-  return composition_->frame({state_at(*log_, shown.time), shown.time, shown.slower},
+  return composition_->frame({log_->state_at(shown.time), shown.time, shown.slower},
                              expose(*log_, shown.exposure));
 }
 

@@ -35,8 +35,8 @@ Scene with_logo_by_content(Scene scene) {
 Script with_logos_by_content(Script script) {
   if (auto* const scene = std::get_if<Scene>(&script)) return with_logo_by_content(*scene);
   auto& story = std::get<Storyboard>(script);
-  for (StoryPart& part : story.parts) {
-    auto* const runs = std::get_if<Runs>(&part.content);
+  for (Segment& segment : story.segments) {
+    auto* const runs = std::get_if<Runs>(&segment.content);
     if (runs == nullptr) continue;
     for (Scene& run : *runs) run = with_logo_by_content(std::move(run));
   }

@@ -17,10 +17,10 @@ namespace piblocks {
 namespace {
 
 /// "2/3" as render() wrote it.
-Part number_of(const PartInfo& part) {
+Shard number_of(const PartInfo& part) {
   const std::string& text = value_of(part, "part");
   const char* const end = text.data() + text.size();
-  Part result;
+  Shard result;
   auto read = std::from_chars(text.data(), end, result.number);
   if (read.ec == std::errc() && read.ptr != end && *read.ptr == '/') {
     read = std::from_chars(read.ptr + 1, end, result.count);
@@ -31,7 +31,7 @@ Part number_of(const PartInfo& part) {
 }
 
 struct NumberedPart {
-  Part number;
+  Shard number;
   PartInfo info;
 };
 
@@ -40,7 +40,7 @@ std::vector<NumberedPart> read_headers(const std::vector<std::string>& paths) {
   std::vector<NumberedPart> parts;
   for (const std::string& path : paths) {
     PartInfo info{path, PartReader(path).header()};
-    const Part number = number_of(info);
+    const Shard number = number_of(info);
     parts.push_back({number, std::move(info)});
   }
   std::ranges::stable_sort(parts, {}, [](const NumberedPart& part) { return part.number.number; });

@@ -18,8 +18,8 @@ std::vector<std::string> logos_of(const Script& script) {
     add(*scene);
     return logos;
   }
-  for (const StoryPart& part : std::get<Storyboard>(script).parts) {
-    if (const auto* const runs = std::get_if<Runs>(&part.content)) {
+  for (const Segment& segment : std::get<Storyboard>(script).segments) {
+    if (const auto* const runs = std::get_if<Runs>(&segment.content)) {
       for (const Scene& run : *runs) add(run);
     }
   }

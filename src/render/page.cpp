@@ -18,8 +18,8 @@
 #include "core/descriptor.hpp"
 #include "core/ending.hpp"
 #include "core/file_set.hpp"
-#include "core/markup.hpp"
 #include "core/output_file.hpp"
+#include "core/printable.hpp"
 #include "render/page_facts.hpp"
 #include "render/page_source.hpp"
 #include "render/render_film.hpp"
@@ -88,7 +88,7 @@ class PageText {
 };
 
 void check(const RenderJob& job) {
-  if (job.part) {
+  if (job.shard) {
     throw UsageError(fmt::format(
         "part: there are no parts of page '{}'; render it whole, or the parts of an MP4",
         job.output));
@@ -112,8 +112,7 @@ void check(const RenderJob& job) {
 }
 
 [[noreturn]] void fail_to_read(const fs::path& path, int error_number) {
-  throw IoError(fmt::format("page: cannot read '{}': {}", path.string(),
-                            std::generic_category().message(error_number)));
+  throw IoError(fmt::format("page: cannot read '{}': {}", path.string(), error_text(error_number)));
 }
 
 /// Piece by piece, however long the video is.
@@ -165,10 +164,10 @@ Rendered render_page(const RenderJob& job, const std::function<void(const Progre
   const PageFacts facts(scene, *log, schedule);
   facts.check_range();
   const fs::path path = follow_links(job.output);
-  FileSet files(path.parent_path(), path.filename(), Unfinished::Rivals::allowed);
+  FileSet files(path.parent_path(), path.filename(), Unfinished::Sharing::shared);
   OutputFile page(files.add(path.filename()));
   RenderJob video = job;
-  video.output = files.workshop() / "video.mp4";
+  video.output = files.temporary_folder() / "video.mp4";
   Rendered rendered = render_film(video, on_progress, stop);
   StageClock clock(job.profile, Stage::write);
   write_page(scene, facts, {facts.most(), log->size()}, video.output, page);

@@ -61,7 +61,7 @@ class Differences {
 std::vector<Rational> times_of(const CollisionLog& log, const CollisionRange& range) {
   std::vector<Rational> times;
   for (Integer index = range.first; index <= range.last; ++index) {
-    times.push_back(to_rational(log.at(index).time));
+    times.push_back(to_rational(log.collision(index).time));
   }
   return times;
 }
@@ -108,8 +108,8 @@ PageFacts::PageFacts(const Scene& scene, const CollisionLog& log, const Schedule
       frames_before_reversal_(
           std::min(count_before_reversal(schedule, scene.view.frame_rate), frames_)),
       from_(schedule.time_of(0)),
-      first_(state_at(log, from_).count),
-      most_(state_at(log, schedule.time_of(frames_before_reversal_ - 1)).count) {}
+      first_(log.state_at(from_).count),
+      most_(log.state_at(schedule.time_of(frames_before_reversal_ - 1)).count) {}
 
 void PageFacts::check_range() const {
   if (to_double(schedule_.time_of(frames_before_reversal_ - 1) - from_) <= kLargest) return;
@@ -121,7 +121,7 @@ void PageFacts::check_range() const {
 void PageFacts::write_counts(const Sink& sink) const {
   Differences counts;
   for (std::int64_t frame = 0; frame < frames_; ++frame) {
-    const std::string text = counts.add(state_at(log_, schedule_.time_of(frame)).count);
+    const std::string text = counts.add(log_.state_at(schedule_.time_of(frame)).count);
     if (!text.empty()) sink(text);
   }
   sink(counts.end());

@@ -92,23 +92,23 @@ struct Share {
   std::int64_t end;
 };
 
-Share share_of(const std::optional<Part>& part, std::int64_t chunks) {
-  if (!part) return {0, chunks};
-  return {chunks * (part->number - 1) / part->count, chunks * part->number / part->count};
+Share share_of(const std::optional<Shard>& shard, std::int64_t chunks) {
+  if (!shard) return {0, chunks};
+  return {chunks * (shard->number - 1) / shard->count, chunks * shard->number / shard->count};
 }
 
 std::unique_ptr<FrameSink> open_sink(const RenderJob& job, const Plan& plan) {
-  if (!job.part) return plan.output->open();
+  if (!job.shard) return plan.output->open();
   PartHeader header = describe(job, *plan.output, plan.chunks);
-  header.emplace_back("part", fmt::format("{}/{}", job.part->number, job.part->count));
-  return open_part(part_name(job.output, *job.part), header);
+  header.emplace_back("part", fmt::format("{}/{}", job.shard->number, job.shard->count));
+  return open_part(shard_name(job.output, *job.shard), header);
 }
 
 void check_part(const RenderJob& job) {
-  if (!job.part) return;
-  if (job.part->number < 1 || job.part->number > job.part->count) {
+  if (!job.shard) return;
+  if (job.shard->number < 1 || job.shard->number > job.shard->count) {
     throw UsageError(fmt::format("part {} of {}: the number must be from 1 to the count",
-                                 job.part->number, job.part->count));
+                                 job.shard->number, job.shard->count));
   }
   if (job.output == "-" || job.output == "null" || is_sound_alone(job.output)) {
     throw UsageError(
@@ -147,7 +147,7 @@ struct SoundWork {
 SoundWork sound_for(const RenderJob& job, const Plan& plan, FrameSink& sink,
                     const std::function<void(const Progress&)>& on_progress, StageClock& clock,
                     const std::stop_token& stop) {
-  if (!plan.sound || (job.part && job.part->number != 1)) return {};
+  if (!plan.sound || (job.shard && job.shard->number != 1)) return {};
   const auto report = [&](std::int64_t samples) {
     if (plan.output->has_frames() || samples == plan.sound->size) return;
     const std::int64_t frames = plan.film.frame_count();
@@ -172,7 +172,7 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
   if (job.max_flashes && plan.output->has_frames()) {
     check_flashes(plan.film, *job.max_flashes, stop);
   }
-  const Share share = share_of(job.part, plan.chunks.count());
+  const Share share = share_of(job.shard, plan.chunks.count());
   const std::unique_ptr<FrameSink> sink = open_sink(job, plan);
   const auto frames_until = [&](std::int64_t chunk) {
     return plan.chunks.begin(chunk) - plan.chunks.begin(share.begin);
@@ -214,8 +214,8 @@ Rendered render(const RenderJob& job, const std::function<void(const Progress&)>
   return render_film(job, on_progress, stop);
 }
 
-std::string part_name(const std::string& output, const Part& part) {
-  return fmt::format("{}.part-{}-of-{}", output, part.number, part.count);
+std::string shard_name(const std::string& output, const Shard& shard) {
+  return fmt::format("{}.part-{}-of-{}", output, shard.number, shard.count);
 }
 
 }  // namespace piblocks

@@ -16,8 +16,8 @@
 #include "draw/composition.hpp"
 #include "draw/number_text.hpp"
 #include "draw/sheet.hpp"
+#include "physics/blocks.hpp"
 #include "render/logo.hpp"
-#include "render/require_valid.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -99,7 +99,7 @@ std::vector<Instant> spread_instants(const Scene& scene, int count) {
   if (count < 1 || count > kMaxSheetPictures) {
     throw UsageError(fmt::format("sheet: {} pictures: use 1 to {}", count, kMaxSheetPictures));
   }
-  require_valid(scene);
+  require_valid(problems_of(scene));
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Span span = span_of(scene, *log);
   std::vector<Instant> instants = {span.from};
@@ -111,14 +111,14 @@ std::vector<Instant> spread_instants(const Scene& scene, int count) {
 
 std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
                                              const std::vector<Instant>& instants) {
-  require_valid(scene);
+  require_valid(problems_of(scene));
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Composition composition(scene, *log, read_logo(scene));
   std::vector<FrameState> shown;
   shown.reserve(instants.size());
   for (const Instant& instant : instants) {
     const Rational time = time_of(instant, *log);
-    shown.push_back({state_at(*log, time), time});
+    shown.push_back({log->state_at(time), time});
   }
   const std::vector<std::string> times = time_texts(shown);
   std::vector<CaptionedPicture> pictures;

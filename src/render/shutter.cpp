@@ -1,6 +1,6 @@
 #include "render/shutter.hpp"
 
-#include "physics/expose.hpp"
+#include "physics/exposure.hpp"
 
 namespace piblocks {
 

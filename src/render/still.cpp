@@ -10,8 +10,8 @@
 #include "core/ending.hpp"
 #include "core/output_file.hpp"
 #include "draw/canvas.hpp"
+#include "physics/blocks.hpp"
 #include "render/film.hpp"
-#include "render/require_valid.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -36,7 +36,7 @@ Draw* drawing_for(std::string_view output) {
 }
 
 DrawList picture_of(const Scene& scene, const Instant& instant) {
-  require_valid(scene);
+  require_valid(problems_of(scene));
   const Run run(scene, make_collision_log(scene.system), FilmUse::pictures);
   return run.picture(still_time(scene, run.log(), time_of(instant, run.log())));
 }

@@ -99,7 +99,7 @@ Instant parse_instant(std::string_view text) {
 std::string exact_text(const Instant& instant) {
   std::string offset = instant.offset.get_str();
   if (instant.is_time()) return offset;
-  std::string text = "#" + instant.index.get_str();
+  std::string text = fmt::format("#{}", instant.index.get_str());
   for (const auto& [name, anchor] : kNamedAnchors) {
     if (anchor == instant.anchor) text = name;
   }

@@ -5,192 +5,154 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
-#include "physics/check_finite.hpp"
-#include "scene/line.hpp"
+#include "physics/blocks.hpp"
+#include "scene/rules.hpp"
 
 namespace piblocks {
 namespace {
 
-void check_range(const char* key, const Range& range, std::vector<Problem>& problems) {
-  if (range.low < range.high && std::isfinite(to_double(range.low)) &&
-      std::isfinite(to_double(range.high)) && to_double(range.high - range.low) > 0) {
-    return;
-  }
-  problems.push_back({key, fmt::format("= [{}, {}]: must be two finite numbers in rising order",
-                                       to_text(range.low), to_text(range.high))});
+/// Line breaks, tabs and the like.
+bool has_control_characters(std::string_view text) {
+  return std::ranges::any_of(text, [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; });
 }
 
-void check_size(const char* key, const FrameSize& size, std::vector<Problem>& problems) {
+void check_range(const char* key, const Range& range, SceneProblems& problems) {
+  const bool rises = range.low < range.high && is_finite(range.low) && is_finite(range.high) &&
+                     to_double(range.high - range.low) > 0;
+  problems.require(rises, key, "= [{}, {}]: must be two finite numbers in rising order", range.low,
+                   range.high);
+}
+
+void check_size(const char* key, const FrameSize& size, SceneProblems& problems) {
+  const auto [width, height] = size;
   const auto is_side = [](int side) { return side >= 1 && side <= kMaxSide_px; };
-  if (!is_side(size.width_px) || !is_side(size.height_px)) {
-    problems.push_back({key, fmt::format("= {}x{}: each side must be from 1 to {} pixels",
-                                         size.width_px, size.height_px, kMaxSide_px)});
-  } else if (std::int64_t{size.width_px} * size.height_px > kMaxFrame_px) {
-    problems.push_back(
-        {key, fmt::format("= {}x{}: a frame must have at most {} pixels, as 8192x8192",
-                          size.width_px, size.height_px, kMaxFrame_px)});
-  }
+  const bool has_sides = is_side(width) && is_side(height);
+  problems.require(has_sides, key, "= {}x{}: each side must be from 1 to {} pixels", width, height,
+                   kMaxSide_px);
+  problems.require(!has_sides || std::int64_t{width} * height <= kMaxFrame_px, key,
+                   "= {}x{}: a frame must have at most {} pixels, as 8192x8192", width, height,
+                   kMaxFrame_px);
 }
 
-void check_frame_rate(const Rational& rate, std::vector<Problem>& problems) {
+void check_view(const View& view, SceneProblems& problems) {
+  check_range("view.x", view.x, problems);
+  check_range("view.y", view.y, problems);
+  check_size("view.size", {view.width_px, view.height_px}, problems);
   // Codecs and containers count time in 32-bit fractions.
   constexpr long kMaxTerm = 1'000'000;
-  if (rate > 0 && rate <= kMaxFrameRate && rate.get_num() <= kMaxTerm &&
-      rate.get_den() <= kMaxTerm) {
-    return;
-  }
-  problems.push_back(
-      {"view.fps", fmt::format("= {}: must be greater than 0 and at most {}, as a fraction of "
-                               "numbers up to {}",
-                               to_text(rate), kMaxFrameRate, kMaxTerm)});
-}
-
-void check_shutter(const View& view, std::vector<Problem>& problems) {
+  const Rational& rate = view.frame_rate;
+  problems.require(
+      rate > 0 && rate <= kMaxFrameRate && rate.get_num() <= kMaxTerm && rate.get_den() <= kMaxTerm,
+      "view.fps", "= {}: must be greater than 0 and at most {}, as a fraction of numbers up to {}",
+      rate, kMaxFrameRate, kMaxTerm);
   const Rational& shutter = view.shutter;
-  if (shutter > 0 && view.background == Background::transparent) {
-    problems.push_back({"view.shutter",
-                        "asks for light from behind the blocks, and a transparent frame has none; "
-                        "leave it out, or use --opaque"});
-  }
-  if (shutter >= 0 && shutter <= 1) return;
-  problems.push_back(
-      {"view.shutter", fmt::format("= {}: must be from 0 (the instant alone) to 1 (all of the time "
-                                   "to the next frame)",
-                                   to_text(shutter))});
+  problems.require(shutter <= 0 || view.background == Background::opaque, "view.shutter",
+                   "asks for light from behind the blocks, and a transparent frame has none; "
+                   "leave it out, or use --opaque");
+  problems.require(shutter >= 0 && shutter <= 1, "view.shutter",
+                   "= {}: must be from 0 (the instant alone) to 1 (all of the time to the next "
+                   "frame)",
+                   shutter);
 }
 
-void check_time(const TimeSpan& time, std::vector<Problem>& problems) {
-  check_finite("time.from", time.from.offset, problems);
-  check_finite("time.to", time.to.offset, problems);
-  check_finite("time.speed", time.speed, problems);
-  if (time.speed <= 0) {
-    problems.push_back(
-        {"time.speed", fmt::format("= {}: must be greater than 0", to_text(time.speed))});
-  }
-  if (time.from.is_time() && time.to.is_time() && time.to.offset <= time.from.offset) {
-    problems.push_back(
-        {"time.to", fmt::format("= {}: must be after time.from = {}", to_text(time.to.offset),
-                                to_text(time.from.offset))});
-  }
+void check_time(const TimeSpan& time, SceneProblems& problems) {
+  problems.require_finite("time.from", time.from.offset);
+  problems.require_finite("time.to", time.to.offset);
+  problems.require_finite("time.speed", time.speed);
+  problems.require_positive("time.speed", time.speed);
+  const bool are_times = time.from.is_time() && time.to.is_time();
+  problems.require(!are_times || time.to.offset > time.from.offset, "time.to",
+                   "= {}: must be after time.from = {}", time.to.offset, time.from.offset);
 }
 
-void check_count(const char* key, std::size_t count, std::vector<Problem>& problems) {
-  if (count <= kMaxWindows) return;
-  problems.push_back({key, fmt::format("must have at most {} of them", kMaxWindows)});
-}
-
-void check_seconds(const char* key, const Rational& seconds, const Rational& low,
-                   std::vector<Problem>& problems) {
-  check_finite(key, seconds, problems);
-  if (seconds >= low) return;
-  problems.push_back(
-      {key, fmt::format("= {}: must be at least {}", to_text(seconds), to_text(low))});
-}
-
-void check_slow_motion(const Scene& scene, std::vector<Problem>& problems) {
+void check_slow_motion(const Scene& scene, SceneProblems& problems) {
   constexpr const char* kKey = "time.slow-motion";
-  check_count(kKey, scene.pacing.slow_motion.size(), problems);
-  const auto is_finite = [](const Rational& value) { return std::isfinite(to_double(value)); };
-  for (const SlowMotion& window : scene.pacing.slow_motion) {
-    const Rational& factor = window.factor;
-    if (factor <= 0) {
-      problems.push_back({kKey, fmt::format("has a window whose factor is {}: it must be greater "
-                                            "than 0",
-                                            to_text(factor))});
-      return;
-    }
-    // All of them are told to other programs.
-    if (is_finite(factor) && is_finite(1 / factor) && is_finite(scene.time.speed / factor)) {
-      continue;
-    }
-    problems.push_back(
-        {kKey, fmt::format("has a window whose factor is {}: it, or the speed by it, "
-                           "is beyond the range of a double (about 1.8e308)",
-                           to_text(factor))});
-    return;
+  const std::vector<SlowMotion>& windows = scene.pacing.slow_motion;
+  problems.require(windows.size() <= kMaxWindows, kKey, "must have at most {} of them",
+                   kMaxWindows);
+  // Other programs get all of these numbers.
+  const auto is_usable = [&](const Rational& factor) {
+    return factor > 0 && is_finite(factor) && is_finite(1 / factor) &&
+           is_finite(scene.time.speed / factor);
+  };
+  const auto wrong = std::ranges::find_if_not(windows, is_usable, &SlowMotion::factor);
+  if (wrong == windows.end()) return;
+  const Rational& factor = wrong->factor;
+  if (factor <= 0) {
+    problems.add(kKey, "has a window whose factor is {}: it must be greater than 0", factor);
+  } else {
+    problems.add(kKey,
+                 "has a window whose factor is {}: it, or the speed by it, is beyond the range of "
+                 "a double (about 1.8e308)",
+                 factor);
   }
 }
 
-void check_freezes(const Pacing& pacing, std::vector<Problem>& problems) {
-  constexpr const char* kKey = "time.freeze";
-  check_count(kKey, pacing.freezes.size(), problems);
+void check_pacing(const Scene& scene, SceneProblems& problems) {
+  const Pacing& pacing = scene.pacing;
+  check_slow_motion(scene, problems);
+  problems.require(pacing.freezes.size() <= kMaxWindows, "time.freeze",
+                   "must have at most {} of them", kMaxWindows);
   for (const Freeze& freeze : pacing.freezes) {
     if (freeze.length_s > 0) continue;
-    problems.push_back({kKey, fmt::format("has a freeze of {} s: it must be longer than 0",
-                                          to_text(freeze.length_s))});
-    return;
+    problems.add("time.freeze", "has a freeze of {} s: it must be longer than 0", freeze.length_s);
+    break;
   }
+  for (const auto& [key, seconds] : {std::pair("time.hold-start", pacing.hold_start_s),
+                                     std::pair("time.hold-end", pacing.hold_end_s)}) {
+    problems.require_finite(key, seconds);
+    problems.require(seconds >= 0, key, "= {}: must be at least 0", seconds);
+  }
+  if (pacing.duration_s) problems.require_positive("time.duration", *pacing.duration_s);
 }
 
-void check_line(const char* key, const std::string& text, std::vector<Problem>& problems) {
-  const std::string problem = problem_of_line(text);
-  if (!problem.empty()) problems.push_back({key, problem});
-}
-
-/// Each of them is there once: a panel has one place, a kept picture one file.
+/// Each value may be there once: a panel has one place, a kept picture one file.
 template <typename Value>
 void check_each_once(const char* key, const std::vector<Value>& list, const auto& name_of,
-                     std::vector<Problem>& problems) {
+                     SceneProblems& problems) {
   for (auto value = list.begin(); value != list.end(); ++value) {
     if (std::find(list.begin(), value, *value) == value) continue;
-    problems.push_back({key, fmt::format("has '{}' more than once", name_of(*value))});
+    problems.add(key, "has '{}' more than once", name_of(*value));
     return;
   }
 }
 
-void check_show(const Show& show, std::vector<Problem>& problems) {
+void check_show(const Show& show, SceneProblems& problems) {
   const auto name_of = [](auto value) { return exact_text(value); };
   check_each_once("show.overlays", show.overlays, name_of, problems);
   check_each_once("show.panels", show.panels, name_of, problems);
   check_line("show.title", show.title, problems);
   check_line("show.caption", show.caption, problems);
-  if (has_control_characters(show.logo)) {
-    problems.push_back({"show.logo", "must be one line of text"});
-  }
+  problems.require(!has_control_characters(show.logo), "show.logo", "must be one line of text");
 }
 
-void check_golden(const Golden& golden, std::vector<Problem>& problems) {
+void check_golden(const Golden& golden, SceneProblems& problems) {
   constexpr const char* kKey = "golden.frames";
   if (golden.size) check_size("golden.size", *golden.size, problems);
-  check_each_once(
-      kKey, golden.frames, [](const std::string& text) { return text; }, problems);
+  check_each_once(kKey, golden.frames, std::identity(), problems);
   for (const std::string& text : golden.frames) {
     try {
       parse_instant(text);
     } catch (const UsageError& error) {
-      problems.push_back({kKey, fmt::format("has '{}': {}", text, error.what())});
+      problems.add(kKey, "has '{}': {}", text, std::string(error.what()));
       return;
     }
   }
 }
 
-void check_pacing(const Scene& scene, std::vector<Problem>& problems) {
-  const Pacing& pacing = scene.pacing;
-  check_slow_motion(scene, problems);
-  check_freezes(pacing, problems);
-  check_seconds("time.hold-start", pacing.hold_start_s, 0, problems);
-  check_seconds("time.hold-end", pacing.hold_end_s, 0, problems);
-  if (pacing.duration_s && *pacing.duration_s <= 0) {
-    problems.push_back({"time.duration",
-                        fmt::format("= {}: must be greater than 0", to_text(*pacing.duration_s))});
-  }
-}
-
 }  // namespace
 
-bool has_control_characters(std::string_view text) {
-  return std::ranges::any_of(text, [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; });
-}
-
-std::string problem_of_line(std::string_view text) {
-  if (text.size() > kMaxLine_bytes) return fmt::format("is longer than {} bytes", kMaxLine_bytes);
-  return has_control_characters(text) ? "must be one line of text" : "";
+void check_line(const char* key, std::string_view text, SceneProblems& problems) {
+  const bool is_short = text.size() <= kMaxLine_bytes;
+  problems.require(is_short, key, "is longer than {} bytes", kMaxLine_bytes);
+  problems.require(!is_short || !has_control_characters(text), key, "must be one line of text");
 }
 
 Rational width_by_mass(const BlockSystem& system) {
   if (system.blue.mass <= 0 || system.red.mass <= 0) return system.red.width;
-  // Either mass may be beyond what a double holds.
+  // Either mass may be beyond the range of a double.
   const auto log_2 = [](const Integer& value) {
     long exponent = 0;
     const double mantissa = mpz_get_d_2exp(&exponent, value.get_mpz_t());
@@ -204,17 +166,13 @@ Rational width_by_mass(const BlockSystem& system) {
 }
 
 std::vector<Problem> problems_of(const Scene& scene) {
-  std::vector<Problem> problems = problems_of(scene.system);
-  check_range("view.x", scene.view.x, problems);
-  check_range("view.y", scene.view.y, problems);
-  check_size("view.size", {scene.view.width_px, scene.view.height_px}, problems);
-  check_frame_rate(scene.view.frame_rate, problems);
-  check_shutter(scene.view, problems);
+  SceneProblems problems(problems_of(scene.system));
+  check_view(scene.view, problems);
   check_time(scene.time, problems);
   check_pacing(scene, problems);
   check_show(scene.show, problems);
   check_golden(scene.golden, problems);
-  return problems;
+  return problems.take();
 }
 
 }  // namespace piblocks

@@ -11,13 +11,13 @@
 namespace piblocks {
 namespace {
 
-/// Keys that set the same value: a table may have one of them.
+/// Keys that set the same value, of which a table may have only one.
 struct ExclusiveKeys {
   std::vector<std::string_view> keys;
   const char* what;
 };
 
-/// @returns what is wrong; empty if nothing is.
+/// @return a message if the table has several of them; otherwise empty.
 std::string conflict_of(const TomlTable& table, const ExclusiveKeys& exclusive) {
   std::vector<std::string_view> present;
   for (const std::string_view key : exclusive.keys) {
@@ -29,7 +29,7 @@ std::string conflict_of(const TomlTable& table, const ExclusiveKeys& exclusive) 
                      present.size() == 2 ? "one" : "all but one");
 }
 
-/// The mass ratio that counts so many digits.
+/// The mass ratio whose collisions count this number of digits.
 Rational mass_ratio_of_digits(const Values& values) {
   const std::string& text = single(values);
   unsigned digits = 0;
@@ -57,7 +57,7 @@ void SceneDraft::read(const std::string& path, const TomlTable& table) {
       add_problem(origin, "part: a single scene has no parts; this is a storyboard");
     } else if (entry.problem.empty()) {
       set(origin, entry.key, entry.values);
-      // Found from where the scene is, wherever the program is started.
+      // Relative to the folder of the scene file.
       if (entry.key == "show.logo" && !scene_.show.logo.empty()) {
         scene_.show.logo = std::filesystem::path(path).parent_path() / scene_.show.logo;
       }
@@ -100,12 +100,6 @@ void SceneDraft::add_problem(const std::string& origin, const std::string& text)
   problems_.push_back(fmt::format("{}: {}", origin, text));
 }
 
-std::string SceneDraft::described(const Problem& problem) const {
-  const auto origin = origins_.find(problem.key);
-  const std::string& place = origin == origins_.end() ? place_ : origin->second;
-  return fmt::format("{}: {} {}", place, problem.key, problem.reason);
-}
-
 SceneDraft SceneDraft::next(const std::string& place) const {
   SceneDraft draft = *this;
   draft.problems_.clear();
@@ -120,16 +114,13 @@ Scene SceneDraft::scene() const {
   return scene;
 }
 
-std::vector<std::string> SceneDraft::problems() const {
+std::vector<std::string> SceneDraft::problems(bool of_film) const {
   std::vector<std::string> problems = problems_;
-  for (const Problem& problem : problems_of(scene())) problems.push_back(described(problem));
-  return problems;
-}
-
-std::vector<std::string> SceneDraft::film_problems() const {
-  std::vector<std::string> problems = problems_;
-  for (const Problem& problem : problems_of(scene())) {
-    if (is_film_key(problem.key)) problems.push_back(described(problem));
+  for (const auto& [key, reason] : problems_of(scene())) {
+    if (of_film && !is_film_key(key)) continue;
+    const auto origin = origins_.find(key);
+    problems.push_back(
+        fmt::format("{}: {} {}", origin == origins_.end() ? place_ : origin->second, key, reason));
   }
   return problems;
 }

@@ -1,6 +1,5 @@
-// The values of one scene while they are collected, and where each came from.
-// In: tables of a scene file, and options of the same keys. Out: the scene, and what is wrong with
-// it.
+// The values of one scene while they are collected, and the origin of each.
+// In: tables of a scene file, and options of the same keys. Out: the scene, and its problems.
 #pragma once
 
 #include <piblocks/scene.hpp>
@@ -20,23 +19,21 @@ class SceneDraft {
   /// @param place  named in messages about values that nobody has set.
   explicit SceneDraft(std::string place) : place_(std::move(place)) {}
 
-  /// Sets every key of the table, which is in this file.
+  /// Sets every key of a table of this file.
   void read(const std::string& path, const TomlTable& table);
   /// Sets one key. @param origin  named in messages, such as "--size".
   void set(const std::string& origin, const std::string& key, const Values& values);
-  /// A draft that begins with the values of this one, without what was wrong with their text.
+  /// A draft that begins with the values of this one, without its problems.
   SceneDraft next(const std::string& place) const;
 
   Scene scene() const;
-  /// Everything that is wrong: origin, key, value and reason.
-  std::vector<std::string> problems() const;
-  /// Those that hold for a storyboard: of text, and of keys for a whole film.
-  std::vector<std::string> film_problems() const;
+  /// Everything that is wrong, also text that could not be read: origin, key, value and reason.
+  /// @param of_film  whether to leave out values of keys that are not for a whole film.
+  std::vector<std::string> problems(bool of_film = false) const;
 
  private:
   void set_key(const std::string& origin, const std::string& key, const Values& values);
   void add_problem(const std::string& origin, const std::string& text);
-  std::string described(const Problem& problem) const;
 
   Scene scene_;
   std::optional<Rational> mass_ratio_;

@@ -7,18 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <optional>
 #include <sstream>
 #include <utility>
 
 namespace piblocks {
 namespace {
-
-void set_number(Rational& target, const Values& values) { target = parse_rational(single(values)); }
-
-void set_range(Range& target, const Values& values) {
-  if (values.size() != 2) throw UsageError("must be two numbers, as [-1, 12]");
-  target = {parse_rational(values[0]), parse_rational(values[1])};
-}
 
 int parse_side(std::string_view text) {
   int side = 0;
@@ -41,18 +35,6 @@ FrameSize parse_size(const Values& values) {
   return {parse_side(sides[0]), parse_side(sides[1])};
 }
 
-void set_size(View& view, const Values& values) {
-  const FrameSize size = parse_size(values);
-  view.width_px = size.width_px;
-  view.height_px = size.height_px;
-}
-
-void set_background(View& view, const Values& values) {
-  const std::string& name = single(values);
-  if (name != "opaque" && name != "transparent") throw UsageError("must be opaque or transparent");
-  view.background = name == "opaque" ? Background::opaque : Background::transparent;
-}
-
 /// A list, or one text with commas.
 Values list_of(const Values& values) {
   if (values.size() != 1) return values;
@@ -65,14 +47,7 @@ Values list_of(const Values& values) {
   return list;
 }
 
-bool parse_bool(const Values& values) {
-  const std::string& text = single(values);
-  if (text == "true") return true;
-  if (text == "false") return false;
-  throw UsageError("must be true or false");
-}
-
-/// Each of a list; messages name the one that is wrong.
+/// Parses each value of a list; messages name the one that is wrong.
 template <typename Value>
 std::vector<Value> parse_each(const Values& values, Value (*parse)(std::string_view text)) {
   std::vector<Value> parsed;
@@ -85,121 +60,136 @@ std::vector<Value> parse_each(const Values& values, Value (*parse)(std::string_v
   }
   return parsed;
 }
-
-/// In the place of a duration that was asked for before.
-void set_speed(Scene& scene, const Values& values) {
-  set_number(scene.time.speed, values);
-  scene.pacing.duration_s.reset();
+template <typename Value>
+std::vector<Value> parse_list(const Values& values, Value (*parse)(std::string_view text)) {
+  return parse_each(list_of(values), parse);
 }
 
-/// In the place of a speed that was asked for before.
-void set_duration(Scene& scene, const Values& values) {
-  scene.pacing.duration_s = parse_rational(single(values));
-  scene.time.speed = 1;
+// read() sets a value from its texts, texts_of() gives them back.
+
+void read(Rational& target, const Values& values) { target = parse_rational(single(values)); }
+void read(Instant& target, const Values& values) { target = parse_instant(single(values)); }
+void read(Theme& target, const Values& values) { target = parse_theme(single(values)); }
+void read(std::string& target, const Values& values) { target = single(values); }
+void read(Values& target, const Values& values) { target = list_of(values); }
+void read(std::optional<FrameSize>& target, const Values& values) { target = parse_size(values); }
+void read(std::vector<Freeze>& list, const Values& v) { list = parse_list(v, parse_freeze); }
+void read(std::vector<Overlay>& list, const Values& v) { list = parse_list(v, parse_overlay); }
+void read(std::vector<Panel>& list, const Values& v) { list = parse_list(v, parse_panel); }
+void read(Range& target, const Values& values) {
+  if (values.size() != 2) throw UsageError("must be two numbers, as [-1, 12]");
+  target = {parse_rational(values[0]), parse_rational(values[1])};
+}
+void read(bool& target, const Values& values) {
+  const std::string& text = single(values);
+  if (text != "true" && text != "false") throw UsageError("must be true or false");
+  target = text == "true";
+}
+void read(Background& target, const Values& values) {
+  const std::string& name = single(values);
+  if (name != "opaque" && name != "transparent") throw UsageError("must be opaque or transparent");
+  target = name == "opaque" ? Background::opaque : Background::transparent;
 }
 
-void set_slow_motion(Pacing& pacing, Values values) {
-  values = list_of(values);
-  pacing.automatic_slow_motion = std::erase(values, "auto") > 0;
-  pacing.slow_motion = parse_each(values, parse_slow_motion);
-}
-
-Values number(const Rational& value) { return {value.get_str()}; }
-Values range(const Range& value) { return {value.low.get_str(), value.high.get_str()}; }
-Values size(const View& view) { return {fmt::format("{}x{}", view.width_px, view.height_px)}; }
-Values size(const FrameSize& value) {
-  return {fmt::format("{}x{}", value.width_px, value.height_px)};
-}
-Values background(Background value) {
+Values texts_of(const Rational& value) { return {value.get_str()}; }
+Values texts_of(const Instant& value) { return {exact_text(value)}; }
+Values texts_of(Theme value) { return {exact_text(value)}; }
+Values texts_of(const std::string& value) { return {value}; }
+Values texts_of(const Values& value) { return value; }
+Values texts_of(const Range& value) { return {value.low.get_str(), value.high.get_str()}; }
+Values texts_of(bool value) { return {value ? "true" : "false"}; }
+Values texts_of(Background value) {
   return {value == Background::opaque ? "opaque" : "transparent"};
 }
-Values flag(bool value) { return {value ? "true" : "false"}; }
-
+Values texts_of(const FrameSize& value) {
+  return {fmt::format("{}x{}", value.width_px, value.height_px)};
+}
 template <typename Value>
-Values each(const std::vector<Value>& list) {
+Values texts_of(const std::optional<Value>& value) {
+  return value ? texts_of(*value) : Values();
+}
+template <typename Value>
+Values texts_of(const std::vector<Value>& list) {
   Values texts;
   for (const Value& value : list) texts.push_back(exact_text(value));
   return texts;
 }
 
-Values instant(const Instant& value) { return {exact_text(value)}; }
+/// A key for one member of a scene, given by pointers to members.
+template <auto... Path>
+constexpr SceneKey key(const char* name) {
+  return {name, [](Scene& scene, const Values& values) { read((scene.*....*Path), values); },
+          [](const Scene& scene) { return texts_of((scene.*....*Path)); }};
+}
 
-Values slow_motion(const Pacing& pacing) {
-  Values texts = each(pacing.slow_motion);
-  if (pacing.automatic_slow_motion) texts.insert(texts.begin(), "auto");
+void set_size(Scene& scene, const Values& values) {
+  const FrameSize size = parse_size(values);
+  scene.view.width_px = size.width_px;
+  scene.view.height_px = size.height_px;
+}
+Values size_of(const Scene& scene) {
+  return texts_of(FrameSize{scene.view.width_px, scene.view.height_px});
+}
+
+/// Replaces a duration that was set before.
+void set_speed(Scene& scene, const Values& values) {
+  read(scene.time.speed, values);
+  scene.pacing.duration_s.reset();
+}
+Values speed_of(const Scene& scene) { return texts_of(scene.time.speed); }
+
+/// Replaces a speed that was set before.
+void set_duration(Scene& scene, const Values& values) {
+  scene.pacing.duration_s = parse_rational(single(values));
+  scene.time.speed = 1;
+}
+Values duration_of(const Scene& scene) { return texts_of(scene.pacing.duration_s); }
+
+void set_slow_motion(Scene& scene, const Values& values) {
+  Values windows = list_of(values);
+  scene.pacing.automatic_slow_motion = std::erase(windows, "auto") > 0;
+  scene.pacing.slow_motion = parse_each(windows, parse_slow_motion);
+}
+Values slow_motion_of(const Scene& scene) {
+  Values texts = texts_of(scene.pacing.slow_motion);
+  if (scene.pacing.automatic_slow_motion) texts.insert(texts.begin(), "auto");
   return texts;
 }
 
 constexpr auto kKeys = std::to_array<SceneKey>({
-    {"wall.face", [](Scene& s, const Values& v) { set_number(s.system.wall_face, v); },
-     [](const Scene& s) { return number(s.system.wall_face); }},
-    {"blue.mass", [](Scene& s, const Values& v) { set_number(s.system.blue.mass, v); },
-     [](const Scene& s) { return number(s.system.blue.mass); }},
-    {"blue.position", [](Scene& s, const Values& v) { set_number(s.system.blue.position, v); },
-     [](const Scene& s) { return number(s.system.blue.position); }},
-    {"blue.velocity", [](Scene& s, const Values& v) { set_number(s.system.blue.velocity, v); },
-     [](const Scene& s) { return number(s.system.blue.velocity); }},
-    {"blue.width", [](Scene& s, const Values& v) { set_number(s.system.blue.width, v); },
-     [](const Scene& s) { return number(s.system.blue.width); }},
-    {"red.mass", [](Scene& s, const Values& v) { set_number(s.system.red.mass, v); },
-     [](const Scene& s) { return number(s.system.red.mass); }},
-    {"red.position", [](Scene& s, const Values& v) { set_number(s.system.red.position, v); },
-     [](const Scene& s) { return number(s.system.red.position); }},
-    {"red.velocity", [](Scene& s, const Values& v) { set_number(s.system.red.velocity, v); },
-     [](const Scene& s) { return number(s.system.red.velocity); }},
-    {"red.width", [](Scene& s, const Values& v) { set_number(s.system.red.width, v); },
-     [](const Scene& s) { return number(s.system.red.width); }},
-    {"view.x", [](Scene& s, const Values& v) { set_range(s.view.x, v); },
-     [](const Scene& s) { return range(s.view.x); }},
-    {"view.y", [](Scene& s, const Values& v) { set_range(s.view.y, v); },
-     [](const Scene& s) { return range(s.view.y); }},
-    {"view.size", [](Scene& s, const Values& v) { set_size(s.view, v); },
-     [](const Scene& s) { return size(s.view); }},
-    {"view.fps", [](Scene& s, const Values& v) { set_number(s.view.frame_rate, v); },
-     [](const Scene& s) { return number(s.view.frame_rate); }},
-    {"view.shutter", [](Scene& s, const Values& v) { set_number(s.view.shutter, v); },
-     [](const Scene& s) { return number(s.view.shutter); }},
-    {"view.background", [](Scene& s, const Values& v) { set_background(s.view, v); },
-     [](const Scene& s) { return background(s.view.background); }},
-    {"view.theme", [](Scene& s, const Values& v) { s.view.theme = parse_theme(single(v)); },
-     [](const Scene& s) { return Values{exact_text(s.view.theme)}; }},
-    {"time.from", [](Scene& s, const Values& v) { s.time.from = parse_instant(single(v)); },
-     [](const Scene& s) { return instant(s.time.from); }},
-    {"time.to", [](Scene& s, const Values& v) { s.time.to = parse_instant(single(v)); },
-     [](const Scene& s) { return instant(s.time.to); }},
-    {"time.speed", [](Scene& s, const Values& v) { set_speed(s, v); },
-     [](const Scene& s) { return number(s.time.speed); }},
-    {"time.duration", [](Scene& s, const Values& v) { set_duration(s, v); },
-     [](const Scene& s) { return s.pacing.duration_s ? number(*s.pacing.duration_s) : Values(); }},
-    {"time.slow-motion", [](Scene& s, const Values& v) { set_slow_motion(s.pacing, v); },
-     [](const Scene& s) { return slow_motion(s.pacing); }},
-    {"time.freeze",
-     [](Scene& s, const Values& v) { s.pacing.freezes = parse_each(list_of(v), parse_freeze); },
-     [](const Scene& s) { return each(s.pacing.freezes); }},
-    {"time.hold-start", [](Scene& s, const Values& v) { set_number(s.pacing.hold_start_s, v); },
-     [](const Scene& s) { return number(s.pacing.hold_start_s); }},
-    {"time.hold-end", [](Scene& s, const Values& v) { set_number(s.pacing.hold_end_s, v); },
-     [](const Scene& s) { return number(s.pacing.hold_end_s); }},
-    {"time.loop", [](Scene& s, const Values& v) { s.pacing.loop = parse_bool(v); },
-     [](const Scene& s) { return flag(s.pacing.loop); }},
-    {"sound.on", [](Scene& s, const Values& v) { s.sound.on = parse_bool(v); },
-     [](const Scene& s) { return flag(s.sound.on); }},
-    {"show.overlays",
-     [](Scene& s, const Values& v) { s.show.overlays = parse_each(list_of(v), parse_overlay); },
-     [](const Scene& s) { return each(s.show.overlays); }},
-    {"show.panels",
-     [](Scene& s, const Values& v) { s.show.panels = parse_each(list_of(v), parse_panel); },
-     [](const Scene& s) { return each(s.show.panels); }},
-    {"show.title", [](Scene& s, const Values& v) { s.show.title = single(v); },
-     [](const Scene& s) { return Values{s.show.title}; }},
-    {"show.caption", [](Scene& s, const Values& v) { s.show.caption = single(v); },
-     [](const Scene& s) { return Values{s.show.caption}; }},
-    {"show.logo", [](Scene& s, const Values& v) { s.show.logo = single(v); },
-     [](const Scene& s) { return Values{s.show.logo}; }},
-    {"golden.frames", [](Scene& s, const Values& v) { s.golden.frames = list_of(v); },
-     [](const Scene& s) { return s.golden.frames; }},
-    {"golden.size", [](Scene& s, const Values& v) { s.golden.size = parse_size(v); },
-     [](const Scene& s) { return s.golden.size ? size(*s.golden.size) : Values(); }},
+    key<&Scene::system, &BlockSystem::wall_face>("wall.face"),
+    key<&Scene::system, &BlockSystem::blue, &Block::mass>("blue.mass"),
+    key<&Scene::system, &BlockSystem::blue, &Block::position>("blue.position"),
+    key<&Scene::system, &BlockSystem::blue, &Block::velocity>("blue.velocity"),
+    key<&Scene::system, &BlockSystem::blue, &Block::width>("blue.width"),
+    key<&Scene::system, &BlockSystem::red, &Block::mass>("red.mass"),
+    key<&Scene::system, &BlockSystem::red, &Block::position>("red.position"),
+    key<&Scene::system, &BlockSystem::red, &Block::velocity>("red.velocity"),
+    key<&Scene::system, &BlockSystem::red, &Block::width>("red.width"),
+    key<&Scene::view, &View::x>("view.x"),
+    key<&Scene::view, &View::y>("view.y"),
+    SceneKey{"view.size", set_size, size_of},
+    key<&Scene::view, &View::frame_rate>("view.fps"),
+    key<&Scene::view, &View::shutter>("view.shutter"),
+    key<&Scene::view, &View::background>("view.background"),
+    key<&Scene::view, &View::theme>("view.theme"),
+    key<&Scene::time, &TimeSpan::from>("time.from"),
+    key<&Scene::time, &TimeSpan::to>("time.to"),
+    SceneKey{"time.speed", set_speed, speed_of},
+    SceneKey{"time.duration", set_duration, duration_of},
+    SceneKey{"time.slow-motion", set_slow_motion, slow_motion_of},
+    key<&Scene::pacing, &Pacing::freezes>("time.freeze"),
+    key<&Scene::pacing, &Pacing::hold_start_s>("time.hold-start"),
+    key<&Scene::pacing, &Pacing::hold_end_s>("time.hold-end"),
+    key<&Scene::pacing, &Pacing::loop>("time.loop"),
+    key<&Scene::sound, &Sound::on>("sound.on"),
+    key<&Scene::show, &Show::overlays>("show.overlays"),
+    key<&Scene::show, &Show::panels>("show.panels"),
+    key<&Scene::show, &Show::title>("show.title"),
+    key<&Scene::show, &Show::caption>("show.caption"),
+    key<&Scene::show, &Show::logo>("show.logo"),
+    key<&Scene::golden, &Golden::frames>("golden.frames"),
+    key<&Scene::golden, &Golden::size>("golden.size"),
 });
 
 }  // namespace

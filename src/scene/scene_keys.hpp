@@ -11,7 +11,7 @@
 
 namespace piblocks {
 
-/// One text, or those of a list.
+/// One text, or the texts of a list.
 using Values = std::vector<std::string>;
 
 struct SceneKey {
@@ -22,13 +22,13 @@ struct SceneKey {
 
 std::span<const SceneKey> scene_keys();
 
-/// Whether the key is one for a whole film, and not for one of its parts.
+/// Whether the key is for a whole film and not for a segment of a storyboard.
 bool is_film_key(std::string_view key);
 
 /// The value of a key that takes one. @throws UsageError if there are more.
 const std::string& single(const Values& values);
 
-/// One text for a message.
+/// The values as one text for a message.
 std::string joined(const Values& values);
 
 }  // namespace piblocks

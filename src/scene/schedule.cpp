@@ -20,7 +20,7 @@ struct TimedFreeze {
 /// Even motion from one time to another, or a freeze, before its speed is known.
 struct Move {
   Rational from;
-  Rational to;  ///< as `from`, of a freeze
+  Rational to;  ///< the same as `from` for a freeze
   Rational slower = 1;
   Rational frozen_s = 0;
 };
@@ -53,7 +53,7 @@ std::vector<TimedFreeze> freezes_of(const Scene& scene, const CollisionLog& log,
 }
 
 /// @param windows  in order, apart, inside the span
-/// @param freezes    in order, inside the span
+/// @param freezes  in order, inside the span
 std::vector<Move> moves_of(const Span& span, const std::vector<SlowWindow>& windows,
                            const std::vector<TimedFreeze>& freezes) {
   std::vector<Move> moves;
@@ -79,7 +79,7 @@ std::vector<Move> moves_of(const Span& span, const std::vector<SlowWindow>& wind
   return moves;
 }
 
-/// The speed at which the moves take as long as the scene wants its video to be.
+/// The speed that gives the video the duration that the scene asks for.
 Rational speed_for_duration(const Scene& scene, const std::vector<Move>& moves,
                             const Holds& holds) {
   const Rational& duration_s = *scene.pacing.duration_s;
@@ -130,7 +130,7 @@ std::vector<Stretch> played_back(std::vector<Stretch> stretches, const Rational&
     back.add(stretch->time + stretch->speed * length_s, -stretch->speed, stretch->slower, length_s);
     end_s = stretch->video_s;
   }
-  // A stretch that begins at the last frame would have no length: the way back begins there.
+  // A stretch that begins at the last frame would have no length, since the way back begins there.
   if (stretches.back().video_s == last_frame_s) stretches.pop_back();
   stretches.insert(stretches.end(), back.stretches.begin(), back.stretches.end());
   return stretches;

@@ -1,6 +1,6 @@
 // Which instant of the run the video shows at each of its times.
-// In: a scene and its collision log. Out: stretches of video in which simulation time runs evenly,
-// exactly rational, without gaps. Pictures and sound follow the same ones.
+// In: a scene and its collision log. Out: exact stretches of video without gaps, in each of which
+// simulation time runs evenly. Pictures and sound follow the same stretches.
 #pragma once
 
 #include <piblocks/run.hpp>
@@ -25,19 +25,19 @@ struct Stretch {
   Rational slower = 1;  ///< how many times slower than the scene runs elsewhere
 };
 
-/// Simulation time that runs evenly, in either direction or not at all, during a part of an
+/// Simulation time that runs evenly, in either direction or not at all, during a share of an
 /// interval of video.
 struct TimeSlice {
   Rational from;
   Rational to;
-  Rational share;  ///< of that interval
+  Rational share;
 };
 
-/// What a picture shows of time.
+/// The time that a picture shows.
 struct FrameTime {
   Rational time;
   Rational slower = 1;  ///< as in Stretch
-  /// What passes while the shutter is open, in order; empty if there is none.
+  /// The times while the shutter is open, in order; empty without a shutter.
   std::vector<TimeSlice> exposure = {};
 };
 
@@ -78,8 +78,8 @@ class Schedule {
   /// or, if no frame does, where the video first passes it between two frames. Nothing if it never
   /// does.
   std::optional<Rational> first_shown_s(const Rational& time) const;
-  /// What passes from `video_s` >= 0 on, for a length > 0, in order; shares add up to 1. Past the
-  /// end the last stretch goes on.
+  /// The times shown from `video_s` >= 0 on, for a length > 0, in order; shares add up to 1. Past
+  /// the end the last stretch goes on.
   std::vector<TimeSlice> during(const Rational& video_s, const Rational& length_s) const;
 
  private:

@@ -21,17 +21,17 @@ struct ScriptBuilder::State {
     std::string origin;
     std::string key;
   };
-  SceneDraft film{"scene"};  // of a storyboard: what holds for all parts
+  SceneDraft film{"scene"};  // in a storyboard the values for all parts
   std::string path;
   std::vector<TomlTable> parts;
-  std::vector<std::string> problems;  // of what is no part
+  std::vector<std::string> problems;  // of entries that are no parts
   std::vector<SetKey> set_keys;       // by set(), in order
 
   void add_problem(std::size_t line, const std::string& text) {
     problems.push_back(fmt::format("{}:{}: {}", path, line, text));
   }
 
-  /// Keys of one run that were set from outside of the storyboard, before it was read or after.
+  /// Keys of a single run that set() got, though the file is a storyboard.
   std::vector<std::string> misplaced_keys() const {
     std::vector<std::string> misplaced;
     for (const auto& [origin, key] : set_keys) {
@@ -63,10 +63,10 @@ void ScriptBuilder::read_file(const std::string& path) {
   });
   state_->film.read(path, root);
   std::vector<TomlTable>& parts = state_->parts;
-  if (parts.size() > kMaxStoryParts) {
-    state_->add_problem(parts[kMaxStoryParts].line,
-                        fmt::format("part: there must be at most {} of them", kMaxStoryParts));
-    parts.resize(kMaxStoryParts);
+  if (parts.size() > kMaxSegments) {
+    state_->add_problem(parts[kMaxSegments].line,
+                        fmt::format("part: there must be at most {} of them", kMaxSegments));
+    parts.resize(kMaxSegments);
   }
 }
 
@@ -80,13 +80,13 @@ Script ScriptBuilder::build() const {
   if (state_->parts.empty() && state_->problems.empty()) return build_scene();
   std::vector<std::string> problems = state_->problems;
   const auto add = [&](const std::vector<std::string>& more) {
-    // What is wrong for every part is told once.
+    // A problem of every part is reported once.
     for (const std::string& problem : more) {
       if (std::ranges::count(problems, problem) == 0) problems.push_back(problem);
     }
   };
   if (!state_->parts.empty()) add(state_->misplaced_keys());
-  add(state_->film.film_problems());
+  add(state_->film.problems(true));
   StoryReader reader(state_->path, state_->film);
   for (const TomlTable& part : state_->parts) reader.read(part);
   add(reader.problems());

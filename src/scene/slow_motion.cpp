@@ -13,14 +13,14 @@ namespace {
 
 constexpr const char* kKey = "time.slow-motion";
 
-// Automatic windows are around the turn. Each is 10 times slower than the one around it, and would
-// show 3 s of video on either side of the turn if no other were inside it. There are so many that
-// at most 10 collisions happen in a second of the innermost one.
+// Automatic windows are nested around the turn. Each is 10 times slower than the one around it, and
+// alone would show 3 s of video on either side of the turn. Windows are added until at most 10
+// collisions happen in a second of the innermost one.
 constexpr int kHalfWindow_s = 3;
 constexpr int kStep = 10;
 constexpr double kTellApart_hz = 10;
 
-/// Collisions per second of video at the turn: one takes theta b/|V| (the notation is that of
+/// Collisions per second of video at the turn, where each takes theta b/|V| (notation:
 /// src/physics/README.md). Infinite if all happen at once.
 double rate_at_turn(const BlockSystem& system, const Rational& speed) {
   constexpr mpfr_prec_t kBits = 64;  // squares of velocities can be beyond the range of a double

@@ -18,7 +18,7 @@ struct SlowWindow {
   Rational factor;
 };
 
-/// As time_of(instant, log), for the value of a key, which messages name.
+/// time_of(instant, log) for the value of a key, which messages name.
 Rational time_of(const Instant& instant, const char* key, const CollisionLog& log);
 
 /// @throws UsageError as time_of(), if windows overlap or end before they begin, or if one that the

@@ -9,13 +9,11 @@
 #include <string_view>
 #include <utility>
 
+#include "scene/rules.hpp"
 #include "scene/scene_keys.hpp"
-#include "scene/story_part.hpp"
 
 namespace piblocks {
 namespace {
-
-constexpr auto kPartKeys = std::to_array<std::string_view>({"card", "seconds", "compare", "fade"});
 
 const TomlEntry* find(const TomlTable& table, std::string_view key) {
   const auto found = std::ranges::find(table.entries, key, &TomlEntry::key);
@@ -45,29 +43,29 @@ StoryReader::StoryReader(std::string path, const SceneDraft& film)
 
 void StoryReader::read(const TomlTable& table) {
   Places places;
-  StoryPart part = part_of(table, places);
-  for (const Problem& problem : problems_of(part, story_.parts.empty())) {
-    // What is wrong with text that could not be read is told already.
+  Segment segment = segment_of(table, places);
+  for (const Problem& problem : problems_of(segment, story_.segments.empty())) {
+    // Text that could not be read has been reported already.
     const auto place = places.find(problem.key);
-    const bool is_told = place == places.end() && find(table, problem.key) != nullptr;
-    if (is_told) continue;
+    const bool is_reported = place == places.end() && find(table, problem.key) != nullptr;
+    if (is_reported) continue;
     problems_.push_back(fmt::format("{}: {} {}",
-                                    place == places.end() ? part.origin : place->second,
+                                    place == places.end() ? segment.origin : place->second,
                                     problem.key, problem.reason));
   }
-  story_.parts.push_back(std::move(part));
+  story_.segments.push_back(std::move(segment));
 }
 
-StoryPart StoryReader::part_of(const TomlTable& table, Places& places) {
-  StoryPart part;
-  part.origin = fmt::format("{}:{}", path_, table.line);
-  take(table, "fade", part.fade_s, number_of, places);
+Segment StoryReader::segment_of(const TomlTable& table, Places& places) {
+  Segment segment;
+  segment.origin = fmt::format("{}:{}", path_, table.line);
+  take(table, "fade", segment.fade_s, number_of, places);
   if (find(table, "card") != nullptr) {
-    part.content = card_of(table, places);
+    segment.content = card_of(table, places);
   } else {
-    part.content = runs_of(table);
+    segment.content = runs_of(table);
   }
-  return part;
+  return segment;
 }
 
 Card StoryReader::card_of(const TomlTable& table, Places& places) {
@@ -81,17 +79,29 @@ Card StoryReader::card_of(const TomlTable& table, Places& places) {
   return card;
 }
 
-Runs StoryReader::runs_of(const TomlTable& table) {
+template <typename Rule>
+TomlTable StoryReader::checked(const TomlTable& table, const Rule& problem_of) {
   TomlTable keys{{}, table.line};
   for (const TomlEntry& entry : table.entries) {
-    if (entry.key == "seconds") {
-      add_problem(entry, "is the length of a card; a run has time.duration");
-    } else if (is_film_key(entry.key)) {
-      add_problem(entry, "holds for the whole film; put it above the parts");
-    } else if (std::ranges::count(kPartKeys, entry.key) == 0) {
+    const char* const problem = is_film_key(entry.key)
+                                    ? "holds for the whole film; put it above the parts"
+                                    : problem_of(entry.key);
+    if (problem != nullptr) {
+      add_problem(entry, problem);
+    } else {
       keys.entries.push_back(entry);
     }
   }
+  return keys;
+}
+
+Runs StoryReader::runs_of(const TomlTable& table) {
+  TomlTable keys = checked(table, [](const std::string& key) {
+    return key == "seconds" ? "is the length of a card; a run has time.duration" : nullptr;
+  });
+  std::erase_if(keys.entries, [](const TomlEntry& entry) {
+    return entry.key == "compare" || entry.key == "fade";
+  });
   SceneDraft common = film_.next(fmt::format("{}:{}", path_, table.line));
   common.read(path_, keys);
   std::vector<SceneDraft> drafts = {common};
@@ -104,7 +114,7 @@ Runs StoryReader::runs_of(const TomlTable& table) {
   return runs;
 }
 
-/// What the part says holds for each of them.
+/// The values of the part hold for each of the compared runs.
 std::vector<SceneDraft> StoryReader::compared(const TomlEntry& compare, const SceneDraft& common) {
   if (compare.tables.size() < 2 || compare.tables.size() > kMaxCompared) {
     add_problem(compare, fmt::format("must be a list of 2 to {} tables, as [{{digits = 1}}, "
@@ -114,22 +124,16 @@ std::vector<SceneDraft> StoryReader::compared(const TomlEntry& compare, const Sc
   }
   std::vector<SceneDraft> drafts;
   for (const TomlTable& table : compare.tables) {
-    TomlTable keys{{}, table.line};
-    for (const TomlEntry& entry : table.entries) {
-      if (is_film_key(entry.key)) {
-        add_problem(entry, "holds for the whole film; put it above the parts");
-      } else if (entry.key.starts_with("time.")) {
-        add_problem(entry, "what is compared has one clock; say it for the part");
-      } else {
-        keys.entries.push_back(entry);
-      }
-    }
-    drafts.emplace_back(common).read(path_, keys);
+    drafts.emplace_back(common).read(
+        path_, checked(table, [](const std::string& key) {
+          return key.starts_with("time.") ? "what is compared has one clock; say it for the part"
+                                          : nullptr;
+        }));
   }
   return drafts;
 }
 
-/// Takes the key's value if the table has it, and notes its place, or what is wrong with its text.
+/// Takes the value of the key if the table has it, and notes its place or its problem.
 template <typename Target, typename Parse>
 void StoryReader::take(const TomlTable& table, const char* key, Target& target, const Parse& parse,
                        Places& places) {

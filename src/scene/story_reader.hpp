@@ -1,6 +1,5 @@
 // The parts of a storyboard, from the tables of its file.
-// In: what holds for all parts, and a table for each. Out: the storyboard, and what is wrong with
-// it.
+// In: the values for all parts, and a table for each. Out: the storyboard, and its problems.
 #pragma once
 
 #include <piblocks/script.hpp>
@@ -19,20 +18,22 @@ class StoryReader {
   /// @param path  of the file, named in messages.
   StoryReader(std::string path, const SceneDraft& film);
 
-  /// Adds the part that a [[part]] describes.
+  /// Adds the segment that a [[part]] describes.
   void read(const TomlTable& table);
 
   const Storyboard& story() const { return story_; }
-  /// Of the parts.
   const std::vector<std::string>& problems() const { return problems_; }
 
  private:
-  /// Where the keys of a part stand that are no scene's.
+  /// Places in the file of the keys that are not a scene's, by key.
   using Places = std::map<std::string, std::string>;
 
-  StoryPart part_of(const TomlTable& table, Places& places);
+  Segment segment_of(const TomlTable& table, Places& places);
   Card card_of(const TomlTable& table, Places& places);
   Runs runs_of(const TomlTable& table);
+  /// The keys of one scene. @param problem_of  says why a key may not be here, or nullptr.
+  template <typename Rule>
+  TomlTable checked(const TomlTable& table, const Rule& problem_of);
   std::vector<SceneDraft> compared(const TomlEntry& compare, const SceneDraft& common);
   template <typename Target, typename Parse>
   void take(const TomlTable& table, const char* key, Target& target, const Parse& parse,

@@ -11,7 +11,8 @@
 #include <fstream>
 #include <optional>
 #include <string_view>
-#include <system_error>
+
+#include "core/descriptor.hpp"
 
 namespace piblocks {
 namespace {
@@ -23,8 +24,7 @@ std::string read_text(const std::string& path) {
   std::string text(kMaxSceneFile_bytes + 1, '\0');
   if (file) file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (!file.eof() && file.fail()) {
-    throw SceneError(
-        fmt::format("scene: cannot read '{}': {}", path, std::generic_category().message(errno)));
+    throw SceneError(fmt::format("scene: cannot read '{}': {}", path, error_text(errno)));
   }
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > kMaxSceneFile_bytes) {
@@ -67,12 +67,12 @@ class SourceText {
   std::vector<std::string_view> lines_;
 };
 
-/// No key of a scene has as many. toml++ keeps a table for each but the last, and removes tables
-/// within tables by recursion.
+/// More than any key of a scene has. toml++ makes a nested table for each part and destroys them by
+/// recursion.
 constexpr int kMostKeyParts = 16;
 
-/// The end of a string that begins here; a string without an end goes on to that of its line, or of
-/// the text.
+/// The end of a string that begins here; a string without a closing quote ends with its line or
+/// with the text.
 std::size_t end_of_string(std::string_view text, std::size_t begin) {
   const char quote = text[begin];
   const std::string triple(3, quote);
@@ -113,7 +113,7 @@ void check_keys(const std::string& path, std::string_view text) {
   }
 }
 
-/// Tables of toml++ as ours.
+/// Makes our tables from those of toml++.
 class Reader {
  public:
   explicit Reader(const SourceText& source) : source_(source) {}
@@ -140,13 +140,13 @@ class Reader {
     if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
     if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
     if (!node.is_floating_point()) return std::nullopt;
-    // As it stands in the file: toml++ keeps the nearest double only.
+    // From the file: toml++ keeps only the nearest double.
     std::string text(source_.of(node.source()));
     std::erase(text, '_');
     return text;
   }
 
-  /// Those of a list that has nothing but tables.
+  /// The tables of a list that has only tables; otherwise none.
   std::vector<TomlTable> tables_of(const toml::array& list) const {
     std::vector<TomlTable> tables;
     for (const toml::node& element : list) {

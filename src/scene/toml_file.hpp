@@ -14,7 +14,7 @@ struct TomlEntry {
   std::vector<std::string> values;  ///< decimals as they stand in the file
   std::vector<TomlTable> tables;    ///< of a list of tables, which has no values
   std::size_t line = 0;             ///< from 1
-  std::string problem;              ///< why there are no values, if so
+  std::string problem;              ///< why there are no values, if there are none
 };
 
 struct TomlTable {

@@ -73,7 +73,7 @@ void ClackStream::enter_stretch() {
   // Exact, as for the pictures: a collision just there may have to wait until the film moves on.
   const bool is_early = sample_ < stretch().begin && stretch().time_per_sample > 0;
   const Rational time = is_early ? to_rational(stretch().time_at(sample_)) : stretch().begin_time;
-  count_ = log_.flight_at(time).count;
+  count_ = log_.state_at(time).count;
 }
 
 void ClackStream::read_until(std::int64_t sample, std::vector<Clack>& clacks) {
@@ -92,13 +92,13 @@ Integer ClackStream::count_at(double sample) const {
   const Time time = stretch().time_at(sample);
   // In such slow motion the rounding of count_near() would be audible.
   const bool is_slow = std::fabs(stretch().time_per_sample) < 0x1p-45 * std::fabs(time.hi);
-  return is_slow ? log_.flight_at(to_rational(time)).count : count_near(log_, time);
+  return is_slow ? log_.state_at(to_rational(time)).count : count_near(log_, time);
 }
 
 /// Within a stretch it does not matter in which piece a collision is found, if none is found twice.
 Integer ClackStream::count_at_end(double end, bool is_last) const {
   if (stretch().time_per_sample == 0) return count_;
-  const Integer count = is_last ? log_.flight_at(stretch().end_time).count : count_at(end);
+  const Integer count = is_last ? log_.state_at(stretch().end_time).count : count_at(end);
   return stretch().time_per_sample > 0 ? std::max(count, count_) : std::min(count, count_);
 }
 

@@ -29,7 +29,7 @@ class ClackStream {
 
   /// Appends the clacks before this sample that were not read yet. None is more than an eighth of a
   /// sample earlier than the one before it.
-  /// @throws SimulationError as CollisionLog::flight_at().
+  /// @throws SimulationError as CollisionLog::state_at().
   void read_until(std::int64_t sample, std::vector<Clack>& clacks);
 
  private:

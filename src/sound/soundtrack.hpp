@@ -33,7 +33,7 @@ class Soundtrack {
   std::int64_t size() const noexcept { return size_; }
   /// Writes the next samples, left and right in turn, from -1 to 1.
   /// @return how many pairs; less than there is room for only at the end.
-  /// @throws SimulationError as CollisionLog::flight_at().
+  /// @throws SimulationError as CollisionLog::state_at().
   std::size_t read(std::span<float> samples);
 
  private:

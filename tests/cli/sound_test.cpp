@@ -70,7 +70,7 @@ TEST_F(SoundTest, ClacksOfTheVideoAreWhereThoseOfTheSoundAloneAre) {
     ASSERT_GE(decoded.size(), sound.size());
     const auto log = make_collision_log(article_system(std::stoi(digits)));
     for (Integer index = 1; index <= log->size(); ++index) {
-      const auto at = std::size_t(log->at(index).time.hi * 48000);
+      const auto at = std::size_t(log->collision(index).time.hi * 48000);
       EXPECT_LE(std::abs(lag(sound, decoded, at - 50, at + 400)), 1) << index.get_str();
     }
     EXPECT_EQ(lag(sound, decoded, 0, sound.size() - 20), 0);
@@ -102,7 +102,7 @@ TEST_F(SoundTest, IsInPlaceInEveryKindOfVideo) {
     const std::vector<float> decoded = left(name);
     ASSERT_GE(decoded.size() + 20, sound.size()) << name;
     for (Integer index = 1; index <= log->size(); ++index) {
-      const auto at = std::size_t(log->at(index).time.hi * 48000);
+      const auto at = std::size_t(log->collision(index).time.hi * 48000);
       EXPECT_LE(std::abs(lag(sound, decoded, at - 50, at + 400)), 1) << name << ", " << index;
     }
   }

@@ -62,7 +62,7 @@ TEST_F(FileSetTest, TakesAllNamesBackWhereOneCannotBeTaken) {
   FileSet set(folder_.path(), "set");
   for (const char* name : {"1", "2"}) set.add(name, bytes_of("new"));
   set.remove("3");
-  fs::remove(set.workshop() / "new/2");
+  fs::remove(set.temporary_folder() / "new/2");
   EXPECT_THROW(set.commit(), IoError);
   Files left = files();
   std::erase_if(left, [](const auto& file) { return file.second == "folder"; });
@@ -92,8 +92,8 @@ TEST_F(FileSetTest, HasNoRivalUnlessThatIsAllowed) {
   const FileSet first(folder_.path(), "set");
   EXPECT_THROW(FileSet(folder_.path(), "set"), UsageError);
   EXPECT_NO_THROW(FileSet(folder_.path(), "another"));
-  EXPECT_NO_THROW(FileSet(folder_.path(), "set", Unfinished::Rivals::allowed));
-  EXPECT_TRUE(fs::exists(first.workshop()));
+  EXPECT_NO_THROW(FileSet(folder_.path(), "set", Unfinished::Sharing::shared));
+  EXPECT_TRUE(fs::exists(first.temporary_folder()));
 }
 
 /// The state in which SIGKILL leaves a set whose first file has its name.
@@ -103,7 +103,7 @@ TEST_F(FileSetTest, CompletesWhatAKilledProcessHadBegunToRename) {
   fs::path dead;
   {
     FileSet set(folder_.path(), "set");
-    dead = set.workshop();
+    dead = set.temporary_folder();
   }
   for (const char* name : {"new", "old"}) fs::create_directories(dead / name);
   std::ofstream(dead / "old/1") << "old";
@@ -118,7 +118,7 @@ TEST_F(FileSetTest, RemovesWhatAKilledProcessHadOnlyToRemove) {
   fs::path dead;
   {
     FileSet set(folder_.path(), "set");
-    dead = set.workshop();
+    dead = set.temporary_folder();
   }
   fs::create_directories(dead / "old");
   std::ofstream(dead / "old/1") << "old";
@@ -132,7 +132,7 @@ TEST_F(FileSetTest, DropsWhatAKilledProcessHadNotBegunToRename) {
   fs::path dead;
   {
     FileSet set(folder_.path(), "set");
-    dead = set.workshop();
+    dead = set.temporary_folder();
   }
   fs::create_directories(dead / "new");
   std::ofstream(dead / "new/1") << "ne";

@@ -48,7 +48,7 @@ struct Pictures {
       : log(make_collision_log(scene.system)), composition(scene, *log) {}
 
   DrawList at(const Rational& time, const Rational& slower = 1) const {
-    return composition.frame({state_at(*log, time), time, slower});
+    return composition.frame({log->state_at(time), time, slower});
   }
 
   std::unique_ptr<CollisionLog> log;

@@ -26,7 +26,7 @@ class Labels {
         composition_(scene_, *log_) {}
 
   DrawList at(const Rational& time) const {
-    return composition_.frame({state_at(*log_, time), time});
+    return composition_.frame({log_->state_at(time), time});
   }
   DrawList after(int count) const { return composition_.frame({state_after(*log_, count)}); }
 
@@ -120,7 +120,7 @@ TEST(Labels, FiguresOfVelocitiesAreWholeAndOfBlocksInTheFrame) {
     scene.view.x = view;
     const auto log = make_collision_log(scene.system);
     const std::vector<TextItem> figures =
-        texts_of(Composition(scene, *log).frame({state_at(*log, 0)}), ItemId::velocities);
+        texts_of(Composition(scene, *log).frame({log->state_at(0)}), ItemId::velocities);
     EXPECT_EQ(figures.size(), count) << red_position;
     for (const TextItem& figure : figures) {
       EXPECT_GE(figure.origin.x, 0) << red_position;

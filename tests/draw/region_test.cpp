@@ -74,7 +74,7 @@ double area(std::span<const PixelRect> rects) {
 }
 
 DrawList frame(const Composition& composition, const CollisionLog& log, const Rational& time) {
-  return composition.frame({state_at(log, time), time});
+  return composition.frame({log.state_at(time), time});
 }
 
 void expect_exact_updates(Background background) {

@@ -15,7 +15,7 @@ void ask(const Scene& scene) {
   const auto log = make_collision_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   for (const std::int64_t frame : {std::int64_t{0}, film_frames(schedule) - 1}) {
-    state_at(*log, schedule.time_of(frame));
+    log->state_at(schedule.time_of(frame));
   }
 }
 
@@ -23,8 +23,8 @@ void ask(const Scene& scene) {
 void ask(const Storyboard& story) {
   if (!problems_of(story).empty()) std::abort();
   describe(story);
-  for (const StoryPart& part : story.parts) {
-    if (const auto* runs = std::get_if<Runs>(&part.content)) {
+  for (const Segment& segment : story.segments) {
+    if (const auto* runs = std::get_if<Runs>(&segment.content)) {
       for (const Scene& run : *runs) ask(run);
     }
   }

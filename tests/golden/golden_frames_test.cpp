@@ -17,7 +17,7 @@
 
 #include "draw/canvas.hpp"
 #include "draw/composition.hpp"
-#include "physics/expose.hpp"
+#include "physics/exposure.hpp"
 
 namespace piblocks {
 namespace {
@@ -125,7 +125,7 @@ DrawList draw_list_of(const GoldenFrame& frame) {
     const Rational open_s = scene.view.shutter / scene.view.frame_rate;
     exposure.push_back({1, expose(*log, time, time + scene.time.speed * open_s)});
   }
-  return Composition(scene, *log).frame({state_at(*log, time), time}, exposure);
+  return Composition(scene, *log).frame({log->state_at(time), time}, exposure);
 }
 
 struct SurfaceDeleter {

@@ -67,7 +67,7 @@ Texts long_token_texts() {
   return all;
 }
 
-/// Codes that begin with one another, or of which one is missing or one too many.
+/// Codes that begin with other codes, missing codes, and surplus codes.
 Texts faults_of(const Texts& codes, const std::set<std::size_t>& places) {
   Texts faults;
   for (std::size_t i = 0; i < codes.size(); ++i) {
@@ -346,10 +346,10 @@ struct Limit {
 /// levelCode is at most 30 + 4095 without a suffix, and (15 << suffixLength) + 4095 with one.
 TEST(Cavlc, RefusesWhatTheEscapeCannotHold) {
   const std::vector<Limit> limits = {{{}, 2064},      // no suffix; 1 and -1 are not among its codes
-                                     {{1, 1}, 2064},  // so too
+                                     {{1, 1}, 2064},  // the same
                                      {{1, 1, 1}, 2063},                       // no suffix
                                      {{1, 1, 1, 1}, 2063},                    // suffixes of 1 bit
-                                     {{2, 1, 1, 1, 1, 1, 1, 1, 1, 1}, 2063},  // so too
+                                     {{2, 1, 1, 1, 1, 1, 1, 1, 1, 1}, 2063},  // the same
                                      {{4}, 2078},                             // 2 bits
                                      {{4, 7}, 2108},
                                      {{4, 7, 13}, 2168},

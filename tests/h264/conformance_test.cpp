@@ -1,4 +1,4 @@
-// Whether decoders show what the encoder believes they show, sample for sample.
+// Decoders show the encoder's decoded pictures, sample for sample.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -16,7 +16,7 @@ namespace {
 
 using Row = std::vector<int>;
 
-/// The samples above and left; nothing where there are none.
+/// The samples above and left; empty where the picture ends.
 struct Sides {
   Row above;
   Row left;
@@ -24,7 +24,7 @@ struct Sides {
 
 int sum_of(std::span<const int> values) { return std::accumulate(values.begin(), values.end(), 0); }
 
-/// 8.3.1.2.3, 8.3.3.3: the rounded mean of what is there.
+/// 8.3.1.2.3, 8.3.3.3: the rounded mean of the samples that exist.
 int mean(const Sides& sides) {
   const int count = static_cast<int>(sides.above.size() + sides.left.size());
   if (count == 0) return 128;
@@ -77,7 +77,7 @@ Sides sides_of(const Borders& borders, int plane) {
 
 class IntraPredictionTest : public testing::Test {
  protected:
-  /// With and without neighbours, for every way that can be.
+  /// With and without neighbours, for every possible mode.
   void for_each_case(const std::function<void(PredMode, bool, bool)>& check) {
     constexpr int kTimes = 50;
     SCOPED_TRACE(random_.trace());

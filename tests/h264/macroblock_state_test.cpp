@@ -1,4 +1,4 @@
-// Contexts and predicted modes, looked up in a picture as a whole.
+// nC and predicted modes, against those found in a whole picture.
 #include "h264/macroblock_state.hpp"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ class MacroblockStateTest : public testing::Test {
   std::vector<MacroblockState> states_;
 };
 
-TEST_F(MacroblockStateTest, MeansOfNeighboursAreTheContext) {
+TEST_F(MacroblockStateTest, NcIsTheMeanOfNeighbours) {
   for (int plane = 0; plane < 3; ++plane) {
     const int side = plane == 0 ? 4 : 2;
     for (int y = 0; y < kHeight * side; ++y) {
@@ -68,7 +68,7 @@ TEST_F(MacroblockStateTest, MeansOfNeighboursAreTheContext) {
 TEST_F(MacroblockStateTest, TheLesserOfTheNeighboursModesIsPredicted) {
   for (int y = 0; y < 4 * kHeight; ++y) {
     for (int x = 0; x < 4 * kWidth; ++x) {
-      // 8.3.1.1: DC, where one of the two is not there.
+      // 8.3.1.1: DC if one of the two does not exist.
       const int expected = x > 0 && y > 0 ? std::min(mode(x - 1, y), mode(x, y - 1)) : 2;
       EXPECT_EQ(predicted_mode(at(x / 4, y / 4), beside(x / 4, y / 4), {x % 4, y % 4}), expected)
           << "block " << x << ", " << y;
@@ -76,7 +76,7 @@ TEST_F(MacroblockStateTest, TheLesserOfTheNeighboursModesIsPredicted) {
   }
 }
 
-TEST_F(MacroblockStateTest, BeginsAsThatOfOneThatIsSkipped) {
+TEST_F(MacroblockStateTest, BeginsAsThatOfASkippedMacroblock) {
   const MacroblockState state;
   EXPECT_TRUE(std::ranges::all_of(state.total_coeff, [](int total) { return total == 0; }));
   EXPECT_TRUE(std::ranges::all_of(state.pred_modes, [](int mode) { return mode == 2; }));

@@ -1,4 +1,4 @@
-// How macroblocks come to be coded.
+// The choice of mb_type, its bits and its samples.
 #include "h264/macroblock.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ constexpr int kDefaultQp = 14;
 /// A.3.1
 constexpr std::size_t kMostBits = 3200;
 
-/// What may stay uncorrected, in every sample.
+/// The largest difference that may stay uncorrected.
 int cap(int qp) { return 1 + (1 << qp / 6) / 4; }
 
 std::uint8_t byte(std::int64_t value) {
@@ -29,7 +29,7 @@ Samples flat(int value) {
   return samples;
 }
 
-/// Black strokes on white, which is what has to stay readable.
+/// Black strokes on white, which have to stay readable.
 Samples text(Random& random) {
   Samples samples = flat(235);
   for (auto& value : samples.values) value = random.integer(0, 7) == 0 ? 16 : value;
@@ -54,7 +54,7 @@ Samples random_samples(Random& random) {
   }
 }
 
-/// A P macroblock inside the picture, with everything beside it and before it of one value.
+/// A P macroblock inside the picture, with one value beside it.
 MacroblockInput inside(const Samples& source, const Samples& before, int beside) {
   static const MacroblockState skipped;
   MacroblockInput input{};
@@ -71,7 +71,7 @@ MacroblockInput inside(const Samples& source, const Samples& before, int beside)
   return input;
 }
 
-/// Anything anywhere, sometimes nearly what was there or what is beside it.
+/// Random samples, sometimes nearly equal to those before or beside them.
 class RandomInputs {
  public:
   explicit RandomInputs(Random& random) : random_(random) {}
@@ -116,7 +116,7 @@ class RandomInputs {
   MacroblockState left_;
 };
 
-/// Of the macroblock alone, wherever in a byte it begins.
+/// For every position in a byte at which the macroblock may begin.
 std::size_t most_bits(SliceType slice_type, const CodedMacroblock& coded) {
   if (coded.type != MbType::i_pcm) return coded.bits.bit_count();
   std::size_t most = 0;
@@ -261,7 +261,7 @@ TEST(MacroblockCoder, NeverTakesMoreBitsThanAMacroblockMayHave) {
   for (const int count : types) EXPECT_GT(count, 50);  // no type goes untested
 }
 
-// What is uncorrected stays until the place changes again, however long that takes.
+// Uncorrected samples stay until the macroblock changes again.
 TEST(MacroblockCoder, LeavesNoSampleFarOffWithoutCorrection) {
   constexpr int kTimes = 200;
   Random random(4);

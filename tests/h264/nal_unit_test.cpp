@@ -16,7 +16,7 @@ Bytes unit_of(const Bytes& rbsp, UnitType type = UnitType::slice, int nal_ref_id
   return stream;
 }
 
-/// What stands in a unit for these bytes.
+/// The bytes of a unit behind its header.
 Bytes payload_of(const Bytes& rbsp) {
   const Bytes stream = unit_of(rbsp);
   return {stream.begin() + 5, stream.end()};
@@ -45,7 +45,7 @@ TEST(NalUnit, PreventsWhatStartCodesConsistOf) {
   EXPECT_EQ(payload_of({0, 0, 0, 0, 0, 1}), (Bytes{0, 0, 3, 0, 0, 3, 0, 1}));
 }
 
-/// The words of zeros that may follow the last bit of an RBSP.
+/// cabac_zero_words may follow the last bit of an RBSP.
 TEST(NalUnit, DoesNotEndInZeros) {
   EXPECT_EQ(payload_of({8, 0, 0}), (Bytes{8, 0, 0, 3}));
   EXPECT_EQ(payload_of({8, 0, 0, 0, 0}), (Bytes{8, 0, 0, 3, 0, 0, 3}));

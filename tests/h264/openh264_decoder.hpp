@@ -30,7 +30,7 @@ class OpenH264Decoder {
     if (decoder->Initialize(&parameters) != 0) throw std::runtime_error("openh264 does not start");
   }
 
-  /// The picture of one access unit, without what is cut off, or nothing.
+  /// The cropped picture of one access unit; nothing if it is damaged.
   std::optional<ShownPicture> decode(const std::vector<std::uint8_t>& unit) {
     std::vector<std::uint8_t> bytes = std::move(headers_);
     headers_.clear();

@@ -18,7 +18,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// What the parameter sets of 7.3.2 say, by the standard's names.
+/// The fields of the parameter sets, 7.3.2.
 struct Headers {
   unsigned profile_idc = 66;
   unsigned sps_id = 0;
@@ -114,7 +114,6 @@ Bytes stream_of(const Headers& headers) {
 using h264::problem_of;
 std::string problem_of(const Headers& headers) { return problem_of(stream_of(headers)); }
 
-/// The same where the message is of the usual form.
 void expect_refused(const Headers& headers, const std::string& property) {
   EXPECT_EQ(problem_of(headers), "h264: cannot continue a stream with " + property);
 }
@@ -275,7 +274,7 @@ bool is_plausible(const ParameterSets& sets) {
          std::abs(sets.chroma_qp_offset) <= 12;
 }
 
-/// One with some bits changed, or shortened.
+/// The stream with some bits changed, or shortened.
 Bytes damaged(Bytes stream, Random& random) {
   for (std::int64_t flips = random.integer(1, 4); flips > 0; --flips) {
     const std::int64_t bit = random.integer(0, std::int64_t(8 * stream.size()) - 1);
@@ -287,7 +286,7 @@ Bytes damaged(Bytes stream, Random& random) {
   return stream;
 }
 
-/// Units of the right types, full of anything.
+/// Units of the right types with random bytes.
 Bytes random_stream(Random& random) {
   Bytes stream;
   for (const UnitType type : {UnitType::sequence_parameters, UnitType::picture_parameters}) {
@@ -298,7 +297,7 @@ Bytes random_stream(Random& random) {
   return stream;
 }
 
-/// Whatever the bytes, there is an answer within range or a HeaderError.
+/// Any bytes give values within range or a HeaderError.
 TEST(ParameterSets, OfAnyBytesAreReadOrRefused) {
   Random random(66);
   SCOPED_TRACE(random.trace());

@@ -85,7 +85,7 @@ TEST_F(PictureEncoderTest, SpendsAFewBytesOnAPictureThatStays) {
   EXPECT_LE(encoder.encode_p(picture_, changed_).size(), kFewBytes);
   EXPECT_EQ(encoder.transformed_macroblocks(), 0);
 
-  // Also if all of it is said to change, but does not.
+  // Also if all macroblocks are marked, but none changes.
   const Picture shown = encoder.decoded();
   changed_.add(0, 0, kFormat.width_px, kFormat.height_px);
   EXPECT_LE(encoder.encode_p(shown, changed_).size(), kFewBytes);
@@ -93,7 +93,7 @@ TEST_F(PictureEncoderTest, SpendsAFewBytesOnAPictureThatStays) {
   EXPECT_EQ(error_of(shown, encoder.decoded()).largest, 0);
 }
 
-TEST_F(PictureEncoderTest, LeavesAloneWhatIsNotSaidToChange) {
+TEST_F(PictureEncoderTest, LeavesUnmarkedMacroblocksAlone) {
   PictureEncoder encoder(headers_.sets, kDefaultQp);
   encoder.encode_idr(picture_);
   const Picture before = encoder.decoded();
@@ -203,7 +203,7 @@ Bytes encode_group(PictureEncoder& encoder, const ParameterSets& sets, std::uint
   return stream;
 }
 
-TEST_F(PictureEncoderTest, MakesTheSameOfAGroupWhateverCameBefore) {
+TEST_F(PictureEncoderTest, MakesTheSameGroupAfterAnyOther) {
   PictureEncoder used(headers_.sets, kDefaultQp);
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     PictureEncoder fresh(headers_.sets, kDefaultQp);

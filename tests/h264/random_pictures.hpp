@@ -1,4 +1,4 @@
-// Pictures that change in some places, of every kind that an encoder can meet.
+// Random pictures of many kinds that change in some places.
 // In: a source of numbers: integer(first, last). Out: a picture, and the rectangles that differ
 // from the one before.
 #pragma once
@@ -33,7 +33,7 @@ class RandomPictures {
     noise,
     little_noise,
     ramp,
-    extremes,      // black and white, in squares
+    extremes,      // black and white, in blocks
     copy,          // of what is elsewhere
     small_change,  // of what was there
     no_change

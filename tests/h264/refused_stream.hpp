@@ -1,4 +1,4 @@
-// What is said of a stream into which slices of ours would not fit.
+// The error for a stream that our slices do not fit.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace piblocks::h264 {
 
-/// "accepted" if nothing is.
+/// "accepted" if there is none.
 inline std::string problem_of(std::span<const std::uint8_t> stream) {
   try {
     read_parameter_sets(stream);

@@ -1,6 +1,6 @@
-// Streams of the encoder, and other people's decoders for them.
-// In: a size, a quantiser, pictures and what changes in them. Out: whether a decoder shows exactly
-// what the encoder believes it shows.
+// Streams of the encoder, and libavcodec's decoder for them.
+// In: a size, a quantiser, pictures and what changes in them. Out: whether the decoder shows
+// exactly the encoder's decoded pictures.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace piblocks::h264 {
 
-/// What libx264 says of its stream at the product's own settings.
+/// libx264's headers with the program's settings.
 struct StreamHeaders {
   explicit StreamHeaders(const VideoFormat& format)
       : encoder(format, h264_choice(format, {}, {EncoderKind::h264})) {
@@ -31,7 +31,7 @@ struct StreamHeaders {
   ParameterSets sets{};
 };
 
-/// A picture in 4:2:0, as a decoder gives it away, until it is called again.
+/// A decoder's picture in 4:2:0, valid until its next call.
 struct ShownPicture {
   int width;
   int height;
@@ -39,7 +39,7 @@ struct ShownPicture {
   std::array<std::ptrdiff_t, 3> strides;
 };
 
-/// libavcodec's decoder, which is to take offence at everything.
+/// libavcodec's decoder, which rejects every error.
 class StrictDecoder {
  public:
   explicit StrictDecoder(const std::vector<std::uint8_t>& headers) {
@@ -49,7 +49,7 @@ class StrictDecoder {
                                 AV_EF_CAREFUL | AV_EF_COMPLIANT | AV_EF_AGGRESSIVE;
     context_->thread_count = 1;
     context_->flags |= AV_CODEC_FLAG_LOW_DELAY;
-    context_->apply_cropping = 0;  // what is predicted from has to be right too
+    context_->apply_cropping = 0;  // predictions use cropped samples too
     context_->extradata =
         static_cast<std::uint8_t*>(av_mallocz(headers.size() + AV_INPUT_BUFFER_PADDING_SIZE));
     std::copy(headers.begin(), headers.end(), context_->extradata);
@@ -59,7 +59,7 @@ class StrictDecoder {
     packet_ = own_av<AvPacketPtr>(av_packet_alloc(), "packet");
   }
 
-  /// The picture of one access unit, with what is cut off when it is shown, or nothing.
+  /// The picture of one access unit, not cropped; nothing if it is damaged.
   std::optional<ShownPicture> decode(std::vector<std::uint8_t> unit) {
     packet_->size = static_cast<int>(unit.size());
     unit.resize(unit.size() + AV_INPUT_BUFFER_PADDING_SIZE);
@@ -82,7 +82,7 @@ class StrictDecoder {
   AvPacketPtr packet_;
 };
 
-/// "" if every sample that is shown is equal, else where the first one is not.
+/// "" if all shown samples are equal, else where the first difference is.
 inline std::string difference(const Picture& expected, const ShownPicture& shown) {
   for (std::size_t i = 0; i < 3; ++i) {
     const int plane = static_cast<int>(i);

@@ -17,8 +17,8 @@ namespace {
 using Matrix = std::array<std::array<int, 4>, 4>;
 
 constexpr Matrix kForward = {{{1, 1, 1, 1}, {2, 1, -1, -2}, {1, -1, -1, 1}, {1, -2, 2, -1}}};
-/// Decoders reckon with 16 bits. From the next QP on, steps are so large that a level rounded up
-/// may take them beyond that, if a whole square differs by 255 or nearly so.
+/// Decoders compute with 16 bits. From the next QP on, a level rounded up may exceed them if a
+/// whole block differs by about 255.
 constexpr int kLastQpIn16Bits = 48;
 constexpr std::array kRoundings = {Rounding::intra, Rounding::inter};
 
@@ -65,8 +65,8 @@ int norm(int qp, std::size_t i, std::size_t j) {
 /// LevelScale4x4 with weightScale4x4 of 16 throughout.
 int level_scale(int qp, std::size_t i, std::size_t j) { return 16 * norm(qp, i, j); }
 
-/// What a coefficient is multiplied by, so that a level is one step, times 2^15: the inverse of
-/// the norm, and of 16, 25 or 20 for the transform there and back.
+/// The factor from coefficients to levels, times 2^15: the inverse of the norm, and of 16, 25 or 20
+/// for the transform there and back.
 long long factor(int qp, std::size_t i, std::size_t j) {
   const int there_and_back = i % 2 == 0 && j % 2 == 0 ? 16 : i % 2 == 1 && j % 2 == 1 ? 25 : 20;
   return std::llround(std::ldexp(1, 21) / (norm(qp, i, j) * there_and_back));
@@ -107,7 +107,7 @@ constexpr std::array<std::array<std::size_t, 2>, 16> kZigZag = {{{0, 0},
                                                                  {3, 2},
                                                                  {3, 3}}};
 
-/// What a conforming stream keeps within 16 bits (8.5.12.2).
+/// The largest of the numbers that a conforming stream keeps within 16 bits (8.5.12.2).
 class Range {
  public:
   int operator()(int value) {
@@ -154,7 +154,7 @@ std::uint8_t byte(std::int64_t value) {
   return static_cast<std::uint8_t>(std::clamp<std::int64_t>(value, 0, 255));
 }
 
-/// Much or little of a difference, everywhere or at some samples, and what is largest.
+/// Large or small differences, everywhere or at some samples, and the largest ones.
 Pair random_pair(Random& random) {
   Pair pair{};
   const std::int64_t most = std::int64_t{1} << random.integer(0, 8);
@@ -183,7 +183,7 @@ std::string name_of(int qp, Rounding rounding) {
   return "QP " + std::to_string(qp) + (rounding == Rounding::intra ? " intra" : " inter");
 }
 
-/// Compares the whole way of one block, and notes how large its numbers get.
+/// Checks every step for one block, and notes how large its numbers get.
 void check_block(const Quantiser& quantiser, int qp, Rounding rounding, const Pair& pair,
                  Range& range) {
   const Matrix wanted = forward(pair.source, pair.predicted);
@@ -329,7 +329,7 @@ int levels_of(const Quantiser& quantiser, const Pair& pair) {
   return quantiser.quantise(coefficients, levels);
 }
 
-/// Spreads a sum of absolute differences over samples in which a coefficient has most weight.
+/// Spreads a sum of absolute differences over the samples that weigh most in a coefficient.
 Pair worst_pair(int sum, std::size_t i, std::size_t j) {
   Pair pair{};
   int most = 0;

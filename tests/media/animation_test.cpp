@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "media/libav/av_module.hpp"
 #include "media/libav/color_table.hpp"
 #include "media/output/outputs.hpp"
-#include "media/libav/av_module.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
 #include "support/property.hpp"

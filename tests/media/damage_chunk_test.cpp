@@ -35,7 +35,7 @@ const EncoderSettings kDamage = {.encoder = "damage"};
 const EncoderSettings kLibx264 = {.encoder = "libx264"};
 constexpr int kLargestError = 10;
 
-/// The numbers of the frames that can be decoded without any before.
+/// The numbers of the key frames.
 std::vector<std::int64_t> key_frames(const EncodedChunk& chunk) {
   std::vector<std::int64_t> numbers;
   for (const Packet& packet : chunk) {
@@ -44,7 +44,7 @@ std::vector<std::int64_t> key_frames(const EncodedChunk& chunk) {
   return numbers;
 }
 
-/// Only those of the first chunk are random.
+/// The frames of the first chunk are random.
 PaintFrame random_then_article(const VideoFormat& format) {
   return [format](std::int64_t number) {
     return number < kFramesPerChunk ? random_frames(format)(number)
@@ -52,7 +52,7 @@ PaintFrame random_then_article(const VideoFormat& format) {
   };
 }
 
-/// The largest difference of a sample that is shown from the one that was drawn.
+/// The largest difference between a shown and a drawn sample.
 int largest_error(const Pixels& drawn, const h264::ShownPicture& shown) {
   h264::Picture wanted((drawn.width_px + 15) / 16, (drawn.height_px + 15) / 16);
   convert_to_yuv420(drawn.view(), {0, 0, drawn.width_px, drawn.height_px}, view_of(wanted));
@@ -163,7 +163,7 @@ TEST_F(DamageChunkTest, IsTheSameFromManyThreads) {
   EXPECT_TRUE(file_contents(folder_ / "a.mp4") == file_contents(folder_ / "b.mp4"));
 }
 
-TEST_F(DamageChunkTest, ShowsEveryFrameWhoeverCodedIt) {
+TEST_F(DamageChunkTest, ShowsEveryFrameOfBothEncoders) {
   constexpr std::int64_t kFrames = 2 * kFramesPerChunk + 1;  // the last chunk has one frame
   const h264::StreamHeaders headers(kFormat);
   for (const EncoderSettings& settings : {EncoderSettings{}, kDamage}) {
@@ -199,7 +199,7 @@ TEST_F(DamageChunkTest, MakesFilesWithTheExactNumberOfFrames) {
   }
 }
 
-/// Frames of which rectangles change, often by more than what a chunk is left for.
+/// Frames in which rectangles change, often enough to leave a chunk to the stream's encoder.
 class ChangingFrame {
  public:
   ChangingFrame(const VideoFormat& format, Random& random)
@@ -223,7 +223,7 @@ class ChangingFrame {
  private:
   int pick(int first, int last) { return static_cast<int>(random_.integer(first, last)); }
 
-  /// Of one colour, or of many.
+  /// Fills a rectangle with one colour or with many.
   void fill(const PixelRect& rect) {
     const bool is_flat = pick(0, 1) > 0;
     int colour = pick(0, 0xffffff);

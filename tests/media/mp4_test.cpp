@@ -115,7 +115,7 @@ TEST_F(Mp4Test, IsTheSameEachTime) {
   EXPECT_TRUE(first == file_contents(folder_ / "out.mp4"));
 }
 
-TEST_F(Mp4Test, EqualFramesGiveEqualChunksWhateverMemoryHeld) {
+TEST_F(Mp4Test, EqualFramesGiveEqualChunksAfterAnyUseOfMemory) {
   const VideoFormat format = {.width_px = 64, .height_px = 48, .frame_rate = 10};
   if (!has_x264()) GTEST_SKIP() << "presets are libx264's";
   const auto output = set_up_output(folder_ / "out.mp4", format, {.preset = "veryfast"});
@@ -168,7 +168,7 @@ TEST_F(Mp4Test, TakesUnusualFrameRates) {
   }
 }
 
-/// libavformat keeps in 31 bits how many units of time a frame lasts.
+/// libavformat has 31 bits for the duration of a frame.
 TEST_F(Mp4Test, AFrameLastsAsLongAsTheFileCanSay) {
   for (const long numerator : {1L, 3L, 7L, 999L, 10'000L}) {
     long doubled = 1;

@@ -57,10 +57,10 @@ void write(const std::string& path, const EncodedChunk& sound,
   sink->finish();
 }
 
-/// Of a record beside its packets: its kind, their number, a checksum.
+/// A record's kind, number of packets and checksum.
 constexpr std::size_t kRecord_bytes = 1 + 4 + 4;
 
-/// Of packets in a record, each with its two times, its size and whether it is a key frame.
+/// Packets in a record, each with pts, dts, key frame and size.
 std::size_t bytes_of(const EncodedChunk& packets) {
   std::size_t bytes = 0;
   for (const Packet& packet : packets) bytes += 8 + 8 + 1 + 4 + packet.bytes.size();
@@ -86,7 +86,7 @@ EncodedChunk sound_in(const std::string& path) {
   return sound;
 }
 
-/// More than stand together in a file.
+/// More than one record holds.
 EncodedChunk random_sound(Random& random, std::size_t packets) {
   EncodedChunk sound;
   while (sound.size() < packets) {

@@ -106,7 +106,7 @@ TEST(Png, AnUpdateGivesTheBytesOfTheImageAlone) {
   }
 }
 
-/// Any pixels with alpha, none of whose colours is greater than it.
+/// Random pixels, with colours that are not greater than alpha.
 Pixels transparent_frame(Random& random, int width_px, int height_px) {
   Pixels image(width_px, height_px);
   for (std::uint32_t& word : image.words) {

@@ -25,7 +25,7 @@ using testing_support::TemporaryFolder;
 
 const VideoFormat kSmall = {.width_px = 64, .height_px = 36, .frame_rate = 10};
 
-/// What opening says, or "" if it works.
+/// The error of opening, or "" if it works.
 std::string opening_error(const std::string& name, const VideoFormat& format,
                           const EncoderSettings& settings = {}) {
   try {
@@ -191,7 +191,7 @@ TEST_P(EveryFile, RefusesAChunkOutOfOrder) {
   EXPECT_THROW(sink->append(second), MediaError);
 }
 
-/// Lets files grow to so many bytes only, as a full disk would.
+/// Limits the size of files, as a full disk would.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

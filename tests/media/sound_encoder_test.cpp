@@ -1,4 +1,4 @@
-// Sound that is encoded and decoded again is at the same place.
+// Encoded sound is decoded at the same place.
 #include "media/libav/sound_encoder.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kSize = 30000;
 
-/// Decaying tones, at samples that no packet begins with.
+/// Decaying tones that do not begin at packets.
 class Clacks final : public SampleSource {
  public:
   std::size_t read(std::span<float> samples) override {
@@ -40,7 +40,7 @@ std::vector<float> left_of_original() {
   return left;
 }
 
-/// The left channel, each sample at the place that its packet's time says.
+/// The left channel, each sample at the time of its packet.
 std::vector<float> decoded_left(const SoundEncoder& encoder) {
   const AVCodec* const codec = avcodec_find_decoder(encoder.parameters().codec_id);
   auto context = own_av<AvCodecContextPtr>(avcodec_alloc_context3(codec), "decoder");
@@ -54,7 +54,7 @@ std::vector<float> decoded_left(const SoundEncoder& encoder) {
   std::int64_t at = 0;
   bool is_first = true;
   while (auto coded = packets->next()) {
-    // libavcodec's decoder of Opus drops by itself what is before sample 0.
+    // libavcodec's decoder of Opus itself drops what is before sample 0.
     if (is_first) at = codec->id == AV_CODEC_ID_OPUS ? 0 : coded->pts;
     is_first = false;
     av_new_packet(packet.get(), int(coded->bytes.size()));

@@ -32,7 +32,7 @@ AvFramePtr picture_of(Random& random, const AVPixFmtDescriptor& format, int widt
   return picture;
 }
 
-/// Not those of a processor of graphics, whose pictures are not in memory.
+/// Formats whose pictures are in memory, not in a graphics processor.
 std::vector<const AVPixFmtDescriptor*> formats_in_memory() {
   std::vector<const AVPixFmtDescriptor*> formats;
   const AVPixFmtDescriptor* format = nullptr;
@@ -77,7 +77,7 @@ std::vector<Plane> random_planes(Random& random, const AVPixFmtDescriptor& forma
   return planes;
 }
 
-/// Fills the picture, which libavutil does by adding bits to it.
+/// Fills the picture; libavutil only adds bits to it.
 void write_planes(const std::vector<Plane>& planes, const AVPixFmtDescriptor& format,
                   AVFrame& picture) {
   for (std::size_t component = 0; component < planes.size(); ++component) {
@@ -107,7 +107,7 @@ int differing(const Samples& a, const Samples& b) {
   return differing(std::get<DeepImage>(a), std::get<DeepImage>(b));
 }
 
-/// Entries of a random palette are hardly equal.
+/// Hardly any two entries of a random palette are equal.
 TEST(VideoSamples, EverySampleOfEveryFormatIsReadWhereItIs) {
   Random random(41);
   SCOPED_TRACE(random.trace());

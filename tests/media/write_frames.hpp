@@ -29,7 +29,7 @@ inline PaintFrame random_frames(const VideoFormat& format) {
   };
 }
 
-/// Takes the frame as if all of it had changed, and encodes it.
+/// Takes the whole frame, and encodes it.
 inline void add(ChunkEncoder& encoder, const ImageView& frame) {
   const PixelRect whole{0, 0, frame.width_px, frame.height_px};
   encoder.take(frame, {&whole, 1});
@@ -62,8 +62,7 @@ inline void write_frames(const std::string& name, const VideoFormat& format,
   sink->finish();
 }
 
-/// A thread and an encoder for each chunk, the last chunk started first, all of them at work at
-/// once.
+/// A thread and an encoder for each chunk, all at once, the last chunk started first.
 inline void write_frames_by_threads(const std::string& name, const VideoFormat& format,
                                     const EncoderSettings& settings, std::int64_t frames,
                                     const PaintFrame& paint) {

@@ -13,7 +13,7 @@
 namespace piblocks {
 
 void convert_to_yuv420_scalar(const ImageView& image, const PixelRect& rect,
-                              const Yuv420View& picture);
+                              const YuvView<std::uint8_t>& picture);
 
 namespace {
 using testing_support::Pixels;
@@ -30,7 +30,7 @@ struct Picture {
         cb(y.size() / 4, filling),
         cr(y.size() / 4, filling) {}
 
-  Yuv420View view() {
+  YuvView<std::uint8_t> view() {
     return {{y.data(), width_px}, {cb.data(), width_px / 2}, {cr.data(), width_px / 2}};
   }
   std::size_t luma_index(int x, int row) const {
@@ -78,7 +78,7 @@ TEST(Yuv420, LumaIsRightForEveryColour) {
 }
 
 TEST(Yuv420, ChromaIsRightForFlatColours) {
-  // Blocks of 4x2 pixels: the chroma sample on a block's third column sees that block alone.
+  // Blocks of 4x2 pixels: the chroma sample on a block's third column depends on that block alone.
   constexpr int kLevels = 52;  // 0, 5, …, 255
   Pixels pixels(4 * kLevels, 2 * kLevels * kLevels);
   const auto colour = [](int column, int row) {

@@ -17,7 +17,7 @@ namespace piblocks {
 namespace {
 using testing_support::Pixels;
 
-/// Rounded to the nearest, but for the rounding of the expectation.
+/// Half for rounding, and a little for the rounding of the expectation.
 constexpr long double kHalf = 0.5L + 1e-9L;
 
 /// No colour is greater than its alpha.
@@ -55,7 +55,7 @@ struct Exact {
   long double y, cb, cr;
 };
 
-/// ITU-R BT.709-6, 3.2 to 3.4, in limited range of so many bits; black where there is nothing.
+/// ITU-R BT.709-6, 3.2 to 3.4, in limited range of so many bits; black if transparent.
 Exact bt709(const Light& light, int bits) {
   const long double one = std::exp2(static_cast<long double>(bits - 8));
   if (light.alpha == 0) return {16 * one, 128 * one, 128 * one};
@@ -122,7 +122,7 @@ TEST(Yuva444p10, EverySampleIsTheNearest) {
 
 TEST(Yuva444p10, OpaquePixelsNeedNoAlphaPlane) {
   Pixels pixels(3, 1);
-  pixels.words = {0x00ffffff, 0x00000000, 0x00ff0000};  // whatever is in place of alpha
+  pixels.words = {0x00ffffff, 0x00000000, 0x00ff0000};  // any byte may stand for alpha
   Picture<std::uint16_t> picture(3, 1, 1);
   convert_to_yuva444p10(pixels.view(), {0, 0, 3, 1},
                         {picture.y.view(), picture.cb.view(), picture.cr.view(), {}});
@@ -159,7 +159,7 @@ TEST(Yuva420, EverySampleIsTheNearestAndChromaIsWeightedByAlpha) {
 }
 
 TEST(Yuva420, AnEdgeKeepsItsColour) {
-  // Red at the left, nothing at the right: all chroma that sees any red is red's.
+  // Red at the left, transparent at the right: all chroma samples with any red in them are red's.
   Pixels pixels(8, 2);
   for (int i = 0; i < 16; ++i) pixels.words[std::size_t(i)] = i % 8 < 4 ? 0xffd63028 : 0;
   Picture<std::uint8_t> picture(8, 2, 2);

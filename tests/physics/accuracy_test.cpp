@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "physics/position_bounds.hpp"
 #include "support/oracle.hpp"
 #include "support/property.hpp"
 
@@ -48,7 +47,7 @@ PositionBounds a_priori_bounds(const BlockSystem& system, const oracle::ExactSta
 /// The state is the oracle's, to the bound that the log gives and to ours.
 void expect_accurate(const BlockSystem& system, const CollisionLog& log, const Rational& t) {
   SCOPED_TRACE("t = " + t.get_str());
-  const BlockState state = state_at(log, t);
+  const BlockState state = log.state_at(t);
   const oracle::ExactState exact = oracle::high_precision_state(system, t);
   EXPECT_EQ(state.count, exact.count);
   const PositionBounds ours = a_priori_bounds(system, exact);
@@ -74,7 +73,7 @@ TEST(Accuracy, OfTheArticlesSystemAtAnyNumberOfDigits) {
     for (const char* text : {"0", "3.5", "4", "6", "3.4999999", "3.50000001", "15"}) {
       const Rational t = parse_rational(text);
       expect_accurate(system, *log, t);
-      const BlockState state = state_at(*log, t);
+      const BlockState state = log->state_at(t);
       const oracle::ExactState exact = oracle::high_precision_state(system, t);
       EXPECT_NEAR(to_double(Rational(state.blue.position) - exact.blue.position), 0, 1e-13);
       EXPECT_NEAR(to_double(Rational(state.red.position) - exact.red.position), 0, 1e-13);
@@ -143,7 +142,7 @@ TEST(Accuracy, OfTheWholeLog) {
     ASSERT_EQ(log->size(), run.size());
     for (std::size_t i = 0; i < run.size(); ++i) {
       SCOPED_TRACE("collision " + std::to_string(i + 1));
-      const Collision c = log->at(Integer(i + 1));
+      const Collision c = log->collision(Integer(i + 1));
       expect_event(run[i], c.kind, c.time, c.blue, c.red);
     }
   }
@@ -173,10 +172,10 @@ TEST(Accuracy, LogAndStatesAreOneMotion) {
   // A little after each collision the state is the collision's, moved on.
   const auto log = make_collision_log(article_system(6));
   for (long k = 1; k < 314159; k += 997) {
-    const Collision now = log->at(k);
-    const Collision next = log->at(k + 1);
+    const Collision now = log->collision(k);
+    const Collision next = log->collision(k + 1);
     const Rational middle = (to_rational(now.time) + to_rational(next.time)) / 2;
-    const BlockState state = state_at(*log, middle);
+    const BlockState state = log->state_at(middle);
     const double half = to_double(middle - to_rational(now.time));
     EXPECT_EQ(state.count, k);
     EXPECT_NEAR(state.blue.position, now.blue.position + half * now.blue.velocity, 1e-13);
@@ -196,12 +195,12 @@ TEST(Accuracy, EnergyAndMomentumAreKept) {
   const auto log = make_collision_log(system);
   const double ratio = to_double(system.blue.mass / system.red.mass);
   for (long k = 1; k <= 3141592; k += 10007) {
-    const Collision c = log->at(k);
+    const Collision c = log->collision(k);
     const double energy =
         ratio * c.blue.velocity * c.blue.velocity + c.red.velocity * c.red.velocity;
     EXPECT_NEAR(energy, 1, 1e-15);
     if (c.kind == CollisionKind::blocks) {
-      const Collision before = log->at(Integer(std::max(1L, k - 1)));
+      const Collision before = log->collision(Integer(std::max(1L, k - 1)));
       if (k == 1) continue;
       EXPECT_NEAR(ratio * c.blue.velocity + c.red.velocity,
                   ratio * before.blue.velocity + before.red.velocity, 1e-15);

@@ -118,7 +118,7 @@ TEST(Count, FollowsTheConventionAtCorners) {
   EXPECT_EQ(total({"100", "3/2", "0", "-1", "-1"}), 31);
   // Both gaps closed, red pushing: everything happens at time 0.
   EXPECT_EQ(total({"100", "0", "0", "0", "-1"}), 31);
-  EXPECT_EQ(state_at(*make_collision_log(Start{"100", "0", "0", "0", "-1"}.system()), 0).count, 31);
+  EXPECT_EQ(make_collision_log(Start{"100", "0", "0", "0", "-1"}.system())->state_at(0).count, 31);
 }
 
 TEST(Count, KnowsStartsInContact) {
@@ -132,19 +132,17 @@ TEST(Flights, AreHalfOpen) {
   // The blocks meet at t = 2/(3/10) = 20/3, a time that no double can hold.
   const auto log = make_collision_log(Start{"100", "3/2", "2", "0", "-0.3"}.system());
   const Rational meeting(20, 3);
-  EXPECT_EQ(state_at(*log, meeting).count, 1);
-  EXPECT_EQ(state_at(*log, meeting - parse_rational("1e-40")).count, 0);
-  EXPECT_EQ(state_at(*log, meeting + parse_rational("1e-40")).count, 1);
+  EXPECT_EQ(log->state_at(meeting).count, 1);
+  EXPECT_EQ(log->state_at(meeting - parse_rational("1e-40")).count, 0);
+  EXPECT_EQ(log->state_at(meeting + parse_rational("1e-40")).count, 1);
 }
 
 TEST(Flights, CountACollisionAtTimeZero) {
-  EXPECT_EQ(state_at(*make_collision_log(Start{"100", "3/2", "0", "0", "-1"}.system()), 0).count,
-            1);
-  EXPECT_EQ(state_at(*make_collision_log(Start{"100", "3/2", "0", "0", "1"}.system()), 0).count, 0);
-  EXPECT_EQ(state_at(*make_collision_log(Start{"100", "0", "2", "-1", "0"}.system()), 0).count, 1);
-  EXPECT_EQ(state_at(*make_collision_log(Start{"100", "0", "2", "1", "0"}.system()), 0).count, 0);
-  EXPECT_EQ(state_at(*make_collision_log(Start{"0.5", "3/2", "0", "0", "-1"}.system()), 0).count,
-            1);
+  EXPECT_EQ(make_collision_log(Start{"100", "3/2", "0", "0", "-1"}.system())->state_at(0).count, 1);
+  EXPECT_EQ(make_collision_log(Start{"100", "3/2", "0", "0", "1"}.system())->state_at(0).count, 0);
+  EXPECT_EQ(make_collision_log(Start{"100", "0", "2", "-1", "0"}.system())->state_at(0).count, 1);
+  EXPECT_EQ(make_collision_log(Start{"100", "0", "2", "1", "0"}.system())->state_at(0).count, 0);
+  EXPECT_EQ(make_collision_log(Start{"0.5", "3/2", "0", "0", "-1"}.system())->state_at(0).count, 1);
 }
 
 // The rounding of an engine must not carry the first collision past time 0, nor away from it.
@@ -159,10 +157,10 @@ TEST(Flights, OfEveryEngineBeginToCountAtTimeZero) {
     const auto exact = make_collision_log(system);
     for (const Engine engine : {Engine::events, Engine::velocities}) {
       const auto log = make_collision_log(system, engine);
-      EXPECT_EQ(state_at(*log, 0).count, state_at(*exact, 0).count) << start.ratio;
+      EXPECT_EQ(log->state_at(0).count, exact->state_at(0).count) << start.ratio;
       EXPECT_EQ(log->first_index(), exact->first_index()) << start.ratio;
-      EXPECT_TRUE(log->size() == 0 || log->at(1).time.hi >= 0) << start.ratio;
-      EXPECT_TRUE(log->first_index() == 1 || log->at(0).time.hi <= 0) << start.ratio;
+      EXPECT_TRUE(log->size() == 0 || log->collision(1).time.hi >= 0) << start.ratio;
+      EXPECT_TRUE(log->first_index() == 1 || log->collision(0).time.hi <= 0) << start.ratio;
     }
   }
 }
@@ -170,11 +168,11 @@ TEST(Flights, OfEveryEngineBeginToCountAtTimeZero) {
 TEST(Flights, GoOnBeforeTheFirstAndAfterTheLastCollision) {
   for (const Engine engine : {Engine::unfolded, Engine::events, Engine::velocities}) {
     const auto log = make_collision_log(article_system(3), engine);
-    EXPECT_NEAR(state_at(*log, -1000).red.position, 1005, 1e-10);
-    EXPECT_NEAR(state_at(*log, -1000).blue.position, 2, 1e-10);
+    EXPECT_NEAR(log->state_at(-1000).red.position, 1005, 1e-10);
+    EXPECT_NEAR(log->state_at(-1000).blue.position, 2, 1e-10);
     const BlockState last = state_after(*log, 314);
-    const double duration = 1000 - log->at(314).time.hi;
-    const BlockState later = state_at(*log, 1000);
+    const double duration = 1000 - log->collision(314).time.hi;
+    const BlockState later = log->state_at(1000);
     EXPECT_NEAR(later.blue.position, last.blue.position + duration * last.blue.velocity, 1e-9);
     EXPECT_NEAR(later.red.position, last.red.position + duration * last.red.velocity, 1e-9);
   }
@@ -184,10 +182,10 @@ TEST(Flights, CountBackwardsBeforeTimeZero) {
   // Blue comes off the wall, which it must have met before.
   for (const char* ratio : {"100", "1", "0.5"}) {
     const auto log = make_collision_log(Start{ratio, "1", "3", "1", "-1"}.system());
-    EXPECT_EQ(state_at(*log, 0).count, 0) << ratio;
-    EXPECT_EQ(state_at(*log, Rational(-3, 2)).count, -1) << ratio;
-    EXPECT_NEAR(state_at(*log, Rational(-3, 2)).blue.position, 1, 1e-14) << ratio;
-    EXPECT_NEAR(state_at(*log, Rational(-3, 2)).blue.velocity, -1, 1e-14) << ratio;
+    EXPECT_EQ(log->state_at(0).count, 0) << ratio;
+    EXPECT_EQ(log->state_at(Rational(-3, 2)).count, -1) << ratio;
+    EXPECT_NEAR(log->state_at(Rational(-3, 2)).blue.position, 1, 1e-14) << ratio;
+    EXPECT_NEAR(log->state_at(Rational(-3, 2)).blue.velocity, -1, 1e-14) << ratio;
   }
 }
 
@@ -196,7 +194,7 @@ TEST(Log, AlternatesAndBeginsWithTheBlocks) {
     const auto log = make_collision_log(article_system(3), engine);
     double before = 0;
     for (long k = 1; k <= 314; ++k) {
-      const Collision c = log->at(k);
+      const Collision c = log->collision(k);
       EXPECT_EQ(c.index, k);
       EXPECT_EQ(c.kind, k % 2 == 1 ? CollisionKind::blocks : CollisionKind::wall);
       EXPECT_GT(c.time.hi, before);
@@ -231,7 +229,7 @@ TEST(Log, EnginesAgree) {
       const auto stepped = make_collision_log(article_system(digits), engine);
       ASSERT_EQ(unfolded->size(), stepped->size());
       for (long k = 1; k <= unfolded->size(); ++k) {
-        expect_same(unfolded->at(k), stepped->at(k), 1e-8);
+        expect_same(unfolded->collision(k), stepped->collision(k), 1e-8);
         ASSERT_FALSE(HasFailure());
       }
     }
@@ -245,7 +243,7 @@ TEST(Log, KeepsAHairBetweenTheMasses) {
   system.red.mass = 1 + 1 / power(2, 300);
   const auto log = make_collision_log(system);
   EXPECT_EQ(log->size(), 4);
-  const Collision last = log->at(4);
+  const Collision last = log->collision(4);
   EXPECT_EQ(last.kind, CollisionKind::wall);
   EXPECT_GT(last.time.hi, 1e89);
   EXPECT_LT(last.time.hi, 1e92);
@@ -263,7 +261,7 @@ TEST(Log, EnginesAgreeOnEveryKindOfStart) {
       const auto stepped = make_collision_log(start.system(), engine);
       ASSERT_EQ(unfolded->size(), stepped->size());
       for (long k = 1; k <= unfolded->size(); ++k) {
-        expect_same(unfolded->at(k), stepped->at(k), 1e-13);
+        expect_same(unfolded->collision(k), stepped->collision(k), 1e-13);
       }
     }
   }
@@ -287,7 +285,7 @@ void expect_streamed(const CollisionLog& log, const Integer& first, const Intege
     ASSERT_EQ(batch->first, next);
     ASSERT_GT(batch->size, 0U);
     for (std::size_t row = 0; row < batch->size; ++row) {
-      expect_same(log.at(next), row_of(*batch, row), 2e-15);
+      expect_same(log.collision(next), row_of(*batch, row), 2e-15);
       ++next;
     }
   }

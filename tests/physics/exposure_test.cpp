@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "physics/expose.hpp"
+#include "physics/exposure.hpp"
+#include "support/exposure_sums.hpp"
 #include "support/property.hpp"
 
 namespace piblocks {
@@ -66,10 +67,11 @@ class DirectSum {
     const Travel range = exposure.range(block_);
     for (std::size_t i = 0; i < positions_.size(); ++i) {
       SCOPED_TRACE(positions_[i]);
-      EXPECT_NEAR(exposure.area_below(block_, positions_[i]), double(area_[i] / total_), 1e-13);
+      EXPECT_NEAR(area_below(exposure, block_, positions_[i]), double(area_[i] / total_), 1e-13);
+      if (exposure.area_below) continue;  // has no shares
       const bool is_at_turn =
           block_ == BlockName::red && std::fabs(positions_[i] - range.from) < 1e-9;
-      EXPECT_NEAR(exposure.share_below(block_, positions_[i]), double(time_[i] / total_),
+      EXPECT_NEAR(share_below(exposure, block_, positions_[i]), double(time_[i] / total_),
                   is_at_turn ? 1e-6 : 1e-11);
     }
   }
@@ -85,11 +87,11 @@ class DirectSum {
 void expect_the_sum_of_all_flights(const CollisionLog& log, const Rational& begin,
                                    const Rational& end) {
   SCOPED_TRACE(begin.get_str() + " to " + end.get_str());
-  const auto exposure = expose(log, begin, end);
-  DirectSum blue(BlockName::blue, positions_in(exposure->range(BlockName::blue)));
-  DirectSum red(BlockName::red, positions_in(exposure->range(BlockName::red)));
-  const BlockState first = state_at(log, begin);
-  const BlockState last = state_at(log, end);
+  const Exposure exposure = expose(log, begin, end);
+  DirectSum blue(BlockName::blue, positions_in(exposure.blue_range));
+  DirectSum red(BlockName::red, positions_in(exposure.red_range));
+  const BlockState first = log.state_at(begin);
+  const BlockState last = log.state_at(end);
   Time now = to_time(begin);
   double blue_now = first.blue.position;
   double red_now = first.red.position;
@@ -110,8 +112,8 @@ void expect_the_sum_of_all_flights(const CollisionLog& log, const Rational& begi
     }
   }
   fly_to(to_time(end), last.blue.position, last.red.position);
-  blue.expect_same(*exposure);
-  red.expect_same(*exposure);
+  blue.expect_same(exposure);
+  red.expect_same(exposure);
 }
 
 TEST(Exposure, IsTheSumOfAllFlights) {
@@ -152,19 +154,19 @@ TEST(Exposure, OfEveryEngineIsTheSumOfAllFlights) {
 void expect_additive(const CollisionLog& log, const Rational& begin, const Rational& middle,
                      const Rational& end) {
   SCOPED_TRACE(begin.get_str() + ", " + middle.get_str() + ", " + end.get_str());
-  const auto whole = expose(log, begin, end);
-  const auto early = expose(log, begin, middle);
-  const auto late = expose(log, middle, end);
+  const Exposure whole = expose(log, begin, end);
+  const Exposure early = expose(log, begin, middle);
+  const Exposure late = expose(log, middle, end);
   const double weight = to_double((middle - begin) / (end - begin));
   for (const BlockName block : kBlocks) {
-    for (const double position : positions_in(whole->range(block))) {
+    for (const double position : positions_in(whole.range(block))) {
       const auto mean = [&](double a, double b) { return weight * a + (1 - weight) * b; };
-      EXPECT_NEAR(whole->area_below(block, position),
-                  mean(early->area_below(block, position), late->area_below(block, position)),
+      EXPECT_NEAR(area_below(whole, block, position),
+                  mean(area_below(early, block, position), area_below(late, block, position)),
                   1e-13);
-      if (std::fabs(position - whole->range(block).from) < 1e-9) continue;
-      EXPECT_NEAR(whole->share_below(block, position),
-                  mean(early->share_below(block, position), late->share_below(block, position)),
+      if (whole.area_below || std::fabs(position - whole.range(block).from) < 1e-9) continue;
+      EXPECT_NEAR(share_below(whole, block, position),
+                  mean(share_below(early, block, position), share_below(late, block, position)),
                   1e-11);
     }
   }
@@ -184,27 +186,27 @@ TEST(Exposure, IsAdditiveAtAnyNumberOfDigits) {
   }
 }
 
-/// F rises from 0 to 1, and G is its integral: convex, between the sums of F from either side.
+/// The integral is 0 up to the range, rises ever faster in it, and by 1 for each unit above it.
 void expect_distribution(const Exposure& exposure) {
   for (const BlockName block : kBlocks) {
     const Travel range = exposure.range(block);
-    EXPECT_EQ(exposure.share_below(block, std::nextafter(range.from, -1e9)), 0);
-    EXPECT_EQ(exposure.share_below(block, range.to), 1);
-    EXPECT_NEAR(exposure.area_below(block, range.from), 0, 1e-15);
+    EXPECT_NEAR(area_below(exposure, block, std::nextafter(range.from, -1e9)), 0, 1e-15);
+    EXPECT_NEAR(area_below(exposure, block, range.from), 0, 1e-15);
+    EXPECT_NEAR(area_below(exposure, block, range.to + 1) - area_below(exposure, block, range.to),
+                1, 1e-13);
     const std::vector<double> positions = positions_in(range);
+    double slope = 0;
     for (std::size_t i = 1; i < positions.size(); ++i) {
-      const double low = exposure.share_below(block, positions[i - 1]);
-      const double high = exposure.share_below(block, positions[i]);
       const double step = positions[i] - positions[i - 1];
       const double area =
-          exposure.area_below(block, positions[i]) - exposure.area_below(block, positions[i - 1]);
-      EXPECT_LE(low, high + 1e-12);
-      EXPECT_GE(area, low * step - 1e-13);
-      EXPECT_LE(area, high * step + 1e-13);
+          area_below(exposure, block, positions[i]) - area_below(exposure, block, positions[i - 1]);
+      EXPECT_GE(area, slope * step - 2e-13);
+      EXPECT_LE(area, step + 1e-13);
+      slope = area / step - 2e-13 / step;
     }
   }
   double total = 0;
-  for (const UniformPiece& piece : exposure.pieces()) total += piece.share;
+  for (const UniformPiece& piece : exposure.pieces) total += piece.share;
   EXPECT_NEAR(total, 1, 1e-12);
 }
 
@@ -213,19 +215,26 @@ void expect_shares_of_instants(const CollisionLog& log, const Rational& begin, c
                                Random& random) {
   constexpr int kInstants = 4000;
   SCOPED_TRACE(begin.get_str() + " to " + end.get_str());
-  const auto exposure = expose(log, begin, end);
-  expect_distribution(*exposure);
+  const Exposure exposure = expose(log, begin, end);
+  expect_distribution(exposure);
   std::vector<BlockState> states;
   for (int i = 0; i < kInstants; ++i) {
     const Rational at = (i + random.rational(0, 1, 1'000'000)) / kInstants;
-    states.push_back(state_at(log, begin + at * (end - begin)));
+    states.push_back(log.state_at(begin + at * (end - begin)));
   }
   for (const BlockName block : kBlocks) {
-    for (const double position : positions_in(exposure->range(block))) {
-      const auto below = std::ranges::count_if(states, [&](const BlockState& state) {
-        return position_of(state, block) <= position + 1e-13;
-      });
-      EXPECT_NEAR(exposure->share_below(block, position), double(below) / kInstants, 0.03);
+    const Travel range = exposure.range(block);
+    for (const double position : positions_in(range)) {
+      double below = 0;
+      double area = 0;
+      for (const BlockState& state : states) {
+        below += position_of(state, block) <= position + 1e-13 ? 1.0 / kInstants : 0;
+        area += std::max(0.0, position - position_of(state, block)) / kInstants;
+      }
+      EXPECT_NEAR(area_below(exposure, block, position), area,
+                  0.03 * (range.to - range.from) + 1e-12);
+      if (exposure.area_below) continue;  // has no shares
+      EXPECT_NEAR(share_below(exposure, block, position), below, 0.03);
     }
   }
 }
@@ -268,14 +277,14 @@ TEST(Exposure, OfNoTimeIsTheInstant) {
   for (const int digits : {1, 3, 20}) {
     const auto log = make_collision_log(article_system(digits));
     for (const Rational& time : {Rational(0), Rational(3, 2), Rational(7, 2), Rational(9)}) {
-      const auto exposure = expose(*log, time, time);
-      const BlockState state = state_at(*log, time);
-      ASSERT_EQ(exposure->pieces().size(), 1U);
+      const Exposure exposure = expose(*log, time, time);
+      const BlockState state = log->state_at(time);
+      ASSERT_EQ(exposure.pieces.size(), 1U);
       for (const BlockName block : kBlocks) {
         const double x = position_of(state, block);
-        EXPECT_EQ(exposure->share_below(block, x), 1);
-        EXPECT_EQ(exposure->share_below(block, std::nextafter(x, 0)), 0);
-        EXPECT_DOUBLE_EQ(exposure->area_below(block, x + 2), 2);
+        EXPECT_EQ(share_below(exposure, block, x), 1);
+        EXPECT_EQ(share_below(exposure, block, std::nextafter(x, 0)), 0);
+        EXPECT_DOUBLE_EQ(area_below(exposure, block, x + 2), 2);
       }
     }
   }
@@ -284,11 +293,11 @@ TEST(Exposure, OfNoTimeIsTheInstant) {
 TEST(Exposure, DoesNotAskWhichWayTimeRuns) {
   for (const int digits : {1, 3, 9}) {
     const auto log = make_collision_log(article_system(digits));
-    const auto forth = expose(*log, 3, 4);
-    const auto back = expose(*log, 4, 3);
+    const Exposure forth = expose(*log, 3, 4);
+    const Exposure back = expose(*log, 4, 3);
     for (const BlockName block : kBlocks) {
-      for (const double position : positions_in(forth->range(block))) {
-        EXPECT_EQ(forth->share_below(block, position), back->share_below(block, position));
+      for (const double position : positions_in(forth.range(block))) {
+        EXPECT_EQ(area_below(forth, block, position), area_below(back, block, position));
       }
     }
   }
@@ -298,28 +307,22 @@ TEST(Exposure, OfACornerPassesIt) {
   BlockSystem system = article_system(5);
   system.blue.position = Rational(1, 2);
   const auto log = make_collision_log(system);
-  const Rational meeting = log->at(1).time.hi;
-  const auto exposure = expose(*log, meeting - 1, meeting + 1);
-  EXPECT_TRUE(exposure->is_listed());
-  expect_distribution(*exposure);
-  EXPECT_NEAR(exposure->share_below(BlockName::red, 2), 0.5, 1e-9);
+  const Rational meeting = log->collision(1).time.hi;
+  const Exposure exposure = expose(*log, meeting - 1, meeting + 1);
+  EXPECT_FALSE(exposure.area_below);
+  expect_distribution(exposure);
+  EXPECT_NEAR(share_below(exposure, BlockName::red, 2), 0.5, 1e-9);
 }
 
 TEST(Exposure, OfManyCollisionsHasSlowBouncesBetweenTheSamePlaces) {
   const auto log = make_collision_log(article_system(9));
-  const auto exposure = expose(*log, Rational(7, 2) - Rational(1, 120), Rational(7, 2));
-  EXPECT_FALSE(exposure->is_listed());
+  const Exposure exposure = expose(*log, Rational(7, 2) - Rational(1, 120), Rational(7, 2));
+  ASSERT_TRUE(exposure.area_below);
   for (const BlockName block : kBlocks) {
-    for (const double position : positions_in(exposure->range(block))) {
-      double share = 0;
-      for (const UniformPiece& piece : exposure->pieces()) {
-        const double low = std::min(piece.of(block).from, piece.of(block).to);
-        const double high = std::max(piece.of(block).from, piece.of(block).to);
-        share += piece.share * (position >= high  ? 1
-                                : position <= low ? 0
-                                                  : (position - low) / (high - low));
-      }
-      EXPECT_NEAR(share, exposure->share_below(block, position), 0.01);
+    const Travel range = exposure.range(block);
+    for (const double position : positions_in(range)) {
+      EXPECT_NEAR(area_of_pieces(exposure, block, position), area_below(exposure, block, position),
+                  0.005 * (range.to - range.from));
     }
   }
 }

@@ -10,8 +10,9 @@
 #include <set>
 #include <string>
 
-#include "physics/expose.hpp"
+#include "physics/exposure.hpp"
 #include "physics/impact.hpp"
+#include "support/exposure_sums.hpp"
 #include "support/oracle.hpp"
 #include "support/property.hpp"
 
@@ -137,7 +138,7 @@ std::set<Integer> indices_of(Random& random, const BlockSystem& system, const Co
   add(log.size(), 2);
   add(log.size() / 2, 1);
   for (const Rational& time : {Rational(turn / 2), turn, Rational(turn * 2), flight}) {
-    if (time > 0) add(log.flight_at(time).count, 1);
+    if (time > 0) add(log.state_at(time).count, 1);
   }
   add(Integer(log.size() * random.integer(1, 999) / 1000), 0);
   for (int i = 0; i < 4; ++i) {  // at any scale
@@ -170,7 +171,7 @@ TEST(HeavyRed, HasEveryCollisionInItsPlace) {
       SCOPED_TRACE("collision " + index.get_str());
       const oracle::ExactEvent exact = oracle::high_precision_collision(system, index, 2500);
       if (!is_in_range(exact.time)) continue;
-      const Collision one = log->at(index);
+      const Collision one = log->collision(index);
       compare(system, exact, turn, one.kind, to_rational(one.time), one.blue, one.red, one_by_one);
 
       // In a block with others before or after it.
@@ -204,7 +205,7 @@ TEST(HeavyRed, HasItsStatesBetweenCollisions) {
     for (int j = 0; j < 4; ++j) {
       const Rational time = random.rational(-10, 10, 1000);
       SCOPED_TRACE("t = " + time.get_str());
-      const FreeFlight given = log->flight_at(time);
+      const BlockState given = log->state_at(time);
       const oracle::ExactState exact = oracle::high_precision_state(system, time, 2500);
       EXPECT_EQ(given.count, exact.count);
       // What blue has travelled, and from where, is rounded; not how long the turn takes.
@@ -290,12 +291,12 @@ TEST(HeavyRed, IsExposedAsLongAsItIsThere) {
     const auto log = make_collision_log(system, Engine::unfolded);
     const Rational begin = random.rational(0, 10, 1000);
     const Rational end = begin + random.rational(1, 20, 1000);
-    const auto exposure = expose(*log, begin, end);
-    if (!exposure->is_listed()) continue;
-    const Travel range = exposure->range(BlockName::blue);
+    const Exposure exposure = expose(*log, begin, end);
+    if (exposure.area_below) continue;
+    const Travel range = exposure.blue_range;
     for (int j = 1; j < 5; ++j) {
       const double position = range.from + (range.to - range.from) * j / 5;
-      EXPECT_NEAR(exposure->share_below(BlockName::blue, position),
+      EXPECT_NEAR(share_below(exposure, BlockName::blue, position),
                   to_double(share_below(system, begin, end, Rational(position))), 1e-13);
     }
   }
@@ -313,13 +314,13 @@ TEST(HeavyRed, IsLeftAnInstantAfterTheTimeInItsLog) {
       if (index > log->size()) continue;
       SCOPED_TRACE("collision " + index.get_str());
       const Rational after = log->time_after(index);
-      const Rational time = to_rational(log->at(index).time);
+      const Rational time = to_rational(log->collision(index).time);
       // It is after the collision by up to 2^-100 of the time to the turn and of that which the
       // turn takes.
       const oracle::ExactEvent exact = oracle::high_precision_collision(system, index, 2500);
       EXPECT_GE(after, exact.time * (1 - Rational(1 / power(2, 500))));
       EXPECT_LE(abs(time - exact.time), time_bound(exact.time, turn));
-      EXPECT_EQ(log->flight_at(after).count, index);
+      EXPECT_EQ(log->state_at(after).count, index);
     }
   }
 }

@@ -29,7 +29,7 @@ Moments one_by_one(const BlockSystem& system, const CollisionLog& log, Collision
   Moments sum;
   double moment = 0;
   for (Integer index = first; index <= last; ++index) {
-    const Collision c = log.at(index);
+    const Collision c = log.collision(index);
     if (c.kind != kind) continue;
     const double speed = std::hypot(std::sqrt(r) * c.blue.velocity, c.red.velocity);
     const double blow = kind == CollisionKind::wall ? (1 + r) * std::fabs(c.blue.velocity)
@@ -45,7 +45,7 @@ Moments one_by_one(const BlockSystem& system, const CollisionLog& log, Collision
 void expect_sum(const BlockSystem& system, const CollisionLog& log, CollisionKind kind,
                 const Integer& first, const Integer& last) {
   SCOPED_TRACE(first.get_str() + " to " + last.get_str());
-  const Time since = first <= last ? log.at(first).time : Time{};
+  const Time since = first <= last ? log.collision(first).time : Time{};
   const Moments expected = one_by_one(system, log, kind, first, last, since);
   const auto together = impact(log, kind, first, last);
   ASSERT_EQ(together.has_value(), !expected.is_empty);
@@ -93,7 +93,7 @@ TEST(Impact, OfOneCollisionIsWhereAndWhenThatIs) {
   const BlockSystem system = article_system(3);
   const auto log = make_collision_log(system);
   for (Integer index = 1; index <= log->size(); ++index) {
-    const Collision c = log->at(index);
+    const Collision c = log->collision(index);
     const auto together = impact(*log, c.kind, index, index);
     ASSERT_TRUE(together.has_value());
     EXPECT_EQ(together->time, c.time);
@@ -182,7 +182,7 @@ TEST(CountNear, IsTheCountButForCollisionsWithinItsRounding) {
     for (const char* text :
          {"-3", "0", "1", "2.1", "3.4", "3.4999", "3.5000001", "4", "5.5", "50"}) {
       const Rational t(parse_rational(text));
-      const Integer exact = log->flight_at(t).count;
+      const Integer exact = log->state_at(t).count;
       const Integer near = count_near(*log, to_time(t));
       EXPECT_LE(abs(near - exact), 1 + abs(exact) / 1'000'000'000'000) << digits << " at " << text;
     }

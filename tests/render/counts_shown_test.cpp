@@ -58,7 +58,7 @@ std::vector<Anchored> anchors_of(const CollisionLog& log) {
           {Instant::collision(total), total},
           {Instant::collision(1), 1},
           {Instant::collision((total + 1) / 2), (total + 1) / 2},
-          {Instant::turn(), log.flight_at(turn).count}};
+          {Instant::turn(), log.state_at(turn).count}};
 }
 
 std::string last_count(const Scene& scene) {
@@ -189,8 +189,8 @@ TEST(CountsShown, AreRightInTheSecondsOfAStoryboard) {
   run.time.to = Instant::last();
   run.pacing.duration_s = 4;
   run.pacing.hold_end_s = 1;
-  story.parts.push_back({Card{{"314"}, 1}});
-  story.parts.push_back({Runs{run}, Rational(1, 2)});
+  story.segments.push_back({Card{{"314"}, 1}});
+  story.segments.push_back({Runs{run}, Rational(1, 2)});
   EXPECT_EQ(count_of(still_picture(story, Instant::last())), "314");
   EXPECT_EQ(count_of(still_picture(story, Instant::last(Rational(-1, 2)))), "314");
 }

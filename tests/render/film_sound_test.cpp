@@ -102,7 +102,8 @@ mass-ratio = 3
       }
       const CollisionLog& log = placed.part.runs().front().log();
       const Stretch& first = placed.part.schedule()->stretches().front();
-      const double at_s = (log.at(1).time.hi - to_double(first.time)) / to_double(first.speed);
+      const double at_s =
+          (log.collision(1).time.hi - to_double(first.time)) / to_double(first.speed);
       const double expected = begin + at_s * kRate_hz;
       EXPECT_NEAR(double(onset(heard.left, std::size_t(begin))), expected, 1) << rate;
     }
@@ -206,9 +207,9 @@ TEST_F(FilmSoundTest, BytesDoNotDependOnJobsNorOnParts) {
   std::vector<std::string> parts;
   RenderJob job{script, folder_ / "part.mp4"};
   for (int i = 1; i <= 3; ++i) {
-    job.part = Part{i, 3};
+    job.shard = Shard{i, 3};
     render(job, [](const Progress&) {});
-    parts.push_back(part_name(job.output, *job.part));
+    parts.push_back(shard_name(job.output, *job.shard));
   }
   join(parts, folder_ / "joined.mp4");
   EXPECT_EQ(file_contents(whole) == file_contents(folder_ / "joined.mp4"), true);

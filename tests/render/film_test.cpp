@@ -250,9 +250,9 @@ TEST_F(FilmTest, BytesDoNotDependOnJobsNorOnParts) {
     std::vector<std::string> parts;
     RenderJob job{script, folder_ / ("part-" + name)};
     for (int i = 1; i <= 3; ++i) {
-      job.part = Part{i, 3};
+      job.shard = Shard{i, 3};
       render(job, [](const Progress&) {});
-      parts.push_back(part_name(job.output, *job.part));
+      parts.push_back(shard_name(job.output, *job.shard));
     }
     const std::string joined = folder_ / ("joined-" + name);
     EXPECT_EQ(join(parts, joined), 78);
@@ -265,9 +265,9 @@ TEST_F(FilmTest, PartsOfOtherStoriesAreNotJoined) {
   changed.replace(changed.find("twice"), 5, "again");
   std::vector<std::string> parts;
   for (int i = 1; i <= 2; ++i) {
-    const RenderJob job{read(i == 1 ? kStory : changed), folder_ / "out.mp4", {}, 1, Part{i, 2}};
+    const RenderJob job{read(i == 1 ? kStory : changed), folder_ / "out.mp4", {}, 1, Shard{i, 2}};
     render(job, [](const Progress&) {});
-    parts.push_back(part_name(job.output, *job.part));
+    parts.push_back(shard_name(job.output, *job.shard));
   }
   try {
     join(parts, folder_ / "joined.mp4");

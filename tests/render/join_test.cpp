@@ -33,11 +33,11 @@ class JoinTest : public testing::Test {
     return builder.build_scene();
   }
 
-  std::string rendered_part(const Part& part, const RenderJob& job) const {
+  std::string rendered_part(const Shard& part, const RenderJob& job) const {
     RenderJob share = job;
-    share.part = part;
+    share.shard = part;
     render(share, [](const Progress&) {});
-    return part_name(job.output, part);
+    return shard_name(job.output, part);
   }
 
   std::vector<std::string> rendered_parts(int count, const RenderJob& job) const {
@@ -198,12 +198,12 @@ TEST_F(JoinTest, NoticesAPartWithoutItsLastChunks) {
 
 TEST_F(JoinTest, APartMustBeOneOfItsCount) {
   RenderJob job{scene(), path("a.y4m")};
-  for (const Part part : {Part{0, 3}, Part{4, 3}, Part{-1, -1}, Part{1, 0}}) {
-    job.part = part;
+  for (const Shard part : {Shard{0, 3}, Shard{4, 3}, Shard{-1, -1}, Shard{1, 0}}) {
+    job.shard = part;
     EXPECT_THROW(render(job, [](const Progress&) {}), UsageError);
   }
   for (const char* name : {"-", "null"}) {
-    const RenderJob nameless{scene(), name, {}, 1, Part{1, 1}};
+    const RenderJob nameless{scene(), name, {}, 1, Shard{1, 1}};
     EXPECT_THROW(render(nameless, [](const Progress&) {}), UsageError);
   }
   EXPECT_TRUE(folder_.is_empty());

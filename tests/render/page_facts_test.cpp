@@ -63,7 +63,7 @@ void expect_counts_of_frames(const Told& told) {
   ASSERT_EQ(static_cast<std::int64_t>(told.counts.size()), film_frames(told.schedule));
   for (std::size_t frame = 0; frame < told.counts.size(); ++frame) {
     const Rational time = told.schedule.time_of(static_cast<std::int64_t>(frame));
-    ASSERT_EQ(told.counts[frame], state_at(*told.log, time).count) << frame;
+    ASSERT_EQ(told.counts[frame], told.log->state_at(time).count) << frame;
   }
 }
 
@@ -78,7 +78,7 @@ void expect_listed(const Told& told, const std::vector<CollisionRange>& ranges) 
     const std::vector<Integer> times = numbers_of(value_of(told.json, "times", at));
     ASSERT_EQ(Integer(times.size()), range.last - range.first + 1);
     for (std::size_t i = 0; i < times.size(); ++i) {
-      const Rational time = to_rational(told.log->at(range.first + i).time);
+      const Rational time = to_rational(told.log->collision(range.first + i).time);
       ASSERT_LE(abs(times[i] * unit - time), unit / 2) << i;
     }
   }

@@ -46,9 +46,9 @@ class RenderedFrames {
     std::vector<std::string> names;
     for (int number = 1; number <= parts; ++number) {
       RenderJob job{script, folder_ / "%d.png"};
-      job.part = Part{number, parts};
+      job.shard = Shard{number, parts};
       render(job, [](const Progress&) {});
-      names.push_back(part_name(job.output, *job.part));
+      names.push_back(shard_name(job.output, *job.shard));
     }
     count_ = join(names, folder_ / "%d.png");
   }
@@ -175,7 +175,7 @@ Storyboard any_storyboard(Random& random) {
   Storyboard story;
   story.view = any_scene(random).view;
   for (std::int64_t i = random.integer(1, 4); i > 0; --i) {
-    StoryPart part;
+    Segment part;
     if (random.integer(0, 2) == 0) {
       part.content = Card{{"Counting"}, random.rational(0, 3, 7) + Rational(1, 4)};
     } else {
@@ -183,8 +183,9 @@ Storyboard any_storyboard(Random& random) {
       for (Scene& run : runs) run.system = any_scene(random).system;
       part.content = std::move(runs);
     }
-    if (!story.parts.empty() && random.integer(0, 1) == 0) part.fade_s = random.rational(0, 1, 4);
-    story.parts.push_back(std::move(part));
+    if (!story.segments.empty() && random.integer(0, 1) == 0)
+      part.fade_s = random.rational(0, 1, 4);
+    story.segments.push_back(std::move(part));
   }
   return story;
 }

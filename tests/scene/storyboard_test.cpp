@@ -14,7 +14,7 @@ class StoryboardFileTest : public FileFixture {
   Storyboard story(const std::string& text) { return std::get<Storyboard>(script(text)); }
 };
 
-const Scene& only_run(const StoryPart& part) { return std::get<Runs>(part.content).at(0); }
+const Scene& only_run(const Segment& part) { return std::get<Runs>(part.content).at(0); }
 
 TEST_F(StoryboardFileTest, AFileWithoutPartsIsAScene) {
   const Script read = script("digits = 2\n[time]\nspeed = 3\n");
@@ -58,23 +58,23 @@ TEST_F(StoryboardFileTest, KeysAboveHoldForAllParts) {
   EXPECT_EQ(read.view.frame_rate, 25);
   EXPECT_EQ(read.view.theme, Theme::dark);
   EXPECT_EQ(read.golden.frames, std::vector<std::string>{"1.5"});
-  ASSERT_EQ(read.parts.size(), 3U);
-  EXPECT_EQ(only_run(read.parts[0]).system.red.mass, 100);
-  EXPECT_EQ(only_run(read.parts[0]).time.speed, 2);
-  EXPECT_EQ(read.parts[0].fade_s, 0);
-  EXPECT_EQ(only_run(read.parts[1]).system.red.mass, 10000);
-  EXPECT_EQ(only_run(read.parts[1]).pacing.duration_s, 6);
-  EXPECT_EQ(only_run(read.parts[1]).show.title, "three");
-  EXPECT_EQ(read.parts[1].fade_s, Rational(1, 3));
-  EXPECT_EQ(only_run(read.parts[2]).system.red.mass, 7) << "the part's key wins over the film's";
-  EXPECT_EQ(only_run(read.parts[2]).time.speed, 5);
-  EXPECT_EQ(only_run(read.parts[2]).show.title, "");
-  EXPECT_EQ(read.parts[2].origin, path_ + ":17");
+  ASSERT_EQ(read.segments.size(), 3U);
+  EXPECT_EQ(only_run(read.segments[0]).system.red.mass, 100);
+  EXPECT_EQ(only_run(read.segments[0]).time.speed, 2);
+  EXPECT_EQ(read.segments[0].fade_s, 0);
+  EXPECT_EQ(only_run(read.segments[1]).system.red.mass, 10000);
+  EXPECT_EQ(only_run(read.segments[1]).pacing.duration_s, 6);
+  EXPECT_EQ(only_run(read.segments[1]).show.title, "three");
+  EXPECT_EQ(read.segments[1].fade_s, Rational(1, 3));
+  EXPECT_EQ(only_run(read.segments[2]).system.red.mass, 7) << "the part's key wins over the film's";
+  EXPECT_EQ(only_run(read.segments[2]).time.speed, 5);
+  EXPECT_EQ(only_run(read.segments[2]).show.title, "");
+  EXPECT_EQ(read.segments[2].origin, path_ + ":17");
 }
 
 TEST_F(StoryboardFileTest, ACardHasLines) {
   const auto lines = [&](const std::string& value) {
-    return std::get<Card>(story("[[part]]\ncard = " + value + "\n").parts.at(0).content).lines;
+    return std::get<Card>(story("[[part]]\ncard = " + value + "\n").segments.at(0).content).lines;
   };
   const std::vector<std::string> two = {"Counting π", "by hand"};
   EXPECT_EQ(lines("'π'"), std::vector<std::string>{"π"});
@@ -82,8 +82,8 @@ TEST_F(StoryboardFileTest, ACardHasLines) {
   EXPECT_EQ(lines("\"Counting π\\nby hand\""), two);
   EXPECT_EQ(lines("\"\"\"\nCounting π\nby hand\n\"\"\""), two);
   const Storyboard read = story("[[part]]\ncard = 'a'\n[[part]]\ncard = 'b'\nseconds = '5/2'\n");
-  EXPECT_EQ(std::get<Card>(read.parts[0].content).length_s, 2);
-  EXPECT_EQ(std::get<Card>(read.parts[1].content).length_s, Rational(5, 2));
+  EXPECT_EQ(std::get<Card>(read.segments[0].content).length_s, 2);
+  EXPECT_EQ(std::get<Card>(read.segments[1].content).length_s, Rational(5, 2));
 }
 
 TEST_F(StoryboardFileTest, WhatAPartSaysHoldsForAllItCompares) {
@@ -93,7 +93,7 @@ TEST_F(StoryboardFileTest, WhatAPartSaysHoldsForAllItCompares) {
     red.position = 6
     compare = [{ mass-ratio = 16, show.title = "16" }, { digits = 2, red.position = 7 }]
   )");
-  const Runs& runs = std::get<Runs>(read.parts.at(0).content);
+  const Runs& runs = std::get<Runs>(read.segments.at(0).content);
   ASSERT_EQ(runs.size(), 2U);
   EXPECT_EQ(runs[0].system.red.mass, 16);
   EXPECT_EQ(runs[0].system.red.position, 6);
@@ -160,8 +160,8 @@ TEST_F(StoryboardFileTest, AllProblemsAreToldAtOnce) {
 
 TEST_F(StoryboardFileTest, HasALimitedNumberOfParts) {
   std::string text;
-  for (std::size_t i = 0; i < kMaxStoryParts; ++i) text += "[[part]]\n";
-  EXPECT_EQ(story(text).parts.size(), kMaxStoryParts);
+  for (std::size_t i = 0; i < kMaxSegments; ++i) text += "[[part]]\n";
+  EXPECT_EQ(story(text).segments.size(), kMaxSegments);
   EXPECT_EQ(problems(text + "[[part]]\n").size(), 1U);
 }
 
@@ -236,7 +236,7 @@ TEST_F(StoryboardFileTest, DescriptionsDifferWhereFilmsDo) {
 TEST(Storyboard, ProblemsOfOneMadeByHandAreToldAtOnce) {
   Storyboard story;
   EXPECT_EQ(problems_of(story).size(), 1U);
-  story.parts = {{Runs{}, 1}, {Card{}, -1}, {Card{{"a", ""}, 0}}, {Runs{Scene{}}}};
+  story.segments = {{Runs{}, 1}, {Card{}, -1}, {Card{{"a", ""}, 0}}, {Runs{Scene{}}}};
   story.view.width_px = 0;
   const auto found = problems_of(story);
   // The frame, as the film's and as the last part's; fade and no run; fade and no line; an empty

@@ -67,7 +67,8 @@ TEST(Soundtrack, BeginsEachClackAtItsCollision) {
     int heard = 0;
     double quiet_since = 0;
     for (Integer index = 1; index <= log->size(); ++index) {
-      const double at = (log->at(index).time.hi - to_double(begin)) / to_double(speed) * kRate_hz;
+      const double at =
+          (log->collision(index).time.hi - to_double(begin)) / to_double(speed) * kRate_hz;
       if (at < 0 || at + 100 > double(track.left.size())) continue;
       if (at - quiet_since > 400) {
         const auto window = std::size_t(at);

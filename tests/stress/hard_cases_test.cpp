@@ -57,8 +57,9 @@ TEST_P(HardCases, AreWhereTheOracleSaysAtHardTimes) {
   const auto log = make_collision_log(system);
   const Bounds bounds(system);
   const bool meets = log->size() > 0;
-  const Rational turn = meets ? to_rational(log->at((log->size() + 1) / 2).time) : Rational(1);
-  const Rational last = meets ? to_rational(log->at(log->size()).time) + 1 : Rational(1);
+  const Rational turn =
+      meets ? to_rational(log->collision((log->size() + 1) / 2).time) : Rational(1);
+  const Rational last = meets ? to_rational(log->collision(log->size()).time) + 1 : Rational(1);
   const Rational hair = parse_rational("1e-16");
   const std::vector<Rational> times = {
       0,           -last,       -1000 * last,      1000 * last,  turn,
@@ -73,9 +74,9 @@ TEST_P(HardCases, CountEveryCollisionAtItsExactTime) {
   ASSERT_EQ(log->size(), run.size());
   for (std::size_t i = 0; i < run.size(); ++i) {
     const oracle::ExactState exact = oracle::exact_state(system, run, run[i].time);
-    const BlockState state = state_at(*log, run[i].time);
+    const BlockState state = log->state_at(run[i].time);
     ASSERT_EQ(state.count, exact.count) << "at the time of collision " << i + 1;
-    EXPECT_EQ(log->at(Integer(i + 1)).kind, run[i].kind);
+    EXPECT_EQ(log->collision(Integer(i + 1)).kind, run[i].kind);
   }
 }
 
@@ -130,8 +131,8 @@ TEST(HardNumbers, TimesBeyondADoubleAreAnError) {
   system.red.velocity = -Rational(5e-324);  // meets blue after 4e323 units of time
   const auto log = make_collision_log(system);
   EXPECT_EQ(log->size(), 314);
-  EXPECT_THROW(log->at(1), SimulationError);
-  EXPECT_THROW(log->flight_at(power(10, 400)), SimulationError);
+  EXPECT_THROW(log->collision(1), SimulationError);
+  EXPECT_THROW(log->state_at(power(10, 400)), SimulationError);
 }
 
 }  // namespace

@@ -38,8 +38,8 @@ std::vector<Rational> some_times(Random& random, const CollisionLog& log) {
     return Rational(random.uniform(-1, 1) * std::pow(10.0, random.uniform(-8, 8)));
   };
   if (log.size() == 0) return {0, scattered(), scattered()};
-  const Rational middle = to_rational(log.at((log.size() + 1) / 2).time);
-  const Rational last = to_rational(log.at(log.size()).time);
+  const Rational middle = to_rational(log.collision((log.size() + 1) / 2).time);
+  const Rational last = to_rational(log.collision(log.size()).time);
   times.push_back(middle);
   times.push_back(middle + (last - middle) * scattered());
   times.push_back(last * scattered());
@@ -84,7 +84,7 @@ void expect_invariants(Random& random, const BlockSystem& system, const Collisio
     expect_consistent(system, log, index, bounds);
   }
   for (const Rational& time : some_times(random, log)) {
-    const BlockState state = state_at(log, time);
+    const BlockState state = log.state_at(time);
     expect_possible(system, state);
     expect_energy_kept(state, bounds);
     EXPECT_LE(state.count, log.size());
@@ -150,7 +150,7 @@ TEST(RandomSystems, AreSteppedToAnEndOrAnError) {
       try {
         const auto log = make_collision_log(system, engine);
         for (const Integer& index : some_indices(random, log->size())) {
-          const Collision now = log->at(index);
+          const Collision now = log->collision(index);
           for (const double number : {now.time.hi, now.blue.position, now.blue.velocity,
                                       now.red.position, now.red.velocity}) {
             EXPECT_TRUE(std::isfinite(number));

@@ -7,7 +7,7 @@
 namespace piblocks {
 
 inline BlockState state_after(const CollisionLog& log, const Integer& index) {
-  const Collision collision = log.at(index);
+  const Collision collision = log.collision(index);
   return {index, collision.blue, collision.red};
 }
 

@@ -28,9 +28,9 @@ struct Rates {
       : bin(round_step((span.to - span.from) / kMostBins)), first(floor(span.from / bin)) {
     const Integer end = ceil(span.to / bin);
     // Collisions at the very beginning belong to the first bin.
-    Integer before = state_at(log, Rational(first * bin - bin / kNegligiblePart)).count;
+    Integer before = log.state_at(Rational(first * bin - bin / kNegligiblePart)).count;
     for (Integer k = first + 1; k <= end; k += 1) {
-      const Integer count = state_at(log, k * bin).count;
+      const Integer count = log.state_at(k * bin).count;
       of_bins.push_back(magnitude_of(Rational(count - before) / bin));
       before = count;
     }

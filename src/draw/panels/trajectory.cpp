@@ -24,7 +24,7 @@ void add_corners(const Column& column, const CollisionLog& log, const PanelGaps&
   if (pieces.empty() || pieces.back().corners.empty()) pieces.push_back({{column.from}, {}});
   std::vector<TimedGaps>& corners = pieces.back().corners;
   for (Integer k = column.first; k <= column.last; k += 1) {
-    const Collision collision = log.at(k);
+    const Collision collision = log.collision(k);
     corners.push_back({collision.time.hi, gaps_at(collision, gaps)});
   }
   corners.push_back(column.to);
@@ -38,7 +38,7 @@ void add_band(const Column& column, const CollisionLog& log, const PanelGaps& ga
   // farthest from the wall at the first contact or at the last one.
   for (const Integer& k :
        {column.first, Integer(column.first + 1), Integer(column.last - 1), column.last}) {
-    band.high = std::max(band.high, gaps_at(log.at(k), gaps).y1);
+    band.high = std::max(band.high, gaps_at(log.collision(k), gaps).y1);
   }
   pieces.back().bands.push_back(band);
 }
@@ -48,11 +48,11 @@ void add_band(const Column& column, const CollisionLog& log, const PanelGaps& ga
 std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const PanelGaps& gaps,
                                            const TrajectorySpan& span) {
   std::vector<TrajectoryPiece> pieces;
-  BlockState state = state_at(log, span.from);
+  BlockState state = log.state_at(span.from);
   TimedGaps from{to_double(span.from), gaps.of(state)};
   for (int i = 1; i <= span.columns; ++i) {
     const Rational time = span.from + (span.to - span.from) * i / span.columns;
-    const BlockState next = state_at(log, time);
+    const BlockState next = log.state_at(time);
     const TimedGaps to{to_double(time), gaps.of(next)};
     const bool is_dense = next.count - state.count > kMostCorners;
     const auto add = is_dense ? add_band : add_corners;

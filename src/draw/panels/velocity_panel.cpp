@@ -84,7 +84,7 @@ class VelocityPanel {
   void place_sectors(const CollisionLog& log) {
     collisions_ = log.size();
     // If blue meets the wall first, that collision sweeps no sector.
-    const bool wall_first = collisions_ > 0 && log.at(1).kind == CollisionKind::wall;
+    const bool wall_first = collisions_ > 0 && log.collision(1).kind == CollisionKind::wall;
     const Integer sweeping = collisions_ - (wall_first ? 1 : 0);
     below_ = side_of((sweeping + 1) / 2, -1);
     above_ = side_of(sweeping / 2, 1);

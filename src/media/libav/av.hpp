@@ -71,5 +71,7 @@ void silence_av();
 
 /// "59.37.100" for the result of avcodec_version() and the like.
 std::string version_text(unsigned number);
+/// "giflib 5.2.1"
+std::string giflib_version();
 
 }  // namespace piblocks

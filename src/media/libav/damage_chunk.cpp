@@ -10,29 +10,28 @@ namespace {
 
 /// Repeats the last column and the last row of a plane up to whole macroblocks, since that costs
 /// the fewest bits.
-void extend(std::uint8_t* plane, std::ptrdiff_t stride, int width, int height, int whole_height) {
-  const auto rest = static_cast<std::size_t>(stride - width);
+void extend(const PlaneView<std::uint8_t>& plane, int width, int height, int whole_height) {
+  const auto rest = static_cast<std::size_t>(plane.stride_bytes - width);
   for (int y = 0; y < height && rest > 0; ++y) {
-    std::uint8_t* const end = plane + y * stride + width;
+    std::uint8_t* const end = plane.row(y) + width;
     std::memset(end, end[-1], rest);
   }
-  const std::uint8_t* const last = plane + (height - 1) * stride;
   for (int y = height; y < whole_height; ++y) {
-    std::memcpy(plane + y * stride, last, static_cast<std::size_t>(stride));
+    std::memcpy(plane.row(y), plane.row(height - 1), static_cast<std::size_t>(plane.stride_bytes));
   }
 }
 
 void extend(h264::Picture& picture, const VideoFormat& format) {
-  for (int i = 0; i < 3; ++i) {
-    const int step = i == 0 ? 1 : 2;
-    extend(picture.plane(i), picture.stride_bytes(i), format.width_px / step,
-           format.height_px / step, picture.height_mb() * h264::side_of(i));
+  const auto [y, cb, cr, alpha] = view_of(picture);
+  extend(y, format.width_px, format.height_px, 16 * picture.height_mb());
+  for (const auto& plane : {cb, cr}) {
+    extend(plane, format.width_px / 2, format.height_px / 2, 8 * picture.height_mb());
   }
 }
 
 }  // namespace
 
-Yuv420View view_of(h264::Picture& picture) {
+YuvView<std::uint8_t> view_of(h264::Picture& picture) {
   const auto plane = [&](int number) -> PlaneView<std::uint8_t> {
     return {picture.plane(number), picture.stride_bytes(number)};
   };

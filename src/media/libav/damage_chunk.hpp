@@ -15,7 +15,7 @@
 
 namespace piblocks {
 
-Yuv420View view_of(h264::Picture& picture);
+YuvView<std::uint8_t> view_of(h264::Picture& picture);
 
 /// What happens to the rest of a chunk in which too much changes.
 enum class WhenTooMuch { leave_to_stream_encoder, go_on };

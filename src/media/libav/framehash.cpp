@@ -15,7 +15,6 @@ namespace {
 /// The fastest of libavutil's hashes that are wide enough. One 1080p frame on an AMD EPYC with
 /// libavutil 57: murmur3 (128 bits) 0.84 ms, MD5 8.6 ms, SHA256 16.2 ms.
 constexpr const char* kHash = "murmur3";
-constexpr std::int64_t kFramesPerChunk = 32;
 
 /// What FFmpeg 5.1 writes for PNG files, which have no pixel aspect ratio: hence 0/1.
 std::string file_header(const VideoFormat& format) {
@@ -66,8 +65,7 @@ void FramehashEncoder::convert(const ImageView& frame, std::span<const PixelRect
   for (const PixelRect& rect : rects) {
     const std::size_t left = std::size_t(rect.x_px) * pixel_bytes_;
     for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
-      pack_pixels(frame, rect.x_px, y, rect.width_px,
-                  samples_.data() + std::size_t(y) * row_bytes_ + left);
+      pack_row(frame, rect, y, samples_.data() + std::size_t(y) * row_bytes_ + left);
     }
   }
 }
@@ -86,6 +84,7 @@ std::string compute_hash(std::span<const std::uint8_t> bytes) {
 }
 
 std::unique_ptr<Output> framehash_output(const OutputRequest& request) {
+  constexpr std::int64_t kFramesPerChunk = 32;
   return stream_output<FramehashEncoder>(request, kFramesPerChunk,
                                          std::string("framehash by ") + kHash);
 }

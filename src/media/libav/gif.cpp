@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "media/libav/av.hpp"
 #include "media/libav/color_table.hpp"
 #include "media/output/output_kinds.hpp"
 #include "media/output/simple_output.hpp"
@@ -21,8 +22,6 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// A chunk begins with a whole picture.
-constexpr std::int64_t kFramesPerChunk = 50;
 /// Delays are whole hundredths of a second, and viewers show less than two as ten.
 constexpr int kMaxFrameRate_gif = 50;
 constexpr int kMaxDelay_cs = 65535;
@@ -216,11 +215,11 @@ std::string frame_rate_problem(const Rational& rate) {
 }  // namespace
 
 std::unique_ptr<Output> gif_output(const OutputRequest& request) {
+  constexpr std::int64_t kFramesPerChunk = 50;  // the first of them whole
   const std::string problem = frame_rate_problem(request.format.frame_rate);
   if (!problem.empty()) throw UsageError(problem);
   return stream_output<GifEncoder>(
-      request, kFramesPerChunk,
-      fmt::format("gif by giflib {}.{}.{}", GIFLIB_MAJOR, GIFLIB_MINOR, GIFLIB_RELEASE),
+      request, kFramesPerChunk, "gif by " + giflib_version(),
       [](OutputFile& file, std::int64_t /*frames*/) { file.write(";"); });  // the trailer, 0x3b
 }
 

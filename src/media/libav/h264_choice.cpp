@@ -20,11 +20,6 @@ constexpr double kX264Crf = 21;
 /// shapes.
 constexpr double kBitsPerPixel = 0.1;
 
-/// Below 1 libx264 encodes without loss, in the profile High 4:4:4 Predictive, which hardly any
-/// player knows.
-constexpr double kMinCrf = 1;
-constexpr double kMaxCrf = 51;
-
 bool takes_yuv420p(const AVCodec& codec) {
   const AVPixelFormat* format = codec.pix_fmts;
   while (format != nullptr && *format != AV_PIX_FMT_NONE) {
@@ -87,6 +82,10 @@ std::string level_problem(const VideoFormat& format) {
 }
 
 std::string crf_problem(const AVCodec& codec, double crf) {
+  // Below 1 libx264 encodes without loss, in the profile High 4:4:4 Predictive, which hardly any
+  // player knows.
+  constexpr double kMinCrf = 1;
+  constexpr double kMaxCrf = 51;
   if (!has_option(codec, "crf")) return no_crf(codec.name);
   if (crf >= kMinCrf && crf <= kMaxCrf) return {};
   return fmt::format("video: crf {} is out of range; use {} (best) to {}", crf, kMinCrf, kMaxCrf);

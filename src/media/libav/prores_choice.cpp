@@ -7,8 +7,6 @@ namespace {
 
 /// Chosen from the table in src/media/README.md.
 constexpr int kQuantiser = 4;
-/// No picture depends on another; few wait to be written.
-constexpr int kFramesPerChunk = 8;
 
 void set_up(AVCodecContext& context) {
   // Without a quantiser the encoder aims at a number of bits, and searches long for it.
@@ -22,6 +20,7 @@ void set_up(AVCodecContext& context) {
 }  // namespace
 
 CodecChoice prores_choice(const VideoFormat& format, const EncoderSettings& settings) {
+  constexpr int kFramesPerChunk = 8;  // no picture depends on another; few wait to be written
   const AVCodec* const codec = avcodec_find_encoder_by_name(kProres.data());
   Problems problems;
   if (codec == nullptr) {

@@ -10,39 +10,29 @@
 namespace piblocks {
 namespace {
 
-using Bytes = std::span<const std::uint8_t>;
 using ConvertRect = void (*)(const ImageView& frame, const PixelRect& rect, AVFrame& picture);
 
 template <typename Sample>
-PlaneView<Sample> plane_of(const AVFrame& picture, int plane) {
-  return {reinterpret_cast<Sample*>(picture.data[plane]), picture.linesize[plane]};
-}
-
-/// Planes 0, 1, 2 and, if the view has it, 3 for alpha.
-template <typename View, typename Sample>
-View view_of(const AVFrame& picture) {
-  const auto plane = [&](int number) { return plane_of<Sample>(picture, number); };
-  if constexpr (requires(View view) { view.alpha; })
-    return {plane(0), plane(1), plane(2), plane(3)};
-  else
-    return {plane(0), plane(1), plane(2)};
+YuvView<Sample> view_of(const AVFrame& picture) {
+  const auto plane = [&](int number) -> PlaneView<Sample> {
+    return {reinterpret_cast<Sample*>(picture.data[number]), picture.linesize[number]};
+  };
+  return {plane(0), plane(1), plane(2), plane(3)};
 }
 
 ConvertRect conversion_to(int pixel_format) {
   if (pixel_format == AV_PIX_FMT_YUV420P) {
     return [](const ImageView& frame, const PixelRect& rect, AVFrame& picture) {
-      convert_to_yuv420(frame, chroma_aligned(rect, frame),
-                        view_of<Yuv420View, std::uint8_t>(picture));
+      convert_to_yuv420(frame, chroma_aligned(rect, frame), view_of<std::uint8_t>(picture));
     };
   }
   if (pixel_format == AV_PIX_FMT_YUVA420P) {
     return [](const ImageView& frame, const PixelRect& rect, AVFrame& picture) {
-      convert_to_yuva420(frame, chroma_aligned(rect, frame),
-                         view_of<Yuva420View, std::uint8_t>(picture));
+      convert_to_yuva420(frame, chroma_aligned(rect, frame), view_of<std::uint8_t>(picture));
     };
   }
   return [](const ImageView& frame, const PixelRect& rect, AVFrame& picture) {
-    convert_to_yuva444p10(frame, rect, view_of<Yuva444p10View, std::uint16_t>(picture));
+    convert_to_yuva444p10(frame, rect, view_of<std::uint16_t>(picture));
   };
 }
 
@@ -95,7 +85,7 @@ void VideoChunkEncoder::take_packets() {
     if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return;
     check_av(code, "encode a frame with", context_->codec->name);
 
-    Bytes bytes(packet_->data, static_cast<std::size_t>(packet_->size));
+    std::span<const std::uint8_t> bytes(packet_->data, static_cast<std::size_t>(packet_->size));
     // libx264 signs the first picture of every encoder with 600 bytes. One copy in the video is
     // enough.
     const bool is_h264 = context_->codec_id == AV_CODEC_ID_H264;

@@ -107,7 +107,6 @@ class VideoFile final : public FrameSink {
   AvPacketPtr packet_;
   std::optional<SoundStream> sound_;
   FrameCounter counter_;
-  std::int64_t packets_ = 0;
 };
 
 /// "file:" keeps libav from reading a protocol out of a path with a colon.
@@ -182,7 +181,6 @@ void VideoFile::write(const Packet& packet) {
   av_packet_rescale_ts(packet_.get(), av_inv_q(encoder_.frame_rate()),
                        muxer_->streams[0]->time_base);
   check_av(av_write_frame(muxer_.get(), packet_.get()), "write to", name_);
-  ++packets_;
 }
 
 void VideoFile::add_alpha(std::span<const std::uint8_t> alpha) {
@@ -200,7 +198,7 @@ void VideoFile::check() const {
     return read.codec_id == written.codec_id &&
            (read.extradata_size > 0) == (written.extradata_size > 0);
   };
-  std::vector<std::int64_t> packets = {packets_};
+  std::vector<std::int64_t> packets = {counter_.frames()};
   if (sound_) packets.push_back(sound_->packets());
   if (file->nb_streams != packets.size() || !is_ours(*file->streams[0]->codecpar) ||
       !container_.is_whole(*file, packets)) {

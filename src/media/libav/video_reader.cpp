@@ -40,7 +40,7 @@ bool is_cover(const AVStream& stream) {
   return (stream.disposition & AV_DISPOSITION_ATTACHED_PIC) != 0;
 }
 
-/// The only video stream. Of several, one alone would be compared, and nobody would know.
+/// The only video stream. Of several, just one would be compared.
 int find_video(AVFormatContext& input, const std::string& path) {
   check_av_read(avformat_find_stream_info(&input, nullptr), "read", path);
   const int best = check_av_read(

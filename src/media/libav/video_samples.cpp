@@ -185,23 +185,23 @@ void read_palette(const AVFrame& frame, std::vector<std::uint32_t>& words) {
 
 /// One row of a component, by libavutil's description of the arrangement of bits, as levels up to
 /// `max_level`.
-void read_levels(const AVFrame& frame, int component, int y, int max_level,
-                 std::vector<std::uint16_t>& levels) {
+std::vector<std::uint16_t> levels_of(const AVFrame& frame, int component, int y, int max_level) {
   const AVPixFmtDescriptor& format = descriptor_of(frame);
   std::array<const std::uint8_t*, 4> planes{};
   std::copy_n(frame.data, planes.size(), planes.begin());
   const int count = samples_in_row(frame, component);
-  levels.resize(static_cast<std::size_t>(count));
+  std::vector<std::uint16_t> levels(static_cast<std::size_t>(count));
   av_read_image_line2(levels.data(), planes.data(), frame.linesize, &format, 0,
                       y >> y_shift_of(format, component), component, count, 0,
                       sizeof(std::uint16_t));
   const int own_max = (1 << format.comp[component].depth) - 1;
   const bool is_inverted = pixel_format_of(frame) == AV_PIX_FMT_MONOWHITE;
-  if (own_max == max_level && !is_inverted) return;
+  if (own_max == max_level && !is_inverted) return levels;
   for (std::uint16_t& level : levels) {
     const int shown = is_inverted ? own_max - level : level;
     level = static_cast<std::uint16_t>(scaled_level(shown, own_max, max_level));
   }
+  return levels;
 }
 
 /// Any arrangement of bits.
@@ -219,7 +219,7 @@ void read_bits(const AVFrame& frame, int max_level, std::vector<Word>& words) {
       if (component < 0) {
         levels.assign(static_cast<std::size_t>(frame.width), static_cast<std::uint16_t>(max_level));
       } else {
-        read_levels(frame, component, y, max_level, levels);
+        levels = levels_of(frame, component, y, max_level);
         x_shift = x_shift_of(format, component);
       }
       for (int x = 0; x < frame.width; ++x) {

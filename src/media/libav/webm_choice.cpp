@@ -43,7 +43,6 @@ constexpr std::array kEncoders = {WebmEncoder{.name = "libvpx-vp9",
                                               .has_alpha = false,
                                               .crf = 5,
                                               .options = kAomOptions}};
-constexpr double kMaxCrf = 63;
 
 const AVCodec* codec_of(const WebmEncoder& encoder) {
   return avcodec_find_encoder_by_name(encoder.name.data());
@@ -59,6 +58,7 @@ const WebmEncoder* find(const std::optional<std::string>& name) {
 }
 
 std::string crf_problem(double crf) {
+  constexpr double kMaxCrf = 63;
   if (!(crf >= 0 && crf <= kMaxCrf)) {
     return fmt::format("video: crf {} is out of range of *.webm; use 0 (best) to {}", crf, kMaxCrf);
   }

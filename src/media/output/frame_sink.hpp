@@ -109,7 +109,7 @@ class FrameSink {
   virtual void finish() = 0;
 };
 
-/// What is to be made: how its frames become packets, and where they go.
+/// How frames become packets, and where the packets go.
 class Output {
  public:
   virtual ~Output() = default;

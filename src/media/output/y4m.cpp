@@ -11,9 +11,6 @@
 namespace piblocks {
 namespace {
 
-/// A frame has 3 MB at 1080p: as few as possible wait to be written.
-constexpr std::int64_t kFramesPerChunk = 1;
-
 constexpr std::string_view kFrameHeader = "FRAME\n";
 
 /// 420mpeg2 is 4:2:0 with chroma sited left. There is no tag for the matrix; readers take BT.709
@@ -45,9 +42,9 @@ class Y4mEncoder final : public PacketPerFrameEncoder {
 
 void Y4mEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
   std::uint8_t* const y = planes_.data();
-  const Yuv420View picture{.y = {y, width_px_},
-                           .cb = {y + luma_bytes_, width_px_ / 2},
-                           .cr = {y + luma_bytes_ / 4 * 5, width_px_ / 2}};
+  const YuvView<std::uint8_t> picture{.y = {y, width_px_},
+                                      .cb = {y + luma_bytes_, width_px_ / 2},
+                                      .cr = {y + luma_bytes_ / 4 * 5, width_px_ / 2}};
   for (const PixelRect& rect : rects) {
     convert_to_yuv420(frame, chroma_aligned(rect, frame), picture);
   }
@@ -65,6 +62,8 @@ std::vector<std::uint8_t> Y4mEncoder::encode_picture(std::int64_t number, bool /
 }  // namespace
 
 std::unique_ptr<Output> y4m_output(const OutputRequest& request) {
+  // A frame has 3 MB at 1080p: as few as possible wait to be written.
+  constexpr std::int64_t kFramesPerChunk = 1;
   Problems problems;
   problems.add(odd_size_problem(request.format, "y4m in 4:2:0"));
   problems.check();

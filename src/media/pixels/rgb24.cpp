@@ -38,9 +38,9 @@ void pack_rgba32(const std::uint8_t* __restrict row, int count, std::uint8_t* __
 
 }  // namespace
 
-void pack_pixels(const ImageView& frame, int x, int y, int count, std::uint8_t* bytes) {
-  const std::uint8_t* const row = frame.row(y) + std::ptrdiff_t{4} * x;
-  frame.has_alpha ? pack_rgba32(row, count, bytes) : pack_rgb24(row, count, bytes);
+void pack_row(const ImageView& frame, const PixelRect& rect, int y, std::uint8_t* bytes) {
+  const auto pack = frame.has_alpha ? pack_rgba32 : pack_rgb24;
+  pack(frame.row(y) + std::ptrdiff_t{4} * rect.x_px, rect.width_px, bytes);
 }
 
 void subtract_bytes(const std::uint8_t* __restrict minuend,

@@ -13,10 +13,10 @@ namespace piblocks {
 /// Bytes of a packed pixel.
 constexpr std::size_t packed_bytes(bool has_alpha) { return has_alpha ? 4 : 3; }
 
-/// Packs the pixels of a row of a frame, from column `x` on, as R, G, B or R, G, B, A. Colours are
+/// Packs row `y` of a frame, in the columns of a rectangle, as R, G, B or R, G, B, A. Colours are
 /// not multiplied by alpha.
 /// @param bytes  takes packed_bytes() for each pixel; must not overlap the frame.
-void pack_pixels(const ImageView& frame, int x, int y, int count, std::uint8_t* bytes);
+void pack_row(const ImageView& frame, const PixelRect& rect, int y, std::uint8_t* bytes);
 
 /// A colour sample before it was multiplied by alpha / 255: 255 sample / alpha, rounded half up; 0
 /// if alpha is 0.

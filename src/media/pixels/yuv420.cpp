@@ -73,8 +73,15 @@ struct ColumnSums {
   std::array<std::uint32_t, kStrip_px + 1> green;
 };
 
-void add_rows(const std::uint32_t* __restrict upper, const std::uint32_t* __restrict lower,
-              int count, std::uint32_t* __restrict red_blue, std::uint32_t* __restrict green) {
+struct RowPair {
+  const std::uint32_t* upper;
+  const std::uint32_t* lower;
+};
+
+void add_rows(const RowPair& rows, int count, std::uint32_t* __restrict red_blue,
+              std::uint32_t* __restrict green) {
+  const std::uint32_t* __restrict upper = rows.upper;
+  const std::uint32_t* __restrict lower = rows.lower;
   for (int x = 0; x < count; ++x) {
     red_blue[x] = (upper[x] & 0xff00ff) + (lower[x] & 0xff00ff);
     green[x] = ((upper[x] >> 8) & 0xff) + ((lower[x] >> 8) & 0xff);
@@ -111,17 +118,21 @@ const std::uint32_t* pixels_at(const ImageView& image, int x, int y) {
   return reinterpret_cast<const std::uint32_t*>(image.row(y)) + x;
 }
 
-/// Rows y and y + 1, columns x to x + count.
-void convert_strip(const ImageView& image, int x, int y, int count, const Yuv420View& picture) {
-  const std::uint32_t* upper = pixels_at(image, x, y);
-  const std::uint32_t* lower = pixels_at(image, x, y + 1);
+/// @param strip  of two rows.
+void convert_strip(const ImageView& image, const PixelRect& strip,
+                   const YuvView<std::uint8_t>& picture) {
+  const int x = strip.x_px;
+  const int y = strip.y_px;
+  const int count = strip.width_px;
+  const std::uint32_t* const upper = pixels_at(image, x, y);
+  const std::uint32_t* const lower = pixels_at(image, x, y + 1);
   convert_luma(upper, count, picture.y.row(y) + x);
   convert_luma(lower, count, picture.y.row(y + 1) + x);
 
   ColumnSums sums;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled where it is read
   const int left = x > 0 ? 1 : 0;  // at the edge the first column stands for its neighbour
-  add_rows(upper - left, lower - left, 1, sums.red_blue.data(), sums.green.data());
-  add_rows(upper, lower, count, sums.red_blue.data() + 1, sums.green.data() + 1);
+  add_rows({upper - left, lower - left}, 1, sums.red_blue.data(), sums.green.data());
+  add_rows({upper, lower}, count, sums.red_blue.data() + 1, sums.green.data() + 1);
   convert_chroma(sums, count / 2, picture.cb.row(y / 2) + x / 2, picture.cr.row(y / 2) + x / 2);
 }
 
@@ -136,7 +147,8 @@ PixelRect chroma_aligned(const PixelRect& rect, const ImageView& image) {
   return {left, top, right - left, bottom - top};
 }
 
-void convert_to_yuv420(const ImageView& image, const PixelRect& rect, const Yuv420View& picture) {
+void convert_to_yuv420(const ImageView& image, const PixelRect& rect,
+                       const YuvView<std::uint8_t>& picture) {
   assert((image.width_px | image.height_px) % 2 == 0);
   assert((rect.x_px | rect.y_px | rect.width_px | rect.height_px) % 2 == 0);
   assert(rect.x_px >= 0 && rect.x_px + rect.width_px <= image.width_px);
@@ -146,7 +158,7 @@ void convert_to_yuv420(const ImageView& image, const PixelRect& rect, const Yuv4
   const int bottom = rect.y_px + rect.height_px;
   for (int y = rect.y_px; y < bottom; y += 2) {
     for (int x = rect.x_px; x < right; x += kStrip_px) {
-      convert_strip(image, x, y, std::min(kStrip_px, right - x), picture);
+      convert_strip(image, {x, y, std::min(kStrip_px, right - x), 2}, picture);
     }
   }
 }

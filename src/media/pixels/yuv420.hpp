@@ -21,9 +21,11 @@ struct PlaneView {
   }
 };
 
-/// The chroma planes have half the width and height.
-struct Yuv420View {
-  PlaneView<std::uint8_t> y, cb, cr;
+/// A picture of 8 bits, or of 10 bits in 16. Chroma planes of 4:2:0 have half the width and height.
+template <typename Sample>
+struct YuvView {
+  PlaneView<Sample> y, cb, cr;
+  PlaneView<Sample> alpha = {};  ///< none if its samples are null
 };
 
 /// The smallest rectangle to convert if pixels of `rect` have changed: even, and with the chroma
@@ -36,6 +38,7 @@ PixelRect chroma_aligned(const PixelRect& rect, const ImageView& image);
 /// rectangle: a change at column x of the image can change chroma from column x-1 to x+1.
 /// @param image of even width and height.
 /// @param rect inside the image; all its numbers are even.
-void convert_to_yuv420(const ImageView& image, const PixelRect& rect, const Yuv420View& picture);
+void convert_to_yuv420(const ImageView& image, const PixelRect& rect,
+                       const YuvView<std::uint8_t>& picture);
 
 }  // namespace piblocks

@@ -88,7 +88,7 @@ Sample444 sample_444(const Sums& c) {
 }
 
 void convert_luma_420(const Reader& reader, const PixelRect& rect, int y,
-                      const Yuva420View& picture) {
+                      const YuvView<std::uint8_t>& picture) {
   std::uint32_t last = 0;
   std::uint8_t value = 16;
   for (int x = rect.x_px; x < rect.x_px + rect.width_px; ++x) {
@@ -105,7 +105,7 @@ void convert_luma_420(const Reader& reader, const PixelRect& rect, int y,
 }
 
 void convert_chroma_420(const Reader& reader, const PixelRect& rect, int y,
-                        const Yuva420View& picture) {
+                        const YuvView<std::uint8_t>& picture) {
   Sums last;
   std::uint8_t cb = 128;
   std::uint8_t cr = 128;
@@ -129,7 +129,7 @@ void convert_chroma_420(const Reader& reader, const PixelRect& rect, int y,
 }  // namespace
 
 void convert_to_yuva444p10(const ImageView& image, const PixelRect& rect,
-                           const Yuva444p10View& picture) {
+                           const YuvView<std::uint16_t>& picture) {
   const Reader reader(image);
   std::uint32_t last = 0;
   Sample444 sample = sample_444({});
@@ -150,7 +150,8 @@ void convert_to_yuva444p10(const ImageView& image, const PixelRect& rect,
   }
 }
 
-void convert_to_yuva420(const ImageView& image, const PixelRect& rect, const Yuva420View& picture) {
+void convert_to_yuva420(const ImageView& image, const PixelRect& rect,
+                        const YuvView<std::uint8_t>& picture) {
   assert((image.width_px | image.height_px) % 2 == 0);
   assert((rect.x_px | rect.y_px | rect.width_px | rect.height_px) % 2 == 0);
   const Reader reader(image);

@@ -12,26 +12,17 @@
 
 namespace piblocks {
 
-/// 4:4:4 with 10 bits in 16: luma 64 to 940, chroma 64 to 960, alpha 0 to 1023. Transparent pixels
-/// are black.
-struct Yuva444p10View {
-  PlaneView<std::uint16_t> y, cb, cr;
-  PlaneView<std::uint16_t> alpha;  ///< none if samples is null
-};
-
+/// 4:4:4 with 10 bits: luma 64 to 940, chroma 64 to 960, alpha 0 to 1023. Transparent pixels are
+/// black.
 /// @param rect  inside the image.
 void convert_to_yuva444p10(const ImageView& image, const PixelRect& rect,
-                           const Yuva444p10View& picture);
+                           const YuvView<std::uint16_t>& picture);
 
-/// As Yuv420View, with alpha 0 to 255 for each pixel.
-struct Yuva420View {
-  PlaneView<std::uint8_t> y, cb, cr, alpha;
-};
-
-/// Chroma is sited left. Alpha weighs the pixels of a chroma sample too, so hidden colours do not
-/// tint an edge.
+/// 4:2:0 with 8 bits, chroma sited left, alpha 0 to 255 for each pixel. Alpha weighs the pixels of
+/// a chroma sample too, so hidden colours do not tint an edge.
 /// @param image of even width and height.
 /// @param rect  inside the image; all its numbers are even. Chroma reads one column left of it.
-void convert_to_yuva420(const ImageView& image, const PixelRect& rect, const Yuva420View& picture);
+void convert_to_yuva420(const ImageView& image, const PixelRect& rect,
+                        const YuvView<std::uint8_t>& picture);
 
 }  // namespace piblocks

@@ -19,8 +19,6 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// A second or so, since a chunk begins with a whole picture.
-constexpr std::int64_t kFramesPerChunk = 64;
 /// A delay is a fraction of two 16-bit numbers.
 constexpr int kMaxTerm = 65535;
 /// Where acTL stands: behind the signature and IHDR.
@@ -97,7 +95,7 @@ void ApngEncoder::filter(const PixelRect& rect) {
   rows_.resize((row_bytes + 1) * std::size_t(rect.height_px));
   std::uint8_t* to = rows_.data();
   for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
-    pack_pixels(picture_.view(format_.has_alpha), rect.x_px, y, rect.width_px, current.data());
+    pack_row(picture_.view(format_.has_alpha), rect, y, current.data());
     *to++ = kUp;
     subtract_bytes(current.data(), above.data(), row_bytes, to);
     to += row_bytes;
@@ -117,6 +115,7 @@ void finish_file(OutputFile& file, std::int64_t frames) {
 }  // namespace
 
 std::unique_ptr<Output> apng_output(const OutputRequest& request) {
+  constexpr std::int64_t kFramesPerChunk = 64;  // the first of them whole
   const Rational& rate = request.format.frame_rate;
   if (rate.get_num() > kMaxTerm || rate.get_den() > kMaxTerm) {
     throw UsageError(

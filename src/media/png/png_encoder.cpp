@@ -54,13 +54,10 @@ void PngEncoder::filter_rect(const ImageView& image, const PixelRect& rect) {
   const std::size_t bytes = static_cast<std::size_t>(rect.width_px) * packed_bytes(has_alpha_);
   Bytes above(bytes);
   Bytes current(bytes);
-  const auto pack = [&](int y, Bytes& row) {
-    pack_pixels(image, rect.x_px, y, rect.width_px, row.data());
-  };
-  if (rect.y_px > 0) pack(rect.y_px - 1, above);
+  if (rect.y_px > 0) pack_row(image, rect, rect.y_px - 1, above.data());
   const int end = std::min(rect.y_px + rect.height_px + 1, height_px_);
   for (int y = rect.y_px; y < end; ++y) {
-    pack(y, current);
+    pack_row(image, rect, y, current.data());
     filter_row(y, rect.x_px, current, above);
     current.swap(above);
   }

@@ -18,8 +18,6 @@ namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
-/// So few that little waits to be written, and that the workers end at nearly the same time.
-constexpr std::int64_t kFramesPerChunk = 16;
 /// Number of the first file, as that of FFmpeg's image2 muxer.
 constexpr std::int64_t kFirstNumber = 1;
 
@@ -77,6 +75,8 @@ void PngSequence::remove_longer_sequence() {
 }  // namespace
 
 std::unique_ptr<Output> png_output(const OutputRequest& request) {
+  // So few that little waits to be written, and that the workers end at nearly the same time.
+  constexpr std::int64_t kFramesPerChunk = 16;
   return std::make_unique<SimpleOutput>(SimpleOutput::Parts{
       .frames_per_chunk = kFramesPerChunk,
       .signature = fmt::format("png by zlib {}", zlibVersion()),

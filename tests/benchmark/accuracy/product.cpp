@@ -37,7 +37,7 @@ class Product final : public Method {
     const auto log = make_collision_log(system);
     std::vector<LoggedEvent> events;
     for (const std::int64_t k : wanted) {
-      const Collision collision = log->at(k);
+      const Collision collision = log->collision(k);
       events.push_back({k, collision.time.hi, collision.blue.position, collision.red.position});
     }
     return events;
@@ -48,7 +48,7 @@ class Product final : public Method {
     const auto log = make_collision_log(system);
     std::vector<double> blue;
     blue.reserve(instants.exact.size());
-    for (const Rational& time : instants.exact) blue.push_back(state_at(*log, time).blue.position);
+    for (const Rational& time : instants.exact) blue.push_back(log->state_at(time).blue.position);
     return blue;
   }
 

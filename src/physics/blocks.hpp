@@ -1,0 +1,77 @@
+// What all engines do with blocks: round them, run them backwards, and check inputs and answers.
+// In: exact values. Out: doubles, problems, exceptions.
+#pragma once
+
+#include <piblocks/run.hpp>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/format_rational.hpp"
+
+namespace piblocks {
+
+inline Motion motion_of(const Block& block) {
+  return {to_double(block.position), to_double(block.velocity)};
+}
+
+/// The motion at a time until which the block meets nothing, rounded once.
+inline Motion motion_at(const Block& block, const Rational& time) {
+  return {to_double(block.position + block.velocity * time), to_double(block.velocity)};
+}
+
+inline Motion reversed(const Motion& motion) { return {motion.position, -motion.velocity}; }
+
+/// The same blocks with opposite velocities: what they do is the past of `system`, backwards.
+inline BlockSystem reversed(BlockSystem system) {
+  system.blue.velocity = -system.blue.velocity;
+  system.red.velocity = -system.red.velocity;
+  return system;
+}
+
+inline bool is_finite(const Rational& value) { return std::isfinite(to_double(value)); }
+
+/// Collects what is wrong with the values of a scene.
+class SceneProblems {
+ public:
+  /// @param list  known already.
+  explicit SceneProblems(std::vector<Problem> list = {}) : list_(std::move(list)) {}
+  /// @param reason, args  as fmt::format() takes them.
+  template <typename... Args>
+  void add(const char* key, fmt::format_string<const Args&...> reason, const Args&... args) {
+    list_.push_back({key, fmt::format(reason, args...)});
+  }
+  /// Adds a problem unless `holds`.
+  template <typename... Args>
+  void require(bool holds, const char* key, fmt::format_string<const Args&...> reason,
+               const Args&... args) {
+    if (!holds) add(key, reason, args...);
+  }
+  void require_positive(const char* key, const Rational& value) {
+    require(value > 0, key, "= {}: must be greater than 0", value);
+  }
+  void require_finite(const char* key, const Rational& value) {
+    require(is_finite(value), key, "is beyond the range of a double (about 1.8e308)");
+  }
+
+  bool empty() const { return list_.empty(); }
+  std::vector<Problem> take() { return std::move(list_); }
+
+ private:
+  std::vector<Problem> list_;
+};
+
+/// @throws SceneError that lists the problems, if there are any.
+void require_valid(const std::vector<Problem>& problems);
+
+/// @param engine  named in the message.
+/// @throws SimulationError if a number is not finite.
+void require_finite(const Time& time, const Motion& blue, const Motion& red, const char* engine);
+
+/// Collisions that happen at the same time have no instant between them.
+/// @throws UsageError unless the collision is the last one at its time.
+void require_last(const Integer& index, const Integer& last_at_its_time);
+
+}  // namespace piblocks
