@@ -5,12 +5,10 @@
 #include <ft2build.h>
 #include <piblocks/error.hpp>
 
-#include <optional>
 #include <string>
 
 #include "core/utf8.hpp"
 #include "draw/cairo_handles.hpp"
-#include "draw/shaping.hpp"
 #include FT_FREETYPE_H
 
 // Defined in font_data.S.
@@ -124,10 +122,8 @@ void Font::check(std::string_view utf8, const char* what) const {
     if (!has_glyph && missing.empty()) missing = rest.substr(0, length_bytes);
     rest.remove_prefix(length_bytes);
   }
-  if (const std::optional<Unshaped> unshaped = first_unshaped(utf8)) {
-    throw UsageError(
-        fmt::format("{}: {} {}; {}", what, unshaped->name, unshaped->reason, unshaped->remedy));
-  }
+  const std::string problem = shaping_problem(utf8);
+  if (!problem.empty()) throw UsageError(fmt::format("{}: {}", what, problem));
   if (missing.empty()) return;
   throw UsageError(fmt::format("{}: the font {} has no glyph for '{}'", what, kFontName, missing));
 }

@@ -33,7 +33,7 @@ class Font {
   /// The glyphs of a line of text that starts at `origin`, in a context where select() was called.
   static std::vector<cairo_glyph_t> glyphs(cairo_t& cr, const Point& origin, std::string_view utf8);
   /// @param what  names the text in messages
-  /// @throws UsageError if it is not UTF-8, a character needs shaping (shaping.hpp), or the font
+  /// @throws UsageError if it is not UTF-8, a character needs shaping, or the font
   /// has
   ///         no glyph for it.
   void check(std::string_view utf8, const char* what) const;
@@ -48,6 +48,10 @@ class Font {
   struct Faces;
   std::unique_ptr<Faces> faces_;
 };
+
+/// Names the first character whose glyph depends on its neighbours, that is written from right to
+/// left, or that is an instruction. Empty if there is none. @param utf8  valid
+std::string shaping_problem(std::string_view utf8);
 
 /// Widths of texts that change from frame to frame, without the font. Const members are
 /// thread-safe.

@@ -1,14 +1,13 @@
-#include "draw/shaping.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
-#include <utility>
+#include <string>
 
 #include "core/utf8.hpp"
+#include "draw/font.hpp"
 
 namespace piblocks {
 namespace {
@@ -73,18 +72,19 @@ constexpr std::array kKinds{
 
 }  // namespace
 
-std::optional<Unshaped> first_unshaped(std::string_view utf8) {
+std::string shaping_problem(std::string_view utf8) {
   while (!utf8.empty()) {
     const auto [code, length_bytes] = first_character(utf8);
     for (const Kind& kind : kKinds) {
       if (!holds(kind.ranges, code)) continue;
-      std::string name = fmt::format("U+{:04X}", code);
-      if (kind.is_letter) name = fmt::format("'{}' ({})", utf8.substr(0, length_bytes), name);
-      return Unshaped{std::move(name), kind.reason, kind.remedy};
+      const std::string letter =
+          kind.is_letter ? fmt::format("'{}' (U+{:04X})", utf8.substr(0, length_bytes), code)
+                         : fmt::format("U+{:04X}", code);
+      return fmt::format("{} {}; {}", letter, kind.reason, kind.remedy);
     }
     utf8.remove_prefix(length_bytes);
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace piblocks

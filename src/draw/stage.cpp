@@ -23,7 +23,7 @@ constexpr double kMostBannerText = 2.2;
 /// From this size on, a unit of the scene is rounded to an even number of pixels. That makes edges
 /// that do not move sharp, and the upper and lower edges of blocks of width 1.
 constexpr double kMinRounded_px = 16;
-/// Most pixels between two positions that doubles can tell apart.
+/// Greatest distance of neighbouring doubles on the axis.
 constexpr double kMostStep_px = 0.25;
 // In ems of the label.
 constexpr double kLabelGap = 1.0;  // between the label's baseline and the view

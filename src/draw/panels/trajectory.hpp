@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "draw/panels/gaps.hpp"
+#include "draw/panels/wedge.hpp"
 
 namespace piblocks {
 
@@ -36,7 +36,7 @@ struct TrajectorySpan {
 };
 
 /// Pieces from one end of the span to the other.
-std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const PanelGaps& gaps,
+std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const Wedge& wedge,
                                            const TrajectorySpan& span);
 
 /// The greatest of red's gaps at corners and at ends of bands; at least 0.

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "draw/number_text.hpp"
-#include "draw/panels/gaps.hpp"
 #include "draw/panels/panels.hpp"
+#include "draw/panels/wedge.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -17,8 +17,8 @@ constexpr double kRimStep = 0.05;       // radians
 constexpr double kBelow_em = 1.5;
 
 /// The exponent n if 1 ray in 10^n is drawn, so that their ends are far enough apart.
-unsigned long stride_exponent(const PanelGaps& gaps, double radius_px) {
-  const double exponent = std::ceil(std::log10(kLeastBetween_px / radius_px) - gaps.log10_theta());
+unsigned long stride_exponent(const Wedge& wedge, double radius_px) {
+  const double exponent = std::ceil(std::log10(kLeastBetween_px / radius_px) - wedge.log10_theta());
   return static_cast<unsigned long>(std::max(0.0, exponent));
 }
 
@@ -39,13 +39,13 @@ double angle_between(const Point& from, const Point& to) {
 class UnfoldedPanel {
  public:
   UnfoldedPanel(const Setting& setting, const PanelPlace& place)
-      : gaps_(setting.scene.system),
+      : wedge_(setting.scene.system),
         sheet_(setting, place, {"Unfolded: a straight line", "Unfolded"}) {
     const BlockSystem& system = setting.scene.system;
-    start_ = {gaps_.cosine * to_double(system.blue_gap() + system.blocks_gap()),
-              gaps_.sine * to_double(system.blue_gap())};
-    velocity_ = {gaps_.cosine * to_double(system.red.velocity),
-                 gaps_.sine * to_double(system.blue.velocity)};
+    start_ = {wedge_.cosine * to_double(system.blue_gap() + system.blocks_gap()),
+              wedge_.sine * to_double(system.blue_gap())};
+    velocity_ = {wedge_.cosine * to_double(system.red.velocity),
+                 wedge_.sine * to_double(system.blue.velocity)};
     const Span span = span_of(setting.scene, setting.log);
     from_ = plane_at(to_double(span.from));
     const Point to = plane_at(to_double(span.to));
@@ -96,8 +96,8 @@ class UnfoldedPanel {
   }
 
   void add_rays() {
-    stride_exponent_ = stride_exponent(gaps_, rim_.radius);
-    const double step = gaps_.angle({1, static_cast<long>(stride_exponent_)});
+    stride_exponent_ = stride_exponent(wedge_, rim_.radius);
+    const double step = wedge_.angle({1, static_cast<long>(stride_exponent_)});
     std::vector<Point> rays;
     for (double k = std::ceil(-tilt_ / step); tilt_ + k * step <= std::numbers::pi * (1 + 1e-12);
          ++k) {
@@ -118,16 +118,16 @@ class UnfoldedPanel {
   }
 
   void add_present_wedge(const Point& present, std::vector<DrawItem>& items) const {
-    const double k = std::floor((from_angle_ + angle_between(from_, present)) / gaps_.theta);
-    const double begin = std::max(0.0, tilt_ + k * gaps_.theta);
-    const double end = std::min(tilt_ + (k + 1) * gaps_.theta, std::numbers::pi);
+    const double k = std::floor((from_angle_ + angle_between(from_, present)) / wedge_.theta);
+    const double begin = std::max(0.0, tilt_ + k * wedge_.theta);
+    const double end = std::min(tilt_ + (k + 1) * wedge_.theta, std::numbers::pi);
     std::vector<Point> outline = rim_.arc(begin, end);
     outline.insert(outline.begin(), rim_.centre);
     items.emplace_back(
         sheet_.moving_shape(0, std::move(outline), sheet_.palette().shade, sheet_.palette().muted));
   }
 
-  PanelGaps gaps_;
+  Wedge wedge_;
   PanelSheet sheet_;
   Point start_;
   Point velocity_;

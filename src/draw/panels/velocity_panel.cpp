@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "draw/panels/gaps.hpp"
 #include "draw/panels/panels.hpp"
+#include "draw/panels/wedge.hpp"
 
 namespace piblocks {
 namespace {
@@ -26,7 +26,7 @@ PanelTitle title_of(const Palette& palette) {
 class VelocityPanel {
  public:
   VelocityPanel(const Setting& setting, const PanelPlace& place)
-      : sheet_(setting, place, title_of(setting.palette)), gaps_(setting.scene.system) {
+      : sheet_(setting, place, title_of(setting.palette)), wedge_(setting.scene.system) {
     const BlockSystem& system = setting.scene.system;
     const Rational energy = twice_energy(system);
     if (energy > 0) {
@@ -56,7 +56,7 @@ class VelocityPanel {
     const bool is_over = shown.state.count >= collisions_;
     const double angle = is_over ? 0 : std::abs(std::atan2(velocity.y, velocity.x));
     add_lit(angle, below_, 0, items);
-    add_lit(velocity.y < 0 && !is_over ? angle + 2 * gaps_.theta : angle, above_, 1, items);
+    add_lit(velocity.y < 0 && !is_over ? angle + 2 * wedge_.theta : angle, above_, 1, items);
     if (rays_.plate) items.emplace_back(rays_);
     const Point at{circle_.centre.x + circle_.radius * velocity.x,
                    circle_.centre.y - circle_.radius * velocity.y};
@@ -78,7 +78,7 @@ class VelocityPanel {
   };
 
   Side side_of(const Integer& collisions, double sign) const {
-    return {sign, std::min(2 * gaps_.angle(magnitude_of(Rational(collisions))), start_angle_)};
+    return {sign, std::min(2 * wedge_.angle(magnitude_of(Rational(collisions))), start_angle_)};
   }
 
   void place_sectors(const CollisionLog& log) {
@@ -105,12 +105,12 @@ class VelocityPanel {
 
   /// Rays between all sectors, lit or not, over what is lit. They are painted once.
   void add_rays() {
-    const double inner = kLeastApart_px / (2 * gaps_.theta);
+    const double inner = kLeastApart_px / (2 * wedge_.theta);
     if (inner > circle_.radius) return;
     Plate plate;
     for (const Side& side : {below_, above_}) {
-      const double end = start_angle_ - side.swept - gaps_.theta / 2;
-      for (double angle = start_angle_; angle > end; angle -= 2 * gaps_.theta) {
+      const double end = start_angle_ - side.swept - wedge_.theta / 2;
+      for (double angle = start_angle_; angle > end; angle -= 2 * wedge_.theta) {
         const double at = side.sign * std::max(0.0, angle);
         plate.items.emplace_back(sheet_.moving_line(
             2, {Circle{circle_.centre, inner}.at(at), circle_.at(at)}, sheet_.palette().grid));
@@ -123,14 +123,14 @@ class VelocityPanel {
   void add_lit(double angle, const Side& side, std::size_t n, std::vector<DrawItem>& items) const {
     const double end = std::max(angle, start_angle_ - side.swept);
     // A sector that is lit by less than half of itself is lit by rounding.
-    if (end > start_angle_ - gaps_.theta / 2) return;
+    if (end > start_angle_ - wedge_.theta / 2) return;
     std::vector<Point> outline = circle_.arc(side.sign * start_angle_, side.sign * end);
     outline.push_back(circle_.centre);
     items.emplace_back(sheet_.moving_shape(n, std::move(outline), sheet_.palette().shade));
   }
 
   PanelSheet sheet_;
-  PanelGaps gaps_;
+  Wedge wedge_;
   bool moves_ = false;
   // From a velocity to its part of the radius; they may be beyond the range of a double.
   mpf_class red_factor_;

@@ -1,4 +1,4 @@
-// The two gaps that diagrams show: a state without the blocks' widths.
+// The wedge that a system moves in, and the two gaps that diagrams show of its states.
 // In: a system and states of it. Out: y1, blue's distance from the wall, and y2, red's distance
 // less blue's width, so that 0 <= y1 <= y2. They are equal while the blocks touch.
 #pragma once
@@ -18,8 +18,8 @@ struct GapPoint {
   double y2 = 0;
 };
 
-struct PanelGaps {
-  explicit PanelGaps(const BlockSystem& system)
+struct Wedge {
+  explicit Wedge(const BlockSystem& system)
       : blue_offset(to_double(system.wall_face + system.blue.width / 2)),
         red_offset(to_double(system.wall_face + system.blue.width + system.red.width / 2)),
         sine(root_of(system.blue.mass / (system.blue.mass + system.red.mass)).get_d()),
@@ -27,10 +27,10 @@ struct PanelGaps {
         theta(std::atan2(sine, cosine)),
         tangent(root_magnitude_of(system.blue.mass / system.red.mass)) {}
 
-  GapPoint of(const Motion& blue, const Motion& red) const {
+  GapPoint gaps_of(const Motion& blue, const Motion& red) const {
     return {blue.position - blue_offset, red.position - red_offset};
   }
-  GapPoint of(const BlockState& state) const { return of(state.blue, state.red); }
+  GapPoint gaps_of(const BlockState& state) const { return gaps_of(state.blue, state.red); }
 
   /// So many times the wedge angle, which alone may be below the range of a double.
   double angle(const Magnitude& times) const {
