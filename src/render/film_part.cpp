@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "draw/card.hpp"
+#include "draw/story_pictures.hpp"
 #include "render/logo.hpp"
 #include "render/shutter.hpp"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "draw/composition.hpp"
-#include "draw/split_screen.hpp"
+#include "draw/story_pictures.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {

@@ -20,7 +20,7 @@ constexpr double kBaseline = 0.82;
 constexpr double kTextSize = 0.44;
 constexpr double kLeastDown = 0.1;
 constexpr double kLeastRoom_px = 16;
-/// With fewer, nothing can be measured.
+/// Fewer give no scale.
 constexpr int kLeastFigures = 2;
 // In ems.
 constexpr double kFigure_em = 2 * kHalfFigure_em;
@@ -44,7 +44,7 @@ struct Room {
   double at(double share) const { return top + share * height; }
 };
 
-/// @throws UsageError if there is none below the blocks.
+/// @throws UsageError if there is too little below the blocks.
 Room room_for(const Setting& setting) {
   const Layout& layout = setting.stage;
   const double foot = base_of(setting.scene.system);
@@ -66,8 +66,8 @@ struct Rows {
   bool are_below_wall;
 };
 
-/// Figures below the wall's foot if there is room, so that the one at its face can be centred
-/// there, and otherwise in the room below the blocks.
+/// Figures are below the wall's foot if there is room, so that the figure at its face can be
+/// centred there. Otherwise they are in the room below the blocks.
 Rows rows_of(const Setting& setting, const Room& room) {
   const Layout& layout = setting.stage;
   const double usual_px = std::min(kTextSize * room.height, setting.text_px);
@@ -118,7 +118,7 @@ Drawable ruler(const Setting& setting) {
     items.emplace_back(line_between({x, rows.axis}, {x, rows.tick_end}, stroke));
     const std::string text = tick_text(value, ticks.step);
     const double half_px = setting.font.width_em(text) * size_px / 2;
-    // A figure beside its mark would name another place.
+    // There is no room for it, and beside its mark it would name another place.
     if (x - half_px < first_px || x + half_px > end_px) continue;
     ++figures;
     items.emplace_back(

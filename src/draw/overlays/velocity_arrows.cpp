@@ -18,14 +18,14 @@ constexpr double kBaseline = 0.54;  // height of the figure's baseline, clear of
 constexpr double kTextSize = 0.4;
 constexpr double kHead = 0.17;
 constexpr double kLeastRoom_px = 16;
-/// No arrow is as long as this, in parts of the distance of the centres of blocks that touch: above
-/// its own block's centre it never meets the other one.
+/// Arrows are shorter than this part of the distance between the centres of touching blocks.
+/// Centred above its block, an arrow never meets the other one.
 constexpr double kLongest = 0.9;
 constexpr double kBetweenFigures_em = 0.5;
-/// So many times the usual speed has an arrow half as long.
+/// An arrow of so many times the usual speed has half the greatest length.
 constexpr double kHalfLength = 2;
 
-/// The heavier block's largest speed: all energy its own. It may be below the range of a double.
+/// The heavier block's speed when it has all the energy. It may be below the range of a double.
 mpf_class usual_speed(const BlockSystem& system) {
   return root_of(twice_energy(system) / std::max(system.blue.mass, system.red.mass));
 }
@@ -89,7 +89,7 @@ class VelocityArrows {
   }
 
  private:
-  /// A block that has left the frame has no figure: half of one, at the frame's edge, would be
+  /// A block that has left the frame has no figure: half a figure, at the frame's edge, would be
   /// another number.
   bool is_seen(const Motion& motion, double side_px) const {
     const double x = layout_.at(motion.position, top_).x;
@@ -116,8 +116,8 @@ class VelocityArrows {
             width};
   }
 
-  /// Each gives way by half, but blue's, which is the left one, not into the wall, and red's not
-  /// out of the frame, as long as there is room for both between them.
+  /// Each figure gives way by half of the overlap. Blue's, which is on the left, does not go into
+  /// the wall, nor red's out of the frame, as long as there is room for both between.
   void keep_apart(Figure& blue, Figure& red) const {
     blue.left() = std::max(blue.left(), least_left_px_);
     const double overlap = blue.left() + blue.width + kBetweenFigures_em * text_px_ - red.left();
