@@ -9,7 +9,6 @@
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "core/overwrite_check.hpp"
-#include "golden/describe.hpp"
 #include "golden/frame_source.hpp"
 #include "golden/reports.hpp"
 
@@ -88,7 +87,7 @@ class Printer {
 
   void add(const FrameComparison& frame) {
     if (quiet_ || frame.is_equal() || ++lines_ > kMaxLines) return;
-    out_.format_line("{}: {}", frame.name, describe(frame));
+    out_.format_line("{}: {}", frame.name, difference_text(frame));
     out_.flush();
   }
 

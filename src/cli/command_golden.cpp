@@ -16,7 +16,6 @@
 #include "core/overwrite_check.hpp"
 #include "core/unfinished.hpp"
 #include "draw/canvas.hpp"
-#include "golden/describe.hpp"
 #include "golden/reports.hpp"
 #include "render/references.hpp"
 #include "render/run.hpp"
@@ -112,7 +111,8 @@ bool compare_file(const fs::path& reference, const fs::path& actual, Report* rep
   const ComparisonJob job{reference, actual};
   const auto on_frame = [&](const FrameComparison& frame) {
     if (frame.is_accepted) return;
-    out.format_line("{}: {}: {}", reference.filename().string(), frame.name, describe(frame));
+    out.format_line("{}: {}: {}", reference.filename().string(), frame.name,
+                    difference_text(frame));
     if (report != nullptr) report->add(frame);
   };
   const ComparisonResult result = compare_files(job, on_frame);

@@ -6,31 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/utf8.hpp"
+
 namespace piblocks {
 namespace {
-
-struct Character {
-  std::uint32_t code = 0;
-  std::size_t length_bytes = 0;  // 0 if the bytes are not UTF-8
-};
-
-/// RFC 3629: the shortest form only, no surrogates, nothing above U+10FFFF.
-Character first_character(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned lead = byte(0);
-  if (lead < 0x80) return {lead, 1};
-  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return {};
-  std::uint32_t code = lead & (0xffU >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0U) != 0x80) return {};
-    code = code << 6 | (byte(i) & 0x3fU);
-  }
-  const std::uint32_t lowest = length == 4 ? 0x10000 : length == 3 ? 0x800 : 0x80;
-  const bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
-  if (code < lowest || code > 0x10ffff || is_surrogate) return {};
-  return {code, length};
-}
 
 bool is_plain(std::uint32_t code) {
   const auto is_in = [code](std::uint32_t first, std::uint32_t last) {

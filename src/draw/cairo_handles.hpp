@@ -10,19 +10,18 @@
 
 namespace piblocks {
 
-struct CairoDeleter {
-  void operator()(cairo_t* p) const { cairo_destroy(p); }
-  void operator()(cairo_surface_t* p) const { cairo_surface_destroy(p); }
-  void operator()(cairo_font_face_t* p) const { cairo_font_face_destroy(p); }
-  void operator()(cairo_scaled_font_t* p) const { cairo_scaled_font_destroy(p); }
-  void operator()(cairo_font_options_t* p) const { cairo_font_options_destroy(p); }
+template <auto kRelease>
+struct Released {
+  void operator()(auto* object) const { kRelease(object); }
 };
 
-using CairoPtr = std::unique_ptr<cairo_t, CairoDeleter>;
-using CairoSurfacePtr = std::unique_ptr<cairo_surface_t, CairoDeleter>;
-using CairoFontFacePtr = std::unique_ptr<cairo_font_face_t, CairoDeleter>;
-using CairoScaledFontPtr = std::unique_ptr<cairo_scaled_font_t, CairoDeleter>;
-using CairoFontOptionsPtr = std::unique_ptr<cairo_font_options_t, CairoDeleter>;
+using CairoPtr = std::unique_ptr<cairo_t, Released<cairo_destroy>>;
+using CairoSurfacePtr = std::unique_ptr<cairo_surface_t, Released<cairo_surface_destroy>>;
+using CairoFontFacePtr = std::unique_ptr<cairo_font_face_t, Released<cairo_font_face_destroy>>;
+using CairoScaledFontPtr =
+    std::unique_ptr<cairo_scaled_font_t, Released<cairo_scaled_font_destroy>>;
+using CairoFontOptionsPtr =
+    std::unique_ptr<cairo_font_options_t, Released<cairo_font_options_destroy>>;
 
 /// @throws DrawError naming the operation if the status is not success.
 inline void check_cairo(cairo_status_t status, const char* operation) {

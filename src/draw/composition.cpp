@@ -4,6 +4,7 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -44,8 +45,8 @@ std::string lit_digits(const Scene& scene, const CollisionLog& log) {
       "leave out 'digits', or give a mass ratio of 100^(D-1) and a blue.velocity of 0");
 }
 
-/// Of the counts that the film shows: before time 0 they are negative, and may be longer than the
-/// last one.
+/// The longest count that the film shows. Counts before time 0 are negative, and may be longer than
+/// the last one.
 Integer longest_count(const Scene& scene, const CollisionLog& log) {
   const Integer& last = log.size();
   if (log.first_index() > 0 || !has_span(scene, log)) return last;
@@ -64,19 +65,10 @@ std::vector<ReadOut> read_outs_of(const Setting& setting) {
 }
 
 Drawable make_panel(const Setting& setting, const PanelPlace& place) {
-  switch (place.panel) {
-    case Panel::velocity:
-      return velocity_panel(setting, place);
-    case Panel::position:
-      return position_panel(setting, place);
-    case Panel::unfolded:
-      return unfolded_panel(setting, place);
-    case Panel::time:
-      return time_panel(setting, place);
-    case Panel::rate:
-      return rate_panel(setting, place);
-  }
-  return nullptr;
+  // In the order of Panel.
+  constexpr std::array kPanels = {velocity_panel, position_panel, unfolded_panel, time_panel,
+                                  rate_panel};
+  return kPanels.at(static_cast<std::size_t>(place.panel))(setting, place);
 }
 
 /// @throws UsageError if something at this time is beyond the range of numbers.
@@ -93,8 +85,8 @@ bool is_finite(const Motion& motion) {
   return std::isfinite(motion.position) && std::isfinite(motion.velocity);
 }
 
-/// As large as fits, in the lower right corner of its place.
-/// @throws UsageError if nothing could be seen of it.
+/// The logo as large as fits, in the lower right corner of its place.
+/// @throws UsageError if it would be too small to be seen.
 ImageItem place_logo(const Rectangle& place, std::shared_ptr<const Image> logo) {
   const double scale = std::min(place.width / logo->width_px, place.height / logo->height_px);
   const double width = scale * logo->width_px;
@@ -136,7 +128,7 @@ Composition::Contents::Contents(const Scene& scene, const CollisionLog& log,
   const FramePlan plan = plan_frame(setting, rows.height());
   layout = lay_out(scene, longest_count(scene, log), plan.stage, font);
 
-  stage.emplace(scene, layout, palette, font, lit_digits(scene, log));
+  stage.emplace(setting, lit_digits(scene, log));
   add_overlays(setting);
   if (rows.height() > 0) {
     rows.move(plan.stage.y + plan.stage.height);

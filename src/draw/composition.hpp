@@ -13,21 +13,20 @@
 
 namespace piblocks {
 
-/// The state that a frame shows.
 struct FrameState {
   BlockState state;
   Rational time = 0;    ///< simulation time of the state
   Rational slower = 1;  ///< as in Stretch
 };
 
-/// A part of the time for which a frame is exposed.
+/// An interval of the time for which a frame is exposed, and its share of that time.
 struct WeightedExposure {
-  double share = 1;  ///< of that time; 1 in all
+  double share = 1;  ///< the shares of a frame add up to 1
   Exposure exposure;
 };
 
-/// The layout and everything in it that does not move. Only what the scene asks for is made; the
-/// log is read while it is made, not afterwards. Const members are thread-safe.
+/// The layout and everything in it that does not move. It makes only what the scene asks for, and
+/// reads the log only while it is made. Const members are thread-safe.
 class Composition {
  public:
   /// @param logo  the picture that scene.show.logo names, if it does.
@@ -42,7 +41,8 @@ class Composition {
   Composition(const Composition&) = delete;
   Composition& operator=(const Composition&) = delete;
 
-  /// @param exposure  where the blocks are while the frame is exposed; empty shows the instant. All
+  /// @param exposure  where the blocks are while the frame is exposed; if empty, at the instant.
+  /// All
   ///                  else is shown as it is at the instant.
   DrawList frame(const FrameState& shown, std::span<const WeightedExposure> exposure = {}) const;
 

@@ -14,8 +14,6 @@
 #include <variant>
 #include <vector>
 
-#include "draw/exposed_item.hpp"
-#include "draw/item_id.hpp"
 #include "draw/shapes.hpp"
 
 namespace piblocks {
@@ -40,7 +38,7 @@ struct TextItem {
   friend bool operator==(const TextItem&, const TextItem&) = default;
 };
 
-/// Points that may be many and are shared by all frames in which they are the same.
+/// Points, shared by all frames in which they are the same.
 class Points {
  public:
   Points() = default;
@@ -90,7 +88,7 @@ struct DiskItem {
   friend bool operator==(const DiskItem&, const DiskItem&) = default;
 };
 
-/// A picture, scaled to its bounds. Equal if it is the same picture in memory.
+/// An image, scaled to its bounds. Equal if it is the same image in memory.
 struct ImageItem {
   ItemId id = ItemId::wall;
   Rectangle bounds;
@@ -101,11 +99,11 @@ struct ImageItem {
 
 struct Plate;
 
-/// Items that never change, as one: a canvas paints them once and keeps their picture. Equal if it
-/// is the same plate in memory.
+/// Items that never change: a canvas paints them once and keeps their pixels. Equal if it is the
+/// same plate in memory.
 struct PlateItem {
   ItemId id = ItemId::wall;
-  Rectangle bounds;  ///< in whole pixels; nothing of the plate is seen outside
+  Rectangle bounds;  ///< in whole pixels; the plate is cut off at them
   std::shared_ptr<const Plate> plate;
 
   friend bool operator==(const PlateItem&, const PlateItem&) = default;
@@ -124,6 +122,56 @@ struct GroupItem {
   friend bool operator==(const GroupItem& a, const GroupItem& b);
 };
 
+/// A place of a block's left edge, and for which share of the exposure it is there.
+struct Dwell {
+  double x = 0;
+  double share = 0;
+
+  friend bool operator==(const Dwell&, const Dwell&) = default;
+};
+
+/// Rows across a block.
+struct Bar {
+  double y = 0;
+  double height = 0;
+
+  friend bool operator==(const Bar&, const Bar&) = default;
+};
+
+/// A filled rectangle that moves sideways while the picture is exposed.
+struct ExposedBlock {
+  Rectangle bounds;  ///< at the picture's instant
+  Color fill;
+  Stroke stroke;          ///< solid
+  std::vector<Bar> bars;  ///< in the stroke's colour, inside the bounds
+  /// From left to right; none if the block stays. The shares add up to 1, less what is outside of
+  /// the frame.
+  std::vector<Dwell> dwells;
+
+  friend bool operator==(const ExposedBlock&, const ExposedBlock&) = default;
+};
+
+/// A share of an exposure during which the left edge of the block behind and the right edge of the
+/// one in front are less than a pixel apart. Both places are left edges.
+struct Contact {
+  double behind_x = 0;
+  double front_x = 0;
+  double share = 0;
+
+  friend bool operator==(const Contact&, const Contact&) = default;
+};
+
+/// Two blocks, exposed: the mean, in linear light, of the pictures that rectangles would make at
+/// each instant. A vector file has moving blocks as pixels, and others as rectangles.
+struct ExposedItem {
+  ItemId id = ItemId::red_block;
+  ExposedBlock behind;  ///< on the right
+  ExposedBlock front;
+  std::vector<Contact> contacts;  ///< from left to right
+
+  friend bool operator==(const ExposedItem&, const ExposedItem&) = default;
+};
+
 using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, PlateItem,
                               GroupItem, ExposedItem>;
 
@@ -134,7 +182,7 @@ struct Plate {
 struct DrawList {
   int width_px = 0;
   int height_px = 0;
-  std::optional<Color> background = Color{255, 255, 255};  ///< transparent without
+  std::optional<Color> background = Color{255, 255, 255};  ///< transparent if empty
   std::vector<DrawItem> items;                             ///< from back to front
 
   friend bool operator==(const DrawList&, const DrawList&) = default;

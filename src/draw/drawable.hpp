@@ -13,17 +13,6 @@
 
 namespace piblocks {
 
-/// What drawables are made from. It does not outlive their making.
-struct Setting {
-  const Scene& scene;
-  const CollisionLog& log;
-  const Palette& palette;
-  const Font& font;
-  const Layout& stage;
-  double text_px;  ///< of what is read beside the blocks
-  double line_px;
-};
-
 /// Appends the items that show it at one instant. Thread-safe.
 using Drawable = std::function<void(const FrameState& shown, std::vector<DrawItem>& items)>;
 

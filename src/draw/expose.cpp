@@ -8,39 +8,44 @@
 namespace piblocks {
 namespace {
 
-/// What moves less than this, stays: far below what a pixel can tell, far above roundings.
+/// A block that moves less than this is taken to stay. Far below what a pixel shows, far above
+/// roundings.
 constexpr double kStill_px = 1e-6;
 
-/// Beyond the frame's edge by more than this, nothing of a block is seen.
+/// Blocks beyond the frame's edge by more than this are not seen.
 constexpr double kMargin_px = 4;
 
-/// Most places that stand for the way of one block.
-constexpr double kMaxStops = 1 << 15;
+constexpr double kMaxDwells = 1 << 15;
 
-/// Distance of the places in which a block is drawn. Between two of them the light of a pixel is
-/// taken as changing evenly. The error falls with the square of the distance, and counts the less
-/// the shorter a block is in a pixel.
+/// Distance from one dwell to the next. Between two of them the light of a pixel is taken to change
+/// evenly. The error falls with the square of the distance. A block that moves farther is in each
+/// pixel for a shorter time, and the error matters less.
 double spacing_px(double range_px) {
   const double fine = range_px <= 64 ? 1.0 / 32 : range_px <= 512 ? 1.0 / 16 : 1.0 / 4;
-  return std::max(fine, range_px / kMaxStops);
+  return std::max(fine, range_px / kMaxDwells);
 }
 
 /// The map from the position of a block's centre to the column of its left edge.
 struct ToPixels {
   double zero_px;
   double scale;
+  double block_px;  ///< width of the block
+  int frame_px;     ///< and of the frame
 
   ToPixels(const SceneColumns& columns, const ExposedBlock& block)
-      : zero_px(columns.zero_px - block.bounds.width / 2), scale(columns.scale) {}
+      : zero_px(columns.zero_px - block.bounds.width / 2),
+        scale(columns.scale),
+        block_px(block.bounds.width),
+        frame_px(columns.width_px) {}
   double operator()(double position) const { return zero_px + position * scale; }
   double back(double x_px) const { return (x_px - zero_px) / scale; }
 };
 
-/// Shares of time by place, such that whatever changes evenly from place to place has the right
-/// mean: the second differences of the integral of F.
-class StopTable {
+/// Shares of time by place: the second differences of the integral of F, the share of time below a
+/// place. With them, what changes evenly from place to place has its exact mean.
+class DwellTable {
  public:
-  StopTable(const Travel& range_px, double spacing)
+  DwellTable(const Travel& range_px, double spacing)
       : spacing_(spacing), first_(std::floor(range_px.from / spacing) - 1) {
     const double last = std::ceil(range_px.to / spacing) + 1;
     shares_.assign(static_cast<std::size_t>(last - first_) + 1, 0);
@@ -61,10 +66,10 @@ class StopTable {
     }
   }
 
-  std::vector<Dwell> take() const {
+  std::vector<Dwell> dwells() const {
     std::vector<Dwell> dwells;
     for (std::size_t i = 0; i < shares_.size(); ++i) {
-      // Differences of equal areas leave roundings.
+      // Less is what rounding leaves of equal areas.
       if (shares_[i] > 1e-12) dwells.push_back({place(i), shares_[i]});
     }
     return dwells;
@@ -82,108 +87,89 @@ class StopTable {
 };
 
 /// Where the left edge of a block goes.
-Travel range_px(BlockName block, const ToPixels& to_px, std::span<const WeightedExposure> parts) {
+Travel range_px(BlockName block, const ToPixels& to_px,
+                std::span<const WeightedExposure> exposures) {
   Travel all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  for (const WeightedExposure& part : parts) {
-    const Travel range = part.exposure.range(block);
+  for (const WeightedExposure& weighted : exposures) {
+    const Travel range = weighted.exposure.range(block);
     all.from = std::min(all.from, to_px(range.from));
     all.to = std::max(all.to, to_px(range.to));
   }
   return all;
 }
 
-/// @param width_px  of the block
-std::vector<Dwell> stops_of(BlockName block, const ToPixels& to_px, double width_px, int frame_px,
-                            std::span<const WeightedExposure> parts) {
-  Travel range = range_px(block, to_px, parts);
+std::vector<Dwell> dwells_of(BlockName block, const ToPixels& to_px,
+                             std::span<const WeightedExposure> exposures) {
+  Travel range = range_px(block, to_px, exposures);
   if (!(range.to - range.from > kStill_px)) return {};
-  // What cannot be seen is left out.
-  range.from = std::max(range.from, -width_px - kMargin_px);
-  range.to = std::min(range.to, frame_px + kMargin_px);
+  range.from = std::max(range.from, -to_px.block_px - kMargin_px);
+  range.to = std::min(range.to, to_px.frame_px + kMargin_px);
   if (!(range.to > range.from)) return {};
-  StopTable table(range, spacing_px(range.to - range.from));
-  for (const WeightedExposure& part : parts) {
-    if (part.exposure.area_below) {
-      const Travel own = part.exposure.range(block);
-      table.add(part.share, to_px(own.from), to_px(own.to), [&](double x) {
-        return part.exposure.area_below(block, to_px.back(x)) * to_px.scale;
+  DwellTable table(range, spacing_px(range.to - range.from));
+  for (const WeightedExposure& weighted : exposures) {
+    if (weighted.exposure.area_below) {
+      const Travel own = weighted.exposure.range(block);
+      table.add(weighted.share, to_px(own.from), to_px(own.to), [&](double x) {
+        return weighted.exposure.area_below(block, to_px.back(x)) * to_px.scale;
       });
       continue;
     }
-    for (const UniformPiece& piece : part.exposure.pieces) {
+    for (const UniformPiece& piece : weighted.exposure.pieces) {
       const Travel& way = piece.of(block);
       const double low = to_px(std::min(way.from, way.to));
       const double high = to_px(std::max(way.from, way.to));
-      table.add(part.share * piece.share, low, high, [&](double x) {
+      table.add(weighted.share * piece.share, low, high, [&](double x) {
         return Travel{low, high}.area_below(x);
       });
     }
   }
-  return table.take();
+  return table.dwells();
 }
 
-/// Places of both blocks along an even motion, as far as they are less than a pixel apart.
-class Contacts {
- public:
-  explicit Contacts(double front_width) : front_width_(front_width) {}
-
-  void add(double share, const Travel& behind, const Travel& front) {
-    const Travel gap{behind.from - front.from - front_width_, behind.to - front.to - front_width_};
-    double begin = 0;
-    double end = 1;
-    if (gap.from >= 1 && gap.to >= 1) return;
-    if (gap.from > 1) begin = (gap.from - 1) / (gap.from - gap.to);
-    if (gap.to > 1) end = (gap.from - 1) / (gap.from - gap.to);
-    const auto way = [&](const Travel& travel) { return std::fabs(travel.to - travel.from); };
-    const double way_px = std::max(way(behind), way(front)) * (end - begin);
-    if (!std::isfinite(way_px)) return;  // far outside of any frame
-    const int count = static_cast<int>(std::clamp(std::ceil(way_px * kPerPixel), 1.0, kMax));
-    for (int i = 0; i < count; ++i) {
-      const double at = begin + (end - begin) * (i + 0.5) / count;
-      add({behind.from + (behind.to - behind.from) * at, front.from + (front.to - front.from) * at,
-           share * (end - begin) / count});
-    }
+/// Adds contacts along an even motion, where the blocks are less than a pixel apart.
+/// @param behind, front  left edges
+void add_contacts(double share, const Travel& behind, const Travel& front, double front_width,
+                  std::vector<Contact>& contacts) {
+  constexpr double kPerPixel = 16;
+  constexpr double kMost = 4096;
+  const Travel gap{behind.from - front.from - front_width, behind.to - front.to - front_width};
+  double begin = 0;
+  double end = 1;
+  if (gap.from >= 1 && gap.to >= 1) return;
+  if (gap.from > 1) begin = (gap.from - 1) / (gap.from - gap.to);
+  if (gap.to > 1) end = (gap.from - 1) / (gap.from - gap.to);
+  const double way_px =
+      std::max(std::fabs(behind.to - behind.from), std::fabs(front.to - front.from)) *
+      (end - begin);
+  if (!std::isfinite(way_px)) return;  // far outside of any frame
+  const int count = static_cast<int>(std::clamp(std::ceil(way_px * kPerPixel), 1.0, kMost));
+  for (int i = 0; i < count; ++i) {
+    const double at = begin + (end - begin) * (i + 0.5) / count;
+    const Contact contact{behind.from + (behind.to - behind.from) * at,
+                          front.from + (front.to - front.from) * at, share * (end - begin) / count};
+    // Only if both reach into one pixel.
+    if (contact.front_x + front_width > std::floor(contact.behind_x)) contacts.push_back(contact);
   }
-
-  std::vector<Contact> take() {
-    std::ranges::sort(contacts_, {}, &Contact::behind_x);
-    return std::move(contacts_);
-  }
-
- private:
-  static constexpr double kPerPixel = 16;
-  static constexpr double kMax = 4096;  // of one motion
-
-  /// If there is a pixel that both reach into.
-  void add(const Contact& contact) {
-    if (contact.front_x + front_width_ <= std::floor(contact.behind_x)) return;
-    contacts_.push_back(contact);
-  }
-
-  double front_width_;
-  std::vector<Contact> contacts_;
-};
+}
 
 }  // namespace
 
 ExposedItem expose(ExposedBlock red, ExposedBlock blue, const SceneColumns& columns,
-                   std::span<const WeightedExposure> parts) {
+                   std::span<const WeightedExposure> exposures) {
   const ToPixels red_px(columns, red);
   const ToPixels blue_px(columns, blue);
   ExposedItem item{ItemId::red_block, std::move(red), std::move(blue), {}};
-  item.behind.dwells =
-      stops_of(BlockName::red, red_px, item.behind.bounds.width, columns.width_px, parts);
-  item.front.dwells =
-      stops_of(BlockName::blue, blue_px, item.front.bounds.width, columns.width_px, parts);
+  item.behind.dwells = dwells_of(BlockName::red, red_px, exposures);
+  item.front.dwells = dwells_of(BlockName::blue, blue_px, exposures);
   if (item.behind.dwells.empty() && item.front.dwells.empty()) return item;
-  Contacts contacts(item.front.bounds.width);
-  for (const WeightedExposure& part : parts) {
-    for (const UniformPiece& piece : part.exposure.pieces) {
-      contacts.add(part.share * piece.share, {red_px(piece.red.from), red_px(piece.red.to)},
-                   {blue_px(piece.blue.from), blue_px(piece.blue.to)});
+  for (const WeightedExposure& weighted : exposures) {
+    for (const UniformPiece& piece : weighted.exposure.pieces) {
+      add_contacts(weighted.share * piece.share, {red_px(piece.red.from), red_px(piece.red.to)},
+                   {blue_px(piece.blue.from), blue_px(piece.blue.to)}, item.front.bounds.width,
+                   item.contacts);
     }
   }
-  item.contacts = contacts.take();
+  std::ranges::sort(item.contacts, {}, &Contact::behind_x);
   return item;
 }
 

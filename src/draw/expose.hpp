@@ -1,6 +1,6 @@
 // Two blocks while the picture is exposed.
-// In: the blocks as they are drawn at one instant, and where they are in the meantime. Out: a draw
-// item with the places that each of them takes. Or, without exposure, plain rectangles.
+// In: the blocks as they are drawn at one instant, and their exposures. Out: a draw item with the
+// places of each; or plain rectangles, of blocks that are not exposed.
 #pragma once
 
 #include <span>
@@ -17,11 +17,11 @@ struct SceneColumns {
   int width_px = 0;    ///< of the frame
 };
 
-/// @param red, blue  at the picture's instant, without dwells.
+/// @param red, blue  at the picture's instant, without dwells
 ExposedItem expose(ExposedBlock red, ExposedBlock blue, const SceneColumns& columns,
-                   std::span<const WeightedExposure> parts);
+                   std::span<const WeightedExposure> exposures);
 
-/// A block that stays, as one rectangle, and one for each of its bars.
+/// Adds a block that stays: a rectangle for it, and one for each of its bars.
 void add_rectangles(ItemId id, const ExposedBlock& block, std::vector<DrawItem>& items);
 
 }  // namespace piblocks

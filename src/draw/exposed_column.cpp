@@ -7,11 +7,17 @@
 namespace piblocks {
 namespace {
 
+/// How much of the pixel from `pixel` to `pixel` + 1 is between two places.
 double overlap(double pixel, double begin, double end) {
   return std::clamp(std::min(pixel + 1, end) - std::max(pixel, begin), 0.0, 1.0);
 }
 
-/// A block's fill and its line, painted over a sample one after the other as Cairo does.
+Cover cover_of(double pixel, double begin, double length, double line_px) {
+  return {overlap(pixel, begin, begin + length),
+          overlap(pixel, begin + line_px, begin + length - line_px)};
+}
+
+/// A sample after a block's fill, its line and its bars are painted over it, as Cairo does.
 double painted(double sample, const ExposedBlock& block, const Cover& column, const Cover& row,
                std::uint8_t Color::*channel) {
   const double outer = column.outer * row.outer;
@@ -23,125 +29,111 @@ double painted(double sample, const ExposedBlock& block, const Cover& column, co
 
 }  // namespace
 
-Cover cover_of(double pixel, double begin, double length, double line_px) {
-  return {overlap(pixel, begin, begin + length),
-          overlap(pixel, begin + line_px, begin + length - line_px)};
+BlockCover::BlockCover(const ExposedBlock& block)
+    : block_(block),
+      // A shape thinner than its stroke is nothing but stroke.
+      line_px_(std::min({block.stroke.width_px, block.bounds.width, block.bounds.height})),
+      sums_{0} {
+  for (const Dwell& dwell : block.dwells) sums_.push_back(sums_.back() + dwell.share);
 }
 
-Cover row_cover_of(int row, const ExposedBlock& block, double line_px) {
-  Cover cover = cover_of(row, block.bounds.y, block.bounds.height, line_px);
-  // One after the other.
-  for (const Bar& bar : block.bars) {
-    cover.bars += (1 - cover.bars) * overlap(row, bar.y, bar.y + bar.height);
+Cover BlockCover::of_row(int y) const {
+  Cover cover = cover_of(y, block_.bounds.y, block_.bounds.height, line_px_);
+  // Each bar covers a part of what the ones before left uncovered.
+  for (const Bar& bar : block_.bars) {
+    cover.bars += (1 - cover.bars) * overlap(y, bar.y, bar.y + bar.height);
   }
   return cover;
 }
 
-BlockTimes::BlockTimes(const ExposedBlock& block)
-    : block_(block),
-      // A shape thinner than its stroke is all stroke.
-      line_px_(std::min({block.stroke.width_px, block.bounds.width, block.bounds.height})),
-      first_x_(block.dwells.empty() ? block.bounds.x : block.dwells.front().x) {
-  sums_.reserve(block.dwells.size() + 1);
-  sums_.push_back(0);
-  for (const Dwell& stop : block.dwells) sums_.push_back(sums_.back() + stop.share);
+Cover BlockCover::of_column(double column, double x) const {
+  return cover_of(column, x, block_.bounds.width, line_px_);
 }
 
-std::size_t BlockTimes::first_at(double x) const {
+std::size_t BlockCover::first_at(double x) const {
   return static_cast<std::size_t>(std::ranges::lower_bound(block_.dwells, x, {}, &Dwell::x) -
                                   block_.dwells.begin());
 }
 
-/// Stops in [from, to), all of which cover the pixel in the same way.
-void BlockTimes::add_alike(double pixel, double from, double to,
-                           std::vector<Covered>& covered) const {
+/// Adds up the dwells in [from, to), all of which cover the column in the same way.
+void BlockCover::add_alike(double column, double from, double to) {
   const std::size_t begin = first_at(from);
   const std::size_t end = first_at(to);
   if (begin >= end) return;
-  covered.push_back({cover(pixel, block_.dwells[begin].x), sums_[end] - sums_[begin]});
+  shares_.push_back({of_column(column, block_.dwells[begin].x), sums_[end] - sums_[begin]});
 }
 
-void BlockTimes::add_each(double pixel, double from, double to,
-                          std::vector<Covered>& covered) const {
+void BlockCover::add_each(double column, double from, double to) {
   for (std::size_t i = first_at(from); i < block_.dwells.size() && block_.dwells[i].x < to; ++i) {
-    covered.push_back({cover(pixel, block_.dwells[i].x), block_.dwells[i].share});
+    shares_.push_back({of_column(column, block_.dwells[i].x), block_.dwells[i].share});
   }
 }
 
-void BlockTimes::cover_column(double pixel, std::vector<Covered>& covered) const {
-  covered.clear();
+std::span<const BlockCover::Share> BlockCover::shares_of_column(double column) {
+  shares_.clear();
   const double width = block_.bounds.width;
-  if (!moves()) {
-    const Cover still = cover(pixel, first_x_);
-    if (still.outer > 0) covered.push_back({still, 1});
-    return;
+  if (block_.dwells.empty()) {
+    const Cover still = of_column(column, block_.bounds.x);
+    if (still.outer > 0) shares_.push_back({still, 1});
+  } else if (line_px_ < 1 || width - 2 * line_px_ < 1) {
+    add_each(column, column - width, column + 1);
+  } else {
+    // The column has, in this order: the block's right edge, only its line, the line's inner edge,
+    // only its fill, and the same on the other side.
+    add_each(column, column - width, column + 1 - width);
+    add_alike(column, column + 1 - width, column - width + line_px_);
+    add_each(column, column - width + line_px_, column + 1 - width + line_px_);
+    add_alike(column, column + 1 - width + line_px_, column - line_px_);
+    add_each(column, column - line_px_, column + 1 - line_px_);
+    add_alike(column, column + 1 - line_px_, column);
+    add_each(column, column, column + 1);
   }
-  if (line_px_ < 1 || width - 2 * line_px_ < 1) {
-    add_each(pixel, pixel - width, pixel + 1, covered);
-    return;
-  }
-  // From the left: the right edge in the pixel, only the line, the line's inner edge, only the
-  // fill, and the same on the other side.
-  add_each(pixel, pixel - width, pixel + 1 - width, covered);
-  add_alike(pixel, pixel + 1 - width, pixel - width + line_px_, covered);
-  add_each(pixel, pixel - width + line_px_, pixel + 1 - width + line_px_, covered);
-  add_alike(pixel, pixel + 1 - width + line_px_, pixel - line_px_, covered);
-  add_each(pixel, pixel - line_px_, pixel + 1 - line_px_, covered);
-  add_alike(pixel, pixel + 1 - line_px_, pixel, covered);
-  add_each(pixel, pixel, pixel + 1, covered);
+  return shares_;
 }
 
-ExposedColumn::ExposedColumn(const ExposedItem& item, const Light& light)
-    : item_(item), light_(light), behind_(item.behind), front_(item.front) {}
-
-void ExposedColumn::enter(int pixel) {
-  pixel_ = pixel;
+bool ExposedColumn::enter(int x) {
+  x_ = x;
   known_.clear();
-  behind_.cover_column(pixel, behind_covers_);
-  front_.cover_column(pixel, front_covers_);
-  const auto at = [&](double x) {
-    return std::ranges::lower_bound(item_.contacts, x, {}, &Contact::behind_x);
+  behind_shares_ = behind_.shares_of_column(x);
+  front_shares_ = front_.shares_of_column(x);
+  const auto at = [&](double place) {
+    return std::ranges::lower_bound(item_.contacts, place, {}, &Contact::behind_x);
   };
-  contacts_ = {at(pixel), at(pixel + 1.0)};
+  contacts_ = {at(x), at(x + 1.0)};
+  return !behind_shares_.empty() || !front_shares_.empty();
 }
 
 std::uint32_t ExposedColumn::pixel(const RowCover& row, std::uint32_t background) {
   for (const Known& known : known_) {
-    if (known.background == background && known.row == row) return known.result;
+    if (known.background == background && known.row == row) return known.pixel;
   }
-  const std::uint32_t result = compute(row, background);
-  known_.push_back({row, background, result});
-  return result;
-}
-
-std::uint32_t ExposedColumn::compute(const RowCover& row, std::uint32_t background) const {
-  constexpr std::array kChannels = {&Color::red, &Color::green, &Color::blue};
-  std::uint32_t word = 0;
-  for (const auto channel : kChannels) {
-    const int shift = channel == &Color::red ? 16 : channel == &Color::green ? 8 : 0;
+  const auto sample = [&](int shift, std::uint8_t Color::*channel) {
     const double light = light_of(row, background >> shift & 0xFF, channel);
-    word |= static_cast<std::uint32_t>(Light::sample(light)) << shift;
-  }
-  return word;
+    return static_cast<std::uint32_t>(Light::sample(light)) << shift;
+  };
+  const std::uint32_t pixel =
+      sample(16, &Color::red) | sample(8, &Color::green) | sample(0, &Color::blue);
+  known_.push_back({row, background, pixel});
+  return pixel;
 }
 
-/// What each block takes from the light behind it, and, since that is not additive where both are
-/// in one pixel at the same time, how much more or less both take together.
+/// Each block changes the light behind it by its share of time. Where both are in one pixel at the
+/// same time, these changes do not add up: contacts correct that.
 double ExposedColumn::light_of(const RowCover& row, double background,
                                std::uint8_t Color::*channel) const {
   const ExposedBlock& behind = item_.behind;
   const ExposedBlock& front = item_.front;
   const double plain = light_.of(background);
   double sum = plain;
-  for (const auto& [cover, share] : behind_covers_) {
+  for (const auto& [cover, share] : behind_shares_) {
     sum += share * (light_.of(painted(background, behind, cover, row.behind, channel)) - plain);
   }
-  for (const auto& [cover, share] : front_covers_) {
+  for (const auto& [cover, share] : front_shares_) {
     sum += share * (light_.of(painted(background, front, cover, row.front, channel)) - plain);
   }
   for (const Contact& contact : contacts_) {
-    const Cover back = behind_.cover(pixel_, contact.behind_x);
-    const Cover fore = front_.cover(pixel_, contact.front_x);
+    const Cover back = behind_.of_column(x_, contact.behind_x);
+    const Cover fore = front_.of_column(x_, contact.front_x);
     const double only_behind = painted(background, behind, back, row.behind, channel);
     const double only_front = painted(background, front, fore, row.front, channel);
     const double both = painted(only_behind, front, fore, row.front, channel);

@@ -12,8 +12,8 @@
 
 namespace piblocks {
 
-/// How much of a row or a column of pixels is covered by a block, by what is inside its line, and,
-/// of a row, by its bars.
+/// How much of a row or a column of pixels a block covers, the part inside its line, and, of a row,
+/// its bars.
 struct Cover {
   double outer = 0;
   double inner = 0;
@@ -21,12 +21,6 @@ struct Cover {
 
   friend bool operator==(const Cover&, const Cover&) = default;
 };
-
-/// What of a block covers the pixels of a row.
-Cover row_cover_of(int row, const ExposedBlock& block, double line_px);
-
-/// What covers the pixels from `pixel` to `pixel` + 1 of a block from `begin` on.
-Cover cover_of(double pixel, double begin, double length, double line_px);
 
 /// What both blocks cover of a row.
 struct RowCover {
@@ -36,66 +30,62 @@ struct RowCover {
   friend bool operator==(const RowCover&, const RowCover&) = default;
 };
 
-/// The dwells of a block, with the sums of their shares.
-class BlockTimes {
+/// How a block covers a row, and a column over the time of the exposure.
+class BlockCover {
  public:
-  explicit BlockTimes(const ExposedBlock& block);
+  explicit BlockCover(const ExposedBlock& block);
 
-  const ExposedBlock& block() const noexcept { return block_; }
-  bool moves() const noexcept { return !block_.dwells.empty(); }
-  double line_px() const noexcept { return line_px_; }
-  Cover cover(double pixel, double x) const {
-    return cover_of(pixel, x, block_.bounds.width, line_px_);
-  }
+  Cover of_row(int y) const;
+  /// What a block with its left edge at `x` covers of the column from `column` to `column` + 1.
+  Cover of_column(double column, double x) const;
 
-  struct Covered {
+  struct Share {
     Cover cover;
     double share = 0;
   };
-  /// Replaces `covered` by all ways in which the block covers some of a column of pixels.
-  void cover_column(double pixel, std::vector<Covered>& covered) const;
+  /// All ways in which the block covers a column; valid until the next call.
+  std::span<const Share> shares_of_column(double column);
 
  private:
-  void add_alike(double pixel, double from, double to, std::vector<Covered>& covered) const;
-  void add_each(double pixel, double from, double to, std::vector<Covered>& covered) const;
+  void add_alike(double column, double from, double to);
+  void add_each(double column, double from, double to);
   std::size_t first_at(double x) const;
 
   const ExposedBlock& block_;
   double line_px_;
-  double first_x_;
-  std::vector<double> sums_;  // of the shares before each stop
+  std::vector<double> sums_;  // of the shares before each dwell
+  std::vector<Share> shares_;
 };
 
-/// Used for one column after another.
+/// One column after another.
 class ExposedColumn {
  public:
-  ExposedColumn(const ExposedItem& item, const Light& light);
+  ExposedColumn(const ExposedItem& item, const Light& light)
+      : item_(item), light_(light), behind_(item.behind), front_(item.front) {}
 
-  const BlockTimes& behind() const noexcept { return behind_; }
-  const BlockTimes& front() const noexcept { return front_; }
-  /// Turns to the column from `pixel` to `pixel` + 1.
-  void enter(int pixel);
-  /// The pixel of a row, in front of this one: words 0x00RRGGBB.
+  RowCover row_cover(int y) const { return {behind_.of_row(y), front_.of_row(y)}; }
+  /// Turns to the column from `x` to `x` + 1. False if no block is ever in it.
+  bool enter(int x);
+  /// The pixel of a row over a background; both 0x00RRGGBB.
   std::uint32_t pixel(const RowCover& row, std::uint32_t background);
 
  private:
-  struct Known {
-    RowCover row;
-    std::uint32_t background = 0;
-    std::uint32_t result = 0;
-  };
-  std::uint32_t compute(const RowCover& row, std::uint32_t background) const;
   double light_of(const RowCover& row, double background, std::uint8_t Color::*channel) const;
 
   const ExposedItem& item_;
   const Light& light_;
-  BlockTimes behind_;
-  BlockTimes front_;
-  std::vector<BlockTimes::Covered> behind_covers_;
-  std::vector<BlockTimes::Covered> front_covers_;
+  BlockCover behind_;
+  BlockCover front_;
+  std::span<const BlockCover::Share> behind_shares_;
+  std::span<const BlockCover::Share> front_shares_;
   std::span<const Contact> contacts_;
-  int pixel_ = 0;
-  std::vector<Known> known_;
+  int x_ = 0;
+  struct Known {
+    RowCover row;
+    std::uint32_t background = 0;
+    std::uint32_t pixel = 0;
+  };
+  std::vector<Known> known_;  // of this column
 };
 
 }  // namespace piblocks

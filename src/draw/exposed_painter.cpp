@@ -6,78 +6,42 @@
 
 #include "draw/expose.hpp"
 #include "draw/exposed_column.hpp"
+#include "draw/extent.hpp"
 
 namespace piblocks {
 namespace {
 
-/// Pixels from `begin` to `end`, not included.
-struct PixelSpan {
-  int begin = 0;
-  int end = 0;
-
-  bool has(int pixel) const { return pixel >= begin && pixel < end; }
-};
-
-PixelSpan pixels_between(double from, double to, int begin, int length) {
-  const auto pixel = [&](double at) {
+/// The whole pixels of an area that a block reaches into while the picture is exposed.
+PixelRect pixels_of(const ExposedBlock& block, const PixelRect& area) {
+  const Extent extent = extent_of(block);
+  const auto pixel = [](double at, int begin, int length) {
     return static_cast<int>(std::clamp(at, double(begin), double(begin + length)));
   };
-  return {pixel(std::floor(from)), pixel(std::ceil(to))};
+  const int x = pixel(std::floor(extent.left), area.x_px, area.width_px);
+  const int y = pixel(std::floor(extent.top), area.y_px, area.height_px);
+  return {x, y, pixel(std::ceil(extent.right), area.x_px, area.width_px) - x,
+          pixel(std::ceil(extent.bottom), area.y_px, area.height_px) - y};
 }
-
-/// The columns into which a block reaches if it moves.
-PixelSpan columns_of(const ExposedBlock& block, const PixelRect& part) {
-  if (block.dwells.empty()) return {};
-  return pixels_between(block.dwells.front().x, block.dwells.back().x + block.bounds.width,
-                        part.x_px, part.width_px);
-}
-
-PixelSpan rows_of(const ExposedBlock& block, const PixelRect& part) {
-  return pixels_between(block.bounds.y, block.bounds.y + block.bounds.height, part.y_px,
-                        part.height_px);
-}
-
-Cover row_cover(const BlockTimes& block, int row) {
-  return row_cover_of(row, block.block(), block.line_px());
-}
-
-/// The surface of a part of a picture, addressed by the picture's pixels.
-class Words {
- public:
-  Words(cairo_surface_t& surface, const PixelRect& part)
-      : data_(cairo_image_surface_get_data(&surface)),
-        stride_bytes_(cairo_image_surface_get_stride(&surface)),
-        part_(part) {}
-
-  std::uint32_t& at(int x, int y) const {
-    return reinterpret_cast<std::uint32_t*>(data_ + std::ptrdiff_t{y - part_.y_px} *
-                                                        stride_bytes_)[x - part_.x_px];
-  }
-
- private:
-  unsigned char* data_;
-  std::ptrdiff_t stride_bytes_;
-  PixelRect part_;
-};
 
 }  // namespace
 
-PixelRect moving_area(const ExposedItem& item, const PixelRect& part) {
-  PixelRect all{};
-  for (const ExposedBlock* block : {&item.behind, &item.front}) {
-    const PixelSpan columns = columns_of(*block, part);
-    if (columns.begin >= columns.end) continue;
-    const int begin = all.width_px > 0 ? std::min(all.x_px, columns.begin) : columns.begin;
-    const int end = all.width_px > 0 ? std::max(all.x_px + all.width_px, columns.end) : columns.end;
-    all.x_px = begin;
-    all.width_px = end - begin;
+PixelRect moving_area(const ExposedItem& item, const PixelRect& area) {
+  const PixelRect behind = pixels_of(item.behind, area);
+  const PixelRect front = pixels_of(item.front, area);
+  int left = area.x_px + area.width_px;
+  int right = area.x_px;
+  if (!item.behind.dwells.empty() && behind.width_px > 0) {
+    left = behind.x_px;
+    right = behind.x_px + behind.width_px;
   }
-  // Where one moves, the other is painted with it.
-  const PixelSpan behind = rows_of(item.behind, part);
-  const PixelSpan front = rows_of(item.front, part);
-  all.y_px = std::min(behind.begin, front.begin);
-  all.height_px = std::max(behind.end, front.end) - all.y_px;
-  return all;
+  if (!item.front.dwells.empty() && front.width_px > 0) {
+    left = std::min(left, front.x_px);
+    right = std::max(right, front.x_px + front.width_px);
+  }
+  // Where one block moves, the other is painted with it.
+  const int top = std::min(behind.y_px, front.y_px);
+  const int bottom = std::max(behind.y_px + behind.height_px, front.y_px + front.height_px);
+  return {left, top, std::max(0, right - left), bottom - top};
 }
 
 std::vector<DrawItem> still_blocks(const ExposedItem& item) {
@@ -88,18 +52,23 @@ std::vector<DrawItem> still_blocks(const ExposedItem& item) {
   return still;
 }
 
-/// A pixel's value depends on the column and what is behind alone, so that a part of the picture
-/// has the pixels of the whole. What stays is Cairo's but where the other one passes.
-void ExposedPainter::paint(cairo_surface_t& surface, const PixelRect& part, const ExposedItem& item,
+/// A pixel depends on its column and its background alone, so that a part of the picture has the
+/// pixels of the whole. Cairo paints a block that stays, except where the other one passes.
+void ExposedPainter::paint(cairo_surface_t& surface, const PixelRect& area, const ExposedItem& item,
                            const PaintStill& paint_still) {
-  const PixelRect area = moving_area(item, part);
+  const PixelRect moving = moving_area(item, area);
+  const int end_x = moving.x_px + moving.width_px;
+  const int end_y = moving.y_px + moving.height_px;
   cairo_surface_flush(&surface);
-  const Words words(surface, part);
+  unsigned char* const data = cairo_image_surface_get_data(&surface);
+  const std::ptrdiff_t stride_bytes = cairo_image_surface_get_stride(&surface);
+  const auto word = [&](int x, int y) -> std::uint32_t& {
+    unsigned char* const row = data + (y - area.y_px) * stride_bytes;
+    return reinterpret_cast<std::uint32_t*>(row)[x - area.x_px];
+  };
   background_.clear();
-  for (int x = area.x_px; x < area.x_px + area.width_px; ++x) {
-    for (int y = area.y_px; y < area.y_px + area.height_px; ++y) {
-      background_.push_back(words.at(x, y));
-    }
+  for (int x = moving.x_px; x < end_x; ++x) {
+    for (int y = moving.y_px; y < end_y; ++y) background_.push_back(word(x, y));
   }
   for (const DrawItem& rectangle : still_blocks(item)) paint_still(rectangle);
   if (background_.empty()) return;
@@ -107,21 +76,16 @@ void ExposedPainter::paint(cairo_surface_t& surface, const PixelRect& part, cons
   cairo_surface_flush(&surface);
   ExposedColumn column(item, light_);
   std::vector<RowCover> rows;
-  for (int y = area.y_px; y < area.y_px + area.height_px; ++y) {
-    rows.push_back({row_cover(column.behind(), y), row_cover(column.front(), y)});
-  }
-  const PixelSpan behind = columns_of(item.behind, part);
-  const PixelSpan front = columns_of(item.front, part);
+  for (int y = moving.y_px; y < end_y; ++y) rows.push_back(column.row_cover(y));
   auto background = background_.begin();
-  for (int x = area.x_px; x < area.x_px + area.width_px; ++x) {
-    if (!behind.has(x) && !front.has(x)) {
-      background += area.height_px;
+  for (int x = moving.x_px; x < end_x; ++x) {
+    if (!column.enter(x)) {
+      background += moving.height_px;
       continue;
     }
-    column.enter(x);
-    for (int y = area.y_px; y < area.y_px + area.height_px; ++y, ++background) {
-      const RowCover& row = rows[static_cast<std::size_t>(y - area.y_px)];
-      words.at(x, y) = (*background & 0xFF000000U) | column.pixel(row, *background & 0xFFFFFFU);
+    for (int y = moving.y_px; y < end_y; ++y, ++background) {
+      const RowCover& row = rows[static_cast<std::size_t>(y - moving.y_px)];
+      word(x, y) = (*background & 0xFF000000U) | column.pixel(row, *background & 0xFFFFFFU);
     }
   }
   cairo_surface_mark_dirty(&surface);

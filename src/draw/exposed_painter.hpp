@@ -14,8 +14,8 @@
 
 namespace piblocks {
 
-/// The pixels that a moving block reaches into; empty if nothing moves.
-PixelRect moving_area(const ExposedItem& item, const PixelRect& part);
+/// The pixels of an area that a moving block reaches into; of no width if nothing moves.
+PixelRect moving_area(const ExposedItem& item, const PixelRect& area);
 
 /// The blocks that stay, as rectangles.
 std::vector<DrawItem> still_blocks(const ExposedItem& item);
@@ -24,10 +24,9 @@ class ExposedPainter {
  public:
   using PaintStill = std::function<void(const DrawItem& rectangle)>;
 
-  /// @param part         a part of the picture
-  /// @param surface      its pixels
+  /// @param surface      the pixels of this area of the picture
   /// @param paint_still  paints a rectangle onto the surface
-  void paint(cairo_surface_t& surface, const PixelRect& part, const ExposedItem& item,
+  void paint(cairo_surface_t& surface, const PixelRect& area, const ExposedItem& item,
              const PaintStill& paint_still);
 
  private:

@@ -8,8 +8,8 @@
 namespace piblocks {
 namespace {
 
-// Of the embedded font, in ems, with room to spare: marks above capitals, tails below the baseline,
-// and how far a glyph may reach out of its advance.
+// Reach of the embedded font, in ems, with room to spare: marks above capitals, tails below the
+// baseline, and glyphs beyond their advances.
 constexpr double kAscent = 1.1;
 constexpr double kDescent = 0.35;
 constexpr double kOverhang = 0.15;
@@ -34,7 +34,7 @@ struct ExtentOf {
     return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right),
             std::max(a.bottom, b.bottom)};
   }
-  /// A line on these is inside their bounds.
+  /// The line of a rectangle is inside its bounds.
   Extent operator()(const auto& item) const { return extent_of(item.bounds); }
 };
 

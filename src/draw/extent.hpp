@@ -22,8 +22,8 @@ struct Extent {
   Extent grown(double px) const { return {left - px, top - px, right + px, bottom + px}; }
 };
 
-/// Cairo rounds every coordinate to 1/256 pixel, and some sums of them again: an item may paint so
-/// far out of its extent.
+/// Cairo rounds every coordinate to 1/256 pixel, and some sums again. An item may paint so far out
+/// of its extent.
 inline constexpr double kRounding_px = 1.0 / 64;
 
 /// Width of a line of text, in ems.
@@ -35,11 +35,11 @@ Extent extent_of(const ExposedBlock& block);
 Extent extent_of(const TextItem& text, double left_em, double right_em);
 Extent extent_of(const DrawItem& item, const MeasureText& width_em);
 
-/// Whether the item may have painted something into the rectangle; no promise that it has.
+/// False only if the item has certainly painted nothing into the rectangle.
 bool reaches(const DrawItem& item, const PixelRect& rect);
 
-/// Whether no place or length is infinite or not a number. What is inside plates and groups was
-/// checked when these were made.
+/// Whether every place and length is a finite number. Items inside plates and groups were checked
+/// when these were made.
 bool are_finite(std::span<const DrawItem> items);
 
 }  // namespace piblocks

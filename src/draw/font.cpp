@@ -5,11 +5,10 @@
 #include <ft2build.h>
 #include <piblocks/error.hpp>
 
-#include <optional>
 #include <string>
 
+#include "core/utf8.hpp"
 #include "draw/cairo_handles.hpp"
-#include "draw/shaping.hpp"
 #include FT_FREETYPE_H
 
 // Defined in font_data.S.
@@ -32,8 +31,8 @@ void check_freetype(FT_Error error, const char* operation) {
 
 constexpr cairo_user_data_key_t kFaceKey{};
 
-/// Called by Cairo when it forgets the face, which may be after the Font is gone: the library
-/// that the face belongs to is released with it.
+/// Called by Cairo when it forgets the face, which may be after the Font is gone. Releases the
+/// face's library with it.
 void release_face(void* data) {
   auto* const face = static_cast<FT_Face>(data);
   const FtLibraryPtr library(face->glyph->library);
@@ -61,8 +60,7 @@ FT_Face load_embedded_face() {
   return face;
 }
 
-CairoFontFacePtr make_cairo_face() {
-  const FT_Face face = load_embedded_face();
+CairoFontFacePtr make_cairo_face(FT_Face face) {
   CairoFontFacePtr cairo_face(cairo_ft_font_face_create_for_ft_face(face, FT_LOAD_NO_HINTING));
   const cairo_status_t status =
       cairo_font_face_set_user_data(cairo_face.get(), &kFaceKey, face, release_face);
@@ -73,7 +71,7 @@ CairoFontFacePtr make_cairo_face() {
 
 constexpr const char* kFontName = "DejaVu Sans";
 
-/// Large: unhinted advances scale, but Cairo keeps them in 1/64 pixel.
+/// Large, since Cairo rounds advances to 1/64 pixel. Unhinted advances scale with the size.
 constexpr double kMeasure_px = 1024;
 
 CairoScaledFontPtr scaled_for_measuring(cairo_font_face_t& face,
@@ -89,7 +87,8 @@ CairoScaledFontPtr scaled_for_measuring(cairo_font_face_t& face,
 
 struct Font::Faces {
   CairoFontOptionsPtr options = font_options();
-  CairoFontFacePtr face = make_cairo_face();
+  FT_Face ft_face = load_embedded_face();  // belongs to `face`
+  CairoFontFacePtr face = make_cairo_face(ft_face);
   CairoScaledFontPtr measure = scaled_for_measuring(*face, *options);
 };
 
@@ -115,36 +114,16 @@ std::vector<cairo_glyph_t> Font::glyphs(cairo_t& cr, const Point& origin, std::s
 }
 
 void Font::check(std::string_view utf8, const char* what) const {
-  cairo_glyph_t* glyphs = nullptr;
-  cairo_text_cluster_t* clusters = nullptr;
-  int glyph_count = 0;
-  int cluster_count = 0;
-  cairo_text_cluster_flags_t flags{};
-  const cairo_status_t status = cairo_scaled_font_text_to_glyphs(
-      faces_->measure.get(), 0, 0, utf8.data(), static_cast<int>(utf8.size()), &glyphs,
-      &glyph_count, &clusters, &cluster_count, &flags);
-  if (status == CAIRO_STATUS_INVALID_STRING) {
-    throw UsageError(fmt::format("{}: is not valid UTF-8", what));
+  std::string_view missing;
+  for (std::string_view rest = utf8; !rest.empty();) {
+    const auto [code, length_bytes] = first_character(rest);
+    if (length_bytes == 0) throw UsageError(fmt::format("{}: is not valid UTF-8", what));
+    const bool has_glyph = FT_Get_Char_Index(faces_->ft_face, code) != 0;
+    if (!has_glyph && missing.empty()) missing = rest.substr(0, length_bytes);
+    rest.remove_prefix(length_bytes);
   }
-  check_cairo(status, "set text");
-  if (const std::optional<Unshaped> unshaped = first_unshaped(utf8)) {
-    cairo_glyph_free(glyphs);
-    cairo_text_cluster_free(clusters);
-    throw UsageError(
-        fmt::format("{}: {} {}; {}", what, unshaped->name, unshaped->reason, unshaped->remedy));
-  }
-  std::string missing;
-  std::string_view rest = utf8;
-  int glyph = 0;
-  for (int i = 0; i < cluster_count; ++i) {
-    const auto bytes = static_cast<std::size_t>(clusters[i].num_bytes);
-    for (int n = 0; n < clusters[i].num_glyphs; ++n, ++glyph) {
-      if (glyphs[glyph].index == 0 && missing.empty()) missing = rest.substr(0, bytes);
-    }
-    rest.remove_prefix(bytes);
-  }
-  cairo_glyph_free(glyphs);
-  cairo_text_cluster_free(clusters);
+  const std::string problem = shaping_problem(utf8);
+  if (!problem.empty()) throw UsageError(fmt::format("{}: {}", what, problem));
   if (missing.empty()) return;
   throw UsageError(fmt::format("{}: the font {} has no glyph for '{}'", what, kFontName, missing));
 }
@@ -156,18 +135,11 @@ double Font::width_em(std::string_view utf8) const {
   return extents.x_advance / kMeasure_px;
 }
 
-/// Bytes of the character that a valid UTF-8 text begins with.
-static std::size_t first_character(std::string_view text) {
-  std::size_t length = text.empty() ? 0 : 1;
-  while (length < text.size() && (static_cast<unsigned char>(text[length]) & 0xC0) == 0x80)
-    ++length;
-  return length;
-}
-
 TextWidths::TextWidths(const Font& font, std::string_view characters) {
   while (!characters.empty()) {
-    const std::string character(characters.substr(0, first_character(characters)));
-    advances_.try_emplace(character, font.width_em(character));
+    const std::string_view character =
+        characters.substr(0, first_character(characters).length_bytes);
+    advances_.try_emplace(std::string(character), font.width_em(character));
     characters.remove_prefix(character.size());
   }
 }
@@ -175,7 +147,7 @@ TextWidths::TextWidths(const Font& font, std::string_view characters) {
 double TextWidths::width_em(std::string_view text) const {
   double sum = 0;
   while (!text.empty()) {
-    const std::string_view character = text.substr(0, first_character(text));
+    const std::string_view character = text.substr(0, first_character(text).length_bytes);
     const auto found = advances_.find(character);
     if (found != advances_.end()) sum += found->second;
     text.remove_prefix(character.size());

@@ -1,5 +1,5 @@
 // The one font: DejaVu Sans, embedded, loaded through FreeType.
-// In: nothing from the machine. Out: a Cairo font face that sets text alike everywhere.
+// In: text. Out: its glyphs and widths, the same on every machine.
 #pragma once
 
 #include <cairo.h>
@@ -28,12 +28,13 @@ class Font {
   Font(const Font&) = delete;
   Font& operator=(const Font&) = delete;
 
-  /// Makes it the font of `cr`, unhinted and antialiased in grey, at this size of the em.
+  /// Makes it the font of `cr`, unhinted and antialiased in grey. @param size_px  of the em
   void select(cairo_t& cr, double size_px) const;
   /// The glyphs of a line of text that starts at `origin`, in a context where select() was called.
   static std::vector<cairo_glyph_t> glyphs(cairo_t& cr, const Point& origin, std::string_view utf8);
-  /// Whether a line of text can be set. @param what  named in the message.
-  /// @throws UsageError if it is no UTF-8, a character needs shaping (shaping.hpp), or the font has
+  /// @param what  names the text in messages
+  /// @throws UsageError if it is not UTF-8, a character needs shaping, or the font
+  /// has
   ///         no glyph for it.
   void check(std::string_view utf8, const char* what) const;
   /// Width of a line of text, in ems.
@@ -48,11 +49,15 @@ class Font {
   std::unique_ptr<Faces> faces_;
 };
 
+/// Names the first character whose glyph depends on its neighbours, that is written from right to
+/// left, or that is an instruction. Empty if there is none. @param utf8  valid
+std::string shaping_problem(std::string_view utf8);
+
 /// Widths of texts that change from frame to frame, without the font. Const members are
 /// thread-safe.
 class TextWidths {
  public:
-  /// @param characters  all that may occur, in UTF-8.
+  /// @param characters  all that may occur, in valid UTF-8
   TextWidths(const Font& font, std::string_view characters);
   /// Width of a line of these characters, in ems.
   double width_em(std::string_view text) const;

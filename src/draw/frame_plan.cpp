@@ -14,12 +14,12 @@ namespace piblocks {
 namespace {
 
 // In ems.
-constexpr double kTitleDescent = 0.24;
+constexpr double kDescent = 0.24;
 constexpr double kBelowTitle = 0.25;
 /// Least side of a diagram.
 constexpr double kLeastPanel_em = 8;
-/// A line may be set so much smaller than planned; beyond that it is too long.
-constexpr double kLeastTitleShrink = 0.5;
+/// A line that has to be smaller than this part of its planned size is too long.
+constexpr double kLeastShrink = 0.5;
 /// The width of a diagram that looks best, in parts of its height.
 constexpr double kPanelAspect = 1.3;
 /// Least height for the blocks and all that is not title, caption or logo, in parts of the frame's.
@@ -28,8 +28,8 @@ constexpr double kLeastLeft = 0.25;
 constexpr double kLeastStage = 0.22;
 constexpr double kMostStage = 0.46;
 
-/// Rows and columns in which `count` diagrams come out largest, with no side below `least` if that
-/// can be.
+/// Rows and columns in which `count` diagrams come out largest, with no side below `least` if
+/// possible.
 std::vector<Rectangle> panel_grid(std::size_t count, const Rectangle& area, double gap,
                                   double least) {
   const auto cell = [&](std::size_t columns) {
@@ -73,7 +73,7 @@ std::vector<std::string> names_of_lines(const Scene& scene) {
   return names;
 }
 
-/// Gives places away from the edges of the frame inwards. The stage gets what is left.
+/// Places things from the edges of the frame inwards. The stage gets what is left.
 class Planner {
  public:
   explicit Planner(const Setting& setting)
@@ -104,8 +104,8 @@ class Planner {
   }
 
  private:
-  TextItem set_line(const char* key, const std::string& text, double size_px, double left,
-                    double width) const;
+  TextItem set_line(const char* key, const std::string& text, double size_px,
+                    const Rectangle& area) const;
   void place_title();
   void place_foot();
   void place_panels(double read_outs_px);
@@ -121,10 +121,10 @@ class Planner {
   FramePlan plan_;
 };
 
-/// A centred line, which is made smaller to fit. Its id, colour and baseline are not set.
-/// @param key  named in messages.
-TextItem Planner::set_line(const char* key, const std::string& text, double size_px, double left,
-                           double width) const {
+/// A centred line, made smaller to fit, without id, colour and baseline.
+/// @param key  named in messages
+TextItem Planner::set_line(const char* key, const std::string& text, double size_px,
+                           const Rectangle& area) const {
   setting_.font.check(text, key);
   if (size_px < style::kLeastText_px) {
     const bool is_low = view_.height_px < kNarrow * view_.width_px;
@@ -133,27 +133,28 @@ TextItem Planner::set_line(const char* key, const std::string& text, double size
         "make the frame {}",
         key, text, size_px, view_.width_px, view_.height_px, is_low ? "higher" : "wider"));
   }
-  const double fitted_px = setting_.font.fitted_px(text, size_px, width);
-  if (fitted_px < std::max(kLeastTitleShrink * size_px, style::kLeastText_px)) {
+  const double fitted_px = setting_.font.fitted_px(text, size_px, area.width);
+  if (fitted_px < std::max(kLeastShrink * size_px, style::kLeastText_px)) {
     throw UsageError(
         fmt::format("{}: '{}' is too long to be read in {:.0f} pixels; shorten it, or "
                     "make the frame wider",
-                    key, text, width));
+                    key, text, area.width));
   }
-  const double x = left + (width - setting_.font.width_em(text) * fitted_px) / 2;
+  const double x = area.x + (area.width - setting_.font.width_em(text) * fitted_px) / 2;
   return {{}, {x, 0}, text, fitted_px, {}};
 }
 
-/// At the top; what is left of the stage begins below.
+/// The title is at the top; the stage begins below.
 void Planner::place_title() {
   double top = 0;
   if (!show_.title.empty()) {
     const double size_px = style::kTitle * measure_;
-    TextItem title = set_line("show.title", show_.title, size_px, margin_, right_ - margin_);
+    TextItem title =
+        set_line("show.title", show_.title, size_px, {margin_, 0, right_ - margin_, 0});
     title.id = ItemId::title;
     title.color = setting_.palette.text;
     title.origin.y = std::round(margin_ + Font::kCapHeight_em * size_px);
-    top = title.origin.y + (kTitleDescent + kBelowTitle) * size_px;
+    top = title.origin.y + (kDescent + kBelowTitle) * size_px;
     plan_.title = std::move(title);
   } else if (!show_.panels.empty()) {
     // Else the counter would stick to the upper edge.
@@ -163,35 +164,34 @@ void Planner::place_title() {
   plan_.stage.height -= top;
 }
 
-/// Caption and logo, at the bottom; what is left of the stage ends above.
+/// Caption and logo are at the bottom; the stage ends above.
 void Planner::place_foot() {
   double height = 0;
-  double left = margin_;
-  double width = right_ - margin_;
+  Rectangle line{margin_, 0, right_ - margin_, 0};
   if (!show_.logo.empty()) {
     const double logo_width = style::kLogoWidth * measure_;
     height = style::kLogoHeight * measure_;
     plan_.logo = {right_ - logo_width, bottom_ - height, logo_width, height};
-    // As much is left free on the other side, so that the caption stays in the middle.
-    left += logo_width + margin_;
-    width -= 2 * (logo_width + margin_);
+    // The other side stays free as well, so that the caption is in the middle.
+    line.x += logo_width + margin_;
+    line.width -= 2 * (logo_width + margin_);
   }
   if (!show_.caption.empty()) {
     const double size_px = style::kCaption * measure_;
-    TextItem caption = set_line("show.caption", show_.caption, size_px, left, width);
+    TextItem caption = set_line("show.caption", show_.caption, size_px, line);
     caption.id = ItemId::caption;
     caption.color = setting_.palette.muted;
-    height = std::max(height, (Font::kCapHeight_em + kTitleDescent) * size_px);
+    height = std::max(height, (Font::kCapHeight_em + kDescent) * size_px);
     caption.origin.y = std::round(bottom_ - (height - Font::kCapHeight_em * size_px) / 2);
     plan_.caption = std::move(caption);
   }
   if (height > 0) plan_.stage.height -= height + margin_;
 }
 
-/// Below the stage and its read-outs, which together get what they need at least.
+/// Diagrams are below the stage and its read-outs.
 void Planner::place_panels(double read_outs_px) {
   const Rectangle area = plan_.stage;
-  // What the stage needs to be as wide as the frame.
+  // At this height the stage is as wide as the frame.
   const double lengths =
       to_double(view_.y.high - view_.y.low) / to_double(view_.x.high - view_.x.low);
   plan_.stage.height = std::clamp(area.width * lengths + 0.2 * measure_, kLeastStage * area.height,
@@ -210,7 +210,6 @@ void Planner::place_panels(double read_outs_px) {
       view_.width_px, view_.height_px, count == 1 ? "" : "leave some out, or "));
 }
 
-/// @param height_px  what is left of the frame for the blocks.
 void Planner::check_stage(double height_px) const {
   if (height_px >= kLeastLeft * view_.height_px) return;
   throw UsageError(fmt::format(

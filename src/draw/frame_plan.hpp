@@ -1,4 +1,4 @@
-// Who gets which part of the frame.
+// Which place of the frame each thing gets.
 // In: what a scene shows. Out: places that do not overlap, for any shape of frame.
 #pragma once
 
@@ -18,8 +18,8 @@ struct FramePlan {
 };
 
 /// @param setting       its layout is not read.
-/// @param read_outs_px  height of their rows, which are put below the stage.
-/// @throws UsageError if a line cannot be set or is too long, or diagrams get too small.
+/// @param read_outs_px  height of their rows, which are below the stage
+/// @throws UsageError if a line cannot be set or is too long, or something gets too small.
 FramePlan plan_frame(const Setting& setting, double read_outs_px);
 
 }  // namespace piblocks

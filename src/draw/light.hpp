@@ -10,8 +10,8 @@
 
 namespace piblocks {
 
-/// The transfer of IEC 61966-2-1, tabulated at every quarter of a step and linear between: off by
-/// less than 1/1000 of a step.
+/// The transfer function of IEC 61966-2-1, from a table of four values a step, linear between them.
+/// The error is less than 1/1000 of a step.
 class Light {
  public:
   Light() {

@@ -19,8 +19,7 @@ std::string with_commas(std::string digits) {
   return digits;
 }
 
-/// GMP's floating point has room for the exponent of any number the program takes; the mantissa
-/// needs few bits.
+/// Of the mantissa. GMP's exponents have room for any number that the program takes.
 constexpr mp_bitcnt_t kBits = 128;
 
 Magnitude split(const mpf_class& value) {
@@ -67,7 +66,7 @@ std::string fixed_text(const Rational& value, int decimals) {
   const Rational scaled = abs(value) * power_of_ten(decimals);
   const Integer below = floor(scaled);
   const Rational rest = scaled - below;
-  // A tie goes to the even digit, as it does where doubles are printed.
+  // A tie goes to the even digit, as when doubles are printed.
   const bool is_up = rest > Rational(1, 2) || (rest == Rational(1, 2) && below % 2 != 0);
   const Integer rounded = below + (is_up ? 1 : 0);
   std::string digits = rounded.get_str();

@@ -27,8 +27,8 @@ Magnitude root_magnitude_of(const Rational& value);
 /// The same with 64-bit exponents and at least 128 bits.
 mpf_class root_of(const Rational& value);
 
-/// The same number for a mantissa of so many decimals: one that would be rounded to 10 becomes a
-/// tenth of that, slightly less than 1.
+/// The same number for a mantissa that is written with so many decimals. A mantissa that would be
+/// rounded to 10 becomes a tenth of that, slightly less than 1.
 Magnitude written_with(int decimals, Magnitude size);
 
 /// With so many decimals, commas between thousands and a true minus sign: "−1,234.50". Zero has no

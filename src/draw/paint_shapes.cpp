@@ -24,7 +24,7 @@ void stroke_side(cairo_t& cr, const Point& from, const Point& to, double dash_px
 }
 
 void stroke_inside(cairo_t& cr, const Rectangle& bounds, const Stroke& stroke) {
-  // A shape thinner than its stroke is all stroke.
+  // A shape thinner than its stroke is nothing but stroke.
   const double width_px = std::min({stroke.width_px, bounds.width, bounds.height});
   const double inset = width_px / 2;
   const double left = bounds.x + inset;
@@ -47,8 +47,7 @@ void stroke_inside(cairo_t& cr, const Rectangle& bounds, const Stroke& stroke) {
   cairo_set_line_cap(&cr, CAIRO_LINE_CAP_BUTT);
 }
 
-/// Cairo's coordinates end at 2^23 pixels, and beyond it they come back on the other side. No frame
-/// and no line reaches as far as this.
+/// Cairo's coordinates wrap around at 2^23 pixels. No frame and no line reaches as far as this.
 double within_reach(double px) {
   constexpr double kFar_px = 1 << 22;
   return std::clamp(px, -kFar_px, kFar_px);

@@ -18,7 +18,6 @@ CairoSurfacePtr make_surface(cairo_format_t format, int width_px, int height_px,
   return surface;
 }
 
-/// Paints a rectangle of whole pixels from a surface that has them.
 void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rectangle& bounds) {
   cairo_set_source_surface(&cr, &pixels, bounds.x, bounds.y);
   cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);
@@ -35,7 +34,7 @@ bool has_pixels_of_picture(cairo_t& cr) {
   return is_identity && cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE;
 }
 
-/// Whether the pixels of the group's picture are pixels of the one around it.
+/// Whether each pixel of the group is a pixel of the picture around it.
 bool is_on_pixels(const GroupItem& item) {
   const Rectangle& bounds = item.bounds;
   return bounds.width == item.list->width_px && bounds.x == std::floor(bounds.x) &&
@@ -89,8 +88,7 @@ void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& area) {
 }
 
 void Painter::paint_item(cairo_t& cr, const DrawItem& item) {
-  // cairo_show_text() leaves the current point at the end of its line, and the next path would
-  // begin there.
+  // cairo_show_text() leaves a current point, and the next path would begin there.
   cairo_new_path(&cr);
   if (const auto* rectangle = std::get_if<RectangleItem>(&item)) paint_shape(cr, *rectangle);
   if (const auto* text = std::get_if<TextItem>(&item)) paint_text(cr, *text);
@@ -142,7 +140,7 @@ CairoSurfacePtr Painter::pixels_of(const PlateItem& item) {
                                         static_cast<int>(item.bounds.height), "paint a plate");
   cairo_surface_set_device_offset(pixels.get(), -item.bounds.x, -item.bounds.y);
   const CairoPtr inner(cairo_create(pixels.get()));
-  for (const DrawItem& part : item.plate->items) paint_item(*inner, part);
+  for (const DrawItem& item_on_plate : item.plate->items) paint_item(*inner, item_on_plate);
   check_cairo(cairo_status(inner.get()), "paint a plate");
   cairo_surface_set_device_offset(pixels.get(), 0, 0);
   return pixels;
@@ -153,7 +151,7 @@ cairo_surface_t& Painter::kept_pixels(std::shared_ptr<const void> source,
   const auto kept = std::ranges::find(kept_, source, &KeptPixels::source);
   if (kept != kept_.end()) return *kept->pixels;
   CairoSurfacePtr pixels = make();
-  // Of a long film the oldest are of no use any more.
+  // A long film does not need its oldest pixels any more.
   constexpr std::size_t kMostKept = 40;
   if (kept_.size() == kMostKept) kept_.erase(kept_.begin());
   kept_.push_back({std::move(source), std::move(pixels)});
@@ -193,7 +191,7 @@ void Painter::paint_group_pixels(cairo_t& cr, const GroupItem& item, const Pixel
   const int width = std::min(list.width_px, area.x_px + area.width_px - x) - left;
   const int height = std::min(list.height_px, area.y_px + area.height_px - y) - top;
   if (width <= 0 || height <= 0) return;
-  // Memory that Cairo does not know to be clear, as that of a canvas.
+  // As for a canvas, Cairo must not know that the memory is clear.
   std::vector<std::uint32_t> words(std::size_t(width) * std::size_t(height));
   const CairoSurfacePtr pixels(cairo_image_surface_create_for_data(
       reinterpret_cast<unsigned char*>(words.data()),
@@ -212,7 +210,7 @@ void Painter::paint_group_pixels(cairo_t& cr, const GroupItem& item, const Pixel
   cairo_pattern_set_filter(cairo_get_source(&cr), CAIRO_FILTER_NEAREST);
   cairo_paint_with_alpha(&cr, item.opacity);
   cairo_set_operator(&cr, CAIRO_OPERATOR_OVER);
-  // The words that the source refers to end here.
+  // The context must not keep a source whose memory ends here.
   cairo_set_source_rgb(&cr, 0, 0, 0);
 }
 

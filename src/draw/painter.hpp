@@ -16,16 +16,16 @@
 
 namespace piblocks {
 
-/// How text is set. Cairo blends the overlapping glyphs of a line in another way than others, and
-/// looks for overlaps among the visible ones only: a part of a picture would differ from the whole
-/// by a step of grey.
+/// How text is set. Cairo blends overlapping glyphs of a line differently, and looks for overlaps
+/// among the visible glyphs only: a part of a picture would differ from the whole by a step of
+/// grey.
 enum class TextSetting {
   lines,  ///< at once, so that it stays text in a file
   glyphs  ///< each glyph by itself, so that its pixels depend on nothing else
 };
 
-/// Holds the font, which is loaded for the first text, the pixels of plates and images, and a table
-/// of light, which is made for the first exposed item.
+/// Keeps the font, the pixels of plates and images, and a table of light; each is made when it is
+/// needed first.
 class Painter {
  public:
   explicit Painter(TextSetting setting) : setting_(setting) {}
@@ -48,7 +48,7 @@ class Painter {
   void paint_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list,
                      const PixelRect& area);
   void embed_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list);
-  /// The pixels that were made of this plate or image when it was painted first.
+  /// The pixels of this plate or image, made when it is painted first.
   cairo_surface_t& kept_pixels(std::shared_ptr<const void> source,
                                const std::function<CairoSurfacePtr()>& make);
 

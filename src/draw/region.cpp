@@ -24,21 +24,21 @@ bool has_rising_ids(const DrawList& list) {
          list.items.end();
 }
 
-/// Whether a rectangle that is only moved sideways has the same pixels but for its ends.
+/// Whether only the ends of a rectangle that moves sideways change.
 bool slides(const RectangleItem& before, const RectangleItem& after) {
   const bool dashed = before.stroke && before.stroke->dash_px > 0;
   return !dashed && before.fill == after.fill && before.stroke == after.stroke &&
          before.bounds.y == after.bounds.y && before.bounds.height == after.bounds.height;
 }
 
-/// The same for a block that moves all the while, or none of it.
+/// The same of an exposed block.
 bool slides(const ExposedBlock& before, const ExposedBlock& after) {
   return before.fill == after.fill && before.stroke == after.stroke && before.bars == after.bars &&
          before.bounds.y == after.bounds.y && before.bounds.height == after.bounds.height &&
          before.bounds.width == after.bounds.width && before.dwells.empty() == after.dwells.empty();
 }
 
-/// Whether a picture stays where it is, so that only what differs in it changes.
+/// Whether only the content of a group changes.
 bool stays(const GroupItem& before, const GroupItem& after) {
   const bool is_scaled = after.bounds.width != after.list->width_px;
   return !is_scaled && before.bounds == after.bounds && before.opacity == after.opacity &&
@@ -84,7 +84,7 @@ class Comparison {
 
 void Comparison::add(const Extent& extent) {
   if (region_.size() == 1 && region_.front() == frame_) return;
-  // Also of what is far outside of the frame, or not a number.
+  // An extent may be far outside of the frame, or not a number.
   const auto to_pixel = [](double position, int end) {
     return static_cast<int>(std::min(std::max(0.0, position), double(end)));
   };
@@ -99,7 +99,7 @@ void Comparison::add(const Extent& extent) {
   region_.push_back(rect);
 }
 
-/// Every glyph is painted by itself: what the lines have in common keeps its pixels.
+/// Every glyph is painted by itself, so that the common beginning keeps its pixels.
 void Comparison::compare(const TextItem& before, const TextItem& after) {
   const bool set_alike = before.origin == after.origin && before.size_px == after.size_px &&
                          before.color == after.color;
@@ -135,7 +135,7 @@ void Comparison::compare(const GroupItem& before, const GroupItem& after) {
   }
 }
 
-/// In all rows of both blocks: where one passes, the other is painted with it.
+/// Where one block passes, the other is painted with it: all rows of both change.
 void Comparison::compare(const ExposedItem& before, const ExposedItem& after) {
   const std::array extents = {extent_of(before.behind), extent_of(before.front),
                               extent_of(after.behind), extent_of(after.front)};
@@ -150,7 +150,7 @@ void Comparison::compare(const ExposedItem& before, const ExposedItem& after) {
   }
 }
 
-/// Between its ends a block that moves has the same pixels, wherever its ends are.
+/// Between the ends of its way, a moving block has the same pixels wherever these ends are.
 void Comparison::compare(const ExposedBlock& before, const ExposedBlock& after, double top,
                          double bottom) {
   if (before == after) return;

@@ -1,6 +1,6 @@
 // What changes from one picture to the next.
 // In: two draw lists. Out: the region outside of which their pixels are equal.
-// Knows items, not scenes: whatever is drawn with stable ids is compared in the same way.
+// It knows items, not scenes: all that is drawn with stable ids is compared in the same way.
 #pragma once
 
 #include <piblocks/image.hpp>

@@ -1,11 +1,13 @@
-#include "draw/shaping.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
+
+#include "core/utf8.hpp"
+#include "draw/font.hpp"
 
 namespace piblocks {
 namespace {
@@ -16,8 +18,8 @@ struct CodeRange {
   std::uint32_t last;
 };
 
-// Blocks of the Unicode Standard, version 15, with room for what comes to be in them. What the font
-// has no glyph for need not be here.
+// Blocks of the Unicode Standard, version 15, including their unassigned characters. Characters
+// that the font has no glyph for need not be here.
 
 /// Marks that stand over, under or within the letter before.
 constexpr std::array kMarks{
@@ -52,47 +54,37 @@ bool holds(std::span<const CodeRange> ranges, std::uint32_t code) {
       ranges, [code](const CodeRange& range) { return code >= range.first && code <= range.last; });
 }
 
-/// Removes the first character of valid UTF-8.
-std::uint32_t take_code(std::string_view& utf8) {
-  const auto lead = static_cast<unsigned char>(utf8.front());
-  const std::size_t length = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
-  std::uint32_t code = length == 1 ? lead : lead & (0xFFU >> (length + 1));
-  for (std::size_t i = 1; i < std::min(length, utf8.size()); ++i) {
-    code = code << 6 | (static_cast<unsigned char>(utf8[i]) & 0x3FU);
-  }
-  utf8.remove_prefix(std::min(length, utf8.size()));
-  return code;
-}
+struct Kind {
+  std::span<const CodeRange> ranges;
+  bool is_letter;  ///< and can be shown in a message
+  const char* reason;
+  const char* remedy;
+};
+
+constexpr std::array kKinds{
+    Kind{kControls, false, "is an instruction for shaping text, which is set letter by letter here",
+         "leave it out"},
+    Kind{kMarks, false,
+         "is a combining mark, which needs shaping, and text is set letter by letter here",
+         "use a letter that has the mark"},
+    Kind{kScripts, true, "is in a script that needs shaping, and text is set letter by letter here",
+         "use another script, or a picture as the logo"}};
 
 }  // namespace
 
-std::optional<Unshaped> first_unshaped(std::string_view utf8) {
+std::string shaping_problem(std::string_view utf8) {
   while (!utf8.empty()) {
-    const std::string_view from = utf8;
-    const std::uint32_t code = take_code(utf8);
-    const auto unshaped = [code](const char* reason, const char* remedy) {
-      return Unshaped{fmt::format("U+{:04X}", code), reason, remedy};
-    };
-    if (holds(kControls, code)) {
-      return unshaped("is an instruction for shaping text, which is set letter by letter here",
-                      "leave it out");
+    const auto [code, length_bytes] = first_character(utf8);
+    for (const Kind& kind : kKinds) {
+      if (!holds(kind.ranges, code)) continue;
+      const std::string letter =
+          kind.is_letter ? fmt::format("'{}' (U+{:04X})", utf8.substr(0, length_bytes), code)
+                         : fmt::format("U+{:04X}", code);
+      return fmt::format("{} {}; {}", letter, kind.reason, kind.remedy);
     }
-    if (holds(kMarks, code)) {
-      return unshaped(
-          "is a combining mark, which needs shaping, and text is set letter by letter "
-          "here",
-          "use a letter that has the mark");
-    }
-    if (holds(kScripts, code)) {
-      Unshaped letter =
-          unshaped("is in a script that needs shaping, and text is set letter by letter here",
-                   "use another script, or a picture as the logo");
-      letter.name =
-          fmt::format("'{}' ({})", from.substr(0, from.size() - utf8.size()), letter.name);
-      return letter;
-    }
+    utf8.remove_prefix(length_bytes);
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace piblocks

@@ -17,8 +17,8 @@ struct CaptionedPicture {
   std::string caption;  ///< UTF-8, one line, set underneath
 };
 
-/// Pictures of one size in rows, from the upper left, as large as they can be with room for
-/// margins, gaps and captions. A caption that is too long for its picture is set smaller.
+/// Pictures of one size in rows, from the upper left, as large as margins, gaps and captions allow.
+/// A caption that is too long for its picture is set smaller.
 /// @param pictures  at least one.
 /// @throws DrawError if the font cannot be loaded.
 DrawList arrange(std::vector<CaptionedPicture> pictures, int width_px, int height_px);

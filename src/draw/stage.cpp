@@ -20,22 +20,22 @@ constexpr std::string_view kCountCharacters = "0123456789,-";
 
 constexpr double kUsualAspect = 16.0 / 9;
 constexpr double kMostBannerText = 2.2;
-// A unit of the scene at least this large is rounded to an even number of pixels, so that edges
-// that do not move are sharp, and so are the upper and lower edges of blocks of width 1.
+/// From this size on, a unit of the scene is rounded to an even number of pixels. That makes edges
+/// that do not move sharp, and the upper and lower edges of blocks of width 1.
 constexpr double kMinRounded_px = 16;
-/// From one position to the next that a double can hold.
+/// Greatest distance of neighbouring doubles on the axis.
 constexpr double kMostStep_px = 0.25;
 // In ems of the label.
 constexpr double kLabelGap = 1.0;  // between the label's baseline and the view
 constexpr double kWordSpace = 0.34;
-/// Sums of advances differ by so little, in whatever order they are added.
+/// Sums of the same advances in different order differ by less.
 constexpr double kNegligible_em = 1e-6;
 // In parts of a block's height: from the edge to the first bar, and from bar to bar.
 constexpr double kBarStep = 0.1;
 // In line widths.
 constexpr double kDash = 4;
 
-/// Size of type: a banner has little height and much width, and its text may have more of it.
+/// Size of type. A banner is low and wide, and its text may take more of its height.
 double text_size(const Rectangle& area) {
   const double aspect = area.width / area.height;
   return style::kCounter * short_measure(area) *
@@ -44,21 +44,16 @@ double text_size(const Rectangle& area) {
 
 double length(const Range& range) { return to_double(range.high - range.low); }
 
-Rectangle to_pixels(const Layout& layout, double x, double y, double width, double height) {
-  return {layout.origin.x + x * layout.scale, layout.origin.y - (y + height) * layout.scale,
-          width * layout.scale, height * layout.scale};
-}
-
 RectangleItem compose_wall(const Scene& scene, const Layout& layout, const Palette& palette) {
   // The article's wall is a body of width 1 whose face is where blue turns back.
   const double face = to_double(scene.system.wall_face);
   const double bottom = to_double(scene.view.y.low);
-  return {ItemId::wall, to_pixels(layout, face - 1, bottom, 1, length(scene.view.y)), std::nullopt,
+  return {ItemId::wall, layout.at(face - 1, bottom, 1, length(scene.view.y)), std::nullopt,
           Stroke{palette.wall, layout.line_px, kDash * layout.line_px}};
 }
 
-/// The count's text up to where its digits are no longer the expected ones; separators count as
-/// digits do. Nothing while the count has fewer digits.
+/// How many characters of the count, separators included, are the expected ones; 0 while the count
+/// has fewer digits.
 std::size_t lit_length(std::string_view count, std::string_view expected) {
   if (count.size() != expected.size()) return 0;
   const auto* const end = std::ranges::mismatch(count, expected).in1;
@@ -67,8 +62,7 @@ std::size_t lit_length(std::string_view count, std::string_view expected) {
   return length;
 }
 
-/// Positions are doubles: where the axis is shown far from 0 and close up, blocks would be drawn
-/// where they are not.
+/// Positions are doubles: far from 0 and close up, blocks would be drawn in wrong places.
 void check_resolution(const View& view, double scale) {
   const double farthest =
       std::max(std::abs(to_double(view.x.low)), std::abs(to_double(view.x.high)));
@@ -129,21 +123,20 @@ Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle
   return layout;
 }
 
-StagePicture::StagePicture(const Scene& scene, const Layout& layout, const Palette& palette,
-                           const Font& font, std::string lit_digits)
-    : layout_(layout),
-      palette_(palette),
-      width_px_(scene.view.width_px),
-      wall_(compose_wall(scene, layout, palette)),
-      base_(base_of(scene.system)),
-      blue_side_(to_double(scene.system.blue.width)),
-      red_side_(to_double(scene.system.red.width)),
+StagePicture::StagePicture(const Setting& setting, std::string lit_digits)
+    : layout_(setting.stage),
+      palette_(setting.palette),
+      width_px_(setting.scene.view.width_px),
+      wall_(compose_wall(setting.scene, layout_, palette_)),
+      base_(base_of(setting.scene.system)),
+      blue_side_(to_double(setting.scene.system.blue.width)),
+      red_side_(to_double(setting.scene.system.red.width)),
       lit_digits_(std::move(lit_digits)),
-      widths_(font, kCountCharacters) {}
+      widths_(setting.font, kCountCharacters) {}
 
 ExposedBlock StagePicture::block(double side, const Motion& motion,
                                  const BlockColors& colors) const {
-  ExposedBlock block{to_pixels(layout_, motion.position - side / 2, base_, side, side),
+  ExposedBlock block{layout_.at(motion.position - side / 2, base_, side, side),
                      colors.fill,
                      Stroke{colors.edge, layout_.line_px},
                      {},
@@ -159,8 +152,8 @@ ExposedBlock StagePicture::block(double side, const Motion& motion,
   return block;
 }
 
-/// Label and count. A count that is longer than any of those the layout was made for, as that of a
-/// picture from outside of the film can be, has a line of its own measure: it is never cut off.
+/// Label and count. A picture from outside of the film may have a longer count than the layout was
+/// made for: its line is set smaller, so that it is never cut off.
 void StagePicture::add_line(const Integer& count, std::vector<DrawItem>& items) const {
   const std::string text = with_thousands_separators(count);
   const std::size_t lit = lit_length(text, lit_digits_);

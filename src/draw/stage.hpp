@@ -35,6 +35,21 @@ struct Layout {
   Point at(double x, double y) const noexcept {
     return {origin.x + x * scale, origin.y - y * scale};
   }
+  /// The same of a rectangle, from its lower left corner.
+  Rectangle at(double x, double y, double width, double height) const noexcept {
+    return {origin.x + x * scale, origin.y - (y + height) * scale, width * scale, height * scale};
+  }
+};
+
+/// What all things in a picture are made from. It does not outlive their making.
+struct Setting {
+  const Scene& scene;
+  const CollisionLog& log;
+  const Palette& palette;
+  const Font& font;
+  const Layout& stage;
+  double text_px;  ///< of what is read beside the blocks
+  double line_px;
 };
 
 /// The height on which both blocks stand, in units of the scene: the middle of the larger one is
@@ -44,17 +59,16 @@ double base_of(const BlockSystem& system);
 /// The sum of both blocks' mass · velocity², which never changes.
 Rational twice_energy(const BlockSystem& system);
 
-/// @param longest_count  of those that will be shown.
-/// @throws UsageError if the view is closer up than positions are known.
+/// @param longest_count  of those that will be shown
+/// @throws UsageError if the view is so close that doubles cannot hold the positions.
 Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
                const Font& font);
 
 class StagePicture {
  public:
-  /// @param lit_digits  digits that light up in the counter as soon as it shows them in their
-  ///                    places; none if empty.
-  StagePicture(const Scene& scene, const Layout& layout, const Palette& palette, const Font& font,
-               std::string lit_digits);
+  /// @param lit_digits  digits that light up when the counter shows them in their places; may be
+  ///                    empty
+  StagePicture(const Setting& setting, std::string lit_digits);
 
   /// @param exposure  as in Composition::frame().
   void add(const BlockState& state, std::span<const WeightedExposure> exposure,

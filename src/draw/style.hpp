@@ -1,6 +1,6 @@
 // The look of every picture: sizes of type, lines and margins.
 // In: a frame, or an area of it. Out: lengths in pixels.
-// The colours are in theme.cpp; what one overlay or diagram alone has is in its own file.
+// Colours are in theme.cpp; an overlay or diagram has its own proportions in its file.
 #pragma once
 
 #include <piblocks/scene.hpp>
@@ -11,7 +11,7 @@
 
 namespace piblocks {
 
-// Fractions of a short measure, see below.
+// Fractions of the short measure, see below.
 namespace style {
 
 // Margins and gaps.
@@ -60,7 +60,7 @@ inline Rectangle whole(const View& view) {
 
 inline double short_measure(const View& view) { return short_measure(whole(view)); }
 
-/// All lines of a frame are measured by this, wherever in it they are.
+/// The unit of all line widths of a frame.
 inline double line_width_px(const View& view) { return style::kLine * short_measure(view); }
 
 /// Type of read-outs and diagrams.

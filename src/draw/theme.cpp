@@ -1,5 +1,7 @@
 #include "draw/theme.hpp"
 
+#include <array>
+
 namespace piblocks {
 namespace {
 
@@ -70,19 +72,9 @@ constexpr Palette kColorblind = {
 }  // namespace
 
 Palette palette_of(Theme theme) {
-  switch (theme) {
-    case Theme::article:
-      return kArticle;
-    case Theme::chalkboard:
-      return kChalkboard;
-    case Theme::dark:
-      return kDark;
-    case Theme::print:
-      return kPrint;
-    case Theme::colorblind:
-      return kColorblind;
-  }
-  return kArticle;
+  // In the order of Theme.
+  constexpr std::array kPalettes = {kArticle, kChalkboard, kDark, kPrint, kColorblind};
+  return kPalettes.at(static_cast<std::size_t>(theme));
 }
 
 std::optional<Color> background_of(const View& view) {

@@ -17,10 +17,9 @@ struct BlockColors {
   Color text;  ///< of what is written on the block
   Color line;  ///< of its path in diagrams
   /// Bars across the block in its edge's colour, half of them near the upper edge and half near the
-  /// lower one: what tells it from the other without colours.
+  /// lower one. They tell it from the other block without colours.
   int bars = 0;
-  /// What the block is called in the picture: its colour, or, where the two blocks are not red and
-  /// blue, the side on which it always is.
+  /// The block's name in the picture: its colour, or, where blocks are not red and blue, its side.
   const char* name = "";
   const char* full_name = name;  ///< where the name alone might be read as a direction
 };

@@ -17,7 +17,7 @@ Ticks ticks_of(double low, double high, double least) {
     ticks.step = factor * power;
     if (ticks.step >= least) break;
   }
-  // Counted, so that the last one is not lost to rounding.
+  // Ticks are counted, so that rounding does not lose the last one.
   constexpr double kSlack = 1e-9;
   const double first = std::ceil(low / ticks.step - kSlack);
   const double last = std::floor(high / ticks.step + kSlack);

@@ -30,14 +30,14 @@ struct FigureAxis {
 /// The same ticks, or those of a larger step if their figures would touch.
 Ticks with_room_for_figures(Ticks ticks, const FigureAxis& axis, const Font& font);
 
-/// With as many decimals as the step has, or with the step's power of ten if these are many:
+/// With as many decimals as the step has, or with the step's power of ten if there are many:
 /// "−0.25", "5×10⁹".
 std::string tick_text(double value, double step);
 
 /// The smallest step >= least, exactly. @param least  > 0
 Rational round_step(const Rational& least);
 
-/// Half of the height of figures: what is centred on a mark has its baseline as much below it.
+/// Half of the height of figures. A figure that is centred on a mark has its baseline so far below.
 inline constexpr double kHalfFigure_em = 0.365;
 
 }  // namespace piblocks

@@ -16,7 +16,7 @@ namespace {
 using MakeSurface = cairo_surface_t* (*)(cairo_write_func_t write, void* bytes, double width,
                                          double height);
 
-/// Called by Cairo, which no exception may pass through.
+/// Cairo calls it, so that it must not throw.
 cairo_status_t append_bytes(void* target, const unsigned char* data, unsigned int length) {
   auto& bytes = *static_cast<std::vector<std::uint8_t>*>(target);
   try {
@@ -35,7 +35,7 @@ cairo_surface_t* make_svg(cairo_write_func_t write, void* bytes, double width, d
 
 cairo_surface_t* make_pdf(cairo_write_func_t write, void* bytes, double width, double height) {
   cairo_surface_t* surface = cairo_pdf_surface_create_for_stream(write, bytes, width, height);
-  // Cairo would write the time of day: equal scenes would give different files.
+  // Else Cairo writes the time of day, and equal scenes give different files.
   cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "1970-01-01T00:00:00Z");
   return surface;
 }
@@ -50,8 +50,8 @@ std::vector<std::uint8_t> draw_file(const DrawList& list, MakeSurface make) {
   return bytes;
 }
 
-/// Cairo 1.16 names groups by a counter of the process, "surface12": equal draw lists would give
-/// different files. Here they are counted from the beginning of the file.
+/// Cairo 1.16 numbers groups through the whole process, as "surface12", so that equal draw lists
+/// give different files. This numbers them from the beginning of the file.
 std::vector<std::uint8_t> with_fixed_ids(const std::vector<std::uint8_t>& svg) {
   constexpr std::string_view kCounted = "surface";
   const std::string_view text(reinterpret_cast<const char*>(svg.data()), svg.size());

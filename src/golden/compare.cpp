@@ -6,8 +6,7 @@
 #include <array>
 #include <cstdlib>
 #include <cstring>
-
-#include "golden/off_pixels.hpp"
+#include <optional>
 
 namespace piblocks {
 namespace {
@@ -34,115 +33,32 @@ Picture<std::uint64_t> picture_of(const DeepImage& image) {
           image.height_px, kBytes * image.width_px, image.max_level};
 }
 
-/// Where red, green, blue and alpha are in a pixel, or what is in their places.
+/// How much each sample of two pixels differs: red, green, blue and alpha, or what is in their
+/// places.
 template <typename Word>
-constexpr std::array kShifts = {sizeof(Word) * 4, sizeof(Word) * 2, std::size_t{0},
-                                sizeof(Word) * 6};
-
-template <typename Word>
-int level(Word word, std::size_t channel) {
-  constexpr Word kMask = (Word{1} << sizeof(Word) * 2) - 1;
-  return static_cast<int>((word >> kShifts<Word>[channel]) & kMask);
+std::array<int, 4> deltas_of(Word a, Word b) {
+  constexpr std::size_t kBits = sizeof(Word) * 2;
+  const auto delta = [a, b](std::size_t place) {
+    constexpr Word kMask = (Word{1} << kBits) - 1;
+    const auto level = [place](Word word) {
+      return static_cast<int>((word >> (place * kBits)) & kMask);
+    };
+    return std::abs(level(a) - level(b));
+  };
+  return {delta(2), delta(1), delta(0), delta(3)};
 }
 
-template <typename Word>
-int delta(Word a, Word b, std::size_t channel) {
-  return std::abs(level(a, channel) - level(b, channel));
+bool is_masked(std::span<const PixelRect> masks, int x, int y) {
+  return std::ranges::any_of(masks, [&](const PixelRect& r) {
+    return x >= r.x_px && x - r.x_px < r.width_px && y >= r.y_px && y - r.y_px < r.height_px;
+  });
 }
 
-/// Which pixels are not compared.
-class Mask {
- public:
-  explicit Mask(std::span<const PixelRect> rects) : rects_(rects) {}
-
-  bool hides(int x, int y) const {
-    return std::ranges::any_of(rects_, [&](const PixelRect& r) {
-      return x >= r.x_px && x - r.x_px < r.width_px && y >= r.y_px && y - r.y_px < r.height_px;
-    });
-  }
-
- private:
-  std::span<const PixelRect> rects_;
-};
-
-/// Calls take(a, b, x, y) for each pair of pixels that differ outside the mask, row by row.
+/// Calls take(deltas, x, y) for each pair of pixels that differ outside the masks, row by row.
+/// @throws UsageError if the pictures are of different sizes or depths.
 template <typename Word, typename Take>
 void for_each_difference(const Picture<Word>& reference, const Picture<Word>& actual,
-                         const Mask& mask, const Take& take) {
-  const auto row_bytes = static_cast<std::size_t>(reference.width_px) * sizeof(Word);
-  for (int y = 0; y < reference.height_px; ++y) {
-    const Word* const a = reference.row(y);
-    const Word* const b = actual.row(y);
-    if (std::memcmp(a, b, row_bytes) == 0) continue;
-    for (int x = 0; x < reference.width_px; ++x) {
-      if (a[x] != b[x] && !mask.hides(x, y)) take(a[x], b[x], x, y);
-    }
-  }
-}
-
-/// How many levels a delta is, of which 255 are the full range: down to a whole number, since
-/// deltas of samples are whole.
-int levels_of(const Rational& delta, int max_level) {
-  return static_cast<int>(floor(delta * max_level / 255).get_si());
-}
-
-template <typename Word>
-class Comparison {
- public:
-  Comparison(const Picture<Word>& reference, const Picture<Word>& actual,
-             const Tolerance& tolerance, std::span<const PixelRect> masks)
-      : reference_(reference),
-        actual_(actual),
-        tolerance_(tolerance),
-        max_delta_(levels_of(tolerance.max_delta, reference.max_level)),
-        mask_(masks) {
-    result_.max_level = reference.max_level;
-  }
-
-  Difference run() {
-    for_each_difference(reference_, actual_, mask_,
-                        [this](Word a, Word b, int x, int y) { compare_pixel(a, b, x, y); });
-    if (off_) off_->find_densest(tolerance_.window.value_or(Window{}).side_px, result_);
-    result_.is_accepted = accepts();
-    return result_;
-  }
-
- private:
-  void compare_pixel(Word a, Word b, int x, int y) {
-    int largest = 0;
-    for (std::size_t channel = 0; channel < kShifts<Word>.size(); ++channel) {
-      const int d = delta(a, b, channel);
-      if (d > 0 && result_.largest_delta == 0) {
-        result_.first = {x, y, static_cast<int>(channel)};
-        result_.largest_delta = d;
-      }
-      largest = std::max(largest, d);
-    }
-    ++result_.different_pixels;
-    result_.largest_delta = std::max(result_.largest_delta, largest);
-    if (largest <= max_delta_) return;
-    ++result_.off_pixels;
-    if (!off_) off_.emplace(reference_.width_px, reference_.height_px);
-    off_->add(x, y);
-  }
-
-  bool accepts() const {
-    return result_.off_pixels <= tolerance_.max_pixels &&
-           result_.largest_delta <= levels_of(tolerance_.hard_delta, reference_.max_level) &&
-           (!tolerance_.window || result_.densest_off <= tolerance_.window->max_pixels);
-  }
-
-  const Picture<Word>& reference_;
-  const Picture<Word>& actual_;
-  const Tolerance& tolerance_;
-  int max_delta_;
-  Mask mask_;
-  Difference result_;
-  std::optional<OffPixels> off_;  // made when there is something to hold
-};
-
-template <typename Word>
-void check_pictures(const Picture<Word>& reference, const Picture<Word>& actual) {
+                         std::span<const PixelRect> masks, const Take& take) {
   if (reference.width_px != actual.width_px || reference.height_px != actual.height_px) {
     throw UsageError(fmt::format("compare: the images are of different sizes: {}x{} and {}x{}",
                                  reference.width_px, reference.height_px, actual.width_px,
@@ -150,9 +66,83 @@ void check_pictures(const Picture<Word>& reference, const Picture<Word>& actual)
   }
   if (reference.max_level != actual.max_level) {
     throw UsageError(
-        fmt::format("compare: the images are of different depths: samples up to {} "
-                    "and up to {}",
+        fmt::format("compare: the images are of different depths: samples up to {} and up to {}",
                     reference.max_level, actual.max_level));
+  }
+  const auto row_bytes = static_cast<std::size_t>(reference.width_px) * sizeof(Word);
+  for (int y = 0; y < reference.height_px; ++y) {
+    const Word* const a = reference.row(y);
+    const Word* const b = actual.row(y);
+    if (std::memcmp(a, b, row_bytes) == 0) continue;
+    for (int x = 0; x < reference.width_px; ++x) {
+      if (a[x] != b[x] && !is_masked(masks, x, y)) take(deltas_of(a[x], b[x]), x, y);
+    }
+  }
+}
+
+/// The pixels that are off, and the window that has the most of them.
+class OffPixels {
+ public:
+  OffPixels(int width_px, int height_px)
+      : width_px_(width_px),
+        height_px_(height_px),
+        top_(height_px),
+        is_off_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)) {}
+
+  void add(int x, int y) {
+    is_off_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_) +
+            static_cast<std::size_t>(x)] = 1;
+    top_ = std::min(top_, y);
+    bottom_ = std::max(bottom_, y);
+  }
+  /// Finds the first of the squares of this side with the most pixels: densest, densest_off.
+  void find_densest(int side_px, Difference& result) const;
+
+ private:
+  void add_row(int y, int sign, std::vector<int>& columns) const;
+  static void look_along(const std::vector<int>& columns, PixelRect window, Difference& result);
+
+  int width_px_;
+  int height_px_;
+  int top_;
+  int bottom_ = -1;
+  std::vector<std::uint8_t> is_off_;
+};
+
+/// Moves a band of rows down the picture, and a window along the band's columns. The count of each
+/// column is made from the one before, and so is that of each window.
+void OffPixels::find_densest(int side_px, Difference& result) const {
+  const int width = std::min(side_px, width_px_);
+  const int height = std::min(side_px, height_px_);
+  std::vector<int> columns(static_cast<std::size_t>(width_px_));
+  for (int y = 0; y < height; ++y) add_row(y, 1, columns);
+  for (int y = 0;; ++y) {
+    if (y + height > top_ && y <= bottom_) look_along(columns, {0, y, width, height}, result);
+    if (y + height >= height_px_) return;
+    add_row(y, -1, columns);
+    add_row(y + height, 1, columns);
+  }
+}
+
+void OffPixels::add_row(int y, int sign, std::vector<int>& columns) const {
+  if (y < top_ || y > bottom_) return;
+  // Local copies: else the compiler loads members again after every write to a column.
+  const int count = width_px_;
+  const std::uint8_t* const row = is_off_.data() + std::ptrdiff_t{y} * count;
+  int* const column = columns.data();
+  for (int x = 0; x < count; ++x) column[x] += sign * row[x];
+}
+
+void OffPixels::look_along(const std::vector<int>& columns, PixelRect window, Difference& result) {
+  const auto width = static_cast<std::size_t>(window.width_px);
+  int sum = 0;
+  for (std::size_t x = 0; x < columns.size(); ++x) {
+    sum += columns[x];
+    if (x >= width) sum -= columns[x - width];
+    if (x + 1 < width || sum <= result.densest_off) continue;
+    result.densest_off = sum;
+    window.x_px = static_cast<int>(x + 1 - width);
+    result.densest = window;
   }
 }
 
@@ -165,29 +155,53 @@ void check_tolerance(const Tolerance& tolerance) {
   if (!is_valid) throw UsageError("compare: the tolerance is out of range");
 }
 
-template <typename Word>
-Difference compare_pictures(const Picture<Word>& reference, const Picture<Word>& actual,
-                            const Tolerance& tolerance, std::span<const PixelRect> masks) {
-  check_pictures(reference, actual);
-  check_tolerance(tolerance);
-  return Comparison<Word>(reference, actual, tolerance, masks).run();
+/// The number of whole levels in a delta, of which 255 are the full range.
+int levels_of(const Rational& delta, int max_level) {
+  return static_cast<int>(floor(delta * max_level / 255).get_si());
 }
 
 template <typename Word>
-std::vector<std::uint8_t> deltas_of(const Picture<Word>& reference, const Picture<Word>& actual,
-                                    std::span<const PixelRect> masks) {
-  check_pictures(reference, actual);
+Difference compare_pictures(const Picture<Word>& reference, const Picture<Word>& actual,
+                            const Tolerance& tolerance, std::span<const PixelRect> masks) {
+  check_tolerance(tolerance);
+  const int max_level = reference.max_level;
+  const int max_delta = levels_of(tolerance.max_delta, max_level);
+  Difference result;
+  result.max_level = max_level;
+  std::optional<OffPixels> off;  // most frames need none
+  for_each_difference(
+      reference, actual, masks, [&](const std::array<int, 4>& deltas, int x, int y) {
+        if (result.different_pixels++ == 0) {
+          const auto channel = std::ranges::find_if(deltas, [](int delta) { return delta > 0; });
+          result.first = {x, y, static_cast<int>(channel - deltas.begin())};
+        }
+        const int largest = std::ranges::max(deltas);
+        result.largest_delta = std::max(result.largest_delta, largest);
+        if (largest <= max_delta) return;
+        ++result.off_pixels;
+        if (!off) off.emplace(reference.width_px, reference.height_px);
+        off->add(x, y);
+      });
+  if (off) off->find_densest(tolerance.window.value_or(Window{}).side_px, result);
+  result.is_accepted = result.off_pixels <= tolerance.max_pixels &&
+                       result.largest_delta <= levels_of(tolerance.hard_delta, max_level) &&
+                       (!tolerance.window || result.densest_off <= tolerance.window->max_pixels);
+  return result;
+}
+
+template <typename Word>
+std::vector<std::uint8_t> largest_deltas(const Picture<Word>& reference,
+                                         const Picture<Word>& actual,
+                                         std::span<const PixelRect> masks) {
   const auto width = static_cast<std::size_t>(reference.width_px);
-  std::vector<std::uint8_t> deltas(width * static_cast<std::size_t>(reference.height_px));
-  for_each_difference(reference, actual, Mask(masks), [&](Word a, Word b, int x, int y) {
-    int largest = 0;
-    for (std::size_t channel = 0; channel < kShifts<Word>.size(); ++channel) {
-      largest = std::max(largest, delta(a, b, channel));
-    }
-    deltas[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
-        static_cast<std::uint8_t>((largest * 255 + reference.max_level - 1) / reference.max_level);
-  });
-  return deltas;
+  const int max_level = reference.max_level;
+  std::vector<std::uint8_t> largest(width * static_cast<std::size_t>(reference.height_px));
+  for_each_difference(
+      reference, actual, masks, [&](const std::array<int, 4>& deltas, int x, int y) {
+        largest[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
+            static_cast<std::uint8_t>((std::ranges::max(deltas) * 255 + max_level - 1) / max_level);
+      });
+  return largest;
 }
 
 }  // namespace
@@ -204,12 +218,12 @@ Difference compare(const DeepImage& reference, const DeepImage& actual, const To
 
 std::vector<std::uint8_t> pixel_deltas(const Image& reference, const Image& actual,
                                        std::span<const PixelRect> masks) {
-  return deltas_of(picture_of(reference.view()), picture_of(actual.view()), masks);
+  return largest_deltas(picture_of(reference.view()), picture_of(actual.view()), masks);
 }
 
 std::vector<std::uint8_t> pixel_deltas(const DeepImage& reference, const DeepImage& actual,
                                        std::span<const PixelRect> masks) {
-  return deltas_of(picture_of(reference), picture_of(actual), masks);
+  return largest_deltas(picture_of(reference), picture_of(actual), masks);
 }
 
 }  // namespace piblocks

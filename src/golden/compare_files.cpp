@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <future>
 #include <memory>
+#include <tuple>
 #include <utility>
 #include <variant>
 
@@ -21,7 +22,6 @@ bool is_framehash(const std::string& name) {
   return has_ending(name, ".framehash") || has_ending(name, ".framemd5");
 }
 
-/// Two frames at one depth.
 struct SamplePair {
   Samples reference;
   Samples actual;
@@ -42,13 +42,15 @@ SamplePair at_one_depth(Samples reference, Samples actual) {
   return {deepened(std::move(reference), max_level), deepened(std::move(actual), max_level)};
 }
 
+ImageView comparable(const Image& image) { return image.view(); }
+const DeepImage& comparable(const DeepImage& image) { return image; }
+
 std::string size_of(const Samples& samples) {
   return std::visit(
       [](const auto& image) { return fmt::format("{}x{}", image.width_px, image.height_px); },
       samples);
 }
 
-/// Counts what every frame comes to.
 void take(const FrameComparison& frame, ComparisonResult& result) {
   ++result.frames;
   result.different_frames += frame.is_equal() ? 0 : 1;
@@ -102,18 +104,16 @@ class PictureComparison {
     const bool is_exact = reference_->layout() == actual_->layout();
     Samples reference = is_exact ? reference_->samples() : reference_->rgb();
     Samples actual = is_exact ? actual_->samples() : actual_->rgb();
-    if (is_mismatch("{} is {} in the reference, {} in the other", size_of(reference),
-                    size_of(actual)) ||
-        is_mismatch("{} is shown {} in the reference, {} in the other",
-                    shown(reference_->presentation()), shown(actual_->presentation()))) {
-      return false;
-    }
+    result_.mismatch = mismatch_of(reference, actual);
+    if (!result_.mismatch.empty()) return false;
     const SamplePair pair = at_one_depth(std::move(reference), std::move(actual));
     FrameComparison frame;
     frame.number = result_.frames;
     frame.name = reference_->name();
     frame.is_yuv = is_exact && reference_->layout() != kRgba;
-    frame.difference = pair.apply([this](const auto& a, const auto& b) { return compared(a, b); });
+    frame.difference = pair.apply([this](const auto& a, const auto& b) {
+      return compare(comparable(a), comparable(b), job_.tolerance, job_.masks);
+    });
     frame.is_accepted = frame.difference->is_accepted;
     frame.reference = [&] { return flattened(frame.is_yuv ? reference_->rgb() : pair.reference); };
     frame.actual = [&] { return flattened(frame.is_yuv ? actual_->rgb() : pair.actual); };
@@ -126,23 +126,19 @@ class PictureComparison {
     return true;
   }
 
-  Difference compared(const Image& a, const Image& b) const {
-    return compare(a.view(), b.view(), job_.tolerance, job_.masks);
-  }
-  Difference compared(const DeepImage& a, const DeepImage& b) const {
-    return compare(a, b, job_.tolerance, job_.masks);
-  }
-
-  static std::string shown(const std::string& presentation) {
-    return presentation.empty() ? "as it is stored" : presentation;
-  }
-
-  /// @param text  takes the frame's name and what is true of each side.
-  bool is_mismatch(fmt::format_string<std::string, const std::string&, const std::string&> text,
-                   const std::string& reference, const std::string& actual) {
-    if (reference == actual) return false;
-    result_.mismatch = fmt::format(text, reference_->name(), reference, actual);
-    return true;
+  std::string mismatch_of(const Samples& reference, const Samples& actual) const {
+    const auto shown = [](const FrameReader& reader) {
+      const std::string presentation = reader.presentation();
+      return presentation.empty() ? "as it is stored" : presentation;
+    };
+    for (const auto& [is, expected, found] :
+         {std::tuple{"is", size_of(reference), size_of(actual)},
+          std::tuple{"is shown", shown(*reference_), shown(*actual_)}}) {
+      if (expected == found) continue;
+      return fmt::format("{} {} {} in the reference, {} in the other", reference_->name(), is,
+                         expected, found);
+    }
+    return {};
   }
 
   const ComparisonJob& job_;

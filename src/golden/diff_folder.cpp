@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "core/file_set.hpp"
-#include "golden/diff_picture.hpp"
 #include "golden/reports.hpp"
 #include "media/output/frame_pattern.hpp"
 #include "media/png/png_chunk.hpp"
@@ -26,7 +25,7 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr int kMaxDiffPictures = 100;
 constexpr const char* kPattern = "%06d.png";
 
-/// Where the chunks behind IHDR begin.
+/// The offset of the first chunk after IHDR.
 constexpr std::size_t kMark_at = 33;
 
 /// The chunk that tells pictures of this kind from other PNG files.
@@ -46,7 +45,7 @@ Bytes encode_with_mark(const Image& picture) {
   return bytes;
 }
 
-/// Whether a comparison has written it.
+/// Whether a comparison has written this file.
 bool has_mark(const fs::path& path) {
   std::error_code none;
   if (!fs::is_regular_file(fs::symlink_status(path, none))) return false;

@@ -1,7 +1,7 @@
-#include "golden/diff_picture.hpp"
-
 #include <algorithm>
 #include <array>
+
+#include "golden/reports.hpp"
 
 namespace piblocks {
 namespace {
@@ -19,7 +19,7 @@ std::uint32_t pale(std::uint32_t pixel) {
   return grey(255 - (255 - mean) / 4);
 }
 
-/// Even the least delta can be seen.
+/// Red, so that even the least delta can be seen.
 std::uint32_t mark(int delta) {
   const auto other = static_cast<std::uint32_t>(160 - 160 * delta / 255);
   return kOpaque | 0xff0000U | other << 8 | other;

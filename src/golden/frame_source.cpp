@@ -18,8 +18,8 @@ namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
-/// Also if the system does not say, as in a folder that may not be searched: reading it reports
-/// that.
+/// True also if the system does not say, as in a folder that may not be searched: reading the file
+/// reports that.
 bool may_exist(const fs::path& path) {
   std::error_code unknown;
   return fs::status(path, unknown).type() != fs::file_type::not_found;
@@ -32,7 +32,7 @@ bool is_folder(const fs::path& path) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The number that `text` begins with, without its leading zeros; removed from `text`.
+/// Removes the number that `text` begins with, and returns it without its leading zeros.
 std::string_view take_number(std::string_view& text) {
   std::size_t end = 0;
   while (end < text.size() && is_digit(text[end])) ++end;
@@ -42,7 +42,7 @@ std::string_view take_number(std::string_view& text) {
   return number;
 }
 
-/// frame2 before frame10.
+/// By the numbers in names: frame2 comes before frame10.
 bool comes_before(const fs::path& one, const fs::path& other) {
   const std::string one_name = one.filename();
   const std::string other_name = other.filename();
@@ -91,27 +91,14 @@ std::optional<std::int64_t> first_number(const FramePattern& pattern) {
   return std::nullopt;
 }
 
-/// Whether this is the name of a frame with a greater number.
-bool is_later(const std::string& file, const FramePattern& pattern, std::int64_t number) {
-  constexpr std::size_t kMaxDigits = 18;
-  for (std::size_t begin = 0; begin < file.size(); ++begin) {
-    std::int64_t found = 0;
-    for (std::size_t i = begin; i < file.size() && is_digit(file[i]); ++i) {
-      if (i - begin == kMaxDigits) break;
-      found = 10 * found + (file[i] - '0');
-      if (found > number && pattern.name(found) == file) return true;
-    }
-  }
-  return false;
-}
-
-/// Frames behind a gap would not be compared, and nobody would be told.
+/// Frames behind a gap would silently not be compared.
 /// @param missing  the first frame that is not there.
 void check_for_gap(const FramePattern& pattern, std::int64_t missing) {
   const fs::path folder = pattern.folder().empty() ? "." : pattern.folder();
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    if (!is_later(at->path().filename(), pattern, missing)) continue;
+    const auto number = pattern.number_of(at->path().filename().native());
+    if (!number || *number < missing) continue;
     throw IoError(fmt::format("compare: there is no '{}', but there is '{}' after it",
                               numbered(pattern, missing).string(), at->path().string()));
   }

@@ -13,11 +13,11 @@ namespace piblocks {
 
 /// A PNG file; the PNG files of a folder, in the order of the numbers in their names; those of a
 /// pattern, from number 0 or 1 on; or else a video, which an animated PNG file is too.
-/// @throws IoError, MediaError if it cannot be read; UsageError if the pattern is no good.
+/// @throws IoError, MediaError if it cannot be read; UsageError if the pattern is not valid.
 std::unique_ptr<FrameReader> open_frames(const std::string& name, const std::stop_token& stop);
 
-/// Adds the files that the name stands for to those that are read.
-/// @param what  their part in the comparison, for messages.
+/// Enters the files that the name stands for as files that are read.
+/// @param what  their role in the comparison, for messages
 void claim_frames(OverwriteCheck& check, const std::string& what, const std::string& name);
 
 }  // namespace piblocks

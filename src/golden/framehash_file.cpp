@@ -14,7 +14,7 @@
 namespace piblocks {
 namespace {
 
-/// More than a line of the longest hash has.
+/// Longer than a line with the longest hash.
 constexpr std::size_t kMaxLine = 4096;
 
 bool is_number(std::string_view text) {
@@ -50,7 +50,7 @@ FramehashFile read_framehash(const std::string& path) {
   FramehashFile result;
   std::vector<char> line(kMaxLine);
   for (std::size_t number = 1; file.getline(line.data(), kMaxLine); ++number) {
-    // All of the line: it may have a zero in it. The end of the line counts, where there is one.
+    // gcount() counts the line's end, except at the end of the file. A line may have a zero in it.
     const auto length = static_cast<std::size_t>(file.gcount()) - (file.eof() ? 0 : 1);
     const std::string text = without_blanks({line.data(), length});
     if (text.starts_with("#software")) continue;

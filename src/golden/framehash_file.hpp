@@ -1,5 +1,5 @@
 // Hashes of frames, as FFmpeg's framehash and framemd5 muxers write them.
-// In: a file. Out: what it says of itself, and a line for each frame.
+// In: a file. Out: its header, and a line for each frame.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 namespace piblocks {
 
 struct FramehashFile {
-  std::vector<std::string> header;  ///< its lines, but for the one that names the software
+  std::vector<std::string> header;  ///< its lines, without the one that names the software
   std::vector<std::string> frames;  ///< a line each, without blanks
 };
 
-/// @throws IoError if it cannot be read or is no such file.
+/// @throws IoError if it cannot be read or is not such a file.
 FramehashFile read_framehash(const std::string& path);
 
 }  // namespace piblocks

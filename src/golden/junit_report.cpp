@@ -2,7 +2,6 @@
 
 #include "core/output_file.hpp"
 #include "core/printable.hpp"
-#include "golden/describe.hpp"
 #include "golden/reports.hpp"
 
 namespace piblocks {
@@ -17,7 +16,7 @@ class JunitReport final : public Report {
     if (frame.is_accepted) {
       cases_ += fmt::format("    <testcase classname=\"frames\" name=\"{}\"/>\n", name);
     } else {
-      add_failure(name, describe(frame));
+      add_failure(name, difference_text(frame));
     }
   }
 

@@ -4,12 +4,27 @@
 
 #include <piblocks/compare.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/overwrite_check.hpp"
 
 namespace piblocks {
+
+/// What a comparison found: "3 pixels differ, largest delta 200 of 255, first at x=10 y=20 (red)
+/// …".
+std::string difference_text(const FrameComparison& frame);
+
+/// The reference in pale grey, with red where pixels differ, stronger where they differ more.
+/// @param deltas  as pixel_deltas() returns them
+Image difference_picture(const Image& reference, const std::vector<std::uint8_t>& deltas);
+
+/// Expected, difference, actual, from left to right. If three pictures are wider than kMaxSide_px,
+/// only a part around `focus` is shown.
+Image difference_strip(const Image& reference, const std::vector<std::uint8_t>& deltas,
+                       const Image& actual, const PixelRect& focus);
 
 class Report {
  public:
@@ -20,17 +35,16 @@ class Report {
 };
 
 /// A PNG file of every frame that is not accepted, up to a hundred: expected, difference, actual.
-/// All of them appear in the end, and those of earlier comparisons, which carry a mark, go.
-/// @throws UsageError if the folder cannot be made; its add() if a picture would replace a file
-/// that
-///         no comparison has written.
+/// finish() makes them appear, and removes those of earlier comparisons, which carry a mark.
+/// @throws UsageError if the folder cannot be made, or by add() if a picture would replace a file
+///         that no comparison has written.
 std::unique_ptr<Report> diff_folder(const std::string& folder);
 
-/// Adds the pictures of such a folder to those that are written.
+/// Enters the pictures of such a folder as files that are written.
 void claim_diff_folder(OverwriteCheck& check, const std::string& folder);
 
 /// One HTML file that needs nothing else: every frame that is not equal, with the pictures of the
-/// first forty to be laid over each other.
+/// first forty laid over each other.
 /// @throws UsageError if it cannot be written.
 std::unique_ptr<Report> html_report(const std::string& path);
 

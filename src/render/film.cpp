@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "draw/card.hpp"
+#include "draw/story_pictures.hpp"
 #include "physics/blocks.hpp"
 
 namespace piblocks {

@@ -14,7 +14,7 @@
 
 #include "draw/canvas.hpp"
 #include "draw/draw_list.hpp"
-#include "draw/split_screen.hpp"
+#include "draw/story_pictures.hpp"
 #include "render/run.hpp"
 #include "scene/schedule.hpp"
 

@@ -1,7 +1,6 @@
 // Which clacks a film has, and at which sample.
-// In: a collision log and the stretches of the film. Out: clacks in the order of the film, but for
-// an eighth of a sample. Where there are more collisions than samples, those of an eighth of a
-// sample are one clack.
+// In: a collision log and the stretches of the film. Out: clacks, ordered to an eighth of a sample.
+// Where collisions are denser than samples, those of an eighth of a sample are one clack.
 #pragma once
 
 #include <piblocks/run.hpp>
@@ -22,20 +21,20 @@ struct Clack {
   double blue_position = 0;
 };
 
-/// Takes constant memory but for what it returns. Used by one thread at a time.
+/// Takes the same memory for a film of any length. Used by one thread at a time.
 class ClackStream {
  public:
   ClackStream(const CollisionLog& log, std::span<const Stretch> stretches,
               const Rational& duration_s, int rate_hz);
 
-  /// Adds to `clacks` those before this sample that were not read yet, none of them more than an
-  /// eighth of a sample before the one ahead of it.
+  /// Appends the clacks before this sample that were not read yet. None is more than an eighth of a
+  /// sample earlier than the one before it.
   /// @throws SimulationError as CollisionLog::state_at().
   void read_until(std::int64_t sample, std::vector<Clack>& clacks);
 
  private:
   /// A stretch in samples.
-  struct Segment {
+  struct SampleStretch {
     double begin = 0;  ///< sample at which simulation time is `time`
     double end = 0;
     Time time;
@@ -47,7 +46,7 @@ class ClackStream {
     Time time_at(double sample) const;
     double sample_at(const Time& t) const;
   };
-  /// Samples, and the collisions that have happened at both ends.
+  /// From one sample to another, with the counts of collisions at both.
   struct Piece {
     double begin;
     double end;
@@ -56,16 +55,17 @@ class ClackStream {
   };
 
   void add_first_instant(std::span<const Stretch> stretches, int rate_hz);
-  void enter(const Segment& segment);
-  Integer count_at(const Segment& segment, double sample) const;
-  Integer count_at_end(const Segment& segment, double end, bool is_last) const;
-  void add(const Piece& piece, const Segment& segment, std::vector<Clack>& clacks) const;
-  void add_one_by_one(const Piece& piece, const Segment& segment, std::vector<Clack>& clacks) const;
-  void add_impact(CollisionKind kind, const Integer& first, const Integer& last, const Piece& piece,
-                  const Segment& segment, std::vector<Clack>& clacks) const;
+  const SampleStretch& stretch() const { return stretches_[current_]; }
+  void enter_stretch();
+  Integer count_at(double sample) const;
+  Integer count_at_end(double end, bool is_last) const;
+  void add(const Piece& piece, std::vector<Clack>& clacks) const;
+  void add_one_by_one(const Piece& piece, std::vector<Clack>& clacks) const;
+  void add_impacts(const Integer& first, const Integer& last, const Piece& piece,
+                   std::vector<Clack>& clacks) const;
 
   const CollisionLog& log_;
-  std::vector<Segment> segments_;
+  std::vector<SampleStretch> stretches_;
   std::size_t current_ = 0;
   double sample_ = 0;
   Integer count_;

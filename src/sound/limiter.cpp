@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sound/click_kernel.hpp"
+#include "sound/click.hpp"
 
 namespace piblocks {
 namespace {
 
-/// To 1/e of what was missing.
+/// Time in which the reduction falls to 1/e.
 constexpr double kRecovery_s = 0.05;
 
-/// Between samples no higher than 1 the interpolated signal is no higher than this.
+/// The interpolated signal between samples up to 1 is not higher than this.
 constexpr double kOvershoot = 2.7;
 
 constexpr double kLimiterBeta = 6;
@@ -50,7 +50,7 @@ Limiter::Pair Limiter::next(const Pair& pair) {
   pairs_[static_cast<std::size_t>(count_) % kRing] = pair;
   if (std::max(std::fabs(pair[0]), std::fabs(pair[1])) * kOvershoot > ceiling_) last_high_ = count_;
 
-  // The gain that the samples on both sides of an interval may have at most.
+  // The greatest gain of the samples on both sides of an interval.
   const std::int64_t judged = count_ - kHalf;
   const double peak = count_ - last_high_ < kTaps ? peak_around(judged) : 0;
   const double allowed = peak > ceiling_ ? ceiling_ / peak : 1;
@@ -60,7 +60,7 @@ Limiter::Pair Limiter::next(const Pair& pair) {
   if (gain(judged) > kAsGoodAsOne) gain(judged) = 1;
   if (gain(judged) < 1) last_below_one_ = judged;
 
-  // The mean of kTurn lowest gains, each of which has this sample within its reach.
+  // The mean of kTurn lowest gains; this sample is within the reach of each.
   static_assert(kDelay == kHalf + kTurn + 1);
   const std::int64_t now = judged - kTurn - 1;
   double applied = 1;

@@ -1,6 +1,5 @@
 // Keeps the sound below full scale, also between the samples.
-// In: pairs of samples of any height. Out: the same, quieter for a while where they would be too
-// high.
+// In: pairs of samples of any height. Out: the same, quieter around those that are too high.
 #pragma once
 
 #include <array>
@@ -10,8 +9,8 @@
 
 namespace piblocks {
 
-/// Finds peaks between the samples by interpolation, turns down smoothly before one comes, and up
-/// again after it. Where nothing is too high, every sample stays as it is.
+/// Finds peaks between the samples by interpolation, lowers the gain smoothly before one comes, and
+/// raises it after it. Without such peaks every sample stays as it is.
 class Limiter {
  public:
   using Pair = std::array<double, 2>;
@@ -19,7 +18,7 @@ class Limiter {
   /// Pairs that go in before the first one comes out.
   static constexpr int kDelay = 205;
 
-  /// @param ceiling  highest peak that is let through.
+  /// @param ceiling  of the peaks
   Limiter(double ceiling, double rate_hz);
 
   /// Takes a pair and gives the one of kDelay pairs ago; silence before the first.
@@ -28,7 +27,7 @@ class Limiter {
  private:
   static constexpr int kTaps = 24;
   static constexpr int kHalf = kTaps / 2;  ///< on either side
-  /// Over so many samples the gain goes to where it has to be.
+  /// Samples over which the gain falls to what a peak needs.
   static constexpr int kTurn = 192;
   static constexpr std::size_t kRing = 512;  // more than kDelay + kTurn + kTaps
   static constexpr int kPhases = 8;
@@ -41,7 +40,7 @@ class Limiter {
   double& lowest(std::int64_t number) { return lowest_[static_cast<std::size_t>(number) % kRing]; }
 
   double ceiling_;
-  double recovery_;  // of what is missing, a sample
+  double recovery_;  // share of the reduction that ends with each sample
   std::array<std::array<double, kTaps>, kPhases> kernel_{};
   std::vector<Pair> pairs_ = std::vector<Pair>(kRing);
   std::vector<double> gains_ = std::vector<double>(kRing, 1.0);   // allowed at each sample

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "sound/compressor.hpp"
+#include "sound/click.hpp"
 
 namespace piblocks {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 /// A clack of impulse 1 alone peaks at about a fifth of full scale.
 constexpr double kVolume = 0.28;
 
-/// The clock of a voice begins with a whole sample of the film.
+/// How much later a voice begins than its first whole sample of the film.
 Rational to_first_sample_s(const Voice& voice, int rate_hz) {
   return voice.begin_s - Rational(RunSound::first_sample(voice, rate_hz)) / rate_hz;
 }
@@ -52,8 +52,8 @@ RunSound::SampleRamp RunSound::in_samples(const std::optional<Ramp>& ramp, int r
   return {to_double(ramp->begin_s * rate_hz), to_double(ramp->end_s * rate_hz)};
 }
 
-/// Left and right of a contact: of equal power from one edge of the frame to the other, neither
-/// ever silent.
+/// The weights of left and right, of equal power from one edge of the frame to the other. Neither
+/// is ever 0.
 RunSound::Pair RunSound::channels(const Clack& clack) const {
   const double side = clack.kind == CollisionKind::wall ? -half_blue_ : half_blue_;
   const double in_view = (clack.blue_position + side - view_low_) / view_width_;
@@ -62,11 +62,11 @@ RunSound::Pair RunSound::channels(const Clack& clack) const {
   return {std::cos(angle), std::sin(angle)};
 }
 
-/// All whose click reaches into the block.
+/// Adds the clicks that reach into the block.
 void RunSound::add_clicks() {
   const std::int64_t end = block_begin_ + kBlock + kReach;
   stream_.read_until(end + kTogether_samples, clacks_);
-  // The two kinds of one eighth of a sample, and what rounding did.
+  // Clacks of both kinds within an eighth of a sample are out of order.
   std::stable_sort(clacks_.begin() + std::ptrdiff_t(clicked_), clacks_.end(),
                    [](const Clack& a, const Clack& b) { return a.sample < b.sample; });
   for (; clicked_ < clacks_.size() && clacks_[clicked_].sample < double(end); ++clicked_) {

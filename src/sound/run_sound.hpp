@@ -1,25 +1,47 @@
 // What one run of a film sounds like before anything is limited.
-// In: a voice. Out: pairs of samples of any height, from the first that it is heard in.
+// In: a voice. Out: pairs of samples of any height, from its first one on.
 #pragma once
+
+#include <piblocks/scene.hpp>
 
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "sound/clack_stream.hpp"
-#include "sound/click_kernel.hpp"
-#include "sound/soundtrack.hpp"
+#include "sound/click.hpp"
 #include "sound/timbre.hpp"
 
 namespace piblocks {
+
+/// An even change of weight between two instants of the film, in seconds.
+struct Ramp {
+  Rational begin_s;
+  Rational end_s;  ///< > begin_s
+};
+
+/// A run as a film has it.
+struct Voice {
+  const Scene& scene;              ///< must outlive the sound
+  const CollisionLog& log;         ///< must outlive the sound
+  std::vector<Stretch> stretches;  ///< as Schedule has them, from begin_s on
+  Rational begin_s = 0;            ///< when it begins in the film, >= 0
+  Rational end_s = 0;              ///< > begin_s; it is silent from then on
+  std::optional<Ramp> rise = {};   ///< its weight goes from 0 to 1
+  std::optional<Ramp> fall = {};   ///< and from 1 to 0; without it, it ends with a cut
+  /// Where its picture is in the frame, from 0, the left edge, to 1, the right one.
+  double left = 0;
+  double right = 1;
+};
 
 /// Takes the same memory for a run of any length. Used by one thread at a time.
 class RunSound {
  public:
   using Pair = std::array<double, 2>;
 
-  /// @param film_s  the film's duration: what lasts until then rings on beyond it.
+  /// @param film_s  the film's duration; a voice that lasts until then rings on beyond it
   RunSound(const Voice& voice, const Rational& film_s, int rate_hz);
 
   /// The sample of the film in which next() begins.
@@ -57,8 +79,7 @@ class RunSound {
   Timbre wall_;
   Timbre blocks_;
 
-  // In samples from the first one on.
-  std::vector<Clack> clacks_;  // those that are not done with
+  std::vector<Clack> clacks_;  // those that still matter, by samples from the first one on
   std::size_t clicked_ = 0;    // of them, how many are in the clicks
   // Pairs of samples from block_begin_ - kReach on, as far as clicks reach.
   std::vector<double> wall_clicks_ = std::vector<double>(2 * (kBlock + 3 * kReach));
@@ -68,7 +89,8 @@ class RunSound {
   std::int64_t used_ = kBlock;  // pairs of the block
 };
 
-/// The weight of what ends with a cut so many samples later: what still rings must not click.
+/// The weight of a sample so many samples before a cut. It falls to 0, so that a sound that still
+/// rings ends without a click.
 double weight_before_cut(double samples);
 
 }  // namespace piblocks

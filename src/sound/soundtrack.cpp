@@ -5,11 +5,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <list>
 #include <utility>
-
-#include "sound/limiter.hpp"
-#include "sound/run_sound.hpp"
 
 namespace piblocks {
 namespace {
@@ -29,71 +25,42 @@ void check(std::span<const Stretch> stretches) {
 
 }  // namespace
 
-struct Soundtrack::State {
-  State(std::vector<Voice> all, Rational length_s)
-      : duration_s(std::move(length_s)),
-        size(to_nearest(duration_s * kRate_hz)),
-        voices(std::move(all)) {
-    for (const Voice& voice : voices) check(voice.stretches);
-    find_next();
-    // Time goes by in the limiter before the first sample leaves it.
-    for (int i = 0; i < Limiter::kDelay; ++i) next_limited();
-  }
-
-  void find_next();
-  Limiter::Pair next_limited();
-
-  Rational duration_s;
-  std::int64_t size;
-  std::vector<Voice> voices;
-  std::size_t begun = 0;        // of the voices
-  std::int64_t next_begin = 0;  // pair with which the next one begins
-  std::list<RunSound> heard;    // at this moment
-  Limiter limiter{kCeiling, kRate_hz};
-  std::int64_t mixed = 0;  // pairs that went into the limiter
-  std::int64_t given = 0;  // pairs of the whole
-};
-
-void Soundtrack::State::find_next() {
-  next_begin = begun < voices.size() ? RunSound::first_sample(voices[begun], kRate_hz)
-                                     : std::numeric_limits<std::int64_t>::max();
+Soundtrack::Soundtrack(std::vector<Voice> voices, const Rational& duration_s)
+    : duration_s_(duration_s),
+      size_(to_nearest(duration_s * kRate_hz)),
+      voices_(std::move(voices)),
+      limiter_(kCeiling, kRate_hz) {
+  for (const Voice& voice : voices_) check(voice.stretches);
+  find_next_voice();
+  // Time goes by in the limiter before the first sample leaves it.
+  for (int i = 0; i < Limiter::kDelay; ++i) next_limited();
 }
 
-Limiter::Pair Soundtrack::State::next_limited() {
-  for (; next_begin <= mixed; find_next()) {
-    heard.emplace_back(voices[begun++], duration_s, kRate_hz);
+void Soundtrack::find_next_voice() {
+  next_begin_ = begun_ < voices_.size() ? RunSound::first_sample(voices_[begun_], kRate_hz)
+                                        : std::numeric_limits<std::int64_t>::max();
+}
+
+Limiter::Pair Soundtrack::next_limited() {
+  for (; next_begin_ <= mixed_; find_next_voice()) {
+    playing_.emplace_back(voices_[begun_++], duration_s_, kRate_hz);
   }
   Limiter::Pair sum{};
-  for (RunSound& run : heard) {
+  for (RunSound& run : playing_) {
     const RunSound::Pair pair = run.next();
     sum[0] += pair[0];
     sum[1] += pair[1];
   }
-  heard.remove_if([](const RunSound& run) { return run.is_over(); });
-  ++mixed;
-  return limiter.next(sum);
+  playing_.remove_if([](const RunSound& run) { return run.is_over(); });
+  ++mixed_;
+  return limiter_.next(sum);
 }
 
-Soundtrack::Soundtrack(std::vector<Voice> voices, const Rational& duration_s)
-    : state_(std::make_unique<State>(std::move(voices), duration_s)) {}
-
-Soundtrack::Soundtrack(const Scene& scene, const CollisionLog& log,
-                       std::span<const Stretch> stretches, const Rational& duration_s)
-    : Soundtrack({Voice{.scene = scene,
-                        .log = log,
-                        .stretches = {stretches.begin(), stretches.end()},
-                        .end_s = duration_s}},
-                 duration_s) {}
-Soundtrack::~Soundtrack() = default;
-
-std::int64_t Soundtrack::size() const noexcept { return state_->size; }
-
 std::size_t Soundtrack::read(std::span<float> samples) {
-  State& s = *state_;
   std::size_t count = 0;
-  for (; 2 * count + 1 < samples.size() && s.given < s.size; ++count, ++s.given) {
-    const Limiter::Pair pair = s.next_limited();
-    const double weight = weight_before_cut(double(s.size - s.given));
+  for (; 2 * count + 1 < samples.size() && given_ < size_; ++count, ++given_) {
+    const Limiter::Pair pair = next_limited();
+    const double weight = weight_before_cut(double(size_ - given_));
     samples[2 * count] = float(weight * pair[0]);
     samples[2 * count + 1] = float(weight * pair[1]);
   }

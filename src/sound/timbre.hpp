@@ -15,13 +15,13 @@ struct Mode {
   double height;
 };
 
-/// Dull: a wall.
+/// Dull.
 std::span<const Mode> wall_modes();
-/// Bright: two hard blocks.
+/// Bright.
 std::span<const Mode> block_modes();
 
-/// Two channels of one body. Each mode is a resonator with two poles; the clicks' difference is
-/// what drives it, so that a steady push makes no sound.
+/// Two channels of one body. Each mode is a resonator with two poles. The difference of the clicks
+/// drives it, so that a steady push makes no sound.
 class Timbre {
  public:
   Timbre(std::span<const Mode> modes, double rate_hz);

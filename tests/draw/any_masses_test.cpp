@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "draw/composition.hpp"
-#include "draw/panels/gaps.hpp"
+#include "draw/panels/wedge.hpp"
 
 namespace piblocks {
 namespace {
@@ -111,13 +111,13 @@ TEST(Panels, KnowTheWedgeHoweverNarrowOrWide) {
   BlockSystem system;
   for (const unsigned long exponent : {4UL, 40UL, 400UL, 648UL, 700UL, 4000UL}) {
     system.red.mass = power(10, exponent);
-    const PanelGaps narrow(system);
+    const Wedge narrow(system);
     const double half = double(exponent) / 2;
     EXPECT_NEAR(narrow.log10_theta(), -half, 1e-4) << exponent;
     EXPECT_NEAR(narrow.angle({1, long(exponent) / 2}), 1, 1e-4) << exponent;
     EXPECT_NEAR(narrow.cosine, 1, 1e-4);
     system.red.mass = 1 / power(10, exponent);
-    const PanelGaps wide(system);
+    const Wedge wide(system);
     EXPECT_NEAR(wide.theta, std::numbers::pi / 2, 0.011) << exponent;
     EXPECT_NEAR(wide.sine, 1, 1e-4);
     EXPECT_TRUE(wide.cosine >= 0 && wide.cosine < 0.011) << exponent;

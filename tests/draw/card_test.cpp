@@ -1,11 +1,10 @@
-#include "draw/card.hpp"
-
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
 #include <variant>
 
 #include "draw/font.hpp"
+#include "draw/story_pictures.hpp"
 #include "draw/theme.hpp"
 
 namespace piblocks {

@@ -1,6 +1,4 @@
 // Which text is set letter by letter, and which is refused.
-#include "draw/shaping.hpp"
-
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 

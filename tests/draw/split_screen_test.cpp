@@ -1,11 +1,10 @@
-#include "draw/split_screen.hpp"
-
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
 #include <cstring>
 
 #include "draw/canvas.hpp"
+#include "draw/story_pictures.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>

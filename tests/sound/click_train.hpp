@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sound/clack_stream.hpp"
-#include "sound/click_kernel.hpp"
+#include "sound/click.hpp"
 
 namespace piblocks::testing_support {
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "sound/compressor.hpp"
+#include "sound/click.hpp"
 
 namespace piblocks {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "sound/click_kernel.hpp"
+#include "sound/click.hpp"
 #include "sound/true_peak.hpp"
 
 namespace piblocks {

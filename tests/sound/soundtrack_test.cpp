@@ -24,7 +24,9 @@ struct Track {
 Track track_of(const Scene& scene, const std::vector<Stretch>& stretches,
                const Rational& duration_s, std::size_t block = 1000) {
   const auto log = make_collision_log(scene.system);
-  Soundtrack soundtrack(scene, *log, stretches, duration_s);
+  Soundtrack soundtrack(
+      {Voice{.scene = scene, .log = *log, .stretches = stretches, .end_s = duration_s}},
+      duration_s);
   Track track;
   std::vector<float> samples(2 * block);
   while (const std::size_t count = soundtrack.read(samples)) {

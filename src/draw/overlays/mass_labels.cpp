@@ -15,7 +15,7 @@ namespace {
 constexpr double kHeight = 0.3;
 constexpr double kWidth = 0.84;
 
-/// Below this it could not be read.
+/// A smaller label cannot be read.
 constexpr double kLeast_px = 4;
 
 struct Label {

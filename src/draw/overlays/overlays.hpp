@@ -1,4 +1,4 @@
-// The overlays there are, one file each.
+// All overlays.
 // In: a setting. Out: a drawable, or a read-out for a row of them.
 #pragma once
 
@@ -14,8 +14,8 @@ namespace piblocks {
 /// Each block's mass on it, as large as fits.
 Drawable mass_labels(const Setting& setting);
 
-/// Arrows above the blocks. Velocities of one run differ by the square root of the mass ratio, so
-/// lengths grow less and less, up to a longest one; the figure says the value.
+/// Arrows above the blocks, with figures. Velocities of one run differ by the square root of the
+/// mass ratio, so lengths grow less and less with the velocity, up to a longest one.
 /// @throws UsageError if the view has no room above the blocks.
 Drawable velocity_arrows(const Setting& setting);
 
@@ -26,7 +26,7 @@ Drawable ruler(const Setting& setting);
 /// A short text that changes with what is shown, beside others in a row.
 struct ReadOut {
   const char* name;                                    ///< in messages
-  std::string widest;                                  ///< what takes most room
+  std::string widest;                                  ///< the text that takes most room
   std::function<std::string(const FrameState&)> text;  ///< empty where there is nothing to say
   Color color;
 };
@@ -34,7 +34,6 @@ struct ReadOut {
 ReadOut time_read_out(const Setting& setting);
 ReadOut energy_read_out(const Setting& setting);
 ReadOut momentum_read_out(const Setting& setting);
-/// Whether slower_read_out() has anything to say.
 bool has_slow_motion(const Pacing& pacing);
 /// "10× slower".
 ReadOut slower_read_out(const Setting& setting);
@@ -42,7 +41,7 @@ ReadOut slower_read_out(const Setting& setting);
 /// Read-outs in centred rows, from the frame's top on. A Drawable.
 class ReadOutRows {
  public:
-  /// @throws UsageError if one has to be too small to be read.
+  /// @throws UsageError if one is too long to be read.
   ReadOutRows(std::vector<ReadOut> read_outs, const Setting& setting);
 
   double height() const noexcept { return height_; }

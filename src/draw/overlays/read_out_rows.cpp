@@ -16,7 +16,7 @@ constexpr double kGap = 2.0;
 constexpr double kRowHeight = 1.6;
 constexpr double kRowBaseline = 1.1;
 
-/// With what a figure may have in another instant.
+/// The characters that the read-outs may have at any instant.
 std::string characters_of(const std::vector<ReadOut>& read_outs) {
   std::string characters(kNumberCharacters);
   for (const ReadOut& read_out : read_outs) characters += read_out.widest;

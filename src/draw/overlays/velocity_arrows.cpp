@@ -13,19 +13,19 @@ namespace piblocks {
 namespace {
 
 // In parts of the room above the blocks.
-constexpr double kShaft = 0.3;              // height of the shaft above the block
-constexpr double kVelocityBaseline = 0.54;  // height of the figure's baseline, clear of the head
-constexpr double kVelocitySize = 0.4;
+constexpr double kShaft = 0.3;      // height of the shaft above the block
+constexpr double kBaseline = 0.54;  // height of the figure's baseline, clear of the head
+constexpr double kTextSize = 0.4;
 constexpr double kHead = 0.17;
-constexpr double kLeastArrowRoom_px = 16;
-/// No arrow is as long as this, in parts of the distance of the centres of blocks that touch: above
-/// its own block's centre it never meets the other one.
+constexpr double kLeastRoom_px = 16;
+/// Arrows are shorter than this part of the distance between the centres of touching blocks.
+/// Centred above its block, an arrow never meets the other one.
 constexpr double kLongest = 0.9;
 constexpr double kBetweenFigures_em = 0.5;
-/// So many times the usual speed has an arrow half as long.
+/// An arrow of so many times the usual speed has half the greatest length.
 constexpr double kHalfLength = 2;
 
-/// The heavier block's largest speed: all energy its own. It may be below the range of a double.
+/// The heavier block's speed when it has all the energy. It may be below the range of a double.
 mpf_class usual_speed(const BlockSystem& system) {
   return root_of(twice_energy(system) / std::max(system.blue.mass, system.red.mass));
 }
@@ -48,7 +48,7 @@ class VelocityArrows {
         width_px_(setting.scene.view.width_px),
         top_(-base_of(setting.scene.system)),
         room_px_((to_double(setting.scene.view.y.high) - top_) * layout_.scale + layout_.above_px),
-        text_px_(std::min(kVelocitySize * room_px_, setting.text_px)) {
+        text_px_(std::min(kTextSize * room_px_, setting.text_px)) {
     const BlockSystem& system = setting.scene.system;
     longest_px_ = kLongest * to_double(system.blue.width + system.red.width) / 2 * layout_.scale;
     const double face_px = layout_.at(to_double(system.wall_face), 0).x;
@@ -57,11 +57,11 @@ class VelocityArrows {
     most_right_px_ = width_px_ - margin_px;
     blue_px_ = to_double(system.blue.width) * layout_.scale;
     red_px_ = to_double(system.red.width) * layout_.scale;
-    if (room_px_ < kLeastArrowRoom_px) {
+    if (room_px_ < kLeastRoom_px) {
       throw UsageError(fmt::format(
           "show.overlays: the velocities need {} pixels above the blocks, and there are {:.0f}; "
           "raise the upper end of view.y, or make the frame larger",
-          kLeastArrowRoom_px, std::max(0.0, room_px_)));
+          kLeastRoom_px, std::max(0.0, room_px_)));
     }
   }
 
@@ -89,7 +89,7 @@ class VelocityArrows {
   }
 
  private:
-  /// A block that has left the frame has no figure: half of one, at the frame's edge, would be
+  /// A block that has left the frame has no figure: half a figure, at the frame's edge, would be
   /// another number.
   bool is_seen(const Motion& motion, double side_px) const {
     const double x = layout_.at(motion.position, top_).x;
@@ -109,15 +109,15 @@ class VelocityArrows {
     const double width = widths_.width_em(text) * text_px_;
     const Point foot = layout_.at(motion.position, top_);
     return {{nth(ItemId::velocities, n),
-             {foot.x - width / 2, foot.y - kVelocityBaseline * room_px_},
+             {foot.x - width / 2, foot.y - kBaseline * room_px_},
              std::move(text),
              text_px_,
              palette_.text},
             width};
   }
 
-  /// Each gives way by half, but blue's, which is the left one, not into the wall, and red's not
-  /// out of the frame, as long as there is room for both between them.
+  /// Each figure gives way by half of the overlap. Blue's, which is on the left, does not go into
+  /// the wall, nor red's out of the frame, as long as there is room for both between.
   void keep_apart(Figure& blue, Figure& red) const {
     blue.left() = std::max(blue.left(), least_left_px_);
     const double overlap = blue.left() + blue.width + kBetweenFigures_em * text_px_ - red.left();

@@ -16,8 +16,8 @@ namespace {
 constexpr double kTitleHeight = 1.9;
 constexpr double kTitleBaseline = 1.0;
 constexpr double kAround = 0.5;
-/// Rather than be set smaller than this, in parts of the other text, the full title is left out.
-constexpr double kLeastPanelShrink = 0.8;
+/// If the full title had to be smaller than this part of the other text, the brief one is set.
+constexpr double kLeastShrink = 0.8;
 // In line widths.
 constexpr double kDotRadius = 3.2;
 
@@ -30,6 +30,18 @@ Rectangle whole_pixels(const Rectangle& area, double around) {
 
 }  // namespace
 
+Point Circle::at(double angle) const {
+  return {centre.x + radius * std::cos(angle), centre.y - radius * std::sin(angle)};
+}
+
+std::vector<Point> Circle::arc(double from, double to) const {
+  constexpr double kStep = 0.05;  // radians
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(to - from) / kStep)));
+  std::vector<Point> points;
+  for (int i = 0; i <= steps; ++i) points.push_back(at(from + (to - from) * i / steps));
+  return points;
+}
+
 PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const PanelTitle& title)
     : palette_(setting.palette),
       font_(&setting.font),
@@ -39,7 +51,7 @@ PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const Pa
       line_px_(setting.line_px) {
   const Rectangle& whole = place.area;
   const double full_px = font_->fitted_px(title.full, text_px_, whole.width);
-  const bool is_full = full_px >= std::max(style::kLeastText_px, kLeastPanelShrink * text_px_);
+  const bool is_full = full_px >= std::max(style::kLeastText_px, kLeastShrink * text_px_);
   items_.emplace_back(
       TextItem{next_id(),
                {whole.x, whole.y + kTitleBaseline * text_px_},

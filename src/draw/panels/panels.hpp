@@ -1,4 +1,4 @@
-// The diagrams there are, one file each.
+// All diagrams, and what they are made of.
 // In: a setting and the place of the diagram. Out: a drawable.
 #pragma once
 
@@ -34,7 +34,17 @@ struct PanelTitle {
   std::string brief;
 };
 
-/// What a diagram is made of: its title, items that stay, and forms for those that move.
+struct Circle {
+  Point centre;
+  double radius = 0;
+
+  /// @param angle  counter-clockwise, from the right
+  Point at(double angle) const;
+  /// Points whose connecting lines are within 0.03 % of the radius.
+  std::vector<Point> arc(double from, double to) const;
+};
+
+/// A diagram's title, its items that stay, and forms for those that move.
 class PanelSheet {
  public:
   PanelSheet(const Setting& setting, const PanelPlace& place, const PanelTitle& title);
@@ -49,7 +59,7 @@ class PanelSheet {
   void line(std::vector<Point> points, const Color& color, double width = 1, double dash = 0);
   void shape(std::vector<Point> outline, const std::optional<Color>& fill,
              const std::optional<Color>& line = std::nullopt);
-  /// @param anchor  what part of the text's width is left of `at`: 0, 0.5 or 1.
+  /// @param anchor  the part of the text's width that is left of `at`: 0, 0.5 or 1
   void text(const std::string& text, const Point& at, double anchor, const Color& color);
 
   // The n-th of the things that move, which are above all that stays.

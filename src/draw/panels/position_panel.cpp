@@ -9,21 +9,21 @@
 namespace piblocks {
 namespace {
 
-/// A wedge narrower than this could not be seen, nor one that is so near to a right angle: it is
-/// drawn as half a right angle then.
+/// A wedge angle so near to 0 or to a right angle could not be seen. The wedge is then drawn as
+/// half a right angle.
 constexpr double kLeastAngle = 0.2;
 constexpr double kBelow_em = 1.5;
 
 class PositionPanel {
  public:
   PositionPanel(const Setting& setting, const PanelPlace& place)
-      : gaps_(setting.scene.system),
-        is_true_(std::min(gaps_.theta, std::numbers::pi / 2 - gaps_.theta) >= kLeastAngle),
+      : wedge_(setting.scene.system),
+        is_true_(std::min(wedge_.theta, std::numbers::pi / 2 - wedge_.theta) >= kLeastAngle),
         sheet_(setting, place,
                {is_true_ ? "Positions √m·x" : "Positions (not to scale)", "Positions"}) {
     const auto [from, to] = span_of(setting.scene, setting.log);
     const int columns = std::max(1, static_cast<int>(sheet_.inside().width));
-    const auto pieces = trajectory_of(setting.log, gaps_, {from, to, columns});
+    const auto pieces = trajectory_of(setting.log, wedge_, {from, to, columns});
     most_ = greatest_y2(pieces);
     place_wedge();
     for (const TrajectoryPiece& piece : pieces) add_piece(piece);
@@ -33,15 +33,14 @@ class PositionPanel {
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     items.emplace_back(sheet_.item());
-    const GapPoint gaps = gaps_.of(shown.state);
+    const GapPoint gaps = wedge_.gaps_of(shown.state);
     if (gaps.y2 > most_ * (1 + 1e-9)) return;
     items.emplace_back(sheet_.dot(0, at(gaps), sheet_.palette().accent));
   }
 
  private:
-  double slope() const { return is_true_ ? gaps_.sine / gaps_.cosine : 1; }
+  double slope() const { return is_true_ ? wedge_.sine / wedge_.cosine : 1; }
 
-  /// The corner is at the lower left.
   void place_wedge() {
     const Rectangle& inside = sheet_.inside();
     const double height = inside.height - kBelow_em * sheet_.text_px();
@@ -86,7 +85,7 @@ class PositionPanel {
     sheet_.text("contact", {beside.x - 0.6 * em, beside.y}, 1, sheet_.palette().muted);
   }
 
-  PanelGaps gaps_;
+  Wedge wedge_;
   bool is_true_;
   PanelSheet sheet_;
   double most_ = 0;

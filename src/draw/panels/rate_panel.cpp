@@ -17,26 +17,25 @@ namespace {
 constexpr double kBetweenTicks_em = 1.8;
 constexpr double kRateTick_em = 0.4;
 constexpr double kBesideTick_em = 0.2;
-/// The span is cut into so many bins or somewhat fewer.
 constexpr int kMostBins = 120;
-/// So small a part of a bin is no time at all, in a picture.
+/// A picture does not show so small a part of a bin.
 constexpr long kNegligiblePart = 1'000'000'000'000;
 
-/// How often blocks meet each other or the wall in each of equal bins of time. A bin is a round
-/// step long and begins at a multiple of it, so that its rate depends on nothing that is drawn.
+/// The rate of collisions in each of equal bins of time. A bin's length is a round step, and it
+/// begins at a multiple of it, so that rates do not depend on the picture's size.
 struct Rates {
   Rates(const CollisionLog& log, const Span& span)
       : bin(round_step((span.to - span.from) / kMostBins)), first(floor(span.from / bin)) {
     const Integer end = ceil(span.to / bin);
-    // What happens at the very beginning is part of the first bin.
+    // Collisions at the very beginning belong to the first bin.
     Integer before = log.state_at(Rational(first * bin - bin / kNegligiblePart)).count;
     for (Integer k = first + 1; k <= end; k += 1) {
       const Integer count = log.state_at(k * bin).count;
       of_bins.push_back(magnitude_of(Rational(count - before) / bin));
       before = count;
     }
-    // Rates of one run span many powers of ten: heights are their logarithms, from one collision in
-    // the whole span on.
+    // Rates of one run span many powers of ten, so heights are logarithms. They begin at the rate
+    // of one collision in the whole span.
     low = magnitude_of(1 / (span.to - span.from)).exponent;
     high = low + 1;
     for (const Magnitude& rate : of_bins) {
@@ -44,8 +43,8 @@ struct Rates {
     }
   }
 
-  Rational bin;   ///< length
-  Integer first;  ///< the first one begins at so many of these
+  Rational bin;   ///< its length
+  Integer first;  ///< the first bin begins at so many lengths
   std::vector<Magnitude> of_bins;
   // Powers of ten.
   long low = 0;
@@ -57,7 +56,7 @@ PanelTitle title_of(const Rates& rates) {
           "Collision rate"};
 }
 
-/// Left of the axis, for powers of ten and their ticks.
+/// The room for powers of ten and their ticks, left of the axis.
 double indent_em(const Rates& rates, const Font& font) {
   return kRateTick_em + kBesideTick_em +
          std::max(font.width_em(power_text(rates.low)), font.width_em(power_text(rates.high)));

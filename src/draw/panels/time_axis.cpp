@@ -39,8 +39,8 @@ TimeAxis::TimeAxis(const Setting& setting, const PanelSheet& sheet, double inden
   plot_.height -= kBelow * em;
   plot_.x += indent_em * em;
   plot_.width -= indent_em * em;
-  // Figures are centred on their marks, and those at the ends need room beside the axis: each
-  // narrowing moves the marks, but by less and less.
+  // Figures are centred on their marks, and those at the ends need room beside the axis. To make
+  // room moves the marks, by less and less.
   constexpr int kPasses = 4;
   for (int pass = 0; pass < kPasses; ++pass) {
     place_figures(setting.font, em);

@@ -13,7 +13,7 @@ namespace piblocks {
 class TimeAxis {
  public:
   /// From the scene's beginning to its end, with its figures inside the diagram.
-  /// @param indent_em  room left of it.
+  /// @param indent_em  room left of the axis
   /// @throws UsageError if the scene ends before it begins, or its time is beyond a double.
   TimeAxis(const Setting& setting, const PanelSheet& sheet, double indent_em);
 
@@ -22,7 +22,7 @@ class TimeAxis {
   const Rectangle& plot() const noexcept { return plot_; }
   double bottom() const noexcept { return plot_.y + plot_.height; }
   double x_of(double time) const noexcept { return plot_.x + (time - from_) * scale_; }
-  /// Whether a place is on the axis; freeze and loop never leave it, other instants may.
+  /// Whether a place is on the axis. Stills may show instants that are not.
   bool shows(double x) const noexcept { return x >= plot_.x - 1 && x <= plot_.x + plot_.width + 1; }
 
   /// Axis, ticks and figures.
@@ -43,7 +43,7 @@ class TimeAxis {
   double length_;
   Rectangle plot_;
   double scale_ = 1;             ///< pixels per unit of time
-  std::vector<Figure> figures_;  ///< one at each tick; without a text where that has no room
+  std::vector<Figure> figures_;  ///< one at each tick; its text is empty if it has no room
 };
 
 }  // namespace piblocks

@@ -13,13 +13,13 @@ class TimePanel {
  public:
   TimePanel(const Setting& setting, const PanelPlace& place)
       : sheet_(setting, place, {"Distance from the wall", "Distances"}),
-        gaps_(setting.scene.system),
+        wedge_(setting.scene.system),
         axis_(setting, sheet_, 0) {
     const int columns = std::max(1, static_cast<int>(std::ceil(axis_.plot().width)));
     const auto pieces =
-        trajectory_of(setting.log, gaps_, {axis_.span().from, axis_.span().to, columns});
+        trajectory_of(setting.log, wedge_, {axis_.span().from, axis_.span().to, columns});
     top_ = greatest_y2(pieces);
-    // What blue covers is behind, and red's line over it.
+    // Red's line is over what blue covers.
     for (const TrajectoryPiece& piece : pieces) add_blue(piece);
     add_red(pieces);
     axis_.add_base(sheet_);
@@ -30,7 +30,7 @@ class TimePanel {
     items.emplace_back(sheet_.item());
     const double x = axis_.x_of(to_double(shown.time));
     if (!axis_.shows(x)) return;
-    const GapPoint gaps = gaps_.of(shown.state);
+    const GapPoint gaps = wedge_.gaps_of(shown.state);
     items.emplace_back(axis_.cursor(sheet_, x));
     items.emplace_back(sheet_.dot(1, {x, y_of(gaps.y2)}, sheet_.palette().red.line));
     items.emplace_back(sheet_.dot(2, {x, y_of(gaps.y1)}, sheet_.palette().blue.line));
@@ -76,7 +76,7 @@ class TimePanel {
   }
 
   PanelSheet sheet_;
-  PanelGaps gaps_;
+  Wedge wedge_;
   TimeAxis axis_;
   double top_ = 0;
 };

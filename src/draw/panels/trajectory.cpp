@@ -15,22 +15,22 @@ struct Column {
   Integer last;
 };
 
-GapPoint gaps_at(const Collision& collision, const PanelGaps& gaps) {
-  return gaps.of(collision.blue, collision.red);
+GapPoint gaps_at(const Collision& collision, const Wedge& wedge) {
+  return wedge.gaps_of(collision.blue, collision.red);
 }
 
-void add_corners(const Column& column, const CollisionLog& log, const PanelGaps& gaps,
+void add_corners(const Column& column, const CollisionLog& log, const Wedge& wedge,
                  std::vector<TrajectoryPiece>& pieces) {
   if (pieces.empty() || pieces.back().corners.empty()) pieces.push_back({{column.from}, {}});
   std::vector<TimedGaps>& corners = pieces.back().corners;
   for (Integer k = column.first; k <= column.last; k += 1) {
     const Collision collision = log.collision(k);
-    corners.push_back({collision.time.hi, gaps_at(collision, gaps)});
+    corners.push_back({collision.time.hi, gaps_at(collision, wedge)});
   }
   corners.push_back(column.to);
 }
 
-void add_band(const Column& column, const CollisionLog& log, const PanelGaps& gaps,
+void add_band(const Column& column, const CollisionLog& log, const Wedge& wedge,
               std::vector<TrajectoryPiece>& pieces) {
   if (pieces.empty() || pieces.back().bands.empty()) pieces.push_back({});
   Band band{column.from, column.to, 0};
@@ -38,25 +38,25 @@ void add_band(const Column& column, const CollisionLog& log, const PanelGaps& ga
   // farthest from the wall at the first contact or at the last one.
   for (const Integer& k :
        {column.first, Integer(column.first + 1), Integer(column.last - 1), column.last}) {
-    band.high = std::max(band.high, gaps_at(log.collision(k), gaps).y1);
+    band.high = std::max(band.high, gaps_at(log.collision(k), wedge).y1);
   }
   pieces.back().bands.push_back(band);
 }
 
 }  // namespace
 
-std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const PanelGaps& gaps,
+std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const Wedge& wedge,
                                            const TrajectorySpan& span) {
   std::vector<TrajectoryPiece> pieces;
   BlockState state = log.state_at(span.from);
-  TimedGaps from{to_double(span.from), gaps.of(state)};
+  TimedGaps from{to_double(span.from), wedge.gaps_of(state)};
   for (int i = 1; i <= span.columns; ++i) {
     const Rational time = span.from + (span.to - span.from) * i / span.columns;
     const BlockState next = log.state_at(time);
-    const TimedGaps to{to_double(time), gaps.of(next)};
+    const TimedGaps to{to_double(time), wedge.gaps_of(next)};
     const bool is_dense = next.count - state.count > kMostCorners;
     const auto add = is_dense ? add_band : add_corners;
-    add({from, to, state.count + 1, next.count}, log, gaps, pieces);
+    add({from, to, state.count + 1, next.count}, log, wedge, pieces);
     state = next;
     from = to;
   }

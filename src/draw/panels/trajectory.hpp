@@ -1,13 +1,13 @@
 // A run over a span of time as lines that can be drawn, however many collisions it has.
-// In: a log and the span, cut into columns. Out: corners of the motion where there are few in a
-// column, and what blue's gap covers where there are more: exactly, in either case.
+// In: a log and the span, cut into columns. Out: the corners of the motion where a column has few,
+// and elsewhere the band that blue's gap covers. Both are exact.
 #pragma once
 
 #include <piblocks/run.hpp>
 
 #include <vector>
 
-#include "draw/panels/gaps.hpp"
+#include "draw/panels/wedge.hpp"
 
 namespace piblocks {
 
@@ -16,7 +16,7 @@ struct TimedGaps {
   GapPoint gaps;
 };
 
-/// What blue's gap covers from one instant to the next: all from the wall to `high`.
+/// From one instant to the next, blue's gap takes all values from 0 to `high`.
 struct Band {
   TimedGaps from;
   TimedGaps to;
@@ -32,11 +32,11 @@ struct TrajectoryPiece {
 struct TrajectorySpan {
   Rational from;
   Rational to;
-  int columns;  ///< >= 1; of one pixel, they show every line that a picture can
+  int columns;  ///< >= 1; columns of one pixel show all that a picture can
 };
 
 /// Pieces from one end of the span to the other.
-std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const PanelGaps& gaps,
+std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const Wedge& wedge,
                                            const TrajectorySpan& span);
 
 /// The greatest of red's gaps at corners and at ends of bands; at least 0.

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "draw/number_text.hpp"
-#include "draw/panels/gaps.hpp"
 #include "draw/panels/panels.hpp"
+#include "draw/panels/wedge.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -16,16 +16,15 @@ constexpr double kLeastBetween_px = 6;  // between rays, at their ends
 constexpr double kRimStep = 0.05;       // radians
 constexpr double kBelow_em = 1.5;
 
-/// 0, 1, 2, …: of one, ten, a hundred, … rays one is drawn, so that their ends are far enough
-/// apart.
-unsigned long stride_exponent(const PanelGaps& gaps, double radius_px) {
-  const double exponent = std::ceil(std::log10(kLeastBetween_px / radius_px) - gaps.log10_theta());
+/// The exponent n if 1 ray in 10^n is drawn, so that their ends are far enough apart.
+unsigned long stride_exponent(const Wedge& wedge, double radius_px) {
+  const double exponent = std::ceil(std::log10(kLeastBetween_px / radius_px) - wedge.log10_theta());
   return static_cast<unsigned long>(std::max(0.0, exponent));
 }
 
-/// By how much a straight line turns around the origin from one of its points to another.
+/// The angle by which a straight line turns around the origin from one of its points to another.
 double angle_between(const Point& from, const Point& to) {
-  // Of length 1: products of long ones would leave the range of a double.
+  // Products of long vectors would leave the range of a double.
   const auto direction = [](const Point& point) {
     const double length = std::hypot(point.x, point.y);
     return length > 0 ? Point{point.x / length, point.y / length} : Point{};
@@ -35,18 +34,18 @@ double angle_between(const Point& from, const Point& to) {
   return std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
 }
 
-/// Reflected again and again instead of the path, the wedge fills the half-plane, and the path is a
-/// straight line: it crosses a ray at every collision.
+/// At each collision the wedge is reflected instead of the path. The wedges fill the half-plane,
+/// and the path is a straight line, which crosses a ray at every collision.
 class UnfoldedPanel {
  public:
   UnfoldedPanel(const Setting& setting, const PanelPlace& place)
-      : gaps_(setting.scene.system),
+      : wedge_(setting.scene.system),
         sheet_(setting, place, {"Unfolded: a straight line", "Unfolded"}) {
     const BlockSystem& system = setting.scene.system;
-    start_ = {gaps_.cosine * to_double(system.blue_gap() + system.blocks_gap()),
-              gaps_.sine * to_double(system.blue_gap())};
-    velocity_ = {gaps_.cosine * to_double(system.red.velocity),
-                 gaps_.sine * to_double(system.blue.velocity)};
+    start_ = {wedge_.cosine * to_double(system.blue_gap() + system.blocks_gap()),
+              wedge_.sine * to_double(system.blue_gap())};
+    velocity_ = {wedge_.cosine * to_double(system.red.velocity),
+                 wedge_.sine * to_double(system.blue.velocity)};
     const Span span = span_of(setting.scene, setting.log);
     from_ = plane_at(to_double(span.from));
     const Point to = plane_at(to_double(span.to));
@@ -68,23 +67,18 @@ class UnfoldedPanel {
   }
 
  private:
-  /// Without the time before the start, in which the motion may be reflected too.
+  /// Where the straight line is, as if no reflection came before the start.
   Point plane_at(double time) const {
     return {start_.x + velocity_.x * time, start_.y + velocity_.y * time};
   }
   Point at(const Point& plane) const {
     const double cos = std::cos(tilt_);
     const double sin = std::sin(tilt_);
-    return {corner_.x + scale_ * (plane.x * cos - plane.y * sin),
-            corner_.y - scale_ * (plane.x * sin + plane.y * cos)};
+    return {rim_.centre.x + scale_ * (plane.x * cos - plane.y * sin),
+            rim_.centre.y - scale_ * (plane.x * sin + plane.y * cos)};
   }
-  /// @param angle  in the picture, which is the plane's and the tilt.
-  Point on_rim(double angle) const {
-    return {corner_.x + radius_ * std::cos(angle), corner_.y - radius_ * std::sin(angle)};
-  }
-
-  /// Where blue does not begin at rest the line may leave the upper half-plane, but no line turns
-  /// by more than half a turn: the plane is turned until all of it is seen.
+  /// If blue does not begin at rest, the line may leave the upper half-plane. It never turns by
+  /// more than half a turn, so that the plane can be turned until all of the line is seen.
   void tilt_to_hold(const Point& to) {
     from_angle_ = std::atan2(from_.y, from_.x);
     const double to_angle = from_angle_ + angle_between(from_, to);
@@ -96,52 +90,51 @@ class UnfoldedPanel {
   void place_half_plane() {
     const Rectangle& inside = sheet_.inside();
     const double height = inside.height - kBelow_em * sheet_.text_px();
-    radius_ = std::min(inside.width / 2, height);
-    scale_ = radius_ / most_;
-    corner_ = {inside.x + inside.width / 2, inside.y + (height + radius_) / 2};
+    rim_.radius = std::min(inside.width / 2, height);
+    scale_ = rim_.radius / most_;
+    rim_.centre = {inside.x + inside.width / 2, inside.y + (height + rim_.radius) / 2};
   }
 
   void add_rays() {
-    stride_exponent_ = stride_exponent(gaps_, radius_);
-    const double step = gaps_.angle({1, static_cast<long>(stride_exponent_)});
+    stride_exponent_ = stride_exponent(wedge_, rim_.radius);
+    const double step = wedge_.angle({1, static_cast<long>(stride_exponent_)});
     std::vector<Point> rays;
     for (double k = std::ceil(-tilt_ / step); tilt_ + k * step <= std::numbers::pi * (1 + 1e-12);
          ++k) {
-      rays.push_back(corner_);
-      rays.push_back(on_rim(tilt_ + k * step));
+      rays.push_back(rim_.centre);
+      rays.push_back(rim_.at(tilt_ + k * step));
     }
     sheet_.line(std::move(rays), sheet_.palette().grid);
     std::vector<Point> rim;
     for (double angle = 0; angle < std::numbers::pi; angle += kRimStep)
-      rim.push_back(on_rim(angle));
-    rim.push_back(on_rim(std::numbers::pi));
+      rim.push_back(rim_.at(angle));
+    rim.push_back(rim_.at(std::numbers::pi));
     sheet_.shape(std::move(rim), std::nullopt, sheet_.palette().muted);
     if (stride_exponent_ > 0) {
       sheet_.text(fmt::format("1 ray in {}", short_text(Rational(power(10, stride_exponent_)))),
-                  {corner_.x, corner_.y + 1.2 * sheet_.text_px()}, 0.5, sheet_.palette().muted);
+                  {rim_.centre.x, rim_.centre.y + 1.2 * sheet_.text_px()}, 0.5,
+                  sheet_.palette().muted);
     }
   }
 
   void add_present_wedge(const Point& present, std::vector<DrawItem>& items) const {
-    const double k = std::floor((from_angle_ + angle_between(from_, present)) / gaps_.theta);
-    const double begin = std::max(0.0, tilt_ + k * gaps_.theta);
-    const double end = std::min(tilt_ + (k + 1) * gaps_.theta, std::numbers::pi);
-    std::vector<Point> outline{corner_};
-    const int steps = std::max(1, static_cast<int>(std::ceil((end - begin) / kRimStep)));
-    for (int i = 0; i <= steps; ++i) outline.push_back(on_rim(begin + (end - begin) * i / steps));
+    const double k = std::floor((from_angle_ + angle_between(from_, present)) / wedge_.theta);
+    const double begin = std::max(0.0, tilt_ + k * wedge_.theta);
+    const double end = std::min(tilt_ + (k + 1) * wedge_.theta, std::numbers::pi);
+    std::vector<Point> outline = rim_.arc(begin, end);
+    outline.insert(outline.begin(), rim_.centre);
     items.emplace_back(
         sheet_.moving_shape(0, std::move(outline), sheet_.palette().shade, sheet_.palette().muted));
   }
 
-  PanelGaps gaps_;
+  Wedge wedge_;
   PanelSheet sheet_;
   Point start_;
   Point velocity_;
   Point from_;
-  Point corner_;
   double most_ = 1;
   double scale_ = 1;
-  double radius_ = 1;
+  Circle rim_;  ///< of the half-plane; angles are the plane's and the tilt
   double from_angle_ = 0;
   double tilt_ = 0;
   unsigned long stride_exponent_ = 0;

@@ -5,7 +5,7 @@
 namespace piblocks {
 namespace {
 
-/// Chosen from the table in src/media/README.md.
+/// Chosen from the table in tests/benchmark/encoders.md.
 constexpr int kQuantiser = 4;
 
 void set_up_prores(AVCodecContext& context) {

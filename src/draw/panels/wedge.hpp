@@ -1,6 +1,6 @@
-// A state without the blocks' widths: the two gaps that the diagrams show.
+// The wedge that a system moves in, and the two gaps that diagrams show of its states.
 // In: a system and states of it. Out: y1, blue's distance from the wall, and y2, red's distance
-// less the widths between, so that 0 <= y1 <= y2, with equality where something meets.
+// less blue's width, so that 0 <= y1 <= y2. They are equal while the blocks touch.
 #pragma once
 
 #include <piblocks/run.hpp>
@@ -18,8 +18,8 @@ struct GapPoint {
   double y2 = 0;
 };
 
-struct PanelGaps {
-  explicit PanelGaps(const BlockSystem& system)
+struct Wedge {
+  explicit Wedge(const BlockSystem& system)
       : blue_offset(to_double(system.wall_face + system.blue.width / 2)),
         red_offset(to_double(system.wall_face + system.blue.width + system.red.width / 2)),
         sine(root_of(system.blue.mass / (system.blue.mass + system.red.mass)).get_d()),
@@ -27,12 +27,12 @@ struct PanelGaps {
         theta(std::atan2(sine, cosine)),
         tangent(root_magnitude_of(system.blue.mass / system.red.mass)) {}
 
-  GapPoint of(const Motion& blue, const Motion& red) const {
+  GapPoint gaps_of(const Motion& blue, const Motion& red) const {
     return {blue.position - blue_offset, red.position - red_offset};
   }
-  GapPoint of(const BlockState& state) const { return of(state.blue, state.red); }
+  GapPoint gaps_of(const BlockState& state) const { return gaps_of(state.blue, state.red); }
 
-  /// The wedge's angle, so many times, also where the angle itself is below the range of a double.
+  /// So many times the wedge angle, which alone may be below the range of a double.
   double angle(const Magnitude& times) const {
     if (theta > kNarrow) return theta * to_double(times);
     return to_double(
@@ -45,15 +45,15 @@ struct PanelGaps {
 
   double blue_offset;
   double red_offset;
-  // Of the wedge's angle atan(sqrt(m_blue/m_red)). Sine and cosine are the square roots of the
-  // blocks' shares of the mass: unlike those of their ratio they never leave the range of a double.
+  // Of the wedge angle theta = atan(sqrt(m_blue / m_red)). Sine and cosine are square roots of the
+  // blocks' shares of the mass, which unlike their ratio are never too large for a double.
   double sine;
   double cosine;
   double theta;  ///< 0 where it is below the range of a double
   Magnitude tangent;
 
  private:
-  /// Below this atan(s) is s to a part of s^2/3.
+  /// Below this, atan(s) = s with a relative error of s^2/3.
   static constexpr double kNarrow = 1e-7;
 };
 

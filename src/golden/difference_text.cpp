@@ -1,9 +1,9 @@
-#include "golden/describe.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/exact.hpp>
 
 #include <array>
+
+#include "golden/reports.hpp"
 
 namespace piblocks {
 namespace {
@@ -18,15 +18,15 @@ std::string pixels(std::int64_t count, const char* what) {
   return fmt::format("{} {} {}", count, count == 1 ? "pixel" : "pixels", what);
 }
 
-/// The digits after the point that keep three, as far as the first that is not 0.
+/// So many decimals that three digits are written, but at most five decimals.
 int decimals_of(const Rational& value) {
   int decimals = 0;
   for (Rational scaled = value; scaled < 100 && decimals < 5; scaled *= 10) ++decimals;
   return decimals;
 }
 
-/// "3 of 255", and for deeper samples "0.250 of 255 (1 of 1023)": rounded up, so that what is
-/// printed, taken as a tolerance, accepts the delta.
+/// "3 of 255", and for deeper samples "0.250 of 255 (1 of 1023)". It is rounded up, so that the
+/// printed number, as a tolerance, accepts the delta.
 std::string largest_delta(const Difference& d) {
   if (d.max_level == 255) return fmt::format("{} of 255", d.largest_delta);
   const Rational delta = Rational(d.largest_delta) * 255 / d.max_level;
@@ -38,7 +38,7 @@ std::string largest_delta(const Difference& d) {
 
 }  // namespace
 
-std::string describe(const FrameComparison& frame) {
+std::string difference_text(const FrameComparison& frame) {
   if (!frame.difference) return frame.is_accepted ? "equal hashes" : "different hashes";
   const Difference& d = *frame.difference;
   if (d.is_equal()) return "equal";

@@ -1,15 +1,21 @@
-// Several pictures in one frame, and one picture over another.
-// In: draw lists. Out: a draw list that shows them.
+// What only a storyboard shows: title cards, several runs in one frame, and fades.
+// In: lines of text or draw lists, and the view of the film. Out: a draw list.
 #pragma once
 
 #include <piblocks/scene.hpp>
 
-#include <optional>
+#include <string>
 #include <vector>
 
 #include "draw/draw_list.hpp"
 
 namespace piblocks {
+
+/// A title card: lines of text in the middle of the frame. The first one is a heading. Lines that
+/// do not fit are made smaller.
+/// @param lines  at least one, not empty.
+/// @throws UsageError if a line cannot be set, or is too long for the frame.
+DrawList compose_card(const std::vector<std::string>& lines, const View& view);
 
 /// The frame in equal cells: side by side, or one above the other if it is not wider than high.
 class SplitScreen {
