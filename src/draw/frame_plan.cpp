@@ -14,12 +14,12 @@ namespace piblocks {
 namespace {
 
 // In ems.
-constexpr double kDescent = 0.24;
+constexpr double kTitleDescent = 0.24;
 constexpr double kBelowTitle = 0.25;
 /// Least side of a diagram.
 constexpr double kLeastPanel_em = 8;
 /// A line that has to be smaller than this part of its planned size is too long.
-constexpr double kLeastShrink = 0.5;
+constexpr double kLeastTitleShrink = 0.5;
 /// The width of a diagram that looks best, in parts of its height.
 constexpr double kPanelAspect = 1.3;
 /// Least height for the blocks and all that is not title, caption or logo, in parts of the frame's.
@@ -134,7 +134,7 @@ TextItem Planner::set_line(const char* key, const std::string& text, double size
         key, text, size_px, view_.width_px, view_.height_px, is_low ? "higher" : "wider"));
   }
   const double fitted_px = setting_.font.fitted_px(text, size_px, area.width);
-  if (fitted_px < std::max(kLeastShrink * size_px, style::kLeastText_px)) {
+  if (fitted_px < std::max(kLeastTitleShrink * size_px, style::kLeastText_px)) {
     throw UsageError(
         fmt::format("{}: '{}' is too long to be read in {:.0f} pixels; shorten it, or "
                     "make the frame wider",
@@ -154,7 +154,7 @@ void Planner::place_title() {
     title.id = ItemId::title;
     title.color = setting_.palette.text;
     title.origin.y = std::round(margin_ + Font::kCapHeight_em * size_px);
-    top = title.origin.y + (kDescent + kBelowTitle) * size_px;
+    top = title.origin.y + (kTitleDescent + kBelowTitle) * size_px;
     plan_.title = std::move(title);
   } else if (!show_.panels.empty()) {
     // Else the counter would stick to the upper edge.
@@ -181,7 +181,7 @@ void Planner::place_foot() {
     TextItem caption = set_line("show.caption", show_.caption, size_px, line);
     caption.id = ItemId::caption;
     caption.color = setting_.palette.muted;
-    height = std::max(height, (Font::kCapHeight_em + kDescent) * size_px);
+    height = std::max(height, (Font::kCapHeight_em + kTitleDescent) * size_px);
     caption.origin.y = std::round(bottom_ - (height - Font::kCapHeight_em * size_px) / 2);
     plan_.caption = std::move(caption);
   }

@@ -15,16 +15,16 @@ namespace {
 
 // In parts of the room below the blocks.
 constexpr double kAxis = 0.25;
-constexpr double kTick = 0.14;
-constexpr double kBaseline = 0.82;
-constexpr double kTextSize = 0.44;
+constexpr double kTickLength = 0.14;
+constexpr double kFigureBaseline = 0.82;
+constexpr double kFigureSize = 0.44;
 constexpr double kLeastDown = 0.1;
-constexpr double kLeastRoom_px = 16;
+constexpr double kLeastRulerRoom_px = 16;
 /// Fewer give no scale.
 constexpr int kLeastFigures = 2;
 // In ems.
 constexpr double kFigure_em = 2 * kHalfFigure_em;
-constexpr double kTick_em = 0.45;
+constexpr double kTickLength_em = 0.45;
 constexpr double kBelowTick_em = 0.3;
 constexpr double kBelowWall_em = 0.15;
 constexpr double kBesideWall_em = 0.25;
@@ -33,7 +33,7 @@ constexpr double kBesideEdge_em = 0.1;
 constexpr double kFitting = 0.95;
 /// Where figures below the wall would be smaller than this part of the usual size, they stand
 /// beside it.
-constexpr double kLeastShrink = 0.7;
+constexpr double kLeastFigureShrink = 0.7;
 constexpr double kLeastGap_em = 1.0;  // between figures
 
 /// Where the ruler is, from top to bottom.
@@ -50,11 +50,11 @@ Room room_for(const Setting& setting) {
   const double foot = base_of(setting.scene.system);
   const double height = (foot - to_double(setting.scene.view.y.low)) * layout.scale +
                         std::min(layout.below_px, setting.text_px);
-  if (height >= kLeastRoom_px) return {layout.at(0, foot).y, height};
+  if (height >= kLeastRulerRoom_px) return {layout.at(0, foot).y, height};
   throw UsageError(
       fmt::format("show.overlays: the ruler needs {} pixels below the blocks, and there are "
                   "{:.0f}; lower the lower end of view.y, or make the frame larger",
-                  kLeastRoom_px, std::max(0.0, height)));
+                  kLeastRulerRoom_px, std::max(0.0, height)));
 }
 
 /// Heights of the ruler, in pixels from the frame's top, and its type.
@@ -70,21 +70,21 @@ struct Rows {
 /// centred there. Otherwise they are in the room below the blocks.
 Rows rows_of(const Setting& setting, const Room& room) {
   const Layout& layout = setting.stage;
-  const double usual_px = std::min(kTextSize * room.height, setting.text_px);
+  const double usual_px = std::min(kFigureSize * room.height, setting.text_px);
   const double fitting_px = (layout.below_px - layout.line_px) / (kBelowWall_em + kFigure_em);
   const double size_px = std::min(usual_px, kFitting * fitting_px);
   const double foot = layout.at(0, to_double(setting.scene.view.y.low)).y;
   const double baseline = foot + layout.line_px + (kBelowWall_em + kFigure_em) * size_px;
   const double tick_end = baseline - (kFigure_em + kBelowTick_em) * size_px;
-  const double axis = std::round(tick_end - kTick_em * size_px);
+  const double axis = std::round(tick_end - kTickLength_em * size_px);
   const double least_px =
-      std::max(kLeastShrink * usual_px, std::min(usual_px, style::kLeastText_px));
+      std::max(kLeastFigureShrink * usual_px, std::min(usual_px, style::kLeastText_px));
   if (size_px >= least_px && axis > room.at(kLeastDown)) {
     return {axis, tick_end, baseline, size_px, true};
   }
   const double above = std::round(room.at(kAxis));
-  return {above, above + kTick * room.height, above + (kBaseline - kAxis) * room.height, usual_px,
-          false};
+  return {above, above + kTickLength * room.height, above + (kFigureBaseline - kAxis) * room.height,
+          usual_px, false};
 }
 
 PathItem line_between(const Point& from, const Point& to, const Stroke& stroke) {

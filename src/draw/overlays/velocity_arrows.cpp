@@ -13,11 +13,11 @@ namespace piblocks {
 namespace {
 
 // In parts of the room above the blocks.
-constexpr double kShaft = 0.3;      // height of the shaft above the block
-constexpr double kBaseline = 0.54;  // height of the figure's baseline, clear of the head
-constexpr double kTextSize = 0.4;
+constexpr double kShaft = 0.3;              // height of the shaft above the block
+constexpr double kVelocityBaseline = 0.54;  // height of the figure's baseline, clear of the head
+constexpr double kVelocitySize = 0.4;
 constexpr double kHead = 0.17;
-constexpr double kLeastRoom_px = 16;
+constexpr double kLeastArrowRoom_px = 16;
 /// Arrows are shorter than this part of the distance between the centres of touching blocks.
 /// Centred above its block, an arrow never meets the other one.
 constexpr double kLongest = 0.9;
@@ -48,7 +48,7 @@ class VelocityArrows {
         width_px_(setting.scene.view.width_px),
         top_(-base_of(setting.scene.system)),
         room_px_((to_double(setting.scene.view.y.high) - top_) * layout_.scale + layout_.above_px),
-        text_px_(std::min(kTextSize * room_px_, setting.text_px)) {
+        text_px_(std::min(kVelocitySize * room_px_, setting.text_px)) {
     const BlockSystem& system = setting.scene.system;
     longest_px_ = kLongest * to_double(system.blue.width + system.red.width) / 2 * layout_.scale;
     const double face_px = layout_.at(to_double(system.wall_face), 0).x;
@@ -57,11 +57,11 @@ class VelocityArrows {
     most_right_px_ = width_px_ - margin_px;
     blue_px_ = to_double(system.blue.width) * layout_.scale;
     red_px_ = to_double(system.red.width) * layout_.scale;
-    if (room_px_ < kLeastRoom_px) {
+    if (room_px_ < kLeastArrowRoom_px) {
       throw UsageError(fmt::format(
           "show.overlays: the velocities need {} pixels above the blocks, and there are {:.0f}; "
           "raise the upper end of view.y, or make the frame larger",
-          kLeastRoom_px, std::max(0.0, room_px_)));
+          kLeastArrowRoom_px, std::max(0.0, room_px_)));
     }
   }
 
@@ -109,7 +109,7 @@ class VelocityArrows {
     const double width = widths_.width_em(text) * text_px_;
     const Point foot = layout_.at(motion.position, top_);
     return {{nth(ItemId::velocities, n),
-             {foot.x - width / 2, foot.y - kBaseline * room_px_},
+             {foot.x - width / 2, foot.y - kVelocityBaseline * room_px_},
              std::move(text),
              text_px_,
              palette_.text},

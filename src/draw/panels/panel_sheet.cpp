@@ -17,7 +17,7 @@ constexpr double kTitleHeight = 1.9;
 constexpr double kTitleBaseline = 1.0;
 constexpr double kAround = 0.5;
 /// If the full title had to be smaller than this part of the other text, the brief one is set.
-constexpr double kLeastShrink = 0.8;
+constexpr double kLeastPanelShrink = 0.8;
 // In line widths.
 constexpr double kDotRadius = 3.2;
 
@@ -51,7 +51,7 @@ PanelSheet::PanelSheet(const Setting& setting, const PanelPlace& place, const Pa
       line_px_(setting.line_px) {
   const Rectangle& whole = place.area;
   const double full_px = font_->fitted_px(title.full, text_px_, whole.width);
-  const bool is_full = full_px >= std::max(style::kLeastText_px, kLeastShrink * text_px_);
+  const bool is_full = full_px >= std::max(style::kLeastText_px, kLeastPanelShrink * text_px_);
   items_.emplace_back(
       TextItem{next_id(),
                {whole.x, whole.y + kTitleBaseline * text_px_},

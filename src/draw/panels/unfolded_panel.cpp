@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLeastBetween_px = 6;  // between rays, at their ends
 constexpr double kRimStep = 0.05;       // radians
-constexpr double kBelow_em = 1.5;
+constexpr double kBelowWedge_em = 1.5;
 
 /// The exponent n if 1 ray in 10^n is drawn, so that their ends are far enough apart.
 unsigned long stride_exponent(const Wedge& wedge, double radius_px) {
@@ -89,7 +89,7 @@ class UnfoldedPanel {
 
   void place_half_plane() {
     const Rectangle& inside = sheet_.inside();
-    const double height = inside.height - kBelow_em * sheet_.text_px();
+    const double height = inside.height - kBelowWedge_em * sheet_.text_px();
     rim_.radius = std::min(inside.width / 2, height);
     scale_ = rim_.radius / most_;
     rim_.centre = {inside.x + inside.width / 2, inside.y + (height + rim_.radius) / 2};
