@@ -18,8 +18,8 @@ constexpr const char* kWallFirst =
     "red: by convention blue meets the wall first, which makes 31 (blocks first: 32)\n";
 
 const Arguments kCount{"count", "scene.toml"};
-const Arguments kRender{"render", "scene.toml", "--size", "64x36", "--fps",
-                        "2",      "--to",       "2",      "-o",    "-"};
+const Arguments kRenderQuietly{"render", "scene.toml", "--size", "64x36", "--fps",
+                               "2",      "--to",       "2",      "-o",    "-"};
 
 class ConventionTest : public CliFixture {
  protected:
@@ -59,11 +59,11 @@ TEST_F(ConventionTest, IsNotedByEveryCommandThatShowsIt) {
 }
 
 TEST_F(ConventionTest, IsNotedBesideARenderingUnlessItIsQuiet) {
-  const auto said = lines(run(kRestingOnTheWall, kRender).err);
+  const auto said = lines(run(kRestingOnTheWall, kRenderQuietly).err);
   ASSERT_EQ(said.size(), 2u);
   EXPECT_TRUE(said[0].starts_with("standard output: 4 frames in ")) << said[0];
   EXPECT_EQ(said[1] + '\n', kBlocksFirst);
-  EXPECT_EQ(run(kRestingOnTheWall, kRender + Arguments{"--quiet"}).err, "");
+  EXPECT_EQ(run(kRestingOnTheWall, kRenderQuietly + Arguments{"--quiet"}).err, "");
 }
 
 TEST_F(ConventionTest, TheNoteIsNoPartOfTheOutput) {
