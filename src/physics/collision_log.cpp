@@ -94,7 +94,7 @@ std::optional<Corner> corner_of(const BlockSystem& system) {
 }
 
 std::optional<PositionBounds> position_bounds(const CollisionLog& log, const Rational& time) {
-  if (const auto* const form = dynamic_cast<const UnfoldedLog*>(&log)) return form->bounds_at(time);
+  if (const UnfoldedLog* const form = closed_form(log)) return form->bounds_at(time);
   if (dynamic_cast<const ExactLog*>(&log) == nullptr) return std::nullopt;
   constexpr double kUnitRoundoff = 0x1p-53;
   const BlockState now = log.state_at(time);

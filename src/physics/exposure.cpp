@@ -63,7 +63,7 @@ Exposure PieceList::exposure() {
 
 Exposure expose(const CollisionLog& log, const Rational& begin, const Rational& end) {
   const auto& [first, last] = std::minmax(begin, end);
-  const auto* const form = dynamic_cast<const UnfoldedLog*>(&log);
+  const UnfoldedLog* const form = closed_form(log);
   return form != nullptr ? form->expose(first, last) : listed(log, first, last);
 }
 

@@ -9,10 +9,6 @@
 namespace piblocks {
 namespace {
 
-const UnfoldedLog* closed_form(const CollisionLog& log) {
-  return dynamic_cast<const UnfoldedLog*>(&log);
-}
-
 /// In the unit of Impact. Exact up to one root: masses can be beyond the range of a double.
 double impulse_of(const Rational& mass_ratio, const Collision& collision) {
   constexpr mpfr_prec_t kPrecision_bits = 64;

@@ -81,4 +81,9 @@ class UnfoldedLog final : public CollisionLog {
   std::optional<Integer> contact_;  // index of the collision that happens exactly at time 0
 };
 
+/// The log as this class, if it is one.
+inline const UnfoldedLog* closed_form(const CollisionLog& log) {
+  return dynamic_cast<const UnfoldedLog*>(&log);
+}
+
 }  // namespace piblocks

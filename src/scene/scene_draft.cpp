@@ -48,8 +48,8 @@ void SceneDraft::read(const std::string& path, const TomlTable& table) {
        {ExclusiveKeys{{"time.speed", "time.duration"}, "the speed"},
         ExclusiveKeys{{"digits", "mass-ratio", "red.mass"}, "the mass of red"}}) {
     const std::string problem = conflict_of(table, exclusive);
-    const std::string place = table.line > 0 ? fmt::format("{}:{}", path, table.line) : path;
-    if (!problem.empty()) add_problem(place, problem);
+    const std::string origin = table.line > 0 ? fmt::format("{}:{}", path, table.line) : path;
+    if (!problem.empty()) add_problem(origin, problem);
   }
   for (const TomlEntry& entry : table.entries) {
     const std::string origin = fmt::format("{}:{}", path, entry.line);
@@ -100,10 +100,10 @@ void SceneDraft::add_problem(const std::string& origin, const std::string& text)
   problems_.push_back(fmt::format("{}: {}", origin, text));
 }
 
-SceneDraft SceneDraft::next(const std::string& place) const {
+SceneDraft SceneDraft::next(const std::string& origin) const {
   SceneDraft draft = *this;
   draft.problems_.clear();
-  draft.place_ = place;
+  draft.default_origin_ = origin;
   return draft;
 }
 
@@ -119,8 +119,8 @@ std::vector<std::string> SceneDraft::problems(bool of_film) const {
   for (const auto& [key, reason] : problems_of(scene())) {
     if (of_film && !is_film_key(key)) continue;
     const auto origin = origins_.find(key);
-    problems.push_back(
-        fmt::format("{}: {} {}", origin == origins_.end() ? place_ : origin->second, key, reason));
+    problems.push_back(fmt::format(
+        "{}: {} {}", origin == origins_.end() ? default_origin_ : origin->second, key, reason));
   }
   return problems;
 }

@@ -16,15 +16,15 @@ namespace piblocks {
 
 class SceneDraft {
  public:
-  /// @param place  named in messages about values that nobody has set.
-  explicit SceneDraft(std::string place) : place_(std::move(place)) {}
+  /// @param origin  named in messages about values that have not been set.
+  explicit SceneDraft(std::string origin) : default_origin_(std::move(origin)) {}
 
   /// Sets every key of a table of this file.
   void read(const std::string& path, const TomlTable& table);
   /// Sets one key. @param origin  named in messages, such as "--size".
   void set(const std::string& origin, const std::string& key, const Values& values);
   /// A draft that begins with the values of this one, without its problems.
-  SceneDraft next(const std::string& place) const;
+  SceneDraft next(const std::string& origin) const;
 
   Scene scene() const;
   /// Everything that is wrong, also text that could not be read: origin, key, value and reason.
@@ -39,7 +39,7 @@ class SceneDraft {
   std::optional<Rational> mass_ratio_;
   bool width_by_mass_ = false;
   std::map<std::string, std::string> origins_;  // by key
-  std::string place_;
+  std::string default_origin_;
   std::vector<std::string> problems_;  // of text that could not be read
 };
 

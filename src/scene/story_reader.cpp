@@ -42,36 +42,36 @@ StoryReader::StoryReader(std::string path, const SceneDraft& film)
 }
 
 void StoryReader::read(const TomlTable& table) {
-  Places places;
-  Segment segment = segment_of(table, places);
+  Origins origins;
+  Segment segment = segment_of(table, origins);
   for (const Problem& problem : problems_of(segment, story_.segments.empty())) {
     // Text that could not be read has been reported already.
-    const auto place = places.find(problem.key);
-    const bool is_reported = place == places.end() && find(table, problem.key) != nullptr;
+    const auto origin = origins.find(problem.key);
+    const bool is_reported = origin == origins.end() && find(table, problem.key) != nullptr;
     if (is_reported) continue;
     problems_.push_back(fmt::format("{}: {} {}",
-                                    place == places.end() ? segment.origin : place->second,
+                                    origin == origins.end() ? segment.origin : origin->second,
                                     problem.key, problem.reason));
   }
   story_.segments.push_back(std::move(segment));
 }
 
-Segment StoryReader::segment_of(const TomlTable& table, Places& places) {
+Segment StoryReader::segment_of(const TomlTable& table, Origins& origins) {
   Segment segment;
   segment.origin = fmt::format("{}:{}", path_, table.line);
-  take(table, "fade", segment.fade_s, number_of, places);
+  take(table, "fade", segment.fade_s, number_of, origins);
   if (find(table, "card") != nullptr) {
-    segment.content = card_of(table, places);
+    segment.content = card_of(table, origins);
   } else {
     segment.content = runs_of(table);
   }
   return segment;
 }
 
-Card StoryReader::card_of(const TomlTable& table, Places& places) {
+Card StoryReader::card_of(const TomlTable& table, Origins& origins) {
   Card card;
-  take(table, "card", card.lines, lines_of, places);
-  take(table, "seconds", card.length_s, number_of, places);
+  take(table, "card", card.lines, lines_of, origins);
+  take(table, "seconds", card.length_s, number_of, origins);
   for (const TomlEntry& entry : table.entries) {
     if (entry.key == "card" || entry.key == "seconds" || entry.key == "fade") continue;
     add_problem(entry, "a card has nothing but 'card', 'seconds' and 'fade'");
@@ -133,27 +133,27 @@ std::vector<SceneDraft> StoryReader::compared(const TomlEntry& compare, const Sc
   return drafts;
 }
 
-/// Takes the value of the key if the table has it, and notes its place or its problem.
+/// Takes the value of the key if the table has it, and notes its origin or its problem.
 template <typename Target, typename Parse>
 void StoryReader::take(const TomlTable& table, const char* key, Target& target, const Parse& parse,
-                       Places& places) {
+                       Origins& origins) {
   const TomlEntry* const entry = find(table, key);
   if (entry == nullptr) return;
   if (!entry->problem.empty()) return add_problem(*entry, entry->problem);
   try {
     target = parse(entry->values);
-    places.emplace(key, place_of(*entry));
+    origins.emplace(key, origin_of(*entry));
   } catch (const UsageError& error) {
-    problems_.push_back(
-        fmt::format("{}: {} = {}: {}", place_of(*entry), key, joined(entry->values), error.what()));
+    problems_.push_back(fmt::format("{}: {} = {}: {}", origin_of(*entry), key,
+                                    joined(entry->values), error.what()));
   }
 }
 
 void StoryReader::add_problem(const TomlEntry& entry, const std::string& text) {
-  problems_.push_back(fmt::format("{}: {}: {}", place_of(entry), entry.key, text));
+  problems_.push_back(fmt::format("{}: {}: {}", origin_of(entry), entry.key, text));
 }
 
-std::string StoryReader::place_of(const TomlEntry& entry) const {
+std::string StoryReader::origin_of(const TomlEntry& entry) const {
   return fmt::format("{}:{}", path_, entry.line);
 }
 

@@ -25,11 +25,11 @@ class StoryReader {
   const std::vector<std::string>& problems() const { return problems_; }
 
  private:
-  /// Places in the file of the keys that are not a scene's, by key.
-  using Places = std::map<std::string, std::string>;
+  /// Origins of the keys that are not a scene's, by key.
+  using Origins = std::map<std::string, std::string>;
 
-  Segment segment_of(const TomlTable& table, Places& places);
-  Card card_of(const TomlTable& table, Places& places);
+  Segment segment_of(const TomlTable& table, Origins& origins);
+  Card card_of(const TomlTable& table, Origins& origins);
   Runs runs_of(const TomlTable& table);
   /// The keys of one scene. @param problem_of  says why a key may not be here, or nullptr.
   template <typename Rule>
@@ -37,9 +37,9 @@ class StoryReader {
   std::vector<SceneDraft> compared(const TomlEntry& compare, const SceneDraft& common);
   template <typename Target, typename Parse>
   void take(const TomlTable& table, const char* key, Target& target, const Parse& parse,
-            Places& places);
+            Origins& origins);
   void add_problem(const TomlEntry& entry, const std::string& text);
-  std::string place_of(const TomlEntry& entry) const;
+  std::string origin_of(const TomlEntry& entry) const;
 
   std::string path_;
   const SceneDraft& film_;

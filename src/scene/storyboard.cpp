@@ -77,9 +77,9 @@ std::vector<std::string> problems_of(const Storyboard& story) {
   if (story.segments.empty() || story.segments.size() > kMaxSegments) {
     problems.push_back(fmt::format("storyboard: must have from 1 to {} parts", kMaxSegments));
   }
-  const auto add = [&](const std::string& place, const std::vector<Problem>& more) {
+  const auto add = [&](const std::string& origin, const std::vector<Problem>& more) {
     for (const auto& [key, reason] : more) {
-      problems.push_back(fmt::format("{}: {} {}", place, key, reason));
+      problems.push_back(fmt::format("{}: {} {}", origin, key, reason));
     }
   };
   Scene film;
@@ -87,12 +87,12 @@ std::vector<std::string> problems_of(const Storyboard& story) {
   add("storyboard", problems_of(with_film_view(film, story.view)));
   for (std::size_t i = 0; i < story.segments.size(); ++i) {
     const Segment& segment = story.segments[i];
-    const std::string place =
+    const std::string origin =
         segment.origin.empty() ? fmt::format("part {}", i + 1) : segment.origin;
-    add(place, problems_of(segment, i == 0));
+    add(origin, problems_of(segment, i == 0));
     const Runs* const runs = std::get_if<Runs>(&segment.content);
     if (runs == nullptr) continue;
-    for (const Scene& run : *runs) add(place, problems_of(with_film_view(run, story.view)));
+    for (const Scene& run : *runs) add(origin, problems_of(with_film_view(run, story.view)));
   }
   return problems;
 }

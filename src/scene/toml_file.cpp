@@ -158,7 +158,7 @@ class Reader {
   }
 
   TomlEntry entry_of(const std::string& key, const toml::node& node) const {
-    constexpr const char* kExpected =
+    constexpr const char* kExpectedValue =
         "must be a number, a string, true or false, or a list of these";
     TomlEntry entry{key, {}, {}, node.source().begin.line, {}};
     if (const auto text = scalar_text(node)) {
@@ -166,12 +166,12 @@ class Reader {
     } else if (const auto* list = node.as_array()) {
       for (const toml::node& element : *list) {
         const auto element_text = scalar_text(element);
-        if (!element_text) entry.problem = kExpected;
+        if (!element_text) entry.problem = kExpectedValue;
         entry.values.push_back(element_text.value_or(""));
       }
       entry.tables = tables_of(*list);
     } else {
-      entry.problem = kExpected;
+      entry.problem = kExpectedValue;
     }
     return entry;
   }

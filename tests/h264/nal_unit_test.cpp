@@ -74,6 +74,20 @@ TEST(NalUnit, FindsNothingWhereThereIsNoUnit) {
   }
 }
 
+TEST(NalUnit, DropsOnlyUserDataBeforeAnotherUnit) {
+  const auto rest_of = [](const Bytes& stream) {
+    const auto rest = without_user_data(stream);
+    return Bytes(rest.begin(), rest.end());
+  };
+  const Bytes slice = {0, 0, 1, 0x65, 9};
+  EXPECT_EQ(rest_of({0, 0, 0, 1, 6, 5, 7, 7, 0, 0, 1, 0x65, 9}), slice);
+  EXPECT_EQ(rest_of({0, 0, 1, 6, 5, 7, 0, 0, 1, 0x65, 9}), slice);
+  for (const Bytes& kept : {slice, Bytes{}, Bytes{0, 0, 1, 6}, Bytes{0, 0, 1, 6, 5, 7},
+                            Bytes{0, 0, 1, 6, 1, 7, 0, 0, 1, 0x65, 9}}) {
+    EXPECT_EQ(rest_of(kept), kept);
+  }
+}
+
 /// Bytes that are often zero, the last one never.
 Bytes random_rbsp(Random& random) {
   const std::int64_t largest = random.integer(0, 1) == 0 ? 4 : 255;

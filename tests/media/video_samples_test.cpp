@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "media/libav/frame_format.hpp"
+#include "media/pixels/frame_reader.hpp"
 #include "support/property.hpp"
 
 extern "C" {

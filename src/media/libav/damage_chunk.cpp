@@ -54,7 +54,7 @@ void DamageChunkEncoder::begin(std::int64_t first_frame) {
 }
 
 /// The stream's encoder is the faster one if more than a twentieth of the macroblocks, and more
-/// than a few, have to be transformed (src/media/README.md).
+/// than a few, have to be transformed (tests/benchmark/encoders.md).
 bool DamageChunkEncoder::has_too_much() const {
   constexpr std::int64_t kOneIn = 20;
   constexpr std::int64_t kFew = 64;

@@ -10,7 +10,7 @@
 namespace piblocks {
 namespace {
 
-// Chosen from the table in src/media/README.md.
+// Chosen from the table in tests/benchmark/encoders.md.
 constexpr const char* kX264Preset = "ultrafast";
 constexpr const char* kX264Qp = "14";
 /// For a preset without a quality: slower presets need the rate factor's analysis.

@@ -5,10 +5,10 @@
 namespace piblocks {
 namespace {
 
-/// Chosen from the table in src/media/README.md.
+/// Chosen from the table in tests/benchmark/encoders.md.
 constexpr int kQuantiser = 4;
 
-void set_up(AVCodecContext& context) {
+void set_up_prores(AVCodecContext& context) {
   // Without a quantiser the encoder aims at a number of bits, and searches long for it.
   context.flags |= AV_CODEC_FLAG_QSCALE;
   context.global_quality = kQuantiser * FF_QP2LAMBDA;
@@ -39,7 +39,7 @@ CodecChoice prores_choice(const VideoFormat& format, const EncoderSettings& sett
   return {.codec = codec,
           .pixel_format = format.has_alpha ? AV_PIX_FMT_YUVA444P10 : AV_PIX_FMT_YUV444P10,
           .frames_per_chunk = kFramesPerChunk,
-          .set_up = set_up,
+          .set_up = set_up_prores,
           .alternatives = {EncoderKind::prores}};
 }
 

@@ -16,9 +16,10 @@ struct SoundCodec {
 
 /// For MP4 and MOV. The coder takes half the time of the default one, and is as near to the
 /// original where clacks are dense.
-inline constexpr SoundCodec kAac = {"aac", 192'000, "aac_coder", "fast"};
+inline constexpr SoundCodec kAac = {
+    .name = "aac", .bit_rate = 192'000, .option = "aac_coder", .value = "fast"};
 /// For WebM.
-inline constexpr SoundCodec kOpus = {"libopus", 160'000};
+inline constexpr SoundCodec kOpus = {.name = "libopus", .bit_rate = 160'000};
 
 /// An encoder that exists and opens.
 class SoundEncoder {

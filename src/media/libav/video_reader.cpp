@@ -10,6 +10,7 @@
 
 #include "media/libav/av.hpp"
 #include "media/libav/cut_off.hpp"
+#include "media/libav/frame_format.hpp"
 #include "media/libav/module_functions.hpp"
 #include "media/libav/video_samples.hpp"
 

@@ -19,13 +19,6 @@ struct SwsDeleter {
 };
 using SwsPtr = std::unique_ptr<SwsContext, SwsDeleter>;
 
-/// Frames can be compared if their samples are integers of up to 16 bits in regular rows.
-/// @throws MediaError that names the pixel format, if they are not.
-void check_pixel_format(const AVFrame& frame, const std::string& path);
-
-/// FrameReader::layout(), in which the arrangement in memory has no part.
-std::string layout_of(const AVFrame& frame);
-
 Samples samples_of(const AVFrame& frame);
 
 /// @param sws  of the last picture, reused if it suits this one.

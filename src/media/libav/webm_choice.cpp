@@ -18,7 +18,7 @@ struct WebmEncoder {
   std::string_view name;  ///< libavcodec's
   std::string_view short_name;
   bool has_alpha;
-  double crf;  ///< chosen, as the other options, from the table in src/media/README.md
+  double crf;  ///< chosen, as the other options, from tests/benchmark/encoders.md
   std::span<const Option> options;
 };
 

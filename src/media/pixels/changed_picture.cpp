@@ -54,7 +54,7 @@ void ChangedPicture::settle() {
 
 PixelRect ChangedPicture::changed() const noexcept {
   if (left_ >= right_) return {0, 0, 1, 1};
-  return {left_, top_, right_ - left_, bottom_ - top_};
+  return {.x_px = left_, .y_px = top_, .width_px = right_ - left_, .height_px = bottom_ - top_};
 }
 
 }  // namespace piblocks

@@ -29,8 +29,11 @@ class ChangedPicture {
   /// Pixels as ImageView has them.
   const std::uint32_t* row(int y) const noexcept { return words_.data() + offset(y); }
   ImageView view(bool has_alpha) const noexcept {
-    return {reinterpret_cast<const std::uint8_t*>(words_.data()), width_px_, height_px_,
-            std::ptrdiff_t{4} * width_px_, has_alpha};
+    return {.data = reinterpret_cast<const std::uint8_t*>(words_.data()),
+            .width_px = width_px_,
+            .height_px = height_px_,
+            .stride_bytes = std::ptrdiff_t{4} * width_px_,
+            .has_alpha = has_alpha};
   }
   /// With Marks::changed_pixels: 1 for each pixel that has changed since settle(), else 0.
   const std::uint8_t* marks(int y) const noexcept { return marks_.data() + offset(y); }

@@ -144,7 +144,7 @@ PixelRect chroma_aligned(const PixelRect& rect, const ImageView& image) {
   const int top = rect.y_px & ~1;
   const int right = std::min((rect.x_px + rect.width_px + 2) & ~1, image.width_px);
   const int bottom = (rect.y_px + rect.height_px + 1) & ~1;
-  return {left, top, right - left, bottom - top};
+  return {.x_px = left, .y_px = top, .width_px = right - left, .height_px = bottom - top};
 }
 
 void convert_to_yuv420(const ImageView& image, const PixelRect& rect,

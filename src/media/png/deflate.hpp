@@ -12,7 +12,7 @@
 namespace piblocks {
 
 /// Fast, and for runs of equal bytes, which filter Up leaves of flat shapes: chosen from the table
-/// in README.md. Used by one thread at a time.
+/// in tests/benchmark/encoders.md. Used by one thread at a time.
 class Deflater {
  public:
   enum class Form {

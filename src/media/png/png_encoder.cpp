@@ -15,7 +15,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 using ByteSpan = std::span<const std::uint8_t>;
 
-/// Chosen from the table in README.md.
+/// Chosen from the table in tests/benchmark/encoders.md.
 constexpr int kStripRows = 8;
 
 }  // namespace
