@@ -32,8 +32,8 @@ class Canvas {
   void paint(const DrawList& list);
   /// Makes the picture what paint() would make it, but paints only where it may differ from the
   /// last list.
-  /// @returns rectangles that cover every pixel that has changed; valid until the next call. The
-  ///          whole frame if nothing was painted before.
+  /// @returns the region that covers every pixel that has changed, valid until the next call. It is
+  ///          the whole frame if nothing was painted before.
   /// @throws DrawError
   std::span<const PixelRect> update(DrawList list);
   /// The picture; valid until the next paint() or update().
