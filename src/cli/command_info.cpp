@@ -36,7 +36,7 @@ void print_limits(TextOutput& out) {
   out.format_line("  frames per second: {}", kMaxFrameRate);
   out.format_line("  frames of one rendering: {}", kMaxFrames);
   out.format_line("  pictures of a sheet: {}", kMaxSheetPictures);
-  out.format_line("  parts of one rendering: {}", kMaxParts);
+  out.format_line("  parts of one rendering: {}", kMaxShards);
   out.format_line("  threads: {}", kMaxJobs);
   out.format_line("  rows of a log: {}, more with --limit", kMaxRows);
   out.format_line("  collisions stored by --engine events: {}", kMaxStoredCollisions);

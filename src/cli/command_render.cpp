@@ -27,7 +27,7 @@ int parse_flashes(const std::string& text) { return parse_int(text, 1, kMaxFlash
 Shard parse_part(const std::string& text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string::npos) throw UsageError("must be I/N, such as 2/3");
-  const int count = parse_int(text.substr(slash + 1), 1, kMaxParts);
+  const int count = parse_int(text.substr(slash + 1), 1, kMaxShards);
   return {.number = parse_int(text.substr(0, slash), 1, count), .count = count};
 }
 

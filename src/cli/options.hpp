@@ -19,7 +19,7 @@ inline constexpr long kMaxRows = 100'000'000;
 /// Threads of --jobs.
 inline constexpr int kMaxJobs = 256;
 /// Shards of --part.
-inline constexpr int kMaxParts = 100'000;
+inline constexpr int kMaxShards = 100'000;
 /// Flashes of --max-flashes: as many as there can be at 60 frames a second.
 inline constexpr int kMaxFlashes = 30;
 

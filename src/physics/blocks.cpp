@@ -48,7 +48,8 @@ std::vector<Problem> problems_of(const BlockSystem& system) {
 void require_valid(const std::vector<Problem>& problems) {
   if (problems.empty()) return;
   std::vector<std::string> lines;
-  for (const auto& [key, reason] : problems) lines.push_back(key + " " + reason);
+  lines.reserve(problems.size());
+  for (const auto& [key, reason] : problems) lines.push_back(fmt::format("{} {}", key, reason));
   throw SceneError(std::move(lines));
 }
 

@@ -28,21 +28,21 @@ std::size_t longest(const std::vector<std::unique_ptr<CollisionLog>>& logs) {
   return found;
 }
 
-FilmPart made_from(const Segment& part, const View& view, FilmUse use) {
-  if (const auto* card = std::get_if<Card>(&part.content)) return {*card, view, use};
-  return {std::get<Runs>(part.content), view, use};
+FilmSegment made_from(const Segment& segment, const View& view, FilmUse use) {
+  if (const auto* card = std::get_if<Card>(&segment.content)) return {*card, view, use};
+  return {std::get<Runs>(segment.content), view, use};
 }
 
-std::string place_of(const Storyboard& story, std::size_t part) {
-  const std::string& origin = story.segments[part].origin;
-  return origin.empty() ? fmt::format("part {}", part + 1) : origin;
+std::string place_of(const Storyboard& story, std::size_t segment) {
+  const std::string& origin = story.segments[segment].origin;
+  return origin.empty() ? fmt::format("part {}", segment + 1) : origin;
 }
 
 }  // namespace
 
-FilmPart::FilmPart(const Scene& scene, FilmUse use) { show_one(scene, use); }
+FilmSegment::FilmSegment(const Scene& scene, FilmUse use) { show_one(scene, use); }
 
-FilmPart::FilmPart(const Runs& runs, const View& film, FilmUse use) {
+FilmSegment::FilmSegment(const Runs& runs, const View& film, FilmUse use) {
   if (runs.size() == 1) {
     show_one(with_film_view(runs.front(), film), use);
   } else {
@@ -50,7 +50,7 @@ FilmPart::FilmPart(const Runs& runs, const View& film, FilmUse use) {
   }
 }
 
-FilmPart::FilmPart(const Card& card, const View& film, FilmUse use) {
+FilmSegment::FilmSegment(const Card& card, const View& film, FilmUse use) {
   if (use == FilmUse::pictures) card_ = compose_card(card.lines, film);
   const Integer frames = ceil(card.length_s * film.frame_rate);
   if (frames > kMaxFrames) {
@@ -60,14 +60,14 @@ FilmPart::FilmPart(const Card& card, const View& film, FilmUse use) {
   frame_count_ = frames.get_si();
 }
 
-void FilmPart::show_one(Scene scene, FilmUse use) {
+void FilmSegment::show_one(Scene scene, FilmUse use) {
   auto log = make_collision_log(scene.system);
   schedule_ = make_schedule(scene, *log);
   frame_count_ = film_frames(*schedule_);
   runs_.emplace_back(std::move(scene), std::move(log), use);
 }
 
-void FilmPart::compare(const Runs& runs, const View& film, FilmUse use) {
+void FilmSegment::compare(const Runs& runs, const View& film, FilmUse use) {
   split_.emplace(film, runs.size());
   std::vector<std::unique_ptr<CollisionLog>> logs;
   for (const Scene& run : runs) logs.push_back(make_collision_log(run.system));
@@ -86,13 +86,13 @@ void FilmPart::compare(const Runs& runs, const View& film, FilmUse use) {
   }
 }
 
-PixelRect FilmPart::cell(std::size_t run) const {
+PixelRect FilmSegment::cell(std::size_t run) const {
   if (split_) return split_->cells()[run];
   const View& view = runs_[run].scene().view;
   return {0, 0, view.width_px, view.height_px};
 }
 
-DrawList FilmPart::frame(std::int64_t number) const {
+DrawList FilmSegment::frame(std::int64_t number) const {
   if (runs_.empty()) return card_;
   if (!split_) return runs_.front().frame(*schedule_, number);
   std::vector<DrawList> pictures;
@@ -104,22 +104,22 @@ DrawList FilmPart::frame(std::int64_t number) const {
 Film::Film(const Script& script, FilmUse use) : view_(view_of(script)) {
   if (const auto* scene = std::get_if<Scene>(&script)) {
     require_valid(problems_of(*scene));
-    parts_.push_back({FilmPart(*scene, use)});
-    frame_count_ = parts_.front().part.frame_count();
+    segments_.push_back({FilmSegment(*scene, use)});
+    frame_count_ = segments_.front().segment.frame_count();
     return;
   }
   const auto& story = std::get<Storyboard>(script);
   std::vector<std::string> problems = problems_of(story);
   if (!problems.empty()) throw SceneError(std::move(problems));
-  add_parts(story, use);
-  place_parts(story);
+  add_segments(story, use);
+  place_segments(story);
 }
 
-void Film::add_parts(const Storyboard& story, FilmUse use) {
+void Film::add_segments(const Storyboard& story, FilmUse use) {
   std::vector<std::string> problems;
   for (std::size_t i = 0; i < story.segments.size(); ++i) {
     try {
-      parts_.push_back({made_from(story.segments[i], view_, use)});
+      segments_.push_back({made_from(story.segments[i], view_, use)});
     } catch (const UsageError& error) {
       for (const std::string& problem : error.problems()) {
         problems.push_back(fmt::format("{}: {}", place_of(story, i), problem));
@@ -129,12 +129,12 @@ void Film::add_parts(const Storyboard& story, FilmUse use) {
   if (!problems.empty()) throw UsageError(std::move(problems));
 }
 
-void Film::place_parts(const Storyboard& story) {
+void Film::place_segments(const Storyboard& story) {
   std::vector<std::string> problems;
-  std::int64_t before = 0;  // frames of the part before that do not belong to its own fade
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    PlacedPart& placed = parts_[i];
-    const std::int64_t own = placed.part.frame_count();
+  std::int64_t before = 0;  // frames of the segment before that do not belong to its own fade
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    PlacedSegment& placed = segments_[i];
+    const std::int64_t own = placed.segment.frame_count();
     const Rational& fade_s = story.segments[i].fade_s;
     const Integer fade = floor(fade_s * view_.frame_rate + Rational(1, 2));
     const std::int64_t room = i == 0 ? 0 : std::min(before, own - 1);
@@ -157,14 +157,14 @@ void Film::place_parts(const Storyboard& story) {
 }
 
 DrawList Film::frame(std::int64_t number) const {
-  const auto next = std::ranges::upper_bound(parts_, number, {}, &PlacedPart::first_frame);
-  const PlacedPart& placed = *std::prev(next);
-  const std::int64_t in_part = number - placed.first_frame;
-  DrawList list = placed.part.frame(in_part);
-  if (in_part >= placed.fade_frames) return list;
-  const PlacedPart& before = *std::prev(next, 2);
-  const double opacity = double(in_part + 1) / double(placed.fade_frames + 1);
-  return cross_fade(before.part.frame(number - before.first_frame), std::move(list), opacity);
+  const auto next = std::ranges::upper_bound(segments_, number, {}, &PlacedSegment::first_frame);
+  const PlacedSegment& placed = *std::prev(next);
+  const std::int64_t in_segment = number - placed.first_frame;
+  DrawList list = placed.segment.frame(in_segment);
+  if (in_segment >= placed.fade_frames) return list;
+  const PlacedSegment& before = *std::prev(next, 2);
+  const double opacity = double(in_segment + 1) / double(placed.fade_frames + 1);
+  return cross_fade(before.segment.frame(number - before.first_frame), std::move(list), opacity);
 }
 
 std::int64_t frame_at(const Film& film, const Instant& instant) {

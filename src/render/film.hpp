@@ -21,27 +21,27 @@
 namespace piblocks {
 
 /// Const members are thread-safe.
-class FilmPart {
+class FilmSegment {
  public:
   /// Scenes and cards must have no problems. @throws UsageError, SimulationError, DrawError
-  FilmPart(const Scene& scene, FilmUse use);
-  FilmPart(const Runs& runs, const View& film, FilmUse use);
-  FilmPart(const Card& card, const View& film, FilmUse use);
-  FilmPart(FilmPart&&) = default;
-  FilmPart& operator=(FilmPart&&) = default;
-  FilmPart(const FilmPart&) = delete;
-  FilmPart& operator=(const FilmPart&) = delete;
-  ~FilmPart() = default;
+  FilmSegment(const Scene& scene, FilmUse use);
+  FilmSegment(const Runs& runs, const View& film, FilmUse use);
+  FilmSegment(const Card& card, const View& film, FilmUse use);
+  FilmSegment(FilmSegment&&) = default;
+  FilmSegment& operator=(FilmSegment&&) = default;
+  FilmSegment(const FilmSegment&) = delete;
+  FilmSegment& operator=(const FilmSegment&) = delete;
+  ~FilmSegment() = default;
 
   std::int64_t frame_count() const noexcept { return frame_count_; }
-  /// @param number  within the part, from 0 to frame_count() - 1.
+  /// @param number  within the segment, from 0 to frame_count() - 1.
   DrawList frame(std::int64_t number) const;
 
   /// What is shown at the same time; none of a card.
   std::span<const Run> runs() const noexcept { return runs_; }
   /// Where a run's picture is in the frame. @param run  its place in runs().
   PixelRect cell(std::size_t run) const;
-  /// The one clock of all runs, in seconds since the part began; none of a card.
+  /// The one clock of all runs, in seconds since the segment began; none of a card.
   const Schedule* schedule() const noexcept { return schedule_ ? &*schedule_ : nullptr; }
 
  private:
@@ -55,18 +55,18 @@ class FilmPart {
   DrawList card_;                     ///< if there are none
 };
 
-/// A part and its place in the film.
-struct PlacedPart {
-  FilmPart part;
+/// A segment and its place in the film.
+struct PlacedSegment {
+  FilmSegment segment;
   std::int64_t first_frame = 0;
-  std::int64_t fade_frames = 0;  ///< first frames, during which the part before fades out
+  std::int64_t fade_frames = 0;  ///< first frames, during which the segment before fades out
 };
 
 /// Const members are thread-safe.
 class Film {
  public:
   /// @throws SceneError if problems_of() what it is made from is not empty; UsageError if a fade is
-  ///         not shorter than its parts, or as FilmPart; SimulationError, DrawError
+  ///         not shorter than its segments, or as FilmSegment; SimulationError, DrawError
   explicit Film(const Script& script, FilmUse use = FilmUse::pictures);
 
   const View& view() const noexcept { return view_; }
@@ -74,14 +74,14 @@ class Film {
   /// @param number  from 0 to frame_count() - 1.
   DrawList frame(std::int64_t number) const;
   /// In the order of the film; at least one. Frame k is shown from k / frame_rate seconds on.
-  std::span<const PlacedPart> parts() const noexcept { return parts_; }
+  std::span<const PlacedSegment> segments() const noexcept { return segments_; }
 
  private:
-  void add_parts(const Storyboard& story, FilmUse use);
-  void place_parts(const Storyboard& story);
+  void add_segments(const Storyboard& story, FilmUse use);
+  void place_segments(const Storyboard& story);
 
   View view_;
-  std::vector<PlacedPart> parts_;
+  std::vector<PlacedSegment> segments_;
   std::int64_t frame_count_ = 0;
 };
 

@@ -9,31 +9,31 @@ namespace piblocks {
 namespace {
 
 /// Along the line on which the weights of the fade's frames are at their instants: 0 a frame before
-/// the first, 1 where only the new part is seen.
-std::optional<Ramp> fade_into(const PlacedPart& part, const Rational& frame_rate) {
-  if (part.fade_frames == 0) return std::nullopt;
-  return Ramp{Rational(part.first_frame - 1) / frame_rate,
-              Rational(part.first_frame + part.fade_frames) / frame_rate};
+/// the first, 1 where only the new segment is seen.
+std::optional<Ramp> fade_into(const PlacedSegment& segment, const Rational& frame_rate) {
+  if (segment.fade_frames == 0) return std::nullopt;
+  return Ramp{Rational(segment.first_frame - 1) / frame_rate,
+              Rational(segment.first_frame + segment.fade_frames) / frame_rate};
 }
 
 std::vector<Voice> voices_of(const Film& film) {
   const Rational& rate = film.view().frame_rate;
   std::vector<Voice> voices;
-  for (std::size_t i = 0; i < film.parts().size(); ++i) {
-    const PlacedPart& placed = film.parts()[i];
-    const FilmPart& part = placed.part;
-    for (std::size_t k = 0; k < part.runs().size(); ++k) {
-      const Run& run = part.runs()[k];
-      const auto stretches = part.schedule()->stretches();
+  for (std::size_t i = 0; i < film.segments().size(); ++i) {
+    const PlacedSegment& placed = film.segments()[i];
+    const FilmSegment& segment = placed.segment;
+    for (std::size_t k = 0; k < segment.runs().size(); ++k) {
+      const Run& run = segment.runs()[k];
+      const auto stretches = segment.schedule()->stretches();
       Voice& voice = voices.emplace_back(
           Voice{.scene = run.scene(),
                 .log = run.log(),
                 .stretches = {stretches.begin(), stretches.end()},
                 .begin_s = Rational(placed.first_frame) / rate,
-                .end_s = Rational(placed.first_frame + part.frame_count()) / rate});
+                .end_s = Rational(placed.first_frame + segment.frame_count()) / rate});
       voice.rise = fade_into(placed, rate);
-      if (i + 1 < film.parts().size()) voice.fall = fade_into(film.parts()[i + 1], rate);
-      const PixelRect cell = part.cell(k);
+      if (i + 1 < film.segments().size()) voice.fall = fade_into(film.segments()[i + 1], rate);
+      const PixelRect cell = segment.cell(k);
       voice.left = double(cell.x_px) / film.view().width_px;
       voice.right = double(cell.x_px + cell.width_px) / film.view().width_px;
     }

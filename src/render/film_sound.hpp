@@ -1,5 +1,5 @@
 // What a film sounds like, for the outputs that take sound.
-// In: a film. Out: its samples; or from a part file, its packets.
+// In: a film. Out: its samples; or from a shard file, its packets.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "media/output/frame_sink.hpp"
-#include "media/output/part_file.hpp"
+#include "media/output/shard_file.hpp"
 #include "render/film.hpp"
 #include "sound/soundtrack.hpp"
 
@@ -19,8 +19,8 @@ inline SoundFormat sound_format(std::int64_t frame_count, const Rational& frame_
   return {.rate_hz = Soundtrack::kRate_hz, .size = floor(size + Rational(1, 2)).get_si()};
 }
 
-/// A film's soundtrack, until it is told to stop: each run of each part at its time, and as loud as
-/// its part is seen. Cards are silent.
+/// A film's soundtrack, until it is told to stop: each run of each segment at its time, and as loud
+/// as its segment is seen. Cards are silent.
 class FilmSound final : public SampleSource {
  public:
   /// @param film        must outlive it.
@@ -36,10 +36,10 @@ class FilmSound final : public SampleSource {
   std::int64_t count_ = 0;
 };
 
-/// The sound that the first part of a rendering has for all of them.
-class PartSound final : public PacketSource {
+/// The sound that the first shard of a rendering has for all of them.
+class ShardSound final : public PacketSource {
  public:
-  explicit PartSound(const std::string& path) : reader_(path) {}
+  explicit ShardSound(const std::string& path) : reader_(path) {}
 
   std::optional<Packet> next() override {
     if (next_ == packets_.size()) {
@@ -52,7 +52,7 @@ class PartSound final : public PacketSource {
   }
 
  private:
-  PartReader reader_;
+  ShardReader reader_;
   EncodedChunk packets_;
   std::size_t next_ = 0;
 };

@@ -43,7 +43,7 @@ Script with_logos_by_content(Script script) {
   return script;
 }
 
-void describe(const Script& script, PartHeader& header) {
+void describe(const Script& script, ShardHeader& header) {
   const Script described = with_logos_by_content(script);
   for (auto& [key, value] : std::visit([](const auto& any) { return describe(any); }, described)) {
     if (!key.starts_with(kGoldenKeys)) header.emplace_back(std::move(key), std::move(value));
@@ -55,20 +55,20 @@ void describe(const Script& script, PartHeader& header) {
 /// Stands for a setting that was not given.
 constexpr const char* kDefault = "default";
 
-void describe(const EncoderSettings& settings, PartHeader& header) {
+void describe(const EncoderSettings& settings, ShardHeader& header) {
   const auto& crf = settings.crf;
   header.emplace_back("crf", crf ? rational_from_decimal(*crf).get_str() : kDefault);
   header.emplace_back("preset", settings.preset.value_or(kDefault));
   header.emplace_back("encoder", settings.encoder.value_or(kDefault));
 }
 
-std::optional<std::string> setting(const PartInfo& part, const std::string& name) {
+std::optional<std::string> setting(const ShardInfo& part, const std::string& name) {
   const std::string& value = value_of(part, name);
   return value == kDefault ? std::nullopt : std::optional(value);
 }
 
 /// @throws UsageError unless the value is a whole number from 1 to `high`.
-std::int64_t number(const PartInfo& part, const std::string& name, std::int64_t high) {
+std::int64_t number(const ShardInfo& part, const std::string& name, std::int64_t high) {
   const Rational value = parse_rational(value_of(part, name));
   if (value.get_den() == 1 && value >= 1 && value <= high) return value.get_num().get_si();
   throw UsageError(fmt::format("join: '{}' says {}: {}", part.path, name, to_text(value)));
@@ -76,8 +76,8 @@ std::int64_t number(const PartInfo& part, const std::string& name, std::int64_t 
 
 }  // namespace
 
-PartHeader describe(const RenderJob& job, const Output& output, const Chunks& chunks) {
-  PartHeader header;
+ShardHeader describe(const RenderJob& job, const Output& output, const Chunks& chunks) {
+  ShardHeader header;
   header.emplace_back("piblocks", kVersion);
   describe(job.script, header);
   header.emplace_back("frames", std::to_string(chunks.frame_count));
@@ -87,13 +87,13 @@ PartHeader describe(const RenderJob& job, const Output& output, const Chunks& ch
   return header;
 }
 
-const std::string& value_of(const PartInfo& part, const std::string& name) {
-  const auto at = std::ranges::find(part.header, name, &PartHeader::value_type::first);
+const std::string& value_of(const ShardInfo& part, const std::string& name) {
+  const auto at = std::ranges::find(part.header, name, &ShardHeader::value_type::first);
   if (at != part.header.end()) return at->second;
   throw UsageError(fmt::format("join: '{}' does not say its '{}'", part.path, name));
 }
 
-JobDescription read_description(const PartInfo& part) {
+JobDescription read_description(const ShardInfo& part) {
   JobDescription job;
   job.format.width_px = static_cast<int>(number(part, "view.width", kMaxSide_px));
   job.format.height_px = static_cast<int>(number(part, "view.height", kMaxSide_px));

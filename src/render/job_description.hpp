@@ -8,13 +8,13 @@
 #include <cstdint>
 #include <string>
 
-#include "media/output/part_file.hpp"
+#include "media/output/shard_file.hpp"
 #include "render/chunks.hpp"
 
 namespace piblocks {
 
 /// Everything but the number of the part.
-PartHeader describe(const RenderJob& job, const Output& output, const Chunks& chunks);
+ShardHeader describe(const RenderJob& job, const Output& output, const Chunks& chunks);
 
 /// What joining needs of a description.
 struct JobDescription {
@@ -26,16 +26,16 @@ struct JobDescription {
 };
 
 /// The header of a part file, and the file's name for messages.
-struct PartInfo {
+struct ShardInfo {
   std::string path;
-  PartHeader header;
+  ShardHeader header;
 };
 
 /// @throws UsageError if a value is missing or cannot be read.
-JobDescription read_description(const PartInfo& part);
+JobDescription read_description(const ShardInfo& part);
 
 /// The value of that name in the part's header.
 /// @throws UsageError if there is none.
-const std::string& value_of(const PartInfo& part, const std::string& name);
+const std::string& value_of(const ShardInfo& part, const std::string& name);
 
 }  // namespace piblocks

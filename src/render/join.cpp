@@ -8,7 +8,7 @@
 
 #include "core/overwrite_check.hpp"
 #include "media/output/outputs.hpp"
-#include "media/output/part_file.hpp"
+#include "media/output/shard_file.hpp"
 #include "render/film_sound.hpp"
 #include "render/job_description.hpp"
 #include "render/renderings.hpp"
@@ -17,7 +17,7 @@ namespace piblocks {
 namespace {
 
 /// "2/3" as render() wrote it.
-Shard number_of(const PartInfo& part) {
+Shard number_of(const ShardInfo& part) {
   const std::string& text = value_of(part, "part");
   const char* const end = text.data() + text.size();
   Shard result;
@@ -30,25 +30,25 @@ Shard number_of(const PartInfo& part) {
   throw UsageError(fmt::format("join: '{}' says part: {}", part.path, text));
 }
 
-struct NumberedPart {
+struct NumberedShard {
   Shard number;
-  PartInfo info;
+  ShardInfo info;
 };
 
 /// Closes each file again: there may be more than a process can have open.
-std::vector<NumberedPart> read_headers(const std::vector<std::string>& paths) {
-  std::vector<NumberedPart> parts;
+std::vector<NumberedShard> read_headers(const std::vector<std::string>& paths) {
+  std::vector<NumberedShard> parts;
   for (const std::string& path : paths) {
-    PartInfo info{path, PartReader(path).header()};
+    ShardInfo info{path, ShardReader(path).header()};
     const Shard number = number_of(info);
     parts.push_back({number, std::move(info)});
   }
-  std::ranges::stable_sort(parts, {}, [](const NumberedPart& part) { return part.number.number; });
+  std::ranges::stable_sort(parts, {}, [](const NumberedShard& part) { return part.number.number; });
   return parts;
 }
 
 /// The first name whose value differs or that one of them lacks; empty if there is none.
-std::string difference(const PartHeader& one, const PartHeader& other) {
+std::string difference(const ShardHeader& one, const ShardHeader& other) {
   const auto [a, b] = std::ranges::mismatch(one, other, [](const auto& left, const auto& right) {
     return left == right || (left.first == "part" && right.first == "part");
   });
@@ -56,8 +56,8 @@ std::string difference(const PartHeader& one, const PartHeader& other) {
   return b != other.end() ? b->first : std::string();
 }
 
-void check_same_job(const std::vector<NumberedPart>& parts) {
-  const PartInfo& first = parts.front().info;
+void check_same_job(const std::vector<NumberedShard>& parts) {
+  const ShardInfo& first = parts.front().info;
   for (const auto& [number, info] : parts) {
     std::string name = difference(first.header, info.header);
     if (name.empty() && number.count != parts.front().number.count) name = "number of parts";
@@ -67,7 +67,7 @@ void check_same_job(const std::vector<NumberedPart>& parts) {
   }
 }
 
-void check_all_there(const std::vector<NumberedPart>& parts) {
+void check_all_there(const std::vector<NumberedShard>& parts) {
   std::vector<std::string> problems;
   auto next = parts.begin();
   const int count = parts.front().number.count;
@@ -87,7 +87,7 @@ void check_all_there(const std::vector<NumberedPart>& parts) {
   if (!problems.empty()) throw UsageError(std::move(problems));
 }
 
-void check_output(const std::vector<NumberedPart>& parts, const std::string& name,
+void check_output(const std::vector<NumberedShard>& parts, const std::string& name,
                   const Output& output, const JobDescription& job) {
   OverwriteCheck check;
   for (const auto& [number, info] : parts) check.reads("the part", info.path);
@@ -113,7 +113,7 @@ std::int64_t join(const std::vector<std::string>& parts, const std::string& outp
     throw UsageError(
         fmt::format("join: '{}' cannot be made of parts; render the page whole", output));
   }
-  const std::vector<NumberedPart> in_order = read_headers(parts);
+  const std::vector<NumberedShard> in_order = read_headers(parts);
   check_same_job(in_order);
   check_all_there(in_order);
   const JobDescription job = read_description(in_order.front().info);
@@ -121,11 +121,11 @@ std::int64_t join(const std::vector<std::string>& parts, const std::string& outp
   check_output(in_order, output, *joined, job);
 
   const auto sink = joined->open();
-  std::optional<PartSound> sound;
+  std::optional<ShardSound> sound;
   if (job.has_sound) sink->take_sound(sound.emplace(in_order.front().info.path));
   std::int64_t frames = 0;
   for (const auto& [number, info] : in_order) {
-    PartReader reader(info.path);
+    ShardReader reader(info.path);
     while (const auto chunk = reader.next()) {
       if (stop.stop_requested()) throw Interrupted("join: interrupted");
       sink->append(*chunk);

@@ -5,7 +5,7 @@
 
 #include "draw/canvas.hpp"
 #include "media/output/outputs.hpp"
-#include "media/output/part_file.hpp"
+#include "media/output/shard_file.hpp"
 #include "render/chunks.hpp"
 #include "render/film.hpp"
 #include "render/film_sound.hpp"
@@ -97,12 +97,12 @@ Share share_of(const std::optional<Shard>& shard, std::int64_t chunks) {
 
 std::unique_ptr<FrameSink> open_sink(const RenderJob& job, const Plan& plan) {
   if (!job.shard) return plan.output->open();
-  PartHeader header = describe(job, *plan.output, plan.chunks);
+  ShardHeader header = describe(job, *plan.output, plan.chunks);
   header.emplace_back("part", fmt::format("{}/{}", job.shard->number, job.shard->count));
-  return open_part(shard_name(job.output, *job.shard), header);
+  return open_shard(shard_name(job.output, *job.shard), header);
 }
 
-void check_part(const RenderJob& job) {
+void check_shard(const RenderJob& job) {
   if (!job.shard) return;
   if (job.shard->number < 1 || job.shard->number > job.shard->count) {
     throw UsageError(fmt::format("part {} of {}: the number must be from 1 to the count",
@@ -165,7 +165,7 @@ void add(StageSeconds& sum, const StageSeconds& spent) {
 
 Rendered render_film(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
                      const std::stop_token& stop) {
-  check_part(job);
+  check_shard(job);
   const Plan plan(job);
   if (job.max_flashes && plan.output->has_frames()) {
     check_flashes(plan.film, *job.max_flashes, stop);

@@ -3,12 +3,12 @@
 #include <piblocks/render.hpp>
 
 #include "fuzz/input_file.hpp"
-#include "media/output/part_file.hpp"
+#include "media/output/shard_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const piblocks::fuzz::InputFile file(data, size);
   try {
-    piblocks::PartReader reader(file.path());
+    piblocks::ShardReader reader(file.path());
     while (reader.next()) {
     }
   } catch (const piblocks::Error&) {  // the right answer to most of what comes here

@@ -92,16 +92,16 @@ mass-ratio = 3
     const Track heard = track(text);
     const Rational& fps = film.view().frame_rate;
     const auto seconds = [&](std::int64_t frame) { return to_double(Rational(frame) / fps); };
-    for (const PlacedPart& placed : film.parts()) {
+    for (const PlacedSegment& placed : film.segments()) {
       const double begin = seconds(placed.first_frame) * kRate_hz;
-      const double end = seconds(placed.first_frame + placed.part.frame_count()) * kRate_hz;
-      if (placed.part.runs().empty()) {
+      const double end = seconds(placed.first_frame + placed.segment.frame_count()) * kRate_hz;
+      if (placed.segment.runs().empty()) {
         const auto from = std::size_t(std::ceil(begin));
         EXPECT_TRUE(is_silent(heard.left, from, std::size_t(end))) << "card at " << begin;
         continue;
       }
-      const CollisionLog& log = placed.part.runs().front().log();
-      const Stretch& first = placed.part.schedule()->stretches().front();
+      const CollisionLog& log = placed.segment.runs().front().log();
+      const Stretch& first = placed.segment.schedule()->stretches().front();
       const double at_s =
           (log.collision(1).time.hi - to_double(first.time)) / to_double(first.speed);
       const double expected = begin + at_s * kRate_hz;
@@ -131,7 +131,7 @@ TEST_F(FilmSoundTest, AFadeWeighsSoundsAsItDoesPictures) {
   const Script script = read(fps + "[[part]]\n" + kFirst + "[[part]]\n" + fade + kSecond);
   const Film film(script);
   const Track both = track(fps + "[[part]]\n" + kFirst + "[[part]]\n" + fade + kSecond);
-  const PlacedPart& placed = film.parts()[1];
+  const PlacedSegment& placed = film.segments()[1];
   ASSERT_EQ(placed.fade_frames, 20);
   constexpr std::int64_t kFrame = kRate_hz / 10;
   // Five milliseconds before a film ends it is faded out.

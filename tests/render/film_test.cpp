@@ -81,17 +81,17 @@ compare = [{ mass-ratio = 1 }, { mass-ratio = 16, view.shutter = "1/2" }]
 
 TEST_F(FilmTest, PartsFollowEachOther) {
   const Film made = film(kStory);
-  const auto parts = made.parts();
+  const auto parts = made.segments();
   ASSERT_EQ(parts.size(), 4U);
   const std::vector<std::int64_t> counts = {10, 30, 20, 30};
   const std::vector<std::int64_t> fades = {0, 5, 0, 7};
   const std::vector<std::int64_t> first = {0, 5, 35, 48};
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(parts[i].part.frame_count(), counts[i]) << i;
+    EXPECT_EQ(parts[i].segment.frame_count(), counts[i]) << i;
     EXPECT_EQ(parts[i].fade_frames, fades[i]) << i;
     EXPECT_EQ(parts[i].first_frame, first[i]) << i;
-    EXPECT_EQ(parts[i].part.schedule() != nullptr, i > 0) << i;
-    EXPECT_EQ(parts[i].part.runs().size(), i == 3 ? 2U : i == 0 ? 0U : 1U) << i;
+    EXPECT_EQ(parts[i].segment.schedule() != nullptr, i > 0) << i;
+    EXPECT_EQ(parts[i].segment.runs().size(), i == 3 ? 2U : i == 0 ? 0U : 1U) << i;
   }
   EXPECT_EQ(made.frame_count(), 78);
 }
@@ -99,8 +99,8 @@ TEST_F(FilmTest, PartsFollowEachOther) {
 TEST_F(FilmTest, OfASceneIsTheScene) {
   const Script script = read("digits = 2");
   const Film made(script);
-  const FilmPart part(std::get<Scene>(script), FilmUse::pictures);
-  ASSERT_EQ(made.parts().size(), 1U);
+  const FilmSegment part(std::get<Scene>(script), FilmUse::pictures);
+  ASSERT_EQ(made.segments().size(), 1U);
   EXPECT_EQ(made.frame_count(), part.frame_count());
   EXPECT_EQ(made.frame(17), part.frame(17));
 }
@@ -130,13 +130,13 @@ TEST_F(FilmTest, EachRunHasItsOwnShutter) {
 
 TEST_F(FilmTest, AFadeShowsBothPartsAndHalfWayTheirMean) {
   const Film made = film(kStory);
-  const auto parts = made.parts();
+  const auto parts = made.segments();
   for (const std::size_t i : {1U, 3U}) {
     const std::int64_t fade = parts[i].fade_frames;
     for (std::int64_t k = 0; k < fade; ++k) {
       const std::int64_t frame = parts[i].first_frame + k;
-      const Words from = painted(parts[i - 1].part.frame(frame - parts[i - 1].first_frame));
-      const Words to = painted(parts[i].part.frame(k));
+      const Words from = painted(parts[i - 1].segment.frame(frame - parts[i - 1].first_frame));
+      const Words to = painted(parts[i].segment.frame(k));
       const Words both = painted(made.frame(frame));
       const double opacity = double(k + 1) / double(fade + 1);
       if (k == fade / 2) {
@@ -154,17 +154,17 @@ TEST_F(FilmTest, AFadeShowsBothPartsAndHalfWayTheirMean) {
       }
     }
     const std::int64_t after = parts[i].first_frame + fade;
-    EXPECT_EQ(made.frame(after), parts[i].part.frame(fade)) << "the fade is over";
+    EXPECT_EQ(made.frame(after), parts[i].segment.frame(fade)) << "the fade is over";
     const std::int64_t before = parts[i].first_frame - 1;
-    EXPECT_EQ(made.frame(before), parts[i - 1].part.frame(before - parts[i - 1].first_frame));
+    EXPECT_EQ(made.frame(before), parts[i - 1].segment.frame(before - parts[i - 1].first_frame));
   }
 }
 
 TEST_F(FilmTest, WhatIsComparedHasOneClock) {
   const Film made = film(
       "[[part]]\ntime.to = 'last+1'\ncompare = [{digits = 1}, {mass-ratio = 16}, {digits = 3}]");
-  const PlacedPart& placed = made.parts().front();
-  const auto runs = placed.part.runs();
+  const PlacedSegment& placed = made.segments().front();
+  const auto runs = placed.segment.runs();
   ASSERT_EQ(runs.size(), 3U);
   // As long as the run that takes longest would be alone.
   const auto length = [&](const char* keys) {
@@ -179,7 +179,7 @@ TEST_F(FilmTest, WhatIsComparedHasOneClock) {
     for (const DrawItem& item : list.items) {
       const auto* group = std::get_if<GroupItem>(&item);
       if (group == nullptr) continue;
-      EXPECT_EQ(*group->list, runs[cell].frame(*placed.part.schedule(), k))
+      EXPECT_EQ(*group->list, runs[cell].frame(*placed.segment.schedule(), k))
           << "frame " << k << ", cell " << cell;
       ++cell;
     }

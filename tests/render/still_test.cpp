@@ -148,13 +148,13 @@ TEST(Still, IsTheFilmsFrameInAnyScene) {
   SCOPED_TRACE(random.trace());
   int scenes = 0;
   int compared = 0;
-  for (int i = 0; scenes < 1000; ++i) {
-    ASSERT_LT(i, 5000) << "too many scenes are refused";
+  for (int i = 0; scenes < many(50); ++i) {
+    ASSERT_LT(i, many(250)) << "too many scenes are refused";
     const Scene scene = any_scene(random);
     const std::optional<Film> film = film_of(scene);
     if (!film) continue;
     ++scenes;
-    const Schedule& schedule = *film->parts().front().part.schedule();
+    const Schedule& schedule = *film->segments().front().segment.schedule();
     const std::int64_t count = film->frame_count();
     for (const std::int64_t frame : some_frames(random, schedule, count, scene.view.frame_rate)) {
       const Rational time = schedule.time_of(frame);
@@ -165,7 +165,7 @@ TEST(Still, IsTheFilmsFrameInAnyScene) {
           << "scene " << i << ", frame " << first << " of " << count << described(scene);
     }
   }
-  EXPECT_GT(compared, 8000);
+  EXPECT_GT(compared, many(400));
 }
 
 /// Cards, single runs and comparisons, with and without fades.
@@ -193,8 +193,8 @@ TEST(Still, IsTheFrameOfAFilmThatIsRenderedInParts) {
   SCOPED_TRACE(random.trace());
   int films = 0;
   int compared = 0;
-  for (int i = 0; films < 300; ++i) {
-    ASSERT_LT(i, 3000) << "too many films are refused";
+  for (int i = 0; films < many(15); ++i) {
+    ASSERT_LT(i, many(150)) << "too many films are refused";
     const Script script = i % 2 == 0 ? Script(any_scene(random)) : Script(any_storyboard(random));
     try {
       const Film film(script);
@@ -206,7 +206,7 @@ TEST(Still, IsTheFrameOfAFilmThatIsRenderedInParts) {
         std::int64_t frame = random.integer(0, frames.count() - 1);
         Rational instant = frame / view_of(script).frame_rate;  // of a storyboard's video
         if (std::holds_alternative<Scene>(script)) {
-          const Schedule& schedule = *film.parts().front().part.schedule();
+          const Schedule& schedule = *film.segments().front().segment.schedule();
           instant = schedule.time_of(frame);
           frame = first_at(schedule, instant, frames.count());
         }
@@ -217,7 +217,7 @@ TEST(Still, IsTheFrameOfAFilmThatIsRenderedInParts) {
     } catch (const UsageError&) {  // spans without time, fades without room
     }
   }
-  EXPECT_EQ(compared, 3000);
+  EXPECT_EQ(compared, many(150));
 }
 
 // Where collisions anchor them, too: what a freeze or an end shows is what a still of it shows.

@@ -13,12 +13,6 @@
 
 namespace piblocks::stress {
 
-/// The number of cases to try. PIBLOCKS_STRESS=N multiplies those of an ordinary run by N.
-inline std::int64_t many(std::int64_t ordinary) {
-  const char* factor = std::getenv("PIBLOCKS_STRESS");
-  return factor == nullptr ? ordinary : ordinary * std::atoll(factor);
-}
-
 /// Whether one case is run again, alone.
 inline bool is_repetition() { return std::getenv("PIBLOCKS_SEED") != nullptr; }
 

@@ -123,8 +123,9 @@ TEST(RandomSystems, AreWhereTheOracleSays) {
 
 // Beyond the range of a double there may be no answer, but never a wrong one.
 TEST(RandomSystems, OfAnySizeGiveFiniteNumbersOrSayWhyNot) {
+  constexpr std::int64_t kCases = 500;
   std::int64_t answered = 0;
-  for_each_case(500, 4'000'000, [&](Random& random) {
+  for_each_case(kCases, 4'000'000, [&](Random& random) {
     const BlockSystem system = random_system_of_any_size(random);
     SCOPED_TRACE(describe(system));
     try {
@@ -133,13 +134,14 @@ TEST(RandomSystems, OfAnySizeGiveFiniteNumbersOrSayWhyNot) {
     } catch (const SimulationError&) {
     }
   });
-  EXPECT_TRUE(answered > 0 || is_repetition());
+  EXPECT_TRUE(is_repetition() || answered > many(kCases) / 4) << answered;
 }
 
 // Rounding may make an engine that steps miscount, but neither hang nor pass on an infinity.
 TEST(RandomSystems, AreSteppedToAnEndOrAnError) {
+  constexpr std::int64_t kCases = 500;
   std::int64_t answered = 0;
-  for_each_case(500, 6'000'000, [&](Random& random) {
+  for_each_case(kCases, 6'000'000, [&](Random& random) {
     const BlockSystem system =
         random.integer(0, 1) == 0 ? random_system(random) : random_system_of_any_size(random);
     SCOPED_TRACE(describe(system));
@@ -161,7 +163,7 @@ TEST(RandomSystems, AreSteppedToAnEndOrAnError) {
       }
     }
   });
-  EXPECT_TRUE(answered > 0 || is_repetition());
+  EXPECT_TRUE(is_repetition() || answered > many(kCases) / 4) << answered;
 }
 
 TEST(RandomSystems, BeyondTheClosedFormAreCountedAndRefused) {

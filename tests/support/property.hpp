@@ -12,6 +12,12 @@
 
 namespace piblocks {
 
+/// The number of cases to try. PIBLOCKS_STRESS=N multiplies those of an ordinary run by N.
+inline std::int64_t many(std::int64_t ordinary) {
+  const char* factor = std::getenv("PIBLOCKS_STRESS");
+  return factor == nullptr ? ordinary : ordinary * std::atoll(factor);
+}
+
 class Random {
  public:
   explicit Random(std::uint64_t default_seed) : seed_(chosen_seed(default_seed)), engine_(seed_) {}

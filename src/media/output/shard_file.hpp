@@ -19,19 +19,19 @@
 namespace piblocks {
 
 /// Names and values, in order. Neither has a line break, and a name has no colon.
-using PartHeader = std::vector<std::pair<std::string, std::string>>;
+using ShardHeader = std::vector<std::pair<std::string, std::string>>;
 
 /// A sink that stores chunks as they are.
 /// @throws UsageError if the file cannot be opened, or the header cannot be written as lines.
-std::unique_ptr<FrameSink> open_part(const std::string& path, const PartHeader& header);
+std::unique_ptr<FrameSink> open_shard(const std::string& path, const ShardHeader& header);
 
 /// Reads a part file, chunk by chunk. Takes no more memory than the file is long.
-class PartReader {
+class ShardReader {
  public:
   /// @throws UsageError if the file cannot be opened or is not a part file.
-  explicit PartReader(std::string path);
+  explicit ShardReader(std::string path);
 
-  const PartHeader& header() const noexcept { return header_; }
+  const ShardHeader& header() const noexcept { return header_; }
   /// The next chunk; nothing after the last.
   /// @throws IoError if the file is damaged or cut off.
   std::optional<EncodedChunk> next();
@@ -56,7 +56,7 @@ class PartReader {
   std::string path_;
   std::ifstream file_;
   std::uint64_t left_bytes_ = 0;
-  PartHeader header_;
+  ShardHeader header_;
 };
 
 }  // namespace piblocks

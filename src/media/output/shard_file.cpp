@@ -1,4 +1,4 @@
-#include "media/output/part_file.hpp"
+#include "media/output/shard_file.hpp"
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
@@ -10,8 +10,8 @@
 #include <system_error>
 #include <utility>
 
-#include "core/output_file.hpp"
 #include "core/descriptor.hpp"
+#include "core/output_file.hpp"
 #include "media/output/little_endian.hpp"
 
 namespace piblocks {
@@ -55,9 +55,9 @@ std::uint32_t checksum(std::uint32_t before, const Bytes& bytes) {
   return static_cast<std::uint32_t>(crc32_z(before, bytes.data(), bytes.size()));
 }
 
-class PartSink final : public FrameSink {
+class ShardSink final : public FrameSink {
  public:
-  PartSink(const std::string& path, const PartHeader& header) : file_(path) {
+  ShardSink(const std::string& path, const ShardHeader& header) : file_(path) {
     file_.write(fmt::format("{}\n", kMagic));
     for (const auto& [name, value] : header) file_.write(fmt::format("{}: {}\n", name, value));
     file_.write("\n");
@@ -96,7 +96,7 @@ class PartSink final : public FrameSink {
 
 }  // namespace
 
-std::unique_ptr<FrameSink> open_part(const std::string& path, const PartHeader& header) {
+std::unique_ptr<FrameSink> open_shard(const std::string& path, const ShardHeader& header) {
   for (const auto& [name, value] : header) {
     if (name.find_first_of(":\n") == std::string::npos && value.find('\n') == std::string::npos) {
       continue;
@@ -104,10 +104,10 @@ std::unique_ptr<FrameSink> open_part(const std::string& path, const PartHeader& 
     throw UsageError(
         fmt::format("part: cannot write '{}': {} cannot be said in one line", path, name));
   }
-  return std::make_unique<PartSink>(path, header);
+  return std::make_unique<ShardSink>(path, header);
 }
 
-PartReader::PartReader(std::string path) : path_(std::move(path)) {
+ShardReader::ShardReader(std::string path) : path_(std::move(path)) {
   std::error_code error;
   left_bytes_ = std::filesystem::file_size(path_, error);
   if (!error) {
@@ -118,19 +118,19 @@ PartReader::PartReader(std::string path) : path_(std::move(path)) {
   read_header();
 }
 
-void PartReader::read_header() {
-  bool is_part = read_line(kMagic.size()) == kMagic;
-  while (is_part && header_.size() < kMaxHeaderLines) {
+void ShardReader::read_header() {
+  bool is_shard = read_line(kMagic.size()) == kMagic;
+  while (is_shard && header_.size() < kMaxHeaderLines) {
     const std::optional<std::string> line = read_line(kMaxLine_bytes);
     if (line && line->empty()) return;
     const std::size_t colon = line ? line->find(": ") : std::string::npos;
-    is_part = colon != std::string::npos;
-    if (is_part) header_.emplace_back(line->substr(0, colon), line->substr(colon + 2));
+    is_shard = colon != std::string::npos;
+    if (is_shard) header_.emplace_back(line->substr(0, colon), line->substr(colon + 2));
   }
   throw UsageError(fmt::format("part: '{}' is no part file of this version", path_));
 }
 
-std::optional<std::string> PartReader::read_line(std::size_t max_bytes) {
+std::optional<std::string> ShardReader::read_line(std::size_t max_bytes) {
   std::string line;
   while (left_bytes_ > 0 && line.size() <= max_bytes) {
     const int byte = file_.get();
@@ -142,20 +142,20 @@ std::optional<std::string> PartReader::read_line(std::size_t max_bytes) {
   return std::nullopt;
 }
 
-std::optional<EncodedChunk> PartReader::next() {
+std::optional<EncodedChunk> ShardReader::next() {
   while (auto record = next_record()) {
     if (record->kind == kChunk) return std::move(record->packets);
   }
   return std::nullopt;
 }
 
-std::optional<EncodedChunk> PartReader::next_sound() {
+std::optional<EncodedChunk> ShardReader::next_sound() {
   auto record = next_record();
   if (!record || record->kind != kSound) return std::nullopt;
   return std::move(record->packets);
 }
 
-std::optional<PartReader::Record> PartReader::next_record() {
+std::optional<ShardReader::Record> ShardReader::next_record() {
   const std::uint8_t kind = read(1).front();
   if (kind == kEnd && left_bytes_ == 0) return std::nullopt;
   if (kind != kChunk && kind != kSound) fail_damaged();
@@ -176,7 +176,7 @@ std::optional<PartReader::Record> PartReader::next_record() {
   return Record{kind, std::move(chunk)};
 }
 
-Bytes PartReader::read(std::uint64_t count) {
+Bytes ShardReader::read(std::uint64_t count) {
   if (count > left_bytes_) fail_damaged();
   Bytes bytes(count);
   file_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
@@ -185,11 +185,11 @@ Bytes PartReader::read(std::uint64_t count) {
   return bytes;
 }
 
-void PartReader::fail_to_read() const {
+void ShardReader::fail_to_read() const {
   throw IoError(fmt::format("part: cannot read '{}': {}", path_, error_text(errno)));
 }
 
-void PartReader::fail_damaged() const {
+void ShardReader::fail_damaged() const {
   throw IoError(fmt::format("part: '{}' is damaged or cut off; render it again", path_));
 }
 

@@ -1,4 +1,4 @@
-#include "media/output/part_file.hpp"
+#include "media/output/shard_file.hpp"
 
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
@@ -14,7 +14,7 @@ namespace {
 using testing_support::file_contents;
 using testing_support::TemporaryFolder;
 
-const PartHeader kHeader = {{"scene", "one: two"}, {"frames", "7"}, {"nothing", ""}};
+const ShardHeader kHeader = {{"scene", "one: two"}, {"frames", "7"}, {"nothing", ""}};
 
 EncodedChunk random_chunk(Random& random) {
   EncodedChunk chunk(static_cast<std::size_t>(random.integer(0, 5)));
@@ -50,7 +50,7 @@ class Packets final : public PacketSource {
 
 void write(const std::string& path, const EncodedChunk& sound,
            const std::vector<EncodedChunk>& chunks) {
-  const auto sink = open_part(path, kHeader);
+  const auto sink = open_shard(path, kHeader);
   Packets packets(sound);
   sink->take_sound(packets);
   for (const EncodedChunk& chunk : chunks) sink->append(chunk);
@@ -72,13 +72,13 @@ void write_text(const std::string& path, const std::string& text) {
 }
 
 void read_all(const std::string& path) {
-  PartReader reader(path);
+  ShardReader reader(path);
   while (reader.next()) {
   }
 }
 
 EncodedChunk sound_in(const std::string& path) {
-  PartReader reader(path);
+  ShardReader reader(path);
   EncodedChunk sound;
   while (const auto packets = reader.next_sound()) {
     sound.insert(sound.end(), packets->begin(), packets->end());
@@ -95,7 +95,7 @@ EncodedChunk random_sound(Random& random, std::size_t packets) {
   return sound;
 }
 
-TEST(PartFile, HoldsWhatWasWrittenAndPassesOverSound) {
+TEST(ShardFile, HoldsWhatWasWrittenAndPassesOverSound) {
   const TemporaryFolder folder;
   Random random(1);
   for (int i = 0; i < 20; ++i) {
@@ -104,7 +104,7 @@ TEST(PartFile, HoldsWhatWasWrittenAndPassesOverSound) {
     const EncodedChunk sound = random_sound(random, i % 2 == 0 ? 0 : 10 * std::size_t(i));
     write(folder / "a", sound, chunks);
     EXPECT_TRUE(equal(sound_in(folder / "a"), sound));
-    PartReader reader(folder / "a");
+    ShardReader reader(folder / "a");
     EXPECT_EQ(reader.header(), kHeader);
     for (const EncodedChunk& chunk : chunks) {
       const auto read = reader.next();
@@ -115,7 +115,7 @@ TEST(PartFile, HoldsWhatWasWrittenAndPassesOverSound) {
   }
 }
 
-TEST(PartFile, NoticesThatItWasCutOffAnywhere) {
+TEST(ShardFile, NoticesThatItWasCutOffAnywhere) {
   const TemporaryFolder folder;
   Random random(2);
   const EncodedChunk sound = random_sound(random, 3);
@@ -131,7 +131,7 @@ TEST(PartFile, NoticesThatItWasCutOffAnywhere) {
   }
 }
 
-TEST(PartFile, NoticesThatOneBitHasChanged) {
+TEST(ShardFile, NoticesThatOneBitHasChanged) {
   const TemporaryFolder folder;
   Random random(3);
   const EncodedChunk sound = random_sound(random, 3);
@@ -151,31 +151,31 @@ TEST(PartFile, NoticesThatOneBitHasChanged) {
   }
 }
 
-TEST(PartFile, IsToldFromOtherFiles) {
+TEST(ShardFile, IsToldFromOtherFiles) {
   const TemporaryFolder folder;
   for (const std::string text : {"", "\n", "piblocks part 2\n\nE", "piblocks part 1", "PNG",
                                  "piblocks part 1\nno colon\n\nE"}) {
     write_text(folder / "other", text);
-    EXPECT_THROW(PartReader(folder / "other"), UsageError) << text;
+    EXPECT_THROW(ShardReader(folder / "other"), UsageError) << text;
   }
   write_text(folder / "long", "piblocks part 1\n" + std::string(5'000'000, 'a'));
-  EXPECT_THROW(PartReader(folder / "long"), UsageError);
-  EXPECT_THROW(PartReader(folder / "none"), UsageError);
-  EXPECT_THROW(PartReader(folder.path()), UsageError);
+  EXPECT_THROW(ShardReader(folder / "long"), UsageError);
+  EXPECT_THROW(ShardReader(folder / "none"), UsageError);
+  EXPECT_THROW(ShardReader(folder.path()), UsageError);
 }
 
-TEST(PartFile, RefusesWhatIsNoLine) {
+TEST(ShardFile, RefusesWhatIsNoLine) {
   const TemporaryFolder folder;
   for (const auto& [name, value] : {std::pair{"title", "two\nlines"},
                                     {"title", "one line\n"},
                                     {"two\nlines", ""},
                                     {"a: b", "c"}}) {
-    EXPECT_THROW(open_part(folder / "a", {{"fine", "fine"}, {name, value}}), UsageError) << name;
+    EXPECT_THROW(open_shard(folder / "a", {{"fine", "fine"}, {name, value}}), UsageError) << name;
   }
   EXPECT_TRUE(folder.is_empty());
 }
 
-TEST(PartFile, TakesNoMemoryForSizesThatAFileOnlyClaims) {
+TEST(ShardFile, TakesNoMemoryForSizesThatAFileOnlyClaims) {
   const TemporaryFolder folder;
   const std::string packet = std::string(17, '\0') + "\xff\xff\xff\xff";
   write_text(folder / "a",
