@@ -54,14 +54,15 @@ std::string readable(const Integer& value);
 /// The number for a message: exact where that is short, otherwise the nearest double.
 std::string to_text(const Rational& value);
 
-/// Simulation time as the sum hi + lo of two doubles with |lo| <= ulp(hi)/2. Near the turn of many
-/// digits thousands of collisions share one double; two doubles tell them apart.
-struct Time {
+/// A number as the sum hi + lo of two doubles with |lo| <= ulp(hi)/2. Simulation time is one: near
+/// the turn of many digits thousands of collisions share one double; two doubles tell them apart.
+struct DoubleDouble {
   double hi = 0;
   double lo = 0;
 
-  friend bool operator==(const Time&, const Time&) = default;
+  friend bool operator==(const DoubleDouble&, const DoubleDouble&) = default;
 };
+using Time = DoubleDouble;
 
 /// Nearest sum of two doubles to an exact time.
 Time to_time(const Rational& exact);

@@ -28,7 +28,7 @@ struct ImageView {
   const std::uint8_t* row(int y) const noexcept { return data + y * stride_bytes; }
 };
 
-/// An image that owns its pixels: words 0xAARRGGBB, or with other samples in these places.
+/// An image that owns its pixels: words 0xAARRGGBB, or with Y, Cb and Cr in place of R, G and B.
 struct Image {
   int width_px = 0;
   int height_px = 0;

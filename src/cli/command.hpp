@@ -21,7 +21,7 @@ namespace piblocks::cli {
 
 /// Refers to a command, and is valid as long as the program's command line. An option is named as
 /// in messages: "--output", or "SCENE" for an argument without a name.
-/// CLI11 only collects texts: what it says of a text that it cannot convert is not for users.
+/// CLI11 only collects texts: users never see its errors about conversion.
 class Command {
  public:
   explicit Command(CLI::App& app) : app_(&app) {}

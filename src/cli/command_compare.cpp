@@ -144,9 +144,9 @@ auto with_exit_code(int code, const Work& work) {
   try {
     return work();
   } catch (const IoError& error) {
-    throw ExitCode(code, error.what());
+    throw ExitError(code, error.what());
   } catch (const MediaError& error) {
-    throw ExitCode(code, error.what());
+    throw ExitError(code, error.what());
   }
 }
 
@@ -170,13 +170,13 @@ ComparisonResult run_comparison(const Command& options, const ComparisonJob& job
 void run_compare(const Command& options) {
   const ComparisonJob job = job_of(options);
   if (!frames_exist(job.reference)) {
-    throw ExitCode(kMissingReference,
-                   fmt::format("compare: there is no reference '{}'", job.reference));
+    throw ExitError(kMissingReference,
+                    fmt::format("compare: there is no reference '{}'", job.reference));
   }
   check_reports(options, job);
   const Verdict verdict = run_comparison(options, job).verdict;
-  if (verdict == Verdict::different) throw ExitCode(kDifferent);
-  if (verdict == Verdict::mismatch) throw ExitCode(kMismatch);
+  if (verdict == Verdict::different) throw ExitError(kDifferent);
+  if (verdict == Verdict::mismatch) throw ExitError(kMismatch);
 }
 
 }  // namespace

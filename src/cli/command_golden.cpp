@@ -17,8 +17,8 @@
 #include "core/unfinished.hpp"
 #include "draw/canvas.hpp"
 #include "golden/reports.hpp"
+#include "render/film_run.hpp"
 #include "render/references.hpp"
-#include "render/run.hpp"
 
 namespace piblocks::cli {
 namespace fs = std::filesystem;
@@ -156,9 +156,10 @@ bool check(const References& references, Work& work, const std::stop_token& stop
   bool is_equal = true;
   for (const std::string& file : references.files()) {
     if (!references.has(file)) {
-      throw ExitCode(kMissingReference,
-                     fmt::format("golden: there is no reference '{}'; see 'piblocks golden record'",
-                                 (work.folder / file).string()));
+      throw ExitError(
+          kMissingReference,
+          fmt::format("golden: there is no reference '{}'; see 'piblocks golden record'",
+                      (work.folder / file).string()));
     }
     const auto folder = diff_folder_of(work, file);
     const auto report = folder ? diff_folder(*folder) : nullptr;
@@ -179,7 +180,7 @@ void run_check(const Command& options) {
     is_equal &= check(references, work, signals.token());
   }
   work.out.finish();
-  if (!is_equal) throw ExitCode(kDifferent);
+  if (!is_equal) throw ExitError(kDifferent);
 }
 
 /// References on their way: all of them take their names, or none does.

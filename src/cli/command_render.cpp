@@ -33,7 +33,7 @@ Shard parse_part(const std::string& text) {
 
 double parse_crf(const std::string& text) { return to_double(parse_rational(text)); }
 
-/// Under half the size, and many times the time (src/media/README.md).
+/// Under half the size, and many times the time (tests/benchmark/encoders.md).
 EncoderSettings smallest_file() { return {.crf = 18, .preset = "slower", .encoder = "libx264"}; }
 
 EncoderSettings settings_of(const Command& options) {

@@ -10,7 +10,7 @@
 namespace piblocks::cli {
 namespace {
 
-/// README.md has the reasons.
+/// src/media/README.md has the reasons.
 const std::vector<Destination>& destinations() {
   static const std::vector<Destination> all = {
       {"powerpoint", {{"view.size", "1920x1080"}, {"view.fps", "60"}}, {".mp4"}},

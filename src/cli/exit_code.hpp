@@ -1,4 +1,4 @@
-// An end with an exit code of its own.
+// An exception that carries an exit code.
 // In: thrown by a command whose exit codes say more than done, failed or wrong usage. Out: the
 // code.
 #pragma once
@@ -18,10 +18,10 @@ inline constexpr int kMissingReference = 3;
 inline constexpr int kMismatch = 4;
 inline constexpr int kUnreadable = 5;
 
-class ExitCode : public Error {
+class ExitError : public Error {
  public:
   /// @param message  for standard error; empty if all has been said.
-  explicit ExitCode(int code, const std::string& message = {}) : Error(message), code_(code) {}
+  explicit ExitError(int code, const std::string& message = {}) : Error(message), code_(code) {}
   int code() const noexcept { return code_; }
 
  private:

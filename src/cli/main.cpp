@@ -42,7 +42,7 @@ int fail(const std::exception& error, int exit_code) {
   return is_broken_off ? fail_by_interruption() : fail(error.what(), exit_code);
 }
 
-/// Where nothing can be passed on: below GMP.
+/// GMP cannot pass an exception on: the process ends here.
 [[noreturn]] void end_without_memory() { _exit(fail("out of memory", kFailed)); }
 
 /// Reports out-of-memory. Any other exception that reaches this place is a bug.
@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
     return fail(error);
   } catch (const piblocks::ReaderGone&) {
     return 0;
-  } catch (const piblocks::cli::ExitCode& exit) {
+  } catch (const piblocks::cli::ExitError& exit) {
     return *exit.what() == '\0' ? exit.code() : fail(exit, exit.code());
   } catch (const std::bad_alloc&) {
     return fail("out of memory", kFailed);

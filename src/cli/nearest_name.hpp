@@ -1,4 +1,4 @@
-// What was probably meant.
+// Suggests a name for a misspelt one.
 // In: a misspelt word and the words that there are. Out: the nearest of them, if one is near.
 #pragma once
 

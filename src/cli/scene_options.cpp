@@ -6,7 +6,7 @@
 
 #include "cli/options.hpp"
 #include "cli/say.hpp"
-#include "render/run.hpp"
+#include "render/film_run.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -52,8 +52,7 @@ void SceneOptions::add_picture() {
   add_size();
   add_flag({"view.background", "--transparent", "transparent"},
            "No background: another picture can be put behind");
-  add_flag({"view.background", "--opaque", "opaque"},
-           "A background, also where there would be none");
+  add_flag({"view.background", "--opaque", "opaque"}, "Force a background");
 }
 
 void SceneOptions::add_span() {
@@ -87,7 +86,7 @@ void SceneOptions::add_timing() {
 
 void SceneOptions::add_sound() {
   add_flag({"sound.on", "--sound", "true"}, "A clack at every collision, in MP4, MOV and WebM");
-  add_flag({"sound.on", "--no-sound", "false"}, "None, also where the scene wants it");
+  add_flag({"sound.on", "--no-sound", "false"}, "Switch the sound of the scene off");
 }
 
 void SceneOptions::add_show() {
@@ -95,8 +94,8 @@ void SceneOptions::add_show() {
   add_key("show.overlays", "--show", "NAMES",
           "What is drawn over the scene, with commas:\n" + overlay_names());
   add_key("show.panels", "--panels", "NAMES", "Diagrams below it, with commas:\n" + panel_names());
-  add_key("show.title", "--title", "TEXT", "One line above all");
-  add_key("show.caption", "--caption", "TEXT", "One line below all");
+  add_key("show.title", "--title", "TEXT", "A title line");
+  add_key("show.caption", "--caption", "TEXT", "A caption line");
   add_key("show.logo", "--logo", "FILE.png", "Picture in the lower right corner");
   add_flag({"red.width", "--width-by-mass", "by-mass"}, "Make red as wide as its mass suggests");
 }

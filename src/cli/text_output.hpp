@@ -15,8 +15,8 @@
 
 namespace piblocks::cli {
 
-/// A number as it is printed: zero without a sign, which nobody asked about.
-/// @throws SimulationError if it is not finite; JSON could not tell.
+/// A number as it is printed: -0 becomes 0.
+/// @throws SimulationError if it is not finite: JSON has no infinity.
 inline double shown(double value) {
   if (!std::isfinite(value)) {
     throw SimulationError("output: a number is beyond the range of a double (about 1.8e308)");

@@ -42,8 +42,7 @@ class Composition {
   Composition& operator=(const Composition&) = delete;
 
   /// @param exposure  where the blocks are while the frame is exposed; if empty, at the instant.
-  /// All
-  ///                  else is shown as it is at the instant.
+  ///                  All else is shown as it is at the instant.
   DrawList frame(const FrameState& shown, std::span<const WeightedExposure> exposure = {}) const;
 
  private:

@@ -154,8 +154,8 @@ void add_contacts(double share, const Travel& behind, const Travel& front, doubl
 
 }  // namespace
 
-ExposedItem expose(ExposedBlock red, ExposedBlock blue, const SceneColumns& columns,
-                   std::span<const WeightedExposure> exposures) {
+ExposedItem exposed_item(ExposedBlock red, ExposedBlock blue, const SceneColumns& columns,
+                         std::span<const WeightedExposure> exposures) {
   const ToPixels red_px(columns, red);
   const ToPixels blue_px(columns, blue);
   ExposedItem item{ItemId::red_block, std::move(red), std::move(blue), {}};

@@ -18,8 +18,8 @@ struct SceneColumns {
 };
 
 /// @param red, blue  at the picture's instant, without dwells
-ExposedItem expose(ExposedBlock red, ExposedBlock blue, const SceneColumns& columns,
-                   std::span<const WeightedExposure> exposures);
+ExposedItem exposed_item(ExposedBlock red, ExposedBlock blue, const SceneColumns& columns,
+                         std::span<const WeightedExposure> exposures);
 
 /// Adds a block that stays: a rectangle for it, and one for each of its bars.
 void add_rectangles(ItemId id, const ExposedBlock& block, std::vector<DrawItem>& items);

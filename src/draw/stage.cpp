@@ -188,8 +188,8 @@ void StagePicture::add(const BlockState& state, std::span<const WeightedExposure
     add_rectangles(ItemId::red_block, red, items);
     add_rectangles(ItemId::blue_block, blue, items);
   } else {
-    items.emplace_back(expose(std::move(red), std::move(blue),
-                              {layout_.origin.x, layout_.scale, width_px_}, exposure));
+    items.emplace_back(exposed_item(std::move(red), std::move(blue),
+                                    {layout_.origin.x, layout_.scale, width_px_}, exposure));
   }
   add_line(state.count, items);
 }

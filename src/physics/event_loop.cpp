@@ -57,10 +57,10 @@ class Recorder {
 
   void record(StoredCollision collision) {
     if (log_.size() == limit_) {
-      throw SimulationError(
-          fmt::format("{}: {} collisions and more in double precision, where there are {}; use the "
-                      "closed form (--engine unfolded)",
-                      engine_, limit_, collisions_.get_str()));
+      throw SimulationError(fmt::format(
+          "{}: more than {} collisions in double precision; the exact count is {}; use the "
+          "closed form (--engine unfolded)",
+          engine_, limit_, collisions_.get_str()));
     }
     require_finite(collision.time, collision.blue, collision.red, engine_);
     // Rounding must not carry a collision past time 0, nor away from it.

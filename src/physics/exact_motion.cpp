@@ -86,9 +86,10 @@ ExactMotion::ExactMotion(const BlockSystem& system)
       y2(system.blue_gap() + system.blocks_gap()),
       u1(system.blue.velocity),
       u2(system.red.velocity),
-      area(y2 * u1 - y1 * u2),
+      areal_velocity(y2 * u1 - y1 * u2),
       speed_squared(ratio * u1 * u1 + u2 * u2),
-      blocks_first(area > 0 || (area == 0 && (u1 > u2 || (u1 == u2 && u1 > 0)))) {
+      blocks_first(areal_velocity > 0 ||
+                   (areal_velocity == 0 && (u1 > u2 || (u1 == u2 && u1 > 0)))) {
   if (!at_rest()) closest_approach = -(ratio * y1 * u1 + y2 * u2) / speed_squared;
 }
 
@@ -199,7 +200,7 @@ Rational ExactMotion::rounded_crossing(const Integer& ray, mpfr_prec_t bits) con
   const Real to_future = Real(bits, Rational(rays.future.ray - ray)) + rays.future.beyond;
   const bool late = (from_past - to_future).sign() > 0;
   const Real angle = (late ? to_future : from_past) * rays.theta;
-  const Real passage = rays.sigma * Real(bits, abs(area) / speed_squared);
+  const Real passage = rays.sigma * Real(bits, abs(areal_velocity) / speed_squared);
   const Real tau = passage * cot(angle);
   // Each of the few roundings above is at most 2^-bits of the result, or of the passage.
   const Real margin = scaled(tau + passage, 8 - bits);
@@ -228,7 +229,7 @@ Phase ExactMotion::phase_at(const Rational& t) const {
   const auto phase = [&](mpfr_prec_t bits) {
     const Real s = sigma(bits);
     const Real theta = atan(s);
-    const Real to_go = atan2(s * Real(bits, abs(area)), Real(bits, along));
+    const Real to_go = atan2(s * Real(bits, abs(areal_velocity)), Real(bits, along));
     return final_phase(s, theta) - to_go / theta;
   };
   const Asymptote at =

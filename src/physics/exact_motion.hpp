@@ -46,7 +46,8 @@ struct ExactMotion {
   Rational ratio;             ///< r = m_blue / m_red
   Rational y1, y2;            ///< gaps at time 0
   Rational u1, u2;            ///< their rates: the velocities of blue and red
-  Rational area;              ///< L = y2 u1 - y1 u2: sigma L is twice the area swept a unit time
+  Rational areal_velocity;    ///< L = y2 u1 - y1 u2: sigma L is twice the area that is swept in a
+                              ///< unit of time
   Rational speed_squared;     ///< |V|^2 = r u1^2 + u2^2
   Rational closest_approach;  ///< time at which the line is nearest to the corner
   bool blocks_first;          ///< turning from the blocks' ray on; otherwise mirrored, wall first
@@ -56,7 +57,7 @@ struct ExactMotion {
   /// By convention the blocks meet first, as in the limit of a later red block; the wall comes
   /// first where the blocks arrive touching. Seen backwards the same holds for a line that comes
   /// out of the corner.
-  bool through_corner() const { return area == 0; }
+  bool through_corner() const { return areal_velocity == 0; }
 
   Real sigma(mpfr_prec_t bits) const { return sqrt(Real(bits, ratio)); }
   /// Every phase is below 2^magnitude().
@@ -71,7 +72,7 @@ struct ExactMotion {
   Bracket turn(mpfr_prec_t bits) const;
   /// The direction of the point at time 0, as exact as wedge().
   Bracket start(mpfr_prec_t bits) const;
-  /// Number of collisions at times >= 0, by what comes after them.
+  /// Number of collisions at times >= 0, computed from the given future asymptote.
   Integer total(const Asymptote& future) const;
 
   /// Number of collisions at times >= 0: rays crossed at finite times.

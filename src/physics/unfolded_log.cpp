@@ -83,7 +83,7 @@ UnfoldedLog::LinePoint UnfoldedLog::point_at(double tau, const Time& t) const {
   point.time = t;
   point.tau = tau;
   point.end = tau < 0 ? &form_.past : &form_.future;
-  point.distance = std::hypot(form_.impact, form_.speed * tau);
+  point.distance = std::hypot(form_.corner_distance, form_.speed * tau);
   point.sine = form_.sigma / range;
   point.cosine = ahead / range;
   const Landmark* landmark = point.end;
@@ -314,7 +314,8 @@ Exposure UnfoldedLog::expose(const Rational& first, const Rational& last) const 
 }
 
 PositionBounds UnfoldedLog::bounds_at(const Rational& time) const {
-  const double distance = std::hypot(form_.impact, form_.speed * tau_at(time, to_time(time)));
+  const double distance =
+      std::hypot(form_.corner_distance, form_.speed * tau_at(time, to_time(time)));
   // An offset is rounded once, and once more in the sum.
   const auto bound = [&](double gap, double offset) {
     return kUnitRoundoff * (8 * gap + 2 * std::fabs(offset) + distance);

@@ -64,7 +64,7 @@ Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact)
   future = to_landmark(wedge.future, +1);
   const mpfr_prec_t bits = wedge.sigma.bits();
   const Real exact_speed = sqrt(Real(bits, exact.speed_squared));
-  const Real exact_ell = Real(bits, abs(exact.area)) / exact_speed;
+  const Real exact_ell = Real(bits, abs(exact.areal_velocity)) / exact_speed;
   const long exponent = unit_exponent(exact, exact_ell, exact_speed);
   const Real scaled_speed = scaled(exact_speed, exponent);
 
@@ -72,7 +72,7 @@ Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact)
   theta = to_double_double(wedge.theta);
   step = direction({1, 0}, {});
   ell = exact_ell.to_double();
-  impact = (wedge.sigma * exact_ell).to_double();
+  corner_distance = (wedge.sigma * exact_ell).to_double();
   speed = scaled_speed.to_double();
   passage = (wedge.sigma * exact_ell / scaled_speed).to_double();
   speed_over_ell = exact.through_corner() ? 0 : (scaled_speed / exact_ell).to_double();

@@ -24,9 +24,6 @@ inline constexpr double kFarAway = 0x1p1000;
 /// Relative precision of what the doubles of the closed form are rounded from: two doubles'.
 inline constexpr mpfr_prec_t kLandmark_bits = 110;
 
-/// Any number as hi + lo.
-using DoubleDouble = Time;
-
 inline bool is_odd(const Integer& ray) { return mpz_odd_p(ray.get_mpz_t()) != 0; }
 
 inline Integer floor_mean(const Integer& a, const Integer& b) {
@@ -90,7 +87,7 @@ struct ClosedForm {
   DoubleDouble theta;
   Direction step{};               ///< of theta
   double ell = 0;                 ///< |L|/|V|
-  double impact = 0;              ///< b = sigma ell: distance of the line from the corner
+  double corner_distance = 0;     ///< b = sigma ell: distance of the line from the corner
   double speed = 0;               ///< |V| in scaled time
   double passage = 0;             ///< b/|V| in scaled time: what the turn takes
   double speed_over_ell = 0;      ///< 0 for a line through the corner

@@ -19,7 +19,7 @@ class VelocityLoop {
       : ratio_(round(motion.ratio)),
         blue_share_(round(2 / (1 + motion.ratio))),
         red_share_(round(2 * motion.ratio / (1 + motion.ratio))),
-        area_(round(abs(motion.area))),
+        area_(round(abs(motion.areal_velocity))),
         inverse_speed_squared_(round(1 / motion.speed_squared)),
         u1_(round(motion.u1)),
         u2_(round(motion.u2)),

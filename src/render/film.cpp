@@ -97,7 +97,7 @@ DrawList FilmSegment::frame(std::int64_t number) const {
   if (!split_) return runs_.front().frame(*schedule_, number);
   std::vector<DrawList> pictures;
   pictures.reserve(runs_.size());
-  for (const Run& run : runs_) pictures.push_back(run.frame(*schedule_, number));
+  for (const FilmRun& run : runs_) pictures.push_back(run.frame(*schedule_, number));
   return split_->compose(std::move(pictures));
 }
 

@@ -15,7 +15,7 @@
 #include "draw/canvas.hpp"
 #include "draw/draw_list.hpp"
 #include "draw/story_pictures.hpp"
-#include "render/run.hpp"
+#include "render/film_run.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -38,7 +38,7 @@ class FilmSegment {
   DrawList frame(std::int64_t number) const;
 
   /// What is shown at the same time; none of a card.
-  std::span<const Run> runs() const noexcept { return runs_; }
+  std::span<const FilmRun> runs() const noexcept { return runs_; }
   /// Where a run's picture is in the frame. @param run  its place in runs().
   PixelRect cell(std::size_t run) const;
   /// The one clock of all runs, in seconds since the segment began; none of a card.
@@ -49,7 +49,7 @@ class FilmSegment {
   void compare(const Runs& runs, const View& film, FilmUse use);
 
   std::int64_t frame_count_ = 0;
-  std::vector<Run> runs_;
+  std::vector<FilmRun> runs_;
   std::optional<Schedule> schedule_;
   std::optional<SplitScreen> split_;  ///< if there are several runs
   DrawList card_;                     ///< if there are none

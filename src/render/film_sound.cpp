@@ -8,8 +8,7 @@
 namespace piblocks {
 namespace {
 
-/// Along the line on which the weights of the fade's frames are at their instants: 0 a frame before
-/// the first, 1 where only the new segment is seen.
+/// The weight rises from 0, one frame before the fade, to 1, where only the new segment is seen.
 std::optional<Ramp> fade_into(const PlacedSegment& segment, const Rational& frame_rate) {
   if (segment.fade_frames == 0) return std::nullopt;
   return Ramp{Rational(segment.first_frame - 1) / frame_rate,
@@ -23,7 +22,7 @@ std::vector<Voice> voices_of(const Film& film) {
     const PlacedSegment& placed = film.segments()[i];
     const FilmSegment& segment = placed.segment;
     for (std::size_t k = 0; k < segment.runs().size(); ++k) {
-      const Run& run = segment.runs()[k];
+      const FilmRun& run = segment.runs()[k];
       const auto stretches = segment.schedule()->stretches();
       Voice& voice = voices.emplace_back(
           Voice{.scene = run.scene(),

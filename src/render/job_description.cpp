@@ -10,7 +10,7 @@
 
 #include "draw/canvas.hpp"
 #include "media/libav/av_module.hpp"
-#include "render/run.hpp"
+#include "render/film_run.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -71,7 +71,8 @@ std::optional<std::string> setting(const ShardInfo& part, const std::string& nam
 std::int64_t number(const ShardInfo& part, const std::string& name, std::int64_t high) {
   const Rational value = parse_rational(value_of(part, name));
   if (value.get_den() == 1 && value >= 1 && value <= high) return value.get_num().get_si();
-  throw UsageError(fmt::format("join: '{}' says {}: {}", part.path, name, to_text(value)));
+  throw UsageError(
+      fmt::format("join: '{}' has the invalid {} {}", part.path, name, to_text(value)));
 }
 
 }  // namespace
@@ -90,7 +91,7 @@ ShardHeader describe(const RenderJob& job, const Output& output, const Chunks& c
 const std::string& value_of(const ShardInfo& part, const std::string& name) {
   const auto at = std::ranges::find(part.header, name, &ShardHeader::value_type::first);
   if (at != part.header.end()) return at->second;
-  throw UsageError(fmt::format("join: '{}' does not say its '{}'", part.path, name));
+  throw UsageError(fmt::format("join: '{}' lacks '{}'", part.path, name));
 }
 
 JobDescription read_description(const ShardInfo& part) {

@@ -27,7 +27,7 @@ Shard number_of(const ShardInfo& part) {
     const bool is_whole = read.ec == std::errc() && read.ptr == end;
     if (is_whole && result.number >= 1 && result.number <= result.count) return result;
   }
-  throw UsageError(fmt::format("join: '{}' says part: {}", part.path, text));
+  throw UsageError(fmt::format("join: '{}' has the invalid part '{}'", part.path, text));
 }
 
 struct NumberedShard {

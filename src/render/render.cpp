@@ -85,12 +85,12 @@ class Worker {
 };
 
 /// A half-open range of chunks.
-struct Share {
+struct ChunkRange {
   std::int64_t begin;
   std::int64_t end;
 };
 
-Share share_of(const std::optional<Shard>& shard, std::int64_t chunks) {
+ChunkRange range_of(const std::optional<Shard>& shard, std::int64_t chunks) {
   if (!shard) return {0, chunks};
   return {chunks * (shard->number - 1) / shard->count, chunks * shard->number / shard->count};
 }
@@ -170,25 +170,25 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
   if (job.max_flashes && plan.output->has_frames()) {
     check_flashes(plan.film, *job.max_flashes, stop);
   }
-  const Share share = share_of(job.shard, plan.chunks.count());
+  const ChunkRange range = range_of(job.shard, plan.chunks.count());
   const std::unique_ptr<FrameSink> sink = open_sink(job, plan);
   const auto frames_until = [&](std::int64_t chunk) {
-    return plan.chunks.begin(chunk) - plan.chunks.begin(share.begin);
+    return plan.chunks.begin(chunk) - plan.chunks.begin(range.begin);
   };
   const auto make_worker = [&] {
     const auto worker = std::make_shared<Worker>(plan, job.profile);
-    return [worker, &share](std::int64_t task, const std::stop_token& halt) {
-      return worker->work(share.begin + task, halt);
+    return [worker, &range](std::int64_t task, const std::stop_token& halt) {
+      return worker->work(range.begin + task, halt);
     };
   };
 
-  Rendered rendered{plan.output->has_frames() ? frames_until(share.end) : plan.film.frame_count(),
+  Rendered rendered{plan.output->has_frames() ? frames_until(range.end) : plan.film.frame_count(),
                     {}};
   on_progress({0, rendered.frame_count});
   StageClock clock(job.profile, Stage::mux);
   const SoundWork sound = sound_for(job, plan, *sink, on_progress, clock, stop);
-  OrderedPool<EncodedWork> pool(share.end - share.begin, job.jobs, make_worker);
-  for (std::int64_t chunk = share.begin; const auto work = pool.take(stop); ++chunk) {
+  OrderedPool<EncodedWork> pool(range.end - range.begin, job.jobs, make_worker);
+  for (std::int64_t chunk = range.begin; const auto work = pool.take(stop); ++chunk) {
     sink->append(work->chunk);
     if (job.profile) rendered.profile.chunk_methods.push_back(work->method);
     add(rendered.profile.stages, work->spent);

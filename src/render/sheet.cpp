@@ -16,8 +16,8 @@
 #include "draw/composition.hpp"
 #include "draw/number_text.hpp"
 #include "physics/blocks.hpp"
+#include "render/film_run.hpp"
 #include "render/renderings.hpp"
-#include "render/run.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {

@@ -36,7 +36,7 @@ Draw* drawing_for(std::string_view output) {
 
 DrawList picture_of(const Scene& scene, const Instant& instant) {
   require_valid(problems_of(scene));
-  const Run run(scene, make_collision_log(scene.system), FilmUse::pictures);
+  const FilmRun run(scene, make_collision_log(scene.system), FilmUse::pictures);
   return run.picture(still_time(scene, run.log(), time_of(instant, run.log())));
 }
 

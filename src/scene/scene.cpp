@@ -49,8 +49,8 @@ void check_view(const View& view, SceneProblems& problems) {
       rate, kMaxFrameRate, kMaxTerm);
   const Rational& shutter = view.shutter;
   problems.require(shutter <= 0 || view.background == Background::opaque, "view.shutter",
-                   "asks for light from behind the blocks, and a transparent frame has none; "
-                   "leave it out, or use --opaque");
+                   "needs an opaque background: motion blur mixes the blocks with it; leave the "
+                   "shutter out, or use --opaque");
   problems.require(shutter >= 0 && shutter <= 1, "view.shutter",
                    "= {}: must be from 0 (the instant alone) to 1 (all of the time to the next "
                    "frame)",

@@ -27,7 +27,7 @@ double rate_at_turn(const BlockSystem& system, const Rational& speed) {
   const ExactMotion motion(system);
   if (motion.through_corner()) return std::numeric_limits<double>::infinity();
   const Real sigma = motion.sigma(kBits);
-  const Real rate(kBits, motion.speed_squared * speed / abs(motion.area));
+  const Real rate(kBits, motion.speed_squared * speed / abs(motion.areal_velocity));
   return (rate / (atan(sigma) * sigma)).to_double();
 }
 

@@ -11,7 +11,7 @@
 
 namespace piblocks {
 
-/// The ear hears clacks closer than this together, the less the farther apart they are.
+/// Clacks closer than this are compressed together, nearer ones more.
 inline constexpr int kTogether_samples = 4;
 
 /// The height for an impulse: a small one stays as it is, 1 gives 0.8, 100 gives 3.2, and all are

@@ -184,7 +184,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{render({"--shutter", "1.5"}), "view.shutter = 3/2: must be from 0"},
         BadInput{render({"--shutter", "-1/2"}), "view.shutter = -1/2: must be from 0"},
         BadInput{render({"--shutter", "half"}), "view.shutter = half: not a number"},
-        BadInput{render({"--shutter", "1", "--transparent"}), "a transparent frame has none"},
+        BadInput{render({"--shutter", "1", "--transparent"}), "needs an opaque background"},
         BadInput{still({"--at", "1", "--shutter", "2"}), "view.shutter = 2: must be from 0"},
         BadInput{still({"--at", "1", "--size", "0x0"}), "view.size = 0x0"}));
 
@@ -417,7 +417,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{render({"scene.toml", "--bundle", "talk"}),
                  "bundle: captions count one run, and a storyboard has several", kStory},
         BadInput{render({"scene.toml", "--shutter", "1"}), "put view.shutter into it", kStory},
-        BadInput{render({"scene.toml"}), "scene.toml:2: view.shutter asks for light from behind",
+        BadInput{render({"scene.toml"}), "scene.toml:2: view.shutter needs an opaque background",
                  "[[part]]\nview.shutter = 1\n[view]\nbackground = 'transparent'\n"},
         BadInput{render({"scene.toml"}), "scene.toml:5: fade = 9: must take at most",
                  std::string(kStory) + "[[part]]\nfade = 9\n"},

@@ -178,7 +178,7 @@ TEST_F(JoinTest, RefusesNumbersThatMakeNoSense) {
   };
   for (const std::string other : {"0/1", "2/1", "1/0", "-1/1", "1", "1/", "/1", "1/1x", ""}) {
     EXPECT_EQ(with("part: 1/1", "part: " + other),
-              "join: '" + path("changed") + "' says part: " + other);
+              "join: '" + path("changed") + "' has the invalid part '" + other + "'");
   }
   for (const std::string other : {"0", "-64", "64/3", "99999999999999999999"}) {
     EXPECT_NE(with("view.width: 64", "view.width: " + other), "none");

@@ -69,7 +69,7 @@ const AvModule& load() {
   for (const std::string& file : candidates()) {
     if (const AvModule* const module = load(file, reasons)) return *module;
   }
-  throw MediaError("output: cannot load the encoders: is piblocks whole?" + reasons);
+  throw MediaError("output: cannot load the encoders; reinstall piblocks:" + reasons);
 }
 
 }  // namespace

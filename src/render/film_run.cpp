@@ -1,4 +1,4 @@
-#include "render/run.hpp"
+#include "render/film_run.hpp"
 
 #include <utility>
 
@@ -7,14 +7,14 @@
 
 namespace piblocks {
 
-Run::Run(Scene scene, std::unique_ptr<CollisionLog> log, FilmUse use)
+FilmRun::FilmRun(Scene scene, std::unique_ptr<CollisionLog> log, FilmUse use)
     : scene_(std::move(scene)), log_(std::move(log)) {
   if (use == FilmUse::pictures) composition_.emplace(scene_, *log_, read_logo(scene_));
 }
 
-DrawList Run::picture(const FrameTime& shown) const {
+DrawList FilmRun::picture(const FrameTime& shown) const {
   return composition_->frame({log_->state_at(shown.time), shown.time, shown.slower},
-                             expose(*log_, shown.exposure));
+                             exposures_of(*log_, shown.exposure));
 }
 
 std::shared_ptr<const Image> read_logo(const Scene& scene) {
@@ -39,7 +39,8 @@ std::vector<std::string> logos_of(const Script& script) {
   return logos;
 }
 
-std::vector<WeightedExposure> expose(const CollisionLog& log, std::span<const TimeSlice> slices) {
+std::vector<WeightedExposure> exposures_of(const CollisionLog& log,
+                                           std::span<const TimeSlice> slices) {
   std::vector<WeightedExposure> parts;
   parts.reserve(slices.size());
   for (const TimeSlice& slice : slices) {

@@ -24,11 +24,11 @@ namespace piblocks {
 enum class FilmUse : std::uint8_t { pictures, audio_only };
 
 /// A scene, its collisions, and what its frames are composed by. Const members are thread-safe.
-class Run {
+class FilmRun {
  public:
   /// @param log  of the scene's system.
   /// @throws UsageError, DrawError, MediaError as Composition and read_logo().
-  Run(Scene scene, std::unique_ptr<CollisionLog> log, FilmUse use);
+  FilmRun(Scene scene, std::unique_ptr<CollisionLog> log, FilmUse use);
 
   const Scene& scene() const noexcept { return scene_; }
   const CollisionLog& log() const noexcept { return *log_; }
@@ -52,7 +52,8 @@ std::shared_ptr<const Image> read_logo(const Scene& scene);
 /// The files of all logos of a scene or storyboard.
 std::vector<std::string> logos_of(const Script& script);
 
-/// Empty if nothing passes, because the scene has no shutter.
-std::vector<WeightedExposure> expose(const CollisionLog& log, std::span<const TimeSlice> slices);
+/// Empty without a shutter.
+std::vector<WeightedExposure> exposures_of(const CollisionLog& log,
+                                           std::span<const TimeSlice> slices);
 
 }  // namespace piblocks
