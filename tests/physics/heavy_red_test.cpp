@@ -211,11 +211,9 @@ TEST(HeavyRed, HasItsStatesBetweenCollisions) {
       // What blue has travelled, and from where, is rounded; not how long the turn takes.
       const Rational way = 8 + abs(exact.blue.position) + abs(exact.red.position) +
                            (abs(system.blue.velocity) + abs(system.red.velocity)) * abs(time);
-      EXPECT_LE(quotient(Rational(given.blue.position) - exact.blue.position, way),
-                8 * kRoundoff)
+      EXPECT_LE(quotient(Rational(given.blue.position) - exact.blue.position, way), 8 * kRoundoff)
           << given.blue.position << ", not " << to_double(exact.blue.position);
-      EXPECT_LE(quotient(Rational(given.red.position) - exact.red.position, way),
-                8 * kRoundoff);
+      EXPECT_LE(quotient(Rational(given.red.position) - exact.red.position, way), 8 * kRoundoff);
     }
   }
 }
