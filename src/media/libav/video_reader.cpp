@@ -68,8 +68,8 @@ const AVCodec* find_decoder(const AVStream& stream) {
   return avcodec_find_decoder(codec);
 }
 
-/// Frame threads only for decoders that survive damage with them: that of MPEG-4 Part 2 in
-/// libavcodec 59 fails an assertion. Slice threads for the others.
+/// The kinds of threads that a decoder may use. Only these decoders get frame threads: with them
+/// the decoder of MPEG-4 Part 2 in libavcodec 59 fails an assertion if the file is damaged.
 int threads_of(AVCodecID codec) {
   constexpr std::array kByFrames = {AV_CODEC_ID_H264, AV_CODEC_ID_HEVC, AV_CODEC_ID_VP9,
                                     AV_CODEC_ID_FFV1, AV_CODEC_ID_PRORES};
