@@ -2,7 +2,7 @@
 // In: numbers in the codes of ITU-T H.264, clauses 7.2 and 9.1. Out: bytes.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cstddef>
@@ -49,7 +49,7 @@ class BitWriter {
     store(static_cast<std::uint32_t>(waiting_ << (32 - 8 * whole)), whole);
   }
   void append(const BitWriter& other) {
-    for (const std::uint8_t byte : other.bytes_) put(byte, 8);
+    for (const std::uint8_t byte : other.bytes()) put(byte, 8);
     if (other.waiting_count_ > 0) {
       const std::uint64_t mask = (std::uint64_t{1} << other.waiting_count_) - 1;
       put(static_cast<std::uint32_t>(other.waiting_ & mask), other.waiting_count_);
@@ -57,28 +57,28 @@ class BitWriter {
   }
 
   std::size_t bit_count() const noexcept {
-    return 8 * bytes_.size() + static_cast<std::size_t>(waiting_count_);
+    return 8 * size_ + static_cast<std::size_t>(waiting_count_);
   }
   /// All bits, after put_trailing_bits() or align().
-  std::span<const std::uint8_t> bytes() const noexcept { return bytes_; }
+  std::span<const std::uint8_t> bytes() const noexcept { return {room_.data(), size_}; }
   void clear() noexcept {
-    bytes_.clear();
+    size_ = 0;
     waiting_count_ = 0;
   }
 
  private:
   static constexpr std::size_t kFirstRoom_bytes = 512;  // more than any macroblock has
 
-  /// The highest bytes of a word.
+  /// Appends the highest `count` bytes of a word. The others are overwritten later.
   void store(std::uint32_t word, int count) {
-    const std::array<std::uint8_t, 4> bytes = {
-        static_cast<std::uint8_t>(word >> 24), static_cast<std::uint8_t>(word >> 16),
-        static_cast<std::uint8_t>(word >> 8), static_cast<std::uint8_t>(word)};
-    if (bytes_.capacity() == 0) bytes_.reserve(kFirstRoom_bytes);
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.begin() + count);
+    if (room_.size() < size_ + 4) room_.resize(std::max(kFirstRoom_bytes, 2 * room_.size()));
+    std::uint8_t* const at = room_.data() + size_;
+    for (int i = 0; i < 4; ++i) at[i] = static_cast<std::uint8_t>(word >> (24 - 8 * i));
+    size_ += static_cast<std::size_t>(count);
   }
 
-  std::vector<std::uint8_t> bytes_;
+  std::vector<std::uint8_t> room_;
+  std::size_t size_ = 0;       // bytes written into room_
   std::uint64_t waiting_ = 0;  // only the lowest waiting_count_ bits count
   int waiting_count_ = 0;      // less than 32
 };

@@ -18,21 +18,27 @@ struct Coefficients {
   std::size_t total = 0;
   std::size_t trailing_ones = 0;
   std::size_t total_zeros = 0;  // before the last level
-  std::array<std::int16_t, kMaxLevels> levels{};
-  std::array<std::uint8_t, kMaxLevels> runs{};  // zeros right before each level
+  std::array<std::int16_t, kMaxLevels + 1> levels;  // the first `total` are valid
+  std::array<std::uint8_t, kMaxLevels> runs;  // zeros between a level and the one after, likewise
 };
 
 Coefficients coefficients_of(std::span<const std::int16_t> levels) {
   Coefficients found;
+  // Without branches: a zero is overwritten by the level that comes next.
+  std::array<std::uint8_t, kMaxLevels + 1> places;
+  std::size_t total = 0;
   for (std::size_t i = levels.size(); i-- > 0;) {
-    if (levels[i] != 0) {
-      found.levels[found.total++] = levels[i];
-    } else if (found.total > 0) {
-      ++found.runs[found.total - 1];
-      ++found.total_zeros;
-    }
+    found.levels[total] = levels[i];
+    places[total] = static_cast<std::uint8_t>(i);
+    total += levels[i] != 0 ? 1 : 0;
   }
-  const std::size_t most = std::min<std::size_t>(found.total, 3);
+  found.total = total;
+  if (total == 0) return found;
+  found.total_zeros = places[0] + 1U - total;
+  for (std::size_t k = 0; k + 1 < total; ++k) {
+    found.runs[k] = static_cast<std::uint8_t>(places[k] - places[k + 1] - 1);
+  }
+  const std::size_t most = std::min<std::size_t>(total, 3);
   while (found.trailing_ones < most && std::abs(found.levels[found.trailing_ones]) == 1) {
     ++found.trailing_ones;
   }
@@ -114,7 +120,7 @@ bool write_levels(std::span<const std::int16_t> levels, int total, int nc, BitWr
   assert(levels.size() == 15 || levels.size() == kMaxLevels || levels.size() == kChromaDcLevels);
   assert((nc == kChromaDc) == (levels.size() == kChromaDcLevels));
   if (total == 0) {
-    put_token({}, nc, bits);
+    put_token(Coefficients{}, nc, bits);
     return true;
   }
   const Coefficients block = coefficients_of(levels);
