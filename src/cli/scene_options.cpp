@@ -8,7 +8,7 @@
 
 #include "cli/options.hpp"
 #include "cli/text_output.hpp"
-#include "core/ending.hpp"
+#include "core/text.hpp"
 
 namespace piblocks::cli {
 namespace {

@@ -16,7 +16,7 @@
 #include <type_traits>
 
 #include "core/output_file.hpp"
-#include "core/printable.hpp"
+#include "core/text.hpp"
 
 namespace piblocks::cli {
 

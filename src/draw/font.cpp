@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "core/utf8.hpp"
+#include "core/text.hpp"
 #include "draw/cairo_handles.hpp"
 #include FT_FREETYPE_H
 

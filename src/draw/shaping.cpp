@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "core/utf8.hpp"
+#include "core/text.hpp"
 #include "draw/font.hpp"
 
 namespace piblocks {

@@ -5,9 +5,8 @@
 
 #include <string_view>
 
-#include "core/base64.hpp"
 #include "core/output_file.hpp"
-#include "core/printable.hpp"
+#include "core/text.hpp"
 #include "golden/report_source.hpp"
 
 namespace piblocks {

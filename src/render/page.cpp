@@ -10,12 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base64.hpp"
 #include "core/descriptor.hpp"
-#include "core/ending.hpp"
 #include "core/file_set.hpp"
 #include "core/output_file.hpp"
-#include "core/printable.hpp"
+#include "core/text.hpp"
 #include "render/page_facts.hpp"
 #include "render/page_source.hpp"
 #include "render/renderings.hpp"

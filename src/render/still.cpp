@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "core/ending.hpp"
 #include "core/output_file.hpp"
+#include "core/text.hpp"
 #include "draw/canvas.hpp"
 #include "draw/composition.hpp"
 #include "draw/number_text.hpp"
