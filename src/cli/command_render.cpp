@@ -10,199 +10,195 @@
 #include "cli/progress.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/stop_on_signals.hpp"
-<<<<<<< HEAD
 #include "cli/text_output.hpp"
-#include "core/text.hpp"
-    =======
->>>>>>> main
 #include "core/overwrite_check.hpp"
+#include "core/text.hpp"
 #include "media/output/outputs.hpp"
 #include "render/renderings.hpp"
 
-    namespace piblocks::cli {
-  namespace {
+namespace piblocks::cli {
+namespace {
 
-  int parse_jobs(const std::string& text) { return parse_int(text, 1, kMaxJobs); }
+int parse_jobs(const std::string& text) { return parse_int(text, 1, kMaxJobs); }
 
-  int parse_flashes(const std::string& text) { return parse_int(text, 1, kMaxFlashes); }
+int parse_flashes(const std::string& text) { return parse_int(text, 1, kMaxFlashes); }
 
-  /// "2/3", the second of three.
-  Shard parse_part(const std::string& text) {
-    const std::size_t slash = text.find('/');
-    if (slash == std::string::npos) throw UsageError("must be I/N, such as 2/3");
-    const int count = parse_int(text.substr(slash + 1), 1, kMaxShards);
-    return {.number = parse_int(text.substr(0, slash), 1, count), .count = count};
+/// "2/3", the second of three.
+Shard parse_part(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) throw UsageError("must be I/N, such as 2/3");
+  const int count = parse_int(text.substr(slash + 1), 1, kMaxShards);
+  return {.number = parse_int(text.substr(0, slash), 1, count), .count = count};
+}
+
+double parse_crf(const std::string& text) { return to_double(parse_rational(text)); }
+
+/// Under half the size, and many times the time (tests/benchmark/encoders.md).
+EncoderSettings smallest_file() { return {.crf = 18, .preset = "slower", .encoder = "libx264"}; }
+
+EncoderSettings settings_of(const Command& options) {
+  if (!options.is_given("--smallest")) {
+    return {.crf = options.value("--crf", parse_crf),
+            .preset = options.text("--preset"),
+            .encoder = options.text("--encoder")};
   }
+  for (const char* option : {"--crf", "--preset", "--encoder"}) {
+    if (!options.is_given(option)) continue;
+    throw UsageError(
+        fmt::format("--smallest chooses the encoder and its settings; leave out {}", option));
+  }
+  return smallest_file();
+}
 
-  double parse_crf(const std::string& text) { return to_double(parse_rational(text)); }
+std::optional<Bundle> bundle_of(const Command& options) {
+  const auto poster = options.value("--poster", parse_instant);
+  if (const auto folder = options.text("--bundle")) return Bundle{*folder, poster};
+  if (!poster) return std::nullopt;
+  throw UsageError("--poster is for a bundle; add --bundle DIR or leave it out");
+}
 
-  /// Under half the size, and many times the time (tests/benchmark/encoders.md).
-  EncoderSettings smallest_file() { return {.crf = 18, .preset = "slower", .encoder = "libx264"}; }
+const Destination* destination_of(const Command& options) {
+  const auto found =
+      options.value("--for", [](const std::string& name) { return &parse_destination(name); });
+  if (!found) return nullptr;
+  check_ending(**found, output_of(options));
+  return *found;
+}
 
-  EncoderSettings settings_of(const Command& options) {
-    if (!options.is_given("--smallest")) {
-      return {.crf = options.value("--crf", parse_crf),
-              .preset = options.text("--preset"),
-              .encoder = options.text("--encoder")};
+/// With the settings that suit the destination.
+RenderJob job_of(const Command& options, const SceneOptions& scene) {
+  const Destination* const destination = destination_of(options);
+  const std::string output = output_of(options);
+  EncoderSettings settings = settings_of(options);
+  Script script = destination == nullptr ? scene.script()
+                                         : scene.script(destination->defaults,
+                                                        fmt::format("--for {}", destination->name));
+  if (destination != nullptr && !settings.encoder && has_ending(output, ".mov")) {
+    settings.encoder = destination->mov_encoder;
+  }
+  if (options.is_given("--no-sound") && is_sound_alone(output)) {
+    throw UsageError(
+        fmt::format("--no-sound: '{}' is the sound alone; leave one of them out", output));
+  }
+  return {.script = std::move(script),
+          .output = output,
+          .encoder = std::move(settings),
+          .jobs = options.value("--jobs", parse_jobs).value_or(processor_count()),
+          .shard = options.value("--part", parse_part),
+          .profile = options.is_given("--profile"),
+          .bundle = bundle_of(options),
+          .max_flashes = options.value("--max-flashes", parse_flashes)};
+}
+
+/// What is written, for messages.
+std::string name_of(const RenderJob& job) {
+  if (job.bundle) return std::filesystem::path(job.bundle->folder) / job.output;
+  return job.shard ? shard_name(job.output, *job.shard) : job.output;
+}
+
+/// @throws UsageError if the job would write over a file that it reads.
+void check_outputs(const SceneOptions& scene, const RenderJob& job) {
+  OverwriteCheck check;
+  scene.add_inputs(check, job.script);
+  if (job.bundle) {
+    for (const std::string& file : bundle_files(job)) {
+      check.writes("--bundle", std::filesystem::path(job.bundle->folder) / file);
     }
-    for (const char* option : {"--crf", "--preset", "--encoder"}) {
-      if (!options.is_given(option)) continue;
-      throw UsageError(
-          fmt::format("--smallest chooses the encoder and its settings; leave out {}", option));
-    }
-    return smallest_file();
+  } else if (job.shard) {
+    check.writes("--part", shard_name(job.output, *job.shard));
+  } else {
+    claim_output(check, "--output", job.output);
   }
+  check.check();
+}
 
-  std::optional<Bundle> bundle_of(const Command& options) {
-    const auto poster = options.value("--poster", parse_instant);
-    if (const auto folder = options.text("--bundle")) return Bundle{*folder, poster};
-    if (!poster) return std::nullopt;
-    throw UsageError("--poster is for a bundle; add --bundle DIR or leave it out");
-  }
+void run_render(const Command& options, const SceneOptions& scene) {
+  refuse_terminal(options);
+  const RenderJob job = job_of(options, scene);
+  check_outputs(scene, job);
+  const bool quiet = options.is_given("--quiet");
+  const StopOnSignals signals;
+  ProgressReport report(name_of(job), quiet);
+  const Rendered rendered = render(
+      job, [&](const Progress& progress) { report.update(progress); }, signals.token());
+  report.finish();
+  if (job.profile) print_profile(rendered);
+  if (!quiet) note_convention(job.script);
+}
 
-  const Destination* destination_of(const Command& options) {
-    const auto found =
-        options.value("--for", [](const std::string& name) { return &parse_destination(name); });
-    if (!found) return nullptr;
-    check_ending(**found, output_of(options));
-    return *found;
-  }
+void add_encoder_options(Command& command) {
+  command.add_value("--crf", "Q", "Rate factor, 1 (best) to 51 (worst); 0 to 63 for WebM");
+  command.add_value("--preset", "P", "The encoder's speed preset, such as veryfast");
+  command.add_value("--encoder", "NAME", "Video encoder; 'piblocks info' lists them");
+  command.add_flag("--smallest",
+                   "Smallest MP4, by libx264: under half the size, and many\ntimes the time");
+}
 
-  /// With the settings that suit the destination.
-  RenderJob job_of(const Command& options, const SceneOptions& scene) {
-    const Destination* const destination = destination_of(options);
-    const std::string output = output_of(options);
-    EncoderSettings settings = settings_of(options);
-    Script script =
-        destination == nullptr
-            ? scene.script()
-            : scene.script(destination->defaults, fmt::format("--for {}", destination->name));
-    if (destination != nullptr && !settings.encoder && has_ending(output, ".mov")) {
-      settings.encoder = destination->mov_encoder;
-    }
-    if (options.is_given("--no-sound") && is_sound_alone(output)) {
-      throw UsageError(
-          fmt::format("--no-sound: '{}' is the sound alone; leave one of them out", output));
-    }
-    return {.script = std::move(script),
-            .output = output,
-            .encoder = std::move(settings),
-            .jobs = options.value("--jobs", parse_jobs).value_or(processor_count()),
-            .shard = options.value("--part", parse_part),
-            .profile = options.is_given("--profile"),
-            .bundle = bundle_of(options),
-            .max_flashes = options.value("--max-flashes", parse_flashes)};
-  }
+void add_run_options(Command& command) {
+  command.add_value("--jobs", "N",
+                    "Threads (default: one a processor); changes no byte of the output");
+  command.add_value("--part", "I/N",
+                    "Render the I-th of N shares to OUT.part-I-of-N,\nfor 'piblocks join'");
+  command.add_value("--bundle", "DIR",
+                    "Write OUT, an MP4, into DIR, with a poster, captions, alt text\n"
+                    "and snippets for LaTeX beamer and reveal.js beside it");
+  command.add_value("--poster", "T", "Instant that the poster shows (default: the last frame)");
+  command.add_value("--max-flashes", "N",
+                    "Render nothing if the film would flash more than N times\n"
+                    "within a second; 3 are held to be harmless (WCAG 2.3.1)");
+  command.add_flag("--profile", "Print what each stage cost, on standard error");
+  command.add_flag("--quiet", "Print nothing but errors");
+}
 
-  /// What is written, for messages.
-  std::string name_of(const RenderJob& job) {
-    if (job.bundle) return std::filesystem::path(job.bundle->folder) / job.output;
-    return job.shard ? shard_name(job.output, *job.shard) : job.output;
-  }
+void run_join(const Command& options) {
+  const StopOnSignals signals;
+  refuse_terminal(options);
+  const std::vector<std::string> parts = options.texts("PART");
+  const std::string output = output_of(options);
+  const std::int64_t frames = join(parts, output, signals.token());
+  if (options.is_given("--quiet")) return;
+  say("{}: {} {} from {} {}\n", output == "-" ? "standard output" : output, frames,
+      frames == 1 ? "frame" : "frames", parts.size(), parts.size() == 1 ? "part" : "parts");
+}
 
-  /// @throws UsageError if the job would write over a file that it reads.
-  void check_outputs(const SceneOptions& scene, const RenderJob& job) {
-    OverwriteCheck check;
-    scene.add_inputs(check, job.script);
-    if (job.bundle) {
-      for (const std::string& file : bundle_files(job)) {
-        check.writes("--bundle", std::filesystem::path(job.bundle->folder) / file);
-      }
-    } else if (job.shard) {
-      check.writes("--part", shard_name(job.output, *job.shard));
-    } else {
-      claim_output(check, "--output", job.output);
-    }
-    check.check();
-  }
+}  // namespace
 
-  void run_render(const Command& options, const SceneOptions& scene) {
-    refuse_terminal(options);
-    const RenderJob job = job_of(options, scene);
-    check_outputs(scene, job);
-    const bool quiet = options.is_given("--quiet");
-    const StopOnSignals signals;
-    ProgressReport report(name_of(job), quiet);
-    const Rendered rendered = render(
-        job, [&](const Progress& progress) { report.update(progress); }, signals.token());
-    report.finish();
-    if (job.profile) print_profile(rendered);
-    if (!quiet) note_convention(job.script);
-  }
+void add_render(Command& app) {
+  Command command = app.add_command("render", "Render a video or a sequence of frames");
+  SceneOptions scene(command);
+  command.add_required_value("-o,--output", "OUT",
+                             "What to write: NAME.mp4, NAME.mov, NAME.webm, NAME.gif,\n"
+                             "NAME.apng, FRAMES/%06d.png, NAME.y4m, - (y4m on standard\n"
+                             "output), NAME.framehash, null, NAME.wav: the sound alone, or\n"
+                             "NAME.html: a page to step through time and collisions");
+  command.add_value("--for", "WHERE",
+                    "Size, rate and background that suit one of:\n" + destination_names());
+  scene.add_picture();
+  scene.add_show();
+  scene.add_exposure();
+  scene.add_timing();
+  scene.add_sound();
+  add_encoder_options(command);
+  add_run_options(command);
+  command.set_footer(
+      "Examples:\n"
+      "  piblocks render -o pi.mp4\n"
+      "  piblocks render --digits 5 --speed 1/2 --size 1280x720 -o frames/%06d.png\n"
+      "  piblocks render scene.toml --to last+3 -o - | ffplay -");
+  command.on_run([=] { run_render(command, scene); });
+}
 
-  void add_encoder_options(Command& command) {
-    command.add_value("--crf", "Q", "Rate factor, 1 (best) to 51 (worst); 0 to 63 for WebM");
-    command.add_value("--preset", "P", "The encoder's speed preset, such as veryfast");
-    command.add_value("--encoder", "NAME", "Video encoder; 'piblocks info' lists them");
-    command.add_flag("--smallest",
-                     "Smallest MP4, by libx264: under half the size, and many\ntimes the time");
-  }
-
-  void add_run_options(Command& command) {
-    command.add_value("--jobs", "N",
-                      "Threads (default: one a processor); changes no byte of the output");
-    command.add_value("--part", "I/N",
-                      "Render the I-th of N shares to OUT.part-I-of-N,\nfor 'piblocks join'");
-    command.add_value("--bundle", "DIR",
-                      "Write OUT, an MP4, into DIR, with a poster, captions, alt text\n"
-                      "and snippets for LaTeX beamer and reveal.js beside it");
-    command.add_value("--poster", "T", "Instant that the poster shows (default: the last frame)");
-    command.add_value("--max-flashes", "N",
-                      "Render nothing if the film would flash more than N times\n"
-                      "within a second; 3 are held to be harmless (WCAG 2.3.1)");
-    command.add_flag("--profile", "Print what each stage cost, on standard error");
-    command.add_flag("--quiet", "Print nothing but errors");
-  }
-
-  void run_join(const Command& options) {
-    const StopOnSignals signals;
-    refuse_terminal(options);
-    const std::vector<std::string> parts = options.texts("PART");
-    const std::string output = output_of(options);
-    const std::int64_t frames = join(parts, output, signals.token());
-    if (options.is_given("--quiet")) return;
-    say("{}: {} {} from {} {}\n", output == "-" ? "standard output" : output, frames,
-        frames == 1 ? "frame" : "frames", parts.size(), parts.size() == 1 ? "part" : "parts");
-  }
-
-  }  // namespace
-
-  void add_render(Command & app) {
-    Command command = app.add_command("render", "Render a video or a sequence of frames");
-    SceneOptions scene(command);
-    command.add_required_value("-o,--output", "OUT",
-                               "What to write: NAME.mp4, NAME.mov, NAME.webm, NAME.gif,\n"
-                               "NAME.apng, FRAMES/%06d.png, NAME.y4m, - (y4m on standard\n"
-                               "output), NAME.framehash, null, NAME.wav: the sound alone, or\n"
-                               "NAME.html: a page to step through time and collisions");
-    command.add_value("--for", "WHERE",
-                      "Size, rate and background that suit one of:\n" + destination_names());
-    scene.add_picture();
-    scene.add_show();
-    scene.add_exposure();
-    scene.add_timing();
-    scene.add_sound();
-    add_encoder_options(command);
-    add_run_options(command);
-    command.set_footer(
-        "Examples:\n"
-        "  piblocks render -o pi.mp4\n"
-        "  piblocks render --digits 5 --speed 1/2 --size 1280x720 -o frames/%06d.png\n"
-        "  piblocks render scene.toml --to last+3 -o - | ffplay -");
-    command.on_run([=] { run_render(command, scene); });
-  }
-
-  void add_join(Command & app) {
-    Command command = app.add_command("join", "Join the parts of a rendering");
-    command.add_arguments("PART", "Every file of 'render --part', in any order");
-    command.add_required_value("-o,--output", "OUT", "The name that the parts were rendered for");
-    command.add_flag("--quiet", "Print nothing but errors");
-    command.set_footer(
-        "Examples:\n"
-        "  piblocks render --part 1/2 -o pi.mp4    # on one machine: pi.mp4.part-1-of-2\n"
-        "  piblocks render --part 2/2 -o pi.mp4    # on another: pi.mp4.part-2-of-2\n"
-        "  piblocks join pi.mp4.part-* -o pi.mp4   # the bytes of 'piblocks render -o pi.mp4'");
-    command.on_run([=] { run_join(command); });
-  }
+void add_join(Command& app) {
+  Command command = app.add_command("join", "Join the parts of a rendering");
+  command.add_arguments("PART", "Every file of 'render --part', in any order");
+  command.add_required_value("-o,--output", "OUT", "The name that the parts were rendered for");
+  command.add_flag("--quiet", "Print nothing but errors");
+  command.set_footer(
+      "Examples:\n"
+      "  piblocks render --part 1/2 -o pi.mp4    # on one machine: pi.mp4.part-1-of-2\n"
+      "  piblocks render --part 2/2 -o pi.mp4    # on another: pi.mp4.part-2-of-2\n"
+      "  piblocks join pi.mp4.part-* -o pi.mp4   # the bytes of 'piblocks render -o pi.mp4'");
+  command.on_run([=] { run_join(command); });
+}
 
 }  // namespace piblocks::cli
