@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-#include "core/utf8.hpp"
+#include "core/text.hpp"
 #include "draw/cairo_handles.hpp"
 #include FT_FREETYPE_H
 

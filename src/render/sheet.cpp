@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/ending.hpp"
+#include "core/text.hpp"
 #include "core/output_file.hpp"
 #include "draw/canvas.hpp"
 #include "draw/composition.hpp"
