@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "draw/story_pictures.hpp"
+#include "draw/montage.hpp"
 #include "media/png/png_reader.hpp"
 #include "physics/blocks.hpp"
 #include "physics/exposure.hpp"
@@ -53,7 +53,8 @@ DrawList FilmRun::picture(const FrameTime& shown) const {
   for (const TimeSlice& slice : shown.exposure) {
     exposures.push_back({to_double(slice.share), expose(*log_, slice.from, slice.to)});
   }
-  return composition_->frame({log_->state_at(shown.time), shown.time, shown.slower}, exposures);
+  return composition_->frame(
+      {log_->state_at(shown.time), shown.time, shown.slower, std::move(exposures)});
 }
 
 std::shared_ptr<const Image> read_logo(const Scene& scene) {

@@ -17,7 +17,7 @@
 
 #include "draw/composition.hpp"
 #include "draw/draw_list.hpp"
-#include "draw/story_pictures.hpp"
+#include "draw/montage.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
