@@ -13,7 +13,7 @@
 #include "cli/stop_on_signals.hpp"
 #include "core/ending.hpp"
 #include "core/overwrite_check.hpp"
-#include "media/output/outputs.hpp"
+#include "media/output/output.hpp"
 #include "render/renderings.hpp"
 
 namespace piblocks::cli {

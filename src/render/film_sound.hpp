@@ -6,7 +6,7 @@
 #include <stop_token>
 #include <string>
 
-#include "media/output/frame_sink.hpp"
+#include "media/output/output.hpp"
 #include "media/output/shard_file.hpp"
 #include "render/film.hpp"
 #include "sound/soundtrack.hpp"
