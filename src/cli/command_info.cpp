@@ -13,7 +13,7 @@
 #include "cli/text_output.hpp"
 #include "draw/canvas.hpp"
 #include "media/output/output.hpp"
-#include "physics/physics_versions.hpp"
+#include "physics/engines.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks::cli {

@@ -11,7 +11,7 @@
 #include "cli/progress.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/stop_on_signals.hpp"
-#include "core/ending.hpp"
+#include "core/text.hpp"
 #include "core/overwrite_check.hpp"
 #include "media/output/output.hpp"
 #include "render/renderings.hpp"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/ending.hpp"
+#include "core/text.hpp"
 
 namespace piblocks::cli {
 namespace {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "core/printable.hpp"
+#include "core/text.hpp"
 
 namespace piblocks::cli {
 

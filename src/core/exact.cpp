@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <mpfr.h>
 #include <piblocks/error.hpp>
 #include <piblocks/exact.hpp>
 
@@ -7,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/mpfr_thread_cache.hpp"
+#include "core/real.hpp"
 
 namespace piblocks {
 namespace {
@@ -140,13 +139,7 @@ double to_double(const Rational& value) {
   if (numerator && denominator) return *numerator / *denominator;
   // 192 bits before the last rounding: the result is the nearest double unless the value lies
   // within 2^-138 of its relative size from the middle of two doubles.
-  free_mpfr_cache_with_thread();
-  mpfr_t wide;
-  mpfr_init2(wide, 192);
-  mpfr_set_q(wide, value.get_mpq_t(), MPFR_RNDN);
-  const double nearest = mpfr_get_d(wide, MPFR_RNDN);
-  mpfr_clear(wide);
-  return nearest;
+  return Real(192, value).to_double();
 }
 
 Integer ceil(const Rational& value) {

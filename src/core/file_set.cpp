@@ -1,15 +1,11 @@
 #include "core/file_set.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
-#include <piblocks/error.hpp>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <system_error>
-
-#include "core/descriptor.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;
@@ -20,16 +16,8 @@ namespace {
 constexpr const char* kNew = "new";
 constexpr const char* kOld = "old";
 
-[[noreturn]] void fail(const char* operation, const fs::path& path, const std::string& reason) {
-  throw IoError(fmt::format("output: cannot {} '{}': {}", operation, path.string(), reason));
-}
-
-[[noreturn]] void fail(const char* operation, const fs::path& path, int error_number) {
-  fail(operation, path, error_text(error_number));
-}
-
 void make_folder(const fs::path& path) {
-  if (::mkdir(path.c_str(), 0777) != 0) fail("make", path, errno);
+  if (::mkdir(path.c_str(), 0777) != 0) fail_output("make", path, errno);
 }
 
 /// Moves files to their names, and old files out of the way, so that they can be moved back. Once
@@ -61,7 +49,7 @@ class Renaming {
   /// O_PATH needs no right to read the folder.
   static Descriptor open_folder(const fs::path& path) {
     Descriptor folder(::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
-    if (!folder.is_open()) fail("open", path, errno);
+    if (!folder.is_open()) fail_output("open", path, errno);
     return folder;
   }
   static int move(const Descriptor& from, const Descriptor& to, const char* name) noexcept {
@@ -107,9 +95,9 @@ void FileSet::add(const std::string& name, std::span<const std::uint8_t> bytes) 
   const fs::path path = add(name);
   const fs::path final_path = folder_ / name;
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  if (!file.is_open()) fail("make", final_path, errno);
-  if (const int error = file.write(bytes)) fail("write", final_path, error);
-  if (const int error = file.close()) fail("close", final_path, error);
+  if (!file.is_open()) fail_output("make", final_path, errno);
+  if (const int error = file.write(bytes)) fail_output("write", final_path, error);
+  if (const int error = file.close()) fail_output("close", final_path, error);
 }
 
 void FileSet::remove(const std::string& name) {
@@ -121,13 +109,13 @@ void FileSet::commit() {
   if (!names_.empty() || !removed_.empty()) {
     prepare();
     // One call for the whole file system: a sync of each of thousands of files takes far longer.
-    if (::syncfs(temporary_.descriptor()) != 0) fail("sync", temporary_.path(), errno);
+    if (::syncfs(temporary_.descriptor()) != 0) fail_output("sync", temporary_.path(), errno);
     move_into_place();
   }
   made_folders_.keep();
   std::error_code error;
   fs::remove_all(temporary_.path(), error);
-  if (error) fail("remove", temporary_.path(), error.value());
+  if (error) fail_output("remove", temporary_.path(), error.value());
   temporary_.release();
   sync_folder(folder_);
 }
@@ -136,10 +124,10 @@ void FileSet::check_destination(const std::string& name) const {
   const fs::path to = folder_ / name;
   std::error_code none;
   if (fs::is_symlink(fs::symlink_status(to, none))) {
-    fail("replace", to, "a symbolic link; remove it or choose another name");
+    fail_output("replace", to, "a symbolic link; remove it or choose another name");
   }
   const std::string problem = problem_of_replacing(to);
-  if (!problem.empty()) fail("replace", to, problem);
+  if (!problem.empty()) fail_output("replace", to, problem);
 }
 
 /// Finds what would make renaming fail, before the first file is renamed.
@@ -151,7 +139,7 @@ void FileSet::prepare() const {
     if (!fs::exists(to, none)) continue;
     const fs::path from = temporary_.path() / kNew / name;
     const Descriptor file(::open(from.c_str(), O_RDONLY | O_CLOEXEC));
-    if (!file.is_open()) fail("open", from, errno);
+    if (!file.is_open()) fail_output("open", from, errno);
     take_permissions(file.get(), to);
   }
 }
@@ -174,8 +162,8 @@ void FileSet::move_into_place() const {
   if (error == 0) return;
   for (std::size_t i = 0; i < placed; ++i) renaming.take_back(names_[i].c_str());
   for (std::size_t i = 0; i < removed; ++i) renaming.put_back(removed_[i].c_str());
-  if (placed < names_.size()) fail("rename to", folder_ / names_[placed], error);
-  fail("remove", folder_ / removed_[removed], error);
+  if (placed < names_.size()) fail_output("rename to", folder_ / names_[placed], error);
+  fail_output("remove", folder_ / removed_[removed], error);
 }
 
 }  // namespace piblocks

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/output_file.hpp"
-#include "core/unfinished.hpp"
 
 namespace piblocks {
 

@@ -18,11 +18,6 @@ namespace {
   throw UsageError(fmt::format("output: cannot open '{}': {}", path.string(), why));
 }
 
-[[noreturn]] void fail_io(const char* operation, const std::string& name, int error_number) {
-  throw IoError(
-      fmt::format("output: cannot {} '{}': {}", operation, name, error_text(error_number)));
-}
-
 /// A link in /proc/self/fd may lead to a file without a name: the text of the link is then none.
 fs::path named_target(const fs::path& path) {
   fs::path target = follow_links(path);
@@ -34,6 +29,14 @@ fs::path named_target(const fs::path& path) {
 }
 
 }  // namespace
+
+void fail_output(const char* operation, const std::string& name, const std::string& reason) {
+  throw IoError(fmt::format("output: cannot {} '{}': {}", operation, name, reason));
+}
+
+void fail_output(const char* operation, const std::string& name, int error_number) {
+  fail_output(operation, name, error_text(error_number));
+}
 
 MadeFolders::MadeFolders(const fs::path& folder) {
   std::vector<fs::path> missing;
@@ -94,7 +97,7 @@ void take_permissions(int descriptor, const fs::path& replaced) {
   struct stat now {};
   const bool has_them = ::fstat(descriptor, &now) == 0 &&
                         (now.st_mode & kPermissions) == (old.st_mode & kPermissions);
-  if (!has_them) fail_io("keep the permissions of", replaced, error);
+  if (!has_them) fail_output("keep the permissions of", replaced, error);
 }
 
 TemporaryFile::TemporaryFile(fs::path final_path) : final_path_(std::move(final_path)) {
@@ -110,8 +113,9 @@ TemporaryFile::TemporaryFile(fs::path final_path) : final_path_(std::move(final_
 }
 
 void TemporaryFile::commit() {
-  if (::fsync(file_->descriptor()) != 0) fail_io("sync", path(), errno);
-  if (::rename(path().c_str(), final_path_.c_str()) != 0) fail_io("rename to", final_path_, errno);
+  if (::fsync(file_->descriptor()) != 0) fail_output("sync", path(), errno);
+  if (::rename(path().c_str(), final_path_.c_str()) != 0)
+    fail_output("rename to", final_path_, errno);
   file_->release();
   folders_->keep();
   sync_folder(final_path_.parent_path());
@@ -132,7 +136,7 @@ OutputFile::OutputFile(const std::string& name, Contents contents)
 void OutputFile::write(std::span<const std::uint8_t> bytes) {
   const int error = descriptor_.write(bytes);
   if (error == EPIPE && contents_ == Contents::text) throw ReaderGone("output: nobody reads it");
-  if (error != 0) fail_io("write", name_, error);
+  if (error != 0) fail_output("write", name_, error);
 }
 
 void OutputFile::write(std::string_view text) {
@@ -143,14 +147,14 @@ void OutputFile::overwrite(std::uint64_t position, std::span<const std::uint8_t>
   const int file = descriptor_.get();
   const off_t end = ::lseek(file, 0, SEEK_CUR);
   if (end < 0 || ::lseek(file, static_cast<off_t>(position), SEEK_SET) < 0) {
-    fail_io("write", name_, errno);
+    fail_output("write", name_, errno);
   }
   write(bytes);
-  if (::lseek(file, end, SEEK_SET) < 0) fail_io("write", name_, errno);
+  if (::lseek(file, end, SEEK_SET) < 0) fail_output("write", name_, errno);
 }
 
 void OutputFile::finish() {
-  if (const int error = descriptor_.close()) fail_io("close", name_, error);
+  if (const int error = descriptor_.close()) fail_output("close", name_, error);
   if (temporary_) temporary_->commit();
 }
 

@@ -1,4 +1,4 @@
-// A file that appears under its name only when it is complete.
+// Files that appear under their names only when they are complete.
 // In: bytes, in order. Out: the file, synced and renamed by finish(), or no trace of it.
 #pragma once
 
@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,9 +15,55 @@
 #include <vector>
 
 #include "core/descriptor.hpp"
-#include "core/unfinished.hpp"
 
 namespace piblocks {
+
+/// @throws IoError "output: cannot OPERATION 'NAME': REASON".
+[[noreturn]] void fail_output(const char* operation, const std::string& name,
+                              const std::string& reason);
+[[noreturn]] void fail_output(const char* operation, const std::string& name, int error_number);
+
+/// A file or folder under a temporary name, NAME.unfinished-CODE beside the final one. The
+/// destructor removes it unless it has been renamed.
+///
+/// CODE is ten random letters or digits and six that are computed from NAME and these ten, so no
+/// other program makes such a name. The file or folder is locked (flock) as long as it is written.
+/// A killed process leaves it without a lock, and the next run for the same NAME by the same user
+/// removes it. On file systems without locks it stays.
+class Unfinished {
+ public:
+  enum class Kind { file, folder };
+  /// Whether several processes may write for the same name at the same time.
+  enum class Sharing { shared, exclusive };
+  /// Saves complete files from a folder that a killed process left.
+  /// @return whether the rest may be removed.
+  using Rescue = std::function<bool(const std::filesystem::path& folder)>;
+
+  /// @throws UsageError if it cannot be made, or another process is writing for an exclusive name;
+  ///         IoError if the disk is full or broken.
+  Unfinished(const std::filesystem::path& final_path, Kind kind, Sharing sharing = Sharing::shared,
+             const Rescue& rescue = {});
+  ~Unfinished();
+  Unfinished(const Unfinished&) = delete;
+  Unfinished& operator=(const Unfinished&) = delete;
+
+  std::filesystem::path path() const { return path_; }
+  /// Open as long as the object lives.
+  int descriptor() const noexcept { return lock_.get(); }
+  /// Nothing is left under path(): it has been renamed.
+  void release() noexcept { path_.clear(); }
+
+ private:
+  void make(const std::filesystem::path& final_path, Kind kind);
+  void remove() noexcept;
+
+  std::string path_;
+  Descriptor lock_;
+};
+
+/// Syncs a folder to its device, so that not even a power failure undoes what was renamed in it.
+/// @throws IoError
+void sync_folder(const std::filesystem::path& folder);
 
 /// Folders that had to be made for an output; removed again, if empty, unless kept.
 class MadeFolders {

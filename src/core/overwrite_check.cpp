@@ -28,27 +28,25 @@ std::string quoted(const std::string& what, const std::string& path) {
   return path.empty() ? what : fmt::format("{} '{}'", what, path);
 }
 
-}  // namespace
-
-std::optional<OverwriteCheck::FileId> OverwriteCheck::id_of(const fs::path& path, mode_t type) {
+std::optional<FileId> id_of(const fs::path& path, mode_t type) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0 || (status.st_mode & S_IFMT) != type) return std::nullopt;
   return FileId(status.st_dev, status.st_ino);
 }
 
-std::optional<OverwriteCheck::Place> OverwriteCheck::place_of(const fs::path& folder) {
+std::optional<FilePlace> place_of(const fs::path& folder) {
   fs::path rest;
   for (fs::path at = folder;; at = at.parent_path()) {
     if (const auto id = id_of(at.empty() ? "." : at, S_IFDIR)) {
-      return Place(*id, rest.lexically_normal());
+      return FilePlace(*id, rest.lexically_normal());
     }
     if (at.empty() || at == at.parent_path()) return std::nullopt;
     if (at.has_filename()) rest = rest.empty() ? at.filename() : at.filename() / rest;
   }
 }
 
-OverwriteCheck::Claim OverwriteCheck::file_claim(const std::string& what, const fs::path& file) {
-  Claim claim{what, file.string()};
+FileClaim file_claim(const std::string& what, const fs::path& file) {
+  FileClaim claim{what, file.string()};
   if (const auto id = id_of(file, S_IFREG)) claim.files.push_back(*id);
   const fs::path target = target_of(file);
   claim.folder = place_of(target.parent_path());
@@ -56,10 +54,9 @@ OverwriteCheck::Claim OverwriteCheck::file_claim(const std::string& what, const 
   return claim;
 }
 
-OverwriteCheck::Claim OverwriteCheck::folder_claim(const std::string& what, const fs::path& folder,
-                                                   Names names) {
+FileClaim folder_claim(const std::string& what, const fs::path& folder, FileNames names) {
   const fs::path path = folder.empty() ? "." : folder;
-  Claim claim{what, path.string()};
+  FileClaim claim{what, path.string()};
   claim.folder = place_of(path);
   std::error_code error;
   for (fs::directory_iterator at(path, error), end; !error && at != end; at.increment(error)) {
@@ -71,31 +68,7 @@ OverwriteCheck::Claim OverwriteCheck::folder_claim(const std::string& what, cons
   return claim;
 }
 
-void OverwriteCheck::reads(const std::string& what, const fs::path& file) {
-  inputs_.push_back(file_claim(what, file));
-}
-
-void OverwriteCheck::reads_folder(const std::string& what, const fs::path& folder, Names names) {
-  inputs_.push_back(folder_claim(what, folder, std::move(names)));
-}
-
-void OverwriteCheck::writes(const std::string& what, const fs::path& file) {
-  outputs_.push_back(file_claim(what, file));
-}
-
-void OverwriteCheck::writes_some_of(const std::string& what, const std::string& name,
-                                    const fs::path& folder, Names names) {
-  outputs_.push_back(folder_claim(what, folder, std::move(names)));
-  outputs_.back().path = name;
-}
-
-void OverwriteCheck::writes_standard_output() {
-  struct stat status {};
-  if (::fstat(STDOUT_FILENO, &status) != 0 || !S_ISREG(status.st_mode)) return;
-  outputs_.push_back({"standard output", "", {FileId(status.st_dev, status.st_ino)}});
-}
-
-bool OverwriteCheck::meet(const Claim& one, const Claim& other) {
+bool meet(const FileClaim& one, const FileClaim& other) {
   std::vector<FileId> both;
   std::ranges::set_intersection(one.files, other.files, std::back_inserter(both));
   if (!both.empty()) return true;
@@ -106,10 +79,37 @@ bool OverwriteCheck::meet(const Claim& one, const Claim& other) {
   return !one.names || !other.names;
 }
 
+}  // namespace
+
+void OverwriteCheck::reads(const std::string& what, const fs::path& file) {
+  inputs_.push_back(file_claim(what, file));
+}
+
+void OverwriteCheck::reads_folder(const std::string& what, const fs::path& folder,
+                                  FileNames names) {
+  inputs_.push_back(folder_claim(what, folder, std::move(names)));
+}
+
+void OverwriteCheck::writes(const std::string& what, const fs::path& file) {
+  outputs_.push_back(file_claim(what, file));
+}
+
+void OverwriteCheck::writes_some_of(const std::string& what, const std::string& name,
+                                    const fs::path& folder, FileNames names) {
+  outputs_.push_back(folder_claim(what, folder, std::move(names)));
+  outputs_.back().path = name;
+}
+
+void OverwriteCheck::writes_standard_output() {
+  struct stat status {};
+  if (::fstat(STDOUT_FILENO, &status) != 0 || !S_ISREG(status.st_mode)) return;
+  outputs_.push_back({"standard output", "", {FileId(status.st_dev, status.st_ino)}});
+}
+
 void OverwriteCheck::check() const {
   std::vector<std::string> problems;
   for (auto output = outputs_.begin(); output != outputs_.end(); ++output) {
-    for (const Claim& input : inputs_) {
+    for (const FileClaim& input : inputs_) {
       if (!meet(*output, input)) continue;
       problems.push_back(fmt::format("{}: would write {} {}; choose another name",
                                      quoted(output->what, output->path),

@@ -17,22 +17,36 @@
 
 namespace piblocks {
 
+using FileId = std::pair<dev_t, ino_t>;
+/// A folder: the nearest one that exists, and the rest of the path.
+using FilePlace = std::pair<FileId, std::string>;
+/// Whether a name is one of those that are read or written.
+using FileNames = std::function<bool(const std::string& name)>;
+
+/// A file, or a folder with names in it.
+struct FileClaim {
+  std::string what;
+  std::string path;
+  std::vector<FileId> files = {};  ///< those that exist, sorted
+  std::optional<FilePlace> folder = {};  ///< in which the file is, or whose names are claimed
+  std::optional<std::string> name = {};  ///< of the file
+  FileNames names = {};                  ///< in the folder; all if empty
+};
+
 class OverwriteCheck {
  public:
-  /// Whether a name is one of those that are read or written.
-  using Names = std::function<bool(const std::string& name)>;
-
   /// @param what  the role of the file, for messages: "the scene file".
   void reads(const std::string& what, const std::filesystem::path& file);
   /// Reads the files of a folder that have these names; without names all, so that nothing may be
   /// written into the folder.
-  void reads_folder(const std::string& what, const std::filesystem::path& folder, Names names = {});
+  void reads_folder(const std::string& what, const std::filesystem::path& folder,
+                    FileNames names = {});
 
   void writes(const std::string& what, const std::filesystem::path& file);
   /// Writes files of a folder, with some of these names.
   /// @param name  of all of them, for messages: "frames/%06d.png".
   void writes_some_of(const std::string& what, const std::string& name,
-                      const std::filesystem::path& folder, Names names);
+                      const std::filesystem::path& folder, FileNames names);
   /// Writes to standard output, which may have been redirected to a file.
   void writes_standard_output();
 
@@ -40,29 +54,8 @@ class OverwriteCheck {
   void check() const;
 
  private:
-  using FileId = std::pair<dev_t, ino_t>;
-  /// A folder: the nearest one that exists, and the rest of the path.
-  using Place = std::pair<FileId, std::string>;
-
-  /// A file, or a folder with names in it.
-  struct Claim {
-    std::string what;
-    std::string path;
-    std::vector<FileId> files = {};        ///< those that exist, sorted
-    std::optional<Place> folder = {};      ///< in which the file is, or whose names are claimed
-    std::optional<std::string> name = {};  ///< of the file
-    Names names = {};                      ///< in the folder; all if empty
-  };
-
-  static std::optional<FileId> id_of(const std::filesystem::path& path, mode_t type);
-  static std::optional<Place> place_of(const std::filesystem::path& folder);
-  static Claim file_claim(const std::string& what, const std::filesystem::path& file);
-  static Claim folder_claim(const std::string& what, const std::filesystem::path& folder,
-                            Names names);
-  static bool meet(const Claim& one, const Claim& other);
-
-  std::vector<Claim> inputs_;
-  std::vector<Claim> outputs_;
+  std::vector<FileClaim> inputs_;
+  std::vector<FileClaim> outputs_;
 };
 
 }  // namespace piblocks

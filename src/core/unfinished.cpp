@@ -1,5 +1,3 @@
-#include "core/unfinished.hpp"
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
@@ -15,6 +13,8 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+
+#include "core/output_file.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;
@@ -187,8 +187,7 @@ void sync_folder(const fs::path& folder) {
   // A folder may be writable but not readable; some file systems cannot sync folders.
   if (!descriptor.is_open() && errno == EACCES) return;
   if (descriptor.is_open() && (::fsync(descriptor.get()) == 0 || errno == EINVAL)) return;
-  throw IoError(
-      fmt::format("output: cannot sync folder '{}': {}", path.string(), error_text(errno)));
+  fail_output("sync folder", path, errno);
 }
 
 }  // namespace piblocks

@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "core/ending.hpp"
+#include "core/text.hpp"
 #include "golden/frame_source.hpp"
 #include "golden/framehash_file.hpp"
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "core/ending.hpp"
+#include "core/text.hpp"
 #include "media/libav/av_module.hpp"
 #include "media/output/frame_pattern.hpp"
 #include "media/png/png_reader.hpp"

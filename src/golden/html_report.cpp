@@ -3,9 +3,8 @@
 
 #include <string_view>
 
-#include "core/base64.hpp"
+#include "core/text.hpp"
 #include "core/output_file.hpp"
-#include "core/printable.hpp"
 #include "golden/report_source.hpp"
 #include "golden/reports.hpp"
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/output_file.hpp"
-#include "core/printable.hpp"
+#include "core/text.hpp"
 #include "golden/reports.hpp"
 
 namespace piblocks {

@@ -2,6 +2,7 @@
 // In: exact values. Out: doubles, problems, exceptions.
 #pragma once
 
+#include <fmt/format.h>
 #include <piblocks/run.hpp>
 
 #include <cmath>
@@ -9,7 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "core/format_rational.hpp"
+/// In messages a Rational is what to_text() makes of it.
+template <>
+struct fmt::formatter<piblocks::Rational> : fmt::formatter<std::string> {
+  template <typename Context>
+  auto format(const piblocks::Rational& value, Context& context) const {
+    return fmt::formatter<std::string>::format(piblocks::to_text(value), context);
+  }
+};
 
 namespace piblocks {
 

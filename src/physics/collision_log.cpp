@@ -1,28 +1,11 @@
-#include <fmt/format.h>
-#include <piblocks/error.hpp>
 #include <piblocks/run.hpp>
 
-#include <algorithm>
-
 #include "physics/blocks.hpp"
-#include "physics/event_loop.hpp"
-#include "physics/exact_log.hpp"
-#include "physics/stored_log.hpp"
+#include "physics/engines.hpp"
 #include "physics/unfolded_log.hpp"
 
 namespace piblocks {
 namespace {
-
-void check_storable(const BlockSystem& system, Engine engine) {
-  const Integer count =
-      std::max(ExactMotion(system).total(), ExactMotion(reversed(system)).total());
-  if (count <= kMaxStoredCollisions) return;
-  throw UsageError(fmt::format(
-      "{} loop: {} collisions are more than the limit of {}; use the closed form (--engine "
-      "unfolded)",
-      engine == Engine::events ? "event" : "velocity", readable(count),
-      readable(kMaxStoredCollisions)));
-}
 
 /// Asks the log for one collision after the other.
 class IndexedStream final : public CollisionStream {
@@ -61,15 +44,11 @@ std::unique_ptr<CollisionStream> CollisionLog::stream(const Integer& first,
 
 std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system, Engine engine) {
   require_valid(problems_of(system));
-  if (engine != Engine::unfolded) {
-    check_storable(system, engine);
-    const auto simulate = engine == Engine::events ? event_loop : velocity_loop;
-    return std::make_unique<StoredLog>(system, simulate(system), simulate(reversed(system)));
-  }
+  if (engine != Engine::unfolded) return make_stored_log(system, engine);
   // At theta >= pi/4 the closed form has nothing to skip, and would lose a very light red block
   // in the rounding of its phase.
   const bool is_at_rest = system.blue.velocity == 0 && system.red.velocity == 0;
-  if (system.red.mass <= system.blue.mass || is_at_rest) return std::make_unique<ExactLog>(system);
+  if (system.red.mass <= system.blue.mass || is_at_rest) return make_exact_log(system);
   return std::make_unique<UnfoldedLog>(system);
 }
 
@@ -95,7 +74,7 @@ std::optional<Corner> corner_of(const BlockSystem& system) {
 
 std::optional<PositionBounds> position_bounds(const CollisionLog& log, const Rational& time) {
   if (const UnfoldedLog* const form = closed_form(log)) return form->bounds_at(time);
-  if (dynamic_cast<const ExactLog*>(&log) == nullptr) return std::nullopt;
+  if (!is_exact(log)) return std::nullopt;
   constexpr double kUnitRoundoff = 0x1p-53;
   const BlockState now = log.state_at(time);
   return PositionBounds{kUnitRoundoff * std::fabs(now.blue.position),

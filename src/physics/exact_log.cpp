@@ -1,18 +1,22 @@
-#include "physics/exact_log.hpp"
-
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <optional>
-#include <utility>
 
 #include "physics/blocks.hpp"
+#include "physics/engines.hpp"
 
 namespace piblocks {
 namespace {
 
 /// With theta >= pi/4 there are at most a handful.
 constexpr int kMaxEvents = 16;
+
+/// A collision and the blocks just after it.
+struct ExactCollision {
+  Rational time;
+  CollisionKind kind;
+  BlockSystem blocks;
+};
 
 /// Time until a gap that changes at `rate` is closed, if ever.
 std::optional<Rational> closing_time(const Rational& gap, const Rational& rate) {
@@ -72,7 +76,25 @@ Collision rounded(const Integer& index, const ExactCollision& exact) {
   return result;
 }
 
-}  // namespace
+class ExactLog final : public CollisionLog {
+ public:
+  explicit ExactLog(const BlockSystem& system);
+
+  Collision collision(const Integer& index) const override { return rounded(index, event(index)); }
+  BlockState state_at(const Rational& time) const override;
+  Rational time_after(const Integer& index) const override {
+    require_last(index, state_at(event(index).time).count);
+    return event(index).time;
+  }
+
+ private:
+  const ExactCollision& event(const Integer& index) const {
+    return events_[Integer(index - first_index()).get_ui()];
+  }
+
+  std::vector<ExactCollision> events_;  // of all time, in order
+  ExactCollision start_;                // before all of them; its kind has no meaning
+};
 
 ExactLog::ExactLog(const BlockSystem& system)
     : CollisionLog(system), start_{0, CollisionKind::wall, system} {
@@ -90,18 +112,6 @@ ExactLog::ExactLog(const BlockSystem& system)
   set_range(1 - past, events_.size() - past);
 }
 
-const ExactCollision& ExactLog::event(const Integer& index) const {
-  return events_[Integer(index - first_index()).get_ui()];
-}
-
-Collision ExactLog::collision(const Integer& index) const { return rounded(index, event(index)); }
-
-Rational ExactLog::time_after(const Integer& index) const {
-  const Rational& time = event(index).time;
-  require_last(index, state_at(time).count);
-  return time;
-}
-
 BlockState ExactLog::state_at(const Rational& time) const {
   const auto next = std::ranges::upper_bound(events_, time, {}, &ExactCollision::time);
   const ExactCollision& since = next == events_.begin() ? start_ : *std::prev(next);
@@ -110,5 +120,13 @@ BlockState ExactLog::state_at(const Rational& time) const {
   const Collision at = rounded(first_index() - 1 + Integer(next - events_.begin()), now);
   return {at.index, at.blue, at.red};
 }
+
+}  // namespace
+
+std::unique_ptr<CollisionLog> make_exact_log(const BlockSystem& system) {
+  return std::make_unique<ExactLog>(system);
+}
+
+bool is_exact(const CollisionLog& log) { return dynamic_cast<const ExactLog*>(&log) != nullptr; }
 
 }  // namespace piblocks

@@ -4,7 +4,7 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
 #include <optional>
 
 namespace piblocks {
@@ -18,25 +18,25 @@ constexpr double kMaxRay_bits = 16;
 /// exactly. Longer ones would slow down everything that is computed with that time.
 constexpr double kMaxShort_bits = 256;
 
-std::size_t size_bits(const Rational& value) {
-  return mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
-}
-
 /// 1 + i sigma to the power n is A + i sigma B with rational A, B: the direction of ray n.
 struct RayDirection {
   Rational a = 1;
   Rational b = 0;
-
-  friend RayDirection multiply(const RayDirection& p, const RayDirection& q, const Rational& r) {
-    return {p.a * q.a - r * p.b * q.b, p.a * q.b + p.b * q.a};
-  }
 };
 
-RayDirection ray_direction(unsigned long n, const Rational& r) {
+RayDirection multiply(const RayDirection& p, const RayDirection& q, const Rational& r) {
+  return {p.a * q.a - r * p.b * q.b, p.a * q.b + p.b * q.a};
+}
+
+/// Nothing if that may take numbers longer than max_bits.
+std::optional<RayDirection> ray_direction(const Integer& n, const Rational& r, double max_bits) {
+  const std::size_t size_bits =
+      mpz_sizeinbase(r.get_num_mpz_t(), 2) + mpz_sizeinbase(r.get_den_mpz_t(), 2);
+  if (std::fabs(n.get_d()) * double(size_bits) > max_bits) return std::nullopt;
   RayDirection result;
-  RayDirection square{1, 1};
-  for (; n != 0; n /= 2) {
-    if (n % 2 == 1) result = multiply(result, square, r);
+  RayDirection square{1, n < 0 ? -1 : 1};
+  for (unsigned long left = Integer(abs(n)).get_ui(); left != 0; left /= 2) {
+    if (left % 2 == 1) result = multiply(result, square, r);
     square = multiply(square, square, r);
   }
   return result;
@@ -46,36 +46,8 @@ RayDirection ray_direction(unsigned long n, const Rational& r) {
 /// than max_bits.
 bool is_on_ray(const Integer& n, const Rational& x, const Rational& y, const Rational& r,
                double max_bits) {
-  if (!n.fits_slong_p()) return false;
-  const long index = n.get_si();
-  if (std::abs(double(index)) * double(size_bits(r)) > max_bits) return false;
-  const RayDirection ray = ray_direction(static_cast<unsigned long>(std::labs(index)), r);
-  return x * ray.a == (index < 0 ? Rational(-ray.b) : ray.b) * y;
-}
-
-/// Splits a phase at its floor, raising the precision until the floor is certain and the rest has a
-/// relative error below 2^-relative_bits.
-/// `phase(bits)` is right to 2^(magnitude + 6) units of its last place, |phase| < 2^magnitude.
-/// (x, y) is a point on its ray, in the frame in which the phase grows.
-template <typename Phase>
-Asymptote split(const Phase& phase, long magnitude, long relative_bits, const Rational& x,
-                const Rational& y, const Rational& r) {
-  for (mpfr_prec_t bits = magnitude + 64 + std::max(relative_bits, 64L); bits <= kMaxDecisionBits;
-       bits *= 2) {
-    const Real value = phase(bits);
-    const Real error = scaled(Real(bits, 1), magnitude + 6 - bits);
-    const Integer low = (value - error).floor();
-    const Integer high = (value + error).floor();
-    const bool certain = low == high;
-    if (certain) {
-      const Real rest = value - low;
-      if (rest.exponent() - error.exponent() > relative_bits) return {low, rest};
-    }
-    if (certain && relative_bits == 0) return {low, value - low};
-    if (is_on_ray(high, x, y, r, kMaxRay_bits * double(bits))) return {high, Real(bits, 0)};
-  }
-  throw SimulationError(fmt::format("count: {} bits do not decide whether a collision has happened",
-                                    kMaxDecisionBits));
+  const auto ray = ray_direction(n, r, max_bits);
+  return ray && x * ray->a == ray->b * y;
 }
 
 }  // namespace
@@ -107,41 +79,51 @@ Real ExactMotion::final_phase(const Real& sigma, const Real& theta) const {
   return angle / theta;
 }
 
-Wedge ExactMotion::wedge(mpfr_prec_t bits) const {
+template <typename PhaseFunction>
+Asymptote ExactMotion::split(const PhaseFunction& phase, const Rational& x, const Rational& y,
+                             long relative_bits) const {
   const long size = magnitude();
-  Real s(MPFR_PREC_MIN);  // not computed yet
-  Real theta(MPFR_PREC_MIN);
-  Real q(MPFR_PREC_MIN);
-  const auto final = [&](mpfr_prec_t wanted) {
-    if (wanted == q.bits()) return q;
-    s = sigma(wanted);
-    theta = atan(s);
-    q = final_phase(s, theta);
-    return q;
-  };
-  Asymptote future = split(final, size, bits, turned(u1), u2, ratio);
+  for (mpfr_prec_t bits = first_precision(relative_bits); bits <= kMaxDecisionBits; bits *= 2) {
+    const Real s = sigma(bits);
+    const Real value = phase(s, atan(s));
+    const Real error = scaled(Real(bits, 1), size + 6 - bits);
+    const Integer low = (value - error).floor();
+    const Integer high = (value + error).floor();
+    if (low == high) {
+      const Real rest = value - low;
+      const bool is_exact = rest.exponent() - error.exponent() > relative_bits;
+      if (is_exact || relative_bits == 0) return {low, rest};
+    }
+    if (is_on_ray(high, x, y, ratio, kMaxRay_bits * double(bits))) return {high, Real(bits, 0)};
+  }
+  throw SimulationError(fmt::format("count: {} bits do not decide whether a collision has happened",
+                                    kMaxDecisionBits));
+}
+
+Asymptote ExactMotion::future(long relative_bits) const {
+  const auto phase = [this](const Real& s, const Real& theta) { return final_phase(s, theta); };
+  return split(phase, turned(u1), u2, relative_bits);
+}
+
+Wedge ExactMotion::wedge(mpfr_prec_t bits) const {
   // Backwards in time phases fall: -(q - pi/theta) is what grows.
-  const auto first = [&](mpfr_prec_t wanted) {
-    final(wanted);
-    return Real::pi(wanted) / theta - q;
+  const auto first = [this](const Real& s, const Real& theta) {
+    return Real::pi(s.bits()) / theta - final_phase(s, theta);
   };
-  Asymptote past = split(first, size, bits, turned(u1), Rational(-u2), ratio);
+  Asymptote past = split(first, turned(u1), Rational(-u2), bits);
   past.ray = -past.ray;
-  return {s, theta, past, future};
+  const Real s = sigma(first_precision(bits));
+  return {s, atan(s), past, future(bits)};
 }
 
 template <typename PhaseFunction>
 Bracket ExactMotion::bracket(const PhaseFunction& phase, const Rational& x, const Rational& y,
                              mpfr_prec_t bits) const {
-  const auto at = [&](mpfr_prec_t wanted) {
-    const Real s = sigma(wanted);
-    return phase(s, atan(s));
-  };
   // Mirrored, phases fall.
-  const auto mirrored = [&](mpfr_prec_t wanted) { return Real(wanted, 0) - at(wanted); };
-  const long size = magnitude();
-  Bracket result{split(at, size, bits, x, y, ratio),
-                 split(mirrored, size, bits, Rational(-x), y, ratio)};
+  const auto mirrored = [&](const Real& s, const Real& theta) {
+    return Real(s.bits(), 0) - phase(s, theta);
+  };
+  Bracket result{split(phase, x, y, bits), split(mirrored, Rational(-x), y, bits)};
   result.above.ray = -result.above.ray;
   return result;
 }
@@ -168,29 +150,11 @@ Integer ExactMotion::total(const Asymptote& future) const {
   return count < 0 ? Integer(0) : count;
 }
 
-Integer ExactMotion::total() const {
-  if (at_rest()) return 0;
-  const auto phase = [this](mpfr_prec_t bits) {
-    const Real s = sigma(bits);
-    return final_phase(s, atan(s));
-  };
-  return total(split(phase, magnitude(), 0, turned(u1), u2, ratio));
-}
+Integer ExactMotion::total() const { return at_rest() ? Integer(0) : total(future(0)); }
 
 Integer ExactMotion::first_index(const Asymptote& past) const {
   const Integer first = past.beyond.sign() == 0 ? Integer(past.ray + 1) : past.ray;
   return std::min<Integer>(count_from_ray(first), 1);
-}
-
-std::optional<Rational> ExactMotion::short_crossing(const Integer& ray) const {
-  if (!ray.fits_slong_p()) return std::nullopt;
-  const long n = ray.get_si();
-  if (std::abs(double(n)) * double(size_bits(ratio)) > kMaxShort_bits) return std::nullopt;
-  RayDirection direction = ray_direction(static_cast<unsigned long>(std::labs(n)), ratio);
-  if (n < 0) direction.b = -direction.b;
-  const Rational& a = direction.a;
-  const Rational& b = direction.b;
-  return Rational((b * y2 - a * turned(y1)) / (a * turned(u1) - b * u2));
 }
 
 Rational ExactMotion::rounded_crossing(const Integer& ray, mpfr_prec_t bits) const {
@@ -215,7 +179,10 @@ Rational ExactMotion::rounded_crossing(const Integer& ray, mpfr_prec_t bits) con
 }
 
 Rational ExactMotion::time_past(const Integer& ray) const {
-  if (const auto crossing = short_crossing(ray)) return *crossing;
+  if (const auto direction = ray_direction(ray, ratio, kMaxShort_bits)) {
+    const auto& [a, b] = *direction;
+    return (b * y2 - a * turned(y1)) / (a * turned(u1) - b * u2);
+  }
   for (mpfr_prec_t bits = 2 * magnitude() + 128; bits <= kMaxDecisionBits; bits *= 2) {
     Rational time = rounded_crossing(ray, bits);
     if (phase_at(time).ray == ray) return time;
@@ -226,14 +193,12 @@ Rational ExactMotion::time_past(const Integer& ray) const {
 
 Phase ExactMotion::phase_at(const Rational& t) const {
   const Rational along = (t - closest_approach) * speed_squared;  // |V|^2 tau
-  const auto phase = [&](mpfr_prec_t bits) {
-    const Real s = sigma(bits);
-    const Real theta = atan(s);
+  const auto phase = [&](const Real& s, const Real& theta) {
+    const mpfr_prec_t bits = s.bits();
     const Real to_go = atan2(s * Real(bits, abs(areal_velocity)), Real(bits, along));
     return final_phase(s, theta) - to_go / theta;
   };
-  const Asymptote at =
-      split(phase, magnitude(), 0, turned(y1 + u1 * t), Rational(y2 + u2 * t), ratio);
+  const Asymptote at = split(phase, turned(y1 + u1 * t), Rational(y2 + u2 * t), 0);
   return {at.ray, at.beyond.to_double()};
 }
 

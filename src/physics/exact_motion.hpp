@@ -7,9 +7,9 @@
 #include <piblocks/exact.hpp>
 #include <piblocks/run.hpp>
 
-#include <optional>
+#include <algorithm>
 
-#include "physics/real.hpp"
+#include "core/real.hpp"
 
 namespace piblocks {
 
@@ -93,14 +93,24 @@ struct ExactMotion {
  private:
   /// q: the phase as t grows without bound; q - pi/theta is that of the infinite past.
   Real final_phase(const Real& sigma, const Real& theta) const;
-  /// Splits a phase from both sides. `phase(sigma, theta)`; (x, y) is a point in its direction, in
-  /// the frame in which the phase grows.
+  /// Precision with which split() begins.
+  mpfr_prec_t first_precision(long relative_bits) const {
+    return magnitude() + 64 + std::max(relative_bits, 64L);
+  }
+  /// Splits a phase at its floor, raising the precision until the floor is certain and the rest has
+  /// a relative error below 2^-relative_bits, unless these are 0.
+  /// @param phase  of (sigma, theta), right to 2^(magnitude() + 6) units of its last place.
+  /// @param x, y   a point in its direction, in the frame in which the phase grows.
+  template <typename PhaseFunction>
+  Asymptote split(const PhaseFunction& phase, const Rational& x, const Rational& y,
+                  long relative_bits) const;
+  /// Split as by split().
+  Asymptote future(long relative_bits) const;
+  /// Splits a phase from both sides. Parameters as those of split().
   template <typename PhaseFunction>
   Bracket bracket(const PhaseFunction& phase, const Rational& x, const Rational& y,
                   mpfr_prec_t bits) const;
-  /// When the line crosses the ray; nothing if that is too long a number to be of use.
-  std::optional<Rational> short_crossing(const Integer& ray) const;
-  /// The same, rounded up by no more than 2^-bits of what time_past() says.
+  /// When the line crosses the ray, rounded up by no more than 2^-bits of what time_past() says.
   Rational rounded_crossing(const Integer& ray, mpfr_prec_t bits) const;
   /// x of a point in the frame in which the phase grows.
   Rational turned(const Rational& x) const { return blocks_first ? x : Rational(-x); }

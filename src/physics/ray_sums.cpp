@@ -1,8 +1,8 @@
-#include "physics/ray_sums.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "physics/unfolded_exposure.hpp"
 
 namespace piblocks {
 namespace {
@@ -42,13 +42,13 @@ constexpr std::array<Node, 4> kNodes{{{0.1834346424956498, 0.3626837833783620},
 
 RayPhase RaySums::later(RayPhase ray, double rays) const {
   ray.phase += ray.late ? -rays : rays;
-  if (ray.phase > total_ / 2) return {total_ - ray.phase, !ray.late};
+  if (ray.phase > form_.total_phase / 2) return {form_.total_phase - ray.phase, !ray.late};
   return ray;
 }
 
 double RaySums::rays_between(const RayPhase& a, const RayPhase& b) const {
   if (a.late == b.late) return a.late ? a.phase - b.phase : b.phase - a.phase;
-  const double across = total_ - a.phase - b.phase;
+  const double across = form_.total_phase - a.phase - b.phase;
   return b.late ? across : -across;
 }
 

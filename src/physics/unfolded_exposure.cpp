@@ -15,13 +15,12 @@ constexpr int kSlowBounces = 128;
 
 class Bounces {
  public:
-  Bounces(const ClosedForm& form, double total_phase, const IntervalEnd& begin,
-          const IntervalEnd& end)
+  Bounces(const ClosedForm& form, const IntervalEnd& begin, const IntervalEnd& end)
       : form_(form),
-        rays_(form, total_phase),
-        duration_(end.gaps.tau - begin.gaps.tau),
-        blue_gap_{0, std::max(begin.gaps.blue, end.gaps.blue)},
-        red_gap_{std::min(begin.gaps.red, end.gaps.red), std::max(begin.gaps.red, end.gaps.red)} {
+        rays_(form),
+        duration_(end.tau - begin.tau),
+        blue_gap_{0, std::max(begin.blue_gap, end.blue_gap)},
+        red_gap_{std::min(begin.red_gap, end.red_gap), std::max(begin.red_gap, end.red_gap)} {
     cut_ends(begin, end);
     const Travel contacts{rays_.contact(odd_.first), rays_.contact(odd_.last)};
     blue_gap_.include(contacts);
@@ -34,7 +33,7 @@ class Bounces {
   }
 
   Travel range(BlockName block) const;
-  std::vector<UniformPiece> pieces(const Gaps& begin, const Gaps& end) const;
+  std::vector<UniformPiece> pieces(const IntervalEnd& begin, const IntervalEnd& end) const;
   double area_below(BlockName block, double position) const;
 
  private:
@@ -67,38 +66,38 @@ class Bounces {
 void Bounces::cut_ends(const IntervalEnd& begin, const IntervalEnd& end) {
   const RayPhase& first = begin.ray;
   const RayPhase& last = end.ray;
-  const double to_first = std::max(0.0, rays_.tau(first) - begin.gaps.tau);
-  const double from_last = std::max(0.0, end.gaps.tau - rays_.tau(last));
+  const double to_first = std::max(0.0, rays_.tau(first) - begin.tau);
+  const double from_last = std::max(0.0, end.tau - rays_.tau(last));
   even_ = {first, last};
   odd_ = {first, last};
   if (begin.ray_is_odd) {
     const double contact = rays_.contact(first);
     even_.first = rays_.later(first, 1);
-    blue_ends_.push_back({to_first, {begin.gaps.blue, contact}});
+    blue_ends_.push_back({to_first, {begin.blue_gap, contact}});
     blue_ends_.push_back({rays_.duration(first, even_.first), {contact, 0}});
   } else {
     odd_.first = rays_.later(first, 1);
-    blue_ends_.push_back({to_first, {begin.gaps.blue, 0}});
+    blue_ends_.push_back({to_first, {begin.blue_gap, 0}});
   }
   if (end.ray_is_odd) {
     const double contact = rays_.contact(last);
     even_.last = rays_.later(last, -1);
     blue_ends_.push_back({rays_.duration(even_.last, last), {0, contact}});
-    blue_ends_.push_back({from_last, {contact, end.gaps.blue}});
+    blue_ends_.push_back({from_last, {contact, end.blue_gap}});
   } else {
     odd_.last = rays_.later(last, -1);
-    blue_ends_.push_back({from_last, {0, end.gaps.blue}});
+    blue_ends_.push_back({from_last, {0, end.blue_gap}});
   }
   const auto rest = [&](double duration, const RayPhase& a, const RayPhase& b) {
     return duration + (rays_.is_before(a, b) ? rays_.duration(a, b) : 0);
   };
-  red_ends_ = {{rest(to_first, first, odd_.first), {begin.gaps.red, rays_.contact(odd_.first)}},
-               {rest(from_last, odd_.last, last), {rays_.contact(odd_.last), end.gaps.red}}};
+  red_ends_ = {{rest(to_first, first, odd_.first), {begin.red_gap, rays_.contact(odd_.first)}},
+               {rest(from_last, odd_.last, last), {rays_.contact(odd_.last), end.red_gap}}};
 }
 
 /// The outermost collisions, which take long, as they are; between them the slow ones.
-std::vector<UniformPiece> Bounces::pieces(const Gaps& begin, const Gaps& end) const {
-  PieceList pieces(form_.blue_offset + begin.blue, form_.red_offset + begin.red);
+std::vector<UniformPiece> Bounces::pieces(const IntervalEnd& begin, const IntervalEnd& end) const {
+  PieceList pieces(form_.blue_offset + begin.blue_gap, form_.red_offset + begin.red_gap);
   double now = begin.tau;
   const auto fly_to = [&](double tau, double blue, double red) {
     pieces.add(std::max(0.0, tau - now), form_.blue_offset + blue, form_.red_offset + red);
@@ -120,7 +119,7 @@ std::vector<UniformPiece> Bounces::pieces(const Gaps& begin, const Gaps& end) co
   }
   for (int i = kOutermost; i >= 0; --i) meet(rays_.later(even_.last, -i), i % 2 == 1);
   if (rays_.is_before(even_.last, odd_.last)) meet(odd_.last, true);
-  fly_to(end.tau, end.blue, end.red);
+  fly_to(end.tau, end.blue_gap, end.red_gap);
   return pieces.take(duration_);
 }
 
@@ -190,10 +189,9 @@ double Bounces::flight_below(const RayPhase& near, const RayPhase& far, double g
 
 }  // namespace
 
-Exposure expose_bounces(const ClosedForm& form, double total_phase, const IntervalEnd& begin,
-                        const IntervalEnd& end) {
-  const auto bounces = std::make_shared<const Bounces>(form, total_phase, begin, end);
-  return {.pieces = bounces->pieces(begin.gaps, end.gaps),
+Exposure expose_bounces(const ClosedForm& form, const IntervalEnd& begin, const IntervalEnd& end) {
+  const auto bounces = std::make_shared<const Bounces>(form, begin, end);
+  return {.pieces = bounces->pieces(begin, end),
           .blue_range = bounces->range(BlockName::blue),
           .red_range = bounces->range(BlockName::red),
           .area_below = [bounces](BlockName block, double position) {

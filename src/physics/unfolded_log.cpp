@@ -9,8 +9,6 @@
 
 #include "core/two_sum.hpp"
 #include "physics/blocks.hpp"
-#include "physics/unfolded_exposure.hpp"
-#include "physics/unfolded_stream.hpp"
 
 namespace piblocks {
 namespace {
@@ -40,12 +38,6 @@ ExactMotion checked(const BlockSystem& system) {
   return motion;
 }
 
-/// @throws SimulationError if a position or a velocity is not finite.
-BlockState finite(const Time& time, const Integer& count, const Motion& blue, const Motion& red) {
-  require_finite(time, blue, red, "closed form");
-  return {count, blue, red};
-}
-
 }  // namespace
 
 UnfoldedLog::UnfoldedLog(const BlockSystem& system)
@@ -55,21 +47,18 @@ UnfoldedLog::UnfoldedLog(const BlockSystem& system)
   if (touches && !exact_.through_corner()) contact_ = state_at(0).count;
 }
 
-double UnfoldedLog::tau_near(const Time& t, double* magnitude) const {
+double UnfoldedLog::tau_near(const Time& t) const {
   const Time& turn = form_.closest_approach;
-  const double hi = t.hi / form_.time_unit;
-  const Time difference = two_sum(hi, -turn.hi);
-  if (magnitude != nullptr) *magnitude = std::fabs(hi) + std::fabs(turn.hi);
+  const Time difference = two_sum(t.hi / form_.time_unit, -turn.hi);
   return difference.hi + (difference.lo + (t.lo / form_.time_unit - turn.lo));
 }
 
 double UnfoldedLog::tau_at(const Rational& time, const Time& t) const {
-  double magnitude = 0;
-  const double tau = tau_near(t, &magnitude);
-
+  const double tau = tau_near(t);
   // Both times are right to 2^-106 of them. Where the difference is so small that this would
   // matter beside it, it is taken of the exact times.
-  const double error = 0x1p-104 * magnitude;
+  const double error =
+      0x1p-104 * (std::fabs(t.hi / form_.time_unit) + std::fabs(form_.closest_approach.hi));
   if (error <= 0x1p-56 * std::fabs(tau)) return tau;
   return to_double((time - exact_.closest_approach) / Rational(form_.time_unit));
 }
@@ -110,11 +99,6 @@ UnfoldedLog::LinePoint UnfoldedLog::point_at(double tau, const Time& t) const {
   return point;
 }
 
-UnfoldedLog::LinePoint UnfoldedLog::point_at(const Rational& time) const {
-  const Time rounded = to_time(time);
-  return point_at(tau_at(time, rounded), rounded);
-}
-
 Phase UnfoldedLog::phase_of(const LinePoint& point, const Rational& time) const {
   const Landmark& end = *point.end;
   if (exact_.through_corner()) {
@@ -137,10 +121,14 @@ BlockState UnfoldedLog::state_at(const Rational& time) const {
 
 BlockState UnfoldedLog::state_of(const LinePoint& point, const Phase& at,
                                  const Rational& time) const {
-  const Integer count = exact_.blocks_first ? at.ray : Integer(at.ray + 1);
+  const auto finite = [&](const BlockState& state) {
+    require_finite(point.time, state.blue, state.red, "closed form");
+    return state;
+  };
+  const Integer count = exact_.count_from_ray(at.ray);
   // Until the first collision the motion of the system is more exact than any angle.
   if (count == 0) {
-    return finite(point.time, count, motion_at(system().blue, time), motion_at(system().red, time));
+    return finite({count, motion_at(system().blue, time), motion_at(system().red, time)});
   }
   // Folded back by an even number of rays, the point is at this angle to the wall. After an odd ray
   // it is on the other side, and its velocity is reflected once more.
@@ -156,9 +144,9 @@ BlockState UnfoldedLog::state_of(const LinePoint& point, const Phase& at,
   const double side = odd ? -sign : sign;
   const double ahead_sine = point.sine * cosine + side * (point.cosine * sine);
   const double ahead_cosine = point.cosine * cosine - side * (point.sine * sine);
-  return finite(point.time, count,
-                {form_.blue_offset + y1, (odd ? -1 : 1) * (form_.blue_speed * ahead_sine)},
-                {form_.red_offset + y2, sign * (form_.red_speed * ahead_cosine)});
+  return finite({count,
+                 {form_.blue_offset + y1, (odd ? -1 : 1) * (form_.blue_speed * ahead_sine)},
+                 {form_.red_offset + y2, sign * (form_.red_speed * ahead_cosine)}});
 }
 
 UnfoldedLog::RayView UnfoldedLog::view_of(const Integer& from, const Integer& to) const {
@@ -202,36 +190,6 @@ Rational UnfoldedLog::time_after(const Integer& index) const {
   return exact_.closest_approach;
 }
 
-std::optional<Impact> UnfoldedLog::impact(CollisionKind kind, const Integer& first,
-                                          const Integer& last) const {
-  const bool odd = kind == CollisionKind::blocks;
-  Integer from = ray_of(first);
-  Integer to = ray_of(last);
-  if (is_odd(from) != odd) ++from;
-  if (is_odd(to) != odd) --to;
-  if (from > to) return std::nullopt;
-
-  const RayView seen = view_of(from, to);
-  // The impulse of a collision in the middle, times sin(n theta)/sin theta (README.md, "Many
-  // collisions as one").
-  const double one = seen.ray.sine / form_.step.sine / (odd ? 1 : form_.step.cosine);
-  double number = 1;
-  if (from != to) {
-    const Integer n = (to - from) / 2 + 1;
-    number = form_.direction(to_time(Rational(n)), {}).sine / form_.step.sine;
-  }
-  const double reach = form_.kind(odd).blue_reach * (form_.sigma / seen.ray.sine);
-  return Impact{kind, time(from, to, seen), one * number, form_.blue_offset + reach * form_.ell};
-}
-
-Integer UnfoldedLog::count_near(const Time& time) const {
-  LinePoint point = point_at(tau_near(time), time);
-  point.decided = true;
-  const Rational exact = exact_.through_corner() ? to_rational(time) : Rational(0);
-  Integer ray = phase_of(point, exact).ray;
-  return exact_.blocks_first ? ray : Integer(ray + 1);
-}
-
 std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,
                                                      const Integer& last) const {
   // Times and distances are greatest at the ends of a range. If a double can hold those, it can
@@ -240,77 +198,7 @@ std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,
     collision(first);
     collision(last);
   }
-  return std::make_unique<UnfoldedStream>(form_, ray_of(first), ray_of(last), first, contact_);
-}
-
-RayPhase UnfoldedLog::phase_of(const Integer& ray) const {
-  const auto from = [&](const Landmark& end) {
-    const DoubleDouble steps = end.steps_from(ray);
-    return steps.hi + (steps.lo + end.beyond.hi);
-  };
-  const double past = from(form_.past);
-  const double future = from(form_.future);
-  return future < past ? RayPhase{future, true} : RayPhase{past, false};
-}
-
-double UnfoldedLog::total_phase() const {
-  const DoubleDouble steps = form_.future.steps_from(form_.past.ray);
-  return steps.hi + (steps.lo + form_.past.beyond.hi + form_.future.beyond.hi);
-}
-
-double UnfoldedLog::time_to_ray(double tau, double rays, double sine) const {
-  return std::hypot(form_.passage, tau) * (std::sin(rays * form_.theta.hi) / sine);
-}
-
-/// Before all collisions, which happen at once, and after them.
-Exposure UnfoldedLog::expose_corner(const Rational& begin, const Rational& end) const {
-  const BlockState start = state_at(begin);
-  const BlockState stop = state_at(end);
-  PieceList pieces(start.blue.position, start.red.position);
-  Rational now = begin;
-  if (begin < exact_.closest_approach && exact_.closest_approach < end) {
-    now = exact_.closest_approach;
-    pieces.add(to_double(now - begin), form_.blue_offset, form_.red_offset);
-  }
-  pieces.add(to_double(end - now), stop.blue.position, stop.red.position);
-  return pieces.exposure();
-}
-
-Exposure UnfoldedLog::expose(const Rational& first, const Rational& last) const {
-  if (exact_.through_corner()) return expose_corner(first, last);
-  const LinePoint first_point = point_at(first);
-  const LinePoint last_point = point_at(last);
-  const Phase first_phase = phase_of(first_point, first);
-  const Phase last_phase = phase_of(last_point, last);
-  const BlockState start = state_of(first_point, first_phase, first);
-  const BlockState stop = state_of(last_point, last_phase, last);
-  const Gaps from{first_point.tau, start.blue.position - form_.blue_offset,
-                  start.red.position - form_.red_offset};
-  const Gaps to{last_point.tau, stop.blue.position - form_.blue_offset,
-                stop.red.position - form_.red_offset};
-  const Integer first_ray = ray_of(start.count) + 1;
-  const Integer last_ray = ray_of(stop.count);
-  if (last_ray - first_ray >= Integer(long(kMaxListedCollisions))) {
-    return expose_bounces(form_, total_phase(), {from, phase_of(first_ray), is_odd(first_ray)},
-                          {to, phase_of(last_ray), is_odd(last_ray)});
-  }
-  // Durations come from triangles with the corner, so that a long turn costs no precision.
-  PieceList pieces(start.blue.position, start.red.position);
-  double before = 0;  // the sine of the ray before
-  for (Integer ray = first_ray; ray <= last_ray; ++ray) {
-    const double sine = view_of(ray, ray).ray.sine;
-    const double distance = form_.ell * (form_.sigma / sine);
-    const RayKind kind = form_.kind(is_odd(ray));
-    const double duration = ray == first_ray ? time_to_ray(from.tau, 1 - first_phase.fraction, sine)
-                                             : form_.passage / before * (form_.step.sine / sine);
-    pieces.add(duration, form_.blue_offset + kind.blue_reach * distance,
-               form_.red_offset + kind.red_reach * distance);
-    before = sine;
-  }
-  pieces.add(first_ray <= last_ray ? time_to_ray(to.tau, last_phase.fraction, before)
-                                   : std::max(0.0, to.tau - from.tau),
-             stop.blue.position, stop.red.position);
-  return pieces.exposure();
+  return make_unfolded_stream(form_, ray_of(first), ray_of(last), first, contact_);
 }
 
 PositionBounds UnfoldedLog::bounds_at(const Rational& time) const {

@@ -8,9 +8,8 @@
 #include <optional>
 
 #include "physics/exact_motion.hpp"
-#include "physics/exposure.hpp"
 #include "physics/impact.hpp"
-#include "physics/ray_sums.hpp"
+#include "physics/unfolded_exposure.hpp"
 #include "physics/unfolding.hpp"
 
 namespace piblocks {
@@ -48,21 +47,20 @@ class UnfoldedLog final : public CollisionLog {
     bool decided = false;          // whether the rounding of the phase cannot change its floor
   };
 
-  /// Scaled time since closest approach; `magnitude` is that of the times it is the difference of.
-  double tau_near(const Time& t, double* magnitude = nullptr) const;
+  /// Scaled time since closest approach, as near as double-doubles tell.
+  double tau_near(const Time& t) const;
   /// Scaled time since closest approach, rounded once. `t` is the time as a double-double.
   double tau_at(const Rational& time, const Time& t) const;
   /// @param t  the time, of which tau is taken
   LinePoint point_at(double tau, const Time& t) const;
-  LinePoint point_at(const Rational& time) const;
+  LinePoint point_at(const Rational& time) const {
+    const Time rounded = to_time(time);
+    return point_at(tau_at(time, rounded), rounded);
+  }
   /// Computed exactly if the phase of the point is not decided.
   Phase phase_of(const LinePoint& point, const Rational& time) const;
   /// @param at  the phase of the point at the time
   BlockState state_of(const LinePoint& point, const Phase& at, const Rational& time) const;
-  /// Scaled time between a point of the line and a ray that is less than one ray away from it.
-  /// @param tau   of the point, since closest approach
-  /// @param sine  of the angle from the ray to an end of time
-  double time_to_ray(double tau, double rays, double sine) const;
   Exposure expose_corner(const Rational& begin, const Rational& end) const;
   /// A ray as seen from the nearer end of time.
   struct RayView {
@@ -72,8 +70,7 @@ class UnfoldedLog final : public CollisionLog {
   /// The ray half-way between two.
   RayView view_of(const Integer& from, const Integer& to) const;
   Time time(const Integer& from, const Integer& to, const RayView& view) const;
-  double total_phase() const;
-  RayPhase phase_of(const Integer& ray) const;
+  RayPhase ray_phase(const Integer& ray) const;
   Integer ray_of(const Integer& index) const { return exact_.blocks_first ? index : index - 1; }
 
   ExactMotion exact_;

@@ -1,9 +1,9 @@
-#include "physics/unfolded_stream.hpp"
-
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "core/two_sum.hpp"
+#include "physics/unfolding.hpp"
 
 // Compiles a function twice, for every x86-64 processor and for those with AVX2; the dynamic linker
 // picks one, before a sanitizer would be ready. Both give the same bits, since nothing is
@@ -24,6 +24,23 @@
 
 namespace piblocks {
 namespace {
+
+/// Rays that share one anchor.
+constexpr std::size_t kBlockRays = 64;
+
+/// Directions of up to kBlockRays rays, measured from the first or the last of them, and the other
+/// numbers that depend on their order alone, in columns.
+struct RayTable {
+  using Column = std::array<double, kBlockRays>;
+
+  alignas(64) Column sine;
+  alignas(64) Column cosine;
+  alignas(64) Column even_sine;  ///< of the next even ray
+  alignas(64) Column even_cosine;
+  alignas(64) Column blue_reach;
+  alignas(64) Column red_reach;
+  alignas(64) Column side;
+};
 
 /// Row i is ray i of a block that begins with the anchor, if the landmark lies behind, or ends with
 /// it. Angles are measured from an end of time.
@@ -54,30 +71,20 @@ RayTable make_table(const ClosedForm& form, int landmark_sign, int end_sign, boo
 PIBLOCKS_VECTOR_CLONES
 void fill_rows(const ClosedForm& form, double sign, const Direction anchor, const RayTable& table,
                std::size_t skip, std::size_t count, CollisionBatch& batch, std::size_t row) {
-  const double* sine = table.sine.data() + skip;
-  const double* cosine = table.cosine.data() + skip;
-  const double* even_sine = table.even_sine.data() + skip;
-  const double* even_cosine = table.even_cosine.data() + skip;
-  const double* blue_reach = table.blue_reach.data() + skip;
-  const double* red_reach = table.red_reach.data() + skip;
-  const double* side = table.side.data() + skip;
-  double* time_hi = batch.time_hi.data() + row;
-  double* time_lo = batch.time_lo.data() + row;
-  double* blue_position = batch.blue_position.data() + row;
-  double* blue_velocity = batch.blue_velocity.data() + row;
-  double* red_position = batch.red_position.data() + row;
-  double* red_velocity = batch.red_velocity.data() + row;
   PIBLOCKS_INDEPENDENT_ITERATIONS
   for (std::size_t i = 0; i < count; ++i) {
-    const CollisionNumbers now = form.collision(sign, anchor + Direction{sine[i], cosine[i]},
-                                                anchor + Direction{even_sine[i], even_cosine[i]},
-                                                {blue_reach[i], red_reach[i], side[i]});
-    time_hi[i] = now.time_hi;
-    time_lo[i] = now.time_lo;
-    blue_position[i] = now.blue_position;
-    blue_velocity[i] = now.blue_velocity;
-    red_position[i] = now.red_position;
-    red_velocity[i] = now.red_velocity;
+    const std::size_t from = skip + i;
+    const std::size_t to = row + i;
+    const CollisionNumbers now =
+        form.collision(sign, anchor + Direction{table.sine[from], table.cosine[from]},
+                       anchor + Direction{table.even_sine[from], table.even_cosine[from]},
+                       {table.blue_reach[from], table.red_reach[from], table.side[from]});
+    batch.time_hi[to] = now.time_hi;
+    batch.time_lo[to] = now.time_lo;
+    batch.blue_position[to] = now.blue_position;
+    batch.blue_velocity[to] = now.blue_velocity;
+    batch.red_position[to] = now.red_position;
+    batch.red_velocity[to] = now.red_velocity;
   }
 }
 
@@ -90,17 +97,12 @@ void fill_times_from_start(const ClosedForm& form, double side, const Direction 
                            const RayTable& table, std::size_t skip, const Direction from_start,
                            const RayTable& away, std::size_t away_skip, std::size_t count,
                            CollisionBatch& batch, std::size_t row) {
-  const double* sine = table.sine.data() + skip;
-  const double* cosine = table.cosine.data() + skip;
-  const double* away_sine = away.sine.data() + away_skip;
-  const double* away_cosine = away.cosine.data() + away_skip;
-  double* time_hi = batch.time_hi.data() + row;
-  double* time_lo = batch.time_lo.data() + row;
   PIBLOCKS_INDEPENDENT_ITERATIONS
   for (std::size_t i = 0; i < count; ++i) {
-    time_hi[i] = form.time_from_start(side, from_start + Direction{away_sine[i], away_cosine[i]},
-                                      anchor + Direction{sine[i], cosine[i]});
-    time_lo[i] = 0;
+    const Direction from_anchor{table.sine[skip + i], table.cosine[skip + i]};
+    const Direction further{away.sine[away_skip + i], away.cosine[away_skip + i]};
+    batch.time_hi[row + i] = form.time_from_start(side, from_start + further, anchor + from_anchor);
+    batch.time_lo[row + i] = 0;
   }
 }
 
@@ -122,23 +124,53 @@ Direction direction_after(const ClosedForm& form, const Landmark& landmark,
 /// wall, blocks, wall, …: the kinds of consecutive rays from an even one on.
 constexpr auto kKinds = []() {
   std::array<CollisionKind, CollisionBatch::kCapacity + 1> kinds{};
-  for (std::size_t i = 0; i < kinds.size(); ++i) {
-    kinds[i] = i % 2 == 0 ? CollisionKind::wall : CollisionKind::blocks;
-  }
+  for (std::size_t i = 1; i < kinds.size(); i += 2) kinds[i] = CollisionKind::blocks;
   return kinds;
 }();
 
-}  // namespace
+/// The anchor of a block is its ray nearest to the landmark from which the rays are counted. Angles
+/// of the other rays are sums of two positive ones, so nothing cancels (README.md, "Collisions, one
+/// or all"). Every ray costs two rotations, two divisions and some thirty multiplications and
+/// additions without branches, so that the compiler makes vectors of them.
+class UnfoldedStream final : public CollisionStream {
+ public:
+  /// Parameters as those of make_unfolded_stream().
+  UnfoldedStream(const Unfolding& form, Integer first, Integer last, Integer index,
+                 std::optional<Integer> contact)
+      : form_(form),
+        next_(std::move(first)),
+        last_(std::move(last)),
+        index_(std::move(index)),
+        contact_(std::move(contact)),
+        last_by_past_(floor_mean(form.past.ray, form.turn.ahead.ray)),
+        last_by_turn_(floor_mean(form.turn.ahead.ray, form.future.ray)) {}
 
-UnfoldedStream::UnfoldedStream(const Unfolding& form, Integer first, Integer last, Integer index,
-                               std::optional<Integer> contact)
-    : form_(form),
-      next_(std::move(first)),
-      last_(std::move(last)),
-      index_(std::move(index)),
-      contact_(std::move(contact)),
-      last_by_past_(floor_mean(form.past.ray, form.turn.ahead.ray)),
-      last_by_turn_(floor_mean(form.turn.ahead.ray, form.future.ray)) {}
+  bool read(CollisionBatch& batch) override;
+
+ private:
+  /// Rays that are computed in one way.
+  struct Stretch {
+    Integer last;
+    int end_sign = 0;  ///< of the nearer end of time; 0 if there is no stretch yet
+    const Landmark* landmark = nullptr;  ///< nearest: that end, or the turn
+    bool is_near_start = false;
+  };
+
+  Stretch stretch_from(const Integer& ray) const;
+  void fill(std::size_t begin, std::size_t rows, CollisionBatch& batch);
+  const RayTable& table(const Landmark& landmark, int end_sign, bool anchor_is_odd);
+  void keep_within(CollisionBatch& batch) const;
+
+  const Unfolding& form_;
+  Integer next_;
+  Integer last_;
+  Integer index_;
+  std::optional<Integer> contact_;
+  Stretch stretch_;
+  Integer last_by_past_;                                   // later rays are nearer to the turn
+  Integer last_by_turn_;                                   // later rays are nearer to the future
+  std::array<std::unique_ptr<RayTable>, 8> tables_;  // by the parameters of make_table()
+};
 
 UnfoldedStream::Stretch UnfoldedStream::stretch_from(const Integer& ray) const {
   const bool late = form_.is_late(ray);
@@ -153,23 +185,19 @@ UnfoldedStream::Stretch UnfoldedStream::stretch_from(const Integer& ray) const {
 }
 
 bool UnfoldedStream::read(CollisionBatch& batch) {
-  Integer left = last_ - next_ + 1;
+  Integer left = std::min<Integer>(last_ - next_ + 1, long(CollisionBatch::kCapacity));
   if (index_ <= 0) left = std::min<Integer>(left, 1 - index_);  // on one side of time 0
   batch.first = index_;
-  batch.size = left <= 0 ? 0
-                         : static_cast<std::size_t>(
-                               std::min<Integer>(left, long(CollisionBatch::kCapacity)).get_ui());
+  batch.size = left > 0 ? left.get_ui() : 0;
   std::copy_n(kKinds.begin() + (is_odd(next_) ? 1 : 0), batch.size, batch.kind.begin());
   for (std::size_t row = 0; row < batch.size;) {
-    Integer of_stretch = stretch_.last - next_ - static_cast<unsigned long>(row) + 1;
-    if (stretch_.end_sign == 0 || of_stretch <= 0) {
-      stretch_ = stretch_from(next_ + static_cast<unsigned long>(row));
-      of_stretch = stretch_.last - next_ - static_cast<unsigned long>(row) + 1;
+    const auto done = static_cast<unsigned long>(row);
+    if (stretch_.end_sign == 0 || stretch_.last < next_ + done) {
+      stretch_ = stretch_from(next_ + done);
     }
+    const Integer of_stretch = stretch_.last - next_ - done + 1;
     const std::size_t rest = batch.size - row;
-    const std::size_t rows = of_stretch < static_cast<unsigned long>(rest)
-                                 ? static_cast<std::size_t>(of_stretch.get_ui())
-                                 : rest;
+    const std::size_t rows = of_stretch < rest ? of_stretch.get_ui() : rest;
     fill(row, rows, batch);
     row += rows;
   }
@@ -206,7 +234,7 @@ void UnfoldedStream::fill(std::size_t begin, std::size_t rows, CollisionBatch& b
     const std::size_t anchor = done + row_next_to(landmark, count);
     const bool anchor_is_odd = is_odd(first) != (anchor % 2 == 1);
     const Direction seen = direction_after(form, landmark, first_steps, anchor);
-    const Direction ray = stretch_.is_near_turn() ? seen.complement() : seen;
+    const Direction ray = landmark.sign != end_sign ? seen.complement() : seen;
     const RayTable& rays = table(landmark, end_sign, anchor_is_odd);
     const std::size_t skip = landmark.sign < 0 ? 0 : kBlockRays - count;
     fill_rows(form, end_sign, ray, rays, skip, count, batch, begin + done);
@@ -223,11 +251,21 @@ void UnfoldedStream::fill(std::size_t begin, std::size_t rows, CollisionBatch& b
 }
 
 const RayTable& UnfoldedStream::table(const Landmark& landmark, int end_sign, bool anchor_is_odd) {
-  auto& made = tables_[landmark.sign < 0 ? 0 : 1][end_sign < 0 ? 0 : 1][anchor_is_odd ? 1 : 0];
+  const int row = (landmark.sign < 0 ? 0 : 4) + (end_sign < 0 ? 0 : 2) + (anchor_is_odd ? 1 : 0);
+  auto& made = tables_[static_cast<std::size_t>(row)];
   if (!made) {
     made = std::make_unique<RayTable>(make_table(form_, landmark.sign, end_sign, anchor_is_odd));
   }
   return *made;
+}
+
+}  // namespace
+
+std::unique_ptr<CollisionStream> make_unfolded_stream(const Unfolding& form, Integer first,
+                                                      Integer last, Integer index,
+                                                      std::optional<Integer> contact) {
+  return std::make_unique<UnfoldedStream>(form, std::move(first), std::move(last), std::move(index),
+                                          std::move(contact));
 }
 
 }  // namespace piblocks

@@ -70,6 +70,8 @@ Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact)
 
   sigma = wedge.sigma.to_double();
   theta = to_double_double(wedge.theta);
+  const DoubleDouble rays = future.steps_from(past.ray);
+  total_phase = rays.hi + (rays.lo + past.beyond.hi + future.beyond.hi);
   step = direction({1, 0}, {});
   ell = exact_ell.to_double();
   corner_distance = (wedge.sigma * exact_ell).to_double();

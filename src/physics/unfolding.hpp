@@ -6,6 +6,7 @@
 #include <piblocks/exact.hpp>
 
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "core/two_sum.hpp"
@@ -85,6 +86,7 @@ struct CollisionNumbers {
 struct ClosedForm {
   double sigma = 0;
   DoubleDouble theta;
+  double total_phase = 0;         ///< rays from end to end of time: pi/theta
   Direction step{};               ///< of theta
   double ell = 0;                 ///< |L|/|V|
   double corner_distance = 0;     ///< b = sigma ell: distance of the line from the corner
@@ -193,5 +195,13 @@ struct Unfolding : ClosedForm {
   enum class NearStart { none, until, after } near_start = NearStart::none;
   Integer half_way;
 };
+
+/// The closed form as a bulk producer.
+/// @param first, last  rays, in the order of time.
+/// @param index        of the collision on `first`
+/// @param contact      as in time_within()
+std::unique_ptr<CollisionStream> make_unfolded_stream(const Unfolding& form, Integer first,
+                                                      Integer last, Integer index,
+                                                      std::optional<Integer> contact);
 
 }  // namespace piblocks

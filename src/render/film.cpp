@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "draw/story_pictures.hpp"
+#include "draw/montage.hpp"
 #include "physics/blocks.hpp"
 
 namespace piblocks {

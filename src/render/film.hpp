@@ -14,7 +14,7 @@
 
 #include "draw/canvas.hpp"
 #include "draw/draw_list.hpp"
-#include "draw/story_pictures.hpp"
+#include "draw/montage.hpp"
 #include "render/film_run.hpp"
 #include "scene/schedule.hpp"
 

@@ -13,8 +13,8 @@ FilmRun::FilmRun(Scene scene, std::unique_ptr<CollisionLog> log, FilmUse use)
 }
 
 DrawList FilmRun::picture(const FrameTime& shown) const {
-  return composition_->frame({log_->state_at(shown.time), shown.time, shown.slower},
-                             exposures_of(*log_, shown.exposure));
+  return composition_->frame(
+      {log_->state_at(shown.time), shown.time, shown.slower, exposures_of(*log_, shown.exposure)});
 }
 
 std::shared_ptr<const Image> read_logo(const Scene& scene) {

@@ -12,12 +12,10 @@
 #include <system_error>
 #include <vector>
 
-#include "core/base64.hpp"
+#include "core/text.hpp"
 #include "core/descriptor.hpp"
-#include "core/ending.hpp"
 #include "core/file_set.hpp"
 #include "core/output_file.hpp"
-#include "core/printable.hpp"
 #include "render/page_facts.hpp"
 #include "render/page_source.hpp"
 #include "render/renderings.hpp"

@@ -1,5 +1,3 @@
-#include "draw/sheet.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
@@ -10,10 +8,11 @@
 #include <string_view>
 #include <utility>
 
-#include "core/ending.hpp"
+#include "core/text.hpp"
 #include "core/output_file.hpp"
 #include "draw/canvas.hpp"
 #include "draw/composition.hpp"
+#include "draw/montage.hpp"
 #include "draw/number_text.hpp"
 #include "physics/blocks.hpp"
 #include "render/film_run.hpp"

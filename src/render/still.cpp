@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "core/ending.hpp"
+#include "core/text.hpp"
 #include "core/output_file.hpp"
 #include "draw/canvas.hpp"
 #include "physics/blocks.hpp"

@@ -1,7 +1,7 @@
 // render -o NAME.html: a page that holds the video; what it does is checked in a browser
 // (tests/golden/check_page).
 #include "cli/cli_fixture.hpp"
-#include "core/base64.hpp"
+#include "core/text.hpp"
 
 namespace piblocks {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/base64.hpp"
+#include "core/text.hpp"
 
 #include <gtest/gtest.h>
 

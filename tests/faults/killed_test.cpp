@@ -6,7 +6,7 @@
 #include <csignal>
 #include <thread>
 
-#include "core/unfinished.hpp"
+#include "core/output_file.hpp"
 #include "faults/fault_fixture.hpp"
 #include "support/property.hpp"
 

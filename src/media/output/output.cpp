@@ -8,8 +8,8 @@
 #include <limits>
 #include <string_view>
 
-#include "core/ending.hpp"
 #include "core/overwrite_check.hpp"
+#include "core/text.hpp"
 #include "media/libav/av_module.hpp"
 #include "media/output/frame_pattern.hpp"
 #include "media/output/output_kinds.hpp"

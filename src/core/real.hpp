@@ -1,6 +1,5 @@
 // Floating point of any precision.
-// In: exact rationals and a number of bits. Out: correctly rounded MPFR results.
-// A thin owner of one mpfr_t; only the operations that the unfolding needs.
+// In: exact rationals and a number of bits. Out: correctly rounded results of MPFR.
 #pragma once
 
 #include <mpfr.h>
@@ -8,9 +7,20 @@
 
 #include <algorithm>
 
-#include "core/mpfr_thread_cache.hpp"
-
 namespace piblocks {
+
+/// Frees at the end of a thread what MPFR keeps for it, constants and spare numbers, and never
+/// frees by itself (MPFR 4.2 manual, "Memory handling"). Cheap to call again.
+inline void free_mpfr_cache_with_thread() {
+  struct Cache {
+    Cache() = default;
+    ~Cache() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
+    Cache(const Cache&) = delete;
+    Cache& operator=(const Cache&) = delete;
+  };
+  static thread_local const Cache cache;
+  static_cast<void>(cache);
+}
 
 /// A number of `bits` bits of precision. A result has the precision of its longer operand.
 class Real {

@@ -1,26 +1,27 @@
-// The article's picture: wall, blocks and counter.
-// In: a scene and the part of the frame it may take, once; a state, for every frame. Out: items.
+// Which place of the frame each thing gets, and what it is drawn from.
+// In: a scene and its collision log. Out: places that do not overlap, for any shape of frame.
 #pragma once
 
 #include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
-#include <span>
-#include <string>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "draw/composition.hpp"
-#include "draw/draw_list.hpp"
 #include "draw/font.hpp"
-#include "draw/theme.hpp"
+#include "draw/look.hpp"
 
 namespace piblocks {
 
-/// The map from scene to pixels, sizes of type and lines: all that does not move. It depends on the
-/// area's size and on the longest count alone, so that nothing shifts while the counter grows.
+/// The stage, where wall, blocks and counter are: the map from scene to pixels, sizes of type and
+/// lines. It depends on the area's size and on the longest count alone, so that nothing shifts
+/// while the counter grows.
 struct Layout {
   double scale = 1;  ///< pixels per unit of the scene
   Point origin;      ///< pixel position of the scene's (0, 0)
+  int frame_px = 0;  ///< width of the frame
   double line_px = 1;
   double text_px = 16;
   Point label;              ///< baseline of "Collisions: "
@@ -41,16 +42,41 @@ struct Layout {
   }
 };
 
-/// What all things in a picture are made from. It does not outlive their making.
-struct Setting {
+/// What overlays and panels are drawn from. It does not outlive their making.
+struct DrawingContext {
   const Scene& scene;
   const CollisionLog& log;
   const Palette& palette;
   const Font& font;
-  const Layout& stage;
+  const Layout& layout;
   double text_px;  ///< of what is read beside the blocks
   double line_px;
 };
+
+struct FramePlan {
+  std::optional<TextItem> title;
+  std::optional<TextItem> caption;
+  Rectangle logo;  ///< empty unless asked for
+  Rectangle stage;
+  std::vector<Rectangle> panels;
+};
+
+/// @param context       its layout is not read.
+/// @param read_outs_px  height of their rows, which are below the stage
+/// @throws UsageError if a line cannot be set or is too long, or something gets too small.
+FramePlan plan_frame(const DrawingContext& context, double read_outs_px);
+
+/// @param longest_count  of those that will be shown
+/// @throws UsageError if the view is so close that doubles cannot hold the positions.
+Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
+               const Font& font);
+
+/// What is the same in every frame.
+inline Drawable unchanging(std::vector<DrawItem> same) {
+  return [same = std::move(same)](const FrameState& /*shown*/, std::vector<DrawItem>& items) {
+    items.insert(items.end(), same.begin(), same.end());
+  };
+}
 
 /// The height on which both blocks stand, in units of the scene: the middle of the larger one is
 /// at 0.
@@ -58,35 +84,5 @@ double base_of(const BlockSystem& system);
 
 /// The sum of both blocks' mass · velocity², which never changes.
 Rational twice_energy(const BlockSystem& system);
-
-/// @param longest_count  of those that will be shown
-/// @throws UsageError if the view is so close that doubles cannot hold the positions.
-Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
-               const Font& font);
-
-class StagePicture {
- public:
-  /// @param lit_digits  digits that light up when the counter shows them in their places; may be
-  ///                    empty
-  StagePicture(const Setting& setting, std::string lit_digits);
-
-  /// @param exposure  as in Composition::frame().
-  void add(const BlockState& state, std::span<const WeightedExposure> exposure,
-           std::vector<DrawItem>& items) const;
-
- private:
-  ExposedBlock block(double side, const Motion& motion, const BlockColors& colors) const;
-  void add_line(const Integer& count, std::vector<DrawItem>& items) const;
-
-  Layout layout_;
-  Palette palette_;
-  int width_px_;
-  RectangleItem wall_;
-  double base_;
-  double blue_side_;
-  double red_side_;
-  std::string lit_digits_;
-  TextWidths widths_;
-};
 
 }  // namespace piblocks

@@ -1,4 +1,4 @@
-#include "draw/theme.hpp"
+#include "draw/look.hpp"
 
 #include <array>
 

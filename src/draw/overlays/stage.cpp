@@ -1,5 +1,3 @@
-#include "draw/stage.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
@@ -9,8 +7,9 @@
 #include <string_view>
 #include <utility>
 
-#include "draw/expose.hpp"
-#include "draw/style.hpp"
+#include "draw/exposed_blocks.hpp"
+#include "draw/look.hpp"
+#include "draw/overlays/overlays.hpp"
 
 namespace piblocks {
 namespace {
@@ -44,14 +43,6 @@ double text_size(const Rectangle& area) {
 
 double length(const Range& range) { return to_double(range.high - range.low); }
 
-RectangleItem compose_wall(const Scene& scene, const Layout& layout, const Palette& palette) {
-  // The article's wall is a body of width 1 whose face is where blue turns back.
-  const double face = to_double(scene.system.wall_face);
-  const double bottom = to_double(scene.view.y.low);
-  return {ItemId::wall, layout.at(face - 1, bottom, 1, length(scene.view.y)), std::nullopt,
-          Stroke{palette.wall, layout.line_px, kDash * layout.line_px}};
-}
-
 /// How many characters of the count, separators included, are the expected ones; 0 while the count
 /// has fewer digits.
 std::size_t lit_length(std::string_view count, std::string_view expected) {
@@ -74,6 +65,94 @@ void check_resolution(const View& view, double scale) {
                   step_px / scale, step_px));
 }
 
+class Stage {
+ public:
+  Stage(const DrawingContext& context, std::string lit_digits)
+      : layout_(context.layout),
+        palette_(context.palette),
+        wall_(wall_of(context.scene)),
+        base_(base_of(context.scene.system)),
+        blue_side_(to_double(context.scene.system.blue.width)),
+        red_side_(to_double(context.scene.system.red.width)),
+        lit_digits_(std::move(lit_digits)),
+        widths_(context.font, kCountCharacters) {}
+
+  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
+    items.emplace_back(wall_);
+    ExposedBlock red = block(red_side_, shown.state.red, palette_.red);
+    ExposedBlock blue = block(blue_side_, shown.state.blue, palette_.blue);
+    if (shown.exposure.empty()) {
+      add_rectangles(ItemId::red_block, red, items);
+      add_rectangles(ItemId::blue_block, blue, items);
+    } else {
+      items.emplace_back(exposed_item(std::move(red), std::move(blue), layout_, shown.exposure));
+    }
+    add_line(shown.state.count, items);
+  }
+
+ private:
+  /// The article's wall is a body of width 1 whose face is where blue turns back.
+  RectangleItem wall_of(const Scene& scene) const {
+    const double face = to_double(scene.system.wall_face);
+    const double bottom = to_double(scene.view.y.low);
+    return {ItemId::wall, layout_.at(face - 1, bottom, 1, length(scene.view.y)), std::nullopt,
+            Stroke{palette_.wall, layout_.line_px, kDash * layout_.line_px}};
+  }
+
+  ExposedBlock block(double side, const Motion& motion, const BlockColors& colors) const {
+    ExposedBlock block{layout_.at(motion.position - side / 2, base_, side, side),
+                       colors.fill,
+                       Stroke{colors.edge, layout_.line_px},
+                       {},
+                       {}};
+    const Rectangle& bounds = block.bounds;
+    const double height = std::min(2 * layout_.line_px, kBarStep * bounds.height / 2);
+    for (int bar = 1; bar <= colors.bars; ++bar) {
+      const bool is_upper = 2 * bar <= colors.bars;
+      const double down = kBarStep * (is_upper ? bar : bar - colors.bars - 1);
+      const double centre = std::round(bounds.y + bounds.height * (is_upper ? down : 1 + down));
+      block.bars.push_back({centre - height / 2, height});
+    }
+    return block;
+  }
+
+  /// Label and count. A picture from outside of the film may have a longer count than the layout
+  /// was made for: its line is set smaller, so that it is never cut off.
+  void add_line(const Integer& count, std::vector<DrawItem>& items) const {
+    const std::string text = with_thousands_separators(count);
+    const std::size_t lit = lit_length(text, lit_digits_);
+    Point label = layout_.label;
+    double text_px = layout_.text_px;
+    const double count_em = widths_.width_em(text);
+    if (count_em > layout_.count_em + kNegligible_em) {
+      const double line_em = layout_.label_em + count_em;
+      text_px = std::min(text_px, layout_.line_room_px / line_em);
+      label.x = layout_.line_left_px + (layout_.line_room_px - line_em * text_px) / 2;
+    }
+    const Point origin{label.x + layout_.label_em * text_px, label.y};
+    items.emplace_back(
+        TextItem{ItemId::label, label, std::string(kLabelText), text_px, palette_.muted});
+    if (lit > 0) {
+      items.emplace_back(
+          TextItem{ItemId::lit_count, origin, text.substr(0, lit), text_px, palette_.accent});
+    }
+    if (lit < text.size()) {
+      const double lit_px = lit > 0 ? widths_.width_em(text.substr(0, lit)) * text_px : 0;
+      items.emplace_back(TextItem{
+          ItemId::count, {origin.x + lit_px, origin.y}, text.substr(lit), text_px, palette_.text});
+    }
+  }
+
+  Layout layout_;
+  Palette palette_;
+  RectangleItem wall_;
+  double base_;
+  double blue_side_;
+  double red_side_;
+  std::string lit_digits_;
+  TextWidths widths_;
+};
+
 }  // namespace
 
 double base_of(const BlockSystem& system) {
@@ -95,6 +174,7 @@ Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle
   const double line_em = label_em + font.width_em(with_thousands_separators(longest_count));
 
   Layout layout;
+  layout.frame_px = view.width_px;
   layout.line_px = std::max(1.0, std::round(line_width_px(view)));
   layout.text_px = std::min(text_size(area), inner_width / line_em);
 
@@ -123,75 +203,8 @@ Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle
   return layout;
 }
 
-StagePicture::StagePicture(const Setting& setting, std::string lit_digits)
-    : layout_(setting.stage),
-      palette_(setting.palette),
-      width_px_(setting.scene.view.width_px),
-      wall_(compose_wall(setting.scene, layout_, palette_)),
-      base_(base_of(setting.scene.system)),
-      blue_side_(to_double(setting.scene.system.blue.width)),
-      red_side_(to_double(setting.scene.system.red.width)),
-      lit_digits_(std::move(lit_digits)),
-      widths_(setting.font, kCountCharacters) {}
-
-ExposedBlock StagePicture::block(double side, const Motion& motion,
-                                 const BlockColors& colors) const {
-  ExposedBlock block{layout_.at(motion.position - side / 2, base_, side, side),
-                     colors.fill,
-                     Stroke{colors.edge, layout_.line_px},
-                     {},
-                     {}};
-  const Rectangle& bounds = block.bounds;
-  const double height = std::min(2 * layout_.line_px, kBarStep * bounds.height / 2);
-  for (int bar = 1; bar <= colors.bars; ++bar) {
-    const bool is_upper = 2 * bar <= colors.bars;
-    const double down = kBarStep * (is_upper ? bar : bar - colors.bars - 1);
-    const double centre = std::round(bounds.y + bounds.height * (is_upper ? down : 1 + down));
-    block.bars.push_back({centre - height / 2, height});
-  }
-  return block;
-}
-
-/// Label and count. A picture from outside of the film may have a longer count than the layout was
-/// made for: its line is set smaller, so that it is never cut off.
-void StagePicture::add_line(const Integer& count, std::vector<DrawItem>& items) const {
-  const std::string text = with_thousands_separators(count);
-  const std::size_t lit = lit_length(text, lit_digits_);
-  Point label = layout_.label;
-  double text_px = layout_.text_px;
-  const double count_em = widths_.width_em(text);
-  if (count_em > layout_.count_em + kNegligible_em) {
-    const double line_em = layout_.label_em + count_em;
-    text_px = std::min(text_px, layout_.line_room_px / line_em);
-    label.x = layout_.line_left_px + (layout_.line_room_px - line_em * text_px) / 2;
-  }
-  const Point origin{label.x + layout_.label_em * text_px, label.y};
-  items.emplace_back(
-      TextItem{ItemId::label, label, std::string(kLabelText), text_px, palette_.muted});
-  if (lit > 0) {
-    items.emplace_back(
-        TextItem{ItemId::lit_count, origin, text.substr(0, lit), text_px, palette_.accent});
-  }
-  if (lit < text.size()) {
-    const double lit_px = lit > 0 ? widths_.width_em(text.substr(0, lit)) * text_px : 0;
-    items.emplace_back(TextItem{
-        ItemId::count, {origin.x + lit_px, origin.y}, text.substr(lit), text_px, palette_.text});
-  }
-}
-
-void StagePicture::add(const BlockState& state, std::span<const WeightedExposure> exposure,
-                       std::vector<DrawItem>& items) const {
-  items.emplace_back(wall_);
-  ExposedBlock red = block(red_side_, state.red, palette_.red);
-  ExposedBlock blue = block(blue_side_, state.blue, palette_.blue);
-  if (exposure.empty()) {
-    add_rectangles(ItemId::red_block, red, items);
-    add_rectangles(ItemId::blue_block, blue, items);
-  } else {
-    items.emplace_back(exposed_item(std::move(red), std::move(blue),
-                                    {layout_.origin.x, layout_.scale, width_px_}, exposure));
-  }
-  add_line(state.count, items);
+Drawable stage(const DrawingContext& context, std::string lit_digits) {
+  return Stage(context, std::move(lit_digits));
 }
 
 }  // namespace piblocks

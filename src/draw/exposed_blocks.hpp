@@ -1,6 +1,6 @@
-// One column of pixels of two blocks while the picture is exposed.
-// In: where the blocks are, for which share of the time, and what is behind. Out: the mean of the
-// column's pixels in linear light.
+// Two blocks while the picture is exposed.
+// In: the blocks at one instant, and where they are for which share of the time. Out: a draw item;
+// and its pixels, column by column, as their mean in linear light.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,30 @@
 
 namespace piblocks {
 
+struct Layout;
+struct WeightedExposure;
+
+/// @param red, blue  at the picture's instant, without dwells
+ExposedItem exposed_item(ExposedBlock red, ExposedBlock blue, const Layout& layout,
+                         std::span<const WeightedExposure> exposures);
+
+/// Adds a block that stays: a rectangle for it, and one for each of its bars.
+void add_rectangles(ItemId id, const ExposedBlock& block, std::vector<DrawItem>& items);
+
 /// How much of a row or a column of pixels a block covers, the part inside its line, and, of a row,
 /// its bars.
 struct Cover {
   double outer = 0;
   double inner = 0;
   double bars = 0;
-
-  friend bool operator==(const Cover&, const Cover&) = default;
+  bool operator==(const Cover&) const = default;
 };
 
 /// What both blocks cover of a row.
 struct RowCover {
   Cover behind;
   Cover front;
-
-  friend bool operator==(const RowCover&, const RowCover&) = default;
+  bool operator==(const RowCover&) const = default;
 };
 
 /// How a block covers a row, and a column over the time of the exposure.

@@ -1,5 +1,5 @@
-// What only a storyboard shows: title cards, several runs in one frame, and fades.
-// In: lines of text or draw lists, and the view of the film. Out: a draw list.
+// Pictures of pictures and of text: title cards, split screens, fades and sheets.
+// In: lines of text or draw lists. Out: a draw list.
 #pragma once
 
 #include <piblocks/scene.hpp>
@@ -35,5 +35,16 @@ class SplitScreen {
 
 /// The second picture over the first, both of one size. @param opacity  of the second, 0 … 1.
 DrawList cross_fade(DrawList from, DrawList to, double opacity);
+
+struct CaptionedPicture {
+  DrawList picture;
+  std::string caption;  ///< UTF-8, one line, set underneath
+};
+
+/// Pictures of one size in rows, from the upper left, as large as margins, gaps and captions allow.
+/// A caption that is too long for its picture is set smaller.
+/// @param pictures  at least one.
+/// @throws DrawError if the font cannot be loaded.
+DrawList arrange(std::vector<CaptionedPicture> pictures, int width_px, int height_px);
 
 }  // namespace piblocks

@@ -1,15 +1,16 @@
-#include "draw/story_pictures.hpp"
+#include "draw/montage.hpp"
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "draw/font.hpp"
-#include "draw/style.hpp"
-#include "draw/theme.hpp"
+#include "draw/look.hpp"
 
 namespace piblocks {
 namespace {
@@ -33,8 +34,32 @@ double fitted_px(const std::string& text, double size_px, double width_px, const
 /// A smaller cell shows nothing.
 constexpr int kLeastCell_px = 8;
 
-Rectangle to_rectangle(const PixelRect& r) {
-  return {double(r.x_px), double(r.y_px), double(r.width_px), double(r.height_px)};
+constexpr Color kPaper = {255, 255, 255};
+constexpr Color kFrame = {160, 160, 160};
+constexpr Color kCaption = {32, 32, 32};
+
+// In ems of the caption.
+constexpr double kCaptionBaseline = 1.25;  // below the picture
+constexpr double kCaptionHeight = 1.6;
+
+TextItem caption_below(const Rectangle& place, const std::string& text, double size_px,
+                       const Font& font) {
+  const double fitted_px = font.fitted_px(text, size_px, place.width);
+  return {ItemId::label,
+          {place.x + (place.width - font.width_em(text) * fitted_px) / 2,
+           place.y + place.height + kCaptionBaseline * size_px},
+          text,
+          fitted_px,
+          kCaption};
+}
+
+/// A line around a picture, half inside of it, half outside.
+RectangleItem frame_of(const Rectangle& place, double width_px) {
+  return {ItemId::wall,
+          {place.x - width_px / 2, place.y - width_px / 2, place.width + width_px,
+           place.height + width_px},
+          std::nullopt,
+          Stroke{kFrame, width_px, 0}};
 }
 
 }  // namespace
@@ -112,6 +137,50 @@ DrawList cross_fade(DrawList from, DrawList to, double opacity) {
   from.items.emplace_back(
       GroupItem{ItemId::fade, bounds, std::make_shared<const DrawList>(std::move(to)), opacity});
   return from;
+}
+
+DrawList arrange(std::vector<CaptionedPicture> pictures, int width_px, int height_px) {
+  assert(!pictures.empty());
+  const Font font;
+  const double side = std::min(width_px, height_px);
+  const double margin = style::kSheetMargin * side;
+  const double gap = style::kSheetGap * side;
+  const double text_px = style::kSheetCaption * side;
+  const double line_px = std::max(0.5, style::kSheetLine * side);
+  const double caption = kCaptionHeight * text_px;
+  const DrawList& first = pictures.front().picture;
+  const double aspect = double(first.width_px) / first.height_px;
+  const int count = static_cast<int>(pictures.size());
+  const auto rows = [count](int columns) { return (count + columns - 1) / columns; };
+  const auto picture_width = [&](int columns) {
+    const double room_x = (width_px - 2 * margin - (columns - 1) * gap) / columns;
+    const double room_y =
+        (height_px - 2 * margin - (rows(columns) - 1) * gap) / rows(columns) - caption;
+    return std::max(0.0, std::min(room_x, room_y * aspect));
+  };
+  int columns = 1;
+  for (int more = 2; more <= count; ++more) {
+    if (picture_width(more) > picture_width(columns)) columns = more;
+  }
+  const double width = picture_width(columns);
+  const double height = width / aspect;
+  const double step_x = width + gap;
+  const double step_y = height + caption + gap;
+  const double left = (width_px - columns * step_x + gap) / 2;
+  const double top = (height_px - rows(columns) * step_y + gap) / 2;
+
+  DrawList page{width_px, height_px, kPaper, {}};
+  std::vector<DrawItem> above;
+  for (int i = 0; i < count; ++i) {
+    auto& [picture, caption_text] = pictures[static_cast<std::size_t>(i)];
+    const Rectangle place{left + i % columns * step_x, top + i / columns * step_y, width, height};
+    page.items.emplace_back(GroupItem{ItemId::compared, place,
+                                      std::make_shared<const DrawList>(std::move(picture)), 1});
+    above.emplace_back(frame_of(place, line_px));
+    above.emplace_back(caption_below(place, caption_text, text_px, font));
+  }
+  std::ranges::move(above, std::back_inserter(page.items));
+  return page;
 }
 
 }  // namespace piblocks

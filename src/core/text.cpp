@@ -1,0 +1,87 @@
+#include "core/text.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace piblocks {
+namespace {
+
+bool is_plain(std::uint32_t code) {
+  const auto is_in = [code](std::uint32_t first, std::uint32_t last) {
+    return code >= first && code <= last;
+  };
+  if (code < 0x20 || is_in(0x7f, 0x9f)) return false;                // C0, DEL, C1
+  if (is_in(0x200e, 0x200f) || code == 0x061c) return false;         // marks of direction
+  if (is_in(0x2028, 0x202e) || is_in(0x2066, 0x2069)) return false;  // lines, embeddings, isolates
+  return code != 0xfeff && (code & 0xfffe) != 0xfffe;  // byte order mark, noncharacters
+}
+
+std::string escape(std::uint32_t code) {
+  if (code == '\n') return "\\n";
+  if (code == '\t') return "\\t";
+  return code < 0x80 ? fmt::format("\\x{:02x}", code) : fmt::format("\\u{{{:x}}}", code);
+}
+
+}  // namespace
+
+Character first_character(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return {lead, 1};
+  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return {};
+  std::uint32_t code = lead & (0xffU >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0U) != 0x80) return {};
+    code = code << 6 | (byte(i) & 0x3fU);
+  }
+  const std::uint32_t lowest = length == 4 ? 0x10000 : length == 3 ? 0x800 : 0x80;
+  const bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
+  if (code < lowest || code > 0x10ffff || is_surrogate) return {};
+  return {code, length};
+}
+
+std::string printable(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  while (!text.empty()) {
+    const auto [code, length_bytes] = first_character(text);
+    if (length_bytes == 0) {
+      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()));
+    } else {
+      result += is_plain(code) ? std::string(text.substr(0, length_bytes)) : escape(code);
+    }
+    text.remove_prefix(std::max<std::size_t>(length_bytes, 1));
+  }
+  return result;
+}
+
+std::string escaped(std::string_view text) {
+  constexpr std::string_view kSpecial = "&<>\"'";
+  constexpr std::array kEntities = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
+  std::string result;
+  for (const char c : printable(text)) {
+    const std::size_t at = kSpecial.find(c);
+    result += at == std::string_view::npos ? std::string(1, c) : kEntities.at(at);
+  }
+  return result;
+}
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (k < count ? bytes[i + k] : 0U);
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= count ? kDigits[(word >> (18 - 6 * k)) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+}  // namespace piblocks

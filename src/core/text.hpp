@@ -1,0 +1,45 @@
+// Text: its characters, its endings, and how bytes become text that is safe to show.
+// In: any bytes. Out: code points, base64, and text for terminals, HTML and XML.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace piblocks {
+
+struct Character {
+  std::uint32_t code = 0;
+  std::size_t length_bytes = 0;  ///< 0 if the bytes are not UTF-8
+};
+
+/// The first character of a text that is not empty. RFC 3629: the shortest form only, no
+/// surrogates, nothing above U+10FFFF.
+Character first_character(std::string_view text);
+
+/// Whether a name has this file extension, in small letters or in capitals.
+/// @param ending  in small letters, such as ".png".
+constexpr bool has_ending(std::string_view name, std::string_view ending) {
+  if (name.size() < ending.size()) return false;
+  const auto is_same = [](char letter, char small) {
+    return letter == small || (letter >= 'A' && letter <= 'Z' && letter - 'A' + 'a' == small);
+  };
+  return std::ranges::equal(name.substr(name.size() - ending.size()), ending, is_same);
+}
+
+/// The text in valid UTF-8, without characters that a terminal obeys, that change the direction of
+/// text, or that XML does not allow. Control characters of ASCII and bytes that are not UTF-8
+/// become "\xHH", "\n" and "\t", other characters of this kind "\u{HHHH}".
+std::string printable(std::string_view text);
+
+/// The same with the special characters of HTML and XML escaped, in attributes too.
+std::string escaped(std::string_view text);
+
+/// Base64 (RFC 4648, section 4) in one line. The texts of consecutive pieces, all but the last a
+/// multiple of three bytes long, make up the text of the whole.
+std::string base64(std::span<const std::uint8_t> bytes);
+
+}  // namespace piblocks
