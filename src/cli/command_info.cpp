@@ -12,7 +12,7 @@
 #include "cli/options.hpp"
 #include "cli/text_output.hpp"
 #include "draw/canvas.hpp"
-#include "media/output/outputs.hpp"
+#include "media/output/output.hpp"
 #include "physics/engines.hpp"
 #include "scene/schedule.hpp"
 

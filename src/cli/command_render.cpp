@@ -13,7 +13,7 @@
 #include "cli/text_output.hpp"
 #include "core/overwrite_check.hpp"
 #include "core/text.hpp"
-#include "media/output/outputs.hpp"
+#include "media/output/output.hpp"
 #include "render/renderings.hpp"
 
 namespace piblocks::cli {

@@ -6,7 +6,7 @@
 #include <span>
 #include <stop_token>
 
-#include "media/output/frame_sink.hpp"
+#include "media/output/output.hpp"
 #include "render/film.hpp"
 #include "sound/soundtrack.hpp"
 

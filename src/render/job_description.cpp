@@ -84,7 +84,7 @@ ShardHeader describe(const RenderJob& job, const Output& output, std::int64_t fr
   header.emplace_back("frames", std::to_string(frame_count));
   describe(job.encoder, header);
   header.emplace_back("painter", painter_fingerprint());
-  header.emplace_back("output", output.signature());
+  header.emplace_back("output", output.signature);
   return header;
 }
 

@@ -4,7 +4,7 @@
 #include <piblocks/render.hpp>
 
 #include "draw/canvas.hpp"
-#include "media/output/outputs.hpp"
+#include "media/output/output.hpp"
 #include "media/output/shard_file.hpp"
 #include "render/chunks.hpp"
 #include "render/film.hpp"
@@ -26,7 +26,7 @@ struct Plan {
                              {film.view().width_px, film.view().height_px, film.view().frame_rate,
                               film.view().background == Background::transparent},
                              job.encoder, sound)),
-        chunks{output->has_frames() ? film.frame_count() : 0, output->frames_per_chunk()} {}
+        chunks{output.has_frames ? film.frame_count() : 0, output.frames_per_chunk} {}
 
   static std::optional<SoundFormat> soundtrack_of(const RenderJob& job, const Film& film) {
     if (!is_sound_alone(job.output) && !sound_of(job.script).on) return std::nullopt;
@@ -35,7 +35,7 @@ struct Plan {
 
   Film film;
   std::optional<SoundFormat> sound;
-  std::unique_ptr<Output> output;
+  Output output;
   Chunks chunks;
 };
 
@@ -52,7 +52,7 @@ class Worker {
       : plan_(plan),
         profile_(profile),
         canvas_(plan.film.view().width_px, plan.film.view().height_px, plan.film.view().background),
-        encoder_(plan.output->make_encoder()) {}
+        encoder_(plan.output.make_encoder()) {}
 
   EncodedWork work(std::int64_t chunk, const std::stop_token& stop) {
     StepClock clock(profile_, Step::encode);
@@ -95,8 +95,8 @@ ChunkRange range_of(const std::optional<Shard>& shard, std::int64_t chunks) {
 }
 
 std::unique_ptr<FrameSink> open_sink(const RenderJob& job, const Plan& plan) {
-  if (!job.shard) return plan.output->open();
-  ShardHeader header = describe(job, *plan.output, plan.chunks.frame_count);
+  if (!job.shard) return plan.output.open();
+  ShardHeader header = describe(job, plan.output, plan.chunks.frame_count);
   header.emplace_back("part", fmt::format("{}/{}", job.shard->number, job.shard->count));
   return open_shard(shard_name(job.output, *job.shard), header);
 }
@@ -146,12 +146,12 @@ SoundWork sound_for(const RenderJob& job, const Plan& plan, FrameSink& sink,
                     const std::stop_token& stop) {
   if (!plan.sound || (job.shard && job.shard->number != 1)) return {};
   const auto report = [&](std::int64_t samples) {
-    if (plan.output->has_frames() || samples == plan.sound->size) return;
+    if (plan.output.has_frames || samples == plan.sound->size) return;
     const std::int64_t frames = plan.film.frame_count();
     on_progress({samples * frames / plan.sound->size, frames});
   };
   SoundWork work{std::make_unique<FilmSound>(plan.film, stop, report), nullptr};
-  work.packets = std::make_unique<ClockedPackets>(plan.output->encode_sound(*work.samples), clock);
+  work.packets = std::make_unique<ClockedPackets>(plan.output.encode_sound(*work.samples), clock);
   sink.take_sound(*work.packets);
   return work;
 }
@@ -166,7 +166,7 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
                      const std::stop_token& stop) {
   check_shard(job);
   const Plan plan(job);
-  if (job.max_flashes && plan.output->has_frames()) {
+  if (job.max_flashes && plan.output.has_frames) {
     check_flashes(plan.film, *job.max_flashes, stop);
   }
   const ChunkRange range = range_of(job.shard, plan.chunks.count());
@@ -181,8 +181,7 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
     };
   };
 
-  Rendered rendered{plan.output->has_frames() ? frames_until(range.end) : plan.film.frame_count(),
-                    {}};
+  Rendered rendered{plan.output.has_frames ? frames_until(range.end) : plan.film.frame_count(), {}};
   on_progress({0, rendered.frame_count});
   StepClock clock(job.profile, Step::mux);
   const SoundWork sound = sound_for(job, plan, *sink, on_progress, clock, stop);
@@ -196,7 +195,7 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
   clock.enter(Step::write);
   sink->finish();
-  if (!plan.output->has_frames()) on_progress({rendered.frame_count, rendered.frame_count});
+  if (!plan.output.has_frames) on_progress({rendered.frame_count, rendered.frame_count});
   if (job.profile) {
     add(rendered.profile.steps, clock.spent());
     rendered.profile.total_s = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);

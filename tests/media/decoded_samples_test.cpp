@@ -1,6 +1,4 @@
 // Pictures of every pixel format that libavutil knows.
-#include "media/libav/video_samples.hpp"
-
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
@@ -8,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "media/libav/frame_format.hpp"
+#include "media/libav/decoded_frame.hpp"
 #include "media/pixels/frame_reader.hpp"
 #include "support/property.hpp"
 
@@ -104,7 +102,7 @@ int differing(const Picture& a, const Picture& b) {
   return count;
 }
 
-int differing(const Samples& a, const Samples& b) {
+int differing(const AnyImage& a, const AnyImage& b) {
   if (const auto* const flat = std::get_if<Image>(&a)) return differing(*flat, std::get<Image>(b));
   return differing(std::get<DeepImage>(a), std::get<DeepImage>(b));
 }
@@ -124,7 +122,7 @@ TEST(VideoSamples, EverySampleOfEveryFormatIsReadWhereItIs) {
     for (Plane& plane : planes) {
       for (int i = 0; i < 8; ++i) {
         write_planes(planes, *format, *picture);
-        const Samples before = samples_of(*picture);
+        const AnyImage before = samples_of(*picture);
         const auto last = static_cast<std::int64_t>(plane.levels.size()) - 1;
         std::uint16_t& level = plane.levels.at(std::size_t(random.integer(0, last)));
         level = static_cast<std::uint16_t>(level == 0 ? 1 : level - 1);
@@ -145,7 +143,7 @@ TEST(VideoSamples, AnySizeOfAnyFormatCanBeReadAndShown) {
       const AvFramePtr picture = picture_of(random, *format, width, height);
       if (!picture || !is_comparable(*picture)) continue;
       SwsPtr sws;
-      const Samples samples = samples_of(*picture);
+      const AnyImage samples = samples_of(*picture);
       EXPECT_FALSE(layout_of(*picture).empty());
       try {
         EXPECT_GE(max_level_of(rgb_of(*picture, sws)), max_level_of(samples));
@@ -191,7 +189,7 @@ TEST(VideoSamples, GreyIsRgbWithEqualSamples) {
   for (const AVPixelFormat grey : {AV_PIX_FMT_GRAY8, AV_PIX_FMT_MONOWHITE, AV_PIX_FMT_MONOBLACK}) {
     const AvFramePtr picture = picture_of(random, *av_pix_fmt_desc_get(grey), 16, 4);
     EXPECT_EQ(layout_of(*picture), "rgba");
-    const Samples samples = samples_of(*picture);
+    const AnyImage samples = samples_of(*picture);
     for (const std::uint32_t word : std::get<Image>(samples).words) {
       EXPECT_EQ(word, 0xff000000U | (word & 0xff) * 0x010101U);
     }

@@ -1,5 +1,5 @@
 // Chunks that are coded from what changes, as the product makes them.
-#include "media/libav/damage_chunk.hpp"
+#include "media/libav/h264_chunk.hpp"
 
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
@@ -80,12 +80,11 @@ class DamageChunkTest : public testing::Test {
     }
   }
 
-  std::unique_ptr<Output> output(const EncoderSettings& settings,
-                                 const VideoFormat& format = kFormat) const {
+  Output output(const EncoderSettings& settings, const VideoFormat& format = kFormat) const {
     return set_up_output(folder_ / "x.mp4", format, settings);
   }
   EncodedChunk first_chunk(const EncoderSettings& settings, const PaintFrame& paint) const {
-    return encode_chunk(*output(settings), 0, kFramesPerChunk, paint);
+    return encode_chunk(output(settings), 0, kFramesPerChunk, paint);
   }
   std::string problem(const EncoderSettings& settings, const VideoFormat& format = kFormat) const {
     try {
@@ -103,13 +102,13 @@ TEST_F(DamageChunkTest, IsWhatAnMp4GetsUnlessToldOtherwise) {
   const EncodedChunk chunk = first_chunk({}, article_frames(kFormat));
   EXPECT_EQ(chunk, first_chunk(kDamage, article_frames(kFormat)));
   EXPECT_NE(chunk, first_chunk(kLibx264, article_frames(kFormat)));
-  EXPECT_NE(output({})->signature(), output(kLibx264)->signature());
+  EXPECT_NE(output({}).signature, output(kLibx264).signature);
 }
 
 TEST_F(DamageChunkTest, BeginsWithItsOnlyKeyFrame) {
   for (const std::int64_t first : {std::int64_t{0}, 5 * kFramesPerChunk}) {
     const auto made =
-        encode_chunk(*output({}), first, first + kFramesPerChunk, article_frames(kFormat));
+        encode_chunk(output({}), first, first + kFramesPerChunk, article_frames(kFormat));
     ASSERT_EQ(made.size(), std::size_t{kFramesPerChunk});
     EXPECT_EQ(key_frames(made), std::vector{first});
     for (std::size_t i = 0; i < made.size(); ++i) {
@@ -133,23 +132,23 @@ TEST_F(DamageChunkTest, LeavesTheRestOfAChunkThatIsAllNewToTheStreamsEncoder) {
 
 TEST_F(DamageChunkTest, CodesTheNextChunkItselfAgain) {
   const auto made = output({});
-  const auto encoder = made->make_encoder();
+  const auto encoder = made.make_encoder();
   const PaintFrame paint = random_then_article(kFormat);
-  EXPECT_EQ(key_frames(encode_chunk(*made, *encoder, 0, kFramesPerChunk, paint)).size(), 2u);
+  EXPECT_EQ(key_frames(encode_chunk(made, *encoder, 0, kFramesPerChunk, paint)).size(), 2u);
   const EncodedChunk next =
-      encode_chunk(*made, *encoder, kFramesPerChunk, 2 * kFramesPerChunk, paint);
-  EXPECT_EQ(next, encode_chunk(*output(kDamage), kFramesPerChunk, 2 * kFramesPerChunk, paint));
+      encode_chunk(made, *encoder, kFramesPerChunk, 2 * kFramesPerChunk, paint);
+  EXPECT_EQ(next, encode_chunk(output(kDamage), kFramesPerChunk, 2 * kFramesPerChunk, paint));
 }
 
 TEST_F(DamageChunkTest, DependsOnTheFramesOfTheChunkAlone) {
   for (const PaintFrame& paint : {article_frames(kFormat), random_then_article(kFormat)}) {
     for (const EncoderSettings& settings : {EncoderSettings{}, kDamage}) {
       const auto made = output(settings);
-      const auto encoder = made->make_encoder();
+      const auto encoder = made.make_encoder();
       for (const std::int64_t first : {std::int64_t{0}, kFramesPerChunk}) {
         const std::int64_t end = first + kFramesPerChunk;
-        EXPECT_EQ(encode_chunk(*made, *encoder, first, end, paint),
-                  encode_chunk(*made, first, end, paint))
+        EXPECT_EQ(encode_chunk(made, *encoder, first, end, paint),
+                  encode_chunk(made, first, end, paint))
             << "chunk at " << first;
       }
     }
@@ -168,12 +167,12 @@ TEST_F(DamageChunkTest, ShowsEveryFrameOfBothEncoders) {
   const h264::StreamHeaders headers(kFormat);
   for (const EncoderSettings& settings : {EncoderSettings{}, kDamage}) {
     const auto made = output(settings);
-    const auto encoder = made->make_encoder();
+    const auto encoder = made.make_encoder();
     const PaintFrame paint = random_then_article(kFormat);
     h264::StrictDecoder decoder(headers.bytes);
     std::int64_t frame = 0;
     for (std::int64_t first = 0; first < kFrames; first += kFramesPerChunk) {
-      for (const Packet& packet : encode_chunk(*made, *encoder, first, kFrames, paint)) {
+      for (const Packet& packet : encode_chunk(made, *encoder, first, kFrames, paint)) {
         const auto shown = decoder.decode(packet.bytes);
         ASSERT_TRUE(shown) << frame;
         EXPECT_LE(largest_error(paint(frame), *shown), kLargestError) << frame;
@@ -259,7 +258,7 @@ TEST_P(DamageChunkSizeTest, ShowsWhatWasDrawnFromDamageAlone) {
   SCOPED_TRACE(random.trace());
   for (const EncoderSettings& settings : {EncoderSettings{}, kDamage}) {
     const auto made = output(settings, format);
-    const auto encoder = made->make_encoder();
+    const auto encoder = made.make_encoder();
     h264::StrictDecoder decoder(headers.bytes);
     ChangingFrame frame(format, random);
     for (int chunk = 0; chunk < kChunks; ++chunk) {
@@ -295,7 +294,7 @@ TEST_F(DamageChunkTest, SpendsNothingOnWhatLiesBeyondThePicture) {
       std::ranges::fill(pixels.words, 0xff000000 | 0x101010 * static_cast<std::uint32_t>(number));
       return pixels;
     };
-    return encode_chunk(*output(kDamage, format), 0, 10, paint);
+    return encode_chunk(output(kDamage, format), 0, 10, paint);
   };
   const EncodedChunk whole = grey_frames(48, 32);
   EXPECT_EQ(grey_frames(34, 18), whole);

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "h264/level_limits.hpp"
-#include "media/libav/codec_choice.hpp"
+#include "media/libav/encoder_setup.hpp"
 
 namespace piblocks {
 namespace {
@@ -132,8 +132,8 @@ void set_up(AVCodecContext& context, const AVCodec& codec, const EncoderSettings
     set_option(context, "preset", settings.preset.value_or(kX264Preset));
   }
   if (!has_option(codec, "crf")) {
-    context.bit_rate = static_cast<std::int64_t>(kBitsPerPixel * context.width * context.height *
-                                                 av_q2d(context.framerate));
+    context.bit_rate =
+        std::int64_t(kBitsPerPixel * context.width * context.height * av_q2d(context.framerate));
   }
   make_chunks_reproducible(context, codec);
 }
@@ -146,7 +146,7 @@ std::vector<std::string> usable_h264_encoders() {
   return names;
 }
 
-CodecChoice h264_choice(const VideoFormat& format, const EncoderSettings& settings,
+EncoderSetup h264_setup(const VideoFormat& format, const EncoderSettings& settings,
                         const std::vector<EncoderKind>& kinds) {
   const AVCodec* codec = nullptr;
   Problems problems;
@@ -164,7 +164,7 @@ CodecChoice h264_choice(const VideoFormat& format, const EncoderSettings& settin
       .codec = codec,
       .pixel_format = AV_PIX_FMT_YUV420P,
       .frames_per_chunk = frames_in_a_second(format.frame_rate),
-      .set_up = [codec, settings](AVCodecContext& context) { set_up(context, *codec, settings); },
+      .apply = [codec, settings](AVCodecContext& context) { set_up(context, *codec, settings); },
       .alternatives = kinds};
 }
 

@@ -1,5 +1,3 @@
-#include "media/libav/video_samples.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
@@ -8,7 +6,7 @@
 #include <cstring>
 #include <vector>
 
-#include "media/libav/frame_format.hpp"
+#include "media/libav/decoded_frame.hpp"
 
 namespace piblocks {
 namespace {
@@ -106,7 +104,7 @@ std::vector<std::uint16_t> levels_of(const AVFrame& frame, int component, int y,
   if (own_max == max_level && !is_inverted) return levels;
   for (std::uint16_t& level : levels) {
     const int shown = is_inverted ? own_max - level : level;
-    level = static_cast<std::uint16_t>(scaled_level(shown, own_max, max_level));
+    level = std::uint16_t(scaled_level(shown, own_max, max_level));
   }
   return levels;
 }
@@ -120,17 +118,17 @@ void read_bits(const AVFrame& frame, int max_level, std::vector<Word>& words) {
   for (int y = 0; y < frame.height; ++y) {
     Word* const row = words.data() + std::ptrdiff_t{y} * frame.width;
     for (int channel = 0; channel < kChannels; ++channel) {
-      const int place = static_cast<int>(sizeof(Word)) * 2 * kPlaces[std::size_t(channel)];
+      const int place = int(sizeof(Word)) * 2 * kPlaces[std::size_t(channel)];
       const int component = component_of(format, channel);
       int x_shift = 0;
       if (component < 0) {
-        levels.assign(static_cast<std::size_t>(frame.width), static_cast<std::uint16_t>(max_level));
+        levels.assign(std::size_t(frame.width), std::uint16_t(max_level));
       } else {
         levels = levels_of(frame, component, y, max_level);
         x_shift = x_shift_of(format, component);
       }
       for (int x = 0; x < frame.width; ++x) {
-        row[x] |= static_cast<Word>(levels[static_cast<std::size_t>(x >> x_shift)]) << place;
+        row[x] |= static_cast<Word>(levels[std::size_t(x >> x_shift)]) << place;
       }
     }
   }
@@ -138,12 +136,9 @@ void read_bits(const AVFrame& frame, int max_level, std::vector<Word>& words) {
 
 template <typename Picture>
 Picture blank(const AVFrame& frame) {
-  Picture picture;
-  picture.width_px = frame.width;
-  picture.height_px = frame.height;
-  picture.words.resize(static_cast<std::size_t>(frame.width) *
-                       static_cast<std::size_t>(frame.height));
-  return picture;
+  return {.width_px = frame.width,
+          .height_px = frame.height,
+          .words = decltype(Picture::words)(std::size_t(frame.width) * std::size_t(frame.height))};
 }
 
 template <typename Picture>
@@ -161,7 +156,7 @@ Picture converted(const AVFrame& frame, AVPixelFormat to, SwsPtr& sws) {
                            kOne);
   auto picture = blank<Picture>(frame);
   const std::array<std::uint8_t*, 1> data = {reinterpret_cast<std::uint8_t*>(picture.words.data())};
-  const std::array<int, 1> stride = {static_cast<int>(sizeof picture.words[0]) * frame.width};
+  const std::array<int, 1> stride = {int(sizeof picture.words[0]) * frame.width};
   check_av_read(
       sws_scale(sws.get(), frame.data, frame.linesize, 0, frame.height, data.data(), stride.data()),
       "convert", "picture");
@@ -170,7 +165,7 @@ Picture converted(const AVFrame& frame, AVPixelFormat to, SwsPtr& sws) {
 
 }  // namespace
 
-Samples samples_of(const AVFrame& frame) {
+AnyImage samples_of(const AVFrame& frame) {
   const AVPixFmtDescriptor& format = descriptor_of(frame);
   const int depth = greatest_depth(format);
   if (depth > 8) {
@@ -190,7 +185,7 @@ Samples samples_of(const AVFrame& frame) {
   return image;
 }
 
-Samples rgb_of(const AVFrame& frame, SwsPtr& sws) {
+AnyImage rgb_of(const AVFrame& frame, SwsPtr& sws) {
   if (is_rgb(frame)) return samples_of(frame);
   if (greatest_depth(descriptor_of(frame)) <= 8) {
     return converted<Image>(frame, AV_PIX_FMT_BGRA, sws);

@@ -8,13 +8,18 @@
 #include <piblocks/image.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "media/output/bytes.hpp"
+
 namespace piblocks {
+
+class OverwriteCheck;
 
 /// What every frame of an output has in common.
 struct VideoFormat {
@@ -39,9 +44,9 @@ class SampleSource {
   virtual std::size_t read(std::span<float> samples) = 0;
 };
 
-/// A piece of encoded output: one video frame, one image file, one line of text, some sound.
+/// One video frame, one image file, one line of text, or some sound, encoded.
 struct Packet {
-  std::vector<std::uint8_t> bytes;
+  Bytes bytes;
   std::int64_t pts = 0;  ///< index of the frame it shows, or of its first pair of samples
   std::int64_t dts = 0;  ///< order of decoding, in frames or samples; may start below zero
   bool key_frame = true;
@@ -109,25 +114,56 @@ class FrameSink {
   virtual void finish() = 0;
 };
 
-/// How frames become packets, and where the packets go.
-class Output {
+/// Checks that an output gets every frame once and in order.
+class FrameCounter {
  public:
-  virtual ~Output() = default;
-  /// How many frames are encoded together, since they depend on each other.
-  virtual std::int64_t frames_per_chunk() const = 0;
-  /// Makes an encoder for one worker; it must not outlive the output. Thread-safe.
-  virtual std::unique_ptr<ChunkEncoder> make_encoder() const = 0;
-  /// If false, no frames may be encoded or appended.
-  virtual bool has_frames() const { return true; }
-  /// The packets that this output makes of a soundtrack. `samples` must outlive them.
-  /// @throws MediaError if the output was set up without sound, or its encoder cannot be opened.
-  virtual std::unique_ptr<PacketSource> encode_sound(SampleSource& samples) const;
+  /// @throws MediaError if the chunk does not start where the last one ended.
+  void take(const EncodedChunk& chunk);
+  std::int64_t frames() const noexcept { return frames_; }
+
+ private:
+  std::int64_t frames_ = 0;
+};
+
+/// Output::encode_sound of outputs without sound.
+/// @throws MediaError
+[[noreturn]] std::unique_ptr<PacketSource> reject_sound(SampleSource& samples);
+
+/// How frames become packets, and where the packets go.
+struct Output {
+  std::int64_t frames_per_chunk = 1;
   /// The kind, what makes the bytes, and its version, in one line: packets of outputs with the same
   /// format, settings and signature can be mixed.
-  virtual std::string signature() const = 0;
+  std::string signature;
+  /// Makes an encoder for one worker; it must not outlive the output. Thread-safe.
+  std::function<std::unique_ptr<ChunkEncoder>()> make_encoder;
   /// The sink must not outlive the output.
   /// @throws UsageError if it cannot be opened; nothing is left behind then.
-  virtual std::unique_ptr<FrameSink> open() const = 0;
+  std::function<std::unique_ptr<FrameSink>()> open;
+  /// The packets that this output makes of a soundtrack. `samples` and the output must outlive
+  /// them.
+  /// @throws MediaError if the output was set up without sound, or its encoder cannot be opened.
+  std::function<std::unique_ptr<PacketSource>(SampleSource& samples)> encode_sound = reject_sound;
+  bool has_frames = true;  ///< if false, no frames may be encoded or appended
 };
+
+/// Sets up the output whose kind `name` tells:
+/// `*.mp4`, `*.mov`, `*.webm`, `*.gif`, `*.apng`, `*.png` with one integer field such as `%06d`,
+/// `*.y4m`, `-` (y4m on standard output), `*.framehash`, `null`, or `*.wav`, which is sound alone.
+/// PNG files are numbered from 1, as FFmpeg numbers them.
+/// @throws UsageError if the name has no known kind, the format or the settings do not suit the
+///         kind, or there is no encoder.
+Output set_up_output(const std::string& name, const VideoFormat& format,
+                     const EncoderSettings& settings, const std::optional<SoundFormat>& sound = {});
+
+/// Whether an output of this name is sound without pictures: `*.wav`.
+bool is_sound_alone(const std::string& name);
+
+/// Enters the files of an output into the check that no input is overwritten.
+/// @param what  the output's part in the command, for messages.
+void claim_output(OverwriteCheck& check, const std::string& what, const std::string& name);
+
+/// Name and version of each codec library, such as "libavcodec 59.37.100".
+std::vector<std::string> media_library_versions();
 
 }  // namespace piblocks

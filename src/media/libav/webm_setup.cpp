@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "media/libav/codec_choice.hpp"
+#include "media/libav/encoder_setup.hpp"
 
 namespace piblocks {
 namespace {
@@ -33,16 +33,8 @@ constexpr std::array<Option, 4> kAomOptions = {
     {{"usage", "realtime"}, {"cpu-used", "6"}, {"lag-in-frames", "0"}, {"row-mt", "0"}}};
 
 /// The default first.
-constexpr std::array kEncoders = {WebmEncoder{.name = "libvpx-vp9",
-                                              .short_name = "vp9",
-                                              .has_alpha = true,
-                                              .crf = 10,
-                                              .options = kVp9Options},
-                                  WebmEncoder{.name = "libaom-av1",
-                                              .short_name = "av1",
-                                              .has_alpha = false,
-                                              .crf = 5,
-                                              .options = kAomOptions}};
+constexpr std::array kEncoders = {WebmEncoder{"libvpx-vp9", "vp9", true, 10, kVp9Options},
+                                  WebmEncoder{"libaom-av1", "av1", false, 5, kAomOptions}};
 
 const AVCodec* codec_of(const WebmEncoder& encoder) {
   return avcodec_find_encoder_by_name(encoder.name.data());
@@ -91,7 +83,7 @@ std::vector<std::string> usable_webm_encoders() {
   return names;
 }
 
-CodecChoice webm_choice(const VideoFormat& format, const EncoderSettings& settings) {
+EncoderSetup webm_setup(const VideoFormat& format, const EncoderSettings& settings) {
   const WebmEncoder* const encoder = find(settings.encoder);
   Problems problems;
   problems.add(odd_size_problem(format, "WebM in 4:2:0"));
@@ -109,8 +101,8 @@ CodecChoice webm_choice(const VideoFormat& format, const EncoderSettings& settin
   return {.codec = codec_of(*encoder),
           .pixel_format = format.has_alpha ? AV_PIX_FMT_YUVA420P : AV_PIX_FMT_YUV420P,
           .frames_per_chunk = frames_in_a_second(format.frame_rate),
-          .set_up = [encoder,
-                     settings](AVCodecContext& context) { set_up(context, *encoder, settings); },
+          .apply = [encoder,
+                    settings](AVCodecContext& context) { set_up(context, *encoder, settings); },
           .alternatives = {EncoderKind::webm}};
 }
 

@@ -1,4 +1,4 @@
-#include "media/libav/frame_format.hpp"
+#include "media/libav/decoded_frame.hpp"
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>

@@ -1,14 +1,18 @@
-// What the pixel format and the tags of a decoded picture say.
-// In: a frame of libavcodec's. Out: where its samples are, and what they mean.
+// What a decoded picture holds.
+// In: a frame of libavcodec's. Out: what its pixel format and tags say; the samples that it stores,
+// or the colours that it shows.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "media/libav/av.hpp"
+#include "media/pixels/frame_reader.hpp"
 
 extern "C" {
 #include <libavutil/pixdesc.h>
+#include <libswscale/swscale.h>
 }
 
 namespace piblocks {
@@ -40,5 +44,16 @@ int component_of(const AVPixFmtDescriptor& format, int channel);
 int x_shift_of(const AVPixFmtDescriptor& format, int component);
 int y_shift_of(const AVPixFmtDescriptor& format, int component);
 int samples_in_row(const AVFrame& frame, int component);
+
+struct SwsDeleter {
+  void operator()(SwsContext* context) const noexcept { sws_freeContext(context); }
+};
+using SwsPtr = std::unique_ptr<SwsContext, SwsDeleter>;
+
+AnyImage samples_of(const AVFrame& frame);
+
+/// @param sws  of the last picture, reused if it suits this one.
+/// @throws MediaError if libswscale does not know the pixel format.
+AnyImage rgb_of(const AVFrame& frame, SwsPtr& sws);
 
 }  // namespace piblocks

@@ -1,6 +1,5 @@
-// The encoder of a video's pictures.
-// In: the format of the output and the encoder settings. Out: one of libavcodec's encoders, the
-// pixels it takes, and how it is set up.
+// Which of libavcodec's encoders makes a video's pictures, and how it is set up.
+// In: the format of the output and the encoder settings. Out: the encoder, its pixels, its options.
 #pragma once
 
 #include <functional>
@@ -10,22 +9,22 @@
 #include <vector>
 
 #include "media/libav/av.hpp"
-#include "media/libav/module_functions.hpp"
-#include "media/output/output_request.hpp"
+#include "media/libav/av_module.hpp"
+#include "media/output/output_kinds.hpp"
 
 namespace piblocks {
 
-/// Our own encoder, which codes what changes. Its stream has the headers of libx264.
+/// Our own encoder (h264_chunk.hpp). Its stream has the headers of libx264.
 inline constexpr std::string_view kDamage = "damage";
 inline constexpr std::string_view kX264 = "libx264";
 inline constexpr std::string_view kProres = "prores_ks";
 
-struct CodecChoice {
+struct EncoderSetup {
   const AVCodec* codec;  ///< libavcodec's, which lives as long as the program
   AVPixelFormat pixel_format;
   int frames_per_chunk;
   /// Applies the settings to an encoder that is not open yet. Thread-safe.
-  std::function<void(AVCodecContext& context)> set_up;
+  std::function<void(AVCodecContext& context)> apply;
   /// What may be used if this encoder cannot be opened.
   std::vector<EncoderKind> alternatives;
 };
@@ -33,14 +32,14 @@ struct CodecChoice {
 /// H.264 in 4:2:0.
 /// @param kinds  of the encoders that may be asked for.
 /// @throws UsageError listing everything that is wrong with the size and the settings.
-CodecChoice h264_choice(const VideoFormat& format, const EncoderSettings& settings,
+EncoderSetup h264_setup(const VideoFormat& format, const EncoderSettings& settings,
                         const std::vector<EncoderKind>& kinds);
 /// ProRes 4444, with alpha if the frames have it.
 /// @throws UsageError if a setting is given, or the encoder is missing.
-CodecChoice prores_choice(const VideoFormat& format, const EncoderSettings& settings);
+EncoderSetup prores_setup(const VideoFormat& format, const EncoderSettings& settings);
 /// VP9 or AV1 in 4:2:0; VP9 with alpha if the frames have it.
-/// @throws UsageError as h264_choice().
-CodecChoice webm_choice(const VideoFormat& format, const EncoderSettings& settings);
+/// @throws UsageError as h264_setup().
+EncoderSetup webm_setup(const VideoFormat& format, const EncoderSettings& settings);
 
 /// The names of all these kinds, as a message lists them.
 std::string usable_encoders(std::span<const EncoderKind> kinds);
@@ -63,7 +62,7 @@ void set_option(AVCodecContext& context, const char* name, const std::string& va
 /// @param set_up  sets the encoder's own options.
 bool can_be_opened(const AVCodec& codec, const std::function<void(AVCodecContext&)>& set_up = {});
 
-// What to say about a setting that an encoder does not take.
+// Messages about a setting that an encoder does not take.
 std::string no_crf(std::string_view encoder);
 std::string no_preset(std::string_view encoder);
 

@@ -1,4 +1,4 @@
-#include "media/libav/damage_chunk.hpp"
+#include "media/libav/h264_chunk.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -11,13 +11,13 @@ namespace {
 /// Repeats the last column and the last row of a plane up to whole macroblocks, since that costs
 /// the fewest bits.
 void extend(const PlaneView<std::uint8_t>& plane, int width, int height, int whole_height) {
-  const auto rest = static_cast<std::size_t>(plane.stride_bytes - width);
+  const auto rest = std::size_t(plane.stride_bytes - width);
   for (int y = 0; y < height && rest > 0; ++y) {
     std::uint8_t* const end = plane.row(y) + width;
     std::memset(end, end[-1], rest);
   }
   for (int y = height; y < whole_height; ++y) {
-    std::memcpy(plane.row(y), plane.row(height - 1), static_cast<std::size_t>(plane.stride_bytes));
+    std::memcpy(plane.row(y), plane.row(height - 1), std::size_t(plane.stride_bytes));
   }
 }
 
@@ -38,45 +38,45 @@ YuvView<std::uint8_t> view_of(h264::Picture& picture) {
   return {plane(0), plane(1), plane(2)};
 }
 
-DamageChunkEncoder::DamageChunkEncoder(const VideoEncoder& encoder, const h264::ParameterSets& sets,
-                                       int qp, WhenTooMuch when_too_much)
+H264ChunkEncoder::H264ChunkEncoder(const VideoEncoder& encoder, const h264::ParameterSets& sets,
+                                   int qp, bool may_hand_over)
     : ChunkEncoder(encoder.format()),
       encoder_(encoder),
-      when_too_much_(when_too_much),
+      may_hand_over_(may_hand_over),
       picture_(sets.width_mb, sets.height_mb),
       changed_(sets.width_mb, sets.height_mb),
       coder_(sets, qp) {}
 
-void DamageChunkEncoder::begin(std::int64_t first_frame) {
+void H264ChunkEncoder::begin(std::int64_t first_frame) {
   next_frame_ = first_frame;
   transformed_ = 0;
-  is_left_ = false;
+  is_handed_over_ = false;
 }
 
-/// The stream's encoder is the faster one if more than a twentieth of the macroblocks, and more
+/// libavcodec's encoder is the faster one if more than a twentieth of the macroblocks, and more
 /// than a few, have to be transformed (tests/benchmark/encoders.md).
-bool DamageChunkEncoder::has_too_much() const {
+bool H264ChunkEncoder::changes_too_much() const {
   constexpr std::int64_t kOneIn = 20;
   constexpr std::int64_t kFew = 64;
   const std::int64_t macroblocks = std::int64_t{picture_.width_mb()} * picture_.height_mb();
-  return when_too_much_ == WhenTooMuch::leave_to_stream_encoder &&
+  return may_hand_over_ &&
          transformed_ > std::max(kFew, macroblocks / kOneIn) * encoder_.frames_per_chunk();
 }
 
-void DamageChunkEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
+void H264ChunkEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
   const PixelRect whole{0, 0, frame.width_px, frame.height_px};
   const std::span<const PixelRect> all(&whole, 1);
-  if (is_left_) {
-    stream_encoder_->take(frame, rects);
-  } else if (has_too_much()) {
-    leave();
-    stream_encoder_->take(frame, all);
+  if (is_handed_over_) {
+    libav_encoder_->take(frame, rects);
+  } else if (changes_too_much()) {
+    hand_over();
+    libav_encoder_->take(frame, all);
   } else {
     convert_here(frame, std::exchange(is_behind_, false) ? all : rects);
   }
 }
 
-void DamageChunkEncoder::convert_here(const ImageView& frame, std::span<const PixelRect> rects) {
+void H264ChunkEncoder::convert_here(const ImageView& frame, std::span<const PixelRect> rects) {
   bool reaches_edge = false;
   for (const PixelRect& rect : rects) {
     const PixelRect aligned = chroma_aligned(rect, frame);
@@ -88,16 +88,16 @@ void DamageChunkEncoder::convert_here(const ImageView& frame, std::span<const Pi
   if (reaches_edge) extend(picture_, encoder_.format());
 }
 
-/// Makes the next frame a key frame of the stream's encoder.
-void DamageChunkEncoder::leave() {
-  is_left_ = true;
+/// Makes the next frame a key frame of libavcodec's encoder.
+void H264ChunkEncoder::hand_over() {
+  is_handed_over_ = true;
   is_behind_ = true;
-  if (!stream_encoder_) stream_encoder_.emplace(encoder_);
-  stream_encoder_->begin(next_frame_);
+  if (!libav_encoder_) libav_encoder_.emplace(encoder_);
+  libav_encoder_->begin(next_frame_);
 }
 
-void DamageChunkEncoder::encode() {
-  if (is_left_) return stream_encoder_->encode();
+void H264ChunkEncoder::encode() {
+  if (is_handed_over_) return libav_encoder_->encode();
   const bool is_first = chunk_.empty();
   chunk_.push_back(
       {.bytes = is_first ? coder_.encode_idr(picture_) : coder_.encode_p(picture_, changed_),
@@ -109,14 +109,14 @@ void DamageChunkEncoder::encode() {
   ++next_frame_;
 }
 
-std::string DamageChunkEncoder::method() const {
+std::string H264ChunkEncoder::method() const {
   const std::string damage(kDamage);
-  return is_left_ ? damage + ", then " + encoder_.name() : damage;
+  return is_handed_over_ ? damage + ", then " + encoder_.name() : damage;
 }
 
-EncodedChunk DamageChunkEncoder::finish() {
+EncodedChunk H264ChunkEncoder::finish() {
   EncodedChunk chunk = std::exchange(chunk_, {});
-  if (is_left_) std::ranges::move(stream_encoder_->finish(), std::back_inserter(chunk));
+  if (is_handed_over_) std::ranges::move(libav_encoder_->finish(), std::back_inserter(chunk));
   return chunk;
 }
 

@@ -1,5 +1,5 @@
 // Encoded sound is decoded at the same place.
-#include "media/libav/sound_encoder.hpp"
+#include "media/libav/sound_stream.hpp"
 
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
