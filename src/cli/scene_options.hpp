@@ -86,8 +86,7 @@ class SceneOptions {
   void refuse_both(const std::string& first, const std::string& second, const char* what) const;
 
   Command command_;
-  std::vector<Key> values_;
-  std::vector<Key> flags_;
+  std::vector<Key> keys_;
 };
 
 /// Adds --engine.

@@ -10,9 +10,8 @@
 
 #include "core/file_set.hpp"
 #include "core/text.hpp"
-#include "render/page_facts.hpp"
 #include "render/renderings.hpp"
-#include "render/video_text.hpp"
+#include "render/video_facts.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {

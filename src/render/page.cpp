@@ -15,11 +15,10 @@
 #include "core/file_set.hpp"
 #include "core/output_file.hpp"
 #include "core/text.hpp"
-#include "render/page_facts.hpp"
 #include "render/page_source.hpp"
 #include "render/renderings.hpp"
 #include "render/step_clock.hpp"
-#include "render/video_text.hpp"
+#include "render/video_facts.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {

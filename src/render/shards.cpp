@@ -17,7 +17,6 @@
 #include "media/output/output.hpp"
 #include "media/output/shard_file.hpp"
 #include "render/film.hpp"
-#include "render/film_sound.hpp"
 #include "render/renderings.hpp"
 #include "scene/schedule.hpp"
 

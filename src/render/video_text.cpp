@@ -1,5 +1,3 @@
-#include "render/video_text.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/run.hpp>
 
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "draw/number_text.hpp"
+#include "render/video_facts.hpp"
 
 namespace piblocks {
 namespace {
