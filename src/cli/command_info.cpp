@@ -8,7 +8,7 @@
 #include <piblocks/script.hpp>
 #include <piblocks/version.hpp>
 
-#include "cli/commands.hpp"
+#include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "cli/text_output.hpp"
 #include "draw/canvas.hpp"

@@ -11,7 +11,6 @@
 
 #include "core/text.hpp"
 #include "golden/frame_source.hpp"
-#include "golden/framehash_file.hpp"
 
 namespace piblocks {
 namespace {

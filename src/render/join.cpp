@@ -99,6 +99,27 @@ void check_output(const std::vector<NumberedShard>& parts, const std::string& na
                   name, job.signature, output.signature));
 }
 
+/// The sound that the first shard of a rendering has for all of them.
+class ShardSound final : public PacketSource {
+ public:
+  explicit ShardSound(const std::string& path) : reader_(path) {}
+
+  std::optional<Packet> next() override {
+    if (next_ == packets_.size()) {
+      auto packets = reader_.next_sound();
+      if (!packets || packets->empty()) return std::nullopt;
+      packets_ = std::move(*packets);
+      next_ = 0;
+    }
+    return std::move(packets_[next_++]);
+  }
+
+ private:
+  ShardReader reader_;
+  EncodedChunk packets_;
+  std::size_t next_ = 0;
+};
+
 std::optional<SoundFormat> sound_of(const JobDescription& job) {
   if (!job.has_sound) return std::nullopt;
   return sound_format(job.frame_count, job.format.frame_rate);

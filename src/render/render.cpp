@@ -11,9 +11,8 @@
 #include "render/film_sound.hpp"
 #include "render/flash_meter.hpp"
 #include "render/job_description.hpp"
-#include "render/ordered_pool.hpp"
 #include "render/renderings.hpp"
-#include "render/stage_clock.hpp"
+#include "render/step_clock.hpp"
 
 namespace piblocks {
 namespace {
@@ -43,7 +42,7 @@ struct Plan {
 struct EncodedWork {
   EncodedChunk chunk;
   std::string method = {};
-  StageSeconds spent{};
+  StepSeconds spent{};
 };
 
 /// What one thread works with, chunk after chunk.
@@ -56,7 +55,7 @@ class Worker {
         encoder_(plan.output.make_encoder()) {}
 
   EncodedWork work(std::int64_t chunk, const std::stop_token& stop) {
-    StageClock clock(profile_, Stage::encode);
+    StepClock clock(profile_, Step::encode);
     encoder_->begin(plan_.chunks.begin(chunk));
     for (auto frame = plan_.chunks.begin(chunk); frame < plan_.chunks.end(chunk); ++frame) {
       if (stop.stop_requested()) throw Interrupted("render: interrupted");
@@ -67,14 +66,14 @@ class Worker {
   }
 
  private:
-  void add_frame(std::int64_t frame, StageClock& clock) {
-    clock.enter(Stage::compose);
+  void add_frame(std::int64_t frame, StepClock& clock) {
+    clock.enter(Step::compose);
     DrawList list = plan_.film.frame(frame);
-    clock.enter(Stage::paint);
+    clock.enter(Step::paint);
     const std::span<const PixelRect> changed = canvas_.update(std::move(list));
-    clock.enter(Stage::convert);
+    clock.enter(Step::convert);
     encoder_->take(canvas_.view(), changed);
-    clock.enter(Stage::encode);
+    clock.enter(Step::encode);
     encoder_->encode();
   }
 
@@ -97,7 +96,7 @@ ChunkRange range_of(const std::optional<Shard>& shard, std::int64_t chunks) {
 
 std::unique_ptr<FrameSink> open_sink(const RenderJob& job, const Plan& plan) {
   if (!job.shard) return plan.output.open();
-  ShardHeader header = describe(job, plan.output, plan.chunks);
+  ShardHeader header = describe(job, plan.output, plan.chunks.frame_count);
   header.emplace_back("part", fmt::format("{}/{}", job.shard->number, job.shard->count));
   return open_shard(shard_name(job.output, *job.shard), header);
 }
@@ -119,12 +118,12 @@ void check_shard(const RenderJob& job) {
 /// Packets whose making is charged to the sound, whoever asks for them.
 class ClockedPackets final : public PacketSource {
  public:
-  ClockedPackets(std::unique_ptr<PacketSource> packets, StageClock& clock)
+  ClockedPackets(std::unique_ptr<PacketSource> packets, StepClock& clock)
       : packets_(std::move(packets)), clock_(clock) {}
 
   std::optional<Packet> next() override {
-    const Stage before = clock_.stage();
-    clock_.enter(Stage::sound);
+    const Step before = clock_.step();
+    clock_.enter(Step::sound);
     std::optional<Packet> packet = packets_->next();
     clock_.enter(before);
     return packet;
@@ -132,7 +131,7 @@ class ClockedPackets final : public PacketSource {
 
  private:
   std::unique_ptr<PacketSource> packets_;
-  StageClock& clock_;
+  StepClock& clock_;
 };
 
 /// The soundtrack on its way to a sink. Nothing of it is made before the sink asks for it.
@@ -143,7 +142,7 @@ struct SoundWork {
 
 /// Empty if there is no sound, or another part has it.
 SoundWork sound_for(const RenderJob& job, const Plan& plan, FrameSink& sink,
-                    const std::function<void(const Progress&)>& on_progress, StageClock& clock,
+                    const std::function<void(const Progress&)>& on_progress, StepClock& clock,
                     const std::stop_token& stop) {
   if (!plan.sound || (job.shard && job.shard->number != 1)) return {};
   const auto report = [&](std::int64_t samples) {
@@ -157,7 +156,7 @@ SoundWork sound_for(const RenderJob& job, const Plan& plan, FrameSink& sink,
   return work;
 }
 
-void add(StageSeconds& sum, const StageSeconds& spent) {
+void add(StepSeconds& sum, const StepSeconds& spent) {
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += spent[i];
 }
 
@@ -184,21 +183,21 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
 
   Rendered rendered{plan.output.has_frames ? frames_until(range.end) : plan.film.frame_count(), {}};
   on_progress({0, rendered.frame_count});
-  StageClock clock(job.profile, Stage::mux);
+  StepClock clock(job.profile, Step::mux);
   const SoundWork sound = sound_for(job, plan, *sink, on_progress, clock, stop);
   OrderedPool<EncodedWork> pool(range.end - range.begin, job.jobs, make_worker);
   for (std::int64_t chunk = range.begin; const auto work = pool.take(stop); ++chunk) {
     sink->append(work->chunk);
     if (job.profile) rendered.profile.chunk_methods.push_back(work->method);
-    add(rendered.profile.stages, work->spent);
+    add(rendered.profile.steps, work->spent);
     on_progress({frames_until(chunk + 1), rendered.frame_count});
   }
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
-  clock.enter(Stage::write);
+  clock.enter(Step::write);
   sink->finish();
   if (!plan.output.has_frames) on_progress({rendered.frame_count, rendered.frame_count});
   if (job.profile) {
-    add(rendered.profile.stages, clock.spent());
+    add(rendered.profile.steps, clock.spent());
     rendered.profile.total_s = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
   }
   return rendered;

@@ -1,5 +1,5 @@
-// Which stage of a rendering the processor's time goes to.
-// In: what a thread turns to next. Out: its processor time by stage.
+// Which step of a rendering the processor's time goes to.
+// In: what a thread turns to next. Out: its processor time by step.
 #pragma once
 
 #include <piblocks/render.hpp>
@@ -16,20 +16,20 @@ inline double processor_seconds(clockid_t clock) {
 }
 
 /// Used by one thread. Switched off, it costs a comparison.
-class StageClock {
+class StepClock {
  public:
-  StageClock(bool is_on, Stage stage) : is_on_(is_on), stage_(stage) {
+  StepClock(bool is_on, Step step) : is_on_(is_on), step_(step) {
     if (is_on_) since_s_ = processor_seconds(CLOCK_THREAD_CPUTIME_ID);
   }
 
-  /// From now on the thread works on this stage.
-  void enter(Stage stage) {
+  /// From now on the thread works on this step.
+  void enter(Step step) {
     if (is_on_) charge();
-    stage_ = stage;
+    step_ = step;
   }
-  Stage stage() const noexcept { return stage_; }
+  Step step() const noexcept { return step_; }
   /// What was spent up to now.
-  const StageSeconds& spent() {
+  const StepSeconds& spent() {
     if (is_on_) charge();
     return spent_;
   }
@@ -37,14 +37,14 @@ class StageClock {
  private:
   void charge() {
     const double now_s = processor_seconds(CLOCK_THREAD_CPUTIME_ID);
-    spent_[static_cast<std::size_t>(stage_)] += now_s - since_s_;
+    spent_[static_cast<std::size_t>(step_)] += now_s - since_s_;
     since_s_ = now_s;
   }
 
   bool is_on_;
-  Stage stage_;
+  Step step_;
   double since_s_ = 0;
-  StageSeconds spent_{};
+  StepSeconds spent_{};
 };
 
 }  // namespace piblocks
