@@ -39,30 +39,39 @@ FilePtr open_file(const fs::path& path) {
   return file;
 }
 
+/// libpng's objects. A base, since it is destroyed even if a constructor throws.
+struct PngStructs {
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+
+  PngStructs() = default;
+  PngStructs(const PngStructs&) = delete;
+  PngStructs& operator=(const PngStructs&) = delete;
+  ~PngStructs() { png_destroy_read_struct(&png_, &info_, nullptr); }
+};
+
 /// libpng reports an error by a jump, which runs no destructors. Every call that may fail is made
 /// in a step without local objects; members own everything.
-class PngFile {
+class PngFile : private PngStructs {
  public:
-  explicit PngFile(fs::path path)
-      : path_(std::move(path)),
-        file_(open_file(path_)),
-        png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning)) {
+  explicit PngFile(fs::path path) : path_(std::move(path)), file_(open_file(path_)) {
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
     if (png_ != nullptr) info_ = png_create_info_struct(png_);
-    try {
-      if (info_ == nullptr) throw std::bad_alloc();
-      run(&PngFile::read_header);
-      check_size();
-    } catch (...) {
-      close();
-      throw;
-    }
+    if (info_ == nullptr) throw std::bad_alloc();
+    run(&PngFile::read_header);
+    check_size();
   }
-  ~PngFile() { close(); }
-  PngFile(const PngFile&) = delete;
-  PngFile& operator=(const PngFile&) = delete;
 
   bool is_deep() const { return png_get_bit_depth(png_, info_) == 16; }
-  bool is_animated() const;
+  bool is_animated() const {
+    png_unknown_chunkp chunks = nullptr;
+    const int count = png_get_unknown_chunks(png_, info_, &chunks);
+    return std::any_of(chunks, chunks + count, [](const png_unknown_chunk& chunk) {
+      // The number of frames comes first.
+      return std::memcmp(chunk.name, "acTL", 4) == 0 && chunk.size >= 4 &&
+             png_get_uint_32(chunk.data) > 1;
+    });
+  }
   // Call one of these, once.
   DeepImage read_deep() { return read(DeepImage{.width_px = width(), .height_px = height()}); }
   Image read_flat() {
@@ -80,14 +89,56 @@ class PngFile {
   }
   static void on_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
-  void close() { png_destroy_read_struct(&png_, &info_, nullptr); }
-  int width() const { return static_cast<int>(png_get_image_width(png_, info_)); }
-  int height() const { return static_cast<int>(png_get_image_height(png_, info_)); }
-  void run(Step step);
-  void read_header();
-  void check_size() const;
-  void read_rows();
-  [[noreturn]] void fail(const std::string& reason) const;
+  int width() const { return int(png_get_image_width(png_, info_)); }
+  int height() const { return int(png_get_image_height(png_, info_)); }
+  void run(Step step) {
+    // NOLINTNEXTLINE(cert-err52-cpp): libpng offers nothing else
+    if (setjmp(png_jmpbuf(png_)) == 0) {
+      (this->*step)();
+      return;
+    }
+    fail(message_.data());
+  }
+  void read_header() {
+    png_init_io(png_, file_.get());
+    // tRNS is no critical chunk, but pixels depend on it.
+    png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
+    png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_ALWAYS,
+                                reinterpret_cast<png_const_bytep>("acTL"), 1);
+    png_read_info(png_, info_);
+  }
+  void check_size() const {
+    const std::int64_t width = png_get_image_width(png_, info_);
+    const std::int64_t height = png_get_image_height(png_, info_);
+    if (width > kMaxSide_px || height > kMaxSide_px || width * height > kMaxFrame_px) {
+      fail(fmt::format("{}x{} is too large", width, height));
+    }
+  }
+  /// Samples in the order of words 0xAARRGGBB on a little-endian machine.
+  void read_rows() {
+    if (is_flat_) png_set_scale_16(png_);
+    png_set_expand(png_);  // palettes, greys of less than 8 bits, tRNS
+    png_set_gray_to_rgb(png_);
+    constexpr png_uint_32 kOpaque = 0xffff;
+    png_set_add_alpha(png_, kOpaque, PNG_FILLER_AFTER);
+    png_set_bgr(png_);
+    png_set_swap(png_);
+    const int passes = png_set_interlace_handling(png_);
+    png_read_update_info(png_, info_);
+    const png_uint_32 height = png_get_image_height(png_, info_);
+    for (int pass = 0; pass < passes; ++pass) {
+      for (png_uint_32 y = 0; y < height; ++y) {
+        png_read_row(png_, rows_ + y * row_bytes_, nullptr);
+      }
+    }
+    png_read_end(png_, nullptr);
+  }
+  [[noreturn]] void fail(const std::string& reason) const {
+    if (std::ferror(file_.get()) != 0) {
+      throw IoError(fmt::format("png: cannot read '{}': {}", path_.string(), error_text(EIO)));
+    }
+    throw MediaError(fmt::format("png: cannot read '{}': {}", path_.string(), reason));
+  }
 
   template <typename Picture>
   Picture read(Picture picture) {
@@ -101,76 +152,11 @@ class PngFile {
   fs::path path_;
   FilePtr file_;
   std::array<char, 128> message_{};
-  png_structp png_;
-  png_infop info_ = nullptr;
   // Where read_rows() puts the rows.
   png_bytep rows_ = nullptr;
   std::size_t row_bytes_ = 0;
   bool is_flat_ = false;
 };
-
-void PngFile::run(Step step) {
-  // NOLINTNEXTLINE(cert-err52-cpp): libpng offers nothing else
-  if (setjmp(png_jmpbuf(png_)) == 0) {
-    (this->*step)();
-    return;
-  }
-  fail(message_.data());
-}
-
-void PngFile::fail(const std::string& reason) const {
-  if (std::ferror(file_.get()) != 0) {
-    throw IoError(fmt::format("png: cannot read '{}': {}", path_.string(), error_text(EIO)));
-  }
-  throw MediaError(fmt::format("png: cannot read '{}': {}", path_.string(), reason));
-}
-
-void PngFile::read_header() {
-  png_init_io(png_, file_.get());
-  // tRNS is no critical chunk, but pixels depend on it.
-  png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
-  png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_ALWAYS,
-                              reinterpret_cast<png_const_bytep>("acTL"), 1);
-  png_read_info(png_, info_);
-}
-
-void PngFile::check_size() const {
-  const std::int64_t width = png_get_image_width(png_, info_);
-  const std::int64_t height = png_get_image_height(png_, info_);
-  if (width > kMaxSide_px || height > kMaxSide_px || width * height > kMaxFrame_px) {
-    fail(fmt::format("{}x{} is too large", width, height));
-  }
-}
-
-bool PngFile::is_animated() const {
-  png_unknown_chunkp chunks = nullptr;
-  const int count = png_get_unknown_chunks(png_, info_, &chunks);
-  return std::any_of(chunks, chunks + count, [](const png_unknown_chunk& chunk) {
-    // The number of frames comes first.
-    return std::memcmp(chunk.name, "acTL", 4) == 0 && chunk.size >= 4 &&
-           png_get_uint_32(chunk.data) > 1;
-  });
-}
-
-/// Samples in the order of words 0xAARRGGBB on a little-endian machine.
-void PngFile::read_rows() {
-  if (is_flat_) png_set_scale_16(png_);
-  png_set_expand(png_);  // palettes, greys of less than 8 bits, tRNS
-  png_set_gray_to_rgb(png_);
-  constexpr png_uint_32 kOpaque = 0xffff;
-  png_set_add_alpha(png_, kOpaque, PNG_FILLER_AFTER);
-  png_set_bgr(png_);
-  png_set_swap(png_);
-  const int passes = png_set_interlace_handling(png_);
-  png_read_update_info(png_, info_);
-  const png_uint_32 height = png_get_image_height(png_, info_);
-  for (int pass = 0; pass < passes; ++pass) {
-    for (png_uint_32 y = 0; y < height; ++y) {
-      png_read_row(png_, rows_ + y * row_bytes_, nullptr);
-    }
-  }
-  png_read_end(png_, nullptr);
-}
 
 class PngReader final : public FrameReader {
  public:
@@ -182,21 +168,21 @@ class PngReader final : public FrameReader {
     return true;
   }
   std::string layout() const override { return std::string(kRgba); }
-  Samples samples() override { return std::move(samples_); }
-  Samples rgb() override { return std::move(samples_); }
+  AnyImage samples() override { return std::move(samples_); }
+  AnyImage rgb() override { return std::move(samples_); }
   std::string name() const override { return paths_[read_ - 1].filename(); }
 
  private:
   std::vector<fs::path> paths_;
   std::size_t read_ = 0;
-  Samples samples_;
+  AnyImage samples_;
 };
 
 }  // namespace
 
 Image read_png(const fs::path& path) { return PngFile(path).read_flat(); }
 
-Samples read_png_samples(const fs::path& path) {
+AnyImage read_png_samples(const fs::path& path) {
   PngFile file(path);
   if (file.is_animated()) {
     throw MediaError(fmt::format(
