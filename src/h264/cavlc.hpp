@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "h264/bit_writer.hpp"
+#include "h264/bit_stream.hpp"
 
 namespace piblocks::h264 {
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "h264/macroblock.hpp"
-#include "h264/macroblock_set.hpp"
 #include "h264/parameter_sets.hpp"
 #include "h264/picture.hpp"
 

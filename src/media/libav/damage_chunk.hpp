@@ -5,7 +5,6 @@
 
 #include <optional>
 
-#include "h264/macroblock_set.hpp"
 #include "h264/picture.hpp"
 #include "h264/picture_encoder.hpp"
 #include "media/libav/video_chunk.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "h264/error.hpp"
+#include "h264/bit_stream.hpp"
 #include "media/libav/damage_chunk.hpp"
 #include "media/libav/video_chunk.hpp"
 #include "media/libav/video_encoder.hpp"
