@@ -52,9 +52,7 @@ using Script = std::variant<Scene, Storyboard>;
 
 /// Size, frame rate, theme and background of the whole film.
 const View& view_of(const Script& script);
-
 const Sound& sound_of(const Script& script);
-
 /// The scene as the film shows it: with the film's size, frame rate, theme and background.
 Scene with_film_view(Scene scene, const View& film);
 
@@ -66,10 +64,8 @@ std::vector<std::string> problems_of(const Storyboard& story);
 /// segment. Two storyboards with equal descriptions are the same film.
 std::vector<std::pair<std::string, std::string>> describe(const Storyboard& story);
 
-/// Longest scene file that is read.
 inline constexpr std::size_t kMaxSceneFile_bytes = 1 << 20;
-/// Deepest lists and tables in it.
-inline constexpr int kMaxSceneNesting = 256;
+inline constexpr int kMaxSceneNesting = 256;  ///< of lists and tables in a scene file
 
 /// Collects values from a file and from options, and remembers where each came from.
 ///

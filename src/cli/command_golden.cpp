@@ -12,7 +12,6 @@
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "core/text.hpp"
-#include "core/file_set.hpp"
 #include "core/overwrite_check.hpp"
 #include "core/output_file.hpp"
 #include "draw/canvas.hpp"

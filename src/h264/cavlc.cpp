@@ -5,8 +5,6 @@
 #include <cassert>
 #include <cstdlib>
 
-#include "h264/cavlc_tables.hpp"
-
 namespace piblocks::h264 {
 namespace {
 

@@ -40,9 +40,7 @@ bool is_high_profile(std::uint32_t profile) {
 
 void read_high_profile_fields(BitReader& bits) {
   refuse_if(bits.get_unsigned() != 1, "chroma other than 4:2:0");
-  const bool has_more_luma_bits = bits.get_unsigned() != 0;
-  const bool has_more_chroma_bits = bits.get_unsigned() != 0;
-  refuse_if(has_more_luma_bits || has_more_chroma_bits, "samples of more than 8 bits");
+  for (int i = 0; i < 2; ++i) refuse_if(bits.get_unsigned() != 0, "samples of more than 8 bits");
   refuse_if(bits.get_flag(), "lossless macroblocks");  // qpprime_y_zero_transform_bypass_flag
   refuse_if(bits.get_flag(), "scaling matrices");
 }

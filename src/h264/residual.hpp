@@ -84,7 +84,9 @@ class Residual {
   void code_luma(const Quantiser& quantiser, BlockPlace place, const Samples& source,
                  Samples& samples);
   /// The same for both chroma planes.
-  void code_chroma(const Quantiser& quantiser, const Samples& source, Samples& samples);
+  void code_chroma(const Quantiser& quantiser, const Samples& source, Samples& samples) {
+    for (int plane = 1; plane < 3; ++plane) code_chroma_plane(quantiser, plane, source, samples);
+  }
 
   /// As in MacroblockState.
   const std::array<std::uint8_t, 24>& total_coeff() const { return total_coeff_; }

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/text.hpp"
-#include "core/file_set.hpp"
 #include "core/output_file.hpp"
 #include "render/page_facts.hpp"
 #include "render/renderings.hpp"

@@ -14,7 +14,6 @@
 
 #include "core/text.hpp"
 #include "core/descriptor.hpp"
-#include "core/file_set.hpp"
 #include "core/output_file.hpp"
 #include "render/page_facts.hpp"
 #include "render/page_source.hpp"
