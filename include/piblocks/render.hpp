@@ -47,7 +47,7 @@ struct RenderJob {
   int jobs = 1;  ///< frames painted and encoded at the same time, >= 1; does not change a byte
   /// Renders this share only, to the file shard_name().
   std::optional<Shard> shard = {};
-  bool profile = false;  ///< whether to measure what each stage costs
+  bool profile = false;  ///< whether to measure what each step costs
   /// Renders a `*.mp4` into a folder, together with the rest, or nothing of it.
   std::optional<Bundle> bundle = {};
   /// Renders nothing if more flashes than this would be seen within a second (WCAG 2.3.1: 3), >= 1.
@@ -55,16 +55,16 @@ struct RenderJob {
 };
 
 /// What the work on a frame consists of, in this order; sound is both made and encoded in one.
-enum class Stage { compose, paint, convert, encode, sound, mux, write };
-inline constexpr std::array<const char*, 7> kStageNames = {"compose", "paint", "convert", "encode",
-                                                           "sound",   "mux",   "write"};
+enum class Step { compose, paint, convert, encode, sound, mux, write };
+inline constexpr std::array<const char*, 7> kStepNames = {"compose", "paint", "convert", "encode",
+                                                          "sound",   "mux",   "write"};
 
-/// Seconds of processor time by stage.
-using StageSeconds = std::array<double, kStageNames.size()>;
+/// Seconds of processor time by step.
+using StepSeconds = std::array<double, kStepNames.size()>;
 
 struct Profile {
-  StageSeconds stages{};  ///< of all threads together
-  double total_s = 0;     ///< of the process since its start; more than the stages
+  StepSeconds steps{};  ///< of all threads together
+  double total_s = 0;   ///< of the process since its start; more than the steps
   /// How each chunk was encoded, where an encoder has several ways.
   std::vector<std::string> chunk_methods = {};
 };

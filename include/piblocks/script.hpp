@@ -21,14 +21,14 @@ struct Card {
   Rational length_s = 2;           ///< of video, > 0; rounded up to whole frames
 };
 
-/// One run that fills the frame, or 2 … kMaxCompared side by side, or one above the other in a
+/// One scene that fills the frame, or 2 … kMaxCompared side by side, or one above the other in a
 /// frame that is not wider than high. They have one clock, that of the run whose last collision
 /// comes last: its scene.time and scene.pacing hold for all, and so do instants such as "turn".
-using Runs = std::vector<Scene>;
+using Scenes = std::vector<Scene>;
 
 /// A [[part]] of the file.
 struct Segment {
-  std::variant<Runs, Card> content;
+  std::variant<Scenes, Card> content;
   /// Cross-fade from the segment before, in seconds of video, rounded to whole frames, in which
   /// both are seen; 0 for a cut.
   Rational fade_s = 0;
@@ -53,6 +53,10 @@ using Script = std::variant<Scene, Storyboard>;
 /// Size, frame rate, theme and background of the whole film.
 const View& view_of(const Script& script);
 const Sound& sound_of(const Script& script);
+
+/// All scenes of the film, in order; valid as long as the script.
+std::vector<const Scene*> scenes_of(const Script& script);
+
 /// The scene as the film shows it: with the film's size, frame rate, theme and background.
 Scene with_film_view(Scene scene, const View& film);
 

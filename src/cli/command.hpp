@@ -1,5 +1,5 @@
-// A command of the program, its options, and what the command line says of them.
-// In: names and help texts; later the command line. Out: the options' texts and values, by name.
+// The commands of the program: their options, their values on the command line, their exit codes.
+// In: names and help texts; later the arguments of main(). Out: the command that they name has run.
 // CLI11 is behind this: it costs a compiler seconds wherever it is included.
 #pragma once
 
@@ -18,6 +18,25 @@ class Option;
 }  // namespace CLI
 
 namespace piblocks::cli {
+
+// Exit codes; 0 is done. The last four are those of comparisons.
+inline constexpr int kFailed = 1;
+inline constexpr int kWrongUsage = 2;
+inline constexpr int kDifferent = 1;
+inline constexpr int kMissingReference = 3;
+inline constexpr int kMismatch = 4;
+inline constexpr int kUnreadable = 5;
+
+/// Ends the program with an exit code that says more than done, failed or wrong usage.
+class ExitError : public Error {
+ public:
+  /// @param message  for standard error; empty if all has been said.
+  explicit ExitError(int code, const std::string& message = {}) : Error(message), code_(code) {}
+  int code() const noexcept { return code_; }
+
+ private:
+  int code_;
+};
 
 /// Refers to a command, and is valid as long as the program's command line. An option is named as
 /// in messages: "--output", or "SCENE" for an argument without a name.
@@ -72,5 +91,22 @@ class Command {
  private:
   CLI::App* app_;
 };
+
+/// Runs the command that the arguments of main() name.
+/// @returns the exit code. @throws what commands throw
+int run_command_line(int argc, char** argv);
+
+// Each adds a command with its options, and what it does.
+void add_render(Command& app);
+void add_join(Command& app);
+void add_still(Command& app);
+void add_sheet(Command& app);
+void add_log(Command& app);
+void add_state(Command& app);
+void add_count(Command& app);
+void add_compare(Command& app);
+void add_golden(Command& app);
+void add_info(Command& app);
+void add_manual(Command& app);
 
 }  // namespace piblocks::cli

@@ -3,8 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "cli/commands.hpp"
-#include "cli/exit_code.hpp"
+#include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"

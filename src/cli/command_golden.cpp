@@ -6,17 +6,16 @@
 #include <optional>
 #include <system_error>
 
-#include "cli/commands.hpp"
-#include "cli/exit_code.hpp"
+#include "cli/command.hpp"
 #include "cli/options.hpp"
+#include "cli/scene_options.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
-#include "core/text.hpp"
-#include "core/overwrite_check.hpp"
 #include "core/output_file.hpp"
+#include "core/overwrite_check.hpp"
+#include "core/text.hpp"
 #include "draw/canvas.hpp"
 #include "golden/reports.hpp"
-#include "render/film_run.hpp"
 #include "render/references.hpp"
 
 namespace piblocks::cli {
@@ -42,65 +41,53 @@ std::vector<References> references_of(const Command& options) {
   return all;
 }
 
-/// What a command on references works with.
-struct Work {
-  explicit Work(const Command& options)
-      : scenes(options.texts("SCENE")),
-        folder(*options.text("--dir")),
-        all(references_of(options)) {}
-
-  std::vector<std::string> scenes;
-  fs::path folder;
-  std::optional<std::string> diff = {};
-  std::vector<References> all;
-  TextOutput out{"-"};
-};
-
-void claim_inputs(OverwriteCheck& check, const Work& work) {
-  for (const std::string& scene : work.scenes) check.reads("the scene file", scene);
-  for (const References& references : work.all) {
-    for (const std::string& logo : logos_of(references.script())) check.reads("the logo", logo);
-  }
+void claim_inputs(OverwriteCheck& check, const Command& options,
+                  const std::vector<References>& all) {
+  for (const std::string& scene : options.texts("SCENE")) check.reads("the scene file", scene);
+  for (const References& references : all) claim_logos(check, references.script());
   check.writes_standard_output();
 }
 
 /// Where the differences from a reference go. Those of hashes are no pictures.
-std::optional<fs::path> diff_folder_of(const Work& work, const std::string& file) {
-  if (!work.diff || !has_ending(file, ".png")) return std::nullopt;
-  return fs::path(*work.diff) / fs::path(file).stem();
+std::optional<fs::path> diff_folder_of(const Command& options, const std::string& file) {
+  const auto diff = options.text("--diff");
+  if (!diff || !has_ending(file, ".png")) return std::nullopt;
+  return fs::path(*diff) / fs::path(file).stem();
 }
 
-void check_diff(const Work& work) {
+/// @throws UsageError if differences would replace a reference or an input.
+void check_diff(const Command& options, const std::vector<References>& all) {
   OverwriteCheck check;
-  claim_inputs(check, work);
-  check.reads_folder("the folder of the references", work.folder);
-  if (work.diff) claim_diff_folder(check, *work.diff);
-  for (const References& references : work.all) {
+  claim_inputs(check, options, all);
+  check.reads_folder("the folder of the references", *options.text("--dir"));
+  if (const auto diff = options.text("--diff")) claim_diff_folder(check, *diff);
+  for (const References& references : all) {
     for (const std::string& file : references.files()) {
-      if (const auto folder = diff_folder_of(work, file)) claim_diff_folder(check, *folder);
+      if (const auto folder = diff_folder_of(options, file)) claim_diff_folder(check, *folder);
     }
   }
   check.check();
 }
 
-void check_references(const Work& work) {
+/// @throws UsageError if references would replace an input.
+void check_references(const Command& options, const std::vector<References>& all) {
   OverwriteCheck check;
-  claim_inputs(check, work);
-  for (const References& references : work.all) {
-    for (const std::string& file : references.files()) check.writes("--dir", work.folder / file);
+  claim_inputs(check, options, all);
+  for (const References& references : all) {
+    for (const std::string& file : references.files()) check.writes("--dir", references.path(file));
   }
   check.check();
 }
 
 /// @throws UsageError if a picture that would be replaced belongs to no references.
-void check_pictures(const References& references, const fs::path& folder) {
+void check_pictures(const References& references) {
   if (references.exist()) return;
   for (const std::string& file : references.files()) {
     std::error_code none;
-    if (!fs::exists(fs::symlink_status(folder / file, none))) continue;
+    if (!fs::exists(fs::symlink_status(references.path(file), none))) continue;
     throw UsageError(fmt::format(
         "golden: cannot record '{}': '{}' is there, and belongs to no references; move it away",
-        references.name(), (folder / file).string()));
+        references.name(), references.path(file).string()));
   }
 }
 
@@ -149,7 +136,8 @@ fs::path temporary_folder() {
                   error.message()));
 }
 
-bool check(const References& references, Work& work, const std::stop_token& stop) {
+bool check(const References& references, const Command& options, TextOutput& out,
+           const std::stop_token& stop) {
   const Unfinished scratch(temporary_folder() / "piblocks-golden", Unfinished::Kind::folder);
   references.render_into(scratch.path(), processor_count(), stop);
   bool is_equal = true;
@@ -158,90 +146,87 @@ bool check(const References& references, Work& work, const std::stop_token& stop
       throw ExitError(
           kMissingReference,
           fmt::format("golden: there is no reference '{}'; see 'piblocks golden record'",
-                      (work.folder / file).string()));
+                      references.path(file).string()));
     }
-    const auto folder = diff_folder_of(work, file);
+    const auto folder = diff_folder_of(options, file);
     const auto report = folder ? diff_folder(*folder) : nullptr;
-    is_equal &= compare_file(work.folder / file, scratch.path() / file, report.get(), work.out);
+    is_equal &= compare_file(references.path(file), scratch.path() / file, report.get(), out);
   }
-  note_fingerprint(references, work.out);
-  conclude(references, is_equal ? "equal" : "different", work.out);
+  note_fingerprint(references, out);
+  conclude(references, is_equal ? "equal" : "different", out);
   return is_equal;
 }
 
 void run_check(const Command& options) {
-  Work work(options);
-  work.diff = options.text("--diff");
-  check_diff(work);
+  const std::vector<References> all = references_of(options);
+  TextOutput out("-");
+  check_diff(options, all);
   const StopOnSignals signals;
   bool is_equal = true;
-  for (const References& references : work.all) {
-    is_equal &= check(references, work, signals.token());
+  for (const References& references : all) {
+    is_equal &= check(references, options, out, signals.token());
   }
-  work.out.finish();
+  out.finish();
   if (!is_equal) throw ExitError(kDifferent);
 }
 
-/// References on their way: all of them take their names, or none does.
-class NewReferences {
- public:
-  NewReferences(const References& references, const fs::path& folder, const std::stop_token& stop)
-      : files_(folder, references.name() + ".golden") {
-    const std::vector<std::string> names = references.files();
-    // Hashes come last: where they are, all is.
-    for (auto name = names.rbegin(); name != names.rend(); ++name) {
-      folder_ = files_.add(*name).parent_path();
-    }
-    references.render_into(folder_, processor_count(), stop);
+/// Renders new references into `files`, which gives all of them their names, or none.
+/// @returns the folder in which they wait.
+fs::path render_into(FileSet& files, const References& references, const std::stop_token& stop) {
+  const std::vector<std::string> names = references.files();
+  fs::path folder;
+  // Hashes come last: where they are, all is.
+  for (auto name = names.rbegin(); name != names.rend(); ++name) {
+    folder = files.add(*name).parent_path();
   }
-
-  fs::path path(const std::string& file) const { return folder_ / file; }
-  void commit() { files_.commit(); }
-
- private:
-  FileSet files_;
-  fs::path folder_;
-};
+  references.render_into(folder, processor_count(), stop);
+  return folder;
+}
 
 void run_record(const Command& options) {
-  Work work(options);
-  check_references(work);
-  for (const References& references : work.all) {
+  const std::vector<References> all = references_of(options);
+  TextOutput out("-");
+  check_references(options, all);
+  for (const References& references : all) {
     if (references.exist()) {
       throw UsageError(
           fmt::format("golden: '{}' has references; replace them by 'piblocks golden approve'",
                       references.name()));
     }
-    check_pictures(references, work.folder);
+    check_pictures(references);
   }
   const StopOnSignals signals;
-  for (const References& references : work.all) {
-    NewReferences(references, work.folder, signals.token()).commit();
-    conclude(references, "recorded", work.out);
+  for (const References& references : all) {
+    FileSet files(references.folder(), references.name() + ".golden");
+    render_into(files, references, signals.token());
+    files.commit();
+    conclude(references, "recorded", out);
   }
-  work.out.finish();
+  out.finish();
 }
 
-void approve(const References& references, Work& work, const std::stop_token& stop) {
-  NewReferences found(references, work.folder, stop);
+void approve(const References& references, TextOutput& out, const std::stop_token& stop) {
+  FileSet files(references.folder(), references.name() + ".golden");
+  const fs::path found = render_into(files, references, stop);
   bool is_equal = true;
   for (const std::string& file : references.files()) {
     const bool is_there = references.has(file);
-    if (!is_there) work.out.format_line("{}: new", file);
-    is_equal &= is_there && compare_file(work.folder / file, found.path(file), nullptr, work.out);
+    if (!is_there) out.format_line("{}: new", file);
+    is_equal &= is_there && compare_file(references.path(file), found / file, nullptr, out);
   }
-  note_fingerprint(references, work.out);
-  found.commit();
-  conclude(references, is_equal ? "equal" : "replaced", work.out);
+  note_fingerprint(references, out);
+  files.commit();
+  conclude(references, is_equal ? "equal" : "replaced", out);
 }
 
 void run_approve(const Command& options) {
-  Work work(options);
-  check_references(work);
-  for (const References& references : work.all) check_pictures(references, work.folder);
+  const std::vector<References> all = references_of(options);
+  TextOutput out("-");
+  check_references(options, all);
+  for (const References& references : all) check_pictures(references);
   const StopOnSignals signals;
-  for (const References& references : work.all) approve(references, work, signals.token());
-  work.out.finish();
+  for (const References& references : all) approve(references, out, signals.token());
+  out.finish();
 }
 
 void add_action(Command& golden, const char* name, const char* help,

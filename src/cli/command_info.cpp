@@ -8,11 +8,11 @@
 #include <piblocks/script.hpp>
 #include <piblocks/version.hpp>
 
-#include "cli/commands.hpp"
+#include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "cli/text_output.hpp"
 #include "draw/canvas.hpp"
-#include "media/output/outputs.hpp"
+#include "media/output/output.hpp"
 #include "physics/blocks.hpp"
 #include "scene/schedule.hpp"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "cli/commands.hpp"
+#include "cli/command.hpp"
 #include "cli/log_format.hpp"
 #include "cli/options.hpp"
 #include "cli/scene_options.hpp"

@@ -5,15 +5,15 @@
 #include <filesystem>
 #include <utility>
 
-#include "cli/commands.hpp"
-#include "cli/destinations.hpp"
+#include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/stop_on_signals.hpp"
-#include "core/text.hpp"
+#include "cli/text_output.hpp"
 #include "core/overwrite_check.hpp"
-#include "media/output/outputs.hpp"
+#include "core/text.hpp"
+#include "media/output/output.hpp"
 #include "render/renderings.hpp"
 
 namespace piblocks::cli {
@@ -150,6 +150,17 @@ void add_run_options(Command& command) {
   command.add_flag("--quiet", "Print nothing but errors");
 }
 
+void run_join(const Command& options) {
+  const StopOnSignals signals;
+  refuse_terminal(options);
+  const std::vector<std::string> parts = options.texts("PART");
+  const std::string output = output_of(options);
+  const std::int64_t frames = join(parts, output, signals.token());
+  if (options.is_given("--quiet")) return;
+  say("{}: {} {} from {} {}\n", output == "-" ? "standard output" : output, frames,
+      frames == 1 ? "frame" : "frames", parts.size(), parts.size() == 1 ? "part" : "parts");
+}
+
 }  // namespace
 
 void add_render(Command& app) {
@@ -175,6 +186,19 @@ void add_render(Command& app) {
       "  piblocks render --digits 5 --speed 1/2 --size 1280x720 -o frames/%06d.png\n"
       "  piblocks render scene.toml --to last+3 -o - | ffplay -");
   command.on_run([=] { run_render(command, scene); });
+}
+
+void add_join(Command& app) {
+  Command command = app.add_command("join", "Join the parts of a rendering");
+  command.add_arguments("PART", "Every file of 'render --part', in any order");
+  command.add_required_value("-o,--output", "OUT", "The name that the parts were rendered for");
+  command.add_flag("--quiet", "Print nothing but errors");
+  command.set_footer(
+      "Examples:\n"
+      "  piblocks render --part 1/2 -o pi.mp4    # on one machine: pi.mp4.part-1-of-2\n"
+      "  piblocks render --part 2/2 -o pi.mp4    # on another: pi.mp4.part-2-of-2\n"
+      "  piblocks join pi.mp4.part-* -o pi.mp4   # the bytes of 'piblocks render -o pi.mp4'");
+  command.on_run([=] { run_join(command); });
 }
 
 }  // namespace piblocks::cli

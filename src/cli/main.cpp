@@ -10,10 +10,9 @@
 #include <string>
 #include <string_view>
 
-#include "cli/commands.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/say.hpp"
+#include "cli/command.hpp"
 #include "cli/stop_on_signals.hpp"
+#include "cli/text_output.hpp"
 #include "core/gmp_memory.hpp"
 #include "core/output_file.hpp"
 

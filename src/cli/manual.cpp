@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "cli/app.hpp"
-#include "cli/commands.hpp"
+#include "cli/command.hpp"
+#include "cli/options.hpp"
+#include "core/output_file.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -47,8 +49,17 @@ std::string names_below(const CLI::App& app) {
   return names;
 }
 
-std::vector<const CLI::Option*> named_options_of(const CLI::App& command) {
-  return command.get_options([](const CLI::Option* option) { return !option->get_positional(); });
+struct NamedOption {
+  const CLI::Option* option;
+  std::string name;  ///< without "--"
+};
+
+std::vector<NamedOption> named_options_of(const CLI::App& command) {
+  std::vector<NamedOption> named;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) named.push_back({option, name});
+  }
+  return named;
 }
 
 bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
@@ -94,11 +105,8 @@ std::string condition_of(const CLI::App& command) {
          replaced(full_name(command), " ", "; and __fish_seen_subcommand_from ");
 }
 
-}  // namespace
-
-std::string man_page() {
-  const auto made = make_app();
-  const CLI::App& app = *made;
+/// piblocks(1), for the man macros of roff.
+std::string man_page(const CLI::App& app) {
   std::string text = fmt::format(
       ".TH PIBLOCKS 1 \"\" \"piblocks {}\" \"User Commands\"\n"
       ".SH NAME\npiblocks \\- render the colliding blocks that count the digits of pi\n"
@@ -112,9 +120,8 @@ std::string man_page() {
          "number of frames, 5 for what cannot be read.\n";
 }
 
-std::string bash_completion() {
-  const auto made = make_app();
-  const CLI::App& app = *made;
+/// To be sourced, or installed as bash-completion/completions/piblocks.
+std::string bash_completion(const CLI::App& app) {
   std::string text =
       "_piblocks() {\n"
       "  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words= i\n"
@@ -130,9 +137,7 @@ std::string bash_completion() {
   }
   for (const CLI::App* command : leaves_of(app)) {
     std::string options;
-    for (const CLI::Option* option : named_options_of(*command)) {
-      for (const std::string& name : option->get_lnames()) options += "--" + name + ' ';
-    }
+    for (const auto& [option, name] : named_options_of(*command)) options += "--" + name + ' ';
     text += fmt::format("    {0} | {0}\\ *) words='{1}' ;;\n",
                         replaced(full_name(*command), " ", "\\ "), options);
   }
@@ -148,9 +153,8 @@ std::string bash_completion() {
          "complete -o default -F _piblocks piblocks\n";
 }
 
-std::string zsh_completion() {
-  const auto made = make_app();
-  const CLI::App& app = *made;
+/// Installed as site-functions/_piblocks.
+std::string zsh_completion(const CLI::App& app) {
   std::string text =
       "#compdef piblocks\n"
       "local command\n"
@@ -180,26 +184,23 @@ std::string zsh_completion() {
   text += "case $command in\n";
   for (const CLI::App* command : leaves_of(app)) {
     text += fmt::format("  {})\n    options=(\n", shell_quoted(full_name(*command)));
-    for (const CLI::Option* option : named_options_of(*command)) {
+    for (const auto& [option, name] : named_options_of(*command)) {
       const std::string what =
           replaced(replaced(flat(option->get_description()), "[", "("), "]", ")");
       const std::string words = words_of(*option);
-      for (const std::string& name : option->get_lnames()) {
-        std::string spec = fmt::format("--{}[{}]", name, replaced(what, ":", "\\:"));
-        if (takes_value(*option)) {
-          spec += words.empty() ? ":value:_files" : fmt::format(":value:({})", words);
-        }
-        text += "      " + shell_quoted(spec) + "\n";
+      std::string spec = fmt::format("--{}[{}]", name, replaced(what, ":", "\\:"));
+      if (takes_value(*option)) {
+        spec += words.empty() ? ":value:_files" : fmt::format(":value:({})", words);
       }
+      text += "      " + shell_quoted(spec) + "\n";
     }
     text += "    ) ;;\n";
   }
   return text + "esac\n_arguments $options '*:file:_files'\n";
 }
 
-std::string fish_completion() {
-  const auto made = make_app();
-  const CLI::App& app = *made;
+/// Installed as vendor_completions.d/piblocks.fish.
+std::string fish_completion(const CLI::App& app) {
   std::string text;
   for (const CLI::App* command : commands_of(app)) {
     text += fmt::format("complete -c piblocks -n __fish_use_subcommand -f -a {} -d {}\n",
@@ -212,18 +213,38 @@ std::string fish_completion() {
         command->get_name(), below);
   }
   for (const CLI::App* command : leaves_of(app)) {
-    for (const CLI::Option* option : named_options_of(*command)) {
-      for (const std::string& name : option->get_lnames()) {
-        const std::string words = words_of(*option);
-        text += fmt::format("complete -c piblocks -n {} -l {}{}{} -d {}\n",
-                            shell_quoted(condition_of(*command)), name,
-                            takes_value(*option) ? " -r" : "",
-                            words.empty() ? "" : " -f -a " + shell_quoted(words),
-                            shell_quoted(flat(option->get_description())));
-      }
+    for (const auto& [option, name] : named_options_of(*command)) {
+      const std::string words = words_of(*option);
+      text +=
+          fmt::format("complete -c piblocks -n {} -l {}{}{} -d {}\n",
+                      shell_quoted(condition_of(*command)), name, takes_value(*option) ? " -r" : "",
+                      words.empty() ? "" : " -f -a " + shell_quoted(words),
+                      shell_quoted(flat(option->get_description())));
     }
   }
   return text;
+}
+
+void run_manual(const Command& command) {
+  using MakeText = std::string (*)(const CLI::App& app);
+  const MakeText make_text = *command.value("KIND", [](const std::string& text) {
+    return parse_choice<MakeText>(text, {{"man", man_page},
+                                         {"bash", bash_completion},
+                                         {"zsh", zsh_completion},
+                                         {"fish", fish_completion}});
+  });
+  OutputFile out("-", OutputFile::Contents::text);
+  out.write(make_text(*make_app()));
+  out.finish();
+}
+
+}  // namespace
+
+void add_manual(Command& app) {
+  Command command =
+      app.add_command("manual", "Print the manual page, or what a shell needs to complete options");
+  command.add_argument("KIND", "man, bash, zsh or fish");
+  command.on_run([=] { run_manual(command); });
 }
 
 }  // namespace piblocks::cli

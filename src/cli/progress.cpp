@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/say.hpp"
+#include "cli/text_output.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -102,9 +102,9 @@ void print_profile(const Rendered& rendered) {
         100 * spent_s / profile.total_s);
   };
   say("processor time of {} frames:\n", rendered.frame_count);
-  for (std::size_t i = 0; i < profile.stages.size(); ++i) print(kStageNames[i], profile.stages[i]);
-  const double staged_s = std::accumulate(profile.stages.begin(), profile.stages.end(), 0.0);
-  print("other", profile.total_s - staged_s);  // start-up and set-up
+  for (std::size_t i = 0; i < profile.steps.size(); ++i) print(kStepNames[i], profile.steps[i]);
+  const double steps_s = std::accumulate(profile.steps.begin(), profile.steps.end(), 0.0);
+  print("other", profile.total_s - steps_s);  // start-up and set-up
   print("total", profile.total_s);
   print_methods(profile.chunk_methods);
 }

@@ -4,24 +4,32 @@
 #include <piblocks/error.hpp>
 #include <piblocks/script.hpp>
 
+#include <algorithm>
+
 #include "cli/options.hpp"
-#include "cli/say.hpp"
-#include "render/film_run.hpp"
+#include "cli/text_output.hpp"
+#include "core/text.hpp"
 
 namespace piblocks::cli {
 namespace {
 
 constexpr const char* kFile = "SCENE.toml";
 
-void note_convention(const BlockSystem& system) {
-  const auto corner = corner_of(system);
-  if (!corner) return;
-  say("piblocks: note: all collisions happen at once, at t = {}, when blue touches both wall "
-      "and red: by convention {}, which makes {} ({} first: {})\n",
-      to_text(corner->time),
-      corner->blocks_first ? "the blocks meet first" : "blue meets the wall first",
-      readable(corner->count), corner->blocks_first ? "wall" : "blocks",
-      readable(corner->other_count));
+/// src/media/README.md has the reasons.
+const std::vector<Destination>& destinations() {
+  static const std::vector<Destination> all = {
+      {"powerpoint", {{"view.size", "1920x1080"}, {"view.fps", "60"}}, {".mp4"}},
+      {"keynote", {{"view.size", "1920x1080"}, {"view.fps", "60"}}, {".mp4", ".mov"}},
+      {"web",
+       {{"view.size", "1280x720"}, {"view.fps", "30"}},
+       {".mp4", ".webm", ".gif", ".apng", ".html"}},
+      {"editor",
+       {{"view.size", "1920x1080"}, {"view.fps", "60"}, {"view.background", "transparent"}},
+       {".mov", ".png"},
+       "prores_ks"},
+      {"shorts", {{"view.size", "1080x1920"}, {"view.fps", "60"}}, {".mp4"}},
+      {"beamer", {{"view.size", "1280x720"}, {"view.fps", "25"}}, {".mp4", ".png"}}};
+  return all;
 }
 
 }  // namespace
@@ -102,9 +110,7 @@ void SceneOptions::add_show() {
 
 void SceneOptions::refuse_both(const std::string& first, const std::string& second,
                                const char* what) const {
-  for (const std::string& name : {first, second}) {
-    if (!command_.is_given(name)) return;
-  }
+  if (!command_.is_given(first) || !command_.is_given(second)) return;
   throw UsageError(fmt::format("{} and {} both set {}; give one of them", first, second, what));
 }
 
@@ -140,7 +146,7 @@ Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
 
 void SceneOptions::add_inputs(OverwriteCheck& check, const Script& script) const {
   if (const auto scene = command_.text(kFile)) check.reads("the scene file", *scene);
-  for (const std::string& logo : logos_of(script)) check.reads("the logo", logo);
+  claim_logos(check, script);
 }
 
 void SceneOptions::check_output(const Script& script) const {
@@ -168,13 +174,42 @@ std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const Command&
                             command.value("--engine", parse_engine).value_or(Engine::unfolded));
 }
 
-void note_convention(const Script& script) {
-  if (const auto* scene = std::get_if<Scene>(&script)) return note_convention(scene->system);
-  for (const Segment& segment : std::get<Storyboard>(script).segments) {
-    const auto* const runs = std::get_if<Runs>(&segment.content);
-    if (runs == nullptr) continue;
-    for (const Scene& run : *runs) note_convention(run.system);
+void claim_logos(OverwriteCheck& check, const Script& script) {
+  for (const Scene* scene : scenes_of(script)) {
+    if (!scene->show.logo.empty()) check.reads("the logo", scene->show.logo);
   }
+}
+
+void note_convention(const Script& script) {
+  for (const Scene* scene : scenes_of(script)) {
+    const auto corner = corner_of(scene->system);
+    if (!corner) continue;
+    say("piblocks: note: all collisions happen at once, at t = {}, when blue touches both wall "
+        "and red: by convention {}, which makes {} ({} first: {})\n",
+        to_text(corner->time),
+        corner->blocks_first ? "the blocks meet first" : "blue meets the wall first",
+        readable(corner->count), corner->blocks_first ? "wall" : "blocks",
+        readable(corner->other_count));
+  }
+}
+
+std::string destination_names() {
+  std::vector<std::string_view> names;
+  for (const Destination& destination : destinations()) names.push_back(destination.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+const Destination& parse_destination(const std::string& name) {
+  const auto found = std::ranges::find(destinations(), name, &Destination::name);
+  if (found != destinations().end()) return *found;
+  throw UsageError("must be one of: " + destination_names());
+}
+
+void check_ending(const Destination& destination, const std::string& output) {
+  const auto is_ending = [&](std::string_view ending) { return has_ending(output, ending); };
+  if (std::ranges::any_of(destination.endings, is_ending)) return;
+  throw UsageError(fmt::format("--for {}: cannot use '{}' there; write one of: *{}",
+                               destination.name, output, fmt::join(destination.endings, ", *")));
 }
 
 }  // namespace piblocks::cli

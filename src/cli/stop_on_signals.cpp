@@ -13,7 +13,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "cli/exit_code.hpp"
+#include "cli/command.hpp"
 
 namespace piblocks::cli {
 namespace {

@@ -1,19 +1,44 @@
-// Lines of text to a file or to standard output.
-// In: lines; what stands in place of {} is made printable. Out: the same bytes, in large writes; a
-// failed write is an exception, but nothing is said to a reader that has gone away.
+// Text for people and for programs.
+// In: text and values; what a terminal cannot show in them is escaped. Out: messages on standard
+// error, if it can be written: work does not fail because a terminal was closed. Lines to a file or
+// to standard output, in large writes: a failed write is an exception, but nothing is said to a
+// reader that has gone away.
 #pragma once
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
 #include <cmath>
+#include <cstdio>
+#include <exception>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
-#include "cli/say.hpp"
 #include "core/output_file.hpp"
+#include "core/text.hpp"
 
 namespace piblocks::cli {
+
+/// The value itself, or a text that a terminal can show.
+template <typename Value>
+decltype(auto) printable_value(const Value& value) {
+  if constexpr (std::is_convertible_v<const Value&, std::string_view>) {
+    return printable(value);
+  } else {
+    return (value);
+  }
+}
+
+template <typename... Values>
+void say(fmt::format_string<const Values&...> format, const Values&... values) noexcept {
+  try {
+    fmt::vprint(stderr, fmt::string_view(format),
+                fmt::make_format_args(printable_value(values)...));
+  } catch (const std::exception&) {
+    return;
+  }
+}
 
 /// A number as it is printed: -0 becomes 0.
 /// @throws SimulationError if it is not finite: JSON has no infinity.

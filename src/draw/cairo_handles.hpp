@@ -29,4 +29,12 @@ inline void check_cairo(cairo_status_t status, const char* operation) {
   throw DrawError(fmt::format("draw: {}: {}", operation, cairo_status_to_string(status)));
 }
 
+/// @throws DrawError naming the operation, if there is no memory for it.
+inline CairoSurfacePtr image_surface(cairo_format_t format, int width_px, int height_px,
+                                     const char* operation) {
+  CairoSurfacePtr surface(cairo_image_surface_create(format, width_px, height_px));
+  check_cairo(cairo_surface_status(surface.get()), operation);
+  return surface;
+}
+
 }  // namespace piblocks

@@ -1,5 +1,7 @@
 #include "draw/canvas.hpp"
 
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
 #include <fmt/format.h>
 #include <ft2build.h>
 #include <pixman.h>
@@ -7,8 +9,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <map>
+#include <new>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -21,13 +26,6 @@
 namespace piblocks {
 namespace {
 
-/// By hand: Cairo knows when it has cleared a surface itself, and then paints on it in other ways.
-void clear(unsigned char* corner, const PixelRect& rect, int stride_bytes) {
-  for (int y = 0; y < rect.height_px; ++y) {
-    std::memset(corner + std::ptrdiff_t{y} * stride_bytes, 0, std::size_t(rect.width_px) * 4);
-  }
-}
-
 /// How Cairo rounds a slanted edge depends on where the surface ends. The pixels of rectangles,
 /// text, plates and exposed blocks do not depend on it.
 bool depends_on_surface(const DrawItem& item) {
@@ -39,13 +37,81 @@ bool depends_on_surface(const DrawItem& item) {
          std::holds_alternative<ImageItem>(item);
 }
 
+using MakeSurface = cairo_surface_t* (*)(cairo_write_func_t write, void* bytes, double width,
+                                         double height);
+
+/// Cairo calls it, so that it must not throw.
+cairo_status_t append_bytes(void* target, const unsigned char* data, unsigned int length) {
+  auto& bytes = *static_cast<std::vector<std::uint8_t>*>(target);
+  try {
+    bytes.insert(bytes.end(), data, data + length);
+  } catch (const std::bad_alloc&) {
+    return CAIRO_STATUS_NO_MEMORY;
+  }
+  return CAIRO_STATUS_SUCCESS;
+}
+
+cairo_surface_t* make_svg(cairo_write_func_t write, void* bytes, double width, double height) {
+  cairo_surface_t* surface = cairo_svg_surface_create_for_stream(write, bytes, width, height);
+  cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+  return surface;
+}
+
+cairo_surface_t* make_pdf(cairo_write_func_t write, void* bytes, double width, double height) {
+  cairo_surface_t* surface = cairo_pdf_surface_create_for_stream(write, bytes, width, height);
+  // Else Cairo writes the time of day, and equal scenes give different files.
+  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "1970-01-01T00:00:00Z");
+  return surface;
+}
+
+std::vector<std::uint8_t> draw_file(const DrawList& list, MakeSurface make) {
+  std::vector<std::uint8_t> bytes;
+  const CairoSurfacePtr surface(make(append_bytes, &bytes, list.width_px, list.height_px));
+  const CairoPtr cr(cairo_create(surface.get()));
+  Painter(TextSetting::lines).paint(*cr, list);
+  cairo_surface_finish(surface.get());
+  check_cairo(cairo_surface_status(surface.get()), "finish the vector file");
+  return bytes;
+}
+
+/// Cairo 1.16 numbers groups through the whole process, as "surface12", so that equal draw lists
+/// give different files. This numbers them from the beginning of the file.
+std::vector<std::uint8_t> with_fixed_ids(const std::vector<std::uint8_t>& svg) {
+  constexpr std::string_view kCounted = "surface";
+  const std::string_view text(reinterpret_cast<const char*>(svg.data()), svg.size());
+  std::map<std::string_view, std::size_t> numbers;
+  std::string fixed;
+  std::size_t copied = 0;
+  for (auto at = text.find(kCounted); at != std::string_view::npos;
+       at = text.find(kCounted, at + 1)) {
+    const bool is_name = text.substr(0, at).ends_with("id=\"") || text.substr(0, at).ends_with('#');
+    const std::size_t begin = at + kCounted.size();
+    const std::size_t end = std::min(text.find_first_not_of("0123456789", begin), text.size());
+    if (!is_name || end == begin) continue;
+    const std::string_view count = text.substr(begin, end - begin);
+    const std::size_t number = numbers.try_emplace(count, numbers.size() + 1).first->second;
+    fixed += text.substr(copied, at - copied);
+    fixed += number == 1 ? "picture" : "picture" + std::to_string(number);
+    copied = end;
+  }
+  fixed += text.substr(copied);
+  return {fixed.begin(), fixed.end()};
+}
+
 }  // namespace
 
 struct Canvas::Pixels {
   Pixels(int width_px, int height_px, Background background)
       : format(background == Background::transparent ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24),
-        surface(cairo_image_surface_create(format, width_px, height_px)) {
-    check_cairo(cairo_surface_status(surface.get()), "make a canvas");
+        surface(image_surface(format, width_px, height_px, "make a canvas")) {}
+
+  /// Paints what is in the region, and nothing else that would change a pixel.
+  void paint(const DrawList& list) {
+    if (std::ranges::any_of(list.items, depends_on_surface)) {
+      paint_tiles(list);
+    } else {
+      for (const PixelRect& rect : region) paint_rect(list, rect);
+    }
   }
 
   cairo_format_t format;
@@ -55,60 +121,52 @@ struct Canvas::Pixels {
   Region region;
   std::vector<bool> is_in_region;  ///< by tile; kept for its memory
 
-  /// Paints what is in the region, and nothing else that would change a pixel.
-  void paint(const DrawList& list);
-
  private:
-  void paint_rect(const DrawList& list, const PixelRect& rect);
-  void paint_tiles(const DrawList& list);
-};
-
-void Canvas::Pixels::paint(const DrawList& list) {
-  if (std::ranges::any_of(list.items, depends_on_surface)) {
-    paint_tiles(list);
-  } else {
-    for (const PixelRect& rect : region) paint_rect(list, rect);
-  }
-}
-
-/// Paints whole tiles of a fixed grid, so that the same pixels come out whatever the region is.
-void Canvas::Pixels::paint_tiles(const DrawList& list) {
-  constexpr int kTile_px = 64;
-  const auto columns = static_cast<std::size_t>((list.width_px + kTile_px - 1) / kTile_px);
-  const auto rows = static_cast<std::size_t>((list.height_px + kTile_px - 1) / kTile_px);
-  is_in_region.assign(columns * rows, false);
-  for (const PixelRect& rect : region) {
-    for (int y = rect.y_px / kTile_px; y * kTile_px < rect.y_px + rect.height_px; ++y) {
-      for (int x = rect.x_px / kTile_px; x * kTile_px < rect.x_px + rect.width_px; ++x) {
-        is_in_region[static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x)] = true;
+  /// Paints whole tiles of a fixed grid, so that the same pixels come out whatever the region is.
+  void paint_tiles(const DrawList& list) {
+    constexpr int kTile_px = 64;
+    const auto columns = static_cast<std::size_t>((list.width_px + kTile_px - 1) / kTile_px);
+    const auto rows = static_cast<std::size_t>((list.height_px + kTile_px - 1) / kTile_px);
+    is_in_region.assign(columns * rows, false);
+    for (const PixelRect& rect : region) {
+      for (int y = rect.y_px / kTile_px; y * kTile_px < rect.y_px + rect.height_px; ++y) {
+        for (int x = rect.x_px / kTile_px; x * kTile_px < rect.x_px + rect.width_px; ++x) {
+          is_in_region[static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x)] = true;
+        }
       }
     }
+    for (std::size_t tile = 0; tile < is_in_region.size(); ++tile) {
+      if (!is_in_region[tile]) continue;
+      const int left = static_cast<int>(tile % columns) * kTile_px;
+      const int top = static_cast<int>(tile / columns) * kTile_px;
+      paint_rect(list, {left, top, std::min(kTile_px, list.width_px - left),
+                        std::min(kTile_px, list.height_px - top)});
+    }
   }
-  for (std::size_t tile = 0; tile < is_in_region.size(); ++tile) {
-    if (!is_in_region[tile]) continue;
-    const int left = static_cast<int>(tile % columns) * kTile_px;
-    const int top = static_cast<int>(tile / columns) * kTile_px;
-    paint_rect(list, {left, top, std::min(kTile_px, list.width_px - left),
-                      std::min(kTile_px, list.height_px - top)});
-  }
-}
 
-/// Paints the rectangle as a picture of its own that shares the memory of the whole. Under a clip
-/// Cairo would take other paths, and its antialiased edges come out a step lighter or darker there.
-void Canvas::Pixels::paint_rect(const DrawList& list, const PixelRect& rect) {
-  cairo_surface_flush(surface.get());
-  const int stride_bytes = cairo_image_surface_get_stride(surface.get());
-  unsigned char* const corner = cairo_image_surface_get_data(surface.get()) +
-                                std::ptrdiff_t{rect.y_px} * stride_bytes + 4 * rect.x_px;
-  if (!list.background) clear(corner, rect, stride_bytes);
-  const CairoSurfacePtr pixels(cairo_image_surface_create_for_data(corner, format, rect.width_px,
-                                                                   rect.height_px, stride_bytes));
-  cairo_surface_set_device_offset(pixels.get(), -rect.x_px, -rect.y_px);
-  const CairoPtr cr(cairo_create(pixels.get()));
-  painter.paint(*cr, list, rect);
-  cairo_surface_finish(pixels.get());
-  cairo_surface_mark_dirty(surface.get());
-}
+  /// Paints the rectangle as a picture of its own that shares the memory of the whole. Under a clip
+  /// Cairo would take other paths, and its antialiased edges come out a step lighter or darker
+  /// there.
+  void paint_rect(const DrawList& list, const PixelRect& rect) {
+    cairo_surface_flush(surface.get());
+    const int stride_bytes = cairo_image_surface_get_stride(surface.get());
+    unsigned char* const corner = cairo_image_surface_get_data(surface.get()) +
+                                  std::ptrdiff_t{rect.y_px} * stride_bytes + 4 * rect.x_px;
+    if (!list.background) {
+      // By hand: Cairo knows when it has cleared a surface itself, and then paints in other ways.
+      for (int y = 0; y < rect.height_px; ++y) {
+        std::memset(corner + std::ptrdiff_t{y} * stride_bytes, 0, std::size_t(rect.width_px) * 4);
+      }
+    }
+    const CairoSurfacePtr pixels(cairo_image_surface_create_for_data(corner, format, rect.width_px,
+                                                                     rect.height_px, stride_bytes));
+    cairo_surface_set_device_offset(pixels.get(), -rect.x_px, -rect.y_px);
+    const CairoPtr cr(cairo_create(pixels.get()));
+    painter.paint(*cr, list, rect);
+    cairo_surface_finish(pixels.get());
+    cairo_surface_mark_dirty(surface.get());
+  }
+};
 
 Canvas::Canvas(int width_px, int height_px, Background background)
     : pixels_(std::make_unique<Pixels>(width_px, height_px, background)) {}
@@ -160,5 +218,24 @@ std::vector<std::string> draw_library_versions() {
 std::string painter_fingerprint() {
   return fmt::format("{}", fmt::join(draw_library_versions(), ", "));
 }
+
+Image draw_pixels(const DrawList& list) {
+  Image image{list.width_px, list.height_px, {}};
+  image.words.resize(std::size_t(image.width_px) * std::size_t(image.height_px));
+  const CairoSurfacePtr surface(cairo_image_surface_create_for_data(
+      reinterpret_cast<unsigned char*>(image.words.data()), CAIRO_FORMAT_RGB24, image.width_px,
+      image.height_px, 4 * image.width_px));
+  const CairoPtr cr(cairo_create(surface.get()));
+  Painter(TextSetting::glyphs).paint(*cr, list);
+  cairo_surface_finish(surface.get());
+  check_cairo(cairo_surface_status(surface.get()), "paint a sheet");
+  return image;
+}
+
+std::vector<std::uint8_t> draw_svg(const DrawList& list) {
+  return with_fixed_ids(draw_file(list, make_svg));
+}
+
+std::vector<std::uint8_t> draw_pdf(const DrawList& list) { return draw_file(list, make_pdf); }
 
 }  // namespace piblocks

@@ -10,13 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "draw/extent.hpp"
-#include "draw/frame_plan.hpp"
+#include "draw/layout.hpp"
+#include "draw/look.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/panels/panels.hpp"
-#include "draw/stage.hpp"
-#include "draw/style.hpp"
+#include "draw/region.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -54,21 +53,11 @@ Integer longest_count(const Scene& scene, const CollisionLog& log) {
   return first.get_str().size() > last.get_str().size() ? first : last;
 }
 
-std::vector<ReadOut> read_outs_of(const Setting& setting) {
-  const Scene& scene = setting.scene;
-  std::vector<ReadOut> read_outs;
-  if (scene.show.has(Overlay::time)) read_outs.push_back(time_read_out(setting));
-  if (has_slow_motion(scene.pacing)) read_outs.push_back(slower_read_out(setting));
-  if (scene.show.has(Overlay::energy)) read_outs.push_back(energy_read_out(setting));
-  if (scene.show.has(Overlay::momentum)) read_outs.push_back(momentum_read_out(setting));
-  return read_outs;
-}
-
-Drawable make_panel(const Setting& setting, const PanelPlace& place) {
+Drawable make_panel(const DrawingContext& context, const PanelPlace& place) {
   // In the order of Panel.
   constexpr std::array kPanels = {velocity_panel, position_panel, unfolded_panel, time_panel,
                                   rate_panel};
-  return kPanels.at(static_cast<std::size_t>(place.panel))(setting, place);
+  return kPanels.at(static_cast<std::size_t>(place.panel))(context, place);
 }
 
 /// @throws UsageError if something at this time is beyond the range of numbers.
@@ -104,74 +93,41 @@ ImageItem place_logo(const Rectangle& place, std::shared_ptr<const Image> logo) 
 
 }  // namespace
 
-struct Composition::Contents {
-  Contents(const Scene& scene, const CollisionLog& log, std::shared_ptr<const Image> logo);
-
-  DrawList empty;
-  std::optional<StagePicture> stage;
-  std::vector<Drawable> drawables;  ///< in the order of their ids
-
- private:
-  void add_overlays(const Setting& setting);
-  void add_panels(const Setting& setting, const std::vector<Rectangle>& places);
-};
-
-Composition::Contents::Contents(const Scene& scene, const CollisionLog& log,
-                                std::shared_ptr<const Image> logo)
-    : empty{scene.view.width_px, scene.view.height_px, background_of(scene.view), {}} {
+Composition::Composition(const Scene& scene, const CollisionLog& log,
+                         std::shared_ptr<const Image> logo)
+    : empty_{scene.view.width_px, scene.view.height_px, background_of(scene.view), {}} {
   const Font font;
   const Palette palette = palette_of(scene.view.theme);
   Layout layout;  // made below: the height of the read-outs decides it
-  const Setting setting{
+  const DrawingContext context{
       scene, log, palette, font, layout, small_text_px(scene.view), thin_line_px(scene.view)};
-  ReadOutRows rows(read_outs_of(setting), setting);
-  const FramePlan plan = plan_frame(setting, rows.height());
+  ReadOutRows rows(context);
+  const FramePlan plan = plan_frame(context, rows.height());
   layout = lay_out(scene, longest_count(scene, log), plan.stage, font);
 
-  stage.emplace(setting, lit_digits(scene, log));
-  add_overlays(setting);
-  if (rows.height() > 0) {
-    rows.move(plan.stage.y + plan.stage.height);
-    drawables.emplace_back(std::move(rows));
-  }
+  const Show& show = scene.show;
+  drawables_.push_back(stage(context, lit_digits(scene, log)));
+  if (show.has(Overlay::masses)) drawables_.push_back(mass_labels(context));
+  if (show.has(Overlay::velocities)) drawables_.push_back(velocity_arrows(context));
+  if (show.has(Overlay::ruler)) drawables_.push_back(ruler(context));
+  rows.move(plan.stage.y + plan.stage.height);
+  drawables_.emplace_back(std::move(rows));
   std::vector<DrawItem> lines;
   if (plan.title) lines.emplace_back(*plan.title);
   if (plan.caption) lines.emplace_back(*plan.caption);
   if (logo) lines.emplace_back(place_logo(plan.logo, std::move(logo)));
-  drawables.push_back(unchanging(std::move(lines)));
-  add_panels(setting, plan.panels);
-}
-
-void Composition::Contents::add_overlays(const Setting& setting) {
-  const Show& show = setting.scene.show;
-  if (show.has(Overlay::masses)) drawables.push_back(mass_labels(setting));
-  if (show.has(Overlay::velocities)) drawables.push_back(velocity_arrows(setting));
-  if (show.has(Overlay::ruler)) drawables.push_back(ruler(setting));
-}
-
-void Composition::Contents::add_panels(const Setting& setting,
-                                       const std::vector<Rectangle>& places) {
-  const std::vector<Panel>& shown = setting.scene.show.panels;
-  for (std::size_t i = 0; i < shown.size(); ++i) {
+  drawables_.push_back(unchanging(std::move(lines)));
+  for (std::size_t i = 0; i < show.panels.size(); ++i) {
     const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +
                                  ids_from(static_cast<std::uint32_t>(i))};
-    drawables.push_back(make_panel(setting, {places[i], first_id, shown[i]}));
+    drawables_.push_back(make_panel(context, {plan.panels[i], first_id, show.panels[i]}));
   }
 }
 
-Composition::Composition(const Scene& scene, const CollisionLog& log,
-                         std::shared_ptr<const Image> logo)
-    : contents_(std::make_unique<const Contents>(scene, log, std::move(logo))) {}
-Composition::~Composition() = default;
-Composition::Composition(Composition&&) noexcept = default;
-Composition& Composition::operator=(Composition&&) noexcept = default;
-
-DrawList Composition::frame(const FrameState& shown,
-                            std::span<const WeightedExposure> exposure) const {
+DrawList Composition::frame(const FrameState& shown) const {
   check(is_finite(shown.state.blue) && is_finite(shown.state.red), shown.time);
-  DrawList list = contents_->empty;
-  contents_->stage->add(shown.state, exposure, list.items);
-  for (const Drawable& drawable : contents_->drawables) drawable(shown, list.items);
+  DrawList list = empty_;
+  for (const Drawable& drawable : drawables_) drawable(shown, list.items);
   check(are_finite(list.items), shown.time);
   return list;
 }

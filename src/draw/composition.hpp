@@ -5,19 +5,14 @@
 #include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
+#include <functional>
 #include <memory>
-#include <span>
+#include <vector>
 
 #include "draw/draw_list.hpp"
 #include "physics/exposure.hpp"
 
 namespace piblocks {
-
-struct FrameState {
-  BlockState state;
-  Rational time = 0;    ///< simulation time of the state
-  Rational slower = 1;  ///< as in Stretch
-};
 
 /// An interval of the time for which a frame is exposed, and its share of that time.
 struct WeightedExposure {
@@ -25,29 +20,35 @@ struct WeightedExposure {
   Exposure exposure;
 };
 
+struct FrameState {
+  BlockState state;
+  Rational time = 0;    ///< simulation time of the state
+  Rational slower = 1;  ///< as in Stretch
+  /// Where the blocks are while the frame is exposed; if empty, at the instant. All else is shown
+  /// as it is at the instant.
+  std::vector<WeightedExposure> exposure = {};
+};
+
+/// Appends the items that show one thing, such as an overlay or a panel, in the order of their ids.
+/// Thread-safe.
+using Drawable = std::function<void(const FrameState& shown, std::vector<DrawItem>& items)>;
+
 /// The layout and everything in it that does not move. It makes only what the scene asks for, and
 /// reads the log only while it is made. Const members are thread-safe.
 class Composition {
  public:
   /// @param logo  the picture that scene.show.logo names, if it does.
   /// @throws UsageError if something the scene asks for cannot be shown: a glyph that the font does
-  ///         not have, a line too long, a diagram too small to be read; DrawError if the font
+  ///         not have, a line too long, a panel too small to be read; DrawError if the font
   ///         cannot be loaded.
   Composition(const Scene& scene, const CollisionLog& log,
               std::shared_ptr<const Image> logo = nullptr);
-  ~Composition();
-  Composition(Composition&& other) noexcept;
-  Composition& operator=(Composition&& other) noexcept;
-  Composition(const Composition&) = delete;
-  Composition& operator=(const Composition&) = delete;
 
-  /// @param exposure  where the blocks are while the frame is exposed; if empty, at the instant.
-  ///                  All else is shown as it is at the instant.
-  DrawList frame(const FrameState& shown, std::span<const WeightedExposure> exposure = {}) const;
+  DrawList frame(const FrameState& shown) const;
 
  private:
-  struct Contents;
-  std::unique_ptr<const Contents> contents_;
+  DrawList empty_;
+  std::vector<Drawable> drawables_;  ///< in the order of their ids
 };
 
 }  // namespace piblocks

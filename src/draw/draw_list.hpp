@@ -5,6 +5,7 @@
 #include <piblocks/image.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -14,17 +15,83 @@
 #include <variant>
 #include <vector>
 
-#include "draw/shapes.hpp"
-
 namespace piblocks {
+
+/// The first of 65,536 ids for what shows one thing.
+constexpr std::uint32_t ids_from(std::uint32_t thing) { return thing << 16; }
+
+/// What an item shows, the same from frame to frame. Where several items show one thing, nth()
+/// tells them apart. Where ids rise from back to front, a frame may have more or fewer items than
+/// the one before, and only these are painted.
+enum class ItemId : std::uint32_t {
+  wall = ids_from(0),
+  red_block = ids_from(1),
+  blue_block = ids_from(2),
+  label = ids_from(3),
+  lit_count = ids_from(4),
+  count = ids_from(5),
+  masses = ids_from(6),
+  velocities = ids_from(7),
+  ruler = ids_from(8),
+  read_outs = ids_from(9),
+  title = ids_from(10),
+  caption = ids_from(11),
+  logo = ids_from(12),
+  panels = ids_from(13),  ///< and one for each panel after it
+  card = ids_from(100),
+  compared = ids_from(101),
+  fade = ids_from(102)
+};
+
+/// The n-th of the items that show one thing, n < 65,536.
+constexpr ItemId nth(ItemId thing, std::size_t n) {
+  return ItemId{static_cast<std::uint32_t>(thing) + static_cast<std::uint32_t>(n)};
+}
+
+/// Opaque sRGB colour.
+struct Color {
+  std::uint8_t red = 0;
+  std::uint8_t green = 0;
+  std::uint8_t blue = 0;
+  bool operator==(const Color&) const = default;
+};
+
+/// y points down; the origin is the frame's upper left corner; whole numbers are the lines between
+/// pixels.
+struct Point {
+  double x = 0;
+  double y = 0;
+  bool operator==(const Point&) const = default;
+};
+
+/// From its upper left corner.
+struct Rectangle {
+  double x = 0;
+  double y = 0;
+  double width = 0;
+  double height = 0;
+  bool operator==(const Rectangle&) const = default;
+};
+
+inline Rectangle to_rectangle(const PixelRect& r) {
+  return {double(r.x_px), double(r.y_px), double(r.width_px), double(r.height_px)};
+}
+
+/// A line. On a rectangle it is drawn inside the outline, so that the shape is exactly as large as
+/// it says; on a path and on a disk it is centred on the outline.
+struct Stroke {
+  Color color;
+  double width_px = 1;
+  double dash_px = 0;  ///< length of dashes and of the gaps between them; 0 for a solid line
+  bool operator==(const Stroke&) const = default;
+};
 
 struct RectangleItem {
   ItemId id = ItemId::wall;
   Rectangle bounds;
   std::optional<Color> fill;
   std::optional<Stroke> stroke;
-
-  friend bool operator==(const RectangleItem&, const RectangleItem&) = default;
+  bool operator==(const RectangleItem&) const = default;
 };
 
 /// One line of text, set from the left end of its baseline.
@@ -34,8 +101,7 @@ struct TextItem {
   std::string text;     ///< UTF-8
   double size_px = 16;  ///< of the em
   Color color;
-
-  friend bool operator==(const TextItem&, const TextItem&) = default;
+  bool operator==(const TextItem&) const = default;
 };
 
 /// Points, shared by all frames in which they are the same.
@@ -74,8 +140,7 @@ struct PathItem {
   bool closed = false;
   std::optional<Color> fill;  ///< of the closed path, by the non-zero rule
   std::optional<Stroke> stroke;
-
-  friend bool operator==(const PathItem&, const PathItem&) = default;
+  bool operator==(const PathItem&) const = default;
 };
 
 struct DiskItem {
@@ -84,8 +149,7 @@ struct DiskItem {
   double radius = 0;
   std::optional<Color> fill;
   std::optional<Stroke> stroke;
-
-  friend bool operator==(const DiskItem&, const DiskItem&) = default;
+  bool operator==(const DiskItem&) const = default;
 };
 
 /// An image, scaled to its bounds. Equal if it is the same image in memory.
@@ -93,8 +157,7 @@ struct ImageItem {
   ItemId id = ItemId::wall;
   Rectangle bounds;
   std::shared_ptr<const Image> image;  ///< straight alpha
-
-  friend bool operator==(const ImageItem&, const ImageItem&) = default;
+  bool operator==(const ImageItem&) const = default;
 };
 
 struct Plate;
@@ -105,8 +168,7 @@ struct PlateItem {
   ItemId id = ItemId::wall;
   Rectangle bounds;  ///< in whole pixels; the plate is cut off at them
   std::shared_ptr<const Plate> plate;
-
-  friend bool operator==(const PlateItem&, const PlateItem&) = default;
+  bool operator==(const PlateItem&) const = default;
 };
 
 struct DrawList;
@@ -126,16 +188,14 @@ struct GroupItem {
 struct Dwell {
   double x = 0;
   double share = 0;
-
-  friend bool operator==(const Dwell&, const Dwell&) = default;
+  bool operator==(const Dwell&) const = default;
 };
 
 /// Rows across a block.
 struct Bar {
   double y = 0;
   double height = 0;
-
-  friend bool operator==(const Bar&, const Bar&) = default;
+  bool operator==(const Bar&) const = default;
 };
 
 /// A filled rectangle that moves sideways while the picture is exposed.
@@ -147,8 +207,7 @@ struct ExposedBlock {
   /// From left to right; none if the block stays. The shares add up to 1, less what is outside of
   /// the frame.
   std::vector<Dwell> dwells;
-
-  friend bool operator==(const ExposedBlock&, const ExposedBlock&) = default;
+  bool operator==(const ExposedBlock&) const = default;
 };
 
 /// A share of an exposure during which the left edge of the block behind and the right edge of the
@@ -157,8 +216,7 @@ struct Contact {
   double behind_x = 0;
   double front_x = 0;
   double share = 0;
-
-  friend bool operator==(const Contact&, const Contact&) = default;
+  bool operator==(const Contact&) const = default;
 };
 
 /// Two blocks, exposed: the mean, in linear light, of the pictures that rectangles would make at
@@ -168,8 +226,7 @@ struct ExposedItem {
   ExposedBlock behind;  ///< on the right
   ExposedBlock front;
   std::vector<Contact> contacts;  ///< from left to right
-
-  friend bool operator==(const ExposedItem&, const ExposedItem&) = default;
+  bool operator==(const ExposedItem&) const = default;
 };
 
 using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, PlateItem,
@@ -184,8 +241,7 @@ struct DrawList {
   int height_px = 0;
   std::optional<Color> background = Color{255, 255, 255};  ///< transparent if empty
   std::vector<DrawItem> items;                             ///< from back to front
-
-  friend bool operator==(const DrawList&, const DrawList&) = default;
+  bool operator==(const DrawList&) const = default;
 };
 
 inline bool operator==(const GroupItem& a, const GroupItem& b) {

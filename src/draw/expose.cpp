@@ -1,9 +1,10 @@
-#include "draw/expose.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "draw/exposed_blocks.hpp"
+#include "draw/layout.hpp"
 
 namespace piblocks {
 namespace {
@@ -32,12 +33,13 @@ struct ToPixels {
   double block_px;  ///< width of the block
   int frame_px;     ///< and of the frame
 
-  ToPixels(const SceneColumns& columns, const ExposedBlock& block)
-      : zero_px(columns.zero_px - block.bounds.width / 2),
-        scale(columns.scale),
+  ToPixels(const Layout& layout, const ExposedBlock& block)
+      : zero_px(layout.origin.x - block.bounds.width / 2),
+        scale(layout.scale),
         block_px(block.bounds.width),
-        frame_px(columns.width_px) {}
+        frame_px(layout.frame_px) {}
   double operator()(double position) const { return zero_px + position * scale; }
+  Travel operator()(const Travel& way) const { return {(*this)(way.from), (*this)(way.to)}; }
   double back(double x_px) const { return (x_px - zero_px) / scale; }
 };
 
@@ -51,11 +53,11 @@ class DwellTable {
     shares_.assign(static_cast<std::size_t>(last - first_) + 1, 0);
   }
 
-  /// @param area  the integral of F up to a place; 0 below `low`, rising by 1 a pixel above `high`.
+  /// @param area  the integral of F up to a place; 0 below the range, rising by 1 a pixel above.
   template <typename Area>
-  void add(double share, double low, double high, const Area& area) {
-    const std::size_t begin = index(std::floor(low / spacing_));
-    const std::size_t end = index(std::ceil(high / spacing_)) + 1;
+  void add(double share, const Travel& range, const Area& area) {
+    const std::size_t begin = index(std::floor(range.from / spacing_));
+    const std::size_t end = index(std::ceil(range.to / spacing_)) + 1;
     double before = area(place(begin - 1));
     double here = area(place(begin));
     for (std::size_t i = begin; i < end; ++i) {
@@ -91,9 +93,8 @@ Travel range_px(BlockName block, const ToPixels& to_px,
                 std::span<const WeightedExposure> exposures) {
   Travel all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const WeightedExposure& weighted : exposures) {
-    const Travel range = weighted.exposure.range(block);
-    all.from = std::min(all.from, to_px(range.from));
-    all.to = std::max(all.to, to_px(range.to));
+    const Travel range = to_px(weighted.exposure.range(block));
+    all = {std::min(all.from, range.from), std::max(all.to, range.to)};
   }
   return all;
 }
@@ -108,30 +109,34 @@ std::vector<Dwell> dwells_of(BlockName block, const ToPixels& to_px,
   DwellTable table(range, spacing_px(range.to - range.from));
   for (const WeightedExposure& weighted : exposures) {
     if (weighted.exposure.area_below) {
-      const Travel own = weighted.exposure.range(block);
-      table.add(weighted.share, to_px(own.from), to_px(own.to), [&](double x) {
+      table.add(weighted.share, to_px(weighted.exposure.range(block)), [&](double x) {
         return weighted.exposure.area_below(block, to_px.back(x)) * to_px.scale;
       });
       continue;
     }
     for (const UniformPiece& piece : weighted.exposure.pieces) {
-      const Travel& way = piece.of(block);
-      const double low = to_px(std::min(way.from, way.to));
-      const double high = to_px(std::max(way.from, way.to));
-      table.add(weighted.share * piece.share, low, high, [&](double x) {
-        return Travel{low, high}.area_below(x);
-      });
+      const Travel way = to_px(piece.of(block));
+      const Travel rising{std::min(way.from, way.to), std::max(way.from, way.to)};
+      table.add(weighted.share * piece.share, rising,
+                [&](double x) { return rising.area_below(x); });
     }
   }
   return table.dwells();
 }
 
-/// Adds contacts along an even motion, where the blocks are less than a pixel apart.
-/// @param behind, front  left edges
-void add_contacts(double share, const Travel& behind, const Travel& front, double front_width,
-                  std::vector<Contact>& contacts) {
+/// Ways of the blocks' left edges, which both pass evenly.
+struct EvenMotion {
+  Travel behind;
+  Travel front;
+  double front_width;
+  double share;  ///< of the exposure
+};
+
+/// Adds contacts where the blocks are less than a pixel apart.
+void add_contacts(const EvenMotion& motion, std::vector<Contact>& contacts) {
   constexpr double kPerPixel = 16;
   constexpr double kMost = 4096;
+  const auto& [behind, front, front_width, share] = motion;
   const Travel gap{behind.from - front.from - front_width, behind.to - front.to - front_width};
   double begin = 0;
   double end = 1;
@@ -154,18 +159,20 @@ void add_contacts(double share, const Travel& behind, const Travel& front, doubl
 
 }  // namespace
 
-ExposedItem exposed_item(ExposedBlock red, ExposedBlock blue, const SceneColumns& columns,
+ExposedItem exposed_item(ExposedBlock red, ExposedBlock blue, const Layout& layout,
                          std::span<const WeightedExposure> exposures) {
-  const ToPixels red_px(columns, red);
-  const ToPixels blue_px(columns, blue);
+  const ToPixels red_px(layout, red);
+  const ToPixels blue_px(layout, blue);
   ExposedItem item{ItemId::red_block, std::move(red), std::move(blue), {}};
   item.behind.dwells = dwells_of(BlockName::red, red_px, exposures);
   item.front.dwells = dwells_of(BlockName::blue, blue_px, exposures);
   if (item.behind.dwells.empty() && item.front.dwells.empty()) return item;
   for (const WeightedExposure& weighted : exposures) {
     for (const UniformPiece& piece : weighted.exposure.pieces) {
-      add_contacts(weighted.share * piece.share, {red_px(piece.red.from), red_px(piece.red.to)},
-                   {blue_px(piece.blue.from), blue_px(piece.blue.to)}, item.front.bounds.width,
+      add_contacts({.behind = red_px(piece.red),
+                    .front = blue_px(piece.blue),
+                    .front_width = item.front.bounds.width,
+                    .share = weighted.share * piece.share},
                    item.contacts);
     }
   }

@@ -1,8 +1,8 @@
-#include "draw/exposed_column.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "draw/exposed_blocks.hpp"
 
 namespace piblocks {
 namespace {
@@ -17,15 +17,22 @@ Cover cover_of(double pixel, double begin, double length, double line_px) {
           overlap(pixel, begin + line_px, begin + length - line_px)};
 }
 
-/// A sample after a block's fill, its line and its bars are painted over it, as Cairo does.
-double painted(double sample, const ExposedBlock& block, const Cover& column, const Cover& row,
-               std::uint8_t Color::*channel) {
-  const double outer = column.outer * row.outer;
-  const double line = outer - column.inner * row.inner;
-  const double filled = sample + outer * (block.fill.*channel - sample);
-  const double edged = filled + line * (block.stroke.color.*channel - filled);
-  return edged + column.outer * row.bars * (block.stroke.color.*channel - edged);
-}
+/// What a block covers of a pixel.
+struct PixelCover {
+  const ExposedBlock& block;
+  const Cover& column;
+  const Cover& row;
+
+  /// A sample after the block's fill, its line and its bars are painted over it, as Cairo does.
+  double over(double sample, std::uint8_t Color::*channel) const {
+    const double edge = block.stroke.color.*channel;
+    const double outer = column.outer * row.outer;
+    const double line = outer - column.inner * row.inner;
+    const double filled = sample + outer * (block.fill.*channel - sample);
+    const double edged = filled + line * (edge - filled);
+    return edged + column.outer * row.bars * (edge - edged);
+  }
+};
 
 }  // namespace
 
@@ -121,22 +128,25 @@ std::uint32_t ExposedColumn::pixel(const RowCover& row, std::uint32_t background
 /// same time, these changes do not add up: contacts correct that.
 double ExposedColumn::light_of(const RowCover& row, double background,
                                std::uint8_t Color::*channel) const {
-  const ExposedBlock& behind = item_.behind;
-  const ExposedBlock& front = item_.front;
   const double plain = light_.of(background);
   double sum = plain;
-  for (const auto& [cover, share] : behind_shares_) {
-    sum += share * (light_.of(painted(background, behind, cover, row.behind, channel)) - plain);
-  }
-  for (const auto& [cover, share] : front_shares_) {
-    sum += share * (light_.of(painted(background, front, cover, row.front, channel)) - plain);
-  }
+  const auto add = [&](const ExposedBlock& block, const Cover& of_row,
+                       std::span<const BlockCover::Share> shares) {
+    for (const auto& [cover, share] : shares) {
+      const PixelCover pixel{block, cover, of_row};
+      sum += share * (light_.of(pixel.over(background, channel)) - plain);
+    }
+  };
+  add(item_.behind, row.behind, behind_shares_);
+  add(item_.front, row.front, front_shares_);
   for (const Contact& contact : contacts_) {
-    const Cover back = behind_.of_column(x_, contact.behind_x);
-    const Cover fore = front_.of_column(x_, contact.front_x);
-    const double only_behind = painted(background, behind, back, row.behind, channel);
-    const double only_front = painted(background, front, fore, row.front, channel);
-    const double both = painted(only_behind, front, fore, row.front, channel);
+    const Cover behind_column = behind_.of_column(x_, contact.behind_x);
+    const Cover front_column = front_.of_column(x_, contact.front_x);
+    const PixelCover front{item_.front, front_column, row.front};
+    const double only_behind =
+        PixelCover{item_.behind, behind_column, row.behind}.over(background, channel);
+    const double only_front = front.over(background, channel);
+    const double both = front.over(only_behind, channel);
     sum +=
         contact.share * (light_.of(both) - light_.of(only_behind) - light_.of(only_front) + plain);
   }

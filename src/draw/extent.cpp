@@ -1,9 +1,9 @@
-#include "draw/extent.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <optional>
+
+#include "draw/region.hpp"
 
 namespace piblocks {
 namespace {
@@ -38,30 +38,6 @@ struct ExtentOf {
   Extent operator()(const auto& item) const { return extent_of(item.bounds); }
 };
 
-bool all_finite(std::initializer_list<double> numbers) {
-  return std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
-}
-
-bool is_finite(const Rectangle& r) { return all_finite({r.x, r.y, r.width, r.height}); }
-
-struct IsFinite {
-  bool operator()(const TextItem& text) const {
-    return all_finite({text.origin.x, text.origin.y, text.size_px});
-  }
-  bool operator()(const PathItem& path) const {
-    return std::ranges::all_of(path.points.view(), [](const Point& point) {
-      return all_finite({point.x, point.y});
-    });
-  }
-  bool operator()(const DiskItem& disk) const {
-    return all_finite({disk.centre.x, disk.centre.y, disk.radius});
-  }
-  bool operator()(const ExposedItem& item) const {
-    return is_finite(item.behind.bounds) && is_finite(item.front.bounds);
-  }
-  bool operator()(const auto& item) const { return is_finite(item.bounds); }
-};
-
 }  // namespace
 
 Extent extent_of(const Rectangle& r) { return {r.x, r.y, r.x + r.width, r.y + r.height}; }
@@ -94,8 +70,20 @@ bool reaches(const DrawItem& item, const PixelRect& rect) {
 }
 
 bool are_finite(std::span<const DrawItem> items) {
-  return std::ranges::all_of(items,
-                             [](const DrawItem& item) { return std::visit(IsFinite{}, item); });
+  const auto is_finite = [](std::initializer_list<double> numbers) {
+    return std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
+  };
+  static const MeasureText no_width = [](std::string_view /*text*/) { return 0; };
+  return std::ranges::all_of(items, [&](const DrawItem& item) {
+    // The bounds of a path leave out what is not a number.
+    if (const auto* path = std::get_if<PathItem>(&item)) {
+      return std::ranges::all_of(path->points.view(), [&](const Point& point) {
+        return is_finite({point.x, point.y});
+      });
+    }
+    const auto [left, top, right, bottom] = extent_of(item, no_width);
+    return is_finite({left, top, right, bottom});
+  });
 }
 
 }  // namespace piblocks

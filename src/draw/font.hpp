@@ -33,9 +33,7 @@ class Font {
   /// The glyphs of a line of text that starts at `origin`, in a context where select() was called.
   static std::vector<cairo_glyph_t> glyphs(cairo_t& cr, const Point& origin, std::string_view utf8);
   /// @param what  names the text in messages
-  /// @throws UsageError if it is not UTF-8, a character needs shaping, or the font
-  /// has
-  ///         no glyph for it.
+  /// @throws UsageError if it is not UTF-8, a character needs shaping, or the font has no glyph.
   void check(std::string_view utf8, const char* what) const;
   /// Width of a line of text, in ems.
   double width_em(std::string_view utf8) const;
@@ -49,14 +47,11 @@ class Font {
   std::unique_ptr<Faces> faces_;
 };
 
-/// Names the first character whose glyph depends on its neighbours, that is written from right to
-/// left, or that is an instruction. Empty if there is none. @param utf8  valid
-std::string shaping_problem(std::string_view utf8);
-
 /// Widths of texts that change from frame to frame, without the font. Const members are
 /// thread-safe.
 class TextWidths {
  public:
+  TextWidths() = default;
   /// @param characters  all that may occur, in valid UTF-8
   TextWidths(const Font& font, std::string_view characters);
   /// Width of a line of these characters, in ems.

@@ -1,5 +1,3 @@
-#include "draw/frame_plan.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
@@ -7,8 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "draw/layout.hpp"
+#include "draw/look.hpp"
 #include "draw/overlays/overlays.hpp"
-#include "draw/style.hpp"
 
 namespace piblocks {
 namespace {
@@ -74,12 +73,12 @@ std::vector<std::string> names_of_lines(const Scene& scene) {
 }
 
 /// Places things from the edges of the frame inwards. The stage gets what is left.
-class Planner {
+class FramePlanner {
  public:
-  explicit Planner(const Setting& setting)
-      : setting_(setting),
-        view_(setting.scene.view),
-        show_(setting.scene.show),
+  explicit FramePlanner(const DrawingContext& context)
+      : context_(context),
+        view_(context.scene.view),
+        show_(context.scene.show),
         measure_(short_measure(view_)),
         margin_(style::kMargin * measure_),
         right_(view_.width_px - margin_),
@@ -104,14 +103,104 @@ class Planner {
   }
 
  private:
+  /// A centred line, made smaller to fit, without id, colour and baseline.
+  /// @param key  named in messages
   TextItem set_line(const char* key, const std::string& text, double size_px,
-                    const Rectangle& area) const;
-  void place_title();
-  void place_foot();
-  void place_panels(double read_outs_px);
-  void check_stage(double height_px) const;
+                    const Rectangle& area) const {
+    context_.font.check(text, key);
+    if (size_px < style::kLeastText_px) {
+      const bool is_low = view_.height_px < kNarrow * view_.width_px;
+      throw UsageError(fmt::format(
+          "{}: '{}' would be {:.1f} pixels high in {}x{}, which cannot be read; leave it out, or "
+          "make the frame {}",
+          key, text, size_px, view_.width_px, view_.height_px, is_low ? "higher" : "wider"));
+    }
+    const double fitted_px = context_.font.fitted_px(text, size_px, area.width);
+    if (fitted_px < std::max(kLeastTitleShrink * size_px, style::kLeastText_px)) {
+      throw UsageError(
+          fmt::format("{}: '{}' is too long to be read in {:.0f} pixels; shorten it, or "
+                      "make the frame wider",
+                      key, text, area.width));
+    }
+    const double x = area.x + (area.width - context_.font.width_em(text) * fitted_px) / 2;
+    return {{}, {x, 0}, text, fitted_px, {}};
+  }
 
-  const Setting& setting_;
+  /// The title is at the top; the stage begins below.
+  void place_title() {
+    double top = 0;
+    if (!show_.title.empty()) {
+      const double size_px = style::kTitle * measure_;
+      TextItem title =
+          set_line("show.title", show_.title, size_px, {margin_, 0, right_ - margin_, 0});
+      title.id = ItemId::title;
+      title.color = context_.palette.text;
+      title.origin.y = std::round(margin_ + Font::kCapHeight_em * size_px);
+      top = title.origin.y + (kTitleDescent + kBelowTitle) * size_px;
+      plan_.title = std::move(title);
+    } else if (!show_.panels.empty()) {
+      // Else the counter would stick to the upper edge.
+      top = margin_ / 2;
+    }
+    plan_.stage.y += top;
+    plan_.stage.height -= top;
+  }
+
+  /// Caption and logo are at the bottom; the stage ends above.
+  void place_foot() {
+    double height = 0;
+    Rectangle line{margin_, 0, right_ - margin_, 0};
+    if (!show_.logo.empty()) {
+      const double logo_width = style::kLogoWidth * measure_;
+      height = style::kLogoHeight * measure_;
+      plan_.logo = {right_ - logo_width, bottom_ - height, logo_width, height};
+      // The other side stays free as well, so that the caption is in the middle.
+      line.x += logo_width + margin_;
+      line.width -= 2 * (logo_width + margin_);
+    }
+    if (!show_.caption.empty()) {
+      const double size_px = style::kCaption * measure_;
+      TextItem caption = set_line("show.caption", show_.caption, size_px, line);
+      caption.id = ItemId::caption;
+      caption.color = context_.palette.muted;
+      height = std::max(height, (Font::kCapHeight_em + kTitleDescent) * size_px);
+      caption.origin.y = std::round(bottom_ - (height - Font::kCapHeight_em * size_px) / 2);
+      plan_.caption = std::move(caption);
+    }
+    if (height > 0) plan_.stage.height -= height + margin_;
+  }
+
+  /// Diagrams are below the stage and its read-outs.
+  void place_panels(double read_outs_px) {
+    const Rectangle area = plan_.stage;
+    // At this height the stage is as wide as the frame.
+    const double lengths =
+        to_double(view_.y.high - view_.y.low) / to_double(view_.x.high - view_.x.low);
+    plan_.stage.height = std::clamp(area.width * lengths + 0.2 * measure_,
+                                    kLeastStage * area.height, kMostStage * area.height);
+    const double top = area.y + plan_.stage.height + read_outs_px + margin_ / 2;
+    const double bottom = area.y + area.height - margin_;
+    const double least = kLeastPanel_em * context_.text_px;
+    plan_.panels = panel_grid(show_.panels.size(), {margin_, top, right_ - margin_, bottom - top},
+                              style::kPanelGap * measure_, least);
+    const Rectangle& panel = plan_.panels.front();
+    if (std::min(panel.width, panel.height) >= least) return;
+    const std::size_t count = show_.panels.size();
+    throw UsageError(fmt::format(
+        "show.panels: {} into {}x{}; {}make the frame larger",
+        count == 1 ? "a diagram does not fit" : fmt::format("{} diagrams do not fit", count),
+        view_.width_px, view_.height_px, count == 1 ? "" : "leave some out, or "));
+  }
+
+  void check_stage(double height_px) const {
+    if (height_px >= kLeastLeft * view_.height_px) return;
+    throw UsageError(fmt::format(
+        "show: beside {} there is too little room for the blocks in {}x{}; leave something out, or "
+        "make the frame higher",
+        fmt::join(names_of_lines(context_.scene), ", "), view_.width_px, view_.height_px));
+  }
+
+  const DrawingContext& context_;
   const View& view_;
   const Show& show_;
   double measure_;
@@ -121,107 +210,10 @@ class Planner {
   FramePlan plan_;
 };
 
-/// A centred line, made smaller to fit, without id, colour and baseline.
-/// @param key  named in messages
-TextItem Planner::set_line(const char* key, const std::string& text, double size_px,
-                           const Rectangle& area) const {
-  setting_.font.check(text, key);
-  if (size_px < style::kLeastText_px) {
-    const bool is_low = view_.height_px < kNarrow * view_.width_px;
-    throw UsageError(fmt::format(
-        "{}: '{}' would be {:.1f} pixels high in {}x{}, which cannot be read; leave it out, or "
-        "make the frame {}",
-        key, text, size_px, view_.width_px, view_.height_px, is_low ? "higher" : "wider"));
-  }
-  const double fitted_px = setting_.font.fitted_px(text, size_px, area.width);
-  if (fitted_px < std::max(kLeastTitleShrink * size_px, style::kLeastText_px)) {
-    throw UsageError(
-        fmt::format("{}: '{}' is too long to be read in {:.0f} pixels; shorten it, or "
-                    "make the frame wider",
-                    key, text, area.width));
-  }
-  const double x = area.x + (area.width - setting_.font.width_em(text) * fitted_px) / 2;
-  return {{}, {x, 0}, text, fitted_px, {}};
-}
-
-/// The title is at the top; the stage begins below.
-void Planner::place_title() {
-  double top = 0;
-  if (!show_.title.empty()) {
-    const double size_px = style::kTitle * measure_;
-    TextItem title =
-        set_line("show.title", show_.title, size_px, {margin_, 0, right_ - margin_, 0});
-    title.id = ItemId::title;
-    title.color = setting_.palette.text;
-    title.origin.y = std::round(margin_ + Font::kCapHeight_em * size_px);
-    top = title.origin.y + (kTitleDescent + kBelowTitle) * size_px;
-    plan_.title = std::move(title);
-  } else if (!show_.panels.empty()) {
-    // Else the counter would stick to the upper edge.
-    top = margin_ / 2;
-  }
-  plan_.stage.y += top;
-  plan_.stage.height -= top;
-}
-
-/// Caption and logo are at the bottom; the stage ends above.
-void Planner::place_foot() {
-  double height = 0;
-  Rectangle line{margin_, 0, right_ - margin_, 0};
-  if (!show_.logo.empty()) {
-    const double logo_width = style::kLogoWidth * measure_;
-    height = style::kLogoHeight * measure_;
-    plan_.logo = {right_ - logo_width, bottom_ - height, logo_width, height};
-    // The other side stays free as well, so that the caption is in the middle.
-    line.x += logo_width + margin_;
-    line.width -= 2 * (logo_width + margin_);
-  }
-  if (!show_.caption.empty()) {
-    const double size_px = style::kCaption * measure_;
-    TextItem caption = set_line("show.caption", show_.caption, size_px, line);
-    caption.id = ItemId::caption;
-    caption.color = setting_.palette.muted;
-    height = std::max(height, (Font::kCapHeight_em + kTitleDescent) * size_px);
-    caption.origin.y = std::round(bottom_ - (height - Font::kCapHeight_em * size_px) / 2);
-    plan_.caption = std::move(caption);
-  }
-  if (height > 0) plan_.stage.height -= height + margin_;
-}
-
-/// Diagrams are below the stage and its read-outs.
-void Planner::place_panels(double read_outs_px) {
-  const Rectangle area = plan_.stage;
-  // At this height the stage is as wide as the frame.
-  const double lengths =
-      to_double(view_.y.high - view_.y.low) / to_double(view_.x.high - view_.x.low);
-  plan_.stage.height = std::clamp(area.width * lengths + 0.2 * measure_, kLeastStage * area.height,
-                                  kMostStage * area.height);
-  const double top = area.y + plan_.stage.height + read_outs_px + margin_ / 2;
-  const double bottom = area.y + area.height - margin_;
-  const double least = kLeastPanel_em * setting_.text_px;
-  plan_.panels = panel_grid(show_.panels.size(), {margin_, top, right_ - margin_, bottom - top},
-                            style::kPanelGap * measure_, least);
-  const Rectangle& panel = plan_.panels.front();
-  if (std::min(panel.width, panel.height) >= least) return;
-  const std::size_t count = show_.panels.size();
-  throw UsageError(fmt::format(
-      "show.panels: {} into {}x{}; {}make the frame larger",
-      count == 1 ? "a diagram does not fit" : fmt::format("{} diagrams do not fit", count),
-      view_.width_px, view_.height_px, count == 1 ? "" : "leave some out, or "));
-}
-
-void Planner::check_stage(double height_px) const {
-  if (height_px >= kLeastLeft * view_.height_px) return;
-  throw UsageError(fmt::format(
-      "show: beside {} there is too little room for the blocks in {}x{}; leave something out, or "
-      "make the frame higher",
-      fmt::join(names_of_lines(setting_.scene), ", "), view_.width_px, view_.height_px));
-}
-
 }  // namespace
 
-FramePlan plan_frame(const Setting& setting, double read_outs_px) {
-  return Planner(setting).run(read_outs_px);
+FramePlan plan_frame(const DrawingContext& context, double read_outs_px) {
+  return FramePlanner(context).run(read_outs_px);
 }
 
 }  // namespace piblocks

@@ -1,5 +1,3 @@
-#include "draw/paint_shapes.hpp"
-
 #include <piblocks/image.hpp>
 
 #include <algorithm>
@@ -7,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+
+#include "draw/painter.hpp"
 
 namespace piblocks {
 namespace {

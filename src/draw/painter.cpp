@@ -5,34 +5,10 @@
 #include <cstdint>
 #include <utility>
 
-#include "draw/extent.hpp"
-#include "draw/paint_shapes.hpp"
+#include "draw/region.hpp"
 
 namespace piblocks {
 namespace {
-
-CairoSurfacePtr make_surface(cairo_format_t format, int width_px, int height_px,
-                             const char* operation) {
-  CairoSurfacePtr surface(cairo_image_surface_create(format, width_px, height_px));
-  check_cairo(cairo_surface_status(surface.get()), operation);
-  return surface;
-}
-
-void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rectangle& bounds) {
-  cairo_set_source_surface(&cr, &pixels, bounds.x, bounds.y);
-  cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);
-  cairo_fill(&cr);
-}
-
-/// Whether one pixel of the picture is one pixel of the surface. It is not in a vector file, and
-/// not in a scaled group.
-bool has_pixels_of_picture(cairo_t& cr) {
-  cairo_matrix_t matrix;
-  cairo_get_matrix(&cr, &matrix);
-  const bool is_identity = matrix.xx == 1 && matrix.yy == 1 && matrix.xy == 0 && matrix.yx == 0 &&
-                           matrix.x0 == 0 && matrix.y0 == 0;
-  return is_identity && cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE;
-}
 
 /// Whether each pixel of the group is a pixel of the picture around it.
 bool is_on_pixels(const GroupItem& item) {
@@ -44,7 +20,7 @@ bool is_on_pixels(const GroupItem& item) {
 /// Cairo's pixels are multiplied by their alpha.
 CairoSurfacePtr premultiplied(const Image& image) {
   CairoSurfacePtr surface =
-      make_surface(CAIRO_FORMAT_ARGB32, image.width_px, image.height_px, "paint a picture");
+      image_surface(CAIRO_FORMAT_ARGB32, image.width_px, image.height_px, "paint a picture");
   const int stride_bytes = cairo_image_surface_get_stride(surface.get());
   unsigned char* row = cairo_image_surface_get_data(surface.get());
   const std::uint32_t* from = image.words.data();
@@ -64,6 +40,20 @@ CairoSurfacePtr premultiplied(const Image& image) {
 }
 
 }  // namespace
+
+void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rectangle& bounds) {
+  cairo_set_source_surface(&cr, &pixels, bounds.x, bounds.y);
+  cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);
+  cairo_fill(&cr);
+}
+
+bool has_pixels_of_picture(cairo_t& cr) {
+  cairo_matrix_t matrix;
+  cairo_get_matrix(&cr, &matrix);
+  const bool is_identity = matrix.xx == 1 && matrix.yy == 1 && matrix.xy == 0 && matrix.yx == 0 &&
+                           matrix.x0 == 0 && matrix.y0 == 0;
+  return is_identity && cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE;
+}
 
 void Painter::paint(cairo_t& cr, const DrawList& list) {
   paint(cr, list, {0, 0, list.width_px, list.height_px});
@@ -136,8 +126,8 @@ void Painter::paint_plate(cairo_t& cr, const PlateItem& item) {
 }
 
 CairoSurfacePtr Painter::pixels_of(const PlateItem& item) {
-  CairoSurfacePtr pixels = make_surface(CAIRO_FORMAT_ARGB32, static_cast<int>(item.bounds.width),
-                                        static_cast<int>(item.bounds.height), "paint a plate");
+  CairoSurfacePtr pixels = image_surface(CAIRO_FORMAT_ARGB32, static_cast<int>(item.bounds.width),
+                                         static_cast<int>(item.bounds.height), "paint a plate");
   cairo_surface_set_device_offset(pixels.get(), -item.bounds.x, -item.bounds.y);
   const CairoPtr inner(cairo_create(pixels.get()));
   for (const DrawItem& item_on_plate : item.plate->items) paint_item(*inner, item_on_plate);
@@ -212,38 +202,6 @@ void Painter::paint_group_pixels(cairo_t& cr, const GroupItem& item, const Pixel
   cairo_set_operator(&cr, CAIRO_OPERATOR_OVER);
   // The context must not keep a source whose memory ends here.
   cairo_set_source_rgb(&cr, 0, 0, 0);
-}
-
-void Painter::paint_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list,
-                            const PixelRect& area) {
-  if (!has_pixels_of_picture(cr)) {
-    embed_exposed(cr, item, list);
-    return;
-  }
-  if (!exposed_) exposed_ = std::make_unique<ExposedPainter>();
-  exposed_->paint(*cairo_get_target(&cr), area, item,
-                  [&](const DrawItem& rectangle) { paint_item(cr, rectangle); });
-}
-
-/// Moving blocks have no outline: they are embedded as pixels, with what is behind them.
-void Painter::embed_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list) {
-  for (const DrawItem& rectangle : still_blocks(item)) paint_item(cr, rectangle);
-  const PixelRect area = moving_area(item, {0, 0, list.width_px, list.height_px});
-  if (area.width_px <= 0 || area.height_px <= 0) return;
-  DrawList until = list;
-  const auto is_item = [&](const DrawItem& other) {
-    const auto* exposed = std::get_if<ExposedItem>(&other);
-    return exposed != nullptr && *exposed == item;
-  };
-  until.items.erase(std::ranges::find_if(until.items, is_item) + 1, until.items.end());
-  const CairoSurfacePtr pixels =
-      make_surface(CAIRO_FORMAT_RGB24, area.width_px, area.height_px, "paint blocks that move");
-  cairo_surface_set_device_offset(pixels.get(), -area.x_px, -area.y_px);
-  paint(*CairoPtr(cairo_create(pixels.get())), until, area);
-  cairo_surface_set_device_offset(pixels.get(), 0, 0);
-  copy_pixels(
-      cr, *pixels,
-      {double(area.x_px), double(area.y_px), double(area.width_px), double(area.height_px)});
 }
 
 }  // namespace piblocks

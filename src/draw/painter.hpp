@@ -5,16 +5,31 @@
 #include <cairo.h>
 #include <piblocks/image.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
 
 #include "draw/cairo_handles.hpp"
 #include "draw/draw_list.hpp"
-#include "draw/exposed_painter.hpp"
 #include "draw/font.hpp"
+#include "draw/light.hpp"
 
 namespace piblocks {
+
+void set_color(cairo_t& cr, const Color& color);
+
+// The context has no current path, neither before nor after.
+void paint_shape(cairo_t& cr, const RectangleItem& item);
+void paint_shape(cairo_t& cr, const PathItem& item);
+void paint_shape(cairo_t& cr, const DiskItem& item);
+
+/// Fills a rectangle with a surface whose upper left corner is there.
+void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rectangle& bounds);
+
+/// Whether one pixel of the picture is one pixel of the surface. It is not in a vector file, and
+/// not in a scaled group.
+bool has_pixels_of_picture(cairo_t& cr);
 
 /// How text is set. Cairo blends overlapping glyphs of a line differently, and looks for overlaps
 /// among the visible glyphs only: a part of a picture would differ from the whole by a step of
@@ -47,14 +62,17 @@ class Painter {
   void paint_group_pixels(cairo_t& cr, const GroupItem& item, const PixelRect& area);
   void paint_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list,
                      const PixelRect& area);
+  void paint_exposed_pixels(cairo_t& cr, const ExposedItem& item, const PixelRect& area);
   void embed_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list);
+  void paint_still_blocks(cairo_t& cr, const ExposedItem& item);
   /// The pixels of this plate or image, made when it is painted first.
   cairo_surface_t& kept_pixels(std::shared_ptr<const void> source,
                                const std::function<CairoSurfacePtr()>& make);
 
   TextSetting setting_;
   std::unique_ptr<Font> font_;
-  std::unique_ptr<ExposedPainter> exposed_;
+  std::unique_ptr<Light> light_;
+  std::vector<std::uint32_t> background_;  ///< of exposed blocks; kept for its memory
   struct KeptPixels {
     std::shared_ptr<const void> source;  ///< held, so that its address stays its own
     CairoSurfacePtr pixels;

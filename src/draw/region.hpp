@@ -1,16 +1,47 @@
-// What changes from one picture to the next.
-// In: two draw lists. Out: the region outside of which their pixels are equal.
-// It knows items, not scenes: all that is drawn with stable ids is compared in the same way.
+// Where draw items are, and what changes from one picture to the next.
+// In: draw lists. Out: the region outside of which their pixels are equal.
 #pragma once
 
 #include <piblocks/image.hpp>
 
+#include <functional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "draw/draw_list.hpp"
-#include "draw/extent.hpp"
 
 namespace piblocks {
+
+/// In pixels, but not whole ones.
+struct Extent {
+  double left;
+  double top;
+  double right;
+  double bottom;
+
+  Extent grown(double px) const { return {left - px, top - px, right + px, bottom + px}; }
+};
+
+/// Cairo rounds every coordinate to 1/256 pixel, and some sums again. An item may paint so far out
+/// of its extent.
+inline constexpr double kRounding_px = 1.0 / 64;
+
+/// Width of a line of text, in ems.
+using MeasureText = std::function<double(std::string_view utf8)>;
+
+Extent extent_of(const Rectangle& rectangle);
+Extent extent_of(const ExposedBlock& block);
+/// The characters of a line of text between two distances from its origin.
+Extent extent_of(const TextItem& text, double left_em, double right_em);
+Extent extent_of(const DrawItem& item, const MeasureText& width_em);
+
+/// False only if the item has certainly painted nothing into the rectangle.
+bool reaches(const DrawItem& item, const PixelRect& rect);
+
+/// Whether every place and length is a finite number. Items inside plates and groups were checked
+/// when these were made.
+bool are_finite(std::span<const DrawItem> items);
 
 /// Rectangles of whole pixels, inside the frame. They may overlap.
 using Region = std::vector<PixelRect>;

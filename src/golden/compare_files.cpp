@@ -11,7 +11,6 @@
 
 #include "core/text.hpp"
 #include "golden/frame_source.hpp"
-#include "golden/framehash_file.hpp"
 
 namespace piblocks {
 namespace {
@@ -23,8 +22,8 @@ bool is_framehash(const std::string& name) {
 }
 
 struct SamplePair {
-  Samples reference;
-  Samples actual;
+  AnyImage reference;
+  AnyImage actual;
 
   template <typename Operation>
   auto apply(const Operation& operation) const {
@@ -36,7 +35,7 @@ struct SamplePair {
 };
 
 /// Brings both to the greater depth.
-SamplePair at_one_depth(Samples reference, Samples actual) {
+SamplePair at_one_depth(AnyImage reference, AnyImage actual) {
   const int max_level = std::max(max_level_of(reference), max_level_of(actual));
   if (max_level == 255) return {std::move(reference), std::move(actual)};
   return {deepened(std::move(reference), max_level), deepened(std::move(actual), max_level)};
@@ -45,7 +44,7 @@ SamplePair at_one_depth(Samples reference, Samples actual) {
 ImageView comparable(const Image& image) { return image.view(); }
 const DeepImage& comparable(const DeepImage& image) { return image; }
 
-std::string size_of(const Samples& samples) {
+std::string size_of(const AnyImage& samples) {
   return std::visit(
       [](const auto& image) { return fmt::format("{}x{}", image.width_px, image.height_px); },
       samples);
@@ -102,8 +101,8 @@ class PictureComparison {
   /// False if the frames do not fit.
   bool compare_frame(const OnFrame& on_frame) {
     const bool is_exact = reference_->layout() == actual_->layout();
-    Samples reference = is_exact ? reference_->samples() : reference_->rgb();
-    Samples actual = is_exact ? actual_->samples() : actual_->rgb();
+    AnyImage reference = is_exact ? reference_->samples() : reference_->rgb();
+    AnyImage actual = is_exact ? actual_->samples() : actual_->rgb();
     result_.mismatch = mismatch_of(reference, actual);
     if (!result_.mismatch.empty()) return false;
     const SamplePair pair = at_one_depth(std::move(reference), std::move(actual));
@@ -126,7 +125,7 @@ class PictureComparison {
     return true;
   }
 
-  std::string mismatch_of(const Samples& reference, const Samples& actual) const {
+  std::string mismatch_of(const AnyImage& reference, const AnyImage& actual) const {
     const auto shown = [](const FrameReader& reader) {
       const std::string presentation = reader.presentation();
       return presentation.empty() ? "as it is stored" : presentation;

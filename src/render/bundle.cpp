@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/text.hpp"
 #include "core/output_file.hpp"
+#include "core/text.hpp"
 #include "render/page_facts.hpp"
 #include "render/renderings.hpp"
 #include "render/video_text.hpp"

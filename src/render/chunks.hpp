@@ -1,10 +1,20 @@
-// How the frames of a rendering are cut into pieces.
-// In: how many frames there are, and how many are encoded together. Out: where each piece begins
-// and ends, whoever works on it.
+// How the frames of a rendering are cut into chunks, and how threads work on them.
+// In: the number of frames; tasks numbered from 0. Out: where each chunk begins and ends; each
+// task's result in order, though tasks run in any, with only a few results waiting at any time.
 #pragma once
 
 #include <algorithm>
+#include <condition_variable>
 #include <cstdint>
+#include <exception>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <thread>
+#include <utility>
+#include <vector>
 
 namespace piblocks {
 
@@ -24,6 +34,79 @@ struct Chunks {
     return chunk == count() ? frame_count : chunk * frames_per_chunk;
   }
   std::int64_t end(std::int64_t chunk) const { return begin(chunk + 1); }
+};
+
+/// Runs `count` tasks on `workers` threads. At most 2 * workers tasks are begun beyond the last
+/// one whose result was taken, which bounds the memory that results hold.
+template <typename Result>
+class OrderedPool {
+ public:
+  /// Makes one worker's function: task number and stop signal -> result. Called on its thread,
+  /// so that a worker can own what it works with.
+  using Task = std::function<Result(std::int64_t, const std::stop_token&)>;
+  using MakeTask = std::function<Task()>;
+
+  OrderedPool(std::int64_t count, int workers, const MakeTask& make_task)
+      : count_(count), window_(2 * std::int64_t{workers}) {
+    for (std::int64_t i = 0; i < std::min<std::int64_t>(workers, count); ++i) {
+      threads_.emplace_back(
+          [this, make_task](const std::stop_token& stop) { work(make_task, stop); });
+    }
+  }
+
+  /// The result of the next task in order; nothing after the last or when told to stop.
+  /// Rethrows the first exception of any task.
+  std::optional<Result> take(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    if (next_to_take_ == count_) return std::nullopt;
+    const bool ready = changed_.wait(
+        lock, stop, [this] { return failure_ != nullptr || results_.contains(next_to_take_); });
+    if (failure_ != nullptr) std::rethrow_exception(failure_);
+    if (!ready) return std::nullopt;
+    auto node = results_.extract(next_to_take_);
+    ++next_to_take_;
+    lock.unlock();
+    changed_.notify_all();
+    // cppcheck-suppress returnStdMoveLocal ; a reference into the node, not a local object
+    return std::move(node.mapped());
+  }
+
+ private:
+  void work(const MakeTask& make_task, const std::stop_token& stop) {
+    try {
+      const Task task = make_task();
+      while (const auto index = begin_task(stop)) {
+        Result result = task(*index, stop);
+        const std::lock_guard lock(mutex_);
+        results_.emplace(*index, std::move(result));
+        changed_.notify_all();
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (failure_ == nullptr) failure_ = std::current_exception();
+      changed_.notify_all();
+    }
+  }
+
+  std::optional<std::int64_t> begin_task(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    const bool room = changed_.wait(lock, stop, [this] {
+      return failure_ != nullptr || next_to_begin_ == count_ ||
+             next_to_begin_ < next_to_take_ + window_;
+    });
+    if (!room || failure_ != nullptr || next_to_begin_ == count_) return std::nullopt;
+    return next_to_begin_++;
+  }
+
+  const std::int64_t count_;
+  const std::int64_t window_;
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::map<std::int64_t, Result> results_;
+  std::int64_t next_to_begin_ = 0;
+  std::int64_t next_to_take_ = 0;
+  std::exception_ptr failure_;
+  std::vector<std::jthread> threads_;  // last: joined before the rest is gone
 };
 
 }  // namespace piblocks

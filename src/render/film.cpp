@@ -7,8 +7,10 @@
 #include <string>
 #include <utility>
 
-#include "draw/story_pictures.hpp"
+#include "draw/montage.hpp"
+#include "media/png/png_reader.hpp"
 #include "physics/blocks.hpp"
+#include "physics/exposure.hpp"
 
 namespace piblocks {
 namespace {
@@ -30,7 +32,7 @@ std::size_t longest(const std::vector<std::unique_ptr<CollisionLog>>& logs) {
 
 FilmSegment made_from(const Segment& segment, const View& view, FilmUse use) {
   if (const auto* card = std::get_if<Card>(&segment.content)) return {*card, view, use};
-  return {std::get<Runs>(segment.content), view, use};
+  return {std::get<Scenes>(segment.content), view, use};
 }
 
 std::string place_of(const Storyboard& story, std::size_t segment) {
@@ -40,13 +42,33 @@ std::string place_of(const Storyboard& story, std::size_t segment) {
 
 }  // namespace
 
+FilmRun::FilmRun(Scene scene, std::unique_ptr<CollisionLog> log, FilmUse use)
+    : scene_(std::move(scene)), log_(std::move(log)) {
+  if (use == FilmUse::pictures) composition_.emplace(scene_, *log_, read_logo(scene_));
+}
+
+DrawList FilmRun::picture(const FrameTime& shown) const {
+  std::vector<WeightedExposure> exposures;
+  exposures.reserve(shown.exposure.size());
+  for (const TimeSlice& slice : shown.exposure) {
+    exposures.push_back({to_double(slice.share), expose(*log_, slice.from, slice.to)});
+  }
+  return composition_->frame(
+      {log_->state_at(shown.time), shown.time, shown.slower, std::move(exposures)});
+}
+
+std::shared_ptr<const Image> read_logo(const Scene& scene) {
+  if (scene.show.logo.empty()) return nullptr;
+  return std::make_shared<const Image>(read_png(scene.show.logo));
+}
+
 FilmSegment::FilmSegment(const Scene& scene, FilmUse use) { show_one(scene, use); }
 
-FilmSegment::FilmSegment(const Runs& runs, const View& film, FilmUse use) {
-  if (runs.size() == 1) {
-    show_one(with_film_view(runs.front(), film), use);
+FilmSegment::FilmSegment(const Scenes& scenes, const View& film, FilmUse use) {
+  if (scenes.size() == 1) {
+    show_one(with_film_view(scenes.front(), film), use);
   } else {
-    compare(runs, film, use);
+    compare(scenes, film, use);
   }
 }
 
@@ -67,22 +89,22 @@ void FilmSegment::show_one(Scene scene, FilmUse use) {
   runs_.emplace_back(std::move(scene), std::move(log), use);
 }
 
-void FilmSegment::compare(const Runs& runs, const View& film, FilmUse use) {
-  split_.emplace(film, runs.size());
+void FilmSegment::compare(const Scenes& scenes, const View& film, FilmUse use) {
+  split_.emplace(film, scenes.size());
   std::vector<std::unique_ptr<CollisionLog>> logs;
-  for (const Scene& run : runs) logs.push_back(make_collision_log(run.system));
+  for (const Scene& scene : scenes) logs.push_back(make_collision_log(scene.system));
   const std::size_t leader = longest(logs);
-  const Scene leading = with_film_view(runs[leader], film);
+  const Scene leading = with_film_view(scenes[leader], film);
   schedule_ = make_schedule(leading, *logs[leader]);
   frame_count_ = film_frames(*schedule_);
   const Span span = span_of(leading, *logs[leader]);
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    Scene run = with_film_view(runs[i], film);
-    run.view.width_px = split_->cells()[i].width_px;
-    run.view.height_px = split_->cells()[i].height_px;
-    run.time = {span.from, span.to, leading.time.speed};
-    run.pacing = leading.pacing;
-    runs_.emplace_back(std::move(run), std::move(logs[i]), use);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    Scene scene = with_film_view(scenes[i], film);
+    scene.view.width_px = split_->cells()[i].width_px;
+    scene.view.height_px = split_->cells()[i].height_px;
+    scene.time = {span.from, span.to, leading.time.speed};
+    scene.pacing = leading.pacing;
+    runs_.emplace_back(std::move(scene), std::move(logs[i]), use);
   }
 }
 

@@ -2,30 +2,62 @@
 // In: a script, once, and the number of a frame. Out: the draw list of the frame.
 #pragma once
 
+#include <piblocks/image.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/run.hpp>
+#include <piblocks/scene.hpp>
 #include <piblocks/script.hpp>
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "draw/canvas.hpp"
+#include "draw/composition.hpp"
 #include "draw/draw_list.hpp"
-#include "draw/story_pictures.hpp"
-#include "render/film_run.hpp"
+#include "draw/montage.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
+
+/// What a film is made for. For its sound alone nothing is laid out, and frame() must not be
+/// called.
+enum class FilmUse : std::uint8_t { pictures, audio_only };
+
+/// A scene, its collisions, and what its frames are composed by. Const members are thread-safe.
+class FilmRun {
+ public:
+  /// @param log  of the scene's system.
+  /// @throws UsageError, DrawError, MediaError as Composition and read_logo().
+  FilmRun(Scene scene, std::unique_ptr<CollisionLog> log, FilmUse use);
+
+  const Scene& scene() const noexcept { return scene_; }
+  const CollisionLog& log() const noexcept { return *log_; }
+  /// A frame by a clock, which may be another run's. @param number  >= 0
+  DrawList frame(const Schedule& clock, std::int64_t number) const {
+    return picture(clock.frame(number, open_s(scene_.view)));
+  }
+  /// The picture of what a frame, or a still, shows of time.
+  DrawList picture(const FrameTime& shown) const;
+
+ private:
+  Scene scene_;
+  std::unique_ptr<CollisionLog> log_;
+  std::optional<Composition> composition_;  ///< unless FilmUse::audio_only
+};
+
+/// Nothing if the scene shows none.
+/// @throws UsageError, MediaError if the file cannot be read, or is no PNG.
+std::shared_ptr<const Image> read_logo(const Scene& scene);
 
 /// Const members are thread-safe.
 class FilmSegment {
  public:
   /// Scenes and cards must have no problems. @throws UsageError, SimulationError, DrawError
   FilmSegment(const Scene& scene, FilmUse use);
-  FilmSegment(const Runs& runs, const View& film, FilmUse use);
+  FilmSegment(const Scenes& scenes, const View& film, FilmUse use);
   FilmSegment(const Card& card, const View& film, FilmUse use);
   FilmSegment(FilmSegment&&) = default;
   FilmSegment& operator=(FilmSegment&&) = default;
@@ -46,7 +78,7 @@ class FilmSegment {
 
  private:
   void show_one(Scene scene, FilmUse use);
-  void compare(const Runs& runs, const View& film, FilmUse use);
+  void compare(const Scenes& scenes, const View& film, FilmUse use);
 
   std::int64_t frame_count_ = 0;
   std::vector<FilmRun> runs_;

@@ -1,13 +1,12 @@
 // What a film sounds like, for the outputs that take sound.
-// In: a film. Out: its samples; or from a shard file, its packets.
+// In: a film. Out: its samples.
 #pragma once
 
 #include <functional>
+#include <span>
 #include <stop_token>
-#include <string>
 
-#include "media/output/frame_sink.hpp"
-#include "media/output/shard_file.hpp"
+#include "media/output/output.hpp"
 #include "render/film.hpp"
 #include "sound/soundtrack.hpp"
 
@@ -34,27 +33,6 @@ class FilmSound final : public SampleSource {
   std::stop_token stop_;
   std::function<void(std::int64_t)> on_samples_;
   std::int64_t count_ = 0;
-};
-
-/// The sound that the first shard of a rendering has for all of them.
-class ShardSound final : public PacketSource {
- public:
-  explicit ShardSound(const std::string& path) : reader_(path) {}
-
-  std::optional<Packet> next() override {
-    if (next_ == packets_.size()) {
-      auto packets = reader_.next_sound();
-      if (!packets || packets->empty()) return std::nullopt;
-      packets_ = std::move(*packets);
-      next_ = 0;
-    }
-    return std::move(packets_[next_++]);
-  }
-
- private:
-  ShardReader reader_;
-  EncodedChunk packets_;
-  std::size_t next_ = 0;
 };
 
 }  // namespace piblocks

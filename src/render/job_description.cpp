@@ -10,7 +10,7 @@
 
 #include "draw/canvas.hpp"
 #include "media/libav/av_module.hpp"
-#include "render/film_run.hpp"
+#include "render/film.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -36,9 +36,9 @@ Script with_logos_by_content(Script script) {
   if (auto* const scene = std::get_if<Scene>(&script)) return with_logo_by_content(*scene);
   auto& story = std::get<Storyboard>(script);
   for (Segment& segment : story.segments) {
-    auto* const runs = std::get_if<Runs>(&segment.content);
-    if (runs == nullptr) continue;
-    for (Scene& run : *runs) run = with_logo_by_content(std::move(run));
+    auto* const scenes = std::get_if<Scenes>(&segment.content);
+    if (scenes == nullptr) continue;
+    for (Scene& scene : *scenes) scene = with_logo_by_content(std::move(scene));
   }
   return script;
 }
@@ -77,14 +77,14 @@ std::int64_t number(const ShardInfo& part, const std::string& name, std::int64_t
 
 }  // namespace
 
-ShardHeader describe(const RenderJob& job, const Output& output, const Chunks& chunks) {
+ShardHeader describe(const RenderJob& job, const Output& output, std::int64_t frame_count) {
   ShardHeader header;
   header.emplace_back("piblocks", kVersion);
   describe(job.script, header);
-  header.emplace_back("frames", std::to_string(chunks.frame_count));
+  header.emplace_back("frames", std::to_string(frame_count));
   describe(job.encoder, header);
   header.emplace_back("painter", painter_fingerprint());
-  header.emplace_back("output", output.signature());
+  header.emplace_back("output", output.signature);
   return header;
 }
 

@@ -9,12 +9,11 @@
 #include <string>
 
 #include "media/output/shard_file.hpp"
-#include "render/chunks.hpp"
 
 namespace piblocks {
 
 /// Everything but the number of the part.
-ShardHeader describe(const RenderJob& job, const Output& output, const Chunks& chunks);
+ShardHeader describe(const RenderJob& job, const Output& output, std::int64_t frame_count);
 
 /// What joining needs of a description.
 struct JobDescription {

@@ -7,7 +7,7 @@
 #include <charconv>
 
 #include "core/overwrite_check.hpp"
-#include "media/output/outputs.hpp"
+#include "media/output/output.hpp"
 #include "media/output/shard_file.hpp"
 #include "render/film_sound.hpp"
 #include "render/job_description.hpp"
@@ -93,11 +93,32 @@ void check_output(const std::vector<NumberedShard>& parts, const std::string& na
   for (const auto& [number, info] : parts) check.reads("the part", info.path);
   claim_output(check, "join: output", name);
   check.check();
-  if (output.signature() == job.signature) return;
+  if (output.signature == job.signature) return;
   throw UsageError(
       fmt::format("join: the parts were made for another output than '{}' is here: '{}', not '{}'",
-                  name, job.signature, output.signature()));
+                  name, job.signature, output.signature));
 }
+
+/// The sound that the first shard of a rendering has for all of them.
+class ShardSound final : public PacketSource {
+ public:
+  explicit ShardSound(const std::string& path) : reader_(path) {}
+
+  std::optional<Packet> next() override {
+    if (next_ == packets_.size()) {
+      auto packets = reader_.next_sound();
+      if (!packets || packets->empty()) return std::nullopt;
+      packets_ = std::move(*packets);
+      next_ = 0;
+    }
+    return std::move(packets_[next_++]);
+  }
+
+ private:
+  ShardReader reader_;
+  EncodedChunk packets_;
+  std::size_t next_ = 0;
+};
 
 std::optional<SoundFormat> sound_of(const JobDescription& job) {
   if (!job.has_sound) return std::nullopt;
@@ -117,10 +138,10 @@ std::int64_t join(const std::vector<std::string>& parts, const std::string& outp
   check_same_job(in_order);
   check_all_there(in_order);
   const JobDescription job = read_description(in_order.front().info);
-  const auto joined = set_up_output(output, job.format, job.encoder, sound_of(job));
-  check_output(in_order, output, *joined, job);
+  const Output joined = set_up_output(output, job.format, job.encoder, sound_of(job));
+  check_output(in_order, output, joined, job);
 
-  const auto sink = joined->open();
+  const auto sink = joined.open();
   std::optional<ShardSound> sound;
   if (job.has_sound) sink->take_sound(sound.emplace(in_order.front().info.path));
   std::int64_t frames = 0;

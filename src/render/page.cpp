@@ -1,24 +1,22 @@
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/run.hpp>
-#include <unistd.h>
 
 #include <cerrno>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <span>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
-#include "core/text.hpp"
 #include "core/descriptor.hpp"
 #include "core/output_file.hpp"
+#include "core/text.hpp"
 #include "render/page_facts.hpp"
 #include "render/page_source.hpp"
 #include "render/renderings.hpp"
-#include "render/stage_clock.hpp"
+#include "render/step_clock.hpp"
 #include "render/video_text.hpp"
 #include "scene/schedule.hpp"
 
@@ -106,27 +104,17 @@ void check_page(const RenderJob& job) {
   }
 }
 
-[[noreturn]] void fail_to_read(const fs::path& path, int error_number) {
-  throw IoError(fmt::format("page: cannot read '{}': {}", path.string(), error_text(error_number)));
-}
-
 /// Piece by piece, however long the video is.
 void add_video(const fs::path& path, PageText& page) {
-  constexpr std::size_t kPiece_bytes = std::size_t{3} << 14;
-  const Descriptor video(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!video.is_open()) fail_to_read(path, errno);
+  constexpr std::size_t kPiece_bytes = std::size_t{3} << 14;  // three bytes are four letters
+  std::ifstream video(path, std::ios::binary);
   std::vector<std::uint8_t> piece(kPiece_bytes);
-  std::size_t filled = 0;
-  for (;;) {
-    const ssize_t count = ::read(video.get(), piece.data() + filled, piece.size() - filled);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail_to_read(path, errno);
-    filled += static_cast<std::size_t>(count);
-    if (count > 0 && filled < piece.size()) continue;
-    page.add(base64(std::span(piece).first(filled)));
-    if (count == 0) return;
-    filled = 0;
+  while (video) {
+    video.read(reinterpret_cast<char*>(piece.data()), kPiece_bytes);
+    page.add(base64(std::span(piece).first(static_cast<std::size_t>(video.gcount()))));
   }
+  if (video.eof()) return;
+  throw IoError(fmt::format("page: cannot read '{}': {}", path.string(), error_text(errno)));
 }
 
 void write_page(const Scene& scene, const PageFacts& facts, const VideoCount& count,
@@ -164,14 +152,14 @@ Rendered render_page(const RenderJob& job, const std::function<void(const Progre
   RenderJob video = job;
   video.output = files.temporary_folder() / "video.mp4";
   Rendered rendered = render_film(video, on_progress, stop);
-  StageClock clock(job.profile, Stage::write);
+  StepClock clock(job.profile, Step::write);
   write_page(scene, facts, {facts.most(), log->size()}, video.output, page);
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
   page.finish();
   files.commit();
   if (job.profile) {
-    const auto write = static_cast<std::size_t>(Stage::write);
-    rendered.profile.stages[write] += clock.spent()[write];
+    const auto write = static_cast<std::size_t>(Step::write);
+    rendered.profile.steps[write] += clock.spent()[write];
     rendered.profile.total_s = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
   }
   return rendered;

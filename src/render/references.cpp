@@ -41,16 +41,11 @@ View golden_view(View view, const Golden& golden) {
   return view;
 }
 
-std::string contents_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// Where FFmpeg has this line: behind the name of the hash.
 void add_fingerprint(const fs::path& hashes) {
-  std::string text = contents_of(hashes);
-  const std::size_t line = text.find("#tb ");
-  text.insert(line, fmt::format("{}{}\n", kSoftware, painter_fingerprint()));
+  std::ifstream rendered(hashes, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(rendered), {});
+  text.insert(text.find("#tb "), fmt::format("{}{}\n", kSoftware, painter_fingerprint()));
   OutputFile file(hashes);
   file.write(text);
   file.finish();
@@ -87,17 +82,17 @@ std::vector<std::string> References::files() const {
 bool References::exist() const { return has(files().front()); }
 
 bool References::has(const std::string& file) const {
-  const fs::path path = folder_ / file;
   std::error_code error;
-  const fs::file_status status = fs::status(path, error);
+  const fs::file_status status = fs::status(path(file), error);
   if (status.type() == fs::file_type::none) {
-    throw IoError(fmt::format("golden: cannot read '{}': {}", path.string(), error.message()));
+    throw IoError(
+        fmt::format("golden: cannot read '{}': {}", path(file).string(), error.message()));
   }
   return fs::exists(status);
 }
 
 std::string References::fingerprint() const {
-  std::ifstream file(folder_ / files().front());
+  std::ifstream file(path(files().front()));
   for (std::string line; std::getline(file, line) && line.starts_with('#');) {
     if (line.ends_with('\r')) line.pop_back();  // from an editor of another system
     if (line.starts_with(kSoftware)) return line.substr(kSoftware.size());

@@ -1,9 +1,6 @@
 // What a scene has to look like, kept in a folder.
 // In: a scene file. Out: NAME.framehash, a hash of every frame, and NAME-INSTANT.png, some
-// pictures; later, what a rendering has that differs from them.
-//
-// The hashes are a file as FFmpeg's framehash muxer writes it; its "#software" line tells what
-// painted the frames.
+// pictures. The "#software" line of the hashes tells what painted the frames.
 #pragma once
 
 #include <piblocks/compare.hpp>
@@ -26,6 +23,8 @@ class References {
 
   const std::string& name() const noexcept { return name_; }
   const Script& script() const noexcept { return script_; }
+  const std::filesystem::path& folder() const noexcept { return folder_; }
+  std::filesystem::path path(const std::string& file) const { return folder_ / file; }
   /// The files of the references, without the folder; hashes first.
   std::vector<std::string> files() const;
   /// @throws IoError if the system does not say, as also below.
@@ -40,10 +39,10 @@ class References {
                    const std::stop_token& stop) const;
 
  private:
-  std::string name_;
-  std::filesystem::path folder_;
   const Golden& golden() const;
 
+  std::string name_;
+  std::filesystem::path folder_;
   Script script_;
 };
 

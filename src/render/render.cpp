@@ -4,16 +4,15 @@
 #include <piblocks/render.hpp>
 
 #include "draw/canvas.hpp"
-#include "media/output/outputs.hpp"
+#include "media/output/output.hpp"
 #include "media/output/shard_file.hpp"
 #include "render/chunks.hpp"
 #include "render/film.hpp"
 #include "render/film_sound.hpp"
 #include "render/flash_meter.hpp"
 #include "render/job_description.hpp"
-#include "render/ordered_pool.hpp"
 #include "render/renderings.hpp"
-#include "render/stage_clock.hpp"
+#include "render/step_clock.hpp"
 
 namespace piblocks {
 namespace {
@@ -27,7 +26,7 @@ struct Plan {
                              {film.view().width_px, film.view().height_px, film.view().frame_rate,
                               film.view().background == Background::transparent},
                              job.encoder, sound)),
-        chunks{output->has_frames() ? film.frame_count() : 0, output->frames_per_chunk()} {}
+        chunks{output.has_frames ? film.frame_count() : 0, output.frames_per_chunk} {}
 
   static std::optional<SoundFormat> soundtrack_of(const RenderJob& job, const Film& film) {
     if (!is_sound_alone(job.output) && !sound_of(job.script).on) return std::nullopt;
@@ -36,14 +35,14 @@ struct Plan {
 
   Film film;
   std::optional<SoundFormat> sound;
-  std::unique_ptr<Output> output;
+  Output output;
   Chunks chunks;
 };
 
 struct EncodedWork {
   EncodedChunk chunk;
   std::string method = {};
-  StageSeconds spent{};
+  StepSeconds spent{};
 };
 
 /// What one thread works with, chunk after chunk.
@@ -53,10 +52,10 @@ class Worker {
       : plan_(plan),
         profile_(profile),
         canvas_(plan.film.view().width_px, plan.film.view().height_px, plan.film.view().background),
-        encoder_(plan.output->make_encoder()) {}
+        encoder_(plan.output.make_encoder()) {}
 
   EncodedWork work(std::int64_t chunk, const std::stop_token& stop) {
-    StageClock clock(profile_, Stage::encode);
+    StepClock clock(profile_, Step::encode);
     encoder_->begin(plan_.chunks.begin(chunk));
     for (auto frame = plan_.chunks.begin(chunk); frame < plan_.chunks.end(chunk); ++frame) {
       if (stop.stop_requested()) throw Interrupted("render: interrupted");
@@ -67,14 +66,14 @@ class Worker {
   }
 
  private:
-  void add_frame(std::int64_t frame, StageClock& clock) {
-    clock.enter(Stage::compose);
+  void add_frame(std::int64_t frame, StepClock& clock) {
+    clock.enter(Step::compose);
     DrawList list = plan_.film.frame(frame);
-    clock.enter(Stage::paint);
+    clock.enter(Step::paint);
     const std::span<const PixelRect> changed = canvas_.update(std::move(list));
-    clock.enter(Stage::convert);
+    clock.enter(Step::convert);
     encoder_->take(canvas_.view(), changed);
-    clock.enter(Stage::encode);
+    clock.enter(Step::encode);
     encoder_->encode();
   }
 
@@ -96,8 +95,8 @@ ChunkRange range_of(const std::optional<Shard>& shard, std::int64_t chunks) {
 }
 
 std::unique_ptr<FrameSink> open_sink(const RenderJob& job, const Plan& plan) {
-  if (!job.shard) return plan.output->open();
-  ShardHeader header = describe(job, *plan.output, plan.chunks);
+  if (!job.shard) return plan.output.open();
+  ShardHeader header = describe(job, plan.output, plan.chunks.frame_count);
   header.emplace_back("part", fmt::format("{}/{}", job.shard->number, job.shard->count));
   return open_shard(shard_name(job.output, *job.shard), header);
 }
@@ -119,12 +118,12 @@ void check_shard(const RenderJob& job) {
 /// Packets whose making is charged to the sound, whoever asks for them.
 class ClockedPackets final : public PacketSource {
  public:
-  ClockedPackets(std::unique_ptr<PacketSource> packets, StageClock& clock)
+  ClockedPackets(std::unique_ptr<PacketSource> packets, StepClock& clock)
       : packets_(std::move(packets)), clock_(clock) {}
 
   std::optional<Packet> next() override {
-    const Stage before = clock_.stage();
-    clock_.enter(Stage::sound);
+    const Step before = clock_.step();
+    clock_.enter(Step::sound);
     std::optional<Packet> packet = packets_->next();
     clock_.enter(before);
     return packet;
@@ -132,7 +131,7 @@ class ClockedPackets final : public PacketSource {
 
  private:
   std::unique_ptr<PacketSource> packets_;
-  StageClock& clock_;
+  StepClock& clock_;
 };
 
 /// The soundtrack on its way to a sink. Nothing of it is made before the sink asks for it.
@@ -143,21 +142,21 @@ struct SoundWork {
 
 /// Empty if there is no sound, or another part has it.
 SoundWork sound_for(const RenderJob& job, const Plan& plan, FrameSink& sink,
-                    const std::function<void(const Progress&)>& on_progress, StageClock& clock,
+                    const std::function<void(const Progress&)>& on_progress, StepClock& clock,
                     const std::stop_token& stop) {
   if (!plan.sound || (job.shard && job.shard->number != 1)) return {};
   const auto report = [&](std::int64_t samples) {
-    if (plan.output->has_frames() || samples == plan.sound->size) return;
+    if (plan.output.has_frames || samples == plan.sound->size) return;
     const std::int64_t frames = plan.film.frame_count();
     on_progress({samples * frames / plan.sound->size, frames});
   };
   SoundWork work{std::make_unique<FilmSound>(plan.film, stop, report), nullptr};
-  work.packets = std::make_unique<ClockedPackets>(plan.output->encode_sound(*work.samples), clock);
+  work.packets = std::make_unique<ClockedPackets>(plan.output.encode_sound(*work.samples), clock);
   sink.take_sound(*work.packets);
   return work;
 }
 
-void add(StageSeconds& sum, const StageSeconds& spent) {
+void add(StepSeconds& sum, const StepSeconds& spent) {
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += spent[i];
 }
 
@@ -167,7 +166,7 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
                      const std::stop_token& stop) {
   check_shard(job);
   const Plan plan(job);
-  if (job.max_flashes && plan.output->has_frames()) {
+  if (job.max_flashes && plan.output.has_frames) {
     check_flashes(plan.film, *job.max_flashes, stop);
   }
   const ChunkRange range = range_of(job.shard, plan.chunks.count());
@@ -182,24 +181,23 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
     };
   };
 
-  Rendered rendered{plan.output->has_frames() ? frames_until(range.end) : plan.film.frame_count(),
-                    {}};
+  Rendered rendered{plan.output.has_frames ? frames_until(range.end) : plan.film.frame_count(), {}};
   on_progress({0, rendered.frame_count});
-  StageClock clock(job.profile, Stage::mux);
+  StepClock clock(job.profile, Step::mux);
   const SoundWork sound = sound_for(job, plan, *sink, on_progress, clock, stop);
   OrderedPool<EncodedWork> pool(range.end - range.begin, job.jobs, make_worker);
   for (std::int64_t chunk = range.begin; const auto work = pool.take(stop); ++chunk) {
     sink->append(work->chunk);
     if (job.profile) rendered.profile.chunk_methods.push_back(work->method);
-    add(rendered.profile.stages, work->spent);
+    add(rendered.profile.steps, work->spent);
     on_progress({frames_until(chunk + 1), rendered.frame_count});
   }
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
-  clock.enter(Stage::write);
+  clock.enter(Step::write);
   sink->finish();
-  if (!plan.output->has_frames()) on_progress({rendered.frame_count, rendered.frame_count});
+  if (!plan.output.has_frames) on_progress({rendered.frame_count, rendered.frame_count});
   if (job.profile) {
-    add(rendered.profile.stages, clock.spent());
+    add(rendered.profile.steps, clock.spent());
     rendered.profile.total_s = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
   }
   return rendered;

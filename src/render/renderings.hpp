@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "draw/draw_list.hpp"
-#include "draw/sheet.hpp"
+#include "draw/montage.hpp"
 
 namespace piblocks {
 

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <functional>
 
-#include "physics/blocks.hpp"
-#include "scene/rules.hpp"
+#include "scene/scene_keys.hpp"
 
 namespace piblocks {
 namespace {
@@ -80,14 +79,12 @@ void check_slow_motion(const Scene& scene, SceneProblems& problems) {
   const auto wrong = std::ranges::find_if_not(windows, is_usable, &SlowMotion::factor);
   if (wrong == windows.end()) return;
   const Rational& factor = wrong->factor;
-  if (factor <= 0) {
-    problems.add(kKey, "has a window whose factor is {}: it must be greater than 0", factor);
-  } else {
-    problems.add(kKey,
-                 "has a window whose factor is {}: it, or the speed by it, is beyond the range of "
-                 "a double (about 1.8e308)",
-                 factor);
-  }
+  problems.require(factor > 0, kKey, "has a window whose factor is {}: it must be greater than 0",
+                   factor);
+  problems.require(factor <= 0, kKey,
+                   "has a window whose factor is {}: it, or the speed by it, is beyond the range "
+                   "of a double (about 1.8e308)",
+                   factor);
 }
 
 void check_pacing(const Scene& scene, SceneProblems& problems) {

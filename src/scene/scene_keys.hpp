@@ -1,13 +1,16 @@
-// Every key of a scene: how its value is read, and how it is written.
-// In: a key and the texts of its value. Out: that value in the scene, or its texts again.
+// Every key of a scene: how its value is read and written; rules that several kinds of values
+// share. In: a key and the texts of its value. Out: that value in the scene, or its texts again;
+// problems.
 #pragma once
 
-#include <piblocks/scene.hpp>
+#include <piblocks/script.hpp>
 
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "physics/blocks.hpp"
 
 namespace piblocks {
 
@@ -30,5 +33,12 @@ const std::string& single(const Values& values);
 
 /// The values as one text for a message.
 std::string joined(const Values& values);
+
+/// A title, a caption or a line of a card.
+void check_line(const char* key, std::string_view text, SceneProblems& problems);
+
+/// Problems with "fade", "card", "seconds" and "compare" of a segment; its scenes have their own
+/// problems_of().
+std::vector<Problem> problems_of(const Segment& segment, bool is_first);
 
 }  // namespace piblocks

@@ -6,88 +6,22 @@
 #include <algorithm>
 #include <utility>
 
-#include "scene/slow_motion.hpp"
+#include "scene/pacing.hpp"
 
 namespace piblocks {
 namespace {
 
-/// A freeze at its time, in whole frames.
-struct TimedFreeze {
-  Rational time;
-  Rational length_s;
-};
-
-/// Even motion from one time to another, or a freeze, before its speed is known.
-struct Move {
-  Rational from;
-  Rational to;  ///< the same as `from` for a freeze
-  Rational slower = 1;
-  Rational frozen_s = 0;
-};
-
-/// Lengths of video at which the picture stands still before and after the motion.
-struct Holds {
-  Rational start_s;
-  Rational end_s;
-};
-
-Rational whole_frames(const Rational& length_s, const Rational& frame_rate) {
-  return Rational(ceil(length_s * frame_rate)) / frame_rate;
-}
-
 /// Whether the first frame at or past the end is shown.
 bool shows_end(const Scene& scene) { return !scene.time.to.is_time(); }
 
-std::vector<TimedFreeze> freezes_of(const Scene& scene, const CollisionLog& log, const Span& span) {
-  std::vector<TimedFreeze> freezes;
-  for (const Freeze& freeze : scene.pacing.freezes) {
-    const Rational time = time_of(freeze.at, "time.freeze", log);
-    if (time < span.from || time > span.to) {
-      throw UsageError(fmt::format("time.freeze: {} is outside of what is shown, {} to {}",
-                                   exact_text(freeze.at), to_text(span.from), to_text(span.to)));
-    }
-    freezes.push_back({time, whole_frames(freeze.length_s, scene.view.frame_rate)});
-  }
-  std::ranges::stable_sort(freezes, {}, &TimedFreeze::time);
-  return freezes;
-}
-
-/// @param windows  in order, apart, inside the span
-/// @param freezes  in order, inside the span
-std::vector<Move> moves_of(const Span& span, const std::vector<SlowWindow>& windows,
-                           const std::vector<TimedFreeze>& freezes) {
-  std::vector<Move> moves;
-  Rational now = span.from;
-  auto freeze = freezes.begin();
-  const auto move_to = [&](const Rational& time, const Rational& slower) {
-    if (time > now) moves.push_back({now, time, slower});
-    now = std::max(now, time);
-  };
-  const auto pass_freezes = [&](const Rational& time, const Rational& slower) {
-    for (; freeze != freezes.end() && freeze->time < time; ++freeze) {
-      move_to(freeze->time, slower);
-      moves.push_back({now, now, slower, freeze->length_s});
-    }
-    move_to(time, slower);
-  };
-  for (const SlowWindow& window : windows) {
-    pass_freezes(window.from, 1);
-    pass_freezes(window.to, window.factor);
-  }
-  pass_freezes(span.to, 1);
-  for (; freeze != freezes.end(); ++freeze) moves.push_back({now, now, 1, freeze->length_s});
-  return moves;
-}
-
 /// The speed that gives the video the duration that the scene asks for.
-Rational speed_for_duration(const Scene& scene, const std::vector<Move>& moves,
-                            const Holds& holds) {
+/// @param still_s  of video, before and after the moves.
+Rational speed_for_duration(const Scene& scene, const std::vector<Move>& moves, Rational still_s) {
   const Rational& duration_s = *scene.pacing.duration_s;
   Integer frames = ceil(duration_s * scene.view.frame_rate);
   if (scene.pacing.loop) frames = (frames + 1) / 2 + 1;  // see played_back()
   if (shows_end(scene)) frames -= 1;                     // one frame stands at the end
   Rational length = 0;                                   // seconds of video at speed 1
-  Rational still_s = holds.start_s + holds.end_s;
   for (const Move& move : moves) {
     length += (move.to - move.from) * move.slower;
     still_s += move.frozen_s;
@@ -159,15 +93,15 @@ Schedule make_schedule(const Scene& scene, const CollisionLog& log) {
                     to_text(span.from), to_text(span.to)));
   }
   const Rational& rate = scene.view.frame_rate;
-  const Holds holds{whole_frames(scene.pacing.hold_start_s, rate),
-                    whole_frames(scene.pacing.hold_end_s, rate)};
-  const std::vector<Move> moves =
-      moves_of(span, slow_windows(scene, log, span), freezes_of(scene, log, span));
-  const Rational speed =
-      scene.pacing.duration_s ? speed_for_duration(scene, moves, holds) : scene.time.speed;
+  const Rational hold_start_s = whole_frames(scene.pacing.hold_start_s, rate);
+  const Rational hold_end_s = whole_frames(scene.pacing.hold_end_s, rate);
+  const std::vector<Move> moves = moves_of(scene, log, span);
+  const Rational speed = scene.pacing.duration_s
+                             ? speed_for_duration(scene, moves, hold_start_s + hold_end_s)
+                             : scene.time.speed;
 
   StretchList video;
-  video.add(span.from, 0, 1, holds.start_s);
+  video.add(span.from, 0, 1, hold_start_s);
   for (const Move& move : moves) {
     const bool is_frozen = move.frozen_s > 0;
     video.add(move.from, is_frozen ? Rational(0) : Rational(speed / move.slower), move.slower,
@@ -182,8 +116,8 @@ Schedule make_schedule(const Scene& scene, const CollisionLog& log) {
     const Stretch& last = video.stretches.back();
     end = last.time + last.speed * (video.end_s - last.video_s);
   }
-  video.add(end, 0, 1, holds.end_s);
-  frame_count += ceil(holds.end_s * rate);
+  video.add(end, 0, 1, hold_end_s);
+  frame_count += ceil(hold_end_s * rate);
   if (!scene.pacing.loop || frame_count < 2) {
     return {std::move(video.stretches), frame_count, rate};
   }

@@ -3,16 +3,171 @@
 #include <piblocks/script.hpp>
 
 #include <algorithm>
+#include <map>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "scene/scene_draft.hpp"
-#include "scene/story_reader.hpp"
 
 namespace piblocks {
 namespace {
 
 constexpr std::string_view kPart = "part";
+
+const TomlEntry* find(const TomlTable& table, std::string_view key) {
+  const auto found = std::ranges::find(table.entries, key, &TomlEntry::key);
+  return found == table.entries.end() ? nullptr : &*found;
+}
+
+/// A list, or one text of several lines.
+std::vector<std::string> lines_of(const Values& values) {
+  std::vector<std::string> lines;
+  for (const std::string& value : values) {
+    if (value.empty()) lines.emplace_back();
+    std::istringstream text(value);
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+  }
+  return lines;
+}
+
+Rational number_of(const Values& values) { return parse_rational(single(values)); }
+
+/// Makes the segments of a storyboard from the tables of its file, and collects their problems.
+class StoryReader {
+ public:
+  /// @param path  of the file, named in messages.
+  /// @param film  the values for all segments.
+  StoryReader(std::string path, const SceneDraft& film) : path_(std::move(path)), film_(film) {
+    const Scene scene = film.scene();
+    story_ = {scene.view, scene.sound, scene.golden, {}};
+  }
+
+  /// Adds the segment that a [[part]] describes.
+  void read(const TomlTable& table) {
+    Origins origins;
+    Segment segment = segment_of(table, origins);
+    for (const auto& [key, reason] : problems_of(segment, story_.segments.empty())) {
+      const auto origin = origins.find(key);
+      const bool has_origin = origin != origins.end();
+      // Text that could not be read has been reported already.
+      if (!has_origin && find(table, key) != nullptr) continue;
+      problems_.push_back(
+          fmt::format("{}: {} {}", has_origin ? origin->second : segment.origin, key, reason));
+    }
+    story_.segments.push_back(std::move(segment));
+  }
+
+  const Storyboard& story() const { return story_; }
+  const std::vector<std::string>& problems() const { return problems_; }
+
+ private:
+  /// Origins of the keys that are not a scene's, by key.
+  using Origins = std::map<std::string, std::string>;
+
+  Segment segment_of(const TomlTable& table, Origins& origins) {
+    Segment segment;
+    segment.origin = origin_of(table.line);
+    take(table, "fade", segment.fade_s, number_of, origins);
+    if (find(table, "card") != nullptr) {
+      segment.content = card_of(table, origins);
+    } else {
+      segment.content = scenes_of(table);
+    }
+    return segment;
+  }
+
+  Card card_of(const TomlTable& table, Origins& origins) {
+    Card card;
+    take(table, "card", card.lines, lines_of, origins);
+    take(table, "seconds", card.length_s, number_of, origins);
+    for (const TomlEntry& entry : table.entries) {
+      if (entry.key == "card" || entry.key == "seconds" || entry.key == "fade") continue;
+      add_problem(entry, "a card has nothing but 'card', 'seconds' and 'fade'");
+    }
+    return card;
+  }
+
+  /// The keys of one scene. @param problem_of  says why a key may not be here, or nullptr.
+  TomlTable checked(const TomlTable& table, const auto& problem_of) {
+    TomlTable keys{{}, table.line};
+    for (const TomlEntry& entry : table.entries) {
+      const char* const problem = is_film_key(entry.key)
+                                      ? "holds for the whole film; put it above the parts"
+                                      : problem_of(entry.key);
+      if (problem != nullptr) {
+        add_problem(entry, problem);
+      } else {
+        keys.entries.push_back(entry);
+      }
+    }
+    return keys;
+  }
+
+  Scenes scenes_of(const TomlTable& table) {
+    TomlTable keys = checked(table, [](const std::string& key) {
+      return key == "seconds" ? "is the length of a card; a run has time.duration" : nullptr;
+    });
+    std::erase_if(keys.entries, [](const TomlEntry& entry) {
+      return entry.key == "compare" || entry.key == "fade";
+    });
+    SceneDraft common = film_.next(origin_of(table.line));
+    common.read(path_, keys);
+    std::vector<SceneDraft> drafts = {common};
+    if (const TomlEntry* compare = find(table, "compare")) drafts = compared(*compare, common);
+    Scenes scenes;
+    for (const SceneDraft& draft : drafts) {
+      for (std::string& problem : draft.problems()) problems_.push_back(std::move(problem));
+      scenes.push_back(draft.scene());
+    }
+    return scenes;
+  }
+
+  /// The values of the part hold for each of the compared runs.
+  std::vector<SceneDraft> compared(const TomlEntry& compare, const SceneDraft& common) {
+    if (compare.tables.size() < 2 || compare.tables.size() > kMaxCompared) {
+      add_problem(compare, fmt::format("must be a list of 2 to {} tables, as [{{digits = 1}}, "
+                                       "{{digits = 2}}]",
+                                       kMaxCompared));
+      return {common};
+    }
+    std::vector<SceneDraft> drafts;
+    for (const TomlTable& table : compare.tables) {
+      drafts.emplace_back(common).read(
+          path_, checked(table, [](const std::string& key) {
+            return key.starts_with("time.") ? "what is compared has one clock; say it for the part"
+                                            : nullptr;
+          }));
+    }
+    return drafts;
+  }
+
+  /// Takes the value of the key if the table has it, and notes its origin or its problem.
+  void take(const TomlTable& table, const char* key, auto& target, const auto& parse,
+            Origins& origins) {
+    const TomlEntry* const entry = find(table, key);
+    if (entry == nullptr) return;
+    if (!entry->problem.empty()) return add_problem(*entry, entry->problem);
+    try {
+      target = parse(entry->values);
+      origins.emplace(key, origin_of(entry->line));
+    } catch (const UsageError& error) {
+      problems_.push_back(fmt::format("{}: {} = {}: {}", origin_of(entry->line), key,
+                                      joined(entry->values), error.what()));
+    }
+  }
+
+  void add_problem(const TomlEntry& entry, const std::string& text) {
+    problems_.push_back(fmt::format("{}: {}: {}", origin_of(entry.line), entry.key, text));
+  }
+
+  std::string origin_of(std::size_t line) const { return fmt::format("{}:{}", path_, line); }
+
+  std::string path_;
+  const SceneDraft& film_;
+  Storyboard story_;
+  std::vector<std::string> problems_;
+};
 
 }  // namespace
 
@@ -51,18 +206,19 @@ ScriptBuilder::~ScriptBuilder() = default;
 void ScriptBuilder::read_file(const std::string& path) {
   state_->path = path;
   TomlTable root = read_toml(path);
+  TomlTable film{{}, root.line};
+  std::vector<TomlTable>& parts = state_->parts;
   for (TomlEntry& entry : root.entries) {
-    if (entry.key == kPart && !entry.tables.empty()) {
-      state_->parts = std::move(entry.tables);
-    } else if (entry.key == kPart || entry.key.starts_with("part.")) {
+    const bool is_part = entry.key == kPart;
+    if (is_part && !entry.tables.empty()) {
+      parts = std::move(entry.tables);
+    } else if (is_part || entry.key.starts_with("part.")) {
       state_->add_problem(entry.line, "part: is written [[part]], once for each part");
+    } else {
+      film.entries.push_back(std::move(entry));
     }
   }
-  std::erase_if(root.entries, [](const TomlEntry& entry) {
-    return entry.key == kPart || entry.key.starts_with("part.");
-  });
-  state_->film.read(path, root);
-  std::vector<TomlTable>& parts = state_->parts;
+  state_->film.read(path, film);
   if (parts.size() > kMaxSegments) {
     state_->add_problem(parts[kMaxSegments].line,
                         fmt::format("part: there must be at most {} of them", kMaxSegments));

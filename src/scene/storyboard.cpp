@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "scene/rules.hpp"
 #include "scene/scene_keys.hpp"
 
 namespace piblocks {
@@ -19,8 +18,8 @@ void check(const Card& card, SceneProblems& problems) {
   problems.require_positive("seconds", card.length_s);
 }
 
-void check(const Runs& runs, SceneProblems& problems) {
-  problems.require(!runs.empty() && runs.size() <= kMaxCompared, "compare",
+void check(const Scenes& scenes, SceneProblems& problems) {
+  problems.require(!scenes.empty() && scenes.size() <= kMaxCompared, "compare",
                    "must be from 2 to {} runs", kMaxCompared);
 }
 
@@ -39,7 +38,7 @@ std::string described(const Segment& segment) {
     return fmt::format("{}\tseconds = {}\t{}", text, card->length_s.get_str(),
                        fmt::join(card->lines, "\t"));
   }
-  for (const Scene& run : std::get<Runs>(segment.content)) text += described(run);
+  for (const Scene& scene : std::get<Scenes>(segment.content)) text += described(scene);
   return text;
 }
 
@@ -52,6 +51,17 @@ const View& view_of(const Script& script) {
 
 const Sound& sound_of(const Script& script) {
   return std::visit([](const auto& any) -> const Sound& { return any.sound; }, script);
+}
+
+std::vector<const Scene*> scenes_of(const Script& script) {
+  if (const auto* scene = std::get_if<Scene>(&script)) return {scene};
+  std::vector<const Scene*> all;
+  for (const Segment& segment : std::get<Storyboard>(script).segments) {
+    const auto* const scenes = std::get_if<Scenes>(&segment.content);
+    if (scenes == nullptr) continue;
+    for (const Scene& scene : *scenes) all.push_back(&scene);
+  }
+  return all;
 }
 
 Scene with_film_view(Scene scene, const View& film) {
@@ -90,9 +100,10 @@ std::vector<std::string> problems_of(const Storyboard& story) {
     const std::string origin =
         segment.origin.empty() ? fmt::format("part {}", i + 1) : segment.origin;
     add(origin, problems_of(segment, i == 0));
-    const Runs* const runs = std::get_if<Runs>(&segment.content);
-    if (runs == nullptr) continue;
-    for (const Scene& run : *runs) add(origin, problems_of(with_film_view(run, story.view)));
+    if (const auto* const scenes = std::get_if<Scenes>(&segment.content)) {
+      for (const Scene& scene : *scenes)
+        add(origin, problems_of(with_film_view(scene, story.view)));
+    }
   }
   return problems;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace piblocks {
@@ -12,9 +13,9 @@ constexpr double kMost = 1e300;
 
 constexpr double kHighest = 8;
 
-/// 1 at no distance, falling smoothly to 0 at kTogether_samples.
+/// 1 at no distance, falling smoothly to 0 at kCompressed_samples.
 double nearness(double distance_samples) {
-  const double x = distance_samples / kTogether_samples;
+  const double x = distance_samples / kCompressed_samples;
   const double bell = std::max(0.0, 1 - x * x);
   return bell * bell;
 }
@@ -37,6 +38,24 @@ double bessel(double x) {
   return sum;
 }
 
+/// How a body rings after a click of height 1: height e^(-t/decay) cos(2 pi frequency t).
+struct Mode {
+  double frequency_hz;
+  double decay_s;  // to 1/e
+  double height;
+};
+
+constexpr std::array kWallModes = {Mode{196, 0.055, 0.30}, Mode{443, 0.038, 0.28},
+                                   Mode{977, 0.020, 0.18}, Mode{2130, 0.007, 0.12},
+                                   Mode{5900, 0.0012, 0.12}};
+constexpr std::array kBlockModes = {Mode{1210, 0.022, 0.22}, Mode{2590, 0.014, 0.24},
+                                    Mode{4170, 0.007, 0.18}, Mode{6820, 0.0025, 0.16},
+                                    Mode{9800, 0.0006, 0.20}};
+
+/// A smaller sound is silence: it is 20 dB below the last of 24 bits. Still smaller numbers would
+/// slow processors down.
+constexpr double kNothing = 1e-8;
+
 }  // namespace
 
 double compressed(double impulse) {
@@ -49,11 +68,11 @@ double height(std::span<const Clack> clacks, std::size_t index) {
   const double own = bounded(clacks[index].impulse);
   if (own == 0) return 0;
   double together = own;
-  for (std::size_t i = index; i-- > 0 && sample - clacks[i].sample < kTogether_samples;) {
+  for (std::size_t i = index; i-- > 0 && sample - clacks[i].sample < kCompressed_samples;) {
     together += nearness(sample - clacks[i].sample) * bounded(clacks[i].impulse);
   }
   for (std::size_t i = index + 1;
-       i < clacks.size() && clacks[i].sample - sample < kTogether_samples; ++i) {
+       i < clacks.size() && clacks[i].sample - sample < kCompressed_samples; ++i) {
     together += nearness(clacks[i].sample - sample) * bounded(clacks[i].impulse);
   }
   return compressed(together) * (own / together);
@@ -81,7 +100,7 @@ ClickKernel::ClickKernel() {
 
 void ClickKernel::add(double fraction, double left, double right, double* samples) const {
   const double place = fraction * kPhases;
-  const int phase = static_cast<int>(place);
+  const int phase = int(place);
   const double part = place - phase;
   const double* const low = phases_.data() + std::ptrdiff_t{phase} * 2 * kReach;
   const double* const high = low + 2 * kReach;
@@ -90,6 +109,46 @@ void ClickKernel::add(double fraction, double left, double right, double* sample
     samples[2 * tap] += left * value;
     samples[2 * tap + 1] += right * value;
   }
+}
+
+Timbre::Timbre(CollisionKind kind, double rate_hz) {
+  for (const Mode& mode : kind == CollisionKind::wall ? kWallModes : kBlockModes) {
+    const double radius = std::exp(-1 / (mode.decay_s * rate_hz));
+    const double angle = 2 * std::numbers::pi * mode.frequency_hz / rate_hz;
+    resonators_.push_back({-radius * radius, 2 * radius * std::cos(angle), mode.height});
+  }
+}
+
+bool Timbre::is_silent() const {
+  const auto is_small = [](const StereoSample& p) {
+    return std::max(std::fabs(p[0]), std::fabs(p[1])) < kNothing;
+  };
+  return last_click_ == StereoSample{} && std::ranges::all_of(resonators_, [&](const Resonator& r) {
+           return is_small(r.before) && is_small(r.before_last);
+         });
+}
+
+void Timbre::add(std::span<const double> clicks, std::span<double> sound) {
+  const bool no_click = std::ranges::all_of(clicks, [](double click) { return click == 0; });
+  if (no_click && is_silent()) {
+    for (Resonator& r : resonators_) r.before = r.before_last = {};
+    return;
+  }
+  for (Resonator& r : resonators_) {
+    StereoSample click = last_click_;
+    for (std::size_t i = 0; i < clicks.size(); i += 2) {
+      for (std::size_t channel = 0; channel < 2; ++channel) {
+        const double now = clicks[i + channel];
+        const double answer = r.last * r.before[channel] + r.last_but_one * r.before_last[channel] +
+                              r.height * (now - click[channel]);
+        click[channel] = now;
+        r.before_last[channel] = r.before[channel];
+        r.before[channel] = answer;
+        sound[i + channel] += answer;
+      }
+    }
+  }
+  std::copy_n(clicks.end() - 2, 2, last_click_.begin());
 }
 
 }  // namespace piblocks

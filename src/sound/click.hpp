@@ -1,7 +1,9 @@
-// How high a clack's click is, and its form between two samples.
-// In: clacks with their impulses, in order. Out: band-limited pulses in the samples around them.
+// What a clack sounds like: a pulse in the samples, and a body that rings in a few damped modes.
+// In: clacks with their impulses, in order. Out: band-limited clicks, and the body's answer to
+// them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -11,8 +13,11 @@
 
 namespace piblocks {
 
-/// Clacks closer than this are compressed together, nearer ones more.
-inline constexpr int kTogether_samples = 4;
+/// Left and right.
+using StereoSample = std::array<double, 2>;
+
+/// Distance in which clacks are compressed together, nearer ones more.
+inline constexpr int kCompressed_samples = 4;
 
 /// The height for an impulse: a small one stays as it is, 1 gives 0.8, 100 gives 3.2, and all are
 /// below 8. The sum of the impulses within a sample grows like the mass ratio, without a limit.
@@ -20,7 +25,7 @@ double compressed(double impulse);
 
 /// The height of the click for clack `index`. The impulses around it decide how much it is
 /// compressed, so that many collisions are as loud as one of their total impulse.
-/// @param clacks  in the order of `sample`; all within kTogether_samples of it are among them
+/// @param clacks  in the order of `sample`; all within kCompressed_samples of it are among them
 double height(std::span<const Clack> clacks, std::size_t index);
 
 /// A sinc in a Kaiser window: flat to 18 kHz at a rate of 48 kHz, and 80 dB down from 23 kHz on, so
@@ -45,5 +50,29 @@ class ClickKernel {
 double sinc(double x);
 /// Kaiser's window of shape beta: 1 at 0, 0 outside of -1 … 1 (Kaiser & Schafer, 1980).
 double kaiser(double x, double beta);
+
+/// Two channels of one body, the dull wall or the bright blocks. Each mode is a resonator with two
+/// poles. The difference of the clicks drives it, so that a steady push makes no sound.
+class Timbre {
+ public:
+  Timbre(CollisionKind kind, double rate_hz);
+
+  /// Adds the answer to pairs of samples.
+  void add(std::span<const double> clicks, std::span<double> sound);
+
+ private:
+  struct Resonator {
+    double last_but_one = 0;  ///< factors of the answers before
+    double last = 0;
+    double height = 0;
+    StereoSample before_last{};
+    StereoSample before{};
+  };
+
+  bool is_silent() const;
+
+  std::vector<Resonator> resonators_;
+  StereoSample last_click_{};
+};
 
 }  // namespace piblocks

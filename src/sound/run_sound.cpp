@@ -6,8 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "sound/click.hpp"
-
 namespace piblocks {
 namespace {
 
@@ -38,8 +36,8 @@ RunSound::RunSound(const Voice& voice, const Rational& film_s, int rate_hz)
       rise_(in_samples(voice.rise, rate_hz)),
       fall_(in_samples(voice.fall, rate_hz)),
       stream_(stream_of(voice, rate_hz)),
-      wall_(wall_modes(), rate_hz),
-      blocks_(block_modes(), rate_hz) {
+      wall_(CollisionKind::wall, rate_hz),
+      blocks_(CollisionKind::blocks, rate_hz) {
   if (voice.end_s < film_s) end_ = to_double(voice.end_s * rate_hz);
 }
 
@@ -54,7 +52,7 @@ RunSound::SampleRamp RunSound::in_samples(const std::optional<Ramp>& ramp, int r
 
 /// The weights of left and right, of equal power from one edge of the frame to the other. Neither
 /// is ever 0.
-RunSound::Pair RunSound::channels(const Clack& clack) const {
+StereoSample RunSound::channels(const Clack& clack) const {
   const double side = clack.kind == CollisionKind::wall ? -half_blue_ : half_blue_;
   const double in_view = (clack.blue_position + side - view_low_) / view_width_;
   const double x = left_ + width_ * std::clamp(in_view, 0.0, 1.0);
@@ -65,14 +63,14 @@ RunSound::Pair RunSound::channels(const Clack& clack) const {
 /// Adds the clicks that reach into the block.
 void RunSound::add_clicks() {
   const std::int64_t end = block_begin_ + kBlock + kReach;
-  stream_.read_until(end + kTogether_samples, clacks_);
+  stream_.read_until(end + kCompressed_samples, clacks_);
   // Clacks of both kinds within an eighth of a sample are out of order.
   std::stable_sort(clacks_.begin() + std::ptrdiff_t(clicked_), clacks_.end(),
                    [](const Clack& a, const Clack& b) { return a.sample < b.sample; });
   for (; clicked_ < clacks_.size() && clacks_[clicked_].sample < double(end); ++clicked_) {
     const Clack& clack = clacks_[clicked_];
     const double volume = kVolume * height(clacks_, clicked_);
-    const Pair side = channels(clack);
+    const StereoSample side = channels(clack);
     const double whole = std::floor(clack.sample);
     const auto first = std::int64_t(whole) - (kReach - 1);
     const std::int64_t at = first - (block_begin_ - kReach);
@@ -81,7 +79,7 @@ void RunSound::add_clicks() {
   }
   const auto done = std::find_if(
       clacks_.begin(), clacks_.begin() + std::ptrdiff_t(clicked_),
-      [&](const Clack& clack) { return clack.sample > double(end) - kTogether_samples; });
+      [&](const Clack& clack) { return clack.sample > double(end) - kCompressed_samples; });
   clicked_ -= std::size_t(done - clacks_.begin());
   clacks_.erase(clacks_.begin(), done);
 }
@@ -108,9 +106,9 @@ double RunSound::weight() const {
   return weight * weight_before_cut(end_ - double(sample_));
 }
 
-RunSound::Pair RunSound::next() {
+StereoSample RunSound::next() {
   if (used_ == kBlock) make_block();
-  const auto at = static_cast<std::size_t>(2 * used_);
+  const auto at = std::size_t(2 * used_);
   const double factor = weight();
   ++used_;
   ++sample_;

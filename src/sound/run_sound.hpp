@@ -4,7 +4,6 @@
 
 #include <piblocks/scene.hpp>
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -12,7 +11,6 @@
 
 #include "sound/clack_stream.hpp"
 #include "sound/click.hpp"
-#include "sound/timbre.hpp"
 
 namespace piblocks {
 
@@ -39,15 +37,13 @@ struct Voice {
 /// Takes the same memory for a run of any length. Used by one thread at a time.
 class RunSound {
  public:
-  using Pair = std::array<double, 2>;
-
   /// @param film_s  the film's duration; a voice that lasts until then rings on beyond it
   RunSound(const Voice& voice, const Rational& film_s, int rate_hz);
 
   /// The sample of the film in which next() begins.
   static std::int64_t first_sample(const Voice& voice, int rate_hz);
   bool is_over() const noexcept { return double(sample_) >= end_; }
-  Pair next();
+  StereoSample next();
 
  private:
   static constexpr std::int64_t kBlock = 1024;  // pairs
@@ -60,7 +56,7 @@ class RunSound {
   };
 
   static SampleRamp in_samples(const std::optional<Ramp>& ramp, int rate_hz);
-  Pair channels(const Clack& clack) const;
+  StereoSample channels(const Clack& clack) const;
   void add_clicks();
   void make_block();
   double weight() const;

@@ -4,11 +4,24 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
+#include "sound/click.hpp"
+
 namespace piblocks {
 namespace {
+
+/// Time in which the reduction falls to 1/e.
+constexpr double kRecovery_s = 0.05;
+
+/// The interpolated signal between samples up to 1 is not higher than this.
+constexpr double kOvershoot = 2.7;
+
+constexpr double kLimiterBeta = 6;
+
+constexpr double kAsGoodAsOne = 1 - 1e-5;
 
 /// -2.5 dB: encoders that lose something add up to 1.1 dB to the peaks.
 constexpr double kCeiling = 0.75;
@@ -24,6 +37,64 @@ void check(std::span<const Stretch> stretches) {
 }
 
 }  // namespace
+
+Limiter::Limiter(double ceiling, double rate_hz)
+    : ceiling_(ceiling), recovery_(1 - std::exp(-1 / (kRecovery_s * rate_hz))) {
+  for (int phase = 0; phase < kPhases; ++phase) {
+    for (int tap = 0; tap < kTaps; ++tap) {
+      const double distance = tap - (kHalf - 1) - double(phase) / kPhases;
+      kernel_[std::size_t(phase)][std::size_t(tap)] =
+          sinc(distance) * kaiser(distance / kHalf, kLimiterBeta);
+    }
+  }
+}
+
+/// The highest between this sample and the next.
+double Limiter::peak_around(std::int64_t number) const {
+  double peak = 0;
+  for (const auto& taps : kernel_) {
+    for (int channel = 0; channel < 2; ++channel) {
+      double value = 0;
+      for (int tap = 0; tap < kTaps; ++tap) {
+        value += taps[std::size_t(tap)] * at(number - (kHalf - 1) + tap, channel);
+      }
+      peak = std::max(peak, std::fabs(value));
+    }
+  }
+  return peak;
+}
+
+StereoSample Limiter::next(const StereoSample& pair) {
+  pairs_[std::size_t(count_) % kRing] = pair;
+  if (std::max(std::fabs(pair[0]), std::fabs(pair[1])) * kOvershoot > ceiling_) last_high_ = count_;
+
+  // The greatest gain of the samples on both sides of an interval.
+  const std::int64_t judged = count_ - kHalf;
+  const double peak = count_ - last_high_ < kTaps ? peak_around(judged) : 0;
+  const double allowed = peak > ceiling_ ? ceiling_ / peak : 1;
+  const double before = gain(judged - 1);
+  gain(judged) = std::min(allowed, before + (1 - before) * recovery_);
+  gain(judged - 1) = std::min(before, allowed);
+  if (gain(judged) > kAsGoodAsOne) gain(judged) = 1;
+  if (gain(judged) < 1) last_below_one_ = judged;
+
+  // The mean of kTurn lowest gains; this sample is within the reach of each.
+  static_assert(kDelay == kHalf + kTurn + 1);
+  const std::int64_t now = judged - kTurn - 1;
+  double applied = 1;
+  if (judged - last_below_one_ <= 2 * kTurn + 2) {
+    double low = 1;
+    for (int i = 0; i < kTurn; ++i) low = std::min(low, gain(now + i));
+    lowest(now) = low;
+    double sum = 0;
+    for (int i = 0; i < kTurn; ++i) sum += lowest(now - i);
+    applied = sum / kTurn;
+  } else {
+    lowest(now) = 1;
+  }
+  ++count_;
+  return {applied * at(now, 0), applied * at(now, 1)};
+}
 
 Soundtrack::Soundtrack(std::vector<Voice> voices, const Rational& duration_s)
     : duration_s_(duration_s),
@@ -41,13 +112,13 @@ void Soundtrack::find_next_voice() {
                                         : std::numeric_limits<std::int64_t>::max();
 }
 
-Limiter::Pair Soundtrack::next_limited() {
+StereoSample Soundtrack::next_limited() {
   for (; next_begin_ <= mixed_; find_next_voice()) {
     playing_.emplace_back(voices_[begun_++], duration_s_, kRate_hz);
   }
-  Limiter::Pair sum{};
+  StereoSample sum{};
   for (RunSound& run : playing_) {
-    const RunSound::Pair pair = run.next();
+    const StereoSample pair = run.next();
     sum[0] += pair[0];
     sum[1] += pair[1];
   }
@@ -59,7 +130,7 @@ Limiter::Pair Soundtrack::next_limited() {
 std::size_t Soundtrack::read(std::span<float> samples) {
   std::size_t count = 0;
   for (; 2 * count + 1 < samples.size() && given_ < size_; ++count, ++given_) {
-    const Limiter::Pair pair = next_limited();
+    const StereoSample pair = next_limited();
     const double weight = weight_before_cut(double(size_ - given_));
     samples[2 * count] = float(weight * pair[0]);
     samples[2 * count + 1] = float(weight * pair[1]);

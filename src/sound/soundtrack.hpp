@@ -5,16 +5,55 @@
 #include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <list>
 #include <span>
 #include <vector>
 
-#include "sound/limiter.hpp"
 #include "sound/run_sound.hpp"
 
 namespace piblocks {
+
+/// Finds peaks between the samples by interpolation, lowers the gain smoothly before one comes, and
+/// raises it after it. Without such peaks every sample stays as it is.
+class Limiter {
+ public:
+  /// Pairs that go in before the first one comes out.
+  static constexpr int kDelay = 205;
+
+  /// @param ceiling  of the peaks
+  Limiter(double ceiling, double rate_hz);
+
+  /// Takes a pair and gives the one of kDelay pairs ago; silence before the first.
+  StereoSample next(const StereoSample& pair);
+
+ private:
+  static constexpr int kTaps = 24;
+  static constexpr int kHalf = kTaps / 2;  ///< on either side
+  /// Samples over which the gain falls to what a peak needs.
+  static constexpr int kTurn = 192;
+  static constexpr std::size_t kRing = 512;  // more than kDelay + kTurn + kTaps
+  static constexpr int kPhases = 8;
+
+  double peak_around(std::int64_t number) const;
+  double at(std::int64_t number, int channel) const {
+    return pairs_[std::size_t(number) % kRing][std::size_t(channel)];
+  }
+  double& gain(std::int64_t number) { return gains_[std::size_t(number) % kRing]; }
+  double& lowest(std::int64_t number) { return lowest_[std::size_t(number) % kRing]; }
+
+  double ceiling_;
+  double recovery_;  // share of the reduction that ends with each sample
+  std::array<std::array<double, kTaps>, kPhases> kernel_{};
+  std::vector<StereoSample> pairs_ = std::vector<StereoSample>(kRing);
+  std::vector<double> gains_ = std::vector<double>(kRing, 1.0);   // allowed at each sample
+  std::vector<double> lowest_ = std::vector<double>(kRing, 1.0);  // of the kTurn gains from it on
+  std::int64_t count_ = kRing;  // pairs taken; the ring is silence
+  std::int64_t last_high_ = 0;
+  std::int64_t last_below_one_ = 0;
+};
 
 /// 48 kHz in stereo. Each collision sounds exactly when the film shows it. A freeze has none, and a
 /// film that goes backwards has them in reverse order. Slow motion moves clacks apart and does not
@@ -38,7 +77,7 @@ class Soundtrack {
 
  private:
   void find_next_voice();
-  Limiter::Pair next_limited();
+  StereoSample next_limited();
 
   Rational duration_s_;
   std::int64_t size_;

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "circumstances.hpp"
-#include "media/output/outputs.hpp"
+#include "media/output/output.hpp"
 #include "support/article_frames.hpp"
 
 namespace piblocks {
@@ -72,7 +72,7 @@ void measure(int noise, double share, const char* name) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   const auto output =
       set_up_output(folder / "unused.mp4", {kWidth_px, kHeight_px, 60}, {.encoder = name});
-  const auto encoder = output->make_encoder();
+  const auto encoder = output.make_encoder();
   Texture texture(noise);
   std::vector<PixelRect> changed = {{0, 0, kWidth_px, kHeight_px}};
   double spent_s = -thread_seconds();

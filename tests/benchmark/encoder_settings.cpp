@@ -16,8 +16,8 @@
 #include <iterator>
 
 #include "circumstances.hpp"
-#include "media/output/outputs.hpp"
-#include "media/pixels/yuv420.hpp"
+#include "media/output/output.hpp"
+#include "media/pixels/yuv.hpp"
 #include "support/article_frames.hpp"
 #include "support/decode_video.hpp"
 
@@ -55,12 +55,12 @@ Pixels frame_at(std::int64_t number) {
 double encode(const fs::path& path, const EncoderSettings& settings, std::int64_t frames) {
   const VideoFormat format = {kWidth_px, kHeight_px, kFramesPerSecond};
   const auto output = set_up_output(path, format, settings);
-  const auto encoder = output->make_encoder();
-  const auto sink = output->open();
+  const auto encoder = output.make_encoder();
+  const auto sink = output.open();
   const std::array whole = {PixelRect{0, 0, kWidth_px, kHeight_px}};
   double spent_s = 0;
-  for (std::int64_t first = 0; first < frames; first += output->frames_per_chunk()) {
-    const std::int64_t end = std::min(frames, first + output->frames_per_chunk());
+  for (std::int64_t first = 0; first < frames; first += output.frames_per_chunk) {
+    const std::int64_t end = std::min(frames, first + output.frames_per_chunk);
     double start_s = thread_seconds();
     encoder->begin(first);
     spent_s += thread_seconds() - start_s;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "draw/composition.hpp"
-#include "draw/panels/wedge.hpp"
+#include "draw/panels/trajectory.hpp"
 
 namespace piblocks {
 namespace {

@@ -4,8 +4,8 @@
 #include <variant>
 
 #include "draw/font.hpp"
-#include "draw/story_pictures.hpp"
-#include "draw/theme.hpp"
+#include "draw/look.hpp"
+#include "draw/montage.hpp"
 
 namespace piblocks {
 namespace {

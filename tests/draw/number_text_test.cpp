@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "draw/ticks.hpp"
-
 namespace piblocks {
 namespace {
 

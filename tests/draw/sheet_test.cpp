@@ -1,5 +1,3 @@
-#include "draw/sheet.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "draw/canvas.hpp"
+#include "draw/montage.hpp"
 
 namespace piblocks {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "draw/canvas.hpp"
-#include "draw/story_pictures.hpp"
+#include "draw/montage.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>

@@ -1,5 +1,3 @@
-#include "draw/stage.hpp"
-
 #include <gtest/gtest.h>
 #include <piblocks/run.hpp>
 
@@ -7,6 +5,7 @@
 
 #include "draw/composition.hpp"
 #include "draw/font.hpp"
+#include "draw/layout.hpp"
 #include "support/state_after.hpp"
 
 namespace piblocks {

@@ -1,11 +1,11 @@
-#include "draw/theme.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <optional>
 #include <string>
+
+#include "draw/look.hpp"
 
 namespace piblocks {
 namespace {

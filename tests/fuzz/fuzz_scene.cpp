@@ -24,7 +24,7 @@ void ask(const Storyboard& story) {
   if (!problems_of(story).empty()) std::abort();
   describe(story);
   for (const Segment& segment : story.segments) {
-    if (const auto* runs = std::get_if<Runs>(&segment.content)) {
+    if (const auto* runs = std::get_if<Scenes>(&segment.content)) {
       for (const Scene& run : *runs) ask(run);
     }
   }

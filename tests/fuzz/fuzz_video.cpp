@@ -3,7 +3,7 @@
 
 #include "fuzz/input_file.hpp"
 #include "media/libav/av.hpp"
-#include "media/libav/module_functions.hpp"
+#include "media/libav/av_module.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   constexpr int kFrames = 4;

@@ -125,7 +125,7 @@ DrawList draw_list_of(const GoldenFrame& frame) {
     const Rational open_s = scene.view.shutter / scene.view.frame_rate;
     exposure.push_back({1, expose(*log, time, time + scene.time.speed * open_s)});
   }
-  return Composition(scene, *log).frame({log->state_at(time), time}, exposure);
+  return Composition(scene, *log).frame({log->state_at(time), time, 1, exposure});
 }
 
 struct SurfaceDeleter {

@@ -10,7 +10,7 @@
 #include "h264/nal_unit.hpp"
 #include "h264/random_pictures.hpp"
 #include "h264/stream_fixture.hpp"
-#include "media/libav/damage_chunk.hpp"
+#include "media/libav/h264_chunk.hpp"
 #include "support/article_frames.hpp"
 #include "support/property.hpp"
 

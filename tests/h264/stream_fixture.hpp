@@ -13,7 +13,7 @@
 
 #include "h264/picture_encoder.hpp"
 #include "media/libav/av.hpp"
-#include "media/libav/codec_choice.hpp"
+#include "media/libav/encoder_setup.hpp"
 #include "media/libav/video_encoder.hpp"
 
 namespace piblocks::h264 {
@@ -21,7 +21,7 @@ namespace piblocks::h264 {
 /// libx264's headers with the program's settings.
 struct StreamHeaders {
   explicit StreamHeaders(const VideoFormat& format)
-      : encoder(format, h264_choice(format, {}, {EncoderKind::h264})) {
+      : encoder(format, h264_setup(format, {}, {EncoderKind::h264})) {
     const AVCodecParameters& parameters = encoder.parameters();
     bytes.assign(parameters.extradata, parameters.extradata + parameters.extradata_size);
     sets = read_parameter_sets(bytes);

@@ -1,9 +1,9 @@
-#include "media/libav/alpha_packet.hpp"
-
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+
+#include "media/libav/video_encoder.hpp"
 
 namespace piblocks {
 namespace {

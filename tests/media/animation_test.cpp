@@ -6,7 +6,7 @@
 
 #include "media/libav/av_module.hpp"
 #include "media/libav/color_table.hpp"
-#include "media/output/outputs.hpp"
+#include "media/output/output.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
 #include "support/property.hpp"

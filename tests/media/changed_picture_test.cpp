@@ -10,11 +10,10 @@ namespace piblocks {
 namespace {
 using testing_support::Pixels;
 using testing_support::random_frame;
-using Marks = ChangedPicture::Marks;
 
 TEST(ChangedPicture, KnowsTheLeastRectangleAndEachPixelOfIt) {
   Pixels pixels = random_frame(40, 30, 1);
-  ChangedPicture picture(40, 30, Marks::changed_pixels);
+  ChangedPicture picture(40, 30);
   const PixelRect whole{0, 0, 40, 30};
   picture.take(pixels.view(), {&whole, 1});
   EXPECT_EQ(picture.changed(), whole);
@@ -36,7 +35,7 @@ TEST(ChangedPicture, KnowsTheLeastRectangleAndEachPixelOfIt) {
 
 TEST(ChangedPicture, LooksAtTheGivenRectanglesAlone) {
   Pixels pixels = random_frame(40, 30, 2);
-  ChangedPicture picture(40, 30, Marks::changed_pixels);
+  ChangedPicture picture(40, 30);
   const PixelRect whole = picture.whole();
   picture.take(pixels.view(), {&whole, 1});
   picture.settle();
@@ -47,26 +46,9 @@ TEST(ChangedPicture, LooksAtTheGivenRectanglesAlone) {
   EXPECT_EQ(picture.changed(), (PixelRect{3, 3, 1, 1}));
 }
 
-TEST(ChangedPicture, KnowsTheSameRectangleWithoutMarks) {
-  Pixels pixels = random_frame(40, 30, 4);
-  ChangedPicture marked(40, 30, Marks::changed_pixels);
-  ChangedPicture plain(40, 30, Marks::none);
-  const PixelRect whole = plain.whole();
-  for (const int x : {0, 39, 7}) {
-    marked.take(pixels.view(), {&whole, 1});
-    plain.take(pixels.view(), {&whole, 1});
-    EXPECT_EQ(plain.changed(), marked.changed());
-    EXPECT_TRUE(std::equal(plain.row(5), plain.row(6), marked.row(5)));
-    marked.settle();
-    plain.settle();
-    pixels.at(x, 5) ^= 1;
-    pixels.at(20, x / 2) ^= 1;
-  }
-}
-
 TEST(ChangedPicture, WhatIsInPlaceOfAnOpaquePixelsAlphaDoesNotMatter) {
   Pixels pixels = random_frame(4, 3, 3);
-  ChangedPicture picture(4, 3, Marks::changed_pixels);
+  ChangedPicture picture(4, 3);
   const PixelRect whole = picture.whole();
   picture.take(pixels.view(), {&whole, 1});
   picture.settle();

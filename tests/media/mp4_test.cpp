@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "media/output/outputs.hpp"
+#include "media/output/output.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
 #include "support/temporary_folder.hpp"
@@ -69,7 +69,7 @@ TEST_F(Mp4Test, ShowsEveryFrameAtItsExactTime) {
 }
 
 TEST_F(Mp4Test, EveryChunkAndNothingElseStartsWithAKeyFrame) {
-  // By default a chunk may change its encoder, at a key frame: damage_chunk_test.cpp.
+  // By default a chunk may change its encoder, at a key frame: h264_chunk_test.cpp.
   const DecodedVideo video =
       written_and_read({.encoder = encoder_names(EncoderKind::h264).front()}, 3 * kFramesPerChunk);
   for (std::size_t i = 0; i < video.frames.size(); ++i) {
@@ -122,7 +122,7 @@ TEST_F(Mp4Test, EqualFramesGiveEqualChunksAfterAnyUseOfMemory) {
   std::vector<EncodedChunk> chunks(16);
   for (std::size_t pair = 0; pair < chunks.size(); pair += 2) {
     const auto encode = [&](std::size_t i) {
-      chunks[i] = encode_chunk(*output, 10, 20, article_frames(format));
+      chunks[i] = encode_chunk(output, 10, 20, article_frames(format));
     };
     const std::jthread other(encode, pair);
     encode(pair + 1);

@@ -29,7 +29,9 @@ class PngReaderTest : public testing::Test {
     std::ofstream(path, std::ios::binary) << bytes;
     return path;
   }
-  Samples samples_of(const HandMadePng& png) const { return read_png_samples(saved(file_of(png))); }
+  AnyImage samples_of(const HandMadePng& png) const {
+    return read_png_samples(saved(file_of(png)));
+  }
 
   TemporaryFolder folder_;
 };
@@ -106,7 +108,7 @@ TEST_F(PngReaderTest, KeepsEverySampleOfEveryKind) {
       HandMadePng png = random_png(random, kind);
       std::vector<std::uint32_t> palette;
       if (kind.colour == PngColour::palette) palette = add_palette(random, png);
-      const Samples samples = samples_of(png);
+      const AnyImage samples = samples_of(png);
       ASSERT_EQ(max_level_of(samples), kind.bits == 16 ? 65535 : 255);
       for (std::size_t pixel = 0; pixel < png.levels.size() / std::size_t(channels_of(kind.colour));
            ++pixel) {
@@ -190,7 +192,7 @@ TEST_F(PngReaderTest, TellsAnAnimationFromAPicture) {
   EXPECT_THROW(samples_of(png), MediaError);
 }
 
-TEST(Samples, AreBroughtToADepthThatKeepsThemApart) {
+TEST(AnyImage, IsBroughtToADepthThatKeepsLevelsApart) {
   Image image{256, 1, {}};
   for (std::uint32_t level = 0; level < 256; ++level) image.words.push_back(level * 0x01010101U);
   const DeepImage deep = deepened(image, 65535);

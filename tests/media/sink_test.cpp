@@ -8,8 +8,8 @@
 #include <csignal>
 #include <cstdio>
 
-#include "media/output/outputs.hpp"
-#include "media/pixels/yuv420.hpp"
+#include "media/output/output.hpp"
+#include "media/pixels/yuv.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
 #include "support/ordinary_user.hpp"
@@ -29,7 +29,7 @@ const VideoFormat kSmall = {.width_px = 64, .height_px = 36, .frame_rate = 10};
 std::string opening_error(const std::string& name, const VideoFormat& format,
                           const EncoderSettings& settings = {}) {
   try {
-    set_up_output(name, format, settings)->open();
+    set_up_output(name, format, settings).open();
   } catch (const UsageError& error) {
     return error.what();
   }
@@ -152,8 +152,8 @@ TEST_P(EveryFile, LeavesNoTraceWhenAbandoned) {
   const TemporaryFolder folder;
   {
     const auto output = set_up_output(folder / GetParam(), kSmall, {});
-    const auto sink = output->open();
-    sink->append(encode_chunk(*output, 0, 1000, article_frames(kSmall)));
+    const auto sink = output.open();
+    sink->append(encode_chunk(output, 0, 1000, article_frames(kSmall)));
     EXPECT_FALSE(folder.is_empty());
   }
   EXPECT_TRUE(folder.is_empty());
@@ -179,15 +179,15 @@ TEST_P(EveryFile, NeedsAFolderThatCanBeWritten) {
 TEST_P(EveryFile, RefusesAFrameOfAnotherSize) {
   const TemporaryFolder folder;
   const auto output = set_up_output(folder / GetParam(), kSmall, {});
-  EXPECT_THROW(output->make_encoder()->take(Pixels(66, 36).view(), {}), MediaError);
+  EXPECT_THROW(output.make_encoder()->take(Pixels(66, 36).view(), {}), MediaError);
 }
 
 TEST_P(EveryFile, RefusesAChunkOutOfOrder) {
   const TemporaryFolder folder;
   const auto output = set_up_output(folder / GetParam(), kSmall, {});
-  const auto sink = output->open();
+  const auto sink = output.open();
   const EncodedChunk second =
-      encode_chunk(*output, output->frames_per_chunk(), 1000, article_frames(kSmall));
+      encode_chunk(output, output.frames_per_chunk, 1000, article_frames(kSmall));
   EXPECT_THROW(sink->append(second), MediaError);
 }
 
@@ -228,8 +228,8 @@ INSTANTIATE_TEST_SUITE_P(All, EveryFile,
 
 TEST(NullSink, KeepsNothing) {
   const auto output = set_up_output("null", kSmall, {});
-  const auto sink = output->open();
-  EXPECT_TRUE(encode_chunk(*output, 0, 100, article_frames(kSmall)).empty());
+  const auto sink = output.open();
+  EXPECT_TRUE(encode_chunk(output, 0, 100, article_frames(kSmall)).empty());
   sink->finish();
 }
 
@@ -250,8 +250,8 @@ TEST(PngSequence, ReplacesFilesOnlyWhenItIsComplete) {
   const TemporaryFolder folder;
   std::ofstream(folder / "1.png") << "old";
   const auto output = set_up_output(folder / "%d.png", kSmall, {});
-  const auto sink = output->open();
-  sink->append(encode_chunk(*output, 0, 3, article_frames(kSmall)));
+  const auto sink = output.open();
+  sink->append(encode_chunk(output, 0, 3, article_frames(kSmall)));
   EXPECT_EQ(file_contents(folder / "1.png"), "old");
   EXPECT_FALSE(fs::exists(folder / "2.png"));
   sink->finish();

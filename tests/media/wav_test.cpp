@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "media/output/outputs.hpp"
+#include "media/output/output.hpp"
 #include "support/decode_video.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -35,9 +35,9 @@ int sample(const std::string& bytes, std::size_t index) {
 
 void write(const std::string& path, std::vector<float> values, std::int64_t size) {
   const auto output = set_up_output(path, {}, {}, SoundFormat{.rate_hz = 48000, .size = size});
-  const auto sink = output->open();
+  const auto sink = output.open();
   Samples samples(std::move(values));
-  const auto packets = output->encode_sound(samples);
+  const auto packets = output.encode_sound(samples);
   sink->take_sound(*packets);
   sink->finish();
 }
@@ -91,9 +91,9 @@ TEST(Sound, IsNotTakenByAnOutputThatWasSetUpWithout) {
   const TemporaryFolder folder;
   const auto output = set_up_output(folder / "a.mp4", {}, {});
   Samples samples({0, 0});
-  EXPECT_THROW(output->encode_sound(samples), MediaError);
-  const auto packets = set_up_output("a.wav", {}, {})->encode_sound(samples);
-  EXPECT_THROW(output->open()->take_sound(*packets), MediaError);
+  EXPECT_THROW(output.encode_sound(samples), MediaError);
+  const auto packets = set_up_output("a.wav", {}, {}).encode_sound(samples);
+  EXPECT_THROW(output.open()->take_sound(*packets), MediaError);
 }
 
 }  // namespace

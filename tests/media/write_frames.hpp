@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "media/output/outputs.hpp"
+#include "media/output/output.hpp"
 #include "support/article_frames.hpp"
 
 namespace piblocks {
@@ -39,7 +39,7 @@ inline void add(ChunkEncoder& encoder, const ImageView& frame) {
 inline EncodedChunk encode_chunk(const Output& output, ChunkEncoder& encoder, std::int64_t first,
                                  std::int64_t frames, const PaintFrame& paint) {
   encoder.begin(first);
-  const std::int64_t end = std::min(frames, first + output.frames_per_chunk());
+  const std::int64_t end = std::min(frames, first + output.frames_per_chunk);
   for (std::int64_t number = first; number < end; ++number) add(encoder, paint(number).view());
   return encoder.finish();
 }
@@ -54,10 +54,10 @@ inline void write_frames(const std::string& name, const VideoFormat& format,
                          const EncoderSettings& settings, std::int64_t frames,
                          const PaintFrame& paint) {
   const auto output = set_up_output(name, format, settings);
-  const auto encoder = output->make_encoder();
-  const auto sink = output->open();
-  for (std::int64_t first = 0; first < frames; first += output->frames_per_chunk()) {
-    sink->append(encode_chunk(*output, *encoder, first, frames, paint));
+  const auto encoder = output.make_encoder();
+  const auto sink = output.open();
+  for (std::int64_t first = 0; first < frames; first += output.frames_per_chunk) {
+    sink->append(encode_chunk(output, *encoder, first, frames, paint));
   }
   sink->finish();
 }
@@ -67,13 +67,13 @@ inline void write_frames_by_threads(const std::string& name, const VideoFormat& 
                                     const EncoderSettings& settings, std::int64_t frames,
                                     const PaintFrame& paint) {
   const auto output = set_up_output(name, format, settings);
-  const auto sink = output->open();
-  const std::int64_t length = output->frames_per_chunk();
+  const auto sink = output.open();
+  const std::int64_t length = output.frames_per_chunk;
   std::vector<EncodedChunk> chunks(static_cast<std::size_t>((frames + length - 1) / length));
   std::vector<std::jthread> threads;
   for (std::size_t i = chunks.size(); i-- > 0;) {
     threads.emplace_back([&, i] {
-      chunks[i] = encode_chunk(*output, static_cast<std::int64_t>(i) * length, frames, paint);
+      chunks[i] = encode_chunk(output, static_cast<std::int64_t>(i) * length, frames, paint);
     });
   }
   threads.clear();

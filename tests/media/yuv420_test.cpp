@@ -1,5 +1,3 @@
-#include "media/pixels/yuv420.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "media/pixels/yuv.hpp"
 #include "support/article_frames.hpp"
 #include "support/property.hpp"
 

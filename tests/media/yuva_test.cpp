@@ -1,6 +1,4 @@
 // The conversions of transparent pictures, against exact values.
-#include "media/pixels/yuva.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +7,7 @@
 #include <vector>
 
 #include "media/pixels/rgb24.hpp"
-#include "media/pixels/yuv420.hpp"
+#include "media/pixels/yuv.hpp"
 #include "support/article_frames.hpp"
 #include "support/property.hpp"
 

@@ -1,10 +1,10 @@
-#include "render/ordered_pool.hpp"
-
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
 #include <atomic>
 #include <chrono>
+
+#include "render/chunks.hpp"
 
 namespace piblocks {
 namespace {

@@ -177,7 +177,7 @@ Storyboard any_storyboard(Random& random) {
     if (random.integer(0, 2) == 0) {
       part.content = Card{{"Counting"}, random.rational(0, 3, 7) + Rational(1, 4)};
     } else {
-      Runs runs(static_cast<std::size_t>(random.integer(1, 3)), any_scene(random));
+      Scenes runs(static_cast<std::size_t>(random.integer(1, 3)), any_scene(random));
       for (Scene& run : runs) run.system = any_scene(random).system;
       part.content = std::move(runs);
     }

@@ -14,7 +14,7 @@ class StoryboardFileTest : public FileFixture {
   Storyboard story(const std::string& text) { return std::get<Storyboard>(script(text)); }
 };
 
-const Scene& only_run(const Segment& part) { return std::get<Runs>(part.content).at(0); }
+const Scene& only_run(const Segment& part) { return std::get<Scenes>(part.content).at(0); }
 
 TEST_F(StoryboardFileTest, AFileWithoutPartsIsAScene) {
   const Script read = script("digits = 2\n[time]\nspeed = 3\n");
@@ -93,7 +93,7 @@ TEST_F(StoryboardFileTest, WhatAPartSaysHoldsForAllItCompares) {
     red.position = 6
     compare = [{ mass-ratio = 16, show.title = "16" }, { digits = 2, red.position = 7 }]
   )");
-  const Runs& runs = std::get<Runs>(read.segments.at(0).content);
+  const Scenes& runs = std::get<Scenes>(read.segments.at(0).content);
   ASSERT_EQ(runs.size(), 2U);
   EXPECT_EQ(runs[0].system.red.mass, 16);
   EXPECT_EQ(runs[0].system.red.position, 6);
@@ -236,7 +236,7 @@ TEST_F(StoryboardFileTest, DescriptionsDifferWhereFilmsDo) {
 TEST(Storyboard, ProblemsOfOneMadeByHandAreToldAtOnce) {
   Storyboard story;
   EXPECT_EQ(problems_of(story).size(), 1U);
-  story.segments = {{Runs{}, 1}, {Card{}, -1}, {Card{{"a", ""}, 0}}, {Runs{Scene{}}}};
+  story.segments = {{Scenes{}, 1}, {Card{}, -1}, {Card{{"a", ""}, 0}}, {Scenes{Scene{}}}};
   story.view.width_px = 0;
   const auto found = problems_of(story);
   // The frame, as the film's and as the last part's; fade and no run; fade and no line; an empty

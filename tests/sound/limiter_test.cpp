@@ -1,5 +1,3 @@
-#include "sound/limiter.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "sound/click.hpp"
+#include "sound/soundtrack.hpp"
 #include "sound/true_peak.hpp"
 
 namespace piblocks {

@@ -1,48 +1,39 @@
-// All overlays.
-// In: a setting. Out: a drawable, or a read-out for a row of them.
+// The stage and all overlays.
+// In: a drawing context. Out: drawables.
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "draw/drawable.hpp"
+#include "draw/layout.hpp"
 
 namespace piblocks {
 
+/// The article's picture: wall, blocks and counter.
+/// @param lit_digits  light up when the counter shows them in their places; may be empty
+Drawable stage(const DrawingContext& context, std::string lit_digits);
+
 /// Each block's mass on it, as large as fits.
-Drawable mass_labels(const Setting& setting);
+Drawable mass_labels(const DrawingContext& context);
 
 /// Arrows above the blocks, with figures. Velocities of one run differ by the square root of the
 /// mass ratio, so lengths grow less and less with the velocity, up to a longest one.
 /// @throws UsageError if the view has no room above the blocks.
-Drawable velocity_arrows(const Setting& setting);
+Drawable velocity_arrows(const DrawingContext& context);
 
 /// A scale of positions below the blocks.
 /// @throws UsageError if the view has no room there.
-Drawable ruler(const Setting& setting);
+Drawable ruler(const DrawingContext& context);
 
-/// A short text that changes with what is shown, beside others in a row.
-struct ReadOut {
-  const char* name;                                    ///< in messages
-  std::string widest;                                  ///< the text that takes most room
-  std::function<std::string(const FrameState&)> text;  ///< empty where there is nothing to say
-  Color color;
-};
-
-ReadOut time_read_out(const Setting& setting);
-ReadOut energy_read_out(const Setting& setting);
-ReadOut momentum_read_out(const Setting& setting);
+/// Whether there is a read-out that says "10× slower".
 bool has_slow_motion(const Pacing& pacing);
-/// "10× slower".
-ReadOut slower_read_out(const Setting& setting);
 
-/// Read-outs in centred rows, from the frame's top on. A Drawable.
+/// All read-outs in centred rows, from the frame's top on. A Drawable.
 class ReadOutRows {
  public:
   /// @throws UsageError if one is too long to be read.
-  ReadOutRows(std::vector<ReadOut> read_outs, const Setting& setting);
+  explicit ReadOutRows(const DrawingContext& context);
 
   double height() const noexcept { return height_; }
   /// Moves all rows down.
@@ -51,9 +42,11 @@ class ReadOutRows {
 
  private:
   struct Placed {
-    ReadOut read_out;
+    std::function<std::string(const FrameState&)> text;  ///< empty where there is nothing to say
+    Color color;
+    std::size_t room_bytes;  ///< of the text that takes most room
+    double room_px;
     Point origin;
-    double room_px = 0;
   };
   std::vector<Placed> placed_;
   TextWidths widths_;

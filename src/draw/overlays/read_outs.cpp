@@ -1,7 +1,9 @@
 #include <fmt/format.h>
+#include <piblocks/error.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
@@ -10,32 +12,70 @@
 namespace piblocks {
 namespace {
 
-constexpr int kDecimals = 2;
-constexpr int kMostDecimals = 9;
+constexpr int kLeastTimeDecimals = 2;
+constexpr int kMostTimeDecimals = 9;
+// In ems.
+constexpr double kBetweenReadOuts = 2.0;
+constexpr double kRowHeight = 1.6;
+constexpr double kRowBaseline = 1.1;
 
-/// Simulation time per second of video where it runs slowest; 1 at most.
-double least_speed(const Setting& setting) {
-  // A scene whose end never comes can still be shown at an instant.
-  if (!has_span(setting.scene, setting.log))
-    return std::min(1.0, to_double(setting.scene.time.speed));
-  double least = 1;
-  const Schedule schedule = make_schedule(setting.scene, setting.log);
-  for (const Stretch& stretch : schedule.stretches()) {
-    if (stretch.speed != 0) least = std::min(least, std::abs(to_double(stretch.speed)));
+/// A short text that changes with what is shown.
+struct ReadOut {
+  const char* name;    ///< in messages
+  std::string widest;  ///< the text that takes most room
+  std::function<std::string(const FrameState&)> text;
+  Color color;
+};
+
+/// Slow motion has more decimals, since less time passes from frame to frame.
+int time_decimals(const Scene& scene, const CollisionLog& log) {
+  double least_speed = 1;  // simulation time per second of video
+  if (has_span(scene, log)) {
+    const Schedule schedule = make_schedule(scene, log);
+    for (const Stretch& stretch : schedule.stretches()) {
+      if (stretch.speed == 0) continue;
+      least_speed = std::min(least_speed, std::abs(to_double(stretch.speed)));
+    }
+  } else {
+    // A scene whose end never comes can still be shown at an instant.
+    least_speed = std::min(least_speed, to_double(scene.time.speed));
   }
-  return least;
+  const double more = std::ceil(-std::log10(least_speed) - 1e-9);
+  return static_cast<int>(
+      std::clamp<double>(kLeastTimeDecimals + more, kLeastTimeDecimals, kMostTimeDecimals));
 }
 
-/// Slow motion has more, since less time passes from frame to frame.
-int decimals_for(double speed) {
-  const double more = std::ceil(-std::log10(speed) - 1e-9);
-  return static_cast<int>(std::clamp<double>(kDecimals + more, kDecimals, kMostDecimals));
+ReadOut time_read_out(const DrawingContext& context) {
+  const auto text = [decimals = time_decimals(context.scene, context.log)](const Rational& time) {
+    return fmt::format("t = {}", fixed_text(time, decimals));
+  };
+  Rational end = 0;
+  if (has_span(context.scene, context.log)) {
+    const Span span = span_of(context.scene, context.log);
+    end = std::max(Rational(abs(span.from)), Rational(abs(span.to)));
+  }
+  return {"time", text(-end), [=](const FrameState& shown) { return text(shown.time); },
+          context.palette.text};
 }
 
 std::string slower_text(const Rational& slower) {
   if (slower == 1) return {};
   if (slower < 1) return fmt::format("{}× faster", short_text(1 / slower));
   return fmt::format("{}× slower", short_text(slower));
+}
+
+ReadOut slower_read_out(const DrawingContext& context) {
+  const Pacing& pacing = context.scene.pacing;
+  std::string widest;
+  const auto make_room = [&](const Rational& slower) {
+    std::string text = slower_text(slower);
+    if (context.font.width_em(text) > context.font.width_em(widest)) widest = std::move(text);
+  };
+  for (const SlowMotion& slow : pacing.slow_motion) make_room(slow.factor);
+  if (pacing.automatic_slow_motion) make_room(kMaxAutomaticFactor);
+  return {"slow motion", std::move(widest),
+          [](const FrameState& shown) { return slower_text(shown.slower); },
+          context.palette.accent};
 }
 
 /// How values up to a largest one are written: with as many decimals as give the largest six
@@ -56,74 +96,33 @@ struct Scale {
   std::string unit;
 };
 
-}  // namespace
-
-ReadOut time_read_out(const Setting& setting) {
-  const int decimals = decimals_for(least_speed(setting));
-  const auto text = [decimals](const Rational& time) {
-    return fmt::format("t = {}", fixed_text(time, decimals));
-  };
-  Rational end = 0;
-  if (has_span(setting.scene, setting.log)) {
-    const Span span = span_of(setting.scene, setting.log);
-    end = std::max(Rational(abs(span.from)), Rational(abs(span.to)));
-  }
-  return {"time", text(-end), [=](const FrameState& shown) { return text(shown.time); },
-          setting.palette.text};
-}
-
-bool has_slow_motion(const Pacing& pacing) {
-  return pacing.automatic_slow_motion || !pacing.slow_motion.empty();
-}
-
-ReadOut slower_read_out(const Setting& setting) {
-  const Pacing& pacing = setting.scene.pacing;
-  ReadOut read_out{"slow motion",
-                   {},
-                   [](const FrameState& shown) { return slower_text(shown.slower); },
-                   setting.palette.accent};
-  const auto make_room = [&](const Rational& slower) {
-    std::string text = slower_text(slower);
-    if (setting.font.width_em(text) > setting.font.width_em(read_out.widest)) {
-      read_out.widest = std::move(text);
-    }
-  };
-  for (const SlowMotion& slow : pacing.slow_motion) make_room(slow.factor);
-  if (pacing.automatic_slow_motion) make_room(kMaxAutomaticFactor);
-  return read_out;
-}
-
-ReadOut energy_read_out(const Setting& setting) {
-  const BlockSystem& system = setting.scene.system;
+ReadOut energy_read_out(const DrawingContext& context) {
+  const BlockSystem& system = context.scene.system;
   const Rational exact_sum = twice_energy(system) / 2;
   const Scale scale(magnitude_of(exact_sum));
   const double sum = scale.is_plain ? to_double(exact_sum) : scale.largest.mantissa;
-  const char* const red_name = setting.palette.red.name;
-  const char* const blue_name = setting.palette.blue.name;
-  const auto text = [=](double red, double blue) {
+  const auto text = [=, red_name = context.palette.red.name, blue_name = context.palette.blue.name](
+                        double red, double blue) {
     return fmt::format("Energy{}: {} {} + {} {} = {}", scale.unit, red_name, scale.text(red),
                        blue_name, scale.text(blue), scale.text(sum));
   };
   // Red's velocity if it had all the energy. It may be beyond the range of a double.
   const mpf_class fastest = root_of(2 * exact_sum / system.red.mass);
-  return {"energy", text(sum, sum),
-          [=](const FrameState& shown) {
-            const double share =
-                fastest > 0 ? mpf_class(shown.state.red.velocity / fastest).get_d() : 0;
-            const double red = sum * std::min(1.0, share * share);
-            return text(red, sum - red);
-          },
-          setting.palette.text};
+  const auto shown_text = [=](const FrameState& shown) {
+    const double share = fastest > 0 ? mpf_class(shown.state.red.velocity / fastest).get_d() : 0;
+    const double red = sum * std::min(1.0, share * share);
+    return text(red, sum - red);
+  };
+  return {"energy", text(sum, sum), shown_text, context.palette.text};
 }
 
-ReadOut momentum_read_out(const Setting& setting) {
-  const BlockSystem& system = setting.scene.system;
+ReadOut momentum_read_out(const DrawingContext& context) {
+  const BlockSystem& system = context.scene.system;
   // The heavier block has the most momentum when it has all the energy.
   const Rational most_squared = twice_energy(system) * std::max(system.blue.mass, system.red.mass);
   const Scale scale(root_magnitude_of(most_squared));
-  const char* const red_name = setting.palette.red.name;
-  const char* const blue_name = setting.palette.blue.name;
-  const auto text = [=](double red, double blue) {
+  const auto text = [scale, red_name = context.palette.red.name,
+                     blue_name = context.palette.blue.name](double red, double blue) {
     return fmt::format("Momentum{}: {} {}, {} {}, sum {}", scale.unit, red_name, scale.text(red),
                        blue_name, scale.text(blue), scale.text(red + blue));
   };
@@ -134,14 +133,94 @@ ReadOut momentum_read_out(const Setting& setting) {
     if (most_squared == 0) return 0;
     return most * root_of(block.mass * block.mass / most_squared);
   };
-  const mpf_class red_factor = momentum_per_velocity(system.red);
-  const mpf_class blue_factor = momentum_per_velocity(system.blue);
-  return {"momentum", text(-most, -most),
-          [=](const FrameState& shown) {
-            return text(mpf_class(red_factor * shown.state.red.velocity).get_d(),
-                        mpf_class(blue_factor * shown.state.blue.velocity).get_d());
-          },
-          setting.palette.text};
+  const auto shown_text = [text, red_factor = momentum_per_velocity(system.red),
+                           blue_factor =
+                               momentum_per_velocity(system.blue)](const FrameState& shown) {
+    return text(mpf_class(red_factor * shown.state.red.velocity).get_d(),
+                mpf_class(blue_factor * shown.state.blue.velocity).get_d());
+  };
+  return {"momentum", text(-most, -most), shown_text, context.palette.text};
+}
+
+std::vector<ReadOut> read_outs_of(const DrawingContext& context) {
+  const Show& show = context.scene.show;
+  std::vector<ReadOut> read_outs;
+  if (show.has(Overlay::time)) read_outs.push_back(time_read_out(context));
+  if (has_slow_motion(context.scene.pacing)) read_outs.push_back(slower_read_out(context));
+  if (show.has(Overlay::energy)) read_outs.push_back(energy_read_out(context));
+  if (show.has(Overlay::momentum)) read_outs.push_back(momentum_read_out(context));
+  return read_outs;
+}
+
+}  // namespace
+
+bool has_slow_motion(const Pacing& pacing) {
+  return pacing.automatic_slow_motion || !pacing.slow_motion.empty();
+}
+
+ReadOutRows::ReadOutRows(const DrawingContext& context) : text_px_(context.text_px) {
+  std::vector<ReadOut> read_outs = read_outs_of(context);
+  if (read_outs.empty()) return;
+  const View& view = context.scene.view;
+  const double margin = style::kMargin * short_measure(view);
+  const double room_px = view.width_px - 2 * margin;
+  std::string characters(kNumberCharacters);
+  for (const ReadOut& read_out : read_outs) characters += read_out.widest;
+  widths_ = TextWidths(context.font, characters);
+  const auto width_em = [&](const ReadOut& read_out) {
+    return context.font.width_em(read_out.widest);
+  };
+  const ReadOut& widest = *std::ranges::max_element(read_outs, {}, width_em);
+  text_px_ = context.font.fitted_px(widest.widest, context.text_px, room_px);
+  if (text_px_ < style::kLeastText_px) {
+    throw UsageError(
+        fmt::format("show.overlays: '{}' cannot be read in {:.0f} pixels; leave it out, or make "
+                    "the frame wider",
+                    widest.name, room_px));
+  }
+  std::vector<double> widths;
+  for (const ReadOut& read_out : read_outs) widths.push_back(width_em(read_out) * text_px_);
+  const double gap = kBetweenReadOuts * text_px_;
+  std::size_t first = 0;
+  while (first < read_outs.size()) {
+    double width = widths[first];
+    std::size_t end = first + 1;
+    for (; end < read_outs.size() && width + gap + widths[end] <= room_px; ++end) {
+      width += gap + widths[end];
+    }
+    double x = margin + (room_px - width) / 2;
+    for (; first < end; ++first) {
+      ReadOut& read_out = read_outs[first];
+      placed_.push_back({std::move(read_out.text),
+                         read_out.color,
+                         read_out.widest.size(),
+                         widths[first],
+                         {x, height_ + kRowBaseline * text_px_}});
+      x += widths[first] + gap;
+    }
+    height_ += kRowHeight * text_px_;
+  }
+}
+
+void ReadOutRows::move(double y) {
+  for (Placed& placed : placed_) placed.origin.y += y;
+}
+
+void ReadOutRows::operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
+  // An instant outside of the scene's span may need more room than any in it.
+  double shift = 0;
+  for (std::size_t n = 0; n < placed_.size(); ++n) {
+    const Placed& placed = placed_[n];
+    if (n > 0 && placed.origin.y != placed_[n - 1].origin.y) shift = 0;
+    std::string text = placed.text(shown);
+    if (text.empty()) continue;
+    const Point origin{placed.origin.x + shift, placed.origin.y};
+    if (text.size() > placed.room_bytes) {
+      shift += std::max(0.0, widths_.width_em(text) * text_px_ - placed.room_px);
+    }
+    items.emplace_back(
+        TextItem{nth(ItemId::read_outs, n), origin, std::move(text), text_px_, placed.color});
+  }
 }
 
 }  // namespace piblocks

@@ -5,10 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "draw/look.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
-#include "draw/style.hpp"
-#include "draw/ticks.hpp"
 
 namespace piblocks {
 namespace {
@@ -45,11 +44,11 @@ struct Room {
 };
 
 /// @throws UsageError if there is too little below the blocks.
-Room room_for(const Setting& setting) {
-  const Layout& layout = setting.stage;
-  const double foot = base_of(setting.scene.system);
-  const double height = (foot - to_double(setting.scene.view.y.low)) * layout.scale +
-                        std::min(layout.below_px, setting.text_px);
+Room room_for(const DrawingContext& context) {
+  const Layout& layout = context.layout;
+  const double foot = base_of(context.scene.system);
+  const double height = (foot - to_double(context.scene.view.y.low)) * layout.scale +
+                        std::min(layout.below_px, context.text_px);
   if (height >= kLeastRulerRoom_px) return {layout.at(0, foot).y, height};
   throw UsageError(
       fmt::format("show.overlays: the ruler needs {} pixels below the blocks, and there are "
@@ -68,12 +67,12 @@ struct Rows {
 
 /// Figures are below the wall's foot if there is room, so that the figure at its face can be
 /// centred there. Otherwise they are in the room below the blocks.
-Rows rows_of(const Setting& setting, const Room& room) {
-  const Layout& layout = setting.stage;
-  const double usual_px = std::min(kFigureSize * room.height, setting.text_px);
+Rows rows_of(const DrawingContext& context, const Room& room) {
+  const Layout& layout = context.layout;
+  const double usual_px = std::min(kFigureSize * room.height, context.text_px);
   const double fitting_px = (layout.below_px - layout.line_px) / (kBelowWall_em + kFigure_em);
   const double size_px = std::min(usual_px, kFitting * fitting_px);
-  const double foot = layout.at(0, to_double(setting.scene.view.y.low)).y;
+  const double foot = layout.at(0, to_double(context.scene.view.y.low)).y;
   const double baseline = foot + layout.line_px + (kBelowWall_em + kFigure_em) * size_px;
   const double tick_end = baseline - (kFigure_em + kBelowTick_em) * size_px;
   const double axis = std::round(tick_end - kTickLength_em * size_px);
@@ -93,10 +92,10 @@ PathItem line_between(const Point& from, const Point& to, const Stroke& stroke) 
 
 }  // namespace
 
-Drawable ruler(const Setting& setting) {
-  const Layout& layout = setting.stage;
-  const Scene& scene = setting.scene;
-  const Rows rows = rows_of(setting, room_for(setting));
+Drawable ruler(const DrawingContext& context) {
+  const Layout& layout = context.layout;
+  const Scene& scene = context.scene;
+  const Rows rows = rows_of(context, room_for(context));
   const double size_px = rows.size_px;
   const double left = to_double(std::max(scene.view.x.low, scene.system.wall_face));
   const double right = to_double(scene.view.x.high);
@@ -106,9 +105,9 @@ Drawable ruler(const Setting& setting) {
   const double end_px = scene.view.width_px - kBesideEdge_em * size_px;
   const FigureAxis axis{left, right, size_px / layout.scale, kLeastGap_em};
   const Ticks ticks =
-      with_room_for_figures(ticks_of(left, right, kLeastGap_em * axis.em), axis, setting.font);
+      with_room_for_figures(ticks_of(left, right, kLeastGap_em * axis.em), axis, context.font);
 
-  const Stroke stroke{setting.palette.muted, setting.line_px};
+  const Stroke stroke{context.palette.muted, context.line_px};
   std::vector<DrawItem> items;
   items.emplace_back(
       line_between({layout.at(left, 0).x, rows.axis}, {layout.at(right, 0).x, rows.axis}, stroke));
@@ -117,12 +116,12 @@ Drawable ruler(const Setting& setting) {
     const double x = layout.at(value, 0).x;
     items.emplace_back(line_between({x, rows.axis}, {x, rows.tick_end}, stroke));
     const std::string text = tick_text(value, ticks.step);
-    const double half_px = setting.font.width_em(text) * size_px / 2;
+    const double half_px = context.font.width_em(text) * size_px / 2;
     // There is no room for it, and beside its mark it would name another place.
     if (x - half_px < first_px || x + half_px > end_px) continue;
     ++figures;
     items.emplace_back(
-        TextItem{{}, {x - half_px, rows.baseline}, text, size_px, setting.palette.muted});
+        TextItem{{}, {x - half_px, rows.baseline}, text, size_px, context.palette.muted});
   }
   if (figures < kLeastFigures) {
     throw UsageError(

@@ -1,12 +1,13 @@
-// All diagrams, and what they are made of.
-// In: a setting and the place of the diagram. Out: a drawable.
+// All panels, and what they are made of.
+// In: a drawing context and the place of the panel. Out: a drawable.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "draw/drawable.hpp"
+#include "draw/layout.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 
@@ -18,15 +19,15 @@ struct PanelPlace {
 };
 
 /// The state as a point on a circle, and a sector for each collision.
-Drawable velocity_panel(const Setting& setting, const PanelPlace& place);
+Drawable velocity_panel(const DrawingContext& context, const PanelPlace& place);
 /// The path through the plane of both gaps.
-Drawable position_panel(const Setting& setting, const PanelPlace& place);
+Drawable position_panel(const DrawingContext& context, const PanelPlace& place);
 /// The straight line through the unfolded wedge.
-Drawable unfolded_panel(const Setting& setting, const PanelPlace& place);
+Drawable unfolded_panel(const DrawingContext& context, const PanelPlace& place);
 /// Both gaps against time.
-Drawable time_panel(const Setting& setting, const PanelPlace& place);
+Drawable time_panel(const DrawingContext& context, const PanelPlace& place);
 /// Collisions per second against time.
-Drawable rate_panel(const Setting& setting, const PanelPlace& place);
+Drawable rate_panel(const DrawingContext& context, const PanelPlace& place);
 
 /// The brief one is for diagrams too narrow for the full one.
 struct PanelTitle {
@@ -45,9 +46,9 @@ struct Circle {
 };
 
 /// A diagram's title, its items that stay, and forms for those that move.
-class PanelSheet {
+class Diagram {
  public:
-  PanelSheet(const Setting& setting, const PanelPlace& place, const PanelTitle& title);
+  Diagram(const DrawingContext& context, const PanelPlace& place, const PanelTitle& title);
 
   /// What is left below the title.
   const Rectangle& inside() const noexcept { return inside_; }
@@ -92,6 +93,42 @@ class PanelSheet {
   Rectangle inside_;
   std::vector<DrawItem> items_;
   PlateItem item_;
+};
+
+class TimeAxis {
+ public:
+  /// From the scene's beginning to its end, with its figures inside the diagram.
+  /// @param indent_em  room left of the axis
+  /// @throws UsageError if the scene ends before it begins, or its time is beyond a double.
+  TimeAxis(const DrawingContext& context, const Diagram& diagram, double indent_em);
+
+  const Span& span() const noexcept { return span_; }
+  /// The diagram without the figures below it.
+  const Rectangle& plot() const noexcept { return plot_; }
+  double bottom() const noexcept { return plot_.y + plot_.height; }
+  double x_of(double time) const noexcept { return plot_.x + (time - from_) * scale_; }
+  /// Whether a place is on the axis. Stills may show instants that are not.
+  bool shows(double x) const noexcept { return x >= plot_.x - 1 && x <= plot_.x + plot_.width + 1; }
+
+  /// Axis, ticks and figures.
+  void add_base(Diagram& diagram) const;
+  PathItem cursor(const Diagram& diagram, double x) const;
+
+ private:
+  struct Figure {
+    double x;
+    std::string text;
+    double width_px;
+  };
+
+  void place_figures(const Font& font, double em);
+
+  Span span_;
+  double from_;
+  double length_;
+  Rectangle plot_;
+  double scale_ = 1;             ///< pixels per unit of time
+  std::vector<Figure> figures_;  ///< one at each tick; its text is empty if it has no room
 };
 
 }  // namespace piblocks

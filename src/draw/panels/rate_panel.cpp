@@ -7,8 +7,6 @@
 
 #include "draw/number_text.hpp"
 #include "draw/panels/panels.hpp"
-#include "draw/panels/time_axis.hpp"
-#include "draw/ticks.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -64,20 +62,20 @@ double indent_em(const Rates& rates, const Font& font) {
 
 class RatePanel {
  public:
-  RatePanel(const Setting& setting, const PanelPlace& place)
-      : rates_(setting.log, span_of(setting.scene, setting.log)),
-        sheet_(setting, place, title_of(rates_)),
-        axis_(setting, sheet_, indent_em(rates_, setting.font)) {
+  RatePanel(const DrawingContext& context, const PanelPlace& place)
+      : rates_(context.log, span_of(context.scene, context.log)),
+        diagram_(context, place, title_of(rates_)),
+        axis_(context, diagram_, indent_em(rates_, context.font)) {
     add_bars();
-    axis_.add_base(sheet_);
+    axis_.add_base(diagram_);
     add_powers();
-    sheet_.finish();
+    diagram_.finish();
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
-    items.emplace_back(sheet_.item());
+    items.emplace_back(diagram_.item());
     const double x = axis_.x_of(to_double(shown.time));
-    if (axis_.shows(x)) items.emplace_back(axis_.cursor(sheet_, x));
+    if (axis_.shows(x)) items.emplace_back(axis_.cursor(diagram_, x));
   }
 
  private:
@@ -102,31 +100,31 @@ class RatePanel {
       points.push_back({x_of(++k), y});
     }
     points.push_back({axis_.plot().x + axis_.plot().width, axis_.bottom()});
-    sheet_.shape(std::move(points), sheet_.palette().shade, sheet_.palette().muted);
+    diagram_.shape(std::move(points), diagram_.palette().shade, diagram_.palette().muted);
   }
 
   void add_powers() {
-    const double em = sheet_.text_px();
+    const double em = diagram_.text_px();
     const double fit = std::max(1.0, axis_.plot().height / (kBetweenTicks_em * em));
     const long step = std::lround(std::ceil(double(rates_.high - rates_.low) / fit));
     for (long power = rates_.low + step; power <= rates_.high; power += step) {
       const double y = y_of(double(power));
       const double tick = axis_.plot().x - kRateTick_em * em;
-      sheet_.line({{tick, y}, {axis_.plot().x, y}}, sheet_.palette().muted);
-      sheet_.text(power_text(power), {tick - kBesideTick_em * em, y + kHalfFigure_em * em}, 1,
-                  sheet_.palette().muted);
+      diagram_.line({{tick, y}, {axis_.plot().x, y}}, diagram_.palette().muted);
+      diagram_.text(power_text(power), {tick - kBesideTick_em * em, y + kHalfFigure_em * em}, 1,
+                    diagram_.palette().muted);
     }
   }
 
   Rates rates_;
-  PanelSheet sheet_;
+  Diagram diagram_;
   TimeAxis axis_;
 };
 
 }  // namespace
 
-Drawable rate_panel(const Setting& setting, const PanelPlace& place) {
-  return RatePanel(setting, place);
+Drawable rate_panel(const DrawingContext& context, const PanelPlace& place) {
+  return RatePanel(context, place);
 }
 
 }  // namespace piblocks

@@ -1,15 +1,62 @@
-// A run over a span of time as lines that can be drawn, however many collisions it has.
-// In: a log and the span, cut into columns. Out: the corners of the motion where a column has few,
-// and elsewhere the band that blue's gap covers. Both are exact.
+// The wedge that a system moves in, and its path there over a span of time.
+// In: a system and its log. Out: gaps of states, and lines that can be drawn, however many
+// collisions there are.
 #pragma once
 
 #include <piblocks/run.hpp>
+#include <piblocks/scene.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
-#include "draw/panels/wedge.hpp"
+#include "draw/number_text.hpp"
 
 namespace piblocks {
+
+struct GapPoint {
+  double y1 = 0;
+  double y2 = 0;
+};
+
+struct Wedge {
+  explicit Wedge(const BlockSystem& system)
+      : blue_offset(to_double(system.wall_face + system.blue.width / 2)),
+        red_offset(to_double(system.wall_face + system.blue.width + system.red.width / 2)),
+        sine(root_of(system.blue.mass / (system.blue.mass + system.red.mass)).get_d()),
+        cosine(root_of(system.red.mass / (system.blue.mass + system.red.mass)).get_d()),
+        theta(std::atan2(sine, cosine)),
+        tangent(root_magnitude_of(system.blue.mass / system.red.mass)) {}
+
+  GapPoint gaps_of(const Motion& blue, const Motion& red) const {
+    return {blue.position - blue_offset, red.position - red_offset};
+  }
+  GapPoint gaps_of(const BlockState& state) const { return gaps_of(state.blue, state.red); }
+
+  /// So many times the wedge angle, which alone may be below the range of a double.
+  double angle(const Magnitude& times) const {
+    if (theta > kNarrow) return theta * to_double(times);
+    return to_double(
+        Magnitude{tangent.mantissa * times.mantissa, tangent.exponent + times.exponent});
+  }
+  double log10_theta() const {
+    if (theta > kNarrow) return std::log10(theta);
+    return std::log10(tangent.mantissa) + double(tangent.exponent);
+  }
+
+  double blue_offset;
+  double red_offset;
+  // Of the wedge angle theta = atan(sqrt(m_blue / m_red)). Sine and cosine are square roots of the
+  // blocks' shares of the mass, which unlike their ratio are never too large for a double.
+  double sine;
+  double cosine;
+  double theta;  ///< 0 where it is below the range of a double
+  Magnitude tangent;
+
+ private:
+  /// Below this, atan(s) = s with a relative error of s^2/3.
+  static constexpr double kNarrow = 1e-7;
+};
 
 struct TimedGaps {
   double time = 0;

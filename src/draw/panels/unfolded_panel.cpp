@@ -6,7 +6,7 @@
 
 #include "draw/number_text.hpp"
 #include "draw/panels/panels.hpp"
-#include "draw/panels/wedge.hpp"
+#include "draw/panels/trajectory.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -38,32 +38,33 @@ double angle_between(const Point& from, const Point& to) {
 /// and the path is a straight line, which crosses a ray at every collision.
 class UnfoldedPanel {
  public:
-  UnfoldedPanel(const Setting& setting, const PanelPlace& place)
-      : wedge_(setting.scene.system),
-        sheet_(setting, place, {"Unfolded: a straight line", "Unfolded"}) {
-    const BlockSystem& system = setting.scene.system;
+  UnfoldedPanel(const DrawingContext& context, const PanelPlace& place)
+      : wedge_(context.scene.system),
+        diagram_(context, place, {"Unfolded: a straight line", "Unfolded"}) {
+    const BlockSystem& system = context.scene.system;
     start_ = {wedge_.cosine * to_double(system.blue_gap() + system.blocks_gap()),
               wedge_.sine * to_double(system.blue_gap())};
     velocity_ = {wedge_.cosine * to_double(system.red.velocity),
                  wedge_.sine * to_double(system.blue.velocity)};
-    const Span span = span_of(setting.scene, setting.log);
+    const Span span = span_of(context.scene, context.log);
     from_ = plane_at(to_double(span.from));
     const Point to = plane_at(to_double(span.to));
     most_ = std::max({std::hypot(from_.x, from_.y), std::hypot(to.x, to.y), 1e-300});
     tilt_to_hold(to);
     place_half_plane();
     add_rays();
-    sheet_.line({at(from_), at(to)}, sheet_.palette().muted, 1, 4);
-    sheet_.finish();
+    diagram_.line({at(from_), at(to)}, diagram_.palette().muted, 1, 4);
+    diagram_.finish();
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
-    items.emplace_back(sheet_.item());
+    items.emplace_back(diagram_.item());
     const Point present = plane_at(to_double(shown.time));
     if (std::hypot(present.x, present.y) > most_ * (1 + 1e-9)) return;
     if (stride_exponent_ == 0) add_present_wedge(present, items);
-    items.emplace_back(sheet_.moving_line(1, {at(from_), at(present)}, sheet_.palette().accent, 2));
-    items.emplace_back(sheet_.dot(2, at(present), sheet_.palette().accent));
+    items.emplace_back(
+        diagram_.moving_line(1, {at(from_), at(present)}, diagram_.palette().accent, 2));
+    items.emplace_back(diagram_.dot(2, at(present), diagram_.palette().accent));
   }
 
  private:
@@ -88,8 +89,8 @@ class UnfoldedPanel {
   }
 
   void place_half_plane() {
-    const Rectangle& inside = sheet_.inside();
-    const double height = inside.height - kBelowWedge_em * sheet_.text_px();
+    const Rectangle& inside = diagram_.inside();
+    const double height = inside.height - kBelowWedge_em * diagram_.text_px();
     rim_.radius = std::min(inside.width / 2, height);
     scale_ = rim_.radius / most_;
     rim_.centre = {inside.x + inside.width / 2, inside.y + (height + rim_.radius) / 2};
@@ -104,16 +105,16 @@ class UnfoldedPanel {
       rays.push_back(rim_.centre);
       rays.push_back(rim_.at(tilt_ + k * step));
     }
-    sheet_.line(std::move(rays), sheet_.palette().grid);
+    diagram_.line(std::move(rays), diagram_.palette().grid);
     std::vector<Point> rim;
     for (double angle = 0; angle < std::numbers::pi; angle += kRimStep)
       rim.push_back(rim_.at(angle));
     rim.push_back(rim_.at(std::numbers::pi));
-    sheet_.shape(std::move(rim), std::nullopt, sheet_.palette().muted);
+    diagram_.shape(std::move(rim), std::nullopt, diagram_.palette().muted);
     if (stride_exponent_ > 0) {
-      sheet_.text(fmt::format("1 ray in {}", short_text(Rational(power(10, stride_exponent_)))),
-                  {rim_.centre.x, rim_.centre.y + 1.2 * sheet_.text_px()}, 0.5,
-                  sheet_.palette().muted);
+      diagram_.text(fmt::format("1 ray in {}", short_text(Rational(power(10, stride_exponent_)))),
+                    {rim_.centre.x, rim_.centre.y + 1.2 * diagram_.text_px()}, 0.5,
+                    diagram_.palette().muted);
     }
   }
 
@@ -123,12 +124,12 @@ class UnfoldedPanel {
     const double end = std::min(tilt_ + (k + 1) * wedge_.theta, std::numbers::pi);
     std::vector<Point> outline = rim_.arc(begin, end);
     outline.insert(outline.begin(), rim_.centre);
-    items.emplace_back(
-        sheet_.moving_shape(0, std::move(outline), sheet_.palette().shade, sheet_.palette().muted));
+    items.emplace_back(diagram_.moving_shape(0, std::move(outline), diagram_.palette().shade,
+                                             diagram_.palette().muted));
   }
 
   Wedge wedge_;
-  PanelSheet sheet_;
+  Diagram diagram_;
   Point start_;
   Point velocity_;
   Point from_;
@@ -142,8 +143,8 @@ class UnfoldedPanel {
 
 }  // namespace
 
-Drawable unfolded_panel(const Setting& setting, const PanelPlace& place) {
-  return UnfoldedPanel(setting, place);
+Drawable unfolded_panel(const DrawingContext& context, const PanelPlace& place) {
+  return UnfoldedPanel(context, place);
 }
 
 }  // namespace piblocks

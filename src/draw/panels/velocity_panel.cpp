@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "draw/panels/panels.hpp"
-#include "draw/panels/wedge.hpp"
+#include "draw/panels/trajectory.hpp"
 
 namespace piblocks {
 namespace {
@@ -25,9 +25,9 @@ PanelTitle title_of(const Palette& palette) {
 /// none fits any more.
 class VelocityPanel {
  public:
-  VelocityPanel(const Setting& setting, const PanelPlace& place)
-      : sheet_(setting, place, title_of(setting.palette)), wedge_(setting.scene.system) {
-    const BlockSystem& system = setting.scene.system;
+  VelocityPanel(const DrawingContext& context, const PanelPlace& place)
+      : diagram_(context, place, title_of(context.palette)), wedge_(context.scene.system) {
+    const BlockSystem& system = context.scene.system;
     const Rational energy = twice_energy(system);
     if (energy > 0) {
       moves_ = true;
@@ -36,18 +36,18 @@ class VelocityPanel {
       const Point start = point_of(to_double(system.blue.velocity), to_double(system.red.velocity));
       start_angle_ = std::abs(std::atan2(start.y, start.x));
     }
-    const Rectangle& inside = sheet_.inside();
-    const double em = sheet_.text_px();
+    const Rectangle& inside = diagram_.inside();
+    const double em = diagram_.text_px();
     circle_ = {{inside.x + inside.width / 2, inside.y + inside.height / 2},
                std::min(inside.width, inside.height) / 2 - kMargin_em * em};
-    place_sectors(setting.log);
+    place_sectors(context.log);
     add_axes();
     if (moves_) add_rays();
-    sheet_.finish();
+    diagram_.finish();
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
-    items.emplace_back(sheet_.item());
+    items.emplace_back(diagram_.item());
     if (!moves_) return;
     const Point velocity = point_of(shown.state.blue.velocity, shown.state.red.velocity);
     // Below the axis, sectors are lit up to the point. Above it, they are one collision behind
@@ -60,8 +60,9 @@ class VelocityPanel {
     if (rays_.plate) items.emplace_back(rays_);
     const Point at{circle_.centre.x + circle_.radius * velocity.x,
                    circle_.centre.y - circle_.radius * velocity.y};
-    items.emplace_back(sheet_.moving_line(3, {circle_.centre, at}, sheet_.palette().accent, 1.5));
-    items.emplace_back(sheet_.dot(4, at, sheet_.palette().accent));
+    items.emplace_back(
+        diagram_.moving_line(3, {circle_.centre, at}, diagram_.palette().accent, 1.5));
+    items.emplace_back(diagram_.dot(4, at, diagram_.palette().accent));
   }
 
  private:
@@ -91,16 +92,16 @@ class VelocityPanel {
   }
 
   void add_axes() {
-    const Palette& palette = sheet_.palette();
-    const double em = sheet_.text_px();
+    const Palette& palette = diagram_.palette();
+    const double em = diagram_.text_px();
     const double reach = circle_.radius + 0.5 * em;
-    sheet_.line({{circle_.centre.x - reach, circle_.centre.y},
-                 {circle_.centre.x + reach, circle_.centre.y}},
-                palette.grid);
-    sheet_.line({{circle_.centre.x, circle_.centre.y - reach},
-                 {circle_.centre.x, circle_.centre.y + reach}},
-                palette.grid);
-    sheet_.shape(circle_.arc(0, 2 * std::numbers::pi), std::nullopt, palette.muted);
+    diagram_.line({{circle_.centre.x - reach, circle_.centre.y},
+                   {circle_.centre.x + reach, circle_.centre.y}},
+                  palette.grid);
+    diagram_.line({{circle_.centre.x, circle_.centre.y - reach},
+                   {circle_.centre.x, circle_.centre.y + reach}},
+                  palette.grid);
+    diagram_.shape(circle_.arc(0, 2 * std::numbers::pi), std::nullopt, palette.muted);
   }
 
   /// Rays between all sectors, lit or not, over what is lit. They are painted once.
@@ -112,11 +113,11 @@ class VelocityPanel {
       const double end = start_angle_ - side.swept - wedge_.theta / 2;
       for (double angle = start_angle_; angle > end; angle -= 2 * wedge_.theta) {
         const double at = side.sign * std::max(0.0, angle);
-        plate.items.emplace_back(sheet_.moving_line(
-            2, {Circle{circle_.centre, inner}.at(at), circle_.at(at)}, sheet_.palette().grid));
+        plate.items.emplace_back(diagram_.moving_line(
+            2, {Circle{circle_.centre, inner}.at(at), circle_.at(at)}, diagram_.palette().grid));
       }
     }
-    rays_ = {sheet_.moving(2), sheet_.item().bounds,
+    rays_ = {diagram_.moving(2), diagram_.item().bounds,
              std::make_shared<const Plate>(std::move(plate))};
   }
 
@@ -126,10 +127,10 @@ class VelocityPanel {
     if (end > start_angle_ - wedge_.theta / 2) return;
     std::vector<Point> outline = circle_.arc(side.sign * start_angle_, side.sign * end);
     outline.push_back(circle_.centre);
-    items.emplace_back(sheet_.moving_shape(n, std::move(outline), sheet_.palette().shade));
+    items.emplace_back(diagram_.moving_shape(n, std::move(outline), diagram_.palette().shade));
   }
 
-  PanelSheet sheet_;
+  Diagram diagram_;
   Wedge wedge_;
   bool moves_ = false;
   // From a velocity to its part of the radius; they may be beyond the range of a double.
@@ -145,8 +146,8 @@ class VelocityPanel {
 
 }  // namespace
 
-Drawable velocity_panel(const Setting& setting, const PanelPlace& place) {
-  return VelocityPanel(setting, place);
+Drawable velocity_panel(const DrawingContext& context, const PanelPlace& place) {
+  return VelocityPanel(context, place);
 }
 
 }  // namespace piblocks

@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <new>
 
-#include "media/libav/module_functions.hpp"
+#include "media/libav/av_module.hpp"
 
 extern "C" {
 #include <libavutil/log.h>

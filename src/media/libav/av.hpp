@@ -3,17 +3,17 @@
 // Only this folder includes libav. Pass AVFrame& and the like onward, never the owners.
 #pragma once
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/hash.h>
-}
-
 #include <memory>
 #include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/hash.h>
+}
 
 namespace piblocks {
 
@@ -73,5 +73,9 @@ void silence_av();
 std::string version_text(unsigned number);
 /// "giflib 5.2.1"
 std::string giflib_version();
+
+/// False for other kinds of files, for a file without its size, such as a live stream, and for a
+/// pipe.
+bool is_cut_off(const std::string& path);
 
 }  // namespace piblocks

@@ -83,9 +83,7 @@ std::unique_ptr<FrameReader> read_video(const std::string& path, const std::stop
   return av_module().read_video(path, stop);
 }
 
-std::string hash_of_bytes(std::span<const std::uint8_t> bytes) {
-  return av_module().hash_of_bytes(bytes);
-}
+std::string hash_of_bytes(ByteSpan bytes) { return av_module().hash_of_bytes(bytes); }
 
 std::vector<std::string> encoder_names(EncoderKind kind) { return av_module().encoder_names(kind); }
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "media/output/output_request.hpp"
+#include "media/output/output_kinds.hpp"
 #include "media/pixels/frame_reader.hpp"
 
 namespace piblocks {
@@ -21,14 +21,14 @@ namespace piblocks {
 struct AvModule {
   const char* version;  ///< kVersion of the build; if it is another, nothing else may be touched
   // output_kinds.hpp
-  std::unique_ptr<Output> (*mp4_output)(const OutputRequest& request);
-  std::unique_ptr<Output> (*mov_output)(const OutputRequest& request);
-  std::unique_ptr<Output> (*webm_output)(const OutputRequest& request);
-  std::unique_ptr<Output> (*gif_output)(const OutputRequest& request);
-  std::unique_ptr<Output> (*framehash_output)(const OutputRequest& request);
+  Output (*mp4_output)(const OutputRequest& request);
+  Output (*mov_output)(const OutputRequest& request);
+  Output (*webm_output)(const OutputRequest& request);
+  Output (*gif_output)(const OutputRequest& request);
+  Output (*framehash_output)(const OutputRequest& request);
   // The module's sides of the functions below, and of media_library_versions().
   std::unique_ptr<FrameReader> (*read_video)(const std::string& path, const std::stop_token& stop);
-  std::string (*hash_of_bytes)(std::span<const std::uint8_t> bytes);
+  std::string (*hash_of_bytes)(ByteSpan bytes);
   std::vector<std::string> (*encoder_names)(EncoderKind kind);
   std::vector<std::string> (*library_versions)();
 };
@@ -51,6 +51,16 @@ std::unique_ptr<FrameReader> read_video(const std::string& path, const std::stop
 
 /// 32 hexadecimal digits that tell pictures apart, the same on every machine. No protection against
 /// forgery.
-std::string hash_of_bytes(std::span<const std::uint8_t> bytes);
+std::string hash_of_bytes(ByteSpan bytes);
+
+/// read_video()
+std::unique_ptr<FrameReader> decode_video_file(const std::string& path,
+                                               const std::stop_token& stop = {});
+/// hash_of_bytes()
+std::string compute_hash(ByteSpan bytes);
+/// encoder_names()
+std::vector<std::string> usable_encoders(EncoderKind kind);
+/// Name and version of each library that the module needs.
+std::vector<std::string> av_library_versions();
 
 }  // namespace piblocks

@@ -3,7 +3,6 @@
 
 #include "media/libav/av.hpp"
 #include "media/libav/av_module.hpp"
-#include "media/libav/module_functions.hpp"
 #include "media/output/output_kinds.hpp"
 
 extern "C" const piblocks::AvModule* piblocks_av_module() {

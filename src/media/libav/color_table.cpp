@@ -10,8 +10,7 @@ namespace {
 int distance(std::uint32_t a, std::uint32_t b) {
   int sum = 0;
   for (const int shift : {0, 8, 16}) {
-    const int difference =
-        static_cast<int>(a >> shift & 0xff) - static_cast<int>(b >> shift & 0xff);
+    const int difference = int(a >> shift & 0xff) - int(b >> shift & 0xff);
     sum += difference * difference;
   }
   return sum;
@@ -39,9 +38,7 @@ void ColorTable::choose(std::size_t room) {
   for (const auto& [color, count] : counts_) found.emplace_back(-count, color);
   std::ranges::sort(found);
   found.resize(std::min(room, found.size()));
-  for (const auto& entry : found) {
-    colors_.push_back(entry.second);
-  }
+  for (const auto& entry : found) colors_.push_back(entry.second);
   std::ranges::sort(colors_);
   for (auto& [color, place] : counts_) {
     const auto at = std::ranges::lower_bound(colors_, color);
@@ -59,7 +56,7 @@ std::uint8_t ColorTable::index_of(std::uint32_t color) {
     last_ = &counts_.at(color);
     last_color_ = color;
   }
-  return static_cast<std::uint8_t>(*last_);
+  return std::uint8_t(*last_);
 }
 
 }  // namespace piblocks

@@ -1,10 +1,10 @@
-#include "media/libav/cut_off.hpp"
-
 #include <bit>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <optional>
+
+#include "media/libav/av.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;
@@ -19,14 +19,13 @@ constexpr std::uint32_t kSegment = 0x18538067;
 std::optional<std::uint64_t> ebml_number(std::istream& file, bool with_mark) {
   const int first = file.get();
   if (first <= 0) return std::nullopt;
-  const int others = std::countl_zero(static_cast<std::uint8_t>(first));
-  const auto mark = static_cast<std::uint64_t>(0x80 >> others);
-  std::uint64_t number = static_cast<std::uint64_t>(first) & (with_mark ? 0xff : mark - 1);
-  std::uint64_t unknown = mark - 1;
+  const int others = std::countl_zero(std::uint8_t(first));
+  const auto mark = std::uint64_t(0x80 >> others);
+  std::uint64_t number = std::uint64_t(first) & (with_mark ? 0xff : mark - 1);
   for (int i = 0; i < others; ++i) {
-    number = number << 8 | static_cast<std::uint8_t>(file.get());
-    unknown = unknown << 8 | 0xff;
+    number = number << 8 | std::uint8_t(file.get());
   }
+  const std::uint64_t unknown = (std::uint64_t{1} << (7 * (others + 1))) - 1;
   if (!file || (!with_mark && number == unknown)) return std::nullopt;
   return number;
 }
@@ -38,9 +37,9 @@ bool is_cut_matroska(std::istream& file, std::uint64_t file_bytes) {
     const auto bytes = ebml_number(file, false);
     const std::int64_t begin = file.tellg();
     if (!id || !bytes || begin < 0) return false;
-    const bool goes_on = *bytes > file_bytes - static_cast<std::uint64_t>(begin);
+    const bool goes_on = *bytes > file_bytes - std::uint64_t(begin);
     if (goes_on || *id == kSegment) return goes_on;
-    file.seekg(static_cast<std::int64_t>(*bytes), std::ios::cur);
+    file.seekg(std::int64_t(*bytes), std::ios::cur);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "media/libav/av.hpp"
-#include "media/libav/module_functions.hpp"
+#include "media/libav/av_module.hpp"
 #include "media/output/output_kinds.hpp"
 #include "media/output/simple_output.hpp"
 #include "media/pixels/rgb24.hpp"
@@ -32,11 +32,11 @@ AvHashPtr allocate_hash() {
   return AvHashPtr(allocated);
 }
 
-std::string digits_of(AVHashContext& hash, std::span<const std::uint8_t> bytes) {
+std::string digits_of(AVHashContext& hash, ByteSpan bytes) {
   av_hash_init(&hash);
   av_hash_update(&hash, bytes.data(), bytes.size());
   std::array<std::uint8_t, 2 * AV_HASH_MAX_SIZE + 1> text{};
-  av_hash_final_hex(&hash, text.data(), static_cast<int>(text.size()));
+  av_hash_final_hex(&hash, text.data(), int(text.size()));
   return reinterpret_cast<const char*>(text.data());
 }
 
@@ -52,13 +52,13 @@ class FramehashEncoder final : public PacketPerFrameEncoder {
 
  private:
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override;
-  std::vector<std::uint8_t> encode_picture(std::int64_t number, bool is_first) override;
+  Bytes encode_picture(std::int64_t number, bool is_first) override;
 
   std::string file_header_;
   AvHashPtr hash_;
   std::size_t pixel_bytes_;
   std::size_t row_bytes_;
-  std::vector<std::uint8_t> samples_;
+  Bytes samples_;
 };
 
 void FramehashEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
@@ -70,7 +70,7 @@ void FramehashEncoder::convert(const ImageView& frame, std::span<const PixelRect
   }
 }
 
-std::vector<std::uint8_t> FramehashEncoder::encode_picture(std::int64_t number, bool /*is_first*/) {
+Bytes FramehashEncoder::encode_picture(std::int64_t number, bool /*is_first*/) {
   const std::string text = (number == 0 ? file_header_ : "") +
                            fmt::format("0, {0:10}, {0:10}, {1:8}, {2:8}, {3}\n", number, 1,
                                        samples_.size(), digits_of(*hash_, samples_));
@@ -79,11 +79,9 @@ std::vector<std::uint8_t> FramehashEncoder::encode_picture(std::int64_t number, 
 
 }  // namespace
 
-std::string compute_hash(std::span<const std::uint8_t> bytes) {
-  return digits_of(*allocate_hash(), bytes);
-}
+std::string compute_hash(ByteSpan bytes) { return digits_of(*allocate_hash(), bytes); }
 
-std::unique_ptr<Output> framehash_output(const OutputRequest& request) {
+Output framehash_output(const OutputRequest& request) {
   constexpr std::int64_t kFramesPerChunk = 32;
   return stream_output<FramehashEncoder>(request, kFramesPerChunk,
                                          std::string("framehash by ") + kHash);

@@ -20,8 +20,6 @@
 namespace piblocks {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
 /// Delays are whole hundredths of a second, and viewers show less than two as ten.
 constexpr int kMaxFrameRate_gif = 50;
 constexpr int kMaxDelay_cs = 65535;
@@ -41,89 +39,53 @@ void check_gif(int code, const char* operation) {
 struct ColorMapDeleter {
   void operator()(ColorMapObject* map) const noexcept { GifFreeMapObject(map); }
 };
+using ColorMapPtr = std::unique_ptr<ColorMapObject, ColorMapDeleter>;
 
 /// giflib wants a power of two of colours, at least two.
-std::unique_ptr<ColorMapObject, ColorMapDeleter> color_map(const std::vector<std::uint32_t>& colors,
-                                                           std::size_t count) {
+ColorMapPtr color_map(const std::vector<std::uint32_t>& colors, std::size_t count) {
   std::array<GifColorType, kMaxColors> table{};
   for (std::size_t i = 0; i < colors.size(); ++i) {
     table.at(i) = {static_cast<GifByteType>(colors[i] >> 16),
                    static_cast<GifByteType>(colors[i] >> 8), static_cast<GifByteType>(colors[i])};
   }
-  const auto size = static_cast<int>(std::bit_ceil(std::max<std::size_t>(2, count)));
-  std::unique_ptr<ColorMapObject, ColorMapDeleter> map(GifMakeMapObject(size, table.data()));
+  const auto size = int(std::bit_ceil(std::max<std::size_t>(2, count)));
+  ColorMapPtr map(GifMakeMapObject(size, table.data()));
   if (!map) throw std::bad_alloc();
   return map;
 }
 
-/// giflib's writer, into memory. Not movable: giflib has its address.
-class GifWriter {
- public:
-  explicit GifWriter(const VideoFormat& format);
-  ~GifWriter() { EGifCloseFile(file_, nullptr); }
-  GifWriter(const GifWriter&) = delete;
-  GifWriter& operator=(const GifWriter&) = delete;
-
-  GifFileType& file() noexcept { return *file_; }
-  /// What was written since the last call.
-  Bytes take() { return std::exchange(bytes_, {}); }
-
- private:
-  void put_header(const VideoFormat& format);
-
-  Bytes bytes_;
-  GifFileType* file_;
-};
-
 /// giflib calls this; no exception may pass through it.
-int append_bytes(GifFileType* file, const GifByteType* data, int count) {
-  auto& bytes = *static_cast<Bytes*>(file->UserData);
+int append_to_bytes(GifFileType* file, const GifByteType* data, int count) {
   try {
-    bytes.insert(bytes.end(), data, data + count);
+    append(*static_cast<Bytes*>(file->UserData), std::span(data, std::size_t(count)));
   } catch (const std::bad_alloc&) {
     return 0;
   }
   return count;
 }
 
-GifWriter::GifWriter(const VideoFormat& format) : file_(EGifOpen(&bytes_, append_bytes, nullptr)) {
-  if (file_ == nullptr) throw std::bad_alloc();
-  try {
-    put_header(format);
-  } catch (...) {
-    EGifCloseFile(file_, nullptr);
-    throw;
-  }
-}
-
-/// The screen, and Netscape's extension, which every viewer knows: repeat for ever.
-void GifWriter::put_header(const VideoFormat& format) {
-  constexpr int kColorResolution_bits = 8;
-  constexpr std::array<std::uint8_t, 3> kForEver = {1, 0, 0};
-  const auto check = [](int code) { check_gif(code, "write the header"); };
-  EGifSetGifVersion(file_, true);
-  check(EGifPutScreenDesc(file_, format.width_px, format.height_px, kColorResolution_bits, 0,
-                          nullptr));
-  check(EGifPutExtensionLeader(file_, APPLICATION_EXT_FUNC_CODE));
-  check(EGifPutExtensionBlock(file_, 11, "NETSCAPE2.0"));
-  check(EGifPutExtensionBlock(file_, kForEver.size(), kForEver.data()));
-  check(EGifPutExtensionTrailer(file_));
-}
+struct GifCloser {
+  void operator()(GifFileType* file) const noexcept { EGifCloseFile(file, nullptr); }
+};
 
 class GifEncoder final : public PacketPerFrameEncoder {
  public:
   explicit GifEncoder(const VideoFormat& format)
       : PacketPerFrameEncoder(format),
         frame_rate_(format.frame_rate),
-        picture_(format.width_px, format.height_px, ChangedPicture::Marks::changed_pixels),
-        writer_(format),
-        header_(writer_.take()) {}
+        picture_(format.width_px, format.height_px),
+        file_(EGifOpen(&bytes_, append_to_bytes, nullptr)) {
+    if (!file_) throw std::bad_alloc();
+    put_header(format);
+    header_ = std::exchange(bytes_, {});
+  }
 
  private:
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
     picture_.take(frame, rects);
   }
   Bytes encode_picture(std::int64_t number, bool is_first) override;
+  void put_header(const VideoFormat& format);
   bool choose_colors(const PixelRect& rect);
   void put_control(std::int64_t number, int transparent);
   void put_image(const PixelRect& rect, int transparent);
@@ -132,12 +94,28 @@ class GifEncoder final : public PacketPerFrameEncoder {
 
   Rational frame_rate_;
   ChangedPicture picture_;
-  GifWriter writer_;
+  Bytes bytes_;  // written since the last packet
+  std::unique_ptr<GifFileType, GifCloser> file_;
   Bytes header_;
   ColorTable colors_;
   bool is_whole_ = true;  // the frame that is being encoded
   Bytes row_;
 };
+
+/// The screen, and Netscape's extension, which every viewer knows: repeat for ever.
+void GifEncoder::put_header(const VideoFormat& format) {
+  constexpr int kColorResolution_bits = 8;
+  constexpr std::array<std::uint8_t, 3> kForEver = {1, 0, 0};
+  const auto check = [](int code) { check_gif(code, "write the header"); };
+  GifFileType* const file = file_.get();
+  EGifSetGifVersion(file, true);
+  check(EGifPutScreenDesc(file, format.width_px, format.height_px, kColorResolution_bits, 0,
+                          nullptr));
+  check(EGifPutExtensionLeader(file, APPLICATION_EXT_FUNC_CODE));
+  check(EGifPutExtensionBlock(file, 11, "NETSCAPE2.0"));
+  check(EGifPutExtensionBlock(file, kForEver.size(), kForEver.data()));
+  check(EGifPutExtensionTrailer(file));
+}
 
 /// Chooses colours for the pixels to be written. @return whether other pixels are left out.
 bool GifEncoder::choose_colors(const PixelRect& rect) {
@@ -161,30 +139,27 @@ Bytes GifEncoder::encode_picture(std::int64_t number, bool is_first) {
   is_whole_ = is_first;
   const PixelRect rect = is_whole_ ? picture_.whole() : picture_.changed();
   const bool has_others = choose_colors(rect);
-  const int transparent =
-      has_others ? static_cast<int>(colors_.colors().size()) : NO_TRANSPARENT_COLOR;
+  const int transparent = has_others ? int(colors_.colors().size()) : NO_TRANSPARENT_COLOR;
   put_control(number, transparent);
   put_image(rect, transparent);
   picture_.settle();
-  Bytes bytes = writer_.take();
-  if (number == 0) bytes.insert(bytes.begin(), header_.begin(), header_.end());
-  return bytes;
+  if (number == 0) bytes_.insert(bytes_.begin(), header_.begin(), header_.end());
+  return std::exchange(bytes_, {});
 }
 
 void GifEncoder::put_control(std::int64_t number, int transparent) {
   const Integer delay = time_cs(number + 1, frame_rate_) - time_cs(number, frame_rate_);
-  const GraphicsControlBlock control = {DISPOSE_DO_NOT, false, static_cast<int>(delay.get_si()),
-                                        transparent};
+  const GraphicsControlBlock control = {DISPOSE_DO_NOT, false, int(delay.get_si()), transparent};
   std::array<GifByteType, 4> block{};
   EGifGCBToExtension(&control, block.data());
-  check_gif(EGifPutExtension(&writer_.file(), GRAPHICS_EXT_FUNC_CODE, block.size(), block.data()),
+  check_gif(EGifPutExtension(file_.get(), GRAPHICS_EXT_FUNC_CODE, block.size(), block.data()),
             "write a frame");
 }
 
 void GifEncoder::put_image(const PixelRect& rect, int transparent) {
   const std::size_t colors = colors_.colors().size() + (transparent >= 0 ? 1 : 0);
   const auto map = color_map(colors_.colors(), colors);
-  check_gif(EGifPutImageDesc(&writer_.file(), rect.x_px, rect.y_px, rect.width_px, rect.height_px,
+  check_gif(EGifPutImageDesc(file_.get(), rect.x_px, rect.y_px, rect.width_px, rect.height_px,
                              false, map.get()),
             "write a frame");
   row_.resize(std::size_t(rect.width_px));
@@ -192,10 +167,10 @@ void GifEncoder::put_image(const PixelRect& rect, int transparent) {
     const std::uint32_t* const pixels = picture_.row(y);
     for (int i = 0; i < rect.width_px; ++i) {
       const int x = rect.x_px + i;
-      row_[std::size_t(i)] = is_left_out(x, y) ? static_cast<std::uint8_t>(transparent)
-                                               : colors_.index_of(pixels[x] & 0xffffff);
+      row_[std::size_t(i)] =
+          is_left_out(x, y) ? std::uint8_t(transparent) : colors_.index_of(pixels[x] & 0xffffff);
     }
-    check_gif(EGifPutLine(&writer_.file(), row_.data(), rect.width_px), "write a frame");
+    check_gif(EGifPutLine(file_.get(), row_.data(), rect.width_px), "write a frame");
   }
 }
 
@@ -214,7 +189,7 @@ std::string frame_rate_problem(const Rational& rate) {
 
 }  // namespace
 
-std::unique_ptr<Output> gif_output(const OutputRequest& request) {
+Output gif_output(const OutputRequest& request) {
   constexpr std::int64_t kFramesPerChunk = 50;  // the first of them whole
   const std::string problem = frame_rate_problem(request.format.frame_rate);
   if (!problem.empty()) throw UsageError(problem);

@@ -7,7 +7,121 @@
 #include <new>
 #include <utility>
 
+#include "media/libav/encoder_setup.hpp"
+
 namespace piblocks {
+namespace {
+
+constexpr int kChannels = 2;
+
+const AVCodec* find(const SoundCodec& codec) {
+  const AVCodec* const found = avcodec_find_encoder_by_name(codec.name);
+  if (found != nullptr) return found;
+  throw UsageError(fmt::format(
+      "sound: libavcodec has no encoder '{}'; leave the sound out, or write *.wav", codec.name));
+}
+
+class SoundPackets final : public PacketSource {
+ public:
+  SoundPackets(AvCodecContextPtr context, SampleSource& samples)
+      : context_(std::move(context)),
+        samples_(samples),
+        frame_(own_av<AvFramePtr>(av_frame_alloc(), "frame")),
+        packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")),
+        block_(std::size_t(context_->frame_size) * kChannels) {}
+
+  std::optional<Packet> next() override {
+    int code = 0;
+    while ((code = avcodec_receive_packet(context_.get(), packet_.get())) == AVERROR(EAGAIN)) {
+      send_samples();
+    }
+    if (code == AVERROR_EOF) return std::nullopt;
+    check_av(code, "encode with", context_->codec->name);
+    const std::uint8_t* const bytes = packet_->data;
+    return Packet{
+        .bytes = {bytes, bytes + packet_->size}, .pts = packet_->pts, .dts = packet_->pts};
+  }
+
+ private:
+  void send_samples() {
+    const std::size_t count = samples_.read(block_);
+    if (count == 0) {
+      check_av(avcodec_send_frame(context_.get(), nullptr), "encode with", context_->codec->name);
+      return;
+    }
+    av_frame_unref(frame_.get());
+    frame_->format = context_->sample_fmt;
+    frame_->nb_samples = int(count);
+    frame_->sample_rate = context_->sample_rate;
+    check_av(av_channel_layout_copy(&frame_->ch_layout, &context_->ch_layout), "describe", "sound");
+    check_av(av_frame_get_buffer(frame_.get(), 0), "allocate", "sound");
+    if (context_->sample_fmt == AV_SAMPLE_FMT_FLT) {
+      std::copy_n(block_.begin(), count * kChannels, reinterpret_cast<float*>(frame_->data[0]));
+    } else {
+      for (std::size_t i = 0; i < count * kChannels; ++i) {
+        reinterpret_cast<float*>(frame_->data[i % kChannels])[i / kChannels] = block_[i];
+      }
+    }
+    frame_->pts = next_;
+    next_ += std::int64_t(count);
+    check_av(avcodec_send_frame(context_.get(), frame_.get()), "encode with",
+             context_->codec->name);
+  }
+
+  AvCodecContextPtr context_;
+  SampleSource& samples_;
+  AvFramePtr frame_;
+  AvPacketPtr packet_;
+  std::vector<float> block_;
+  std::int64_t next_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> usable_sound_encoders() {
+  std::vector<std::string> names;
+  for (const SoundCodec& codec : {kAac, kOpus}) {
+    if (avcodec_find_encoder_by_name(codec.name) != nullptr) names.emplace_back(codec.name);
+  }
+  return names;
+}
+
+SoundEncoder::SoundEncoder(const SoundCodec& codec, const SoundFormat& format)
+    : settings_(codec),
+      format_(format),
+      codec_(find(codec)),
+      parameters_(own_av<AvParametersPtr>(avcodec_parameters_alloc(), "parameters")) {
+  const AvCodecContextPtr context = open();
+  check_av(avcodec_parameters_from_context(parameters_.get(), context.get()), "describe",
+           codec_->name);
+}
+
+AvCodecContextPtr SoundEncoder::open() const {
+  auto context = own_av<AvCodecContextPtr>(avcodec_alloc_context3(codec_), codec_->name);
+  context->sample_rate = format_.rate_hz;
+  // libopus takes interleaved samples, others one plane for each channel.
+  context->sample_fmt = codec_->id == AV_CODEC_ID_OPUS ? AV_SAMPLE_FMT_FLT : AV_SAMPLE_FMT_FLTP;
+  av_channel_layout_default(&context->ch_layout, kChannels);
+  context->bit_rate = settings_.bit_rate;
+  if (settings_.option != nullptr) {
+    set_option(*context, settings_.option, settings_.value);
+  }
+  context->time_base = {1, format_.rate_hz};
+  context->thread_count = 1;
+  // Leaves the library's version out of the stream.
+  context->flags |= AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_BITEXACT;
+  check_av(avcodec_open2(context.get(), codec_, nullptr), "open encoder", codec_->name);
+  return context;
+}
+
+std::string SoundEncoder::signature() const {
+  return fmt::format("{} at {} bit/s, libavcodec {}", codec_->name, settings_.bit_rate,
+                     version_text(avcodec_version()));
+}
+
+std::unique_ptr<PacketSource> SoundEncoder::encode(SampleSource& samples) const {
+  return std::make_unique<SoundPackets>(open(), samples);
+}
 
 SoundStream::SoundStream(const SoundEncoder& encoder, AVFormatContext& muxer, bool from_zero,
                          std::string name)
@@ -43,7 +157,7 @@ void SoundStream::write_all() {
 void SoundStream::write() {
   av_packet_unref(packet_.get());
   packet_->data = next_->bytes.data();
-  packet_->size = static_cast<int>(next_->bytes.size());
+  packet_->size = int(next_->bytes.size());
   packet_->pts = next_->pts + shift_;
   packet_->dts = next_->dts + shift_;
   // Silence fills up the last packet and is not counted.

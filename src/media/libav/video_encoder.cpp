@@ -8,11 +8,14 @@
 #include <span>
 #include <utility>
 
+#include "h264/nal_unit.hpp"
+#include "media/pixels/yuv.hpp"
+
 namespace piblocks {
 namespace {
 
 AVRational to_av(const Rational& value) {
-  return {static_cast<int>(value.get_num().get_si()), static_cast<int>(value.get_den().get_si())};
+  return {int(value.get_num().get_si()), int(value.get_den().get_si())};
 }
 
 void set_picture_format(AVCodecContext& context, const VideoFormat& format,
@@ -29,8 +32,26 @@ void set_picture_format(AVCodecContext& context, const VideoFormat& format,
 }
 
 /// Of a context or of parameters.
-std::span<const std::uint8_t> extradata(const auto& stream) {
-  return {stream.extradata, static_cast<std::size_t>(stream.extradata_size)};
+ByteSpan extradata(const auto& stream) {
+  return {stream.extradata, std::size_t(stream.extradata_size)};
+}
+
+template <typename Sample>
+YuvView<Sample> view_of(const AVFrame& picture) {
+  const auto plane = [&](int number) -> PlaneView<Sample> {
+    return {reinterpret_cast<Sample*>(picture.data[number]), picture.linesize[number]};
+  };
+  return {plane(0), plane(1), plane(2), plane(3)};
+}
+
+void convert_rect(const ImageView& frame, const PixelRect& rect, const AVFrame& picture) {
+  if (picture.format == AV_PIX_FMT_YUV420P) {
+    convert_to_yuv420(frame, chroma_aligned(rect, frame), view_of<std::uint8_t>(picture));
+  } else if (picture.format == AV_PIX_FMT_YUVA420P) {
+    convert_to_yuva420(frame, chroma_aligned(rect, frame), view_of<std::uint8_t>(picture));
+  } else {
+    convert_to_yuva444p10(frame, rect, view_of<std::uint16_t>(picture));
+  }
 }
 
 }  // namespace
@@ -49,9 +70,9 @@ AvFramePtr allocate_picture(const AVCodecParameters& stream) {
   return picture;
 }
 
-VideoEncoder::VideoEncoder(const VideoFormat& format, CodecChoice choice)
+VideoEncoder::VideoEncoder(const VideoFormat& format, EncoderSetup setup)
     : format_(format),
-      choice_(std::move(choice)),
+      setup_(std::move(setup)),
       frame_rate_(to_av(format.frame_rate)),
       parameters_(own_av<AvParametersPtr>(avcodec_parameters_alloc(), "stream parameters")) {
   try {
@@ -61,7 +82,7 @@ VideoEncoder::VideoEncoder(const VideoFormat& format, CodecChoice choice)
     if (first->codec_id == AV_CODEC_ID_AV1 && first->extradata_size == 0) take_headers(*first);
   } catch (const Error& error) {
     throw UsageError(
-        fmt::format("{}; usable here: {}", error.what(), usable_encoders(choice_.alternatives)));
+        fmt::format("{}; usable here: {}", error.what(), usable_encoders(setup_.alternatives)));
   }
 }
 
@@ -86,7 +107,7 @@ void VideoEncoder::take_headers(AVCodecContext& context) {
   void* const copy = av_mallocz(size + AV_INPUT_BUFFER_PADDING_SIZE);
   if (copy == nullptr) throw std::bad_alloc();
   parameters_->extradata = static_cast<std::uint8_t*>(copy);
-  parameters_->extradata_size = static_cast<int>(size);
+  parameters_->extradata_size = int(size);
   std::copy_n(headers, size, parameters_->extradata);
 }
 
@@ -106,19 +127,99 @@ AvCodecContextPtr VideoEncoder::open() const {
 }
 
 AvCodecContextPtr VideoEncoder::open_unchecked() const {
-  auto context = own_av<AvCodecContextPtr>(avcodec_alloc_context3(choice_.codec), name());
-  set_picture_format(*context, format_, choice_.pixel_format);
+  auto context = own_av<AvCodecContextPtr>(avcodec_alloc_context3(setup_.codec), name());
+  set_picture_format(*context, format_, setup_.pixel_format);
   context->framerate = frame_rate_;
   context->time_base = av_inv_q(frame_rate_);
   // Never reached: the last chunk of a video may be one and a half times as long as the others.
-  context->gop_size = 2 * choice_.frames_per_chunk;
+  context->gop_size = 2 * setup_.frames_per_chunk;
   // Threads inside an encoder may change its output. Chunks run in parallel instead.
   context->thread_count = 1;
-  context->flags = static_cast<int>(AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_CLOSED_GOP |
-                                    AV_CODEC_FLAG_BITEXACT);
-  choice_.set_up(*context);
-  check_av(avcodec_open2(context.get(), choice_.codec, nullptr), "open encoder", name());
+  context->flags =
+      int(AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_CLOSED_GOP | AV_CODEC_FLAG_BITEXACT);
+  setup_.apply(*context);
+  check_av(avcodec_open2(context.get(), setup_.codec, nullptr), "open encoder", name());
   return context;
+}
+
+LibavChunkEncoder::LibavChunkEncoder(const VideoEncoder& encoder)
+    : ChunkEncoder(encoder.format()),
+      encoder_(encoder),
+      picture_(allocate_picture(encoder.parameters())),
+      packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {}
+
+void LibavChunkEncoder::begin(std::int64_t first_frame) {
+  context_ = encoder_.open();
+  first_frame_ = first_frame;
+  frames_ = 0;
+}
+
+void LibavChunkEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
+  // Allocates only if the encoder still uses the last picture. libx264 copies it.
+  check_av(av_frame_make_writable(picture_.get()), "refill", "picture");
+  for (const PixelRect& rect : rects) convert_rect(frame, rect, *picture_);
+}
+
+void LibavChunkEncoder::encode() {
+  picture_->pict_type = frames_ == 0 ? AV_PICTURE_TYPE_I : AV_PICTURE_TYPE_NONE;
+  picture_->pts = frames_++;
+  send(picture_.get());
+}
+
+EncodedChunk LibavChunkEncoder::finish() {
+  send(nullptr);
+  // As libx264 sets them for B-frames. But if a chunk is shorter than the delay of these, libx264
+  // starts it late, and the packet before it would seem to last for several frames.
+  std::int64_t dts = first_frame_ - context_->has_b_frames;
+  for (Packet& packet : chunk_) packet.dts = dts++;
+  context_.reset();
+  return std::exchange(chunk_, {});
+}
+
+void LibavChunkEncoder::send(const AVFrame* picture) {
+  check_av(avcodec_send_frame(context_.get(), picture), "encode a frame with",
+           context_->codec->name);
+  take_packets();
+}
+
+void LibavChunkEncoder::take_packets() {
+  while (true) {
+    const int code = avcodec_receive_packet(context_.get(), packet_.get());
+    if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return;
+    check_av(code, "encode a frame with", context_->codec->name);
+
+    ByteSpan bytes(packet_->data, std::size_t(packet_->size));
+    // libx264 signs the first picture of every encoder with 600 bytes. One copy in the video is
+    // enough.
+    const bool is_h264 = context_->codec_id == AV_CODEC_ID_H264;
+    if (is_h264 && first_frame_ > 0 && chunk_.empty()) bytes = h264::without_user_data(bytes);
+    chunk_.push_back({.bytes = {bytes.begin(), bytes.end()},
+                      .pts = first_frame_ + packet_->pts,
+                      .key_frame = (packet_->flags & AV_PKT_FLAG_KEY) != 0});
+    if (picture_->format == AV_PIX_FMT_YUVA420P) {
+      std::size_t size = 0;
+      const std::uint8_t* const alpha =
+          av_packet_get_side_data(packet_.get(), AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, &size);
+      chunk_.back().bytes = with_alpha({bytes, {alpha, alpha == nullptr ? 0 : size}});
+    }
+    av_packet_unref(packet_.get());
+  }
+}
+
+Bytes with_alpha(const PictureAndAlpha& both) {
+  Bytes bytes(both.picture.begin(), both.picture.end());
+  append(bytes, both.alpha);
+  append_little_endian(bytes, both.alpha.size(), 4);
+  return bytes;
+}
+
+PictureAndAlpha without_alpha(ByteSpan bytes) {
+  const std::size_t coded = bytes.size() < 4 ? 0 : bytes.size() - 4;
+  const std::size_t alpha = from_little_endian(bytes.subspan(coded));
+  if (bytes.size() < 4 || alpha > coded) {
+    throw MediaError("video: a packet is cut off where its transparency should be");
+  }
+  return {bytes.first(coded - alpha), bytes.subspan(coded - alpha, alpha)};
 }
 
 }  // namespace piblocks

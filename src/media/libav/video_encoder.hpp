@@ -1,11 +1,17 @@
-// The encoders of one stream.
-// In: the format of the output and the choice of the encoder. Out: any number of open one-thread
-// encoders that make pieces of the same stream.
+// The encoders of one stream, and the chunks that they make: closed groups of pictures.
+// In: the format of the output and libavcodec's encoder. Out: packets with the time stamps that
+// they have in the whole video.
 #pragma once
 
+#include <piblocks/error.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "media/libav/av.hpp"
-#include "media/libav/codec_choice.hpp"
-#include "media/output/frame_sink.hpp"
+#include "media/libav/encoder_setup.hpp"
+#include "media/output/output.hpp"
 
 namespace piblocks {
 
@@ -16,14 +22,14 @@ AvFramePtr allocate_picture(const AVCodecParameters& stream);
 class VideoEncoder {
  public:
   /// @throws UsageError if the encoder cannot be opened.
-  VideoEncoder(const VideoFormat& format, CodecChoice choice);
+  VideoEncoder(const VideoFormat& format, EncoderSetup setup);
 
   /// Usually those of a second. A chunk is one closed group of pictures: a second lets viewers
   /// seek, costs little, and spreads short videos over all workers.
-  int frames_per_chunk() const noexcept { return choice_.frames_per_chunk; }
+  int frames_per_chunk() const noexcept { return setup_.frames_per_chunk; }
   const VideoFormat& format() const noexcept { return format_; }
   /// libavcodec's.
-  const char* name() const noexcept { return choice_.codec->name; }
+  const char* name() const noexcept { return setup_.codec->name; }
   AVRational frame_rate() const noexcept { return frame_rate_; }
   /// The stream's parameters, which are those of every encoder that open() returns.
   const AVCodecParameters& parameters() const noexcept { return *parameters_; }
@@ -40,9 +46,43 @@ class VideoEncoder {
   void take_headers(AVCodecContext& context);
 
   VideoFormat format_;
-  CodecChoice choice_;
+  EncoderSetup setup_;
   AVRational frame_rate_;
   AvParametersPtr parameters_;
 };
+
+class LibavChunkEncoder final : public ChunkEncoder {
+ public:
+  explicit LibavChunkEncoder(const VideoEncoder& encoder);
+  void begin(std::int64_t first_frame) override;
+  void encode() override;
+  EncodedChunk finish() override;
+
+ private:
+  void convert(const ImageView& frame, std::span<const PixelRect> rects) override;
+  void send(const AVFrame* picture);
+  void take_packets();
+
+  const VideoEncoder& encoder_;
+  AvFramePtr picture_;  // kept, since a frame changes little of it
+  AvCodecContextPtr context_;
+  std::int64_t first_frame_ = 0;
+  std::int64_t frames_ = 0;
+  AvPacketPtr packet_;
+  EncodedChunk chunk_;
+};
+
+/// A packet of a picture and of its transparency, which VP9 codes as a video of its own.
+struct PictureAndAlpha {
+  ByteSpan picture;
+  /// libavcodec's side data of a Matroska block; may be empty.
+  ByteSpan alpha;
+};
+
+/// The picture, the alpha, and the length of the alpha in 4 bytes.
+Bytes with_alpha(const PictureAndAlpha& both);
+/// Views of the bytes that with_alpha() gave.
+/// @throws MediaError if they are cut off.
+PictureAndAlpha without_alpha(ByteSpan bytes);
 
 }  // namespace piblocks

@@ -7,12 +7,13 @@
 #include <new>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/output_file.hpp"
-#include "media/libav/alpha_packet.hpp"
 #include "media/libav/sound_stream.hpp"
-#include "media/output/output_request.hpp"
+#include "media/libav/video_encoder.hpp"
+#include "media/output/output_kinds.hpp"
 
 extern "C" {
 #include <libavutil/opt.h>
@@ -30,7 +31,7 @@ std::optional<std::int64_t> start_of_pictures(AVIOContext& file) {
   for (int boxes = 0; boxes < 8 && avio_seek(&file, at, SEEK_SET) == at; ++boxes) {
     std::int64_t size = avio_rb32(&file);
     const bool is_last = avio_rl32(&file) == MKTAG('m', 'd', 'a', 't');
-    if (size == 1) size = static_cast<std::int64_t>(avio_rb64(&file));
+    if (size == 1) size = std::int64_t(avio_rb64(&file));
     if (is_last) return at + size == end ? std::optional(avio_tell(&file)) : std::nullopt;
     if (size < 8 || size > end - at) return std::nullopt;
     at += size;
@@ -38,34 +39,29 @@ std::optional<std::int64_t> start_of_pictures(AVIOContext& file) {
   return std::nullopt;
 }
 
-/// Whether the indices list these numbers of packets without gaps from `start` to `end`, in
-/// whatever order the streams alternate.
-bool is_complete(std::span<AVStream* const> streams, std::span<const std::int64_t> packets,
-                 std::int64_t start, std::int64_t end) {
-  if (streams.size() != packets.size()) return false;
-  std::vector<int> next(streams.size(), 0);
-  for (std::size_t i = 0; i < streams.size(); ++i) {
-    if (avformat_index_get_entries_count(streams[i]) != packets[i]) return false;
-  }
-  bool found = true;
-  while (found) {
-    found = false;
-    for (std::size_t i = 0; i < streams.size(); ++i) {
-      while (next[i] < packets[i]) {
-        const AVIndexEntry* const entry = avformat_index_get_entry(streams[i], next[i]);
-        if (entry->pos != start) break;
-        start += entry->size;
-        ++next[i];
-        found = true;
-      }
+/// Whether the indices list these numbers of packets, which fill the file from `start` to its end.
+bool is_complete(const AVFormatContext& file, std::span<const std::int64_t> packets,
+                 std::int64_t start) {
+  if (file.nb_streams != packets.size()) return false;
+  std::vector<std::pair<std::int64_t, std::int64_t>> found;  // where they begin and end
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    AVStream* const stream = file.streams[i];
+    if (avformat_index_get_entries_count(stream) != packets[i]) return false;
+    for (int entry = 0; entry < packets[i]; ++entry) {
+      const AVIndexEntry& packet = *avformat_index_get_entry(stream, entry);
+      found.emplace_back(packet.pos, packet.pos + packet.size);
     }
   }
-  return start == end;
+  std::ranges::sort(found);
+  for (const auto& [begin, end] : found) {
+    if (std::exchange(start, end) != begin) return false;
+  }
+  return start == avio_size(file.pb);
 }
 
 bool is_whole_mov(AVFormatContext& file, std::span<const std::int64_t> packets) {
   const auto start = start_of_pictures(*file.pb);
-  return start && is_complete({file.streams, file.nb_streams}, packets, *start, avio_size(file.pb));
+  return start && is_complete(file, packets, *start);
 }
 
 /// Whether as many packets of each stream can be read as were written.
@@ -74,7 +70,7 @@ bool is_whole_webm(AVFormatContext& file, std::span<const std::int64_t> packets)
   const auto packet = own_av<AvPacketPtr>(av_packet_alloc(), "packet");
   int code = 0;
   while ((code = av_read_frame(&file, packet.get())) >= 0) {
-    const auto stream = static_cast<std::size_t>(packet->stream_index);
+    const auto stream = std::size_t(packet->stream_index);
     if (stream >= left.size()) return false;
     --left[stream];
     av_packet_unref(packet.get());
@@ -85,7 +81,7 @@ bool is_whole_webm(AVFormatContext& file, std::span<const std::int64_t> packets)
 class VideoFile final : public FrameSink {
  public:
   /// @param sound  of the second stream, if there is one.
-  VideoFile(const std::string& name, const VideoEncoder& encoder, const Container& container,
+  VideoFile(const std::string& name, const Container& container, const VideoEncoder& encoder,
             const SoundEncoder* sound);
 
   void take_sound(PacketSource& sound) override;
@@ -97,7 +93,7 @@ class VideoFile final : public FrameSink {
   void write_header();
   void write(const Packet& packet);
   void check() const;
-  void add_alpha(std::span<const std::uint8_t> alpha);
+  void add_alpha(ByteSpan alpha);
 
   std::string name_;
   const VideoEncoder& encoder_;
@@ -119,8 +115,8 @@ AvOutputPtr open_muxer(const std::string& path, const std::string& name, const c
   return muxer;
 }
 
-VideoFile::VideoFile(const std::string& name, const VideoEncoder& encoder,
-                     const Container& container, const SoundEncoder* sound)
+VideoFile::VideoFile(const std::string& name, const Container& container,
+                     const VideoEncoder& encoder, const SoundEncoder* sound)
     : name_(name),
       encoder_(encoder),
       container_(container),
@@ -164,7 +160,7 @@ void VideoFile::append(const EncodedChunk& chunk) {
 void VideoFile::write(const Packet& packet) {
   if (sound_) sound_->write_until(packet.dts, av_inv_q(encoder_.frame_rate()));
   av_packet_unref(packet_.get());
-  std::span<const std::uint8_t> picture = packet.bytes;
+  ByteSpan picture = packet.bytes;
   if (encoder_.parameters().format == AV_PIX_FMT_YUVA420P) {
     const PictureAndAlpha both = without_alpha(packet.bytes);
     picture = both.picture;
@@ -172,7 +168,7 @@ void VideoFile::write(const Packet& packet) {
   }
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): the muxer only reads what has no owner
   packet_->data = const_cast<std::uint8_t*>(picture.data());
-  packet_->size = static_cast<int>(picture.size());
+  packet_->size = int(picture.size());
   packet_->pts = packet.pts;
   packet_->dts = packet.dts;
   packet_->duration = 1;
@@ -183,7 +179,7 @@ void VideoFile::write(const Packet& packet) {
   check_av(av_write_frame(muxer_.get(), packet_.get()), "write to", name_);
 }
 
-void VideoFile::add_alpha(std::span<const std::uint8_t> alpha) {
+void VideoFile::add_alpha(ByteSpan alpha) {
   std::uint8_t* const data =
       av_packet_new_side_data(packet_.get(), AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, alpha.size());
   if (data == nullptr) throw std::bad_alloc();
@@ -226,12 +222,12 @@ const Container kMp4 = {.muxer = "mp4",
                         .is_whole = is_whole_mov,
                         .sound = kAac,
                         .encoders = {EncoderKind::h264}};
-const Container kMov = {.muxer = "mov",
-                        .index_option = "movflags",
-                        .index_value = "+faststart",
-                        .is_whole = is_whole_mov,
-                        .sound = kAac,
-                        .encoders = {EncoderKind::h264, EncoderKind::prores}};
+const Container kMov = [] {
+  Container mov = kMp4;
+  mov.muxer = "mov";
+  mov.encoders.push_back(EncoderKind::prores);
+  return mov;
+}();
 const Container kWebm = {.muxer = "webm",
                          .index_option = "cues_to_front",
                          .index_value = "1",
@@ -240,9 +236,10 @@ const Container kWebm = {.muxer = "webm",
                          .encoders = {EncoderKind::webm},
                          .sound_from_zero = true};
 
-std::unique_ptr<FrameSink> open_video_file(const std::string& name, const VideoEncoder& encoder,
-                                           const Container& container, const SoundEncoder* sound) {
-  return std::make_unique<VideoFile>(name, encoder, container, sound);
+std::unique_ptr<FrameSink> open_video_file(const std::string& name, const Container& container,
+                                           const VideoEncoder& pictures,
+                                           const SoundEncoder* sound) {
+  return std::make_unique<VideoFile>(name, container, pictures, sound);
 }
 
 }  // namespace piblocks

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "media/libav/sound_encoder.hpp"
+#include "media/libav/sound_stream.hpp"
 #include "media/libav/video_encoder.hpp"
-#include "media/output/frame_sink.hpp"
+#include "media/output/output.hpp"
 
 namespace piblocks {
 
@@ -32,10 +32,10 @@ extern const Container kMp4;
 extern const Container kMov;
 extern const Container kWebm;
 
-/// @param encoder  of the pictures; must outlive the sink.
-/// @param sound    of the sound, or null; must outlive the sink.
+/// @param pictures  their encoder; must outlive the sink.
+/// @param sound     its encoder, or null; must outlive the sink.
 /// @throws UsageError if the file cannot be opened.
-std::unique_ptr<FrameSink> open_video_file(const std::string& name, const VideoEncoder& encoder,
-                                           const Container& container, const SoundEncoder* sound);
+std::unique_ptr<FrameSink> open_video_file(const std::string& name, const Container& container,
+                                           const VideoEncoder& pictures, const SoundEncoder* sound);
 
 }  // namespace piblocks

@@ -3,14 +3,14 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "h264/bit_stream.hpp"
-#include "media/libav/damage_chunk.hpp"
-#include "media/libav/video_chunk.hpp"
+#include "media/libav/h264_chunk.hpp"
 #include "media/libav/video_encoder.hpp"
 #include "media/libav/video_file.hpp"
 #include "media/output/output_kinds.hpp"
@@ -56,90 +56,82 @@ std::optional<h264::ParameterSets> sets_for_damage(const VideoEncoder& encoder,
   if (!is_asked_for && (settings.encoder || settings.crf || settings.preset)) return std::nullopt;
   const AVCodecParameters& stream = encoder.parameters();
   try {
-    return h264::read_parameter_sets(
-        {stream.extradata, static_cast<std::size_t>(stream.extradata_size)});
+    return h264::read_parameter_sets({stream.extradata, std::size_t(stream.extradata_size)});
   } catch (const h264::HeaderError& error) {
     if (is_asked_for) throw UsageError(error.what());
     return std::nullopt;
   }
 }
 
-/// A stream of libavcodec's, and one of sound if it is asked for.
-class EncodedOutput : public Output {
- public:
-  EncodedOutput(const OutputRequest& request, const Container& container, CodecChoice choice)
-      : name_(request.name), container_(container), encoder_(request.format, std::move(choice)) {
-    if (request.sound) sound_.emplace(container.sound, *request.sound);
-  }
-  std::int64_t frames_per_chunk() const override { return encoder_.frames_per_chunk(); }
-  std::unique_ptr<ChunkEncoder> make_encoder() const override {
-    return std::make_unique<VideoChunkEncoder>(encoder_);
-  }
-  std::string signature() const override {
-    std::string signature = fmt::format("{} by {}", container_.muxer, encoder_.signature());
-    if (sound_) signature += ", sound by " + sound_->signature();
-    return signature;
-  }
-  std::unique_ptr<PacketSource> encode_sound(SampleSource& samples) const override {
-    return sound_ ? sound_->encode(samples) : Output::encode_sound(samples);
-  }
-  std::unique_ptr<FrameSink> open() const override {
-    return open_video_file(name_, encoder_, container_, sound_ ? &*sound_ : nullptr);
+/// The encoders of a file.
+struct Encoders {
+  Encoders(const OutputRequest& request, const Container& container, EncoderSetup setup)
+      : pictures(request.format, std::move(setup)) {
+    if (request.sound) sound.emplace(container.sound, *request.sound);
   }
 
- protected:
-  const VideoEncoder& encoder() const noexcept { return encoder_; }
-
- private:
-  std::string name_;
-  const Container& container_;
-  VideoEncoder encoder_;
-  std::optional<SoundEncoder> sound_;
+  VideoEncoder pictures;
+  std::optional<SoundEncoder> sound;
 };
+
+/// The functions of an output share its encoders.
+Output encoded_output(const OutputRequest& request, const Container& container,
+                      const std::shared_ptr<const Encoders>& encoders) {
+  const auto& [pictures, sound] = *encoders;
+  Output output = {
+      .frames_per_chunk = pictures.frames_per_chunk(),
+      .signature = fmt::format("{} by {}", container.muxer, pictures.signature()),
+      .make_encoder =
+          [encoders] { return std::make_unique<LibavChunkEncoder>(encoders->pictures); },
+      .open =
+          [name = request.name, &container, encoders] {
+            return open_video_file(name, container, encoders->pictures,
+                                   encoders->sound ? &*encoders->sound : nullptr);
+          }};
+  if (sound) {
+    output.signature += ", sound by " + sound->signature();
+    output.encode_sound = [encoders](SampleSource& samples) {
+      return encoders->sound->encode(samples);
+    };
+  }
+  return output;
+}
 
 /// H.264 in MP4 or MOV, with slices of our own if the stream can have them.
-class H264Output final : public EncodedOutput {
- public:
-  H264Output(const OutputRequest& request, const Container& container)
-      : EncodedOutput(
-            request, container,
-            h264_choice(request.format, settings_of_stream(request.settings), container.encoders)),
-        sets_(sets_for_damage(encoder(), request.settings)),
-        when_too_much_(request.settings.encoder == kDamage ? WhenTooMuch::go_on
-                                                           : WhenTooMuch::leave_to_stream_encoder) {
+Output h264_output(const OutputRequest& request, const Container& container) {
+  check_duration_of_frame(request.format.frame_rate);
+  const auto encoders = std::make_shared<const Encoders>(
+      request, container,
+      h264_setup(request.format, settings_of_stream(request.settings), container.encoders));
+  Output output = encoded_output(request, container, encoders);
+  if (const auto sets = sets_for_damage(encoders->pictures, request.settings)) {
+    output.signature += fmt::format(", changes at QP {}", kQp);
+    const bool may_hand_over = request.settings.encoder != kDamage;
+    output.make_encoder = [encoders, sets = *sets, may_hand_over] {
+      return std::make_unique<H264ChunkEncoder>(encoders->pictures, sets, kQp, may_hand_over);
+    };
   }
-  std::unique_ptr<ChunkEncoder> make_encoder() const override {
-    if (!sets_) return EncodedOutput::make_encoder();
-    return std::make_unique<DamageChunkEncoder>(encoder(), *sets_, kQp, when_too_much_);
-  }
-  std::string signature() const override {
-    const std::string signature = EncodedOutput::signature();
-    return sets_ ? fmt::format("{}, changes at QP {}", signature, kQp) : signature;
-  }
-
- private:
-  std::optional<h264::ParameterSets> sets_;
-  WhenTooMuch when_too_much_;
-};
+  return output;
+}
 
 }  // namespace
 
-std::unique_ptr<Output> mp4_output(const OutputRequest& request) {
+Output mp4_output(const OutputRequest& request) { return h264_output(request, kMp4); }
+
+Output mov_output(const OutputRequest& request) {
+  if (!request.format.has_alpha && request.settings.encoder != kProres) {
+    return h264_output(request, kMov);
+  }
   check_duration_of_frame(request.format.frame_rate);
-  return std::make_unique<H264Output>(request, kMp4);
+  return encoded_output(request, kMov,
+                        std::make_shared<const Encoders>(
+                            request, kMov, prores_setup(request.format, request.settings)));
 }
 
-std::unique_ptr<Output> mov_output(const OutputRequest& request) {
-  check_duration_of_frame(request.format.frame_rate);
-  const bool is_prores = request.format.has_alpha || request.settings.encoder == kProres;
-  if (!is_prores) return std::make_unique<H264Output>(request, kMov);
-  return std::make_unique<EncodedOutput>(request, kMov,
-                                         prores_choice(request.format, request.settings));
-}
-
-std::unique_ptr<Output> webm_output(const OutputRequest& request) {
-  return std::make_unique<EncodedOutput>(request, kWebm,
-                                         webm_choice(request.format, request.settings));
+Output webm_output(const OutputRequest& request) {
+  return encoded_output(request, kWebm,
+                        std::make_shared<const Encoders>(
+                            request, kWebm, webm_setup(request.format, request.settings)));
 }
 
 }  // namespace piblocks

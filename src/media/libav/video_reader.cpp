@@ -9,10 +9,8 @@
 #include <utility>
 
 #include "media/libav/av.hpp"
-#include "media/libav/cut_off.hpp"
-#include "media/libav/frame_format.hpp"
-#include "media/libav/module_functions.hpp"
-#include "media/libav/video_samples.hpp"
+#include "media/libav/av_module.hpp"
+#include "media/libav/decoded_frame.hpp"
 
 extern "C" {
 #include <libavutil/display.h>
@@ -122,8 +120,8 @@ class VideoReader final : public FrameReader {
   bool next() override;
   std::string layout() const override { return layout_of(*frame_); }
   std::string presentation() const override;
-  Samples samples() override { return samples_of(*frame_); }
-  Samples rgb() override { return rgb_of(*frame_, sws_); }
+  AnyImage samples() override { return samples_of(*frame_); }
+  AnyImage rgb() override { return rgb_of(*frame_, sws_); }
   std::string name() const override { return fmt::format("frame {}", frames_ - 1); }
 
  private:

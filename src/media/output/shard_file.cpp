@@ -12,47 +12,34 @@
 
 #include "core/descriptor.hpp"
 #include "core/output_file.hpp"
-#include "media/output/little_endian.hpp"
 
 namespace piblocks {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
 constexpr std::string_view kMagic = "piblocks part 1";
-constexpr std::uint8_t kChunk = 'C';
-constexpr std::uint8_t kSound = 'S';
-constexpr std::uint8_t kEnd = 'E';
+constexpr std::uint8_t kChunkRecord = 'C';
+constexpr std::uint8_t kSoundRecord = 'S';
+constexpr std::uint8_t kEndRecord = 'E';
 /// Packets in a record of sound.
 constexpr std::size_t kSoundPackets = 64;
 /// Of the header. Numbers of a scene may have 100,000 digits each.
 constexpr std::size_t kMaxLine_bytes = 4 * 1024 * 1024;
 constexpr std::size_t kMaxHeaderLines = 200;
 
-template <typename Unsigned>
-void append_number(Bytes& bytes, Unsigned value) {
-  append_little_endian(bytes, value, sizeof value);
-}
-
-template <typename Unsigned>
-Unsigned number_at(const Bytes& bytes, std::size_t at) {
-  return static_cast<Unsigned>(from_little_endian(std::span(bytes).subspan(at, sizeof(Unsigned))));
-}
-
 // pts, dts, key frame, size.
 constexpr std::size_t kPacketHeader_bytes = 8 + 8 + 1 + 4;
 
 void append_packet(Bytes& bytes, const Packet& packet) {
-  append_number(bytes, static_cast<std::uint64_t>(packet.pts));
-  append_number(bytes, static_cast<std::uint64_t>(packet.dts));
-  append_number(bytes, static_cast<std::uint8_t>(packet.key_frame));
-  append_number(bytes, static_cast<std::uint32_t>(packet.bytes.size()));
-  bytes.insert(bytes.end(), packet.bytes.begin(), packet.bytes.end());
+  append_little_endian(bytes, std::uint64_t(packet.pts), 8);
+  append_little_endian(bytes, std::uint64_t(packet.dts), 8);
+  bytes.push_back(packet.key_frame ? 1 : 0);
+  append_little_endian(bytes, packet.bytes.size(), 4);
+  append(bytes, packet.bytes);
 }
 
 std::uint32_t checksum(std::uint32_t before, const Bytes& bytes) {
   if (bytes.empty()) return before;  // zlib would start again
-  return static_cast<std::uint32_t>(crc32_z(before, bytes.data(), bytes.size()));
+  return std::uint32_t(crc32_z(before, bytes.data(), bytes.size()));
 }
 
 class ShardSink final : public FrameSink {
@@ -68,25 +55,25 @@ class ShardSink final : public FrameSink {
     while (auto packet = sound.next()) {
       packets.push_back(std::move(*packet));
       if (packets.size() < kSoundPackets) continue;
-      write(kSound, packets);
+      write(kSoundRecord, packets);
       packets.clear();
     }
-    if (!packets.empty()) write(kSound, packets);
+    if (!packets.empty()) write(kSoundRecord, packets);
   }
 
-  void append(const EncodedChunk& chunk) override { write(kChunk, chunk); }
+  void append(const EncodedChunk& chunk) override { write(kChunkRecord, chunk); }
 
   void finish() override {
-    file_.write({&kEnd, 1});
+    file_.write({&kEndRecord, 1});
     file_.finish();
   }
 
  private:
   void write(const std::uint8_t& kind, const EncodedChunk& chunk) {
     Bytes bytes;
-    append_number(bytes, static_cast<std::uint32_t>(chunk.size()));
+    append_little_endian(bytes, chunk.size(), 4);
     for (const Packet& packet : chunk) append_packet(bytes, packet);
-    append_number(bytes, checksum(checksum(0, {kind}), bytes));
+    append_little_endian(bytes, checksum(checksum(0, {kind}), bytes), 4);
     file_.write({&kind, 1});
     file_.write(bytes);
   }
@@ -144,35 +131,38 @@ std::optional<std::string> ShardReader::read_line(std::size_t max_bytes) {
 
 std::optional<EncodedChunk> ShardReader::next() {
   while (auto record = next_record()) {
-    if (record->kind == kChunk) return std::move(record->packets);
+    if (record->kind == kChunkRecord) return std::move(record->packets);
   }
   return std::nullopt;
 }
 
 std::optional<EncodedChunk> ShardReader::next_sound() {
   auto record = next_record();
-  if (!record || record->kind != kSound) return std::nullopt;
+  if (!record || record->kind != kSoundRecord) return std::nullopt;
   return std::move(record->packets);
 }
 
 std::optional<ShardReader::Record> ShardReader::next_record() {
   const std::uint8_t kind = read(1).front();
-  if (kind == kEnd && left_bytes_ == 0) return std::nullopt;
-  if (kind != kChunk && kind != kSound) fail_damaged();
+  if (kind == kEndRecord && left_bytes_ == 0) return std::nullopt;
+  if (kind != kChunkRecord && kind != kSoundRecord) fail_damaged();
 
   const Bytes count = read(4);
   std::uint32_t sum = checksum(checksum(0, {kind}), count);
   EncodedChunk chunk;
-  for (auto left = number_at<std::uint32_t>(count, 0); left > 0; --left) {
+  for (auto left = from_little_endian(count); left > 0; --left) {
     const Bytes header = read(kPacketHeader_bytes);
-    Bytes bytes = read(number_at<std::uint32_t>(header, 17));
+    const auto number = [&](std::size_t at, std::size_t size_bytes) {
+      return from_little_endian(ByteSpan(header).subspan(at, size_bytes));
+    };
+    Bytes bytes = read(number(17, 4));
     sum = checksum(checksum(sum, header), bytes);
     chunk.push_back({.bytes = std::move(bytes),
-                     .pts = static_cast<std::int64_t>(number_at<std::uint64_t>(header, 0)),
-                     .dts = static_cast<std::int64_t>(number_at<std::uint64_t>(header, 8)),
+                     .pts = std::int64_t(number(0, 8)),
+                     .dts = std::int64_t(number(8, 8)),
                      .key_frame = header[16] == 1});
   }
-  if (number_at<std::uint32_t>(read(4), 0) != sum) fail_damaged();
+  if (from_little_endian(read(4)) != sum) fail_damaged();
   return Record{kind, std::move(chunk)};
 }
 

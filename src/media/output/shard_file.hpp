@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-#include "media/output/frame_sink.hpp"
+#include "media/output/output.hpp"
 
 namespace piblocks {
 
@@ -49,7 +49,7 @@ class ShardReader {
   void read_header();
   /// A line without its end; nothing if it is longer or has no end.
   std::optional<std::string> read_line(std::size_t max_bytes);
-  std::vector<std::uint8_t> read(std::uint64_t count);
+  Bytes read(std::uint64_t count);
   [[noreturn]] void fail_to_read() const;
   [[noreturn]] void fail_damaged() const;
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/output_file.hpp"
-#include "media/output/little_endian.hpp"
 #include "media/output/output_kinds.hpp"
 
 namespace piblocks {
@@ -21,31 +20,33 @@ constexpr std::int64_t kHeader_bytes = 44;
 /// The file's own length field has 32 bits and leaves out the first 8 bytes.
 constexpr std::int64_t kMaxFile_bytes = 0xFFFFFFFF;
 
-void append_number(std::vector<std::uint8_t>& bytes, std::int64_t value, std::size_t size_bytes) {
-  append_little_endian(bytes, static_cast<std::uint64_t>(value), size_bytes);
+void append_number(Bytes& bytes, std::int64_t value, std::size_t size_bytes) {
+  append_little_endian(bytes, std::uint64_t(value), size_bytes);
 }
 
 /// RIFF WAVE with one "fmt " chunk of PCM and one "data" chunk (Multimedia Programming Interface
 /// and Data Specifications 1.0, 1991).
-std::vector<std::uint8_t> header(const SoundFormat& sound) {
+Bytes header(const SoundFormat& sound) {
   constexpr int kPcm = 1;
   const std::int64_t data_bytes = sound.size * kPair_bytes;
-  std::vector<std::uint8_t> bytes;
-  const auto append_text = [&](std::string_view text) {
-    bytes.insert(bytes.end(), text.begin(), text.end());
+  struct Field {
+    std::string_view text;  // before the number
+    std::int64_t value;
+    std::size_t size_bytes;
   };
-  append_text("RIFF");
-  append_number(bytes, kHeader_bytes - 8 + data_bytes, 4);
-  append_text("WAVEfmt ");
-  append_number(bytes, 16, 4);
-  append_number(bytes, kPcm, 2);
-  append_number(bytes, kChannels, 2);
-  append_number(bytes, sound.rate_hz, 4);
-  append_number(bytes, std::int64_t{sound.rate_hz} * kPair_bytes, 4);
-  append_number(bytes, kPair_bytes, 2);
-  append_number(bytes, 8 * kSample_bytes, 2);
-  append_text("data");
-  append_number(bytes, data_bytes, 4);
+  Bytes bytes;
+  for (const Field& field : {Field{"RIFF", kHeader_bytes - 8 + data_bytes, 4},
+                             {"WAVEfmt ", 16, 4},
+                             {"", kPcm, 2},
+                             {"", kChannels, 2},
+                             {"", sound.rate_hz, 4},
+                             {"", std::int64_t{sound.rate_hz} * kPair_bytes, 4},
+                             {"", kPair_bytes, 2},
+                             {"", 8 * kSample_bytes, 2},
+                             {"data", data_bytes, 4}}) {
+    append(bytes, field.text);
+    append_number(bytes, field.value, field.size_bytes);
+  }
   return bytes;
 }
 
@@ -64,7 +65,7 @@ class PcmPackets final : public PacketSource {
       const double value = std::clamp(double(block[i]), -1.0, 1.0);
       append_number(packet.bytes, std::lround(kFullScale * value), kSample_bytes);
     }
-    next_ += static_cast<std::int64_t>(count / kChannels);
+    next_ += std::int64_t(count / kChannels);
     return packet;
   }
 
@@ -86,7 +87,7 @@ class WavSink final : public FrameSink {
     file_.write(header(format_));
     std::int64_t left_bytes = format_.size * kPair_bytes;
     while (auto packet = sound_ == nullptr ? std::nullopt : sound_->next()) {
-      left_bytes -= static_cast<std::int64_t>(packet->bytes.size());
+      left_bytes -= std::int64_t(packet->bytes.size());
       file_.write(packet->bytes);
     }
     if (left_bytes != 0) {
@@ -102,37 +103,23 @@ class WavSink final : public FrameSink {
   PacketSource* sound_ = nullptr;
 };
 
-class WavOutput final : public Output {
- public:
-  WavOutput(std::string name, const SoundFormat& sound) : name_(std::move(name)), sound_(sound) {}
-  std::int64_t frames_per_chunk() const override { return 1; }
-  std::unique_ptr<ChunkEncoder> make_encoder() const override {
-    throw MediaError("output: cannot encode frames as sound");
-  }
-  bool has_frames() const override { return false; }
-  std::unique_ptr<PacketSource> encode_sound(SampleSource& samples) const override {
-    return std::make_unique<PcmPackets>(samples);
-  }
-  std::string signature() const override { return "wav"; }
-  std::unique_ptr<FrameSink> open() const override {
-    return std::make_unique<WavSink>(name_, sound_);
-  }
-
- private:
-  std::string name_;
-  SoundFormat sound_;
-};
-
 }  // namespace
 
-std::unique_ptr<Output> wav_output(const OutputRequest& request) {
+Output wav_output(const OutputRequest& request) {
   const SoundFormat sound = request.sound.value_or(SoundFormat{});
   if (sound.size > (kMaxFile_bytes - kHeader_bytes) / kPair_bytes) {
     throw UsageError(fmt::format(
         "output: '{}' cannot be that long: WAV ends at 4 GiB, which is {} s; write *.mp4 --sound",
         request.name, (kMaxFile_bytes - kHeader_bytes) / kPair_bytes / sound.rate_hz));
   }
-  return std::make_unique<WavOutput>(request.name, sound);
+  return {
+      .signature = "wav",
+      .make_encoder = []() -> std::unique_ptr<ChunkEncoder> {
+        throw MediaError("output: cannot encode frames as sound");
+      },
+      .open = [name = request.name, sound] { return std::make_unique<WavSink>(name, sound); },
+      .encode_sound = [](SampleSource& samples) { return std::make_unique<PcmPackets>(samples); },
+      .has_frames = false};
 }
 
 }  // namespace piblocks

@@ -5,11 +5,13 @@
 
 namespace piblocks {
 
-ChangedPicture::ChangedPicture(int width_px, int height_px, Marks marks)
+ChangedPicture::ChangedPicture(int width_px, int height_px)
     : width_px_(width_px),
       height_px_(height_px),
       words_(std::size_t(width_px) * std::size_t(height_px)),
-      marks_(marks == Marks::changed_pixels ? words_.size() : 0) {}
+      marks_(words_.size()),
+      left_(width_px),
+      top_(height_px) {}
 
 void ChangedPicture::take(const ImageView& frame, std::span<const PixelRect> rects) {
   for (const PixelRect& rect : rects) {
@@ -20,7 +22,7 @@ void ChangedPicture::take(const ImageView& frame, std::span<const PixelRect> rec
 void ChangedPicture::take_row(const ImageView& frame, const PixelRect& rect, int y) {
   const std::uint8_t* const from = frame.row(y) + std::ptrdiff_t{4} * rect.x_px;
   std::uint32_t* const to = words_.data() + offset(y) + rect.x_px;
-  std::uint8_t* const row_marks = marks_.empty() ? nullptr : marks_.data() + offset(y) + rect.x_px;
+  std::uint8_t* const row_marks = marks_.data() + offset(y) + rect.x_px;
   // The byte of the alpha is undefined in opaque frames.
   const std::uint32_t opaque = frame.has_alpha ? 0 : 0xff000000;
   int first = rect.width_px;
@@ -31,25 +33,24 @@ void ChangedPicture::take_row(const ImageView& frame, const PixelRect& rect, int
     word |= opaque;
     if (word == to[x]) continue;
     to[x] = word;
-    if (row_marks != nullptr) row_marks[x] = 1;
+    row_marks[x] = 1;
     first = std::min(first, x);
     last = x;
   }
   if (first == rect.width_px) return;
-  const bool is_first = left_ >= right_;
-  const int left = rect.x_px + first;
-  const int right = rect.x_px + last + 1;
-  left_ = is_first ? left : std::min(left_, left);
-  right_ = is_first ? right : std::max(right_, right);
-  top_ = is_first ? y : std::min(top_, y);
-  bottom_ = is_first ? y + 1 : std::max(bottom_, y + 1);
+  left_ = std::min(left_, rect.x_px + first);
+  right_ = std::max(right_, rect.x_px + last + 1);
+  top_ = std::min(top_, y);
+  bottom_ = std::max(bottom_, y + 1);
 }
 
 void ChangedPicture::settle() {
-  for (int y = top_; !marks_.empty() && y < bottom_; ++y) {
+  for (int y = top_; y < bottom_; ++y) {
     std::fill_n(marks_.data() + offset(y) + left_, right_ - left_, std::uint8_t{0});
   }
-  left_ = top_ = right_ = bottom_ = 0;
+  left_ = width_px_;
+  top_ = height_px_;
+  right_ = bottom_ = 0;
 }
 
 PixelRect ChangedPicture::changed() const noexcept {

@@ -1,6 +1,6 @@
 // A picture that remembers what has changed in it: what a frame of a GIF or an APNG has to hold.
 // In: frames, with the rectangles that may have changed. Out: the pixels, the smallest rectangle
-// around those that have changed, and on request a mark on each of them.
+// around those that have changed, and a mark on each of them.
 #pragma once
 
 #include <piblocks/image.hpp>
@@ -13,10 +13,7 @@ namespace piblocks {
 
 class ChangedPicture {
  public:
-  /// What is marked beside the rectangle.
-  enum class Marks { none, changed_pixels };
-
-  ChangedPicture(int width_px, int height_px, Marks marks);
+  ChangedPicture(int width_px, int height_px);
 
   /// @param rects  cover every pixel in which the frame differs from the one taken before.
   void take(const ImageView& frame, std::span<const PixelRect> rects);
@@ -35,7 +32,7 @@ class ChangedPicture {
             .stride_bytes = std::ptrdiff_t{4} * width_px_,
             .has_alpha = has_alpha};
   }
-  /// With Marks::changed_pixels: 1 for each pixel that has changed since settle(), else 0.
+  /// 1 for each pixel that has changed since settle(), else 0.
   const std::uint8_t* marks(int y) const noexcept { return marks_.data() + offset(y); }
 
  private:
@@ -47,8 +44,8 @@ class ChangedPicture {
   std::vector<std::uint32_t> words_;
   std::vector<std::uint8_t> marks_;
   // The rectangle; empty if left is not before right.
-  int left_ = 0;
-  int top_ = 0;
+  int left_;
+  int top_;
   int right_ = 0;
   int bottom_ = 0;
 };

@@ -1,13 +1,33 @@
 // Frames read back from files.
-// In: PNG files or a video. Out: one frame after the other, as samples.
+// In: PNG files or a video. Out: one frame after the other, of 8 bits a sample or more.
 #pragma once
+
+#include <piblocks/image.hpp>
 
 #include <string>
 #include <string_view>
-
-#include "media/pixels/samples.hpp"
+#include <variant>
 
 namespace piblocks {
+
+/// A picture of 8 bits a sample, or of more.
+using AnyImage = std::variant<Image, DeepImage>;
+
+/// The largest possible sample, at least 255.
+int max_level_of(const AnyImage& image);
+
+/// A level of one range as a level of another, rounded to the nearest. Exact if one range is a
+/// multiple of the other, as 65535 is of 255.
+constexpr int scaled_level(int level, int from_max, int to_max) {
+  return int((2LL * level * to_max + from_max) / (2LL * from_max));
+}
+
+/// The image at a depth that is no less; different levels stay different.
+/// @param max_level  above 255, and not below the image's own.
+DeepImage deepened(AnyImage image, int max_level);
+
+/// The image in 8 bits, to show it.
+Image flattened(AnyImage image);
 
 /// The layout of frames whose samples are red, green, blue and alpha.
 inline constexpr std::string_view kRgba = "rgba";
@@ -25,9 +45,9 @@ class FrameReader {
   /// do not.
   virtual std::string presentation() const { return {}; }
   /// The frame as it is stored. Call either this or rgb(), once a frame: the picture is moved out.
-  virtual Samples samples() = 0;
+  virtual AnyImage samples() = 0;
   /// The frame's colours, at no less than the depth of the samples.
-  virtual Samples rgb() = 0;
+  virtual AnyImage rgb() = 0;
   /// The frame for people: the file's name, or the frame's number from 0.
   virtual std::string name() const = 0;
 };

@@ -14,9 +14,9 @@ std::uint32_t pixel_at(const std::uint8_t* row, int x) {
 void pack_rgb24(const std::uint8_t* __restrict row, int count, std::uint8_t* __restrict bytes) {
   for (int x = 0; x < count; ++x) {
     const std::uint32_t pixel = pixel_at(row, x);
-    bytes[3 * x] = static_cast<std::uint8_t>(pixel >> 16);
-    bytes[3 * x + 1] = static_cast<std::uint8_t>(pixel >> 8);
-    bytes[3 * x + 2] = static_cast<std::uint8_t>(pixel);
+    bytes[3 * x] = std::uint8_t(pixel >> 16);
+    bytes[3 * x + 1] = std::uint8_t(pixel >> 8);
+    bytes[3 * x + 2] = std::uint8_t(pixel);
   }
 }
 
@@ -32,7 +32,7 @@ void pack_rgba32(const std::uint8_t* __restrict row, int count, std::uint8_t* __
     bytes[4 * x] = unmultiplied(pixel >> 16 & 0xff, alpha);
     bytes[4 * x + 1] = unmultiplied(pixel >> 8 & 0xff, alpha);
     bytes[4 * x + 2] = unmultiplied(pixel & 0xff, alpha);
-    bytes[4 * x + 3] = static_cast<std::uint8_t>(alpha);
+    bytes[4 * x + 3] = std::uint8_t(alpha);
   }
 }
 
@@ -47,7 +47,7 @@ void subtract_bytes(const std::uint8_t* __restrict minuend,
                     const std::uint8_t* __restrict subtrahend, std::size_t count,
                     std::uint8_t* __restrict difference) {
   for (std::size_t i = 0; i < count; ++i) {
-    difference[i] = static_cast<std::uint8_t>(minuend[i] - subtrahend[i]);
+    difference[i] = std::uint8_t(minuend[i] - subtrahend[i]);
   }
 }
 

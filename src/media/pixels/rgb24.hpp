@@ -22,7 +22,7 @@ void pack_row(const ImageView& frame, const PixelRect& rect, int y, std::uint8_t
 /// if alpha is 0.
 constexpr std::uint8_t unmultiplied(std::uint32_t sample, std::uint32_t alpha) {
   if (alpha == 0) return 0;
-  return static_cast<std::uint8_t>(sample >= alpha ? 255 : (510 * sample + alpha) / (2 * alpha));
+  return std::uint8_t(sample >= alpha ? 255 : (510 * sample + alpha) / (2 * alpha));
 }
 
 /// difference[i] = minuend[i] - subtrahend[i], modulo 256, for i < count: PNG's filter Up.

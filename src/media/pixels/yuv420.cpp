@@ -1,8 +1,8 @@
-#include "media/pixels/yuv420.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cassert>
+
+#include "media/pixels/yuv.hpp"
 
 // All arithmetic has 16 bits, since SSE2, which every x86-64 has, is slow at products of 32. GCC
 // turns `high_half` into one vector instruction. Strips are short enough for their buffers to stay
@@ -11,42 +11,37 @@
 namespace piblocks {
 namespace {
 
-// BT.709: the weights of red and blue in luma (ITU-R BT.709-6, 3.2).
-constexpr double kRed = 0.2126;
-constexpr double kBlue = 0.0722;
+constexpr double kRed = double(kRedWeight) / kAllWeights;
+constexpr double kBlue = double(kBlueWeight) / kAllWeights;
 constexpr double kGreen = 1 - kRed - kBlue;
 // Limited range: 219 steps of luma above 16, 224 of chroma around 128.
 constexpr double kLuma = 219.0 / 255;
 constexpr double kChroma = 224.0 / 255;
 
 /// A fraction of one in units of 2^-16, rounded.
-constexpr int in_65536ths(double value) {
-  return static_cast<int>(value * 65536 + (value < 0 ? -0.5 : 0.5));
-}
+constexpr int in_65536ths(double value) { return int(value * 65536 + (value < 0 ? -0.5 : 0.5)); }
 
-constexpr auto kLumaRed = static_cast<std::uint16_t>(in_65536ths(kLuma * kRed));
-constexpr auto kLumaGreen = static_cast<std::uint16_t>(in_65536ths(kLuma * kGreen));
-constexpr auto kLumaBlue = static_cast<std::uint16_t>(in_65536ths(kLuma * kBlue));
+constexpr auto kLumaRed = std::uint16_t(in_65536ths(kLuma * kRed));
+constexpr auto kLumaGreen = std::uint16_t(in_65536ths(kLuma * kGreen));
+constexpr auto kLumaBlue = std::uint16_t(in_65536ths(kLuma * kBlue));
 
 /// How much each colour adds to a chroma sample.
 struct ChromaWeights {
   std::int16_t red, green, blue;
 };
-constexpr ChromaWeights kCb = {
-    static_cast<std::int16_t>(in_65536ths(-kChroma * kRed / (2 * (1 - kBlue)))),
-    static_cast<std::int16_t>(in_65536ths(-kChroma* kGreen / (2 * (1 - kBlue)))),
-    static_cast<std::int16_t>(in_65536ths(kChroma / 2))};
-constexpr ChromaWeights kCr = {
-    static_cast<std::int16_t>(in_65536ths(kChroma / 2)),
-    static_cast<std::int16_t>(in_65536ths(-kChroma* kGreen / (2 * (1 - kRed)))),
-    static_cast<std::int16_t>(in_65536ths(-kChroma* kBlue / (2 * (1 - kRed))))};
+constexpr ChromaWeights kCb = {std::int16_t(in_65536ths(-kChroma * kRed / (2 * (1 - kBlue)))),
+                               std::int16_t(in_65536ths(-kChroma* kGreen / (2 * (1 - kBlue)))),
+                               std::int16_t(in_65536ths(kChroma / 2))};
+constexpr ChromaWeights kCr = {std::int16_t(in_65536ths(kChroma / 2)),
+                               std::int16_t(in_65536ths(-kChroma* kGreen / (2 * (1 - kRed)))),
+                               std::int16_t(in_65536ths(-kChroma* kBlue / (2 * (1 - kRed))))};
 
 /// floor(a * b / 2^16)
 inline std::uint16_t high_half(std::uint16_t a, std::uint16_t b) {
-  return static_cast<std::uint16_t>((std::uint32_t{a} * b) >> 16);
+  return std::uint16_t((std::uint32_t{a} * b) >> 16);
 }
 inline std::int16_t high_half(std::int16_t a, std::int16_t b) {
-  return static_cast<std::int16_t>((std::int32_t{a} * b) >> 16);
+  return std::int16_t((std::int32_t{a} * b) >> 16);
 }
 
 /// Pixels that one pass over a pair of rows takes; even.
@@ -57,12 +52,12 @@ constexpr int kStrip_px = 512;
 void convert_luma(const std::uint32_t* __restrict pixels, int count, std::uint8_t* __restrict y) {
   for (int x = 0; x < count; ++x) {
     const std::uint32_t pixel = pixels[x];
-    const auto red = static_cast<std::uint16_t>((pixel >> 8) & 0xff00);
-    const auto green = static_cast<std::uint16_t>(pixel & 0xff00);
-    const auto blue = static_cast<std::uint16_t>((pixel << 8) & 0xff00);
-    const auto sum = static_cast<std::uint16_t>(
-        high_half(red, kLumaRed) + high_half(green, kLumaGreen) + high_half(blue, kLumaBlue));
-    y[x] = static_cast<std::uint8_t>(static_cast<std::uint16_t>(sum + 16 * 256 + 128 + 1) >> 8);
+    const auto red = std::uint16_t((pixel >> 8) & 0xff00);
+    const auto green = std::uint16_t(pixel & 0xff00);
+    const auto blue = std::uint16_t((pixel << 8) & 0xff00);
+    const auto sum = std::uint16_t(high_half(red, kLumaRed) + high_half(green, kLumaGreen) +
+                                   high_half(blue, kLumaBlue));
+    y[x] = std::uint8_t(std::uint16_t(sum + 16 * 256 + 128 + 1) >> 8);
   }
 }
 
@@ -91,10 +86,9 @@ void add_rows(const RowPair& rows, int count, std::uint32_t* __restrict red_blue
 /// One chroma sample in 128ths, from colours that are 128 times their value.
 inline std::uint8_t chroma(std::int16_t red, std::int16_t green, std::int16_t blue,
                            ChromaWeights weights) {
-  const auto sum =
-      static_cast<std::int16_t>(high_half(red, weights.red) + high_half(green, weights.green) +
+  const auto sum = std::int16_t(high_half(red, weights.red) + high_half(green, weights.green) +
                                 high_half(blue, weights.blue) + 128 * 128 + 64 + 1);
-  return static_cast<std::uint8_t>(sum >> 7);
+  return std::uint8_t(sum >> 7);
 }
 
 /// The samples of `count` pairs of columns. A sample lies on the even column, which weighs half,
@@ -106,9 +100,9 @@ void convert_chroma(const ColumnSums& sums, int count, std::uint8_t* __restrict 
   for (int i = 0; i < count; ++i) {
     const std::uint32_t both = red_blue[2 * i] + 2 * red_blue[2 * i + 1] + red_blue[2 * i + 2];
     const std::uint32_t eight = greens[2 * i] + 2 * greens[2 * i + 1] + greens[2 * i + 2];
-    const auto red = static_cast<std::int16_t>((both >> 16) << 4);
-    const auto green = static_cast<std::int16_t>(eight << 4);
-    const auto blue = static_cast<std::int16_t>((both & 0xffff) << 4);
+    const auto red = std::int16_t((both >> 16) << 4);
+    const auto green = std::int16_t(eight << 4);
+    const auto blue = std::int16_t((both & 0xffff) << 4);
     cb[i] = chroma(red, green, blue, kCb);
     cr[i] = chroma(red, green, blue, kCr);
   }

@@ -1,16 +1,10 @@
-#include "media/pixels/yuva.hpp"
-
 #include <cassert>
 #include <cstring>
 
+#include "media/pixels/yuv.hpp"
+
 namespace piblocks {
 namespace {
-
-// BT.709 in ten thousandths (ITU-R BT.709-6, 3.2).
-constexpr std::int64_t kRed = 2126;
-constexpr std::int64_t kGreen = 7152;
-constexpr std::int64_t kBlue = 722;
-constexpr std::int64_t kOne = kRed + kGreen + kBlue;
 
 /// Sums of samples multiplied by alpha, and of the alphas.
 struct Sums {
@@ -28,27 +22,30 @@ std::int64_t rounded_quotient(std::int64_t dividend, std::int64_t divisor) {
   return twice % (2 * divisor) < 0 ? quotient - 1 : quotient;
 }
 
+/// Luma times kAllWeights.
+std::int64_t weighted_sum(const Sums& c) {
+  return kRedWeight * c.red + (kAllWeights - kRedWeight - kBlueWeight) * c.green +
+         kBlueWeight * c.blue;
+}
+
 /// Limited range: `steps` of luma above black.
 std::int64_t luma(const Sums& c, std::int64_t steps) {
-  if (c.alpha == 0) return 0;
-  return rounded_quotient(steps * (kRed * c.red + kGreen * c.green + kBlue * c.blue),
-                          kOne * c.alpha);
+  return c.alpha == 0 ? 0 : rounded_quotient(steps * weighted_sum(c), kAllWeights * c.alpha);
 }
 
 /// Limited range: `steps` of chroma from one end to the other.
 /// @param sample, weight  of blue for Cb, of red for Cr.
 std::int64_t chroma(const Sums& c, std::int64_t sample, std::int64_t weight, std::int64_t steps) {
   if (c.alpha == 0) return 0;
-  const std::int64_t difference =
-      kOne * sample - kRed * c.red - kGreen * c.green - kBlue * c.blue;  // sample - luma
-  return rounded_quotient(steps * difference, 2 * (kOne - weight) * c.alpha);
+  return rounded_quotient(steps * (kAllWeights * sample - weighted_sum(c)),
+                          2 * (kAllWeights - weight) * c.alpha);
 }
-
-std::int64_t chroma_blue(const Sums& c, std::int64_t steps) {
-  return chroma(c, c.blue, kBlue, steps);
+std::int64_t cb_of(const Sums& c, std::int64_t steps) {
+  return chroma(c, c.blue, kBlueWeight, steps);
 }
-
-std::int64_t chroma_red(const Sums& c, std::int64_t steps) { return chroma(c, c.red, kRed, steps); }
+std::int64_t cr_of(const Sums& c, std::int64_t steps) {
+  return chroma(c, c.red, kRedWeight, steps);
+}
 
 /// Reads the pixels of one picture.
 class Reader {
@@ -79,12 +76,8 @@ struct Sample444 {
 };
 
 Sample444 sample_444(const Sums& c) {
-  constexpr std::int64_t kFull8 = 255;
-  constexpr std::int64_t kFull10 = 1023;
-  return {static_cast<std::uint16_t>(64 + luma(c, 876)),
-          static_cast<std::uint16_t>(512 + chroma_blue(c, 896)),
-          static_cast<std::uint16_t>(512 + chroma_red(c, 896)),
-          static_cast<std::uint16_t>(rounded_quotient(kFull10 * c.alpha, kFull8))};
+  return {std::uint16_t(64 + luma(c, 876)), std::uint16_t(512 + cb_of(c, 896)),
+          std::uint16_t(512 + cr_of(c, 896)), std::uint16_t(rounded_quotient(1023 * c.alpha, 255))};
 }
 
 void convert_luma_420(const Reader& reader, const PixelRect& rect, int y,
@@ -96,11 +89,11 @@ void convert_luma_420(const Reader& reader, const PixelRect& rect, int y,
     if (word != last) {
       Sums pixel;
       reader.add(x, y, 1, pixel);
-      value = static_cast<std::uint8_t>(16 + luma(pixel, 219));
+      value = std::uint8_t(16 + luma(pixel, 219));
       last = word;
     }
     picture.y.row(y)[x] = value;
-    picture.alpha.row(y)[x] = static_cast<std::uint8_t>(word >> 24);
+    picture.alpha.row(y)[x] = std::uint8_t(word >> 24);
   }
 }
 
@@ -117,8 +110,8 @@ void convert_chroma_420(const Reader& reader, const PixelRect& rect, int y,
       reader.add(x + 1, line, 1, sums);
     }
     if (sums != last) {
-      cb = static_cast<std::uint8_t>(128 + chroma_blue(sums, 224));
-      cr = static_cast<std::uint8_t>(128 + chroma_red(sums, 224));
+      cb = std::uint8_t(128 + cb_of(sums, 224));
+      cr = std::uint8_t(128 + cr_of(sums, 224));
       last = sums;
     }
     picture.cb.row(y / 2)[x / 2] = cb;

@@ -5,19 +5,15 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "media/output/output_kinds.hpp"
 #include "media/output/simple_output.hpp"
 #include "media/pixels/changed_picture.hpp"
 #include "media/pixels/rgb24.hpp"
-#include "media/png/deflate.hpp"
 #include "media/png/png_chunk.hpp"
 
 namespace piblocks {
 namespace {
-
-using Bytes = std::vector<std::uint8_t>;
 
 /// A delay is a fraction of two 16-bit numbers.
 constexpr int kMaxTerm = 65535;
@@ -26,8 +22,8 @@ constexpr std::uint64_t kAnimationControl = 8 + 25;
 
 void append_animation_control(Bytes& bytes, std::int64_t frames) {
   const std::size_t chunk = begin_png_chunk(bytes, "acTL");
-  append_u32(bytes, static_cast<std::uint32_t>(frames));
-  append_u32(bytes, 0);  // repeated for ever
+  append_big_endian(bytes, std::uint64_t(frames), 4);
+  append_big_endian(bytes, 0, 4);  // repeated for ever
   end_png_chunk(bytes, chunk);
 }
 
@@ -36,7 +32,7 @@ class ApngEncoder final : public PacketPerFrameEncoder {
   explicit ApngEncoder(const VideoFormat& format)
       : PacketPerFrameEncoder(format),
         format_(format),
-        picture_(format.width_px, format.height_px, ChangedPicture::Marks::none) {}
+        picture_(format.width_px, format.height_px) {}
 
  private:
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
@@ -59,14 +55,13 @@ Bytes ApngEncoder::encode_picture(std::int64_t number, bool is_first) {
   Bytes bytes;
   if (number == 0) {
     append_png_header(bytes, format_.width_px, format_.height_px, format_.has_alpha);
-    append_animation_control(bytes, 0);  // finish_file() knows how many frames there are
+    append_animation_control(bytes, 0);  // write_trailer() knows how many frames there are
     append_png_srgb(bytes);
   }
   append_frame_control(bytes, number, rect);
   const std::size_t data = begin_png_chunk(bytes, number == 0 ? "IDAT" : "fdAT");
-  if (number > 0) append_u32(bytes, static_cast<std::uint32_t>(2 * number));
-  const std::span<const std::uint8_t> compressed = deflater_.compress(rows_);
-  bytes.insert(bytes.end(), compressed.begin(), compressed.end());
+  if (number > 0) append_big_endian(bytes, std::uint64_t(2 * number), 4);
+  append(bytes, deflater_.compress(rows_));
   end_png_chunk(bytes, data);
   return bytes;
 }
@@ -75,12 +70,12 @@ Bytes ApngEncoder::encode_picture(std::int64_t number, bool is_first) {
 void ApngEncoder::append_frame_control(Bytes& bytes, std::int64_t number,
                                        const PixelRect& rect) const {
   const std::size_t control = begin_png_chunk(bytes, "fcTL");
-  append_u32(bytes, number == 0 ? 0 : static_cast<std::uint32_t>(2 * number - 1));
+  append_big_endian(bytes, number == 0 ? 0 : std::uint64_t(2 * number - 1), 4);
   for (const int value : {rect.width_px, rect.height_px, rect.x_px, rect.y_px}) {
-    append_u32(bytes, static_cast<std::uint32_t>(value));
+    append_big_endian(bytes, std::uint64_t(value), 4);
   }
-  append_u16(bytes, static_cast<std::uint32_t>(format_.frame_rate.get_den().get_ui()));
-  append_u16(bytes, static_cast<std::uint32_t>(format_.frame_rate.get_num().get_ui()));
+  append_big_endian(bytes, format_.frame_rate.get_den().get_ui(), 2);
+  append_big_endian(bytes, format_.frame_rate.get_num().get_ui(), 2);
   bytes.push_back(0);  // stays until the next frame is drawn over it,
   bytes.push_back(0);  // which replaces it
   end_png_chunk(bytes, control);
@@ -103,7 +98,7 @@ void ApngEncoder::filter(const PixelRect& rect) {
   }
 }
 
-void finish_file(OutputFile& file, std::int64_t frames) {
+void write_trailer(OutputFile& file, std::int64_t frames) {
   Bytes end;
   end_png_chunk(end, begin_png_chunk(end, "IEND"));
   file.write(end);
@@ -114,7 +109,7 @@ void finish_file(OutputFile& file, std::int64_t frames) {
 
 }  // namespace
 
-std::unique_ptr<Output> apng_output(const OutputRequest& request) {
+Output apng_output(const OutputRequest& request) {
   constexpr std::int64_t kFramesPerChunk = 64;  // the first of them whole
   const Rational& rate = request.format.frame_rate;
   if (rate.get_num() > kMaxTerm || rate.get_den() > kMaxTerm) {
@@ -124,7 +119,7 @@ std::unique_ptr<Output> apng_output(const OutputRequest& request) {
                     rate.get_str(), kMaxTerm));
   }
   return stream_output<ApngEncoder>(request, kFramesPerChunk,
-                                    fmt::format("apng by zlib {}", zlibVersion()), finish_file);
+                                    fmt::format("apng by zlib {}", zlibVersion()), write_trailer);
 }
 
 }  // namespace piblocks

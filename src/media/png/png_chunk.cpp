@@ -1,53 +1,32 @@
 #include "media/png/png_chunk.hpp"
 
+#include <piblocks/error.hpp>
 #include <zlib.h>
 
 namespace piblocks {
-namespace {
-
-using Bytes = std::vector<std::uint8_t>;
-
-void put_u32(std::uint8_t* at, std::uint32_t value) {
-  for (int i = 0; i < 4; ++i) at[i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
-}
-
-}  // namespace
-
-void append_u16(Bytes& png, std::uint32_t value) {
-  png.push_back(static_cast<std::uint8_t>(value >> 8));
-  png.push_back(static_cast<std::uint8_t>(value));
-}
-
-void append_u32(Bytes& png, std::uint32_t value) {
-  png.resize(png.size() + 4);
-  put_u32(png.data() + png.size() - 4, value);
-}
-
-void append_text(Bytes& png, std::string_view text) {
-  for (const char c : text) png.push_back(static_cast<std::uint8_t>(c));
-}
 
 std::size_t begin_png_chunk(Bytes& png, std::string_view type) {
   const std::size_t start = png.size();
-  append_u32(png, 0);
-  append_text(png, type);
+  append_big_endian(png, 0, 4);
+  append(png, type);
   return start;
 }
 
 void end_png_chunk(Bytes& png, std::size_t start) {
-  const std::uint8_t* type = png.data() + start + 4;
-  const std::size_t length = png.size() - start - 8;
-  put_u32(png.data() + start, static_cast<std::uint32_t>(length));
-  append_u32(png, static_cast<std::uint32_t>(crc32_z(0, type, length + 4)));
+  const ByteSpan checked = std::span(png).subspan(start + 4);
+  Bytes length;
+  append_big_endian(length, checked.size() - 4, 4);
+  append_big_endian(png, crc32_z(0, checked.data(), checked.size()), 4);
+  std::ranges::copy(length, png.begin() + std::ptrdiff_t(start));
 }
 
 void append_png_header(Bytes& png, int width_px, int height_px, bool has_alpha) {
-  append_text(png, "\x89PNG\r\n\x1a\n");
+  append(png, "\x89PNG\r\n\x1a\n");
   const std::size_t header = begin_png_chunk(png, "IHDR");
-  append_u32(png, static_cast<std::uint32_t>(width_px));
-  append_u32(png, static_cast<std::uint32_t>(height_px));
+  append_big_endian(png, std::uint64_t(width_px), 4);
+  append_big_endian(png, std::uint64_t(height_px), 4);
   // 8 bits a sample, colour type 2 (RGB) or 6 (RGB and alpha).
-  append_text(png, {has_alpha ? "\x08\x06\0\0\0" : "\x08\x02\0\0\0", 5});
+  append(png, std::string_view(has_alpha ? "\x08\x06\0\0\0" : "\x08\x02\0\0\0", 5));
   end_png_chunk(png, header);
 }
 
@@ -55,6 +34,36 @@ void append_png_srgb(Bytes& png) {
   const std::size_t colours = begin_png_chunk(png, "sRGB");
   png.push_back(0);  // perceptual intent
   end_png_chunk(png, colours);
+}
+
+Deflater::Deflater(Form form)
+    : form_(form), stream_(new z_stream{}, [](z_stream* stream) {
+        deflateEnd(stream);
+        delete stream;  // NOLINT(cppcoreguidelines-owning-memory): this is the owner
+      }) {
+  constexpr int kLevel = 1;
+  constexpr int kMemoryLevel = 8;
+  const int window_bits = form == Form::whole ? 15 : -15;  // negative: without header and checksum
+  if (deflateInit2(stream_.get(), kLevel, Z_DEFLATED, window_bits, kMemoryLevel, Z_RLE) != Z_OK) {
+    throw MediaError("png: cannot compress images: out of memory");
+  }
+}
+
+ByteSpan Deflater::compress(ByteSpan bytes) {
+  constexpr std::size_t kFlush_bytes = 16;  // which the bound leaves out
+  z_stream& stream = *stream_;
+  deflateReset(&stream);
+  compressed_.resize(deflateBound(&stream, bytes.size()) + kFlush_bytes);
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): zlib does not write to it
+  stream.next_in = const_cast<std::uint8_t*>(bytes.data());
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = compressed_.data();
+  stream.avail_out = static_cast<uInt>(compressed_.size());
+  const int code = deflate(&stream, form_ == Form::whole ? Z_FINISH : Z_SYNC_FLUSH);
+  if (code != (form_ == Form::whole ? Z_STREAM_END : Z_OK) || stream.avail_in != 0) {
+    throw MediaError("png: cannot compress an image");
+  }
+  return {compressed_.data(), stream.next_out};
 }
 
 }  // namespace piblocks

@@ -1,26 +1,49 @@
-// The chunks of a PNG file (PNG specification, section 5.3).
-// In: a type and data. Out: length, type, data and CRC, appended to a file in memory.
+// What PNG files are made of: chunks (PNG specification, section 5.3) and deflate streams.
+// In: data. Out: chunks, appended to a file in memory; compressed bytes.
 #pragma once
+
+#include <zlib.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string_view>
-#include <vector>
+
+#include "media/output/bytes.hpp"
 
 namespace piblocks {
 
-void append_u16(std::vector<std::uint8_t>& png, std::uint32_t value);
-void append_u32(std::vector<std::uint8_t>& png, std::uint32_t value);
-void append_text(std::vector<std::uint8_t>& png, std::string_view text);
-
 /// Begins a chunk. What is appended before end_png_chunk() is its data.
 /// @return where the chunk starts, for end_png_chunk().
-std::size_t begin_png_chunk(std::vector<std::uint8_t>& png, std::string_view type);
-void end_png_chunk(std::vector<std::uint8_t>& png, std::size_t start);
+std::size_t begin_png_chunk(Bytes& png, std::string_view type);
+void end_png_chunk(Bytes& png, std::size_t start);
 
 /// Signature and header of a picture with 8 bits a sample, RGB or RGBA.
-void append_png_header(std::vector<std::uint8_t>& png, int width_px, int height_px, bool has_alpha);
+void append_png_header(Bytes& png, int width_px, int height_px, bool has_alpha);
 /// The chunk that says that colours are sRGB.
-void append_png_srgb(std::vector<std::uint8_t>& png);
+void append_png_srgb(Bytes& png);
+
+/// Fast, and for runs of equal bytes, which filter Up leaves of flat shapes: chosen from the table
+/// in tests/benchmark/encoders.md. Used by one thread at a time.
+class Deflater {
+ public:
+  enum class Form {
+    whole,  ///< a zlib stream (RFC 1950)
+    piece   ///< blocks up to a whole byte, which other pieces may follow
+  };
+
+  /// @throws MediaError if memory runs out.
+  explicit Deflater(Form form);
+
+  /// The result stays until the next call. It depends on `bytes` alone.
+  /// @throws MediaError
+  ByteSpan compress(ByteSpan bytes);
+
+ private:
+  Form form_;
+  std::unique_ptr<z_stream, void (*)(z_stream*)> stream_;
+  Bytes compressed_;
+};
 
 }  // namespace piblocks

@@ -1,22 +1,81 @@
 #include "media/png/png_encoder.hpp"
 
+#include <fmt/format.h>
 #include <piblocks/encode.hpp>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
 
+#include "core/output_file.hpp"
+#include "media/output/frame_pattern.hpp"
+#include "media/output/output_kinds.hpp"
+#include "media/output/simple_output.hpp"
 #include "media/pixels/rgb24.hpp"
 #include "media/png/png_chunk.hpp"
-#include "media/png/png_encoder.hpp"
 
 namespace piblocks {
+namespace fs = std::filesystem;
 namespace {
-
-using Bytes = std::vector<std::uint8_t>;
-using ByteSpan = std::span<const std::uint8_t>;
 
 /// Chosen from the table in tests/benchmark/encoders.md.
 constexpr int kStripRows = 8;
+
+/// As of FFmpeg's image2 muxer.
+constexpr std::int64_t kFirstNumber = 1;
+
+class PngFrameEncoder final : public PacketPerFrameEncoder {
+ public:
+  using PacketPerFrameEncoder::PacketPerFrameEncoder;
+
+ private:
+  void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
+    png_.filter(frame, rects);
+  }
+  Bytes encode_picture(std::int64_t /*number*/, bool /*is_first*/) override {
+    return png_.compress();
+  }
+
+  PngEncoder png_;
+};
+
+class PngSequence final : public FrameSink {
+ public:
+  explicit PngSequence(FramePattern pattern)
+      : pattern_(std::move(pattern)), files_(pattern_.folder(), pattern_.label()) {}
+
+  void append(const EncodedChunk& chunk) override {
+    std::int64_t number = next_number();
+    counter_.take(chunk);
+    for (const Packet& packet : chunk) files_.add(pattern_.name(number++), packet.bytes);
+  }
+  void finish() override;
+
+ private:
+  std::int64_t next_number() const { return kFirstNumber + counter_.frames(); }
+
+  FramePattern pattern_;
+  FileSet files_;
+  FrameCounter counter_;
+};
+
+void PngSequence::finish() {
+  // Pictures of an earlier, longer sequence would look like the end of this one.
+  std::error_code error;
+  for (std::int64_t number = next_number();; ++number) {
+    const std::string name = pattern_.name(number);
+    const fs::path path = fs::path(pattern_.folder()) / name;
+    if (!fs::is_regular_file(fs::symlink_status(path, error))) break;
+    files_.remove(name);
+  }
+  files_.commit();
+}
 
 }  // namespace
 
@@ -30,28 +89,21 @@ void PngEncoder::filter(const ImageView& image, std::span<const PixelRect> chang
   for (const PixelRect& rect : changed) filter_rect(image, rect);
 }
 
-Bytes PngEncoder::compress() {
-  for (std::size_t i = 0; i < strips_.size(); ++i) {
-    if (strips_[i].stale) compress_strip(i);
-  }
-  return assemble();
-}
-
 void PngEncoder::resize(const ImageView& image) {
   constexpr std::uint8_t kUp = 2;
   width_px_ = image.width_px;
   height_px_ = image.height_px;
   has_alpha_ = image.has_alpha;
-  row_bytes_ = static_cast<std::size_t>(width_px_) * packed_bytes(has_alpha_) + 1;
-  rows_.assign(row_bytes_ * static_cast<std::size_t>(height_px_), 0);
+  row_bytes_ = std::size_t(width_px_) * packed_bytes(has_alpha_) + 1;
+  rows_.assign(row_bytes_ * std::size_t(height_px_), 0);
   for (std::size_t at = 0; at < rows_.size(); at += row_bytes_) rows_[at] = kUp;
-  strips_.assign(static_cast<std::size_t>((height_px_ + kStripRows - 1) / kStripRows), {});
+  strips_.assign(std::size_t((height_px_ + kStripRows - 1) / kStripRows), {});
 }
 
 /// Up is the difference from the row above, so the row below the rectangle changes too. Above the
 /// first row all is zero.
 void PngEncoder::filter_rect(const ImageView& image, const PixelRect& rect) {
-  const std::size_t bytes = static_cast<std::size_t>(rect.width_px) * packed_bytes(has_alpha_);
+  const std::size_t bytes = std::size_t(rect.width_px) * packed_bytes(has_alpha_);
   Bytes above(bytes);
   Bytes current(bytes);
   if (rect.y_px > 0) pack_row(image, rect, rect.y_px - 1, above.data());
@@ -64,13 +116,13 @@ void PngEncoder::filter_rect(const ImageView& image, const PixelRect& rect) {
 }
 
 void PngEncoder::filter_row(int y, int x, ByteSpan row, ByteSpan above) {
-  std::uint8_t* const filtered = rows_.data() + static_cast<std::size_t>(y) * row_bytes_ + 1 +
-                                 static_cast<std::size_t>(x) * packed_bytes(has_alpha_);
+  std::uint8_t* const filtered =
+      rows_.data() + std::size_t(y) * row_bytes_ + 1 + std::size_t(x) * packed_bytes(has_alpha_);
   difference_.resize(row.size());
   subtract_bytes(row.data(), above.data(), row.size(), difference_.data());
   if (std::memcmp(difference_.data(), filtered, row.size()) == 0) return;
   std::memcpy(filtered, difference_.data(), row.size());
-  strips_[static_cast<std::size_t>(y / kStripRows)].stale = true;
+  strips_[std::size_t(y / kStripRows)].stale = true;
 }
 
 ByteSpan PngEncoder::rows_of(std::size_t strip) const {
@@ -86,38 +138,50 @@ void PngEncoder::compress_strip(std::size_t index) {
   Strip& strip = strips_[index];
   strip.chunk.clear();
   const std::size_t start = begin_png_chunk(strip.chunk, "IDAT");
-  if (index == 0) append_text(strip.chunk, "\x78\x01");  // compressed fast (RFC 1950)
-  strip.chunk.insert(strip.chunk.end(), compressed.begin(), compressed.end());
+  if (index == 0) append(strip.chunk, "\x78\x01");  // compressed fast (RFC 1950)
+  append(strip.chunk, compressed);
   end_png_chunk(strip.chunk, start);
-  strip.checksum = static_cast<std::uint32_t>(adler32_z(1, rows.data(), rows.size()));
+  strip.checksum = std::uint32_t(adler32_z(1, rows.data(), rows.size()));
   strip.stale = false;
 }
 
-Bytes PngEncoder::assemble() const {
+Bytes PngEncoder::compress() {
   std::size_t size = 128;
-  for (const Strip& strip : strips_) size += strip.chunk.size();
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    if (strips_[i].stale) compress_strip(i);
+    size += strips_[i].chunk.size();
+  }
   Bytes png;
   png.reserve(size);
   append_png_header(png, width_px_, height_px_, has_alpha_);
   append_png_srgb(png);
   uLong checksum = 1;
   for (std::size_t i = 0; i < strips_.size(); ++i) {
-    png.insert(png.end(), strips_[i].chunk.begin(), strips_[i].chunk.end());
+    append(png, strips_[i].chunk);
     checksum =
         adler32_combine(checksum, strips_[i].checksum, static_cast<z_off_t>(rows_of(i).size()));
   }
   const std::size_t last = begin_png_chunk(png, "IDAT");
-  append_text(png, {"\x03\x00", 2});  // an empty last block (RFC 1951, 3.2.6)
-  append_u32(png, static_cast<std::uint32_t>(checksum));
+  append(png, std::string_view("\x03\x00", 2));  // an empty last block (RFC 1951, 3.2.6)
+  append_big_endian(png, checksum, 4);
   end_png_chunk(png, last);
   end_png_chunk(png, begin_png_chunk(png, "IEND"));
   return png;
 }
 
-std::vector<std::uint8_t> encode_png(const ImageView& image) {
+Bytes encode_png(const ImageView& image) {
   PngEncoder encoder;
   encoder.filter(image, {});
   return encoder.compress();
+}
+
+Output png_output(const OutputRequest& request) {
+  return {.frames_per_chunk = 16,  // few wait to be written, and workers end nearly together
+          .signature = fmt::format("png by zlib {}", zlibVersion()),
+          .make_encoder =
+              [format = request.format] { return std::make_unique<PngFrameEncoder>(format); },
+          .open = [pattern = FramePattern(
+                       request.name)] { return std::make_unique<PngSequence>(pattern); }};
 }
 
 }  // namespace piblocks

@@ -10,9 +10,8 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
-#include "media/png/deflate.hpp"
+#include "media/png/png_chunk.hpp"
 
 namespace piblocks {
 
@@ -24,31 +23,29 @@ class PngEncoder {
   void filter(const ImageView& image, std::span<const PixelRect> changed);
   /// The file of the last image.
   /// @throws MediaError if memory for the compressor runs out.
-  std::vector<std::uint8_t> compress();
+  Bytes compress();
 
  private:
   /// Some rows of a file, filtered and compressed.
   struct Strip {
-    std::vector<std::uint8_t> chunk;
+    Bytes chunk;
     std::uint32_t checksum = 0;  // Adler-32 of the filtered rows
     bool stale = true;
   };
 
   void resize(const ImageView& image);
   void filter_rect(const ImageView& image, const PixelRect& rect);
-  void filter_row(int y, int x, std::span<const std::uint8_t> row,
-                  std::span<const std::uint8_t> above);
+  void filter_row(int y, int x, ByteSpan row, ByteSpan above);
   void compress_strip(std::size_t index);
-  std::span<const std::uint8_t> rows_of(std::size_t strip) const;
-  std::vector<std::uint8_t> assemble() const;
+  ByteSpan rows_of(std::size_t strip) const;
 
   Deflater deflater_{Deflater::Form::piece};
   int width_px_ = 0;
   int height_px_ = 0;
   bool has_alpha_ = false;
-  std::size_t row_bytes_ = 0;             // with the byte that names the filter
-  std::vector<std::uint8_t> rows_;        // filtered
-  std::vector<std::uint8_t> difference_;  // room for one row
+  std::size_t row_bytes_ = 0;  // with the byte that names the filter
+  Bytes rows_;                 // filtered
+  Bytes difference_;           // room for one row
   std::vector<Strip> strips_;
 };
 

@@ -39,27 +39,28 @@ FilePtr open_file(const fs::path& path) {
   return file;
 }
 
+/// libpng's objects. A base, since it is destroyed even if a constructor throws.
+struct PngStructs {
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+
+  PngStructs() = default;
+  PngStructs(const PngStructs&) = delete;
+  PngStructs& operator=(const PngStructs&) = delete;
+  ~PngStructs() { png_destroy_read_struct(&png_, &info_, nullptr); }
+};
+
 /// libpng reports an error by a jump, which runs no destructors. Every call that may fail is made
 /// in a step without local objects; members own everything.
-class PngFile {
+class PngFile : private PngStructs {
  public:
-  explicit PngFile(fs::path path)
-      : path_(std::move(path)),
-        file_(open_file(path_)),
-        png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning)) {
+  explicit PngFile(fs::path path) : path_(std::move(path)), file_(open_file(path_)) {
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
     if (png_ != nullptr) info_ = png_create_info_struct(png_);
-    try {
-      if (info_ == nullptr) throw std::bad_alloc();
-      run(&PngFile::read_header);
-      check_size();
-    } catch (...) {
-      close();
-      throw;
-    }
+    if (info_ == nullptr) throw std::bad_alloc();
+    run(&PngFile::read_header);
+    check_size();
   }
-  ~PngFile() { close(); }
-  PngFile(const PngFile&) = delete;
-  PngFile& operator=(const PngFile&) = delete;
 
   bool is_deep() const { return png_get_bit_depth(png_, info_) == 16; }
   bool is_animated() const;
@@ -80,9 +81,8 @@ class PngFile {
   }
   static void on_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
-  void close() { png_destroy_read_struct(&png_, &info_, nullptr); }
-  int width() const { return static_cast<int>(png_get_image_width(png_, info_)); }
-  int height() const { return static_cast<int>(png_get_image_height(png_, info_)); }
+  int width() const { return int(png_get_image_width(png_, info_)); }
+  int height() const { return int(png_get_image_height(png_, info_)); }
   void run(Step step);
   void read_header();
   void check_size() const;
@@ -101,8 +101,6 @@ class PngFile {
   fs::path path_;
   FilePtr file_;
   std::array<char, 128> message_{};
-  png_structp png_;
-  png_infop info_ = nullptr;
   // Where read_rows() puts the rows.
   png_bytep rows_ = nullptr;
   std::size_t row_bytes_ = 0;
@@ -182,21 +180,21 @@ class PngReader final : public FrameReader {
     return true;
   }
   std::string layout() const override { return std::string(kRgba); }
-  Samples samples() override { return std::move(samples_); }
-  Samples rgb() override { return std::move(samples_); }
+  AnyImage samples() override { return std::move(samples_); }
+  AnyImage rgb() override { return std::move(samples_); }
   std::string name() const override { return paths_[read_ - 1].filename(); }
 
  private:
   std::vector<fs::path> paths_;
   std::size_t read_ = 0;
-  Samples samples_;
+  AnyImage samples_;
 };
 
 }  // namespace
 
 Image read_png(const fs::path& path) { return PngFile(path).read_flat(); }
 
-Samples read_png_samples(const fs::path& path) {
+AnyImage read_png_samples(const fs::path& path) {
   PngFile file(path);
   if (file.is_animated()) {
     throw MediaError(fmt::format(

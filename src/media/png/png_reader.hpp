@@ -19,7 +19,7 @@ Image read_png(const std::filesystem::path& path);
 
 /// Keeps samples of 16 bits.
 /// @throws as read_png(), and MediaError if the file is animated.
-Samples read_png_samples(const std::filesystem::path& path);
+AnyImage read_png_samples(const std::filesystem::path& path);
 
 /// Whether the file is a PNG with more than one frame, all of which only read_video() reads.
 /// @throws as read_png().

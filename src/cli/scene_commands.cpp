@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <piblocks/instant.hpp>
+#include <piblocks/render.hpp>
+#include <piblocks/run.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/command.hpp"
+#include "cli/options.hpp"
+#include "cli/scene_options.hpp"
+#include "cli/stop_on_signals.hpp"
+#include "cli/text_output.hpp"
+
+namespace piblocks::cli {
+namespace {
+
+/// @throws UsageError if the engine cannot say.
+PositionBounds bounds_at(const CollisionLog& log, const Rational& time) {
+  if (const auto bounds = position_bounds(log, time)) return *bounds;
+  throw UsageError(
+      "--bounds: engines that step cannot say how exact they are; use --engine unfolded");
+}
+
+std::string described(const Motion& motion, const std::optional<double>& position_bound) {
+  const std::string bound =
+      position_bound ? fmt::format(R"(,"position_bound":{})", shown(*position_bound)) : "";
+  return fmt::format(R"({{"position":{}{},"velocity":{}}})", shown(motion.position), bound,
+                     shown(motion.velocity));
+}
+
+void write(const Rational& time, const BlockState& state,
+           const std::optional<PositionBounds>& bounds, TextOutput& out) {
+  const auto blue_bound = bounds ? std::optional(bounds->blue) : std::nullopt;
+  const auto red_bound = bounds ? std::optional(bounds->red) : std::nullopt;
+  out.format_line(R"({{"time":{},"collisions":"{}","blue":{},"red":{}}})", shown(to_double(time)),
+                  state.count.get_str(), described(state.blue, blue_bound),
+                  described(state.red, red_bound));
+}
+
+void run_state(const Command& options, const SceneOptions& scene_options) {
+  const std::vector<Instant> instants = *options.value("--at", parse_instants);
+  const Scene scene = scene_options.scene();
+  const auto log = make_log(scene.system, options);
+  TextOutput out("-");
+  for (const Instant& instant : instants) {
+    const Rational time = time_of(instant, *log);
+    std::optional<PositionBounds> bounds;
+    if (options.is_given("--bounds")) bounds = bounds_at(*log, time);
+    write(time, log->state_at(time), bounds, out);
+  }
+  out.finish();
+  note_convention(scene);
+}
+
+void run_still(const Command& options, const SceneOptions& scene_options) {
+  refuse_terminal(options);
+  const Script script = scene_options.script();
+  scene_options.check_output(script);
+  const StopOnSignals signals;
+  render_still(script, *options.value("--at", parse_instant), output_of(options), signals.token());
+  note_convention(script);
+}
+
+int parse_count(const std::string& text) { return parse_int(text, 1, kMaxSheetPictures); }
+
+void run_sheet(const Command& options, const SceneOptions& scene_options) {
+  constexpr int kUsualCount = 12;
+  refuse_terminal(options);
+  if (options.is_given("--frames") && options.is_given("--at")) {
+    throw UsageError("--frames and --at both say which instants are shown; give one of them");
+  }
+  const Scene scene = scene_options.scene();
+  scene_options.check_output(scene);
+  const auto named = options.value("--at", parse_instants);
+  const int count = options.value("--frames", parse_count).value_or(kUsualCount);
+  const StopOnSignals signals;
+  render_sheet(scene, named ? *named : spread_instants(scene, count), output_of(options),
+               signals.token());
+  note_convention(scene);
+}
+
+}  // namespace
+
+void add_count(Command& app) {
+  Command command = app.add_command("count", "Print the total number of collisions");
+  const SceneOptions options(command);
+  command.set_footer(
+      "Examples:\n"
+      "  piblocks count --digits 12\n"
+      "  piblocks count --mass-ratio 1/3");
+  command.on_run([options] {
+    TextOutput out("-");
+    const Scene scene = options.scene();
+    out.line(count_collisions(scene.system).get_str());
+    out.finish();
+    note_convention(scene);
+  });
+}
+
+void add_state(Command& app) {
+  Command command =
+      app.add_command("state", "Print positions, velocities and count, one JSON object a line");
+  const SceneOptions scene(command);
+  command.add_required_value("--at", "T[,T...]", "Instants: 3.5, turn-0.3, last+1, '#314'");
+  command.add_flag("--bounds",
+                   "Add position_bound: how far a position may be from the truth at most");
+  add_engine(command);
+  command.set_footer(
+      "Examples:\n"
+      "  piblocks state --at 0,3.5,last\n"
+      "  piblocks state --digits 20 --at '#15707963267948966192' --bounds");
+  command.on_run([=] { run_state(command, scene); });
+}
+
+void add_still(Command& app) {
+  Command command = app.add_command("still", "Render one instant as a picture");
+  SceneOptions scene(command);
+  command.add_required_value("--at", "T",
+                             "Instant: a time, 'turn', 'last', or '#K' for collision K; an\n"
+                             "offset may follow, as in turn-0.3 and last+1. Of a storyboard:\n"
+                             "a second of its video, or 'last' for its last frame");
+  command.add_required_value("-o,--output", "OUT",
+                             "NAME.png, NAME.svg, NAME.pdf, or - (PNG on standard output)");
+  scene.add_picture();
+  scene.add_show();
+  scene.add_exposure();
+  command.set_footer(
+      "Examples:\n"
+      "  piblocks still --at 3.5 -o turn.svg\n"
+      "  piblocks still scene.toml --at '#10' --size 640x360 -o tenth.png");
+  command.on_run([=] { run_still(command, scene); });
+}
+
+void add_sheet(Command& app) {
+  Command command = app.add_command("sheet", "Render several instants on one page, for paper");
+  SceneOptions scene(command);
+  command.add_value("--frames", "N", "So many instants, spread over the run (default 12)");
+  command.add_value("--at", "T[,T...]", "Or these instants: 3.5, turn-0.3, last+1, '#314'");
+  command.add_required_value("-o,--output", "OUT",
+                             "NAME.pdf, NAME.png, NAME.svg, or - (PNG on standard output)");
+  scene.add_size();
+  scene.add_show();
+  scene.add_span();
+  command.set_footer(
+      "Examples:\n"
+      "  piblocks sheet -o sheet.pdf\n"
+      "  piblocks sheet --digits 2 --at '0,#1,#10,#20,last' -o collisions.svg");
+  command.on_run([=] { run_sheet(command, scene); });
+}
+
+}  // namespace piblocks::cli

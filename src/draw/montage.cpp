@@ -1,0 +1,186 @@
+#include "draw/montage.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "draw/font.hpp"
+#include "draw/look.hpp"
+
+namespace piblocks {
+namespace {
+
+/// A line that has to be smaller than this part of its planned size is too long.
+constexpr double kLeastShrink = 0.4;
+// In ems.
+constexpr double kBelowHeading = 0.75;  // of the heading, to the next line's capitals
+constexpr double kBetweenLines = 0.8;
+
+double fitted_px(const std::string& text, double size_px, double width_px, const Font& font) {
+  font.check(text, "card");
+  const double fitted = font.fitted_px(text, size_px, width_px);
+  if (fitted >= kLeastShrink * size_px) return fitted;
+  throw UsageError(fmt::format(
+      "card: '{}' is too long to be read in {:.0f} pixels; break it into lines, or make the frame "
+      "wider",
+      text, width_px));
+}
+
+/// A smaller cell shows nothing.
+constexpr int kLeastCell_px = 8;
+
+constexpr Color kPaper = {255, 255, 255};
+constexpr Color kFrame = {160, 160, 160};
+constexpr Color kCaption = {32, 32, 32};
+
+// In ems of the caption.
+constexpr double kCaptionBaseline = 1.25;  // below the picture
+constexpr double kCaptionHeight = 1.6;
+
+TextItem caption_below(const Rectangle& place, const std::string& text, double size_px,
+                       const Font& font) {
+  const double fitted_px = font.fitted_px(text, size_px, place.width);
+  return {ItemId::label,
+          {place.x + (place.width - font.width_em(text) * fitted_px) / 2,
+           place.y + place.height + kCaptionBaseline * size_px},
+          text,
+          fitted_px,
+          kCaption};
+}
+
+/// A line around a picture, half inside of it, half outside.
+RectangleItem frame_of(const Rectangle& place, double width_px) {
+  return {ItemId::wall,
+          {place.x - width_px / 2, place.y - width_px / 2, place.width + width_px,
+           place.height + width_px},
+          std::nullopt,
+          Stroke{kFrame, width_px, 0}};
+}
+
+}  // namespace
+
+DrawList compose_card(const std::vector<std::string>& lines, const View& view) {
+  const Font font;
+  const Palette palette = palette_of(view.theme);
+  const double measure = short_measure(view);
+  const double inner_px = view.width_px - 2 * style::kCardMargin * measure;
+
+  const double heading_px = fitted_px(lines.front(), style::kCardHeading * measure, inner_px, font);
+  // All other lines have one size, so that none seems to matter more.
+  double line_px = style::kCardLine * measure;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    line_px = std::min(line_px, fitted_px(lines[i], style::kCardLine * measure, inner_px, font));
+  }
+  const double heading_height = Font::kCapHeight_em * heading_px;
+  const double line_height = Font::kCapHeight_em * line_px;
+  const double first_step = kBelowHeading * heading_px + line_height;
+  const double step = (Font::kCapHeight_em + kBetweenLines) * line_px;
+  const double below = lines.size() > 1 ? first_step + double(lines.size() - 2) * step : 0;
+
+  DrawList list{view.width_px, view.height_px, background_of(view), {}};
+  double baseline = (view.height_px - heading_height - below) / 2 + heading_height;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const double size_px = i == 0 ? heading_px : line_px;
+    if (i > 0) baseline += i == 1 ? first_step : step;
+    const Point origin{(view.width_px - font.width_em(lines[i]) * size_px) / 2,
+                       std::round(baseline)};
+    list.items.emplace_back(TextItem{nth(ItemId::card, i), origin, lines[i], size_px,
+                                     i == 0 ? palette.text : palette.muted});
+  }
+  return list;
+}
+
+SplitScreen::SplitScreen(const View& view, std::size_t count)
+    : empty_{view.width_px, view.height_px, background_of(view), {}} {
+  const bool is_wide = view.width_px > view.height_px;
+  const auto [breadth, length] = std::minmax({view.width_px, view.height_px});
+  const int line_px = std::max(1, static_cast<int>(std::lround(line_width_px(view))));
+  const int n = static_cast<int>(count);
+  const int cell_px = (length - (n - 1) * line_px) / n;
+  if (std::min(cell_px, breadth) < kLeastCell_px) {
+    throw UsageError(fmt::format("compare: {} runs do not fit into {}x{}; make the frame larger",
+                                 count, view.width_px, view.height_px));
+  }
+  const auto place = [is_wide](int along, int across, int along_px, int across_px) {
+    return is_wide ? PixelRect{along, across, along_px, across_px}
+                   : PixelRect{across, along, across_px, along_px};
+  };
+  const int margin = static_cast<int>(std::lround(style::kMargin * short_measure(view)));
+  for (int i = 0; i < n; ++i) {
+    const int at = i * (cell_px + line_px);
+    cells_.push_back(place(at, 0, cell_px, breadth));
+    if (i + 1 == n) break;
+    empty_.items.emplace_back(
+        RectangleItem{nth(ItemId::compared, static_cast<std::size_t>(i)),
+                      to_rectangle(place(at + cell_px, margin, line_px, breadth - 2 * margin)),
+                      palette_of(view.theme).grid, std::nullopt});
+  }
+}
+
+DrawList SplitScreen::compose(std::vector<DrawList> pictures) const {
+  DrawList list = empty_;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    list.items.emplace_back(GroupItem{nth(ItemId::compared, cells_.size() + i),
+                                      to_rectangle(cells_[i]),
+                                      std::make_shared<const DrawList>(std::move(pictures[i])), 1});
+  }
+  return list;
+}
+
+DrawList cross_fade(DrawList from, DrawList to, double opacity) {
+  const Rectangle bounds{0, 0, double(to.width_px), double(to.height_px)};
+  from.items.emplace_back(
+      GroupItem{ItemId::fade, bounds, std::make_shared<const DrawList>(std::move(to)), opacity});
+  return from;
+}
+
+DrawList arrange(std::vector<CaptionedPicture> pictures, int width_px, int height_px) {
+  assert(!pictures.empty());
+  const Font font;
+  const double side = std::min(width_px, height_px);
+  const double margin = style::kSheetMargin * side;
+  const double gap = style::kSheetGap * side;
+  const double text_px = style::kSheetCaption * side;
+  const double line_px = std::max(0.5, style::kSheetLine * side);
+  const double caption = kCaptionHeight * text_px;
+  const DrawList& first = pictures.front().picture;
+  const double aspect = double(first.width_px) / first.height_px;
+  const int count = static_cast<int>(pictures.size());
+  const auto rows = [count](int columns) { return (count + columns - 1) / columns; };
+  const auto picture_width = [&](int columns) {
+    const double room_x = (width_px - 2 * margin - (columns - 1) * gap) / columns;
+    const double room_y =
+        (height_px - 2 * margin - (rows(columns) - 1) * gap) / rows(columns) - caption;
+    return std::max(0.0, std::min(room_x, room_y * aspect));
+  };
+  int columns = 1;
+  for (int more = 2; more <= count; ++more) {
+    if (picture_width(more) > picture_width(columns)) columns = more;
+  }
+  const double width = picture_width(columns);
+  const double height = width / aspect;
+  const double step_x = width + gap;
+  const double step_y = height + caption + gap;
+  const double left = (width_px - columns * step_x + gap) / 2;
+  const double top = (height_px - rows(columns) * step_y + gap) / 2;
+
+  DrawList page{width_px, height_px, kPaper, {}};
+  std::vector<DrawItem> above;
+  for (int i = 0; i < count; ++i) {
+    auto& [picture, caption_text] = pictures[static_cast<std::size_t>(i)];
+    const Rectangle place{left + i % columns * step_x, top + i / columns * step_y, width, height};
+    page.items.emplace_back(GroupItem{ItemId::compared, place,
+                                      std::make_shared<const DrawList>(std::move(picture)), 1});
+    above.emplace_back(frame_of(place, line_px));
+    above.emplace_back(caption_below(place, caption_text, text_px, font));
+  }
+  std::ranges::move(above, std::back_inserter(page.items));
+  return page;
+}
+
+}  // namespace piblocks

@@ -1,0 +1,50 @@
+// Pictures of pictures and of text: title cards, split screens, fades and sheets.
+// In: lines of text or draw lists. Out: a draw list.
+#pragma once
+
+#include <piblocks/scene.hpp>
+
+#include <string>
+#include <vector>
+
+#include "draw/draw_list.hpp"
+
+namespace piblocks {
+
+/// A title card: lines of text in the middle of the frame. The first one is a heading. Lines that
+/// do not fit are made smaller.
+/// @param lines  at least one, not empty.
+/// @throws UsageError if a line cannot be set, or is too long for the frame.
+DrawList compose_card(const std::vector<std::string>& lines, const View& view);
+
+/// The frame in equal cells: side by side, or one above the other if it is not wider than high.
+class SplitScreen {
+ public:
+  /// @throws UsageError if the frame is too small for so many.
+  SplitScreen(const View& view, std::size_t count);
+
+  /// Whole pixels that do not overlap, in order.
+  const std::vector<PixelRect>& cells() const noexcept { return cells_; }
+  /// @param pictures  one for each cell, of its size.
+  DrawList compose(std::vector<DrawList> pictures) const;
+
+ private:
+  DrawList empty_;  ///< with what is between the cells
+  std::vector<PixelRect> cells_;
+};
+
+/// The second picture over the first, both of one size. @param opacity  of the second, 0 … 1.
+DrawList cross_fade(DrawList from, DrawList to, double opacity);
+
+struct CaptionedPicture {
+  DrawList picture;
+  std::string caption;  ///< UTF-8, one line, set underneath
+};
+
+/// Pictures of one size in rows, from the upper left, as large as margins, gaps and captions allow.
+/// A caption that is too long for its picture is set smaller.
+/// @param pictures  at least one.
+/// @throws DrawError if the font cannot be loaded.
+DrawList arrange(std::vector<CaptionedPicture> pictures, int width_px, int height_px);
+
+}  // namespace piblocks

@@ -1,0 +1,195 @@
+#include "draw/panels/panels.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "draw/look.hpp"
+#include "draw/number_text.hpp"
+#include "draw/region.hpp"
+#include "scene/schedule.hpp"
+
+namespace piblocks {
+namespace {
+
+// In ems.
+constexpr double kTitleHeight = 1.9;
+constexpr double kTitleBaseline = 1.0;
+constexpr double kAround = 0.5;
+/// If the full title had to be smaller than this part of the other text, the brief one is set.
+constexpr double kLeastPanelShrink = 0.8;
+// In line widths.
+constexpr double kDotRadius = 3.2;
+
+Rectangle whole_pixels(const Rectangle& area, double around) {
+  const double left = std::floor(area.x - around);
+  const double top = std::floor(area.y - around);
+  return {left, top, std::ceil(area.x + area.width + around) - left,
+          std::ceil(area.y + area.height + around) - top};
+}
+
+// In ems.
+constexpr double kBelow = 1.7;
+constexpr double kTimeTick_em = 0.25;
+constexpr double kTimeBaseline_em = 1.4;
+constexpr double kBetweenTicks = 4;
+constexpr double kLeastGap = 0.6;  // between figures
+constexpr double kSlack_px = 0.5;
+
+}  // namespace
+
+Point Circle::at(double angle) const {
+  return {centre.x + radius * std::cos(angle), centre.y - radius * std::sin(angle)};
+}
+
+std::vector<Point> Circle::arc(double from, double to) const {
+  constexpr double kStep = 0.05;  // radians
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(to - from) / kStep)));
+  std::vector<Point> points;
+  for (int i = 0; i <= steps; ++i) points.push_back(at(from + (to - from) * i / steps));
+  return points;
+}
+
+Diagram::Diagram(const DrawingContext& context, const PanelPlace& place, const PanelTitle& title)
+    : palette_(context.palette),
+      font_(&context.font),
+      first_id_(place.first_id),
+      panel_(place.panel),
+      text_px_(context.text_px),
+      line_px_(context.line_px) {
+  const Rectangle& whole = place.area;
+  const double full_px = font_->fitted_px(title.full, text_px_, whole.width);
+  const bool is_full = full_px >= std::max(style::kLeastText_px, kLeastPanelShrink * text_px_);
+  items_.emplace_back(
+      TextItem{next_id(),
+               {whole.x, whole.y + kTitleBaseline * text_px_},
+               is_full ? title.full : title.brief,
+               is_full ? full_px : font_->fitted_px(title.brief, text_px_, whole.width),
+               palette_.muted});
+  const double top = kTitleHeight * text_px_;
+  inside_ = {whole.x, whole.y + top, whole.width, whole.height - top};
+  // Lines along its border are wider than the area.
+  item_ = {nth(first_id_, 0), whole_pixels(whole, kAround * text_px_), nullptr};
+}
+
+void Diagram::finish() {
+  if (!are_finite(items_)) {
+    throw UsageError(fmt::format(
+        "show.panels: the diagram '{}' needs numbers beyond the range of a double (about 1.8e308); "
+        "leave it out, or use less extreme positions, velocities and times",
+        exact_text(panel_)));
+  }
+  item_.plate = std::make_shared<const Plate>(Plate{std::move(items_)});
+  font_ = nullptr;
+}
+
+void Diagram::line(std::vector<Point> points, const Color& color, double width, double dash) {
+  items_.emplace_back(PathItem{next_id(), std::move(points), false, std::nullopt,
+                               Stroke{color, width * line_px_, dash * line_px_}});
+}
+
+PathItem Diagram::shape_item(ItemId id, std::vector<Point> outline,
+                             const std::optional<Color>& fill,
+                             const std::optional<Color>& line) const {
+  PathItem item{id, std::move(outline), true, fill, std::nullopt};
+  if (line) item.stroke = Stroke{*line, line_px_};
+  return item;
+}
+
+void Diagram::shape(std::vector<Point> outline, const std::optional<Color>& fill,
+                    const std::optional<Color>& line) {
+  items_.emplace_back(shape_item(next_id(), std::move(outline), fill, line));
+}
+
+PathItem Diagram::moving_line(std::size_t n, std::vector<Point> points, const Color& color,
+                              double width) const {
+  return {moving(n), std::move(points), false, std::nullopt, Stroke{color, width * line_px_}};
+}
+
+PathItem Diagram::moving_shape(std::size_t n, std::vector<Point> outline, const Color& fill,
+                               const std::optional<Color>& line) const {
+  return shape_item(moving(n), std::move(outline), fill, line);
+}
+
+void Diagram::text(const std::string& text, const Point& at, double anchor, const Color& color) {
+  const double width = font_->width_em(text) * text_px_;
+  items_.emplace_back(TextItem{next_id(), {at.x - anchor * width, at.y}, text, text_px_, color});
+}
+
+DiskItem Diagram::dot(std::size_t n, const Point& at, const Color& color) const {
+  return {moving(n), at, kDotRadius * line_px_, color, Stroke{palette_.background, line_px_}};
+}
+
+TimeAxis::TimeAxis(const DrawingContext& context, const Diagram& diagram, double indent_em)
+    : span_(span_of(context.scene, context.log)),
+      from_(to_double(span_.from)),
+      length_(to_double(span_.to - span_.from)),
+      plot_(diagram.inside()) {
+  if (span_.to <= span_.from) throw UsageError("show.panels: the scene ends before it begins");
+  if (!(length_ > 0) || !std::isfinite(length_)) {
+    throw UsageError(
+        "show.panels: the time that the scene shows is beyond the range of a double; leave out "
+        "diagrams over time, or change time.from and time.to");
+  }
+  const double em = diagram.text_px();
+  const double inside_left = plot_.x;
+  const double inside_right = plot_.x + plot_.width;
+  plot_.height -= kBelow * em;
+  plot_.x += indent_em * em;
+  plot_.width -= indent_em * em;
+  // Figures are centred on their marks, and those at the ends need room beside the axis. To make
+  // room moves the marks, by less and less.
+  constexpr int kPasses = 4;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    place_figures(context.font, em);
+    if (figures_.empty()) return;
+    const Figure& first = figures_.front();
+    const Figure& last = figures_.back();
+    const double left = std::max(0.0, inside_left - (first.x - first.width_px / 2));
+    const double right = std::max(0.0, last.x + last.width_px / 2 - inside_right);
+    plot_.x += left;
+    plot_.width -= left + right;
+  }
+  place_figures(context.font, em);
+  for (Figure& figure : figures_) {
+    const bool fits = figure.x - figure.width_px / 2 >= inside_left - kSlack_px &&
+                      figure.x + figure.width_px / 2 <= inside_right + kSlack_px;
+    if (!fits) figure.text.clear();
+  }
+}
+
+void TimeAxis::place_figures(const Font& font, double em) {
+  scale_ = plot_.width / length_;
+  const FigureAxis axis{from_, from_ + length_, em / scale_, kLeastGap};
+  Ticks ticks = ticks_of(axis.low, axis.high, kBetweenTicks * axis.em);
+  // One figure alone gives no scale.
+  if (ticks.values.size() < 2) ticks = ticks_of(axis.low, axis.high, axis.em);
+  ticks = with_room_for_figures(std::move(ticks), axis, font);
+  figures_.clear();
+  for (const double value : ticks.values) {
+    std::string text = tick_text(value, ticks.step);
+    const double width_px = font.width_em(text) * em;
+    figures_.push_back({x_of(value), std::move(text), width_px});
+  }
+}
+
+void TimeAxis::add_base(Diagram& diagram) const {
+  const double em = diagram.text_px();
+  const Color& color = diagram.palette().muted;
+  diagram.line({{plot_.x, bottom()}, {plot_.x + plot_.width, bottom()}}, color);
+  for (const Figure& figure : figures_) {
+    diagram.line({{figure.x, bottom()}, {figure.x, bottom() + kTimeTick_em * em}}, color);
+    if (figure.text.empty()) continue;
+    diagram.text(figure.text, {figure.x, bottom() + kTimeBaseline_em * em}, 0.5, color);
+  }
+}
+
+PathItem TimeAxis::cursor(const Diagram& diagram, double x) const {
+  const double at = std::round(x) + 0.5;
+  return diagram.moving_line(0, {{at, plot_.y}, {at, bottom()}}, diagram.palette().accent);
+}
+
+}  // namespace piblocks

@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+#include <piblocks/exact.hpp>
+
+#include <algorithm>
+#include <array>
+
+#include "golden/reports.hpp"
+
+namespace piblocks {
+namespace {
+
+const char* channel_name(const FrameComparison& frame, int channel) {
+  constexpr std::array kRgb = {"red", "green", "blue", "alpha"};
+  constexpr std::array kYuv = {"Y", "Cb", "Cr", "alpha"};
+  return (frame.is_yuv ? kYuv : kRgb).at(static_cast<std::size_t>(channel));
+}
+
+std::string pixels(std::int64_t count, const char* what) {
+  return fmt::format("{} {} {}", count, count == 1 ? "pixel" : "pixels", what);
+}
+
+/// So many decimals that three digits are written, but at most five decimals.
+int decimals_of(const Rational& value) {
+  int decimals = 0;
+  for (Rational scaled = value; scaled < 100 && decimals < 5; scaled *= 10) ++decimals;
+  return decimals;
+}
+
+/// "3 of 255", and for deeper samples "0.250 of 255 (1 of 1023)". It is rounded up, so that the
+/// printed number, as a tolerance, accepts the delta.
+std::string largest_delta(const Difference& d) {
+  if (d.max_level == 255) return fmt::format("{} of 255", d.largest_delta);
+  const Rational delta = Rational(d.largest_delta) * 255 / d.max_level;
+  const int decimals = decimals_of(delta);
+  const Rational unit = power(Rational(10), static_cast<unsigned long>(decimals));
+  return fmt::format("{:.{}f} of 255 ({} of {})", to_double(Rational(ceil(delta * unit)) / unit),
+                     decimals, d.largest_delta, d.max_level);
+}
+
+constexpr std::uint32_t kOpaque = 0xff000000;
+constexpr std::uint32_t kGap = 0xff808080;
+constexpr int kGap_px = 8;
+
+int level(std::uint32_t pixel, int shift) { return static_cast<int>((pixel >> shift) & 0xff); }
+
+std::uint32_t grey(int value) { return kOpaque | static_cast<std::uint32_t>(value) * 0x010101U; }
+
+std::uint32_t pale(std::uint32_t pixel) {
+  const int mean = (level(pixel, 16) + 2 * level(pixel, 8) + level(pixel, 0)) / 4;
+  return grey(255 - (255 - mean) / 4);
+}
+
+/// Red, so that even the least delta can be seen.
+std::uint32_t mark(int delta) {
+  const auto other = static_cast<std::uint32_t>(160 - 160 * delta / 255);
+  return kOpaque | 0xff0000U | other << 8 | other;
+}
+
+Image part_of(const Image& image, int x_px, int width_px) {
+  Image part{width_px, image.height_px, {}};
+  for (int y = 0; y < image.height_px; ++y) {
+    const auto row = image.words.begin() + std::ptrdiff_t{y} * image.width_px + x_px;
+    part.words.insert(part.words.end(), row, row + width_px);
+  }
+  return part;
+}
+
+Image beside_each_other(const std::array<Image, 3>& images) {
+  Image strip{3 * images[0].width_px + 2 * kGap_px, images[0].height_px, {}};
+  for (int y = 0; y < strip.height_px; ++y) {
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      if (i > 0) strip.words.insert(strip.words.end(), kGap_px, kGap);
+      const Image& image = images.at(i);
+      const auto row = image.words.begin() + std::ptrdiff_t{y} * image.width_px;
+      strip.words.insert(strip.words.end(), row, row + image.width_px);
+    }
+  }
+  return strip;
+}
+
+}  // namespace
+
+std::string difference_text(const FrameComparison& frame) {
+  if (!frame.difference) return frame.is_accepted ? "equal hashes" : "different hashes";
+  const Difference& d = *frame.difference;
+  if (d.is_equal()) return "equal";
+  std::string text = fmt::format(
+      "{}, largest delta {}, first at x={} y={} ({})",
+      pixels(d.different_pixels, d.different_pixels == 1 ? "differs" : "differ"), largest_delta(d),
+      d.first.x_px, d.first.y_px, channel_name(frame, d.first.channel));
+  if (d.off_pixels != d.different_pixels) {
+    text += fmt::format(", {} beyond the accepted delta", d.off_pixels);
+  }
+  if (d.off_pixels > 0) {
+    text += fmt::format(", densest {}x{} window at x={} y={}: {}", d.densest.width_px,
+                        d.densest.height_px, d.densest.x_px, d.densest.y_px, d.densest_off);
+  }
+  if (d.is_accepted) text += ", within tolerance";
+  return text;
+}
+
+Image difference_picture(const Image& reference, const std::vector<std::uint8_t>& deltas) {
+  Image picture{reference.width_px, reference.height_px, {}};
+  picture.words.resize(reference.words.size());
+  std::ranges::transform(
+      reference.words, deltas, picture.words.begin(),
+      [](std::uint32_t a, std::uint8_t delta) { return delta == 0 ? pale(a) : mark(delta); });
+  return picture;
+}
+
+Image difference_strip(const Image& reference, const std::vector<std::uint8_t>& deltas,
+                       const Image& actual, const PixelRect& focus) {
+  constexpr std::int64_t kLongest_px = (kMaxSide_px - 2 * kGap_px) / 3;
+  // Three pictures and the gaps in one frame.
+  const std::int64_t most_px = kMaxFrame_px / 3 / reference.height_px - kGap_px;
+  const int width = static_cast<int>(
+      std::clamp<std::int64_t>(std::min(kLongest_px, most_px), 1, reference.width_px));
+  const int centre = focus.x_px + focus.width_px / 2;
+  const int x = std::clamp(centre - width / 2, 0, reference.width_px - width);
+  return beside_each_other({part_of(reference, x, width),
+                            part_of(difference_picture(reference, deltas), x, width),
+                            part_of(actual, x, width)});
+}
+
+}  // namespace piblocks

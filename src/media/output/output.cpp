@@ -1,0 +1,190 @@
+#include "media/output/output.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <zlib.h>
+
+#include <array>
+#include <limits>
+#include <string_view>
+
+#include "core/overwrite_check.hpp"
+#include "core/text.hpp"
+#include "media/libav/av_module.hpp"
+#include "media/output/frame_pattern.hpp"
+#include "media/output/output_kinds.hpp"
+
+namespace piblocks {
+namespace {
+
+/// A function of the module that has libav.
+template <auto AvModule::*SetUpInModule>
+Output by_module(const OutputRequest& request) {
+  return (av_module().*SetUpInModule)(request);
+}
+
+// What a kind of output takes or does; flags.
+constexpr unsigned kSettings = 1;  // of an encoder
+constexpr unsigned kAlpha = 2;
+constexpr unsigned kSound = 4;
+constexpr unsigned kPictures = 8;  // keeps them
+
+struct OutputKind {
+  std::string_view ending;  ///< of its files' names, or the whole name if that has no dot
+  Output (*set_up)(const OutputRequest& request);
+  unsigned flags;
+  std::string_view note = {};  ///< behind its name in messages
+
+  bool is_file() const { return ending.starts_with('.'); }
+  bool has(unsigned wanted) const { return (flags & wanted) == wanted; }
+};
+
+constexpr std::array kOutputKinds = {
+    OutputKind{".mp4", by_module<&AvModule::mp4_output>, kPictures | kSettings | kSound},
+    OutputKind{".mov", by_module<&AvModule::mov_output>, kPictures | kSettings | kSound | kAlpha},
+    OutputKind{".webm", by_module<&AvModule::webm_output>, kPictures | kSettings | kSound | kAlpha},
+    OutputKind{".gif", by_module<&AvModule::gif_output>, kPictures},
+    OutputKind{".apng", apng_output, kPictures | kAlpha},
+    OutputKind{".png", png_output, kPictures | kAlpha, " with a number field such as %06d"},
+    OutputKind{".y4m", y4m_output, kPictures},
+    OutputKind{"-", y4m_output, kPictures, " (y4m on standard output)"},
+    OutputKind{".framehash", by_module<&AvModule::framehash_output>, kPictures | kAlpha},
+    OutputKind{"null", null_output, kAlpha},
+    OutputKind{".wav", wav_output, kSound | kAlpha, " (sound alone)"},
+};
+
+/// Null if there is none.
+const OutputKind* find_kind(std::string_view output) {
+  for (const OutputKind& kind : kOutputKinds) {
+    if (kind.is_file() ? has_ending(output, kind.ending) : output == kind.ending) return &kind;
+  }
+  return nullptr;
+}
+
+/// The kinds with these flags, as a message lists them.
+std::string names(unsigned flags) {
+  std::string names;
+  for (const OutputKind& kind : kOutputKinds) {
+    if (!kind.has(flags)) continue;
+    names += fmt::format("{}{}{}{}", names.empty() ? "" : ", ", kind.is_file() ? "*" : "",
+                         kind.ending, kind.note);
+  }
+  return names;
+}
+
+std::string size_problem(const VideoFormat& format) {
+  const auto fits = [](int side) { return side >= 1 && side <= kMaxSide_px; };
+  const std::int64_t pixels = std::int64_t{format.width_px} * format.height_px;
+  if (fits(format.width_px) && fits(format.height_px) && pixels <= kMaxFrame_px) return {};
+  return fmt::format(
+      "output: size {}x{} is out of range: use sides of 1 to {} and at most {} pixels",
+      format.width_px, format.height_px, kMaxSide_px, kMaxFrame_px);
+}
+
+std::string frame_rate_problem(const Rational& rate) {
+  constexpr int kMaxTerm = std::numeric_limits<int>::max();  // of libav's rationals
+  if (rate > 0 && rate.get_num() <= kMaxTerm && rate.get_den() <= kMaxTerm) return {};
+  return fmt::format(
+      "output: frame rate {} is out of range: use a number above 0 such as 60 or 30000/1001",
+      rate.get_str());
+}
+
+/// What the kind of the output does not take.
+void check_kind(const OutputKind& kind, const OutputRequest& request, Problems& problems) {
+  const EncoderSettings& settings = request.settings;
+  const bool has_settings = settings.crf || settings.preset || settings.encoder;
+  if (has_settings && !kind.has(kSettings)) {
+    problems.add(fmt::format(
+        "output: '{}' has no use for crf, preset or encoder; leave them out or write one of: {}",
+        request.name, names(kSettings)));
+  }
+  if (request.format.has_alpha && !kind.has(kAlpha)) {
+    problems.add(fmt::format(
+        "output: '{}' cannot be transparent; use an opaque background or write one of: {}",
+        request.name, names(kPictures | kAlpha)));
+  }
+  if (request.sound && !kind.has(kSound)) {
+    problems.add(fmt::format(
+        "output: '{}' has no sound; write one of: {}, or leave the sound out (--no-sound)",
+        request.name, names(kSound)));
+  }
+}
+
+}  // namespace
+
+void ChunkEncoder::take(const ImageView& frame, std::span<const PixelRect> changed) {
+  if (frame.width_px != width_px_ || frame.height_px != height_px_) {
+    throw MediaError(fmt::format("output: cannot take frame: it is {}x{}, the output {}x{}",
+                                 frame.width_px, frame.height_px, width_px_, height_px_));
+  }
+  const PixelRect whole{0, 0, width_px_, height_px_};
+  convert(frame, is_empty_ ? std::span(&whole, 1) : changed);
+  is_empty_ = false;
+}
+
+void FrameSink::take_sound(PacketSource& /*sound*/) {
+  throw MediaError("output: cannot take sound: it has no place for any");
+}
+
+void FrameCounter::take(const EncodedChunk& chunk) {
+  if (!chunk.empty() && chunk.front().pts != frames_) {
+    throw MediaError(fmt::format("output: cannot append the chunk of frame {}: frame {} is next",
+                                 chunk.front().pts, frames_));
+  }
+  frames_ += std::ssize(chunk);
+}
+
+std::unique_ptr<PacketSource> reject_sound(SampleSource& /*samples*/) {
+  throw MediaError("output: cannot encode sound: it has no place for any");
+}
+
+std::string odd_size_problem(const VideoFormat& format, const std::string& what) {
+  const int width = format.width_px;
+  const int height = format.height_px;
+  if (width % 2 == 0 && height % 2 == 0) return {};
+  const auto even = [](int side) { return std::max(2, side - side % 2); };
+  return fmt::format("output: size {}x{} is odd: {} needs even sides; use {}x{}", width, height,
+                     what, even(width), even(height));
+}
+
+Output set_up_output(const std::string& name, const VideoFormat& format,
+                     const EncoderSettings& settings, const std::optional<SoundFormat>& sound) {
+  const OutputRequest request = {name, format, settings, sound};
+  Problems problems;
+  const OutputKind* const kind = find_kind(name);
+  if (kind != nullptr) {
+    check_kind(*kind, request, problems);
+  } else {
+    // Of a page, render() sets up only the MP4 in it.
+    problems.add(fmt::format(
+        "output: cannot tell the kind of '{}' from its name; use one of: {}, *.html (a page)", name,
+        names(0)));
+  }
+  problems.add(size_problem(format));
+  problems.add(frame_rate_problem(format.frame_rate));
+  problems.check();
+  return kind->set_up(request);
+}
+
+bool is_sound_alone(const std::string& name) { return has_ending(name, ".wav"); }
+
+void claim_output(OverwriteCheck& check, const std::string& what, const std::string& name) {
+  if (name == "null") return;
+  if (name == "-") return check.writes_standard_output();
+  if (has_ending(name, ".png")) {
+    try {
+      const FramePattern pattern(name);
+      return check.writes_some_of(what, name, pattern.folder(), names_of_pattern(name));
+    } catch (const UsageError&) {  // set_up_output() says what is wrong
+    }
+  }
+  check.writes(what, name);
+}
+
+std::vector<std::string> media_library_versions() {
+  std::vector<std::string> versions = av_module().library_versions();
+  versions.push_back(std::string("zlib ") + zlibVersion());
+  return versions;
+}
+
+}  // namespace piblocks

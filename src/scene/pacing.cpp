@@ -1,0 +1,167 @@
+#include "scene/pacing.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <limits>
+
+#include "physics/exact_motion.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr const char* kSlowMotionKey = "time.slow-motion";
+
+/// A window of slow motion. Half-open: from <= time < to.
+struct SlowWindow {
+  Rational from;
+  Rational to;
+  Rational factor;
+};
+
+/// A freeze at its time, in whole frames.
+struct TimedFreeze {
+  Rational time;
+  Rational length_s;
+};
+
+// Automatic windows are nested around the turn. Each is 10 times slower than the one around it, and
+// alone would show 3 s of video on either side of the turn. Windows are added until at most 10
+// collisions happen in a second of the innermost one.
+constexpr int kHalfWindow_s = 3;
+constexpr int kStep = 10;
+constexpr double kTellApart_hz = 10;
+
+/// Collisions per second of video at the turn, where each takes theta b/|V| (notation:
+/// src/physics/README.md). Infinite if all happen at once.
+double rate_at_turn(const BlockSystem& system, const Rational& speed) {
+  constexpr mpfr_prec_t kBits = 64;  // squares of velocities can be beyond the range of a double
+  const ExactMotion motion(system);
+  if (motion.through_corner()) return std::numeric_limits<double>::infinity();
+  const Real sigma = motion.sigma(kBits);
+  const Real rate(kBits, motion.speed_squared * speed / abs(motion.areal_velocity));
+  return (rate / (atan(sigma) * sigma)).to_double();
+}
+
+std::vector<SlowWindow> automatic_windows(const Scene& scene, const CollisionLog& log) {
+  const std::optional<Rational> turn = turn_of(scene.system);
+  if (!turn || log.size() < log.first_index()) return {};
+  // A duration sets the speed for the windows too, once they are known.
+  const Rational speed = scene.pacing.duration_s ? Rational(1) : scene.time.speed;
+  const double rate = rate_at_turn(scene.system, speed);
+  std::vector<Rational> halves;
+  int factor = 1;
+  while (factor < kMaxAutomaticFactor && rate > kTellApart_hz * factor) {
+    factor *= kStep;
+    halves.emplace_back(speed * kHalfWindow_s / factor);
+  }
+  // From the outermost to the innermost and out again.
+  std::vector<SlowWindow> windows;
+  const std::size_t count = halves.size();
+  Rational slower = 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    slower *= kStep;
+    if (i + 1 == count) {
+      windows.push_back({*turn - halves[i], *turn + halves[i], slower});
+      break;
+    }
+    windows.push_back({*turn - halves[i], *turn - halves[i + 1], slower});
+    windows.push_back({*turn + halves[i + 1], *turn + halves[i], slower});
+  }
+  return windows;
+}
+
+void check(const SlowWindow& window, const Span& span) {
+  const std::string name = fmt::format("{}: the window from {} to {}", kSlowMotionKey,
+                                       to_text(window.from), to_text(window.to));
+  if (window.from >= window.to) throw UsageError(name + " ends before it begins");
+  if (window.from < span.to && window.to > span.from) return;
+  throw UsageError(fmt::format("{} is outside of what is shown, {} to {}", name, to_text(span.from),
+                               to_text(span.to)));
+}
+
+void check_apart(const std::vector<SlowWindow>& windows) {
+  for (std::size_t i = 1; i < windows.size(); ++i) {
+    if (windows[i].from >= windows[i - 1].to) continue;
+    throw UsageError(fmt::format("{}: windows overlap at {}; let one begin where the other ends",
+                                 kSlowMotionKey, to_text(windows[i].from)));
+  }
+}
+
+/// In order, apart, inside the span.
+std::vector<SlowWindow> slow_windows(const Scene& scene, const CollisionLog& log,
+                                     const Span& span) {
+  std::vector<SlowWindow> windows;
+  if (scene.pacing.automatic_slow_motion) windows = automatic_windows(scene, log);
+  for (const SlowMotion& slow : scene.pacing.slow_motion) {
+    windows.push_back({time_of(slow.from, kSlowMotionKey, log),
+                       time_of(slow.to, kSlowMotionKey, log), slow.factor});
+    check(windows.back(), span);
+  }
+  std::ranges::sort(windows, {}, &SlowWindow::from);
+  check_apart(windows);
+  for (SlowWindow& window : windows) {
+    window.from = std::max(window.from, span.from);
+    window.to = std::min(window.to, span.to);
+  }
+  std::erase_if(windows, [](const SlowWindow& window) { return window.from >= window.to; });
+  return windows;
+}
+
+/// In order, inside the span.
+std::vector<TimedFreeze> freezes_of(const Scene& scene, const CollisionLog& log, const Span& span) {
+  std::vector<TimedFreeze> freezes;
+  for (const Freeze& freeze : scene.pacing.freezes) {
+    const Rational time = time_of(freeze.at, "time.freeze", log);
+    if (time < span.from || time > span.to) {
+      throw UsageError(fmt::format("time.freeze: {} is outside of what is shown, {} to {}",
+                                   exact_text(freeze.at), to_text(span.from), to_text(span.to)));
+    }
+    freezes.push_back({time, whole_frames(freeze.length_s, scene.view.frame_rate)});
+  }
+  std::ranges::stable_sort(freezes, {}, &TimedFreeze::time);
+  return freezes;
+}
+
+}  // namespace
+
+Rational time_of(const Instant& instant, const char* key, const CollisionLog& log) {
+  try {
+    return time_of(instant, log);
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("{}: {}", key, error.what()));
+  }
+}
+
+Rational whole_frames(const Rational& length_s, const Rational& frame_rate) {
+  return Rational(ceil(length_s * frame_rate)) / frame_rate;
+}
+
+std::vector<Move> moves_of(const Scene& scene, const CollisionLog& log, const Span& span) {
+  const std::vector<SlowWindow> windows = slow_windows(scene, log, span);
+  const std::vector<TimedFreeze> freezes = freezes_of(scene, log, span);
+  std::vector<Move> moves;
+  Rational now = span.from;
+  auto freeze = freezes.begin();
+  const auto move_to = [&](const Rational& time, const Rational& slower) {
+    if (time > now) moves.push_back({now, time, slower});
+    now = std::max(now, time);
+  };
+  const auto pass_freezes = [&](const Rational& time, const Rational& slower) {
+    for (; freeze != freezes.end() && freeze->time < time; ++freeze) {
+      move_to(freeze->time, slower);
+      moves.push_back({now, now, slower, freeze->length_s});
+    }
+    move_to(time, slower);
+  };
+  for (const SlowWindow& window : windows) {
+    pass_freezes(window.from, 1);
+    pass_freezes(window.to, window.factor);
+  }
+  pass_freezes(span.to, 1);
+  for (; freeze != freezes.end(); ++freeze) moves.push_back({now, now, 1, freeze->length_s});
+  return moves;
+}
+
+}  // namespace piblocks
