@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "media/png/png_encoder.hpp"
+#include "media/output/output.hpp"
 #include "media/png/png_reader.hpp"
 #include "support/decode_video.hpp"
 #include "support/property.hpp"
@@ -59,17 +59,26 @@ TEST(Png, SaysThatTheColoursAreSrgb) {
   EXPECT_LT(bytes.find("sRGB"), bytes.find("IDAT"));
 }
 
-std::vector<std::uint8_t> encoded(PngEncoder& encoder, const ImageView& image,
-                                  const std::vector<PixelRect>& changed = {}) {
-  encoder.filter(image, changed);
-  return encoder.compress();
+/// A sequence of pictures like this one.
+Output sequence_of(const ImageView& image) {
+  return set_up_output("%d.png", {image.width_px, image.height_px, 25, image.has_alpha}, {});
+}
+
+/// The file of the next picture.
+Bytes encoded(ChunkEncoder& encoder, const ImageView& image,
+              const std::vector<PixelRect>& changed = {}) {
+  encoder.begin(0);
+  encoder.take(image, changed);
+  encoder.encode();
+  return encoder.finish().front().bytes;
 }
 
 TEST(Png, DoesNotDependOnWhatWasEncodedBefore) {
-  PngEncoder encoder;
   const Pixels image = article_frame(160, 90, 0);
-  encoded(encoder, random_frame(300, 200, 5).view());
-  EXPECT_EQ(encoded(encoder, image.view()), encode_png(image.view()));
+  const Output sequence = sequence_of(image.view());
+  const auto encoder = sequence.make_encoder();
+  encoded(*encoder, random_frame(160, 90, 5).view());
+  EXPECT_EQ(encoded(*encoder, image.view(), {{0, 0, 160, 90}}), encode_png(image.view()));
 }
 
 /// Changes some pixels of a rectangle, or none.
@@ -96,11 +105,12 @@ TEST(Png, AnUpdateGivesTheBytesOfTheImageAlone) {
   for (int i = 0; i < 60; ++i) {
     Pixels image = random_frame(static_cast<int>(random.integer(1, 40)),
                                 static_cast<int>(random.integer(1, 60)), static_cast<unsigned>(i));
-    PngEncoder encoder;
-    encoded(encoder, image.view());
+    const Output sequence = sequence_of(image.view());
+    const auto encoder = sequence.make_encoder();
+    encoded(*encoder, image.view());
     for (int step = 0; step < 10; ++step) {
       const std::vector<PixelRect> changed = {change(random, image), change(random, image)};
-      ASSERT_EQ(encoded(encoder, image.view(), changed), encode_png(image.view())) << step;
+      ASSERT_EQ(encoded(*encoder, image.view(), changed), encode_png(image.view())) << step;
     }
     expect_same_pixels(image);
   }
@@ -145,15 +155,15 @@ TEST(Png, KeepsAlphaAndTheColoursAsTheyWereBefore) {
 TEST(Png, AnUpdateWithAlphaGivesTheBytesOfTheImageAlone) {
   Random random(10);
   SCOPED_TRACE(random.trace());
-  PngEncoder encoder;
-  encoded(encoder, Pixels(33, 21).view());  // opaque before
   Pixels image = transparent_frame(random, 33, 21);
-  ASSERT_EQ(encoded(encoder, with_alpha(image)), encode_png(with_alpha(image)));
+  const Output sequence = sequence_of(with_alpha(image));
+  const auto encoder = sequence.make_encoder();
+  ASSERT_EQ(encoded(*encoder, with_alpha(image)), encode_png(with_alpha(image)));
   for (int step = 0; step < 50; ++step) {
     const auto x = static_cast<int>(random.integer(0, 32));
     const auto y = static_cast<int>(random.integer(0, 20));
     image.at(x, y) = transparent_frame(random, 1, 1).at(0, 0);
-    ASSERT_EQ(encoded(encoder, with_alpha(image), {{x, y, 1, 1}}), encode_png(with_alpha(image)));
+    ASSERT_EQ(encoded(*encoder, with_alpha(image), {{x, y, 1, 1}}), encode_png(with_alpha(image)));
   }
 }
 

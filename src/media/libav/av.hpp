@@ -50,8 +50,7 @@ AvInputPtr open_av_input(const std::string& path, const std::stop_token* stop = 
 /// Returns the result of a call into libav, or throws if it is an error.
 /// @param operation  such as "open encoder", of the object.
 /// @throws IoError for errors of the system (disk full, pipe closed), std::bad_alloc if memory ran
-/// out,
-///         MediaError for others.
+///         out, MediaError for others.
 int check_av(int code, std::string_view operation, std::string_view object);
 
 /// The same for reading, where running out of memory is the fault of a file that asks for too much.
@@ -74,8 +73,8 @@ std::string version_text(unsigned number);
 /// "giflib 5.2.1"
 std::string giflib_version();
 
-/// False for other kinds of files, for a file without its size, such as a live stream, and for a
-/// pipe.
+/// Whether a GIF, Matroska or WebM file ends before its own structure does, which libavformat does
+/// not find. False for other kinds, for a file without its size, such as a live stream, and a pipe.
 bool is_cut_off(const std::string& path);
 
 }  // namespace piblocks

@@ -51,8 +51,20 @@ class FramehashEncoder final : public PacketPerFrameEncoder {
         samples_(row_bytes_ * std::size_t(format.height_px)) {}
 
  private:
-  void convert(const ImageView& frame, std::span<const PixelRect> rects) override;
-  Bytes encode_picture(std::int64_t number, bool is_first) override;
+  void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
+    for (const PixelRect& rect : rects) {
+      const std::size_t left = std::size_t(rect.x_px) * pixel_bytes_;
+      for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
+        pack_row(frame, rect, y, samples_.data() + std::size_t(y) * row_bytes_ + left);
+      }
+    }
+  }
+  Bytes encode_picture(std::int64_t number, bool /*is_first*/) override {
+    const std::string text = (number == 0 ? file_header_ : "") +
+                             fmt::format("0, {0:10}, {0:10}, {1:8}, {2:8}, {3}\n", number, 1,
+                                         samples_.size(), digits_of(*hash_, samples_));
+    return {text.begin(), text.end()};
+  }
 
   std::string file_header_;
   AvHashPtr hash_;
@@ -60,22 +72,6 @@ class FramehashEncoder final : public PacketPerFrameEncoder {
   std::size_t row_bytes_;
   Bytes samples_;
 };
-
-void FramehashEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
-  for (const PixelRect& rect : rects) {
-    const std::size_t left = std::size_t(rect.x_px) * pixel_bytes_;
-    for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
-      pack_row(frame, rect, y, samples_.data() + std::size_t(y) * row_bytes_ + left);
-    }
-  }
-}
-
-Bytes FramehashEncoder::encode_picture(std::int64_t number, bool /*is_first*/) {
-  const std::string text = (number == 0 ? file_header_ : "") +
-                           fmt::format("0, {0:10}, {0:10}, {1:8}, {2:8}, {3}\n", number, 1,
-                                       samples_.size(), digits_of(*hash_, samples_));
-  return {text.begin(), text.end()};
-}
 
 }  // namespace
 

@@ -84,11 +84,73 @@ class GifEncoder final : public PacketPerFrameEncoder {
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
     picture_.take(frame, rects);
   }
-  Bytes encode_picture(std::int64_t number, bool is_first) override;
-  void put_header(const VideoFormat& format);
-  bool choose_colors(const PixelRect& rect);
-  void put_control(std::int64_t number, int transparent);
-  void put_image(const PixelRect& rect, int transparent);
+  Bytes encode_picture(std::int64_t number, bool is_first) override {
+    is_whole_ = is_first;
+    const PixelRect rect = is_whole_ ? picture_.whole() : picture_.changed();
+    const bool has_others = choose_colors(rect);
+    const int transparent = has_others ? int(colors_.colors().size()) : NO_TRANSPARENT_COLOR;
+    put_control(number, transparent);
+    put_image(rect, transparent);
+    picture_.settle();
+    if (number == 0) bytes_.insert(bytes_.begin(), header_.begin(), header_.end());
+    return std::exchange(bytes_, {});
+  }
+  /// The screen, and Netscape's extension, which every viewer knows: repeat for ever.
+  void put_header(const VideoFormat& format) {
+    constexpr int kColorResolution_bits = 8;
+    constexpr std::array<std::uint8_t, 3> kForEver = {1, 0, 0};
+    const auto check = [](int code) { check_gif(code, "write the header"); };
+    GifFileType* const file = file_.get();
+    EGifSetGifVersion(file, true);
+    check(EGifPutScreenDesc(file, format.width_px, format.height_px, kColorResolution_bits, 0,
+                            nullptr));
+    check(EGifPutExtensionLeader(file, APPLICATION_EXT_FUNC_CODE));
+    check(EGifPutExtensionBlock(file, 11, "NETSCAPE2.0"));
+    check(EGifPutExtensionBlock(file, kForEver.size(), kForEver.data()));
+    check(EGifPutExtensionTrailer(file));
+  }
+  /// Chooses colours for the pixels to be written. @return whether other pixels are left out.
+  bool choose_colors(const PixelRect& rect) {
+    bool has_others = false;
+    colors_.clear();
+    for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
+      const std::uint32_t* const pixels = picture_.row(y);
+      for (int x = rect.x_px; x < rect.x_px + rect.width_px; ++x) {
+        if (is_left_out(x, y)) {
+          has_others = true;
+        } else {
+          colors_.count(pixels[x] & 0xffffff);
+        }
+      }
+    }
+    colors_.choose(kMaxColors - (has_others ? 1 : 0));
+    return has_others;
+  }
+  void put_control(std::int64_t number, int transparent) {
+    const Integer delay = time_cs(number + 1, frame_rate_) - time_cs(number, frame_rate_);
+    const GraphicsControlBlock control = {DISPOSE_DO_NOT, false, int(delay.get_si()), transparent};
+    std::array<GifByteType, 4> block{};
+    EGifGCBToExtension(&control, block.data());
+    check_gif(EGifPutExtension(file_.get(), GRAPHICS_EXT_FUNC_CODE, block.size(), block.data()),
+              "write a frame");
+  }
+  void put_image(const PixelRect& rect, int transparent) {
+    const std::size_t colors = colors_.colors().size() + (transparent >= 0 ? 1 : 0);
+    const auto map = color_map(colors_.colors(), colors);
+    check_gif(EGifPutImageDesc(file_.get(), rect.x_px, rect.y_px, rect.width_px, rect.height_px,
+                               false, map.get()),
+              "write a frame");
+    row_.resize(std::size_t(rect.width_px));
+    for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
+      const std::uint32_t* const pixels = picture_.row(y);
+      for (int i = 0; i < rect.width_px; ++i) {
+        const int x = rect.x_px + i;
+        row_[std::size_t(i)] =
+            is_left_out(x, y) ? std::uint8_t(transparent) : colors_.index_of(pixels[x] & 0xffffff);
+      }
+      check_gif(EGifPutLine(file_.get(), row_.data(), rect.width_px), "write a frame");
+    }
+  }
   /// Whether a pixel keeps what the frames before have there.
   bool is_left_out(int x, int y) const { return !is_whole_ && picture_.marks(y)[x] == 0; }
 
@@ -101,78 +163,6 @@ class GifEncoder final : public PacketPerFrameEncoder {
   bool is_whole_ = true;  // the frame that is being encoded
   Bytes row_;
 };
-
-/// The screen, and Netscape's extension, which every viewer knows: repeat for ever.
-void GifEncoder::put_header(const VideoFormat& format) {
-  constexpr int kColorResolution_bits = 8;
-  constexpr std::array<std::uint8_t, 3> kForEver = {1, 0, 0};
-  const auto check = [](int code) { check_gif(code, "write the header"); };
-  GifFileType* const file = file_.get();
-  EGifSetGifVersion(file, true);
-  check(EGifPutScreenDesc(file, format.width_px, format.height_px, kColorResolution_bits, 0,
-                          nullptr));
-  check(EGifPutExtensionLeader(file, APPLICATION_EXT_FUNC_CODE));
-  check(EGifPutExtensionBlock(file, 11, "NETSCAPE2.0"));
-  check(EGifPutExtensionBlock(file, kForEver.size(), kForEver.data()));
-  check(EGifPutExtensionTrailer(file));
-}
-
-/// Chooses colours for the pixels to be written. @return whether other pixels are left out.
-bool GifEncoder::choose_colors(const PixelRect& rect) {
-  bool has_others = false;
-  colors_.clear();
-  for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
-    const std::uint32_t* const pixels = picture_.row(y);
-    for (int x = rect.x_px; x < rect.x_px + rect.width_px; ++x) {
-      if (is_left_out(x, y)) {
-        has_others = true;
-      } else {
-        colors_.count(pixels[x] & 0xffffff);
-      }
-    }
-  }
-  colors_.choose(kMaxColors - (has_others ? 1 : 0));
-  return has_others;
-}
-
-Bytes GifEncoder::encode_picture(std::int64_t number, bool is_first) {
-  is_whole_ = is_first;
-  const PixelRect rect = is_whole_ ? picture_.whole() : picture_.changed();
-  const bool has_others = choose_colors(rect);
-  const int transparent = has_others ? int(colors_.colors().size()) : NO_TRANSPARENT_COLOR;
-  put_control(number, transparent);
-  put_image(rect, transparent);
-  picture_.settle();
-  if (number == 0) bytes_.insert(bytes_.begin(), header_.begin(), header_.end());
-  return std::exchange(bytes_, {});
-}
-
-void GifEncoder::put_control(std::int64_t number, int transparent) {
-  const Integer delay = time_cs(number + 1, frame_rate_) - time_cs(number, frame_rate_);
-  const GraphicsControlBlock control = {DISPOSE_DO_NOT, false, int(delay.get_si()), transparent};
-  std::array<GifByteType, 4> block{};
-  EGifGCBToExtension(&control, block.data());
-  check_gif(EGifPutExtension(file_.get(), GRAPHICS_EXT_FUNC_CODE, block.size(), block.data()),
-            "write a frame");
-}
-
-void GifEncoder::put_image(const PixelRect& rect, int transparent) {
-  const std::size_t colors = colors_.colors().size() + (transparent >= 0 ? 1 : 0);
-  const auto map = color_map(colors_.colors(), colors);
-  check_gif(EGifPutImageDesc(file_.get(), rect.x_px, rect.y_px, rect.width_px, rect.height_px,
-                             false, map.get()),
-            "write a frame");
-  row_.resize(std::size_t(rect.width_px));
-  for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
-    const std::uint32_t* const pixels = picture_.row(y);
-    for (int i = 0; i < rect.width_px; ++i) {
-      const int x = rect.x_px + i;
-      row_[std::size_t(i)] =
-          is_left_out(x, y) ? std::uint8_t(transparent) : colors_.index_of(pixels[x] & 0xffffff);
-    }
-    check_gif(EGifPutLine(file_.get(), row_.data(), rect.width_px), "write a frame");
-  }
-}
 
 std::string frame_rate_problem(const Rational& rate) {
   if (rate > kMaxFrameRate_gif) {

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "h264/macroblock_set.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -29,6 +31,97 @@ void extend(h264::Picture& picture, const VideoFormat& format) {
   }
 }
 
+class H264ChunkEncoder final : public ChunkEncoder {
+ public:
+  H264ChunkEncoder(const VideoEncoder& encoder, const h264::ParameterSets& sets, int qp,
+                   bool may_hand_over)
+      : ChunkEncoder(encoder.format()),
+        encoder_(encoder),
+        may_hand_over_(may_hand_over),
+        picture_(sets.width_mb, sets.height_mb),
+        changed_(sets.width_mb, sets.height_mb),
+        coder_(sets, qp) {}
+  void begin(std::int64_t first_frame) override {
+    next_frame_ = first_frame;
+    transformed_ = 0;
+    is_handed_over_ = false;
+  }
+  void encode() override {
+    if (is_handed_over_) return libav_encoder_->encode();
+    const bool is_first = chunk_.empty();
+    chunk_.push_back(
+        {.bytes = is_first ? coder_.encode_idr(picture_) : coder_.encode_p(picture_, changed_),
+         .pts = next_frame_,
+         .dts = next_frame_,
+         .key_frame = is_first});
+    if (!is_first) transformed_ += coder_.transformed_macroblocks();
+    changed_.clear();
+    ++next_frame_;
+  }
+  EncodedChunk finish() override {
+    EncodedChunk chunk = std::exchange(chunk_, {});
+    if (is_handed_over_) std::ranges::move(libav_encoder_->finish(), std::back_inserter(chunk));
+    return chunk;
+  }
+  std::string method() const override {
+    const std::string damage(kDamage);
+    return is_handed_over_ ? damage + ", then " + encoder_.name() : damage;
+  }
+
+ private:
+  void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
+    const PixelRect whole{0, 0, frame.width_px, frame.height_px};
+    const std::span<const PixelRect> all(&whole, 1);
+    if (is_handed_over_) {
+      libav_encoder_->take(frame, rects);
+    } else if (changes_too_much()) {
+      hand_over();
+      libav_encoder_->take(frame, all);
+    } else {
+      convert_here(frame, std::exchange(is_behind_, false) ? all : rects);
+    }
+  }
+  void convert_here(const ImageView& frame, std::span<const PixelRect> rects) {
+    bool reaches_edge = false;
+    for (const PixelRect& rect : rects) {
+      const PixelRect aligned = chroma_aligned(rect, frame);
+      convert_to_yuv420(frame, aligned, view_of(picture_));
+      changed_.add(aligned.x_px, aligned.y_px, aligned.width_px, aligned.height_px);
+      reaches_edge = reaches_edge || aligned.x_px + aligned.width_px == frame.width_px ||
+                     aligned.y_px + aligned.height_px == frame.height_px;
+    }
+    if (reaches_edge) extend(picture_, encoder_.format());
+  }
+  /// Makes the next frame a key frame of libavcodec's encoder.
+  void hand_over() {
+    is_handed_over_ = true;
+    is_behind_ = true;
+    if (!libav_encoder_) libav_encoder_ = libav_chunk_encoder(encoder_);
+    libav_encoder_->begin(next_frame_);
+  }
+  /// libavcodec's encoder is the faster one if more than a twentieth of the macroblocks, and more
+  /// than a few, have to be transformed (tests/benchmark/encoders.md).
+  bool changes_too_much() const {
+    constexpr std::int64_t kOneIn = 20;
+    constexpr std::int64_t kFew = 64;
+    const std::int64_t macroblocks = std::int64_t{picture_.width_mb()} * picture_.height_mb();
+    return may_hand_over_ &&
+           transformed_ > std::max(kFew, macroblocks / kOneIn) * encoder_.frames_per_chunk();
+  }
+
+  const VideoEncoder& encoder_;
+  bool may_hand_over_;
+  h264::Picture picture_;
+  h264::MacroblockSet changed_;
+  h264::PictureEncoder coder_;
+  std::int64_t next_frame_ = 0;
+  EncodedChunk chunk_;
+  std::int64_t transformed_ = 0;  // macroblocks of the chunk's P pictures
+  bool is_handed_over_ = false;   // to libavcodec's encoder
+  bool is_behind_ = false;        // picture_ lacks frames that only libavcodec's encoder took
+  std::unique_ptr<ChunkEncoder> libav_encoder_;  // made when it is first needed
+};
+
 }  // namespace
 
 YuvView<std::uint8_t> view_of(h264::Picture& picture) {
@@ -38,86 +131,10 @@ YuvView<std::uint8_t> view_of(h264::Picture& picture) {
   return {plane(0), plane(1), plane(2)};
 }
 
-H264ChunkEncoder::H264ChunkEncoder(const VideoEncoder& encoder, const h264::ParameterSets& sets,
-                                   int qp, bool may_hand_over)
-    : ChunkEncoder(encoder.format()),
-      encoder_(encoder),
-      may_hand_over_(may_hand_over),
-      picture_(sets.width_mb, sets.height_mb),
-      changed_(sets.width_mb, sets.height_mb),
-      coder_(sets, qp) {}
-
-void H264ChunkEncoder::begin(std::int64_t first_frame) {
-  next_frame_ = first_frame;
-  transformed_ = 0;
-  is_handed_over_ = false;
-}
-
-/// libavcodec's encoder is the faster one if more than a twentieth of the macroblocks, and more
-/// than a few, have to be transformed (tests/benchmark/encoders.md).
-bool H264ChunkEncoder::changes_too_much() const {
-  constexpr std::int64_t kOneIn = 20;
-  constexpr std::int64_t kFew = 64;
-  const std::int64_t macroblocks = std::int64_t{picture_.width_mb()} * picture_.height_mb();
-  return may_hand_over_ &&
-         transformed_ > std::max(kFew, macroblocks / kOneIn) * encoder_.frames_per_chunk();
-}
-
-void H264ChunkEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
-  const PixelRect whole{0, 0, frame.width_px, frame.height_px};
-  const std::span<const PixelRect> all(&whole, 1);
-  if (is_handed_over_) {
-    libav_encoder_->take(frame, rects);
-  } else if (changes_too_much()) {
-    hand_over();
-    libav_encoder_->take(frame, all);
-  } else {
-    convert_here(frame, std::exchange(is_behind_, false) ? all : rects);
-  }
-}
-
-void H264ChunkEncoder::convert_here(const ImageView& frame, std::span<const PixelRect> rects) {
-  bool reaches_edge = false;
-  for (const PixelRect& rect : rects) {
-    const PixelRect aligned = chroma_aligned(rect, frame);
-    convert_to_yuv420(frame, aligned, view_of(picture_));
-    changed_.add(aligned.x_px, aligned.y_px, aligned.width_px, aligned.height_px);
-    reaches_edge = reaches_edge || aligned.x_px + aligned.width_px == frame.width_px ||
-                   aligned.y_px + aligned.height_px == frame.height_px;
-  }
-  if (reaches_edge) extend(picture_, encoder_.format());
-}
-
-/// Makes the next frame a key frame of libavcodec's encoder.
-void H264ChunkEncoder::hand_over() {
-  is_handed_over_ = true;
-  is_behind_ = true;
-  if (!libav_encoder_) libav_encoder_.emplace(encoder_);
-  libav_encoder_->begin(next_frame_);
-}
-
-void H264ChunkEncoder::encode() {
-  if (is_handed_over_) return libav_encoder_->encode();
-  const bool is_first = chunk_.empty();
-  chunk_.push_back(
-      {.bytes = is_first ? coder_.encode_idr(picture_) : coder_.encode_p(picture_, changed_),
-       .pts = next_frame_,
-       .dts = next_frame_,
-       .key_frame = is_first});
-  if (!is_first) transformed_ += coder_.transformed_macroblocks();
-  changed_.clear();
-  ++next_frame_;
-}
-
-std::string H264ChunkEncoder::method() const {
-  const std::string damage(kDamage);
-  return is_handed_over_ ? damage + ", then " + encoder_.name() : damage;
-}
-
-EncodedChunk H264ChunkEncoder::finish() {
-  EncodedChunk chunk = std::exchange(chunk_, {});
-  if (is_handed_over_) std::ranges::move(libav_encoder_->finish(), std::back_inserter(chunk));
-  return chunk;
+std::unique_ptr<ChunkEncoder> h264_chunk_encoder(const VideoEncoder& encoder,
+                                                 const h264::ParameterSets& sets, int qp,
+                                                 bool may_hand_over) {
+  return std::make_unique<H264ChunkEncoder>(encoder, sets, qp, may_hand_over);
 }
 
 }  // namespace piblocks

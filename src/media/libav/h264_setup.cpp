@@ -16,16 +16,13 @@ constexpr const char* kX264Qp = "14";
 /// For a preset without a quality: slower presets need the rate factor's analysis.
 constexpr double kX264Crf = 21;
 
-/// For encoders without constant quality: bits per pixel of average video, generous for flat
-/// shapes.
+/// For encoders without constant quality: generous for flat shapes.
 constexpr double kBitsPerPixel = 0.1;
 
 bool takes_yuv420p(const AVCodec& codec) {
   const AVPixelFormat* format = codec.pix_fmts;
-  while (format != nullptr && *format != AV_PIX_FMT_NONE) {
-    if (*format++ == AV_PIX_FMT_YUV420P) return true;
-  }
-  return false;
+  while (format != nullptr && *format != AV_PIX_FMT_NONE && *format != AV_PIX_FMT_YUV420P) ++format;
+  return format != nullptr && *format == AV_PIX_FMT_YUV420P;
 }
 
 bool is_software_h264(const AVCodec& codec) {
@@ -47,10 +44,8 @@ std::vector<std::string> software_encoders() {
 
 /// libavcodec's encoder of that name, or its default.
 /// @param kinds  of the encoders that may be asked for. An encoder that nobody knows how to set up
-/// may
-///               never end, as libsvtav1 does.
-/// @throws UsageError if there is none, or another is asked for; the message lists what can be
-/// used.
+///               may never end, as libsvtav1 does.
+/// @throws UsageError if there is none, or another is asked for.
 const AVCodec& find_encoder(const std::optional<std::string>& name,
                             const std::vector<EncoderKind>& kinds) {
   const AVCodec* const x264 = avcodec_find_encoder_by_name(kX264.data());

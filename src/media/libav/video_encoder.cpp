@@ -54,8 +54,7 @@ void convert_rect(const ImageView& frame, const PixelRect& rect, const AVFrame& 
   }
 }
 
-}  // namespace
-
+/// Room for a picture of the stream, with the stream's tags.
 AvFramePtr allocate_picture(const AVCodecParameters& stream) {
   auto picture = own_av<AvFramePtr>(av_frame_alloc(), "picture");
   picture->width = stream.width;
@@ -69,6 +68,79 @@ AvFramePtr allocate_picture(const AVCodecParameters& stream) {
   check_av(av_frame_get_buffer(picture.get(), 0), "allocate", "picture");
   return picture;
 }
+
+class LibavChunkEncoder final : public ChunkEncoder {
+ public:
+  explicit LibavChunkEncoder(const VideoEncoder& encoder)
+      : ChunkEncoder(encoder.format()),
+        encoder_(encoder),
+        picture_(allocate_picture(encoder.parameters())),
+        packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {}
+  void begin(std::int64_t first_frame) override {
+    context_ = encoder_.open();
+    first_frame_ = first_frame;
+    frames_ = 0;
+  }
+  void encode() override {
+    picture_->pict_type = frames_ == 0 ? AV_PICTURE_TYPE_I : AV_PICTURE_TYPE_NONE;
+    picture_->pts = frames_++;
+    send(picture_.get());
+  }
+  EncodedChunk finish() override {
+    send(nullptr);
+    // As libx264 sets them for B-frames. But if a chunk is shorter than the delay of these, libx264
+    // starts it late, and the packet before it would seem to last for several frames.
+    std::int64_t dts = first_frame_ - context_->has_b_frames;
+    for (Packet& packet : chunk_) packet.dts = dts++;
+    context_.reset();
+    return std::exchange(chunk_, {});
+  }
+
+ private:
+  void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
+    // Allocates only if the encoder still uses the last picture. libx264 copies it.
+    check_av(av_frame_make_writable(picture_.get()), "refill", "picture");
+    for (const PixelRect& rect : rects) convert_rect(frame, rect, *picture_);
+  }
+  void send(const AVFrame* picture) {
+    check_av(avcodec_send_frame(context_.get(), picture), "encode a frame with",
+             context_->codec->name);
+    take_packets();
+  }
+  void take_packets() {
+    while (true) {
+      const int code = avcodec_receive_packet(context_.get(), packet_.get());
+      if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return;
+      check_av(code, "encode a frame with", context_->codec->name);
+
+      ByteSpan bytes(packet_->data, std::size_t(packet_->size));
+      // libx264 signs the first picture of every encoder with 600 bytes. One copy in the video is
+      // enough.
+      const bool is_h264 = context_->codec_id == AV_CODEC_ID_H264;
+      if (is_h264 && first_frame_ > 0 && chunk_.empty()) bytes = h264::without_user_data(bytes);
+      chunk_.push_back({.bytes = {bytes.begin(), bytes.end()},
+                        .pts = first_frame_ + packet_->pts,
+                        .key_frame = (packet_->flags & AV_PKT_FLAG_KEY) != 0});
+      if (picture_->format == AV_PIX_FMT_YUVA420P) {
+        std::size_t size = 0;
+        const std::uint8_t* const alpha =
+            av_packet_get_side_data(packet_.get(), AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, &size);
+        chunk_.back().bytes = with_alpha({bytes, {alpha, alpha == nullptr ? 0 : size}});
+      }
+      av_packet_unref(packet_.get());
+    }
+  }
+
+  const VideoEncoder& encoder_;
+  AvFramePtr picture_;  // kept, since a frame changes little of it
+  AvCodecContextPtr context_;
+  std::int64_t first_frame_ = 0;
+  std::int64_t frames_ = 0;
+  AvPacketPtr packet_;
+  EncodedChunk chunk_;
+};
+
+}  // namespace
 
 VideoEncoder::VideoEncoder(const VideoFormat& format, EncoderSetup setup)
     : format_(format),
@@ -142,68 +214,8 @@ AvCodecContextPtr VideoEncoder::open_unchecked() const {
   return context;
 }
 
-LibavChunkEncoder::LibavChunkEncoder(const VideoEncoder& encoder)
-    : ChunkEncoder(encoder.format()),
-      encoder_(encoder),
-      picture_(allocate_picture(encoder.parameters())),
-      packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {}
-
-void LibavChunkEncoder::begin(std::int64_t first_frame) {
-  context_ = encoder_.open();
-  first_frame_ = first_frame;
-  frames_ = 0;
-}
-
-void LibavChunkEncoder::convert(const ImageView& frame, std::span<const PixelRect> rects) {
-  // Allocates only if the encoder still uses the last picture. libx264 copies it.
-  check_av(av_frame_make_writable(picture_.get()), "refill", "picture");
-  for (const PixelRect& rect : rects) convert_rect(frame, rect, *picture_);
-}
-
-void LibavChunkEncoder::encode() {
-  picture_->pict_type = frames_ == 0 ? AV_PICTURE_TYPE_I : AV_PICTURE_TYPE_NONE;
-  picture_->pts = frames_++;
-  send(picture_.get());
-}
-
-EncodedChunk LibavChunkEncoder::finish() {
-  send(nullptr);
-  // As libx264 sets them for B-frames. But if a chunk is shorter than the delay of these, libx264
-  // starts it late, and the packet before it would seem to last for several frames.
-  std::int64_t dts = first_frame_ - context_->has_b_frames;
-  for (Packet& packet : chunk_) packet.dts = dts++;
-  context_.reset();
-  return std::exchange(chunk_, {});
-}
-
-void LibavChunkEncoder::send(const AVFrame* picture) {
-  check_av(avcodec_send_frame(context_.get(), picture), "encode a frame with",
-           context_->codec->name);
-  take_packets();
-}
-
-void LibavChunkEncoder::take_packets() {
-  while (true) {
-    const int code = avcodec_receive_packet(context_.get(), packet_.get());
-    if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return;
-    check_av(code, "encode a frame with", context_->codec->name);
-
-    ByteSpan bytes(packet_->data, std::size_t(packet_->size));
-    // libx264 signs the first picture of every encoder with 600 bytes. One copy in the video is
-    // enough.
-    const bool is_h264 = context_->codec_id == AV_CODEC_ID_H264;
-    if (is_h264 && first_frame_ > 0 && chunk_.empty()) bytes = h264::without_user_data(bytes);
-    chunk_.push_back({.bytes = {bytes.begin(), bytes.end()},
-                      .pts = first_frame_ + packet_->pts,
-                      .key_frame = (packet_->flags & AV_PKT_FLAG_KEY) != 0});
-    if (picture_->format == AV_PIX_FMT_YUVA420P) {
-      std::size_t size = 0;
-      const std::uint8_t* const alpha =
-          av_packet_get_side_data(packet_.get(), AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, &size);
-      chunk_.back().bytes = with_alpha({bytes, {alpha, alpha == nullptr ? 0 : size}});
-    }
-    av_packet_unref(packet_.get());
-  }
+std::unique_ptr<ChunkEncoder> libav_chunk_encoder(const VideoEncoder& encoder) {
+  return std::make_unique<LibavChunkEncoder>(encoder);
 }
 
 Bytes with_alpha(const PictureAndAlpha& both) {

@@ -3,20 +3,14 @@
 // they have in the whole video.
 #pragma once
 
-#include <piblocks/error.hpp>
-
-#include <cstdint>
-#include <span>
-#include <vector>
+#include <memory>
+#include <string>
 
 #include "media/libav/av.hpp"
 #include "media/libav/encoder_setup.hpp"
 #include "media/output/output.hpp"
 
 namespace piblocks {
-
-/// Room for a picture of the stream, with the stream's tags.
-AvFramePtr allocate_picture(const AVCodecParameters& stream);
 
 /// An encoder that exists and opens with its settings.
 class VideoEncoder {
@@ -51,26 +45,9 @@ class VideoEncoder {
   AvParametersPtr parameters_;
 };
 
-class LibavChunkEncoder final : public ChunkEncoder {
- public:
-  explicit LibavChunkEncoder(const VideoEncoder& encoder);
-  void begin(std::int64_t first_frame) override;
-  void encode() override;
-  EncodedChunk finish() override;
-
- private:
-  void convert(const ImageView& frame, std::span<const PixelRect> rects) override;
-  void send(const AVFrame* picture);
-  void take_packets();
-
-  const VideoEncoder& encoder_;
-  AvFramePtr picture_;  // kept, since a frame changes little of it
-  AvCodecContextPtr context_;
-  std::int64_t first_frame_ = 0;
-  std::int64_t frames_ = 0;
-  AvPacketPtr packet_;
-  EncodedChunk chunk_;
-};
+/// Makes the chunks of a stream, each by an encoder of its own.
+/// @param encoder  must outlive the result.
+std::unique_ptr<ChunkEncoder> libav_chunk_encoder(const VideoEncoder& encoder);
 
 /// A packet of a picture and of its transparency, which VP9 codes as a video of its own.
 struct PictureAndAlpha {

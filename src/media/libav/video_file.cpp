@@ -78,33 +78,6 @@ bool is_whole_webm(AVFormatContext& file, std::span<const std::int64_t> packets)
   return code == AVERROR_EOF && std::ranges::count(left, 0) == std::ssize(left);
 }
 
-class VideoFile final : public FrameSink {
- public:
-  /// @param sound  of the second stream, if there is one.
-  VideoFile(const std::string& name, const Container& container, const VideoEncoder& encoder,
-            const SoundEncoder* sound);
-
-  void take_sound(PacketSource& sound) override;
-  void append(const EncodedChunk& chunk) override;
-  void finish() override;
-
- private:
-  void add_stream();
-  void write_header();
-  void write(const Packet& packet);
-  void check() const;
-  void add_alpha(ByteSpan alpha);
-
-  std::string name_;
-  const VideoEncoder& encoder_;
-  const Container& container_;
-  TemporaryFile file_;
-  AvOutputPtr muxer_;  // after file_: closed before the file is removed
-  AvPacketPtr packet_;
-  std::optional<SoundStream> sound_;
-  FrameCounter counter_;
-};
-
 /// "file:" keeps libav from reading a protocol out of a path with a colon.
 AvOutputPtr open_muxer(const std::string& path, const std::string& name, const char* format) {
   const std::string url = "file:" + path;
@@ -115,104 +88,112 @@ AvOutputPtr open_muxer(const std::string& path, const std::string& name, const c
   return muxer;
 }
 
-VideoFile::VideoFile(const std::string& name, const Container& container,
-                     const VideoEncoder& encoder, const SoundEncoder* sound)
-    : name_(name),
-      encoder_(encoder),
-      container_(container),
-      file_(name),
-      muxer_(open_muxer(file_.path(), name_, container.muxer)),
-      packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {
-  add_stream();
-  if (sound != nullptr) sound_.emplace(*sound, *muxer_, container_.sound_from_zero, name_);
-  write_header();
-}
-
-void VideoFile::take_sound(PacketSource& sound) {
-  if (!sound_) return FrameSink::take_sound(sound);
-  sound_->take(sound);
-}
-
-void VideoFile::add_stream() {
-  AVStream* stream = avformat_new_stream(muxer_.get(), nullptr);
-  if (stream == nullptr) throw std::bad_alloc();
-  check_av(avcodec_parameters_copy(stream->codecpar, &encoder_.parameters()),
-           "describe the stream of", name_);
-  stream->time_base = av_inv_q(encoder_.frame_rate());
-  stream->avg_frame_rate = encoder_.frame_rate();
-  stream->r_frame_rate = encoder_.frame_rate();
-  stream->sample_aspect_ratio = {1, 1};
-}
-
-void VideoFile::write_header() {
-  // Leaves out the library's version and the time of day.
-  muxer_->flags |= AVFMT_FLAG_BITEXACT;
-  check_av(av_opt_set(muxer_->priv_data, container_.index_option, container_.index_value, 0),
-           "set up the muxer of", name_);
-  check_av(avformat_write_header(muxer_.get(), nullptr), "write the header of", name_);
-}
-
-void VideoFile::append(const EncodedChunk& chunk) {
-  counter_.take(chunk);
-  for (const Packet& packet : chunk) write(packet);
-}
-
-void VideoFile::write(const Packet& packet) {
-  if (sound_) sound_->write_until(packet.dts, av_inv_q(encoder_.frame_rate()));
-  av_packet_unref(packet_.get());
-  ByteSpan picture = packet.bytes;
-  if (encoder_.parameters().format == AV_PIX_FMT_YUVA420P) {
-    const PictureAndAlpha both = without_alpha(packet.bytes);
-    picture = both.picture;
-    if (!both.alpha.empty()) add_alpha(both.alpha);
+class VideoFile final : public FrameSink {
+ public:
+  /// @param sound  of the second stream, if there is one.
+  VideoFile(const std::string& name, const Container& container, const VideoEncoder& encoder,
+            const SoundEncoder* sound)
+      : name_(name),
+        encoder_(encoder),
+        container_(container),
+        file_(name),
+        muxer_(open_muxer(file_.path(), name_, container.muxer)),
+        packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {
+    add_stream();
+    if (sound != nullptr) sound_.emplace(*sound, *muxer_, container_.sound_from_zero, name_);
+    write_header();
   }
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): the muxer only reads what has no owner
-  packet_->data = const_cast<std::uint8_t*>(picture.data());
-  packet_->size = int(picture.size());
-  packet_->pts = packet.pts;
-  packet_->dts = packet.dts;
-  packet_->duration = 1;
-  packet_->flags = packet.key_frame ? AV_PKT_FLAG_KEY : 0;
-  packet_->stream_index = 0;
-  av_packet_rescale_ts(packet_.get(), av_inv_q(encoder_.frame_rate()),
-                       muxer_->streams[0]->time_base);
-  check_av(av_write_frame(muxer_.get(), packet_.get()), "write to", name_);
-}
 
-void VideoFile::add_alpha(ByteSpan alpha) {
-  std::uint8_t* const data =
-      av_packet_new_side_data(packet_.get(), AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, alpha.size());
-  if (data == nullptr) throw std::bad_alloc();
-  std::ranges::copy(alpha, data);
-}
-
-/// Reads the file back: without memory, libavformat may leave something out and not report it.
-void VideoFile::check() const {
-  const AvInputPtr file = open_av_input(file_.path());
-  const AVCodecParameters& written = encoder_.parameters();
-  const auto is_ours = [&](const AVCodecParameters& read) {
-    return read.codec_id == written.codec_id &&
-           (read.extradata_size > 0) == (written.extradata_size > 0);
-  };
-  std::vector<std::int64_t> packets = {counter_.frames()};
-  if (sound_) packets.push_back(sound_->packets());
-  if (file->nb_streams != packets.size() || !is_ours(*file->streams[0]->codecpar) ||
-      !container_.is_whole(*file, packets)) {
-    // A demuxer may take a failed read for the end.
-    check_av_read(std::min(file->pb->error, 0), "read back", name_);
-    throw MediaError(fmt::format("video: the index of '{}' was not written whole", name_));
+  void take_sound(PacketSource& sound) override {
+    if (!sound_) return FrameSink::take_sound(sound);
+    sound_->take(sound);
   }
-}
+  void append(const EncodedChunk& chunk) override {
+    counter_.take(chunk);
+    for (const Packet& packet : chunk) write(packet);
+  }
+  void finish() override {
+    if (sound_) sound_->write_all();
+    check_av(av_write_trailer(muxer_.get()), "write the index of", name_);
+    avio_flush(muxer_->pb);
+    check_av(muxer_->pb->error, "write to", name_);
+    check_av(avio_closep(&muxer_->pb), "close", name_);
+    check();
+    file_.commit();
+  }
 
-void VideoFile::finish() {
-  if (sound_) sound_->write_all();
-  check_av(av_write_trailer(muxer_.get()), "write the index of", name_);
-  avio_flush(muxer_->pb);
-  check_av(muxer_->pb->error, "write to", name_);
-  check_av(avio_closep(&muxer_->pb), "close", name_);
-  check();
-  file_.commit();
-}
+ private:
+  void add_stream() {
+    AVStream* stream = avformat_new_stream(muxer_.get(), nullptr);
+    if (stream == nullptr) throw std::bad_alloc();
+    check_av(avcodec_parameters_copy(stream->codecpar, &encoder_.parameters()),
+             "describe the stream of", name_);
+    stream->time_base = av_inv_q(encoder_.frame_rate());
+    stream->avg_frame_rate = encoder_.frame_rate();
+    stream->r_frame_rate = encoder_.frame_rate();
+    stream->sample_aspect_ratio = {1, 1};
+  }
+  void write_header() {
+    // Leaves out the library's version and the time of day.
+    muxer_->flags |= AVFMT_FLAG_BITEXACT;
+    check_av(av_opt_set(muxer_->priv_data, container_.index_option, container_.index_value, 0),
+             "set up the muxer of", name_);
+    check_av(avformat_write_header(muxer_.get(), nullptr), "write the header of", name_);
+  }
+  void write(const Packet& packet) {
+    if (sound_) sound_->write_until(packet.dts, av_inv_q(encoder_.frame_rate()));
+    av_packet_unref(packet_.get());
+    ByteSpan picture = packet.bytes;
+    if (encoder_.parameters().format == AV_PIX_FMT_YUVA420P) {
+      const PictureAndAlpha both = without_alpha(packet.bytes);
+      picture = both.picture;
+      if (!both.alpha.empty()) add_alpha(both.alpha);
+    }
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): the muxer only reads what has no owner
+    packet_->data = const_cast<std::uint8_t*>(picture.data());
+    packet_->size = int(picture.size());
+    packet_->pts = packet.pts;
+    packet_->dts = packet.dts;
+    packet_->duration = 1;
+    packet_->flags = packet.key_frame ? AV_PKT_FLAG_KEY : 0;
+    packet_->stream_index = 0;
+    av_packet_rescale_ts(packet_.get(), av_inv_q(encoder_.frame_rate()),
+                         muxer_->streams[0]->time_base);
+    check_av(av_write_frame(muxer_.get(), packet_.get()), "write to", name_);
+  }
+  /// Reads the file back: without memory, libavformat may leave something out and not report it.
+  void check() const {
+    const AvInputPtr file = open_av_input(file_.path());
+    const AVCodecParameters& written = encoder_.parameters();
+    const auto is_ours = [&](const AVCodecParameters& read) {
+      return read.codec_id == written.codec_id &&
+             (read.extradata_size > 0) == (written.extradata_size > 0);
+    };
+    std::vector<std::int64_t> packets = {counter_.frames()};
+    if (sound_) packets.push_back(sound_->packets());
+    if (file->nb_streams != packets.size() || !is_ours(*file->streams[0]->codecpar) ||
+        !container_.is_whole(*file, packets)) {
+      // A demuxer may take a failed read for the end.
+      check_av_read(std::min(file->pb->error, 0), "read back", name_);
+      throw MediaError(fmt::format("video: the index of '{}' was not written whole", name_));
+    }
+  }
+  void add_alpha(ByteSpan alpha) {
+    std::uint8_t* const data =
+        av_packet_new_side_data(packet_.get(), AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, alpha.size());
+    if (data == nullptr) throw std::bad_alloc();
+    std::ranges::copy(alpha, data);
+  }
+
+  std::string name_;
+  const VideoEncoder& encoder_;
+  const Container& container_;
+  TemporaryFile file_;
+  AvOutputPtr muxer_;  // after file_: closed before the file is removed
+  AvPacketPtr packet_;
+  std::optional<SoundStream> sound_;
+  FrameCounter counter_;
+};
 
 }  // namespace
 

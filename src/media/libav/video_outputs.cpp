@@ -78,16 +78,14 @@ struct Encoders {
 Output encoded_output(const OutputRequest& request, const Container& container,
                       const std::shared_ptr<const Encoders>& encoders) {
   const auto& [pictures, sound] = *encoders;
-  Output output = {
-      .frames_per_chunk = pictures.frames_per_chunk(),
-      .signature = fmt::format("{} by {}", container.muxer, pictures.signature()),
-      .make_encoder =
-          [encoders] { return std::make_unique<LibavChunkEncoder>(encoders->pictures); },
-      .open =
-          [name = request.name, &container, encoders] {
-            return open_video_file(name, container, encoders->pictures,
-                                   encoders->sound ? &*encoders->sound : nullptr);
-          }};
+  Output output = {.frames_per_chunk = pictures.frames_per_chunk(),
+                   .signature = fmt::format("{} by {}", container.muxer, pictures.signature()),
+                   .make_encoder = [encoders] { return libav_chunk_encoder(encoders->pictures); },
+                   .open =
+                       [name = request.name, &container, encoders] {
+                         return open_video_file(name, container, encoders->pictures,
+                                                encoders->sound ? &*encoders->sound : nullptr);
+                       }};
   if (sound) {
     output.signature += ", sound by " + sound->signature();
     output.encode_sound = [encoders](SampleSource& samples) {
@@ -108,7 +106,7 @@ Output h264_output(const OutputRequest& request, const Container& container) {
     output.signature += fmt::format(", changes at QP {}", kQp);
     const bool may_hand_over = request.settings.encoder != kDamage;
     output.make_encoder = [encoders, sets = *sets, may_hand_over] {
-      return std::make_unique<H264ChunkEncoder>(encoders->pictures, sets, kQp, may_hand_over);
+      return h264_chunk_encoder(encoders->pictures, sets, kQp, may_hand_over);
     };
   }
   return output;

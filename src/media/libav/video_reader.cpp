@@ -117,17 +117,72 @@ class VideoReader final : public FrameReader {
     if (is_cut_off(path_)) refuse_cut_file(path_);
   }
 
-  bool next() override;
+  bool next() override {
+    while (true) {
+      const int code = avcodec_receive_frame(decoder_.get(), frame_.get());
+      if (code == AVERROR_EOF) return false;
+      if (code == AVERROR(EAGAIN)) {
+        feed();
+        continue;
+      }
+      check_av_read(code, "decode", path_);
+      check_damage();
+      check_pixel_format(*frame_, path_);
+      ++frames_;
+      return true;
+    }
+  }
   std::string layout() const override { return layout_of(*frame_); }
-  std::string presentation() const override;
+  std::string presentation() const override {
+    AVStream* const stream = input_->streams[stream_];
+    const AVFrameSideData* const own =
+        av_frame_get_side_data(frame_.get(), AV_FRAME_DATA_DISPLAYMATRIX);
+    const std::uint8_t* const matrix =
+        own != nullptr ? own->data
+                       : av_stream_get_side_data(stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+    std::string text =
+        matrix == nullptr ? "" : turn_of(reinterpret_cast<const std::int32_t*>(matrix));
+    const AVRational aspect = av_guess_sample_aspect_ratio(input_.get(), stream, frame_.get());
+    if (aspect.num > 0 && aspect.num != aspect.den) {
+      if (!text.empty()) text += ", ";
+      text += fmt::format("with pixels of {}:{}", aspect.num, aspect.den);
+    }
+    return text;
+  }
   AnyImage samples() override { return samples_of(*frame_); }
   AnyImage rgb() override { return rgb_of(*frame_, sws_); }
   std::string name() const override { return fmt::format("frame {}", frames_ - 1); }
 
  private:
-  void feed();
-  void check_damage() const;
-  void check_end() const;
+  /// Gives one packet, or the end, to the decoder.
+  void feed() {
+    while (true) {
+      const int code = av_read_frame(input_.get(), packet_.get());
+      if (code == AVERROR_EOF) break;
+      check_av_read(code, "read", path_);
+      read_to_ = packet_->pos + packet_->size;
+      const bool is_video = packet_->stream_index == stream_;
+      if (is_video) {
+        if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) refuse_cut_file(path_);
+        check_av_read(avcodec_send_packet(decoder_.get(), packet_.get()), "decode", path_);
+      }
+      av_packet_unref(packet_.get());
+      if (is_video) return;
+    }
+    check_end();
+    check_av_read(avcodec_send_packet(decoder_.get(), nullptr), "decode", path_);
+  }
+  /// Some decoders, such as that of ProRes, return a frame of which they read a part. The rest of
+  /// it is what was in memory.
+  void check_damage() const {
+    if (frame_->decode_error_flags == 0 && (frame_->flags & AV_FRAME_FLAG_CORRUPT) == 0) return;
+    throw MediaError(fmt::format("video: cannot decode '{}': frame {} is damaged", path_, frames_));
+  }
+  /// YUV4MPEG2 has no index, and libavformat drops half a frame at the end.
+  void check_end() const {
+    const bool is_y4m = std::string_view(input_->iformat->name) == "yuv4mpegpipe";
+    if (is_y4m && avio_tell(input_->pb) != read_to_) refuse_cut_file(path_);
+  }
 
   std::string path_;
   std::stop_token stop_;  // libavformat has its address
@@ -140,71 +195,6 @@ class VideoReader final : public FrameReader {
   SwsPtr sws_;
   std::int64_t frames_ = 0;
 };
-
-bool VideoReader::next() {
-  while (true) {
-    const int code = avcodec_receive_frame(decoder_.get(), frame_.get());
-    if (code == AVERROR_EOF) return false;
-    if (code == AVERROR(EAGAIN)) {
-      feed();
-      continue;
-    }
-    check_av_read(code, "decode", path_);
-    check_damage();
-    check_pixel_format(*frame_, path_);
-    ++frames_;
-    return true;
-  }
-}
-
-std::string VideoReader::presentation() const {
-  AVStream* const stream = input_->streams[stream_];
-  const AVFrameSideData* const own =
-      av_frame_get_side_data(frame_.get(), AV_FRAME_DATA_DISPLAYMATRIX);
-  const std::uint8_t* const matrix =
-      own != nullptr ? own->data
-                     : av_stream_get_side_data(stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
-  std::string text =
-      matrix == nullptr ? "" : turn_of(reinterpret_cast<const std::int32_t*>(matrix));
-  const AVRational aspect = av_guess_sample_aspect_ratio(input_.get(), stream, frame_.get());
-  if (aspect.num > 0 && aspect.num != aspect.den) {
-    if (!text.empty()) text += ", ";
-    text += fmt::format("with pixels of {}:{}", aspect.num, aspect.den);
-  }
-  return text;
-}
-
-/// Gives one packet, or the end, to the decoder.
-void VideoReader::feed() {
-  while (true) {
-    const int code = av_read_frame(input_.get(), packet_.get());
-    if (code == AVERROR_EOF) break;
-    check_av_read(code, "read", path_);
-    read_to_ = packet_->pos + packet_->size;
-    const bool is_video = packet_->stream_index == stream_;
-    if (is_video) {
-      if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) refuse_cut_file(path_);
-      check_av_read(avcodec_send_packet(decoder_.get(), packet_.get()), "decode", path_);
-    }
-    av_packet_unref(packet_.get());
-    if (is_video) return;
-  }
-  check_end();
-  check_av_read(avcodec_send_packet(decoder_.get(), nullptr), "decode", path_);
-}
-
-/// Some decoders, such as that of ProRes, return a frame of which they read a part. The rest of it
-/// is what was in memory.
-void VideoReader::check_damage() const {
-  if (frame_->decode_error_flags == 0 && (frame_->flags & AV_FRAME_FLAG_CORRUPT) == 0) return;
-  throw MediaError(fmt::format("video: cannot decode '{}': frame {} is damaged", path_, frames_));
-}
-
-/// YUV4MPEG2 has no index, and libavformat drops half a frame at the end.
-void VideoReader::check_end() const {
-  const bool is_y4m = std::string_view(input_->iformat->name) == "yuv4mpegpipe";
-  if (is_y4m && avio_tell(input_->pb) != read_to_) refuse_cut_file(path_);
-}
 
 }  // namespace
 

@@ -52,7 +52,7 @@ struct Packet {
   bool key_frame = true;
 };
 
-/// The packets of one chunk, in the order of writing.
+/// In the order of writing.
 using EncodedChunk = std::vector<Packet>;
 
 /// The packets of a soundtrack, in order. Used by one thread at a time.
@@ -125,8 +125,7 @@ class FrameCounter {
   std::int64_t frames_ = 0;
 };
 
-/// Output::encode_sound of outputs without sound.
-/// @throws MediaError
+/// Output::encode_sound of outputs without sound: throws MediaError.
 [[noreturn]] std::unique_ptr<PacketSource> reject_sound(SampleSource& samples);
 
 /// How frames become packets, and where the packets go.
@@ -147,10 +146,8 @@ struct Output {
   bool has_frames = true;  ///< if false, no frames may be encoded or appended
 };
 
-/// Sets up the output whose kind `name` tells:
-/// `*.mp4`, `*.mov`, `*.webm`, `*.gif`, `*.apng`, `*.png` with one integer field such as `%06d`,
-/// `*.y4m`, `-` (y4m on standard output), `*.framehash`, `null`, or `*.wav`, which is sound alone.
-/// PNG files are numbered from 1, as FFmpeg numbers them.
+/// Sets up the output whose kind the name tells (the table in output.cpp), such as `*.mp4`, `*.png`
+/// with one integer field such as `%06d`, `-` (y4m on standard output) or `null`.
 /// @throws UsageError if the name has no known kind, the format or the settings do not suit the
 ///         kind, or there is no encoder.
 Output set_up_output(const std::string& name, const VideoFormat& format,

@@ -38,65 +38,58 @@ class ApngEncoder final : public PacketPerFrameEncoder {
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
     picture_.take(frame, rects);
   }
-  Bytes encode_picture(std::int64_t number, bool is_first) override;
-  void append_frame_control(Bytes& bytes, std::int64_t number, const PixelRect& rect) const;
-  void filter(const PixelRect& rect);
+  Bytes encode_picture(std::int64_t number, bool is_first) override {
+    const PixelRect rect = is_first ? picture_.whole() : picture_.changed();
+    picture_.settle();
+    filter(rect);
+    Bytes bytes;
+    if (number == 0) {
+      append_png_header(bytes, format_.width_px, format_.height_px, format_.has_alpha);
+      append_animation_control(bytes, 0);  // write_trailer() knows how many frames there are
+      append_png_srgb(bytes);
+    }
+    append_frame_control(bytes, number, rect);
+    const std::size_t data = begin_png_chunk(bytes, number == 0 ? "IDAT" : "fdAT");
+    if (number > 0) append_big_endian(bytes, std::uint64_t(2 * number), 4);
+    append(bytes, deflater_.compress(rows_));
+    end_png_chunk(bytes, data);
+    return bytes;
+  }
+  /// fcTL chunks and the fdAT chunks between them are numbered together.
+  void append_frame_control(Bytes& bytes, std::int64_t number, const PixelRect& rect) const {
+    const std::size_t control = begin_png_chunk(bytes, "fcTL");
+    append_big_endian(bytes, number == 0 ? 0 : std::uint64_t(2 * number - 1), 4);
+    for (const int value : {rect.width_px, rect.height_px, rect.x_px, rect.y_px}) {
+      append_big_endian(bytes, std::uint64_t(value), 4);
+    }
+    append_big_endian(bytes, format_.frame_rate.get_den().get_ui(), 2);
+    append_big_endian(bytes, format_.frame_rate.get_num().get_ui(), 2);
+    bytes.push_back(0);  // stays until the next frame is drawn over it,
+    bytes.push_back(0);  // which replaces it
+    end_png_chunk(bytes, control);
+  }
+  /// By filter Up, which leaves zeros wherever a row equals the row above.
+  void filter(const PixelRect& rect) {
+    constexpr std::uint8_t kUp = 2;
+    const std::size_t row_bytes = std::size_t(rect.width_px) * packed_bytes(format_.has_alpha);
+    Bytes above(row_bytes);
+    Bytes current(row_bytes);
+    rows_.resize((row_bytes + 1) * std::size_t(rect.height_px));
+    std::uint8_t* to = rows_.data();
+    for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
+      pack_row(picture_.view(format_.has_alpha), rect, y, current.data());
+      *to++ = kUp;
+      subtract_bytes(current.data(), above.data(), row_bytes, to);
+      to += row_bytes;
+      current.swap(above);
+    }
+  }
 
   VideoFormat format_;
   ChangedPicture picture_;
   Deflater deflater_{Deflater::Form::whole};
   Bytes rows_;  // filtered
 };
-
-Bytes ApngEncoder::encode_picture(std::int64_t number, bool is_first) {
-  const PixelRect rect = is_first ? picture_.whole() : picture_.changed();
-  picture_.settle();
-  filter(rect);
-  Bytes bytes;
-  if (number == 0) {
-    append_png_header(bytes, format_.width_px, format_.height_px, format_.has_alpha);
-    append_animation_control(bytes, 0);  // write_trailer() knows how many frames there are
-    append_png_srgb(bytes);
-  }
-  append_frame_control(bytes, number, rect);
-  const std::size_t data = begin_png_chunk(bytes, number == 0 ? "IDAT" : "fdAT");
-  if (number > 0) append_big_endian(bytes, std::uint64_t(2 * number), 4);
-  append(bytes, deflater_.compress(rows_));
-  end_png_chunk(bytes, data);
-  return bytes;
-}
-
-/// fcTL chunks and the fdAT chunks between them are numbered together.
-void ApngEncoder::append_frame_control(Bytes& bytes, std::int64_t number,
-                                       const PixelRect& rect) const {
-  const std::size_t control = begin_png_chunk(bytes, "fcTL");
-  append_big_endian(bytes, number == 0 ? 0 : std::uint64_t(2 * number - 1), 4);
-  for (const int value : {rect.width_px, rect.height_px, rect.x_px, rect.y_px}) {
-    append_big_endian(bytes, std::uint64_t(value), 4);
-  }
-  append_big_endian(bytes, format_.frame_rate.get_den().get_ui(), 2);
-  append_big_endian(bytes, format_.frame_rate.get_num().get_ui(), 2);
-  bytes.push_back(0);  // stays until the next frame is drawn over it,
-  bytes.push_back(0);  // which replaces it
-  end_png_chunk(bytes, control);
-}
-
-/// By filter Up, which leaves zeros wherever a row equals the row above.
-void ApngEncoder::filter(const PixelRect& rect) {
-  constexpr std::uint8_t kUp = 2;
-  const std::size_t row_bytes = std::size_t(rect.width_px) * packed_bytes(format_.has_alpha);
-  Bytes above(row_bytes);
-  Bytes current(row_bytes);
-  rows_.resize((row_bytes + 1) * std::size_t(rect.height_px));
-  std::uint8_t* to = rows_.data();
-  for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
-    pack_row(picture_.view(format_.has_alpha), rect, y, current.data());
-    *to++ = kUp;
-    subtract_bytes(current.data(), above.data(), row_bytes, to);
-    to += row_bytes;
-    current.swap(above);
-  }
-}
 
 void write_trailer(OutputFile& file, std::int64_t frames) {
   Bytes end;

@@ -1,8 +1,6 @@
-#include "media/png/png_encoder.hpp"
-
+// PNG pictures, alone and in sequences.
 #include <fmt/format.h>
 #include <piblocks/encode.hpp>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstring>
@@ -24,25 +22,107 @@ namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
-/// Chosen from the table in tests/benchmark/encoders.md.
-constexpr int kStripRows = 8;
-
-/// As of FFmpeg's image2 muxer.
-constexpr std::int64_t kFirstNumber = 1;
-
-class PngFrameEncoder final : public PacketPerFrameEncoder {
+/// Compresses of each image only what differs from the one before. A file is cut into strips of
+/// rows. Each strip has a chunk of its own, whose bytes depend on the strip's rows alone: strips
+/// that have not changed are copied. Few strips change, since filter Up leaves only the upper and
+/// lower edges of a shape that moves sideways.
+class PngEncoder final : public PacketPerFrameEncoder {
  public:
-  using PacketPerFrameEncoder::PacketPerFrameEncoder;
+  explicit PngEncoder(const VideoFormat& format)
+      : PacketPerFrameEncoder(format),
+        width_px_(format.width_px),
+        height_px_(format.height_px),
+        has_alpha_(format.has_alpha),
+        row_bytes_(std::size_t(width_px_) * packed_bytes(has_alpha_) + 1),
+        rows_(row_bytes_ * std::size_t(height_px_)),
+        strips_(std::size_t((height_px_ + kStripRows - 1) / kStripRows)) {
+    constexpr std::uint8_t kUp = 2;
+    for (std::size_t at = 0; at < rows_.size(); at += row_bytes_) rows_[at] = kUp;
+  }
 
  private:
+  /// Chosen from the table in tests/benchmark/encoders.md.
+  static constexpr int kStripRows = 8;
+
+  struct Strip {
+    Bytes chunk;
+    std::uint32_t checksum = 0;  // Adler-32 of the filtered rows
+    bool stale = true;
+  };
+
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
-    png_.filter(frame, rects);
+    for (const PixelRect& rect : rects) filter_rect(frame, rect);
   }
   Bytes encode_picture(std::int64_t /*number*/, bool /*is_first*/) override {
-    return png_.compress();
+    std::size_t size = 128;
+    for (std::size_t i = 0; i < strips_.size(); ++i) {
+      if (strips_[i].stale) compress_strip(i);
+      size += strips_[i].chunk.size();
+    }
+    Bytes png;
+    png.reserve(size);
+    append_png_header(png, width_px_, height_px_, has_alpha_);
+    append_png_srgb(png);
+    uLong checksum = 1;
+    for (std::size_t i = 0; i < strips_.size(); ++i) {
+      append(png, strips_[i].chunk);
+      checksum = adler32_combine(checksum, strips_[i].checksum, z_off_t(rows_of(i).size()));
+    }
+    const std::size_t last = begin_png_chunk(png, "IDAT");
+    append(png, std::string_view("\x03\x00", 2));  // an empty last block (RFC 1951, 3.2.6)
+    append_big_endian(png, checksum, 4);
+    end_png_chunk(png, last);
+    end_png_chunk(png, begin_png_chunk(png, "IEND"));
+    return png;
+  }
+  /// Up is the difference from the row above, so the row below the rectangle changes too. Above the
+  /// first row all is zero.
+  void filter_rect(const ImageView& image, const PixelRect& rect) {
+    const std::size_t bytes = std::size_t(rect.width_px) * packed_bytes(has_alpha_);
+    Bytes above(bytes);
+    Bytes current(bytes);
+    if (rect.y_px > 0) pack_row(image, rect, rect.y_px - 1, above.data());
+    const int end = std::min(rect.y_px + rect.height_px + 1, height_px_);
+    for (int y = rect.y_px; y < end; ++y) {
+      pack_row(image, rect, y, current.data());
+      filter_row(y, rect.x_px, current, above);
+      current.swap(above);
+    }
+  }
+  void filter_row(int y, int x, ByteSpan row, ByteSpan above) {
+    std::uint8_t* const filtered =
+        rows_.data() + std::size_t(y) * row_bytes_ + 1 + std::size_t(x) * packed_bytes(has_alpha_);
+    difference_.resize(row.size());
+    subtract_bytes(row.data(), above.data(), row.size(), difference_.data());
+    if (std::memcmp(difference_.data(), filtered, row.size()) == 0) return;
+    std::memcpy(filtered, difference_.data(), row.size());
+    strips_[std::size_t(y / kStripRows)].stale = true;
+  }
+  /// The pieces of all strips make one zlib stream, whose header the first strip has.
+  void compress_strip(std::size_t index) {
+    const ByteSpan rows = rows_of(index);
+    Strip& strip = strips_[index];
+    strip.chunk.clear();
+    const std::size_t start = begin_png_chunk(strip.chunk, "IDAT");
+    if (index == 0) append(strip.chunk, "\x78\x01");  // compressed fast (RFC 1950)
+    append(strip.chunk, deflater_.compress(rows));
+    end_png_chunk(strip.chunk, start);
+    strip.checksum = std::uint32_t(adler32_z(1, rows.data(), rows.size()));
+    strip.stale = false;
+  }
+  ByteSpan rows_of(std::size_t strip) const {
+    const std::size_t begin = strip * kStripRows * row_bytes_;
+    return {rows_.data() + begin, std::min(kStripRows * row_bytes_, rows_.size() - begin)};
   }
 
-  PngEncoder png_;
+  Deflater deflater_{Deflater::Form::piece};
+  int width_px_;
+  int height_px_;
+  bool has_alpha_;
+  std::size_t row_bytes_;  // with the byte that names the filter
+  Bytes rows_;             // filtered
+  Bytes difference_;       // room for one row
+  std::vector<Strip> strips_;
 };
 
 class PngSequence final : public FrameSink {
@@ -55,133 +135,45 @@ class PngSequence final : public FrameSink {
     counter_.take(chunk);
     for (const Packet& packet : chunk) files_.add(pattern_.name(number++), packet.bytes);
   }
-  void finish() override;
+  void finish() override {
+    // Pictures of an earlier, longer sequence would look like the end of this one.
+    std::error_code error;
+    for (std::int64_t number = next_number();; ++number) {
+      const std::string name = pattern_.name(number);
+      const fs::path path = fs::path(pattern_.folder()) / name;
+      if (!fs::is_regular_file(fs::symlink_status(path, error))) break;
+      files_.remove(name);
+    }
+    files_.commit();
+  }
 
  private:
-  std::int64_t next_number() const { return kFirstNumber + counter_.frames(); }
+  /// From 1 on, as those of FFmpeg's image2 muxer.
+  std::int64_t next_number() const { return 1 + counter_.frames(); }
 
   FramePattern pattern_;
   FileSet files_;
   FrameCounter counter_;
 };
 
-void PngSequence::finish() {
-  // Pictures of an earlier, longer sequence would look like the end of this one.
-  std::error_code error;
-  for (std::int64_t number = next_number();; ++number) {
-    const std::string name = pattern_.name(number);
-    const fs::path path = fs::path(pattern_.folder()) / name;
-    if (!fs::is_regular_file(fs::symlink_status(path, error))) break;
-    files_.remove(name);
-  }
-  files_.commit();
-}
-
 }  // namespace
 
-void PngEncoder::filter(const ImageView& image, std::span<const PixelRect> changed) {
-  const PixelRect whole{0, 0, image.width_px, image.height_px};
-  if (image.width_px != width_px_ || image.height_px != height_px_ ||
-      image.has_alpha != has_alpha_) {
-    resize(image);
-    changed = {&whole, 1};
-  }
-  for (const PixelRect& rect : changed) filter_rect(image, rect);
-}
-
-void PngEncoder::resize(const ImageView& image) {
-  constexpr std::uint8_t kUp = 2;
-  width_px_ = image.width_px;
-  height_px_ = image.height_px;
-  has_alpha_ = image.has_alpha;
-  row_bytes_ = std::size_t(width_px_) * packed_bytes(has_alpha_) + 1;
-  rows_.assign(row_bytes_ * std::size_t(height_px_), 0);
-  for (std::size_t at = 0; at < rows_.size(); at += row_bytes_) rows_[at] = kUp;
-  strips_.assign(std::size_t((height_px_ + kStripRows - 1) / kStripRows), {});
-}
-
-/// Up is the difference from the row above, so the row below the rectangle changes too. Above the
-/// first row all is zero.
-void PngEncoder::filter_rect(const ImageView& image, const PixelRect& rect) {
-  const std::size_t bytes = std::size_t(rect.width_px) * packed_bytes(has_alpha_);
-  Bytes above(bytes);
-  Bytes current(bytes);
-  if (rect.y_px > 0) pack_row(image, rect, rect.y_px - 1, above.data());
-  const int end = std::min(rect.y_px + rect.height_px + 1, height_px_);
-  for (int y = rect.y_px; y < end; ++y) {
-    pack_row(image, rect, y, current.data());
-    filter_row(y, rect.x_px, current, above);
-    current.swap(above);
-  }
-}
-
-void PngEncoder::filter_row(int y, int x, ByteSpan row, ByteSpan above) {
-  std::uint8_t* const filtered =
-      rows_.data() + std::size_t(y) * row_bytes_ + 1 + std::size_t(x) * packed_bytes(has_alpha_);
-  difference_.resize(row.size());
-  subtract_bytes(row.data(), above.data(), row.size(), difference_.data());
-  if (std::memcmp(difference_.data(), filtered, row.size()) == 0) return;
-  std::memcpy(filtered, difference_.data(), row.size());
-  strips_[std::size_t(y / kStripRows)].stale = true;
-}
-
-ByteSpan PngEncoder::rows_of(std::size_t strip) const {
-  const std::size_t bytes = kStripRows * row_bytes_;
-  const std::size_t begin = strip * bytes;
-  return {rows_.data() + begin, std::min(bytes, rows_.size() - begin)};
-}
-
-/// The pieces of all strips make one zlib stream, whose header the first strip has.
-void PngEncoder::compress_strip(std::size_t index) {
-  const ByteSpan rows = rows_of(index);
-  const ByteSpan compressed = deflater_.compress(rows);
-  Strip& strip = strips_[index];
-  strip.chunk.clear();
-  const std::size_t start = begin_png_chunk(strip.chunk, "IDAT");
-  if (index == 0) append(strip.chunk, "\x78\x01");  // compressed fast (RFC 1950)
-  append(strip.chunk, compressed);
-  end_png_chunk(strip.chunk, start);
-  strip.checksum = std::uint32_t(adler32_z(1, rows.data(), rows.size()));
-  strip.stale = false;
-}
-
-Bytes PngEncoder::compress() {
-  std::size_t size = 128;
-  for (std::size_t i = 0; i < strips_.size(); ++i) {
-    if (strips_[i].stale) compress_strip(i);
-    size += strips_[i].chunk.size();
-  }
-  Bytes png;
-  png.reserve(size);
-  append_png_header(png, width_px_, height_px_, has_alpha_);
-  append_png_srgb(png);
-  uLong checksum = 1;
-  for (std::size_t i = 0; i < strips_.size(); ++i) {
-    append(png, strips_[i].chunk);
-    checksum =
-        adler32_combine(checksum, strips_[i].checksum, static_cast<z_off_t>(rows_of(i).size()));
-  }
-  const std::size_t last = begin_png_chunk(png, "IDAT");
-  append(png, std::string_view("\x03\x00", 2));  // an empty last block (RFC 1951, 3.2.6)
-  append_big_endian(png, checksum, 4);
-  end_png_chunk(png, last);
-  end_png_chunk(png, begin_png_chunk(png, "IEND"));
-  return png;
-}
-
 Bytes encode_png(const ImageView& image) {
-  PngEncoder encoder;
-  encoder.filter(image, {});
-  return encoder.compress();
+  PngEncoder encoder(
+      {.width_px = image.width_px, .height_px = image.height_px, .has_alpha = image.has_alpha});
+  encoder.begin(0);
+  encoder.take(image, {});
+  encoder.encode();
+  return encoder.finish().front().bytes;
 }
 
 Output png_output(const OutputRequest& request) {
-  return {.frames_per_chunk = 16,  // few wait to be written, and workers end nearly together
-          .signature = fmt::format("png by zlib {}", zlibVersion()),
-          .make_encoder =
-              [format = request.format] { return std::make_unique<PngFrameEncoder>(format); },
-          .open = [pattern = FramePattern(
-                       request.name)] { return std::make_unique<PngSequence>(pattern); }};
+  return {
+      .frames_per_chunk = 16,  // few wait to be written, and workers end nearly together
+      .signature = fmt::format("png by zlib {}", zlibVersion()),
+      .make_encoder = [format = request.format] { return std::make_unique<PngEncoder>(format); },
+      .open = [pattern =
+                   FramePattern(request.name)] { return std::make_unique<PngSequence>(pattern); }};
 }
 
 }  // namespace piblocks

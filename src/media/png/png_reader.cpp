@@ -63,7 +63,15 @@ class PngFile : private PngStructs {
   }
 
   bool is_deep() const { return png_get_bit_depth(png_, info_) == 16; }
-  bool is_animated() const;
+  bool is_animated() const {
+    png_unknown_chunkp chunks = nullptr;
+    const int count = png_get_unknown_chunks(png_, info_, &chunks);
+    return std::any_of(chunks, chunks + count, [](const png_unknown_chunk& chunk) {
+      // The number of frames comes first.
+      return std::memcmp(chunk.name, "acTL", 4) == 0 && chunk.size >= 4 &&
+             png_get_uint_32(chunk.data) > 1;
+    });
+  }
   // Call one of these, once.
   DeepImage read_deep() { return read(DeepImage{.width_px = width(), .height_px = height()}); }
   Image read_flat() {
@@ -83,11 +91,54 @@ class PngFile : private PngStructs {
 
   int width() const { return int(png_get_image_width(png_, info_)); }
   int height() const { return int(png_get_image_height(png_, info_)); }
-  void run(Step step);
-  void read_header();
-  void check_size() const;
-  void read_rows();
-  [[noreturn]] void fail(const std::string& reason) const;
+  void run(Step step) {
+    // NOLINTNEXTLINE(cert-err52-cpp): libpng offers nothing else
+    if (setjmp(png_jmpbuf(png_)) == 0) {
+      (this->*step)();
+      return;
+    }
+    fail(message_.data());
+  }
+  void read_header() {
+    png_init_io(png_, file_.get());
+    // tRNS is no critical chunk, but pixels depend on it.
+    png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
+    png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_ALWAYS,
+                                reinterpret_cast<png_const_bytep>("acTL"), 1);
+    png_read_info(png_, info_);
+  }
+  void check_size() const {
+    const std::int64_t width = png_get_image_width(png_, info_);
+    const std::int64_t height = png_get_image_height(png_, info_);
+    if (width > kMaxSide_px || height > kMaxSide_px || width * height > kMaxFrame_px) {
+      fail(fmt::format("{}x{} is too large", width, height));
+    }
+  }
+  /// Samples in the order of words 0xAARRGGBB on a little-endian machine.
+  void read_rows() {
+    if (is_flat_) png_set_scale_16(png_);
+    png_set_expand(png_);  // palettes, greys of less than 8 bits, tRNS
+    png_set_gray_to_rgb(png_);
+    constexpr png_uint_32 kOpaque = 0xffff;
+    png_set_add_alpha(png_, kOpaque, PNG_FILLER_AFTER);
+    png_set_bgr(png_);
+    png_set_swap(png_);
+    const int passes = png_set_interlace_handling(png_);
+    png_read_update_info(png_, info_);
+    const png_uint_32 height = png_get_image_height(png_, info_);
+    for (int pass = 0; pass < passes; ++pass) {
+      for (png_uint_32 y = 0; y < height; ++y) {
+        png_read_row(png_, rows_ + y * row_bytes_, nullptr);
+      }
+    }
+    png_read_end(png_, nullptr);
+  }
+  [[noreturn]] void fail(const std::string& reason) const {
+    if (std::ferror(file_.get()) != 0) {
+      throw IoError(fmt::format("png: cannot read '{}': {}", path_.string(), error_text(EIO)));
+    }
+    throw MediaError(fmt::format("png: cannot read '{}': {}", path_.string(), reason));
+  }
 
   template <typename Picture>
   Picture read(Picture picture) {
@@ -106,69 +157,6 @@ class PngFile : private PngStructs {
   std::size_t row_bytes_ = 0;
   bool is_flat_ = false;
 };
-
-void PngFile::run(Step step) {
-  // NOLINTNEXTLINE(cert-err52-cpp): libpng offers nothing else
-  if (setjmp(png_jmpbuf(png_)) == 0) {
-    (this->*step)();
-    return;
-  }
-  fail(message_.data());
-}
-
-void PngFile::fail(const std::string& reason) const {
-  if (std::ferror(file_.get()) != 0) {
-    throw IoError(fmt::format("png: cannot read '{}': {}", path_.string(), error_text(EIO)));
-  }
-  throw MediaError(fmt::format("png: cannot read '{}': {}", path_.string(), reason));
-}
-
-void PngFile::read_header() {
-  png_init_io(png_, file_.get());
-  // tRNS is no critical chunk, but pixels depend on it.
-  png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
-  png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_ALWAYS,
-                              reinterpret_cast<png_const_bytep>("acTL"), 1);
-  png_read_info(png_, info_);
-}
-
-void PngFile::check_size() const {
-  const std::int64_t width = png_get_image_width(png_, info_);
-  const std::int64_t height = png_get_image_height(png_, info_);
-  if (width > kMaxSide_px || height > kMaxSide_px || width * height > kMaxFrame_px) {
-    fail(fmt::format("{}x{} is too large", width, height));
-  }
-}
-
-bool PngFile::is_animated() const {
-  png_unknown_chunkp chunks = nullptr;
-  const int count = png_get_unknown_chunks(png_, info_, &chunks);
-  return std::any_of(chunks, chunks + count, [](const png_unknown_chunk& chunk) {
-    // The number of frames comes first.
-    return std::memcmp(chunk.name, "acTL", 4) == 0 && chunk.size >= 4 &&
-           png_get_uint_32(chunk.data) > 1;
-  });
-}
-
-/// Samples in the order of words 0xAARRGGBB on a little-endian machine.
-void PngFile::read_rows() {
-  if (is_flat_) png_set_scale_16(png_);
-  png_set_expand(png_);  // palettes, greys of less than 8 bits, tRNS
-  png_set_gray_to_rgb(png_);
-  constexpr png_uint_32 kOpaque = 0xffff;
-  png_set_add_alpha(png_, kOpaque, PNG_FILLER_AFTER);
-  png_set_bgr(png_);
-  png_set_swap(png_);
-  const int passes = png_set_interlace_handling(png_);
-  png_read_update_info(png_, info_);
-  const png_uint_32 height = png_get_image_height(png_, info_);
-  for (int pass = 0; pass < passes; ++pass) {
-    for (png_uint_32 y = 0; y < height; ++y) {
-      png_read_row(png_, rows_ + y * row_bytes_, nullptr);
-    }
-  }
-  png_read_end(png_, nullptr);
-}
 
 class PngReader final : public FrameReader {
  public:
