@@ -13,7 +13,6 @@
 #include <system_error>
 #include <utility>
 
-#include "core/file_set.hpp"
 #include "core/output_file.hpp"
 #include "core/text.hpp"
 #include "golden/report_source.hpp"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/file_set.hpp"
+#include "core/output_file.hpp"
 #include "core/text.hpp"
 #include "render/renderings.hpp"
 #include "render/video_facts.hpp"

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/file_set.hpp"
+#include "core/output_file.hpp"
 #include "media/output/frame_pattern.hpp"
 #include "media/output/output_kinds.hpp"
 #include "media/output/simple_output.hpp"
