@@ -1,11 +1,9 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <utility>
 
 #include "media/libav/av.hpp"
 #include "media/libav/av_module.hpp"
-#include "media/output/output_kinds.hpp"
 #include "media/output/simple_output.hpp"
 #include "media/pixels/rgb24.hpp"
 

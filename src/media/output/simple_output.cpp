@@ -1,12 +1,7 @@
 #include "media/output/simple_output.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/error.hpp>
 
-#include <string>
-#include <utility>
-
-#include "media/output/output_kinds.hpp"
 #include "media/pixels/yuv.hpp"
 
 namespace piblocks {

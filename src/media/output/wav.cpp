@@ -1,11 +1,9 @@
 #include <fmt/format.h>
-#include <piblocks/error.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
-#include <utility>
 
 #include "core/output_file.hpp"
 #include "media/output/output_kinds.hpp"
