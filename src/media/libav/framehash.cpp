@@ -4,7 +4,7 @@
 
 #include "media/libav/av.hpp"
 #include "media/libav/av_module.hpp"
-#include "media/output/simple_output.hpp"
+#include "media/output/output_kinds.hpp"
 #include "media/pixels/rgb24.hpp"
 
 namespace piblocks {

@@ -8,7 +8,7 @@
 
 #include "media/libav/av.hpp"
 #include "media/libav/color_table.hpp"
-#include "media/output/simple_output.hpp"
+#include "media/output/output_kinds.hpp"
 #include "media/pixels/changed_picture.hpp"
 
 namespace piblocks {

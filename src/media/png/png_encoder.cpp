@@ -10,7 +10,7 @@
 
 #include "core/file_set.hpp"
 #include "media/output/frame_pattern.hpp"
-#include "media/output/simple_output.hpp"
+#include "media/output/output_kinds.hpp"
 #include "media/pixels/rgb24.hpp"
 #include "media/png/png_chunk.hpp"
 
