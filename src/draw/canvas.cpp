@@ -12,8 +12,6 @@
 #include <map>
 #include <new>
 #include <optional>
-#include <span>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -145,8 +143,7 @@ struct Canvas::Pixels {
   }
 
   /// Paints the rectangle as a picture of its own that shares the memory of the whole. Under a clip
-  /// Cairo would take other paths, and its antialiased edges come out a step lighter or darker
-  /// there.
+  /// Cairo's antialiased edges come out a step lighter or darker.
   void paint_rect(const DrawList& list, const PixelRect& rect) {
     cairo_surface_flush(surface.get());
     const int stride_bytes = cairo_image_surface_get_stride(surface.get());

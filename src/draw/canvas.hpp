@@ -15,8 +15,7 @@
 
 namespace piblocks {
 
-/// Pixels that are painted again and again. Used by one thread at a time; different canvases
-/// are independent.
+/// Pixels that are painted again and again, by one thread at a time. Canvases are independent.
 class Canvas {
  public:
   /// Its pixels have alpha if the background is transparent.
@@ -26,14 +25,11 @@ class Canvas {
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  /// Replaces the whole picture. The list must be of the canvas's size, and have a background
-  /// unless the canvas is transparent.
-  /// @throws DrawError
+  /// Replaces the whole picture. @throws DrawError
+  /// @param list  of the canvas's size; has a background unless the canvas is transparent
   void paint(const DrawList& list);
-  /// Makes the picture what paint() would make it, but paints only where it may differ from the
-  /// last list.
-  /// @returns the region that covers every pixel that has changed, valid until the next call. It is
-  ///          the whole frame if nothing was painted before.
+  /// Makes the picture what paint() would make it, but paints only where it may have changed.
+  /// @returns this region, valid until the next call; the whole frame if nothing was painted before
   /// @throws DrawError
   std::span<const PixelRect> update(DrawList list);
   /// The picture; valid until the next paint() or update().
@@ -52,9 +48,9 @@ std::vector<std::uint8_t> draw_svg(const DrawList& list);
 /// The picture as a PDF file of one page, one point a pixel; text stays text.
 std::vector<std::uint8_t> draw_pdf(const DrawList& list);
 
-/// Name and version of each drawing library that is linked, such as "cairo 1.16.0".
+/// Name and version of each drawing library that is linked, such as "cairo 1.16.0", and the font.
 std::vector<std::string> draw_library_versions();
-/// All that may change a pixel, in one line: versions of these libraries and the font.
+/// The same in one line: all that may change a pixel.
 std::string painter_fingerprint();
 
 }  // namespace piblocks

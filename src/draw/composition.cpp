@@ -8,7 +8,6 @@
 #include <cmath>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "draw/layout.hpp"
 #include "draw/look.hpp"
@@ -44,8 +43,7 @@ std::string lit_digits(const Scene& scene, const CollisionLog& log) {
       "leave out 'digits', or give a mass ratio of 100^(D-1) and a blue.velocity of 0");
 }
 
-/// The longest count that the film shows. Counts before time 0 are negative, and may be longer than
-/// the last one.
+/// The longest count that the film shows. Counts before time 0 are negative and may be longer.
 Integer longest_count(const Scene& scene, const CollisionLog& log) {
   const Integer& last = log.size();
   if (log.first_index() > 0 || !has_span(scene, log)) return last;
@@ -60,7 +58,6 @@ Drawable make_panel(const DrawingContext& context, const PanelPlace& place) {
   return kPanels.at(static_cast<std::size_t>(place.panel))(context, place);
 }
 
-/// @throws UsageError if something at this time is beyond the range of numbers.
 void check(bool is_finite, const Rational& time) {
   if (is_finite) return;
   throw UsageError(
@@ -74,8 +71,7 @@ bool is_finite(const Motion& motion) {
   return std::isfinite(motion.position) && std::isfinite(motion.velocity);
 }
 
-/// The logo as large as fits, in the lower right corner of its place.
-/// @throws UsageError if it would be too small to be seen.
+/// The logo as large as fits, in the lower right corner of its place. @throws UsageError
 ImageItem place_logo(const Rectangle& place, std::shared_ptr<const Image> logo) {
   const double scale = std::min(place.width / logo->width_px, place.height / logo->height_px);
   const double width = scale * logo->width_px;

@@ -33,8 +33,8 @@ struct FrameState {
 /// Thread-safe.
 using Drawable = std::function<void(const FrameState& shown, std::vector<DrawItem>& items)>;
 
-/// The layout and everything in it that does not move. It makes only what the scene asks for, and
-/// reads the log only while it is made. Const members are thread-safe.
+/// The layout and all that does not move, as far as the scene asks for it. The log is read only
+/// while it is made. Const members are thread-safe.
 class Composition {
  public:
   /// @param logo  the picture that scene.show.logo names, if it does.

@@ -48,7 +48,7 @@ constexpr ItemId nth(ItemId thing, std::size_t n) {
   return ItemId{static_cast<std::uint32_t>(thing) + static_cast<std::uint32_t>(n)};
 }
 
-/// Opaque sRGB colour.
+/// Opaque sRGB.
 struct Color {
   std::uint8_t red = 0;
   std::uint8_t green = 0;
@@ -56,8 +56,7 @@ struct Color {
   bool operator==(const Color&) const = default;
 };
 
-/// y points down; the origin is the frame's upper left corner; whole numbers are the lines between
-/// pixels.
+/// From the frame's upper left corner, y down. Whole numbers are the lines between pixels.
 struct Point {
   double x = 0;
   double y = 0;
@@ -152,7 +151,7 @@ struct DiskItem {
   bool operator==(const DiskItem&) const = default;
 };
 
-/// An image, scaled to its bounds. Equal if it is the same image in memory.
+/// An image, scaled to its bounds. Equal if the image is the same object.
 struct ImageItem {
   ItemId id = ItemId::wall;
   Rectangle bounds;
@@ -162,8 +161,7 @@ struct ImageItem {
 
 struct Plate;
 
-/// Items that never change: a canvas paints them once and keeps their pixels. Equal if it is the
-/// same plate in memory.
+/// Items that never change, painted once and kept as pixels. Equal if the plate is the same object.
 struct PlateItem {
   ItemId id = ItemId::wall;
   Rectangle bounds;  ///< in whole pixels; the plate is cut off at them
@@ -204,8 +202,7 @@ struct ExposedBlock {
   Color fill;
   Stroke stroke;          ///< solid
   std::vector<Bar> bars;  ///< in the stroke's colour, inside the bounds
-  /// From left to right; none if the block stays. The shares add up to 1, less what is outside of
-  /// the frame.
+  /// From left to right; none if the block stays. Shares add up to 1 less those outside the frame.
   std::vector<Dwell> dwells;
   bool operator==(const ExposedBlock&) const = default;
 };

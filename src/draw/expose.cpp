@@ -9,8 +9,7 @@
 namespace piblocks {
 namespace {
 
-/// A block that moves less than this is taken to stay. Far below what a pixel shows, far above
-/// roundings.
+/// A block that moves less is taken to stay. Far below what a pixel shows, far above roundings.
 constexpr double kStill_px = 1e-6;
 
 /// Blocks beyond the frame's edge by more than this are not seen.
@@ -18,9 +17,9 @@ constexpr double kMargin_px = 4;
 
 constexpr double kMaxDwells = 1 << 15;
 
-/// Distance from one dwell to the next. Between two of them the light of a pixel is taken to change
-/// evenly. The error falls with the square of the distance. A block that moves farther is in each
-/// pixel for a shorter time, and the error matters less.
+/// Distance from one dwell to the next, between which a pixel's light is taken to change evenly.
+/// The error falls with its square. It matters less for a block that moves farther, and is in each
+/// pixel for a shorter time.
 double spacing_px(double range_px) {
   const double fine = range_px <= 64 ? 1.0 / 32 : range_px <= 512 ? 1.0 / 16 : 1.0 / 4;
   return std::max(fine, range_px / kMaxDwells);
@@ -93,8 +92,7 @@ Travel range_px(BlockName block, const ToPixels& to_px,
                 std::span<const WeightedExposure> exposures) {
   Travel all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const WeightedExposure& weighted : exposures) {
-    const Travel range = to_px(weighted.exposure.range(block));
-    all = {std::min(all.from, range.from), std::max(all.to, range.to)};
+    all.include(to_px(weighted.exposure.range(block)));
   }
   return all;
 }

@@ -22,8 +22,7 @@ ExposedItem exposed_item(ExposedBlock red, ExposedBlock blue, const Layout& layo
 /// Adds a block that stays: a rectangle for it, and one for each of its bars.
 void add_rectangles(ItemId id, const ExposedBlock& block, std::vector<DrawItem>& items);
 
-/// How much of a row or a column of pixels a block covers, the part inside its line, and, of a row,
-/// its bars.
+/// How much of a row or column of pixels a block covers: all of it, inside its line, its bars.
 struct Cover {
   double outer = 0;
   double inner = 0;

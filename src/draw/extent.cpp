@@ -61,6 +61,16 @@ Extent extent_of(const DrawItem& item, const MeasureText& width_em) {
   return std::visit(ExtentOf{width_em}, item);
 }
 
+PixelRect pixels_of(const Extent& extent, const PixelRect& area) {
+  const auto pixel = [](double at, int begin, int length) {
+    return static_cast<int>(std::min(std::max(double(begin), at), double(begin + length)));
+  };
+  const int x = pixel(std::floor(extent.left), area.x_px, area.width_px);
+  const int y = pixel(std::floor(extent.top), area.y_px, area.height_px);
+  return {x, y, pixel(std::ceil(extent.right), area.x_px, area.width_px) - x,
+          pixel(std::ceil(extent.bottom), area.y_px, area.height_px) - y};
+}
+
 bool reaches(const DrawItem& item, const PixelRect& rect) {
   // A line of text is taken as endless rather than measured.
   static const MeasureText endless_em = [](std::string_view /*text*/) { return 1e6; };

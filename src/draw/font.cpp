@@ -5,11 +5,9 @@
 #include <ft2build.h>
 #include <piblocks/error.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
-#include <string>
 
 #include "core/text.hpp"
 #include "draw/cairo_handles.hpp"
@@ -32,8 +30,7 @@ void check_freetype(FT_Error error, const char* operation) {
 
 constexpr cairo_user_data_key_t kFaceKey{};
 
-/// Called by Cairo when it forgets the face, which may be after the Font is gone. Releases the
-/// face's library with it.
+/// Called by Cairo when it forgets the face, which may be after the Font is gone.
 void release_face(void* data) {
   auto* const face = static_cast<FT_Face>(data);
   const FtLibraryPtr library(face->glyph->library);
@@ -121,34 +118,34 @@ constexpr std::array kScripts{
     CodeRange{0xABC0, 0xABFF}, CodeRange{0xD7B0, 0xD7FF},   CodeRange{0xFB1D, 0xFDFF},
     CodeRange{0xFE70, 0xFEFE}, CodeRange{0x10800, 0x11FFF}, CodeRange{0x1E800, 0x1EFFF}};
 
-bool holds(std::span<const CodeRange> ranges, std::uint32_t code) {
-  return std::ranges::any_of(
-      ranges, [code](const CodeRange& range) { return code >= range.first && code <= range.last; });
-}
-
-struct Kind {
+struct Unshaped {
   std::span<const CodeRange> ranges;
   bool is_letter;  ///< and can be shown in a message
   const char* reason;
   const char* remedy;
 };
 
-constexpr std::array kKinds{
-    Kind{kControls, false, "is an instruction for shaping text, which is set letter by letter here",
-         "leave it out"},
-    Kind{kMarks, false,
-         "is a combining mark, which needs shaping, and text is set letter by letter here",
-         "use a letter that has the mark"},
-    Kind{kScripts, true, "is in a script that needs shaping, and text is set letter by letter here",
-         "use another script, or a picture as the logo"}};
+constexpr std::array kUnshaped{
+    Unshaped{kControls, false,
+             "is an instruction for shaping text, which is set letter by letter here",
+             "leave it out"},
+    Unshaped{kMarks, false,
+             "is a combining mark, which needs shaping, and text is set letter by letter here",
+             "use a letter that has the mark"},
+    Unshaped{kScripts, true,
+             "is in a script that needs shaping, and text is set letter by letter here",
+             "use another script, or a picture as the logo"}};
 
 /// Names the first character whose glyph depends on its neighbours, that is written from right to
 /// left, or that is an instruction. Empty if there is none. @param utf8  valid
 std::string shaping_problem(std::string_view utf8) {
   while (!utf8.empty()) {
     const auto [code, length_bytes] = first_character(utf8);
-    for (const Kind& kind : kKinds) {
-      if (!holds(kind.ranges, code)) continue;
+    for (const Unshaped& kind : kUnshaped) {
+      const auto has_code = [code](const CodeRange& range) {
+        return code >= range.first && code <= range.last;
+      };
+      if (std::ranges::none_of(kind.ranges, has_code)) continue;
       const std::string letter =
           kind.is_letter ? fmt::format("'{}' (U+{:04X})", utf8.substr(0, length_bytes), code)
                          : fmt::format("U+{:04X}", code);
@@ -213,20 +210,20 @@ double Font::width_em(std::string_view utf8) const {
 
 TextWidths::TextWidths(const Font& font, std::string_view characters) {
   while (!characters.empty()) {
-    const std::string_view character =
-        characters.substr(0, first_character(characters).length_bytes);
-    advances_.try_emplace(std::string(character), font.width_em(character));
-    characters.remove_prefix(character.size());
+    const std::size_t length = first_character(characters).length_bytes;
+    const std::string character(characters.substr(0, length));
+    advances_.try_emplace(character, font.width_em(character));
+    characters.remove_prefix(length);
   }
 }
 
 double TextWidths::width_em(std::string_view text) const {
   double sum = 0;
   while (!text.empty()) {
-    const std::string_view character = text.substr(0, first_character(text).length_bytes);
-    const auto found = advances_.find(character);
+    const std::size_t length = first_character(text).length_bytes;
+    const auto found = advances_.find(text.substr(0, length));
     if (found != advances_.end()) sum += found->second;
-    text.remove_prefix(character.size());
+    text.remove_prefix(length);
   }
   return sum;
 }

@@ -47,14 +47,12 @@ class Font {
   std::unique_ptr<Faces> faces_;
 };
 
-/// Widths of texts that change from frame to frame, without the font. Const members are
-/// thread-safe.
+/// Widths of texts that change from frame to frame. Const members are thread-safe.
 class TextWidths {
  public:
   TextWidths() = default;
   /// @param characters  all that may occur, in valid UTF-8
   TextWidths(const Font& font, std::string_view characters);
-  /// Width of a line of these characters, in ems.
   double width_em(std::string_view text) const;
 
  private:

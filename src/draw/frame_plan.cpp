@@ -27,15 +27,14 @@ constexpr double kLeastLeft = 0.25;
 constexpr double kLeastStage = 0.22;
 constexpr double kMostStage = 0.46;
 
-/// Rows and columns in which `count` diagrams come out largest, with no side below `least` if
-/// possible.
+/// The grid in which `count` panels come out largest, if possible with no side below `least`.
 std::vector<Rectangle> panel_grid(std::size_t count, const Rectangle& area, double gap,
                                   double least) {
+  const auto side = [gap](double length, std::size_t n) {
+    return (length - gap * double(n - 1)) / double(n);
+  };
   const auto cell = [&](std::size_t columns) {
     const std::size_t rows = (count + columns - 1) / columns;
-    const auto side = [gap](double length, std::size_t n) {
-      return (length - gap * double(n - 1)) / double(n);
-    };
     return Rectangle{0, 0, side(area.width, columns), side(area.height, rows)};
   };
   const auto size = [least](const Rectangle& r) {
@@ -103,27 +102,27 @@ class FramePlanner {
   }
 
  private:
-  /// A centred line, made smaller to fit, without id, colour and baseline.
+  /// Centres a line in `room`, and makes it smaller to fit. Its baseline is set later.
   /// @param key  named in messages
-  TextItem set_line(const char* key, const std::string& text, double size_px,
-                    const Rectangle& area) const {
-    context_.font.check(text, key);
-    if (size_px < style::kLeastText_px) {
+  void set_line(const char* key, TextItem& line, const Rectangle& room) const {
+    context_.font.check(line.text, key);
+    const double planned_px = line.size_px;
+    if (planned_px < style::kLeastText_px) {
       const bool is_low = view_.height_px < kNarrow * view_.width_px;
       throw UsageError(fmt::format(
           "{}: '{}' would be {:.1f} pixels high in {}x{}, which cannot be read; leave it out, or "
           "make the frame {}",
-          key, text, size_px, view_.width_px, view_.height_px, is_low ? "higher" : "wider"));
+          key, line.text, planned_px, view_.width_px, view_.height_px,
+          is_low ? "higher" : "wider"));
     }
-    const double fitted_px = context_.font.fitted_px(text, size_px, area.width);
-    if (fitted_px < std::max(kLeastTitleShrink * size_px, style::kLeastText_px)) {
+    line.size_px = context_.font.fitted_px(line.text, planned_px, room.width);
+    if (line.size_px < std::max(kLeastTitleShrink * planned_px, style::kLeastText_px)) {
       throw UsageError(
           fmt::format("{}: '{}' is too long to be read in {:.0f} pixels; shorten it, or "
                       "make the frame wider",
-                      key, text, area.width));
+                      key, line.text, room.width));
     }
-    const double x = area.x + (area.width - context_.font.width_em(text) * fitted_px) / 2;
-    return {{}, {x, 0}, text, fitted_px, {}};
+    line.origin.x = room.x + (room.width - context_.font.width_em(line.text) * line.size_px) / 2;
   }
 
   /// The title is at the top; the stage begins below.
@@ -131,13 +130,10 @@ class FramePlanner {
     double top = 0;
     if (!show_.title.empty()) {
       const double size_px = style::kTitle * measure_;
-      TextItem title =
-          set_line("show.title", show_.title, size_px, {margin_, 0, right_ - margin_, 0});
-      title.id = ItemId::title;
-      title.color = context_.palette.text;
-      title.origin.y = std::round(margin_ + Font::kCapHeight_em * size_px);
-      top = title.origin.y + (kTitleDescent + kBelowTitle) * size_px;
-      plan_.title = std::move(title);
+      const double baseline = std::round(margin_ + Font::kCapHeight_em * size_px);
+      plan_.title = {ItemId::title, {0, baseline}, show_.title, size_px, context_.palette.text};
+      set_line("show.title", *plan_.title, {margin_, 0, right_ - margin_, 0});
+      top = baseline + (kTitleDescent + kBelowTitle) * size_px;
     } else if (!show_.panels.empty()) {
       // Else the counter would stick to the upper edge.
       top = margin_ / 2;
@@ -149,23 +145,22 @@ class FramePlanner {
   /// Caption and logo are at the bottom; the stage ends above.
   void place_foot() {
     double height = 0;
-    Rectangle line{margin_, 0, right_ - margin_, 0};
+    Rectangle room{margin_, 0, right_ - margin_, 0};
     if (!show_.logo.empty()) {
       const double logo_width = style::kLogoWidth * measure_;
       height = style::kLogoHeight * measure_;
       plan_.logo = {right_ - logo_width, bottom_ - height, logo_width, height};
       // The other side stays free as well, so that the caption is in the middle.
-      line.x += logo_width + margin_;
-      line.width -= 2 * (logo_width + margin_);
+      room.x += logo_width + margin_;
+      room.width -= 2 * (logo_width + margin_);
     }
     if (!show_.caption.empty()) {
       const double size_px = style::kCaption * measure_;
-      TextItem caption = set_line("show.caption", show_.caption, size_px, line);
-      caption.id = ItemId::caption;
-      caption.color = context_.palette.muted;
       height = std::max(height, (Font::kCapHeight_em + kTitleDescent) * size_px);
-      caption.origin.y = std::round(bottom_ - (height - Font::kCapHeight_em * size_px) / 2);
-      plan_.caption = std::move(caption);
+      const double baseline = std::round(bottom_ - (height - Font::kCapHeight_em * size_px) / 2);
+      plan_.caption = {
+          ItemId::caption, {0, baseline}, show_.caption, size_px, context_.palette.muted};
+      set_line("show.caption", *plan_.caption, room);
     }
     if (height > 0) plan_.stage.height -= height + margin_;
   }

@@ -15,9 +15,8 @@
 
 namespace piblocks {
 
-/// The stage, where wall, blocks and counter are: the map from scene to pixels, sizes of type and
-/// lines. It depends on the area's size and on the longest count alone, so that nothing shifts
-/// while the counter grows.
+/// The stage: the map from scene to pixels, sizes of type and lines. It depends on the area and on
+/// the longest count alone, so that nothing shifts while the counter grows.
 struct Layout {
   double scale = 1;  ///< pixels per unit of the scene
   Point origin;      ///< pixel position of the scene's (0, 0)
@@ -78,8 +77,7 @@ inline Drawable unchanging(std::vector<DrawItem> same) {
   };
 }
 
-/// The height on which both blocks stand, in units of the scene: the middle of the larger one is
-/// at 0.
+/// The height on which both blocks stand, in units of the scene. The larger one's middle is at 0.
 double base_of(const BlockSystem& system);
 
 /// The sum of both blocks' mass · velocity², which never changes.

@@ -12,14 +12,13 @@
 
 namespace piblocks {
 
-/// A block's colours.
 struct BlockColors {
   Color fill;
   Color edge;
   Color text;  ///< of what is written on the block
   Color line;  ///< of its path in diagrams
-  /// Bars across the block in its edge's colour, half of them near the upper edge and half near the
-  /// lower one. They tell it from the other block without colours.
+  /// Bars across the block in its edge's colour, half of them near each of the upper and the lower
+  /// edge. They tell it from the other block without colours.
   int bars = 0;
   /// The block's name in the picture: its colour, or, where blocks are not red and blue, its side.
   const char* name = "";
@@ -40,18 +39,17 @@ struct Palette {
 
 Palette palette_of(Theme theme);
 
-/// What is behind everything; nothing if the view is transparent.
+/// Nothing if the view is transparent.
 std::optional<Color> background_of(const View& view);
 
 // Fractions of the short measure, see below.
 namespace style {
 
-// Margins and gaps.
 inline constexpr double kMargin = 0.045;
 inline constexpr double kCardMargin = 0.09;
 inline constexpr double kPanelGap = 0.035;
 
-// Type: size of the em.
+// Sizes of type.
 inline constexpr double kCounter = 0.074;
 inline constexpr double kTitle = 0.06;
 inline constexpr double kCaption = 0.036;
@@ -59,8 +57,7 @@ inline constexpr double kSmall = 0.026;  ///< read-outs and diagrams
 inline constexpr double kCardHeading = 0.12;
 inline constexpr double kCardLine = 0.06;
 
-// Lines.
-inline constexpr double kLine = 0.0032;
+inline constexpr double kLine = 0.0032;  ///< the unit of line widths
 
 // The picture in the corner, at most.
 inline constexpr double kLogoWidth = 0.24;
@@ -80,8 +77,7 @@ inline constexpr double kLeastText_px = 8;
 /// Where the height is less than this fraction of the width, the height counts.
 inline constexpr double kNarrow = 0.75;
 
-/// The length that type, lines and margins are fractions of: the area's height, or less where the
-/// area is narrow.
+/// What type, lines and margins are fractions of: the area's height, or less where it is narrow.
 inline double short_measure(const Rectangle& area) {
   return std::min(area.height, kNarrow * area.width);
 }
@@ -92,7 +88,6 @@ inline Rectangle whole(const View& view) {
 
 inline double short_measure(const View& view) { return short_measure(whole(view)); }
 
-/// The unit of all line widths of a frame.
 inline double line_width_px(const View& view) { return style::kLine * short_measure(view); }
 
 /// Type of read-outs and diagrams.

@@ -42,24 +42,8 @@ constexpr Color kCaption = {32, 32, 32};
 constexpr double kCaptionBaseline = 1.25;  // below the picture
 constexpr double kCaptionHeight = 1.6;
 
-TextItem caption_below(const Rectangle& place, const std::string& text, double size_px,
-                       const Font& font) {
-  const double fitted_px = font.fitted_px(text, size_px, place.width);
-  return {ItemId::label,
-          {place.x + (place.width - font.width_em(text) * fitted_px) / 2,
-           place.y + place.height + kCaptionBaseline * size_px},
-          text,
-          fitted_px,
-          kCaption};
-}
-
-/// A line around a picture, half inside of it, half outside.
-RectangleItem frame_of(const Rectangle& place, double width_px) {
-  return {ItemId::wall,
-          {place.x - width_px / 2, place.y - width_px / 2, place.width + width_px,
-           place.height + width_px},
-          std::nullopt,
-          Stroke{kFrame, width_px, 0}};
+GroupItem group_of(ItemId id, const Rectangle& bounds, DrawList picture, double opacity = 1) {
+  return {id, bounds, std::make_shared<const DrawList>(std::move(picture)), opacity};
 }
 
 }  // namespace
@@ -125,17 +109,15 @@ SplitScreen::SplitScreen(const View& view, std::size_t count)
 DrawList SplitScreen::compose(std::vector<DrawList> pictures) const {
   DrawList list = empty_;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
-    list.items.emplace_back(GroupItem{nth(ItemId::compared, cells_.size() + i),
-                                      to_rectangle(cells_[i]),
-                                      std::make_shared<const DrawList>(std::move(pictures[i])), 1});
+    list.items.emplace_back(group_of(nth(ItemId::compared, cells_.size() + i),
+                                     to_rectangle(cells_[i]), std::move(pictures[i])));
   }
   return list;
 }
 
 DrawList cross_fade(DrawList from, DrawList to, double opacity) {
-  const Rectangle bounds{0, 0, double(to.width_px), double(to.height_px)};
-  from.items.emplace_back(
-      GroupItem{ItemId::fade, bounds, std::make_shared<const DrawList>(std::move(to)), opacity});
+  const Rectangle bounds = to_rectangle({0, 0, to.width_px, to.height_px});
+  from.items.emplace_back(group_of(ItemId::fade, bounds, std::move(to), opacity));
   return from;
 }
 
@@ -172,12 +154,17 @@ DrawList arrange(std::vector<CaptionedPicture> pictures, int width_px, int heigh
   DrawList page{width_px, height_px, kPaper, {}};
   std::vector<DrawItem> above;
   for (int i = 0; i < count; ++i) {
-    auto& [picture, caption_text] = pictures[static_cast<std::size_t>(i)];
+    auto& [picture, text] = pictures[static_cast<std::size_t>(i)];
     const Rectangle place{left + i % columns * step_x, top + i / columns * step_y, width, height};
-    page.items.emplace_back(GroupItem{ItemId::compared, place,
-                                      std::make_shared<const DrawList>(std::move(picture)), 1});
-    above.emplace_back(frame_of(place, line_px));
-    above.emplace_back(caption_below(place, caption_text, text_px, font));
+    page.items.emplace_back(group_of(ItemId::compared, place, std::move(picture)));
+    // Half of the line around the picture is inside of it.
+    const Rectangle frame{place.x - line_px / 2, place.y - line_px / 2, width + line_px,
+                          height + line_px};
+    above.emplace_back(RectangleItem{ItemId::wall, frame, std::nullopt, Stroke{kFrame, line_px}});
+    const double fitted_px = font.fitted_px(text, text_px, width);
+    const Point origin{place.x + (width - font.width_em(text) * fitted_px) / 2,
+                       place.y + height + kCaptionBaseline * text_px};
+    above.emplace_back(TextItem{ItemId::label, origin, text, fitted_px, kCaption});
   }
   std::ranges::move(above, std::back_inserter(page.items));
   return page;

@@ -10,6 +10,8 @@
 
 namespace piblocks {
 
+class Font;
+
 /// All that numbers are written with in pictures.
 inline constexpr std::string_view kNumberCharacters = "0123456789,.−×⁰¹²³⁴⁵⁶⁷⁸⁹";
 
@@ -28,12 +30,11 @@ Magnitude root_magnitude_of(const Rational& value);
 /// The same with 64-bit exponents and at least 128 bits.
 mpf_class root_of(const Rational& value);
 
-/// The same number for a mantissa that is written with so many decimals. A mantissa that would be
-/// rounded to 10 becomes a tenth of that, slightly less than 1.
+/// The same number, to be written with so many decimals. A mantissa that would be rounded to 10
+/// becomes a tenth of that.
 Magnitude written_with(int decimals, Magnitude size);
 
-/// With so many decimals, commas between thousands and a true minus sign: "−1,234.50". Zero has no
-/// sign.
+/// With commas between thousands and a true minus sign: "−1,234.50". Zero has no sign.
 std::string fixed_text(double value, int decimals);
 /// The same of an exact number, every digit of it. @param decimals  >= 0
 std::string fixed_text(const Rational& value, int decimals);
@@ -44,8 +45,7 @@ std::string rounded_text(double value);
 /// "10⁻¹²" for -12.
 std::string power_text(long exponent);
 
-/// Exact where that is short: "10,000", "2.5", "1/3", "10¹⁶"; otherwise rounded to three digits:
-/// "1.23×10⁹".
+/// Exact where that is short: "10,000", "2.5", "1/3", "10¹⁶". Else of three digits: "1.23×10⁹".
 std::string short_text(const Rational& value);
 
 struct Ticks {
@@ -55,8 +55,6 @@ struct Ticks {
 
 /// Multiples of the smallest step >= least, from low to high, both included; at most a thousand.
 Ticks ticks_of(double low, double high, double least);
-
-class Font;
 
 /// An axis with figures at its ticks.
 struct FigureAxis {
@@ -69,14 +67,13 @@ struct FigureAxis {
 /// The same ticks, or those of a larger step if their figures would touch.
 Ticks with_room_for_figures(Ticks ticks, const FigureAxis& axis, const Font& font);
 
-/// With as many decimals as the step has, or with the step's power of ten if there are many:
-/// "−0.25", "5×10⁹".
+/// With the step's decimals, or its power of ten if they are many: "−0.25", "5×10⁹".
 std::string tick_text(double value, double step);
 
 /// The smallest step >= least, exactly. @param least  > 0
 Rational round_step(const Rational& least);
 
-/// Half of the height of figures. A figure that is centred on a mark has its baseline so far below.
+/// Half of the height of figures.
 inline constexpr double kHalfFigure_em = 0.365;
 
 }  // namespace piblocks

@@ -9,31 +9,16 @@
 namespace piblocks {
 namespace {
 
-/// The whole pixels of an area that a block reaches into while the picture is exposed.
-PixelRect pixels_of(const ExposedBlock& block, const PixelRect& area) {
-  const Extent extent = extent_of(block);
-  const auto pixel = [](double at, int begin, int length) {
-    return static_cast<int>(std::clamp(at, double(begin), double(begin + length)));
-  };
-  const int x = pixel(std::floor(extent.left), area.x_px, area.width_px);
-  const int y = pixel(std::floor(extent.top), area.y_px, area.height_px);
-  return {x, y, pixel(std::ceil(extent.right), area.x_px, area.width_px) - x,
-          pixel(std::ceil(extent.bottom), area.y_px, area.height_px) - y};
-}
-
 /// The pixels of an area that a moving block reaches into; of no width if nothing moves.
 PixelRect moving_area(const ExposedItem& item, const PixelRect& area) {
-  const PixelRect behind = pixels_of(item.behind, area);
-  const PixelRect front = pixels_of(item.front, area);
+  const PixelRect behind = pixels_of(extent_of(item.behind), area);
+  const PixelRect front = pixels_of(extent_of(item.front), area);
   int left = area.x_px + area.width_px;
   int right = area.x_px;
-  if (!item.behind.dwells.empty() && behind.width_px > 0) {
-    left = behind.x_px;
-    right = behind.x_px + behind.width_px;
-  }
-  if (!item.front.dwells.empty() && front.width_px > 0) {
-    left = std::min(left, front.x_px);
-    right = std::max(right, front.x_px + front.width_px);
+  for (const auto& [block, pixels] : {std::pair(&item.behind, behind), {&item.front, front}}) {
+    if (block->dwells.empty() || pixels.width_px <= 0) continue;
+    left = std::min(left, pixels.x_px);
+    right = std::max(right, pixels.x_px + pixels.width_px);
   }
   // Where one block moves, the other is painted with it.
   const int top = std::min(behind.y_px, front.y_px);

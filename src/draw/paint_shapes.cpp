@@ -11,8 +11,7 @@
 namespace piblocks {
 namespace {
 
-/// Dashes along one side, fitted so that a dash ends in each corner and the pattern looks the
-/// same from both ends.
+/// Dashes along one side, fitted to end in each corner and to look the same from both ends.
 void stroke_side(cairo_t& cr, const Point& from, const Point& to, double dash_px) {
   const double length = std::hypot(to.x - from.x, to.y - from.y);
   const double periods = std::max(1.0, std::round((length / dash_px - 1) / 2));

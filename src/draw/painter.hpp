@@ -31,16 +31,14 @@ void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rectangle& bounds);
 /// not in a scaled group.
 bool has_pixels_of_picture(cairo_t& cr);
 
-/// How text is set. Cairo blends overlapping glyphs of a line differently, and looks for overlaps
-/// among the visible glyphs only: a part of a picture would differ from the whole by a step of
-/// grey.
+/// How text is set. Cairo blends overlapping glyphs of a line differently, if both are visible: a
+/// part of a picture would differ from the whole by a step of grey.
 enum class TextSetting {
   lines,  ///< at once, so that it stays text in a file
   glyphs  ///< each glyph by itself, so that its pixels depend on nothing else
 };
 
-/// Keeps the font, the pixels of plates and images, and a table of light; each is made when it is
-/// needed first.
+/// Keeps the font, pixels of plates and images, and a table of light, once they were needed.
 class Painter {
  public:
   explicit Painter(TextSetting setting) : setting_(setting) {}

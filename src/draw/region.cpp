@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -60,162 +58,142 @@ std::size_t common_prefix(std::string_view a, std::string_view b) {
 /// Collects what differs, cut to whole pixels of the frame.
 class Comparison {
  public:
-  Comparison(int width_px, int height_px, const MeasureText& width_em)
-      : frame_{0, 0, width_px, height_px}, width_em_(width_em) {}
+  Comparison(const DrawList& list, const MeasureText& width_em)
+      : frame_{0, 0, list.width_px, list.height_px}, width_em_(width_em) {}
 
-  void compare(const DrawList& before, const DrawList& after);
+  void compare(const DrawList& before, const DrawList& after) {
+    const bool alike = before.width_px == after.width_px && before.height_px == after.height_px &&
+                       before.background == after.background;
+    if (alike && have_same_ids(before, after)) {
+      for (std::size_t i = 0; i < after.items.size(); ++i) compare(before.items[i], after.items[i]);
+      return;
+    }
+    if (!alike || !has_rising_ids(before) || !has_rising_ids(after)) {
+      region_ = {frame_};
+      return;
+    }
+    auto a = before.items.begin();
+    auto b = after.items.begin();
+    while (a != before.items.end() && b != after.items.end()) {
+      if (id_of(*a) < id_of(*b)) {
+        add(*a++);
+      } else if (id_of(*b) < id_of(*a)) {
+        add(*b++);
+      } else {
+        compare(*a++, *b++);
+      }
+    }
+    while (a != before.items.end()) add(*a++);
+    while (b != after.items.end()) add(*b++);
+  }
+
   Region take() { return std::move(region_); }
 
  private:
-  void compare(const DrawItem& before, const DrawItem& after);
-  void compare(const TextItem& before, const TextItem& after);
-  void compare(const RectangleItem& before, const RectangleItem& after);
-  void compare(const GroupItem& before, const GroupItem& after);
-  void compare(const ExposedItem& before, const ExposedItem& after);
-  void compare(const ExposedBlock& before, const ExposedBlock& after, double top, double bottom);
+  /// Two items that show the same thing.
+  void compare(const DrawItem& before, const DrawItem& after) {
+    if (before == after) return;
+    if (before.index() == after.index()) {
+      if (const auto* a = std::get_if<TextItem>(&before))
+        return compare(*a, std::get<TextItem>(after));
+      if (const auto* a = std::get_if<RectangleItem>(&before))
+        return compare(*a, std::get<RectangleItem>(after));
+      if (const auto* a = std::get_if<GroupItem>(&before))
+        return compare(*a, std::get<GroupItem>(after));
+      if (const auto* a = std::get_if<ExposedItem>(&before))
+        return compare(*a, std::get<ExposedItem>(after));
+    }
+    add(before);
+    add(after);
+  }
+
+  /// Every glyph is painted by itself, so that the common beginning keeps its pixels.
+  void compare(const TextItem& before, const TextItem& after) {
+    const bool set_alike = before.origin == after.origin && before.size_px == after.size_px &&
+                           before.color == after.color;
+    const std::size_t common = set_alike ? common_prefix(before.text, after.text) : 0;
+    const double left = common > 0 ? width_em_(std::string_view(after.text).substr(0, common)) : 0;
+    add(extent_of(before, left, width_em_(before.text)));
+    add(extent_of(after, left, width_em_(after.text)));
+  }
+
+  void compare(const RectangleItem& before, const RectangleItem& after) {
+    const Extent a = extent_of(before.bounds);
+    const Extent b = extent_of(after.bounds);
+    if (!slides(before, after)) {
+      add(a);
+      add(b);
+      return;
+    }
+    const double line = before.stroke ? before.stroke->width_px : 0;
+    add({std::min(a.left, b.left), a.top, std::max(a.left, b.left) + line, a.bottom});
+    add({std::min(a.right, b.right) - line, a.top, std::max(a.right, b.right), a.bottom});
+  }
+
+  void compare(const GroupItem& before, const GroupItem& after) {
+    if (!stays(before, after)) {
+      add(extent_of(before.bounds));
+      add(extent_of(after.bounds));
+      return;
+    }
+    for (const PixelRect& rect : changed_region(*before.list, *after.list, width_em_)) {
+      const double x = after.bounds.x + rect.x_px;
+      const double y = after.bounds.y + rect.y_px;
+      add({x, y, x + rect.width_px, y + rect.height_px});
+    }
+  }
+
+  /// Where one block passes, the other is painted with it: all rows of both change.
+  void compare(const ExposedItem& before, const ExposedItem& after) {
+    const std::array extents = {extent_of(before.behind), extent_of(before.front),
+                                extent_of(after.behind), extent_of(after.front)};
+    const double top = std::ranges::min(extents, {}, &Extent::top).top;
+    const double bottom = std::ranges::max(extents, {}, &Extent::bottom).bottom;
+    compare(before.behind, after.behind, top, bottom);
+    compare(before.front, after.front, top, bottom);
+    if (before.contacts == after.contacts) return;
+    for (const ExposedItem* item : {&before, &after}) {
+      if (item->contacts.empty()) continue;
+      add({item->contacts.front().behind_x, top, item->contacts.back().behind_x + 1, bottom});
+    }
+  }
+
+  /// Between the ends of its way, a moving block has the same pixels wherever these ends are.
+  void compare(const ExposedBlock& before, const ExposedBlock& after, double top, double bottom) {
+    if (before == after) return;
+    const Extent a = extent_of(before);
+    const Extent b = extent_of(after);
+    if (!slides(before, after)) {
+      add({a.left, top, a.right, bottom});
+      add({b.left, top, b.right, bottom});
+      return;
+    }
+    const double from = std::min(a.left, b.left);
+    const double to = std::max(a.right, b.right);
+    const double width = before.bounds.width;
+    const double line = before.stroke.width_px;
+    add({from, top, to - width + line, bottom});
+    add({from + width - line, top, to, bottom});
+  }
 
   void add(const DrawItem& item) { add(extent_of(item, width_em_)); }
-  void add(const Extent& extent);
+  void add(const Extent& extent) {
+    if (region_.size() == 1 && region_.front() == frame_) return;
+    const PixelRect rect = pixels_of(extent.grown(kRounding_px), frame_);
+    if (rect.width_px <= 0 || rect.height_px <= 0) return;
+    if (rect == frame_) region_.clear();
+    region_.push_back(rect);
+  }
 
   PixelRect frame_;
   const MeasureText& width_em_;
   Region region_;
 };
 
-void Comparison::add(const Extent& extent) {
-  if (region_.size() == 1 && region_.front() == frame_) return;
-  // An extent may be far outside of the frame, or not a number.
-  const auto to_pixel = [](double position, int end) {
-    return static_cast<int>(std::min(std::max(0.0, position), double(end)));
-  };
-  const auto [left, top, right, bottom] = extent.grown(kRounding_px);
-  const int x = to_pixel(std::floor(left), frame_.width_px);
-  const int y = to_pixel(std::floor(top), frame_.height_px);
-  const int end_x = to_pixel(std::ceil(right), frame_.width_px);
-  const int end_y = to_pixel(std::ceil(bottom), frame_.height_px);
-  if (x >= end_x || y >= end_y) return;
-  const PixelRect rect{x, y, end_x - x, end_y - y};
-  if (rect == frame_) region_.clear();
-  region_.push_back(rect);
-}
-
-/// Every glyph is painted by itself, so that the common beginning keeps its pixels.
-void Comparison::compare(const TextItem& before, const TextItem& after) {
-  const bool set_alike = before.origin == after.origin && before.size_px == after.size_px &&
-                         before.color == after.color;
-  const std::size_t common = set_alike ? common_prefix(before.text, after.text) : 0;
-  const double left = common > 0 ? width_em_(std::string_view(after.text).substr(0, common)) : 0;
-  add(extent_of(before, left, width_em_(before.text)));
-  add(extent_of(after, left, width_em_(after.text)));
-}
-
-void Comparison::compare(const RectangleItem& before, const RectangleItem& after) {
-  const Extent a = extent_of(before.bounds);
-  const Extent b = extent_of(after.bounds);
-  if (!slides(before, after)) {
-    add(a);
-    add(b);
-    return;
-  }
-  const double line = before.stroke ? before.stroke->width_px : 0;
-  add({std::min(a.left, b.left), a.top, std::max(a.left, b.left) + line, a.bottom});
-  add({std::min(a.right, b.right) - line, a.top, std::max(a.right, b.right), a.bottom});
-}
-
-void Comparison::compare(const GroupItem& before, const GroupItem& after) {
-  if (!stays(before, after)) {
-    add(extent_of(before.bounds));
-    add(extent_of(after.bounds));
-    return;
-  }
-  for (const PixelRect& rect : changed_region(*before.list, *after.list, width_em_)) {
-    const double x = after.bounds.x + rect.x_px;
-    const double y = after.bounds.y + rect.y_px;
-    add({x, y, x + rect.width_px, y + rect.height_px});
-  }
-}
-
-/// Where one block passes, the other is painted with it: all rows of both change.
-void Comparison::compare(const ExposedItem& before, const ExposedItem& after) {
-  const std::array extents = {extent_of(before.behind), extent_of(before.front),
-                              extent_of(after.behind), extent_of(after.front)};
-  const double top = std::ranges::min(extents, {}, &Extent::top).top;
-  const double bottom = std::ranges::max(extents, {}, &Extent::bottom).bottom;
-  compare(before.behind, after.behind, top, bottom);
-  compare(before.front, after.front, top, bottom);
-  if (before.contacts == after.contacts) return;
-  for (const ExposedItem* item : {&before, &after}) {
-    if (item->contacts.empty()) continue;
-    add({item->contacts.front().behind_x, top, item->contacts.back().behind_x + 1, bottom});
-  }
-}
-
-/// Between the ends of its way, a moving block has the same pixels wherever these ends are.
-void Comparison::compare(const ExposedBlock& before, const ExposedBlock& after, double top,
-                         double bottom) {
-  if (before == after) return;
-  const Extent a = extent_of(before);
-  const Extent b = extent_of(after);
-  if (!slides(before, after)) {
-    add({a.left, top, a.right, bottom});
-    add({b.left, top, b.right, bottom});
-    return;
-  }
-  const double from = std::min(a.left, b.left);
-  const double to = std::max(a.right, b.right);
-  const double width = before.bounds.width;
-  const double line = before.stroke.width_px;
-  add({from, top, to - width + line, bottom});
-  add({from + width - line, top, to, bottom});
-}
-
-/// Two items that show the same thing.
-void Comparison::compare(const DrawItem& before, const DrawItem& after) {
-  if (before == after) return;
-  if (before.index() == after.index()) {
-    if (const auto* a = std::get_if<TextItem>(&before))
-      return compare(*a, std::get<TextItem>(after));
-    if (const auto* a = std::get_if<RectangleItem>(&before))
-      return compare(*a, std::get<RectangleItem>(after));
-    if (const auto* a = std::get_if<GroupItem>(&before))
-      return compare(*a, std::get<GroupItem>(after));
-    if (const auto* a = std::get_if<ExposedItem>(&before))
-      return compare(*a, std::get<ExposedItem>(after));
-  }
-  add(before);
-  add(after);
-}
-
-void Comparison::compare(const DrawList& before, const DrawList& after) {
-  const bool alike = before.width_px == after.width_px && before.height_px == after.height_px &&
-                     before.background == after.background;
-  if (alike && have_same_ids(before, after)) {
-    for (std::size_t i = 0; i < after.items.size(); ++i) compare(before.items[i], after.items[i]);
-    return;
-  }
-  if (!alike || !has_rising_ids(before) || !has_rising_ids(after)) {
-    region_ = {frame_};
-    return;
-  }
-  auto a = before.items.begin();
-  auto b = after.items.begin();
-  while (a != before.items.end() && b != after.items.end()) {
-    if (id_of(*a) < id_of(*b)) {
-      add(*a++);
-    } else if (id_of(*b) < id_of(*a)) {
-      add(*b++);
-    } else {
-      compare(*a++, *b++);
-    }
-  }
-  std::for_each(a, before.items.end(), [this](const DrawItem& item) { add(item); });
-  std::for_each(b, after.items.end(), [this](const DrawItem& item) { add(item); });
-}
-
 }  // namespace
 
 Region changed_region(const DrawList& before, const DrawList& after, const MeasureText& width_em) {
-  Comparison comparison(after.width_px, after.height_px, width_em);
+  Comparison comparison(after, width_em);
   comparison.compare(before, after);
   return comparison.take();
 }

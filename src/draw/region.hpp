@@ -36,6 +36,10 @@ Extent extent_of(const ExposedBlock& block);
 Extent extent_of(const TextItem& text, double left_em, double right_em);
 Extent extent_of(const DrawItem& item, const MeasureText& width_em);
 
+/// The whole pixels of an area that an extent reaches into. The extent may be far outside, or not a
+/// number.
+PixelRect pixels_of(const Extent& extent, const PixelRect& area);
+
 /// False only if the item has certainly painted nothing into the rectangle.
 bool reaches(const DrawItem& item, const PixelRect& rect);
 

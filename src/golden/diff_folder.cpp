@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "core/file_set.hpp"
+#include "core/output_file.hpp"
 #include "golden/reports.hpp"
 #include "media/output/frame_pattern.hpp"
 #include "media/png/png_chunk.hpp"

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/file_set.hpp"
 #include "core/output_file.hpp"
 #include "core/text.hpp"
 #include "render/page_facts.hpp"

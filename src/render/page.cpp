@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "core/descriptor.hpp"
-#include "core/file_set.hpp"
 #include "core/output_file.hpp"
 #include "core/text.hpp"
 #include "render/page_facts.hpp"

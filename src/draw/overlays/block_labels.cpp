@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "draw/number_text.hpp"
@@ -13,21 +12,14 @@
 namespace piblocks {
 namespace {
 
-// In parts of the block's side.
+// Size of a mass, in parts of the block's side.
 constexpr double kHeight = 0.3;
 constexpr double kWidth = 0.84;
-
-/// A smaller label cannot be read.
 constexpr double kLeast_px = 4;
 
-struct Label {
-  TextItem text;
-  double centre_y;  ///< of the block, in units of the scene
-  Point offset;     ///< from there to the text's origin
-};
-
-Label label_of(ItemId id, const Block& block, const BlockColors& colors,
-               const DrawingContext& context) {
+/// The label of a block whose middle is in column 0.
+TextItem mass_label(ItemId id, const Block& block, const BlockColors& colors,
+                    const DrawingContext& context) {
   const double side_px = to_double(block.width) * context.layout.scale;
   std::string text = short_text(block.mass);
   const double width_em = context.font.width_em(text);
@@ -38,9 +30,9 @@ Label label_of(ItemId id, const Block& block, const BlockColors& colors,
         "read; leave out 'masses', or make the frame or the block larger",
         text, size_px));
   }
-  return {{id, {}, std::move(text), size_px, colors.text},
-          base_of(context.scene.system) + to_double(block.width) / 2,
-          {-width_em * size_px / 2, kHalfFigure_em * size_px}};
+  const double middle = base_of(context.scene.system) + to_double(block.width) / 2;
+  const double baseline = context.layout.at(0, middle).y + kHalfFigure_em * size_px;
+  return {id, {-width_em * size_px / 2, baseline}, std::move(text), size_px, colors.text};
 }
 
 // In parts of the room above the blocks.
@@ -115,9 +107,7 @@ class VelocityArrows {
   }
 
  private:
-  /// A block that has left the frame has no figure: half a figure, at the frame's edge, would be
-  /// another number.
-  /// @param n  of its id
+  /// A block that has left the frame has no figure: half a figure would be another number.
   std::optional<Figure> figure_of(std::size_t n, const Motion& motion, double side_px) const {
     const Point foot = layout_.at(motion.position, top_);
     if (foot.x + side_px / 2 <= 0 || foot.x - side_px / 2 >= layout_.frame_px) return std::nullopt;
@@ -190,14 +180,13 @@ class VelocityArrows {
 
 Drawable mass_labels(const DrawingContext& context) {
   const BlockSystem& system = context.scene.system;
-  const Label red = label_of(nth(ItemId::masses, 0), system.red, context.palette.red, context);
-  const Label blue = label_of(nth(ItemId::masses, 1), system.blue, context.palette.blue, context);
+  const TextItem red = mass_label(nth(ItemId::masses, 0), system.red, context.palette.red, context);
+  const TextItem blue =
+      mass_label(nth(ItemId::masses, 1), system.blue, context.palette.blue, context);
   return [=, layout = context.layout](const FrameState& shown, std::vector<DrawItem>& items) {
-    const auto add = [&](const Label& label, const Motion& motion) {
-      TextItem text = label.text;
-      const Point centre = layout.at(motion.position, label.centre_y);
-      text.origin = {centre.x + label.offset.x, centre.y + label.offset.y};
-      items.emplace_back(std::move(text));
+    const auto add = [&](TextItem label, const Motion& motion) {
+      label.origin.x += layout.at(motion.position, 0).x;
+      items.emplace_back(std::move(label));
     };
     add(red, shown.state.red);
     add(blue, shown.state.blue);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "draw/look.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
 
@@ -30,31 +29,9 @@ constexpr double kBesideWall_em = 0.25;
 constexpr double kBesideEdge_em = 0.1;
 /// Size of type below the wall, in parts of what would fill the room there.
 constexpr double kFitting = 0.95;
-/// Where figures below the wall would be smaller than this part of the usual size, they stand
-/// beside it.
+/// Figures below the wall are not smaller than this part of the usual size.
 constexpr double kLeastFigureShrink = 0.7;
 constexpr double kLeastGap_em = 1.0;  // between figures
-
-/// Where the ruler is, from top to bottom.
-struct Room {
-  double top;
-  double height;
-
-  double at(double share) const { return top + share * height; }
-};
-
-/// @throws UsageError if there is too little below the blocks.
-Room room_for(const DrawingContext& context) {
-  const Layout& layout = context.layout;
-  const double foot = base_of(context.scene.system);
-  const double height = (foot - to_double(context.scene.view.y.low)) * layout.scale +
-                        std::min(layout.below_px, context.text_px);
-  if (height >= kLeastRulerRoom_px) return {layout.at(0, foot).y, height};
-  throw UsageError(
-      fmt::format("show.overlays: the ruler needs {} pixels below the blocks, and there are "
-                  "{:.0f}; lower the lower end of view.y, or make the frame larger",
-                  kLeastRulerRoom_px, std::max(0.0, height)));
-}
 
 /// Heights of the ruler, in pixels from the frame's top, and its type.
 struct Rows {
@@ -65,24 +42,34 @@ struct Rows {
   bool are_below_wall;
 };
 
-/// Figures are below the wall's foot if there is room, so that the figure at its face can be
-/// centred there. Otherwise they are in the room below the blocks.
-Rows rows_of(const DrawingContext& context, const Room& room) {
+/// Figures are below the wall's foot if there is room, so that one can be centred at its face.
+/// Otherwise they are beside the wall. @throws UsageError if there is too little room.
+Rows rows_of(const DrawingContext& context) {
   const Layout& layout = context.layout;
-  const double usual_px = std::min(kFigureSize * room.height, context.text_px);
+  const double base = base_of(context.scene.system);
+  const double low = to_double(context.scene.view.y.low);
+  const double top = layout.at(0, base).y;
+  const double room_px = (base - low) * layout.scale + std::min(layout.below_px, context.text_px);
+  if (room_px < kLeastRulerRoom_px) {
+    throw UsageError(
+        fmt::format("show.overlays: the ruler needs {} pixels below the blocks, and there are "
+                    "{:.0f}; lower the lower end of view.y, or make the frame larger",
+                    kLeastRulerRoom_px, std::max(0.0, room_px)));
+  }
+  const double usual_px = std::min(kFigureSize * room_px, context.text_px);
   const double fitting_px = (layout.below_px - layout.line_px) / (kBelowWall_em + kFigure_em);
   const double size_px = std::min(usual_px, kFitting * fitting_px);
-  const double foot = layout.at(0, to_double(context.scene.view.y.low)).y;
+  const double foot = layout.at(0, low).y;
   const double baseline = foot + layout.line_px + (kBelowWall_em + kFigure_em) * size_px;
   const double tick_end = baseline - (kFigure_em + kBelowTick_em) * size_px;
   const double axis = std::round(tick_end - kTickLength_em * size_px);
   const double least_px =
       std::max(kLeastFigureShrink * usual_px, std::min(usual_px, style::kLeastText_px));
-  if (size_px >= least_px && axis > room.at(kLeastDown)) {
+  if (size_px >= least_px && axis > top + kLeastDown * room_px) {
     return {axis, tick_end, baseline, size_px, true};
   }
-  const double above = std::round(room.at(kAxis));
-  return {above, above + kTickLength * room.height, above + (kFigureBaseline - kAxis) * room.height,
+  const double above = std::round(top + kAxis * room_px);
+  return {above, above + kTickLength * room_px, above + (kFigureBaseline - kAxis) * room_px,
           usual_px, false};
 }
 
@@ -95,7 +82,7 @@ PathItem line_between(const Point& from, const Point& to, const Stroke& stroke) 
 Drawable ruler(const DrawingContext& context) {
   const Layout& layout = context.layout;
   const Scene& scene = context.scene;
-  const Rows rows = rows_of(context, room_for(context));
+  const Rows rows = rows_of(context);
   const double size_px = rows.size_px;
   const double left = to_double(std::max(scene.view.x.low, scene.system.wall_face));
   const double right = to_double(scene.view.x.high);
@@ -117,7 +104,7 @@ Drawable ruler(const DrawingContext& context) {
     items.emplace_back(line_between({x, rows.axis}, {x, rows.tick_end}, stroke));
     const std::string text = tick_text(value, ticks.step);
     const double half_px = context.font.width_em(text) * size_px / 2;
-    // There is no room for it, and beside its mark it would name another place.
+    // Beside its mark it would name another place.
     if (x - half_px < first_px || x + half_px > end_px) continue;
     ++figures;
     items.emplace_back(

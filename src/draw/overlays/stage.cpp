@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "draw/exposed_blocks.hpp"
-#include "draw/look.hpp"
 #include "draw/overlays/overlays.hpp"
 
 namespace piblocks {
@@ -43,8 +42,7 @@ double text_size(const Rectangle& area) {
 
 double length(const Range& range) { return to_double(range.high - range.low); }
 
-/// How many characters of the count, separators included, are the expected ones; 0 while the count
-/// has fewer digits.
+/// Length of the expected beginning of the count, with separators; 0 while it has fewer digits.
 std::size_t lit_length(std::string_view count, std::string_view expected) {
   if (count.size() != expected.size()) return 0;
   const auto* const end = std::ranges::mismatch(count, expected).in1;
@@ -116,8 +114,8 @@ class Stage {
     return block;
   }
 
-  /// Label and count. A picture from outside of the film may have a longer count than the layout
-  /// was made for: its line is set smaller, so that it is never cut off.
+  /// Label and count. An instant outside of the film may have a longer count than the layout was
+  /// made for. Its line is set smaller.
   void add_line(const Integer& count, std::vector<DrawItem>& items) const {
     const std::string text = with_thousands_separators(count);
     const std::size_t lit = lit_length(text, lit_digits_);

@@ -4,13 +4,9 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
-#include "draw/look.hpp"
 #include "draw/number_text.hpp"
 #include "draw/region.hpp"
-#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {
@@ -21,9 +17,6 @@ constexpr double kTitleBaseline = 1.0;
 constexpr double kAround = 0.5;
 /// If the full title had to be smaller than this part of the other text, the brief one is set.
 constexpr double kLeastPanelShrink = 0.8;
-// In line widths.
-constexpr double kDotRadius = 3.2;
-
 Rectangle whole_pixels(const Rectangle& area, double around) {
   const double left = std::floor(area.x - around);
   const double top = std::floor(area.y - around);
@@ -31,7 +24,7 @@ Rectangle whole_pixels(const Rectangle& area, double around) {
           std::ceil(area.y + area.height + around) - top};
 }
 
-// In ems.
+// Of the time axis, in ems.
 constexpr double kBelow = 1.7;
 constexpr double kTimeTick_em = 0.25;
 constexpr double kTimeBaseline_em = 1.4;
@@ -40,10 +33,6 @@ constexpr double kLeastGap = 0.6;  // between figures
 constexpr double kSlack_px = 0.5;
 
 }  // namespace
-
-Point Circle::at(double angle) const {
-  return {centre.x + radius * std::cos(angle), centre.y - radius * std::sin(angle)};
-}
 
 std::vector<Point> Circle::arc(double from, double to) const {
   constexpr double kStep = 0.05;  // radians
@@ -86,41 +75,9 @@ void Diagram::finish() {
   font_ = nullptr;
 }
 
-void Diagram::line(std::vector<Point> points, const Color& color, double width, double dash) {
-  items_.emplace_back(PathItem{next_id(), std::move(points), false, std::nullopt,
-                               Stroke{color, width * line_px_, dash * line_px_}});
-}
-
-PathItem Diagram::shape_item(ItemId id, std::vector<Point> outline,
-                             const std::optional<Color>& fill,
-                             const std::optional<Color>& line) const {
-  PathItem item{id, std::move(outline), true, fill, std::nullopt};
-  if (line) item.stroke = Stroke{*line, line_px_};
-  return item;
-}
-
-void Diagram::shape(std::vector<Point> outline, const std::optional<Color>& fill,
-                    const std::optional<Color>& line) {
-  items_.emplace_back(shape_item(next_id(), std::move(outline), fill, line));
-}
-
-PathItem Diagram::moving_line(std::size_t n, std::vector<Point> points, const Color& color,
-                              double width) const {
-  return {moving(n), std::move(points), false, std::nullopt, Stroke{color, width * line_px_}};
-}
-
-PathItem Diagram::moving_shape(std::size_t n, std::vector<Point> outline, const Color& fill,
-                               const std::optional<Color>& line) const {
-  return shape_item(moving(n), std::move(outline), fill, line);
-}
-
 void Diagram::text(const std::string& text, const Point& at, double anchor, const Color& color) {
   const double width = font_->width_em(text) * text_px_;
   items_.emplace_back(TextItem{next_id(), {at.x - anchor * width, at.y}, text, text_px_, color});
-}
-
-DiskItem Diagram::dot(std::size_t n, const Point& at, const Color& color) const {
-  return {moving(n), at, kDotRadius * line_px_, color, Stroke{palette_.background, line_px_}};
 }
 
 TimeAxis::TimeAxis(const DrawingContext& context, const Diagram& diagram, double indent_em)
@@ -187,9 +144,9 @@ void TimeAxis::add_base(Diagram& diagram) const {
   }
 }
 
-PathItem TimeAxis::cursor(const Diagram& diagram, double x) const {
-  const double at = std::round(x) + 0.5;
-  return diagram.moving_line(0, {{at, plot_.y}, {at, bottom()}}, diagram.palette().accent);
+PathItem TimeAxis::cursor(const Diagram& diagram, double time) const {
+  const double x = std::round(x_of(time)) + 0.5;
+  return diagram.moving_line(0, {{x, plot_.y}, {x, bottom()}}, diagram.palette().accent);
 }
 
 }  // namespace piblocks

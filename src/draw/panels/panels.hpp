@@ -2,8 +2,10 @@
 // In: a drawing context and the place of the panel. Out: a drawable.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "draw/layout.hpp"
@@ -29,7 +31,7 @@ Drawable time_panel(const DrawingContext& context, const PanelPlace& place);
 /// Collisions per second against time.
 Drawable rate_panel(const DrawingContext& context, const PanelPlace& place);
 
-/// The brief one is for diagrams too narrow for the full one.
+/// The brief one is for panels too narrow for the full one.
 struct PanelTitle {
   std::string full;
   std::string brief;
@@ -40,12 +42,14 @@ struct Circle {
   double radius = 0;
 
   /// @param angle  counter-clockwise, from the right
-  Point at(double angle) const;
+  Point at(double angle) const {
+    return {centre.x + radius * std::cos(angle), centre.y - radius * std::sin(angle)};
+  }
   /// Points whose connecting lines are within 0.03 % of the radius.
   std::vector<Point> arc(double from, double to) const;
 };
 
-/// A diagram's title, its items that stay, and forms for those that move.
+/// A panel's title, its items that stay, and forms for those that move.
 class Diagram {
  public:
   Diagram(const DrawingContext& context, const PanelPlace& place, const PanelTitle& title);
@@ -53,24 +57,34 @@ class Diagram {
   /// What is left below the title.
   const Rectangle& inside() const noexcept { return inside_; }
   double text_px() const noexcept { return text_px_; }
-  double line_px() const noexcept { return line_px_; }
   const Palette& palette() const noexcept { return palette_; }
 
   // Add something that stays. Widths and dashes are in line widths.
-  void line(std::vector<Point> points, const Color& color, double width = 1, double dash = 0);
+  void line(std::vector<Point> points, const Color& color, double width = 1, double dash = 0) {
+    const Stroke stroke{color, width * line_px_, dash * line_px_};
+    items_.emplace_back(PathItem{next_id(), std::move(points), false, std::nullopt, stroke});
+  }
   void shape(std::vector<Point> outline, const std::optional<Color>& fill,
-             const std::optional<Color>& line = std::nullopt);
+             const std::optional<Color>& line = std::nullopt) {
+    items_.emplace_back(shape_item(next_id(), std::move(outline), fill, line));
+  }
   /// @param anchor  the part of the text's width that is left of `at`: 0, 0.5 or 1
   void text(const std::string& text, const Point& at, double anchor, const Color& color);
 
   // The n-th of the things that move, which are above all that stays.
   ItemId moving(std::size_t n) const { return nth(first_id_, kMoving + n); }
   PathItem moving_line(std::size_t n, std::vector<Point> points, const Color& color,
-                       double width = 1) const;
+                       double width = 1) const {
+    return {moving(n), std::move(points), false, std::nullopt, Stroke{color, width * line_px_}};
+  }
   PathItem moving_shape(std::size_t n, std::vector<Point> outline, const Color& fill,
-                        const std::optional<Color>& line = std::nullopt) const;
+                        const std::optional<Color>& line = std::nullopt) const {
+    return shape_item(moving(n), std::move(outline), fill, line);
+  }
   /// Marks the present.
-  DiskItem dot(std::size_t n, const Point& at, const Color& color) const;
+  DiskItem dot(std::size_t n, const Point& at, const Color& color) const {
+    return {moving(n), at, kDotRadius * line_px_, color, Stroke{palette_.background, line_px_}};
+  }
 
   /// All that stays as one item; nothing can be added to it any more.
   /// @throws UsageError if some of it is beyond the range of numbers.
@@ -79,13 +93,18 @@ class Diagram {
 
  private:
   static constexpr std::size_t kMoving = 32768;
+  static constexpr double kDotRadius = 3.2;  // in line widths
 
   PathItem shape_item(ItemId id, std::vector<Point> outline, const std::optional<Color>& fill,
-                      const std::optional<Color>& line) const;
+                      const std::optional<Color>& line) const {
+    PathItem item{id, std::move(outline), true, fill, std::nullopt};
+    if (line) item.stroke = Stroke{*line, line_px_};
+    return item;
+  }
   ItemId next_id() const { return nth(first_id_, items_.size()); }
 
   Palette palette_;
-  const Font* font_;  ///< of the set-up, which ends with finish()
+  const Font* font_;  ///< of the context, which ends with finish()
   ItemId first_id_;
   Panel panel_;
   double text_px_;
@@ -107,12 +126,16 @@ class TimeAxis {
   const Rectangle& plot() const noexcept { return plot_; }
   double bottom() const noexcept { return plot_.y + plot_.height; }
   double x_of(double time) const noexcept { return plot_.x + (time - from_) * scale_; }
-  /// Whether a place is on the axis. Stills may show instants that are not.
-  bool shows(double x) const noexcept { return x >= plot_.x - 1 && x <= plot_.x + plot_.width + 1; }
+  /// Whether a time is on the axis. Stills may show instants that are not.
+  bool shows(double time) const noexcept {
+    const double x = x_of(time);
+    return x >= plot_.x - 1 && x <= plot_.x + plot_.width + 1;
+  }
 
   /// Axis, ticks and figures.
   void add_base(Diagram& diagram) const;
-  PathItem cursor(const Diagram& diagram, double x) const;
+  /// Marks the present.
+  PathItem cursor(const Diagram& diagram, double time) const;
 
  private:
   struct Figure {

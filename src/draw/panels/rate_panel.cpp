@@ -2,12 +2,9 @@
 #include <piblocks/run.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include "draw/number_text.hpp"
 #include "draw/panels/panels.hpp"
-#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {
@@ -49,82 +46,67 @@ struct Rates {
   long high = 1;
 };
 
-PanelTitle title_of(const Rates& rates) {
-  return {fmt::format("Collisions per unit of time, in bins of {}", short_text(rates.bin)),
-          "Collision rate"};
-}
-
 /// The room for powers of ten and their ticks, left of the axis.
 double indent_em(const Rates& rates, const Font& font) {
   return kRateTick_em + kBesideTick_em +
          std::max(font.width_em(power_text(rates.low)), font.width_em(power_text(rates.high)));
 }
 
-class RatePanel {
- public:
-  RatePanel(const DrawingContext& context, const PanelPlace& place)
-      : rates_(context.log, span_of(context.scene, context.log)),
-        diagram_(context, place, title_of(rates_)),
-        axis_(context, diagram_, indent_em(rates_, context.font)) {
-    add_bars();
-    axis_.add_base(diagram_);
-    add_powers();
-    diagram_.finish();
-  }
+double y_of(double logarithm, const Rates& rates, const TimeAxis& axis) {
+  const double share = (logarithm - double(rates.low)) / double(rates.high - rates.low);
+  return axis.bottom() - std::clamp(share, 0.0, 1.0) * axis.plot().height;
+}
 
-  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
-    items.emplace_back(diagram_.item());
-    const double x = axis_.x_of(to_double(shown.time));
-    if (axis_.shows(x)) items.emplace_back(axis_.cursor(diagram_, x));
+void add_bars(const Rates& rates, const TimeAxis& axis, Diagram& diagram) {
+  const double left = axis.plot().x;
+  const double right = left + axis.plot().width;
+  const auto x_of = [&](const Integer& bins) {
+    return std::clamp(axis.x_of(to_double(bins * rates.bin)), left, right);
+  };
+  std::vector<Point> points{{left, axis.bottom()}};
+  Integer k = rates.first;
+  for (const Magnitude& rate : rates.of_bins) {
+    const double y = rate.mantissa > 0
+                         ? y_of(std::log10(rate.mantissa) + double(rate.exponent), rates, axis)
+                         : axis.bottom();
+    points.push_back({x_of(k), y});
+    points.push_back({x_of(++k), y});
   }
+  points.push_back({right, axis.bottom()});
+  diagram.shape(std::move(points), diagram.palette().shade, diagram.palette().muted);
+}
 
- private:
-  double y_of(double logarithm) const {
-    const double share = (logarithm - double(rates_.low)) / double(rates_.high - rates_.low);
-    return axis_.bottom() - std::clamp(share, 0.0, 1.0) * axis_.plot().height;
+void add_powers(const Rates& rates, const TimeAxis& axis, Diagram& diagram) {
+  const double em = diagram.text_px();
+  const Color color = diagram.palette().muted;
+  const double fit = std::max(1.0, axis.plot().height / (kBetweenTicks_em * em));
+  const long step = std::lround(std::ceil(double(rates.high - rates.low) / fit));
+  for (long power = rates.low + step; power <= rates.high; power += step) {
+    const double y = y_of(double(power), rates, axis);
+    const double tick = axis.plot().x - kRateTick_em * em;
+    diagram.line({{tick, y}, {axis.plot().x, y}}, color);
+    diagram.text(power_text(power), {tick - kBesideTick_em * em, y + kHalfFigure_em * em}, 1,
+                 color);
   }
-
-  void add_bars() {
-    const auto x_of = [&](const Integer& bins) {
-      return std::clamp(axis_.x_of(to_double(bins * rates_.bin)), axis_.plot().x,
-                        axis_.plot().x + axis_.plot().width);
-    };
-    std::vector<Point> points;
-    points.push_back({axis_.plot().x, axis_.bottom()});
-    Integer k = rates_.first;
-    for (const Magnitude& rate : rates_.of_bins) {
-      const double y = rate.mantissa > 0
-                           ? y_of(std::log10(rate.mantissa) + static_cast<double>(rate.exponent))
-                           : axis_.bottom();
-      points.push_back({x_of(k), y});
-      points.push_back({x_of(++k), y});
-    }
-    points.push_back({axis_.plot().x + axis_.plot().width, axis_.bottom()});
-    diagram_.shape(std::move(points), diagram_.palette().shade, diagram_.palette().muted);
-  }
-
-  void add_powers() {
-    const double em = diagram_.text_px();
-    const double fit = std::max(1.0, axis_.plot().height / (kBetweenTicks_em * em));
-    const long step = std::lround(std::ceil(double(rates_.high - rates_.low) / fit));
-    for (long power = rates_.low + step; power <= rates_.high; power += step) {
-      const double y = y_of(double(power));
-      const double tick = axis_.plot().x - kRateTick_em * em;
-      diagram_.line({{tick, y}, {axis_.plot().x, y}}, diagram_.palette().muted);
-      diagram_.text(power_text(power), {tick - kBesideTick_em * em, y + kHalfFigure_em * em}, 1,
-                    diagram_.palette().muted);
-    }
-  }
-
-  Rates rates_;
-  Diagram diagram_;
-  TimeAxis axis_;
-};
+}
 
 }  // namespace
 
 Drawable rate_panel(const DrawingContext& context, const PanelPlace& place) {
-  return RatePanel(context, place);
+  const Rates rates(context.log, span_of(context.scene, context.log));
+  Diagram diagram(context, place,
+                  {fmt::format("Collisions per unit of time, in bins of {}", short_text(rates.bin)),
+                   "Collision rate"});
+  const TimeAxis axis(context, diagram, indent_em(rates, context.font));
+  add_bars(rates, axis, diagram);
+  axis.add_base(diagram);
+  add_powers(rates, axis, diagram);
+  diagram.finish();
+  return [=](const FrameState& shown, std::vector<DrawItem>& items) {
+    items.emplace_back(diagram.item());
+    const double time = to_double(shown.time);
+    if (axis.shows(time)) items.emplace_back(axis.cursor(diagram, time));
+  };
 }
 
 }  // namespace piblocks

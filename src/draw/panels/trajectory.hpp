@@ -14,6 +14,8 @@
 
 namespace piblocks {
 
+/// y1 is blue's distance from the wall, y2 red's less blue's width. 0 <= y1 <= y2, and they are equal
+/// while the blocks touch.
 struct GapPoint {
   double y1 = 0;
   double y2 = 0;

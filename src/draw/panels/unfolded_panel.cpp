@@ -1,13 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "draw/number_text.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/panels/trajectory.hpp"
-#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <memory>
 
-#include "h264/error.hpp"
+#include "h264/bit_stream.hpp"
 #include "media/libav/h264_chunk.hpp"
 #include "media/libav/video_encoder.hpp"
 #include "media/libav/video_file.hpp"

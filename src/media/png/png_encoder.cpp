@@ -8,7 +8,7 @@
 #include <span>
 #include <system_error>
 
-#include "core/file_set.hpp"
+#include "core/output_file.hpp"
 #include "media/output/frame_pattern.hpp"
 #include "media/output/output_kinds.hpp"
 #include "media/pixels/rgb24.hpp"
