@@ -5,8 +5,6 @@
 #include <iterator>
 #include <utility>
 
-#include "h264/macroblock_set.hpp"
-
 namespace piblocks {
 namespace {
 
