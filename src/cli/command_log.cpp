@@ -125,10 +125,10 @@ void append_jsonl(const CollisionBatch& batch, fmt::memory_buffer& out) {
 }
 
 LogFormat parse_log_format(const std::string& text) {
-  constexpr auto csv_header = [](const Rows&) {
+  const auto csv_header = [](const Rows&) {
     return std::string("index,time,kind,x_blue,x_red,v_blue,v_red\n");
   };
-  constexpr auto no_header = [](const Rows&) { return std::string(); };
+  const auto no_header = [](const Rows&) { return std::string(); };
   return parse_choice<LogFormat>(text, {{"csv", {Contents::text, csv_header, append_csv}},
                                         {"jsonl", {Contents::text, no_header, append_jsonl}},
                                         {"npy", {Contents::bytes, npy_header, append_npy}}});

@@ -154,6 +154,7 @@ std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
                                              const std::vector<Instant>& instants) {
   const FilmRun run = run_of(scene);
   std::vector<Rational> times;
+  times.reserve(instants.size());
   for (const Instant& instant : instants) times.push_back(time_of(instant, run.log()));
   const std::vector<std::string> texts = time_texts(times);
   std::vector<CaptionedPicture> pictures;
