@@ -132,13 +132,13 @@ constexpr auto kKinds = []() {
 /// additions without branches, so that the compiler makes vectors of them.
 class UnfoldedStream final : public CollisionStream {
  public:
-  UnfoldedStream(const Unfolding& form, const Integer& first, const Integer& last,
-                 const Integer& index, const std::optional<Integer>& contact)
+  UnfoldedStream(const Unfolding& form, Integer first, Integer last, Integer index,
+                 std::optional<Integer> contact)
       : form_(form),
-        next_(first),
-        last_(last),
-        index_(index),
-        contact_(contact),
+        next_(std::move(first)),
+        last_(std::move(last)),
+        index_(std::move(index)),
+        contact_(std::move(contact)),
         last_by_past_(floor_mean(form.past.ray, form.turn.ahead.ray)),
         last_by_turn_(floor_mean(form.turn.ahead.ray, form.future.ray)) {}
 
