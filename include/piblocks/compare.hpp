@@ -23,16 +23,14 @@ struct Window {
   std::int64_t max_pixels = 0;  ///< that may be off, wherever the window is
 };
 
-/// What is accepted: all of it has to hold. The default accepts nothing but equality.
-/// A delta of 255 is the full range of a sample at any depth, so that one tolerance means the same
-/// for 8 bits, where deltas are whole numbers, and for more, where one level is a fraction.
+/// What is accepted: all of it has to hold. The default accepts nothing but equality. A delta of
+/// 255 is the full range of a sample at any depth.
 struct Tolerance {
   Rational max_delta = 0;       ///< a pixel is off if one of its samples differs by more, 0 … 255
   std::int64_t max_pixels = 0;  ///< that are off in the whole image
   Rational hard_delta = 255;    ///< no sample of any pixel may differ by more, 0 … 255
   std::optional<Window> window = {};  ///< bounds the pixels that are off in one place
 
-  /// Whether nothing but equality is accepted.
   bool is_exact() const { return max_delta == 0 && max_pixels == 0; }
 };
 
@@ -64,8 +62,7 @@ struct Difference {
 Difference compare(const ImageView& reference, const ImageView& actual,
                    const Tolerance& tolerance = {}, std::span<const PixelRect> masks = {});
 
-/// The same for deeper samples.
-/// @throws UsageError also if the images differ in max_level.
+/// The same for deeper samples. @throws UsageError also if the images differ in max_level.
 Difference compare(const DeepImage& reference, const DeepImage& actual,
                    const Tolerance& tolerance = {}, std::span<const PixelRect> masks = {});
 
@@ -74,8 +71,7 @@ Difference compare(const DeepImage& reference, const DeepImage& actual,
 /// @throws UsageError if the images are not of one size.
 std::vector<std::uint8_t> pixel_deltas(const Image& reference, const Image& actual,
                                        std::span<const PixelRect> masks = {});
-/// The same for deeper samples.
-/// @throws UsageError also if the images differ in max_level.
+/// The same for deeper samples. @throws UsageError also if the images differ in max_level.
 std::vector<std::uint8_t> pixel_deltas(const DeepImage& reference, const DeepImage& actual,
                                        std::span<const PixelRect> masks = {});
 
@@ -89,7 +85,7 @@ struct ComparisonJob {
   std::vector<PixelRect> masks = {};  ///< not compared
 };
 
-/// One frame of both. Valid during the call that it is given to.
+/// One frame of both, valid during the call.
 struct FrameComparison {
   std::int64_t number = 0;  ///< from 0
   std::string name;         ///< of the reference's frame, for people

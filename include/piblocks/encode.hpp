@@ -28,8 +28,7 @@ enum class EncoderKind : std::uint8_t { h264, webm, prores, sound };
 std::vector<std::string> encoder_names(EncoderKind kind);
 
 /// The picture as a PNG file: 8-bit RGB in sRGB, with alpha if the view has it. Equal pixels give
-/// equal bytes. PNG keeps colours that are not multiplied by alpha; these are rounded to the
-/// nearest.
+/// equal bytes. The colours, which PNG does not multiply by alpha, are rounded to the nearest.
 /// @throws MediaError if memory for the compressor runs out.
 std::vector<std::uint8_t> encode_png(const ImageView& image);
 

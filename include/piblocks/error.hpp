@@ -1,6 +1,5 @@
 // Every failure of the library is one of these exceptions.
 // In: the operation that failed, its object and the cause. Out: one line that names all three.
-// Library code never prints and never exits; the command line alone turns these into exit codes.
 #pragma once
 
 #include <stdexcept>
@@ -9,7 +8,7 @@
 
 namespace piblocks {
 
-/// Base of every exception the library throws on purpose.
+/// Base of every exception that the library throws on purpose.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -28,10 +27,7 @@ class UsageError : public Error {
  private:
   static std::string join(const std::vector<std::string>& problems) {
     std::string text;
-    for (const std::string& problem : problems) {
-      if (!text.empty()) text += '\n';
-      text += problem;
-    }
+    for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + problem;
     return text;
   }
 

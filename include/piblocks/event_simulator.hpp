@@ -1,7 +1,7 @@
 // The general engine: any number of balls in any dimension, from collision to collision.
 // In: particles at time 0; walls are particles of infinite mass. Out: the collisions in order.
 // Between collisions every particle flies straight, so nothing is stepped and nothing is missed.
-// Templates over Eigen vectors; Scalar is double, long double or a Boost.Multiprecision float.
+// Scalar is double, long double or a Boost.Multiprecision float.
 #pragma once
 
 #include <piblocks/error.hpp>
@@ -69,7 +69,7 @@ Scalar share_of_change(const Scalar& own, const Scalar& other) {
 
 }  // namespace detail
 
-/// Moves a ball along its straight line for a time dt of either sign.
+/// @param dt  of either sign.
 template <typename Scalar, int Dim>
 void advance(Particle<Scalar, Dim>& particle, const std::type_identity_t<Scalar>& dt) {
   particle.position += dt * particle.velocity;

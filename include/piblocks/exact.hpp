@@ -1,6 +1,5 @@
 // Exact numbers: what a user writes is what is computed with.
 // In: text such as "100^7", "1/3", "-2.5e-3". Out: GMP integers and rationals, never rounded.
-// Rounding happens once, at the border to floating point: to_double(), to_time().
 #pragma once
 
 #include <gmpxx.h>
@@ -12,10 +11,8 @@
 
 namespace piblocks {
 
-/// A count of collisions or an index into a collision log: exact at any size.
-using Integer = mpz_class;
-/// A mass, length, velocity or time as the user gave it, in lowest terms.
-using Rational = mpq_class;
+using Integer = mpz_class;   ///< a count or an index of collisions
+using Rational = mpq_class;  ///< a mass, length, velocity or time, in lowest terms
 
 /// Longest numerator or denominator that parse_rational() accepts, in bits.
 inline constexpr std::int64_t kMaxRationalBits = 4'000'000;
@@ -26,8 +23,7 @@ inline constexpr std::int64_t kMaxRationalBits = 4'000'000;
 /// @throws UsageError saying what is wrong with the text, or that it is longer than the limit.
 Rational parse_rational(std::string_view text);
 
-/// The exact value meant by a double that a user wrote as a decimal: the shortest decimal that
-/// reads back as `value`, so that 0.1 is 1/10.
+/// The shortest decimal that reads back as `value`, so that 0.1 is 1/10.
 /// @throws UsageError if value is not finite.
 Rational rational_from_decimal(double value);
 
@@ -37,9 +33,7 @@ std::optional<double> exact_double(const Integer& value);
 /// Nearest double; overflows to infinity, underflows to zero.
 double to_double(const Rational& value);
 
-/// Smallest integer >= value.
 Integer ceil(const Rational& value);
-/// Largest integer <= value.
 Integer floor(const Rational& value);
 
 /// base^exponent for exponent >= 0.
@@ -50,7 +44,6 @@ std::string with_thousands_separators(const Integer& value);
 
 /// The integer for a message: with separators, or as a power of ten if that would fill the line.
 std::string readable(const Integer& value);
-
 /// The number for a message: exact where that is short, otherwise the nearest double.
 std::string to_text(const Rational& value);
 
@@ -67,8 +60,7 @@ using Time = DoubleDouble;
 /// Nearest sum of two doubles to an exact time.
 Time to_time(const Rational& exact);
 
-/// The exact value of hi + lo.
-/// @throws SimulationError if hi or lo is not finite.
+/// Exactly hi + lo. @throws SimulationError if hi or lo is not finite.
 Rational to_rational(const Time& time);
 
 }  // namespace piblocks

@@ -13,11 +13,10 @@ inline constexpr int kMaxSide_px = 16384;
 /// Largest number of pixels in a frame: 256 MiB at four bytes each.
 inline constexpr std::int64_t kMaxFrame_px = 64LL * 1024 * 1024;
 
-/// A read-only view of 8-bit sRGB pixels, rows from the top.
+/// A read-only view of 8-bit sRGB pixels, rows from the top. The memory must outlive it.
 /// A pixel is one native-endian 32-bit word 0xFFRRGGBB (bytes B, G, R, FF on little-endian); or, if
 /// the view has alpha, 0xAARRGGBB with red, green and blue multiplied by alpha / 255 and rounded,
-/// so that none of them is greater than alpha. The view does not own the memory, which must outlive
-/// it.
+/// so that none of them is greater than alpha.
 struct ImageView {
   const std::uint8_t* data = nullptr;
   int width_px = 0;

@@ -13,8 +13,7 @@ namespace piblocks {
 
 class CollisionLog;
 
-/// An anchor, and an offset in simulation time: after the anchor if it is positive, before it if it
-/// is negative.
+/// An anchor, and an offset in simulation time.
 struct Instant {
   enum class Anchor : std::uint8_t {
     time_zero,
@@ -24,10 +23,9 @@ struct Instant {
   };
   Anchor anchor = Anchor::time_zero;
   Integer index = 0;    ///< of Anchor::collision, as CollisionLog counts
-  Rational offset = 0;  ///< in simulation time
+  Rational offset = 0;  ///< positive after the anchor, negative before it
 
   Instant() = default;
-  /// A time is an instant.
   Instant(Rational time) : offset(std::move(time)) {}
   static Instant turn(Rational offset = 0) { return {Anchor::turn, 0, std::move(offset)}; }
   static Instant last(Rational offset = 0) { return {Anchor::last, 0, std::move(offset)}; }
@@ -50,7 +48,6 @@ Instant parse_instant(std::string_view text);
 
 /// Exact text, which reads back as the same.
 std::string exact_text(const Instant& instant);
-
 /// Whether the run has the anchor of this instant.
 bool exists(const Instant& instant, const CollisionLog& log);
 

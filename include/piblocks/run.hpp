@@ -30,9 +30,9 @@ struct BlockSystem {
   Block blue = {1, 2, 0, 1};
   Block red = {10000, 5, -1, 1};
 
-  /// Distance from the wall's face to blue's near side, at time 0.
+  /// Between the wall and blue at time 0.
   Rational blue_gap() const { return blue.position - blue.width / 2 - wall_face; }
-  /// Distance from blue's far side to red's near side, at time 0.
+  /// Between blue and red at time 0.
   Rational blocks_gap() const {
     return red.position - red.width / 2 - (blue.position + blue.width / 2);
   }
@@ -43,7 +43,6 @@ struct BlockSystem {
 /// neither block moves.
 std::optional<Rational> turn_of(const BlockSystem& system);
 
-/// Most digits that article_system() accepts.
 inline constexpr int kMaxDigits = 100'000;
 
 /// The article's system, in which the collisions count the first `digits` digits of pi:
@@ -123,7 +122,7 @@ class CollisionLog {
   CollisionLog& operator=(const CollisionLog&) = delete;
 
   const BlockSystem& system() const noexcept { return system_; }
-  /// Number of collisions from time 0 on, and the index of the last collision of all time.
+  /// Number of collisions from time 0 on, and the index of the last of all time.
   const Integer& size() const noexcept { return size_; }
   /// Index of the first collision of all time; 1 if there are none before time 0.
   const Integer& first_index() const noexcept { return first_index_; }
@@ -198,7 +197,7 @@ struct PositionBounds {
   double red = 0;
 };
 
-/// The bounds for state_at(time); nothing for an engine that steps, whose errors add up.
+/// Of state_at(time); nothing for an engine that steps, whose errors add up.
 std::optional<PositionBounds> position_bounds(const CollisionLog& log, const Rational& time);
 
 }  // namespace piblocks

@@ -29,8 +29,7 @@ struct Freeze {
   Rational length_s;  ///< of video, > 0
 };
 
-/// Most times slower that automatic slow motion becomes. Slower still, nothing would move by a
-/// pixel.
+/// The slowest that automatic slow motion becomes: slower still, nothing would move by a pixel.
 inline constexpr int kMaxAutomaticFactor = 1000;
 
 /// Lengths are seconds of video, and are rounded up to whole frames; that of a loop to an even
@@ -46,7 +45,7 @@ struct Pacing {
   std::vector<SlowMotion> slow_motion = {};
   std::vector<Freeze> freezes = {};
   Rational hold_start_s = 0;  ///< how long the first picture stands still, >= 0
-  Rational hold_end_s = 0;    ///< how long the last picture stands still, >= 0
+  Rational hold_end_s = 0;    ///< the same of the last
   /// Plays forwards and then backwards, so that the first frame follows the last without a jump.
   bool loop = false;
 };
@@ -58,8 +57,7 @@ inline constexpr std::size_t kMaxWindows = 1000;
 SlowMotion parse_slow_motion(std::string_view text);
 /// Reads "AT:SECONDS", as "turn:2". @throws UsageError
 Freeze parse_freeze(std::string_view text);
-
-/// Exact text of a value, which reads back as the same.
+/// Exact text, which reads back as the same.
 std::string exact_text(const SlowMotion& window);
 std::string exact_text(const Freeze& freeze);
 
@@ -71,8 +69,7 @@ enum class Theme {
   colorblind   ///< blue and orange that all can tell apart, and that differ in pattern
 };
 
-/// What is behind everything: the theme's colour, or nothing, so that another picture can be put
-/// there.
+/// What is behind everything: the theme's colour, or nothing.
 enum class Background { opaque, transparent };
 
 /// What is drawn over and around the blocks.
@@ -112,11 +109,9 @@ inline constexpr std::size_t kMaxLine_bytes = 1000;
 Theme parse_theme(std::string_view name);
 Overlay parse_overlay(std::string_view name);
 Panel parse_panel(std::string_view name);
-
 std::string exact_text(Theme theme);
 std::string exact_text(Overlay overlay);
 std::string exact_text(Panel panel);
-
 /// All names, with commas, for messages and help.
 std::string theme_names();
 std::string overlay_names();
@@ -166,7 +161,6 @@ struct Golden {
   std::optional<FrameSize> size = {};
 };
 
-/// What is heard of a scene.
 struct Sound {
   bool on = false;  ///< whether a video has a soundtrack
 };

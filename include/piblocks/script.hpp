@@ -52,7 +52,6 @@ using Script = std::variant<Scene, Storyboard>;
 
 /// Size, frame rate, theme and background of the whole film.
 const View& view_of(const Script& script);
-
 const Sound& sound_of(const Script& script);
 
 /// All scenes of the film, in order; valid as long as the script.
@@ -69,10 +68,8 @@ std::vector<std::string> problems_of(const Storyboard& story);
 /// segment. Two storyboards with equal descriptions are the same film.
 std::vector<std::pair<std::string, std::string>> describe(const Storyboard& story);
 
-/// Longest scene file that is read.
 inline constexpr std::size_t kMaxSceneFile_bytes = 1 << 20;
-/// Deepest lists and tables in it.
-inline constexpr int kMaxSceneNesting = 256;
+inline constexpr int kMaxSceneNesting = 256;  ///< of lists and tables in a scene file
 
 /// Collects values from a file and from options, and remembers where each came from.
 ///

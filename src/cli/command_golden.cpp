@@ -11,7 +11,6 @@
 #include "cli/scene_options.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
-#include "core/file_set.hpp"
 #include "core/output_file.hpp"
 #include "core/overwrite_check.hpp"
 #include "core/text.hpp"

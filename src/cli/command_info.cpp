@@ -13,7 +13,7 @@
 #include "cli/text_output.hpp"
 #include "draw/canvas.hpp"
 #include "media/output/output.hpp"
-#include "physics/engines.hpp"
+#include "physics/blocks.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks::cli {

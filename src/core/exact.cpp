@@ -142,17 +142,13 @@ double to_double(const Rational& value) {
   return Real(192, value).to_double();
 }
 
-Integer ceil(const Rational& value) {
-  Integer result;
-  mpz_cdiv_q(result.get_mpz_t(), value.get_num_mpz_t(), value.get_den_mpz_t());
-  return result;
-}
-
 Integer floor(const Rational& value) {
   Integer result;
   mpz_fdiv_q(result.get_mpz_t(), value.get_num_mpz_t(), value.get_den_mpz_t());
   return result;
 }
+
+Integer ceil(const Rational& value) { return -floor(-value); }
 
 Rational power(const Rational& base, unsigned long exponent) {
   const std::size_t base_bits =

@@ -1,11 +1,11 @@
-#include "core/file_set.hpp"
-
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <system_error>
+
+#include "core/output_file.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;
@@ -123,7 +123,7 @@ void FileSet::commit() {
 void FileSet::check_destination(const std::string& name) const {
   const fs::path to = folder_ / name;
   std::error_code none;
-  if (fs::is_symlink(fs::symlink_status(to, none))) {
+  if (fs::is_symlink(to, none)) {
     fail_output("replace", to, "a symbolic link; remove it or choose another name");
   }
   const std::string problem = problem_of_replacing(to);

@@ -27,7 +27,7 @@ using FileNames = std::function<bool(const std::string& name)>;
 struct FileClaim {
   std::string what;
   std::string path;
-  std::vector<FileId> files = {};  ///< those that exist, sorted
+  std::vector<FileId> files = {};        ///< those that exist, sorted
   std::optional<FilePlace> folder = {};  ///< in which the file is, or whose names are claimed
   std::optional<std::string> name = {};  ///< of the file
   FileNames names = {};                  ///< in the folder; all if empty

@@ -49,6 +49,11 @@ class Real {
   int sign() const noexcept { return mpfr_sgn(value_); }
   /// Nearest double; overflows to infinity.
   double to_double() const { return mpfr_get_d(value_, MPFR_RNDN); }
+  /// Nearest sum of two doubles.
+  DoubleDouble to_double_double() const {
+    const double hi = to_double();
+    return {hi, (*this - hi).to_double()};
+  }
   /// The exponent e of |value| = m * 2^e with 1/2 <= m < 1; 0 for zero.
   long exponent() const { return mpfr_zero_p(value_) != 0 ? 0 : mpfr_get_exp(value_); }
   /// The exact value.

@@ -21,8 +21,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Kind = Unfinished::Kind;
-using Sharing = Unfinished::Sharing;
-using Rescue = Unfinished::Rescue;
 
 /// Parts have other names: "NAME.part-2-of-3".
 constexpr std::string_view kMark = ".unfinished-";
@@ -35,11 +33,10 @@ fs::path folder_of(const fs::path& path) {
 }
 
 [[noreturn]] void fail(const fs::path& final_path, Kind kind, int error_number) {
-  const std::string message =
-      kind == Kind::folder ? fmt::format("output: cannot write into '{}': {}",
-                                         folder_of(final_path).string(), error_text(error_number))
-                           : fmt::format("output: cannot open '{}': {}", final_path.string(),
-                                         error_text(error_number));
+  const bool is_file = kind == Kind::file;
+  const std::string message = fmt::format(
+      "output: cannot {} '{}': {}", is_file ? "open" : "write into",
+      (is_file ? final_path : folder_of(final_path)).string(), error_text(error_number));
   if (error_number == EIO || error_number == ENOSPC || error_number == EDQUOT) {
     throw IoError(message);
   }
@@ -80,13 +77,10 @@ std::string temporary_name(const std::string& final_name) {
 }
 
 bool is_temporary_name(std::string_view name, const std::string& final_name) {
-  const std::string_view start = start_of(final_name);
-  if (!name.starts_with(start)) return false;
+  const std::string start = std::string(start_of(final_name)) + std::string(kMark);
+  if (!name.starts_with(start) || name.size() < start.size() + kRandom_letters) return false;
   name.remove_prefix(start.size());
-  if (name.size() != kMark.size() + kRandom_letters + kCheck_letters) return false;
-  if (!name.starts_with(kMark)) return false;
-  const std::string_view random = name.substr(kMark.size(), kRandom_letters);
-  return name.substr(kMark.size() + kRandom_letters) == check_letters(final_name, random);
+  return name.substr(kRandom_letters) == check_letters(final_name, name.substr(0, kRandom_letters));
 }
 
 bool take_lock(int descriptor) { return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0; }
@@ -104,7 +98,7 @@ bool is_own(int descriptor) {
 }
 
 /// @return whether a process is writing it.
-bool remove_unless_locked(const fs::path& path, const Rescue& rescue) {
+bool remove_unless_locked(const fs::path& path, const Unfinished::Rescue& rescue) {
   Descriptor descriptor = open(path, Kind::folder);
   const bool is_folder = descriptor.is_open();
   if (!is_folder) descriptor = open(path, Kind::file);
@@ -119,7 +113,8 @@ bool remove_unless_locked(const fs::path& path, const Rescue& rescue) {
 /// Removes what killed processes left for this name.
 /// @param own  is left out.
 /// @return whether another process is writing for the same name.
-bool remove_abandoned(const fs::path& final_path, const fs::path& own, const Rescue& rescue) {
+bool remove_abandoned(const fs::path& final_path, const fs::path& own,
+                      const Unfinished::Rescue& rescue) {
   const std::string final_name = final_path.filename();
   bool is_shared = false;
   std::error_code unreadable;

@@ -5,8 +5,6 @@
 #include <cassert>
 #include <cstdlib>
 
-#include "h264/cavlc_tables.hpp"
-
 namespace piblocks::h264 {
 namespace {
 
@@ -17,7 +15,7 @@ constexpr std::size_t kChromaDcLevels = 4;
 struct Coefficients {
   std::size_t total = 0;
   std::size_t trailing_ones = 0;
-  std::size_t total_zeros = 0;  // before the last level
+  std::size_t total_zeros = 0;                      // before the last level
   std::array<std::int16_t, kMaxLevels + 1> levels;  // the first `total` are valid
   std::array<std::uint8_t, kMaxLevels> runs;  // zeros between a level and the one after, likewise
 };

@@ -6,9 +6,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "h264/bit_writer.hpp"
+#include "h264/bit_stream.hpp"
 #include "h264/intra_prediction.hpp"
-#include "h264/macroblock_state.hpp"
 #include "h264/picture.hpp"
 #include "h264/residual.hpp"
 

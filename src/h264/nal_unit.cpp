@@ -16,8 +16,7 @@ std::vector<std::uint8_t> without_emulation_prevention(Bytes bytes) {
   rbsp.reserve(bytes.size());
   int zeros = 0;
   for (const std::uint8_t byte : bytes) {
-    const bool is_inserted = zeros >= 2 && byte == kEmulationPrevention;
-    if (!is_inserted) rbsp.push_back(byte);
+    if (zeros < 2 || byte != kEmulationPrevention) rbsp.push_back(byte);
     zeros = byte == 0 ? zeros + 1 : 0;
   }
   return rbsp;
@@ -53,9 +52,7 @@ std::vector<Unit> read_units(Bytes stream) {
     auto end = start;
     while (end != begin && end[-1] == 0) --end;
     if (begin == end) continue;
-    constexpr int kTypeMask = 31;
-    units.push_back(
-        {.type = *begin & kTypeMask, .rbsp = without_emulation_prevention(Bytes(begin + 1, end))});
+    units.push_back({*begin & 31, without_emulation_prevention(Bytes(begin + 1, end))});
   }
   return units;
 }

@@ -2,16 +2,23 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
-#include "h264/bit_reader.hpp"
-#include "h264/error.hpp"
-#include "h264/level_limits.hpp"
+#include "h264/bit_stream.hpp"
 #include "h264/nal_unit.hpp"
 
 namespace piblocks::h264 {
 namespace {
+
+/// Texts and numbers, one after another.
+template <typename... Parts>
+std::string message(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  return text.str();
+}
 
 void refuse_if(bool is_other, std::string_view property) {
   if (is_other) throw HeaderError(message("h264: cannot continue a stream with ", property));
@@ -33,9 +40,7 @@ bool is_high_profile(std::uint32_t profile) {
 
 void read_high_profile_fields(BitReader& bits) {
   refuse_if(bits.get_unsigned() != 1, "chroma other than 4:2:0");
-  const bool has_more_luma_bits = bits.get_unsigned() != 0;
-  const bool has_more_chroma_bits = bits.get_unsigned() != 0;
-  refuse_if(has_more_luma_bits || has_more_chroma_bits, "samples of more than 8 bits");
+  for (int i = 0; i < 2; ++i) refuse_if(bits.get_unsigned() != 0, "samples of more than 8 bits");
   refuse_if(bits.get_flag(), "lossless macroblocks");  // qpprime_y_zero_transform_bypass_flag
   refuse_if(bits.get_flag(), "scaling matrices");
 }
@@ -119,6 +124,30 @@ ParameterSets read_parameter_sets(std::span<const std::uint8_t> stream) {
   const std::uint32_t sequence_id = read_sequence(BitReader(units[0].rbsp), sets);
   read_picture(BitReader(units[1].rbsp), sequence_id, sets);
   return sets;
+}
+
+std::string level_problem(int width_px, int height_px, std::int64_t rate_numerator,
+                          std::int64_t rate_denominator) {
+  constexpr std::int64_t kMaxRate_mb = 16'711'680;  // MaxMBPS, a second
+  const std::int64_t width_mb = (std::int64_t{width_px} + 15) / 16;
+  const std::int64_t height_mb = (std::int64_t{height_px} + 15) / 16;
+  const std::int64_t size_mb = width_mb * height_mb;
+  if (std::max(width_mb, height_mb) > kMaxSide_mb) {
+    return message("a side of ", std::max(width_px, height_px), " px is longer than the ",
+                   16 * kMaxSide_mb, " px of level 6.2, the highest");
+  }
+  if (size_mb > kMaxPicture_mb) {
+    return message(width_px, "x", height_px, " are ", size_mb,
+                   " macroblocks of 16x16 pixels, more than the ", kMaxPicture_mb,
+                   " of level 6.2, the highest");
+  }
+  if (size_mb * rate_numerator > kMaxRate_mb * rate_denominator) {
+    const std::string divisor = rate_denominator == 1 ? "" : message("/", rate_denominator);
+    return message(size_mb, " macroblocks of 16x16 pixels in each of ", rate_numerator, divisor,
+                   " frames a second are more than the ", kMaxRate_mb,
+                   " a second of level 6.2, the highest");
+  }
+  return {};
 }
 
 }  // namespace piblocks::h264

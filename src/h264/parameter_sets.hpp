@@ -1,10 +1,11 @@
-// What a stream's headers say about its slices.
+// What a stream's headers say about its slices, and how large and fast a stream can be.
 // In: the sequence and picture parameter sets of another encoder. Out: the numbers that our own
 // slices in its stream need.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 namespace piblocks::h264 {
 
@@ -27,5 +28,19 @@ struct ParameterSets {
 /// off.
 /// @throws HeaderError naming what is missing, broken or not accepted.
 ParameterSets read_parameter_sets(std::span<const std::uint8_t> stream);
+
+/// MaxFS of level 6.2, which allows all that any level does: macroblocks of a picture (ITU-T H.264
+/// (08/2021), table A-1).
+inline constexpr std::int64_t kMaxPicture_mb = 139'264;
+/// The longest side of a picture: floor(Sqrt(8 MaxFS)), by A.3.1, items f and g.
+inline constexpr std::int64_t kMaxSide_mb = 1055;
+static_assert(kMaxSide_mb * kMaxSide_mb <= 8 * kMaxPicture_mb &&
+              (kMaxSide_mb + 1) * (kMaxSide_mb + 1) > 8 * kMaxPicture_mb);
+
+/// Empty if level 6.2 allows such pictures at the rate numerator / denominator a second; else which
+/// of its limits they exceed.
+/// @param rate_numerator, rate_denominator  1 … 2^31 - 1
+std::string level_problem(int width_px, int height_px, std::int64_t rate_numerator,
+                          std::int64_t rate_denominator);
 
 }  // namespace piblocks::h264

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "h264/macroblock.hpp"
-#include "h264/macroblock_set.hpp"
 #include "h264/parameter_sets.hpp"
 #include "h264/picture.hpp"
 
@@ -28,7 +27,7 @@ class PictureEncoder {
 
   /// An IDR picture, with a start code of four bytes.
   std::vector<std::uint8_t> encode_idr(const Picture& source);
-  /// The next picture, a P picture.
+  /// The next picture.
   std::vector<std::uint8_t> encode_p(const Picture& source, const MacroblockSet& changed);
 
   /// The last picture as every decoder has it.

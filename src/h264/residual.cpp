@@ -50,10 +50,6 @@ void Residual::code_luma(const Quantiser& quantiser, BlockPlace place, const Sam
   if (total > 0) store_block(add_inverse(coefficients, predicted), at, kLumaSide);
 }
 
-void Residual::code_chroma(const Quantiser& quantiser, const Samples& source, Samples& samples) {
-  for (int plane = 1; plane < 3; ++plane) code_chroma_plane(quantiser, plane, source, samples);
-}
-
 void Residual::code_chroma_plane(const Quantiser& quantiser, int plane, const Samples& source,
                                  Samples& samples) {
   const auto offset = [](int block) { return block / 2 * 4 * kChromaSide + block % 2 * 4; };

@@ -1,17 +1,74 @@
-// The differences that prediction leaves in a macroblock.
+// The differences that prediction leaves in a macroblock, and what it leaves to those after it.
 // In: what the macroblock should be, and what was predicted. Out: transform coefficient levels, the
 // samples that decoders make of them, and their bits.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
-#include "h264/bit_writer.hpp"
-#include "h264/macroblock_state.hpp"
+#include "h264/bit_stream.hpp"
 #include "h264/picture.hpp"
 #include "h264/transform.hpp"
 
 namespace piblocks::h264 {
+
+/// A block of 4x4 samples in a macroblock: its column and row in a plane (0 Y, 1 Cb, 2 Cr).
+struct BlockPlace {
+  int x;
+  int y;
+  int plane = 0;
+
+  /// Blocks beside each other.
+  constexpr int row_length() const { return plane == 0 ? 4 : 2; }
+  /// Among all blocks of the macroblock, plane by plane, row by row.
+  constexpr std::size_t number() const {
+    return static_cast<std::size_t>((plane == 0 ? 0 : 12 + 4 * plane) + y * row_length() + x);
+  }
+};
+
+/// At first that of a macroblock that is skipped, or not coded yet.
+struct MacroblockState {
+  static constexpr std::uint8_t kDc = 2;
+
+  /// TotalCoeff of every block, by BlockPlace::number().
+  std::array<std::uint8_t, 24> total_coeff{};
+  /// Intra4x4PredMode of every luma block; DC in macroblocks of other types (8.3.1.1).
+  std::array<std::uint8_t, 16> pred_modes = {kDc, kDc, kDc, kDc, kDc, kDc, kDc, kDc,
+                                             kDc, kDc, kDc, kDc, kDc, kDc, kDc, kDc};
+};
+
+/// mbAddrB and mbAddrA (6.4.9); null at the edges of the picture.
+struct Neighbours {
+  const MacroblockState* above;
+  const MacroblockState* left;
+
+  /// The values of the blocks left of a block and above it (6.4.11.4); -1 outside the picture.
+  template <typename Values>
+  std::array<int, 2> values(Values MacroblockState::*values, const MacroblockState& own,
+                            BlockPlace place) const {
+    const auto [x, y, plane] = place;
+    const int last = place.row_length() - 1;
+    const auto value = [&](const MacroblockState* state, BlockPlace block) {
+      return state == nullptr ? -1 : int{(state->*values)[block.number()]};
+    };
+    return {x > 0 ? value(&own, {x - 1, y, plane}) : value(left, {last, y, plane}),
+            y > 0 ? value(&own, {x, y - 1, plane}) : value(above, {x, last, plane})};
+  }
+};
+
+/// nC of 9.2.1.
+inline int nc_of(const MacroblockState& own, const Neighbours& neighbours, BlockPlace place) {
+  const auto [a, b] = neighbours.values(&MacroblockState::total_coeff, own, place);
+  return a < 0 || b < 0 ? std::max({a, b, 0}) : (a + b + 1) / 2;
+}
+
+/// predIntra4x4PredMode of 8.3.1.1.
+inline int predicted_mode(const MacroblockState& own, const Neighbours& neighbours,
+                          BlockPlace place) {
+  const auto [a, b] = neighbours.values(&MacroblockState::pred_modes, own, place);
+  return a < 0 || b < 0 ? MacroblockState::kDc : std::min(a, b);
+}
 
 /// The place of luma4x4BlkIdx (6.4.3), which goes through the macroblock by quarters.
 constexpr BlockPlace luma_place(int index) {
@@ -27,7 +84,9 @@ class Residual {
   void code_luma(const Quantiser& quantiser, BlockPlace place, const Samples& source,
                  Samples& samples);
   /// The same for both chroma planes.
-  void code_chroma(const Quantiser& quantiser, const Samples& source, Samples& samples);
+  void code_chroma(const Quantiser& quantiser, const Samples& source, Samples& samples) {
+    for (int plane = 1; plane < 3; ++plane) code_chroma_plane(quantiser, plane, source, samples);
+  }
 
   /// As in MacroblockState.
   const std::array<std::uint8_t, 24>& total_coeff() const { return total_coeff_; }

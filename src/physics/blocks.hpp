@@ -1,11 +1,12 @@
-// What all engines do with blocks: round them, run them backwards, and check inputs and answers.
-// In: exact values. Out: doubles, problems, exceptions.
+// What all engines do with blocks, and the engines that go from collision to collision.
+// In: exact values. Out: doubles, problems, exceptions; logs that are held in memory.
 #pragma once
 
 #include <fmt/format.h>
 #include <piblocks/run.hpp>
 
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,7 +52,6 @@ class SceneProblems {
   void add(const char* key, fmt::format_string<const Args&...> reason, const Args&... args) {
     list_.push_back({key, fmt::format(reason, args...)});
   }
-  /// Adds a problem unless `holds`.
   template <typename... Args>
   void require(bool holds, const char* key, fmt::format_string<const Args&...> reason,
                const Args&... args) {
@@ -63,7 +63,6 @@ class SceneProblems {
   void require_finite(const char* key, const Rational& value) {
     require(is_finite(value), key, "is beyond the range of a double (about 1.8e308)");
   }
-
   bool empty() const { return list_.empty(); }
   std::vector<Problem> take() { return std::move(list_); }
 
@@ -81,5 +80,21 @@ void require_finite(const Time& time, const Motion& blue, const Motion& red, con
 /// Collisions that happen at the same time have no instant between them.
 /// @throws UsageError unless the collision is the last one at its time.
 void require_last(const Integer& index, const Integer& last_at_its_time);
+
+/// The event loop in exact rational arithmetic, for the few collisions of a light red block. Every
+/// answer is rounded once.
+/// @param system  with m_red <= m_blue, or at rest.
+std::unique_ptr<CollisionLog> make_exact_log(const BlockSystem& system);
+bool is_exact(const CollisionLog& log);
+
+/// Engine::events, which advances positions to the next collision of any pair, or
+/// Engine::velocities, a VelocityLoop, in double precision.
+/// @throws UsageError if the collisions are more than kMaxStoredCollisions.
+/// @throws SimulationError if a number leaves its range, or the rounding of double precision more
+///         than doubles the number of collisions.
+std::unique_ptr<CollisionLog> make_stored_log(const BlockSystem& system, Engine engine);
+
+/// Name and version of each library of numbers that is linked, such as "MPFR 4.2.0".
+std::vector<std::string> physics_library_versions();
 
 }  // namespace piblocks

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "physics/blocks.hpp"
-#include "physics/engines.hpp"
 
 namespace piblocks {
 namespace {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/two_sum.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -51,6 +53,22 @@ bool is_on_ray(const Integer& n, const Rational& x, const Rational& y, const Rat
 }
 
 }  // namespace
+
+Landmark::Landmark(const Asymptote& asymptote, int side)
+    : ray(asymptote.ray), beyond(asymptote.beyond.to_double_double()), sign(side) {}
+
+DoubleDouble Landmark::steps_from(const Integer& other) const {
+  constexpr long kNoOverflow = 1L << 62;
+  if (mpz_cmpabs_ui(ray.get_mpz_t(), kNoOverflow) < 0 &&
+      mpz_cmpabs_ui(other.get_mpz_t(), kNoOverflow) < 0) {  // a shortcut
+    const long steps = sign * (ray.get_si() - other.get_si());
+    const auto rounded = static_cast<double>(steps >> 11 << 11);
+    return two_sum(rounded, static_cast<double>(steps & 2047));
+  }
+  const Integer steps = sign > 0 ? Integer(ray - other) : Integer(other - ray);
+  if (const auto exact = exact_double(steps)) return {*exact, 0};
+  return to_time(Rational(steps));
+}
 
 ExactMotion::ExactMotion(const BlockSystem& system)
     : ratio(system.blue.mass / system.red.mass),
@@ -117,37 +135,36 @@ Wedge ExactMotion::wedge(mpfr_prec_t bits) const {
 }
 
 template <typename PhaseFunction>
-Bracket ExactMotion::bracket(const PhaseFunction& phase, const Rational& x, const Rational& y,
-                             mpfr_prec_t bits) const {
+TwoSided ExactMotion::two_sided(const PhaseFunction& phase, const Rational& x,
+                                const Rational& y) const {
   // Mirrored, phases fall.
   const auto mirrored = [&](const Real& s, const Real& theta) {
     return Real(s.bits(), 0) - phase(s, theta);
   };
-  Bracket result{split(phase, x, y, bits), split(mirrored, Rational(-x), y, bits)};
-  result.above.ray = -result.above.ray;
-  return result;
+  Asymptote above = split(mirrored, Rational(-x), y, kLandmark_bits);
+  above.ray = -above.ray;
+  return {{split(phase, x, y, kLandmark_bits), +1}, {above, -1}};
 }
 
-Bracket ExactMotion::turn(mpfr_prec_t bits) const {
+TwoSided ExactMotion::turn() const {
   const auto phase = [this](const Real& s, const Real& theta) {
     return final_phase(s, theta) - scaled(Real::pi(s.bits()), -1) / theta;
   };
   // At right angles to the line.
-  return bracket(phase, Rational(-u2), Rational(ratio * turned(u1)), bits);
+  return two_sided(phase, Rational(-u2), Rational(ratio * turned(u1)));
 }
 
-Bracket ExactMotion::start(mpfr_prec_t bits) const {
+TwoSided ExactMotion::start() const {
   const auto phase = [this](const Real& s, const Real& theta) {
     return atan2(s * Real(s.bits(), turned(y1)), Real(s.bits(), y2)) / theta;
   };
-  return bracket(phase, turned(y1), y2, bits);
+  return two_sided(phase, turned(y1), y2);
 }
 
 Integer ExactMotion::total(const Asymptote& future) const {
   // A ray that the line only reaches at infinity is not crossed.
   const Integer last = future.beyond.sign() == 0 ? Integer(future.ray - 1) : future.ray;
-  const Integer count = count_from_ray(last);
-  return count < 0 ? Integer(0) : count;
+  return std::max<Integer>(count_from_ray(last), 0);
 }
 
 Integer ExactMotion::total() const { return at_rest() ? Integer(0) : total(future(0)); }
@@ -173,8 +190,7 @@ Rational ExactMotion::rounded_crossing(const Integer& ray, mpfr_prec_t bits) con
   const Rational time = closest_approach + since_approach + margin.to_rational();
   // Up to the next multiple of 2^grid, which keeps the number short.
   const long grid = margin.exponent();
-  const Rational unit = grid < 0 ? Rational(1 / power(2, static_cast<unsigned long>(-grid)))
-                                 : power(2, static_cast<unsigned long>(grid));
+  const Rational unit = scaled(Real(64, 1), grid).to_rational();
   return Rational(ceil(time / unit)) * unit;
 }
 

@@ -25,11 +25,31 @@ struct Asymptote {
   Real beyond;  ///< how far its phase is past that ray, in [0, 1); 0 if the line is parallel to it
 };
 
-/// A direction between two rays, or on one, by its distances from both, which are 0 or positive.
-struct Bracket {
-  Asymptote below;  ///< the ray before it, and how far it is past that
-  Asymptote above;  ///< the ray after it, and how far it falls short of that
+/// A direction from which the rays on one side of it are counted: an end of time, the turn or the
+/// start. It is past `ray` if it lies ahead of those rays, and before it if it lies behind them.
+struct Landmark {
+  Integer ray;
+  DoubleDouble beyond;
+  int sign = 1;  ///< 1 ahead, as the infinite future, -1 behind, as the infinite past
+
+  Landmark() = default;
+  Landmark(const Asymptote& asymptote, int side);
+  /// Rays from `other` to `ray`: 0 or positive if it is crossed.
+  DoubleDouble steps_from(const Integer& other) const;
 };
+
+/// One direction as the landmark of the rays before it and of those after it.
+struct TwoSided {
+  Landmark ahead;
+  Landmark behind;
+
+  const Landmark& seen(bool from_later_rays) const { return from_later_rays ? behind : ahead; }
+};
+
+/// Precision at which an undecided count is given up.
+inline constexpr mpfr_prec_t kMaxDecisionBits = 1 << 22;
+/// Relative precision of what the doubles of the closed form are rounded from: two doubles'.
+inline constexpr mpfr_prec_t kLandmark_bits = 110;
 
 /// The wedge and both ends of the line in it, all to one precision.
 struct Wedge {
@@ -46,8 +66,7 @@ struct ExactMotion {
   Rational ratio;             ///< r = m_blue / m_red
   Rational y1, y2;            ///< gaps at time 0
   Rational u1, u2;            ///< their rates: the velocities of blue and red
-  Rational areal_velocity;    ///< L = y2 u1 - y1 u2: sigma L is twice the area that is swept in a
-                              ///< unit of time
+  Rational areal_velocity;    ///< L = y2 u1 - y1 u2; sigma L/2 is the area swept in a unit of time
   Rational speed_squared;     ///< |V|^2 = r u1^2 + u2^2
   Rational closest_approach;  ///< time at which the line is nearest to the corner
   bool blocks_first;          ///< turning from the blocks' ray on; otherwise mirrored, wall first
@@ -68,16 +87,12 @@ struct ExactMotion {
   /// All members with a relative error below 2^-bits, also Asymptote::beyond.
   /// @throws SimulationError as total().
   Wedge wedge(mpfr_prec_t bits) const;
-  /// The direction of the point nearest to the corner, as exact as wedge().
-  Bracket turn(mpfr_prec_t bits) const;
-  /// The direction of the point at time 0, as exact as wedge().
-  Bracket start(mpfr_prec_t bits) const;
-  /// Number of collisions at times >= 0, computed from the given future asymptote.
-  Integer total(const Asymptote& future) const;
-
+  TwoSided turn() const;   ///< the direction of the point nearest to the corner
+  TwoSided start() const;  ///< the direction of the point at time 0
   /// Number of collisions at times >= 0: rays crossed at finite times.
   /// @throws SimulationError if kMaxDecisionBits do not decide.
   Integer total() const;
+  Integer total(const Asymptote& future) const;
   /// Index of the first ray of all time, counted as by count_from_ray().
   Integer first_index(const Asymptote& past) const;
   /// A time at which this ray has been crossed and the next one has not, for a motion that is not
@@ -86,8 +101,7 @@ struct ExactMotion {
   /// pass the corner, and of the time between the crossing and closest_approach.
   /// @throws SimulationError as total().
   Rational time_past(const Integer& ray) const;
-  /// The phase at time t for a motion that is not through_corner().
-  /// @throws SimulationError as total().
+  /// For a motion that is not through_corner(). @throws SimulationError as total().
   Phase phase_at(const Rational& t) const;
 
  private:
@@ -104,19 +118,14 @@ struct ExactMotion {
   template <typename PhaseFunction>
   Asymptote split(const PhaseFunction& phase, const Rational& x, const Rational& y,
                   long relative_bits) const;
-  /// Split as by split().
   Asymptote future(long relative_bits) const;
-  /// Splits a phase from both sides. Parameters as those of split().
+  /// Parameters as those of split().
   template <typename PhaseFunction>
-  Bracket bracket(const PhaseFunction& phase, const Rational& x, const Rational& y,
-                  mpfr_prec_t bits) const;
+  TwoSided two_sided(const PhaseFunction& phase, const Rational& x, const Rational& y) const;
   /// When the line crosses the ray, rounded up by no more than 2^-bits of what time_past() says.
   Rational rounded_crossing(const Integer& ray, mpfr_prec_t bits) const;
   /// x of a point in the frame in which the phase grows.
   Rational turned(const Rational& x) const { return blocks_first ? x : Rational(-x); }
 };
-
-/// Precision at which an undecided count is given up.
-inline constexpr mpfr_prec_t kMaxDecisionBits = 1 << 22;
 
 }  // namespace piblocks

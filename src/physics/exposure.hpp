@@ -5,7 +5,6 @@
 #include <piblocks/run.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -18,7 +17,6 @@ struct Travel {
   double from = 0;
   double to = 0;
 
-  /// Widens a range by a piece of the way.
   void include(const Travel& piece);
   /// For even motion: the integral, up to `position`, of the share of its time that the block is
   /// below a position.
@@ -70,13 +68,12 @@ Exposure expose(const CollisionLog& log, const Rational& begin, const Rational& 
 /// Collects pieces from instant to instant.
 class PieceList {
  public:
-  /// The blocks are here now.
   PieceList(double blue, double red) : blue_(blue), red_(red) {}
-  /// `duration` later they are there, and have moved evenly.
+  /// `duration` later the blocks are there, and have moved evenly.
   void add(double duration, double blue, double red);
   /// Durations as shares of `total`.
   std::vector<UniformPiece> take(double total);
-  /// The exposure that consists of these pieces, at least one.
+  /// Of at least one piece.
   Exposure exposure();
 
  private:

@@ -30,7 +30,6 @@ std::optional<Impact> UnfoldedLog::impact(CollisionKind kind, const Integer& fir
   if (is_odd(from) != odd) ++from;
   if (is_odd(to) != odd) --to;
   if (from > to) return std::nullopt;
-
   const RayView seen = view_of(from, to);
   // The impulse of a collision in the middle, times sin(n theta)/sin theta (README.md, "Many
   // collisions as one").

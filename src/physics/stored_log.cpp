@@ -9,7 +9,6 @@
 
 #include "core/two_sum.hpp"
 #include "physics/blocks.hpp"
-#include "physics/engines.hpp"
 #include "physics/exact_motion.hpp"
 #include "physics/velocity_loop.hpp"
 
@@ -51,18 +50,13 @@ Simulator::Body wall_of(const BlockSystem& system) {
 
 Motion motion_of(const Simulator::Body& body) { return {body.position[0], body.velocity[0]}; }
 
-/// Whether the first collision happens exactly at time 0.
-bool is_contact_at_start(const ExactMotion& motion) {
-  return !motion.through_corner() &&
-         (motion.blocks_first ? motion.y1 == motion.y2 : motion.y1 == 0);
-}
-
 /// Records collisions, and stops an engine that finds many more than there are.
 class Recorder {
  public:
   Recorder(const char* engine, const ExactMotion& motion)
       : engine_(engine),
-        starts_in_contact_(is_contact_at_start(motion)),
+        starts_in_contact_(!motion.through_corner() &&
+                           (motion.blocks_first ? motion.y1 == motion.y2 : motion.y1 == 0)),
         collisions_(motion.total()),
         limit_(2 * collisions_.get_ui() + 100) {}
 
@@ -82,7 +76,7 @@ class Recorder {
 
  private:
   const char* engine_;
-  bool starts_in_contact_;
+  bool starts_in_contact_;  // the first collision happens exactly at time 0
   Integer collisions_;
   std::size_t limit_;
   StoredCollisions log_;
@@ -90,9 +84,7 @@ class Recorder {
 
 /// A power of two that makes the speed about 1: its square is then no danger.
 Rational unit_of_time(const ExactMotion& motion) {
-  const long exponent = sqrt(Real(64, motion.speed_squared)).exponent();
-  return exponent > 0 ? Rational(1 / power(2, static_cast<unsigned long>(exponent)))
-                      : power(2, static_cast<unsigned long>(-exponent));
+  return scaled(Real(64, 1), -sqrt(Real(64, motion.speed_squared)).exponent()).to_rational();
 }
 
 /// The article's event loop.
@@ -147,10 +139,6 @@ std::size_t count(const StoredCollisions& collisions, const Time& time, bool or_
   return static_cast<std::size_t>(next - collisions.begin());
 }
 
-Motion advanced(const Motion& motion, double duration) {
-  return {motion.position + motion.velocity * duration, motion.velocity};
-}
-
 /// What a loop recorded, forwards and backwards from time 0.
 class StoredLog final : public CollisionLog {
  public:
@@ -171,13 +159,13 @@ class StoredLog final : public CollisionLog {
   StoredCollisions backward_;
 };
 
-/// Before time 0 the velocities just after a collision are the opposite of those just before it in
-/// the reversed run.
 Collision StoredLog::collision(const Integer& index) const {
   if (index > 0) {
     const StoredCollision& c = forward_[index.get_ui() - 1];
     return {index, c.time, c.kind, c.blue, c.red};
   }
+  // The velocities just after this collision are the opposite of those just before it in the
+  // reversed run.
   const std::size_t place = Integer(-index).get_ui();
   const StoredCollision& c = backward_[place];
   const Motion blue = place == 0 ? motion_of(system().blue) : reversed(backward_[place - 1].blue);
@@ -207,15 +195,12 @@ BlockState StoredLog::state_at(const Rational& time) const {
     since = c.time;
     state = {Integer(happened), c.blue, c.red};
   } else if (const std::size_t to_come = count(backward_, negated(now), false); to_come > 0) {
-    // The velocities just before a collision are the opposite of those just after it in the
-    // reversed run.
     const StoredCollision& c = backward_[to_come - 1];
     since = negated(c.time);
     state = {-Integer(to_come), reversed(c.blue), reversed(c.red)};
   }
   const double age = (now.hi - since.hi) + (now.lo - since.lo);
-  state.blue = advanced(state.blue, age);
-  state.red = advanced(state.red, age);
+  for (Motion* const block : {&state.blue, &state.red}) block->position += block->velocity * age;
   require_finite(now, state.blue, state.red, "state");
   return state;
 }

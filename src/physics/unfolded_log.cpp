@@ -15,16 +15,17 @@ namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
 
-/// Half the sum.
-DoubleDouble mean(const DoubleDouble& a, const DoubleDouble& b) {
-  const DoubleDouble sum = two_sum(a.hi, b.hi);
-  return {sum.hi / 2, (sum.lo + a.lo + b.lo) / 2};
-}
+/// Largest |log2(m_red/m_blue)| for which positions can be computed: beyond it the wedge angle
+/// leaves the range of a double.
+constexpr long kMaxRatioExponent = 2000;
 
 /// Rays to a landmark from the direction half-way between two rays.
 DoubleDouble steps_from(const Landmark& landmark, const Integer& from, const Integer& to) {
-  const DoubleDouble steps = landmark.steps_from(from);
-  return from == to ? steps : mean(steps, landmark.steps_from(to));
+  const DoubleDouble a = landmark.steps_from(from);
+  if (from == to) return a;
+  const DoubleDouble b = landmark.steps_from(to);
+  const DoubleDouble sum = two_sum(a.hi, b.hi);
+  return {sum.hi / 2, (sum.lo + a.lo + b.lo) / 2};
 }
 
 ExactMotion checked(const BlockSystem& system) {
@@ -175,8 +176,11 @@ Collision UnfoldedLog::collision(const Integer& index) const {
   const Direction step{-sign * form_.step.sine, form_.step.cosine};
   const CollisionNumbers now =
       form_.collision(sign, seen.ray, odd ? seen.ray + step : seen.ray, form_.kind(odd));
+  const Time crossed = time(ray, ray, seen);
+  // Only rounding can carry a collision past time 0.
+  const bool is_wrong = index > 0 ? crossed.hi < 0 : crossed.hi > 0;
   Collision collision{index,
-                      time_within(index, contact_, time(ray, ray, seen)),
+                      is_wrong || contact_ == index ? Time{} : crossed,
                       odd ? CollisionKind::blocks : CollisionKind::wall,
                       {now.blue_position, now.blue_velocity},
                       {now.red_position, now.red_velocity}};

@@ -17,7 +17,7 @@ namespace piblocks {
 /// Doubles are enough for positions at any number of digits (README.md, "Why doubles are enough").
 class UnfoldedLog final : public CollisionLog {
  public:
-  /// @throws UsageError if the mass ratio is beyond 2^kMaxRatioExponent.
+  /// @throws UsageError if the mass ratio is beyond 2^2000.
   /// @throws SimulationError if the blocks pass the corner closer than a double can tell.
   explicit UnfoldedLog(const BlockSystem& system);
 
@@ -49,9 +49,8 @@ class UnfoldedLog final : public CollisionLog {
 
   /// Scaled time since closest approach, as near as double-doubles tell.
   double tau_near(const Time& t) const;
-  /// Scaled time since closest approach, rounded once. `t` is the time as a double-double.
+  /// The same, rounded once. `t` is the time as a double-double.
   double tau_at(const Rational& time, const Time& t) const;
-  /// @param t  the time, of which tau is taken
   LinePoint point_at(double tau, const Time& t) const;
   LinePoint point_at(const Rational& time) const {
     const Time rounded = to_time(time);
@@ -59,7 +58,6 @@ class UnfoldedLog final : public CollisionLog {
   }
   /// Computed exactly if the phase of the point is not decided.
   Phase phase_of(const LinePoint& point, const Rational& time) const;
-  /// @param at  the phase of the point at the time
   BlockState state_of(const LinePoint& point, const Phase& at, const Rational& time) const;
   Exposure expose_corner(const Rational& begin, const Rational& end) const;
   /// A ray as seen from the nearer end of time.

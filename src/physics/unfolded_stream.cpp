@@ -28,8 +28,8 @@ namespace {
 /// Rays that share one anchor.
 constexpr std::size_t kBlockRays = 64;
 
-/// Directions of up to kBlockRays rays, measured from the first or the last of them, and the other
-/// numbers that depend on their order alone, in columns.
+/// Directions of rays, measured from the first or the last of them, and the other numbers that
+/// depend on their order alone, in columns.
 struct RayTable {
   using Column = std::array<double, kBlockRays>;
 
@@ -111,9 +111,8 @@ std::size_t row_next_to(const Landmark& landmark, std::size_t count) {
   return landmark.sign < 0 ? 0 : count - 1;
 }
 
-/// The angle between a landmark and a ray.
-/// @param first_steps  from an earlier ray
-/// @param later        by so many rays
+/// The angle between a landmark and the ray that is `later` rays after another one.
+/// @param first_steps  from that other ray
 Direction direction_after(const ClosedForm& form, const Landmark& landmark,
                           const DoubleDouble& first_steps, std::size_t later) {
   DoubleDouble steps = two_sum(first_steps.hi, -landmark.sign * double(later));
@@ -134,7 +133,6 @@ constexpr auto kKinds = []() {
 /// additions without branches, so that the compiler makes vectors of them.
 class UnfoldedStream final : public CollisionStream {
  public:
-  /// Parameters as those of make_unfolded_stream().
   UnfoldedStream(const Unfolding& form, Integer first, Integer last, Integer index,
                  std::optional<Integer> contact)
       : form_(form),
@@ -167,8 +165,8 @@ class UnfoldedStream final : public CollisionStream {
   Integer index_;
   std::optional<Integer> contact_;
   Stretch stretch_;
-  Integer last_by_past_;                                   // later rays are nearer to the turn
-  Integer last_by_turn_;                                   // later rays are nearer to the future
+  Integer last_by_past_;                             // later rays are nearer to the turn
+  Integer last_by_turn_;                             // later rays are nearer to the future
   std::array<std::unique_ptr<RayTable>, 8> tables_;  // by the parameters of make_table()
 };
 
@@ -191,11 +189,9 @@ bool UnfoldedStream::read(CollisionBatch& batch) {
   batch.size = left > 0 ? left.get_ui() : 0;
   std::copy_n(kKinds.begin() + (is_odd(next_) ? 1 : 0), batch.size, batch.kind.begin());
   for (std::size_t row = 0; row < batch.size;) {
-    const auto done = static_cast<unsigned long>(row);
-    if (stretch_.end_sign == 0 || stretch_.last < next_ + done) {
-      stretch_ = stretch_from(next_ + done);
-    }
-    const Integer of_stretch = stretch_.last - next_ - done + 1;
+    const Integer ray = next_ + static_cast<unsigned long>(row);
+    if (stretch_.end_sign == 0 || stretch_.last < ray) stretch_ = stretch_from(ray);
+    const Integer of_stretch = stretch_.last - ray + 1;
     const std::size_t rest = batch.size - row;
     const std::size_t rows = of_stretch < rest ? of_stretch.get_ui() : rest;
     fill(row, rows, batch);
@@ -207,7 +203,7 @@ bool UnfoldedStream::read(CollisionBatch& batch) {
   return batch.size > 0;
 }
 
-/// time_within() for all rows, which are on one side of time 0.
+/// Only rounding can carry a collision past time 0. All rows are on one side of it.
 void UnfoldedStream::keep_within(CollisionBatch& batch) const {
   const double side = batch.first > 0 ? 1 : -1;
   for (std::size_t row = 0; row < batch.size; ++row) {

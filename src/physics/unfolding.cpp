@@ -14,19 +14,6 @@ namespace {
 /// precision.
 constexpr double kLeast = 0x1p-1010;
 
-DoubleDouble to_double_double(const Real& value) {
-  const double hi = value.to_double();
-  return {hi, (value - hi).to_double()};
-}
-
-Landmark to_landmark(const Asymptote& asymptote, int sign) {
-  return {asymptote.ray, to_double_double(asymptote.beyond), sign};
-}
-
-TwoSided to_two_sided(const Bracket& bracket) {
-  return {to_landmark(bracket.below, +1), to_landmark(bracket.above, -1)};
-}
-
 /// Exponent of a unit of time in which the line takes about 1 to pass ell, or to reach the corner,
 /// so that neither the parts of a double-double near the turn nor the time to the far ends leave a
 /// double's range.
@@ -41,27 +28,13 @@ long unit_exponent(const ExactMotion& exact, const Real& ell, const Real& speed)
 
 }  // namespace
 
-DoubleDouble Landmark::steps_from(const Integer& other) const {
-  constexpr long kNoOverflow = 1L << 62;
-  if (mpz_cmpabs_ui(ray.get_mpz_t(), kNoOverflow) < 0 &&
-      mpz_cmpabs_ui(other.get_mpz_t(), kNoOverflow) < 0) {  // a shortcut
-    const long steps = sign * (ray.get_si() - other.get_si());
-    const auto rounded = static_cast<double>(steps >> 11 << 11);
-    return two_sum(rounded, static_cast<double>(steps & 2047));
-  }
-  const Integer steps = sign > 0 ? Integer(ray - other) : Integer(other - ray);
-  if (const auto exact = exact_double(steps)) return {*exact, 0};
-  return to_time(Rational(steps));
-}
-
 Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact)
-    : turn(to_two_sided(exact.turn(kLandmark_bits))),
-      start(to_two_sided(exact.start(kLandmark_bits))) {
+    : turn(exact.turn()), start(exact.start()) {
   const Wedge wedge = exact.wedge(kLandmark_bits);
   first_index = exact.first_index(wedge.past);
   size = exact.total(wedge.future);
-  past = to_landmark(wedge.past, -1);
-  future = to_landmark(wedge.future, +1);
+  past = {wedge.past, -1};
+  future = {wedge.future, +1};
   const mpfr_prec_t bits = wedge.sigma.bits();
   const Real exact_speed = sqrt(Real(bits, exact.speed_squared));
   const Real exact_ell = Real(bits, abs(exact.areal_velocity)) / exact_speed;
@@ -69,7 +42,7 @@ Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact)
   const Real scaled_speed = scaled(exact_speed, exponent);
 
   sigma = wedge.sigma.to_double();
-  theta = to_double_double(wedge.theta);
+  theta = wedge.theta.to_double_double();
   const DoubleDouble rays = future.steps_from(past.ray);
   total_phase = rays.hi + (rays.lo + past.beyond.hi + future.beyond.hi);
   step = direction({1, 0}, {});

@@ -14,16 +14,9 @@
 
 namespace piblocks {
 
-/// Largest |log2(m_red/m_blue)| for which positions can be computed: beyond it the wedge angle
-/// leaves the range of a double.
-inline constexpr long kMaxRatioExponent = 2000;
-
 /// Stands for all greater distances along the line, in units of ell: the angle to the end of time
 /// is then far below anything that matters.
 inline constexpr double kFarAway = 0x1p1000;
-
-/// Relative precision of what the doubles of the closed form are rounded from: two doubles'.
-inline constexpr mpfr_prec_t kLandmark_bits = 110;
 
 inline bool is_odd(const Integer& ray) { return mpz_odd_p(ray.get_mpz_t()) != 0; }
 
@@ -32,25 +25,6 @@ inline Integer floor_mean(const Integer& a, const Integer& b) {
   mpz_fdiv_q_2exp(result.get_mpz_t(), Integer(a + b).get_mpz_t(), 1);
   return result;
 }
-
-/// A direction from which the rays on one side of it are counted: an end of time, the turn or the
-/// start. It is past `ray` if it lies ahead of those rays, and before it if it lies behind them.
-struct Landmark {
-  Integer ray;
-  DoubleDouble beyond;
-  int sign = 1;  ///< 1 ahead, as the infinite future, -1 behind, as the infinite past
-
-  /// Rays from `other` to `ray`: 0 or positive if it is crossed.
-  DoubleDouble steps_from(const Integer& other) const;
-};
-
-/// One direction as the landmark of the rays before it and of those after it.
-struct TwoSided {
-  Landmark ahead;
-  Landmark behind;
-
-  const Landmark& seen(bool from_later_rays) const { return from_later_rays ? behind : ahead; }
-};
 
 /// Sine and cosine of an angle.
 struct Direction {
@@ -65,7 +39,7 @@ struct Direction {
   }
 };
 
-/// What follows from the parity of a ray: on an even one blue meets the wall, on an odd one red.
+/// On an even ray blue meets the wall, on an odd one red.
 struct RayKind {
   double blue_reach;  ///< y1/R
   double red_reach;   ///< y2/R
@@ -142,7 +116,6 @@ struct ClosedForm {
                       1 - share * (closest_approach.hi / start_range));
   }
 
-  /// The collision on a ray.
   /// @param sign  of the end of time
   /// @param ray   direction of the ray, from that end
   /// @param even  direction of the next ray with an even index, from that end
@@ -160,21 +133,12 @@ struct ClosedForm {
   }
 };
 
-/// The time of a collision on the right side of time 0, past which only rounding can carry it.
-/// @param contact  index of the collision that happens exactly at time 0, if one does.
-inline Time time_within(const Integer& index, const std::optional<Integer>& contact,
-                        const Time& time) {
-  const bool is_wrong = index > 0 ? time.hi < 0 : time.hi > 0;
-  return is_wrong || (contact && index == *contact) ? Time{} : time;
-}
-
 struct Unfolding : ClosedForm {
   /// @throws SimulationError if ell, or the time it takes, is too small for a double, but not 0.
   Unfolding(const BlockSystem& system, const ExactMotion& exact);
 
-  /// Distance along the line from where it is nearest to the corner, in units of ell and
-  /// at most kFarAway, for a line that is not through the corner. @param tau  scaled time since
-  /// then
+  /// Distance along the line since closest approach, in units of ell and at most kFarAway, for a
+  /// line that is not through the corner. @param tau  scaled time since then
   double ahead(double tau) const;
 
   /// Whether a ray is nearer to the future than to the past.
@@ -184,7 +148,6 @@ struct Unfolding : ClosedForm {
     return near_start != NearStart::none && (ray <= half_way) == (near_start == NearStart::until);
   }
   const Landmark& end_near(bool late) const { return late ? future : past; }
-
   Integer first_index;  ///< as CollisionLog has them
   Integer size;
   Landmark past;
@@ -199,7 +162,7 @@ struct Unfolding : ClosedForm {
 /// The closed form as a bulk producer.
 /// @param first, last  rays, in the order of time.
 /// @param index        of the collision on `first`
-/// @param contact      as in time_within()
+/// @param contact      index of the collision that happens exactly at time 0, if one does.
 std::unique_ptr<CollisionStream> make_unfolded_stream(const Unfolding& form, Integer first,
                                                       Integer last, Integer index,
                                                       std::optional<Integer> contact);

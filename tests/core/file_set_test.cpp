@@ -1,5 +1,5 @@
 // Files that take their names together.
-#include "core/file_set.hpp"
+#include "core/output_file.hpp"
 
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>

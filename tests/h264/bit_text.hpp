@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "h264/bit_writer.hpp"
+#include "h264/bit_stream.hpp"
 
 namespace piblocks::h264 {
 

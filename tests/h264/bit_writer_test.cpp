@@ -1,10 +1,9 @@
 // Codes of numbers, against the examples of ITU-T H.264, tables 9-1 to 9-3.
-#include "h264/bit_writer.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "h264/bit_stream.hpp"
 #include "h264/bit_text.hpp"
 
 namespace piblocks::h264 {

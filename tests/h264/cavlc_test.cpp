@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "h264/bit_text.hpp"
-#include "h264/cavlc_tables.hpp"
 #include "support/property.hpp"
 
 namespace piblocks::h264 {

@@ -1,6 +1,6 @@
-#include "h264/level_limits.hpp"
-
 #include <gtest/gtest.h>
+
+#include "h264/parameter_sets.hpp"
 
 namespace piblocks::h264 {
 namespace {

@@ -1,11 +1,10 @@
-#include "h264/macroblock_set.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 #include <vector>
 
+#include "h264/picture.hpp"
 #include "support/property.hpp"
 
 namespace piblocks::h264 {

@@ -1,11 +1,10 @@
 // nC and predicted modes, against those found in a whole picture.
-#include "h264/macroblock_state.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
 
+#include "h264/residual.hpp"
 #include "support/property.hpp"
 
 namespace piblocks::h264 {

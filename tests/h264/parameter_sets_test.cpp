@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "h264/bit_reader.hpp"
-#include "h264/bit_writer.hpp"
+#include "h264/bit_stream.hpp"
 #include "h264/nal_unit.hpp"
 #include "h264/refused_stream.hpp"
 #include "support/property.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "h264/bit_reader.hpp"
+#include "h264/bit_stream.hpp"
 #include "h264/nal_unit.hpp"
 #include "h264/random_pictures.hpp"
 #include "h264/stream_fixture.hpp"

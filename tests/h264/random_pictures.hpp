@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "h264/macroblock_set.hpp"
 #include "h264/picture.hpp"
 
 namespace piblocks::h264 {

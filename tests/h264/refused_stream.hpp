@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "h264/error.hpp"
+#include "h264/bit_stream.hpp"
 #include "h264/parameter_sets.hpp"
 
 namespace piblocks::h264 {

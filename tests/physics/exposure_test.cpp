@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "physics/exposure.hpp"
 #include "support/exposure_sums.hpp"
 #include "support/property.hpp"
 

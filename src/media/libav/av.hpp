@@ -7,7 +7,6 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
-#include <vector>
 
 extern "C" {
 #include <libavcodec/avcodec.h>

@@ -7,7 +7,6 @@
 #include <piblocks/version.hpp>
 
 #include <filesystem>
-#include <memory>
 #include <string_view>
 
 namespace piblocks {

@@ -5,7 +5,6 @@
 
 #include <piblocks/encode.hpp>
 
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <stop_token>
@@ -52,6 +51,8 @@ std::unique_ptr<FrameReader> read_video(const std::string& path, const std::stop
 /// 32 hexadecimal digits that tell pictures apart, the same on every machine. No protection against
 /// forgery.
 std::string hash_of_bytes(ByteSpan bytes);
+
+// The module's own functions, behind those above. Only the module and tests link them.
 
 /// read_video()
 std::unique_ptr<FrameReader> decode_video_file(const std::string& path,

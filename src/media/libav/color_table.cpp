@@ -24,12 +24,12 @@ void ColorTable::clear() {
   last_ = nullptr;
 }
 
-void ColorTable::count(std::uint32_t color) {
+std::int64_t& ColorTable::entry(std::uint32_t color) {
   if (last_ == nullptr || color != last_color_) {
     last_ = &counts_[color];
     last_color_ = color;
   }
-  ++*last_;
+  return *last_;
 }
 
 void ColorTable::choose(std::size_t room) {
@@ -49,14 +49,6 @@ void ColorTable::choose(std::size_t room) {
         });
     place = nearest - colors_.begin();
   }
-}
-
-std::uint8_t ColorTable::index_of(std::uint32_t color) {
-  if (color != last_color_ || last_ == nullptr) {
-    last_ = &counts_.at(color);
-    last_color_ = color;
-  }
-  return std::uint8_t(*last_);
 }
 
 }  // namespace piblocks

@@ -12,18 +12,19 @@ namespace piblocks {
 /// Counts colours, then numbers them. A colour is a word 0x00RRGGBB.
 class ColorTable {
  public:
-  /// Forgets all colours.
   void clear();
-  void count(std::uint32_t color);
+  void count(std::uint32_t color) { ++entry(color); }
   /// Keeps all colours, or the most frequent if there are more than `room`: those of flat shapes
   /// rather than of smoothed edges. The choice depends on the counts alone.
   void choose(std::size_t room);
 
   const std::vector<std::uint32_t>& colors() const noexcept { return colors_; }
   /// The place in colors() of a counted colour, or of the nearest colour that is kept.
-  std::uint8_t index_of(std::uint32_t color);
+  std::uint8_t index_of(std::uint32_t color) { return std::uint8_t(entry(color)); }
 
  private:
+  std::int64_t& entry(std::uint32_t color);
+
   std::unordered_map<std::uint32_t, std::int64_t> counts_;  // then places
   std::vector<std::uint32_t> colors_;
   // The last colour that was looked up: most pixels have the colour of their neighbour.

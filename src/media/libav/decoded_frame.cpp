@@ -4,10 +4,7 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
-
-#include "media/pixels/frame_reader.hpp"
 
 extern "C" {
 #include <libavutil/imgutils.h>

@@ -1,12 +1,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <utility>
 
 #include "media/libav/av.hpp"
 #include "media/libav/av_module.hpp"
 #include "media/output/output_kinds.hpp"
-#include "media/output/simple_output.hpp"
 #include "media/pixels/rgb24.hpp"
 
 namespace piblocks {

@@ -1,20 +1,14 @@
 // GIF 89a by giflib: of each frame what changes, with colours of its own.
 #include <fmt/format.h>
 #include <gif_lib.h>
-#include <piblocks/error.hpp>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "media/libav/av.hpp"
 #include "media/libav/color_table.hpp"
 #include "media/output/output_kinds.hpp"
-#include "media/output/simple_output.hpp"
 #include "media/pixels/changed_picture.hpp"
 
 namespace piblocks {

@@ -5,29 +5,25 @@
 #include <iterator>
 #include <utility>
 
-#include "h264/macroblock_set.hpp"
-
 namespace piblocks {
 namespace {
 
-/// Repeats the last column and the last row of a plane up to whole macroblocks, since that costs
+/// Repeats the last column and the last row of each plane up to whole macroblocks, since that costs
 /// the fewest bits.
-void extend(const PlaneView<std::uint8_t>& plane, int width, int height, int whole_height) {
-  const auto rest = std::size_t(plane.stride_bytes - width);
-  for (int y = 0; y < height && rest > 0; ++y) {
-    std::uint8_t* const end = plane.row(y) + width;
-    std::memset(end, end[-1], rest);
-  }
-  for (int y = height; y < whole_height; ++y) {
-    std::memcpy(plane.row(y), plane.row(height - 1), std::size_t(plane.stride_bytes));
-  }
-}
-
 void extend(h264::Picture& picture, const VideoFormat& format) {
-  const auto [y, cb, cr, alpha] = view_of(picture);
-  extend(y, format.width_px, format.height_px, 16 * picture.height_mb());
-  for (const auto& plane : {cb, cr}) {
-    extend(plane, format.width_px / 2, format.height_px / 2, 8 * picture.height_mb());
+  for (int plane = 0; plane < 3; ++plane) {
+    const int shared = plane == 0 ? 1 : 2;  // columns, and rows, of pixels of a sample
+    const PlaneView<std::uint8_t> view = {picture.plane(plane), picture.stride_bytes(plane)};
+    const int width = format.width_px / shared;
+    const int height = format.height_px / shared;
+    const auto rest = std::size_t(view.stride_bytes - width);
+    for (int y = 0; y < height && rest > 0; ++y) {
+      std::uint8_t* const end = view.row(y) + width;
+      std::memset(end, end[-1], rest);
+    }
+    for (int y = height; y < 16 / shared * picture.height_mb(); ++y) {
+      std::memcpy(view.row(y), view.row(height - 1), std::size_t(view.stride_bytes));
+    }
   }
 }
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "h264/level_limits.hpp"
+#include "h264/parameter_sets.hpp"
 #include "media/libav/encoder_setup.hpp"
 
 namespace piblocks {

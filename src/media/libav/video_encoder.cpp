@@ -102,12 +102,10 @@ class LibavChunkEncoder final : public ChunkEncoder {
     check_av(av_frame_make_writable(picture_.get()), "refill", "picture");
     for (const PixelRect& rect : rects) convert_rect(frame, rect, *picture_);
   }
+  /// Gives a picture, or null for the end, to the encoder, and takes its packets.
   void send(const AVFrame* picture) {
     check_av(avcodec_send_frame(context_.get(), picture), "encode a frame with",
              context_->codec->name);
-    take_packets();
-  }
-  void take_packets() {
     while (true) {
       const int code = avcodec_receive_packet(context_.get(), packet_.get());
       if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return;

@@ -6,13 +6,9 @@
 #include <algorithm>
 #include <new>
 #include <optional>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include "core/output_file.hpp"
-#include "media/libav/sound_stream.hpp"
-#include "media/libav/video_encoder.hpp"
 #include "media/output/output_kinds.hpp"
 
 extern "C" {

@@ -1,15 +1,10 @@
 #include <fmt/format.h>
-#include <piblocks/error.hpp>
 
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "h264/error.hpp"
+#include "h264/bit_stream.hpp"
 #include "media/libav/h264_chunk.hpp"
 #include "media/libav/video_encoder.hpp"
 #include "media/libav/video_file.hpp"
@@ -63,7 +58,7 @@ std::optional<h264::ParameterSets> sets_for_damage(const VideoEncoder& encoder,
   }
 }
 
-/// The encoders of a file.
+/// The encoders of a file. The functions of an output share them.
 struct Encoders {
   Encoders(const OutputRequest& request, const Container& container, EncoderSetup setup)
       : pictures(request.format, std::move(setup)) {
@@ -74,7 +69,6 @@ struct Encoders {
   std::optional<SoundEncoder> sound;
 };
 
-/// The functions of an output share its encoders.
 Output encoded_output(const OutputRequest& request, const Container& container,
                       const std::shared_ptr<const Encoders>& encoders) {
   const auto& [pictures, sound] = *encoders;

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "media/libav/encoder_setup.hpp"

@@ -4,7 +4,6 @@
 #include <piblocks/error.hpp>
 
 #include <charconv>
-#include <optional>
 
 namespace piblocks {
 namespace {

@@ -1,14 +1,18 @@
-// The functions that set up each kind of output, and what several of them check.
+// The kinds of output: the functions that set them up, and what several of them share.
 // In: a request whose name the kind matches. Out: the output, set up but not opened.
 #pragma once
 
 #include <piblocks/error.hpp>
 
+#include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/output_file.hpp"
 #include "media/output/output.hpp"
 
 namespace piblocks {
@@ -41,26 +45,67 @@ class Problems {
 /// @param what  what needs it, such as "H.264 in 4:2:0".
 std::string odd_size_problem(const VideoFormat& format, const std::string& what);
 
-// All throw UsageError if the kind cannot hold the format or does not take a setting.
+/// Makes one packet of each frame.
+class PacketPerFrameEncoder : public ChunkEncoder {
+ public:
+  using ChunkEncoder::ChunkEncoder;
+  void begin(std::int64_t first_frame) final { next_frame_ = first_frame; }
+  void encode() final;
+  EncodedChunk finish() final { return std::exchange(chunk_, {}); }
 
-/// H.264 in MP4: BT.709 in limited range, converted and tagged.
+ private:
+  /// The bytes of a picture.
+  /// @param number    of the frame, from 0.
+  /// @param is_first  whether its chunk begins with it: it must not depend on those before it.
+  virtual Bytes encode_picture(std::int64_t number, bool is_first) = 0;
+
+  std::int64_t next_frame_ = 0;
+  EncodedChunk chunk_;
+};
+
+/// The bytes of all packets, in one file or on standard output.
+class StreamSink final : public FrameSink {
+ public:
+  /// Writes the end of a file of so many frames.
+  using WriteTrailer = std::function<void(OutputFile& file, std::int64_t frames)>;
+
+  /// @throws UsageError if the file cannot be opened.
+  explicit StreamSink(const std::string& name, WriteTrailer write_trailer = {})
+      : file_(name), write_trailer_(std::move(write_trailer)) {}
+
+  void append(const EncodedChunk& chunk) override;
+  void finish() override;
+
+ private:
+  FrameCounter counter_;
+  OutputFile file_;
+  WriteTrailer write_trailer_;
+};
+
+/// An output whose Encoder is made from the format, into a StreamSink.
+template <typename Encoder>
+Output stream_output(const OutputRequest& request, std::int64_t frames_per_chunk,
+                     const std::string& signature,
+                     const StreamSink::WriteTrailer& write_trailer = {}) {
+  return {.frames_per_chunk = frames_per_chunk,
+          .signature = signature,
+          .make_encoder = [format = request.format] { return std::make_unique<Encoder>(format); },
+          .open = [name = request.name,
+                   write_trailer] { return std::make_unique<StreamSink>(name, write_trailer); }};
+}
+
+// All throw UsageError if the kind cannot hold the format or does not take a setting.
+// src/media/README.md says what each kind holds.
 Output mp4_output(const OutputRequest& request);
-/// The same in MOV; or ProRes 4444 with 10 bits and alpha, colours not multiplied by alpha.
 Output mov_output(const OutputRequest& request);
-/// VP9 or AV1 in WebM; VP9 with alpha if the frames have it.
 Output webm_output(const OutputRequest& request);
-/// GIF, at most 50 frames/s: only what changes, with colours of its own for every frame.
 Output gif_output(const OutputRequest& request);
-/// Animated PNG: only what changes, exact, with alpha if the frames have it.
 Output apng_output(const OutputRequest& request);
-/// One PNG file a frame, numbered from 1. The files take their names together, in finish().
 Output png_output(const OutputRequest& request);
-/// Uncompressed 4:2:0 video for other programs (YUV4MPEG2): BT.709 in limited range.
 Output y4m_output(const OutputRequest& request);
-/// A line of text a frame with the hash of its RGB bytes, as FFmpeg's framehash muxer writes it for
-/// rawvideo rgb24 (rgba, if the frames have alpha), but without its #software line.
+/// As FFmpeg's framehash muxer writes rawvideo rgb24 (rgba, if the frames have alpha), but without
+/// its #software line.
 Output framehash_output(const OutputRequest& request);
-/// Sound alone, uncompressed: 24 bits.
 Output wav_output(const OutputRequest& request);
 /// Takes frames and keeps nothing: what rendering costs without an output.
 Output null_output(const OutputRequest& request);

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "core/descriptor.hpp"
 #include "core/output_file.hpp"

@@ -1,7 +1,6 @@
 #include "media/pixels/frame_reader.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <utility>
 #include <vector>
 

@@ -1,13 +1,7 @@
 // Animated PNG: https://wiki.mozilla.org/APNG_Specification, since 2025 part of PNG itself.
 #include <fmt/format.h>
-#include <piblocks/error.hpp>
-
-#include <cstdint>
-#include <memory>
-#include <string>
 
 #include "media/output/output_kinds.hpp"
-#include "media/output/simple_output.hpp"
 #include "media/pixels/changed_picture.hpp"
 #include "media/pixels/rgb24.hpp"
 #include "media/png/png_chunk.hpp"

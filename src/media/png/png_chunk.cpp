@@ -1,7 +1,6 @@
 #include "media/png/png_chunk.hpp"
 
 #include <piblocks/error.hpp>
-#include <zlib.h>
 
 namespace piblocks {
 

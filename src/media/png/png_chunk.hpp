@@ -5,7 +5,6 @@
 #include <zlib.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <string_view>

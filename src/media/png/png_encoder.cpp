@@ -6,15 +6,11 @@
 #include <cstring>
 #include <filesystem>
 #include <span>
-#include <string>
 #include <system_error>
-#include <utility>
-#include <vector>
 
-#include "core/file_set.hpp"
+#include "core/output_file.hpp"
 #include "media/output/frame_pattern.hpp"
 #include "media/output/output_kinds.hpp"
-#include "media/output/simple_output.hpp"
 #include "media/pixels/rgb24.hpp"
 #include "media/png/png_chunk.hpp"
 

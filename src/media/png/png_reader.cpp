@@ -39,33 +39,32 @@ FilePtr open_file(const fs::path& path) {
   return file;
 }
 
-/// libpng's objects. A base, since it is destroyed even if a constructor throws.
 struct PngStructs {
-  png_structp png_ = nullptr;
-  png_infop info_ = nullptr;
+  png_structp png = nullptr;
+  png_infop info = nullptr;
 
   PngStructs() = default;
   PngStructs(const PngStructs&) = delete;
   PngStructs& operator=(const PngStructs&) = delete;
-  ~PngStructs() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  ~PngStructs() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
 /// libpng reports an error by a jump, which runs no destructors. Every call that may fail is made
 /// in a step without local objects; members own everything.
-class PngFile : private PngStructs {
+class PngFile {
  public:
   explicit PngFile(fs::path path) : path_(std::move(path)), file_(open_file(path_)) {
-    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
-    if (png_ != nullptr) info_ = png_create_info_struct(png_);
-    if (info_ == nullptr) throw std::bad_alloc();
+    structs_.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
+    if (structs_.png != nullptr) structs_.info = png_create_info_struct(structs_.png);
+    if (structs_.info == nullptr) throw std::bad_alloc();
     run(&PngFile::read_header);
     check_size();
   }
 
-  bool is_deep() const { return png_get_bit_depth(png_, info_) == 16; }
+  bool is_deep() const { return png_get_bit_depth(structs_.png, structs_.info) == 16; }
   bool is_animated() const {
     png_unknown_chunkp chunks = nullptr;
-    const int count = png_get_unknown_chunks(png_, info_, &chunks);
+    const int count = png_get_unknown_chunks(structs_.png, structs_.info, &chunks);
     return std::any_of(chunks, chunks + count, [](const png_unknown_chunk& chunk) {
       // The number of frames comes first.
       return std::memcmp(chunk.name, "acTL", 4) == 0 && chunk.size >= 4 &&
@@ -89,49 +88,49 @@ class PngFile : private PngStructs {
   }
   static void on_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
-  int width() const { return int(png_get_image_width(png_, info_)); }
-  int height() const { return int(png_get_image_height(png_, info_)); }
+  int width() const { return int(png_get_image_width(structs_.png, structs_.info)); }
+  int height() const { return int(png_get_image_height(structs_.png, structs_.info)); }
   void run(Step step) {
     // NOLINTNEXTLINE(cert-err52-cpp): libpng offers nothing else
-    if (setjmp(png_jmpbuf(png_)) == 0) {
+    if (setjmp(png_jmpbuf(structs_.png)) == 0) {
       (this->*step)();
       return;
     }
     fail(message_.data());
   }
   void read_header() {
-    png_init_io(png_, file_.get());
+    png_init_io(structs_.png, file_.get());
     // tRNS is no critical chunk, but pixels depend on it.
-    png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
-    png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_ALWAYS,
+    png_set_crc_action(structs_.png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
+    png_set_keep_unknown_chunks(structs_.png, PNG_HANDLE_CHUNK_ALWAYS,
                                 reinterpret_cast<png_const_bytep>("acTL"), 1);
-    png_read_info(png_, info_);
+    png_read_info(structs_.png, structs_.info);
   }
   void check_size() const {
-    const std::int64_t width = png_get_image_width(png_, info_);
-    const std::int64_t height = png_get_image_height(png_, info_);
+    const std::int64_t width = png_get_image_width(structs_.png, structs_.info);
+    const std::int64_t height = png_get_image_height(structs_.png, structs_.info);
     if (width > kMaxSide_px || height > kMaxSide_px || width * height > kMaxFrame_px) {
       fail(fmt::format("{}x{} is too large", width, height));
     }
   }
   /// Samples in the order of words 0xAARRGGBB on a little-endian machine.
   void read_rows() {
-    if (is_flat_) png_set_scale_16(png_);
-    png_set_expand(png_);  // palettes, greys of less than 8 bits, tRNS
-    png_set_gray_to_rgb(png_);
+    if (is_flat_) png_set_scale_16(structs_.png);
+    png_set_expand(structs_.png);  // palettes, greys of less than 8 bits, tRNS
+    png_set_gray_to_rgb(structs_.png);
     constexpr png_uint_32 kOpaque = 0xffff;
-    png_set_add_alpha(png_, kOpaque, PNG_FILLER_AFTER);
-    png_set_bgr(png_);
-    png_set_swap(png_);
-    const int passes = png_set_interlace_handling(png_);
-    png_read_update_info(png_, info_);
-    const png_uint_32 height = png_get_image_height(png_, info_);
+    png_set_add_alpha(structs_.png, kOpaque, PNG_FILLER_AFTER);
+    png_set_bgr(structs_.png);
+    png_set_swap(structs_.png);
+    const int passes = png_set_interlace_handling(structs_.png);
+    png_read_update_info(structs_.png, structs_.info);
+    const png_uint_32 height = png_get_image_height(structs_.png, structs_.info);
     for (int pass = 0; pass < passes; ++pass) {
       for (png_uint_32 y = 0; y < height; ++y) {
-        png_read_row(png_, rows_ + y * row_bytes_, nullptr);
+        png_read_row(structs_.png, rows_ + y * row_bytes_, nullptr);
       }
     }
-    png_read_end(png_, nullptr);
+    png_read_end(structs_.png, nullptr);
   }
   [[noreturn]] void fail(const std::string& reason) const {
     if (std::ferror(file_.get()) != 0) {
@@ -151,6 +150,7 @@ class PngFile : private PngStructs {
 
   fs::path path_;
   FilePtr file_;
+  PngStructs structs_;
   std::array<char, 128> message_{};
   // Where read_rows() puts the rows.
   png_bytep rows_ = nullptr;
