@@ -1,5 +1,6 @@
 #include <piblocks/compare.hpp>
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace piblocks::cli {
 namespace {
 
 constexpr int kMaxLines = 20;
+
+/// By Verdict.
+constexpr std::array kVerdicts = {"equal", "equal within tolerance", "different", "not comparable"};
 
 Rational parse_delta(const std::string& text) {
   Rational delta = parse_rational(text);
@@ -102,22 +106,9 @@ class Printer {
     const std::string beyond = result.different_frames == result.refused_frames
                                    ? ""
                                    : fmt::format(", {} beyond tolerance", result.refused_frames);
-    out_.format_line("{}: {} of {} frames differ{}", verdict(result.verdict),
+    out_.format_line("{}: {} of {} frames differ{}",
+                     kVerdicts.at(static_cast<std::size_t>(result.verdict)),
                      result.different_frames, result.frames, beyond);
-  }
-
-  static const char* verdict(Verdict verdict) {
-    switch (verdict) {
-      case Verdict::equal:
-        return "equal";
-      case Verdict::accepted:
-        return "equal within tolerance";
-      case Verdict::different:
-        return "different";
-      case Verdict::mismatch:
-        return "not comparable";
-    }
-    return "";
   }
 
   bool quiet_;

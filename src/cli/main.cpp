@@ -26,10 +26,8 @@ int fail(std::string_view message, int exit_code) {
   return exit_code;
 }
 
-int fail_by_interruption() { return fail("interrupted", kFailed); }
-
 int fail(const piblocks::UsageError& error) {
-  if (piblocks::cli::stop_was_requested()) return fail_by_interruption();
+  if (piblocks::cli::stop_was_requested()) return fail("interrupted", kFailed);
   for (const std::string& problem : error.problems()) fail(problem, kWrongUsage);
   return kWrongUsage;
 }
@@ -38,7 +36,7 @@ int fail(const std::exception& error, int exit_code) {
   // A call that was broken off fails for a reason that nobody needs to know.
   const bool is_broken_off = piblocks::cli::stop_was_requested() &&
                              dynamic_cast<const piblocks::Interrupted*>(&error) == nullptr;
-  return is_broken_off ? fail_by_interruption() : fail(error.what(), exit_code);
+  return is_broken_off ? fail("interrupted", kFailed) : fail(error.what(), exit_code);
 }
 
 /// GMP cannot pass an exception on: the process ends here.

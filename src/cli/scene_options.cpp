@@ -43,12 +43,12 @@ SceneOptions::SceneOptions(const Command& command) : command_(command) {
 
 void SceneOptions::add_key(const std::string& key, const std::string& option,
                            const std::string& placeholder, const std::string& help) {
-  values_.push_back({key, option});
+  keys_.push_back({key, option});
   command_.add_value(option, placeholder, help);
 }
 
 void SceneOptions::add_flag(const Key& flag, const std::string& help) {
-  flags_.push_back(flag);
+  keys_.push_back(flag);
   command_.add_flag(flag.option, help);
 }
 
@@ -130,11 +130,9 @@ Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
   ScriptBuilder builder;
   if (const auto file = command_.text(kFile)) builder.read_file(*file);
   for (const auto& [key, text] : defaults) builder.set(origin, key, text);
-  for (const auto& [key, option, value] : values_) {
-    if (const auto text = command_.text(option)) builder.set(option, key, *text);
-  }
-  for (const auto& [key, option, value] : flags_) {
-    if (command_.is_given(option)) builder.set(option, key, *value);
+  for (const auto& [key, option, value] : keys_) {
+    if (command_.is_given(option))
+      builder.set(option, key, value ? *value : *command_.text(option));
   }
   Script made = builder.build();
   OverwriteCheck check;

@@ -46,7 +46,6 @@ class SceneOptions {
  public:
   /// Adds [SCENE.toml], --digits and --mass-ratio.
   explicit SceneOptions(const Command& command);
-  /// Adds --size.
   void add_size();
   /// Adds --size, --transparent and --opaque.
   void add_picture();
@@ -58,7 +57,6 @@ class SceneOptions {
   void add_span();
   /// Adds --from, --to and what else says how time runs in the video.
   void add_timing();
-  /// Adds --sound and --no-sound.
   void add_sound();
 
   /// @throws SceneError, UsageError; also if the file is a storyboard.
@@ -88,8 +86,7 @@ class SceneOptions {
   void refuse_both(const std::string& first, const std::string& second, const char* what) const;
 
   Command command_;
-  std::vector<Key> values_;
-  std::vector<Key> flags_;
+  std::vector<Key> keys_;
 };
 
 /// Adds --engine.

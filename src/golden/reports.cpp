@@ -2,15 +2,105 @@
 
 #include <fmt/format.h>
 #include <piblocks/encode.hpp>
+#include <piblocks/error.hpp>
 
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <set>
 #include <string_view>
+#include <system_error>
+#include <utility>
 
 #include "core/output_file.hpp"
 #include "core/text.hpp"
 #include "golden/report_source.hpp"
+#include "media/output/frame_pattern.hpp"
+#include "media/png/png_chunk.hpp"
 
 namespace piblocks {
+namespace fs = std::filesystem;
 namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr int kMaxDiffPictures = 100;
+constexpr const char* kPattern = "%06d.png";
+
+/// The offset of the first chunk after IHDR.
+constexpr std::size_t kMark_at = 33;
+
+/// The chunk that tells pictures of this kind from other PNG files.
+Bytes mark() {
+  constexpr std::string_view kText("Software\0piblocks compare --diff", 32);
+  Bytes chunk;
+  const std::size_t start = begin_png_chunk(chunk, "tEXt");
+  chunk.insert(chunk.end(), kText.begin(), kText.end());
+  end_png_chunk(chunk, start);
+  return chunk;
+}
+
+Bytes encode_with_mark(const Image& picture) {
+  Bytes bytes = encode_png(picture.view());
+  const Bytes chunk = mark();
+  bytes.insert(bytes.begin() + kMark_at, chunk.begin(), chunk.end());
+  return bytes;
+}
+
+/// Whether a comparison has written this file.
+bool has_mark(const fs::path& path) {
+  std::error_code none;
+  if (!fs::is_regular_file(fs::symlink_status(path, none))) return false;
+  const Bytes expected = mark();
+  std::string found(expected.size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(kMark_at);
+  file.read(found.data(), static_cast<std::streamsize>(found.size()));
+  return file && std::ranges::equal(found, expected, [](char a, std::uint8_t b) {
+           return static_cast<std::uint8_t>(a) == b;
+         });
+}
+
+class DiffFolder final : public Report {
+ public:
+  explicit DiffFolder(const std::string& folder)
+      : folder_(folder), files_(folder_, "differences"), pattern_(kPattern) {}
+
+  void add(const FrameComparison& frame) override;
+  void finish(const ComparisonJob& job, const ComparisonResult& result) override;
+
+ private:
+  fs::path folder_;
+  FileSet files_;
+  FramePattern pattern_;
+  std::set<std::string> names_;  // of the pictures
+};
+
+void DiffFolder::add(const FrameComparison& frame) {
+  if (frame.is_accepted || !frame.difference || names_.size() == kMaxDiffPictures) return;
+  const std::string name = pattern_.name(frame.number);
+  const fs::path path = folder_ / name;
+  std::error_code none;
+  if (fs::exists(fs::symlink_status(path, none)) && !has_mark(path)) {
+    throw UsageError(fmt::format("diff: '{}' is not from an earlier comparison; use another folder",
+                                 path.string()));
+  }
+  const Image strip = difference_strip(frame.reference(), frame.deltas(), frame.actual(),
+                                       frame.difference->densest);
+  files_.add(name, encode_with_mark(strip));
+  names_.insert(name);
+}
+
+void DiffFolder::finish(const ComparisonJob& /*job*/, const ComparisonResult& /*result*/) {
+  std::error_code error;
+  for (fs::directory_iterator at(folder_, error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename();
+    const bool is_old = pattern_.number_of(name) && !names_.contains(name) && has_mark(at->path());
+    if (is_old) files_.remove(name);
+  }
+  files_.commit();
+}
 
 constexpr int kMaxPictures = 40;
 
@@ -132,6 +222,14 @@ class JunitReport final : public Report {
 };
 
 }  // namespace
+
+std::unique_ptr<Report> diff_folder(const std::string& folder) {
+  return std::make_unique<DiffFolder>(folder);
+}
+
+void claim_diff_folder(OverwriteCheck& check, const std::string& folder) {
+  check.writes_some_of("--diff", folder, folder, names_of_pattern(kPattern));
+}
 
 std::unique_ptr<Report> html_report(const std::string& path) {
   return std::make_unique<HtmlReport>(path);

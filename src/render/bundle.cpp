@@ -10,9 +10,8 @@
 
 #include "core/output_file.hpp"
 #include "core/text.hpp"
-#include "render/page_facts.hpp"
 #include "render/renderings.hpp"
-#include "render/video_text.hpp"
+#include "render/video_facts.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -78,21 +77,18 @@ void check_bundle(const RenderJob& job) {
   if (!problems.empty()) throw UsageError(std::move(problems));
 }
 
-void write(const fs::path& path, std::string_view text) {
-  OutputFile file(path.string());
-  file.write(text);
-  file.finish();
+void add(FileSet& files, const char* name, std::string_view text) {
+  files.add(name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 /// The picture that the video comes to, which is this frame, or the one that is asked for.
-void write_poster(const RenderJob& job, std::int64_t last, const fs::path& path) {
+void write_poster(const RenderJob& job, std::int64_t last, FileSet& files) {
   if (job.bundle->poster) {
-    render_still(job.script, *job.bundle->poster, path.string());
+    render_still(job.script, *job.bundle->poster, files.add(kPoster));
     return;
   }
   FrameRenderer renderer(job.script);
-  const std::vector<std::uint8_t> png = encode_png(renderer.frame(last));
-  write(path, {reinterpret_cast<const char*>(png.data()), png.size()});
+  files.add(kPoster, encode_png(renderer.frame(last)));
 }
 
 void write_texts(const RenderJob& job, const CollisionLog& log, const Schedule& schedule,
@@ -100,15 +96,14 @@ void write_texts(const RenderJob& job, const CollisionLog& log, const Schedule& 
   const auto& scene = std::get<Scene>(job.script);
   const View& view = scene.view;
   const std::string alt = describe_video(scene, count);
-  write(files.add(kAltText), alt + "\n");
-  write(files.add(kCaptions), captions(log, schedule, view.frame_rate));
-  write(
-      files.add(kLatexFile),
+  add(files, kAltText, alt + "\n");
+  add(files, kCaptions, captions(log, schedule, view.frame_rate));
+  add(files, kLatexFile,
       fmt::format(kLatex, fmt::arg("name", job.output),
                   fmt::arg("height", fmt::format("{:.4f}", 0.9 * view.height_px / view.width_px))));
-  write(files.add(kRevealFile),
-        fmt::format(kReveal, fmt::arg("name", job.output), fmt::arg("alt", escaped(alt)),
-                    fmt::arg("width", view.width_px), fmt::arg("height", view.height_px)));
+  add(files, kRevealFile,
+      fmt::format(kReveal, fmt::arg("name", job.output), fmt::arg("alt", escaped(alt)),
+                  fmt::arg("width", view.width_px), fmt::arg("height", view.height_px)));
 }
 
 }  // namespace
@@ -126,7 +121,7 @@ Rendered render_bundle(const RenderJob& job,
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   const PageFacts facts(scene, *log, schedule);
-  write_poster(job, facts.frames_before_reversal() - 1, files.add(kPoster));
+  write_poster(job, facts.frames_before_reversal() - 1, files);
   write_texts(job, *log, schedule, {facts.most(), log->size()}, files);
   RenderJob video = job;
   video.bundle.reset();

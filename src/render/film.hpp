@@ -1,5 +1,5 @@
 // A film: a scene, or a storyboard of runs side by side and title cards.
-// In: a script, once, and the number of a frame. Out: the draw list of the frame.
+// In: a script, once. Out: the draw list of each frame, by its number; the samples of its sound.
 #pragma once
 
 #include <piblocks/image.hpp>
@@ -9,16 +9,20 @@
 #include <piblocks/script.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "draw/composition.hpp"
 #include "draw/draw_list.hpp"
 #include "draw/montage.hpp"
+#include "media/output/output.hpp"
 #include "scene/schedule.hpp"
+#include "sound/soundtrack.hpp"
 
 namespace piblocks {
 
@@ -121,5 +125,28 @@ class Film {
 /// for the last frame, and seconds before it.
 /// @throws UsageError if the film has no such frame.
 std::int64_t frame_at(const Film& film, const Instant& instant);
+
+/// Of a film with so many frames: as long as these, to the nearest sample.
+inline SoundFormat sound_format(std::int64_t frame_count, const Rational& frame_rate) {
+  const Rational size = Rational(frame_count) / frame_rate * Soundtrack::kRate_hz;
+  return {.rate_hz = Soundtrack::kRate_hz, .size = floor(size + Rational(1, 2)).get_si()};
+}
+
+/// A film's soundtrack, until it is told to stop: each run of each segment at its time, and as loud
+/// as its segment is seen. Cards are silent.
+class FilmSound final : public SampleSource {
+ public:
+  /// @param film        must outlive it.
+  /// @param on_samples  is told how many pairs there are so far.
+  FilmSound(const Film& film, std::stop_token stop, std::function<void(std::int64_t)> on_samples);
+
+  std::size_t read(std::span<float> samples) override;
+
+ private:
+  Soundtrack soundtrack_;
+  std::stop_token stop_;
+  std::function<void(std::int64_t)> on_samples_;
+  std::int64_t count_ = 0;
+};
 
 }  // namespace piblocks

@@ -8,22 +8,25 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/descriptor.hpp"
 #include "core/output_file.hpp"
 #include "core/text.hpp"
-#include "render/page_facts.hpp"
 #include "render/page_source.hpp"
 #include "render/renderings.hpp"
 #include "render/step_clock.hpp"
-#include "render/video_text.hpp"
+#include "render/video_facts.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Read and written at once. Three bytes are four letters of base64.
+constexpr std::size_t kPiece_bytes = std::size_t{3} << 14;
 
 /// Nothing is fetched, nothing is sent, no other script runs.
 constexpr std::string_view kHead = R"(<!DOCTYPE html>
@@ -61,25 +64,6 @@ constexpr std::string_view kControls = R"("></video>
 </div>
 )";
 
-/// Collects small pieces.
-class PageText {
- public:
-  explicit PageText(OutputFile& file) : file_(file) {}
-  void add(std::string_view text) {
-    text_ += text;
-    if (text_.size() >= kPiece_bytes) flush();
-  }
-  void flush() {
-    file_.write(text_);
-    text_.clear();
-  }
-
- private:
-  static constexpr std::size_t kPiece_bytes = std::size_t{1} << 16;
-  OutputFile& file_;
-  std::string text_;
-};
-
 void check_page(const RenderJob& job) {
   if (job.shard) {
     throw UsageError(fmt::format(
@@ -105,33 +89,35 @@ void check_page(const RenderJob& job) {
 }
 
 /// Piece by piece, however long the video is.
-void add_video(const fs::path& path, PageText& page) {
-  constexpr std::size_t kPiece_bytes = std::size_t{3} << 14;  // three bytes are four letters
+void add_video(const fs::path& path, OutputFile& page) {
   std::ifstream video(path, std::ios::binary);
   std::vector<std::uint8_t> piece(kPiece_bytes);
   while (video) {
     video.read(reinterpret_cast<char*>(piece.data()), kPiece_bytes);
-    page.add(base64(std::span(piece).first(static_cast<std::size_t>(video.gcount()))));
+    page.write(base64(std::span(piece).first(static_cast<std::size_t>(video.gcount()))));
   }
   if (video.eof()) return;
   throw IoError(fmt::format("page: cannot read '{}': {}", path.string(), error_text(errno)));
 }
 
 void write_page(const Scene& scene, const PageFacts& facts, const VideoCount& count,
-                const fs::path& video, OutputFile& file) {
-  PageText page(file);
-  page.add(fmt::format(
+                const fs::path& video, OutputFile& page) {
+  page.write(fmt::format(
       kHead, fmt::arg("script_hash", kPageScriptHash), fmt::arg("style_hash", kPageStyleHash),
       fmt::arg("style", kPageStyle), fmt::arg("title", escaped(title_of(scene, count))),
       fmt::arg("width", scene.view.width_px), fmt::arg("height", scene.view.height_px)));
   add_video(video, page);
-  page.add(kControls);
-  page.add(fmt::format("<p id=\"description\">{}</p>\n</main>\n",
-                       escaped(describe_video(scene, count))));
-  page.add(R"(<script id="facts" type="application/json">)");
-  facts.write([&](std::string_view text) { page.add(text); });
-  page.add(fmt::format("</script>\n<script>{}</script>\n", kPageScript));
-  page.flush();
+  page.write(kControls);
+  page.write(fmt::format("<p id=\"description\">{}</p>\n</main>\n",
+                         escaped(describe_video(scene, count))));
+  page.write(R"(<script id="facts" type="application/json">)");
+  std::string pieces;  // collected, since they are small
+  facts.write([&](std::string_view text) {
+    pieces += text;
+    if (pieces.size() >= kPiece_bytes) page.write(std::exchange(pieces, {}));
+  });
+  page.write(pieces);
+  page.write(fmt::format("</script>\n<script>{}</script>\n", kPageScript));
 }
 
 }  // namespace

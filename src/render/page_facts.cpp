@@ -1,5 +1,3 @@
-#include "render/page_facts.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/run.hpp>
@@ -8,6 +6,8 @@
 #include <cmath>
 #include <optional>
 #include <string>
+
+#include "render/video_facts.hpp"
 
 namespace piblocks {
 namespace {

@@ -8,9 +8,7 @@
 #include "media/output/shard_file.hpp"
 #include "render/chunks.hpp"
 #include "render/film.hpp"
-#include "render/film_sound.hpp"
 #include "render/flash_meter.hpp"
-#include "render/job_description.hpp"
 #include "render/renderings.hpp"
 #include "render/step_clock.hpp"
 

@@ -7,6 +7,7 @@
 #include <piblocks/scene.hpp>
 #include <piblocks/script.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <stop_token>
 #include <string>
@@ -14,12 +15,16 @@
 
 #include "draw/draw_list.hpp"
 #include "draw/montage.hpp"
+#include "media/output/shard_file.hpp"
 
 namespace piblocks {
 
 /// render() of a job that is neither a bundle nor a page.
 Rendered render_film(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
                      const std::stop_token& stop);
+
+/// What the bytes of a rendering depend on: the header of all its shards, without their number.
+ShardHeader describe(const RenderJob& job, const Output& output, std::int64_t frame_count);
 
 /// Renders the job's video into the bundle's folder, with poster.png, captions.vtt, alt.txt,
 /// latex.tex and reveal.html beside it.

@@ -1,5 +1,3 @@
-#include "render/video_text.hpp"
-
 #include <fmt/format.h>
 #include <piblocks/run.hpp>
 
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "draw/number_text.hpp"
+#include "render/video_facts.hpp"
 
 namespace piblocks {
 namespace {
@@ -58,12 +57,10 @@ std::string text_of(const Integer& milestone, const Extremes& counts) {
   if (milestone == 0) {
     return counts.least < 0 ? "No collision between now and time 0" : "No collision yet";
   }
-  const std::string number = with_thousands_separators(abs(milestone));
-  const char* noun = abs(milestone) == 1 ? "collision" : "collisions";
-  if (milestone < 0) return fmt::format("{} {} or more to go until time 0", number, noun);
-  if (milestone < counts.most) return fmt::format("{} {} or more", number, noun);
-  const bool is_all = counts.most == counts.total;
-  return fmt::format("{} {}{}", number, noun, is_all ? ", which is all there are" : "");
+  const std::string number = collisions(abs(milestone));
+  if (milestone < 0) return number + " or more to go until time 0";
+  if (milestone < counts.most) return number + " or more";
+  return counts.most == counts.total ? number + ", which is all there are" : number;
 }
 
 std::string time_text(std::int64_t frame, const Rational& frame_rate) {

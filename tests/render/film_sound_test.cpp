@@ -1,5 +1,5 @@
 // What films of several parts sound like: each run in its time and place, and nothing else.
-#include "render/film_sound.hpp"
+#include "render/film.hpp"
 
 #include <gtest/gtest.h>
 #include <piblocks/render.hpp>

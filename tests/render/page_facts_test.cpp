@@ -1,5 +1,5 @@
 // What a page is told of the run, beside what the log says.
-#include "render/page_facts.hpp"
+#include "render/video_facts.hpp"
 
 #include <gtest/gtest.h>
 #include <piblocks/run.hpp>

@@ -1,0 +1,259 @@
+// Shards of a rendering, which are made anywhere and become the one output.
+// In: a job, or the files of its shards. Out: what the header of a shard says of its job; the
+// output.
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <piblocks/render.hpp>
+#include <piblocks/version.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+#include <utility>
+
+#include "core/overwrite_check.hpp"
+#include "draw/canvas.hpp"
+#include "media/libav/av_module.hpp"
+#include "media/output/output.hpp"
+#include "media/output/shard_file.hpp"
+#include "render/film.hpp"
+#include "render/renderings.hpp"
+#include "scene/schedule.hpp"
+
+namespace piblocks {
+namespace {
+
+/// Stands for a setting that was not given.
+constexpr const char* kDefault = "default";
+
+/// What is kept of a scene to compare it with does not change its frames.
+constexpr std::string_view kGoldenKeys = "golden.";
+
+/// The logo by its pixels in place of its file, which may have another name elsewhere, and other
+/// pixels later.
+Scene with_logo_by_content(Scene scene) {
+  if (const auto logo = read_logo(scene)) {
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(logo->words.data());
+    scene.show.logo = fmt::format("{}x{} {}", logo->width_px, logo->height_px,
+                                  hash_of_bytes({bytes, 4 * logo->words.size()}));
+  }
+  return scene;
+}
+
+Script with_logos_by_content(Script script) {
+  if (auto* const scene = std::get_if<Scene>(&script)) return with_logo_by_content(*scene);
+  for (Segment& segment : std::get<Storyboard>(script).segments) {
+    if (auto* const scenes = std::get_if<Scenes>(&segment.content)) {
+      for (Scene& scene : *scenes) scene = with_logo_by_content(std::move(scene));
+    }
+  }
+  return script;
+}
+
+/// The file of a shard, called a part in messages.
+struct ShardFile {
+  std::string path;
+  ShardHeader header;
+  Shard shard = {};
+};
+
+/// What joining needs of a header.
+struct JobDescription {
+  VideoFormat format;
+  EncoderSettings encoder;
+  std::string signature;
+  std::int64_t frame_count = 0;
+  std::optional<SoundFormat> sound;
+};
+
+/// @throws UsageError if the header has no value of that name.
+const std::string& value_of(const ShardFile& part, const std::string& name) {
+  const auto at = std::ranges::find(part.header, name, &ShardHeader::value_type::first);
+  if (at != part.header.end()) return at->second;
+  throw UsageError(fmt::format("join: '{}' lacks '{}'", part.path, name));
+}
+
+std::optional<std::string> setting(const ShardFile& part, const std::string& name) {
+  const std::string& value = value_of(part, name);
+  return value == kDefault ? std::nullopt : std::optional(value);
+}
+
+/// @throws UsageError unless the value is a whole number from 1 to `high`.
+std::int64_t number(const ShardFile& part, const std::string& name, std::int64_t high) {
+  const Rational value = parse_rational(value_of(part, name));
+  if (value.get_den() == 1 && value >= 1 && value <= high) return value.get_num().get_si();
+  throw UsageError(
+      fmt::format("join: '{}' has the invalid {} {}", part.path, name, to_text(value)));
+}
+
+/// "2/3" as render() wrote it.
+Shard number_of(const ShardFile& part) {
+  const std::string& text = value_of(part, "part");
+  const char* const end = text.data() + text.size();
+  Shard result;
+  auto read = std::from_chars(text.data(), end, result.number);
+  if (read.ec == std::errc() && read.ptr != end && *read.ptr == '/') {
+    read = std::from_chars(read.ptr + 1, end, result.count);
+    const bool is_whole = read.ec == std::errc() && read.ptr == end;
+    if (is_whole && result.number >= 1 && result.number <= result.count) return result;
+  }
+  throw UsageError(fmt::format("join: '{}' has the invalid part '{}'", part.path, text));
+}
+
+/// In the order of the shards. Closes each file again: there may be more than a process can have
+/// open.
+std::vector<ShardFile> read_headers(const std::vector<std::string>& paths) {
+  std::vector<ShardFile> parts;
+  for (const std::string& path : paths) {
+    ShardFile& part = parts.emplace_back(ShardFile{path, ShardReader(path).header()});
+    part.shard = number_of(part);
+  }
+  std::ranges::stable_sort(parts, {}, [](const ShardFile& part) { return part.shard.number; });
+  return parts;
+}
+
+/// The first name whose value differs or that one of them lacks; empty if there is none.
+std::string difference(const ShardHeader& one, const ShardHeader& other) {
+  const auto [a, b] = std::ranges::mismatch(one, other, [](const auto& left, const auto& right) {
+    return left == right || (left.first == "part" && right.first == "part");
+  });
+  if (a != one.end()) return a->first;
+  return b != other.end() ? b->first : std::string();
+}
+
+void check_same_job(const std::vector<ShardFile>& parts) {
+  const ShardFile& first = parts.front();
+  for (const ShardFile& part : parts) {
+    std::string name = difference(first.header, part.header);
+    if (name.empty() && part.shard.count != first.shard.count) name = "number of parts";
+    if (name.empty()) continue;
+    throw UsageError(fmt::format("join: '{}' and '{}' are of different jobs: they differ in {}",
+                                 first.path, part.path, name));
+  }
+}
+
+void check_all_there(const std::vector<ShardFile>& parts) {
+  std::vector<std::string> problems;
+  auto next = parts.begin();
+  const int count = parts.front().shard.count;
+  for (int number = 1; number <= count; ++number) {
+    if (next == parts.end() || next->shard.number != number) {
+      problems.push_back(fmt::format("join: part {} of {} is missing", number, count));
+      if (problems.size() == 10) break;  // nobody wants to read more
+      continue;
+    }
+    const auto& path = next->path;
+    for (++next; next != parts.end() && next->shard.number == number; ++next) {
+      problems.push_back(fmt::format("join: '{}' and '{}' are both part {} of {}", path, next->path,
+                                     number, count));
+    }
+  }
+  if (!problems.empty()) throw UsageError(std::move(problems));
+}
+
+void check_output(const std::vector<ShardFile>& parts, const std::string& name,
+                  const Output& output, const JobDescription& job) {
+  OverwriteCheck check;
+  for (const ShardFile& part : parts) check.reads("the part", part.path);
+  claim_output(check, "join: output", name);
+  check.check();
+  if (output.signature == job.signature) return;
+  throw UsageError(
+      fmt::format("join: the parts were made for another output than '{}' is here: '{}', not '{}'",
+                  name, job.signature, output.signature));
+}
+
+/// The sound that the first shard of a rendering has for all of them.
+class ShardSound final : public PacketSource {
+ public:
+  explicit ShardSound(const std::string& path) : reader_(path) {}
+
+  std::optional<Packet> next() override {
+    if (next_ == packets_.size()) {
+      auto packets = reader_.next_sound();
+      if (!packets || packets->empty()) return std::nullopt;
+      packets_ = std::move(*packets);
+      next_ = 0;
+    }
+    return std::move(packets_[next_++]);
+  }
+
+ private:
+  ShardReader reader_;
+  EncodedChunk packets_;
+  std::size_t next_ = 0;
+};
+
+JobDescription read_description(const ShardFile& part) {
+  JobDescription job;
+  job.format.width_px = static_cast<int>(number(part, "view.width", kMaxSide_px));
+  job.format.height_px = static_cast<int>(number(part, "view.height", kMaxSide_px));
+  job.format.frame_rate = parse_rational(value_of(part, "view.fps"));
+  job.format.has_alpha = value_of(part, "view.background") == "transparent";
+  if (const auto crf = setting(part, "crf")) job.encoder.crf = to_double(parse_rational(*crf));
+  job.encoder.preset = setting(part, "preset");
+  job.encoder.encoder = setting(part, "encoder");
+  job.signature = value_of(part, "output");
+  job.frame_count = number(part, "frames", kMaxFrames);
+  if (value_of(part, "sound.on") == "true") {
+    job.sound = sound_format(job.frame_count, job.format.frame_rate);
+  }
+  return job;
+}
+
+}  // namespace
+
+ShardHeader describe(const RenderJob& job, const Output& output, std::int64_t frame_count) {
+  ShardHeader header;
+  header.emplace_back("piblocks", kVersion);
+  const Script script = with_logos_by_content(job.script);
+  for (auto& [key, value] : std::visit([](const auto& any) { return describe(any); }, script)) {
+    if (!key.starts_with(kGoldenKeys)) header.emplace_back(std::move(key), std::move(value));
+  }
+  header.emplace_back("view.width", std::to_string(view_of(script).width_px));
+  header.emplace_back("view.height", std::to_string(view_of(script).height_px));
+  header.emplace_back("frames", std::to_string(frame_count));
+  const auto& crf = job.encoder.crf;
+  header.emplace_back("crf", crf ? rational_from_decimal(*crf).get_str() : kDefault);
+  header.emplace_back("preset", job.encoder.preset.value_or(kDefault));
+  header.emplace_back("encoder", job.encoder.encoder.value_or(kDefault));
+  header.emplace_back("painter", painter_fingerprint());
+  header.emplace_back("output", output.signature);
+  return header;
+}
+
+std::int64_t join(const std::vector<std::string>& parts, const std::string& output,
+                  const std::stop_token& stop) {
+  if (parts.empty()) throw UsageError("join: no parts are given");
+  if (is_page(output)) {
+    throw UsageError(
+        fmt::format("join: '{}' cannot be made of parts; render the page whole", output));
+  }
+  const std::vector<ShardFile> in_order = read_headers(parts);
+  check_same_job(in_order);
+  check_all_there(in_order);
+  const JobDescription job = read_description(in_order.front());
+  const Output joined = set_up_output(output, job.format, job.encoder, job.sound);
+  check_output(in_order, output, joined, job);
+
+  const auto sink = joined.open();
+  std::optional<ShardSound> sound;
+  if (job.sound) sink->take_sound(sound.emplace(in_order.front().path));
+  std::int64_t frames = 0;
+  for (const ShardFile& part : in_order) {
+    ShardReader reader(part.path);
+    while (const auto chunk = reader.next()) {
+      if (stop.stop_requested()) throw Interrupted("join: interrupted");
+      sink->append(*chunk);
+      frames += static_cast<std::int64_t>(chunk->size());
+    }
+  }
+  if (frames != job.frame_count) {
+    throw IoError(fmt::format("join: the parts have {} frames, the whole {}; render them again",
+                              frames, job.frame_count));
+  }
+  sink->finish();
+  return frames;
+}
+
+}  // namespace piblocks
