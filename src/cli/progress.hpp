@@ -1,6 +1,6 @@
 // How far a rendering has come, and what it cost.
 // In: frame counts as they grow; a profile. Out: on standard error a bar on a terminal, plain lines
-// otherwise, nothing when quiet; a table of stages.
+// otherwise, nothing when quiet; a table of steps.
 #pragma once
 
 #include <piblocks/render.hpp>

@@ -11,7 +11,6 @@
 #include <set>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "core/output_file.hpp"
 #include "core/text.hpp"

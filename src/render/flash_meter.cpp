@@ -4,7 +4,6 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "draw/canvas.hpp"

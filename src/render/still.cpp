@@ -11,7 +11,6 @@
 #include "core/output_file.hpp"
 #include "core/text.hpp"
 #include "draw/canvas.hpp"
-#include "draw/composition.hpp"
 #include "draw/montage.hpp"
 #include "draw/number_text.hpp"
 #include "physics/blocks.hpp"

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/image.hpp>
 #include <piblocks/scene.hpp>

@@ -13,8 +13,6 @@
 namespace piblocks {
 namespace {
 
-constexpr std::string_view kPart = "part";
-
 const TomlEntry* find(const TomlTable& table, std::string_view key) {
   const auto found = std::ranges::find(table.entries, key, &TomlEntry::key);
   return found == table.entries.end() ? nullptr : &*found;
@@ -172,15 +170,11 @@ class StoryReader {
 }  // namespace
 
 struct ScriptBuilder::State {
-  struct SetKey {
-    std::string origin;
-    std::string key;
-  };
   SceneDraft film{"scene"};  // in a storyboard the values for all parts
   std::string path;
   std::vector<TomlTable> parts;
-  std::vector<std::string> problems;  // of entries that are no parts
-  std::vector<SetKey> set_keys;       // by set(), in order
+  std::vector<std::string> problems;                          // of entries that are no parts
+  std::vector<std::pair<std::string, std::string>> set_keys;  // origin and key, by set()
 
   void add_problem(std::size_t line, const std::string& text) {
     problems.push_back(fmt::format("{}:{}: {}", path, line, text));
@@ -209,7 +203,7 @@ void ScriptBuilder::read_file(const std::string& path) {
   TomlTable film{{}, root.line};
   std::vector<TomlTable>& parts = state_->parts;
   for (TomlEntry& entry : root.entries) {
-    const bool is_part = entry.key == kPart;
+    const bool is_part = entry.key == "part";
     if (is_part && !entry.tables.empty()) {
       parts = std::move(entry.tables);
     } else if (is_part || entry.key.starts_with("part.")) {
@@ -228,7 +222,7 @@ void ScriptBuilder::read_file(const std::string& path) {
 
 void ScriptBuilder::set(const std::string& origin, const std::string& key,
                         const std::string& text) {
-  state_->set_keys.push_back({origin, key});
+  state_->set_keys.emplace_back(origin, key);
   state_->film.set(origin, key, {text});
 }
 
