@@ -95,8 +95,15 @@ Composition::Composition(const Scene& scene, const CollisionLog& log,
   const Font font;
   const Palette palette = palette_of(scene.view.theme);
   Layout layout;  // made below: the height of the read-outs decides it
+  const View& view = scene.view;
   const DrawingContext context{
-      scene, log, palette, font, layout, small_text_px(scene.view), thin_line_px(scene.view)};
+      .scene = scene,
+      .log = log,
+      .palette = palette,
+      .font = font,
+      .layout = layout,
+      .text_px = std::max(style::kLeastText_px, style::kSmall * short_measure(view)),
+      .line_px = std::max(1.0, line_width_px(view) / 2)};
   ReadOutRows rows(context);
   const FramePlan plan = plan_frame(context, rows.height());
   layout = lay_out(scene, longest_count(scene, log), plan.stage, font);

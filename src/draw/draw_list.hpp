@@ -241,6 +241,9 @@ struct DrawList {
   bool operator==(const DrawList&) const = default;
 };
 
+/// Adds a block that stays: a rectangle for it, and one for each of its bars.
+void add_rectangles(ItemId id, const ExposedBlock& block, std::vector<DrawItem>& items);
+
 inline bool operator==(const GroupItem& a, const GroupItem& b) {
   return a.id == b.id && a.bounds == b.bounds && a.opacity == b.opacity &&
          (a.list == b.list || *a.list == *b.list);

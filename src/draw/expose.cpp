@@ -3,7 +3,6 @@
 #include <limits>
 #include <utility>
 
-#include "draw/exposed_blocks.hpp"
 #include "draw/layout.hpp"
 
 namespace piblocks {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <optional>
+#include <utility>
 
 #include "draw/region.hpp"
 
@@ -69,6 +70,22 @@ PixelRect pixels_of(const Extent& extent, const PixelRect& area) {
   const int y = pixel(std::floor(extent.top), area.y_px, area.height_px);
   return {x, y, pixel(std::ceil(extent.right), area.x_px, area.width_px) - x,
           pixel(std::ceil(extent.bottom), area.y_px, area.height_px) - y};
+}
+
+PixelRect moving_area(const ExposedItem& item, const PixelRect& area) {
+  const PixelRect behind = pixels_of(extent_of(item.behind), area);
+  const PixelRect front = pixels_of(extent_of(item.front), area);
+  int left = area.x_px + area.width_px;
+  int right = area.x_px;
+  for (const auto& [block, pixels] : {std::pair(&item.behind, behind), {&item.front, front}}) {
+    if (block->dwells.empty() || pixels.width_px <= 0) continue;
+    left = std::min(left, pixels.x_px);
+    right = std::max(right, pixels.x_px + pixels.width_px);
+  }
+  // Where one block moves, the other is painted with it.
+  const int top = std::min(behind.y_px, front.y_px);
+  const int bottom = std::max(behind.y_px + behind.height_px, front.y_px + front.height_px);
+  return {left, top, std::max(0, right - left), bottom - top};
 }
 
 bool reaches(const DrawItem& item, const PixelRect& rect) {

@@ -67,8 +67,6 @@ CairoFontFacePtr make_cairo_face(FT_Face face) {
   return cairo_face;
 }
 
-constexpr const char* kFontName = "DejaVu Sans";
-
 /// Large, since Cairo rounds advances to 1/64 pixel. Unhinted advances scale with the size.
 constexpr double kMeasure_px = 1024;
 
@@ -198,7 +196,7 @@ void Font::check(std::string_view utf8, const char* what) const {
   const std::string problem = shaping_problem(utf8);
   if (!problem.empty()) throw UsageError(fmt::format("{}: {}", what, problem));
   if (missing.empty()) return;
-  throw UsageError(fmt::format("{}: the font {} has no glyph for '{}'", what, kFontName, missing));
+  throw UsageError(fmt::format("{}: the font DejaVu Sans has no glyph for '{}'", what, missing));
 }
 
 double Font::width_em(std::string_view utf8) const {

@@ -6,6 +6,7 @@
 #include <piblocks/scene.hpp>
 
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -69,6 +70,10 @@ FramePlan plan_frame(const DrawingContext& context, double read_outs_px);
 /// @throws UsageError if the view is so close that doubles cannot hold the positions.
 Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
                const Font& font);
+
+/// The blocks while the picture is exposed. @param red, blue  at its instant, without dwells
+ExposedItem exposed_item(ExposedBlock red, ExposedBlock blue, const Layout& layout,
+                         std::span<const WeightedExposure> exposures);
 
 /// What is the same in every frame.
 inline Drawable unchanging(std::vector<DrawItem> same) {

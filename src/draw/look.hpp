@@ -76,7 +76,6 @@ inline constexpr double kLeastText_px = 8;
 
 /// Where the height is less than this fraction of the width, the height counts.
 inline constexpr double kNarrow = 0.75;
-
 /// What type, lines and margins are fractions of: the area's height, or less where it is narrow.
 inline double short_measure(const Rectangle& area) {
   return std::min(area.height, kNarrow * area.width);
@@ -89,13 +88,5 @@ inline Rectangle whole(const View& view) {
 inline double short_measure(const View& view) { return short_measure(whole(view)); }
 
 inline double line_width_px(const View& view) { return style::kLine * short_measure(view); }
-
-/// Type of read-outs and diagrams.
-inline double small_text_px(const View& view) {
-  return std::max(style::kLeastText_px, style::kSmall * short_measure(view));
-}
-
-/// Lines of overlays and diagrams.
-inline double thin_line_px(const View& view) { return std::max(1.0, line_width_px(view) / 2); }
 
 }  // namespace piblocks

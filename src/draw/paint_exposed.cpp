@@ -1,53 +1,222 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
-#include "draw/exposed_blocks.hpp"
 #include "draw/painter.hpp"
 #include "draw/region.hpp"
 
 namespace piblocks {
 namespace {
 
-/// The pixels of an area that a moving block reaches into; of no width if nothing moves.
-PixelRect moving_area(const ExposedItem& item, const PixelRect& area) {
-  const PixelRect behind = pixels_of(extent_of(item.behind), area);
-  const PixelRect front = pixels_of(extent_of(item.front), area);
-  int left = area.x_px + area.width_px;
-  int right = area.x_px;
-  for (const auto& [block, pixels] : {std::pair(&item.behind, behind), {&item.front, front}}) {
-    if (block->dwells.empty() || pixels.width_px <= 0) continue;
-    left = std::min(left, pixels.x_px);
-    right = std::max(right, pixels.x_px + pixels.width_px);
-  }
-  // Where one block moves, the other is painted with it.
-  const int top = std::min(behind.y_px, front.y_px);
-  const int bottom = std::max(behind.y_px + behind.height_px, front.y_px + front.height_px);
-  return {left, top, std::max(0, right - left), bottom - top};
+/// How much of a row or column of pixels a block covers: all of it, inside its line, its bars.
+struct Cover {
+  double outer = 0;
+  double inner = 0;
+  double bars = 0;
+  bool operator==(const Cover&) const = default;
+};
+
+/// What both blocks cover of a row.
+struct RowCover {
+  Cover behind;
+  Cover front;
+  bool operator==(const RowCover&) const = default;
+};
+
+/// How much of the pixel from `pixel` to `pixel` + 1 is between two places.
+double overlap(double pixel, double begin, double end) {
+  return std::clamp(std::min(pixel + 1, end) - std::max(pixel, begin), 0.0, 1.0);
 }
+
+Cover cover_of(double pixel, double begin, double length, double line_px) {
+  return {overlap(pixel, begin, begin + length),
+          overlap(pixel, begin + line_px, begin + length - line_px)};
+}
+
+/// What a block covers of a pixel.
+struct PixelCover {
+  const ExposedBlock& block;
+  const Cover& column;
+  const Cover& row;
+
+  /// A sample after the block's fill, its line and its bars are painted over it, as Cairo does.
+  double over(double sample, std::uint8_t Color::*channel) const {
+    const double edge = block.stroke.color.*channel;
+    const double outer = column.outer * row.outer;
+    const double line = outer - column.inner * row.inner;
+    const double filled = sample + outer * (block.fill.*channel - sample);
+    const double edged = filled + line * (edge - filled);
+    return edged + column.outer * row.bars * (edge - edged);
+  }
+};
+
+/// How a block covers a row, and a column over the time of the exposure.
+class BlockCover {
+ public:
+  struct Share {
+    Cover cover;
+    double share = 0;
+  };
+
+  explicit BlockCover(const ExposedBlock& block)
+      : block_(block),
+        // A shape thinner than its stroke is nothing but stroke.
+        line_px_(std::min({block.stroke.width_px, block.bounds.width, block.bounds.height})),
+        sums_{0} {
+    for (const Dwell& dwell : block.dwells) sums_.push_back(sums_.back() + dwell.share);
+  }
+
+  Cover of_row(int y) const {
+    Cover cover = cover_of(y, block_.bounds.y, block_.bounds.height, line_px_);
+    // Each bar covers a part of what the ones before left uncovered.
+    for (const Bar& bar : block_.bars) {
+      cover.bars += (1 - cover.bars) * overlap(y, bar.y, bar.y + bar.height);
+    }
+    return cover;
+  }
+
+  /// What a block with its left edge at `x` covers of the column from `column` to `column` + 1.
+  Cover of_column(double column, double x) const {
+    return cover_of(column, x, block_.bounds.width, line_px_);
+  }
+
+  /// All ways in which the block covers a column; valid until the next call.
+  std::span<const Share> shares_of_column(double column) {
+    shares_.clear();
+    const double width = block_.bounds.width;
+    if (block_.dwells.empty()) {
+      const Cover still = of_column(column, block_.bounds.x);
+      if (still.outer > 0) shares_.push_back({still, 1});
+    } else if (line_px_ < 1 || width - 2 * line_px_ < 1) {
+      add_each(column, column - width, column + 1);
+    } else {
+      // The column has, in this order: the block's right edge, only its line, the line's inner
+      // edge, only its fill, and the same on the other side.
+      add_each(column, column - width, column + 1 - width);
+      add_alike(column, column + 1 - width, column - width + line_px_);
+      add_each(column, column - width + line_px_, column + 1 - width + line_px_);
+      add_alike(column, column + 1 - width + line_px_, column - line_px_);
+      add_each(column, column - line_px_, column + 1 - line_px_);
+      add_alike(column, column + 1 - line_px_, column);
+      add_each(column, column, column + 1);
+    }
+    return shares_;
+  }
+
+ private:
+  std::size_t first_at(double x) const {
+    return static_cast<std::size_t>(std::ranges::lower_bound(block_.dwells, x, {}, &Dwell::x) -
+                                    block_.dwells.begin());
+  }
+
+  /// Adds up the dwells in [from, to), all of which cover the column in the same way.
+  void add_alike(double column, double from, double to) {
+    const std::size_t begin = first_at(from);
+    const std::size_t end = first_at(to);
+    if (begin >= end) return;
+    shares_.push_back({of_column(column, block_.dwells[begin].x), sums_[end] - sums_[begin]});
+  }
+
+  void add_each(double column, double from, double to) {
+    for (std::size_t i = first_at(from); i < block_.dwells.size() && block_.dwells[i].x < to; ++i) {
+      shares_.push_back({of_column(column, block_.dwells[i].x), block_.dwells[i].share});
+    }
+  }
+
+  const ExposedBlock& block_;
+  double line_px_;
+  std::vector<double> sums_;  // of the shares before each dwell
+  std::vector<Share> shares_;
+};
+
+/// One column after another.
+class ExposedColumn {
+ public:
+  ExposedColumn(const ExposedItem& item, const Light& light)
+      : item_(item), light_(light), behind_(item.behind), front_(item.front) {}
+
+  RowCover row_cover(int y) const { return {behind_.of_row(y), front_.of_row(y)}; }
+
+  /// Turns to the column from `x` to `x` + 1. False if no block is ever in it.
+  bool enter(int x) {
+    x_ = x;
+    known_.clear();
+    behind_shares_ = behind_.shares_of_column(x);
+    front_shares_ = front_.shares_of_column(x);
+    const auto at = [&](double place) {
+      return std::ranges::lower_bound(item_.contacts, place, {}, &Contact::behind_x);
+    };
+    contacts_ = {at(x), at(x + 1.0)};
+    return !behind_shares_.empty() || !front_shares_.empty();
+  }
+
+  /// The pixel of a row over a background; both 0x00RRGGBB.
+  std::uint32_t pixel(const RowCover& row, std::uint32_t background) {
+    for (const Known& known : known_) {
+      if (known.background == background && known.row == row) return known.pixel;
+    }
+    const auto sample = [&](int shift, std::uint8_t Color::*channel) {
+      const double light = light_of(row, background >> shift & 0xFF, channel);
+      return static_cast<std::uint32_t>(Light::sample(light)) << shift;
+    };
+    const std::uint32_t pixel =
+        sample(16, &Color::red) | sample(8, &Color::green) | sample(0, &Color::blue);
+    known_.push_back({row, background, pixel});
+    return pixel;
+  }
+
+ private:
+  /// Each block changes the light behind it by its share of time. Where both are in one pixel at
+  /// the same time, these changes do not add up: contacts correct that.
+  double light_of(const RowCover& row, double background, std::uint8_t Color::*channel) const {
+    const double plain = light_.of(background);
+    double sum = plain;
+    const auto add = [&](const ExposedBlock& block, const Cover& of_row,
+                         std::span<const BlockCover::Share> shares) {
+      for (const auto& [cover, share] : shares) {
+        const PixelCover pixel{block, cover, of_row};
+        sum += share * (light_.of(pixel.over(background, channel)) - plain);
+      }
+    };
+    add(item_.behind, row.behind, behind_shares_);
+    add(item_.front, row.front, front_shares_);
+    for (const Contact& contact : contacts_) {
+      const Cover behind_column = behind_.of_column(x_, contact.behind_x);
+      const Cover front_column = front_.of_column(x_, contact.front_x);
+      const PixelCover front{item_.front, front_column, row.front};
+      const double only_behind =
+          PixelCover{item_.behind, behind_column, row.behind}.over(background, channel);
+      const double only_front = front.over(background, channel);
+      const double both = front.over(only_behind, channel);
+      sum += contact.share *
+             (light_.of(both) - light_.of(only_behind) - light_.of(only_front) + plain);
+    }
+    return sum;
+  }
+
+  const ExposedItem& item_;
+  const Light& light_;
+  BlockCover behind_;
+  BlockCover front_;
+  std::span<const BlockCover::Share> behind_shares_;
+  std::span<const BlockCover::Share> front_shares_;
+  std::span<const Contact> contacts_;
+  int x_ = 0;
+  struct Known {
+    RowCover row;
+    std::uint32_t background = 0;
+    std::uint32_t pixel = 0;
+  };
+  std::vector<Known> known_;  // of this column
+};
 
 }  // namespace
 
-void Painter::paint_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list,
-                            const PixelRect& area) {
-  if (has_pixels_of_picture(cr)) {
-    paint_exposed_pixels(cr, item, area);
-  } else {
-    embed_exposed(cr, item, list);
-  }
-}
-
-void Painter::paint_still_blocks(cairo_t& cr, const ExposedItem& item) {
-  std::vector<DrawItem> still;
-  for (const ExposedBlock* block : {&item.behind, &item.front}) {
-    if (block->dwells.empty()) add_rectangles(item.id, *block, still);
-  }
-  for (const DrawItem& rectangle : still) paint_item(cr, rectangle);
-}
-
 /// A pixel depends on its column and its background alone, so that a part of the picture has the
 /// pixels of the whole. Cairo paints a block that stays, except where the other one passes.
-void Painter::paint_exposed_pixels(cairo_t& cr, const ExposedItem& item, const PixelRect& area) {
+void Painter::paint_exposed(cairo_t& cr, const ExposedItem& item, const PixelRect& area) {
   cairo_surface_t* const surface = cairo_get_target(&cr);
   const PixelRect moving = moving_area(item, area);
   const int end_x = moving.x_px + moving.width_px;
@@ -83,25 +252,6 @@ void Painter::paint_exposed_pixels(cairo_t& cr, const ExposedItem& item, const P
     }
   }
   cairo_surface_mark_dirty(surface);
-}
-
-/// Moving blocks have no outline: they are embedded as pixels, with what is behind them.
-void Painter::embed_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list) {
-  paint_still_blocks(cr, item);
-  const PixelRect area = moving_area(item, {0, 0, list.width_px, list.height_px});
-  if (area.width_px <= 0 || area.height_px <= 0) return;
-  DrawList until = list;
-  const auto is_item = [&](const DrawItem& other) {
-    const auto* exposed = std::get_if<ExposedItem>(&other);
-    return exposed != nullptr && *exposed == item;
-  };
-  until.items.erase(std::ranges::find_if(until.items, is_item) + 1, until.items.end());
-  const CairoSurfacePtr pixels =
-      image_surface(CAIRO_FORMAT_RGB24, area.width_px, area.height_px, "paint blocks that move");
-  cairo_surface_set_device_offset(pixels.get(), -area.x_px, -area.y_px);
-  paint(*CairoPtr(cairo_create(pixels.get())), until, area);
-  cairo_surface_set_device_offset(pixels.get(), 0, 0);
-  copy_pixels(cr, *pixels, to_rectangle(area));
 }
 
 }  // namespace piblocks

@@ -9,11 +9,14 @@
 namespace piblocks {
 namespace {
 
-/// Whether each pixel of the group is a pixel of the picture around it.
-bool is_on_pixels(const GroupItem& item) {
-  const Rectangle& bounds = item.bounds;
-  return bounds.width == item.list->width_px && bounds.x == std::floor(bounds.x) &&
-         bounds.y == std::floor(bounds.y);
+/// Whether one pixel of the picture is one pixel of the surface. It is not in a vector file, and
+/// not in a scaled group.
+bool has_pixels_of_picture(cairo_t& cr) {
+  cairo_matrix_t matrix;
+  cairo_get_matrix(&cr, &matrix);
+  const bool is_identity = matrix.xx == 1 && matrix.yy == 1 && matrix.xy == 0 && matrix.yx == 0 &&
+                           matrix.x0 == 0 && matrix.y0 == 0;
+  return is_identity && cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE;
 }
 
 /// Cairo's pixels are multiplied by their alpha.
@@ -46,14 +49,6 @@ void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rectangle& bounds) 
   cairo_fill(&cr);
 }
 
-bool has_pixels_of_picture(cairo_t& cr) {
-  cairo_matrix_t matrix;
-  cairo_get_matrix(&cr, &matrix);
-  const bool is_identity = matrix.xx == 1 && matrix.yy == 1 && matrix.xy == 0 && matrix.yx == 0 &&
-                           matrix.x0 == 0 && matrix.y0 == 0;
-  return is_identity && cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE;
-}
-
 void Painter::paint(cairo_t& cr, const DrawList& list) {
   paint(cr, list, {0, 0, list.width_px, list.height_px});
 }
@@ -68,7 +63,11 @@ void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& area) {
     if (const auto* group = std::get_if<GroupItem>(&item)) {
       paint_group(cr, *group, area);
     } else if (const auto* exposed = std::get_if<ExposedItem>(&item)) {
-      paint_exposed(cr, *exposed, list, area);
+      if (has_pixels_of_picture(cr)) {
+        paint_exposed(cr, *exposed, area);
+      } else {
+        embed_exposed(cr, *exposed, list);
+      }
     } else {
       paint_item(cr, item);
     }
@@ -149,11 +148,13 @@ cairo_surface_t& Painter::kept_pixels(std::shared_ptr<const void> source,
 
 /// A vector file can only paint a group over what is behind it.
 void Painter::paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& area) {
-  if (has_pixels_of_picture(cr) && is_on_pixels(item)) {
+  const Rectangle& bounds = item.bounds;
+  const bool is_on_pixels = bounds.width == item.list->width_px &&
+                            bounds.x == std::floor(bounds.x) && bounds.y == std::floor(bounds.y);
+  if (is_on_pixels && has_pixels_of_picture(cr)) {
     paint_group_pixels(cr, item, area);
     return;
   }
-  const Rectangle& bounds = item.bounds;
   const double scale = bounds.width / item.list->width_px;
   cairo_save(&cr);
   cairo_new_path(&cr);
@@ -201,6 +202,33 @@ void Painter::paint_group_pixels(cairo_t& cr, const GroupItem& item, const Pixel
   cairo_set_operator(&cr, CAIRO_OPERATOR_OVER);
   // The context must not keep a source whose memory ends here.
   cairo_set_source_rgb(&cr, 0, 0, 0);
+}
+
+void Painter::paint_still_blocks(cairo_t& cr, const ExposedItem& item) {
+  std::vector<DrawItem> still;
+  for (const ExposedBlock* block : {&item.behind, &item.front}) {
+    if (block->dwells.empty()) add_rectangles(item.id, *block, still);
+  }
+  for (const DrawItem& rectangle : still) paint_item(cr, rectangle);
+}
+
+/// Moving blocks have no outline: they are embedded as pixels, with what is behind them.
+void Painter::embed_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list) {
+  paint_still_blocks(cr, item);
+  const PixelRect area = moving_area(item, {0, 0, list.width_px, list.height_px});
+  if (area.width_px <= 0 || area.height_px <= 0) return;
+  DrawList until = list;
+  const auto is_item = [&](const DrawItem& other) {
+    const auto* exposed = std::get_if<ExposedItem>(&other);
+    return exposed != nullptr && *exposed == item;
+  };
+  until.items.erase(std::ranges::find_if(until.items, is_item) + 1, until.items.end());
+  const CairoSurfacePtr pixels =
+      image_surface(CAIRO_FORMAT_RGB24, area.width_px, area.height_px, "paint blocks that move");
+  cairo_surface_set_device_offset(pixels.get(), -area.x_px, -area.y_px);
+  paint(*CairoPtr(cairo_create(pixels.get())), until, area);
+  cairo_surface_set_device_offset(pixels.get(), 0, 0);
+  copy_pixels(cr, *pixels, to_rectangle(area));
 }
 
 }  // namespace piblocks

@@ -27,10 +27,6 @@ void paint_shape(cairo_t& cr, const DiskItem& item);
 /// Fills a rectangle with a surface whose upper left corner is there.
 void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rectangle& bounds);
 
-/// Whether one pixel of the picture is one pixel of the surface. It is not in a vector file, and
-/// not in a scaled group.
-bool has_pixels_of_picture(cairo_t& cr);
-
 /// How text is set. Cairo blends overlapping glyphs of a line differently, if both are visible: a
 /// part of a picture would differ from the whole by a step of grey.
 enum class TextSetting {
@@ -58,9 +54,7 @@ class Painter {
   CairoSurfacePtr pixels_of(const PlateItem& item);
   void paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& area);
   void paint_group_pixels(cairo_t& cr, const GroupItem& item, const PixelRect& area);
-  void paint_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list,
-                     const PixelRect& area);
-  void paint_exposed_pixels(cairo_t& cr, const ExposedItem& item, const PixelRect& area);
+  void paint_exposed(cairo_t& cr, const ExposedItem& item, const PixelRect& area);
   void embed_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list);
   void paint_still_blocks(cairo_t& cr, const ExposedItem& item);
   /// The pixels of this plate or image, made when it is painted first.

@@ -40,6 +40,9 @@ Extent extent_of(const DrawItem& item, const MeasureText& width_em);
 /// number.
 PixelRect pixels_of(const Extent& extent, const PixelRect& area);
 
+/// The pixels of an area that a moving block reaches into; of no width if nothing moves.
+PixelRect moving_area(const ExposedItem& item, const PixelRect& area);
+
 /// False only if the item has certainly painted nothing into the rectangle.
 bool reaches(const DrawItem& item, const PixelRect& rect);
 

@@ -25,8 +25,7 @@
 namespace piblocks {
 namespace {
 
-/// Rays that share one anchor.
-constexpr std::size_t kBlockRays = 64;
+constexpr std::size_t kBlockRays = 64;  // that share one anchor
 
 /// Directions of rays, measured from the first or the last of them, and the other numbers that
 /// depend on their order alone, in columns.
@@ -120,7 +119,7 @@ Direction direction_after(const ClosedForm& form, const Landmark& landmark,
   return form.direction(steps, landmark.beyond);
 }
 
-/// wall, blocks, wall, …: the kinds of consecutive rays from an even one on.
+/// The kinds of consecutive rays from an even one on.
 constexpr auto kKinds = []() {
   std::array<CollisionKind, CollisionBatch::kCapacity + 1> kinds{};
   for (std::size_t i = 1; i < kinds.size(); i += 2) kinds[i] = CollisionKind::blocks;
@@ -257,11 +256,10 @@ const RayTable& UnfoldedStream::table(const Landmark& landmark, int end_sign, bo
 
 }  // namespace
 
-std::unique_ptr<CollisionStream> make_unfolded_stream(const Unfolding& form, Integer first,
-                                                      Integer last, Integer index,
-                                                      std::optional<Integer> contact) {
-  return std::make_unique<UnfoldedStream>(form, std::move(first), std::move(last), std::move(index),
-                                          std::move(contact));
+std::unique_ptr<CollisionStream> make_unfolded_stream(const Unfolding& form, const Integer& first,
+                                                      const Integer& last, const Integer& index,
+                                                      const std::optional<Integer>& contact) {
+  return std::make_unique<UnfoldedStream>(form, first, last, index, contact);
 }
 
 }  // namespace piblocks

@@ -163,8 +163,8 @@ struct Unfolding : ClosedForm {
 /// @param first, last  rays, in the order of time.
 /// @param index        of the collision on `first`
 /// @param contact      index of the collision that happens exactly at time 0, if one does.
-std::unique_ptr<CollisionStream> make_unfolded_stream(const Unfolding& form, Integer first,
-                                                      Integer last, Integer index,
-                                                      std::optional<Integer> contact);
+std::unique_ptr<CollisionStream> make_unfolded_stream(const Unfolding& form, const Integer& first,
+                                                      const Integer& last, const Integer& index,
+                                                      const std::optional<Integer>& contact);
 
 }  // namespace piblocks

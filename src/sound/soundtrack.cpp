@@ -23,7 +23,7 @@ constexpr double kLimiterBeta = 6;
 
 constexpr double kAsGoodAsOne = 1 - 1e-5;
 
-/// -2.5 dB: encoders that lose something add up to 1.1 dB to the peaks.
+/// -2.5 dB: lossy encoders add up to 1.1 dB to the peaks.
 constexpr double kCeiling = 0.75;
 
 std::int64_t to_nearest(const Rational& value) {
@@ -49,7 +49,7 @@ Limiter::Limiter(double ceiling, double rate_hz)
   }
 }
 
-/// The highest between this sample and the next.
+/// The highest value between this sample and the next.
 double Limiter::peak_around(std::int64_t number) const {
   double peak = 0;
   for (const auto& taps : kernel_) {

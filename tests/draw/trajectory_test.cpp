@@ -13,7 +13,7 @@ struct Traced {
       : system(article_system(digits)),
         wedge(system),
         log(make_collision_log(system)),
-        pieces(trajectory_of(*log, wedge, {from, to, columns})) {}
+        pieces(trajectory_of(*log, wedge, {from, to}, columns)) {}
 
   BlockSystem system;
   Wedge wedge;

@@ -66,15 +66,18 @@ Rows rows_of(const DrawingContext& context) {
   const double least_px =
       std::max(kLeastFigureShrink * usual_px, std::min(usual_px, style::kLeastText_px));
   if (size_px >= least_px && axis > top + kLeastDown * room_px) {
-    return {axis, tick_end, baseline, size_px, true};
+    return {.axis = axis,
+            .tick_end = tick_end,
+            .baseline = baseline,
+            .size_px = size_px,
+            .are_below_wall = true};
   }
   const double above = std::round(top + kAxis * room_px);
-  return {above, above + kTickLength * room_px, above + (kFigureBaseline - kAxis) * room_px,
-          usual_px, false};
-}
-
-PathItem line_between(const Point& from, const Point& to, const Stroke& stroke) {
-  return {{}, std::vector<Point>{from, to}, false, std::nullopt, stroke};
+  return {.axis = above,
+          .tick_end = above + kTickLength * room_px,
+          .baseline = above + (kFigureBaseline - kAxis) * room_px,
+          .size_px = usual_px,
+          .are_below_wall = false};
 }
 
 }  // namespace
@@ -90,18 +93,21 @@ Drawable ruler(const DrawingContext& context) {
   const double wall_end_px = rows.are_below_wall ? 0 : wall_px + kBesideWall_em * size_px;
   const double first_px = std::max(kBesideEdge_em * size_px, wall_end_px);
   const double end_px = scene.view.width_px - kBesideEdge_em * size_px;
-  const FigureAxis axis{left, right, size_px / layout.scale, kLeastGap_em};
+  const FigureAxis axis{
+      .low = left, .high = right, .em = size_px / layout.scale, .gap_em = kLeastGap_em};
   const Ticks ticks =
       with_room_for_figures(ticks_of(left, right, kLeastGap_em * axis.em), axis, context.font);
 
   const Stroke stroke{context.palette.muted, context.line_px};
   std::vector<DrawItem> items;
-  items.emplace_back(
-      line_between({layout.at(left, 0).x, rows.axis}, {layout.at(right, 0).x, rows.axis}, stroke));
+  const auto add_line = [&](const Point& from, const Point& to) {
+    items.emplace_back(PathItem{{}, std::vector<Point>{from, to}, false, std::nullopt, stroke});
+  };
+  add_line({layout.at(left, 0).x, rows.axis}, {layout.at(right, 0).x, rows.axis});
   int figures = 0;
   for (const double value : ticks.values) {
     const double x = layout.at(value, 0).x;
-    items.emplace_back(line_between({x, rows.axis}, {x, rows.tick_end}, stroke));
+    add_line({x, rows.axis}, {x, rows.tick_end});
     const std::string text = tick_text(value, ticks.step);
     const double half_px = context.font.width_em(text) * size_px / 2;
     // Beside its mark it would name another place.

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <utility>
 
-#include "draw/exposed_blocks.hpp"
 #include "draw/overlays/overlays.hpp"
 
 namespace piblocks {

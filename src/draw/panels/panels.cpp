@@ -120,7 +120,8 @@ TimeAxis::TimeAxis(const DrawingContext& context, const Diagram& diagram, double
 
 void TimeAxis::place_figures(const Font& font, double em) {
   scale_ = plot_.width / length_;
-  const FigureAxis axis{from_, from_ + length_, em / scale_, kLeastGap};
+  const FigureAxis axis{
+      .low = from_, .high = from_ + length_, .em = em / scale_, .gap_em = kLeastGap};
   Ticks ticks = ticks_of(axis.low, axis.high, kBetweenTicks * axis.em);
   // One figure alone gives no scale.
   if (ticks.values.size() < 2) ticks = ticks_of(axis.low, axis.high, axis.em);

@@ -61,9 +61,9 @@ Drawable position_panel(const DrawingContext& context, const PanelPlace& place) 
                   {is_true ? "Positions √m·x" : "Positions (not to scale)", "Positions"});
   const Color muted = diagram.palette().muted;
   const double em = diagram.text_px();
-  const auto [from, to] = span_of(context.scene, context.log);
   const int columns = std::max(1, static_cast<int>(diagram.inside().width));
-  const auto pieces = trajectory_of(context.log, wedge, {from, to, columns});
+  const auto pieces =
+      trajectory_of(context.log, wedge, span_of(context.scene, context.log), columns);
   const double most = greatest_y2(pieces);
   const DrawnWedge drawn = place_wedge(is_true ? wedge.sine / wedge.cosine : 1, most, diagram);
   const Point corner = drawn.corner;

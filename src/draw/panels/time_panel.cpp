@@ -45,8 +45,7 @@ Drawable time_panel(const DrawingContext& context, const PanelPlace& place) {
   const Wedge wedge(context.scene.system);
   const TimeAxis axis(context, diagram, 0);
   const int columns = std::max(1, static_cast<int>(std::ceil(axis.plot().width)));
-  const auto pieces =
-      trajectory_of(context.log, wedge, {axis.span().from, axis.span().to, columns});
+  const auto pieces = trajectory_of(context.log, wedge, axis.span(), columns);
   const double top = greatest_y2(pieces);
   const auto at = [axis, top](double time, double gap) {
     const double share = top > 0 ? gap / top : 0;

@@ -46,12 +46,12 @@ void add_band(const Column& column, const CollisionLog& log, const Wedge& wedge,
 }  // namespace
 
 std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const Wedge& wedge,
-                                           const TrajectorySpan& span) {
+                                           const Span& span, int columns) {
   std::vector<TrajectoryPiece> pieces;
   BlockState state = log.state_at(span.from);
   TimedGaps from{to_double(span.from), wedge.gaps_of(state)};
-  for (int i = 1; i <= span.columns; ++i) {
-    const Rational time = span.from + (span.to - span.from) * i / span.columns;
+  for (int i = 1; i <= columns; ++i) {
+    const Rational time = span.from + (span.to - span.from) * i / columns;
     const BlockState next = log.state_at(time);
     const TimedGaps to{to_double(time), wedge.gaps_of(next)};
     const bool is_dense = next.count - state.count > kMostCorners;

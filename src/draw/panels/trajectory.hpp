@@ -11,11 +11,12 @@
 #include <vector>
 
 #include "draw/number_text.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 
-/// y1 is blue's distance from the wall, y2 red's less blue's width. 0 <= y1 <= y2, and they are equal
-/// while the blocks touch.
+/// y1 is blue's distance from the wall, y2 red's less blue's width. 0 <= y1 <= y2, and they are
+/// equal while the blocks touch.
 struct GapPoint {
   double y1 = 0;
   double y2 = 0;
@@ -78,15 +79,10 @@ struct TrajectoryPiece {
   std::vector<Band> bands;
 };
 
-struct TrajectorySpan {
-  Rational from;
-  Rational to;
-  int columns;  ///< >= 1; columns of one pixel show all that a picture can
-};
-
 /// Pieces from one end of the span to the other.
+/// @param columns  >= 1; columns of one pixel show all that a picture can
 std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const Wedge& wedge,
-                                           const TrajectorySpan& span);
+                                           const Span& span, int columns);
 
 /// The greatest of red's gaps at corners and at ends of bands; at least 0.
 double greatest_y2(const std::vector<TrajectoryPiece>& pieces);

@@ -14,12 +14,6 @@ constexpr double kLeastBetween_px = 6;  // between rays, at their ends
 constexpr double kRimStep = 0.05;       // radians
 constexpr double kBelowWedge_em = 1.5;
 
-/// The exponent n if 1 ray in 10^n is drawn, so that their ends are far enough apart.
-unsigned long stride_exponent(const Wedge& wedge, double radius_px) {
-  const double exponent = std::ceil(std::log10(kLeastBetween_px / radius_px) - wedge.log10_theta());
-  return static_cast<unsigned long>(std::max(0.0, exponent));
-}
-
 /// The angle by which a straight line turns around the origin from one of its points to another.
 double angle_between(const Point& from, const Point& to) {
   // Products of long vectors would leave the range of a double.
@@ -60,9 +54,9 @@ class UnfoldedPanel {
     const Point present = plane_at(to_double(shown.time));
     if (std::hypot(present.x, present.y) > most_ * (1 + 1e-9)) return;
     if (stride_exponent_ == 0) add_present_wedge(present, items);
-    items.emplace_back(
-        diagram_.moving_line(1, {at(from_), at(present)}, diagram_.palette().accent, 2));
-    items.emplace_back(diagram_.dot(2, at(present), diagram_.palette().accent));
+    const Color accent = diagram_.palette().accent;
+    items.emplace_back(diagram_.moving_line(1, {at(from_), at(present)}, accent, 2));
+    items.emplace_back(diagram_.dot(2, at(present), accent));
   }
 
  private:
@@ -95,25 +89,25 @@ class UnfoldedPanel {
   }
 
   void add_rays() {
-    stride_exponent_ = stride_exponent(wedge_, rim_.radius);
+    const double exponent =
+        std::ceil(std::log10(kLeastBetween_px / rim_.radius) - wedge_.log10_theta());
+    stride_exponent_ = static_cast<unsigned long>(std::max(0.0, exponent));
     const double step = wedge_.angle({1, static_cast<long>(stride_exponent_)});
+    const Palette& palette = diagram_.palette();
+    constexpr double kPi = std::numbers::pi;
     std::vector<Point> rays;
-    for (double k = std::ceil(-tilt_ / step); tilt_ + k * step <= std::numbers::pi * (1 + 1e-12);
-         ++k) {
+    for (double k = std::ceil(-tilt_ / step); tilt_ + k * step <= kPi * (1 + 1e-12); ++k) {
       rays.push_back(rim_.centre);
       rays.push_back(rim_.at(tilt_ + k * step));
     }
-    diagram_.line(std::move(rays), diagram_.palette().grid);
+    diagram_.line(std::move(rays), palette.grid);
     std::vector<Point> rim;
-    for (double angle = 0; angle < std::numbers::pi; angle += kRimStep)
-      rim.push_back(rim_.at(angle));
-    rim.push_back(rim_.at(std::numbers::pi));
-    diagram_.shape(std::move(rim), std::nullopt, diagram_.palette().muted);
-    if (stride_exponent_ > 0) {
-      diagram_.text(fmt::format("1 ray in {}", short_text(Rational(power(10, stride_exponent_)))),
-                    {rim_.centre.x, rim_.centre.y + 1.2 * diagram_.text_px()}, 0.5,
-                    diagram_.palette().muted);
-    }
+    for (double angle = 0; angle < kPi; angle += kRimStep) rim.push_back(rim_.at(angle));
+    rim.push_back(rim_.at(kPi));
+    diagram_.shape(std::move(rim), std::nullopt, palette.muted);
+    if (stride_exponent_ == 0) return;
+    diagram_.text(fmt::format("1 ray in {}", short_text(Rational(power(10, stride_exponent_)))),
+                  {rim_.centre.x, rim_.centre.y + 1.2 * diagram_.text_px()}, 0.5, palette.muted);
   }
 
   void add_present_wedge(const Point& present, std::vector<DrawItem>& items) const {
@@ -136,7 +130,7 @@ class UnfoldedPanel {
   Circle rim_;  ///< of the half-plane; angles are the plane's and the tilt
   double from_angle_ = 0;
   double tilt_ = 0;
-  unsigned long stride_exponent_ = 0;
+  unsigned long stride_exponent_ = 0;  ///< 1 ray in 10^n is drawn, so that they are apart
 };
 
 }  // namespace

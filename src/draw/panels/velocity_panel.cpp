@@ -14,9 +14,9 @@ constexpr double kMargin_em = 0.8;
 constexpr double kLeastApart_px = 4;
 
 PanelTitle title_of(const Palette& palette) {
-  constexpr const char* kBrief = "Velocities √m·v";
-  return {fmt::format("{} ({} →, {} ↑)", kBrief, palette.red.full_name, palette.blue.full_name),
-          kBrief};
+  return {
+      fmt::format("Velocities √m·v ({} →, {} ↑)", palette.red.full_name, palette.blue.full_name),
+      "Velocities √m·v"};
 }
 
 /// The velocities are a point on a circle. A collision of the blocks moves it by two wedge angles
@@ -50,8 +50,7 @@ class VelocityPanel {
     if (!moves_) return;
     const Point velocity = point_of(shown.state.blue.velocity, shown.state.red.velocity);
     // Below the axis, sectors are lit up to the point. Above it, they are one collision behind
-    // until blue meets the wall. After the last collision all are lit, and the point may be back in
-    // one.
+    // until blue meets the wall. After the last collision all are lit.
     const bool is_over = shown.state.count >= collisions_;
     const double angle = is_over ? 0 : std::abs(std::atan2(velocity.y, velocity.x));
     add_lit(angle, below_, 0, items);
@@ -59,9 +58,9 @@ class VelocityPanel {
     if (rays_.plate) items.emplace_back(rays_);
     const Point at{circle_.centre.x + circle_.radius * velocity.x,
                    circle_.centre.y - circle_.radius * velocity.y};
-    items.emplace_back(
-        diagram_.moving_line(3, {circle_.centre, at}, diagram_.palette().accent, 1.5));
-    items.emplace_back(diagram_.dot(4, at, diagram_.palette().accent));
+    const Color accent = diagram_.palette().accent;
+    items.emplace_back(diagram_.moving_line(3, {circle_.centre, at}, accent, 1.5));
+    items.emplace_back(diagram_.dot(4, at, accent));
   }
 
  private:
@@ -92,14 +91,10 @@ class VelocityPanel {
 
   void add_axes() {
     const Palette& palette = diagram_.palette();
-    const double em = diagram_.text_px();
-    const double reach = circle_.radius + 0.5 * em;
-    diagram_.line({{circle_.centre.x - reach, circle_.centre.y},
-                   {circle_.centre.x + reach, circle_.centre.y}},
-                  palette.grid);
-    diagram_.line({{circle_.centre.x, circle_.centre.y - reach},
-                   {circle_.centre.x, circle_.centre.y + reach}},
-                  palette.grid);
+    const auto& [centre, radius] = circle_;
+    const double reach = radius + 0.5 * diagram_.text_px();
+    diagram_.line({{centre.x - reach, centre.y}, {centre.x + reach, centre.y}}, palette.grid);
+    diagram_.line({{centre.x, centre.y - reach}, {centre.x, centre.y + reach}}, palette.grid);
     diagram_.shape(circle_.arc(0, 2 * std::numbers::pi), std::nullopt, palette.muted);
   }
 

@@ -40,7 +40,7 @@ bool is_rgb(const AVFrame& frame);
 inline constexpr int kAlpha = 3;
 /// The component that a channel shows; -1 if the format has no alpha. Three channels show grey.
 int component_of(const AVPixFmtDescriptor& format, int channel);
-// Of a component: log2 of the pixels that share a sample, and the samples of a row.
+// log2 of the pixels that share a sample of a component, and its samples in a row.
 int x_shift_of(const AVPixFmtDescriptor& format, int component);
 int y_shift_of(const AVPixFmtDescriptor& format, int component);
 int samples_in_row(const AVFrame& frame, int component);

@@ -25,7 +25,7 @@ inline constexpr SoundCodec kAac = {
 /// For WebM.
 inline constexpr SoundCodec kOpus = {.name = "libopus", .bit_rate = 160'000};
 
-/// An encoder that exists and opens.
+/// An encoder of sound that exists and opens.
 class SoundEncoder {
  public:
   /// @throws UsageError if libavcodec lacks it.
@@ -50,6 +50,7 @@ class SoundEncoder {
   AvParametersPtr parameters_;
 };
 
+/// The sound's place in a file that is being written.
 class SoundStream {
  public:
   /// Adds the stream to a muxer whose header is not written yet. Encoder and muxer must outlive it.

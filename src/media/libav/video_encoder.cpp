@@ -31,7 +31,7 @@ void set_picture_format(AVCodecContext& context, const VideoFormat& format,
   context.chroma_sample_location = AVCHROMA_LOC_LEFT;
 }
 
-/// Of a context or of parameters.
+/// The headers that a context or parameters have.
 ByteSpan extradata(const auto& stream) {
   return {stream.extradata, std::size_t(stream.extradata_size)};
 }

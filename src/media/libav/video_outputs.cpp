@@ -13,7 +13,7 @@
 namespace piblocks {
 namespace {
 
-/// Of our own encoder; src/h264/README.md has the measurements.
+/// The quantiser of our own encoder; src/h264/README.md has the measurements.
 constexpr int kQp = 14;
 
 /// In MP4 and MOV, libavformat 59 counts time in units of one over the frame rate's numerator,

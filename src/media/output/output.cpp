@@ -155,7 +155,7 @@ Output set_up_output(const std::string& name, const VideoFormat& format,
   if (kind != nullptr) {
     check_kind(*kind, request, problems);
   } else {
-    // Of a page, render() sets up only the MP4 in it.
+    // render() sets up the MP4 of a page.
     problems.add(fmt::format(
         "output: cannot tell the kind of '{}' from its name; use one of: {}, *.html (a page)", name,
         names(0)));

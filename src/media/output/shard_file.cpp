@@ -21,7 +21,7 @@ constexpr std::uint8_t kSoundRecord = 'S';
 constexpr std::uint8_t kEndRecord = 'E';
 /// Packets in a record of sound.
 constexpr std::size_t kSoundPackets = 64;
-/// Of the header. Numbers of a scene may have 100,000 digits each.
+/// Limits of the header. Numbers of a scene may have 100,000 digits each.
 constexpr std::size_t kMaxLine_bytes = 4 * 1024 * 1024;
 constexpr std::size_t kMaxHeaderLines = 200;
 

@@ -48,7 +48,7 @@ class FrameReader {
   virtual AnyImage samples() = 0;
   /// The frame's colours, at no less than the depth of the samples.
   virtual AnyImage rgb() = 0;
-  /// The frame for people: the file's name, or the frame's number from 0.
+  /// The frame's name in messages: the file's, or its number from 0.
   virtual std::string name() const = 0;
 };
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <string_view>
+#include <vector>
 
 namespace piblocks {
 namespace {
@@ -45,6 +47,29 @@ TEST(Printable, IsSafeAndStableForRandomBytes) {
       EXPECT_FALSE(starts_c1);
     }
   }
+}
+
+std::string base64_of(std::string_view text) {
+  return base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+// RFC 4648, section 10.
+TEST(Base64, HasTheTextsOfTheStandard) {
+  EXPECT_EQ(base64_of(""), "");
+  EXPECT_EQ(base64_of("f"), "Zg==");
+  EXPECT_EQ(base64_of("fo"), "Zm8=");
+  EXPECT_EQ(base64_of("foo"), "Zm9v");
+  EXPECT_EQ(base64_of("foobar"), "Zm9vYmFy");
+}
+
+TEST(Base64, HasAllDigits) {
+  const std::vector<std::uint8_t> bytes{0xfb, 0xef, 0xbe, 0xff, 0xff, 0xff};
+  EXPECT_EQ(base64(bytes), "++++////");
+}
+
+TEST(Base64, OfPiecesIsThatOfTheWhole) {
+  EXPECT_EQ(base64_of("pieces") + base64_of("of th"), base64_of("piecesof th"));
+  EXPECT_NE(base64_of("piec") + base64_of("es"), base64_of("pieces"));
 }
 
 }  // namespace
