@@ -65,9 +65,8 @@ void break_off_calls() {
   const pid_t process = ::getpid();
   const pid_t self = ::gettid();
   std::error_code ended;  // a thread may end at any time
-  std::filesystem::directory_iterator task("/proc/self/task", ended);
-  for (; !ended && task != std::filesystem::directory_iterator(); task.increment(ended)) {
-    const int thread = std::atoi(task->path().filename().c_str());
+  for (const std::filesystem::path& task : entries_of("/proc/self/task", ended)) {
+    const int thread = std::atoi(task.filename().c_str());
     if (thread != self) ::tgkill(process, thread, kBreakOff);
   }
 }

@@ -1,20 +1,40 @@
-// Open files of the operating system, and its errors.
-// In: a descriptor or an errno. Out: an owner that closes the descriptor; the text of the error.
+// Open files of the operating system, its folders and its errors.
+// In: a descriptor, a folder or an errno. Out: an owner that closes the descriptor; what the folder
+// holds; the text of the error.
 #pragma once
 
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace piblocks {
 
 inline std::string error_text(int error_number) {
   return std::generic_category().message(error_number);
+}
+
+/// The paths of what a folder holds, in any order, unlike directory_iterator::increment(error_code),
+/// which ends the process if there is no memory.
+/// @param error  set if the folder cannot be read.
+inline std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder,
+                                                     std::error_code& error) {
+  std::vector<std::filesystem::path> entries;
+  error.clear();
+  try {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      entries.push_back(entry.path());
+    }
+  } catch (const std::filesystem::filesystem_error& failure) {
+    error = failure.code();
+  }
+  return entries;
 }
 
 class Descriptor {

@@ -77,9 +77,8 @@ bool FileSet::finish_commit(const fs::path& folder) const {
   for (const char* files : {kOld, kNew}) {
     if (!fs::exists(folder / files, error)) return !error;
   }
-  fs::directory_iterator entry(folder / kNew, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    fs::rename(entry->path(), folder_ / entry->path().filename(), error);
+  for (const fs::path& path : entries_of(folder / kNew, error)) {
+    fs::rename(path, folder_ / path.filename(), error);
     if (error) return false;
   }
   return !error;

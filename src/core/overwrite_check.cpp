@@ -59,9 +59,9 @@ FileClaim folder_claim(const std::string& what, const fs::path& folder, FileName
   FileClaim claim{what, path.string()};
   claim.folder = place_of(path);
   std::error_code error;
-  for (fs::directory_iterator at(path, error), end; !error && at != end; at.increment(error)) {
-    if (names && !names(at->path().filename())) continue;
-    if (const auto id = id_of(at->path(), S_IFREG)) claim.files.push_back(*id);
+  for (const fs::path& file : entries_of(path, error)) {
+    if (names && !names(file.filename())) continue;
+    if (const auto id = id_of(file, S_IFREG)) claim.files.push_back(*id);
   }
   std::ranges::sort(claim.files);
   claim.names = std::move(names);

@@ -118,11 +118,10 @@ bool remove_abandoned(const fs::path& final_path, const fs::path& own,
   const std::string final_name = final_path.filename();
   bool is_shared = false;
   std::error_code unreadable;
-  fs::directory_iterator entry(folder_of(final_path), unreadable);
-  for (; !unreadable && entry != fs::directory_iterator(); entry.increment(unreadable)) {
-    const std::string name = entry->path().filename();
+  for (const fs::path& path : entries_of(folder_of(final_path), unreadable)) {
+    const std::string name = path.filename();
     if (!is_temporary_name(name, final_name) || name == own.filename()) continue;
-    is_shared |= remove_unless_locked(entry->path(), rescue);
+    is_shared |= remove_unless_locked(path, rescue);
   }
   return is_shared;
 }

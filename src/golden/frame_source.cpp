@@ -69,8 +69,8 @@ bool comes_before(const fs::path& one, const fs::path& other) {
 std::vector<fs::path> png_files_in(const fs::path& folder) {
   std::vector<fs::path> paths;
   std::error_code error;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    if (has_ending(at->path().filename().native(), ".png")) paths.push_back(at->path());
+  for (const fs::path& path : entries_of(folder, error)) {
+    if (has_ending(path.filename().native(), ".png")) paths.push_back(path);
   }
   if (error) {
     throw IoError(fmt::format("compare: cannot read '{}': {}", folder.string(), error.message()));
@@ -99,11 +99,11 @@ std::optional<std::int64_t> first_number(const FramePattern& pattern) {
 void check_for_gap(const FramePattern& pattern, std::int64_t missing) {
   const fs::path folder = pattern.folder().empty() ? "." : pattern.folder();
   std::error_code error;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    const auto number = pattern.number_of(at->path().filename().native());
+  for (const fs::path& path : entries_of(folder, error)) {
+    const auto number = pattern.number_of(path.filename().native());
     if (!number || *number < missing) continue;
     throw IoError(fmt::format("compare: there is no '{}', but there is '{}' after it",
-                              numbered(pattern, missing).string(), at->path().string()));
+                              numbered(pattern, missing).string(), path.string()));
   }
 }
 

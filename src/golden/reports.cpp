@@ -93,9 +93,9 @@ void DiffFolder::add(const FrameComparison& frame) {
 
 void DiffFolder::finish(const ComparisonJob& /*job*/, const ComparisonResult& /*result*/) {
   std::error_code error;
-  for (fs::directory_iterator at(folder_, error), end; !error && at != end; at.increment(error)) {
-    const std::string name = at->path().filename();
-    const bool is_old = pattern_.number_of(name) && !names_.contains(name) && has_mark(at->path());
+  for (const fs::path& path : entries_of(folder_, error)) {
+    const std::string name = path.filename();
+    const bool is_old = pattern_.number_of(name) && !names_.contains(name) && has_mark(path);
     if (is_old) files_.remove(name);
   }
   files_.commit();
