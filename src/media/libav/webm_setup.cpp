@@ -97,6 +97,7 @@ EncoderSetup webm_setup(const VideoFormat& format, const EncoderSettings& settin
     problems.add(no_preset(encoder->name));
   }
   problems.check();
+  // cppcheck-suppress nullPointerRedundantCheck ; without an encoder, check() throws
   return {.codec = codec_of(*encoder),
           .pixel_format = format.has_alpha ? AV_PIX_FMT_YUVA420P : AV_PIX_FMT_YUV420P,
           .frames_per_chunk = frames_in_a_second(format.frame_rate),

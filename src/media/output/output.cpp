@@ -163,6 +163,7 @@ Output set_up_output(const std::string& name, const VideoFormat& format,
   problems.add(size_problem(format));
   problems.add(frame_rate_problem(format.frame_rate));
   problems.check();
+  // cppcheck-suppress nullPointerRedundantCheck ; without a kind, check() throws
   return kind->set_up(request);
 }
 
