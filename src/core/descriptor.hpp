@@ -20,8 +20,8 @@ inline std::string error_text(int error_number) {
   return std::generic_category().message(error_number);
 }
 
-/// The paths of what a folder holds, in any order, unlike directory_iterator::increment(error_code),
-/// which ends the process if there is no memory.
+/// The paths of what a folder holds, in any order. Without memory this throws;
+/// directory_iterator::increment(error_code) would end the process.
 /// @param error  set if the folder cannot be read.
 inline std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder,
                                                      std::error_code& error) {

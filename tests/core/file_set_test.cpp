@@ -1,6 +1,4 @@
 // Files that take their names together.
-#include "core/output_file.hpp"
-
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
@@ -8,6 +6,7 @@
 #include <map>
 #include <string_view>
 
+#include "core/output_file.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace piblocks {

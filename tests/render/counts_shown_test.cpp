@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "render/film.hpp"
-#include "render/video_facts.hpp"
 #include "render/renderings.hpp"
+#include "render/video_facts.hpp"
 #include "scene/schedule.hpp"
 #include "support/property.hpp"
 

@@ -1,6 +1,4 @@
 // What films of several parts sound like: each run in its time and place, and nothing else.
-#include "render/film.hpp"
-
 #include <gtest/gtest.h>
 #include <piblocks/render.hpp>
 #include <piblocks/script.hpp>
@@ -9,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "render/film.hpp"
 #include "support/decode_video.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -1,11 +1,11 @@
 // What a page is told of the run, beside what the log says.
-#include "render/video_facts.hpp"
-
 #include <gtest/gtest.h>
 #include <piblocks/run.hpp>
 
 #include <algorithm>
 #include <sstream>
+
+#include "render/video_facts.hpp"
 
 namespace piblocks {
 namespace {
