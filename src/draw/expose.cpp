@@ -125,8 +125,8 @@ std::vector<Dwell> dwells_of(BlockName block, const ToPixels& to_px,
 struct EvenMotion {
   Travel behind;
   Travel front;
-  double front_width;
-  double share;  ///< of the exposure
+  double front_width{};
+  double share{};  ///< of the exposure
 };
 
 /// Adds contacts where the blocks are less than a pixel apart.

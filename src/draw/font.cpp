@@ -140,7 +140,7 @@ std::string shaping_problem(std::string_view utf8) {
   while (!utf8.empty()) {
     const auto [code, length_bytes] = first_character(utf8);
     for (const Unshaped& kind : kUnshaped) {
-      const auto has_code = [code](const CodeRange& range) {
+      const auto has_code = [code = code](const CodeRange& range) {
         return code >= range.first && code <= range.last;
       };
       if (std::ranges::none_of(kind.ranges, has_code)) continue;

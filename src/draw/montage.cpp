@@ -155,7 +155,8 @@ DrawList arrange(std::vector<CaptionedPicture> pictures, int width_px, int heigh
   std::vector<DrawItem> above;
   for (int i = 0; i < count; ++i) {
     auto& [picture, text] = pictures[static_cast<std::size_t>(i)];
-    const Rectangle place{left + i % columns * step_x, top + i / columns * step_y, width, height};
+    const int row = i / columns;
+    const Rectangle place{left + i % columns * step_x, top + row * step_y, width, height};
     page.items.emplace_back(group_of(ItemId::compared, place, std::move(picture)));
     // Half of the line around the picture is inside of it.
     const Rectangle frame{place.x - line_px / 2, place.y - line_px / 2, width + line_px,

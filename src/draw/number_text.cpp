@@ -113,7 +113,7 @@ std::string short_text(const Rational& value) {
       }
     }
   }
-  const std::string fraction = value.get_str();
+  std::string fraction = value.get_str();
   if (fraction.size() <= kShort) return fraction;
   if (size.exponent >= -2 && size.exponent < 7) {
     return fixed_text(to_double(value), std::max(0, 2 - static_cast<int>(size.exponent)));

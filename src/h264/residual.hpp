@@ -23,7 +23,9 @@ struct BlockPlace {
   constexpr int row_length() const { return plane == 0 ? 4 : 2; }
   /// Among all blocks of the macroblock, plane by plane, row by row.
   constexpr std::size_t number() const {
-    return static_cast<std::size_t>((plane == 0 ? 0 : 12 + 4 * plane) + y * row_length() + x);
+    const int first = plane == 0 ? 0 : 12 + 4 * plane;
+    const int number = first + y * row_length() + x;
+    return static_cast<std::size_t>(number);
   }
 };
 

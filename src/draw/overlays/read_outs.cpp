@@ -179,6 +179,7 @@ ReadOutRows::ReadOutRows(const DrawingContext& context) : text_px_(context.text_
                     widest.name, room_px));
   }
   std::vector<double> widths;
+  widths.reserve(read_outs.size());
   for (const ReadOut& read_out : read_outs) widths.push_back(width_em(read_out) * text_px_);
   const double gap = kBetweenReadOuts * text_px_;
   std::size_t first = 0;

@@ -103,8 +103,8 @@ std::vector<std::uint16_t> levels_of(const AVFrame& frame, int component, int y,
   const bool is_inverted = pixel_format_of(frame) == AV_PIX_FMT_MONOWHITE;
   if (own_max == max_level && !is_inverted) return levels;
   for (std::uint16_t& level : levels) {
-    const int shown = is_inverted ? own_max - level : level;
-    level = std::uint16_t(scaled_level(shown, own_max, max_level));
+    const int own_level = is_inverted ? own_max - level : level;
+    level = std::uint16_t(scaled_level(own_level, own_max, max_level));
   }
   return levels;
 }
