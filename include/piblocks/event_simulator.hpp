@@ -175,8 +175,7 @@ class EventSimulator {
   /// The particles at time(): at the start, then just after the last collision.
   const std::vector<Body>& particles() const { return particles_; }
   const Scalar& time() const { return time_; }
-  /// Collisions so far.
-  std::int64_t count() const { return count_; }
+  std::int64_t count() const { return count_; }  ///< collisions so far
 
   /// When the next collision is due; none if there will be no more.
   std::optional<Scalar> next_time() const {
@@ -232,10 +231,7 @@ class EventSimulator {
   }
 
  private:
-  struct Pair {
-    std::size_t first;
-    std::size_t second;
-  };
+  using Pair = std::pair<std::size_t, std::size_t>;
 
   std::size_t slot(std::size_t i, std::size_t j) const {
     return i < j ? i * particles_.size() + j : j * particles_.size() + i;
@@ -276,7 +272,7 @@ class EventSimulator {
     using std::isfinite;
     if (!isfinite(time_)) fail("its time");
     for (std::size_t i = 0; i < particles_.size(); ++i) {
-      if (is_finite(particles_[i].position) && is_finite(particles_[i].velocity)) continue;
+      if (particles_[i].position.allFinite() && particles_[i].velocity.allFinite()) continue;
       fail("the state of particle " + std::to_string(i));
     }
   }
@@ -284,14 +280,6 @@ class EventSimulator {
   [[noreturn]] void fail(const std::string& what) const {
     throw SimulationError("simulation: collision " + std::to_string(count_) + ": " + what +
                           " is out of the number type's range");
-  }
-
-  static bool is_finite(const typename Body::Vector& v) {
-    using std::isfinite;
-    for (int k = 0; k < Dim; ++k) {
-      if (!isfinite(v[k])) return false;
-    }
-    return true;
   }
 
   void validate() const {
@@ -304,8 +292,8 @@ class EventSimulator {
       if (!(body.radius > 0 && isfinite(body.radius))) {
         problems.push_back(name + "radius is not positive and finite");
       }
-      if (!is_finite(body.position)) problems.push_back(name + "position is not finite");
-      if (!is_finite(body.velocity)) problems.push_back(name + "velocity is not finite");
+      if (!body.position.allFinite()) problems.push_back(name + "position is not finite");
+      if (!body.velocity.allFinite()) problems.push_back(name + "velocity is not finite");
     }
     if (!problems.empty()) throw UsageError(std::move(problems));
   }

@@ -30,9 +30,8 @@ struct BlockSystem {
   Block blue = {1, 2, 0, 1};
   Block red = {10000, 5, -1, 1};
 
-  /// Between the wall and blue at time 0.
+  /// The gaps at time 0, between the wall and blue and between blue and red.
   Rational blue_gap() const { return blue.position - blue.width / 2 - wall_face; }
-  /// Between blue and red at time 0.
   Rational blocks_gap() const {
     return red.position - red.width / 2 - (blue.position + blue.width / 2);
   }
@@ -133,8 +132,7 @@ class CollisionLog {
   /// at `time` has happened.
   /// @throws SimulationError as collision().
   virtual BlockState state_at(const Rational& time) const = 0;
-  /// Collisions first … last, where first_index() <= first and last <= size(); none if last <
-  /// first.
+  /// Collisions first … last with first_index() <= first, last <= size(); none if last < first.
   /// @throws SimulationError as collision().
   virtual std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const;
   /// A time at which exactly the collisions up to this one have happened: that of the collision if

@@ -7,7 +7,6 @@
 #include <piblocks/instant.hpp>
 #include <piblocks/run.hpp>
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

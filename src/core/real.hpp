@@ -51,8 +51,9 @@ class Real {
   double to_double() const { return mpfr_get_d(value_, MPFR_RNDN); }
   /// Nearest sum of two doubles.
   DoubleDouble to_double_double() const {
-    const double hi = to_double();
-    return {hi, (*this - hi).to_double()};
+    Real rest(bits());
+    mpfr_sub_d(rest.value_, value_, to_double(), MPFR_RNDN);
+    return {to_double(), rest.to_double()};
   }
   /// The exponent e of |value| = m * 2^e with 1/2 <= m < 1; 0 for zero.
   long exponent() const { return mpfr_zero_p(value_) != 0 ? 0 : mpfr_get_exp(value_); }
@@ -77,11 +78,6 @@ class Real {
   friend Real operator-(const Real& a, const Integer& b) {
     Real result(a.bits());
     mpfr_sub_z(result.value_, a.value_, b.get_mpz_t(), MPFR_RNDN);
-    return result;
-  }
-  friend Real operator-(const Real& a, double b) {
-    Real result(a.bits());
-    mpfr_sub_d(result.value_, a.value_, b, MPFR_RNDN);
     return result;
   }
   friend Real sqrt(const Real& a) { return unary(mpfr_sqrt, a); }

@@ -24,15 +24,13 @@ namespace {
 constexpr double kLeastLogo_px = 1;
 constexpr double kLeastLogoLength_px = 3;
 
-/// Whether the counts of a system are the digits of pi: blue at rest, off the wall, and a mass
-/// ratio that is a power of 100.
+/// Whether a system counts the digits of pi: blue at rest, off the wall, mass ratio a power of 100.
 bool counts_pi(const BlockSystem& system) {
   Rational ratio = system.red.mass / system.blue.mass;
   if (system.blue.velocity != 0 || system.red.velocity >= 0 || system.blue_gap() <= 0) return false;
-  if (ratio.get_den() != 1) return false;
   const std::string digits = ratio.get_num().get_str();
-  return digits.size() % 2 == 1 && digits.find_first_not_of('0', 1) == std::string::npos &&
-         digits.front() == '1';
+  return ratio.get_den() == 1 && digits.size() % 2 == 1 && digits.front() == '1' &&
+         digits.find_first_not_of('0', 1) == std::string::npos;
 }
 
 std::string lit_digits(const Scene& scene, const CollisionLog& log) {
@@ -49,13 +47,6 @@ Integer longest_count(const Scene& scene, const CollisionLog& log) {
   if (log.first_index() > 0 || !has_span(scene, log)) return last;
   const Integer first = log.state_at(span_of(scene, log).from).count;
   return first.get_str().size() > last.get_str().size() ? first : last;
-}
-
-Drawable make_panel(const DrawingContext& context, const PanelPlace& place) {
-  // In the order of Panel.
-  constexpr std::array kPanels = {velocity_panel, position_panel, unfolded_panel, time_panel,
-                                  rate_panel};
-  return kPanels.at(static_cast<std::size_t>(place.panel))(context, place);
 }
 
 void check(bool is_finite, const Rational& time) {
@@ -120,7 +111,11 @@ Composition::Composition(const Scene& scene, const CollisionLog& log,
   if (plan.caption) lines.emplace_back(*plan.caption);
   if (logo) lines.emplace_back(place_logo(plan.logo, std::move(logo)));
   drawables_.push_back(unchanging(std::move(lines)));
+  // In the order of Panel.
+  constexpr std::array kPanels = {velocity_panel, position_panel, unfolded_panel, time_panel,
+                                  rate_panel};
   for (std::size_t i = 0; i < show.panels.size(); ++i) {
+    const auto make_panel = kPanels.at(static_cast<std::size_t>(show.panels[i]));
     const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +
                                  ids_from(static_cast<std::uint32_t>(i))};
     drawables_.push_back(make_panel(context, {plan.panels[i], first_id, show.panels[i]}));

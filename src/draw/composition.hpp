@@ -24,13 +24,11 @@ struct FrameState {
   BlockState state;
   Rational time = 0;    ///< simulation time of the state
   Rational slower = 1;  ///< as in Stretch
-  /// Where the blocks are while the frame is exposed; if empty, at the instant. All else is shown
-  /// as it is at the instant.
+  /// Where the blocks are while the frame is exposed; if empty, as all else, at the instant.
   std::vector<WeightedExposure> exposure = {};
 };
 
-/// Appends the items that show one thing, such as an overlay or a panel, in the order of their ids.
-/// Thread-safe.
+/// Appends the items of one thing, such as an overlay, in the order of their ids. Thread-safe.
 using Drawable = std::function<void(const FrameState& shown, std::vector<DrawItem>& items)>;
 
 /// The layout and all that does not move, as far as the scene asks for it. The log is read only
@@ -38,9 +36,8 @@ using Drawable = std::function<void(const FrameState& shown, std::vector<DrawIte
 class Composition {
  public:
   /// @param logo  the picture that scene.show.logo names, if it does.
-  /// @throws UsageError if something the scene asks for cannot be shown: a glyph that the font does
-  ///         not have, a line too long, a panel too small to be read; DrawError if the font
-  ///         cannot be loaded.
+  /// @throws UsageError if something the scene asks for cannot be shown, such as an unknown glyph,
+  ///         a line too long, a panel too small to be read; DrawError if the font cannot be loaded.
   Composition(const Scene& scene, const CollisionLog& log,
               std::shared_ptr<const Image> logo = nullptr);
 

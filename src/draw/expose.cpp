@@ -17,8 +17,7 @@ constexpr double kMargin_px = 4;
 constexpr double kMaxDwells = 1 << 15;
 
 /// Distance from one dwell to the next, between which a pixel's light is taken to change evenly.
-/// The error falls with its square. It matters less for a block that moves farther, and is in each
-/// pixel for a shorter time.
+/// The error falls with its square, and matters less if the block is in each pixel for less time.
 double spacing_px(double range_px) {
   const double fine = range_px <= 64 ? 1.0 / 32 : range_px <= 512 ? 1.0 / 16 : 1.0 / 4;
   return std::max(fine, range_px / kMaxDwells);
@@ -86,19 +85,11 @@ class DwellTable {
   std::vector<double> shares_;
 };
 
-/// Where the left edge of a block goes.
-Travel range_px(BlockName block, const ToPixels& to_px,
-                std::span<const WeightedExposure> exposures) {
-  Travel all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  for (const WeightedExposure& weighted : exposures) {
-    all.include(to_px(weighted.exposure.range(block)));
-  }
-  return all;
-}
-
 std::vector<Dwell> dwells_of(BlockName block, const ToPixels& to_px,
                              std::span<const WeightedExposure> exposures) {
-  Travel range = range_px(block, to_px, exposures);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Travel range{kInfinity, -kInfinity};  // of the block's left edge
+  for (const auto& [share, exposure] : exposures) range.include(to_px(exposure.range(block)));
   if (!(range.to - range.from > kStill_px)) return {};
   range.from = std::max(range.from, -to_px.block_px - kMargin_px);
   range.to = std::min(range.to, to_px.frame_px + kMargin_px);

@@ -107,8 +107,7 @@ constexpr std::array kControls{
     CodeRange{0xFEFF, 0xFEFF},  CodeRange{0xFFF9, 0xFFFB}, CodeRange{0x1F3FB, 0x1F3FF},
     CodeRange{0xE0000, 0xE0FFF}};
 
-/// Scripts from right to left, scripts whose letters join, and those of India and its neighbours,
-/// whose letters change places.
+/// Scripts from right to left, scripts whose letters join or, in and around India, change places.
 constexpr std::array kScripts{
     CodeRange{0x0590, 0x109F}, CodeRange{0x1100, 0x11FF},   CodeRange{0x1700, 0x18AF},
     CodeRange{0x1900, 0x194F}, CodeRange{0x1A00, 0x1AAF},   CodeRange{0x1B00, 0x1C4F},

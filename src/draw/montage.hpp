@@ -12,8 +12,7 @@
 namespace piblocks {
 
 /// A title card: lines of text in the middle of the frame. The first one is a heading. Lines that
-/// do not fit are made smaller.
-/// @param lines  at least one, not empty.
+/// do not fit are made smaller. @param lines  at least one, not empty.
 /// @throws UsageError if a line cannot be set, or is too long for the frame.
 DrawList compose_card(const std::vector<std::string>& lines, const View& view);
 
@@ -42,8 +41,7 @@ struct CaptionedPicture {
 };
 
 /// Pictures of one size in rows, from the upper left, as large as margins, gaps and captions allow.
-/// A caption that is too long for its picture is set smaller.
-/// @param pictures  at least one.
+/// A caption that is too long for its picture is set smaller. @param pictures  at least one.
 /// @throws DrawError if the font cannot be loaded.
 DrawList arrange(std::vector<CaptionedPicture> pictures, int width_px, int height_px);
 

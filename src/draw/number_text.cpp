@@ -12,7 +12,6 @@ namespace piblocks {
 namespace {
 
 constexpr std::string_view kMinus = "−";
-constexpr std::size_t kShort = 7;
 
 std::string with_commas(std::string digits) {
   const std::size_t point = std::min(digits.find('.'), digits.size());
@@ -113,6 +112,7 @@ std::string short_text(const Rational& value) {
       }
     }
   }
+  constexpr std::size_t kShort = 7;
   std::string fraction = value.get_str();
   if (fraction.size() <= kShort) return fraction;
   if (size.exponent >= -2 && size.exponent < 7) {

@@ -30,8 +30,7 @@ Magnitude root_magnitude_of(const Rational& value);
 /// The same with 64-bit exponents and at least 128 bits.
 mpf_class root_of(const Rational& value);
 
-/// The same number, to be written with so many decimals. A mantissa that would be rounded to 10
-/// becomes a tenth of that.
+/// The same number for so many decimals: a mantissa that would be rounded to 10 becomes a tenth.
 Magnitude written_with(int decimals, Magnitude size);
 
 /// With commas between thousands and a true minus sign: "−1,234.50". Zero has no sign.

@@ -9,8 +9,7 @@
 namespace piblocks {
 namespace {
 
-/// Whether one pixel of the picture is one pixel of the surface. It is not in a vector file, and
-/// not in a scaled group.
+/// Whether pixels of the picture are those of the surface: not in vector files and scaled groups.
 bool has_pixels_of_picture(cairo_t& cr) {
   cairo_matrix_t matrix;
   cairo_get_matrix(&cr, &matrix);

@@ -13,10 +13,6 @@ ItemId id_of(const DrawItem& item) {
   return std::visit([](const auto& any) { return any.id; }, item);
 }
 
-bool have_same_ids(const DrawList& before, const DrawList& after) {
-  return std::ranges::equal(before.items, after.items, {}, id_of, id_of);
-}
-
 bool has_rising_ids(const DrawList& list) {
   return std::ranges::adjacent_find(list.items, std::ranges::greater_equal(), id_of) ==
          list.items.end();
@@ -64,7 +60,7 @@ class Comparison {
   void compare(const DrawList& before, const DrawList& after) {
     const bool alike = before.width_px == after.width_px && before.height_px == after.height_px &&
                        before.background == after.background;
-    if (alike && have_same_ids(before, after)) {
+    if (alike && std::ranges::equal(before.items, after.items, {}, id_of, id_of)) {
       for (std::size_t i = 0; i < after.items.size(); ++i) compare(before.items[i], after.items[i]);
       return;
     }

@@ -23,8 +23,7 @@ struct Extent {
   Extent grown(double px) const { return {left - px, top - px, right + px, bottom + px}; }
 };
 
-/// Cairo rounds every coordinate to 1/256 pixel, and some sums again. An item may paint so far out
-/// of its extent.
+/// An item may paint so far out of its extent: Cairo rounds coordinates and sums to 1/256 pixel.
 inline constexpr double kRounding_px = 1.0 / 64;
 
 /// Width of a line of text, in ems.
@@ -36,8 +35,7 @@ Extent extent_of(const ExposedBlock& block);
 Extent extent_of(const TextItem& text, double left_em, double right_em);
 Extent extent_of(const DrawItem& item, const MeasureText& width_em);
 
-/// The whole pixels of an area that an extent reaches into. The extent may be far outside, or not a
-/// number.
+/// The whole pixels of an area that an extent, maybe far outside or not a number, reaches into.
 PixelRect pixels_of(const Extent& extent, const PixelRect& area);
 
 /// The pixels of an area that a moving block reaches into; of no width if nothing moves.
@@ -46,8 +44,7 @@ PixelRect moving_area(const ExposedItem& item, const PixelRect& area);
 /// False only if the item has certainly painted nothing into the rectangle.
 bool reaches(const DrawItem& item, const PixelRect& rect);
 
-/// Whether every place and length is a finite number. Items inside plates and groups were checked
-/// when these were made.
+/// Whether every place and length is finite. Items in plates and groups were checked before.
 bool are_finite(std::span<const DrawItem> items);
 
 /// Rectangles of whole pixels, inside the frame. They may overlap.

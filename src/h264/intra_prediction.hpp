@@ -2,7 +2,6 @@
 // In: the row above and the column left of a block. Out: the block.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "h264/picture.hpp"

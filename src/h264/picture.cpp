@@ -1,7 +1,6 @@
 #include "h264/picture.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace piblocks::h264 {
 namespace {

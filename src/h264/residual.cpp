@@ -1,6 +1,5 @@
 #include "h264/residual.hpp"
 
-#include <algorithm>
 #include <span>
 
 #include "h264/cavlc.hpp"

@@ -77,10 +77,33 @@ Collision rounded(const Integer& index, const ExactCollision& exact) {
 
 class ExactLog final : public CollisionLog {
  public:
-  explicit ExactLog(const BlockSystem& system);
+  explicit ExactLog(const BlockSystem& system)
+      : CollisionLog(system), start_{0, CollisionKind::wall, system} {
+    // Before time 0 the velocities just after a collision are the opposite of those just before it
+    // in the reversed run.
+    for (ExactCollision& event : run(reversed(system))) {
+      ExactCollision collision{-event.time, event.kind, event.blocks};
+      collision.blocks.blue.velocity = start_.blocks.blue.velocity;
+      collision.blocks.red.velocity = start_.blocks.red.velocity;
+      start_ = {collision.time, collision.kind, reversed(event.blocks)};
+      events_.insert(events_.begin(), std::move(collision));
+    }
+    const Integer past = events_.size();
+    for (ExactCollision& event : run(system)) events_.push_back(std::move(event));
+    set_range(1 - past, events_.size() - past);
+  }
 
   Collision collision(const Integer& index) const override { return rounded(index, event(index)); }
-  BlockState state_at(const Rational& time) const override;
+
+  BlockState state_at(const Rational& time) const override {
+    const auto next = std::ranges::upper_bound(events_, time, {}, &ExactCollision::time);
+    const ExactCollision& since = next == events_.begin() ? start_ : *std::prev(next);
+    ExactCollision now{time, since.kind, since.blocks};
+    advance(now.blocks, time - since.time);
+    const Collision at = rounded(first_index() - 1 + Integer(next - events_.begin()), now);
+    return {at.index, at.blue, at.red};
+  }
+
   Rational time_after(const Integer& index) const override {
     require_last(index, state_at(event(index).time).count);
     return event(index).time;
@@ -94,31 +117,6 @@ class ExactLog final : public CollisionLog {
   std::vector<ExactCollision> events_;  // of all time, in order
   ExactCollision start_;                // before all of them; its kind has no meaning
 };
-
-ExactLog::ExactLog(const BlockSystem& system)
-    : CollisionLog(system), start_{0, CollisionKind::wall, system} {
-  // Before time 0 the velocities just after a collision are the opposite of those just before it in
-  // the reversed run.
-  for (ExactCollision& event : run(reversed(system))) {
-    ExactCollision collision{-event.time, event.kind, event.blocks};
-    collision.blocks.blue.velocity = start_.blocks.blue.velocity;
-    collision.blocks.red.velocity = start_.blocks.red.velocity;
-    start_ = {collision.time, collision.kind, reversed(event.blocks)};
-    events_.insert(events_.begin(), std::move(collision));
-  }
-  const Integer past = events_.size();
-  for (ExactCollision& event : run(system)) events_.push_back(std::move(event));
-  set_range(1 - past, events_.size() - past);
-}
-
-BlockState ExactLog::state_at(const Rational& time) const {
-  const auto next = std::ranges::upper_bound(events_, time, {}, &ExactCollision::time);
-  const ExactCollision& since = next == events_.begin() ? start_ : *std::prev(next);
-  ExactCollision now{time, since.kind, since.blocks};
-  advance(now.blocks, time - since.time);
-  const Collision at = rounded(first_index() - 1 + Integer(next - events_.begin()), now);
-  return {at.index, at.blue, at.red};
-}
 
 }  // namespace
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -42,14 +41,6 @@ std::optional<RayDirection> ray_direction(const Integer& n, const Rational& r, d
     square = multiply(square, square, r);
   }
   return result;
-}
-
-/// Whether (sigma x, y) certainly lies on the line of ray n. False if that takes numbers longer
-/// than max_bits.
-bool is_on_ray(const Integer& n, const Rational& x, const Rational& y, const Rational& r,
-               double max_bits) {
-  const auto ray = ray_direction(n, r, max_bits);
-  return ray && x * ray->a == ray->b * y;
 }
 
 }  // namespace
@@ -112,7 +103,8 @@ Asymptote ExactMotion::split(const PhaseFunction& phase, const Rational& x, cons
       const bool is_exact = rest.exponent() - error.exponent() > relative_bits;
       if (is_exact || relative_bits == 0) return {low, rest};
     }
-    if (is_on_ray(high, x, y, ratio, kMaxRay_bits * double(bits))) return {high, Real(bits, 0)};
+    const auto ray = ray_direction(high, ratio, kMaxRay_bits * double(bits));
+    if (ray && x * ray->a == ray->b * y) return {high, Real(bits, 0)};  // certainly on it
   }
   throw SimulationError(fmt::format("count: {} bits do not decide whether a collision has happened",
                                     kMaxDecisionBits));

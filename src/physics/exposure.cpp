@@ -1,6 +1,5 @@
 #include "physics/exposure.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

@@ -1,7 +1,5 @@
 #include "physics/impact.hpp"
 
-#include <cmath>
-
 #include "core/real.hpp"
 #include "core/two_sum.hpp"
 #include "physics/unfolded_log.hpp"

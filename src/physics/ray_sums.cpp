@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "physics/unfolded_exposure.hpp"
 
@@ -29,14 +30,11 @@ struct RedMoment {
 };
 
 /// Gauss-Legendre, eight nodes: positive ones on [-1, 1] and their weights.
-struct Node {
-  double x;
-  double weight;
-};
-constexpr std::array<Node, 4> kNodes{{{0.1834346424956498, 0.3626837833783620},
-                                      {0.5255324099163290, 0.3137066458778873},
-                                      {0.7966664774136267, 0.2223810344533745},
-                                      {0.9602898564975363, 0.1012285362903763}}};
+constexpr std::array<std::pair<double, double>, 4> kNodes{
+    {{0.1834346424956498, 0.3626837833783620},
+     {0.5255324099163290, 0.3137066458778873},
+     {0.7966664774136267, 0.2223810344533745},
+     {0.9602898564975363, 0.1012285362903763}}};
 
 }  // namespace
 
@@ -76,11 +74,9 @@ std::optional<RayRange> RaySums::nearer_than(double gap, const RayRange& odd_ray
   };
   const RayRange range{inwards(odd_rays.first, 1, !odd_rays.first.late),
                        inwards(odd_rays.last, -1, odd_rays.last.late)};
-  if (range.first.phase < least || range.last.phase < least) return std::nullopt;
-  if (is_before(odd_rays.last, range.first) || is_before(range.last, range.first)) {
-    return std::nullopt;
-  }
-  return range;
+  const bool is_empty = range.first.phase < least || range.last.phase < least ||
+                        is_before(odd_rays.last, range.first) || is_before(range.last, range.first);
+  return is_empty ? std::nullopt : std::optional(range);
 }
 
 /// The integral over the angle, in units of the distance 2 theta between summands. In
@@ -104,9 +100,9 @@ double RaySums::integral(const RayPhase& from, const RayPhase& to) const {
   double sum = 0;
   for (double panel = 0; panel < panels; ++panel) {
     const double middle = low + (2 * panel + 1) * half;
-    for (const Node& node : kNodes) {
-      for (const double v : {middle - half * node.x, middle + half * node.x}) {
-        sum += node.weight * Summand::over_u(sine_ * std::cosh(v));
+    for (const auto& [x, weight] : kNodes) {
+      for (const double v : {middle - half * x, middle + half * x}) {
+        sum += weight * Summand::over_u(sine_ * std::cosh(v));
       }
     }
   }

@@ -40,8 +40,7 @@ class IndexedStream final : public CollisionStream {
 
 std::optional<Rational> turn_of(const BlockSystem& system) {
   const ExactMotion motion(system);
-  if (motion.at_rest()) return std::nullopt;
-  return motion.closest_approach;
+  return motion.at_rest() ? std::nullopt : std::optional(motion.closest_approach);
 }
 
 BlockSystem article_system(int digits) {

@@ -25,27 +25,24 @@ struct StoredCollision {
 using StoredCollisions = std::vector<StoredCollision>;
 
 using Simulator = EventSimulator<double, 1>;
+using Vector = Simulator::Body::Vector;
 
 // In this order a corner hit begins with the blocks: see EventSimulator.
 constexpr std::size_t kBlue = 0;
 constexpr std::size_t kRed = 1;
 
 Simulator::Body body_of(const Block& block) {
-  Simulator::Body body;
-  body.mass = to_double(block.mass);
-  body.radius = to_double(block.width / 2);
-  body.position[0] = to_double(block.position);
-  body.velocity[0] = to_double(block.velocity);
-  return body;
+  return {.mass = to_double(block.mass),
+          .radius = to_double(block.width / 2),
+          .position = Vector(to_double(block.position)),
+          .velocity = Vector(to_double(block.velocity))};
 }
 
 /// The article's wall: an immovable body of radius 1/2 whose far side is the face.
 Simulator::Body wall_of(const BlockSystem& system) {
-  Simulator::Body body;
-  body.mass = kInfiniteMass<double>;
-  body.radius = 0.5;
-  body.position[0] = to_double(system.wall_face - Rational(1, 2));
-  return body;
+  return {.mass = kInfiniteMass<double>,
+          .radius = 0.5,
+          .position = Vector(to_double(system.wall_face - Rational(1, 2)))};
 }
 
 Motion motion_of(const Simulator::Body& body) { return {body.position[0], body.velocity[0]}; }
@@ -82,11 +79,6 @@ class Recorder {
   StoredCollisions log_;
 };
 
-/// A power of two that makes the speed about 1: its square is then no danger.
-Rational unit_of_time(const ExactMotion& motion) {
-  return scaled(Real(64, 1), -sqrt(Real(64, motion.speed_squared)).exponent()).to_rational();
-}
-
 /// The article's event loop.
 StoredCollisions event_loop(const BlockSystem& system) {
   Simulator simulator({body_of(system.blue), body_of(system.red), wall_of(system)});
@@ -102,8 +94,11 @@ StoredCollisions event_loop(const BlockSystem& system) {
 }
 
 StoredCollisions velocity_loop(const BlockSystem& system) {
-  if (ExactMotion(system).at_rest()) return {};
-  const Rational unit = unit_of_time(ExactMotion(system));
+  const ExactMotion unscaled(system);
+  if (unscaled.at_rest()) return {};
+  // A power of two that makes the speed about 1: its square is then no danger.
+  const Rational unit =
+      scaled(Real(64, 1), -sqrt(Real(64, unscaled.speed_squared)).exponent()).to_rational();
   BlockSystem scaled = system;
   scaled.blue.velocity *= unit;
   scaled.red.velocity *= unit;
@@ -125,17 +120,15 @@ StoredCollisions velocity_loop(const BlockSystem& system) {
   return recorder.take();
 }
 
-bool is_before(const Time& a, const Time& b) {
-  return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
-}
-
 Time negated(const Time& time) { return {-time.hi, -time.lo}; }
 
 /// Collisions before `time`, by binary search; with `or_at` also those at it.
 std::size_t count(const StoredCollisions& collisions, const Time& time, bool or_at) {
-  const auto next = std::ranges::partition_point(
-      collisions, [&](const Time& t) { return is_before(t, time) || (or_at && t == time); },
-      &StoredCollision::time);
+  const auto is_counted = [&](const Time& t) {
+    if (t == time) return or_at;
+    return t.hi < time.hi || (t.hi == time.hi && t.lo < time.lo);
+  };
+  const auto next = std::ranges::partition_point(collisions, is_counted, &StoredCollision::time);
   return static_cast<std::size_t>(next - collisions.begin());
 }
 
@@ -150,76 +143,69 @@ class StoredLog final : public CollisionLog {
     set_range(1 - Integer(backward_.size()), forward_.size());
   }
 
-  Collision collision(const Integer& index) const override;
-  BlockState state_at(const Rational& time) const override;
-  Rational time_after(const Integer& index) const override;
+  Collision collision(const Integer& index) const override {
+    if (index > 0) {
+      const StoredCollision& c = forward_[index.get_ui() - 1];
+      return {index, c.time, c.kind, c.blue, c.red};
+    }
+    // The velocities just after this collision are the opposite of those just before it in the
+    // reversed run.
+    const std::size_t place = Integer(-index).get_ui();
+    const StoredCollision& c = backward_[place];
+    const Motion blue = place == 0 ? motion_of(system().blue) : reversed(backward_[place - 1].blue);
+    const Motion red = place == 0 ? motion_of(system().red) : reversed(backward_[place - 1].red);
+    return {index,
+            negated(c.time),
+            c.kind,
+            {c.blue.position, blue.velocity},
+            {c.red.position, red.velocity}};
+  }
+
+  BlockState state_at(const Rational& time) const override {
+    const Time now = to_time(time);
+    BlockState state{0, motion_of(system().blue), motion_of(system().red)};
+    Time since;
+    if (const std::size_t happened = count(forward_, now, true); happened > 0) {
+      const StoredCollision& c = forward_[happened - 1];
+      since = c.time;
+      state = {Integer(happened), c.blue, c.red};
+    } else if (const std::size_t to_come = count(backward_, negated(now), false); to_come > 0) {
+      const StoredCollision& c = backward_[to_come - 1];
+      since = negated(c.time);
+      state = {-Integer(to_come), reversed(c.blue), reversed(c.red)};
+    }
+    const double age = (now.hi - since.hi) + (now.lo - since.lo);
+    for (Motion* const block : {&state.blue, &state.red}) block->position += block->velocity * age;
+    require_finite(now, state.blue, state.red, "state");
+    return state;
+  }
+
+  Rational time_after(const Integer& index) const override {
+    Rational time = to_rational(collision(index).time);
+    if (state_at(time).count == index) return time;
+    throw SimulationError(fmt::format(
+        "collision #{}: in double precision it cannot be told apart from its neighbours; use the "
+        "closed form (--engine unfolded)",
+        index.get_str()));
+  }
 
  private:
   StoredCollisions forward_;
   StoredCollisions backward_;
 };
 
-Collision StoredLog::collision(const Integer& index) const {
-  if (index > 0) {
-    const StoredCollision& c = forward_[index.get_ui() - 1];
-    return {index, c.time, c.kind, c.blue, c.red};
-  }
-  // The velocities just after this collision are the opposite of those just before it in the
-  // reversed run.
-  const std::size_t place = Integer(-index).get_ui();
-  const StoredCollision& c = backward_[place];
-  const Motion blue = place == 0 ? motion_of(system().blue) : reversed(backward_[place - 1].blue);
-  const Motion red = place == 0 ? motion_of(system().red) : reversed(backward_[place - 1].red);
-  return {index,
-          negated(c.time),
-          c.kind,
-          {c.blue.position, blue.velocity},
-          {c.red.position, red.velocity}};
-}
-
-Rational StoredLog::time_after(const Integer& index) const {
-  Rational time = to_rational(collision(index).time);
-  if (state_at(time).count == index) return time;
-  throw SimulationError(fmt::format(
-      "collision #{}: in double precision it cannot be told apart from its neighbours; use the "
-      "closed form (--engine unfolded)",
-      index.get_str()));
-}
-
-BlockState StoredLog::state_at(const Rational& time) const {
-  const Time now = to_time(time);
-  BlockState state{0, motion_of(system().blue), motion_of(system().red)};
-  Time since;
-  if (const std::size_t happened = count(forward_, now, true); happened > 0) {
-    const StoredCollision& c = forward_[happened - 1];
-    since = c.time;
-    state = {Integer(happened), c.blue, c.red};
-  } else if (const std::size_t to_come = count(backward_, negated(now), false); to_come > 0) {
-    const StoredCollision& c = backward_[to_come - 1];
-    since = negated(c.time);
-    state = {-Integer(to_come), reversed(c.blue), reversed(c.red)};
-  }
-  const double age = (now.hi - since.hi) + (now.lo - since.lo);
-  for (Motion* const block : {&state.blue, &state.red}) block->position += block->velocity * age;
-  require_finite(now, state.blue, state.red, "state");
-  return state;
-}
-
-void check_storable(const BlockSystem& system, Engine engine) {
-  const Integer count =
-      std::max(ExactMotion(system).total(), ExactMotion(reversed(system)).total());
-  if (count <= kMaxStoredCollisions) return;
-  throw UsageError(fmt::format(
-      "{} loop: {} collisions are more than the limit of {}; use the closed form (--engine "
-      "unfolded)",
-      engine == Engine::events ? "event" : "velocity", readable(count),
-      readable(kMaxStoredCollisions)));
-}
-
 }  // namespace
 
 std::unique_ptr<CollisionLog> make_stored_log(const BlockSystem& system, Engine engine) {
-  check_storable(system, engine);
+  const Integer count =
+      std::max(ExactMotion(system).total(), ExactMotion(reversed(system)).total());
+  if (count > kMaxStoredCollisions) {
+    throw UsageError(fmt::format(
+        "{} loop: {} collisions are more than the limit of {}; use the closed form (--engine "
+        "unfolded)",
+        engine == Engine::events ? "event" : "velocity", readable(count),
+        readable(kMaxStoredCollisions)));
+  }
   const auto simulate = engine == Engine::events ? event_loop : velocity_loop;
   return std::make_unique<StoredLog>(system, simulate(system), simulate(reversed(system)));
 }

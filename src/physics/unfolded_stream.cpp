@@ -142,7 +142,26 @@ class UnfoldedStream final : public CollisionStream {
         last_by_past_(floor_mean(form.past.ray, form.turn.ahead.ray)),
         last_by_turn_(floor_mean(form.turn.ahead.ray, form.future.ray)) {}
 
-  bool read(CollisionBatch& batch) override;
+  bool read(CollisionBatch& batch) override {
+    Integer left = std::min<Integer>(last_ - next_ + 1, long(CollisionBatch::kCapacity));
+    if (index_ <= 0) left = std::min<Integer>(left, 1 - index_);  // on one side of time 0
+    batch.first = index_;
+    batch.size = left > 0 ? left.get_ui() : 0;
+    std::copy_n(kKinds.begin() + (is_odd(next_) ? 1 : 0), batch.size, batch.kind.begin());
+    for (std::size_t row = 0; row < batch.size;) {
+      const Integer ray = next_ + static_cast<unsigned long>(row);
+      if (stretch_.end_sign == 0 || stretch_.last < ray) stretch_ = stretch_from(ray);
+      const Integer of_stretch = stretch_.last - ray + 1;
+      const std::size_t rest = batch.size - row;
+      const std::size_t rows = of_stretch < rest ? of_stretch.get_ui() : rest;
+      fill(row, rows, batch);
+      row += rows;
+    }
+    keep_within(batch);
+    next_ += static_cast<unsigned long>(batch.size);
+    index_ += static_cast<unsigned long>(batch.size);
+    return batch.size > 0;
+  }
 
  private:
   /// Rays that are computed in one way.
@@ -153,10 +172,70 @@ class UnfoldedStream final : public CollisionStream {
     bool is_near_start = false;
   };
 
-  Stretch stretch_from(const Integer& ray) const;
-  void fill(std::size_t begin, std::size_t rows, CollisionBatch& batch);
-  const RayTable& table(const Landmark& landmark, int end_sign, bool anchor_is_odd);
-  void keep_within(CollisionBatch& batch) const;
+  Stretch stretch_from(const Integer& ray) const {
+    const bool late = form_.is_late(ray);
+    const bool near_turn = ray > last_by_past_ && ray <= last_by_turn_;
+    Stretch stretch{last_, late ? 1 : -1,
+                    near_turn ? &form_.turn.seen(late) : &form_.end_near(late),
+                    form_.is_near_start(ray)};
+    for (const Integer* const cut :
+         {&last_by_past_, &form_.turn.ahead.ray, &last_by_turn_, &form_.half_way}) {
+      if (*cut >= ray) stretch.last = std::min(stretch.last, *cut);
+    }
+    return stretch;
+  }
+
+  /// Rows begin … begin + rows - 1 of the batch: rays of the stretch from next_ + begin on.
+  void fill(std::size_t begin, std::size_t rows, CollisionBatch& batch) {
+    const ClosedForm& form = form_;
+    const int end_sign = stretch_.end_sign;
+    const Landmark& landmark = *stretch_.landmark;
+    const Integer first = next_ + static_cast<unsigned long>(begin);
+    const DoubleDouble first_steps = landmark.steps_from(first);
+    for (std::size_t done = 0; done < rows;) {
+      const std::size_t count = std::min(rows - done, kBlockRays);
+      const std::size_t anchor = done + row_next_to(landmark, count);
+      const bool anchor_is_odd = is_odd(first) != (anchor % 2 == 1);
+      const Direction seen = direction_after(form, landmark, first_steps, anchor);
+      const Direction ray = landmark.sign != end_sign ? seen.complement() : seen;
+      const RayTable& rays = table(landmark, end_sign, anchor_is_odd);
+      const std::size_t skip = landmark.sign < 0 ? 0 : kBlockRays - count;
+      fill_rows(form, end_sign, ray, rays, skip, count, batch, begin + done);
+      if (stretch_.is_near_start) {
+        const Landmark& start = form_.start.seen(index_ > 0);
+        const Direction from_start =
+            direction_after(form, start, start.steps_from(first), done + row_next_to(start, count));
+        fill_times_from_start(form, -start.sign, ray, rays, skip, from_start,
+                              table(start, start.sign, false),
+                              start.sign < 0 ? 0 : kBlockRays - count, count, batch, begin + done);
+      }
+      done += count;
+    }
+  }
+
+  const RayTable& table(const Landmark& landmark, int end_sign, bool anchor_is_odd) {
+    const int row = (landmark.sign < 0 ? 0 : 4) + (end_sign < 0 ? 0 : 2) + (anchor_is_odd ? 1 : 0);
+    auto& made = tables_[static_cast<std::size_t>(row)];
+    if (!made) {
+      made = std::make_unique<RayTable>(make_table(form_, landmark.sign, end_sign, anchor_is_odd));
+    }
+    return *made;
+  }
+
+  /// Only rounding can carry a collision past time 0. All rows are on one side of it.
+  void keep_within(CollisionBatch& batch) const {
+    const double side = batch.first > 0 ? 1 : -1;
+    for (std::size_t row = 0; row < batch.size; ++row) {
+      const bool is_wrong = side * batch.time_hi[row] < 0;
+      batch.time_hi[row] = is_wrong ? 0 : batch.time_hi[row];
+      batch.time_lo[row] = is_wrong ? 0 : batch.time_lo[row];
+    }
+    if (!contact_ || *contact_ < batch.first) return;
+    const Integer row = *contact_ - batch.first;
+    if (row >= static_cast<unsigned long>(batch.size)) return;
+    batch.time_hi[row.get_ui()] = 0;
+    batch.time_lo[row.get_ui()] = 0;
+  }
 
   const Unfolding& form_;
   Integer next_;
@@ -168,91 +247,6 @@ class UnfoldedStream final : public CollisionStream {
   Integer last_by_turn_;                             // later rays are nearer to the future
   std::array<std::unique_ptr<RayTable>, 8> tables_;  // by the parameters of make_table()
 };
-
-UnfoldedStream::Stretch UnfoldedStream::stretch_from(const Integer& ray) const {
-  const bool late = form_.is_late(ray);
-  const bool near_turn = ray > last_by_past_ && ray <= last_by_turn_;
-  Stretch stretch{last_, late ? 1 : -1, near_turn ? &form_.turn.seen(late) : &form_.end_near(late),
-                  form_.is_near_start(ray)};
-  for (const Integer* const cut :
-       {&last_by_past_, &form_.turn.ahead.ray, &last_by_turn_, &form_.half_way}) {
-    if (*cut >= ray) stretch.last = std::min(stretch.last, *cut);
-  }
-  return stretch;
-}
-
-bool UnfoldedStream::read(CollisionBatch& batch) {
-  Integer left = std::min<Integer>(last_ - next_ + 1, long(CollisionBatch::kCapacity));
-  if (index_ <= 0) left = std::min<Integer>(left, 1 - index_);  // on one side of time 0
-  batch.first = index_;
-  batch.size = left > 0 ? left.get_ui() : 0;
-  std::copy_n(kKinds.begin() + (is_odd(next_) ? 1 : 0), batch.size, batch.kind.begin());
-  for (std::size_t row = 0; row < batch.size;) {
-    const Integer ray = next_ + static_cast<unsigned long>(row);
-    if (stretch_.end_sign == 0 || stretch_.last < ray) stretch_ = stretch_from(ray);
-    const Integer of_stretch = stretch_.last - ray + 1;
-    const std::size_t rest = batch.size - row;
-    const std::size_t rows = of_stretch < rest ? of_stretch.get_ui() : rest;
-    fill(row, rows, batch);
-    row += rows;
-  }
-  keep_within(batch);
-  next_ += static_cast<unsigned long>(batch.size);
-  index_ += static_cast<unsigned long>(batch.size);
-  return batch.size > 0;
-}
-
-/// Only rounding can carry a collision past time 0. All rows are on one side of it.
-void UnfoldedStream::keep_within(CollisionBatch& batch) const {
-  const double side = batch.first > 0 ? 1 : -1;
-  for (std::size_t row = 0; row < batch.size; ++row) {
-    const bool is_wrong = side * batch.time_hi[row] < 0;
-    batch.time_hi[row] = is_wrong ? 0 : batch.time_hi[row];
-    batch.time_lo[row] = is_wrong ? 0 : batch.time_lo[row];
-  }
-  if (!contact_ || *contact_ < batch.first) return;
-  const Integer row = *contact_ - batch.first;
-  if (row >= static_cast<unsigned long>(batch.size)) return;
-  batch.time_hi[row.get_ui()] = 0;
-  batch.time_lo[row.get_ui()] = 0;
-}
-
-/// Rows begin … begin + rows - 1 of the batch, which are rays of the stretch from next_ + begin on.
-void UnfoldedStream::fill(std::size_t begin, std::size_t rows, CollisionBatch& batch) {
-  const ClosedForm& form = form_;
-  const int end_sign = stretch_.end_sign;
-  const Landmark& landmark = *stretch_.landmark;
-  const Integer first = next_ + static_cast<unsigned long>(begin);
-  const DoubleDouble first_steps = landmark.steps_from(first);
-  for (std::size_t done = 0; done < rows;) {
-    const std::size_t count = std::min(rows - done, kBlockRays);
-    const std::size_t anchor = done + row_next_to(landmark, count);
-    const bool anchor_is_odd = is_odd(first) != (anchor % 2 == 1);
-    const Direction seen = direction_after(form, landmark, first_steps, anchor);
-    const Direction ray = landmark.sign != end_sign ? seen.complement() : seen;
-    const RayTable& rays = table(landmark, end_sign, anchor_is_odd);
-    const std::size_t skip = landmark.sign < 0 ? 0 : kBlockRays - count;
-    fill_rows(form, end_sign, ray, rays, skip, count, batch, begin + done);
-    if (stretch_.is_near_start) {
-      const Landmark& start = form_.start.seen(index_ > 0);
-      const Direction from_start =
-          direction_after(form, start, start.steps_from(first), done + row_next_to(start, count));
-      fill_times_from_start(form, -start.sign, ray, rays, skip, from_start,
-                            table(start, start.sign, false),
-                            start.sign < 0 ? 0 : kBlockRays - count, count, batch, begin + done);
-    }
-    done += count;
-  }
-}
-
-const RayTable& UnfoldedStream::table(const Landmark& landmark, int end_sign, bool anchor_is_odd) {
-  const int row = (landmark.sign < 0 ? 0 : 4) + (end_sign < 0 ? 0 : 2) + (anchor_is_odd ? 1 : 0);
-  auto& made = tables_[static_cast<std::size_t>(row)];
-  if (!made) {
-    made = std::make_unique<RayTable>(make_table(form_, landmark.sign, end_sign, anchor_is_odd));
-  }
-  return *made;
-}
 
 }  // namespace
 

@@ -3,9 +3,6 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <cmath>
-
-#include "core/two_sum.hpp"
 
 namespace piblocks {
 namespace {

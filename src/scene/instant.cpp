@@ -20,14 +20,8 @@ constexpr const char* kExpected =
 /// The longest index that is accepted.
 constexpr std::size_t kMaxIndex_bytes = 1000;
 
-struct NamedAnchor {
-  std::string_view name;
-  Anchor anchor;
-};
-constexpr std::array kNamedAnchors = {NamedAnchor{"turn", Anchor::turn},
-                                      NamedAnchor{"last", Anchor::last}};
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+constexpr std::array<std::pair<std::string_view, Anchor>, 2> kNamedAnchors = {
+    {{"turn", Anchor::turn}, {"last", Anchor::last}}};
 
 /// Removes the anchor from the front of the text. A time has none: its text stays as it is.
 Instant take_anchor(std::string_view& text) {
@@ -58,9 +52,7 @@ Rational parse_number(std::string_view text) {
 Rational parse_offset(std::string_view text) {
   if (text.empty()) return 0;
   const bool is_signed = text.front() == '+' || text.front() == '-';
-  if (!is_signed || text.size() < 2 || !(is_digit(text[1]) || text[1] == '.')) {
-    throw UsageError(kExpected);
-  }
+  if (!is_signed || text.find_first_of("0123456789.", 1) != 1) throw UsageError(kExpected);
   return parse_number(text.front() == '+' ? text.substr(1) : text);
 }
 

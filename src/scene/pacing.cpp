@@ -13,19 +13,6 @@ namespace {
 
 constexpr const char* kSlowMotionKey = "time.slow-motion";
 
-/// A window of slow motion. Half-open: from <= time < to.
-struct SlowWindow {
-  Rational from;
-  Rational to;
-  Rational factor;
-};
-
-/// A freeze at its time, in whole frames.
-struct TimedFreeze {
-  Rational time;
-  Rational length_s;
-};
-
 // Automatic windows are nested around the turn. Each is 10 times slower than the one around it, and
 // alone would show 3 s of video on either side of the turn. Windows are added until at most 10
 // collisions happen in a second of the innermost one.
@@ -44,7 +31,7 @@ double rate_at_turn(const BlockSystem& system, const Rational& speed) {
   return (rate / (atan(sigma) * sigma)).to_double();
 }
 
-std::vector<SlowWindow> automatic_windows(const Scene& scene, const CollisionLog& log) {
+std::vector<Move> automatic_windows(const Scene& scene, const CollisionLog& log) {
   const std::optional<Rational> turn = turn_of(scene.system);
   if (!turn || log.size() < log.first_index()) return {};
   // A duration sets the speed for the windows too, once they are known.
@@ -57,7 +44,7 @@ std::vector<SlowWindow> automatic_windows(const Scene& scene, const CollisionLog
     halves.emplace_back(speed * kHalfWindow_s / factor);
   }
   // From the outermost to the innermost and out again.
-  std::vector<SlowWindow> windows;
+  std::vector<Move> windows;
   const std::size_t count = halves.size();
   Rational slower = 1;
   for (std::size_t i = 0; i < count; ++i) {
@@ -72,7 +59,7 @@ std::vector<SlowWindow> automatic_windows(const Scene& scene, const CollisionLog
   return windows;
 }
 
-void check(const SlowWindow& window, const Span& span) {
+void check(const Move& window, const Span& span) {
   const std::string name = fmt::format("{}: the window from {} to {}", kSlowMotionKey,
                                        to_text(window.from), to_text(window.to));
   if (window.from >= window.to) throw UsageError(name + " ends before it begins");
@@ -81,46 +68,41 @@ void check(const SlowWindow& window, const Span& span) {
                                to_text(span.to)));
 }
 
-void check_apart(const std::vector<SlowWindow>& windows) {
-  for (std::size_t i = 1; i < windows.size(); ++i) {
-    if (windows[i].from >= windows[i - 1].to) continue;
-    throw UsageError(fmt::format("{}: windows overlap at {}; let one begin where the other ends",
-                                 kSlowMotionKey, to_text(windows[i].from)));
-  }
-}
-
-/// In order, apart, inside the span.
-std::vector<SlowWindow> slow_windows(const Scene& scene, const CollisionLog& log,
-                                     const Span& span) {
-  std::vector<SlowWindow> windows;
+/// In order, apart, inside the span. A window is half-open: from <= time < to.
+std::vector<Move> slow_windows(const Scene& scene, const CollisionLog& log, const Span& span) {
+  std::vector<Move> windows;
   if (scene.pacing.automatic_slow_motion) windows = automatic_windows(scene, log);
   for (const SlowMotion& slow : scene.pacing.slow_motion) {
     windows.push_back({time_of(slow.from, kSlowMotionKey, log),
                        time_of(slow.to, kSlowMotionKey, log), slow.factor});
     check(windows.back(), span);
   }
-  std::ranges::sort(windows, {}, &SlowWindow::from);
-  check_apart(windows);
-  for (SlowWindow& window : windows) {
+  std::ranges::sort(windows, {}, &Move::from);
+  for (std::size_t i = 1; i < windows.size(); ++i) {
+    if (windows[i].from >= windows[i - 1].to) continue;
+    throw UsageError(fmt::format("{}: windows overlap at {}; let one begin where the other ends",
+                                 kSlowMotionKey, to_text(windows[i].from)));
+  }
+  for (Move& window : windows) {
     window.from = std::max(window.from, span.from);
     window.to = std::min(window.to, span.to);
   }
-  std::erase_if(windows, [](const SlowWindow& window) { return window.from >= window.to; });
+  std::erase_if(windows, [](const Move& window) { return window.from >= window.to; });
   return windows;
 }
 
 /// In order, inside the span.
-std::vector<TimedFreeze> freezes_of(const Scene& scene, const CollisionLog& log, const Span& span) {
-  std::vector<TimedFreeze> freezes;
+std::vector<Move> freezes_of(const Scene& scene, const CollisionLog& log, const Span& span) {
+  std::vector<Move> freezes;
   for (const Freeze& freeze : scene.pacing.freezes) {
     const Rational time = time_of(freeze.at, "time.freeze", log);
     if (time < span.from || time > span.to) {
       throw UsageError(fmt::format("time.freeze: {} is outside of what is shown, {} to {}",
                                    exact_text(freeze.at), to_text(span.from), to_text(span.to)));
     }
-    freezes.push_back({time, whole_frames(freeze.length_s, scene.view.frame_rate)});
+    freezes.push_back({time, time, 1, whole_frames(freeze.length_s, scene.view.frame_rate)});
   }
-  std::ranges::stable_sort(freezes, {}, &TimedFreeze::time);
+  std::ranges::stable_sort(freezes, {}, &Move::from);
   return freezes;
 }
 
@@ -139,8 +121,8 @@ Rational whole_frames(const Rational& length_s, const Rational& frame_rate) {
 }
 
 std::vector<Move> moves_of(const Scene& scene, const CollisionLog& log, const Span& span) {
-  const std::vector<SlowWindow> windows = slow_windows(scene, log, span);
-  const std::vector<TimedFreeze> freezes = freezes_of(scene, log, span);
+  const std::vector<Move> windows = slow_windows(scene, log, span);
+  const std::vector<Move> freezes = freezes_of(scene, log, span);
   std::vector<Move> moves;
   Rational now = span.from;
   auto freeze = freezes.begin();
@@ -149,18 +131,18 @@ std::vector<Move> moves_of(const Scene& scene, const CollisionLog& log, const Sp
     now = std::max(now, time);
   };
   const auto pass_freezes = [&](const Rational& time, const Rational& slower) {
-    for (; freeze != freezes.end() && freeze->time < time; ++freeze) {
-      move_to(freeze->time, slower);
-      moves.push_back({now, now, slower, freeze->length_s});
+    for (; freeze != freezes.end() && freeze->from < time; ++freeze) {
+      move_to(freeze->from, slower);
+      moves.push_back({now, now, slower, freeze->frozen_s});
     }
     move_to(time, slower);
   };
-  for (const SlowWindow& window : windows) {
+  for (const Move& window : windows) {
     pass_freezes(window.from, 1);
-    pass_freezes(window.to, window.factor);
+    pass_freezes(window.to, window.slower);
   }
   pass_freezes(span.to, 1);
-  for (; freeze != freezes.end(); ++freeze) moves.push_back({now, now, 1, freeze->length_s});
+  moves.insert(moves.end(), freeze, freezes.end());
   return moves;
 }
 

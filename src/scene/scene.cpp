@@ -77,13 +77,10 @@ void check_slow_motion(const Scene& scene, SceneProblems& problems) {
   };
   const auto wrong = std::ranges::find_if_not(windows, is_usable, &SlowMotion::factor);
   if (wrong == windows.end()) return;
-  const Rational& factor = wrong->factor;
-  problems.require(factor > 0, kKey, "has a window whose factor is {}: it must be greater than 0",
-                   factor);
-  problems.require(factor <= 0, kKey,
-                   "has a window whose factor is {}: it, or the speed by it, is beyond the range "
-                   "of a double (about 1.8e308)",
-                   factor);
+  problems.add(kKey, "has a window whose factor is {}: {}", wrong->factor,
+               wrong->factor <= 0 ? "it must be greater than 0"
+                                  : "it, or the speed by it, is beyond the range of a double "
+                                    "(about 1.8e308)");
 }
 
 void check_pacing(const Scene& scene, SceneProblems& problems) {

@@ -11,22 +11,17 @@
 namespace piblocks {
 namespace {
 
-/// Keys that set the same value, of which a table may have only one.
-struct ExclusiveKeys {
-  std::vector<std::string_view> keys;
-  const char* what;
-};
-
+/// @param keys  that set the same value, of which a table may have only one.
 /// @return a message if the table has several of them; otherwise empty.
-std::string conflict_of(const TomlTable& table, const ExclusiveKeys& exclusive) {
-  std::vector<std::string_view> present;
-  for (const std::string_view key : exclusive.keys) {
-    if (std::ranges::count(table.entries, key, &TomlEntry::key) > 0) present.push_back(key);
-  }
-  if (present.size() < 2) return {};
-  return fmt::format("{} {} set {}; leave out {} of them", fmt::join(present, " and "),
-                     present.size() == 2 ? "both" : "all", exclusive.what,
-                     present.size() == 2 ? "one" : "all but one");
+std::string conflict_of(const TomlTable& table, std::vector<std::string_view> keys,
+                        const char* what) {
+  std::erase_if(keys, [&](std::string_view key) {
+    return std::ranges::count(table.entries, key, &TomlEntry::key) == 0;
+  });
+  if (keys.size() < 2) return {};
+  return fmt::format("{} {} set {}; leave out {} of them", fmt::join(keys, " and "),
+                     keys.size() == 2 ? "both" : "all", what,
+                     keys.size() == 2 ? "one" : "all but one");
 }
 
 /// The mass ratio whose collisions count this number of digits.
@@ -44,12 +39,11 @@ Rational mass_ratio_of_digits(const Values& values) {
 }  // namespace
 
 void SceneDraft::read(const std::string& path, const TomlTable& table) {
-  for (const ExclusiveKeys& exclusive :
-       {ExclusiveKeys{{"time.speed", "time.duration"}, "the speed"},
-        ExclusiveKeys{{"digits", "mass-ratio", "red.mass"}, "the mass of red"}}) {
-    const std::string problem = conflict_of(table, exclusive);
-    const std::string origin = table.line > 0 ? fmt::format("{}:{}", path, table.line) : path;
-    if (!problem.empty()) add_problem(origin, problem);
+  for (const std::string& problem :
+       {conflict_of(table, {"time.speed", "time.duration"}, "the speed"),
+        conflict_of(table, {"digits", "mass-ratio", "red.mass"}, "the mass of red")}) {
+    if (problem.empty()) continue;
+    add_problem(table.line > 0 ? fmt::format("{}:{}", path, table.line) : path, problem);
   }
   for (const TomlEntry& entry : table.entries) {
     const std::string origin = fmt::format("{}:{}", path, entry.line);

@@ -25,11 +25,9 @@ int parse_side(std::string_view text) {
 
 FrameSize parse_size(const Values& values) {
   Values sides = values;
-  if (values.size() == 1) {
-    const std::size_t cross = values.front().find('x');
-    if (cross != std::string::npos) {
-      sides = {values.front().substr(0, cross), values.front().substr(cross + 1)};
-    }
+  const std::size_t cross = values.size() == 1 ? values.front().find('x') : std::string::npos;
+  if (cross != std::string::npos) {
+    sides = {values.front().substr(0, cross), values.front().substr(cross + 1)};
   }
   if (sides.size() != 2) throw UsageError("must be two whole numbers of pixels, as 1920x1080");
   return {parse_side(sides[0]), parse_side(sides[1])};

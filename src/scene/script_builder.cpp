@@ -179,19 +179,6 @@ struct ScriptBuilder::State {
   void add_problem(std::size_t line, const std::string& text) {
     problems.push_back(fmt::format("{}:{}: {}", path, line, text));
   }
-
-  /// Keys of a single run that set() got, though the file is a storyboard.
-  std::vector<std::string> misplaced_keys() const {
-    std::vector<std::string> misplaced;
-    for (const auto& [origin, key] : set_keys) {
-      if (is_film_key(key)) continue;
-      misplaced.push_back(fmt::format(
-          "{}: '{}' is a storyboard; put {} into it, for all parts or for one. Options can set "
-          "size, frame rate, theme, background and sound of the whole film",
-          origin, path, key));
-    }
-    return misplaced;
-  }
 };
 
 ScriptBuilder::ScriptBuilder() : state_(std::make_unique<State>()) {}
@@ -235,7 +222,13 @@ Script ScriptBuilder::build() const {
       if (std::ranges::count(problems, problem) == 0) problems.push_back(problem);
     }
   };
-  if (!state_->parts.empty()) add(state_->misplaced_keys());
+  for (const auto& [origin, key] : state_->set_keys) {
+    if (state_->parts.empty() || is_film_key(key)) continue;
+    add({fmt::format(
+        "{}: '{}' is a storyboard; put {} into it, for all parts or for one. Options can set "
+        "size, frame rate, theme, background and sound of the whole film",
+        origin, state_->path, key)});
+  }
   add(state_->film.problems(true));
   StoryReader reader(state_->path, state_->film);
   for (const TomlTable& part : state_->parts) reader.read(part);

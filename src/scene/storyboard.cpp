@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <piblocks/error.hpp>
 #include <piblocks/script.hpp>
 
 #include <algorithm>

@@ -28,8 +28,7 @@ class ClackStream {
               const Rational& duration_s, int rate_hz);
 
   /// Appends the clacks before this sample that were not read yet. None is more than an eighth of a
-  /// sample earlier than the one before it.
-  /// @throws SimulationError as CollisionLog::state_at().
+  /// sample earlier than the one before it. @throws SimulationError as CollisionLog::state_at().
   void read_until(std::int64_t sample, std::vector<Clack>& clacks);
 
  private:

@@ -51,8 +51,7 @@ constexpr std::array kBlockModes = {Mode{1210, 0.022, 0.22}, Mode{2590, 0.014, 0
                                     Mode{4170, 0.007, 0.18}, Mode{6820, 0.0025, 0.16},
                                     Mode{9800, 0.0006, 0.20}};
 
-/// A smaller sound is silence: it is 20 dB below the last of 24 bits. Still smaller numbers would
-/// slow processors down.
+/// Less, 20 dB below the last of 24 bits, is silence. Tiny numbers would slow processors down.
 constexpr double kNothing = 1e-8;
 
 }  // namespace

@@ -1,6 +1,5 @@
 // What a clack sounds like: a pulse in the samples, and a body that rings in a few damped modes.
-// In: clacks with their impulses, in order. Out: band-limited clicks, and the body's answer to
-// them.
+// In: clacks with their impulses, in order. Out: band-limited clicks, and the body's answer.
 #pragma once
 
 #include <array>
@@ -27,8 +26,7 @@ double compressed(double impulse);
 /// @param clacks  in the order of `sample`; all within kCompressed_samples of it are among them
 double height(std::span<const Clack> clacks, std::size_t index);
 
-/// A sinc in a Kaiser window: flat to 18 kHz at a rate of 48 kHz, and 80 dB down from 23 kHz on, so
-/// that aliasing is inaudible.
+/// A sinc in a Kaiser window: at 48 kHz flat to 18 kHz; from 23 kHz on inaudible, 80 dB down.
 class ClickKernel {
  public:
   /// Samples it reaches to both sides.

@@ -50,8 +50,7 @@ RunSound::SampleRamp RunSound::in_samples(const std::optional<Ramp>& ramp, int r
   return {to_double(ramp->begin_s * rate_hz), to_double(ramp->end_s * rate_hz)};
 }
 
-/// The weights of left and right, of equal power from one edge of the frame to the other. Neither
-/// is ever 0.
+/// The weights of left and right, never 0, of equal power from one edge of the frame to the other.
 StereoSample RunSound::channels(const Clack& clack) const {
   const double side = clack.kind == CollisionKind::wall ? -half_blue_ : half_blue_;
   const double in_view = (clack.blue_position + side - view_low_) / view_width_;

@@ -85,8 +85,7 @@ class RunSound {
   std::int64_t used_ = kBlock;  // pairs of the block
 };
 
-/// The weight of a sample so many samples before a cut. It falls to 0, so that a sound that still
-/// rings ends without a click.
+/// The weight of a sample so many samples before a cut. It falls to 0, so that no cut clicks.
 double weight_before_cut(double samples);
 
 }  // namespace piblocks

@@ -55,10 +55,9 @@ class Limiter {
   std::int64_t last_below_one_ = 0;
 };
 
-/// 48 kHz in stereo. Each collision sounds exactly when the film shows it. A freeze has none, and a
-/// film that goes backwards has them in reverse order. Slow motion moves clacks apart and does not
-/// change them. Takes the same memory for a film of any length, and makes the same bits each time.
-/// Used by one thread at a time.
+/// 48 kHz in stereo. Each collision sounds exactly when the film shows it: never in a freeze, in
+/// reverse order if the film goes backwards, unchanged in slow motion. Takes the same memory for a
+/// film of any length, and makes the same bits each time. Used by one thread at a time.
 class Soundtrack {
  public:
   static constexpr int kRate_hz = 48000;

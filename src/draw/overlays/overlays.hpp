@@ -22,8 +22,7 @@ Drawable mass_labels(const DrawingContext& context);
 /// @throws UsageError if the view has no room above the blocks.
 Drawable velocity_arrows(const DrawingContext& context);
 
-/// A scale of positions below the blocks.
-/// @throws UsageError if the view has no room there.
+/// A scale of positions below the blocks. @throws UsageError if the view has no room there.
 Drawable ruler(const DrawingContext& context);
 
 /// Whether there is a read-out that says "10× slower".

@@ -113,8 +113,7 @@ class Stage {
     return block;
   }
 
-  /// Label and count. An instant outside of the film may have a longer count than the layout was
-  /// made for. Its line is set smaller.
+  /// Label and count, smaller if an instant outside of the film has a longer count than any in it.
   void add_line(const Integer& count, std::vector<DrawItem>& items) const {
     const std::string text = with_thousands_separators(count);
     const std::size_t lit = lit_length(text, lit_digits_);

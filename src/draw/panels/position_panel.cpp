@@ -7,8 +7,7 @@
 namespace piblocks {
 namespace {
 
-/// A wedge angle so near to 0 or to a right angle could not be seen. The wedge is then drawn as
-/// half a right angle.
+/// A wedge angle nearer to 0 or to a right angle could not be seen: half a right angle is drawn.
 constexpr double kLeastAngle = 0.2;
 constexpr double kBelow_em = 1.5;
 

@@ -1,6 +1,5 @@
 // The wedge that a system moves in, and its path there over a span of time.
-// In: a system and its log. Out: gaps of states, and lines that can be drawn, however many
-// collisions there are.
+// In: a system and its log. Out: gaps of states, and lines to draw for any number of collisions.
 #pragma once
 
 #include <piblocks/run.hpp>
@@ -15,8 +14,7 @@
 
 namespace piblocks {
 
-/// y1 is blue's distance from the wall, y2 red's less blue's width. 0 <= y1 <= y2, and they are
-/// equal while the blocks touch.
+/// Blue's distance from the wall, and red's less blue's width: 0 <= y1 <= y2, equal at a contact.
 struct GapPoint {
   double y1 = 0;
   double y2 = 0;

@@ -20,8 +20,7 @@ PanelTitle title_of(const Palette& palette) {
 }
 
 /// The velocities are a point on a circle. A collision of the blocks moves it by two wedge angles
-/// to below the axis, and the wall mirrors it to above. On either side sector joins sector, until
-/// none fits any more.
+/// to below the axis, and the wall mirrors it to above. Sector by sector both sides fill up.
 class VelocityPanel {
  public:
   VelocityPanel(const DrawingContext& context, const PanelPlace& place)

@@ -28,18 +28,6 @@ int is_stop_requested(void* stop) {
   return static_cast<const std::stop_token*>(stop)->stop_requested() ? 1 : 0;
 }
 
-/// The overwrite check does not know the files in such a list.
-bool is_list_of_files(const AVInputFormat& format) {
-  constexpr std::array<std::string_view, 5> kLists = {"concat", "dash", "hls", "imf", "sdp"};
-  return std::ranges::find(kLists, format.name) != kLists.end();
-}
-
-std::string av_error_text(int code) {
-  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
-  av_strerror(code, text.data(), text.size());
-  return text.data();
-}
-
 }  // namespace
 
 AvInputPtr open_av_input(const std::string& path, const std::stop_token* stop) {
@@ -58,7 +46,9 @@ AvInputPtr open_av_input(const std::string& path, const std::stop_token* stop) {
   av_dict_free(&options);  // only the picture demuxer takes the option
   check_av_read(code, "read", path);
   AvInputPtr input(allocated);
-  if (is_list_of_files(*input->iformat)) {
+  // The overwrite check does not know the files in such a list.
+  constexpr std::array<std::string_view, 5> kLists = {"concat", "dash", "hls", "imf", "sdp"};
+  if (std::ranges::count(kLists, input->iformat->name) > 0) {
     throw MediaError(fmt::format(
         "video: cannot read '{}': it is a list of other files; name one of these", path));
   }
@@ -72,8 +62,10 @@ int check_av(int code, std::string_view operation, std::string_view object) {
 
 int check_av_read(int code, std::string_view operation, std::string_view object) {
   if (code >= 0) return code;
+  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
+  av_strerror(code, text.data(), text.size());
   const std::string message =
-      fmt::format("video: cannot {} '{}': {}", operation, object, av_error_text(code));
+      fmt::format("video: cannot {} '{}': {}", operation, object, text.data());
   if (is_io_failure(code)) throw IoError(message);
   throw MediaError(message);
 }

@@ -41,8 +41,7 @@ using AvParametersPtr = std::unique_ptr<AVCodecParameters, AvDeleter<avcodec_par
 using AvHashPtr = std::unique_ptr<AVHashContext, AvDeleter<av_hash_freep>>;
 using AvOutputPtr = std::unique_ptr<AVFormatContext, AvOutputDeleter>;
 
-/// Opens a media file for reading.
-/// @param stop  breaks off calls that wait; has to live as long.
+/// Opens a media file for reading. @param stop  breaks off calls that wait; has to live as long.
 /// @throws IoError, MediaError if it cannot be read.
 AvInputPtr open_av_input(const std::string& path, const std::stop_token* stop = nullptr);
 
@@ -56,8 +55,7 @@ int check_av(int code, std::string_view operation, std::string_view object);
 /// @throws IoError, MediaError
 int check_av_read(int code, std::string_view operation, std::string_view object);
 
-/// Owns what an allocating call returned.
-/// @throws std::bad_alloc if it is null.
+/// Owns what an allocating call returned. @throws std::bad_alloc if it is null.
 template <typename Owner>
 Owner own_av(typename Owner::pointer object, std::string_view name) {
   if (object == nullptr) check_av(AVERROR(ENOMEM), "allocate", name);

@@ -30,25 +30,19 @@ std::filesystem::path own_binary() {
 /// Where the module may be, best first.
 std::vector<std::string> candidates() {
   const std::filesystem::path folder = PIBLOCKS_MODULE_FOLDER;
-  // By the search path of the binary: the program's own, the build's, or that of the library's
-  // users.
+  // By the search path of the binary: the program's own, the build's, or a library user's.
   std::vector<std::string> files = {kFile};
-  // For binaries without such a path, or moved since. Never from the working folder, which is
-  // anybody's.
+  // For binaries without such a path, or moved. Never from the working folder: it is anybody's.
   const std::filesystem::path binary = own_binary();
   if (binary.is_absolute()) files.push_back(binary.parent_path() / ".." / folder / kFile);
   files.push_back(std::filesystem::path(PIBLOCKS_PREFIX) / folder / kFile);
   return files;
 }
 
-struct LibraryCloser {
-  void operator()(void* library) const { ::dlclose(library); }
-};
-using Library = std::unique_ptr<void, LibraryCloser>;
-
 /// The module in this file; null, and one more reason, if it cannot be used.
 const AvModule* load(const std::string& file, std::string& reasons) {
-  Library library(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL));
+  std::unique_ptr<void, int (*)(void*)> library(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL),
+                                                ::dlclose);
   void* const entry = library ? ::dlsym(library.get(), kAvModuleEntry) : nullptr;
   if (entry == nullptr) {
     reasons += fmt::format("; {}", ::dlerror());

@@ -36,8 +36,7 @@ struct AvModule {
 inline constexpr const char* kAvModuleEntry = "piblocks_av_module";
 
 /// Loads the module, once for the process. Thread-safe. It may be where the binary's own search
-/// path says, where it is installed beside the binary that this code is part of, or where the build
-/// was configured to install it.
+/// path says, beside the binary that this code is part of, or where the build was to install it.
 /// @throws MediaError if it is in none of these places, or of another version.
 const AvModule& av_module();
 
@@ -48,8 +47,7 @@ const AvModule& av_module();
 /// @throws IoError, MediaError
 std::unique_ptr<FrameReader> read_video(const std::string& path, const std::stop_token& stop = {});
 
-/// 32 hexadecimal digits that tell pictures apart, the same on every machine. No protection against
-/// forgery.
+/// 32 hexadecimal digits that tell pictures apart, the same on every machine; can be forged.
 std::string hash_of_bytes(ByteSpan bytes);
 
 // The module's own functions, behind those above. Only the module and tests link them.

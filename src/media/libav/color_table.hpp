@@ -1,6 +1,5 @@
 // The colours of one frame of a GIF.
-// In: the colours of its pixels. Out: at most 256 of them, and for every other colour the nearest
-// of these.
+// In: the colours of its pixels. Out: at most 256 of them, and for each other one the nearest.
 #pragma once
 
 #include <cstdint>

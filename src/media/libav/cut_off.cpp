@@ -12,8 +12,7 @@ namespace {
 
 constexpr std::uint32_t kSegment = 0x18538067;
 
-/// The next number of EBML (RFC 8794, 4). The leading zeros of its first byte tell how many bytes
-/// follow.
+/// The next number of EBML (RFC 8794, 4). Its first byte's leading zeros count the bytes after it.
 /// @param with_mark  whether the bit behind the zeros belongs to the number, as in an element's ID.
 /// @return nothing at the end of the file, and for an unknown size.
 std::optional<std::uint64_t> ebml_number(std::istream& file, bool with_mark) {
@@ -22,9 +21,7 @@ std::optional<std::uint64_t> ebml_number(std::istream& file, bool with_mark) {
   const int others = std::countl_zero(std::uint8_t(first));
   const auto mark = std::uint64_t(0x80 >> others);
   std::uint64_t number = std::uint64_t(first) & (with_mark ? 0xff : mark - 1);
-  for (int i = 0; i < others; ++i) {
-    number = number << 8 | std::uint8_t(file.get());
-  }
+  for (int i = 0; i < others; ++i) number = number << 8 | std::uint8_t(file.get());
   const std::uint64_t unknown = (std::uint64_t{1} << (7 * (others + 1))) - 1;
   if (!file || (!with_mark && number == unknown)) return std::nullopt;
   return number;
@@ -49,10 +46,6 @@ void skip_colours(std::istream& file, int flags) {
   if ((flags & kHasTable) != 0) file.ignore(3 << ((flags & 7) + 1));
 }
 
-void skip_sub_blocks(std::istream& file) {
-  for (int bytes = file.get(); file && bytes > 0; bytes = file.get()) file.ignore(bytes);
-}
-
 /// Whether the blocks of a GIF end without the trailer. The decoder deals with unknown blocks.
 bool is_cut_gif(std::istream& file) {
   constexpr int kScreen_bytes = 10;  // up to the flags
@@ -73,7 +66,8 @@ bool is_cut_gif(std::istream& file) {
     } else {
       return false;
     }
-    skip_sub_blocks(file);
+    // Sub-blocks, each after its size.
+    for (int bytes = file.get(); file && bytes > 0; bytes = file.get()) file.ignore(bytes);
   }
 }
 

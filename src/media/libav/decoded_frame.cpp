@@ -22,8 +22,7 @@ bool is_chroma(const AVPixFmtDescriptor& format, int component) {
          !has_flag(format, AV_PIX_FMT_FLAG_RGB);
 }
 
-/// False if libavutil's distance between samples leads out of the row, as for uyyvyy411, where the
-/// distance varies.
+/// False if libavutil's distance of samples leads out of the row, as where it varies (uyyvyy411).
 bool rows_hold_components(const AVFrame& frame) {
   const AVPixFmtDescriptor& format = descriptor_of(frame);
   const bool is_bits = has_flag(format, AV_PIX_FMT_FLAG_BITSTREAM);

@@ -1,6 +1,5 @@
 // What a decoded picture holds.
-// In: a frame of libavcodec's. Out: what its pixel format and tags say; the samples that it stores,
-// or the colours that it shows.
+// In: a frame of libavcodec's. Out: what its pixel format and tags say; its samples or colours.
 #pragma once
 
 #include <cstdint>

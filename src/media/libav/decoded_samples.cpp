@@ -88,8 +88,7 @@ void read_palette(const AVFrame& frame, std::vector<std::uint32_t>& words) {
   }
 }
 
-/// One row of a component, by libavutil's description of the arrangement of bits, as levels up to
-/// `max_level`.
+/// One row of a component, by libavutil's description of its bits, as levels up to `max_level`.
 std::vector<std::uint16_t> levels_of(const AVFrame& frame, int component, int y, int max_level) {
   const AVPixFmtDescriptor& format = descriptor_of(frame);
   std::array<const std::uint8_t*, 4> planes{};

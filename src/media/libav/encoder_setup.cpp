@@ -48,13 +48,10 @@ std::string usable_encoders(std::span<const EncoderKind> kinds) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// At least two: decoders cannot tell two successive IDR pictures with equal headers apart (H.264,
-/// 7.4.1.2.4).
+/// At least 2: decoders take successive IDR pictures with equal headers for one (H.264, 7.4.1.2.4).
 int frames_in_a_second(const Rational& frame_rate) {
   constexpr int kMaxFramesPerChunk = 300;
-  const Integer frames = floor(frame_rate);
-  if (frames > kMaxFramesPerChunk) return kMaxFramesPerChunk;
-  return std::max(2, int(frames.get_si()));
+  return int(std::clamp<Integer>(floor(frame_rate), 2, kMaxFramesPerChunk).get_si());
 }
 
 bool has_option(const AVCodec& codec, const char* name) {

@@ -29,16 +29,14 @@ struct EncoderSetup {
   std::vector<EncoderKind> alternatives;
 };
 
-/// H.264 in 4:2:0.
-/// @param kinds  of the encoders that may be asked for.
+/// H.264 in 4:2:0. @param kinds  of the encoders that may be asked for.
 /// @throws UsageError listing everything that is wrong with the size and the settings.
 EncoderSetup h264_setup(const VideoFormat& format, const EncoderSettings& settings,
                         const std::vector<EncoderKind>& kinds);
 /// ProRes 4444, with alpha if the frames have it.
 /// @throws UsageError if a setting is given, or the encoder is missing.
 EncoderSetup prores_setup(const VideoFormat& format, const EncoderSettings& settings);
-/// VP9 or AV1 in 4:2:0; VP9 with alpha if the frames have it.
-/// @throws UsageError as h264_setup().
+/// VP9 or AV1 in 4:2:0; VP9 with alpha if the frames have it. @throws UsageError as h264_setup().
 EncoderSetup webm_setup(const VideoFormat& format, const EncoderSettings& settings);
 
 /// The names of all these kinds, as a message lists them.
@@ -53,13 +51,11 @@ int frames_in_a_second(const Rational& frame_rate);
 
 /// Whether the encoder has an option of its own with this name.
 bool has_option(const AVCodec& codec, const char* name);
-/// Sets it.
-/// @throws MediaError if the encoder does not take the value.
+/// Sets it. @throws MediaError if the encoder does not take the value.
 void set_option(AVCodecContext& context, const char* name, const std::string& value);
 
 /// Whether the encoder opens for a small picture in 4:2:0. Being registered is not enough: wrappers
-/// load what they wrap only when they are opened.
-/// @param set_up  sets the encoder's own options.
+/// load what they wrap only when they are opened. @param set_up  sets the encoder's own options.
 bool can_be_opened(const AVCodec& codec, const std::function<void(AVCodecContext&)>& set_up = {});
 
 // Messages about a setting that an encoder does not take.

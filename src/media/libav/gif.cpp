@@ -30,10 +30,7 @@ void check_gif(int code, const char* operation) {
   throw MediaError(fmt::format("gif: cannot {}: giflib reports an error", operation));
 }
 
-struct ColorMapDeleter {
-  void operator()(ColorMapObject* map) const noexcept { GifFreeMapObject(map); }
-};
-using ColorMapPtr = std::unique_ptr<ColorMapObject, ColorMapDeleter>;
+using ColorMapPtr = std::unique_ptr<ColorMapObject, void (*)(ColorMapObject*)>;
 
 /// giflib wants a power of two of colours, at least two.
 ColorMapPtr color_map(const std::vector<std::uint32_t>& colors, std::size_t count) {
@@ -43,7 +40,7 @@ ColorMapPtr color_map(const std::vector<std::uint32_t>& colors, std::size_t coun
                    static_cast<GifByteType>(colors[i] >> 8), static_cast<GifByteType>(colors[i])};
   }
   const auto size = int(std::bit_ceil(std::max<std::size_t>(2, count)));
-  ColorMapPtr map(GifMakeMapObject(size, table.data()));
+  ColorMapPtr map(GifMakeMapObject(size, table.data()), GifFreeMapObject);
   if (!map) throw std::bad_alloc();
   return map;
 }
@@ -58,17 +55,14 @@ int append_to_bytes(GifFileType* file, const GifByteType* data, int count) {
   return count;
 }
 
-struct GifCloser {
-  void operator()(GifFileType* file) const noexcept { EGifCloseFile(file, nullptr); }
-};
-
 class GifEncoder final : public PacketPerFrameEncoder {
  public:
   explicit GifEncoder(const VideoFormat& format)
       : PacketPerFrameEncoder(format),
         frame_rate_(format.frame_rate),
         picture_(format.width_px, format.height_px),
-        file_(EGifOpen(&bytes_, append_to_bytes, nullptr)) {
+        file_(EGifOpen(&bytes_, append_to_bytes, nullptr),
+              [](GifFileType* file) { EGifCloseFile(file, nullptr); }) {
     if (!file_) throw std::bad_alloc();
     put_header(format);
     header_ = std::exchange(bytes_, {});
@@ -151,7 +145,7 @@ class GifEncoder final : public PacketPerFrameEncoder {
   Rational frame_rate_;
   ChangedPicture picture_;
   Bytes bytes_;  // written since the last packet
-  std::unique_ptr<GifFileType, GifCloser> file_;
+  std::unique_ptr<GifFileType, void (*)(GifFileType*)> file_;
   Bytes header_;
   ColorTable colors_;
   bool is_whole_ = true;  // the frame that is being encoded

@@ -8,8 +8,7 @@
 namespace piblocks {
 namespace {
 
-/// Repeats the last column and the last row of each plane up to whole macroblocks, since that costs
-/// the fewest bits.
+/// Repeats each plane's last column and row up to whole macroblocks: that costs the fewest bits.
 void extend(h264::Picture& picture, const VideoFormat& format) {
   for (int plane = 0; plane < 3; ++plane) {
     const int shared = plane == 0 ? 1 : 2;  // columns, and rows, of pixels of a sample

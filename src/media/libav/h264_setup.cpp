@@ -77,8 +77,7 @@ std::string level_problem(const VideoFormat& format) {
 }
 
 std::string crf_problem(const AVCodec& codec, double crf) {
-  // Below 1 libx264 encodes without loss, in the profile High 4:4:4 Predictive, which hardly any
-  // player knows.
+  // Below 1 libx264 encodes without loss, in High 4:4:4 Predictive, which hardly any player knows.
   constexpr double kMinCrf = 1;
   constexpr double kMaxCrf = 51;
   if (!has_option(codec, "crf")) return no_crf(codec.name);

@@ -103,9 +103,7 @@ AvCodecContextPtr SoundEncoder::open() const {
   context->sample_fmt = codec_->id == AV_CODEC_ID_OPUS ? AV_SAMPLE_FMT_FLT : AV_SAMPLE_FMT_FLTP;
   av_channel_layout_default(&context->ch_layout, kChannels);
   context->bit_rate = settings_.bit_rate;
-  if (settings_.option != nullptr) {
-    set_option(*context, settings_.option, settings_.value);
-  }
+  if (settings_.option != nullptr) set_option(*context, settings_.option, settings_.value);
   context->time_base = {1, format_.rate_hz};
   context->thread_count = 1;
   // Leaves the library's version out of the stream.

@@ -18,8 +18,7 @@ struct SoundCodec {
   const char* value = nullptr;
 };
 
-/// For MP4 and MOV. The coder takes half the time of the default one, and is as near to the
-/// original where clacks are dense.
+/// For MP4 and MOV. The coder takes half the default one's time, and is as true to dense clacks.
 inline constexpr SoundCodec kAac = {
     .name = "aac", .bit_rate = 192'000, .option = "aac_coder", .value = "fast"};
 /// For WebM.
@@ -54,18 +53,15 @@ class SoundEncoder {
 class SoundStream {
  public:
   /// Adds the stream to a muxer whose header is not written yet. Encoder and muxer must outlive it.
-  /// @param from_zero  whether times count from the first packet; players then skip what is before
-  ///                   sample 0.
+  /// @param from_zero  whether times count from the first packet; players then skip to sample 0.
   /// @param name       of the file, for messages.
   SoundStream(const SoundEncoder& encoder, AVFormatContext& muxer, bool from_zero,
               std::string name);
 
   void take(PacketSource& sound) { source_ = &sound; }
-  /// Writes the packets that are decoded at that time or before.
-  /// @throws IoError, MediaError
+  /// Writes the packets that are decoded at that time or before. @throws IoError, MediaError
   void write_until(std::int64_t time, AVRational time_base);
-  /// Writes the rest.
-  /// @throws IoError, MediaError; MediaError if the sound ended too early.
+  /// Writes the rest. @throws IoError, MediaError; MediaError if the sound ended too early.
   void write_all();
   std::int64_t packets() const noexcept { return packets_; }
 

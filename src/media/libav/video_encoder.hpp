@@ -58,8 +58,7 @@ struct PictureAndAlpha {
 
 /// The picture, the alpha, and the length of the alpha in 4 bytes.
 Bytes with_alpha(const PictureAndAlpha& both);
-/// Views of the bytes that with_alpha() gave.
-/// @throws MediaError if they are cut off.
+/// Views of the bytes that with_alpha() gave. @throws MediaError if they are cut off.
 PictureAndAlpha without_alpha(ByteSpan bytes);
 
 }  // namespace piblocks

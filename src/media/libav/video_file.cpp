@@ -19,8 +19,7 @@ namespace piblocks {
 namespace {
 
 /// Where the data of the pictures begins, if boxes fill the file and mdat is the last.
-/// ISO/IEC 14496-12, 4.2: a box begins with its size and four letters; after a size of 1 follows
-/// the size in 64 bits.
+/// ISO/IEC 14496-12, 4.2: a box begins with its size and four letters; after 1, a size of 64 bits.
 std::optional<std::int64_t> start_of_pictures(AVIOContext& file) {
   const std::int64_t end = avio_size(&file);
   std::int64_t at = 0;

@@ -35,18 +35,15 @@ void check_index(AVFormatContext& input, AVStream& stream, const std::string& pa
   }
 }
 
-bool is_cover(const AVStream& stream) {
-  return (stream.disposition & AV_DISPOSITION_ATTACHED_PIC) != 0;
-}
-
-/// The only video stream. Of several, just one would be compared.
+/// The only video stream besides covers. Of several, just one would be compared.
 int find_video(AVFormatContext& input, const std::string& path) {
   check_av_read(avformat_find_stream_info(&input, nullptr), "read", path);
   const int best = check_av_read(
       av_find_best_stream(&input, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0), "find a video in", path);
   const auto count =
       std::count_if(input.streams, input.streams + input.nb_streams, [](const AVStream* stream) {
-        return stream->codecpar->codec_type == AVMEDIA_TYPE_VIDEO && !is_cover(*stream);
+        return stream->codecpar->codec_type == AVMEDIA_TYPE_VIDEO &&
+               (stream->disposition & AV_DISPOSITION_ATTACHED_PIC) == 0;
       });
   if (count <= 1) return best;
   throw MediaError(
@@ -55,8 +52,7 @@ int find_video(AVFormatContext& input, const std::string& path) {
                   path, count));
 }
 
-/// libavcodec's own decoders of VP8 and VP9 ignore the alpha that Matroska keeps beside the
-/// pictures.
+/// libavcodec's own decoders of VP8 and VP9 ignore the alpha that Matroska keeps beside pictures.
 const AVCodec* find_decoder(const AVStream& stream) {
   const AVCodecID codec = stream.codecpar->codec_id;
   const AVDictionaryEntry* const mode = av_dict_get(stream.metadata, "alpha_mode", nullptr, 0);
@@ -172,8 +168,7 @@ class VideoReader final : public FrameReader {
     check_end();
     check_av_read(avcodec_send_packet(decoder_.get(), nullptr), "decode", path_);
   }
-  /// Some decoders, such as that of ProRes, return a frame of which they read a part. The rest of
-  /// it is what was in memory.
+  /// Some decoders, such as that of ProRes, return a frame of which a part is old memory.
   void check_damage() const {
     if (frame_->decode_error_flags == 0 && (frame_->flags & AV_FRAME_FLAG_CORRUPT) == 0) return;
     throw MediaError(fmt::format("video: cannot decode '{}': frame {} is damaged", path_, frames_));

@@ -21,15 +21,11 @@ inline void append(Bytes& bytes, std::string_view text) {
 
 /// Appends the lowest `size_bytes` bytes, at most 8, the lowest first.
 inline void append_little_endian(Bytes& bytes, std::uint64_t value, std::size_t size_bytes) {
-  for (std::size_t i = 0; i < size_bytes; ++i) {
-    bytes.push_back(std::uint8_t(value >> (8 * i)));
-  }
+  for (std::size_t i = 0; i < size_bytes; ++i) bytes.push_back(std::uint8_t(value >> (8 * i)));
 }
 /// The same, the lowest last.
 inline void append_big_endian(Bytes& bytes, std::uint64_t value, std::size_t size_bytes) {
-  for (std::size_t i = size_bytes; i-- > 0;) {
-    bytes.push_back(std::uint8_t(value >> (8 * i)));
-  }
+  for (std::size_t i = size_bytes; i-- > 0;) bytes.push_back(std::uint8_t(value >> (8 * i)));
 }
 
 /// The number in at most 8 bytes, the lowest first.

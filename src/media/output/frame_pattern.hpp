@@ -18,8 +18,7 @@ class FramePattern {
   ///         a folder's name, or another percent sign.
   explicit FramePattern(std::string_view text);
 
-  /// File name of frame `number` >= 0, without its folder. Numbers that are longer than the field
-  /// are written in full.
+  /// File name of frame `number` >= 0, without its folder. Longer numbers are written in full.
   std::string name(std::int64_t number) const;
   /// The number of the image with this file name; nothing if no image has it.
   std::optional<std::int64_t> number_of(std::string_view name) const;

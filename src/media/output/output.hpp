@@ -81,8 +81,7 @@ class ChunkEncoder {
   ///                 taken before, in this chunk or the last. The very first is taken whole.
   /// @throws MediaError if the frame is not of the size of the output.
   void take(const ImageView& frame, std::span<const PixelRect> changed);
-  /// Encodes that picture as the chunk's next frame.
-  /// @throws MediaError if the encoder refuses it.
+  /// Encodes that picture as the chunk's next frame. @throws MediaError if the encoder refuses it.
   virtual void encode() = 0;
   /// The chunk's packets.
   virtual EncodedChunk finish() = 0;
@@ -139,8 +138,7 @@ struct Output {
   /// The sink must not outlive the output.
   /// @throws UsageError if it cannot be opened; nothing is left behind then.
   std::function<std::unique_ptr<FrameSink>()> open;
-  /// The packets that this output makes of a soundtrack. `samples` and the output must outlive
-  /// them.
+  /// The packets that this output makes of a soundtrack; both must outlive them.
   /// @throws MediaError if the output was set up without sound, or its encoder cannot be opened.
   std::function<std::unique_ptr<PacketSource>(SampleSource& samples)> encode_sound = reject_sound;
   bool has_frames = true;  ///< if false, no frames may be encoded or appended

@@ -30,8 +30,7 @@ class NullSink final : public FrameSink {
   void finish() override {}
 };
 
-/// 420mpeg2 is 4:2:0 with chroma sited left. There is no tag for the matrix; readers take BT.709
-/// for HD sizes.
+/// 420mpeg2 is 4:2:0 with chroma sited left. No tag names the matrix; readers take BT.709 for HD.
 std::string file_header(const VideoFormat& format) {
   return fmt::format("YUV4MPEG2 W{} H{} F{}:{} Ip A1:1 C420mpeg2 XCOLORRANGE=LIMITED\n",
                      format.width_px, format.height_px, format.frame_rate.get_num().get_str(),
@@ -79,10 +78,6 @@ constexpr std::int64_t kHeader_bytes = 44;
 /// The file's own length field has 32 bits and leaves out the first 8 bytes.
 constexpr std::int64_t kMaxFile_bytes = 0xFFFFFFFF;
 
-void append_number(Bytes& bytes, std::int64_t value, std::size_t size_bytes) {
-  append_little_endian(bytes, std::uint64_t(value), size_bytes);
-}
-
 /// RIFF WAVE with one "fmt " chunk of PCM and one "data" chunk (Multimedia Programming Interface
 /// and Data Specifications 1.0, 1991).
 Bytes header(const SoundFormat& sound) {
@@ -104,7 +99,7 @@ Bytes header(const SoundFormat& sound) {
                              {"", 8 * kSample_bytes, 2},
                              {"data", data_bytes, 4}}) {
     append(bytes, field.text);
-    append_number(bytes, field.value, field.size_bytes);
+    append_little_endian(bytes, std::uint64_t(field.value), field.size_bytes);
   }
   return bytes;
 }
@@ -121,8 +116,8 @@ class PcmPackets final : public PacketSource {
     Packet packet{.bytes = {}, .pts = next_, .dts = next_};
     packet.bytes.reserve(count * kSample_bytes);
     for (std::size_t i = 0; i < count; ++i) {
-      const double value = std::clamp(double(block[i]), -1.0, 1.0);
-      append_number(packet.bytes, std::lround(kFullScale * value), kSample_bytes);
+      const long level = std::lround(kFullScale * std::clamp(double(block[i]), -1.0, 1.0));
+      append_little_endian(packet.bytes, std::uint64_t(level), kSample_bytes);
     }
     next_ += std::int64_t(count / kChannels);
     return packet;

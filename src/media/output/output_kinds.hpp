@@ -54,8 +54,7 @@ class PacketPerFrameEncoder : public ChunkEncoder {
   EncodedChunk finish() final { return std::exchange(chunk_, {}); }
 
  private:
-  /// The bytes of a picture.
-  /// @param number    of the frame, from 0.
+  /// The bytes of a picture. @param number  of the frame, from 0.
   /// @param is_first  whether its chunk begins with it: it must not depend on those before it.
   virtual Bytes encode_picture(std::int64_t number, bool is_first) = 0;
 
@@ -103,8 +102,7 @@ Output gif_output(const OutputRequest& request);
 Output apng_output(const OutputRequest& request);
 Output png_output(const OutputRequest& request);
 Output y4m_output(const OutputRequest& request);
-/// As FFmpeg's framehash muxer writes rawvideo rgb24 (rgba, if the frames have alpha), but without
-/// its #software line.
+/// As FFmpeg's framehash muxer writes rawvideo rgb24 or, with alpha, rgba, less its #software line.
 Output framehash_output(const OutputRequest& request);
 Output wav_output(const OutputRequest& request);
 /// Takes frames and keeps nothing: what rendering costs without an output.

@@ -32,8 +32,7 @@ class ShardReader {
   explicit ShardReader(std::string path);
 
   const ShardHeader& header() const noexcept { return header_; }
-  /// The next chunk; nothing after the last.
-  /// @throws IoError if the file is damaged or cut off.
+  /// The next chunk; nothing after the last. @throws IoError if the file is damaged or cut off.
   std::optional<EncodedChunk> next();
   /// The next packets of sound; nothing after the last. Do not mix with next().
   /// @throws IoError as next().

@@ -41,8 +41,7 @@ class FrameReader {
   /// What the samples mean: kRgba, or Y, Cb, Cr and alpha with their depth, chroma sharing, range
   /// and matrix. Shared chroma is repeated. Frames with the same layout can be compared exactly.
   virtual std::string layout() const = 0;
-  /// How players change the stored pixels, such as "turned clockwise by 90 degrees"; empty if they
-  /// do not.
+  /// How players change the stored pixels, such as "turned clockwise by 90 degrees", or empty.
   virtual std::string presentation() const { return {}; }
   /// The frame as it is stored. Call either this or rgb(), once a frame: the picture is moved out.
   virtual AnyImage samples() = 0;

@@ -46,9 +46,7 @@ void pack_row(const ImageView& frame, const PixelRect& rect, int y, std::uint8_t
 void subtract_bytes(const std::uint8_t* __restrict minuend,
                     const std::uint8_t* __restrict subtrahend, std::size_t count,
                     std::uint8_t* __restrict difference) {
-  for (std::size_t i = 0; i < count; ++i) {
-    difference[i] = std::uint8_t(minuend[i] - subtrahend[i]);
-  }
+  for (std::size_t i = 0; i < count; ++i) difference[i] = std::uint8_t(minuend[i] - subtrahend[i]);
 }
 
 }  // namespace piblocks

@@ -1,7 +1,6 @@
 // From pixels to what video encoders and y4m take.
-// In: sRGB pixels and a rectangle of them. Out: that part of a picture with the BT.709 matrix in
-// limited range and alpha in full range; chroma of 4:2:0 is sited left (ITU-T H.273, matrix 1,
-// location 0).
+// In: sRGB pixels and a rectangle. Out: that part of a picture in BT.709, limited range, with alpha
+// in full range and chroma of 4:2:0 sited left (ITU-T H.273, matrix 1, location 0).
 #pragma once
 
 #include <piblocks/image.hpp>
@@ -42,14 +41,12 @@ PixelRect chroma_aligned(const PixelRect& rect, const ImageView& image);
 /// Every sample is within 0.53 of the exact value (tests/media/yuv420_test.cpp), and the same
 /// whether it was converted alone or with the whole frame. Chroma reads one column left of the
 /// rectangle: a change at column x of the image can change chroma from column x-1 to x+1.
-/// @param image of even width and height.
-/// @param rect inside the image; all its numbers are even.
+/// @param image, rect  of even numbers, the rectangle inside the image
 void convert_to_yuv420(const ImageView& image, const PixelRect& rect,
                        const YuvView<std::uint8_t>& picture);
 
 /// 4:4:4 with 10 bits: luma 64 to 940, chroma 64 to 960, alpha 0 to 1023. Transparent pixels are
-/// black.
-/// @param rect  inside the image.
+/// black. @param rect  inside the image.
 void convert_to_yuva444p10(const ImageView& image, const PixelRect& rect,
                            const YuvView<std::uint16_t>& picture);
 

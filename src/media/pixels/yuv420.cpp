@@ -5,8 +5,7 @@
 #include "media/pixels/yuv.hpp"
 
 // All arithmetic has 16 bits, since SSE2, which every x86-64 has, is slow at products of 32. GCC
-// turns `high_half` into one vector instruction. Strips are short enough for their buffers to stay
-// in cache.
+// turns `high_half` into one vector instruction. Buffers of short strips stay in cache.
 
 namespace piblocks {
 namespace {
@@ -91,8 +90,7 @@ inline std::uint8_t chroma(std::int16_t red, std::int16_t green, std::int16_t bl
   return std::uint8_t(sum >> 7);
 }
 
-/// The samples of `count` pairs of columns. A sample lies on the even column, which weighs half,
-/// its neighbours a quarter each.
+/// The samples of `count` pairs of columns: half the even column, a quarter of each neighbour.
 void convert_chroma(const ColumnSums& sums, int count, std::uint8_t* __restrict cb,
                     std::uint8_t* __restrict cr) {
   const std::uint32_t* __restrict red_blue = sums.red_blue.data();

@@ -35,8 +35,7 @@ class Deflater {
   /// @throws MediaError if memory runs out.
   explicit Deflater(Form form);
 
-  /// The result stays until the next call. It depends on `bytes` alone.
-  /// @throws MediaError
+  /// The result stays until the next call. It depends on `bytes` alone. @throws MediaError
   ByteSpan compress(ByteSpan bytes);
 
  private:

@@ -71,8 +71,7 @@ class PngEncoder final : public PacketPerFrameEncoder {
     end_png_chunk(png, begin_png_chunk(png, "IEND"));
     return png;
   }
-  /// Up is the difference from the row above, so the row below the rectangle changes too. Above the
-  /// first row all is zero.
+  /// Up is the difference from the row above, zero above the first: the row below changes too.
   void filter_rect(const ImageView& image, const PixelRect& rect) {
     const std::size_t bytes = std::size_t(rect.width_px) * packed_bytes(has_alpha_);
     Bytes above(bytes);

@@ -22,16 +22,12 @@ namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
-struct FileCloser {
-  // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): this is the owner
-  void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-};
-using FilePtr = std::unique_ptr<std::FILE, FileCloser>;
+using FilePtr = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 FilePtr open_file(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) error = std::make_error_code(std::errc::is_a_directory);
-  FilePtr file(error ? nullptr : std::fopen(path.c_str(), "rbe"));
+  FilePtr file(error ? nullptr : std::fopen(path.c_str(), "rbe"), std::fclose);
   if (!file && !error) error.assign(errno, std::generic_category());
   if (!file) {
     throw IoError(fmt::format("png: cannot read '{}': {}", path.string(), error.message()));
@@ -107,11 +103,9 @@ class PngFile {
     png_read_info(structs_.png, structs_.info);
   }
   void check_size() const {
-    const std::int64_t width = png_get_image_width(structs_.png, structs_.info);
-    const std::int64_t height = png_get_image_height(structs_.png, structs_.info);
-    if (width > kMaxSide_px || height > kMaxSide_px || width * height > kMaxFrame_px) {
-      fail(fmt::format("{}x{} is too large", width, height));
-    }
+    const std::int64_t pixels = std::int64_t{width()} * height();
+    if (width() <= kMaxSide_px && height() <= kMaxSide_px && pixels <= kMaxFrame_px) return;
+    fail(fmt::format("{}x{} is too large", width(), height()));
   }
   /// Samples in the order of words 0xAARRGGBB on a little-endian machine.
   void read_rows() {

@@ -13,12 +13,10 @@
 namespace piblocks {
 
 /// Samples of 16 bits are rounded to 8.
-/// @throws IoError if the file cannot be read, MediaError if it is no PNG or larger than
-///         kMaxFrame_px.
+/// @throws IoError if the file cannot be read, MediaError if it is no PNG or above kMaxFrame_px.
 Image read_png(const std::filesystem::path& path);
 
-/// Keeps samples of 16 bits.
-/// @throws as read_png(), and MediaError if the file is animated.
+/// Keeps samples of 16 bits. @throws as read_png(), and MediaError if the file is animated.
 AnyImage read_png_samples(const std::filesystem::path& path);
 
 /// Whether the file is a PNG with more than one frame, all of which only read_video() reads.
