@@ -23,8 +23,8 @@ constexpr bool is_possible(PredMode mode, bool has_above, bool has_left) {
 
 /// The samples beside a block. Null where the picture ends.
 struct AdjacentSamples {
-  const std::uint8_t* above;  ///< a row
-  const std::uint8_t* left;   ///< a column of samples `left_step` apart
+  const std::uint8_t* above = nullptr;  ///< a row
+  const std::uint8_t* left = nullptr;   ///< a column of samples `left_step` apart
   int left_step = 1;
 };
 

@@ -35,6 +35,7 @@ struct MacroblockInput {
 struct CodedMacroblock {
   static constexpr std::int64_t kImpossible = std::numeric_limits<std::int64_t>::max();
 
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): samples are written right after
   explicit CodedMacroblock(MbType mb_type) : type(mb_type) {}
 
   MbType type;
