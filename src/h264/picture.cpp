@@ -6,8 +6,8 @@ namespace piblocks::h264 {
 namespace {
 
 template <int side>
-void copy_rows(const std::uint8_t* from, std::ptrdiff_t from_stride, std::uint8_t* to,
-               std::ptrdiff_t to_stride) {
+void copy_plane(const std::uint8_t* from, std::ptrdiff_t from_stride, std::uint8_t* to,
+                std::ptrdiff_t to_stride) {
   for (int y = 0; y < side; ++y, from += from_stride, to += to_stride) std::memcpy(to, from, side);
 }
 
@@ -29,16 +29,16 @@ Picture::Picture(int width_mb, int height_mb) : width_mb_(width_mb), height_mb_(
 }
 
 void Picture::load(int x_mb, int y_mb, Samples& samples) const {
-  for (int i = 0; i < 3; ++i) {
-    const auto copy = i == 0 ? copy_rows<kLumaSide> : copy_rows<kChromaSide>;
-    copy(plane(i) + offset(i, x_mb, y_mb), stride_bytes(i), samples.plane(i), side_of(i));
+  copy_plane<16>(plane(0) + offset(0, x_mb, y_mb), stride_bytes(0), samples.plane(0), 16);
+  for (int i = 1; i < 3; ++i) {
+    copy_plane<8>(plane(i) + offset(i, x_mb, y_mb), stride_bytes(i), samples.plane(i), 8);
   }
 }
 
 void Picture::store(int x_mb, int y_mb, const Samples& samples) {
-  for (int i = 0; i < 3; ++i) {
-    const auto copy = i == 0 ? copy_rows<kLumaSide> : copy_rows<kChromaSide>;
-    copy(samples.plane(i), side_of(i), plane(i) + offset(i, x_mb, y_mb), stride_bytes(i));
+  copy_plane<16>(samples.plane(0), 16, plane(0) + offset(0, x_mb, y_mb), stride_bytes(0));
+  for (int i = 1; i < 3; ++i) {
+    copy_plane<8>(samples.plane(i), 8, plane(i) + offset(i, x_mb, y_mb), stride_bytes(i));
   }
 }
 
