@@ -242,7 +242,8 @@ TEST_F(CompareTest, NoPicturesAreLeftOfWhatIsEqual) {
 
 // 1 would say that they differ.
 TEST_F(CompareTest, WhatMayNotBeLookedAtCannotBeRead) {
-  if (!testing_support::kOrdinaryUsersCanRun) GTEST_SKIP() << "LeakSanitizer needs all rights";
+  if (const auto problem = testing_support::ordinary_user_problem(); !problem.empty())
+    GTEST_SKIP() << problem;
   fs::create_directory(folder_ / "closed");
   output_of({"still", "--size", "64x36", "--at", "1", "-o", "closed/1.png"});
   output_of({"still", "--size", "64x36", "--at", "1", "-o", "1.png"});

@@ -162,7 +162,8 @@ TEST_F(GoldenTest, EndsOfLinesAreNoDifference) {
 }
 
 TEST_F(GoldenTest, ReferencesThatMayNotBeLookedAtAreNamed) {
-  if (!testing_support::kOrdinaryUsersCanRun) GTEST_SKIP() << "LeakSanitizer needs all rights";
+  if (const auto problem = testing_support::ordinary_user_problem(); !problem.empty())
+    GTEST_SKIP() << problem;
   fs::create_directory(folder_ / "refs");
   fs::permissions(folder_.path(), fs::perms(0755));
   fs::permissions(folder_ / "refs", fs::perms(0600));

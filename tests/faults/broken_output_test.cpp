@@ -15,6 +15,7 @@
 namespace piblocks {
 namespace {
 namespace fs = std::filesystem;
+using testing_support::ordinary_user_problem;
 using testing_support::OrdinaryUser;
 
 using BrokenOutputTest = FaultFixture;
@@ -43,7 +44,7 @@ class BrokenFolderTest : public EveryKindTest {
 };
 
 TEST_P(BrokenFolderTest, ThatCannotBeWrittenIsNamed) {
-  if (!kHasFaults) GTEST_SKIP() << "a process that has dropped its rights cannot look for leaks";
+  if (const auto problem = ordinary_user_problem(); !problem.empty()) GTEST_SKIP() << problem;
   const Files old = put_old_files(undisturbed(GetParam()));
   fs::permissions(out().parent_path(), fs::perms(0755));
   fs::permissions(out(), fs::perms(0755));

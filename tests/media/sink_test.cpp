@@ -19,6 +19,7 @@ namespace piblocks {
 namespace {
 namespace fs = std::filesystem;
 using testing_support::file_contents;
+using testing_support::ordinary_user_problem;
 using testing_support::OrdinaryUser;
 using testing_support::Pixels;
 using testing_support::TemporaryFolder;
@@ -167,6 +168,7 @@ TEST_P(EveryFile, CannotBeBelowAFile) {
 }
 
 TEST_P(EveryFile, NeedsAFolderThatCanBeWritten) {
+  if (const auto problem = ordinary_user_problem(); !problem.empty()) GTEST_SKIP() << problem;
   const TemporaryFolder folder;
   fs::create_directory(folder / "a");
   const fs::perms search = fs::perms::owner_exec | fs::perms::others_exec;
