@@ -82,7 +82,7 @@ enum class Overlay {
   ruler        ///< a scale of positions below the blocks
 };
 
-/// Diagrams beside the blocks, in step with them.
+/// Diagrams below the blocks, in step with them.
 enum class Panel {
   velocity,  ///< circle of (sqrt(m_red) v_red, sqrt(m_blue) v_blue) with each collision's sector
   position,  ///< path in the plane of both gaps, in the wedge between wall and contact

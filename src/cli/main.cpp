@@ -1,4 +1,4 @@
-// The command line: options in, exit code out. 0 done, 1 failed, 2 wrong usage.
+// The command line: options in, exit code out (command.hpp).
 #include <fcntl.h>
 #include <piblocks/error.hpp>
 #include <unistd.h>

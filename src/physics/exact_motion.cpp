@@ -81,7 +81,7 @@ long ExactMotion::magnitude() const {
 
 Real ExactMotion::final_phase(const Real& sigma, const Real& theta) const {
   const mpfr_prec_t bits = sigma.bits();
-  Real angle = atan2(sigma * Real(bits, turned(u1)), Real(bits, u2));
+  Real angle = atan2(sigma * Real(bits, mirrored(u1)), Real(bits, u2));
   // A line that turns from the blocks' ray on ends at 0 to pi + theta; a mirrored one, from the
   // wall on, at -theta to pi.
   if (blocks_first && angle.sign() < 0) angle = angle + scaled(Real::pi(bits), 1);
@@ -112,7 +112,7 @@ Asymptote ExactMotion::split(const PhaseFunction& phase, const Rational& x, cons
 
 Asymptote ExactMotion::future(long relative_bits) const {
   const auto phase = [this](const Real& s, const Real& theta) { return final_phase(s, theta); };
-  return split(phase, turned(u1), u2, relative_bits);
+  return split(phase, mirrored(u1), u2, relative_bits);
 }
 
 Wedge ExactMotion::wedge(mpfr_prec_t bits) const {
@@ -120,7 +120,7 @@ Wedge ExactMotion::wedge(mpfr_prec_t bits) const {
   const auto first = [this](const Real& s, const Real& theta) {
     return Real::pi(s.bits()) / theta - final_phase(s, theta);
   };
-  Asymptote past = split(first, turned(u1), Rational(-u2), bits);
+  Asymptote past = split(first, mirrored(u1), Rational(-u2), bits);
   past.ray = -past.ray;
   const Real s = sigma(first_precision(bits));
   return {s, atan(s), past, future(bits)};
@@ -143,14 +143,14 @@ TwoSided ExactMotion::turn() const {
     return final_phase(s, theta) - scaled(Real::pi(s.bits()), -1) / theta;
   };
   // At right angles to the line.
-  return two_sided(phase, Rational(-u2), Rational(ratio * turned(u1)));
+  return two_sided(phase, Rational(-u2), Rational(ratio * mirrored(u1)));
 }
 
 TwoSided ExactMotion::start() const {
   const auto phase = [this](const Real& s, const Real& theta) {
-    return atan2(s * Real(s.bits(), turned(y1)), Real(s.bits(), y2)) / theta;
+    return atan2(s * Real(s.bits(), mirrored(y1)), Real(s.bits(), y2)) / theta;
   };
-  return two_sided(phase, turned(y1), y2);
+  return two_sided(phase, mirrored(y1), y2);
 }
 
 Integer ExactMotion::total(const Asymptote& future) const {
@@ -189,7 +189,7 @@ Rational ExactMotion::rounded_crossing(const Integer& ray, mpfr_prec_t bits) con
 Rational ExactMotion::time_past(const Integer& ray) const {
   if (const auto direction = ray_direction(ray, ratio, kMaxShort_bits)) {
     const auto& [a, b] = *direction;
-    return (b * y2 - a * turned(y1)) / (a * turned(u1) - b * u2);
+    return (b * y2 - a * mirrored(y1)) / (a * mirrored(u1) - b * u2);
   }
   for (mpfr_prec_t bits = 2 * magnitude() + 128; bits <= kMaxDecisionBits; bits *= 2) {
     Rational time = rounded_crossing(ray, bits);
@@ -206,7 +206,7 @@ Phase ExactMotion::phase_at(const Rational& t) const {
     const Real to_go = atan2(s * Real(bits, abs(areal_velocity)), Real(bits, along));
     return final_phase(s, theta) - to_go / theta;
   };
-  const Asymptote at = split(phase, turned(y1 + u1 * t), Rational(y2 + u2 * t), 0);
+  const Asymptote at = split(phase, mirrored(y1 + u1 * t), Rational(y2 + u2 * t), 0);
   return {at.ray, at.beyond.to_double()};
 }
 

@@ -25,8 +25,8 @@ struct Asymptote {
   Real beyond;  ///< how far its phase is past that ray, in [0, 1); 0 if the line is parallel to it
 };
 
-/// A direction from which the rays on one side of it are counted: an end of time, the turn or the
-/// start. It is past `ray` if it lies ahead of those rays, and before it if it lies behind them.
+/// A direction, as a ray and what is beyond it: an end of time, the turn or the start. Rays are
+/// counted from the nearest one, which keeps precision.
 struct Landmark {
   Integer ray;
   DoubleDouble beyond;
@@ -125,7 +125,7 @@ struct ExactMotion {
   /// When the line crosses the ray, rounded up by no more than 2^-bits of what time_past() says.
   Rational rounded_crossing(const Integer& ray, mpfr_prec_t bits) const;
   /// x of a point in the frame in which the phase grows.
-  Rational turned(const Rational& x) const { return blocks_first ? x : Rational(-x); }
+  Rational mirrored(const Rational& x) const { return blocks_first ? x : Rational(-x); }
 };
 
 }  // namespace piblocks

@@ -44,10 +44,9 @@ inline constexpr std::size_t kMaxListedCollisions = 512;
 
 /// An interval of time. In one of no length the blocks are where they are at that instant.
 struct Exposure {
-  /// Both blocks together, in the order of time; shares add up to 1. If area_below is given, those
-  /// in the middle are fewer and slower bounces between the same places, which tell how near to
-  /// each other the blocks are: blue spends its time in each of them as in the many that they stand
-  /// for, to the first order in the time that a bounce takes.
+  /// Both blocks together, in the order of time; shares add up to 1. If area_below is given, a few
+  /// slow bounces between the same places stand in for many fast ones. Use these only for the
+  /// distance between the blocks; they are true to the first order in the time of a bounce.
   std::vector<UniformPiece> pieces = {};
   Travel blue_range = {};  ///< of all positions
   Travel red_range = {};

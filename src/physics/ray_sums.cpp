@@ -12,8 +12,8 @@ namespace {
 /// this.
 constexpr int kEndTerms = 32;
 
-/// Summands as functions of u = sin theta/sin(delta) at a ray, at the ray before and at the ray
-/// after; and over u, as functions of u alone, since before * after = u^2/(1 - u^2).
+/// Each struct is a summand. at() takes u = sin theta/sin(delta) of a ray and of the rays before
+/// and after it. over_u() is the summand over u; it needs u alone: before * after = u^2/(1 - u^2).
 struct InverseSine {
   static double at(double u, double /*before*/, double /*after*/) { return u; }
   static double over_u(double /*u*/) { return 1; }

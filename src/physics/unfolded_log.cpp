@@ -66,7 +66,7 @@ double UnfoldedLog::tau_at(const Rational& time, const Time& t) const {
 
 UnfoldedLog::LinePoint UnfoldedLog::point_at(double tau, const Time& t) const {
   // Seen from the corner, in units of ell; the line passes it at distance sigma.
-  const double ahead = exact_.through_corner() ? kFarAway : form_.ahead(tau);
+  const double ahead = exact_.through_corner() ? kFarAway : form_.distance_at(tau);
   const double range = std::hypot(form_.sigma, ahead);
 
   LinePoint point;

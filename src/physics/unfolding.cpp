@@ -69,7 +69,7 @@ Unfolding::Unfolding(const BlockSystem& system, const ExactMotion& exact)
   red_offset = to_double(system.wall_face + system.blue.width + system.red.width / 2);
 }
 
-double Unfolding::ahead(double tau) const {
+double Unfolding::distance_at(double tau) const {
   // The quotient loses precision where it is near the denormal numbers.
   const double way = speed_over_ell < kLeast ? tau * speed / ell : tau * speed_over_ell;
   return std::min(std::fabs(way), kFarAway);

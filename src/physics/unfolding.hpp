@@ -139,7 +139,7 @@ struct Unfolding : ClosedForm {
 
   /// Distance along the line since closest approach, in units of ell and at most kFarAway, for a
   /// line that is not through the corner. @param tau  scaled time since then
-  double ahead(double tau) const;
+  double distance_at(double tau) const;
 
   /// Whether a ray is nearer to the future than to the past.
   bool is_late(const Integer& ray) const { return ray > turn.ahead.ray; }

@@ -53,7 +53,7 @@ bool is_plain(const std::string& name) {
 void check_bundle(const RenderJob& job) {
   std::vector<std::string> problems;
   if (job.shard) {
-    problems.emplace_back("bundle: there are no parts of a bundle; leave the part out");
+    problems.emplace_back("bundle: a bundle has no parts; leave --bundle or --part out");
   }
   const auto* scene = std::get_if<Scene>(&job.script);
   if (scene == nullptr) {
@@ -81,7 +81,7 @@ void add(FileSet& files, const char* name, std::string_view text) {
   files.add(name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
-/// The picture that the video comes to, which is this frame, or the one that is asked for.
+/// Writes the poster: the instant that was asked for, or else the last frame.
 void write_poster(const RenderJob& job, std::int64_t last, FileSet& files) {
   if (job.bundle->poster) {
     render_still(job.script, *job.bundle->poster, files.add(kPoster));

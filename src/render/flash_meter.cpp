@@ -12,9 +12,9 @@
 namespace piblocks {
 namespace {
 
-/// On the picture's longer side, about.
+/// Cells along the picture's longer side, about.
 constexpr int kCells = 160;
-// Of a picture as large as a screen of 1024 x 768 can show it.
+// WCAG: the picture fills a screen of 1024 x 768, of which one can see this much at once.
 constexpr double kScreenWidth_px = 1024;
 constexpr double kScreenHeight_px = 768;
 constexpr double kSightWidth_px = 341;

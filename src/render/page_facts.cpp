@@ -19,7 +19,7 @@ constexpr int kMostDecimals = 30;
 /// So that times stay within the range of a double in units of the last decimal.
 constexpr double kLargest = 1e250;
 
-/// Enough to tell apart what is so far from each other.
+/// Decimals that tell two times apart which lie `distance` from each other.
 int decimals_for(const Rational& distance, const Rational& span) {
   const double decimals = std::ceil(-std::log10(to_double(distance))) + 1;
   const double room = std::log10(kLargest) - std::log10(std::max(1.0, to_double(span)));

@@ -74,10 +74,10 @@ constexpr int kPageHeight_pt = 595;
 constexpr int kPageWidth_px = 2339;
 constexpr int kPageHeight_px = 1654;
 
-/// Of a time.
+/// Significant digits of a time.
 constexpr int kUsualDigits = 6;
 constexpr int kMostDigits = 40;
-/// Before the first digit of a time.
+/// Zeros before the first digit of a time. A smaller one is written with a power of ten.
 constexpr int kMostZeros = 10;
 
 void drop_last_zeros(std::string& decimal) {

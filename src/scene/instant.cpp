@@ -67,7 +67,7 @@ std::optional<Integer> anchoring_collision(const Instant& instant, const Collisi
 
 [[noreturn]] void fail_missing(const Instant& instant, const CollisionLog& log) {
   if (instant.anchor == Anchor::turn) {
-    throw UsageError("'turn': no block moves, so there is none; give a time");
+    throw UsageError("'turn': there is no turn, since no block moves; give a time");
   }
   if (instant.anchor == Anchor::last) {
     throw UsageError("'last': no collision happens from time 0 on; give a time");

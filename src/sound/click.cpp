@@ -122,14 +122,14 @@ bool Timbre::is_silent() const {
     return std::max(std::fabs(p[0]), std::fabs(p[1])) < kNothing;
   };
   return last_click_ == StereoSample{} && std::ranges::all_of(resonators_, [&](const Resonator& r) {
-           return is_small(r.before) && is_small(r.before_last);
+           return is_small(r.y1) && is_small(r.y2);
          });
 }
 
 void Timbre::add(std::span<const double> clicks, std::span<double> sound) {
   const bool no_click = std::ranges::all_of(clicks, [](double click) { return click == 0; });
   if (no_click && is_silent()) {
-    for (Resonator& r : resonators_) r.before = r.before_last = {};
+    for (Resonator& r : resonators_) r.y1 = r.y2 = {};
     return;
   }
   for (Resonator& r : resonators_) {
@@ -137,11 +137,11 @@ void Timbre::add(std::span<const double> clicks, std::span<double> sound) {
     for (std::size_t i = 0; i < clicks.size(); i += 2) {
       for (std::size_t channel = 0; channel < 2; ++channel) {
         const double now = clicks[i + channel];
-        const double answer = r.last * r.before[channel] + r.last_but_one * r.before_last[channel] +
-                              r.height * (now - click[channel]);
+        const double answer =
+            r.a1 * r.y1[channel] + r.a2 * r.y2[channel] + r.gain * (now - click[channel]);
         click[channel] = now;
-        r.before_last[channel] = r.before[channel];
-        r.before[channel] = answer;
+        r.y2[channel] = r.y1[channel];
+        r.y1[channel] = answer;
         sound[i + channel] += answer;
       }
     }

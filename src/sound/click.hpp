@@ -59,11 +59,12 @@ class Timbre {
 
  private:
   struct Resonator {
-    double last_but_one = 0;  ///< factors of the answers before
-    double last = 0;
-    double height = 0;
-    StereoSample before_last{};
-    StereoSample before{};
+    // answer = a1 * y1 + a2 * y2 + gain * input
+    double a2 = 0;
+    double a1 = 0;
+    double gain = 0;
+    StereoSample y2{};  ///< the answer before y1
+    StereoSample y1{};  ///< the last answer
   };
 
   bool is_silent() const;

@@ -174,7 +174,7 @@ TEST_F(BundleTest, RefusesWhatItCannotBe) {
   expect_refusal(bundle + Arguments{"new/pi.mp4"}, "'new/pi.mp4' is no name for the video in it");
   expect_refusal(bundle + Arguments{"pi.gif"}, "'pi.gif' is no name for the video in it");
   expect_refusal(bundle + Arguments{"a b.mp4"}, "'a b.mp4' is no name for the video in it");
-  expect_refusal(bundle + Arguments{"pi.mp4", "--part", "1/2"}, "there are no parts of a bundle");
+  expect_refusal(bundle + Arguments{"pi.mp4", "--part", "1/2"}, "a bundle has no parts");
   expect_refusal(bundle + Arguments{"pi.mp4", "--poster", "#9999"}, "9999");
   expect_refusal(bundle + Arguments{"pi.mp4", "--transparent"},
                  "bundle: 'pi.mp4' cannot be transparent");

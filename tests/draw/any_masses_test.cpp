@@ -111,13 +111,13 @@ TEST(Panels, KnowTheWedgeHoweverNarrowOrWide) {
   BlockSystem system;
   for (const unsigned long exponent : {4UL, 40UL, 400UL, 648UL, 700UL, 4000UL}) {
     system.red.mass = power(10, exponent);
-    const Wedge narrow(system);
+    const GapWedge narrow(system);
     const double half = double(exponent) / 2;
     EXPECT_NEAR(narrow.log10_theta(), -half, 1e-4) << exponent;
     EXPECT_NEAR(narrow.angle({1, long(exponent) / 2}), 1, 1e-4) << exponent;
     EXPECT_NEAR(narrow.cosine, 1, 1e-4);
     system.red.mass = 1 / power(10, exponent);
-    const Wedge wide(system);
+    const GapWedge wide(system);
     EXPECT_NEAR(wide.theta, std::numbers::pi / 2, 0.011) << exponent;
     EXPECT_NEAR(wide.sine, 1, 1e-4);
     EXPECT_TRUE(wide.cosine >= 0 && wide.cosine < 0.011) << exponent;

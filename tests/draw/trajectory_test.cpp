@@ -16,7 +16,7 @@ struct Traced {
         pieces(trajectory_of(*log, wedge, {from, to}, columns)) {}
 
   BlockSystem system;
-  Wedge wedge;
+  GapWedge wedge;
   std::unique_ptr<CollisionLog> log;
   std::vector<TrajectoryPiece> pieces;
 };

@@ -54,7 +54,7 @@ void add_piece(const TrajectoryPiece& piece, const DrawnWedge& drawn, Diagram& d
 }  // namespace
 
 Drawable position_panel(const DrawingContext& context, const PanelPlace& place) {
-  const Wedge wedge(context.scene.system);
+  const GapWedge wedge(context.scene.system);
   const bool is_true = std::min(wedge.theta, std::numbers::pi / 2 - wedge.theta) >= kLeastAngle;
   Diagram diagram(context, place,
                   {is_true ? "Positions √m·x" : "Positions (not to scale)", "Positions"});

@@ -42,7 +42,7 @@ void add_red(const std::vector<TrajectoryPiece>& pieces, const ToPlace& at, Diag
 
 Drawable time_panel(const DrawingContext& context, const PanelPlace& place) {
   Diagram diagram(context, place, {"Distance from the wall", "Distances"});
-  const Wedge wedge(context.scene.system);
+  const GapWedge wedge(context.scene.system);
   const TimeAxis axis(context, diagram, 0);
   const int columns = std::max(1, static_cast<int>(std::ceil(axis.plot().width)));
   const auto pieces = trajectory_of(context.log, wedge, axis.span(), columns);

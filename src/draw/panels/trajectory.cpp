@@ -15,11 +15,11 @@ struct Column {
   Integer last;
 };
 
-GapPoint gaps_at(const Collision& collision, const Wedge& wedge) {
+GapPoint gaps_at(const Collision& collision, const GapWedge& wedge) {
   return wedge.gaps_of(collision.blue, collision.red);
 }
 
-void add_corners(const Column& column, const CollisionLog& log, const Wedge& wedge,
+void add_corners(const Column& column, const CollisionLog& log, const GapWedge& wedge,
                  std::vector<TrajectoryPiece>& pieces) {
   if (pieces.empty() || pieces.back().corners.empty()) pieces.push_back({{column.from}, {}});
   std::vector<TimedGaps>& corners = pieces.back().corners;
@@ -30,7 +30,7 @@ void add_corners(const Column& column, const CollisionLog& log, const Wedge& wed
   corners.push_back(column.to);
 }
 
-void add_band(const Column& column, const CollisionLog& log, const Wedge& wedge,
+void add_band(const Column& column, const CollisionLog& log, const GapWedge& wedge,
               std::vector<TrajectoryPiece>& pieces) {
   if (pieces.empty() || pieces.back().bands.empty()) pieces.push_back({});
   Band band{column.from, column.to, 0};
@@ -45,7 +45,7 @@ void add_band(const Column& column, const CollisionLog& log, const Wedge& wedge,
 
 }  // namespace
 
-std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const Wedge& wedge,
+std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const GapWedge& wedge,
                                            const Span& span, int columns) {
   std::vector<TrajectoryPiece> pieces;
   BlockState state = log.state_at(span.from);

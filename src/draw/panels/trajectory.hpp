@@ -20,8 +20,9 @@ struct GapPoint {
   double y2 = 0;
 };
 
-struct Wedge {
-  explicit Wedge(const BlockSystem& system)
+/// The wedge 0 <= y1 <= y2 in which the gaps stay, in scaled units.
+struct GapWedge {
+  explicit GapWedge(const BlockSystem& system)
       : blue_offset(to_double(system.wall_face + system.blue.width / 2)),
         red_offset(to_double(system.wall_face + system.blue.width + system.red.width / 2)),
         sine(root_of(system.blue.mass / (system.blue.mass + system.red.mass)).get_d()),
@@ -79,7 +80,7 @@ struct TrajectoryPiece {
 
 /// Pieces from one end of the span to the other.
 /// @param columns  >= 1; columns of one pixel show all that a picture can
-std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const Wedge& wedge,
+std::vector<TrajectoryPiece> trajectory_of(const CollisionLog& log, const GapWedge& wedge,
                                            const Span& span, int columns);
 
 /// The greatest of red's gaps at corners and at ends of bands; at least 0.

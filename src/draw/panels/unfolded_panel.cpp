@@ -120,7 +120,7 @@ class UnfoldedPanel {
                                              diagram_.palette().muted));
   }
 
-  Wedge wedge_;
+  GapWedge wedge_;
   Diagram diagram_;
   Point start_;
   Point velocity_;

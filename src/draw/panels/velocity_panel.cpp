@@ -124,7 +124,7 @@ class VelocityPanel {
   }
 
   Diagram diagram_;
-  Wedge wedge_;
+  GapWedge wedge_;
   bool moves_ = false;
   // From a velocity to its part of the radius; they may be beyond the range of a double.
   mpf_class red_factor_;

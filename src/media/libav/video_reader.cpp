@@ -22,7 +22,7 @@ namespace {
 /// libavformat takes the end of a cut file for the end of the video.
 [[noreturn]] void refuse_cut_file(const std::string& path) {
   throw MediaError(
-      fmt::format("video: cannot read '{}': it is cut off: it has not all of its frames", path));
+      fmt::format("video: cannot read '{}': it is cut off before its last frame", path));
 }
 
 /// Rejects a file whose index leads beyond its end.
