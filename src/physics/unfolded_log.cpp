@@ -202,7 +202,7 @@ std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,
     collision(first);
     collision(last);
   }
-  return make_unfolded_stream(form_, ray_of(first), ray_of(last), first, contact_);
+  return make_unfolded_stream(form_, {ray_of(first), ray_of(last), first}, contact_);
 }
 
 PositionBounds UnfoldedLog::bounds_at(const Rational& time) const {

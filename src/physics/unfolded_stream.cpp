@@ -65,11 +65,25 @@ RayTable make_table(const ClosedForm& form, int landmark_sign, int end_sign, boo
   return table;
 }
 
-/// Fills rows of a batch from `row` on with the rays of one block.
-/// @param skip  rows of the table before the first that is used
+/// Rows of a table from `skip` on, turned by a direction.
+struct TurnedRows {
+  double sign;  ///< of the times of these rays
+  Direction anchor;
+  const RayTable& table;
+  std::size_t skip;
+};
+
+struct BatchRows {
+  CollisionBatch& batch;
+  std::size_t begin;
+  std::size_t count;
+};
+
+/// Fills rows of a batch with the rays of one block.
 PIBLOCKS_VECTOR_CLONES
-void fill_rows(const ClosedForm& form, double sign, const Direction anchor, const RayTable& table,
-               std::size_t skip, std::size_t count, CollisionBatch& batch, std::size_t row) {
+void fill_rows(const ClosedForm& form, const TurnedRows rays, const BatchRows rows) {
+  const auto [sign, anchor, table, skip] = rays;
+  const auto [batch, row, count] = rows;
   PIBLOCKS_INDEPENDENT_ITERATIONS
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t from = skip + i;
@@ -88,19 +102,18 @@ void fill_rows(const ClosedForm& form, double sign, const Direction anchor, cons
 }
 
 /// Times of those rows again, from time 0.
-/// @param side        sign of the times
-/// @param from_start  direction of the ray that is next to the start, from there
-/// @param away        table of directions from that ray
+/// @param from_start  the same rays, from the direction of the one that is next to the start
 PIBLOCKS_VECTOR_CLONES
-void fill_times_from_start(const ClosedForm& form, double side, const Direction anchor,
-                           const RayTable& table, std::size_t skip, const Direction from_start,
-                           const RayTable& away, std::size_t away_skip, std::size_t count,
-                           CollisionBatch& batch, std::size_t row) {
+void fill_times_from_start(const ClosedForm& form, const TurnedRows rays,
+                           const TurnedRows from_start, const BatchRows rows) {
+  const auto [sign, anchor, table, skip] = rays;
+  const auto [side, start, away, away_skip] = from_start;
+  const auto [batch, row, count] = rows;
   PIBLOCKS_INDEPENDENT_ITERATIONS
   for (std::size_t i = 0; i < count; ++i) {
     const Direction from_anchor{table.sine[skip + i], table.cosine[skip + i]};
     const Direction further{away.sine[away_skip + i], away.cosine[away_skip + i]};
-    batch.time_hi[row + i] = form.time_from_start(side, from_start + further, anchor + from_anchor);
+    batch.time_hi[row + i] = form.time_from_start(side, start + further, anchor + from_anchor);
     batch.time_lo[row + i] = 0;
   }
 }
@@ -132,12 +145,11 @@ constexpr auto kKinds = []() {
 /// additions without branches, so that the compiler makes vectors of them.
 class UnfoldedStream final : public CollisionStream {
  public:
-  UnfoldedStream(const Unfolding& form, Integer first, Integer last, Integer index,
-                 std::optional<Integer> contact)
+  UnfoldedStream(const Unfolding& form, RaySpan rays, std::optional<Integer> contact)
       : form_(form),
-        next_(std::move(first)),
-        last_(std::move(last)),
-        index_(std::move(index)),
+        next_(std::move(rays.first)),
+        last_(std::move(rays.last)),
+        index_(std::move(rays.index)),
         contact_(std::move(contact)),
         last_by_past_(floor_mean(form.past.ray, form.turn.ahead.ray)),
         last_by_turn_(floor_mean(form.turn.ahead.ray, form.future.ray)) {}
@@ -198,16 +210,19 @@ class UnfoldedStream final : public CollisionStream {
       const bool anchor_is_odd = is_odd(first) != (anchor % 2 == 1);
       const Direction seen = direction_after(form, landmark, first_steps, anchor);
       const Direction ray = landmark.sign != end_sign ? seen.complement() : seen;
-      const RayTable& rays = table(landmark, end_sign, anchor_is_odd);
-      const std::size_t skip = landmark.sign < 0 ? 0 : kBlockRays - count;
-      fill_rows(form, end_sign, ray, rays, skip, count, batch, begin + done);
+      const auto skip = [&](int sign) { return sign < 0 ? 0 : kBlockRays - count; };
+      const TurnedRows rays{double(end_sign), ray, table(landmark, end_sign, anchor_is_odd),
+                            skip(landmark.sign)};
+      const BatchRows to{batch, begin + done, count};
+      fill_rows(form, rays, to);
       if (stretch_.is_near_start) {
         const Landmark& start = form_.start.seen(index_ > 0);
         const Direction from_start =
             direction_after(form, start, start.steps_from(first), done + row_next_to(start, count));
-        fill_times_from_start(form, -start.sign, ray, rays, skip, from_start,
-                              table(start, start.sign, false),
-                              start.sign < 0 ? 0 : kBlockRays - count, count, batch, begin + done);
+        fill_times_from_start(
+            form, rays,
+            {double(-start.sign), from_start, table(start, start.sign, false), skip(start.sign)},
+            to);
       }
       done += count;
     }
@@ -250,10 +265,9 @@ class UnfoldedStream final : public CollisionStream {
 
 }  // namespace
 
-std::unique_ptr<CollisionStream> make_unfolded_stream(const Unfolding& form, const Integer& first,
-                                                      const Integer& last, const Integer& index,
+std::unique_ptr<CollisionStream> make_unfolded_stream(const Unfolding& form, const RaySpan& rays,
                                                       const std::optional<Integer>& contact) {
-  return std::make_unique<UnfoldedStream>(form, first, last, index, contact);
+  return std::make_unique<UnfoldedStream>(form, rays, contact);
 }
 
 }  // namespace piblocks

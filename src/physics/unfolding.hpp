@@ -159,12 +159,16 @@ struct Unfolding : ClosedForm {
   Integer half_way;
 };
 
+/// Rays in the order of time.
+struct RaySpan {
+  Integer first;
+  Integer last;
+  Integer index;  ///< of the collision on `first`
+};
+
 /// The closed form as a bulk producer.
-/// @param first, last  rays, in the order of time.
-/// @param index        of the collision on `first`
-/// @param contact      index of the collision that happens exactly at time 0, if one does.
-std::unique_ptr<CollisionStream> make_unfolded_stream(const Unfolding& form, const Integer& first,
-                                                      const Integer& last, const Integer& index,
+/// @param contact  index of the collision that happens exactly at time 0, if one does.
+std::unique_ptr<CollisionStream> make_unfolded_stream(const Unfolding& form, const RaySpan& rays,
                                                       const std::optional<Integer>& contact);
 
 }  // namespace piblocks

@@ -91,13 +91,11 @@ void write_poster(const RenderJob& job, std::int64_t last, FileSet& files) {
   files.add(kPoster, encode_png(renderer.frame(last)));
 }
 
-void write_texts(const RenderJob& job, const CollisionLog& log, const Schedule& schedule,
-                 const VideoCount& count, FileSet& files) {
-  const auto& scene = std::get<Scene>(job.script);
-  const View& view = scene.view;
-  const std::string alt = describe_video(scene, count);
+void write_texts(const RenderJob& job, const std::string& alt, std::string_view captions,
+                 FileSet& files) {
+  const View& view = std::get<Scene>(job.script).view;
   add(files, kAltText, alt + "\n");
-  add(files, kCaptions, captions(log, schedule, view.frame_rate));
+  add(files, kCaptions, captions);
   add(files, kLatexFile,
       fmt::format(kLatex, fmt::arg("name", job.output),
                   fmt::arg("height", fmt::format("{:.4f}", 0.9 * view.height_px / view.width_px))));
@@ -122,7 +120,8 @@ Rendered render_bundle(const RenderJob& job,
   const Schedule schedule = make_schedule(scene, *log);
   const PageFacts facts(scene, *log, schedule);
   write_poster(job, facts.frames_before_reversal() - 1, files);
-  write_texts(job, *log, schedule, {facts.most(), log->size()}, files);
+  write_texts(job, describe_video(scene, facts.count()),
+              captions(*log, schedule, scene.view.frame_rate), files);
   RenderJob video = job;
   video.bundle.reset();
   video.output = files.add(job.output);

@@ -100,16 +100,16 @@ void add_video(const fs::path& path, OutputFile& page) {
   throw IoError(fmt::format("page: cannot read '{}': {}", path.string(), error_text(errno)));
 }
 
-void write_page(const Scene& scene, const PageFacts& facts, const VideoCount& count,
-                const fs::path& video, OutputFile& page) {
+void write_page(const Scene& scene, const PageFacts& facts, const fs::path& video,
+                OutputFile& page) {
   page.write(fmt::format(
       kHead, fmt::arg("script_hash", kPageScriptHash), fmt::arg("style_hash", kPageStyleHash),
-      fmt::arg("style", kPageStyle), fmt::arg("title", escaped(title_of(scene, count))),
+      fmt::arg("style", kPageStyle), fmt::arg("title", escaped(title_of(scene, facts.count()))),
       fmt::arg("width", scene.view.width_px), fmt::arg("height", scene.view.height_px)));
   add_video(video, page);
   page.write(kControls);
   page.write(fmt::format("<p id=\"description\">{}</p>\n</main>\n",
-                         escaped(describe_video(scene, count))));
+                         escaped(describe_video(scene, facts.count()))));
   page.write(R"(<script id="facts" type="application/json">)");
   std::string pieces;  // collected, since they are small
   facts.write([&](std::string_view text) {
@@ -139,7 +139,7 @@ Rendered render_page(const RenderJob& job, const std::function<void(const Progre
   video.output = files.temporary_folder() / "video.mp4";
   Rendered rendered = render_film(video, on_progress, stop);
   StepClock clock(job.profile, Step::write);
-  write_page(scene, facts, {facts.most(), log->size()}, video.output, page);
+  write_page(scene, facts, video.output, page);
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
   page.finish();
   files.commit();

@@ -138,11 +138,9 @@ struct SoundWork {
   std::unique_ptr<PacketSource> packets;
 };
 
-/// Empty if there is no sound, or another part has it.
-SoundWork sound_for(const RenderJob& job, const Plan& plan, FrameSink& sink,
-                    const std::function<void(const Progress&)>& on_progress, StepClock& clock,
-                    const std::stop_token& stop) {
-  if (!plan.sound || (job.shard && job.shard->number != 1)) return {};
+/// The sound of a plan that has one.
+SoundWork sound_of(const Plan& plan, const std::function<void(const Progress&)>& on_progress,
+                   StepClock& clock, const std::stop_token& stop) {
   const auto report = [&](std::int64_t samples) {
     if (plan.output.has_frames || samples == plan.sound->size) return;
     const std::int64_t frames = plan.film.frame_count();
@@ -150,7 +148,6 @@ SoundWork sound_for(const RenderJob& job, const Plan& plan, FrameSink& sink,
   };
   SoundWork work{std::make_unique<FilmSound>(plan.film, stop, report), nullptr};
   work.packets = std::make_unique<ClockedPackets>(plan.output.encode_sound(*work.samples), clock);
-  sink.take_sound(*work.packets);
   return work;
 }
 
@@ -182,7 +179,11 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
   Rendered rendered{plan.output.has_frames ? frames_until(range.end) : plan.film.frame_count(), {}};
   on_progress({0, rendered.frame_count});
   StepClock clock(job.profile, Step::mux);
-  const SoundWork sound = sound_for(job, plan, *sink, on_progress, clock, stop);
+  SoundWork sound;
+  if (plan.sound && (!job.shard || job.shard->number == 1)) {
+    sound = sound_of(plan, on_progress, clock, stop);
+    sink->take_sound(*sound.packets);
+  }
   OrderedPool<EncodedWork> pool(range.end - range.begin, job.jobs, make_worker);
   for (std::int64_t chunk = range.begin; const auto work = pool.take(stop); ++chunk) {
     sink->append(work->chunk);

@@ -30,6 +30,12 @@ struct CollisionRange {
 /// Those whose times are given, of the collisions that happen between two counts of frames.
 std::vector<CollisionRange> listed_collisions(const Integer& before, const Integer& after);
 
+/// Collisions that a video counts, and those of the whole run.
+struct VideoCount {
+  Integer at_end;  ///< when the video has come furthest
+  Integer total;
+};
+
 class PageFacts {
  public:
   /// @throws UsageError as film_frames().
@@ -39,6 +45,7 @@ class PageFacts {
   void check_range() const;
   /// Collisions that the frames count, at most.
   const Integer& most() const noexcept { return most_; }
+  VideoCount count() const { return {most_, log_.size()}; }
   /// Number of frames until a loop turns back; of all frames without a loop.
   std::int64_t frames_before_reversal() const noexcept { return frames_before_reversal_; }
   /// Writes the object in pieces. Times are given in units of 10^-scale; of sequences, what each
@@ -56,12 +63,6 @@ class PageFacts {
   Rational from_;
   Integer first_;
   Integer most_;
-};
-
-/// Collisions that a video counts, and those of the whole run.
-struct VideoCount {
-  Integer at_end;  ///< when the video has come furthest
-  Integer total;
 };
 
 /// The scene's own title; without one, the masses and the count.
