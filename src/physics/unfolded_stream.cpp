@@ -81,7 +81,7 @@ struct BatchRows {
 
 /// Fills rows of a batch with the rays of one block.
 PIBLOCKS_VECTOR_CLONES
-void fill_rows(const ClosedForm& form, const TurnedRows rays, const BatchRows rows) {
+void fill_rows(const ClosedForm& form, const TurnedRows& rays, const BatchRows& rows) {
   const auto [sign, anchor, table, skip] = rays;
   const auto [batch, row, count] = rows;
   PIBLOCKS_INDEPENDENT_ITERATIONS
@@ -104,8 +104,8 @@ void fill_rows(const ClosedForm& form, const TurnedRows rays, const BatchRows ro
 /// Times of those rows again, from time 0.
 /// @param from_start  the same rays, from the direction of the one that is next to the start
 PIBLOCKS_VECTOR_CLONES
-void fill_times_from_start(const ClosedForm& form, const TurnedRows rays,
-                           const TurnedRows from_start, const BatchRows rows) {
+void fill_times_from_start(const ClosedForm& form, const TurnedRows& rays,
+                           const TurnedRows& from_start, const BatchRows& rows) {
   const auto [sign, anchor, table, skip] = rays;
   const auto [side, start, away, away_skip] = from_start;
   const auto [batch, row, count] = rows;
@@ -211,8 +211,8 @@ class UnfoldedStream final : public CollisionStream {
       const Direction seen = direction_after(form, landmark, first_steps, anchor);
       const Direction ray = landmark.sign != end_sign ? seen.complement() : seen;
       const auto skip = [&](int sign) { return sign < 0 ? 0 : kBlockRays - count; };
-      const TurnedRows rays{double(end_sign), ray, table(landmark, end_sign, anchor_is_odd),
-                            skip(landmark.sign)};
+      const TurnedRows& rays{double(end_sign), ray, table(landmark, end_sign, anchor_is_odd),
+                             skip(landmark.sign)};
       const BatchRows to{batch, begin + done, count};
       fill_rows(form, rays, to);
       if (stretch_.is_near_start) {
