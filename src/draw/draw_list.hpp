@@ -48,11 +48,12 @@ constexpr ItemId nth(ItemId thing, std::size_t n) {
   return ItemId{static_cast<std::uint32_t>(thing) + static_cast<std::uint32_t>(n)};
 }
 
-/// Opaque sRGB.
+/// sRGB, with straight alpha.
 struct Color {
   std::uint8_t red = 0;
   std::uint8_t green = 0;
   std::uint8_t blue = 0;
+  std::uint8_t alpha = 255;  ///< 255 is opaque
   bool operator==(const Color&) const = default;
 };
 
@@ -93,6 +94,15 @@ struct RectangleItem {
   bool operator==(const RectangleItem&) const = default;
 };
 
+/// The embedded typefaces.
+enum class Face : std::uint8_t {
+  article,  ///< DejaVu Sans, of the article's picture; it has the most characters
+  text,     ///< Lato Medium
+  digits,   ///< Lato Semibold, whose figures are equally wide
+  math      ///< Latin Modern Math
+};
+inline constexpr std::size_t kFaces = 4;
+
 /// One line of text, set from the left end of its baseline.
 struct TextItem {
   ItemId id = ItemId::label;
@@ -100,6 +110,7 @@ struct TextItem {
   std::string text;     ///< UTF-8
   double size_px = 16;  ///< of the em
   Color color;
+  Face face = Face::article;  ///< characters that it lacks are set in Face::article
   bool operator==(const TextItem&) const = default;
 };
 
