@@ -21,7 +21,9 @@ double reach_of(const std::optional<Stroke>& stroke) { return stroke ? stroke->w
 struct ExtentOf {
   const MeasureText& width_em;
 
-  Extent operator()(const TextItem& text) const { return extent_of(text, 0, width_em(text.face, text.text)); }
+  Extent operator()(const TextItem& text) const {
+    return extent_of(text, 0, width_em(text.face, text.text));
+  }
   Extent operator()(const PathItem& path) const {
     return extent_of(path.points.bounds()).grown(reach_of(path.stroke));
   }

@@ -13,8 +13,8 @@
 #include "draw/cairo_handles.hpp"
 #include FT_FREETYPE_H
 
-// Defined in font_data.S: where each font begins, in the order of Face, and where the last one ends.
-// NOLINTNEXTLINE(readability-identifier-naming): no constant, but a symbol of the assembler
+// Defined in font_data.S: where each font begins, in the order of Face, and where the last one
+// ends. NOLINTNEXTLINE(readability-identifier-naming): no constant, but a symbol of the assembler
 extern "C" const unsigned char* const piblocks_fonts[];
 
 namespace piblocks {

@@ -6,6 +6,7 @@
 #include <piblocks/scene.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -21,25 +22,25 @@ namespace piblocks {
 /// Label and count of the article's picture.
 struct CountLine {
   double text_px = 16;
-  Point label;            ///< baseline of "Collisions: "
-  double label_em = 0;    ///< from there to where the count starts
-  double count_em = 0;    ///< width of the longest count
-  double left_px = 0;     ///< label and count begin here or to the right
-  double room_px = 0;     ///< and are no longer than this together
+  Point label;          ///< baseline of "Collisions: "
+  double label_em = 0;  ///< from there to where the count starts
+  double count_em = 0;  ///< width of the longest count
+  double left_px = 0;   ///< label and count begin here or to the right
+  double room_px = 0;   ///< and are no longer than this together
 };
 
 /// A block as it is drawn. Its width is that of the scene; its height is a matter of the look.
 struct BlockShape {
-  double width = 1;      ///< in units of the scene
+  double width = 1;  ///< in units of the scene
   double height_px = 1;
 };
 
 /// The stage: the map from scene to pixels. It depends on the area and on the longest count alone,
 /// so that nothing shifts while the counter grows.
 struct Layout {
-  double scale = 1;  ///< pixels per unit of the scene
-  Point origin;      ///< pixel position of the scene's (0, 0)
-  int frame_px = 0;  ///< width of the frame
+  double scale = 1;     ///< pixels per unit of the scene
+  Point origin;         ///< pixel position of the scene's (0, 0)
+  int frame_px = 0;     ///< width of the frame
   double line_px = 1;   ///< of the blocks' outlines
   double floor_px = 0;  ///< the blocks stand on it
   BlockShape blue;
@@ -91,21 +92,27 @@ struct FramePlan {
   std::vector<Rectangle> panels;
 };
 
-/// What a frame needs room for, beside what the scene says.
-struct FrameContents {
-  std::string longest_count;  ///< of those that will be shown; empty if the stage shows it
-  bool shows_pi = false;
-  double read_outs_px = 0;  ///< height of their rows
+/// What the counter needs room for.
+struct CounterRoom {
+  double count_em = 0;  ///< width of the longest count that is shown
+  double label_px = 0;  ///< width of what is before it
+  double pi_px = 0;     ///< width of the line of digits below it; 0 if there is none
 };
 
 /// @param context  its layout is not read.
 /// @throws UsageError if a line cannot be set or is too long, or something gets too small.
-FramePlan plan_frame(const DrawingContext& context, const FrameContents& contents);
+/// @param counter       nothing where the stage has it
+/// @param read_outs_px  height of their rows
+FramePlan plan_frame(const DrawingContext& context, const std::optional<CounterRoom>& counter,
+                     double read_outs_px);
+
+/// How far to the right blocks and what is above them come while the film lasts, in pixels.
+double reach_px(const Scene& scene, const CollisionLog& log);
 
 /// The stage in an area of the frame.
 /// @throws UsageError if the view is so close that doubles cannot hold the positions, or the area
 ///         is too low for the blocks.
-Layout lay_out_stage(const Scene& scene, const Rectangle& area);
+Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font);
 /// The same of the article's picture. @param longest_count  of those that will be shown
 Layout lay_out_article(const Scene& scene, const Integer& longest_count, const Rectangle& area,
                        const Font& font);

@@ -7,13 +7,14 @@
 #include <string_view>
 #include <utility>
 
+#include "draw/number_text.hpp"
+#include "draw/overlays/counter.hpp"
 #include "draw/overlays/overlays.hpp"
 
 namespace piblocks {
 namespace {
 
 constexpr std::string_view kLabelText = "Collisions:";
-constexpr std::string_view kCountCharacters = "0123456789,-";
 
 constexpr double kUsualAspect = 16.0 / 9;
 constexpr double kMostBannerText = 2.2;
@@ -37,15 +38,6 @@ double text_size(const Rectangle& area) {
 
 double length(const Range& range) { return to_double(range.high - range.low); }
 
-/// Length of the expected beginning of the count, with separators; 0 while it has fewer digits.
-std::size_t lit_length(std::string_view count, std::string_view expected) {
-  if (count.size() != expected.size()) return 0;
-  const auto* const end = std::ranges::mismatch(count, expected).in1;
-  auto length = static_cast<std::size_t>(end - count.begin());
-  if (length > 0 && length < count.size() && count[length - 1] == ',') --length;
-  return length;
-}
-
 class ArticleStage {
  public:
   ArticleStage(const DrawingContext& context, std::string lit_digits)
@@ -53,7 +45,8 @@ class ArticleStage {
         palette_(context.palette),
         wall_(wall_of(context.scene)),
         lit_digits_(std::move(lit_digits)),
-        widths_(context.font, kCountCharacters) {}
+        base_(context.scene.show.base),
+        widths_(context.font, count_characters(base_)) {}
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     items.emplace_back(wall_);
@@ -76,7 +69,7 @@ class ArticleStage {
 
   /// Label and count, smaller if an instant outside of the film has a longer count than any in it.
   void add_line(const Integer& count, std::vector<DrawItem>& items) const {
-    const std::string text = with_thousands_separators(count);
+    const std::string text = count_text(count, base_);
     const std::size_t lit = lit_length(text, lit_digits_);
     const CountLine& line = layout_.line;
     Point label = line.label;
@@ -105,15 +98,11 @@ class ArticleStage {
   Palette palette_;
   RectangleItem wall_;
   std::string lit_digits_;
+  int base_;  ///< of counts
   TextWidths widths_;
 };
 
 }  // namespace
-
-Rational twice_energy(const BlockSystem& system) {
-  return system.blue.mass * system.blue.velocity * system.blue.velocity +
-         system.red.mass * system.red.velocity * system.red.velocity;
-}
 
 Layout lay_out_article(const Scene& scene, const Integer& longest_count, const Rectangle& area,
                        const Font& font) {
@@ -121,13 +110,13 @@ Layout lay_out_article(const Scene& scene, const Integer& longest_count, const R
   const double margin = article_style::kMargin * article_style::short_measure(area);
   const double inner_width = area.width - 2 * margin;
   const double label_em = font.width_em(kLabelText) + kWordSpace;
-  const double line_em = label_em + font.width_em(with_thousands_separators(longest_count));
+  const double line_em = label_em + count_width_em(longest_count, scene.show.base, font);
 
   Layout layout;
   CountLine& line = layout.line;
   layout.frame_px = view.width_px;
-  layout.line_px = std::max(
-      1.0, std::round(article_style::kLine * article_style::short_measure(whole(view))));
+  layout.line_px =
+      std::max(1.0, std::round(article_style::kLine * article_style::short_measure(whole(view))));
   line.text_px = std::min(text_size(area), inner_width / line_em);
 
   // Label and view form one group, centred in the area.
@@ -161,8 +150,7 @@ Layout lay_out_article(const Scene& scene, const Integer& longest_count, const R
   const double half = std::max(layout.blue.width, layout.red.width) / 2;
   layout.floor_px = layout.at(0, -half).y;
   layout.foot_px = layout.at(0, to_double(view.y.low)).y;
-  layout.above_px =
-      (to_double(view.y.high) - half) * layout.scale + kLabelGap * line.text_px / 2;
+  layout.above_px = (to_double(view.y.high) - half) * layout.scale + kLabelGap * line.text_px / 2;
   layout.below_px = area.y + area.height - layout.floor_px;
   return layout;
 }

@@ -17,16 +17,32 @@ constexpr double kMostOfBlock = 0.9;
 /// Between a block and the mass above it, in fractions of the frame's shorter side.
 constexpr double kBelowMass = 0.016;
 
-std::string mass_text(const Block& block) { return short_text(block.mass) + " kg"; }
-
 bool fits(const std::string& text, const BlockShape& block, const Layout& layout, double size_px,
           const Font& font) {
   return font.width_em(text) * size_px <= kMostOfBlock * block.width * layout.scale &&
          size_px <= block.height_px;
 }
 
+struct MassTexts {
+  std::string blue;
+  std::string red;
+};
+
+/// With a unit, unless only a number fits on the lighter block.
+MassTexts mass_texts(const Scene& scene, const Layout& layout, const Font& font) {
+  const BlockSystem& system = scene.system;
+  const MassTexts plain{short_text(system.blue.mass), short_text(system.red.mass)};
+  const MassTexts full{plain.blue + " kg", plain.red + " kg"};
+  const bool is_red_lighter = system.red.mass < system.blue.mass;
+  const bool has_room = is_red_lighter
+                            ? fits(full.red, layout.red, layout, Sizes(scene.view).mass, font)
+                            : fits(full.blue, layout.blue, layout, Sizes(scene.view).mass, font);
+  return has_room ? full : plain;
+}
+
 /// The label of a block whose middle is in column 0.
-TextItem mass_label(std::size_t n, const Block& block, const DrawingContext& context) {
+TextItem mass_label(std::size_t n, std::string text, const Block& block,
+                    const DrawingContext& context) {
   const BlockSystem& system = context.scene.system;
   const Layout& layout = context.layout;
   const bool is_red = &block == &system.red;
@@ -34,20 +50,25 @@ TextItem mass_label(std::size_t n, const Block& block, const DrawingContext& con
   const BlockShape& shape = is_red ? layout.red : layout.blue;
   const bool is_taller = shape.height_px > (is_red ? layout.blue : layout.red).height_px;
   const double size_px = context.sizes.mass;
-  std::string text = mass_text(block);
   const double left = -context.font.width_em(text) * size_px / 2;
   const double top = layout.floor_px - shape.height_px;
   const bool is_inside = fits(text, shape, layout, size_px, context.font);
   if (!is_inside && !is_taller) {
-    throw UsageError(fmt::format(
-        "show.overlays: the mass '{}' does not fit on its block, which is {:.0f} pixels wide; leave "
-        "out 'masses', make the block wider, or show less of the x axis",
-        text, shape.width * layout.scale));
+    throw UsageError(
+        fmt::format("show.overlays: the mass '{}' does not fit on its block, which is {:.0f} "
+                    "pixels wide; leave "
+                    "out 'masses', make the block wider, or show less of the x axis",
+                    text, shape.width * layout.scale));
   }
-  const double baseline = is_inside ? layout.floor_px - shape.height_px / 2 + kHalfFigure_em * size_px
-                                    : top - kBelowMass * context.sizes.unit;
-  return {nth(ItemId::masses, n), {left, baseline}, std::move(text), size_px,
-          is_inside ? colors.text : colors.label, context.font.face()};
+  const double baseline = is_inside
+                              ? layout.floor_px - shape.height_px / 2 + kHalfFigure_em * size_px
+                              : top - kBelowMass * context.sizes.unit;
+  return {nth(ItemId::masses, n),
+          {left, baseline},
+          std::move(text),
+          size_px,
+          is_inside ? colors.text : colors.label,
+          context.font.face()};
 }
 
 // Heights above the taller block, or the mass above it, in fractions of the frame's shorter side.
@@ -90,10 +111,11 @@ class VelocityArrows {
     const double masses = is_over_mass ? kMassRoom * unit_ : 0;
     foot_px_ = layout_.top_px() - masses;
     if (layout_.above_px < kArrowRoom * unit_ + masses) {
-      throw UsageError(fmt::format(
-          "show.overlays: the velocities need {:.0f} pixels above the blocks, and there are {:.0f}; "
-          "raise the upper end of view.y, or make the frame larger",
-          kArrowRoom * unit_, std::max(0.0, layout_.above_px - masses)));
+      throw UsageError(
+          fmt::format("show.overlays: the velocities need {:.0f} pixels above the blocks, and "
+                      "there are {:.0f}; "
+                      "raise the upper end of view.y, or make the frame larger",
+                      kArrowRoom * unit_, std::max(0.0, layout_.above_px - masses)));
     }
     longest_px_ = kLongest * (layout_.blue.width + layout_.red.width) / 2 * layout_.scale;
     const double face_px = layout_.at(to_double(scene.system.wall_face), 0).x;
@@ -198,14 +220,16 @@ class VelocityArrows {
 
 bool has_mass_above(const Scene& scene, const Layout& layout, const Font& font) {
   const double size_px = Sizes(scene.view).mass;
-  return !fits(mass_text(scene.system.red), layout.red, layout, size_px, font) ||
-         !fits(mass_text(scene.system.blue), layout.blue, layout, size_px, font);
+  const auto [blue, red] = mass_texts(scene, layout, font);
+  return !fits(red, layout.red, layout, size_px, font) ||
+         !fits(blue, layout.blue, layout, size_px, font);
 }
 
 Drawable mass_labels(const DrawingContext& context) {
   const BlockSystem& system = context.scene.system;
-  const TextItem red = mass_label(0, system.red, context);
-  const TextItem blue = mass_label(1, system.blue, context);
+  const MassTexts texts = mass_texts(context.scene, context.layout, context.font);
+  const TextItem red = mass_label(0, texts.red, system.red, context);
+  const TextItem blue = mass_label(1, texts.blue, system.blue, context);
   return [=, layout = context.layout](const FrameState& shown, std::vector<DrawItem>& items) {
     const auto add = [&](TextItem label, const Motion& motion) {
       const double half_px = -label.origin.x;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "draw/layout.hpp"
-#include "draw/overlays/counter.hpp"
 
 namespace piblocks {
 
@@ -22,10 +21,6 @@ Drawable article_stage(const DrawingContext& context, std::string lit_digits);
 
 /// Wall, floor and blocks.
 Drawable stage(const DrawingContext& context);
-
-/// The count, and the digits of pi that it has reached.
-/// @param pi  its digits, "3.14159…", of which the film counts `counted`; empty if it counts others
-Drawable counter(const DrawingContext& context, const CounterPlace& place, const PiDigits& pi);
 
 /// Each block's mass, on it or, if that is too narrow for the heavier one's, above it.
 /// @throws UsageError if the lighter block is too narrow.

@@ -218,8 +218,8 @@ void ReadOutRows::operator()(const FrameState& shown, std::vector<DrawItem>& ite
     if (text.size() > placed.room_bytes) {
       shift += std::max(0.0, widths_.width_em(text) * text_px_ - placed.room_px);
     }
-    items.emplace_back(
-        TextItem{nth(ItemId::read_outs, n), origin, std::move(text), text_px_, placed.color, face_});
+    items.emplace_back(TextItem{nth(ItemId::read_outs, n), origin, std::move(text), text_px_,
+                                placed.color, face_});
   }
 }
 

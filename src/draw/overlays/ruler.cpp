@@ -30,7 +30,8 @@ Drawable ruler(const DrawingContext& context) {
   const Sizes& sizes = context.sizes;
   const double size_px = sizes.text;
   const bool has_floor = scene.view.theme != Theme::article;
-  const double axis_px = layout.floor_px + (has_floor ? sizes.wall_line : kBelowBlocks * sizes.unit);
+  const double axis_px =
+      layout.floor_px + (has_floor ? sizes.wall_line : kBelowBlocks * sizes.unit);
   const double tick_end = axis_px + kTickLength * sizes.unit;
   const double baseline = tick_end + kBelowTick * sizes.unit + 2 * kHalfFigure_em * size_px;
   const double below_px = baseline - layout.floor_px;
@@ -68,9 +69,8 @@ Drawable ruler(const DrawingContext& context) {
     // Beside its mark it would name another place.
     if (x - half_px < first_px || x + half_px > end_px) continue;
     ++figures;
-    items.emplace_back(
-        TextItem{{}, {x - half_px, baseline}, text, size_px, context.palette.muted,
-                 context.font.face()});
+    items.emplace_back(TextItem{
+        {}, {x - half_px, baseline}, text, size_px, context.palette.muted, context.font.face()});
   }
   if (figures < kLeastFigures) {
     throw UsageError(

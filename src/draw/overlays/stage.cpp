@@ -8,6 +8,7 @@
 
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {
@@ -34,16 +35,31 @@ double height_ratio(const BlockSystem& system) {
   return std::min(style::kMostHeight, 1 + kHeightByMass * logarithm);
 }
 
-/// What is seen of the axis: nothing is drawn behind the wall's face.
-Range shown_range(const Scene& scene) {
-  return {std::max(scene.view.x.low, scene.system.wall_face), scene.view.x.high};
-}
-
 bool shows_wall(const Scene& scene) {
   return scene.view.x.low <= scene.system.wall_face && scene.view.x.high > scene.system.wall_face;
 }
 
-void set_heights(const BlockSystem& system, double room_px, Layout& layout) {
+/// What is seen of the axis, and where.
+struct Axis {
+  Axis(const Scene& scene, const Rectangle& area)
+      // Nothing is drawn behind the wall's face.
+      : range{std::max(scene.view.x.low, scene.system.wall_face), scene.view.x.high} {
+    const Sizes sizes(scene.view);
+    const bool has_wall = shows_wall(scene);
+    left_px = area.x + (has_wall ? sizes.margin + style::kHatch * sizes.unit : 0);
+    const double right = area.x + area.width - (has_wall ? sizes.margin : 0);
+    scale = (right - left_px) / to_double(range.high - range.low);
+    if (scale < kLeastRounded_px) return;
+    scale = 2 * std::floor(scale / 2);
+    left_px = std::round(left_px);
+  }
+
+  Range range;
+  double left_px = 0;  ///< of its lower end
+  double scale = 1;    ///< pixels per unit
+};
+
+void set_shapes(const BlockSystem& system, Layout& layout) {
   layout.blue.width = to_double(system.blue.width);
   layout.red.width = to_double(system.red.width);
   const bool is_red_heavy = system.red.mass >= system.blue.mass;
@@ -51,8 +67,14 @@ void set_heights(const BlockSystem& system, double room_px, Layout& layout) {
   BlockShape& heavy = is_red_heavy ? layout.red : layout.blue;
   light.height_px = light.width * layout.scale;
   heavy.height_px = light.height_px * height_ratio(system);
-  const double shrink = std::min(1.0, room_px / heavy.height_px);
-  for (BlockShape* block : {&light, &heavy}) block->height_px = std::round(block->height_px * shrink);
+}
+
+/// Makes both blocks lower until the taller one has room.
+void fit_heights(double room_px, Layout& layout) {
+  const double shrink = std::min(1.0, room_px / (layout.floor_px - layout.top_px()));
+  for (BlockShape* block : {&layout.blue, &layout.red}) {
+    block->height_px = std::round(block->height_px * shrink);
+  }
 }
 
 ExposedBlock exposed_block(const Rectangle& bounds, const BlockColors& colors, double line_px) {
@@ -91,10 +113,10 @@ PlateItem wall_of(const Layout& layout, double face_px, double top_px,
     const double to = std::min(width, y - top_px);
     if (to <= from) continue;
     // y is the height at the wall's left end plus its width.
-    items.emplace_back(PathItem{nth(ItemId::wall, items.size()),
-                                std::vector<Point>{{face_px - width + to, y - to},
-                                                   {face_px - width + from, y - from}},
-                                false, std::nullopt, hatch});
+    items.emplace_back(PathItem{
+        nth(ItemId::wall, items.size()),
+        std::vector<Point>{{face_px - width + to, y - to}, {face_px - width + from, y - from}},
+        false, std::nullopt, hatch});
   }
   const Rectangle face{face_px - sizes.wall_line, top_px, sizes.wall_line, bottom - top_px};
   items.emplace_back(
@@ -121,38 +143,44 @@ void check_resolution(const View& view, double scale) {
                   step_px / scale, step_px));
 }
 
-Layout lay_out_stage(const Scene& scene, const Rectangle& area) {
+double reach_px(const Scene& scene, const CollisionLog& log) {
+  if (!has_span(scene, log)) return scene.view.width_px;
+  const Span span = span_of(scene, log);
+  // Red comes nearer and nearer, and then goes farther and farther away.
+  const double farthest =
+      std::max(log.state_at(span.from).red.position, log.state_at(span.to).red.position);
+  const Axis axis(scene, whole(scene.view));
+  const double right = farthest + to_double(scene.system.red.width) / 2;
+  return axis.left_px + (right - to_double(axis.range.low)) * axis.scale;
+}
+
+Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font) {
   const Sizes sizes(scene.view);
-  const Range range = shown_range(scene);
-  const double wall = shows_wall(scene) ? style::kHatch * sizes.unit : 0;
-  const double left = shows_wall(scene) ? area.x + sizes.margin + wall : area.x;
-  const double right = area.x + area.width - (shows_wall(scene) ? sizes.margin : 0);
+  const Axis axis(scene, area);
   Layout layout;
   layout.frame_px = scene.view.width_px;
   layout.line_px = std::max(1.0, std::round(sizes.data_line));
-  layout.scale = (right - left) / to_double(range.high - range.low);
-  const bool is_rounded = layout.scale >= kLeastRounded_px;
-  if (is_rounded) layout.scale = 2 * std::floor(layout.scale / 2);
+  layout.scale = axis.scale;
   check_resolution(scene.view, layout.scale);
-  const double at_left = is_rounded ? std::round(left) : left;
 
   const Show& show = scene.show;
-  const double above = show.has(Overlay::velocities) ? kArrowRoom * sizes.unit : 0;
-  const double labels = show.has(Overlay::masses) ? kMassRoom * sizes.unit : 0;
+  set_shapes(scene.system, layout);
+  const bool has_label = show.has(Overlay::masses) && has_mass_above(scene, layout, font);
+  const double above =
+      (show.has(Overlay::velocities) ? kArrowRoom : 0) + (has_label ? kMassRoom : 0);
   const double below = sizes.wall_line + (show.has(Overlay::ruler) ? kRulerRoom * sizes.unit : 0);
-  const double wall_above = kWallAbove * sizes.unit;
-  const double room = area.height - below - std::max(wall_above, above + labels);
+  const double room = area.height - below - std::max(kWallAbove, above) * sizes.unit;
   if (room < kLeastHeight * sizes.unit) {
     throw UsageError(fmt::format(
         "show: the blocks would be {:.0f} pixels high in {}x{}; leave something out, or make the "
         "frame larger",
         std::max(0.0, room), scene.view.width_px, scene.view.height_px));
   }
-  set_heights(scene.system, room, layout);
+  fit_heights(room, layout);
   const double height = std::max(layout.blue.height_px, layout.red.height_px);
   // What is left over is above and below in equal parts.
   layout.floor_px = std::round(area.y + area.height - below - (room - height) / 2);
-  layout.origin = {at_left - to_double(range.low) * layout.scale, layout.floor_px};
+  layout.origin = {axis.left_px - to_double(axis.range.low) * layout.scale, layout.floor_px};
   layout.above_px = layout.top_px() - area.y;
   layout.below_px = area.y + area.height - layout.floor_px;
   layout.foot_px = layout.floor_px + sizes.wall_line;
@@ -161,10 +189,10 @@ Layout lay_out_stage(const Scene& scene, const Rectangle& area) {
 
 void add_blocks(const FrameState& shown, const Layout& layout, const Palette& palette,
                 std::vector<DrawItem>& items) {
-  ExposedBlock red = exposed_block(layout.at(layout.red, shown.state.red.position), palette.red,
-                                   layout.line_px);
-  ExposedBlock blue = exposed_block(layout.at(layout.blue, shown.state.blue.position),
-                                    palette.blue, layout.line_px);
+  ExposedBlock red =
+      exposed_block(layout.at(layout.red, shown.state.red.position), palette.red, layout.line_px);
+  ExposedBlock blue = exposed_block(layout.at(layout.blue, shown.state.blue.position), palette.blue,
+                                    layout.line_px);
   if (shown.exposure.empty()) {
     add_rectangles(ItemId::red_block, red, items);
     add_rectangles(ItemId::blue_block, blue, items);

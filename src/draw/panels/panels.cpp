@@ -47,8 +47,8 @@ Diagram::Diagram(const DrawingContext& context, const PanelPlace& place, const P
       font_(&context.font),
       first_id_(place.first_id),
       panel_(place.panel),
-      text_px_(context.text_px),
-      line_px_(context.line_px) {
+      text_px_(context.sizes.text),
+      line_px_(context.sizes.grid_line) {
   const Rectangle& whole = place.area;
   const double full_px = font_->fitted_px(title.full, text_px_, whole.width);
   const bool is_full = full_px >= std::max(style::kLeastText_px, kLeastPanelShrink * text_px_);
@@ -57,7 +57,8 @@ Diagram::Diagram(const DrawingContext& context, const PanelPlace& place, const P
                {whole.x, whole.y + kTitleBaseline * text_px_},
                is_full ? title.full : title.brief,
                is_full ? full_px : font_->fitted_px(title.brief, text_px_, whole.width),
-               palette_.muted});
+               palette_.text,
+               font_->face()});
   const double top = kTitleHeight * text_px_;
   inside_ = {whole.x, whole.y + top, whole.width, whole.height - top};
   // Lines along its border are wider than the area.
@@ -77,7 +78,8 @@ void Diagram::finish() {
 
 void Diagram::text(const std::string& text, const Point& at, double anchor, const Color& color) {
   const double width = font_->width_em(text) * text_px_;
-  items_.emplace_back(TextItem{next_id(), {at.x - anchor * width, at.y}, text, text_px_, color});
+  items_.emplace_back(
+      TextItem{next_id(), {at.x - anchor * width, at.y}, text, text_px_, color, font_->face()});
 }
 
 TimeAxis::TimeAxis(const DrawingContext& context, const Diagram& diagram, double indent_em)
