@@ -70,7 +70,8 @@ Composition::Composition(const Scene& scene, const CollisionLog& log,
                                .fonts = fonts,
                                .font = font,
                                .layout = layout,
-                               .sizes = sizes};
+                               .sizes = sizes,
+                               .needs = needs_};
   const bool is_article = scene.view.theme == Theme::article;
   const std::string pi = pi_count(scene, log);
   ReadOutRows rows(context);

@@ -71,6 +71,7 @@ struct DrawingContext {
   const Font& font;  ///< of plain text
   const Layout& layout;
   const Sizes& sizes;
+  FrameNeeds& needs;  ///< a drawable says here what it reads of a FrameState
 
   FormulaSetter setter() const { return {fonts, font.face()}; }
 };

@@ -19,7 +19,6 @@ constexpr double kTickLength = 0.012;
 constexpr double kBelowTick = 0.01;
 // In ems.
 constexpr double kBesideWall_em = 0.25;
-constexpr double kBesideEdge_em = 0.1;
 constexpr double kLeastGap_em = 1.0;  // between figures
 
 }  // namespace
@@ -47,8 +46,8 @@ Drawable ruler(const DrawingContext& context) {
   // Figures beside the foot of the wall are not below it.
   const bool are_below_wall = baseline - 2 * kHalfFigure_em * size_px > layout.foot_px;
   const double wall_end_px = are_below_wall ? 0 : wall_px + kBesideWall_em * size_px;
-  const double first_px = std::max(kBesideEdge_em * size_px, wall_end_px);
-  const double end_px = scene.view.width_px - kBesideEdge_em * size_px;
+  const double first_px = std::max(sizes.margin / 2, wall_end_px);
+  const double end_px = scene.view.width_px - sizes.margin / 2;
   const FigureAxis axis{
       .low = left, .high = right, .em = size_px / layout.scale, .gap_em = kLeastGap_em};
   const Ticks ticks =
