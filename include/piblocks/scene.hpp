@@ -61,11 +61,13 @@ std::string exact_text(const SlowMotion& window);
 std::string exact_text(const Freeze& freeze);
 
 enum class Theme {
-  article,     ///< on white, as in the article
-  chalkboard,  ///< chalk on dark green
-  dark,        ///< on near-black
-  print,       ///< black and greys; the blocks differ in pattern
-  colorblind   ///< blue and orange that all can tell apart, and that differ in pattern
+  article,        ///< on white, as in the article
+  lecture,        ///< for a lecture hall: on near-black, in the colours of the diagrams
+  lecture_light,  ///< the same on near-white
+  chalkboard,     ///< chalk on dark green
+  dark,           ///< on near-black
+  print,          ///< black and greys; the blocks differ in pattern
+  colorblind      ///< blue and orange that all can tell apart, and that differ in pattern
 };
 
 /// What is behind everything: the theme's colour, or nothing.

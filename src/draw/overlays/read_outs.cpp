@@ -16,8 +16,8 @@ constexpr int kLeastTimeDecimals = 2;
 constexpr int kMostTimeDecimals = 9;
 // In ems.
 constexpr double kBetweenReadOuts = 2.0;
-constexpr double kRowHeight = 1.6;
-constexpr double kRowBaseline = 1.1;
+constexpr double kRowHeight = 1.5;
+constexpr double kRowBaseline = 1.05;
 
 /// A short text that changes with what is shown.
 struct ReadOut {
@@ -158,12 +158,12 @@ bool has_slow_motion(const Pacing& pacing) {
   return pacing.automatic_slow_motion || !pacing.slow_motion.empty();
 }
 
-ReadOutRows::ReadOutRows(const DrawingContext& context) : text_px_(context.text_px) {
+ReadOutRows::ReadOutRows(const DrawingContext& context)
+    : text_px_(context.sizes.text), face_(context.font.face()) {
   std::vector<ReadOut> read_outs = read_outs_of(context);
   if (read_outs.empty()) return;
-  const View& view = context.scene.view;
-  const double margin = style::kMargin * short_measure(view);
-  const double room_px = view.width_px - 2 * margin;
+  const double margin = context.sizes.margin;
+  const double room_px = context.scene.view.width_px - 2 * margin;
   std::string characters(kNumberCharacters);
   for (const ReadOut& read_out : read_outs) characters += read_out.widest;
   widths_ = TextWidths(context.font, characters);
@@ -171,8 +171,7 @@ ReadOutRows::ReadOutRows(const DrawingContext& context) : text_px_(context.text_
     return context.font.width_em(read_out.widest);
   };
   const ReadOut& widest = *std::ranges::max_element(read_outs, {}, width_em);
-  text_px_ = context.font.fitted_px(widest.widest, context.text_px, room_px);
-  if (text_px_ < style::kLeastText_px) {
+  if (width_em(widest) * text_px_ > room_px) {
     throw UsageError(
         fmt::format("show.overlays: '{}' cannot be read in {:.0f} pixels; leave it out, or make "
                     "the frame wider",
@@ -189,7 +188,7 @@ ReadOutRows::ReadOutRows(const DrawingContext& context) : text_px_(context.text_
     for (; end < read_outs.size() && width + gap + widths[end] <= room_px; ++end) {
       width += gap + widths[end];
     }
-    double x = margin + (room_px - width) / 2;
+    double x = margin;
     for (; first < end; ++first) {
       ReadOut& read_out = read_outs[first];
       placed_.push_back({std::move(read_out.text),
@@ -219,8 +218,8 @@ void ReadOutRows::operator()(const FrameState& shown, std::vector<DrawItem>& ite
     if (text.size() > placed.room_bytes) {
       shift += std::max(0.0, widths_.width_em(text) * text_px_ - placed.room_px);
     }
-    items.emplace_back(
-        TextItem{nth(ItemId::read_outs, n), origin, std::move(text), text_px_, placed.color});
+    items.emplace_back(TextItem{nth(ItemId::read_outs, n), origin, std::move(text), text_px_,
+                                placed.color, face_});
   }
 }
 
