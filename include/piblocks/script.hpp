@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -74,12 +75,13 @@ inline constexpr int kMaxSceneNesting = 256;  ///< of lists and tables in a scen
 
 /// Collects values from a file and from options, and remembers where each came from.
 ///
-/// The keys of a scene are "digits" or "mass-ratio", which set red.mass; "wall.face"; "blue." and
-/// "red." with "mass", "position", "velocity", "width" ("by-mass" for red: width_by_mass());
-/// "view.x", "view.y", "view.size", "view.fps", "view.shutter", "view.background", "view.theme";
-/// "time.from", "time.to", "time.speed", "time.duration", "time.slow-motion", "time.ease",
-/// "time.freeze", "time.hold-start", "time.hold-end", "time.loop"; "show.overlays", "show.panels",
-/// "show.title", "show.caption", "show.logo"; "sound.on"; "golden.frames", "golden.size".
+/// The keys of a scene are "digits" or "mass-ratio", which set red.mass; "base"; "wall.face";
+/// "blue." and "red." with "mass", "position", "velocity", "width" ("by-mass" for red:
+/// width_by_mass()); "view.x", "view.y", "view.size", "view.fps", "view.shutter",
+/// "view.background", "view.theme"; "time.from", "time.to", "time.speed", "time.duration",
+/// "time.slow-motion", "time.ease", "time.freeze", "time.hold-start", "time.hold-end", "time.loop";
+/// "show.overlays", "show.panels", "show.title", "show.caption", "show.logo"; "sound.on";
+/// "golden.frames", "golden.size".
 ///
 /// A file with [[part]] is a storyboard: its other keys hold for all parts. A part takes the keys
 /// of a scene except those of the whole film, and also "card", "seconds", "compare" and "fade".
@@ -93,6 +95,8 @@ class ScriptBuilder {
   /// Reads a scene file; called once. It overwrites values set before it, values set later win.
   /// @throws SceneError if it cannot be read or is no TOML; other problems wait for build().
   void read_file(const std::string& path);
+  /// The same with the text of a scene file. @param origin  named in messages instead of a path.
+  void read_text(const std::string& origin, std::string_view text);
   /// Sets one key from text, as an option of the command line does. A storyboard takes keys of the
   /// whole film only, whether it is read before or after.
   /// @param origin  named in messages, such as "--size".

@@ -161,7 +161,7 @@ std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
   for (std::size_t i = 0; i < times.size(); ++i) {
     const Integer count = run.log().state_at(times[i]).count;
     pictures.push_back({run.picture({times[i]}), fmt::format("time {}, count {}", texts[i],
-                                                             with_thousands_separators(count))});
+                                                             count_text(count, scene.show.base))});
   }
   return pictures;
 }

@@ -30,6 +30,24 @@ TEST_F(StoryboardFileTest, DigitsAndMassRatioSetTheMassOfRed) {
   EXPECT_EQ(red_mass("digits = 1"), 1);
   EXPECT_EQ(red_mass("digits = \"4\"\nblue.mass = 3"), 3'000'000);
   EXPECT_EQ(red_mass("mass-ratio = \"1/3\"\nblue.mass = 6"), 2);
+  EXPECT_EQ(red_mass("digits = 3\nbase = 2"), 16);
+  EXPECT_EQ(red_mass("base = 16\ndigits = 2"), 256);
+}
+
+TEST_F(StoryboardFileTest, ATextIsReadAsAFileIs) {
+  const std::string text = "digits = 2\n[[part]]\ncard = 'a'\n[[part]]\ndigits = 0\n";
+  ScriptBuilder builder;
+  builder.read_text("lecture (shipped)", text);
+  std::vector<std::string> expected = problems(text);
+  ASSERT_EQ(expected.size(), 1U);
+  expected[0].replace(0, path_.size(), "lecture (shipped)");
+  try {
+    builder.build();
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_EQ(error.problems(), expected);
+  }
+  EXPECT_THROW(ScriptBuilder().read_text("text", "= 1"), SceneError);
 }
 
 TEST_F(StoryboardFileTest, KeysAboveHoldForAllParts) {
