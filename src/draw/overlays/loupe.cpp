@@ -16,8 +16,8 @@ namespace piblocks {
 namespace {
 
 // In fractions of the frame's shorter side.
-constexpr double kHeight = 0.27;        ///< of the inset, at most
-constexpr double kBlocksHeight = 0.14;  ///< of the taller block, at most
+constexpr double kHeight = 0.27;       ///< of the inset, at most
+constexpr double kBlocksHeight = 0.2;  ///< of the taller block, at most
 constexpr double kLeastBlocks = 0.075;
 constexpr double kBelowFloor = 0.025;
 constexpr double kAboveBlocks = 0.015;
@@ -226,7 +226,7 @@ void LoupeInset::settle(const DrawingContext& context, const Place& place) {
   const double ratio =
       std::clamp(layout.red.height_px / layout.blue.height_px, 1 / kMostHeights, kMostHeights);
   shapes_ = {floor_px, std::round(taller / std::max(1.0, ratio)),
-             std::round(taller * std::min(1.0, ratio)), blue_px_};
+             std::round(taller * std::min(1.0, ratio)), HUGE_VAL};
   if (context.scene.show.hits && context.scene.view.theme != Theme::article) {
     marks_.emplace(context, shapes_, HUGE_VAL);
   }
@@ -347,18 +347,19 @@ DrawList LoupeInset::picture(const FrameState& shown, double zoomed) const {
 
 void LoupeInset::add_blocks(const Gaps& gaps, double px_per_unit,
                             std::vector<DrawItem>& items) const {
-  const auto& [floor_px, blue_high_px, red_high_px, blue_width_px] = shapes_;
-  const double red_x = face_px_ + gaps.y2 * px_per_unit + blue_width_px;
+  const double floor_px = shapes_.floor_px;
+  const double red_x = face_px_ + gaps.y2 * px_per_unit + blue_px_;
   const double blue_x = face_px_ + gaps.y1 * px_per_unit;
   // Red's far side is outside.
   const double red_width = std::max(0.0, bounds_.width - red_x) + 2 * line_px_;
-  add_rectangles(
-      ItemId::red_block,
-      block_at({red_x, floor_px - red_high_px, red_width, red_high_px}, palette_.red, line_px_),
-      items);
-  const double top = floor_px - blue_high_px;
+  add_rectangles(ItemId::red_block,
+                 block_at({red_x, floor_px - shapes_.red_px, red_width, shapes_.red_px},
+                          palette_.red, line_px_),
+                 items);
+  const double top = floor_px - shapes_.blue_px;
   add_rectangles(ItemId::blue_block,
-                 block_at({blue_x, top, blue_px_, blue_high_px}, palette_.blue, line_px_), items);
+                 block_at({blue_x, top, blue_px_, shapes_.blue_px}, palette_.blue, line_px_),
+                 items);
   const double half = kCutWidth / 2 * sizes_.unit;
   const double slant = kCutSlant / 2 * sizes_.unit;
   const double middle = blue_x + blue_px_ / 2;
