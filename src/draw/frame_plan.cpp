@@ -185,6 +185,7 @@ class FramePlanner {
           view_.width_px, view_.height_px));
     }
     plan_.counter.size_px = size;
+    plan_.counter.room_px = counter_->count_em * size;
     return counter_->label_px + counter_->count_em * size;
   }
 
