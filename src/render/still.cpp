@@ -92,7 +92,7 @@ struct ShownCollisions {
   Integer before;
   Integer last;
 
-  Integer size() const { return last - before; }
+  Integer size() const { return last > before ? Integer(last - before) : 0; }
 };
 
 ShownCollisions collisions_of(const Span& span, const CollisionLog& log) {
