@@ -4,6 +4,7 @@
 
 #include <gmpxx.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -41,6 +42,22 @@ Rational power(const Rational& base, unsigned long exponent);
 
 /// The integer with a comma between groups of three digits: 3,141,592.
 std::string with_thousands_separators(const Integer& value);
+
+// Bases in which a count can be written.
+inline constexpr int kMinBase = 2;
+inline constexpr int kMaxBase = 36;
+inline constexpr int kUsualBase = 10;
+
+/// The integer as a picture shows it: 3,141 in base 10, 110001000101 in base 2. Digits above 9 are
+/// small letters. Only base 10 has separators: groups are counted from the right, so in other bases
+/// they would not be those of pi's digits, which are counted from the point.
+/// @param base  kMinBase … kMaxBase
+std::string count_text(const Integer& value, int base);
+
+/// The first digits of pi in this base, truncated: pi_digits(10, 5) is "3.1415". In base 2 pi
+/// begins with "11.", in base 3 with "10.". There is no point unless a digit follows it.
+/// @param base  kMinBase … kMaxBase
+std::string pi_digits(int base, std::size_t count);
 
 /// The integer for a message: with separators, or as a power of ten if that would fill the line.
 std::string readable(const Integer& value);

@@ -44,10 +44,15 @@ std::optional<Rational> turn_of(const BlockSystem& system);
 
 inline constexpr int kMaxDigits = 100'000;
 
-/// The article's system, in which the collisions count the first `digits` digits of pi:
-/// m_red / m_blue = 100^(digits - 1).
-/// @throws UsageError unless 1 <= digits <= kMaxDigits.
-BlockSystem article_system(int digits);
+/// The mass ratio at which the collisions count pi to digits - 1 places behind the point:
+/// base^(2 (digits - 1)). In base 10 these are its first `digits` digits; in base 2 and 3, where
+/// pi's whole part has two digits, there is one more.
+/// @throws UsageError unless 1 <= digits <= kMaxDigits and kMinBase <= base <= kMaxBase.
+Rational mass_ratio_of(int digits, int base = kUsualBase);
+
+/// The article's system with red that many times as heavy as blue.
+/// @throws UsageError as mass_ratio_of()
+BlockSystem article_system(int digits, int base = kUsualBase);
 
 /// What is wrong with one value of a scene.
 struct Problem {

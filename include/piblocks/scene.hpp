@@ -97,6 +97,7 @@ struct Show {
   std::string title = {};          ///< one line of UTF-8 above all
   std::string caption = {};        ///< one line of UTF-8 below all
   std::string logo = {};           ///< a PNG file for the corner that is kept free for it
+  int base = kUsualBase;           ///< of the counts in the picture, kMinBase … kMaxBase
 
   bool has(Overlay overlay) const noexcept;
 };

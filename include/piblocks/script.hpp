@@ -73,12 +73,13 @@ inline constexpr int kMaxSceneNesting = 256;  ///< of lists and tables in a scen
 
 /// Collects values from a file and from options, and remembers where each came from.
 ///
-/// The keys of a scene are "digits" or "mass-ratio", which set red.mass; "wall.face"; "blue." and
-/// "red." with "mass", "position", "velocity", "width" ("by-mass" for red: width_by_mass());
-/// "view.x", "view.y", "view.size", "view.fps", "view.shutter", "view.background", "view.theme";
-/// "time.from", "time.to", "time.speed", "time.duration", "time.slow-motion", "time.freeze",
-/// "time.hold-start", "time.hold-end", "time.loop"; "show.overlays", "show.panels", "show.title",
-/// "show.caption", "show.logo"; "sound.on"; "golden.frames", "golden.size".
+/// The keys of a scene are "digits" or "mass-ratio", which set red.mass; "base"; "wall.face";
+/// "blue." and "red." with "mass", "position", "velocity", "width" ("by-mass" for red:
+/// width_by_mass()); "view.x", "view.y", "view.size", "view.fps", "view.shutter",
+/// "view.background", "view.theme"; "time.from", "time.to", "time.speed", "time.duration",
+/// "time.slow-motion", "time.freeze", "time.hold-start", "time.hold-end", "time.loop";
+/// "show.overlays", "show.panels", "show.title", "show.caption", "show.logo"; "sound.on";
+/// "golden.frames", "golden.size".
 ///
 /// A file with [[part]] is a storyboard: its other keys hold for all parts. A part takes the keys
 /// of a scene except those of the whole film, and also "card", "seconds", "compare" and "fade".

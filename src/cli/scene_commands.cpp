@@ -97,11 +97,12 @@ void add_count(Command& app) {
   command.set_footer(
       "Examples:\n"
       "  piblocks count --digits 12\n"
+      "  piblocks count --digits 12 --base 2\n"
       "  piblocks count --mass-ratio 1/3");
   command.on_run([options] {
     TextOutput out("-");
     const Scene scene = options.scene();
-    out.line(count_collisions(scene.system).get_str());
+    out.line(count_collisions(scene.system).get_str(scene.show.base));
     out.finish();
     note_convention(scene);
   });

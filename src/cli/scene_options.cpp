@@ -38,6 +38,9 @@ SceneOptions::SceneOptions(const Command& command) : command_(command) {
   command_.add_optional_argument(kFile,
                                  "Scene file; without it, the article's scene: three digits");
   add_key("digits", "--digits", "D", "Count this many digits of pi: m_red = 100^(D-1) m_blue");
+  add_key("base", "--base", "B",
+          "Write counts in this base, 2 to 36 (default 10); then D digits\n"
+          "are those of m_red = B^(2(D-1)) m_blue");
   add_key("mass-ratio", "--mass-ratio", "R", "m_red / m_blue, exactly: 16, 2.5, 1/3, 100^7");
 }
 

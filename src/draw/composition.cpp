@@ -24,21 +24,34 @@ namespace {
 constexpr double kLeastLogo_px = 1;
 constexpr double kLeastLogoLength_px = 3;
 
-/// Whether a system counts the digits of pi: blue at rest, off the wall, mass ratio a power of 100.
-bool counts_pi(const BlockSystem& system) {
-  Rational ratio = system.red.mass / system.blue.mass;
+/// Whether a system is one that counts the digits of pi in this base: blue at rest, off the wall,
+/// mass ratio a power of the base's square.
+bool counts_pi(const BlockSystem& system, int base) {
+  const Rational ratio = system.red.mass / system.blue.mass;
   if (system.blue.velocity != 0 || system.red.velocity >= 0 || system.blue_gap() <= 0) return false;
-  const std::string digits = ratio.get_num().get_str();
-  return ratio.get_den() == 1 && digits.size() % 2 == 1 && digits.front() == '1' &&
-         digits.find_first_not_of('0', 1) == std::string::npos;
+  Integer rest;
+  mpz_remove(rest.get_mpz_t(), ratio.get_num_mpz_t(), Integer(base * base).get_mpz_t());
+  return ratio.get_den() == 1 && rest == 1;
 }
 
+/// @throws UsageError if the scene's count is not made of the digits of pi.
 std::string lit_digits(const Scene& scene, const CollisionLog& log) {
+  const int base = scene.show.base;
   if (!scene.show.has(Overlay::digits)) return {};
-  if (counts_pi(scene.system)) return with_thousands_separators(log.size());
-  throw UsageError(
-      "show.overlays: there are no digits of pi to light up, since this scene does not count them; "
-      "leave out 'digits', or give a mass ratio of 100^(D-1) and a blue.velocity of 0");
+  if (!counts_pi(scene.system, base)) {
+    throw UsageError(fmt::format(
+        "show.overlays: there are no digits of pi to light up, since this scene does not count "
+        "them; leave out 'digits', or give a mass ratio of {}^(D-1) and a blue.velocity of 0",
+        base * base));
+  }
+  const std::string counted = log.size().get_str(base);
+  std::string digits = pi_digits(base, counted.size());
+  std::erase(digits, '.');
+  if (counted == digits) return count_text(log.size(), base);
+  throw UsageError(fmt::format(
+      "show.overlays: there are no digits of pi to light up: this scene counts {} in base {}, and "
+      "pi begins with {}; leave out 'digits', or use more digits",
+      counted, base, digits));
 }
 
 /// The longest count that the film shows. Counts before time 0 are negative and may be longer.
@@ -46,7 +59,10 @@ Integer longest_count(const Scene& scene, const CollisionLog& log) {
   const Integer& last = log.size();
   if (log.first_index() > 0 || !has_span(scene, log)) return last;
   const Integer first = log.state_at(span_of(scene, log).from).count;
-  return first.get_str().size() > last.get_str().size() ? first : last;
+  const auto length = [&](const Integer& count) {
+    return count_text(count, scene.show.base).size();
+  };
+  return length(first) > length(last) ? first : last;
 }
 
 void check(bool is_finite, const Rational& time) {

@@ -32,6 +32,23 @@ Magnitude split(const mpf_class& value) {
 
 }  // namespace
 
+std::string count_characters(int base) {
+  std::string characters = ",-";
+  for (int digit = 0; digit < base; ++digit) characters += Integer(digit).get_str(base);
+  return characters;
+}
+
+double count_width_em(const Integer& count, int base, const Font& font) {
+  std::string text = count_text(count, base);
+  if (base <= kUsualBase) return font.width_em(text);  // figures are tabular
+  const std::string characters = count_characters(base);
+  const auto width = [&](char c) { return font.width_em({&c, 1}); };
+  const char widest = *std::ranges::max_element(characters, {}, width);
+  std::ranges::replace_if(
+      text, [](char c) { return c != '-'; }, widest);
+  return font.width_em(text);
+}
+
 Magnitude magnitude_of(const Rational& value) { return split(mpf_class(value, kBits)); }
 
 double to_double(const Magnitude& value) {

@@ -15,6 +15,13 @@ class Font;
 /// All that numbers are written with in pictures.
 inline constexpr std::string_view kNumberCharacters = "0123456789,.−×⁰¹²³⁴⁵⁶⁷⁸⁹";
 
+/// All that counts in this base are written with.
+std::string count_characters(int base);
+
+/// Width of a count that no count of as many digits exceeds: letters are not as wide as one
+/// another.
+double count_width_em(const Integer& count, int base, const Font& font);
+
 /// A positive number as mantissa · 10^exponent, 1 <= mantissa < 10; zero as 0.
 struct Magnitude {
   double mantissa = 0;

@@ -43,12 +43,19 @@ std::optional<Rational> turn_of(const BlockSystem& system) {
   return motion.at_rest() ? std::nullopt : std::optional(motion.closest_approach);
 }
 
-BlockSystem article_system(int digits) {
+Rational mass_ratio_of(int digits, int base) {
   if (digits < 1 || digits > kMaxDigits) {
     throw UsageError(fmt::format("digits = {}: must be from 1 to {}", digits, kMaxDigits));
   }
+  if (base < kMinBase || base > kMaxBase) {
+    throw UsageError(fmt::format("base = {}: must be from {} to {}", base, kMinBase, kMaxBase));
+  }
+  return power(base * base, static_cast<unsigned long>(digits - 1));
+}
+
+BlockSystem article_system(int digits, int base) {
   BlockSystem system;
-  system.red.mass = power(100, static_cast<unsigned long>(digits - 1));
+  system.red.mass = mass_ratio_of(digits, base);
   return system;
 }
 

@@ -79,12 +79,17 @@ std::string title_of(const Scene& scene, const VideoCount& count) {
 
 std::string describe_video(const Scene& scene, const VideoCount& count) {
   const BlockSystem& system = scene.system;
+  const int base = scene.show.base;
+  const std::string written =
+      base == kUsualBase
+          ? ""
+          : fmt::format(" It is written in base {}: {}.", base, count_text(count.at_end, base));
   return fmt::format(
       "Two blocks slide along a line without friction: the inner one, beside a wall on the left, "
       "has mass {}, the outer one mass {}. At time 0 the inner one {} and the outer one {}. All "
-      "collisions are elastic, and a counter reaches {}.",
+      "collisions are elastic, and a counter reaches {}.{}",
       short_text(system.blue.mass), short_text(system.red.mass), motion_words(system.blue),
-      motion_words(system.red), reached(count));
+      motion_words(system.red), reached(count), written);
 }
 
 std::string captions(const CollisionLog& log, const Schedule& schedule,

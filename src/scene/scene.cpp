@@ -116,6 +116,8 @@ void check_show(const Show& show, SceneProblems& problems) {
   const auto name_of = [](auto value) { return exact_text(value); };
   check_each_once("show.overlays", show.overlays, name_of, problems);
   check_each_once("show.panels", show.panels, name_of, problems);
+  problems.require(show.base >= kMinBase && show.base <= kMaxBase, "base",
+                   "= {}: must be from {} to {}", show.base, kMinBase, kMaxBase);
   check_line("show.title", show.title, problems);
   check_line("show.caption", show.caption, problems);
   problems.require(!has_control_characters(show.logo), "show.logo", "must be one line of text");

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <filesystem>
 #include <string_view>
+#include <utility>
 
 namespace piblocks {
 namespace {
@@ -24,16 +25,15 @@ std::string conflict_of(const TomlTable& table, std::vector<std::string_view> ke
                      keys.size() == 2 ? "one" : "all but one");
 }
 
-/// The mass ratio whose collisions count this number of digits.
-Rational mass_ratio_of_digits(const Values& values) {
+int parse_digits(const Values& values) {
   const std::string& text = single(values);
-  unsigned digits = 0;
+  int digits = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), digits);
   const bool is_number = error == std::errc{} && end == text.data() + text.size();
   if (!is_number || digits < 1 || digits > kMaxDigits) {
     throw UsageError(fmt::format("must be a whole number from 1 to {}", kMaxDigits));
   }
-  return power(100, digits - 1);
+  return digits;
 }
 
 }  // namespace
@@ -70,10 +70,9 @@ void SceneDraft::set(const std::string& origin, const std::string& key, const Va
 }
 
 void SceneDraft::set_key(const std::string& origin, const std::string& key, const Values& values) {
-  if (key == "digits" || key == "mass-ratio") {
-    mass_ratio_ = key == "digits" ? mass_ratio_of_digits(values) : parse_rational(single(values));
-    origins_["red.mass"] = origin;
-    return;
+  if (key == "digits") return set_mass_ratio(origin, parse_digits(values), std::nullopt);
+  if (key == "mass-ratio") {
+    return set_mass_ratio(origin, std::nullopt, parse_rational(single(values)));
   }
   const std::span<const SceneKey> keys = scene_keys();
   const auto found = std::ranges::find(keys, std::string_view(key), &SceneKey::name);
@@ -82,12 +81,19 @@ void SceneDraft::set_key(const std::string& origin, const std::string& key, cons
     return;
   }
   origins_[key] = origin;
-  if (key == "red.mass") mass_ratio_.reset();
+  if (key == "red.mass") set_mass_ratio(origin, std::nullopt, std::nullopt);
   if (key == "red.width") {
     width_by_mass_ = values == Values{"by-mass"};
     if (width_by_mass_) return;
   }
   found->set(scene_, values);
+}
+
+void SceneDraft::set_mass_ratio(const std::string& origin, std::optional<int> digits,
+                                std::optional<Rational> ratio) {
+  digits_ = digits;
+  mass_ratio_ = std::move(ratio);
+  origins_["red.mass"] = origin;
 }
 
 void SceneDraft::add_problem(const std::string& origin, const std::string& text) {
@@ -103,7 +109,9 @@ SceneDraft SceneDraft::next(const std::string& origin) const {
 
 Scene SceneDraft::scene() const {
   Scene scene = scene_;
-  if (mass_ratio_) scene.system.red.mass = scene.system.blue.mass * *mass_ratio_;
+  const std::optional<Rational> ratio =
+      digits_ ? std::optional(mass_ratio_of(*digits_, scene.show.base)) : mass_ratio_;
+  if (ratio) scene.system.red.mass = scene.system.blue.mass * *ratio;
   if (width_by_mass_) scene.system.red.width = width_by_mass(scene.system);
   return scene;
 }

@@ -33,10 +33,14 @@ class SceneDraft {
 
  private:
   void set_key(const std::string& origin, const std::string& key, const Values& values);
+  /// What red's mass follows from: one of the two, or neither.
+  void set_mass_ratio(const std::string& origin, std::optional<int> digits,
+                      std::optional<Rational> ratio);
   void add_problem(const std::string& origin, const std::string& text);
 
   Scene scene_;
   std::optional<Rational> mass_ratio_;
+  std::optional<int> digits_;  // their mass ratio depends on the base, which may be set later
   bool width_by_mass_ = false;
   std::map<std::string, std::string> origins_;  // by key
   std::string default_origin_;

@@ -154,7 +154,17 @@ Values slow_motion_of(const Scene& scene) {
   return texts;
 }
 
+void set_base(Scene& scene, const Values& values) {
+  const Rational base = parse_rational(single(values));
+  if (base.get_den() != 1 || base < kMinBase || base > kMaxBase) {
+    throw UsageError(fmt::format("must be a whole number from {} to {}", kMinBase, kMaxBase));
+  }
+  scene.show.base = static_cast<int>(base.get_num().get_si());
+}
+Values base_of(const Scene& scene) { return {fmt::format("{}", scene.show.base)}; }
+
 constexpr auto kKeys = std::to_array<SceneKey>({
+    SceneKey{"base", set_base, base_of},
     key<&Scene::system, &BlockSystem::wall_face>("wall.face"),
     key<&Scene::system, &BlockSystem::blue, &Block::mass>("blue.mass"),
     key<&Scene::system, &BlockSystem::blue, &Block::position>("blue.position"),

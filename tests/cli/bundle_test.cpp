@@ -57,6 +57,10 @@ TEST_F(BundleTest, HoldsTheVideoAndAllThatGoesWithIt) {
             "left, has mass 1, the outer one mass 10,000. At time 0 the inner one rests and the "
             "outer one slides towards the wall. All collisions are elastic, and a counter reaches "
             "314 collisions, which is all there are.\n");
+  output_of(kRender + Arguments{"--base", "2", "--bundle", "binary"});
+  EXPECT_TRUE(contents("binary/alt.txt")
+                  .ends_with("314 collisions, which is all there are. It is written in base 2: "
+                             "100111010.\n"));
 }
 
 TEST_F(BundleTest, ThePosterIsTheLastFrameOrTheOneAskedFor) {

@@ -90,6 +90,24 @@ TEST_F(TextCommandsTest, EnginesAgreeOnStates) {
   }
 }
 
+/// Pictures and 'count' alone: what other programs read is decimal in every base.
+TEST_F(TextCommandsTest, CountsAreInTheBaseLogsAreNot) {
+  EXPECT_EQ(output_of({"count", "--digits", "5", "--base", "2"}), "110010\n");
+  EXPECT_EQ(output_of({"count", "--mass-ratio", "16", "--base", "2"}), "1100\n");
+  EXPECT_EQ(output_of({"count", "--digits", "9", "--base", "16"}), "3243f6a88\n");
+  EXPECT_EQ(output_of({"count", "--base", "36"}), "8q\n") << "314 without --digits";
+  const std::string log = output_of({"log", "--digits", "3", "--base", "2"});
+  EXPECT_TRUE(lines(log).back().starts_with("12,")) << log;
+  const std::string state = output_of({"state", "--digits", "3", "--base", "2", "--at", "last"});
+  EXPECT_EQ(json_value(state, {"collisions"}), "12");
+  for (const char* base : {"1", "37", "0", "-2", "5/2", "two", ""}) {
+    const CommandResult result = piblocks({"count", "--base", base});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_TRUE(result.err.starts_with("piblocks: --base")) << result.err;
+    EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
+  }
+}
+
 TEST_F(TextCommandsTest, StateBoundsItsErrors) {
   for (const int digits : {3, 20}) {
     const BlockSystem system = article_system(digits);

@@ -159,6 +159,41 @@ TEST(Overlays, DigitsLightUpInTheirPlaces) {
   EXPECT_EQ(lit_after("31415"), "31,415|");
 }
 
+TEST(Overlays, DigitsLightUpInTheirBase) {
+  const auto lit_after = [](const char* base, int digits, int count) {
+    const Pictures pictures(scene_with(digits, {{"base", base}, {"show.overlays", "digits"}}));
+    const DrawList list = pictures.composition.frame({state_after(*pictures.log, count)});
+    return text_of(list, ItemId::lit_count) + "|" + text_of(list, ItemId::count);
+  };
+  EXPECT_EQ(lit_after("2", 5, 31), "|11111");
+  EXPECT_EQ(lit_after("2", 5, 49), "1100|01") << "a digit may be right too early";
+  EXPECT_EQ(lit_after("2", 5, 50), "110010|");
+  EXPECT_EQ(lit_after("16", 3, 0x31f), "3|1f");
+  EXPECT_EQ(lit_after("16", 3, 0x324), "324|");
+}
+
+/// Letters differ in width, so a count may be wider than the last one.
+TEST(Composition, CounterKeepsItsPlaceInEveryBase) {
+  for (const char* base : {"2", "11", "16", "36"}) {
+    const Pictures pictures(scene_with(3, {{"base", base}}));
+    const auto origin_at = [&](const Integer& count) {
+      const DrawList list = pictures.composition.frame({state_after(*pictures.log, count)});
+      for (const DrawItem& item : list.items) {
+        const auto* text = std::get_if<TextItem>(&item);
+        if (text != nullptr && text->id == ItemId::count)
+          return std::pair(text->origin.x, text->size_px);
+      }
+      return std::pair(0.0, 0.0);
+    };
+    const auto first = origin_at(1);
+    EXPECT_GT(first.first, 0);
+    const Integer& last = pictures.log->size();
+    for (Integer count = 2; count <= last; count += last < 500 ? 1 : 41) {
+      EXPECT_EQ(origin_at(count), first) << base << ' ' << count;
+    }
+  }
+}
+
 TEST(Overlays, ReadOutsSayWhatIs) {
   const Pictures pictures(
       scene_with(2, {{"show.overlays", "time,energy,momentum,masses,velocities"},
@@ -406,6 +441,14 @@ TEST(Composition, SaysWhyItCannotBeShown) {
                   .starts_with("show.overlays: the ruler needs"));
   EXPECT_TRUE(problem_of({{"show.overlays", "digits"}, {"blue.velocity", "1/7"}})
                   .starts_with("show.overlays: there are no digits of pi"));
+  EXPECT_NE(problem_of({{"show.overlays", "digits"}, {"base", "2"}, {"mass-ratio", "32"}})
+                .find("give a mass ratio of 4^(D-1) and"),
+            std::string::npos);
+  EXPECT_EQ(problem_of({{"show.overlays", "digits"}, {"base", "2"}, {"mass-ratio", "64"}}),
+            "accepted");
+  EXPECT_NE(problem_of({{"show.overlays", "digits"}, {"base", "7"}}, 2)
+                .find("this scene counts 31 in base 7, and pi begins with 30"),
+            std::string::npos);
 }
 
 TEST(Composition, RefusesAViewThatIsCloserThanPositionsAreKnown) {

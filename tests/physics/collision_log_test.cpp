@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "support/state_after.hpp"
 
@@ -47,6 +48,47 @@ TEST(Count, IsTheFirstDigitsOfPi) {
     EXPECT_EQ(count_collisions(article_system(digits)), expected);
   }
   EXPECT_TRUE(count_collisions(article_system(2000)).get_str().starts_with(kDigitsOfPi));
+}
+
+/// floor(pi * base^places), by the digits.
+Integer floor_of_pi(int base, int places) {
+  const std::string whole = pi_digits(base, 2).substr(0, base < 4 ? 2 : 1);
+  std::string digits = pi_digits(base, whole.size() + static_cast<std::size_t>(places));
+  std::erase(digits, '.');
+  return Integer(digits, base);
+}
+
+/// 19/6 and 22/7 are so little above pi that these ratios of masses count to them.
+const std::vector<int> kRootsOfExceptions = {6, 7, 14, 21, 28};
+
+TEST(Count, IsPiTimesTheRootOfTheMassRatioButForAFew) {
+  const Integer scale = power(10, 30).get_num();
+  std::string digits = pi_digits(10, 31);
+  std::erase(digits, '.');
+  std::vector<int> exceptions;
+  for (int root = 1; root < 113; ++root) {
+    BlockSystem system;
+    system.red.mass = root * root;
+    if (count_collisions(system) != Integer(digits, 10) * root / scale) exceptions.push_back(root);
+  }
+  EXPECT_EQ(exceptions, kRootsOfExceptions);
+}
+
+TEST(Count, IsPiInEveryBaseButForAFew) {
+  std::vector<int> exceptions;
+  for (int base = kMinBase; base <= kMaxBase; ++base) {
+    for (int digits = 1; digits <= 40; ++digits) {
+      const Integer counted = count_collisions(article_system(digits, base));
+      const Integer expected = floor_of_pi(base, digits - 1);
+      if (counted == expected) continue;
+      EXPECT_EQ(counted, expected + 1);
+      EXPECT_EQ(digits, 2) << base;
+      exceptions.push_back(base);
+    }
+  }
+  EXPECT_EQ(exceptions, kRootsOfExceptions);
+  EXPECT_EQ(count_collisions(article_system(3, 2)), 12);
+  EXPECT_EQ(count_collisions(article_system(4, 2)), 25);
 }
 
 TEST(Count, DoesNotDependOnTheStartingGaps) {
@@ -335,6 +377,8 @@ TEST(Log, RefusesInvalidSystems) {
   EXPECT_THROW(count_collisions(overlapping), SceneError);
   EXPECT_THROW(article_system(0), UsageError);
   EXPECT_THROW(article_system(kMaxDigits + 1), UsageError);
+  EXPECT_THROW(article_system(3, kMinBase - 1), UsageError);
+  EXPECT_THROW(article_system(3, kMaxBase + 1), UsageError);
 }
 
 TEST(Log, RefusesToStoreTooMuch) {

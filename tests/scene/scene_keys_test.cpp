@@ -17,6 +17,7 @@ using Description = std::vector<std::pair<std::string, std::string>>;
 
 /// For each key a value that is not the default, and that suits the defaults of all others.
 const std::map<std::string, Values> kOther = {
+    {"base", {"2"}},
     {"wall.face", {"-1/3"}},
     {"blue.mass", {"2/3"}},
     {"blue.position", {"9/4"}},
@@ -112,7 +113,11 @@ TEST(SceneKeys, SayWhatIsShownAndHeard) {
 }
 
 TEST(SceneKeys, RefuseOtherNames) {
-  for (const auto& [key, text] : {std::pair{"view.theme", "neon"},
+  for (const auto& [key, text] : {std::pair{"base", "1"},
+                                  {"base", "37"},
+                                  {"base", "5/2"},
+                                  {"base", "two"},
+                                  {"view.theme", "neon"},
                                   {"view.background", "blue"},
                                   {"sound.on", "yes"},
                                   {"show.overlays", "mass"},
@@ -121,6 +126,31 @@ TEST(SceneKeys, RefuseOtherNames) {
     ScriptBuilder builder;
     builder.set("--option", key, text);
     EXPECT_THROW(builder.build_scene(), SceneError) << key << " = " << text;
+  }
+}
+
+TEST(SceneKeys, DigitsAreThoseOfTheBaseInTheEnd) {
+  ScriptBuilder builder;
+  builder.set("test", "blue.mass", "3");
+  builder.set("--digits", "digits", "4");
+  EXPECT_EQ(builder.build_scene().system.red.mass, 3'000'000);
+  builder.set("--base", "base", "2");
+  EXPECT_EQ(builder.build_scene().system.red.mass, 192);
+  builder.set("--mass-ratio", "mass-ratio", "16");
+  EXPECT_EQ(builder.build_scene().system.red.mass, 48);
+  builder.set("test", "digits", "2");
+  EXPECT_EQ(builder.build_scene().system.red.mass, 12);
+  builder.set("test", "red.mass", "5");
+  EXPECT_EQ(builder.build_scene().system.red.mass, 5);
+  EXPECT_EQ(builder.build_scene().show.base, 2);
+}
+
+TEST(SceneKeys, AWrongBaseIsAProblemOfTheScene) {
+  for (const int base : {kMinBase - 1, kMaxBase + 1}) {
+    Scene scene;
+    scene.show.base = base;
+    ASSERT_EQ(problems_of(scene).size(), 1U);
+    EXPECT_EQ(problems_of(scene).front().key, "base");
   }
 }
 

@@ -30,6 +30,8 @@ TEST_F(StoryboardFileTest, DigitsAndMassRatioSetTheMassOfRed) {
   EXPECT_EQ(red_mass("digits = 1"), 1);
   EXPECT_EQ(red_mass("digits = \"4\"\nblue.mass = 3"), 3'000'000);
   EXPECT_EQ(red_mass("mass-ratio = \"1/3\"\nblue.mass = 6"), 2);
+  EXPECT_EQ(red_mass("digits = 3\nbase = 2"), 16);
+  EXPECT_EQ(red_mass("base = 16\ndigits = 2"), 256);
 }
 
 TEST_F(StoryboardFileTest, KeysAboveHoldForAllParts) {

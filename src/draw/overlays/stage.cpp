@@ -7,13 +7,13 @@
 #include <string_view>
 #include <utility>
 
+#include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
 
 namespace piblocks {
 namespace {
 
 constexpr std::string_view kLabelText = "Collisions:";
-constexpr std::string_view kCountCharacters = "0123456789,-";
 
 constexpr double kUsualAspect = 16.0 / 9;
 constexpr double kMostBannerText = 2.2;
@@ -72,7 +72,8 @@ class Stage {
         blue_side_(to_double(context.scene.system.blue.width)),
         red_side_(to_double(context.scene.system.red.width)),
         lit_digits_(std::move(lit_digits)),
-        widths_(context.font, kCountCharacters) {}
+        base_of_counts_(context.scene.show.base),
+        widths_(context.font, count_characters(base_of_counts_)) {}
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     items.emplace_back(wall_);
@@ -115,7 +116,7 @@ class Stage {
 
   /// Label and count, smaller if an instant outside of the film has a longer count than any in it.
   void add_line(const Integer& count, std::vector<DrawItem>& items) const {
-    const std::string text = with_thousands_separators(count);
+    const std::string text = count_text(count, base_of_counts_);
     const std::size_t lit = lit_length(text, lit_digits_);
     Point label = layout_.label;
     double text_px = layout_.text_px;
@@ -146,6 +147,7 @@ class Stage {
   double blue_side_;
   double red_side_;
   std::string lit_digits_;
+  int base_of_counts_;
   TextWidths widths_;
 };
 
@@ -167,7 +169,7 @@ Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle
   const double inner_width = area.width - 2 * margin;
 
   const double label_em = font.width_em(kLabelText) + kWordSpace;
-  const double line_em = label_em + font.width_em(with_thousands_separators(longest_count));
+  const double line_em = label_em + count_width_em(longest_count, scene.show.base, font);
 
   Layout layout;
   layout.frame_px = view.width_px;
