@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -93,6 +94,8 @@ class ScriptBuilder {
   /// Reads a scene file; called once. It overwrites values set before it, values set later win.
   /// @throws SceneError if it cannot be read or is no TOML; other problems wait for build().
   void read_file(const std::string& path);
+  /// The same with the text of a scene file. @param origin  named in messages instead of a path.
+  void read_text(const std::string& origin, std::string_view text);
   /// Sets one key from text, as an option of the command line does. A storyboard takes keys of the
   /// whole film only, whether it is read before or after.
   /// @param origin  named in messages, such as "--size".

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <piblocks/compare.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "cli/scene_options.hpp"
+#include "cli/shipped_scenes.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "core/output_file.hpp"
@@ -27,7 +29,12 @@ std::vector<References> references_of(const Command& options) {
   std::vector<std::string> problems;
   for (const std::string& scene : options.texts("SCENE")) {
     try {
-      all.emplace_back(scene, *options.text("--dir"), options.text("--frames").value_or(""));
+      ScriptBuilder builder;
+      read_scene(builder, scene);
+      if (const auto frames = options.text("--frames")) {
+        builder.set("--frames", "golden.frames", *frames);
+      }
+      all.emplace_back(fs::path(scene).stem(), builder, *options.text("--dir"));
     } catch (const UsageError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -43,7 +50,7 @@ std::vector<References> references_of(const Command& options) {
 
 void claim_inputs(OverwriteCheck& check, const Command& options,
                   const std::vector<References>& all) {
-  for (const std::string& scene : options.texts("SCENE")) check.reads("the scene file", scene);
+  for (const std::string& scene : options.texts("SCENE")) claim_scene(check, scene);
   for (const References& references : all) claim_logos(check, references.script());
   check.writes_standard_output();
 }
@@ -232,7 +239,9 @@ void run_approve(const Command& options) {
 void add_action(Command& golden, const char* name, const char* help,
                 void (*run)(const Command& options)) {
   Command command = golden.add_command(name, help);
-  command.add_arguments("SCENE", "Scene files; [golden] in them says which pictures are kept");
+  command.add_arguments("SCENE",
+                        "Scene files, or names that 'piblocks scenes' lists; [golden] in them\n"
+                        "says which pictures are kept");
   command.add_required_value("--dir", "DIR", "The folder of the references");
   command.add_value("--frames", "T,…",
                     "Instants kept as pictures, instead of the scene's: 3.5, last, #K");

@@ -10,6 +10,7 @@
 #include "cli/app.hpp"
 #include "cli/command.hpp"
 #include "cli/options.hpp"
+#include "cli/shipped_scenes.hpp"
 #include "core/output_file.hpp"
 
 namespace piblocks::cli {
@@ -76,6 +77,13 @@ std::string words_of(const CLI::Option& option) {
   return {};
 }
 
+/// Whether the command takes a scene, as a file or by its name.
+bool takes_scene(const CLI::App& command) {
+  return command.get_option_no_throw("SCENE") != nullptr;
+}
+
+std::string shipped_names() { return fmt::format("{}", fmt::join(shipped_scene_names(), " ")); }
+
 /// Text in roff: no line begins with a control character, and hyphens can be searched for.
 std::string roff(const std::string& text) {
   std::string escaped = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
@@ -120,6 +128,25 @@ std::string man_page(const CLI::App& app) {
          "number of frames, 5 for what cannot be read.\n";
 }
 
+/// Right behind a command that takes a scene: names and files.
+std::string bash_scenes(const CLI::App& app) {
+  std::string commands;
+  for (const CLI::App* command : leaves_of(app)) {
+    if (!takes_scene(*command)) continue;
+    commands += (commands.empty() ? "" : " | ") + replaced(full_name(*command), " ", "\\ ");
+  }
+  return "  case $command in\n    " + commands +
+         ")\n"
+         "      if [[ $before != -* && $current != -* ]]; then\n"
+         "        mapfile -t COMPREPLY < <(compgen -f -W '" +
+         shipped_names() +
+         "' -- \"$current\")\n"
+         "        compopt -o filenames 2> /dev/null\n"
+         "        return\n"
+         "      fi ;;\n"
+         "  esac\n";
+}
+
 /// To be sourced, or installed as bash-completion/completions/piblocks.
 std::string bash_completion(const CLI::App& app) {
   std::string text =
@@ -141,7 +168,7 @@ std::string bash_completion(const CLI::App& app) {
     text += fmt::format("    {0} | {0}\\ *) words='{1}' ;;\n",
                         replaced(full_name(*command), " ", "\\ "), options);
   }
-  text += "  esac\n  case $before in\n";
+  text += "  esac\n" + bash_scenes(app) + "  case $before in\n";
   for (const auto& [name, words] : kWordOptions) {
     text += fmt::format("    {}) words='{}' ;;\n", name, replaced(words(), ",", ""));
   }
@@ -194,9 +221,11 @@ std::string zsh_completion(const CLI::App& app) {
       }
       text += "      " + shell_quoted(spec) + "\n";
     }
-    text += "    ) ;;\n";
+    const std::string scenes =
+        "{_alternative \"scenes:scene:(" + shipped_names() + ")\" \"files:file:_files\"}";
+    text += fmt::format("      '*:file:{}'\n    ) ;;\n", takes_scene(*command) ? scenes : "_files");
   }
-  return text + "esac\n_arguments $options '*:file:_files'\n";
+  return text + "esac\n_arguments $options\n";
 }
 
 /// Installed as vendor_completions.d/piblocks.fish.
@@ -213,6 +242,10 @@ std::string fish_completion(const CLI::App& app) {
         command->get_name(), below);
   }
   for (const CLI::App* command : leaves_of(app)) {
+    if (takes_scene(*command)) {
+      text += fmt::format("complete -c piblocks -n {} -a {}\n",
+                          shell_quoted(condition_of(*command)), shell_quoted(shipped_names()));
+    }
     for (const auto& [option, name] : named_options_of(*command)) {
       const std::string words = words_of(*option);
       text +=

@@ -7,13 +7,14 @@
 #include <algorithm>
 
 #include "cli/options.hpp"
+#include "cli/shipped_scenes.hpp"
 #include "cli/text_output.hpp"
 #include "core/text.hpp"
 
 namespace piblocks::cli {
 namespace {
 
-constexpr const char* kFile = "SCENE.toml";
+constexpr const char* kScene = "SCENE";
 
 /// src/media/README.md has the reasons.
 const std::vector<Destination>& destinations() {
@@ -35,8 +36,9 @@ const std::vector<Destination>& destinations() {
 }  // namespace
 
 SceneOptions::SceneOptions(const Command& command) : command_(command) {
-  command_.add_optional_argument(kFile,
-                                 "Scene file; without it, the article's scene: three digits");
+  command_.add_optional_argument(kScene,
+                                 "Scene file, or a name that 'piblocks scenes' lists; without it,\n"
+                                 "the article's scene: three digits");
   add_key("digits", "--digits", "D", "Count this many digits of pi: m_red = 100^(D-1) m_blue");
   add_key("base", "--base", "B",
           "Write counts in this base, 2 to 36 (default 10); then D digits\n"
@@ -121,7 +123,7 @@ Scene SceneOptions::scene() const {
   const Script made = script();
   if (const auto* scene = std::get_if<Scene>(&made)) return *scene;
   throw UsageError(fmt::format("'{}' is a storyboard; '{}' takes a scene without [[part]]",
-                               *command_.text(kFile), command_.name()));
+                               *command_.text(kScene), command_.name()));
 }
 
 Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
@@ -131,7 +133,7 @@ Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
   refuse_both("--transparent", "--opaque", "the background");
   refuse_both("--sound", "--no-sound", "the sound");
   ScriptBuilder builder;
-  if (const auto file = command_.text(kFile)) builder.read_file(*file);
+  if (const auto scene = command_.text(kScene)) read_scene(builder, *scene);
   for (const auto& [key, text] : defaults) builder.set(origin, key, text);
   for (const auto& [key, option, value] : keys_) {
     if (command_.is_given(option))
@@ -146,7 +148,7 @@ Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
 }
 
 void SceneOptions::add_inputs(OverwriteCheck& check, const Script& script) const {
-  if (const auto scene = command_.text(kFile)) check.reads("the scene file", *scene);
+  if (const auto scene = command_.text(kScene)) claim_scene(check, *scene);
   claim_logos(check, script);
 }
 

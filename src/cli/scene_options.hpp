@@ -44,7 +44,7 @@ std::string destination_names();
 /// Refers to options of the command it was made for, and is valid as long as they are.
 class SceneOptions {
  public:
-  /// Adds [SCENE.toml], --digits, --base and --mass-ratio.
+  /// Adds [SCENE], --digits, --base and --mass-ratio.
   explicit SceneOptions(const Command& command);
   void add_size();
   /// Adds --size, --transparent and --opaque.

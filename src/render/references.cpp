@@ -53,12 +53,8 @@ void add_fingerprint(const fs::path& hashes) {
 
 }  // namespace
 
-References::References(const std::string& scene_path, fs::path folder, const std::string& frames)
-    : name_(fs::path(scene_path).stem()), folder_(std::move(folder)) {
-  ScriptBuilder builder;
-  builder.read_file(scene_path);
-  if (!frames.empty()) builder.set("--frames", "golden.frames", frames);
-  script_ = builder.build();
+References::References(std::string name, const ScriptBuilder& scene, fs::path folder)
+    : name_(std::move(name)), folder_(std::move(folder)), script_(scene.build()) {
   std::visit(
       [](auto& any) {
         any.view = golden_view(any.view, any.golden);

@@ -1,6 +1,6 @@
 // What a scene has to look like, kept in a folder.
-// In: a scene file. Out: NAME.framehash, a hash of every frame, and NAME-INSTANT.png, some
-// pictures. The "#software" line of the hashes tells what painted the frames.
+// In: a scene that has been read. Out: NAME.framehash, a hash of every frame, and NAME-INSTANT.png,
+// some pictures. The "#software" line of the hashes tells what painted the frames.
 #pragma once
 
 #include <piblocks/compare.hpp>
@@ -16,10 +16,9 @@ namespace piblocks {
 /// The references of one scene.
 class References {
  public:
-  /// @param frames  instead of the scene's, if not empty: instants, separated by commas.
-  /// @throws SceneError if the scene file or an instant is no good.
-  References(const std::string& scene_path, std::filesystem::path folder,
-             const std::string& frames = {});
+  /// @param name  the beginning of its files' names.
+  /// @throws SceneError if the scene has problems.
+  References(std::string name, const ScriptBuilder& scene, std::filesystem::path folder);
 
   const std::string& name() const noexcept { return name_; }
   const Script& script() const noexcept { return script_; }

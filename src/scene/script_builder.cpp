@@ -171,11 +171,12 @@ class StoryReader {
 
 struct ScriptBuilder::State {
   SceneDraft film{"scene"};  // in a storyboard the values for all parts
-  std::string path;
+  std::string path;          // of the file, or what stands for it in messages
   std::vector<TomlTable> parts;
   std::vector<std::string> problems;                          // of entries that are no parts
   std::vector<std::pair<std::string, std::string>> set_keys;  // origin and key, by set()
 
+  void read(const std::string& origin, TomlTable root);
   void add_problem(std::size_t line, const std::string& text) {
     problems.push_back(fmt::format("{}:{}: {}", path, line, text));
   }
@@ -184,25 +185,29 @@ struct ScriptBuilder::State {
 ScriptBuilder::ScriptBuilder() : state_(std::make_unique<State>()) {}
 ScriptBuilder::~ScriptBuilder() = default;
 
-void ScriptBuilder::read_file(const std::string& path) {
-  state_->path = path;
-  TomlTable root = read_toml(path);
-  TomlTable film{{}, root.line};
-  std::vector<TomlTable>& parts = state_->parts;
+void ScriptBuilder::read_file(const std::string& path) { state_->read(path, read_toml(path)); }
+
+void ScriptBuilder::read_text(const std::string& origin, std::string_view text) {
+  state_->read(origin, parse_toml(origin, text));
+}
+
+void ScriptBuilder::State::read(const std::string& origin, TomlTable root) {
+  path = origin;
+  TomlTable common{{}, root.line};
   for (TomlEntry& entry : root.entries) {
     const bool is_part = entry.key == "part";
     if (is_part && !entry.tables.empty()) {
       parts = std::move(entry.tables);
     } else if (is_part || entry.key.starts_with("part.")) {
-      state_->add_problem(entry.line, "part: is written [[part]], once for each part");
+      add_problem(entry.line, "part: is written [[part]], once for each part");
     } else {
-      film.entries.push_back(std::move(entry));
+      common.entries.push_back(std::move(entry));
     }
   }
-  state_->film.read(path, film);
+  film.read(path, common);
   if (parts.size() > kMaxSegments) {
-    state_->add_problem(parts[kMaxSegments].line,
-                        fmt::format("part: there must be at most {} of them", kMaxSegments));
+    add_problem(parts[kMaxSegments].line,
+                fmt::format("part: there must be at most {} of them", kMaxSegments));
     parts.resize(kMaxSegments);
   }
 }

@@ -181,17 +181,18 @@ class Reader {
 
 }  // namespace
 
-TomlTable read_toml(const std::string& path) {
-  const std::string text = read_text(path);
-  check_keys(path, text);
+TomlTable read_toml(const std::string& path) { return parse_toml(path, read_text(path)); }
+
+TomlTable parse_toml(const std::string& origin, std::string_view text) {
+  check_keys(origin, text);
   const SourceText source(text);
   try {
-    TomlTable root = Reader(source).table_of(toml::parse(text, path));
+    TomlTable root = Reader(source).table_of(toml::parse(text, origin));
     root.line = 0;
     return root;
   } catch (const toml::parse_error& error) {
     throw SceneError(
-        fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
+        fmt::format("{}:{}: {}", origin, error.source().begin.line, error.description()));
   }
 }
 

@@ -1,8 +1,9 @@
 // A TOML file as a flat list of keys, and lists of tables below some of them.
-// In: a path. Out: "table.key" with its values as text and its line.
+// In: a path, or a text. Out: "table.key" with its values as text and its line.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace piblocks {
@@ -24,5 +25,8 @@ struct TomlTable {
 
 /// @throws SceneError if the file cannot be read, is too long, or is no TOML.
 TomlTable read_toml(const std::string& path);
+
+/// The same of a text. @param origin  named in messages instead of a path
+TomlTable parse_toml(const std::string& origin, std::string_view text);
 
 }  // namespace piblocks

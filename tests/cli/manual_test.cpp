@@ -42,12 +42,20 @@ TEST_F(ManualTest, TheManualPageHasEveryOption) {
 }
 
 TEST_F(ManualTest, BashCompletesCommandsOptionsAndWords) {
-  EXPECT_EQ(completed("piblocks s"), "still sheet state\n");
+  EXPECT_EQ(completed("piblocks s"), "still sheet state scenes\n");
   EXPECT_EQ(completed("piblocks golden ''"), "record check approve\n");
   EXPECT_EQ(completed("piblocks golden check --d"), "--dir --diff\n");
   EXPECT_EQ(completed("piblocks render a.toml --slow"), "--slow-motion\n");
   EXPECT_EQ(completed("piblocks still --theme c"), "chalkboard colorblind\n");
-  EXPECT_EQ(completed("piblocks render ''"), "\n") << "names of files are left to bash";
+  EXPECT_EQ(completed("piblocks render -o ''"), "\n") << "names of files are left to bash";
+}
+
+TEST_F(ManualTest, BashCompletesNamesAndFilesOfScenes) {
+  write("lecture-2.toml", "");
+  for (const char* command : {"render", "still", "golden check", "scenes"}) {
+    EXPECT_EQ(completed(std::string("piblocks ") + command + " lec"), "lecture-2.toml lecture\n");
+  }
+  EXPECT_EQ(completed("piblocks join lec"), "\n") << "parts are files";
 }
 
 TEST_F(ManualTest, ZshAndFishReadTheirs) {
@@ -55,12 +63,15 @@ TEST_F(ManualTest, ZshAndFishReadTheirs) {
     const std::string text = output_of({"manual", program});
     EXPECT_NE(text.find("slow-motion"), std::string::npos);
     EXPECT_NE(text.find("chalkboard dark"), std::string::npos);
+    EXPECT_NE(text.find("slow-turn storyboard"), std::string::npos);
     write("completion", text);
     if (is_there(program)) shell(program + " -n completion");
   }
   if (is_there("fish")) {
     EXPECT_EQ(shell("fish -c 'source completion; complete -C \"piblocks golden \"'"),
               "approve\ncheck\nrecord\n");
+    EXPECT_EQ(shell("fish -c 'source completion; complete -C \"piblocks still slow-\"'"),
+              "slow-motion\nslow-turn\n");
   }
   if (!is_there("zsh") || !is_there("fish")) {
     GTEST_SKIP() << "zsh or fish is not installed: their syntax is not checked";

@@ -34,6 +34,22 @@ TEST_F(StoryboardFileTest, DigitsAndMassRatioSetTheMassOfRed) {
   EXPECT_EQ(red_mass("base = 16\ndigits = 2"), 256);
 }
 
+TEST_F(StoryboardFileTest, ATextIsReadAsAFileIs) {
+  const std::string text = "digits = 2\n[[part]]\ncard = 'a'\n[[part]]\ndigits = 0\n";
+  ScriptBuilder builder;
+  builder.read_text("lecture (shipped)", text);
+  std::vector<std::string> expected = problems(text);
+  ASSERT_EQ(expected.size(), 1U);
+  expected[0].replace(0, path_.size(), "lecture (shipped)");
+  try {
+    builder.build();
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_EQ(error.problems(), expected);
+  }
+  EXPECT_THROW(ScriptBuilder().read_text("text", "= 1"), SceneError);
+}
+
 TEST_F(StoryboardFileTest, KeysAboveHoldForAllParts) {
   const Storyboard read = story(R"(
     digits = 2

@@ -1,0 +1,17 @@
+// The name that a misspelt word was meant to be, for messages.
+// In: a word of the command line, and the names there are. Out: the nearest name, or a question.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace piblocks::cli {
+
+/// @returns an empty text if more than about a third of the word's letters would have to change.
+std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
+
+/// "; did you mean 'lecture'?", or an empty text if `near` is empty.
+std::string question(const std::string& near);
+
+}  // namespace piblocks::cli
