@@ -203,4 +203,20 @@ struct PositionBounds {
 /// Of state_at(time); nothing for an engine that steps, whose errors add up.
 std::optional<PositionBounds> position_bounds(const CollisionLog& log, const Rational& time);
 
+/// The blocks as seen from the wall, without widths: they touch where y1 = y2. Near the turn of
+/// many digits both are far below what is left of them in a position. 0 <= y1 <= y2.
+struct Gaps {
+  double y1 = 0;  ///< between the wall and blue
+  double y2 = 0;  ///< between the wall and red, less blue's width
+};
+
+/// Of state_at(time), each with a relative error of at most 16 * 2^-53 unless it is below 1e-290.
+/// For an engine that steps they are differences of positions, with the error of these.
+/// @throws SimulationError as CollisionLog::state_at().
+Gaps gaps_at(const CollisionLog& log, const Rational& time);
+
+/// The same of collision(index), in which y1 = 0 or y1 = y2, whoever met. @param index  of the log
+/// @throws SimulationError as CollisionLog::collision().
+Gaps gaps_at_collision(const CollisionLog& log, const Integer& index);
+
 }  // namespace piblocks

@@ -110,7 +110,8 @@ Composition::Composition(const Scene& scene, const CollisionLog& log,
       .font = font,
       .layout = layout,
       .text_px = std::max(style::kLeastText_px, style::kSmall * short_measure(view)),
-      .line_px = std::max(1.0, line_width_px(view) / 2)};
+      .line_px = std::max(1.0, line_width_px(view) / 2),
+      .needs = needs_};
   ReadOutRows rows(context);
   const FramePlan plan = plan_frame(context, rows.height());
   layout = lay_out(scene, longest_count(scene, log), plan.stage, font);

@@ -20,12 +20,39 @@ struct WeightedExposure {
   Exposure exposure;
 };
 
+/// How long a hit is seen, in seconds of video.
+inline constexpr double kHitLife_s = 0.15;
+/// Most collisions per second of video that are listed as hits.
+inline constexpr int kMaxHits_per_s = 8;
+
+/// A collision that the picture has just passed.
+struct Hit {
+  CollisionKind kind = CollisionKind::blocks;
+  Integer index;
+  double contact = 0;  ///< scene x of the surface where they met: the wall's face or blue's side
+  double age_s = 0;    ///< of video since the picture passed it, 0 <= age_s < kHitLife_s
+  Gaps gaps = {};      ///< then; if kind is blocks, y1 = y2 is where they met, seen from the wall
+};
+
+/// What a frame is drawn from. It depends on nothing but the frame.
 struct FrameState {
   BlockState state;
   Rational time = 0;    ///< simulation time of the state
   Rational slower = 1;  ///< as in Stretch
   /// Where the blocks are while the frame is exposed; if empty, as all else, at the instant.
   std::vector<WeightedExposure> exposure = {};
+  Gaps gaps = {};  ///< of the state; filled in if FrameNeeds asks for them
+
+  // Filled in if FrameNeeds asks for hits, and left alone in a still that is not in its video.
+  double video_s = 0;          ///< of the frame, since its scene began
+  std::vector<Hit> hits = {};  ///< oldest first; none if hits_per_s was above kMaxHits_per_s
+  double hits_per_s = 0;       ///< of video, by the last 0.25 s; 0 while the picture stands still
+};
+
+/// What costs time to find out, and is found out only for drawables that read it.
+struct FrameNeeds {
+  bool gaps = false;
+  bool hits = false;  ///< and video_s and hits_per_s
 };
 
 /// Appends the items of one thing, such as an overlay, in the order of their ids. Thread-safe.
@@ -42,9 +69,12 @@ class Composition {
               std::shared_ptr<const Image> logo = nullptr);
 
   DrawList frame(const FrameState& shown) const;
+  /// What frame() reads of a FrameState beside what is always there.
+  const FrameNeeds& needs() const noexcept { return needs_; }
 
  private:
   DrawList empty_;
+  FrameNeeds needs_;                 ///< set by drawables while they are made
   std::vector<Drawable> drawables_;  ///< in the order of their ids
 };
 

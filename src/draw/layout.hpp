@@ -51,6 +51,7 @@ struct DrawingContext {
   const Layout& layout;
   double text_px;  ///< of what is read beside the blocks
   double line_px;
+  FrameNeeds& needs;  ///< a drawable says here what it reads of a FrameState
 };
 
 struct FramePlan {

@@ -96,13 +96,19 @@ class ExactLog final : public CollisionLog {
   Collision collision(const Integer& index) const override { return rounded(index, event(index)); }
 
   BlockState state_at(const Rational& time) const override {
-    const auto next = std::ranges::upper_bound(events_, time, {}, &ExactCollision::time);
-    const ExactCollision& since = next == events_.begin() ? start_ : *std::prev(next);
-    ExactCollision now{time, since.kind, since.blocks};
-    advance(now.blocks, time - since.time);
-    const Collision at = rounded(first_index() - 1 + Integer(next - events_.begin()), now);
+    const Integer count = first_index() - 1 + Integer(happened(time) - events_.begin());
+    const Collision at = rounded(count, {time, CollisionKind::wall, blocks_at(time)});
     return {at.index, at.blue, at.red};
   }
+
+  BlockSystem blocks_at(const Rational& time) const {
+    const auto next = happened(time);
+    const ExactCollision& since = next == events_.begin() ? start_ : *std::prev(next);
+    BlockSystem blocks = since.blocks;
+    advance(blocks, time - since.time);
+    return blocks;
+  }
+  const BlockSystem& blocks_after(const Integer& index) const { return event(index).blocks; }
 
   Rational time_after(const Integer& index) const override {
     require_last(index, state_at(event(index).time).count);
@@ -110,12 +116,18 @@ class ExactLog final : public CollisionLog {
   }
 
  private:
+  using Events = std::vector<ExactCollision>;
+
+  /// The end of those that have happened.
+  Events::const_iterator happened(const Rational& time) const {
+    return std::ranges::upper_bound(events_, time, {}, &ExactCollision::time);
+  }
   const ExactCollision& event(const Integer& index) const {
     return events_[Integer(index - first_index()).get_ui()];
   }
 
-  std::vector<ExactCollision> events_;  // of all time, in order
-  ExactCollision start_;                // before all of them; its kind has no meaning
+  Events events_;         // of all time, in order
+  ExactCollision start_;  // before all of them; its kind has no meaning
 };
 
 }  // namespace
@@ -125,5 +137,15 @@ std::unique_ptr<CollisionLog> make_exact_log(const BlockSystem& system) {
 }
 
 bool is_exact(const CollisionLog& log) { return dynamic_cast<const ExactLog*>(&log) != nullptr; }
+
+std::optional<BlockSystem> exact_blocks_at(const CollisionLog& log, const Rational& time) {
+  const auto* const exact = dynamic_cast<const ExactLog*>(&log);
+  return exact == nullptr ? std::nullopt : std::optional(exact->blocks_at(time));
+}
+
+std::optional<BlockSystem> exact_blocks_after(const CollisionLog& log, const Integer& index) {
+  const auto* const exact = dynamic_cast<const ExactLog*>(&log);
+  return exact == nullptr ? std::nullopt : std::optional(exact->blocks_after(index));
+}
 
 }  // namespace piblocks

@@ -199,15 +199,34 @@ Rational ExactMotion::time_past(const Integer& ray) const {
       fmt::format("collision: {} bits do not tell its time from the next one's", kMaxDecisionBits));
 }
 
+Real ExactMotion::phase(const Rational& along, const Real& sigma, const Real& theta) const {
+  const mpfr_prec_t bits = sigma.bits();
+  const Real to_go = atan2(sigma * Real(bits, abs(areal_velocity)), Real(bits, along));
+  return final_phase(sigma, theta) - to_go / theta;
+}
+
 Phase ExactMotion::phase_at(const Rational& t) const {
-  const Rational along = (t - closest_approach) * speed_squared;  // |V|^2 tau
-  const auto phase = [&](const Real& s, const Real& theta) {
-    const mpfr_prec_t bits = s.bits();
-    const Real to_go = atan2(s * Real(bits, abs(areal_velocity)), Real(bits, along));
-    return final_phase(s, theta) - to_go / theta;
-  };
-  const Asymptote at = split(phase, mirrored(y1 + u1 * t), Rational(y2 + u2 * t), 0);
+  const Rational along = (t - closest_approach) * speed_squared;
+  const auto rising = [&](const Real& s, const Real& theta) { return phase(along, s, theta); };
+  const Asymptote at = split(rising, mirrored(y1 + u1 * t), Rational(y2 + u2 * t), 0);
   return {at.ray, at.beyond.to_double()};
+}
+
+double ExactMotion::phase_from_wall(const Rational& t) const {
+  constexpr long kBits = 60;
+  const Rational along = (t - closest_approach) * speed_squared;
+  const Rational x = mirrored(y1 + u1 * t);
+  const Rational y = y2 + u2 * t;
+  const auto rising = [&](const Real& s, const Real& theta) { return phase(along, s, theta); };
+  const Asymptote last = split(rising, x, y, kBits);
+  if (!is_odd(last.ray)) return last.beyond.to_double();
+  const Real to_next = Real(last.beyond.bits(), 1) - last.beyond;
+  // split() is right to 2^-120, so that nothing is lost here unless the next ray is very near.
+  if (to_next.exponent() > -kBits) return to_next.to_double();
+  const auto falling = [&](const Real& s, const Real& theta) {
+    return Real(s.bits(), 0) - phase(along, s, theta);
+  };
+  return split(falling, Rational(-x), y, kBits).beyond.to_double();
 }
 
 }  // namespace piblocks

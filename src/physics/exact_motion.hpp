@@ -13,6 +13,8 @@
 
 namespace piblocks {
 
+inline bool is_odd(const Integer& ray) { return mpz_odd_p(ray.get_mpz_t()) != 0; }
+
 /// A phase split where floor() has been decided.
 struct Phase {
   Integer ray;      ///< index of the last ray crossed: floor(phase)
@@ -103,8 +105,13 @@ struct ExactMotion {
   Rational time_past(const Integer& ray) const;
   /// For a motion that is not through_corner(). @throws SimulationError as total().
   Phase phase_at(const Rational& t) const;
+  /// The phase from the nearest even ray to the point, 0 ... 1, with a relative error below 2^-52.
+  /// For a motion that is not through_corner(). @throws SimulationError as total().
+  double phase_from_wall(const Rational& t) const;
 
  private:
+  /// Of the point on the line to which `along` = |V|^2 tau belongs.
+  Real phase(const Rational& along, const Real& sigma, const Real& theta) const;
   /// q: the phase as t grows without bound; q - pi/theta is that of the infinite past.
   Real final_phase(const Real& sigma, const Real& theta) const;
   /// Precision with which split() begins.

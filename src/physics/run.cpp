@@ -1,6 +1,9 @@
 #include <piblocks/error.hpp>
 #include <piblocks/run.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 #include "physics/blocks.hpp"
 #include "physics/exact_motion.hpp"
 #include "physics/unfolded_log.hpp"
@@ -35,6 +38,19 @@ class IndexedStream final : public CollisionStream {
   Integer next_;
   Integer last_;
 };
+
+Gaps exact_gaps(const BlockSystem& blocks) {
+  const Rational y1 = blocks.blue_gap();
+  return {to_double(y1), to_double(y1 + blocks.blocks_gap())};
+}
+
+/// Rounding may have carried a stepping engine past a contact.
+Gaps gaps_between(const BlockSystem& system, const Motion& blue, const Motion& red) {
+  const Rational blue_width = system.blue.width;
+  const double y1 = blue.position - to_double(system.wall_face + blue_width / 2);
+  const double y2 = red.position - to_double(system.wall_face + blue_width + system.red.width / 2);
+  return {std::max(0.0, y1), std::max({0.0, y1, y2})};
+}
 
 }  // namespace
 
@@ -150,6 +166,21 @@ std::optional<PositionBounds> position_bounds(const CollisionLog& log, const Rat
   const BlockState now = log.state_at(time);
   return PositionBounds{kUnitRoundoff * std::fabs(now.blue.position),
                         kUnitRoundoff * std::fabs(now.red.position)};
+}
+
+Gaps gaps_at(const CollisionLog& log, const Rational& time) {
+  if (const UnfoldedLog* const form = closed_form(log)) return form->gaps_at(time);
+  if (const auto blocks = exact_blocks_at(log, time)) return exact_gaps(*blocks);
+  const BlockState now = log.state_at(time);
+  return gaps_between(log.system(), now.blue, now.red);
+}
+
+Gaps gaps_at_collision(const CollisionLog& log, const Integer& index) {
+  if (const UnfoldedLog* const form = closed_form(log)) return form->gaps_at_collision(index);
+  if (const auto blocks = exact_blocks_after(log, index)) return exact_gaps(*blocks);
+  const Collision now = log.collision(index);
+  const Gaps gaps = gaps_between(log.system(), now.blue, now.red);
+  return now.kind == CollisionKind::wall ? Gaps{0, gaps.y2} : Gaps{gaps.y2, gaps.y2};
 }
 
 }  // namespace piblocks

@@ -215,4 +215,34 @@ PositionBounds UnfoldedLog::bounds_at(const Rational& time) const {
   return {bound(distance + form_.ell, form_.blue_offset), bound(distance, form_.red_offset)};
 }
 
+Gaps UnfoldedLog::gaps_at(const Rational& time) const {
+  const LinePoint point = point_at(time);
+  const Rational free_y1 = exact_.y1 + exact_.u1 * time;
+  const Rational free_y2 = exact_.y2 + exact_.u2 * time;
+  if (exact_.count_from_ray(phase_of(point, time).ray) == 0) {
+    return {to_double(free_y1), to_double(free_y2)};
+  }
+  // The phase in doubles would lose what is small beside the angle to its landmark.
+  double phase = 0;
+  if (!exact_.through_corner()) {
+    phase = exact_.phase_from_wall(time);
+  } else {
+    const auto& [ray, beyond, sign] = *point.end;
+    phase = is_odd(ray) ? (1 - beyond.hi) - beyond.lo : beyond.hi;
+  }
+  const double angle = phase * form_.theta.hi;
+  const double distance = std::hypot(form_.sigma * to_double(free_y1), to_double(free_y2));
+  // sin(angle)/sigma, which does not lose a small angle among the denormal numbers.
+  const double sine_share = angle < 0x1p-30 ? 1 : std::sin(angle) / angle;
+  const double y2 = distance * std::cos(angle);
+  return {std::min(distance * phase * (form_.theta.hi / form_.sigma) * sine_share, y2), y2};
+}
+
+Gaps UnfoldedLog::gaps_at_collision(const Integer& index) const {
+  const Integer ray = ray_of(index);
+  const RayKind kind = form_.kind(is_odd(ray));
+  const double distance = form_.ell * (form_.sigma / view_of(ray, ray).ray.sine);
+  return {kind.blue_reach * distance, kind.red_reach * distance};
+}
+
 }  // namespace piblocks

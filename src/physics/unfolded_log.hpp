@@ -32,6 +32,9 @@ class UnfoldedLog final : public CollisionLog {
   /// As in exposure.hpp, for first <= last.
   Exposure expose(const Rational& first, const Rational& last) const;
   PositionBounds bounds_at(const Rational& time) const;
+  /// As the functions of these names in run.hpp.
+  Gaps gaps_at(const Rational& time) const;
+  Gaps gaps_at_collision(const Integer& index) const;
 
  private:
   /// A point on the line, seen from the nearer end of time.

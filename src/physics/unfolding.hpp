@@ -18,8 +18,6 @@ namespace piblocks {
 /// is then far below anything that matters.
 inline constexpr double kFarAway = 0x1p1000;
 
-inline bool is_odd(const Integer& ray) { return mpz_odd_p(ray.get_mpz_t()) != 0; }
-
 inline Integer floor_mean(const Integer& a, const Integer& b) {
   Integer result;
   mpz_fdiv_q_2exp(result.get_mpz_t(), Integer(a + b).get_mpz_t(), 1);

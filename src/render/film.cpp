@@ -11,7 +11,6 @@
 #include "draw/montage.hpp"
 #include "media/png/png_reader.hpp"
 #include "physics/blocks.hpp"
-#include "physics/exposure.hpp"
 
 namespace piblocks {
 namespace {
@@ -81,13 +80,26 @@ FilmRun::FilmRun(Scene scene, std::unique_ptr<CollisionLog> log, FilmUse use)
 }
 
 DrawList FilmRun::picture(const FrameTime& shown) const {
-  std::vector<WeightedExposure> exposures;
-  exposures.reserve(shown.exposure.size());
-  for (const TimeSlice& slice : shown.exposure) {
-    exposures.push_back({to_double(slice.share), expose(*log_, slice.from, slice.to)});
-  }
-  return composition_->frame(
-      {log_->state_at(shown.time), shown.time, shown.slower, std::move(exposures)});
+  return composition_->frame(frame_state(*log_, shown, composition_->needs()));
+}
+
+DrawList FilmRun::picture(const FrameTime& shown, const VideoMoment& moment) const {
+  FrameState state = frame_state(*log_, shown, composition_->needs());
+  if (composition_->needs().hits) add_hits(state, *log_, moment);
+  return composition_->frame(state);
+}
+
+DrawList FilmRun::frame(const Schedule& clock, std::int64_t number) const {
+  const Rational video_s = Rational(number) / scene_.view.frame_rate;
+  return picture(clock.at(video_s, open_s(scene_.view)), {clock, video_s});
+}
+
+DrawList FilmRun::still(const Rational& time) const {
+  const FrameTime shown = still_time(scene_, *log_, time);
+  if (!composition_->needs().hits || !has_span(scene_, *log_)) return picture(shown);
+  const Schedule clock = make_schedule(scene_, *log_);
+  const std::optional<Rational> video_s = clock.first_shown_s(time);
+  return video_s ? picture(shown, {clock, *video_s}) : picture(shown);
 }
 
 std::shared_ptr<const Image> read_logo(const Scene& scene) {

@@ -20,6 +20,7 @@
 #include "draw/draw_list.hpp"
 #include "draw/montage.hpp"
 #include "media/output/output.hpp"
+#include "render/frame_state.hpp"
 #include "scene/schedule.hpp"
 #include "sound/soundtrack.hpp"
 
@@ -39,13 +40,16 @@ class FilmRun {
   const Scene& scene() const noexcept { return scene_; }
   const CollisionLog& log() const noexcept { return *log_; }
   /// A frame by a clock, which may be another run's. @param number  >= 0
-  DrawList frame(const Schedule& clock, std::int64_t number) const {
-    return picture(clock.frame(number, open_s(scene_.view)));
-  }
-  /// The picture of what a frame, or a still, shows of time.
+  DrawList frame(const Schedule& clock, std::int64_t number) const;
+  /// What a still of this time shows. @throws UsageError as still_time(), or if the picture shows
+  /// hits and the scene has no schedule.
+  DrawList still(const Rational& time) const;
+  /// The picture of a time that no video shows: it has no hits.
   DrawList picture(const FrameTime& shown) const;
 
  private:
+  DrawList picture(const FrameTime& shown, const VideoMoment& moment) const;
+
   Scene scene_;
   std::unique_ptr<CollisionLog> log_;
   std::optional<Composition> composition_;  ///< unless FilmUse::audio_only

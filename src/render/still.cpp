@@ -60,7 +60,7 @@ FilmRun run_of(const Scene& scene) {
 
 DrawList picture_of(const Scene& scene, const Instant& instant) {
   const FilmRun run = run_of(scene);
-  return run.picture(still_time(scene, run.log(), time_of(instant, run.log())));
+  return run.still(time_of(instant, run.log()));
 }
 
 DrawList picture_of(const Storyboard& story, const Instant& instant) {

@@ -1,0 +1,27 @@
+// What a frame is drawn from, as numbers.
+// In: a log, and what a frame shows of time. Out: the FrameState of that frame.
+#pragma once
+
+#include <piblocks/run.hpp>
+
+#include "draw/composition.hpp"
+#include "scene/schedule.hpp"
+
+namespace piblocks {
+
+/// When a picture is shown.
+struct VideoMoment {
+  const Schedule& clock;
+  Rational video_s;  ///< >= 0
+};
+
+/// State, time and exposure; gaps if they are needed; no hits.
+FrameState frame_state(const CollisionLog& log, const FrameTime& shown, const FrameNeeds& needs);
+
+/// Adds the video's time, the hits and their rate to what is shown at a moment. A hit is a change
+/// of the counter: forwards at the collision's time, backwards just after it. The state at the
+/// scene's first instant includes collisions that are no hits.
+/// @throws SimulationError as CollisionLog::collision().
+void add_hits(FrameState& state, const CollisionLog& log, const VideoMoment& moment);
+
+}  // namespace piblocks

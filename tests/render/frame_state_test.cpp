@@ -1,0 +1,293 @@
+// Hits and their rate, in every frame of films of any pacing, against all collisions of the log.
+#include "render/frame_state.hpp"
+
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "support/property.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr int kFrames_hz = 60;
+/// A hair less than kHitLife_s.
+const Rational kSeen_s = Rational(3, 20) - power(Rational(1, 10), 12);
+
+/// A collision that the video passes.
+struct Pass {
+  Rational video_s;
+  Collision collision;
+  bool is_forward;
+};
+
+/// The exact time where there is one, so that a frame exactly at a collision shows it.
+Rational exact_time(const CollisionLog& log, const Collision& collision) {
+  try {
+    return log.time_after(collision.index);
+  } catch (const Error&) {  // several at once, or an engine that steps
+    return to_rational(collision.time);
+  }
+}
+
+/// All passes of a video, by looking for every collision in every stretch.
+std::vector<Pass> all_passes(const CollisionLog& log, const Schedule& clock) {
+  const auto stretches = clock.stretches();
+  const Rational end_s = Rational(clock.frame_count()) / kFrames_hz;
+  std::vector<Pass> passes;
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    const Stretch& now = stretches[i];
+    const Rational until_s = i + 1 < stretches.size() ? stretches[i + 1].video_s : end_s;
+    if (now.speed == 0) continue;
+    const bool is_forward = now.speed > 0;
+    for (Integer k = log.first_index(); k <= log.size(); ++k) {
+      const Collision collision = log.collision(k);
+      const Rational pass_s = now.video_s + (exact_time(log, collision) - now.time) / now.speed;
+      // The counter changes at a collision's time forwards, and just after it backwards.
+      const bool is_in = is_forward ? pass_s > now.video_s && pass_s <= until_s
+                                    : pass_s >= now.video_s && pass_s < until_s;
+      if (is_in) passes.push_back({pass_s, collision, is_forward});
+    }
+  }
+  std::ranges::stable_sort(passes, {}, &Pass::video_s);
+  return passes;
+}
+
+std::vector<Pass> during(const std::vector<Pass>& passes, const Rational& from_s,
+                         const Rational& to_s) {
+  std::vector<Pass> found;
+  std::ranges::copy_if(passes, std::back_inserter(found), [&](const Pass& pass) {
+    return pass.is_forward ? pass.video_s > from_s && pass.video_s <= to_s
+                           : pass.video_s >= from_s && pass.video_s < to_s;
+  });
+  return found;
+}
+
+double surface_of(const BlockSystem& system, const Collision& collision) {
+  if (collision.kind == CollisionKind::wall) return to_double(system.wall_face);
+  return collision.red.position - to_double(system.red.width / 2);
+}
+
+FrameState state_of(const CollisionLog& log, const Schedule& clock, std::int64_t frame) {
+  const Rational video_s = Rational(frame) / kFrames_hz;
+  FrameState state = frame_state(log, clock.at(video_s), {});
+  add_hits(state, log, {clock, video_s});
+  return state;
+}
+
+struct Seen {
+  int hits = 0;      ///< frames that list some
+  int crowds = 0;    ///< frames with too many of them
+  int standing = 0;  ///< frames with hits, in which the picture stands still
+};
+
+void expect_hits(const FrameState& state, const std::vector<Pass>& wanted,
+                 const BlockSystem& system, const Rational& video_s) {
+  ASSERT_EQ(state.hits.size(), wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const Hit& hit = state.hits[i];
+    const Collision& collision = wanted[i].collision;
+    EXPECT_EQ(hit.index, collision.index);
+    EXPECT_EQ(hit.kind, collision.kind);
+    EXPECT_NEAR(hit.age_s, to_double(video_s - wanted[i].video_s), 1e-12);
+    EXPECT_GE(hit.age_s, 0);
+    EXPECT_LT(hit.age_s, kHitLife_s);
+    EXPECT_NEAR(hit.contact, surface_of(system, collision), 1e-14);
+    EXPECT_NEAR(hit.contact - to_double(system.wall_face),
+                hit.kind == CollisionKind::wall ? 0 : hit.gaps.y1 + to_double(system.blue.width),
+                1e-14);
+  }
+}
+
+/// Every frame has the hits that are found among all passes.
+Seen expect_true_hits(const CollisionLog& log, const Schedule& clock) {
+  Seen seen;
+  const std::vector<Pass> passes = all_passes(log, clock);
+  for (std::int64_t frame = 0; frame < clock.frame_count().get_si(); ++frame) {
+    SCOPED_TRACE("frame " + std::to_string(frame));
+    const Rational video_s = Rational(frame) / kFrames_hz;
+    FrameState state = state_of(log, clock, frame);
+    EXPECT_EQ(state.video_s, to_double(video_s));
+    const bool is_moving = clock.at(video_s).time != clock.at(video_s + Rational(1, 100'000)).time;
+    const auto recent = during(passes, std::max<Rational>(0, video_s - Rational(1, 4)), video_s);
+    EXPECT_EQ(state.hits_per_s, is_moving ? 4.0 * double(recent.size()) : 0);
+    // Rounding decides about what is just about to fade.
+    std::vector<Pass> wanted = during(passes, video_s - kSeen_s, video_s);
+    std::erase_if(state.hits, [](const Hit& hit) { return hit.age_s >= to_double(kSeen_s); });
+    if (recent.size() > 2) {
+      seen.crowds += wanted.empty() ? 0 : 1;
+      wanted.clear();
+    }
+    seen.hits += wanted.empty() ? 0 : 1;
+    seen.standing += wanted.empty() || is_moving ? 0 : 1;
+    expect_hits(state, wanted, log.system(), video_s);
+  }
+  return seen;
+}
+
+Scene film_of(int digits) {
+  Scene scene;
+  scene.system = article_system(digits);
+  scene.view.frame_rate = kFrames_hz;
+  return scene;
+}
+
+Seen expect_true_hits(const Scene& scene) {
+  const auto log = make_collision_log(scene.system);
+  return expect_true_hits(*log, make_schedule(scene, *log));
+}
+
+TEST(Hits, OfAPlainFilm) {
+  for (int digits = 1; digits <= 3; ++digits) {
+    const Seen seen = expect_true_hits(film_of(digits));
+    EXPECT_GT(seen.hits, 10) << digits;
+    EXPECT_EQ(seen.crowds > 0, digits > 1) << digits;
+    EXPECT_EQ(seen.standing, 0) << digits;
+  }
+}
+
+TEST(Hits, InSlowMotion) {
+  Scene scene = film_of(3);
+  scene.pacing.automatic_slow_motion = true;
+  EXPECT_GT(expect_true_hits(scene).hits, 100);
+  scene = film_of(2);
+  scene.pacing.slow_motion = {{Rational(3), Rational(7, 2), 7},
+                              {Instant::collision(20), Instant::last(), Rational(1, 2)}};
+  EXPECT_GT(expect_true_hits(scene).hits, 20);
+}
+
+TEST(Hits, GoOnWhileThePictureStandsStill) {
+  Scene scene = film_of(1);
+  scene.pacing.freezes = {{Instant::collision(2), Rational(1, 2)},
+                          {Instant::collision(2, Rational(1, 50)), Rational(1, 2)}};
+  scene.pacing.hold_start_s = Rational(1, 3);
+  scene.pacing.hold_end_s = 1;
+  scene.time.to = Instant::last();
+  // Each of the freezes and the end: 0.15 s but for what has passed before.
+  EXPECT_GT(expect_true_hits(scene).standing, 15);
+}
+
+TEST(Hits, GoAwayWhereAFastCrowdFreezes) {
+  Scene scene = film_of(3);
+  scene.pacing.freezes = {{Instant::turn(), 1}};
+  EXPECT_EQ(expect_true_hits(scene).standing, 0);
+}
+
+TEST(Hits, OfALoopAreSeenInBothDirections) {
+  Scene scene = film_of(1);
+  scene.pacing.loop = true;
+  const int both = expect_true_hits(scene).hits;
+  scene.pacing.loop = false;
+  EXPECT_GT(both, expect_true_hits(scene).hits + 10);
+  // It turns round while a hit is seen.
+  scene.pacing.loop = true;
+  scene.time.to = Instant::last(Rational(1, 30));
+  expect_true_hits(scene);
+}
+
+TEST(Hits, BeforeTimeZero) {
+  Scene scene = film_of(2);
+  scene.system.red.velocity = 1;
+  scene.time.from = Rational(-9);
+  scene.time.to = Rational(1);
+  EXPECT_GT(expect_true_hits(scene).hits, 10);
+}
+
+TEST(Hits, OfARunThatFollowsAnotherClock) {
+  const Scene leading = film_of(2);
+  const auto leader = make_collision_log(leading.system);
+  const Schedule clock = make_schedule(leading, *leader);
+  BlockSystem other = article_system(1);
+  other.red.mass = Rational(1, 2);  // the exact list of events
+  EXPECT_GT(expect_true_hits(*make_collision_log(other), clock).hits, 10);
+  EXPECT_GT(expect_true_hits(*make_collision_log(article_system(2), Engine::events), clock).hits,
+            10);
+}
+
+TEST(Hits, OfACornerAreACrowd) {
+  Scene scene = film_of(3);
+  scene.system.red.position = scene.system.blue.position + 1;
+  scene.system.blue.velocity = scene.system.red.velocity;
+  const Seen seen = expect_true_hits(scene);
+  EXPECT_EQ(seen.hits, 0);
+  EXPECT_GT(seen.crowds, 0);
+}
+
+TEST(Hits, OfTwentyDigitsCostNoMore) {
+  Scene scene = film_of(20);
+  scene.time.to = Rational(7);
+  const auto log = make_collision_log(scene.system);
+  const Schedule clock = make_schedule(scene, *log);
+  double most = 0;
+  for (std::int64_t frame = 0; frame < 420; ++frame) {
+    const FrameState state = state_of(*log, clock, frame);
+    const FrameState before = state_of(*log, clock, std::max<std::int64_t>(0, frame - 15));
+    const Integer passed = state.state.count - before.state.count;
+    EXPECT_EQ(state.hits_per_s, Integer(4 * passed).get_d());
+    most = std::max(most, state.hits_per_s);
+    EXPECT_TRUE(state.hits.empty() || state.hits_per_s <= kMaxHits_per_s);
+  }
+  EXPECT_GT(most, 1e19);
+}
+
+Scene any_film(Random& random) {
+  Scene scene = film_of(static_cast<int>(random.integer(1, 2)));
+  scene.system.red.mass += random.rational(0, 20, 7);
+  scene.time.from = random.rational(0, 3, 30);
+  scene.time.to = random.rational(4, 9, 30);
+  scene.time.speed = Rational(random.integer(1, 8)) / 4;
+  Pacing& pacing = scene.pacing;
+  const Rational from = random.rational(3, 4, 60);
+  pacing.slow_motion = {{from, Rational(from + random.rational(0, 1, 8) + Rational(1, 9)), 3}};
+  for (std::int64_t i = random.integer(0, 2); i > 0; --i) {
+    pacing.freezes.push_back({random.rational(3, 4, 100), random.rational(0, 1, 9) + 1});
+  }
+  pacing.hold_start_s = random.rational(0, 1, 3);
+  pacing.loop = random.integer(0, 1) == 0;
+  return scene;
+}
+
+TEST(Hits, OfAnyPacing) {
+  Random random(20261122);
+  SCOPED_TRACE(random.trace());
+  for (std::int64_t i = 0; i < many(12); ++i) {
+    SCOPED_TRACE(i);
+    expect_true_hits(any_film(random));
+  }
+}
+
+TEST(Hits, DoNotDependOnTheOrderOfFrames) {
+  Scene scene = film_of(2);
+  scene.pacing.loop = true;
+  const auto log = make_collision_log(scene.system);
+  const Schedule clock = make_schedule(scene, *log);
+  const auto text_of = [&](std::int64_t frame) {
+    const FrameState state = state_of(*log, clock, frame);
+    std::string text = std::to_string(state.hits_per_s);
+    for (const Hit& hit : state.hits) {
+      text += ' ' + hit.index.get_str() + ' ' + std::to_string(hit.age_s);
+    }
+    return text;
+  };
+  const std::int64_t count = clock.frame_count().get_si();
+  std::vector<std::string> forwards;
+  for (std::int64_t frame = 0; frame < count; ++frame) forwards.push_back(text_of(frame));
+  for (std::int64_t frame = count - 1; frame >= 0; --frame) {
+    EXPECT_EQ(text_of(frame), forwards[static_cast<std::size_t>(frame)]);
+  }
+}
+
+TEST(FrameStates, HaveGapsWhereTheyAreNeeded) {
+  const auto log = make_collision_log(article_system(20));
+  const FrameTime turn{turn_of(log->system()).value()};
+  const Gaps gaps = frame_state(*log, turn, {.gaps = true}).gaps;
+  EXPECT_GT(gaps.y2, 1.4e-19);
+  EXPECT_LT(gaps.y2, 1.6e-19);
+  EXPECT_EQ(frame_state(*log, turn, {}).gaps.y2, 0);
+}
+
+}  // namespace
+}  // namespace piblocks
