@@ -42,12 +42,18 @@ struct Pacing {
   /// 1, and scale with the rest of the video.
   bool automatic_slow_motion = false;
   std::vector<SlowMotion> slow_motion = {};
+  /// How long slow motion takes to set in and to end, 0 … kMaxEase_s; 0 is abrupt. The time is
+  /// taken from the faster side, so that a window keeps its factor from beginning to end; where
+  /// there is too little of it, the ease is shorter. It is not rounded. A duration scales it.
+  Rational ease_s = Rational(1, 2);
   std::vector<Freeze> freezes = {};
   Rational hold_start_s = 0;  ///< how long the first picture stands still, >= 0
   Rational hold_end_s = 0;    ///< the same of the last
   /// Plays forwards and then backwards, so that the first frame follows the last without a jump.
   bool loop = false;
 };
+
+inline constexpr int kMaxEase_s = 5;
 
 /// Most windows of slow motion, and most freezes, of one scene.
 inline constexpr std::size_t kMaxWindows = 1000;
@@ -61,11 +67,13 @@ std::string exact_text(const SlowMotion& window);
 std::string exact_text(const Freeze& freeze);
 
 enum class Theme {
-  article,     ///< on white, as in the article
-  chalkboard,  ///< chalk on dark green
-  dark,        ///< on near-black
-  print,       ///< black and greys; the blocks differ in pattern
-  colorblind   ///< blue and orange that all can tell apart, and that differ in pattern
+  article,        ///< on white, as in the article
+  lecture,        ///< for a lecture hall: on near-black, in the colours of the diagrams
+  lecture_light,  ///< the same on near-white
+  chalkboard,     ///< chalk on dark green
+  dark,           ///< on near-black
+  print,          ///< black and greys; the blocks differ in pattern
+  colorblind      ///< blue and orange that all can tell apart, and that differ in pattern
 };
 
 /// What is behind everything: the theme's colour, or nothing.

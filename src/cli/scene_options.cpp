@@ -89,6 +89,8 @@ void SceneOptions::add_timing() {
   add_key("time.slow-motion", "--slow-motion", "auto|FROM:TO:N",
           "Windows in which time runs N times slower, separated by\ncommas; FROM and TO as 3.2, "
           "turn-0.3, last+1, #314");
+  add_key("time.ease", "--ease", "S",
+          "Slow motion sets in and ends over S seconds (default 0.5,\n0 = at once)");
   add_key("time.freeze", "--freeze", "AT:S",
           "Instants, as above, at which the picture stands still for S s");
   add_key("time.hold-start", "--hold-start", "S", "Show the first picture for S s more");

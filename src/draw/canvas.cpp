@@ -183,8 +183,8 @@ std::span<const PixelRect> Canvas::update(DrawList list) {
     paint(list);
     return pixels_->region;
   }
-  pixels_->region = changed_region(*pixels_->shown, list, [this](std::string_view text) {
-    return pixels_->painter.font().width_em(text);
+  pixels_->region = changed_region(*pixels_->shown, list, [this](Face face, std::string_view text) {
+    return pixels_->painter.font(face).width_em(text);
   });
   pixels_->paint(list);
   pixels_->shown = std::move(list);
@@ -209,7 +209,7 @@ std::vector<std::string> draw_library_versions() {
   }
   return {fmt::format("cairo {}", cairo_version_string()),
           std::string("pixman ") + pixman_version_string(),
-          fmt::format("freetype {}.{}.{}", major, minor, patch), "font " PIBLOCKS_FONT_NAME};
+          fmt::format("freetype {}.{}.{}", major, minor, patch), "fonts " PIBLOCKS_FONT_NAMES};
 }
 
 std::string painter_fingerprint() {

@@ -12,6 +12,7 @@
 #include "draw/layout.hpp"
 #include "draw/look.hpp"
 #include "draw/number_text.hpp"
+#include "draw/overlays/counter.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/region.hpp"
@@ -23,47 +24,6 @@ namespace {
 /// A smaller logo is a speck.
 constexpr double kLeastLogo_px = 1;
 constexpr double kLeastLogoLength_px = 3;
-
-/// Whether a system is one that counts the digits of pi in this base: blue at rest, off the wall,
-/// mass ratio a power of the base's square.
-bool counts_pi(const BlockSystem& system, int base) {
-  const Rational ratio = system.red.mass / system.blue.mass;
-  if (system.blue.velocity != 0 || system.red.velocity >= 0 || system.blue_gap() <= 0) return false;
-  Integer rest;
-  mpz_remove(rest.get_mpz_t(), ratio.get_num_mpz_t(), Integer(base * base).get_mpz_t());
-  return ratio.get_den() == 1 && rest == 1;
-}
-
-/// @throws UsageError if the scene's count is not made of the digits of pi.
-std::string lit_digits(const Scene& scene, const CollisionLog& log) {
-  const int base = scene.show.base;
-  if (!scene.show.has(Overlay::digits)) return {};
-  if (!counts_pi(scene.system, base)) {
-    throw UsageError(fmt::format(
-        "show.overlays: there are no digits of pi to light up, since this scene does not count "
-        "them; leave out 'digits', or give a mass ratio of {}^(D-1) and a blue.velocity of 0",
-        base * base));
-  }
-  const std::string counted = log.size().get_str(base);
-  std::string digits = pi_digits(base, counted.size());
-  std::erase(digits, '.');
-  if (counted == digits) return count_text(log.size(), base);
-  throw UsageError(fmt::format(
-      "show.overlays: there are no digits of pi to light up: this scene counts {} in base {}, and "
-      "pi begins with {}; leave out 'digits', or use more digits",
-      counted, base, digits));
-}
-
-/// The longest count that the film shows. Counts before time 0 are negative and may be longer.
-Integer longest_count(const Scene& scene, const CollisionLog& log) {
-  const Integer& last = log.size();
-  if (log.first_index() > 0 || !has_span(scene, log)) return last;
-  const Integer first = log.state_at(span_of(scene, log).from).count;
-  const auto length = [&](const Integer& count) {
-    return count_text(count, scene.show.base).size();
-  };
-  return length(first) > length(last) ? first : last;
-}
 
 void check(bool is_finite, const Rational& time) {
   if (is_finite) return;
@@ -99,33 +59,41 @@ ImageItem place_logo(const Rectangle& place, std::shared_ptr<const Image> logo) 
 Composition::Composition(const Scene& scene, const CollisionLog& log,
                          std::shared_ptr<const Image> logo)
     : empty_{scene.view.width_px, scene.view.height_px, background_of(scene.view), {}} {
-  const Font font;
+  const Fonts fonts;
+  const Font& font = fonts.of(text_face_of(scene.view.theme));
   const Palette palette = palette_of(scene.view.theme);
-  Layout layout;  // made below: the height of the read-outs decides it
-  const View& view = scene.view;
-  const DrawingContext context{
-      .scene = scene,
-      .log = log,
-      .palette = palette,
-      .font = font,
-      .layout = layout,
-      .text_px = std::max(style::kLeastText_px, style::kSmall * short_measure(view)),
-      .line_px = std::max(1.0, line_width_px(view) / 2),
-      .needs = needs_};
+  const Sizes sizes(scene.view);
+  Layout layout;  // made below: what else there is decides it
+  const DrawingContext context{.scene = scene,
+                               .log = log,
+                               .palette = palette,
+                               .fonts = fonts,
+                               .font = font,
+                               .layout = layout,
+                               .sizes = sizes,
+                               .needs = needs_};
+  const bool is_article = scene.view.theme == Theme::article;
+  const std::string pi = pi_count(scene, log);
   ReadOutRows rows(context);
-  const FramePlan plan = plan_frame(context, rows.height());
-  layout = lay_out(scene, longest_count(scene, log), plan.stage, font);
+  std::optional<CounterRoom> room;
+  if (!is_article) room = counter_room(context, pi);
+  const FramePlan plan = plan_frame(context, room, rows.height());
+  layout = is_article ? lay_out_article(scene, longest_count(scene, log), plan.stage, font)
+                      : lay_out_stage(scene, plan.stage, font);
 
   const Show& show = scene.show;
-  drawables_.push_back(stage(context, lit_digits(scene, log)));
+  if (is_article) {
+    drawables_.push_back(article_stage(context, pi));
+  } else {
+    drawables_.push_back(stage(context));
+    drawables_.push_back(counter(context, plan.counter, pi));
+  }
   if (show.has(Overlay::masses)) drawables_.push_back(mass_labels(context));
   if (show.has(Overlay::velocities)) drawables_.push_back(velocity_arrows(context));
   if (show.has(Overlay::ruler)) drawables_.push_back(ruler(context));
-  rows.move(plan.stage.y + plan.stage.height);
+  rows.move(plan.read_outs_px);
   drawables_.emplace_back(std::move(rows));
-  std::vector<DrawItem> lines;
-  if (plan.title) lines.emplace_back(*plan.title);
-  if (plan.caption) lines.emplace_back(*plan.caption);
+  std::vector<DrawItem> lines(plan.lines.begin(), plan.lines.end());
   if (logo) lines.emplace_back(place_logo(plan.logo, std::move(logo)));
   drawables_.push_back(unchanging(std::move(lines)));
   // In the order of Panel.

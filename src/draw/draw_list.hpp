@@ -30,14 +30,17 @@ enum class ItemId : std::uint32_t {
   label = ids_from(3),
   lit_count = ids_from(4),
   count = ids_from(5),
-  masses = ids_from(6),
-  velocities = ids_from(7),
-  ruler = ids_from(8),
-  read_outs = ids_from(9),
-  title = ids_from(10),
-  caption = ids_from(11),
-  logo = ids_from(12),
-  panels = ids_from(13),  ///< and one for each panel after it
+  pi = ids_from(6),
+  masses = ids_from(7),
+  velocities = ids_from(8),
+  hits = ids_from(9),
+  ruler = ids_from(10),
+  read_outs = ids_from(11),
+  loupe = ids_from(12),
+  title = ids_from(13),
+  caption = ids_from(14),
+  logo = ids_from(15),
+  panels = ids_from(16),  ///< and one for each panel after it
   card = ids_from(100),
   compared = ids_from(101),
   fade = ids_from(102)
@@ -48,11 +51,12 @@ constexpr ItemId nth(ItemId thing, std::size_t n) {
   return ItemId{static_cast<std::uint32_t>(thing) + static_cast<std::uint32_t>(n)};
 }
 
-/// Opaque sRGB.
+/// sRGB, with straight alpha.
 struct Color {
   std::uint8_t red = 0;
   std::uint8_t green = 0;
   std::uint8_t blue = 0;
+  std::uint8_t alpha = 255;  ///< 255 is opaque
   bool operator==(const Color&) const = default;
 };
 
@@ -93,6 +97,15 @@ struct RectangleItem {
   bool operator==(const RectangleItem&) const = default;
 };
 
+/// The embedded typefaces.
+enum class Face : std::uint8_t {
+  article,  ///< DejaVu Sans, of the article's picture; it has the most characters
+  text,     ///< Lato Medium
+  digits,   ///< Lato Semibold, whose figures are equally wide
+  math      ///< Latin Modern Math
+};
+inline constexpr std::size_t kFaces = 4;
+
 /// One line of text, set from the left end of its baseline.
 struct TextItem {
   ItemId id = ItemId::label;
@@ -100,6 +113,7 @@ struct TextItem {
   std::string text;     ///< UTF-8
   double size_px = 16;  ///< of the em
   Color color;
+  Face face = Face::article;  ///< characters that it lacks are set in Face::article
   bool operator==(const TextItem&) const = default;
 };
 

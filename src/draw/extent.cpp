@@ -9,7 +9,7 @@
 namespace piblocks {
 namespace {
 
-// Reach of the embedded font, in ems, with room to spare: marks above capitals, tails below the
+// Reach of the embedded fonts, in ems, with room to spare: marks above capitals, tails below the
 // baseline, and glyphs beyond their advances.
 constexpr double kAscent = 1.1;
 constexpr double kDescent = 0.35;
@@ -21,7 +21,9 @@ double reach_of(const std::optional<Stroke>& stroke) { return stroke ? stroke->w
 struct ExtentOf {
   const MeasureText& width_em;
 
-  Extent operator()(const TextItem& text) const { return extent_of(text, 0, width_em(text.text)); }
+  Extent operator()(const TextItem& text) const {
+    return extent_of(text, 0, width_em(text.face, text.text));
+  }
   Extent operator()(const PathItem& path) const {
     return extent_of(path.points.bounds()).grown(reach_of(path.stroke));
   }
@@ -90,7 +92,9 @@ PixelRect moving_area(const ExposedItem& item, const PixelRect& area) {
 
 bool reaches(const DrawItem& item, const PixelRect& rect) {
   // A line of text is taken as endless rather than measured.
-  static const MeasureText endless_em = [](std::string_view /*text*/) { return 1e6; };
+  static const MeasureText endless_em = [](Face /*face*/, std::string_view /*text*/) {
+    return 1e6;
+  };
   const Extent extent = extent_of(item, endless_em).grown(kRounding_px);
   return extent.left < rect.x_px + rect.width_px && extent.right > rect.x_px &&
          extent.top < rect.y_px + rect.height_px && extent.bottom > rect.y_px;
@@ -100,7 +104,7 @@ bool are_finite(std::span<const DrawItem> items) {
   const auto is_finite = [](std::initializer_list<double> numbers) {
     return std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
   };
-  static const MeasureText no_width = [](std::string_view /*text*/) { return 0; };
+  static const MeasureText no_width = [](Face /*face*/, std::string_view /*text*/) { return 0; };
   return std::ranges::all_of(items, [&](const DrawItem& item) {
     // The bounds of a path leave out what is not a number.
     if (const auto* path = std::get_if<PathItem>(&item)) {

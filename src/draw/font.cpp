@@ -13,11 +13,9 @@
 #include "draw/cairo_handles.hpp"
 #include FT_FREETYPE_H
 
-// Defined in font_data.S.
-// NOLINTBEGIN(readability-identifier-naming): no constants, but symbols of the assembler
-extern "C" const unsigned char piblocks_font_begin[];
-extern "C" const unsigned char piblocks_font_end[];
-// NOLINTEND(readability-identifier-naming)
+// Defined in font_data.S: where each font begins, in the order of Face, and where the last one
+// ends. NOLINTNEXTLINE(readability-identifier-naming): no constant, but a symbol of the assembler
+extern "C" const unsigned char* const piblocks_fonts[];
 
 namespace piblocks {
 namespace {
@@ -45,15 +43,14 @@ CairoFontOptionsPtr font_options() {
   return options;
 }
 
-FT_Face load_embedded_face() {
+FT_Face load_embedded_face(Face which) {
   FT_Library created = nullptr;
   check_freetype(FT_Init_FreeType(&created), "start FreeType");
   FtLibraryPtr library(created);
   FT_Face face = nullptr;
-  // cppcheck-suppress comparePointers ; begin and end of one object, which the assembler lays out
-  const auto size = static_cast<FT_Long>(piblocks_font_end - piblocks_font_begin);
-  check_freetype(FT_New_Memory_Face(library.get(), piblocks_font_begin, size, 0, &face),
-                 "load the embedded font");
+  const unsigned char* const* const begin = piblocks_fonts + static_cast<std::size_t>(which);
+  check_freetype(FT_New_Memory_Face(library.get(), begin[0], begin[1] - begin[0], 0, &face),
+                 "load an embedded font");
   static_cast<void>(library.release());  // release_face() finds it again through the face
   return face;
 }
@@ -63,7 +60,7 @@ CairoFontFacePtr make_cairo_face(FT_Face face) {
   const cairo_status_t status =
       cairo_font_face_set_user_data(cairo_face.get(), &kFaceKey, face, release_face);
   if (status != CAIRO_STATUS_SUCCESS) release_face(face);
-  check_cairo(status, "load the embedded font");
+  check_cairo(status, "load an embedded font");
   return cairo_face;
 }
 
@@ -155,19 +152,44 @@ std::string shaping_problem(std::string_view utf8) {
 
 }  // namespace
 
-struct Font::Faces {
+struct Font::Loaded {
+  explicit Loaded(Face which) : ft_face(load_embedded_face(which)) {}
+
   CairoFontOptionsPtr options = font_options();
-  FT_Face ft_face = load_embedded_face();  // belongs to `face`
+  FT_Face ft_face;  // belongs to `face`
   CairoFontFacePtr face = make_cairo_face(ft_face);
   CairoScaledFontPtr measure = scaled_for_measuring(*face, *options);
 };
 
-Font::Font() : faces_(std::make_unique<Faces>()) {}
+Font::Font(Face face) : face_(face), loaded_(std::make_unique<Loaded>(face)) {}
 Font::~Font() = default;
 
+bool Font::has_glyph(std::uint32_t code) const {
+  return FT_Get_Char_Index(loaded_->ft_face, code) != 0;
+}
+
+const Font& Font::fallback() const {
+  if (!fallback_) fallback_ = std::make_unique<Font>(Face::article);
+  return *fallback_;
+}
+
+std::vector<Font::Run> Font::runs(std::string_view utf8) const {
+  if (face_ == Face::article) return {{this, utf8}};
+  std::vector<Run> runs;
+  for (std::size_t at = 0; at < utf8.size();) {
+    const auto [code, length_bytes] = first_character(utf8.substr(at));
+    const Font* font = has_glyph(code) ? this : &fallback();
+    if (runs.empty() || runs.back().font != font) runs.push_back({font, utf8.substr(at, 0)});
+    std::string_view& text = runs.back().text;
+    text = {text.data(), text.size() + length_bytes};
+    at += length_bytes;
+  }
+  return runs;
+}
+
 void Font::select(cairo_t& cr, double size_px) const {
-  cairo_set_font_face(&cr, faces_->face.get());
-  cairo_set_font_options(&cr, faces_->options.get());
+  cairo_set_font_face(&cr, loaded_->face.get());
+  cairo_set_font_options(&cr, loaded_->options.get());
   cairo_set_font_size(&cr, size_px);
 }
 
@@ -188,20 +210,26 @@ void Font::check(std::string_view utf8, const char* what) const {
   for (std::string_view rest = utf8; !rest.empty();) {
     const auto [code, length_bytes] = first_character(rest);
     if (length_bytes == 0) throw UsageError(fmt::format("{}: is not valid UTF-8", what));
-    const bool has_glyph = FT_Get_Char_Index(faces_->ft_face, code) != 0;
-    if (!has_glyph && missing.empty()) missing = rest.substr(0, length_bytes);
+    const bool is_known = has_glyph(code) || (face_ != Face::article && fallback().has_glyph(code));
+    if (!is_known && missing.empty()) missing = rest.substr(0, length_bytes);
     rest.remove_prefix(length_bytes);
   }
   const std::string problem = shaping_problem(utf8);
   if (!problem.empty()) throw UsageError(fmt::format("{}: {}", what, problem));
   if (missing.empty()) return;
-  throw UsageError(fmt::format("{}: the font DejaVu Sans has no glyph for '{}'", what, missing));
+  throw UsageError(fmt::format("{}: no embedded font has a glyph for '{}'", what, missing));
 }
 
 double Font::width_em(std::string_view utf8) const {
+  double sum = 0;
+  for (const auto& [font, text] : runs(utf8)) sum += font->own_width_em(text);
+  return sum;
+}
+
+double Font::own_width_em(std::string_view utf8) const {
   cairo_text_extents_t extents;
-  cairo_scaled_font_text_extents(faces_->measure.get(), std::string(utf8).c_str(), &extents);
-  check_cairo(cairo_scaled_font_status(faces_->measure.get()), "measure text");
+  cairo_scaled_font_text_extents(loaded_->measure.get(), std::string(utf8).c_str(), &extents);
+  check_cairo(cairo_scaled_font_status(loaded_->measure.get()), "measure text");
   return extents.x_advance / kMeasure_px;
 }
 

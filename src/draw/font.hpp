@@ -1,10 +1,12 @@
-// The one font: DejaVu Sans, embedded, loaded through FreeType.
+// The embedded fonts, loaded through FreeType.
 // In: text. Out: its glyphs and widths, the same on every machine.
 #pragma once
 
 #include <cairo.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -16,17 +18,28 @@
 
 namespace piblocks {
 
-/// Each Font has a FreeType library of its own: fonts of different threads share nothing.
+/// For one thread. Each Font has a FreeType library of its own: fonts of different threads share
+/// nothing.
 class Font {
  public:
   /// Height of capitals above the baseline, in ems.
   static constexpr double kCapHeight_em = 0.73;
 
   /// @throws DrawError if FreeType or Cairo refuses the font.
-  Font();
+  explicit Font(Face face = Face::article);
   ~Font();
   Font(const Font&) = delete;
   Font& operator=(const Font&) = delete;
+
+  Face face() const noexcept { return face_; }
+
+  struct Run {
+    const Font* font;
+    std::string_view text;
+  };
+  /// The line as pieces, each in one font: characters that this font lacks are in Face::article.
+  /// @param utf8  valid; must outlive the runs.
+  std::vector<Run> runs(std::string_view utf8) const;
 
   /// Makes it the font of `cr`, unhinted and antialiased in grey. @param size_px  of the em
   void select(cairo_t& cr, double size_px) const;
@@ -43,8 +56,27 @@ class Font {
   }
 
  private:
-  struct Faces;
-  std::unique_ptr<Faces> faces_;
+  bool has_glyph(std::uint32_t code) const;
+  const Font& fallback() const;
+  double own_width_em(std::string_view utf8) const;
+
+  Face face_;
+  struct Loaded;
+  std::unique_ptr<Loaded> loaded_;
+  mutable std::unique_ptr<Font> fallback_;  ///< loaded when a character is lacking
+};
+
+/// Each typeface, loaded when it is asked for. For one thread.
+class Fonts {
+ public:
+  const Font& of(Face face) const {
+    std::unique_ptr<Font>& font = fonts_.at(static_cast<std::size_t>(face));
+    if (!font) font = std::make_unique<Font>(face);
+    return *font;
+  }
+
+ private:
+  mutable std::array<std::unique_ptr<Font>, kFaces> fonts_;
 };
 
 /// Widths of texts that change from frame to frame. Const members are thread-safe.

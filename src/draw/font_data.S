@@ -1,10 +1,20 @@
-/* The font file, byte for byte; PIBLOCKS_FONT is set by the build. */
+/* The font files, byte for byte; the build sets their names. In the order of Face. */
         .section .rodata
-        .global piblocks_font_begin
-        .global piblocks_font_end
         .balign 16
-piblocks_font_begin:
-        .incbin PIBLOCKS_FONT
-piblocks_font_end:
+article:
+        .incbin PIBLOCKS_ARTICLE_FONT
+text:
+        .incbin PIBLOCKS_TEXT_FONT
+digits:
+        .incbin PIBLOCKS_DIGITS_FONT
+math:
+        .incbin PIBLOCKS_MATH_FONT
+end:
         .byte 0
+
+        .section .data.rel.ro, "aw"
+        .global piblocks_fonts
+        .balign 8
+piblocks_fonts:
+        .quad article, text, digits, math, end
         .section .note.GNU-stack, "", %progbits

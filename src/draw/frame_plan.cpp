@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "draw/layout.hpp"
@@ -13,19 +14,23 @@ namespace piblocks {
 namespace {
 
 // In ems.
-constexpr double kTitleDescent = 0.24;
-constexpr double kBelowTitle = 0.25;
+constexpr double kLineStep = 1.25;  ///< from one line of a text to the next
+constexpr double kBelowBaseline = 0.25;
+constexpr double kPiStep = 2.0;  ///< from the count's baseline to the digits of pi
 /// Least side of a diagram.
-constexpr double kLeastPanel_em = 8;
-/// A line that has to be smaller than this part of its planned size is too long.
-constexpr double kLeastTitleShrink = 0.5;
+constexpr double kLeastPanel_em = 7;
 /// The width of a diagram that looks best, in parts of its height.
-constexpr double kPanelAspect = 1.3;
-/// Least height for the blocks and all that is not title, caption or logo, in parts of the frame's.
-constexpr double kLeastLeft = 0.25;
-/// Heights of the stage where there are diagrams, in parts of what title, caption and logo leave.
-constexpr double kLeastStage = 0.22;
-constexpr double kMostStage = 0.46;
+constexpr double kPanelAspect = 1.6;
+/// In a smaller frame no text can be read.
+constexpr int kLeastFrame_px = 120;
+constexpr std::size_t kMostLines = 2;  ///< of a title or a caption
+
+// In fractions of the frame's shorter side.
+constexpr double kBelowHeader = 0.02;
+constexpr double kBelowStage = 0.045;
+constexpr double kLeastStage = 0.2;
+/// Height of the stage where there are diagrams: without overlays, and at most.
+constexpr double kPlainStage = 0.24;
 
 /// The grid in which `count` panels come out largest, if possible with no side below `least`.
 std::vector<Rectangle> panel_grid(std::size_t count, const Rectangle& area, double gap,
@@ -74,110 +79,182 @@ std::vector<std::string> names_of_lines(const Scene& scene) {
 /// Places things from the edges of the frame inwards. The stage gets what is left.
 class FramePlanner {
  public:
-  explicit FramePlanner(const DrawingContext& context)
+  FramePlanner(const DrawingContext& context, const std::optional<CounterRoom>& counter)
       : context_(context),
         view_(context.scene.view),
         show_(context.scene.show),
-        measure_(short_measure(view_)),
-        margin_(style::kMargin * measure_),
-        right_(view_.width_px - margin_),
-        bottom_(view_.height_px - margin_) {
-    plan_.stage = whole(view_);
-  }
+        sizes_(context.sizes),
+        counter_(counter),
+        left_(sizes_.margin),
+        right_(view_.width_px - sizes_.margin),
+        bottom_(view_.height_px) {}
 
   FramePlan run(double read_outs_px) {
-    place_title();
+    place_header();
     place_foot();
-    if (show_.panels.empty()) {
-      plan_.stage.height -= read_outs_px;
-      // Else read-outs would stick to the lower edge.
-      const bool are_lowest = !plan_.caption && show_.logo.empty();
-      if (read_outs_px > 0 && are_lowest) plan_.stage.height -= margin_ / 2;
-      check_stage(plan_.stage.height);
-    } else {
-      check_stage(plan_.stage.height - read_outs_px);
-      place_panels(read_outs_px);
-    }
+    const bool has_edge = show_.panels.empty() && bottom_ == view_.height_px;
+    // Else read-outs would stick to the lower edge.
+    if (read_outs_px > 0 && has_edge) bottom_ -= sizes_.margin / 2;
+    double height = bottom_ - top_ - read_outs_px;
+    if (!show_.panels.empty()) height = stage_height(height);
+    if (height < kLeastStage * sizes_.unit) throw_no_room();
+    plan_.stage = {0, top_, double(view_.width_px), height};
+    plan_.read_outs_px = top_ + height;
+    if (!show_.panels.empty()) place_panels(plan_.read_outs_px + read_outs_px);
     return std::move(plan_);
   }
 
  private:
-  /// Centres a line in `room`, and makes it smaller to fit. Its baseline is set later.
-  /// @param key  named in messages
-  void set_line(const char* key, TextItem& line, const Rectangle& room) const {
-    context_.font.check(line.text, key);
-    const double planned_px = line.size_px;
-    if (planned_px < style::kLeastText_px) {
-      const bool is_low = view_.height_px < kNarrow * view_.width_px;
-      throw UsageError(fmt::format(
-          "{}: '{}' would be {:.1f} pixels high in {}x{}, which cannot be read; leave it out, or "
-          "make the frame {}",
-          key, line.text, planned_px, view_.width_px, view_.height_px,
-          is_low ? "higher" : "wider"));
+  /// Breaks a text into lines that fit. @param key  named in messages
+  std::vector<std::string> lines_of(const char* key, const std::string& text, double size_px,
+                                    double room_px) const {
+    std::vector<std::string> lines;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+      const std::string longer = lines.empty() ? word : lines.back() + ' ' + word;
+      const bool fits = context_.font.width_em(longer) * size_px <= room_px;
+      if (!lines.empty() && fits) {
+        lines.back() = longer;
+      } else {
+        lines.push_back(word);
+      }
     }
-    line.size_px = context_.font.fitted_px(line.text, planned_px, room.width);
-    if (line.size_px < std::max(kLeastTitleShrink * planned_px, style::kLeastText_px)) {
-      throw UsageError(
-          fmt::format("{}: '{}' is too long to be read in {:.0f} pixels; shorten it, or "
-                      "make the frame wider",
-                      key, line.text, room.width));
-    }
-    line.origin.x = room.x + (room.width - context_.font.width_em(line.text) * line.size_px) / 2;
+    const bool is_too_wide = std::ranges::any_of(lines, [&](const std::string& line) {
+      return context_.font.width_em(line) * size_px > room_px;
+    });
+    if (lines.size() <= kMostLines && !is_too_wide) return lines;
+    throw UsageError(fmt::format(
+        "{}: '{}' is too long to be read in {:.0f} pixels; shorten it, or make the frame wider",
+        key, text, room_px));
   }
 
-  /// The title is at the top; the stage begins below.
-  void place_title() {
-    double top = 0;
-    if (!show_.title.empty()) {
-      const double size_px = style::kTitle * measure_;
-      const double baseline = std::round(margin_ + Font::kCapHeight_em * size_px);
-      plan_.title = {ItemId::title, {0, baseline}, show_.title, size_px, context_.palette.text};
-      set_line("show.title", *plan_.title, {margin_, 0, right_ - margin_, 0});
-      top = baseline + (kTitleDescent + kBelowTitle) * size_px;
-    } else if (!show_.panels.empty()) {
-      // Else the counter would stick to the upper edge.
-      top = margin_ / 2;
+  void check_text(const char* key, const std::string& text, double size_px) const {
+    context_.font.check(text, key);
+    if (view_.height_px >= kLeastFrame_px && view_.width_px >= kLeastFrame_px) return;
+    throw UsageError(
+        fmt::format("{}: '{}' would be {:.1f} pixels high in {}x{}, which cannot be read; leave it "
+                    "out, or make "
+                    "the frame {}",
+                    key, text, size_px * sizes_.unit / kLeastFrame_px, view_.width_px,
+                    view_.height_px, view_.height_px < view_.width_px ? "higher" : "wider"));
+  }
+
+  void add_line(ItemId id, const std::string& text, double baseline, double size_px) {
+    const Color color = id < ItemId::caption ? context_.palette.text : context_.palette.muted;
+    plan_.lines.push_back(
+        {id, {left_, std::round(baseline)}, text, size_px, color, context_.font.face()});
+  }
+
+  /// The title at the left. The counter at the right, on the same line if there is room.
+  void place_header() {
+    const double room = right_ - left_;
+    const double title_width = context_.font.width_em(show_.title) * sizes_.title;
+    double counter_width = 0;
+    if (counter_) {
+      counter_width = set_count_size(room);
+      if (title_width > 0) counter_width += 2 * sizes_.gap;
     }
-    plan_.stage.y += top;
-    plan_.stage.height -= top;
+    const bool is_beside = title_width > 0 && title_width + counter_width <= room;
+    if (!show_.title.empty()) check_text("show.title", show_.title, sizes_.title);
+    if (!show_.title.empty() && !(counter_ && is_beside)) {
+      double baseline = sizes_.margin + Font::kCapHeight_em * sizes_.title;
+      std::size_t n = 0;
+      for (const std::string& line : lines_of("show.title", show_.title, sizes_.title, room)) {
+        add_line(nth(ItemId::title, n++), line, baseline, sizes_.title);
+        top_ = baseline + kBelowBaseline * sizes_.title;
+        baseline += kLineStep * sizes_.title;
+      }
+    }
+    if (counter_) place_counter(is_beside);
+    if (top_ > 0) {
+      top_ += kBelowHeader * sizes_.unit;
+    } else if (!show_.panels.empty()) {
+      // Else the counter of the stage would stick to the upper edge.
+      top_ = sizes_.margin / 2;
+    }
+  }
+
+  /// @returns the width of label and count
+  double set_count_size(double room_px) {
+    const double largest = sizes_.type(style::kCounter);
+    const double size = std::min(largest, (room_px - counter_->label_px) / counter_->count_em);
+    if (size < style::kLeastType * sizes_.unit) {
+      throw UsageError(fmt::format(
+          "view.theme: the count has too many digits for a frame of {}x{}; use the theme "
+          "'article', or make the frame wider",
+          view_.width_px, view_.height_px));
+    }
+    plan_.counter.size_px = size;
+    return counter_->label_px + counter_->count_em * size;
+  }
+
+  void place_counter(bool is_beside_title) {
+    CounterPlace& place = plan_.counter;
+    place.right_px = right_;
+    const double above = top_ > 0 ? top_ + kBelowHeader * sizes_.unit : sizes_.margin;
+    place.baseline_px = std::round(above + Font::kCapHeight_em * place.size_px);
+    place.pi_baseline_px = std::round(place.baseline_px + kPiStep * sizes_.text);
+    if (is_beside_title) {
+      add_line(ItemId::title, show_.title, place.baseline_px, sizes_.title);
+    }
+    // Blocks that stay left of the digits of pi may be beside them.
+    const double left_of_pi = right_ - counter_->pi_px - sizes_.gap;
+    const bool is_above =
+        counter_->pi_px > 0 && reach_px(context_.scene, context_.log) > left_of_pi;
+    top_ = is_above ? place.pi_baseline_px : place.baseline_px;
+    top_ += kBelowBaseline * sizes_.text;
   }
 
   /// Caption and logo are at the bottom; the stage ends above.
   void place_foot() {
+    const double lower = view_.height_px - sizes_.margin;
     double height = 0;
-    Rectangle room{margin_, 0, right_ - margin_, 0};
+    double room = right_ - left_;
     if (!show_.logo.empty()) {
-      const double logo_width = style::kLogoWidth * measure_;
-      height = style::kLogoHeight * measure_;
-      plan_.logo = {right_ - logo_width, bottom_ - height, logo_width, height};
-      // The other side stays free as well, so that the caption is in the middle.
-      room.x += logo_width + margin_;
-      room.width -= 2 * (logo_width + margin_);
+      const double width = style::kLogoWidth * sizes_.unit;
+      height = style::kLogoHeight * sizes_.unit;
+      plan_.logo = {right_ - width, lower - height, width, height};
+      room -= width + sizes_.gap;
     }
     if (!show_.caption.empty()) {
-      const double size_px = style::kCaption * measure_;
-      height = std::max(height, (Font::kCapHeight_em + kTitleDescent) * size_px);
-      const double baseline = std::round(bottom_ - (height - Font::kCapHeight_em * size_px) / 2);
-      plan_.caption = {
-          ItemId::caption, {0, baseline}, show_.caption, size_px, context_.palette.muted};
-      set_line("show.caption", *plan_.caption, room);
+      const double size_px = sizes_.text;
+      check_text("show.caption", show_.caption, size_px);
+      const auto lines = lines_of("show.caption", show_.caption, size_px, room);
+      const double below = double(lines.size() - 1) * kLineStep * size_px;
+      height = std::max(height, below + Font::kCapHeight_em * size_px);
+      double baseline = lower - below;
+      std::size_t n = 0;
+      for (const std::string& line : lines) {
+        add_line(nth(ItemId::caption, n++), line, baseline, size_px);
+        baseline += kLineStep * size_px;
+      }
     }
-    if (height > 0) plan_.stage.height -= height + margin_;
+    if (height > 0) bottom_ = lower - height - kBelowStage * sizes_.unit;
+  }
+
+  /// Where there are diagrams, the stage is as high as it has to be.
+  /// @param room_px  for both
+  double stage_height(double room_px) const {
+    if (view_.theme == Theme::article) {
+      // At this height the stage is as wide as the frame.
+      const double lengths =
+          to_double(view_.y.high - view_.y.low) / to_double(view_.x.high - view_.x.low);
+      return std::min(view_.width_px * lengths + kPlainStage * sizes_.unit, room_px / 2);
+    }
+    double height = kPlainStage;
+    if (show_.has(Overlay::velocities)) height += kArrowRoom;
+    if (show_.has(Overlay::masses)) height += kMassRoom / 2;
+    if (show_.has(Overlay::ruler)) height += kRulerRoom;
+    return std::min(height * sizes_.unit, room_px / 2);
   }
 
   /// Diagrams are below the stage and its read-outs.
-  void place_panels(double read_outs_px) {
-    const Rectangle area = plan_.stage;
-    // At this height the stage is as wide as the frame.
-    const double lengths =
-        to_double(view_.y.high - view_.y.low) / to_double(view_.x.high - view_.x.low);
-    plan_.stage.height = std::clamp(area.width * lengths + 0.2 * measure_,
-                                    kLeastStage * area.height, kMostStage * area.height);
-    const double top = area.y + plan_.stage.height + read_outs_px + margin_ / 2;
-    const double bottom = area.y + area.height - margin_;
-    const double least = kLeastPanel_em * context_.text_px;
-    plan_.panels = panel_grid(show_.panels.size(), {margin_, top, right_ - margin_, bottom - top},
-                              style::kPanelGap * measure_, least);
+  void place_panels(double top_px) {
+    const double top = top_px + kBelowStage * sizes_.unit;
+    const double bottom = bottom_ == view_.height_px ? bottom_ - sizes_.margin : bottom_;
+    const double least = kLeastPanel_em * sizes_.text;
+    plan_.panels = panel_grid(show_.panels.size(), {left_, top, right_ - left_, bottom - top},
+                              sizes_.gap, least);
     const Rectangle& panel = plan_.panels.front();
     if (std::min(panel.width, panel.height) >= least) return;
     const std::size_t count = show_.panels.size();
@@ -187,8 +264,7 @@ class FramePlanner {
         view_.width_px, view_.height_px, count == 1 ? "" : "leave some out, or "));
   }
 
-  void check_stage(double height_px) const {
-    if (height_px >= kLeastLeft * view_.height_px) return;
+  [[noreturn]] void throw_no_room() const {
     throw UsageError(fmt::format(
         "show: beside {} there is too little room for the blocks in {}x{}; leave something out, or "
         "make the frame higher",
@@ -198,17 +274,20 @@ class FramePlanner {
   const DrawingContext& context_;
   const View& view_;
   const Show& show_;
-  double measure_;
-  double margin_;
+  const Sizes& sizes_;
+  const std::optional<CounterRoom>& counter_;
+  double left_;
   double right_;
-  double bottom_;
+  double top_ = 0;  ///< the stage begins below
+  double bottom_;   ///< and ends above
   FramePlan plan_;
 };
 
 }  // namespace
 
-FramePlan plan_frame(const DrawingContext& context, double read_outs_px) {
-  return FramePlanner(context).run(read_outs_px);
+FramePlan plan_frame(const DrawingContext& context, const std::optional<CounterRoom>& counter,
+                     double read_outs_px) {
+  return FramePlanner(context, counter).run(read_outs_px);
 }
 
 }  // namespace piblocks

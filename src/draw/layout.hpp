@@ -5,41 +5,61 @@
 #include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "draw/composition.hpp"
 #include "draw/font.hpp"
+#include "draw/formula.hpp"
 #include "draw/look.hpp"
 
 namespace piblocks {
 
-/// The stage: the map from scene to pixels, sizes of type and lines. It depends on the area and on
-/// the longest count alone, so that nothing shifts while the counter grows.
-struct Layout {
-  double scale = 1;  ///< pixels per unit of the scene
-  Point origin;      ///< pixel position of the scene's (0, 0)
-  int frame_px = 0;  ///< width of the frame
-  double line_px = 1;
+/// Label and count of the article's picture.
+struct CountLine {
   double text_px = 16;
-  Point label;              ///< baseline of "Collisions: "
-  double label_em = 0;      ///< from there to where the count starts
-  double count_em = 0;      ///< width of the longest count
-  double line_left_px = 0;  ///< label and count begin here or to the right
-  double line_room_px = 0;  ///< and are no longer than this together
-  double above_px = 0;      ///< half of the room between label and view
-  double below_px = 0;      ///< room from the view to the area's end
+  Point label;          ///< baseline of "Collisions: "
+  double label_em = 0;  ///< from there to where the count starts
+  double count_em = 0;  ///< width of the longest count
+  double left_px = 0;   ///< label and count begin here or to the right
+  double room_px = 0;   ///< and are no longer than this together
+};
+
+/// A block as it is drawn. Its width is that of the scene; its height is a matter of the look.
+struct BlockShape {
+  double width = 1;  ///< in units of the scene
+  double height_px = 1;
+};
+
+/// The stage: the map from scene to pixels. It depends on the area and on the longest count alone,
+/// so that nothing shifts while the counter grows.
+struct Layout {
+  double scale = 1;     ///< pixels per unit of the scene
+  Point origin;         ///< pixel position of the scene's (0, 0)
+  int frame_px = 0;     ///< width of the frame
+  double line_px = 1;   ///< of the blocks' outlines
+  double floor_px = 0;  ///< the blocks stand on it
+  BlockShape blue;
+  BlockShape red;
+  double above_px = 0;  ///< room above the taller block
+  double below_px = 0;  ///< room below the floor
+  double foot_px = 0;   ///< lower end of the wall
+  CountLine line = {};  ///< of the article's picture alone
 
   /// Pixel position of a point of the scene.
   Point at(double x, double y) const noexcept {
     return {origin.x + x * scale, origin.y - y * scale};
   }
-  /// The same of a rectangle, from its lower left corner.
-  Rectangle at(double x, double y, double width, double height) const noexcept {
-    return {origin.x + x * scale, origin.y - (y + height) * scale, width * scale, height * scale};
+  /// The same of a block. @param position  of its centre
+  Rectangle at(const BlockShape& block, double position) const noexcept {
+    return {origin.x + (position - block.width / 2) * scale, floor_px - block.height_px,
+            block.width * scale, block.height_px};
   }
+  double top_px() const noexcept { return floor_px - std::max(blue.height_px, red.height_px); }
 };
 
 /// What overlays and panels are drawn from. It does not outlive their making.
@@ -47,34 +67,67 @@ struct DrawingContext {
   const Scene& scene;
   const CollisionLog& log;
   const Palette& palette;
-  const Font& font;
+  const Fonts& fonts;
+  const Font& font;  ///< of plain text
   const Layout& layout;
-  double text_px;  ///< of what is read beside the blocks
-  double line_px;
+  const Sizes& sizes;
   FrameNeeds& needs;  ///< a drawable says here what it reads of a FrameState
+
+  FormulaSetter setter() const { return {fonts, font.face()}; }
+};
+
+/// Where the counter and the digits of pi are. Both end at the right margin.
+struct CounterPlace {
+  double right_px = 0;
+  double baseline_px = 0;
+  double size_px = 0;         ///< of the count's type
+  double pi_baseline_px = 0;  ///< of the line below
 };
 
 struct FramePlan {
-  std::optional<TextItem> title;
-  std::optional<TextItem> caption;
+  std::vector<TextItem> lines;  ///< title and caption
+  CounterPlace counter;
   Rectangle logo;  ///< empty unless asked for
   Rectangle stage;
+  double read_outs_px = 0;  ///< upper end of their rows
   std::vector<Rectangle> panels;
 };
 
-/// @param context       its layout is not read.
-/// @param read_outs_px  height of their rows, which are below the stage
-/// @throws UsageError if a line cannot be set or is too long, or something gets too small.
-FramePlan plan_frame(const DrawingContext& context, double read_outs_px);
+/// What the counter needs room for.
+struct CounterRoom {
+  double count_em = 0;  ///< width of the longest count that is shown
+  double label_px = 0;  ///< width of what is before it
+  double pi_px = 0;     ///< width of the line of digits below it; 0 if there is none
+};
 
-/// @param longest_count  of those that will be shown
-/// @throws UsageError if the view is so close that doubles cannot hold the positions.
-Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
-               const Font& font);
+/// @param context  its layout is not read.
+/// @throws UsageError if a line cannot be set or is too long, or something gets too small.
+/// @param counter       nothing where the stage has it
+/// @param read_outs_px  height of their rows
+FramePlan plan_frame(const DrawingContext& context, const std::optional<CounterRoom>& counter,
+                     double read_outs_px);
+
+/// How far to the right blocks and what is above them come while the film lasts, in pixels.
+double reach_px(const Scene& scene, const CollisionLog& log);
+
+/// The stage in an area of the frame.
+/// @throws UsageError if the view is so close that doubles cannot hold the positions, or the area
+///         is too low for the blocks.
+Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font);
+/// The same of the article's picture. @param longest_count  of those that will be shown
+Layout lay_out_article(const Scene& scene, const Integer& longest_count, const Rectangle& area,
+                       const Font& font);
+
+/// @throws UsageError if positions, which are doubles, would be drawn in wrong places.
+void check_resolution(const View& view, double scale);
 
 /// The blocks while the picture is exposed. @param red, blue  at its instant, without dwells
 ExposedItem exposed_item(ExposedBlock red, ExposedBlock blue, const Layout& layout,
                          std::span<const WeightedExposure> exposures);
+
+/// Adds both blocks as they are at the frame's instant, or exposed.
+void add_blocks(const FrameState& shown, const Layout& layout, const Palette& palette,
+                std::vector<DrawItem>& items);
 
 /// What is the same in every frame.
 inline Drawable unchanging(std::vector<DrawItem> same) {
@@ -82,9 +135,6 @@ inline Drawable unchanging(std::vector<DrawItem> same) {
     items.insert(items.end(), same.begin(), same.end());
   };
 }
-
-/// The height on which both blocks stand, in units of the scene. The larger one's middle is at 0.
-double base_of(const BlockSystem& system);
 
 /// The sum of both blocks' mass · velocity², which never changes.
 Rational twice_energy(const BlockSystem& system);

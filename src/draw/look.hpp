@@ -15,8 +15,9 @@ namespace piblocks {
 struct BlockColors {
   Color fill;
   Color edge;
-  Color text;  ///< of what is written on the block
-  Color line;  ///< of its path in diagrams
+  Color text;   ///< of what is written on the block
+  Color line;   ///< of its path in diagrams, and of marks of its hits
+  Color label;  ///< of text about it on the background
   /// Bars across the block in its edge's colour, half of them near each of the upper and the lower
   /// edge. They tell it from the other block without colours.
   int bars = 0;
@@ -25,14 +26,16 @@ struct BlockColors {
   const char* full_name = name;  ///< where the name alone might be read as a direction
 };
 
+/// On the background, text has a contrast of at least 4.5, a line of 3 and a filled area of 2.
 struct Palette {
   Color background;
-  Color wall;
+  Color wall;  ///< and floor
   BlockColors blue;
   BlockColors red;
   Color text;    ///< of what is read first
   Color muted;   ///< of labels
   Color accent;  ///< of what is lit or marks the present
+  Color done;    ///< of what says that no more collisions come
   Color grid;    ///< of axes and rays: no text
   Color shade;   ///< of filled areas in diagrams: no text
 };
@@ -42,26 +45,48 @@ Palette palette_of(Theme theme);
 /// Nothing if the view is transparent.
 std::optional<Color> background_of(const View& view);
 
-// Fractions of the short measure, see below.
+/// The typeface of plain text.
+inline Face text_face_of(Theme theme) {
+  return theme == Theme::article ? Face::article : Face::text;
+}
+
+/// The color with this share of its alpha.
+inline Color faded(Color color, double share) {
+  color.alpha = static_cast<std::uint8_t>(std::clamp(share, 0.0, 1.0) * color.alpha + 0.5);
+  return color;
+}
+
+// Fractions of the frame's shorter side.
 namespace style {
 
-inline constexpr double kMargin = 0.045;
-inline constexpr double kCardMargin = 0.09;
-inline constexpr double kPanelGap = 0.035;
+inline constexpr double kMargin = 0.06;
+inline constexpr double kGap = 0.04;  ///< between things side by side
 
-// Sizes of type.
-inline constexpr double kCounter = 0.074;
-inline constexpr double kTitle = 0.06;
-inline constexpr double kCaption = 0.036;
-inline constexpr double kSmall = 0.026;  ///< read-outs and diagrams
-inline constexpr double kCardHeading = 0.12;
-inline constexpr double kCardLine = 0.06;
+// Sizes of type. Nothing is smaller than kLeastType: what does not fit is left out or refused.
+inline constexpr double kCounter = 0.15;
+inline constexpr double kTitle = 0.055;
+inline constexpr double kMass = 0.042;
+inline constexpr double kText = 0.036;
+inline constexpr double kLeastType = 0.033;
 
-inline constexpr double kLine = 0.0032;  ///< the unit of line widths
+// Widths of lines.
+inline constexpr double kWallLine = 0.005;  ///< and floor
+inline constexpr double kDataLine = 0.0035;
+inline constexpr double kGridLine = 1.5 / 720;  ///< the thinnest that a projector of 720 rows shows
+
+inline constexpr double kHatch = 0.025;     ///< width of the wall
+inline constexpr double kHitReach = 0.06;   ///< how far the mark of a hit grows
+inline constexpr double kLoupe = 0.36;      ///< its width
+inline constexpr double kLoupeFrom = 0.1;   ///< gaps below this are enlarged
+inline constexpr double kMostHeight = 2.2;  ///< of a block, in heights of the lighter one
 
 // The picture in the corner, at most.
 inline constexpr double kLogoWidth = 0.24;
 inline constexpr double kLogoHeight = 0.09;
+
+inline constexpr double kCardHeading = 0.12;
+inline constexpr double kCardLine = 0.06;
+inline constexpr double kCardMargin = 0.09;
 
 // Of a sheet, in fractions of the page's shorter side.
 inline constexpr double kSheetMargin = 0.05;
@@ -77,19 +102,51 @@ inline constexpr double kLeastText_px = 8;
 
 }  // namespace style
 
+// Of the article's picture, in fractions of its height, or of less where it is narrow.
+namespace article_style {
+
+inline constexpr double kMargin = 0.045;
+inline constexpr double kCounter = 0.074;
+inline constexpr double kLine = 0.0032;
 /// Where the height is less than this fraction of the width, the height counts.
 inline constexpr double kNarrow = 0.75;
-/// What type, lines and margins are fractions of: the area's height, or less where it is narrow.
+
 inline double short_measure(const Rectangle& area) {
   return std::min(area.height, kNarrow * area.width);
 }
+
+}  // namespace article_style
 
 inline Rectangle whole(const View& view) {
   return {0, 0, double(view.width_px), double(view.height_px)};
 }
 
-inline double short_measure(const View& view) { return short_measure(whole(view)); }
+/// Lengths of the look in a frame, in pixels.
+struct Sizes {
+  explicit Sizes(const View& view)
+      : unit(std::min(view.width_px, view.height_px)),
+        margin(style::kMargin * unit),
+        gap(style::kGap * unit),
+        title(type(style::kTitle)),
+        mass(type(style::kMass)),
+        text(type(style::kText)),
+        wall_line(std::max(1.0, style::kWallLine * unit)),
+        data_line(std::max(1.0, style::kDataLine * unit)),
+        grid_line(std::max(1.0, style::kGridLine * unit)) {}
 
-inline double line_width_px(const View& view) { return style::kLine * short_measure(view); }
+  double type(double fraction) const { return std::max(style::kLeastText_px, fraction * unit); }
+
+  double unit;  ///< the frame's shorter side
+  double margin;
+  double gap;
+  // Of the em.
+  double title;
+  double mass;
+  double text;
+  // Widths of lines.
+  double wall_line;
+  double data_line;
+  double grid_line;
+};
 
 }  // namespace piblocks

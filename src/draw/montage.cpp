@@ -105,9 +105,9 @@ CaptionSize caption_size(const std::vector<CaptionedPicture>& pictures, const Fo
 }  // namespace
 
 DrawList compose_card(const std::vector<std::string>& lines, const View& view) {
-  const Font font;
+  const Font font(text_face_of(view.theme));
   const Palette palette = palette_of(view.theme);
-  const double measure = short_measure(view);
+  const double measure = Sizes(view).unit;
   const double inner_px = view.width_px - 2 * style::kCardMargin * measure;
 
   const double heading_px = fitted_px(lines.front(), style::kCardHeading * measure, inner_px, font);
@@ -130,7 +130,7 @@ DrawList compose_card(const std::vector<std::string>& lines, const View& view) {
     const Point origin{(view.width_px - font.width_em(lines[i]) * size_px) / 2,
                        std::round(baseline)};
     list.items.emplace_back(TextItem{nth(ItemId::card, i), origin, lines[i], size_px,
-                                     i == 0 ? palette.text : palette.muted});
+                                     i == 0 ? palette.text : palette.muted, font.face()});
   }
   return list;
 }
@@ -139,7 +139,7 @@ SplitScreen::SplitScreen(const View& view, std::size_t count)
     : empty_{view.width_px, view.height_px, background_of(view), {}} {
   const bool is_wide = view.width_px > view.height_px;
   const auto [breadth, length] = std::minmax({view.width_px, view.height_px});
-  const int line_px = std::max(1, static_cast<int>(std::lround(line_width_px(view))));
+  const int line_px = std::max(1, static_cast<int>(std::lround(Sizes(view).data_line)));
   const int n = static_cast<int>(count);
   const int cell_px = (length - (n - 1) * line_px) / n;
   if (std::min(cell_px, breadth) < kLeastCell_px) {
@@ -150,7 +150,7 @@ SplitScreen::SplitScreen(const View& view, std::size_t count)
     return is_wide ? PixelRect{along, across, along_px, across_px}
                    : PixelRect{across, along, across_px, along_px};
   };
-  const int margin = static_cast<int>(std::lround(style::kMargin * short_measure(view)));
+  const int margin = static_cast<int>(std::lround(Sizes(view).margin));
   for (int i = 0; i < n; ++i) {
     const int at = i * (cell_px + line_px);
     cells_.push_back(place(at, 0, cell_px, breadth));
@@ -171,10 +171,13 @@ DrawList SplitScreen::compose(std::vector<DrawList> pictures) const {
   return list;
 }
 
-DrawList cross_fade(DrawList from, DrawList to, double opacity) {
-  const Rectangle bounds = to_rectangle({0, 0, to.width_px, to.height_px});
-  from.items.emplace_back(group_of(ItemId::fade, bounds, std::move(to), opacity));
-  return from;
+DrawList faded(DrawList picture, double opacity) {
+  DrawList ground{picture.width_px, picture.height_px, picture.background, {}};
+  const Rectangle bounds = to_rectangle({0, 0, picture.width_px, picture.height_px});
+  if (opacity > 0) {
+    ground.items.emplace_back(group_of(ItemId::fade, bounds, std::move(picture), opacity));
+  }
+  return ground;
 }
 
 DrawList arrange(std::vector<CaptionedPicture> pictures, int width_px, int height_px) {

@@ -85,21 +85,20 @@ void Painter::paint_item(cairo_t& cr, const DrawItem& item) {
   if (const auto* plate = std::get_if<PlateItem>(&item)) paint_plate(cr, *plate);
 }
 
-const Font& Painter::font() {
-  if (!font_) font_ = std::make_unique<Font>();
-  return *font_;
-}
-
 void Painter::paint_text(cairo_t& cr, const TextItem& item) {
-  font().select(cr, item.size_px);
   set_color(cr, item.color);
-  if (setting_ == TextSetting::lines) {
-    cairo_move_to(&cr, item.origin.x, item.origin.y);
-    cairo_show_text(&cr, item.text.c_str());
-    return;
-  }
-  for (const cairo_glyph_t& glyph : Font::glyphs(cr, item.origin, item.text)) {
-    cairo_show_glyphs(&cr, &glyph, 1);
+  Point origin = item.origin;
+  for (const auto& [font, text] : font(item.face).runs(item.text)) {
+    font->select(cr, item.size_px);
+    if (setting_ == TextSetting::lines) {
+      cairo_move_to(&cr, origin.x, origin.y);
+      cairo_show_text(&cr, std::string(text).c_str());
+    } else {
+      for (const cairo_glyph_t& glyph : Font::glyphs(cr, origin, text)) {
+        cairo_show_glyphs(&cr, &glyph, 1);
+      }
+    }
+    if (text.size() < item.text.size()) origin.x += font->width_em(text) * item.size_px;
   }
 }
 

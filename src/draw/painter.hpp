@@ -34,7 +34,7 @@ enum class TextSetting {
   glyphs  ///< each glyph by itself, so that its pixels depend on nothing else
 };
 
-/// Keeps the font, pixels of plates and images, and a table of light, once they were needed.
+/// Keeps fonts, pixels of plates and images, and a table of light, once they were needed.
 class Painter {
  public:
   explicit Painter(TextSetting setting) : setting_(setting) {}
@@ -43,7 +43,7 @@ class Painter {
   void paint(cairo_t& cr, const DrawList& list);
   /// The same where only this area of the picture is visible.
   void paint(cairo_t& cr, const DrawList& list, const PixelRect& area);
-  const Font& font();
+  const Font& font(Face face) { return fonts_.of(face); }
 
  private:
   /// Any item but groups and exposed ones.
@@ -62,7 +62,7 @@ class Painter {
                                const std::function<CairoSurfacePtr()>& make);
 
   TextSetting setting_;
-  std::unique_ptr<Font> font_;
+  Fonts fonts_;
   std::unique_ptr<Light> light_;
   std::vector<std::uint32_t> background_;  ///< of exposed blocks; kept for its memory
   struct KeptPixels {

@@ -106,11 +106,12 @@ class Comparison {
   /// Every glyph is painted by itself, so that the common beginning keeps its pixels.
   void compare(const TextItem& before, const TextItem& after) {
     const bool set_alike = before.origin == after.origin && before.size_px == after.size_px &&
-                           before.color == after.color;
+                           before.color == after.color && before.face == after.face;
     const std::size_t common = set_alike ? common_prefix(before.text, after.text) : 0;
-    const double left = common > 0 ? width_em_(std::string_view(after.text).substr(0, common)) : 0;
-    add(extent_of(before, left, width_em_(before.text)));
-    add(extent_of(after, left, width_em_(after.text)));
+    const std::string_view prefix = std::string_view(after.text).substr(0, common);
+    const double left = common > 0 ? width_em_(after.face, prefix) : 0;
+    add(extent_of(before, left, width_em_(before.face, before.text)));
+    add(extent_of(after, left, width_em_(after.face, after.text)));
   }
 
   void compare(const RectangleItem& before, const RectangleItem& after) {

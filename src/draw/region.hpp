@@ -27,7 +27,7 @@ struct Extent {
 inline constexpr double kRounding_px = 1.0 / 64;
 
 /// Width of a line of text, in ems.
-using MeasureText = std::function<double(std::string_view utf8)>;
+using MeasureText = std::function<double(Face face, std::string_view utf8)>;
 
 Extent extent_of(const Rectangle& rectangle);
 Extent extent_of(const ExposedBlock& block);

@@ -16,6 +16,8 @@ struct Name {
 };
 
 constexpr auto kThemes = std::to_array<Name<Theme>>({{"article", Theme::article},
+                                                     {"lecture", Theme::lecture},
+                                                     {"lecture-light", Theme::lecture_light},
                                                      {"chalkboard", Theme::chalkboard},
                                                      {"dark", Theme::dark},
                                                      {"print", Theme::print},

@@ -12,35 +12,69 @@
 namespace piblocks {
 namespace {
 
-// Size of a mass, in parts of the block's side.
-constexpr double kHeight = 0.3;
-constexpr double kWidth = 0.84;
-constexpr double kLeast_px = 4;
+/// A mass takes at most this part of its block's width.
+constexpr double kMostOfBlock = 0.9;
+/// Between a block and the mass above it, in fractions of the frame's shorter side.
+constexpr double kBelowMass = 0.016;
 
-/// The label of a block whose middle is in column 0.
-TextItem mass_label(ItemId id, const Block& block, const BlockColors& colors,
-                    const DrawingContext& context) {
-  const double side_px = to_double(block.width) * context.layout.scale;
-  std::string text = short_text(block.mass);
-  const double width_em = context.font.width_em(text);
-  const double size_px = context.font.fitted_px(text, kHeight * side_px, kWidth * side_px);
-  if (size_px < kLeast_px) {
-    throw UsageError(fmt::format(
-        "show.overlays: the mass '{}' would be {:.1f} pixels high on its block, which cannot be "
-        "read; leave out 'masses', or make the frame or the block larger",
-        text, size_px));
-  }
-  const double middle = base_of(context.scene.system) + to_double(block.width) / 2;
-  const double baseline = context.layout.at(0, middle).y + kHalfFigure_em * size_px;
-  return {id, {-width_em * size_px / 2, baseline}, std::move(text), size_px, colors.text};
+bool fits(const std::string& text, const BlockShape& block, const Layout& layout, double size_px,
+          const Font& font) {
+  return font.width_em(text) * size_px <= kMostOfBlock * block.width * layout.scale &&
+         size_px <= block.height_px;
 }
 
-// In parts of the room above the blocks.
-constexpr double kShaft = 0.3;              // height of the shaft above the block
-constexpr double kVelocityBaseline = 0.54;  // height of the figure's baseline, clear of the head
-constexpr double kVelocitySize = 0.4;
-constexpr double kHead = 0.17;
-constexpr double kLeastArrowRoom_px = 16;
+struct MassTexts {
+  std::string blue;
+  std::string red;
+};
+
+/// With a unit, unless only a number fits on the lighter block.
+MassTexts mass_texts(const Scene& scene, const Layout& layout, const Font& font) {
+  const BlockSystem& system = scene.system;
+  const MassTexts plain{short_text(system.blue.mass), short_text(system.red.mass)};
+  const MassTexts full{plain.blue + " kg", plain.red + " kg"};
+  const bool is_red_lighter = system.red.mass < system.blue.mass;
+  const bool has_room = is_red_lighter
+                            ? fits(full.red, layout.red, layout, Sizes(scene.view).mass, font)
+                            : fits(full.blue, layout.blue, layout, Sizes(scene.view).mass, font);
+  return has_room ? full : plain;
+}
+
+/// The label of a block whose middle is in column 0.
+TextItem mass_label(std::size_t n, std::string text, const Block& block,
+                    const DrawingContext& context) {
+  const BlockSystem& system = context.scene.system;
+  const Layout& layout = context.layout;
+  const bool is_red = &block == &system.red;
+  const BlockColors& colors = is_red ? context.palette.red : context.palette.blue;
+  const BlockShape& shape = is_red ? layout.red : layout.blue;
+  const bool is_taller = shape.height_px > (is_red ? layout.blue : layout.red).height_px;
+  const double size_px = context.sizes.mass;
+  const double left = -context.font.width_em(text) * size_px / 2;
+  const double top = layout.floor_px - shape.height_px;
+  const bool is_inside = fits(text, shape, layout, size_px, context.font);
+  if (!is_inside && !is_taller) {
+    throw UsageError(
+        fmt::format("show.overlays: the mass '{}' does not fit on its block, which is {:.0f} "
+                    "pixels wide; leave "
+                    "out 'masses', make the block wider, or show less of the x axis",
+                    text, shape.width * layout.scale));
+  }
+  const double baseline = is_inside
+                              ? layout.floor_px - shape.height_px / 2 + kHalfFigure_em * size_px
+                              : top - kBelowMass * context.sizes.unit;
+  return {nth(ItemId::masses, n),
+          {left, baseline},
+          std::move(text),
+          size_px,
+          is_inside ? colors.text : colors.label,
+          context.font.face()};
+}
+
+// Heights above the taller block, or the mass above it, in fractions of the frame's shorter side.
+constexpr double kShaft = 0.022;
+constexpr double kVelocityBaseline = 0.052;
+constexpr double kHead = 0.014;
 /// Arrows are shorter than this part of the distance between the centres of touching blocks.
 /// Centred above its block, an arrow never meets the other one.
 constexpr double kLongest = 0.9;
@@ -65,26 +99,31 @@ class VelocityArrows {
   explicit VelocityArrows(const DrawingContext& context)
       : layout_(context.layout),
         palette_(context.palette),
+        font_face_(context.font.face()),
         widths_(context.font, kNumberCharacters),
         usual_speed_(usual_speed(context.scene.system)),
-        line_px_(context.line_px),
-        top_(-base_of(context.scene.system)),
-        room_px_((to_double(context.scene.view.y.high) - top_) * layout_.scale + layout_.above_px),
-        text_px_(std::min(kVelocitySize * room_px_, context.text_px)) {
-    if (room_px_ < kLeastArrowRoom_px) {
-      throw UsageError(fmt::format(
-          "show.overlays: the velocities need {} pixels above the blocks, and there are {:.0f}; "
-          "raise the upper end of view.y, or make the frame larger",
-          kLeastArrowRoom_px, std::max(0.0, room_px_)));
+        line_px_(context.sizes.data_line),
+        unit_(context.sizes.unit),
+        text_px_(context.sizes.text) {
+    const Scene& scene = context.scene;
+    const bool is_over_mass =
+        scene.show.has(Overlay::masses) && has_mass_above(scene, layout_, context.font);
+    const double masses = is_over_mass ? kMassRoom * unit_ : 0;
+    foot_px_ = layout_.top_px() - masses;
+    if (layout_.above_px < kArrowRoom * unit_ + masses) {
+      throw UsageError(
+          fmt::format("show.overlays: the velocities need {:.0f} pixels above the blocks, and "
+                      "there are {:.0f}; "
+                      "raise the upper end of view.y, or make the frame larger",
+                      kArrowRoom * unit_, std::max(0.0, layout_.above_px - masses)));
     }
-    const BlockSystem& system = context.scene.system;
-    longest_px_ = kLongest * to_double(system.blue.width + system.red.width) / 2 * layout_.scale;
-    const double face_px = layout_.at(to_double(system.wall_face), 0).x;
+    longest_px_ = kLongest * (layout_.blue.width + layout_.red.width) / 2 * layout_.scale;
+    const double face_px = layout_.at(to_double(scene.system.wall_face), 0).x;
     const double margin_px = kBetweenFigures_em / 2 * text_px_;
     least_left_px_ = std::max(0.0, face_px) + margin_px;
     most_right_px_ = layout_.frame_px - margin_px;
-    blue_px_ = to_double(system.blue.width) * layout_.scale;
-    red_px_ = to_double(system.red.width) * layout_.scale;
+    blue_px_ = layout_.blue.width * layout_.scale;
+    red_px_ = layout_.red.width * layout_.scale;
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
@@ -97,11 +136,11 @@ class VelocityArrows {
       left = std::max(left, least_left_px_);
     }
     if (red) {
-      add_arrow(0, shown.state.red, palette_.red.fill, items);
+      add_arrow(0, shown.state.red, palette_.red.line, items);
       items.emplace_back(std::move(red->item));
     }
     if (blue) {
-      add_arrow(4, shown.state.blue, palette_.blue.fill, items);
+      add_arrow(4, shown.state.blue, palette_.blue.line, items);
       items.emplace_back(std::move(blue->item));
     }
   }
@@ -109,16 +148,17 @@ class VelocityArrows {
  private:
   /// A block that has left the frame has no figure: half a figure would be another number.
   std::optional<Figure> figure_of(std::size_t n, const Motion& motion, double side_px) const {
-    const Point foot = layout_.at(motion.position, top_);
+    const Point foot{layout_.at(motion.position, 0).x, foot_px_};
     if (foot.x + side_px / 2 <= 0 || foot.x - side_px / 2 >= layout_.frame_px) return std::nullopt;
     std::string text = rounded_text(motion.velocity);
     const double width = widths_.width_em(text) * text_px_;
     const double left = std::min(foot.x - width / 2, most_right_px_ - width);
     return Figure{{nth(ItemId::velocities, n),
-                   {left, foot.y - kVelocityBaseline * room_px_},
+                   {left, foot.y - kVelocityBaseline * unit_},
                    std::move(text),
                    text_px_,
-                   palette_.text},
+                   palette_.text,
+                   font_face_},
                   width};
   }
 
@@ -144,31 +184,31 @@ class VelocityArrows {
 
   void add_arrow(std::size_t n, const Motion& motion, const Color& color,
                  std::vector<DrawItem>& items) const {
-    const Point foot = layout_.at(motion.position, top_);
-    const double y = foot.y - kShaft * room_px_;
-    const double head = kHead * room_px_;
+    const Point foot{layout_.at(motion.position, 0).x, foot_px_};
+    const double y = foot.y - kShaft * unit_;
+    const double head = kHead * unit_;
     const double length = length_px(motion.velocity);
     if (std::abs(length) <= head) return;
     const double tail = foot.x - length / 2;
     const double tip = foot.x + length / 2;
     const double neck = tip - std::copysign(head, length);
-    const Color edge = palette_.text;
     items.emplace_back(PathItem{nth(ItemId::velocities, n),
                                 std::vector<Point>{{tail, y}, {neck, y}}, false, std::nullopt,
-                                Stroke{edge, 2 * line_px_}});
+                                Stroke{color, 1.5 * line_px_}});
     items.emplace_back(PathItem{nth(ItemId::velocities, n + 1),
                                 std::vector<Point>{{tip, y}, {neck, y - head}, {neck, y + head}},
-                                true, color, Stroke{edge, line_px_}});
+                                true, color, std::nullopt});
   }
 
   Layout layout_;
   Palette palette_;
+  Face font_face_;
   TextWidths widths_;
   mpf_class usual_speed_;
   double line_px_;
-  double top_;  ///< of the larger block, in units of the scene
-  double room_px_;
+  double unit_;  ///< the frame's shorter side
   double text_px_;
+  double foot_px_ = 0;  ///< arrows and figures are above it
   double longest_px_ = 0;
   double least_left_px_ = 0;
   double most_right_px_ = 0;
@@ -178,14 +218,25 @@ class VelocityArrows {
 
 }  // namespace
 
+bool has_mass_above(const Scene& scene, const Layout& layout, const Font& font) {
+  const double size_px = Sizes(scene.view).mass;
+  const auto [blue, red] = mass_texts(scene, layout, font);
+  return !fits(red, layout.red, layout, size_px, font) ||
+         !fits(blue, layout.blue, layout, size_px, font);
+}
+
 Drawable mass_labels(const DrawingContext& context) {
   const BlockSystem& system = context.scene.system;
-  const TextItem red = mass_label(nth(ItemId::masses, 0), system.red, context.palette.red, context);
-  const TextItem blue =
-      mass_label(nth(ItemId::masses, 1), system.blue, context.palette.blue, context);
+  const MassTexts texts = mass_texts(context.scene, context.layout, context.font);
+  const TextItem red = mass_label(0, texts.red, system.red, context);
+  const TextItem blue = mass_label(1, texts.blue, system.blue, context);
   return [=, layout = context.layout](const FrameState& shown, std::vector<DrawItem>& items) {
     const auto add = [&](TextItem label, const Motion& motion) {
-      label.origin.x += layout.at(motion.position, 0).x;
+      const double half_px = -label.origin.x;
+      const double middle = layout.at(motion.position, 0).x;
+      // Half a figure would be another number.
+      if (middle - half_px < 0 || middle + half_px > layout.frame_px) return;
+      label.origin.x += middle;
       items.emplace_back(std::move(label));
     };
     add(red, shown.state.red);

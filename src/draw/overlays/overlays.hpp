@@ -10,12 +10,23 @@
 
 namespace piblocks {
 
+// Room for overlays around the blocks, in fractions of the frame's shorter side.
+inline constexpr double kArrowRoom = 0.09;
+inline constexpr double kMassRoom = 0.052;
+inline constexpr double kRulerRoom = 0.07;
+
 /// The article's picture: wall, blocks and counter.
 /// @param lit_digits  light up when the counter shows them in their places; may be empty
-Drawable stage(const DrawingContext& context, std::string lit_digits);
+Drawable article_stage(const DrawingContext& context, std::string lit_digits);
 
-/// Each block's mass on it, as large as fits.
+/// Wall, floor and blocks.
+Drawable stage(const DrawingContext& context);
+
+/// Each block's mass, on it or, if that is too narrow for the heavier one's, above it.
+/// @throws UsageError if the lighter block is too narrow.
 Drawable mass_labels(const DrawingContext& context);
+/// Whether one mass is above its block.
+bool has_mass_above(const Scene& scene, const Layout& layout, const Font& font);
 
 /// Arrows above the blocks, with figures. Velocities of one run differ by the square root of the
 /// mass ratio, so lengths grow less and less with the velocity, up to a longest one.
@@ -28,7 +39,7 @@ Drawable ruler(const DrawingContext& context);
 /// Whether there is a read-out that says "10× slower".
 bool has_slow_motion(const Pacing& pacing);
 
-/// All read-outs in centred rows, from the frame's top on. A Drawable.
+/// All read-outs in rows, from the frame's top on. A Drawable.
 class ReadOutRows {
  public:
   /// @throws UsageError if one is too long to be read.
@@ -50,6 +61,7 @@ class ReadOutRows {
   std::vector<Placed> placed_;
   TextWidths widths_;
   double text_px_;
+  Face face_;
   double height_ = 0;
 };
 

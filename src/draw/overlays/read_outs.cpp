@@ -16,8 +16,8 @@ constexpr int kLeastTimeDecimals = 2;
 constexpr int kMostTimeDecimals = 9;
 // In ems.
 constexpr double kBetweenReadOuts = 2.0;
-constexpr double kRowHeight = 1.6;
-constexpr double kRowBaseline = 1.1;
+constexpr double kRowHeight = 1.5;
+constexpr double kRowBaseline = 1.05;
 
 /// A short text that changes with what is shown.
 struct ReadOut {
@@ -64,18 +64,55 @@ std::string slower_text(const Rational& slower) {
   return fmt::format("{}× slower", short_text(slower));
 }
 
+/// The factors at which slow motion stays, in rising order.
+std::vector<Rational> steady_factors(const Pacing& pacing) {
+  std::vector<Rational> factors = {1};
+  for (const SlowMotion& slow : pacing.slow_motion) factors.push_back(slow.factor);
+  if (pacing.automatic_slow_motion) {
+    for (int factor = 10; factor <= kMaxAutomaticFactor; factor *= 10) factors.emplace_back(factor);
+  }
+  std::ranges::sort(factors);
+  factors.erase(std::ranges::unique(factors).begin(), factors.end());
+  return factors;
+}
+
+/// A whole number of one or two digits and zeros. @param value  > 0
+Rational of_two_digits(const Rational& value) {
+  Rational unit = 1;
+  while (value >= 100 * unit) unit *= 10;
+  return floor(value / unit + Rational(1, 2)) * unit;
+}
+
+/// A factor that is passed while slow motion eases in or out; empty if `most` is less.
+std::string passing_text(const Rational& slower, const Rational& most) {
+  if (slower < 1) {
+    const Rational faster = of_two_digits(1 / slower);
+    return faster <= most ? slower_text(1 / faster) : "";
+  }
+  const Rational rounded = of_two_digits(slower);
+  return rounded <= most ? slower_text(rounded) : "";
+}
+
 ReadOut slower_read_out(const DrawingContext& context) {
-  const Pacing& pacing = context.scene.pacing;
   std::string widest;
-  const auto make_room = [&](const Rational& slower) {
+  std::vector<Rational> steady = steady_factors(context.scene.pacing);
+  for (const Rational& slower : steady) {
     std::string text = slower_text(slower);
     if (context.font.width_em(text) > context.font.width_em(widest)) widest = std::move(text);
+  }
+  // Passing factors take no more room than those that stay.
+  const double room_em = context.font.width_em(widest);
+  Rational most = 0;
+  for (const int passing : {9, 99, 990, 9'900, 99'000, 990'000}) {
+    const double width_em = std::max(context.font.width_em(slower_text(passing)),
+                                     context.font.width_em(slower_text(Rational(1, passing))));
+    if (width_em <= room_em) most = passing;
+  }
+  const auto text = [steady = std::move(steady), most](const FrameState& shown) {
+    const bool is_steady = std::ranges::binary_search(steady, shown.slower);
+    return is_steady ? slower_text(shown.slower) : passing_text(shown.slower, most);
   };
-  for (const SlowMotion& slow : pacing.slow_motion) make_room(slow.factor);
-  if (pacing.automatic_slow_motion) make_room(kMaxAutomaticFactor);
-  return {"slow motion", std::move(widest),
-          [](const FrameState& shown) { return slower_text(shown.slower); },
-          context.palette.accent};
+  return {"slow motion", std::move(widest), text, context.palette.accent};
 }
 
 /// How values up to a largest one are written: with as many decimals as give the largest six
@@ -158,12 +195,12 @@ bool has_slow_motion(const Pacing& pacing) {
   return pacing.automatic_slow_motion || !pacing.slow_motion.empty();
 }
 
-ReadOutRows::ReadOutRows(const DrawingContext& context) : text_px_(context.text_px) {
+ReadOutRows::ReadOutRows(const DrawingContext& context)
+    : text_px_(context.sizes.text), face_(context.font.face()) {
   std::vector<ReadOut> read_outs = read_outs_of(context);
   if (read_outs.empty()) return;
-  const View& view = context.scene.view;
-  const double margin = style::kMargin * short_measure(view);
-  const double room_px = view.width_px - 2 * margin;
+  const double margin = context.sizes.margin;
+  const double room_px = context.scene.view.width_px - 2 * margin;
   std::string characters(kNumberCharacters);
   for (const ReadOut& read_out : read_outs) characters += read_out.widest;
   widths_ = TextWidths(context.font, characters);
@@ -171,8 +208,7 @@ ReadOutRows::ReadOutRows(const DrawingContext& context) : text_px_(context.text_
     return context.font.width_em(read_out.widest);
   };
   const ReadOut& widest = *std::ranges::max_element(read_outs, {}, width_em);
-  text_px_ = context.font.fitted_px(widest.widest, context.text_px, room_px);
-  if (text_px_ < style::kLeastText_px) {
+  if (width_em(widest) * text_px_ > room_px) {
     throw UsageError(
         fmt::format("show.overlays: '{}' cannot be read in {:.0f} pixels; leave it out, or make "
                     "the frame wider",
@@ -189,7 +225,7 @@ ReadOutRows::ReadOutRows(const DrawingContext& context) : text_px_(context.text_
     for (; end < read_outs.size() && width + gap + widths[end] <= room_px; ++end) {
       width += gap + widths[end];
     }
-    double x = margin + (room_px - width) / 2;
+    double x = margin;
     for (; first < end; ++first) {
       ReadOut& read_out = read_outs[first];
       placed_.push_back({std::move(read_out.text),
@@ -219,8 +255,8 @@ void ReadOutRows::operator()(const FrameState& shown, std::vector<DrawItem>& ite
     if (text.size() > placed.room_bytes) {
       shift += std::max(0.0, widths_.width_em(text) * text_px_ - placed.room_px);
     }
-    items.emplace_back(
-        TextItem{nth(ItemId::read_outs, n), origin, std::move(text), text_px_, placed.color});
+    items.emplace_back(TextItem{nth(ItemId::read_outs, n), origin, std::move(text), text_px_,
+                                placed.color, face_});
   }
 }
 

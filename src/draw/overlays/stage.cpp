@@ -4,53 +4,134 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string_view>
 #include <utility>
 
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 namespace {
 
-constexpr std::string_view kLabelText = "Collisions:";
-
-constexpr double kUsualAspect = 16.0 / 9;
-constexpr double kMostBannerText = 2.2;
 /// From this size on, a unit of the scene is rounded to an even number of pixels. That makes edges
-/// that do not move sharp, and the upper and lower edges of blocks of width 1.
-constexpr double kMinRounded_px = 16;
+/// that do not move sharp.
+constexpr double kLeastRounded_px = 16;
 /// Greatest distance of neighbouring doubles on the axis.
 constexpr double kMostStep_px = 0.25;
-// In ems of the label.
-constexpr double kLabelGap = 1.0;  // between the label's baseline and the view
-constexpr double kWordSpace = 0.34;
-/// Sums of the same advances in different order differ by less.
-constexpr double kNegligible_em = 1e-6;
-// In parts of a block's height: from the edge to the first bar, and from bar to bar.
-constexpr double kBarStep = 0.1;
-// In line widths.
-constexpr double kDash = 4;
+/// The heavier block is higher by this for every factor of ten in mass, in heights of the other.
+constexpr double kHeightByMass = 0.25;
+/// In fractions of the frame's shorter side.
+constexpr double kLeastHeight = 0.05;
+constexpr double kHatchStep = 0.02;
+constexpr double kWallAbove = 0.03;  ///< of the taller block
+/// Distance from a block's edge to its first bar, and from bar to bar, in parts of its height.
+constexpr double kBarSpacing = 0.1;
 
-/// Size of type. A banner is low and wide, and its text may take more of its height.
-double text_size(const Rectangle& area) {
-  const double aspect = area.width / area.height;
-  return style::kCounter * short_measure(area) *
-         std::clamp(aspect / kUsualAspect, 1.0, kMostBannerText);
+/// The heavier block's height, in heights of the lighter one.
+double height_ratio(const BlockSystem& system) {
+  const auto [light, heavy] = std::minmax(system.blue.mass, system.red.mass);
+  const Magnitude ratio = magnitude_of(heavy / light);
+  const double logarithm = std::log10(ratio.mantissa) + double(ratio.exponent);
+  return std::min(style::kMostHeight, 1 + kHeightByMass * logarithm);
 }
 
-double length(const Range& range) { return to_double(range.high - range.low); }
-
-/// Length of the expected beginning of the count, with separators; 0 while it has fewer digits.
-std::size_t lit_length(std::string_view count, std::string_view expected) {
-  if (count.size() != expected.size()) return 0;
-  const auto* const end = std::ranges::mismatch(count, expected).in1;
-  auto length = static_cast<std::size_t>(end - count.begin());
-  if (length > 0 && length < count.size() && count[length - 1] == ',') --length;
-  return length;
+bool shows_wall(const Scene& scene) {
+  return scene.view.x.low <= scene.system.wall_face && scene.view.x.high > scene.system.wall_face;
 }
 
-/// Positions are doubles: far from 0 and close up, blocks would be drawn in wrong places.
+/// What is seen of the axis, and where.
+struct Axis {
+  Axis(const Scene& scene, const Rectangle& area)
+      // Nothing is drawn behind the wall's face.
+      : range{std::max(scene.view.x.low, scene.system.wall_face), scene.view.x.high} {
+    const Sizes sizes(scene.view);
+    const bool has_wall = shows_wall(scene);
+    left_px = area.x + (has_wall ? sizes.margin + style::kHatch * sizes.unit : 0);
+    const double right = area.x + area.width - (has_wall ? sizes.margin : 0);
+    scale = (right - left_px) / to_double(range.high - range.low);
+    if (scale < kLeastRounded_px) return;
+    scale = 2 * std::floor(scale / 2);
+    left_px = std::round(left_px);
+  }
+
+  Range range;
+  double left_px = 0;  ///< of its lower end
+  double scale = 1;    ///< pixels per unit
+};
+
+void set_shapes(const BlockSystem& system, Layout& layout) {
+  layout.blue.width = to_double(system.blue.width);
+  layout.red.width = to_double(system.red.width);
+  const bool is_red_heavy = system.red.mass >= system.blue.mass;
+  BlockShape& light = is_red_heavy ? layout.blue : layout.red;
+  BlockShape& heavy = is_red_heavy ? layout.red : layout.blue;
+  light.height_px = light.width * layout.scale;
+  heavy.height_px = light.height_px * height_ratio(system);
+}
+
+/// Makes both blocks lower until the taller one has room.
+void fit_heights(double room_px, Layout& layout) {
+  const double shrink = std::min(1.0, room_px / (layout.floor_px - layout.top_px()));
+  for (BlockShape* block : {&layout.blue, &layout.red}) {
+    block->height_px = std::round(block->height_px * shrink);
+  }
+}
+
+ExposedBlock exposed_block(const Rectangle& bounds, const BlockColors& colors, double line_px) {
+  ExposedBlock block{bounds, colors.fill, Stroke{colors.edge, line_px}, {}, {}};
+  const double height = std::min(2 * line_px, kBarSpacing * bounds.height / 2);
+  for (int bar = 1; bar <= colors.bars; ++bar) {
+    const bool is_upper = 2 * bar <= colors.bars;
+    const double down = kBarSpacing * (is_upper ? bar : bar - colors.bars - 1);
+    const double centre = std::round(bounds.y + bounds.height * (is_upper ? down : 1 + down));
+    block.bars.push_back({centre - height / 2, height});
+  }
+  return block;
+}
+
+/// A plate of what stays. @param around_px  how far lines reach out of the bounds
+PlateItem plate_of(ItemId id, const Rectangle& bounds, std::vector<DrawItem> items) {
+  const double left = std::floor(bounds.x);
+  const double top = std::floor(bounds.y);
+  return {id,
+          {left, top, std::ceil(bounds.x + bounds.width) - left,
+           std::ceil(bounds.y + bounds.height) - top},
+          std::make_shared<const Plate>(Plate{std::move(items)})};
+}
+
+/// The wall's face, and lines of 45 degrees behind it.
+PlateItem wall_of(const Layout& layout, double face_px, double top_px,
+                  const DrawingContext& context) {
+  const Sizes& sizes = context.sizes;
+  const double width = style::kHatch * sizes.unit;
+  const double bottom = layout.floor_px + sizes.wall_line;
+  std::vector<DrawItem> items;
+  const Stroke hatch{context.palette.muted, sizes.grid_line};
+  for (double y = top_px; y < bottom + width; y += kHatchStep * sizes.unit) {
+    // From the face down to the left, cut off at the wall's ends.
+    const double from = std::max(0.0, y - bottom);
+    const double to = std::min(width, y - top_px);
+    if (to <= from) continue;
+    // y is the height at the wall's left end plus its width.
+    items.emplace_back(PathItem{
+        nth(ItemId::wall, items.size()),
+        std::vector<Point>{{face_px - width + to, y - to}, {face_px - width + from, y - from}},
+        false, std::nullopt, hatch});
+  }
+  const Rectangle face{face_px - sizes.wall_line, top_px, sizes.wall_line, bottom - top_px};
+  items.emplace_back(
+      RectangleItem{nth(ItemId::wall, items.size()), face, context.palette.wall, std::nullopt});
+  return plate_of(ItemId::wall, {face_px - width - 1, top_px - 1, width + 2, bottom - top_px + 2},
+                  std::move(items));
+}
+
+}  // namespace
+
+Rational twice_energy(const BlockSystem& system) {
+  return system.blue.mass * system.blue.velocity * system.blue.velocity +
+         system.red.mass * system.red.velocity * system.red.velocity;
+}
+
 void check_resolution(const View& view, double scale) {
   const double farthest =
       std::max(std::abs(to_double(view.x.low)), std::abs(to_double(view.x.high)));
@@ -62,147 +143,87 @@ void check_resolution(const View& view, double scale) {
                   step_px / scale, step_px));
 }
 
-class Stage {
- public:
-  Stage(const DrawingContext& context, std::string lit_digits)
-      : layout_(context.layout),
-        palette_(context.palette),
-        wall_(wall_of(context.scene)),
-        base_(base_of(context.scene.system)),
-        blue_side_(to_double(context.scene.system.blue.width)),
-        red_side_(to_double(context.scene.system.red.width)),
-        lit_digits_(std::move(lit_digits)),
-        base_of_counts_(context.scene.show.base),
-        widths_(context.font, count_characters(base_of_counts_)) {}
-
-  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
-    items.emplace_back(wall_);
-    ExposedBlock red = block(red_side_, shown.state.red, palette_.red);
-    ExposedBlock blue = block(blue_side_, shown.state.blue, palette_.blue);
-    if (shown.exposure.empty()) {
-      add_rectangles(ItemId::red_block, red, items);
-      add_rectangles(ItemId::blue_block, blue, items);
-    } else {
-      items.emplace_back(exposed_item(std::move(red), std::move(blue), layout_, shown.exposure));
-    }
-    add_line(shown.state.count, items);
-  }
-
- private:
-  /// The article's wall is a body of width 1 whose face is where blue turns back.
-  RectangleItem wall_of(const Scene& scene) const {
-    const double face = to_double(scene.system.wall_face);
-    const double bottom = to_double(scene.view.y.low);
-    return {ItemId::wall, layout_.at(face - 1, bottom, 1, length(scene.view.y)), std::nullopt,
-            Stroke{palette_.wall, layout_.line_px, kDash * layout_.line_px}};
-  }
-
-  ExposedBlock block(double side, const Motion& motion, const BlockColors& colors) const {
-    ExposedBlock block{layout_.at(motion.position - side / 2, base_, side, side),
-                       colors.fill,
-                       Stroke{colors.edge, layout_.line_px},
-                       {},
-                       {}};
-    const Rectangle& bounds = block.bounds;
-    const double height = std::min(2 * layout_.line_px, kBarStep * bounds.height / 2);
-    for (int bar = 1; bar <= colors.bars; ++bar) {
-      const bool is_upper = 2 * bar <= colors.bars;
-      const double down = kBarStep * (is_upper ? bar : bar - colors.bars - 1);
-      const double centre = std::round(bounds.y + bounds.height * (is_upper ? down : 1 + down));
-      block.bars.push_back({centre - height / 2, height});
-    }
-    return block;
-  }
-
-  /// Label and count, smaller if an instant outside of the film has a longer count than any in it.
-  void add_line(const Integer& count, std::vector<DrawItem>& items) const {
-    const std::string text = count_text(count, base_of_counts_);
-    const std::size_t lit = lit_length(text, lit_digits_);
-    Point label = layout_.label;
-    double text_px = layout_.text_px;
-    const double count_em = widths_.width_em(text);
-    if (count_em > layout_.count_em + kNegligible_em) {
-      const double line_em = layout_.label_em + count_em;
-      text_px = std::min(text_px, layout_.line_room_px / line_em);
-      label.x = layout_.line_left_px + (layout_.line_room_px - line_em * text_px) / 2;
-    }
-    const Point origin{label.x + layout_.label_em * text_px, label.y};
-    items.emplace_back(
-        TextItem{ItemId::label, label, std::string(kLabelText), text_px, palette_.muted});
-    if (lit > 0) {
-      items.emplace_back(
-          TextItem{ItemId::lit_count, origin, text.substr(0, lit), text_px, palette_.accent});
-    }
-    if (lit < text.size()) {
-      const double lit_px = lit > 0 ? widths_.width_em(text.substr(0, lit)) * text_px : 0;
-      items.emplace_back(TextItem{
-          ItemId::count, {origin.x + lit_px, origin.y}, text.substr(lit), text_px, palette_.text});
-    }
-  }
-
-  Layout layout_;
-  Palette palette_;
-  RectangleItem wall_;
-  double base_;
-  double blue_side_;
-  double red_side_;
-  std::string lit_digits_;
-  int base_of_counts_;
-  TextWidths widths_;
-};
-
-}  // namespace
-
-double base_of(const BlockSystem& system) {
-  return -to_double(std::max(system.blue.width, system.red.width)) / 2;
+double reach_px(const Scene& scene, const CollisionLog& log) {
+  if (!has_span(scene, log)) return scene.view.width_px;
+  const Span span = span_of(scene, log);
+  // Red comes nearer and nearer, and then goes farther and farther away.
+  const double farthest =
+      std::max(log.state_at(span.from).red.position, log.state_at(span.to).red.position);
+  const Axis axis(scene, whole(scene.view));
+  const double right = farthest + to_double(scene.system.red.width) / 2;
+  return axis.left_px + (right - to_double(axis.range.low)) * axis.scale;
 }
 
-Rational twice_energy(const BlockSystem& system) {
-  return system.blue.mass * system.blue.velocity * system.blue.velocity +
-         system.red.mass * system.red.velocity * system.red.velocity;
-}
-
-Layout lay_out(const Scene& scene, const Integer& longest_count, const Rectangle& area,
-               const Font& font) {
-  const View& view = scene.view;
-  const double margin = style::kMargin * short_measure(area);
-  const double inner_width = area.width - 2 * margin;
-
-  const double label_em = font.width_em(kLabelText) + kWordSpace;
-  const double line_em = label_em + count_width_em(longest_count, scene.show.base, font);
-
+Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font) {
+  const Sizes sizes(scene.view);
+  const Axis axis(scene, area);
   Layout layout;
-  layout.frame_px = view.width_px;
-  layout.line_px = std::max(1.0, std::round(line_width_px(view)));
-  layout.text_px = std::min(text_size(area), inner_width / line_em);
+  layout.frame_px = scene.view.width_px;
+  layout.line_px = std::max(1.0, std::round(sizes.data_line));
+  layout.scale = axis.scale;
+  check_resolution(scene.view, layout.scale);
 
-  // Label and view form one group, centred in the area.
-  const double label_height = (Font::kCapHeight_em + kLabelGap) * layout.text_px;
-  const double inner_height = area.height - 2 * margin - label_height;
-  layout.scale = std::min(inner_width / length(view.x), inner_height / length(view.y));
-  const bool rounded = layout.scale >= kMinRounded_px;
-  const auto to_pixel = [&](double px) { return rounded ? std::round(px) : px; };
-  if (rounded) layout.scale = 2 * std::floor(layout.scale / 2);
-  check_resolution(view, layout.scale);
-  const double view_width = layout.scale * length(view.x);
-  const double view_height = layout.scale * length(view.y);
-  const double top = area.y + (area.height - view_height - label_height) / 2;
-  layout.origin = {
-      to_pixel(area.x + (area.width - view_width) / 2 - to_double(view.x.low) * layout.scale),
-      to_pixel(top + label_height + to_double(view.y.high) * layout.scale)};
-  layout.label = {area.x + (area.width - line_em * layout.text_px) / 2,
-                  to_pixel(top + Font::kCapHeight_em * layout.text_px)};
-  layout.label_em = label_em;
-  layout.count_em = line_em - label_em;
-  layout.line_left_px = area.x + margin;
-  layout.line_room_px = inner_width;
-  layout.above_px = kLabelGap * layout.text_px / 2;
-  layout.below_px = area.y + area.height - (top + label_height + view_height);
+  const Show& show = scene.show;
+  set_shapes(scene.system, layout);
+  const bool has_label = show.has(Overlay::masses) && has_mass_above(scene, layout, font);
+  const double above =
+      (show.has(Overlay::velocities) ? kArrowRoom : 0) + (has_label ? kMassRoom : 0);
+  const double below = sizes.wall_line + (show.has(Overlay::ruler) ? kRulerRoom * sizes.unit : 0);
+  const double room = area.height - below - std::max(kWallAbove, above) * sizes.unit;
+  if (room < kLeastHeight * sizes.unit) {
+    throw UsageError(fmt::format(
+        "show: the blocks would be {:.0f} pixels high in {}x{}; leave something out, or make the "
+        "frame larger",
+        std::max(0.0, room), scene.view.width_px, scene.view.height_px));
+  }
+  fit_heights(room, layout);
+  const double height = std::max(layout.blue.height_px, layout.red.height_px);
+  // What is left over is above and below in equal parts.
+  layout.floor_px = std::round(area.y + area.height - below - (room - height) / 2);
+  layout.origin = {axis.left_px - to_double(axis.range.low) * layout.scale, layout.floor_px};
+  layout.above_px = layout.top_px() - area.y;
+  layout.below_px = area.y + area.height - layout.floor_px;
+  layout.foot_px = layout.floor_px + sizes.wall_line;
   return layout;
 }
 
-Drawable stage(const DrawingContext& context, std::string lit_digits) {
-  return Stage(context, std::move(lit_digits));
+void add_blocks(const FrameState& shown, const Layout& layout, const Palette& palette,
+                std::vector<DrawItem>& items) {
+  ExposedBlock red =
+      exposed_block(layout.at(layout.red, shown.state.red.position), palette.red, layout.line_px);
+  ExposedBlock blue = exposed_block(layout.at(layout.blue, shown.state.blue.position), palette.blue,
+                                    layout.line_px);
+  if (shown.exposure.empty()) {
+    add_rectangles(ItemId::red_block, red, items);
+    add_rectangles(ItemId::blue_block, blue, items);
+  } else {
+    items.emplace_back(exposed_item(std::move(red), std::move(blue), layout, shown.exposure));
+  }
+}
+
+Drawable stage(const DrawingContext& context) {
+  const Scene& scene = context.scene;
+  const Layout& layout = context.layout;
+  const Sizes& sizes = context.sizes;
+  const double top = layout.top_px() - kWallAbove * sizes.unit;
+  std::vector<DrawItem> stays;
+  double floor_left = 0;
+  if (shows_wall(scene)) {
+    const double face = layout.at(to_double(scene.system.wall_face), 0).x;
+    stays.emplace_back(wall_of(layout, face, top, context));
+    floor_left = face - sizes.wall_line;
+  }
+  const double floor_right = scene.view.width_px - sizes.margin;
+  stays.emplace_back(
+      RectangleItem{nth(ItemId::wall, 1),
+                    {floor_left, layout.floor_px, floor_right - floor_left, sizes.wall_line},
+                    context.palette.wall,
+                    std::nullopt});
+  return [stays, layout, palette = context.palette](const FrameState& shown,
+                                                    std::vector<DrawItem>& items) {
+    items.insert(items.end(), stays.begin(), stays.end());
+    add_blocks(shown, layout, palette, items);
+  };
 }
 
 }  // namespace piblocks

@@ -12,11 +12,10 @@ namespace piblocks {
 namespace {
 
 // In ems.
-constexpr double kTitleHeight = 1.9;
-constexpr double kTitleBaseline = 1.0;
+constexpr double kTitleHeight = 1.5;
+constexpr double kTitleBaseline = 0.73;
 constexpr double kAround = 0.5;
-/// If the full title had to be smaller than this part of the other text, the brief one is set.
-constexpr double kLeastPanelShrink = 0.8;
+
 Rectangle whole_pixels(const Rectangle& area, double around) {
   const double left = std::floor(area.x - around);
   const double top = std::floor(area.y - around);
@@ -44,20 +43,16 @@ std::vector<Point> Circle::arc(double from, double to) const {
 
 Diagram::Diagram(const DrawingContext& context, const PanelPlace& place, const PanelTitle& title)
     : palette_(context.palette),
+      fonts_(&context.fonts),
       font_(&context.font),
       first_id_(place.first_id),
       panel_(place.panel),
-      text_px_(context.text_px),
-      line_px_(context.line_px) {
+      sizes_(context.sizes),
+      text_px_(context.sizes.text) {
   const Rectangle& whole = place.area;
-  const double full_px = font_->fitted_px(title.full, text_px_, whole.width);
-  const bool is_full = full_px >= std::max(style::kLeastText_px, kLeastPanelShrink * text_px_);
-  items_.emplace_back(
-      TextItem{next_id(),
-               {whole.x, whole.y + kTitleBaseline * text_px_},
-               is_full ? title.full : title.brief,
-               is_full ? full_px : font_->fitted_px(title.brief, text_px_, whole.width),
-               palette_.muted});
+  const bool is_full = title.full.width_em() * text_px_ <= whole.width;
+  formula(is_full ? title.full : title.brief, {whole.x, whole.y + kTitleBaseline * text_px_}, 0,
+          palette_.text);
   const double top = kTitleHeight * text_px_;
   inside_ = {whole.x, whole.y + top, whole.width, whole.height - top};
   // Lines along its border are wider than the area.
@@ -72,12 +67,19 @@ void Diagram::finish() {
         exact_text(panel_)));
   }
   item_.plate = std::make_shared<const Plate>(Plate{std::move(items_)});
+  fonts_ = nullptr;
   font_ = nullptr;
 }
 
 void Diagram::text(const std::string& text, const Point& at, double anchor, const Color& color) {
   const double width = font_->width_em(text) * text_px_;
-  items_.emplace_back(TextItem{next_id(), {at.x - anchor * width, at.y}, text, text_px_, color});
+  items_.emplace_back(
+      TextItem{next_id(), {at.x - anchor * width, at.y}, text, text_px_, color, font_->face()});
+}
+
+void Diagram::formula(const Formula& formula, const Point& at, double anchor, const Color& color) {
+  const double left = at.x - anchor * formula.width_em() * text_px_;
+  formula.add_to(items_, next_id(), {left, at.y}, text_px_, color);
 }
 
 TimeAxis::TimeAxis(const DrawingContext& context, const Diagram& diagram, double indent_em)

@@ -31,10 +31,10 @@ Drawable time_panel(const DrawingContext& context, const PanelPlace& place);
 /// Collisions per second against time.
 Drawable rate_panel(const DrawingContext& context, const PanelPlace& place);
 
-/// The brief one is for panels too narrow for the full one.
+/// A sentence that says what to see. The brief one is for panels too narrow for the full one.
 struct PanelTitle {
-  std::string full;
-  std::string brief;
+  Formula full;
+  Formula brief;
 };
 
 struct Circle {
@@ -58,10 +58,13 @@ class Diagram {
   const Rectangle& inside() const noexcept { return inside_; }
   double text_px() const noexcept { return text_px_; }
   const Palette& palette() const noexcept { return palette_; }
+  const Sizes& sizes() const noexcept { return sizes_; }
+  /// For formulas. Until finish().
+  FormulaSetter setter() const { return {*fonts_, font_->face()}; }
 
-  // Add something that stays. Widths and dashes are in line widths.
+  // Add something that stays. Widths and dashes are in widths of the grid's lines.
   void line(std::vector<Point> points, const Color& color, double width = 1, double dash = 0) {
-    const Stroke stroke{color, width * line_px_, dash * line_px_};
+    const Stroke stroke{color, width * sizes_.grid_line, dash * sizes_.grid_line};
     items_.emplace_back(PathItem{next_id(), std::move(points), false, std::nullopt, stroke});
   }
   void shape(std::vector<Point> outline, const std::optional<Color>& fill,
@@ -70,12 +73,14 @@ class Diagram {
   }
   /// @param anchor  the part of the text's width that is left of `at`: 0, 0.5 or 1
   void text(const std::string& text, const Point& at, double anchor, const Color& color);
+  void formula(const Formula& formula, const Point& at, double anchor, const Color& color);
 
   // The n-th of the things that move, which are above all that stays.
   ItemId moving(std::size_t n) const { return nth(first_id_, kMoving + n); }
   PathItem moving_line(std::size_t n, std::vector<Point> points, const Color& color,
                        double width = 1) const {
-    return {moving(n), std::move(points), false, std::nullopt, Stroke{color, width * line_px_}};
+    return {moving(n), std::move(points), false, std::nullopt,
+            Stroke{color, width * sizes_.grid_line}};
   }
   PathItem moving_shape(std::size_t n, std::vector<Point> outline, const Color& fill,
                         const std::optional<Color>& line = std::nullopt) const {
@@ -83,7 +88,8 @@ class Diagram {
   }
   /// Marks the present.
   DiskItem dot(std::size_t n, const Point& at, const Color& color) const {
-    return {moving(n), at, kDotRadius * line_px_, color, Stroke{palette_.background, line_px_}};
+    return {moving(n), at, kDotRadius * sizes_.grid_line, color,
+            Stroke{palette_.background, sizes_.grid_line}};
   }
 
   /// All that stays as one item; nothing can be added to it any more.
@@ -98,17 +104,19 @@ class Diagram {
   PathItem shape_item(ItemId id, std::vector<Point> outline, const std::optional<Color>& fill,
                       const std::optional<Color>& line) const {
     PathItem item{id, std::move(outline), true, fill, std::nullopt};
-    if (line) item.stroke = Stroke{*line, line_px_};
+    if (line) item.stroke = Stroke{*line, sizes_.grid_line};
     return item;
   }
   ItemId next_id() const { return nth(first_id_, items_.size()); }
 
   Palette palette_;
-  const Font* font_;  ///< of the context, which ends with finish()
+  // Of the context, which ends with finish().
+  const Fonts* fonts_;
+  const Font* font_;
   ItemId first_id_;
   Panel panel_;
+  Sizes sizes_;
   double text_px_;
-  double line_px_;
   Rectangle inside_;
   std::vector<DrawItem> items_;
   PlateItem item_;

@@ -57,7 +57,8 @@ Drawable position_panel(const DrawingContext& context, const PanelPlace& place) 
   const GapWedge wedge(context.scene.system);
   const bool is_true = std::min(wedge.theta, std::numbers::pi / 2 - wedge.theta) >= kLeastAngle;
   Diagram diagram(context, place,
-                  {is_true ? "Positions √m·x" : "Positions (not to scale)", "Positions"});
+                  {context.setter().text(is_true ? "Positions √m·x" : "Positions (not to scale)"),
+                   context.setter().text("Positions")});
   const Color muted = diagram.palette().muted;
   const double em = diagram.text_px();
   const int columns = std::max(1, static_cast<int>(diagram.inside().width));

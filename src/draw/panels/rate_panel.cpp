@@ -95,8 +95,9 @@ void add_powers(const Rates& rates, const TimeAxis& axis, Diagram& diagram) {
 Drawable rate_panel(const DrawingContext& context, const PanelPlace& place) {
   const Rates rates(context.log, span_of(context.scene, context.log));
   Diagram diagram(context, place,
-                  {fmt::format("Collisions per unit of time, in bins of {}", short_text(rates.bin)),
-                   "Collision rate"});
+                  {context.setter().text(fmt::format("Collisions per unit of time, in bins of {}",
+                                                     short_text(rates.bin))),
+                   context.setter().text("Collision rate")});
   const TimeAxis axis(context, diagram, indent_em(rates, context.font));
   add_bars(rates, axis, diagram);
   axis.add_base(diagram);

@@ -41,7 +41,9 @@ void add_red(const std::vector<TrajectoryPiece>& pieces, const ToPlace& at, Diag
 }  // namespace
 
 Drawable time_panel(const DrawingContext& context, const PanelPlace& place) {
-  Diagram diagram(context, place, {"Distance from the wall", "Distances"});
+  Diagram diagram(
+      context, place,
+      {context.setter().text("Distance from the wall"), context.setter().text("Distances")});
   const GapWedge wedge(context.scene.system);
   const TimeAxis axis(context, diagram, 0);
   const int columns = std::max(1, static_cast<int>(std::ceil(axis.plot().width)));

@@ -32,7 +32,9 @@ class UnfoldedPanel {
  public:
   UnfoldedPanel(const DrawingContext& context, const PanelPlace& place)
       : wedge_(context.scene.system),
-        diagram_(context, place, {"Unfolded: a straight line", "Unfolded"}) {
+        diagram_(context, place,
+                 {context.setter().text("Unfolded: a straight line"),
+                  context.setter().text("Unfolded")}) {
     const BlockSystem& system = context.scene.system;
     start_ = {wedge_.cosine * to_double(system.blue_gap() + system.blocks_gap()),
               wedge_.sine * to_double(system.blue_gap())};

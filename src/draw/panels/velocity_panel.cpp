@@ -13,10 +13,11 @@ constexpr double kMargin_em = 0.8;
 /// Lines between sectors begin where they are this far apart.
 constexpr double kLeastApart_px = 4;
 
-PanelTitle title_of(const Palette& palette) {
-  return {
-      fmt::format("Velocities √m·v ({} →, {} ↑)", palette.red.full_name, palette.blue.full_name),
-      "Velocities √m·v"};
+PanelTitle title_of(const DrawingContext& context) {
+  const FormulaSetter set = context.setter();
+  return {set.text(fmt::format("Velocities √m·v ({} →, {} ↑)", context.palette.red.full_name,
+                               context.palette.blue.full_name)),
+          set.text("Velocities √m·v")};
 }
 
 /// The velocities are a point on a circle. A collision of the blocks moves it by two wedge angles
@@ -24,7 +25,7 @@ PanelTitle title_of(const Palette& palette) {
 class VelocityPanel {
  public:
   VelocityPanel(const DrawingContext& context, const PanelPlace& place)
-      : diagram_(context, place, title_of(context.palette)), wedge_(context.scene.system) {
+      : diagram_(context, place, title_of(context)), wedge_(context.scene.system) {
     const BlockSystem& system = context.scene.system;
     const Rational energy = twice_energy(system);
     if (energy > 0) {

@@ -1,0 +1,162 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "draw/number_text.hpp"
+#include "draw/overlays/counter.hpp"
+#include "draw/overlays/overlays.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr std::string_view kLabelText = "Collisions:";
+
+constexpr double kUsualAspect = 16.0 / 9;
+constexpr double kMostBannerText = 2.2;
+/// From this size on, a unit of the scene is rounded to an even number of pixels. That makes edges
+/// that do not move sharp, and the upper and lower edges of blocks of width 1.
+constexpr double kMinRounded_px = 16;
+// In ems of the label.
+constexpr double kLabelGap = 1.0;  // between the label's baseline and the view
+constexpr double kWordSpace = 0.34;
+/// Sums of the same advances in different order differ by less.
+constexpr double kNegligible_em = 1e-6;
+// In line widths.
+constexpr double kDash = 4;
+
+/// Size of type. A banner is low and wide, and its text may take more of its height.
+double text_size(const Rectangle& area) {
+  const double aspect = area.width / area.height;
+  return article_style::kCounter * article_style::short_measure(area) *
+         std::clamp(aspect / kUsualAspect, 1.0, kMostBannerText);
+}
+
+double length(const Range& range) { return to_double(range.high - range.low); }
+
+class ArticleStage {
+ public:
+  ArticleStage(const DrawingContext& context, std::string lit_digits)
+      : layout_(context.layout),
+        palette_(context.palette),
+        wall_(wall_of(context.scene)),
+        lit_digits_(std::move(lit_digits)),
+        base_(context.scene.show.base),
+        widths_(context.font, count_characters(base_)) {}
+
+  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
+    items.emplace_back(wall_);
+    add_blocks(shown, layout_, palette_, items);
+    add_line(shown.state.count, items);
+  }
+
+ private:
+  /// The article's wall is a body of width 1 whose face is where blue turns back.
+  RectangleItem wall_of(const Scene& scene) const {
+    const double face = to_double(scene.system.wall_face);
+    const double bottom = to_double(scene.view.y.low);
+    const double height = length(scene.view.y);
+    const Point corner = layout_.at(face - 1, bottom + height);
+    return {ItemId::wall,
+            {corner.x, corner.y, layout_.scale, height * layout_.scale},
+            std::nullopt,
+            Stroke{palette_.wall, layout_.line_px, kDash * layout_.line_px}};
+  }
+
+  /// Label and count, smaller if an instant outside of the film has a longer count than any in it.
+  void add_line(const Integer& count, std::vector<DrawItem>& items) const {
+    const std::string text = count_text(count, base_);
+    const std::size_t lit = lit_length(text, lit_digits_);
+    const CountLine& line = layout_.line;
+    Point label = line.label;
+    double text_px = line.text_px;
+    const double count_em = widths_.width_em(text);
+    if (count_em > line.count_em + kNegligible_em) {
+      const double line_em = line.label_em + count_em;
+      text_px = std::min(text_px, line.room_px / line_em);
+      label.x = line.left_px + (line.room_px - line_em * text_px) / 2;
+    }
+    const Point origin{label.x + line.label_em * text_px, label.y};
+    items.emplace_back(
+        TextItem{ItemId::label, label, std::string(kLabelText), text_px, palette_.muted});
+    if (lit > 0) {
+      items.emplace_back(
+          TextItem{ItemId::lit_count, origin, text.substr(0, lit), text_px, palette_.accent});
+    }
+    if (lit < text.size()) {
+      const double lit_px = lit > 0 ? widths_.width_em(text.substr(0, lit)) * text_px : 0;
+      items.emplace_back(TextItem{
+          ItemId::count, {origin.x + lit_px, origin.y}, text.substr(lit), text_px, palette_.text});
+    }
+  }
+
+  Layout layout_;
+  Palette palette_;
+  RectangleItem wall_;
+  std::string lit_digits_;
+  int base_;  ///< of counts
+  TextWidths widths_;
+};
+
+}  // namespace
+
+Layout lay_out_article(const Scene& scene, const Integer& longest_count, const Rectangle& area,
+                       const Font& font) {
+  const View& view = scene.view;
+  const double margin = article_style::kMargin * article_style::short_measure(area);
+  const double inner_width = area.width - 2 * margin;
+  const double label_em = font.width_em(kLabelText) + kWordSpace;
+  const double line_em = label_em + count_width_em(longest_count, scene.show.base, font);
+
+  Layout layout;
+  CountLine& line = layout.line;
+  layout.frame_px = view.width_px;
+  layout.line_px =
+      std::max(1.0, std::round(article_style::kLine * article_style::short_measure(whole(view))));
+  line.text_px = std::min(text_size(area), inner_width / line_em);
+
+  // Label and view form one group, centred in the area.
+  const double label_height = (Font::kCapHeight_em + kLabelGap) * line.text_px;
+  const double inner_height = area.height - 2 * margin - label_height;
+  layout.scale = std::min(inner_width / length(view.x), inner_height / length(view.y));
+  const bool rounded = layout.scale >= kMinRounded_px;
+  const auto to_pixel = [&](double px) { return rounded ? std::round(px) : px; };
+  if (rounded) layout.scale = 2 * std::floor(layout.scale / 2);
+  check_resolution(view, layout.scale);
+  const double view_width = layout.scale * length(view.x);
+  const double view_height = layout.scale * length(view.y);
+  const double top = area.y + (area.height - view_height - label_height) / 2;
+  layout.origin = {
+      to_pixel(area.x + (area.width - view_width) / 2 - to_double(view.x.low) * layout.scale),
+      to_pixel(top + label_height + to_double(view.y.high) * layout.scale)};
+  line.label = {area.x + (area.width - line_em * line.text_px) / 2,
+                to_pixel(top + Font::kCapHeight_em * line.text_px)};
+  line.label_em = label_em;
+  line.count_em = line_em - label_em;
+  line.left_px = area.x + margin;
+  line.room_px = inner_width;
+
+  // The larger block's middle is at 0, and its sides are equal.
+  const auto shape_of = [&](const Block& block) -> BlockShape {
+    const double side = to_double(block.width);
+    return {side, side * layout.scale};
+  };
+  layout.blue = shape_of(scene.system.blue);
+  layout.red = shape_of(scene.system.red);
+  const double half = std::max(layout.blue.width, layout.red.width) / 2;
+  layout.floor_px = layout.at(0, -half).y;
+  layout.foot_px = layout.at(0, to_double(view.y.low)).y;
+  layout.above_px = (to_double(view.y.high) - half) * layout.scale + kLabelGap * line.text_px / 2;
+  layout.below_px = area.y + area.height - layout.floor_px;
+  return layout;
+}
+
+Drawable article_stage(const DrawingContext& context, std::string lit_digits) {
+  return ArticleStage(context, std::move(lit_digits));
+}
+
+}  // namespace piblocks

@@ -1,0 +1,194 @@
+#include "draw/overlays/counter.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "draw/number_text.hpp"
+#include "scene/schedule.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr std::string_view kCountLabel = "collisions";
+constexpr std::string_view kOverLabel = "no more collisions";
+constexpr std::string_view kPiLabel = "π = ";
+/// Digits of pi that are shown beyond those that the film counts, at most.
+constexpr std::size_t kMoreDigits = 4;
+/// Between label and count, in ems of the label.
+constexpr double kLabelGap_em = 0.5;
+
+/// Whether a system is one that counts the digits of pi in this base: blue at rest, off the wall,
+/// mass ratio a power of the base's square.
+bool counts_pi(const BlockSystem& system, int base) {
+  const Rational ratio = system.red.mass / system.blue.mass;
+  if (system.blue.velocity != 0 || system.red.velocity >= 0 || system.blue_gap() <= 0) return false;
+  Integer rest;
+  mpz_remove(rest.get_mpz_t(), ratio.get_num_mpz_t(), Integer(base * base).get_mpz_t());
+  return ratio.get_den() == 1 && rest == 1;
+}
+
+std::size_t digits_in(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return c != ',' && c != '.'; }));
+}
+
+/// Length of the beginning of a number that has so many digits.
+std::size_t length_with(std::size_t digits, std::string_view text) {
+  std::size_t length = 0;
+  while (digits > 0 && length < text.size()) {
+    if (text[length] != '.') --digits;
+    ++length;
+  }
+  return length;
+}
+
+/// The digits of pi with those that follow, as far as there is room; empty if there is none.
+std::string pi_line(const DrawingContext& context, std::size_t counted) {
+  const Sizes& sizes = context.sizes;
+  const double room_px = context.scene.view.width_px - 2 * sizes.margin;
+  for (std::size_t more = kMoreDigits;; --more) {
+    std::string digits = pi_digits(context.scene.show.base, counted + more);
+    const std::string line = std::string(kPiLabel) + digits + "…";
+    if (context.font.width_em(line) * sizes.text <= room_px) return digits;
+    if (more == 0) return {};
+  }
+}
+
+class Counter {
+ public:
+  Counter(const DrawingContext& context, const CounterPlace& place, std::string pi_count)
+      : place_(place),
+        sizes_(context.sizes),
+        palette_(context.palette),
+        face_(context.font.face()),
+        base_(context.scene.show.base),
+        last_(context.log.size()),
+        pi_count_(std::move(pi_count)),
+        pi_(pi_count_.empty() ? "" : pi_line(context, digits_in(pi_count_))),
+        count_widths_(context.fonts.of(Face::digits), count_characters(base_)),
+        pi_widths_(context.font, std::string(kPiLabel) + "…" + pi_),
+        label_px_(context.font.width_em(kCountLabel) * sizes_.text),
+        over_px_(context.font.width_em(kOverLabel) * sizes_.text) {}
+
+  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
+    const Integer& count = shown.state.count;
+    const bool is_over = count >= last_;
+    const std::string text = count_text(count, base_);
+    const double left = place_.right_px - count_widths_.width_em(text) * place_.size_px;
+    const double label_right = left - kLabelGap_em * sizes_.text;
+    items.emplace_back(
+        TextItem{ItemId::label,
+                 {label_right - (is_over ? over_px_ : label_px_), place_.baseline_px},
+                 std::string(is_over ? kOverLabel : kCountLabel),
+                 sizes_.text,
+                 is_over ? palette_.done : palette_.muted,
+                 face_});
+    items.emplace_back(TextItem{ItemId::count,
+                                {left, place_.baseline_px},
+                                text,
+                                place_.size_px,
+                                is_over ? palette_.accent : palette_.text,
+                                Face::digits});
+    if (!pi_.empty()) add_pi(lit_length(text, pi_count_), items);
+  }
+
+ private:
+  /// @param lit  length of the count's beginning that is right
+  void add_pi(std::size_t lit, std::vector<DrawItem>& items) const {
+    const std::size_t length = length_with(digits_in(pi_count_.substr(0, lit)), pi_);
+    double right = place_.right_px;
+    const auto add = [&](std::size_t n, std::string text, const Color& color) {
+      if (text.empty()) return;
+      right -= pi_widths_.width_em(text) * sizes_.text;
+      items.emplace_back(TextItem{nth(ItemId::pi, n),
+                                  {right, place_.pi_baseline_px},
+                                  std::move(text),
+                                  sizes_.text,
+                                  color,
+                                  face_});
+    };
+    // From the right to the left.
+    add(0, pi_.substr(length) + "…", palette_.muted);
+    add(1, pi_.substr(0, length), palette_.accent);
+    add(2, std::string(kPiLabel), palette_.text);
+  }
+
+  CounterPlace place_;
+  Sizes sizes_;
+  Palette palette_;
+  Face face_;
+  int base_;
+  Integer last_;
+  std::string pi_count_;
+  std::string pi_;
+  TextWidths count_widths_;
+  TextWidths pi_widths_;
+  double label_px_;
+  double over_px_;
+};
+
+}  // namespace
+
+std::string pi_count(const Scene& scene, const CollisionLog& log) {
+  const int base = scene.show.base;
+  const bool is_asked_for = scene.show.has(Overlay::digits);
+  if (!is_asked_for && scene.view.theme == Theme::article) return {};
+  if (!counts_pi(scene.system, base)) {
+    if (!is_asked_for) return {};
+    throw UsageError(fmt::format(
+        "show.overlays: there are no digits of pi to light up, since this scene does not count "
+        "them; leave out 'digits', or give a mass ratio of {}^(D-1) and a blue.velocity of 0",
+        base * base));
+  }
+  const std::string counted = log.size().get_str(base);
+  std::string digits = pi_digits(base, counted.size());
+  std::erase(digits, '.');
+  if (counted == digits) return count_text(log.size(), base);
+  if (!is_asked_for) return {};
+  throw UsageError(fmt::format(
+      "show.overlays: there are no digits of pi to light up: this scene counts {} in base {}, and "
+      "pi begins with {}; leave out 'digits', or use more digits",
+      counted, base, digits));
+}
+
+std::size_t lit_length(std::string_view count, std::string_view expected) {
+  if (count.size() != expected.size()) return 0;
+  const auto* const end = std::ranges::mismatch(count, expected).in1;
+  auto length = static_cast<std::size_t>(end - count.begin());
+  if (length > 0 && length < count.size() && count[length - 1] == ',') --length;
+  return length;
+}
+
+Integer longest_count(const Scene& scene, const CollisionLog& log) {
+  const Integer& last = log.size();
+  if (log.first_index() > 0 || !has_span(scene, log)) return last;
+  const Integer first = log.state_at(span_of(scene, log).from).count;
+  const auto length = [&](const Integer& count) {
+    return count_text(count, scene.show.base).size();
+  };
+  return length(first) > length(last) ? first : last;
+}
+
+CounterRoom counter_room(const DrawingContext& context, const std::string& pi_count) {
+  const Integer longest = longest_count(context.scene, context.log);
+  CounterRoom room;
+  room.count_em = count_width_em(longest, context.scene.show.base, context.fonts.of(Face::digits));
+  room.label_px = (context.font.width_em(kOverLabel) + kLabelGap_em) * context.sizes.text;
+  if (pi_count.empty()) return room;
+  const std::string pi = pi_line(context, digits_in(pi_count));
+  if (!pi.empty()) {
+    room.pi_px = context.font.width_em(std::string(kPiLabel) + pi + "…") * context.sizes.text;
+  }
+  return room;
+}
+
+Drawable counter(const DrawingContext& context, const CounterPlace& place,
+                 const std::string& pi_count) {
+  return Counter(context, place, pi_count);
+}
+
+}  // namespace piblocks
