@@ -42,12 +42,18 @@ struct Pacing {
   /// 1, and scale with the rest of the video.
   bool automatic_slow_motion = false;
   std::vector<SlowMotion> slow_motion = {};
+  /// How long slow motion takes to set in and to end, 0 … kMaxEase_s; 0 is abrupt. The time is
+  /// taken from the faster side, so that a window keeps its factor from beginning to end; where
+  /// there is too little of it, the ease is shorter. It is not rounded. A duration scales it.
+  Rational ease_s = Rational(1, 2);
   std::vector<Freeze> freezes = {};
   Rational hold_start_s = 0;  ///< how long the first picture stands still, >= 0
   Rational hold_end_s = 0;    ///< the same of the last
   /// Plays forwards and then backwards, so that the first frame follows the last without a jump.
   bool loop = false;
 };
+
+inline constexpr int kMaxEase_s = 5;
 
 /// Most windows of slow motion, and most freezes, of one scene.
 inline constexpr std::size_t kMaxWindows = 1000;
@@ -94,6 +100,25 @@ enum class Panel {
   ellipse    ///< ellipse of (v_red, v_blue), which becomes the circle of `velocity`
 };
 
+/// While the loupe enlarges by a factor that the scene names, and by which.
+struct LoupeWindow {
+  Instant from;
+  Instant to;
+  Rational zoom;  ///< > 1
+};
+
+/// An inset that enlarges the gap between wall and red.
+struct Loupe {
+  bool is_on = true;
+  /// Without a window it is seen wherever the gap is small, and enlarges by powers of ten.
+  std::optional<LoupeWindow> window = {};
+};
+
+/// Reads "auto", "off", or "FROM:TO:ZOOM", as "turn-0.01:turn+0.01:100". @throws UsageError
+Loupe parse_loupe(std::string_view text);
+/// Exact text, which reads back as the same.
+std::string exact_text(const Loupe& loupe);
+
 struct Show {
   std::vector<Overlay> overlays = {};
   std::vector<Panel> panels = {};  ///< in this order
@@ -101,6 +126,9 @@ struct Show {
   std::string caption = {};        ///< one line of UTF-8 below all
   std::string logo = {};           ///< a PNG file for the corner that is kept free for it
   int base = kUsualBase;           ///< of the counts in the picture, kMinBase … kMaxBase
+  bool hits = true;                ///< marks where blocks hit; none in Theme::article
+  /// Nothing: on in the lecture themes, off in the others.
+  std::optional<Loupe> loupe = {};
 
   bool has(Overlay overlay) const noexcept;
 };

@@ -89,6 +89,8 @@ void SceneOptions::add_timing() {
   add_key("time.slow-motion", "--slow-motion", "auto|FROM:TO:N",
           "Windows in which time runs N times slower, separated by\ncommas; FROM and TO as 3.2, "
           "turn-0.3, last+1, #314");
+  add_key("time.ease", "--ease", "S",
+          "Slow motion sets in and ends over S seconds (default 0.5,\n0 = at once)");
   add_key("time.freeze", "--freeze", "AT:S",
           "Instants, as above, at which the picture stands still for S s");
   add_key("time.hold-start", "--hold-start", "S", "Show the first picture for S s more");
@@ -103,13 +105,18 @@ void SceneOptions::add_sound() {
 }
 
 void SceneOptions::add_show() {
-  add_key("view.theme", "--theme", "NAME", "Colours: " + theme_names());
+  add_key("view.theme", "--theme", "NAME", "Colours:\n" + theme_names());
   add_key("show.overlays", "--show", "NAMES",
           "What is drawn over the scene, with commas:\n" + overlay_names());
   add_key("show.panels", "--panels", "NAMES", "Diagrams below it, with commas:\n" + panel_names());
   add_key("show.title", "--title", "TEXT", "A title line");
   add_key("show.caption", "--caption", "TEXT", "A caption line");
   add_key("show.logo", "--logo", "FILE.png", "Picture in the lower right corner");
+  add_flag({"show.hits", "--no-hits", "false"}, "No marks where the blocks hit");
+  add_key("show.loupe", "--loupe", "auto|off|FROM:TO:ZOOM",
+          "An inset that enlarges the gap between wall and red: where it is\n"
+          "small, by powers of ten; or from FROM to TO by ZOOM. FROM and TO\n"
+          "as 3.2, turn-0.3, last+1, #314");
   add_flag({"red.width", "--width-by-mass", "by-mass"}, "Make red as wide as its mass suggests");
 }
 

@@ -18,7 +18,7 @@ constexpr double kLineStep = 1.25;  ///< from one line of a text to the next
 constexpr double kBelowBaseline = 0.25;
 constexpr double kPiStep = 2.0;  ///< from the count's baseline to the digits of pi
 /// Least side of a diagram.
-constexpr double kLeastPanel_em = 7;
+constexpr double kLeastPanel_em = 6;
 /// The width of a diagram that looks best, in parts of its height.
 constexpr double kPanelAspect = 1.6;
 /// In a smaller frame no text can be read.
@@ -185,6 +185,7 @@ class FramePlanner {
           view_.width_px, view_.height_px));
     }
     plan_.counter.size_px = size;
+    plan_.counter.room_px = counter_->count_em * size;
     return counter_->label_px + counter_->count_em * size;
   }
 
@@ -203,6 +204,11 @@ class FramePlanner {
         counter_->pi_px > 0 && reach_px(context_.scene, context_.log) > left_of_pi;
     top_ = is_above ? place.pi_baseline_px : place.baseline_px;
     top_ += kBelowBaseline * sizes_.text;
+    place.pi_left_px = right_ - counter_->pi_px;
+    plan_.header_px = top_;
+    if (counter_->pi_px > 0) {
+      plan_.header_px = place.pi_baseline_px + kBelowBaseline * sizes_.text;
+    }
   }
 
   /// Caption and logo are at the bottom; the stage ends above.

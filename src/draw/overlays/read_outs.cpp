@@ -25,6 +25,7 @@ struct ReadOut {
   std::string widest;  ///< the text that takes most room
   std::function<std::string(const FrameState&)> text;
   Color color;
+  bool is_slow_motion = false;
 };
 
 /// Slow motion has more decimals, since less time passes from frame to frame.
@@ -64,18 +65,65 @@ std::string slower_text(const Rational& slower) {
   return fmt::format("{}× slower", short_text(slower));
 }
 
-ReadOut slower_read_out(const DrawingContext& context) {
-  const Pacing& pacing = context.scene.pacing;
+/// The factors at which slow motion stays, in rising order.
+std::vector<Rational> steady_factors(const Pacing& pacing) {
+  std::vector<Rational> factors = {1};
+  for (const SlowMotion& slow : pacing.slow_motion) factors.push_back(slow.factor);
+  if (pacing.automatic_slow_motion) {
+    for (int factor = 10; factor <= kMaxAutomaticFactor; factor *= 10) factors.emplace_back(factor);
+  }
+  std::ranges::sort(factors);
+  factors.erase(std::ranges::unique(factors).begin(), factors.end());
+  return factors;
+}
+
+/// A whole number of one or two digits and zeros. @param value  > 0
+Rational of_two_digits(const Rational& value) {
+  Rational unit = 1;
+  while (value >= 100 * unit) unit *= 10;
+  return floor(value / unit + Rational(1, 2)) * unit;
+}
+
+/// A factor that is passed while slow motion eases in or out; empty if `most` is less.
+std::string passing_text(const Rational& slower, const Rational& most) {
+  if (slower < 1) {
+    const Rational faster = of_two_digits(1 / slower);
+    return faster <= most ? slower_text(1 / faster) : "";
+  }
+  const Rational rounded = of_two_digits(slower);
+  return rounded <= most ? slower_text(rounded) : "";
+}
+
+}  // namespace
+
+SlowMotionLabel slow_motion_label(const DrawingContext& context) {
   std::string widest;
-  const auto make_room = [&](const Rational& slower) {
+  std::vector<Rational> steady = steady_factors(context.scene.pacing);
+  for (const Rational& slower : steady) {
     std::string text = slower_text(slower);
     if (context.font.width_em(text) > context.font.width_em(widest)) widest = std::move(text);
+  }
+  // Passing factors take no more room than those that stay.
+  const double room_em = context.font.width_em(widest);
+  Rational most = 0;
+  for (const int passing : {9, 99, 990, 9'900, 99'000, 990'000}) {
+    const double width_em = std::max(context.font.width_em(slower_text(passing)),
+                                     context.font.width_em(slower_text(Rational(1, passing))));
+    if (width_em <= room_em) most = passing;
+  }
+  const auto text = [steady = std::move(steady), most](const FrameState& shown) {
+    const bool is_steady = std::ranges::binary_search(steady, shown.slower);
+    return is_steady ? slower_text(shown.slower) : passing_text(shown.slower, most);
   };
-  for (const SlowMotion& slow : pacing.slow_motion) make_room(slow.factor);
-  if (pacing.automatic_slow_motion) make_room(kMaxAutomaticFactor);
-  return {"slow motion", std::move(widest),
-          [](const FrameState& shown) { return slower_text(shown.slower); },
-          context.palette.accent};
+  return {std::move(widest), text};
+}
+
+namespace {
+
+ReadOut slower_read_out(const DrawingContext& context) {
+  SlowMotionLabel label = slow_motion_label(context);
+  return {"slow motion", std::move(label.widest), std::move(label.text), context.palette.accent,
+          true};
 }
 
 /// How values up to a largest one are written: with as many decimals as give the largest six
@@ -195,7 +243,8 @@ ReadOutRows::ReadOutRows(const DrawingContext& context)
                          read_out.color,
                          read_out.widest.size(),
                          widths[first],
-                         {x, height_ + kRowBaseline * text_px_}});
+                         {x, height_ + kRowBaseline * text_px_},
+                         read_out.is_slow_motion});
       x += widths[first] + gap;
     }
     height_ += kRowHeight * text_px_;
@@ -214,12 +263,15 @@ void ReadOutRows::operator()(const FrameState& shown, std::vector<DrawItem>& ite
     if (n > 0 && placed.origin.y != placed_[n - 1].origin.y) shift = 0;
     std::string text = placed.text(shown);
     if (text.empty()) continue;
+    const bool is_shared = placed.is_slow_motion && loupe_opacity_;
+    const double opacity = is_shared ? 1 - loupe_opacity_(shown) : 1;
+    if (opacity <= 0) continue;
     const Point origin{placed.origin.x + shift, placed.origin.y};
     if (text.size() > placed.room_bytes) {
       shift += std::max(0.0, widths_.width_em(text) * text_px_ - placed.room_px);
     }
     items.emplace_back(TextItem{nth(ItemId::read_outs, n), origin, std::move(text), text_px_,
-                                placed.color, face_});
+                                faded(placed.color, opacity), face_});
   }
 }
 
