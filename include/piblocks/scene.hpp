@@ -164,6 +164,9 @@ struct View {
   /// The share of the time between two frames for which each is exposed, from its instant on,
   /// 0 … 1; 0 shows the instant alone.
   Rational shutter = 0;
+  /// The side of which type, lines and margins are fractions: 0 for the frame's shorter one. A row
+  /// of a split screen has that of the whole film.
+  int unit_px = 0;
   Theme theme = Theme::article;
   Background background = Background::opaque;
 };

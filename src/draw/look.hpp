@@ -131,7 +131,7 @@ inline Rectangle whole(const View& view) {
 /// Lengths of the look in a frame, in pixels.
 struct Sizes {
   explicit Sizes(const View& view)
-      : unit(std::min(view.width_px, view.height_px)),
+      : unit(view.unit_px > 0 ? view.unit_px : std::min(view.width_px, view.height_px)),
         margin(style::kMargin * unit),
         gap(style::kGap * unit),
         title(type(style::kTitle)),
@@ -143,7 +143,7 @@ struct Sizes {
 
   double type(double fraction) const { return std::max(style::kLeastText_px, fraction * unit); }
 
-  double unit;  ///< the frame's shorter side
+  double unit;  ///< the frame's shorter side, or that of the whole film
   double margin;
   double gap;
   // Of the em.
