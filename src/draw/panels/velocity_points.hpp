@@ -2,6 +2,7 @@
 // In: a scene and its log. Out: points, angles and kinds of collisions.
 #pragma once
 
+#include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
 #include <vector>
