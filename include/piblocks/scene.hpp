@@ -90,7 +90,8 @@ enum class Panel {
   position,  ///< path in the plane of both gaps, in the wedge between wall and contact
   unfolded,  ///< the wedge reflected again and again, and the straight line through it
   time,      ///< positions against time
-  rate       ///< collisions per second against time
+  rate,      ///< collisions per second against time
+  mirrors    ///< as unfolded, with wedges that unfold one by one
 };
 
 struct Show {
