@@ -42,12 +42,18 @@ struct Pacing {
   /// 1, and scale with the rest of the video.
   bool automatic_slow_motion = false;
   std::vector<SlowMotion> slow_motion = {};
+  /// How long slow motion takes to set in and to end, 0 … kMaxEase_s; 0 is abrupt. The time is
+  /// taken from the faster side, so that a window keeps its factor from beginning to end; where
+  /// there is too little of it, the ease is shorter. It is not rounded. A duration scales it.
+  Rational ease_s = Rational(1, 2);
   std::vector<Freeze> freezes = {};
   Rational hold_start_s = 0;  ///< how long the first picture stands still, >= 0
   Rational hold_end_s = 0;    ///< the same of the last
   /// Plays forwards and then backwards, so that the first frame follows the last without a jump.
   bool loop = false;
 };
+
+inline constexpr int kMaxEase_s = 5;
 
 /// Most windows of slow motion, and most freezes, of one scene.
 inline constexpr std::size_t kMaxWindows = 1000;

@@ -30,8 +30,9 @@ using Scenes = std::vector<Scene>;
 /// A [[part]] of the file.
 struct Segment {
   std::variant<Scenes, Card> content;
-  /// Cross-fade from the segment before, in seconds of video, rounded to whole frames, in which
-  /// both are seen; 0 for a cut.
+  /// Fade from the segment before, in seconds of video, rounded to whole frames; 0 for a cut. Both
+  /// segments run meanwhile: in the first half the one before fades to the background, in the
+  /// second half this one appears from it.
   Rational fade_s = 0;
   std::string origin = {};  ///< named in messages, such as "story.toml:12"
 };
@@ -78,7 +79,7 @@ inline constexpr int kMaxSceneNesting = 256;  ///< of lists and tables in a scen
 /// "blue." and "red." with "mass", "position", "velocity", "width" ("by-mass" for red:
 /// width_by_mass()); "view.x", "view.y", "view.size", "view.fps", "view.shutter",
 /// "view.background", "view.theme"; "time.from", "time.to", "time.speed", "time.duration",
-/// "time.slow-motion", "time.freeze", "time.hold-start", "time.hold-end", "time.loop";
+/// "time.slow-motion", "time.ease", "time.freeze", "time.hold-start", "time.hold-end", "time.loop";
 /// "show.overlays", "show.panels", "show.title", "show.caption", "show.logo"; "sound.on";
 /// "golden.frames", "golden.size".
 ///

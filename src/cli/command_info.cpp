@@ -31,6 +31,7 @@ void print_limits(TextOutput& out) {
   out.format_line("  scene file: {} bytes, lists nested {} deep", kMaxSceneFile_bytes,
                   kMaxSceneNesting);
   out.format_line("  digits: {}", kMaxDigits);
+  out.format_line("  bases of counts: {} to {}", kMinBase, kMaxBase);
   out.format_line("  numerator or denominator of a number: {} bits", kMaxRationalBits);
   out.format_line("  frame: {} pixels a side, {} in all", kMaxSide_px, kMaxFrame_px);
   out.format_line("  frames per second: {}", kMaxFrameRate);

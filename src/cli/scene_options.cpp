@@ -89,6 +89,8 @@ void SceneOptions::add_timing() {
   add_key("time.slow-motion", "--slow-motion", "auto|FROM:TO:N",
           "Windows in which time runs N times slower, separated by\ncommas; FROM and TO as 3.2, "
           "turn-0.3, last+1, #314");
+  add_key("time.ease", "--ease", "S",
+          "Slow motion sets in and ends over S seconds (default 0.5,\n0 = at once)");
   add_key("time.freeze", "--freeze", "AT:S",
           "Instants, as above, at which the picture stands still for S s");
   add_key("time.hold-start", "--hold-start", "S", "Show the first picture for S s more");
@@ -103,7 +105,7 @@ void SceneOptions::add_sound() {
 }
 
 void SceneOptions::add_show() {
-  add_key("view.theme", "--theme", "NAME", "Colours: " + theme_names());
+  add_key("view.theme", "--theme", "NAME", "Colours:\n" + theme_names());
   add_key("show.overlays", "--show", "NAMES",
           "What is drawn over the scene, with commas:\n" + overlay_names());
   add_key("show.panels", "--panels", "NAMES", "Diagrams below it, with commas:\n" + panel_names());

@@ -18,7 +18,7 @@ Integer floor_of_pi(int base, unsigned long places) {
     const Rational nearest = Real::pi(bits).to_rational();
     // pi is between 2 and 4, so the last of its bits is worth 2^(2 - bits).
     const Rational error = scaled(Real(bits, 1), 1 - bits).to_rational();
-    const Integer below = floor((nearest - error) * scale);
+    Integer below = floor((nearest - error) * scale);
     if (below == floor((nearest + error) * scale)) return below;
   }
 }

@@ -115,10 +115,13 @@ DrawList SplitScreen::compose(std::vector<DrawList> pictures) const {
   return list;
 }
 
-DrawList cross_fade(DrawList from, DrawList to, double opacity) {
-  const Rectangle bounds = to_rectangle({0, 0, to.width_px, to.height_px});
-  from.items.emplace_back(group_of(ItemId::fade, bounds, std::move(to), opacity));
-  return from;
+DrawList faded(DrawList picture, double opacity) {
+  DrawList ground{picture.width_px, picture.height_px, picture.background, {}};
+  const Rectangle bounds = to_rectangle({0, 0, picture.width_px, picture.height_px});
+  if (opacity > 0) {
+    ground.items.emplace_back(group_of(ItemId::fade, bounds, std::move(picture), opacity));
+  }
+  return ground;
 }
 
 DrawList arrange(std::vector<CaptionedPicture> pictures, int width_px, int height_px) {

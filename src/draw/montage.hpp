@@ -32,8 +32,9 @@ class SplitScreen {
   std::vector<PixelRect> cells_;
 };
 
-/// The second picture over the first, both of one size. @param opacity  of the second, 0 … 1.
-DrawList cross_fade(DrawList from, DrawList to, double opacity);
+/// The picture on its way to its background, or from it. @param opacity  of what is on the
+/// background, 0 … 1.
+DrawList faded(DrawList picture, double opacity);
 
 struct CaptionedPicture {
   DrawList picture;

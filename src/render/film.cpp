@@ -4,6 +4,7 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,11 +41,20 @@ std::string place_of(const Storyboard& story, std::size_t segment) {
   return origin.empty() ? fmt::format("part {}", segment + 1) : origin;
 }
 
-/// The weight rises from 0, one frame before the fade, to 1, where only the new segment is seen.
-std::optional<Ramp> fade_into(const PlacedSegment& segment, const Rational& frame_rate) {
-  if (segment.fade_frames == 0) return std::nullopt;
-  return Ramp{Rational(segment.first_frame - 1) / frame_rate,
-              Rational(segment.first_frame + segment.fade_frames) / frame_rate};
+/// How loud the segments of a fade are: as their pictures are seen.
+struct FadeRamps {
+  std::optional<Ramp> fall;  ///< of the segment before
+  std::optional<Ramp> rise;  ///< of the segment itself
+};
+
+/// From one frame before the fade, where only the segment before is seen, to the first one after
+/// it, where only the new one is. Half-way both are silent.
+FadeRamps ramps_of(const PlacedSegment& segment, const Rational& frame_rate) {
+  if (segment.fade_frames == 0) return {};
+  const Rational begin_s = Rational(segment.first_frame - 1) / frame_rate;
+  const Rational end_s = Rational(segment.first_frame + segment.fade_frames) / frame_rate;
+  const Rational middle_s = (begin_s + end_s) / 2;
+  return {Ramp{begin_s, middle_s}, Ramp{middle_s, end_s}};
 }
 
 std::vector<Voice> voices_of(const Film& film) {
@@ -62,8 +72,8 @@ std::vector<Voice> voices_of(const Film& film) {
                 .stretches = {stretches.begin(), stretches.end()},
                 .begin_s = Rational(placed.first_frame) / rate,
                 .end_s = Rational(placed.first_frame + segment.frame_count()) / rate});
-      voice.rise = fade_into(placed, rate);
-      if (i + 1 < film.segments().size()) voice.fall = fade_into(film.segments()[i + 1], rate);
+      voice.rise = ramps_of(placed, rate).rise;
+      if (i + 1 < film.segments().size()) voice.fall = ramps_of(film.segments()[i + 1], rate).fall;
       const PixelRect cell = segment.cell(k);
       voice.left = double(cell.x_px) / film.view().width_px;
       voice.right = double(cell.x_px + cell.width_px) / film.view().width_px;
@@ -227,11 +237,15 @@ DrawList Film::frame(std::int64_t number) const {
   const auto next = std::ranges::upper_bound(segments_, number, {}, &PlacedSegment::first_frame);
   const PlacedSegment& placed = *std::prev(next);
   const std::int64_t in_segment = number - placed.first_frame;
-  DrawList list = placed.segment.frame(in_segment);
-  if (in_segment >= placed.fade_frames) return list;
+  if (in_segment >= placed.fade_frames) return placed.segment.frame(in_segment);
+  // From the last frame before the fade to the first one after it. Half-way only the background is
+  // seen.
+  const std::int64_t steps = placed.fade_frames + 1;
+  const std::int64_t to_middle = steps - 2 * (in_segment + 1);  // in half steps; < 0 past it
+  const double opacity = double(std::abs(to_middle)) / double(steps);
+  if (to_middle < 0) return faded(placed.segment.frame(in_segment), opacity);
   const PlacedSegment& before = *std::prev(next, 2);
-  const double opacity = double(in_segment + 1) / double(placed.fade_frames + 1);
-  return cross_fade(before.segment.frame(number - before.first_frame), std::move(list), opacity);
+  return faded(before.segment.frame(number - before.first_frame), opacity);
 }
 
 std::int64_t frame_at(const Film& film, const Instant& instant) {

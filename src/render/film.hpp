@@ -98,7 +98,8 @@ class FilmSegment {
 struct PlacedSegment {
   FilmSegment segment;
   std::int64_t first_frame = 0;
-  std::int64_t fade_frames = 0;  ///< first frames, during which the segment before fades out
+  /// First frames, shared with the segment before: it fades out, then this one fades in.
+  std::int64_t fade_frames = 0;
 };
 
 /// Const members are thread-safe.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "physics/exact_motion.hpp"
+#include "scene/easing.hpp"
 
 namespace piblocks {
 namespace {
@@ -31,11 +32,16 @@ double rate_at_turn(const BlockSystem& system, const Rational& speed) {
   return (rate / (atan(sigma) * sigma)).to_double();
 }
 
+/// The speed that windows and eases are measured by. A duration sets the speed once they are known,
+/// and scales them.
+Rational nominal_speed(const Scene& scene) {
+  return scene.pacing.duration_s ? Rational(1) : scene.time.speed;
+}
+
 std::vector<Move> automatic_windows(const Scene& scene, const CollisionLog& log) {
   const std::optional<Rational> turn = turn_of(scene.system);
   if (!turn || log.size() < log.first_index()) return {};
-  // A duration sets the speed for the windows too, once they are known.
-  const Rational speed = scene.pacing.duration_s ? Rational(1) : scene.time.speed;
+  const Rational speed = nominal_speed(scene);
   const double rate = rate_at_turn(scene.system, speed);
   std::vector<Rational> halves;
   int factor = 1;
@@ -143,7 +149,7 @@ std::vector<Move> moves_of(const Scene& scene, const CollisionLog& log, const Sp
   }
   pass_freezes(span.to, 1);
   moves.insert(moves.end(), freeze, freezes.end());
-  return moves;
+  return eased(moves, scene.pacing.ease_s, nominal_speed(scene));
 }
 
 }  // namespace piblocks

@@ -1,4 +1,4 @@
-// How a scene is paced: slow motion and freezes as plain intervals of simulation time.
+// How a scene is paced: slow motion, eases and freezes as plain intervals of simulation time.
 // In: a scene, its log, the span that is shown. Out: moves in order, without gaps.
 #pragma once
 

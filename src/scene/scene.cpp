@@ -86,6 +86,9 @@ void check_slow_motion(const Scene& scene, SceneProblems& problems) {
 void check_pacing(const Scene& scene, SceneProblems& problems) {
   const Pacing& pacing = scene.pacing;
   check_slow_motion(scene, problems);
+  problems.require(pacing.ease_s >= 0 && pacing.ease_s <= kMaxEase_s, "time.ease",
+                   "= {}: must be from 0 (abrupt) to {} seconds of video", pacing.ease_s,
+                   kMaxEase_s);
   problems.require(pacing.freezes.size() <= kMaxWindows, "time.freeze",
                    "must have at most {} of them", kMaxWindows);
   for (const Freeze& freeze : pacing.freezes) {

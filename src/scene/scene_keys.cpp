@@ -186,6 +186,7 @@ constexpr auto kKeys = std::to_array<SceneKey>({
     SceneKey{"time.speed", set_speed, speed_of},
     SceneKey{"time.duration", set_duration, duration_of},
     SceneKey{"time.slow-motion", set_slow_motion, slow_motion_of},
+    key<&Scene::pacing, &Pacing::ease_s>("time.ease"),
     key<&Scene::pacing, &Pacing::freezes>("time.freeze"),
     key<&Scene::pacing, &Pacing::hold_start_s>("time.hold-start"),
     key<&Scene::pacing, &Pacing::hold_end_s>("time.hold-end"),

@@ -209,6 +209,8 @@ INSTANTIATE_TEST_SUITE_P(
                  "time.to: collision #315: the scene has collisions #1 to #314"},
         BadInput{render({"--freeze", "20:1"}), "time.freeze: 20 is outside of what is shown, 0 to"},
         BadInput{render({"--slow-motion", "20:21:2"}), "is outside of what is shown, 0 to"},
+        BadInput{render({"--ease", "6"}), "time.ease = 6: must be from 0 (abrupt) to 5 seconds"},
+        BadInput{render({"--ease=-1"}), "time.ease = -1: must be from 0 (abrupt) to 5 seconds"},
         BadInput{render({"--hold-start", "turn-0.3"}), "time.hold-start = turn-0.3: not a number"},
         BadInput{render({"--to", "last+-1"}), "must be a time, 'turn', 'last', or '#K'"},
         BadInput{render({"--to", "1e9"}), "60,000,000,000 frames are more than 1,000,000; narrow"},

@@ -108,7 +108,7 @@ TEST_F(BundleTest, CaptionsFollowTheSchedule) {
   EXPECT_NEAR(first_s({}), 2, 0.001);
   EXPECT_NEAR(first_s({"--speed", "1/2"}), 4, 0.001);
   EXPECT_NEAR(first_s({"--hold-start", "3"}), 5, 0.001);
-  EXPECT_NEAR(first_s({"--slow-motion", "1:3:4"}), 5, 0.001);
+  EXPECT_NEAR(first_s({"--slow-motion", "1:3:4", "--ease", "0"}), 5, 0.001);
 }
 
 TEST_F(BundleTest, CaptionsOfALoopGoBack) {

@@ -212,6 +212,39 @@ TEST(Overlays, ReadOutsSayWhatIs) {
   EXPECT_TRUE(has_text(first, "−1.98"));
 }
 
+/// While slow motion eases in, in whole numbers that need no more room than those of the windows.
+TEST(Overlays, PassingFactorsAreRounded) {
+  const auto label = [](const Pictures& pictures, const Rational& slower) -> std::string {
+    for (const Box& box : texts_of(pictures.at(0, slower))) {
+      if (box.what.ends_with("er")) return box.what;
+    }
+    return "";
+  };
+  const auto with_windows = [](const char* windows) {
+    return Pictures(scene_with(2, {{"time.slow-motion", windows}}));
+  };
+  const Pictures hundred = with_windows("2:3:100,3:4:7/2,5:6:1/20");
+  EXPECT_EQ(label(hundred, Rational(1001, 1000)), "");
+  EXPECT_EQ(label(hundred, Rational(8, 5)), "2× slower");
+  EXPECT_EQ(label(hundred, Rational(7, 2)), "3.5× slower") << "a window's own factor";
+  EXPECT_EQ(label(hundred, Rational(3701, 100)), "37× slower");
+  EXPECT_EQ(label(hundred, Rational(999, 10)), "100× slower");
+  EXPECT_EQ(label(hundred, Rational(10, 73)), "7× faster");
+  EXPECT_EQ(label(hundred, Rational(1, 20)), "20× faster");
+  EXPECT_EQ(label(with_windows("auto"), Rational(31415, 100)), "310× slower");
+  const Font font;
+  for (const char* factor : {"3/2", "2", "9.7", "10", "99.5", "1e7", "1/3", "1e-9"}) {
+    const Pictures pictures = with_windows((std::string("2:3:") + factor).c_str());
+    const Rational whole = parse_rational(factor);
+    const double room_em = font.width_em(label(pictures, whole));
+    EXPECT_GT(room_em, 0) << factor;
+    for (int i = 1; i < 50; ++i) {
+      const std::string text = label(pictures, 1 / (1 + (1 / whole - 1) * i / 50));
+      EXPECT_LE(text.empty() ? 0 : font.width_em(text), room_em) << text << " of " << factor;
+    }
+  }
+}
+
 TEST(Overlays, NameNoColourThatIsNotThere) {
   for (const char* theme : {"print", "colorblind"}) {
     for (const char* size : {"1920x1080", "800x450"}) {

@@ -94,54 +94,37 @@ TEST(SplitScreen, ACellShowsWhatItsPictureWouldBeAlone) {
   }
 }
 
-TEST(CrossFade, ShowsTheMeanHalfWay) {
+DrawList with_block_and_text(std::optional<Color> background) {
   const RectangleItem block{ItemId::red_block, {10.25, 5.5, 20, 10}, kGreen, std::nullopt};
   const TextItem text{ItemId::count, {5, 25}, "314", 20, {200, 30, 10}};
-  const DrawList from{40, 30, kWhite, {block}};
-  const DrawList to{40, 30, Color{20, 40, 60}, {text}};
-  Canvas first(40, 30);
-  first.paint(from);
-  Canvas second(40, 30);
-  second.paint(to);
-  for (const double opacity : {0.0, 0.25, 0.5, 1.0}) {
-    Canvas both(40, 30);
-    both.paint(cross_fade(from, to, opacity));
-    for (int y = 0; y < 30; ++y) {
-      for (int x = 0; x < 40; ++x) {
-        for (const int shift : {0, 8, 16}) {
-          const auto sample = [&](const Canvas& canvas) {
-            return double((pixel(canvas, x, y) >> shift) & 0xFF);
-          };
-          ASSERT_NEAR(sample(both), (1 - opacity) * sample(first) + opacity * sample(second), 1.01)
-              << x << ", " << y << " at " << opacity;
-        }
-      }
-    }
-  }
+  return {40, 30, background, {block, text}};
 }
 
-/// Of pictures that can be seen through each pixel, alpha included, is the mean: what only the
-/// first has goes, little by little.
-TEST(CrossFade, OfTransparentPicturesIsTheirMean) {
-  const RectangleItem block{ItemId::red_block, {10.25, 5.5, 20, 10}, kGreen, std::nullopt};
-  const TextItem text{ItemId::count, {5, 25}, "314", 20, {200, 30, 10}};
-  const DrawList from{40, 30, std::nullopt, {block}};
-  const DrawList to{40, 30, std::nullopt, {text}};
-  const auto painted = [](const DrawList& list) {
-    Canvas canvas(40, 30, Background::transparent);
-    canvas.paint(list);
-    std::vector<std::uint8_t> bytes;
-    for (int y = 0; y < 30; ++y) {
-      bytes.insert(bytes.end(), canvas.view().row(y), canvas.view().row(y) + 160);
-    }
-    return bytes;
-  };
-  const auto first = painted(from);
-  const auto second = painted(to);
-  for (const double opacity : {0.25, 0.5, 1.0}) {
-    const auto both = painted(cross_fade(from, to, opacity));
-    for (std::size_t i = 0; i < both.size(); ++i) {
-      ASSERT_NEAR(both[i], (1 - opacity) * first[i] + opacity * second[i], 1.51) << i;
+std::vector<std::uint8_t> bytes_of(const DrawList& list) {
+  Canvas canvas(40, 30, list.background ? Background::opaque : Background::transparent);
+  canvas.paint(list);
+  std::vector<std::uint8_t> bytes;
+  for (int y = 0; y < 30; ++y) {
+    bytes.insert(bytes.end(), canvas.view().row(y), canvas.view().row(y) + 160);
+  }
+  return bytes;
+}
+
+/// Of a transparent picture alpha is mixed too: what is on it goes, little by little.
+TEST(Fade, MixesThePictureWithItsBackground) {
+  for (const std::optional<Color>& background : {std::optional(Color{20, 40, 60}), {}}) {
+    const DrawList picture = with_block_and_text(background);
+    const auto whole = bytes_of(picture);
+    const auto ground = bytes_of({40, 30, background, {}});
+    EXPECT_EQ(bytes_of(faded(picture, 1)), whole);
+    EXPECT_EQ(faded(picture, 0), (DrawList{40, 30, background, {}}));
+    for (const double opacity : {0.1, 0.25, 0.5, 0.9}) {
+      const auto mixed = bytes_of(faded(picture, opacity));
+      for (std::size_t i = 0; i < mixed.size(); ++i) {
+        if (background && i % 4 == 3) continue;  // unused
+        ASSERT_NEAR(mixed[i], opacity * whole[i] + (1 - opacity) * ground[i], 1.51)
+            << i << " at " << opacity;
+      }
     }
   }
 }
@@ -153,17 +136,17 @@ using CairoMayLeak = __lsan::ScopedDisabler;
 struct CairoMayLeak {};
 #endif
 
-TEST(CrossFade, AsAVectorFileIsTheSameEveryTime) {
+TEST(Fade, AsAVectorFileIsTheSameEveryTime) {
   [[maybe_unused]] const CairoMayLeak allowance;
-  const DrawList from{40, 30, kWhite, {TextItem{ItemId::count, {5, 25}, "314", 20, kGreen}}};
-  const DrawList both = cross_fade(from, {40, 30, kGreen, {}}, 0.5);
-  const std::vector<std::uint8_t> svg = draw_svg(both);
-  draw_svg(from);
-  EXPECT_EQ(draw_svg(both), svg);
+  const DrawList picture = with_block_and_text(kWhite);
+  const DrawList half = faded(picture, 0.5);
+  const std::vector<std::uint8_t> svg = draw_svg(half);
+  draw_svg(picture);
+  EXPECT_EQ(draw_svg(half), svg);
   const std::string text(svg.begin(), svg.end());
   EXPECT_EQ(text.find("surface"), std::string::npos) << text;
   EXPECT_NE(text.find("id=\"picture2\""), std::string::npos) << text;
-  EXPECT_EQ(draw_pdf(both), draw_pdf(both));
+  EXPECT_EQ(draw_pdf(half), draw_pdf(half));
 }
 
 }  // namespace

@@ -147,6 +147,21 @@ TEST(CountsShown, AreRightForAnyNumberOfDigits) {
   }
 }
 
+/// Pictures and captions of sheets; pages and captions of videos are decimal.
+TEST(CountsShown, AreInTheBaseOfTheScene) {
+  for (const auto& [base, digits] : {std::pair{2, 9}, {3, 6}, {16, 3}, {36, 3}}) {
+    Scene scene = scene_of(article_system(digits, base));
+    scene.show.base = base;
+    const auto log = make_collision_log(scene.system);
+    for (const Anchored& at : anchors_of(*log)) {
+      const std::string count = at.count.get_str(base);
+      EXPECT_EQ(count_of(still_picture(scene, at.instant)), count);
+      EXPECT_TRUE(sheet_pictures(scene, {at.instant}).front().caption.ends_with("count " + count));
+      expect_in_texts(scene, at);
+    }
+  }
+}
+
 TEST(CountsShown, AreRightInTimesBeforeZero) {
   BlockSystem system;
   system.red.velocity = 1;
@@ -176,6 +191,11 @@ TEST(CountsShown, AreRightInWords) {
   EXPECT_EQ(sentence(0, 0), "a counter reaches 0: there are no collisions from time 0 on.");
   EXPECT_EQ(sentence(-1000, 0),
             "a counter reaches -1,000: 1,000 collisions are to go until time 0.");
+  scene.show.base = 16;
+  EXPECT_EQ(sentence(314, 314),
+            "a counter reaches 314 collisions, which is all there are. It is written in base 16: "
+            "13a.");
+  scene.show.base = 10;
   EXPECT_EQ(sentence(-1, 314), "a counter reaches -1: 1 collision is to go until time 0.");
 }
 

@@ -141,8 +141,11 @@ TEST_F(FilmSoundTest, AFadeWeighsSoundsAsItDoesPictures) {
   double loudest = 0;
   for (std::int64_t i = 0; i < std::int64_t(both.size()) - 240; ++i) {
     const double frame = double(i - begin) / double(kFrame);  // with a fraction
-    const double weight = std::clamp((frame + 1) / (20 + 1), 0.0, 1.0);
-    const double expected = (1 - weight) * at(first.left, i) + weight * at(second.left, i - begin);
+    // From 1 to 0 half-way, where only the background is seen, and to 1 again.
+    const double along = std::clamp((frame + 1) / (20 + 1), 0.0, 1.0);
+    const double falling = std::max(0.0, 1 - 2 * along);
+    const double rising = std::max(0.0, 2 * along - 1);
+    const double expected = falling * at(first.left, i) + rising * at(second.left, i - begin);
     const bool is_end_of_first =
         std::int64_t(first.size()) - i <= 240 && i < std::int64_t(first.size());
     ASSERT_NEAR(both.left[std::size_t(i)], expected, is_end_of_first ? 1e-3 : 1e-7) << i;

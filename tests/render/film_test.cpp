@@ -128,35 +128,63 @@ TEST_F(FilmTest, EachRunHasItsOwnShutter) {
   EXPECT_EQ(exposed, (std::vector<bool>{false, true}));
 }
 
-TEST_F(FilmTest, AFadeShowsBothPartsAndHalfWayTheirMean) {
+/// The earlier part in the first half, the later one in the second, and half-way neither, so that
+/// no text is ever over another one.
+TEST_F(FilmTest, AFadeGoesThroughTheBackground) {
   const Film made = film(kStory);
   const auto parts = made.segments();
   for (const std::size_t i : {1U, 3U}) {
     const std::int64_t fade = parts[i].fade_frames;
+    std::vector<double> opacities;
     for (std::int64_t k = 0; k < fade; ++k) {
-      const std::int64_t frame = parts[i].first_frame + k;
-      const Words from = painted(parts[i - 1].segment.frame(frame - parts[i - 1].first_frame));
-      const Words to = painted(parts[i].segment.frame(k));
-      const Words both = painted(made.frame(frame));
-      const double opacity = double(k + 1) / double(fade + 1);
-      if (k == fade / 2) {
-        EXPECT_EQ(opacity, 0.5);
-      }
-      for (std::size_t at = 0; at < both.size(); ++at) {
-        for (const int shift : {0, 8, 16}) {
-          const auto sample = [&](const Words& words) {
-            return double((words[at] >> shift) & 0xFF);
-          };
-          // The opacity and both products are rounded to eight bits.
-          ASSERT_NEAR(sample(both), (1 - opacity) * sample(from) + opacity * sample(to), 1.51)
-              << "frame " << frame << ", pixel " << at;
-        }
-      }
+      const std::int64_t number = parts[i].first_frame + k;
+      const DrawList frame = made.frame(number);
+      ASSERT_LE(frame.items.size(), 1U) << number;
+      EXPECT_EQ(frame.items.empty(), 2 * k + 1 == fade) << number;
+      opacities.push_back(0);
+      if (frame.items.empty()) continue;
+      const bool is_first_half = 2 * k + 1 < fade;
+      const auto& group = std::get<GroupItem>(frame.items.front());
+      EXPECT_EQ(*group.list, is_first_half
+                                 ? parts[i - 1].segment.frame(number - parts[i - 1].first_frame)
+                                 : parts[i].segment.frame(k))
+          << number;
+      opacities.back() = group.opacity;
+      EXPECT_DOUBLE_EQ(group.opacity, std::fabs(1 - 2 * double(k + 1) / double(fade + 1)));
     }
+    EXPECT_TRUE(std::equal(opacities.begin(), opacities.end(), opacities.rbegin()))
+        << "symmetrical";
     const std::int64_t after = parts[i].first_frame + fade;
     EXPECT_EQ(made.frame(after), parts[i].segment.frame(fade)) << "the fade is over";
     const std::int64_t before = parts[i].first_frame - 1;
     EXPECT_EQ(made.frame(before), parts[i - 1].segment.frame(before - parts[i - 1].first_frame));
+  }
+}
+
+TEST_F(FilmTest, AFadeOfTwoFramesHasOneOfEachPart) {
+  const std::string card = "[[part]]\nseconds = 1\ncard = ";
+  const Film made = film(card + "'a'\n" + card + "'b'\nfade = 0.2\n");
+  for (const std::int64_t number : {8, 9}) {
+    const DrawList frame = made.frame(number);
+    ASSERT_EQ(frame.items.size(), 1U);
+    const auto& group = std::get<GroupItem>(frame.items.front());
+    EXPECT_DOUBLE_EQ(group.opacity, 1.0 / 3);
+    EXPECT_EQ(*group.list, made.frame(number == 8 ? 7 : 10));
+  }
+}
+
+/// Slow motion that eases in and out has as many frames as its stretches are long.
+TEST_F(FilmTest, HasTheFramesOfItsStretches) {
+  for (const char* ease : {"0", "0.31", "2"}) {
+    const Film made = film("digits = 2\ntime.to = 6\ntime.slow-motion = ['2:2.1:9', 'turn:4:3']\n" +
+                           std::string("time.ease = ") + ease);
+    const Schedule& schedule = *made.segments().front().segment.schedule();
+    EXPECT_EQ(made.frame_count(), schedule.frame_count()) << ease;
+    EXPECT_LT(schedule.time_of(made.frame_count() - 1), 6) << ease;
+    EXPECT_GE(schedule.time_of(made.frame_count()), 6) << ease;
+    for (std::int64_t k = 1; k < made.frame_count(); ++k) {
+      ASSERT_GT(schedule.time_of(k), schedule.time_of(k - 1)) << ease << ", frame " << k;
+    }
   }
 }
 

@@ -117,6 +117,9 @@ std::vector<std::int64_t> some_frames(Random& random, const Schedule& schedule, 
   }
   for (int i = 0; i < 4; ++i) frames.push_back(random.integer(0, count - 1));
   std::erase_if(frames, [&](std::int64_t frame) { return frame < 0 || frame >= count; });
+  // Several steps of an ease begin in one frame.
+  std::ranges::sort(frames);
+  frames.erase(std::ranges::unique(frames).begin(), frames.end());
   return frames;
 }
 

@@ -39,6 +39,7 @@ const std::map<std::string, Values> kOther = {
     {"time.speed", {"1/4"}},
     {"time.duration", {"12"}},
     {"time.slow-motion", {"auto", "1:2:10"}},
+    {"time.ease", {"3/4"}},
     {"time.freeze", {"last+0:2"}},
     {"time.hold-start", {"1/2"}},
     {"time.hold-end", {"1/3"}},

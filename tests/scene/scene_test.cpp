@@ -35,6 +35,8 @@ TEST(SceneByHand, IsToldWhatIsWrongWithIt) {
            s.pacing.slow_motion.push_back({Instant(Rational(i)), Instant(Rational(i + 1)), 2});
          }
        }},
+      {"time.ease", [](Scene& s) { s.pacing.ease_s = Rational(-1, 9); }},
+      {"time.ease", [](Scene& s) { s.pacing.ease_s = kMaxEase_s + Rational(1, 9); }},
       {"time.freeze", frozen(0)},
       {"time.freeze", frozen(Rational(-1, 3))},
       {"time.freeze",

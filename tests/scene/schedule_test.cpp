@@ -11,40 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "scene/pacing_fixture.hpp"
 #include "support/property.hpp"
 
 namespace piblocks {
 namespace {
-
-using Setting = std::pair<const char*, std::string>;
-
-Scene scene_with(const std::vector<Setting>& settings, int digits = 3) {
-  ScriptBuilder builder;
-  for (const auto& [key, text] : settings) builder.set("test", key, text);
-  builder.set("test", "digits", std::to_string(digits));
-  return builder.build_scene();
-}
-
-Schedule schedule_of(const Scene& scene) {
-  return make_schedule(scene, *make_collision_log(scene.system));
-}
-
-Schedule schedule_of(const std::vector<Setting>& settings, int digits = 3) {
-  return schedule_of(scene_with(settings, digits));
-}
-
-/// Stretches follow each other, and time does not jump between them.
-void expect_no_gaps(const Schedule& schedule) {
-  const auto stretches = schedule.stretches();
-  ASSERT_FALSE(stretches.empty());
-  EXPECT_EQ(stretches.front().video_s, 0);
-  for (std::size_t i = 1; i < stretches.size(); ++i) {
-    const Stretch& before = stretches[i - 1];
-    const Rational length_s = stretches[i].video_s - before.video_s;
-    EXPECT_GT(length_s, 0) << i;
-    EXPECT_EQ(before.time + before.speed * length_s, stretches[i].time) << i;
-  }
-}
 
 Rational frame_time(const Schedule& schedule, const Integer& frame, int rate = 60) {
   return schedule.at(Rational(frame) / rate).time;
@@ -59,7 +30,8 @@ TEST(Schedule, RunsEvenlyUnlessAskedOtherwise) {
 
 TEST(Schedule, WindowTakesItsFactorOfTime) {
   const Schedule plain = schedule_of({{"time.to", "10"}});
-  const Schedule slow = schedule_of({{"time.to", "10"}, {"time.slow-motion", "2:4:10"}});
+  const Schedule slow =
+      schedule_of({{"time.to", "10"}, {"time.ease", "0"}, {"time.slow-motion", "2:4:10"}});
   expect_no_gaps(slow);
   EXPECT_EQ(slow.frame_count() - plain.frame_count(), 2 * 9 * 60);
   EXPECT_EQ(slow.at(2).time, 2);
@@ -71,14 +43,16 @@ TEST(Schedule, WindowTakesItsFactorOfTime) {
 }
 
 TEST(Schedule, WindowsAreCutToWhatIsShown) {
-  const Schedule schedule =
-      schedule_of({{"time.from", "3"}, {"time.to", "4"}, {"time.slow-motion", "1:3.5:2,3.9:7:3"}});
+  const Schedule schedule = schedule_of({{"time.from", "3"},
+                                         {"time.to", "4"},
+                                         {"time.ease", "0"},
+                                         {"time.slow-motion", "1:3.5:2,3.9:7:3"}});
   expect_no_gaps(schedule);
   EXPECT_EQ(schedule.frame_count(), 60 * (1 + Rational(1, 2) + Rational(1, 10) * 2));
 }
 
 TEST(Schedule, MomentsAreMeasuredFromTurnAndLastCollision) {
-  const Scene scene = scene_with({{"time.to", "last+1"}, {"time.freeze", "turn:2,last+0.5:1"}});
+  const Scene scene = paced_scene({{"time.to", "last+1"}, {"time.freeze", "turn:2,last+0.5:1"}});
   const auto log = make_collision_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   expect_no_gaps(schedule);
@@ -103,7 +77,7 @@ TEST(Schedule, DurationIsMetToTheFrame) {
 }
 
 TEST(Schedule, DurationOfARunShownToItsEndEndsThere) {
-  const Scene scene = scene_with({{"time.to", "last+1"}, {"time.duration", "20"}});
+  const Scene scene = paced_scene({{"time.to", "last+1"}, {"time.duration", "20"}});
   const auto log = make_collision_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   EXPECT_EQ(frame_time(schedule, schedule.frame_count() - 1), log->time_after(log->size()) + 1);
@@ -185,8 +159,8 @@ TEST(Schedule, DurationIsInPlaceOfASpeed) {
   const std::vector<Setting> fitted = {{"time.duration", "20"}, {"time.slow-motion", "auto"}};
   std::vector<Setting> faster = fitted;
   faster.insert(faster.begin(), {"time.speed", "1/4"});
-  const Scene plain = scene_with(fitted);
-  EXPECT_EQ(describe(scene_with(faster)), describe(plain));
+  const Scene plain = paced_scene(fitted);
+  EXPECT_EQ(describe(paced_scene(faster)), describe(plain));
   Scene by_hand = plain;
   by_hand.time.speed = Rational(1, 4);
   const Schedule one = schedule_of(plain);
@@ -200,7 +174,7 @@ TEST(Schedule, DurationIsInPlaceOfASpeed) {
 
 TEST(Schedule, AutomaticWindowsTellCollisionsApart) {
   for (int digits = 2; digits <= 3; ++digits) {
-    const Scene scene = scene_with({{"time.slow-motion", "auto"}}, digits);
+    const Scene scene = paced_scene({{"time.slow-motion", "auto"}}, digits);
     const auto log = make_collision_log(scene.system);
     const Schedule schedule = make_schedule(scene, *log);
     expect_no_gaps(schedule);
@@ -221,7 +195,7 @@ TEST(Schedule, AutomaticWindowsDoNotDependOnUnits) {
   const std::vector<Setting> settings = {{"time.to", "last"}, {"time.slow-motion", "auto"}};
   const Schedule usual = schedule_of(settings);
   for (const char* velocity : {"1e-200", "1e200"}) {
-    Scene scene = scene_with(settings);
+    Scene scene = paced_scene(settings);
     scene.system.red.velocity *= parse_rational(velocity);
     scene.time.speed /= parse_rational(velocity);
     const Schedule schedule = schedule_of(scene);
@@ -231,14 +205,15 @@ TEST(Schedule, AutomaticWindowsDoNotDependOnUnits) {
 }
 
 TEST(Schedule, AutomaticWindowsStopWhereNothingMovesAnyMore) {
-  const Schedule schedule = schedule_of({{"time.slow-motion", "auto"}}, 20);
+  const Schedule schedule = schedule_of({{"time.slow-motion", "auto"}, {"time.ease", "0"}}, 20);
   const auto stretches = schedule.stretches();
   EXPECT_EQ(std::ranges::max_element(stretches, {}, &Stretch::slower)->slower, 1000);
   EXPECT_EQ(stretches.size(), 7U);
 }
 
 TEST(Schedule, AutomaticWindowsAreAlsoAroundATurnBeforeTimeZero) {
-  Scene scene = scene_with({{"time.from", "-20"}, {"time.to", "1"}, {"time.slow-motion", "auto"}});
+  Scene scene = paced_scene(
+      {{"time.from", "-20"}, {"time.to", "1"}, {"time.ease", "0"}, {"time.slow-motion", "auto"}});
   scene.system.red.velocity = 1;
   const Schedule schedule = schedule_of(scene);
   EXPECT_EQ(schedule.stretches().size(), 7U);
@@ -327,6 +302,7 @@ TEST(Schedule, KnowsWhenAnInstantIsFirstShown) {
   const Schedule schedule = schedule_of({{"time.from", "1"},
                                          {"time.to", "5"},
                                          {"time.slow-motion", "2:3:2"},
+                                         {"time.ease", "0"},
                                          {"time.freeze", "4:1"},
                                          {"time.hold-start", "2"},
                                          {"time.loop", "true"}});
@@ -340,7 +316,7 @@ TEST(Schedule, KnowsWhenAnInstantIsFirstShown) {
 
 TEST(Schedule, RefusesWhatCannotBe) {
   const auto problem = [](const std::vector<Setting>& settings, Rational red_velocity = -1) {
-    Scene scene = scene_with(settings);
+    Scene scene = paced_scene(settings);
     scene.system.red.velocity = std::move(red_velocity);
     try {
       schedule_of(scene);

@@ -64,18 +64,55 @@ std::string slower_text(const Rational& slower) {
   return fmt::format("{}× slower", short_text(slower));
 }
 
+/// The factors at which slow motion stays, in rising order.
+std::vector<Rational> steady_factors(const Pacing& pacing) {
+  std::vector<Rational> factors = {1};
+  for (const SlowMotion& slow : pacing.slow_motion) factors.push_back(slow.factor);
+  if (pacing.automatic_slow_motion) {
+    for (int factor = 10; factor <= kMaxAutomaticFactor; factor *= 10) factors.emplace_back(factor);
+  }
+  std::ranges::sort(factors);
+  factors.erase(std::ranges::unique(factors).begin(), factors.end());
+  return factors;
+}
+
+/// A whole number of one or two digits and zeros. @param value  > 0
+Rational of_two_digits(const Rational& value) {
+  Rational unit = 1;
+  while (value >= 100 * unit) unit *= 10;
+  return floor(value / unit + Rational(1, 2)) * unit;
+}
+
+/// A factor that is passed while slow motion eases in or out; empty if `most` is less.
+std::string passing_text(const Rational& slower, const Rational& most) {
+  if (slower < 1) {
+    const Rational faster = of_two_digits(1 / slower);
+    return faster <= most ? slower_text(1 / faster) : "";
+  }
+  const Rational rounded = of_two_digits(slower);
+  return rounded <= most ? slower_text(rounded) : "";
+}
+
 ReadOut slower_read_out(const DrawingContext& context) {
-  const Pacing& pacing = context.scene.pacing;
   std::string widest;
-  const auto make_room = [&](const Rational& slower) {
+  std::vector<Rational> steady = steady_factors(context.scene.pacing);
+  for (const Rational& slower : steady) {
     std::string text = slower_text(slower);
     if (context.font.width_em(text) > context.font.width_em(widest)) widest = std::move(text);
+  }
+  // Passing factors take no more room than those that stay.
+  const double room_em = context.font.width_em(widest);
+  Rational most = 0;
+  for (const int passing : {9, 99, 990, 9'900, 99'000, 990'000}) {
+    const double width_em = std::max(context.font.width_em(slower_text(passing)),
+                                     context.font.width_em(slower_text(Rational(1, passing))));
+    if (width_em <= room_em) most = passing;
+  }
+  const auto text = [steady = std::move(steady), most](const FrameState& shown) {
+    const bool is_steady = std::ranges::binary_search(steady, shown.slower);
+    return is_steady ? slower_text(shown.slower) : passing_text(shown.slower, most);
   };
-  for (const SlowMotion& slow : pacing.slow_motion) make_room(slow.factor);
-  if (pacing.automatic_slow_motion) make_room(kMaxAutomaticFactor);
-  return {"slow motion", std::move(widest),
-          [](const FrameState& shown) { return slower_text(shown.slower); },
-          context.palette.accent};
+  return {"slow motion", std::move(widest), text, context.palette.accent};
 }
 
 /// How values up to a largest one are written: with as many decimals as give the largest six
