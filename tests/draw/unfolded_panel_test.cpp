@@ -171,7 +171,9 @@ TEST(Unfolded, ADotIsWhereTheLineMeetsEachMirror) {
                   1e-9)
           << k;
       const double angle = plane.angle(dots[i].centre);
-      if (i > 0) EXPECT_NEAR(angle - before, -plane.sign * plane.theta, 1e-9) << k;
+      if (i > 0) {
+        EXPECT_NEAR(angle - before, -plane.sign * plane.theta, 1e-9) << k;
+      }
       before = angle;
       const Palette palette = palette_of(Theme::lecture);
       const bool is_wall = collision.kind == CollisionKind::wall;
@@ -181,15 +183,18 @@ TEST(Unfolded, ADotIsWhereTheLineMeetsEachMirror) {
 }
 
 TEST(Unfolded, TheMirrorOfCollisionKIsAtKTimesTheta) {
-  for (const char* mass : {"1", "3", "7", "100", "2500"}) {
+  for (const char* mass : {"1", "3", "7", "100", "1600", "2500", "1000000"}) {
     const Pictures pictures(scene_with(2, {{"red.mass", mass}}));
     const Plane plane(pictures);
     const DrawList list = pictures.at(pictures.end());
     const std::vector<DiskItem> dots = dots_of(list);
     const std::vector<PathItem> rays = rays_of(list);
-    ASSERT_EQ(rays.size(), dots.size() < 128 ? dots.size() : rays.size());
-    for (std::size_t i = 0; i < dots.size() && dots.size() < 128; ++i) {
-      EXPECT_NEAR(plane.angle(dots[i].centre), double(i + 1) * plane.theta, 1e-9) << mass;
+    ASSERT_EQ(rays.size(), dots.size());
+    const bool is_thinned = pictures.log->size() > 128;
+    for (std::size_t i = 0; i < dots.size(); ++i) {
+      const double angle = plane.angle(dots[i].centre);
+      const double k = is_thinned ? std::round(angle / plane.theta) : double(i + 1);
+      EXPECT_NEAR(angle, k * plane.theta, 1e-9) << mass;
       // The ray goes through the dot.
       const Point& corner = rays[i].points.view()[0];
       const Point& end = rays[i].points.view()[1];
@@ -220,16 +225,16 @@ TEST(Unfolded, ManyMirrorsAreThinnedButTrue) {
     ASSERT_GT(dots.size(), 20U) << digits;
     ASSERT_LT(dots.size(), 600U) << digits;
     const Integer& last = pictures.log->size();
-    for (int i = 0; i < 4; ++i) {
-      const auto along = [&](const Integer& k) {
-        const Gaps gaps = gaps_at_collision(*pictures.log, k);
-        return std::cos(plane.theta) * gaps.y2;
-      };
-      const auto n = static_cast<std::size_t>(i);
-      EXPECT_NEAR(plane.along(dots[n].centre), along(1 + i), 1e-3 * plane.theta + 1e-9) << digits;
-      EXPECT_NEAR(-plane.along(dots[dots.size() - 1 - n].centre), along(last - i),
-                  1e-3 * plane.theta + 1e-9)
-          << digits;
+    const auto distance = [&](const Integer& k) {
+      const Gaps gaps = gaps_at_collision(*pictures.log, k);
+      return std::hypot(std::cos(plane.theta) * gaps.y2, std::sin(plane.theta) * gaps.y1);
+    };
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Integer n(static_cast<unsigned long>(i));
+      const Point& late = dots[dots.size() - 1 - i].centre;
+      EXPECT_NEAR(plane.distance(dots[i].centre), distance(1 + n), 1e-9) << digits;
+      EXPECT_NEAR(plane.distance(late), distance(last - n), 1e-9) << digits;
+      EXPECT_LT(plane.along(late), 0) << digits;
     }
     for (std::size_t i = 1; i < dots.size(); ++i) {
       EXPECT_LT(dots[i].centre.x, dots[i - 1].centre.x) << digits;
@@ -298,7 +303,7 @@ TEST(Unfolded, SaysTheAngle) {
   EXPECT_TRUE(has("7", "≈ 0.361"));
   EXPECT_TRUE(has("16", "≈ 0.245")) << "1/4 is not good to three digits";
   EXPECT_TRUE(has("1000", "≈ 0.0316"));
-  EXPECT_TRUE(has("3*10^11", "≈ 1.83×10") || has("300000000000", "≈ 1.83×10"));
+  EXPECT_TRUE(has("300000000000", "≈ 1.83×10"));
 }
 
 class UnfoldedSizes : public testing::TestWithParam<const char*> {};
