@@ -11,7 +11,7 @@ namespace {
 /// Of the area's height.
 constexpr double kLevel = 0.2;
 /// What is farther from the corner than so many times the farthest crossing is not shown.
-constexpr double kWidest = 2.5;
+constexpr double kWidest = 4;
 /// More mirrors than these are thinned.
 constexpr int kMostMirrors = 128;
 /// Between rays where the line crosses none, in radians.

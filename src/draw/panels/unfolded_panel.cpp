@@ -133,7 +133,10 @@ std::optional<Formula> thinning_note(const FormulaSetter& set, const std::vector
   if (share <= 1) return std::nullopt;
   const auto exponent = static_cast<long>(share.get_str().size()) - 1;
   if (exponent == 0) return set.text("not all mirrors are drawn");
-  return set.text("1 in " + (exponent == 1 ? "10" : power_text(exponent)) + " mirrors drawn");
+  constexpr long kMostZeros = 4;
+  const std::string power =
+      exponent > kMostZeros ? power_text(exponent) : short_text(power_of_ten(exponent));
+  return set.text("1 in " + power + " mirrors drawn");
 }
 
 bool has_two_rows(const Diagram& diagram) {
