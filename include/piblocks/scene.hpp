@@ -100,6 +100,25 @@ enum class Panel {
   mirrors    ///< as unfolded, with wedges that unfold one by one
 };
 
+/// While the loupe enlarges by a factor that the scene names, and by which.
+struct LoupeWindow {
+  Instant from;
+  Instant to;
+  Rational zoom;  ///< > 1
+};
+
+/// An inset that enlarges the gap between wall and red.
+struct Loupe {
+  bool is_on = true;
+  /// Without a window it is seen wherever the gap is small, and enlarges by powers of ten.
+  std::optional<LoupeWindow> window = {};
+};
+
+/// Reads "auto", "off", or "FROM:TO:ZOOM", as "turn-0.01:turn+0.01:100". @throws UsageError
+Loupe parse_loupe(std::string_view text);
+/// Exact text, which reads back as the same.
+std::string exact_text(const Loupe& loupe);
+
 struct Show {
   std::vector<Overlay> overlays = {};
   std::vector<Panel> panels = {};  ///< in this order
@@ -107,6 +126,9 @@ struct Show {
   std::string caption = {};        ///< one line of UTF-8 below all
   std::string logo = {};           ///< a PNG file for the corner that is kept free for it
   int base = kUsualBase;           ///< of the counts in the picture, kMinBase … kMaxBase
+  bool hits = true;                ///< marks where blocks hit; none in Theme::article
+  /// Nothing: on in the lecture themes, off in the others.
+  std::optional<Loupe> loupe = {};
 
   bool has(Overlay overlay) const noexcept;
 };

@@ -204,6 +204,11 @@ class FramePlanner {
         counter_->pi_px > 0 && reach_px(context_.scene, context_.log) > left_of_pi;
     top_ = is_above ? place.pi_baseline_px : place.baseline_px;
     top_ += kBelowBaseline * sizes_.text;
+    place.pi_left_px = right_ - counter_->pi_px;
+    plan_.header_px = top_;
+    if (counter_->pi_px > 0) {
+      plan_.header_px = place.pi_baseline_px + kBelowBaseline * sizes_.text;
+    }
   }
 
   /// Caption and logo are at the bottom; the stage ends above.

@@ -83,6 +83,7 @@ struct CounterPlace {
   double size_px = 0;         ///< of the count's type
   double room_px = 0;         ///< the longest count's width
   double pi_baseline_px = 0;  ///< of the line below
+  double pi_left_px = 0;      ///< where that begins
 };
 
 struct FramePlan {
@@ -90,6 +91,7 @@ struct FramePlan {
   CounterPlace counter;
   Rectangle logo;  ///< empty unless asked for
   Rectangle stage;
+  double header_px = 0;     ///< lower end of title, counter and digits of pi
   double read_outs_px = 0;  ///< upper end of their rows
   std::vector<Rectangle> panels;
 };
