@@ -92,11 +92,12 @@ enum class Overlay {
 
 /// Diagrams below the blocks, in step with them.
 enum class Panel {
-  velocity,  ///< circle of (sqrt(m_red) v_red, sqrt(m_blue) v_blue) with each collision's sector
+  velocity,  ///< circle of (sqrt(m_red) v_red, sqrt(m_blue) v_blue) with each collision's chord
   position,  ///< path in the plane of both gaps, in the wedge between wall and contact
   unfolded,  ///< the wedge reflected again and again, and the straight line through it
   time,      ///< positions against time
-  rate       ///< collisions per second against time
+  rate,      ///< collisions per second against time
+  ellipse    ///< ellipse of (v_red, v_blue), which becomes the circle of `velocity`
 };
 
 /// While the loupe enlarges by a factor that the scene names, and by which.
@@ -163,6 +164,9 @@ struct View {
   /// The share of the time between two frames for which each is exposed, from its instant on,
   /// 0 … 1; 0 shows the instant alone.
   Rational shutter = 0;
+  /// The side of which type, lines and margins are fractions: 0 for the frame's shorter one. A row
+  /// of a split screen has that of the whole film.
+  int unit_px = 0;
   Theme theme = Theme::article;
   Background background = Background::opaque;
 };

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <array>
@@ -33,7 +34,11 @@ constexpr auto kPanels = std::to_array<Name<Panel>>({{"velocity", Panel::velocit
                                                      {"position", Panel::position},
                                                      {"unfolded", Panel::unfolded},
                                                      {"time", Panel::time},
-                                                     {"rate", Panel::rate}});
+                                                     {"rate", Panel::rate},
+                                                     {"ellipse", Panel::ellipse}});
+
+constexpr auto kSplits = std::to_array<Name<Split>>(
+    {{"auto", Split::automatic}, {"columns", Split::columns}, {"rows", Split::rows}});
 
 std::string names_of(const auto& table) {
   std::string names;
@@ -78,10 +83,12 @@ bool Show::has(Overlay overlay) const noexcept {
 Theme parse_theme(std::string_view name) { return parse(kThemes, name); }
 Overlay parse_overlay(std::string_view name) { return parse(kOverlays, name); }
 Panel parse_panel(std::string_view name) { return parse(kPanels, name); }
+Split parse_split(std::string_view name) { return parse(kSplits, name); }
 
 std::string exact_text(Theme theme) { return text_of(kThemes, theme); }
 std::string exact_text(Overlay overlay) { return text_of(kOverlays, overlay); }
 std::string exact_text(Panel panel) { return text_of(kPanels, panel); }
+std::string exact_text(Split split) { return text_of(kSplits, split); }
 
 std::string theme_names() { return names_of(kThemes); }
 std::string overlay_names() { return names_of(kOverlays); }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "draw/number_text.hpp"
@@ -23,6 +24,8 @@ constexpr double kMostStep_px = 0.25;
 constexpr double kHeightByMass = 0.25;
 /// In fractions of the frame's shorter side.
 constexpr double kLeastHeight = 0.05;
+/// Above the ids of a block's bars.
+constexpr std::size_t kCover = 1000;
 constexpr double kWallAbove = 0.03;  ///< of the taller block
 
 /// The heavier block's height, in heights of the lighter one.
@@ -109,7 +112,9 @@ Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font
   const Sizes sizes(scene.view);
   const Axis axis(scene, area);
   Layout layout;
-  layout.frame_px = scene.view.width_px;
+  const bool is_whole = area.width >= scene.view.width_px;
+  layout.right_px = area.x + area.width - sizes.margin;
+  layout.frame_px = is_whole ? scene.view.width_px : static_cast<int>(layout.right_px);
   layout.line_px = std::max(1.0, std::round(sizes.data_line));
   layout.scale = axis.scale;
   check_resolution(scene.view, layout.scale);
@@ -165,17 +170,27 @@ Drawable stage(const DrawingContext& context, Drawable behind) {
     stays.emplace_back(plate_of(ItemId::wall, around(place, sizes), wall_items(place, context)));
     floor_left = face - sizes.wall_line;
   }
-  const double floor_right = scene.view.width_px - sizes.margin;
   stays.emplace_back(
       RectangleItem{nth(ItemId::wall, 1),
-                    {floor_left, layout.floor_px, floor_right - floor_left, sizes.wall_line},
+                    {floor_left, layout.floor_px, layout.right_px - floor_left, sizes.wall_line},
                     context.palette.wall,
                     std::nullopt});
-  return [stays, layout, palette = context.palette, behind = std::move(behind)](
+  std::optional<RectangleItem> cover;
+  const std::optional<Color> background = background_of(scene.view);
+  if (background && layout.frame_px < scene.view.width_px) {
+    cover = {
+        nth(ItemId::blue_block, kCover),
+        {layout.right_px, 0, scene.view.width_px - layout.right_px, double(scene.view.height_px)},
+        background,
+        std::nullopt};
+  }
+  return [stays, cover, layout, palette = context.palette, behind = std::move(behind)](
              const FrameState& shown, std::vector<DrawItem>& items) {
     items.insert(items.end(), stays.begin(), stays.end());
     if (behind) behind(shown, items);
     add_blocks(shown, layout, palette, items);
+    // Beside the stage of a row is the counter, which blocks pass behind.
+    if (cover) items.emplace_back(*cover);
   };
 }
 
