@@ -192,6 +192,8 @@ TEST(Loupe, ShowsTheTurnHappening) {
     settings.emplace_back("time.to", digits == 5 ? "turn+1/10^6" : "turn+1/10^36");
     settings.emplace_back("time.slow-motion", window);
     settings.emplace_back("view.fps", "30");
+    // No double has the time of the turn.
+    settings.emplace_back("red.position", "16/3");
     const Frames frames(settings);
     const Schedule clock = make_schedule(frames.scene(), frames.log());
     double low = 1;

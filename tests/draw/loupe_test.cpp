@@ -206,6 +206,30 @@ TEST(Loupe, SaysWhyItCannotBeShown) {
   }
 }
 
+TEST(Loupe, ShowsTheWayThatBlueSweepsWhereFramesMissItsHits) {
+  const Frames frames(lecture(3));
+  FrameState state = frames.state({frames.turn()});
+  int before = 0;
+  for (double rate = 10; rate < 1e6; rate *= 1.1) {
+    state.hits_per_s = rate;
+    const auto seen = loupe_in(frames.of(state));
+    const auto blue = items_of<RectangleItem>(seen->list.items, ItemId::blue_block).front();
+    const auto red = items_of<RectangleItem>(seen->list.items, ItemId::red_block);
+    const auto bodies = std::ranges::count(red, seen->red, &RectangleItem::bounds);
+    EXPECT_EQ(bodies, 1);
+    const int alpha = red.size() > 1 ? red.back().fill->alpha : 0;
+    EXPECT_EQ(alpha > 0, rate > 15.5) << rate;
+    EXPECT_GE(alpha, before);
+    EXPECT_EQ(blue.fill->alpha == 255, alpha == 0);
+    if (red.size() > 1) {
+      EXPECT_NEAR(red.back().bounds.x, seen->face, 1e-9);
+      EXPECT_NEAR(red.back().bounds.x + red.back().bounds.width, seen->red.x, 1e-9);
+    }
+    before = alpha;
+  }
+  EXPECT_LT(before, 140);
+}
+
 TEST(Loupe, SaysHowMuchSlowerTimeRuns) {
   const Frames frames(lecture(3) + Settings{{"time.slow-motion", "turn-0.1:turn+0.1:100"}});
   const auto texts = [](const std::vector<DrawItem>& items, ItemId thing) {
