@@ -359,6 +359,15 @@ TEST(EllipsePanel, SaysWhatIsNotToScale) {
   EXPECT_FALSE(says_at("145", kMorphed_s));
 }
 
+TEST(EllipsePanel, SaysWhyItIsAnEllipse) {
+  for (const char* size : {"960x540", "1280x720", "3840x2160", "1080x1920"}) {
+    const Pictures pictures({{"digits", "2"}, {"view.size", size}}, "ellipse,velocity");
+    EXPECT_TRUE(says(Figure(pictures.after(0, 0)), "stays the same")) << size;
+    EXPECT_FALSE(says(Figure(pictures.after(0)), "stays the same")) << size;
+    EXPECT_TRUE(says(Figure(pictures.after(0)), "no more hits")) << size;
+  }
+}
+
 TEST(EllipsePanel, IsTheCircleInTheEnd) {
   const Figure circle(Pictures(Settings{{"digits", "2"}}).after(17));
   const Figure ellipse(Pictures(Settings{{"digits", "2"}}, "ellipse").after(17));

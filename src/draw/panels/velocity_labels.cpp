@@ -237,10 +237,11 @@ class VelocityLabeller {
     const std::array terms = {label(energy_name(set_, "1"), palette_.blue.label),
                               label(set_.text(" + "), palette_.muted),
                               label(energy_name(set_, "2"), palette_.red.label),
-                              label(set_.text(" stays the same"), palette_.muted)};
+                              label(set_.text(is_to_scale ? "" : " stays"), palette_.muted)};
     Formula whole;
     for (const VelocityLabel& term : terms) whole += term.formula;
-    VelocityLabel remark = label(set_.text("not to scale"), palette_.muted);
+    VelocityLabel remark =
+        label(set_.text(is_to_scale ? "stays the same" : "not to scale"), palette_.muted);
     const auto at = place_lines({whole, remark.formula}, beside_circle());
     if (!at) return;
     double x = at->x;
@@ -249,7 +250,6 @@ class VelocityLabeller {
       x += term.formula.width_em() * em_;
       made_.labels.push_back(std::move(term));
     }
-    if (is_to_scale) return;
     remark.at = {at->x, at->y + kWordsStep * em_};
     made_.labels.push_back(std::move(remark));
   }
