@@ -92,11 +92,12 @@ enum class Overlay {
 
 /// Diagrams below the blocks, in step with them.
 enum class Panel {
-  velocity,  ///< circle of (sqrt(m_red) v_red, sqrt(m_blue) v_blue) with each collision's sector
-  position,  ///< path in the plane of both gaps, in the wedge between wall and contact
-  unfolded,  ///< the wedge reflected again and again, and the straight line through it
-  time,      ///< positions against time
-  rate       ///< collisions per second against time
+  velocity,     ///< circle of (sqrt(m_red) v_red, sqrt(m_blue) v_blue) with each collision's sector
+  position,     ///< path in the plane of both gaps, in the wedge between wall and contact
+  unfolded,     ///< the wedge reflected again and again, and the straight line through it
+  time,         ///< both gaps against time
+  count,        ///< collisions so far against time
+  conservation  ///< bars of energy and momentum, the wall's share included
 };
 
 struct Show {

@@ -33,7 +33,8 @@ constexpr auto kPanels = std::to_array<Name<Panel>>({{"velocity", Panel::velocit
                                                      {"position", Panel::position},
                                                      {"unfolded", Panel::unfolded},
                                                      {"time", Panel::time},
-                                                     {"rate", Panel::rate}});
+                                                     {"count", Panel::count},
+                                                     {"conservation", Panel::conservation}});
 
 std::string names_of(const auto& table) {
   std::string names;

@@ -23,7 +23,7 @@ namespace {
 using Setting = std::pair<const char*, std::string>;
 
 constexpr const char* kAllOverlays = "digits,masses,velocities,energy,momentum,time,ruler";
-constexpr const char* kAllPanels = "velocity,position,unfolded,time,rate";
+constexpr const char* kAllPanels = "velocity,position,unfolded,time,count";
 constexpr const char* kLongTitle = "Counting the digits of π with two blocks and a wall";
 
 Scene scene_with(int digits, const std::vector<Setting>& settings) {

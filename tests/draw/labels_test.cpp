@@ -211,7 +211,7 @@ TEST(Labels, FiguresOfDiagramsAreCentredOnTheirMarks) {
   const Font font;
   int across = 0;
   int upright = 0;
-  for (const char* panel : {"time", "rate"}) {
+  for (const char* panel : {"time", "count"}) {
     for (const int digits : {1, 3, 9, 60}) {
       for (const char* end : {"3", "4", "9.99", "10", "20000", "1e9", "1e-7"}) {
         const Labels labels(digits, {{"show.panels", panel},
@@ -276,7 +276,7 @@ TEST(Labels, RatesDoNotDependOnTheSizeOfTheFrame) {
 TEST(Labels, TitlesOfNarrowDiagramsAreBriefRatherThanSmall) {
   const Labels labels(6, {{"view.size", "480x360"},
                           {"show.overlays", "digits,masses,velocities,energy,momentum,time,ruler"},
-                          {"show.panels", "velocity,position,unfolded,time,rate"}});
+                          {"show.panels", "velocity,position,unfolded,time,count"}});
   std::vector<std::string> titles;
   for (const DrawItem& item : labels.at(4).items) {
     const auto* plate = std::get_if<PlateItem>(&item);

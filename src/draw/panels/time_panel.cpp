@@ -63,7 +63,7 @@ Drawable time_panel(const DrawingContext& context, const PanelPlace& place) {
     const double time = to_double(shown.time);
     if (!axis.shows(time)) return;
     const GapPoint gaps = wedge.gaps_of(shown.state);
-    items.emplace_back(axis.cursor(diagram, time));
+    items.emplace_back(axis.cursor(diagram, 0, time));
     items.emplace_back(diagram.dot(1, at(time, gaps.y2), diagram.palette().red.line));
     items.emplace_back(diagram.dot(2, at(time, gaps.y1), diagram.palette().blue.line));
   };
