@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "draw/number_text.hpp"
@@ -16,16 +17,16 @@ constexpr double kBesideCount_em = 0.25;
 constexpr double kMostFigures = 0.4;
 
 // Of the inset, in ems.
-constexpr double kInsetTop_em = 1.25;  // its label is above
-constexpr double kInsetLabel_em = 0.35;
-constexpr double kInsetFoot_em = 0.95;
-constexpr double kInsetBelow_em = 1.35;
+constexpr double kInsetLabel_em = 1.25;  // the height of its labels, above it and below it
+constexpr double kAboveInset_em = 0.35;  // from the baseline of the label
+constexpr double kBelowInset_em = 0.95;  // to that of the other one
+constexpr double kInsetFoot_em = 0.2;
 constexpr double kInsetLeft_em = 0.7;
 constexpr double kFromTurn_em = 1.4;
 constexpr double kInsetWidest_em = 11;
 constexpr double kInsetLeastWidth_em = 4;
 constexpr double kInsetLeastHeight_em = 1.8;
-constexpr double kStepWidth_em = 0.9;
+constexpr double kStepWidth_em = 0.6;
 constexpr double kMarked_em = 0.3;  // half of the rectangle around the place that it enlarges
 /// Of the inset's height, in hundredths, that steps take.
 constexpr int kFilled = 80;
@@ -140,9 +141,9 @@ class CountPanel {
     items.emplace_back(above_);
     if (!axis_.shows(time)) return;
     const Color accent = diagram_.palette().accent;
-    items.emplace_back(axis_.cursor(diagram_, kCurve + 1, time));
-    items.emplace_back(
-        diagram_.dot(kCurve + 2, {axis_.x_of(time), y_of(shown.state.count)}, accent));
+    const Point at{axis_.x_of(time), y_of(shown.state.count)};
+    items.emplace_back(axis_.cursor(diagram_, kCurve + 1, at));
+    items.emplace_back(diagram_.dot(kCurve + 2, at, accent));
     if (!inset_ || shown.time < inset_->span.from || shown.time > inset_->span.to) return;
     items.emplace_back(
         diagram_.dot(kCurve + 3, inset_place(shown.time, shown.state.count), accent));
@@ -235,15 +236,26 @@ class CountPanel {
             frame_.y + frame_.height / 2 - up * axis_.plot().height};
   }
 
-  /// A place in the empty part above the curve, left of the turn; of no width if there is no room.
+  /// A place for the inset above the curve, left of the turn, or below it, right of the turn; of
+  /// no width if there is no room.
   Rectangle inset_frame(double turn_x) const {
     const double em = diagram_.text_px();
     const Rectangle& plot = axis_.plot();
-    const double right = turn_x - kFromTurn_em * em;
-    const double left = std::max(plot.x + kInsetLeft_em * em, right - kInsetWidest_em * em);
-    const double top = plot.y + kInsetTop_em * em;
-    const double bottom =
-        std::min(height_at(right), axis_.bottom() - 0.2 * em) - kInsetBelow_em * em;
+    const double widest = kInsetWidest_em * em;
+    const double lowest = axis_.bottom() - kInsetFoot_em * em;
+    // Of the frame with its labels.
+    double right = turn_x - kFromTurn_em * em;
+    double left = std::max(plot.x + kInsetLeft_em * em, right - widest);
+    double top = plot.y;
+    double bottom = std::min(height_at(right) - kInsetFoot_em * em, lowest);
+    if (right - left < kInsetLeastWidth_em * em) {
+      left = turn_x + kFromTurn_em * em;
+      right = std::min(plot.x + plot.width, left + widest);
+      top = height_at(left) + kInsetFoot_em * em;
+      bottom = lowest;
+    }
+    top += kInsetLabel_em * em;
+    bottom -= kInsetLabel_em * em;
     const bool has_room =
         right - left >= kInsetLeastWidth_em * em && bottom - top >= kInsetLeastHeight_em * em;
     return has_room ? Rectangle{left, top, right - left, bottom - top} : Rectangle{};
@@ -269,7 +281,8 @@ class CountPanel {
     const bool is_count_enlarged = inset_->count_factor.value() > 1;
     const Formula count_label =
         is_count_enlarged ? set.text("count ×" + inset_->count_factor.text()) : Formula();
-    const double room = turn_x - frame_.x - kFromTurn_em / 2 * em;
+    const bool is_left = frame_.x < turn_x;
+    const double room = is_left ? turn_x - frame_.x - kFromTurn_em / 2 * em : frame_.width;
     if (std::max(time_label.width_em(), count_label.width_em()) * em > room) {
       inset_.reset();
       return;
@@ -277,23 +290,32 @@ class CountPanel {
     add_frame({turn_x, y_of(inset_->low + (inset_->high - inset_->low) / 2)}, items);
     add_steps(context.log, items);
     const Color& muted = diagram_.palette().muted;
-    time_label.add_to(items, above_.id, {frame_.x, frame_.y - kInsetLabel_em * em}, em, muted);
-    count_label.add_to(items, above_.id, {frame_.x, frame_.y + frame_.height + kInsetFoot_em * em},
+    time_label.add_to(items, above_.id, {frame_.x, frame_.y - kAboveInset_em * em}, em, muted);
+    count_label.add_to(items, above_.id, {frame_.x, frame_.y + frame_.height + kBelowInset_em * em},
                        em, muted);
   }
 
   /// The inset's outline, and thin lines to the place that it enlarges.
   void add_frame(const Point& from, std::vector<DrawItem>& items) const {
     const Color& color = diagram_.palette().muted;
-    const double half = kMarked_em * diagram_.text_px();
+    const double em = diagram_.text_px();
     const auto& [x, y, width, height] = frame_;
+    // The area below the curve must not be seen behind it and its labels.
+    const double above = y - kInsetLabel_em * em;
+    items.emplace_back(RectangleItem{above_.id,
+                                     {x, above, width, height + 2 * kInsetLabel_em * em},
+                                     diagram_.palette().background,
+                                     std::nullopt});
+    const bool is_left = x < from.x;
+    const double side = is_left ? x + width : x;
+    const double half = (is_left ? kMarked_em : -kMarked_em) * em;
     const auto add = [&](std::vector<Point> points) {
       items.emplace_back(diagram_.moving_line(kCurve, std::move(points), color));
     };
-    add({{x + width, y}, {from.x - half, from.y - half}});
-    add({{x + width, y + height}, {from.x - half, from.y + half}});
-    for (const Rectangle& box :
-         {frame_, Rectangle{from.x - half, from.y - half, 2 * half, 2 * half}}) {
+    add({{side, y}, {from.x - half, from.y - std::abs(half)}});
+    add({{side, y + height}, {from.x - half, from.y + std::abs(half)}});
+    for (const Rectangle& box : {frame_, Rectangle{from.x - half, from.y - std::abs(half), 2 * half,
+                                                   2 * std::abs(half)}}) {
       add({{box.x, box.y},
            {box.x + box.width, box.y},
            {box.x + box.width, box.y + box.height},

@@ -157,13 +157,14 @@ void TimeAxis::add_base(Diagram& diagram) const {
   }
 }
 
-RectangleItem TimeAxis::cursor(const Diagram& diagram, std::size_t n, double time) const {
+RectangleItem TimeAxis::cursor(const Diagram& diagram, std::size_t n, const Point& present) const {
   const double width = std::max(1.0, std::round(diagram.sizes().grid_line));
-  const double top = std::round(plot_.y);
-  return {diagram.moving(n),
-          {std::round(x_of(time) - width / 2), top, width, std::round(bottom()) - top},
-          diagram.palette().accent,
-          std::nullopt};
+  const double top = std::round(present.y);
+  return {
+      diagram.moving(n),
+      {std::round(present.x - width / 2), top, width, std::max(0.0, std::round(bottom()) - top)},
+      diagram.palette().accent,
+      std::nullopt};
 }
 
 }  // namespace piblocks

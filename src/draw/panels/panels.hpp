@@ -151,9 +151,9 @@ class TimeAxis {
 
   /// Axis, ticks and figures.
   void add_base(Diagram& diagram) const;
-  /// Marks the present, as the n-th of the things that move. A rectangle on whole pixels costs less
-  /// than a line.
-  RectangleItem cursor(const Diagram& diagram, std::size_t n, double time) const;
+  /// Marks the present as the n-th of the things that move, from the axis to a height. A rectangle
+  /// on whole pixels costs less than a line.
+  RectangleItem cursor(const Diagram& diagram, std::size_t n, const Point& present) const;
 
  private:
   struct Figure {
