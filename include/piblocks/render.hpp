@@ -110,14 +110,25 @@ void render_still(const Script& script, const Instant& instant, const std::strin
 /// Most pictures of a sheet.
 inline constexpr int kMaxSheetPictures = 200;
 
-/// So many instants of the scene's span of time: its two ends, and others between them at equal
-/// distances.
-/// @throws UsageError unless 1 <= count <= kMaxSheetPictures, or as span_of(); SceneError if
-///         problems_of(scene) is not empty; SimulationError
-std::vector<Instant> spread_instants(const Scene& scene, int count);
+/// What the instants of a sheet are equally far apart in.
+enum class Spacing : std::uint8_t {
+  count,  ///< of collisions, to the nearest one
+  time
+};
 
-/// Renders these instants side by side on one page, time and count below each: a `.pdf`, `.svg` or
-/// `.png` file of the shape of A4 in landscape, or PNG on standard output for "-".
+/// So many instants of the scene's span of time. The first is its beginning. By time, the last is
+/// its end. By count, the others are collisions: picture i of N, from 0 on, is just after the
+/// i / (N - 1) part of the span's collisions, the last one just after the last of them.
+/// @param by  without it by count, if the span contains the turn and enough collisions for
+///            pictures with different counts; otherwise by time.
+/// @throws UsageError unless 1 <= pictures <= kMaxSheetPictures, or as span_of(); if pictures by
+///         count would not differ; SceneError if problems_of(scene) is not empty; SimulationError
+std::vector<Instant> spread_instants(const Scene& scene, int pictures,
+                                     std::optional<Spacing> by = std::nullopt);
+
+/// Renders these instants side by side on one page, the time below each: a `.pdf`, `.svg` or
+/// `.png` file of the shape of A4 in landscape, or PNG on standard output for "-". Times are left
+/// out where they would make the pictures less than half as wide.
 /// @param stop  asks to give up: Interrupted is thrown when the page is drawn.
 /// @throws SceneError if problems_of(scene) is not empty; UsageError, DrawError, MediaError,
 ///         IoError, SimulationError, Interrupted

@@ -66,18 +66,25 @@ void run_still(const Command& options, const SceneOptions& scene_options) {
 
 int parse_count(const std::string& text) { return parse_int(text, 1, kMaxSheetPictures); }
 
+Spacing parse_spacing(const std::string& text) {
+  return parse_choice<Spacing>(text, {{"count", Spacing::count}, {"time", Spacing::time}});
+}
+
 void run_sheet(const Command& options, const SceneOptions& scene_options) {
   constexpr int kUsualCount = 12;
   refuse_terminal(options);
-  if (options.is_given("--frames") && options.is_given("--at")) {
-    throw UsageError("--frames and --at both say which instants are shown; give one of them");
+  for (const char* option : {"--frames", "--by"}) {
+    if (!options.is_given(option) || !options.is_given("--at")) continue;
+    throw UsageError(
+        fmt::format("{} and --at both say which instants are shown; give one of them", option));
   }
   const Scene scene = scene_options.scene();
   scene_options.check_output(scene);
   const auto named = options.value("--at", parse_instants);
   const int count = options.value("--frames", parse_count).value_or(kUsualCount);
+  const auto spacing = options.value("--by", parse_spacing);
   const StopOnSignals signals;
-  render_sheet(scene, named ? *named : spread_instants(scene, count), output_of(options),
+  render_sheet(scene, named ? *named : spread_instants(scene, count, spacing), output_of(options),
                signals.token());
   note_convention(scene);
 }
@@ -139,6 +146,10 @@ void add_sheet(Command& app) {
   Command command = app.add_command("sheet", "Render several instants on one page, for paper");
   SceneOptions scene(command);
   command.add_value("--frames", "N", "So many instants, spread over the run (default 12)");
+  command.add_value("--by", "WHAT",
+                    "Spread them evenly by 'count' of collisions or by 'time'\n"
+                    "(default: by count if the turn is shown and no two pictures\n"
+                    "would have the same count; otherwise by time)");
   command.add_value("--at", "T[,T...]", "Or these instants: 3.5, turn-0.3, last+1, '#314'");
   command.add_required_value("-o,--output", "OUT",
                              "NAME.pdf, NAME.png, NAME.svg, or - (PNG on standard output)");
@@ -148,6 +159,7 @@ void add_sheet(Command& app) {
   command.set_footer(
       "Examples:\n"
       "  piblocks sheet -o sheet.pdf\n"
+      "  piblocks sheet --digits 2 --frames 32 --by count -o every-collision.pdf\n"
       "  piblocks sheet --digits 2 --at '0,#1,#10,#20,last' -o collisions.svg");
   command.on_run([=] { run_sheet(command, scene); });
 }

@@ -105,7 +105,7 @@ void SceneOptions::add_sound() {
 }
 
 void SceneOptions::add_show() {
-  add_key("view.theme", "--theme", "NAME", "Colours: " + theme_names());
+  add_key("view.theme", "--theme", "NAME", "Colours:\n" + theme_names());
   add_key("show.overlays", "--show", "NAMES",
           "What is drawn over the scene, with commas:\n" + overlay_names());
   add_key("show.panels", "--panels", "NAMES", "Diagrams below it, with commas:\n" + panel_names());

@@ -46,7 +46,7 @@ struct FrameState {
   // Filled in if FrameNeeds asks for hits, and left alone in a still that is not in its video.
   double video_s = 0;          ///< of the frame, since its scene began
   std::vector<Hit> hits = {};  ///< oldest first; none if hits_per_s was above kMaxHits_per_s
-  double hits_per_s = 0;       ///< of video, by the last 0.25 s; 0 while the picture stands still
+  double hits_per_s = 0;       ///< of video, lately; 0 while the picture stands still
 };
 
 /// What costs time to find out, and is found out only for drawables that read it.

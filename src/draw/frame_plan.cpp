@@ -18,7 +18,7 @@ constexpr double kLineStep = 1.25;  ///< from one line of a text to the next
 constexpr double kBelowBaseline = 0.25;
 constexpr double kPiStep = 2.0;  ///< from the count's baseline to the digits of pi
 /// Least side of a diagram.
-constexpr double kLeastPanel_em = 7;
+constexpr double kLeastPanel_em = 6;
 /// The width of a diagram that looks best, in parts of its height.
 constexpr double kPanelAspect = 1.6;
 /// In a smaller frame no text can be read.
@@ -185,6 +185,7 @@ class FramePlanner {
           view_.width_px, view_.height_px));
     }
     plan_.counter.size_px = size;
+    plan_.counter.room_px = counter_->count_em * size;
     return counter_->label_px + counter_->count_em * size;
   }
 

@@ -81,6 +81,7 @@ struct CounterPlace {
   double right_px = 0;
   double baseline_px = 0;
   double size_px = 0;         ///< of the count's type
+  double room_px = 0;         ///< the longest count's width
   double pi_baseline_px = 0;  ///< of the line below
 };
 

@@ -93,6 +93,9 @@ inline constexpr double kSheetMargin = 0.05;
 inline constexpr double kSheetGap = 0.025;
 inline constexpr double kSheetCaption = 0.018;
 inline constexpr double kSheetLine = 1.0 / 1200;
+inline constexpr Color kSheetPaper = {255, 255, 255};
+inline constexpr Color kSheetFrame = {144, 144, 144};
+inline constexpr Color kSheetText = {32, 32, 32};
 
 /// Below this no font can be read.
 inline constexpr double kLeastText_px = 8;

@@ -34,16 +34,72 @@ double fitted_px(const std::string& text, double size_px, double width_px, const
 /// A smaller cell shows nothing.
 constexpr int kLeastCell_px = 8;
 
-constexpr Color kPaper = {255, 255, 255};
-constexpr Color kFrame = {160, 160, 160};
-constexpr Color kCaption = {32, 32, 32};
-
 // In ems of the caption.
 constexpr double kCaptionBaseline = 1.25;  // below the picture
 constexpr double kCaptionHeight = 1.6;
+/// Captions that make pictures narrower than this part of their width without them are left out.
+constexpr double kLeastShareWithCaptions = 0.5;
 
 GroupItem group_of(ItemId id, const Rectangle& bounds, DrawList picture, double opacity = 1) {
   return {id, bounds, std::make_shared<const DrawList>(std::move(picture)), opacity};
+}
+
+/// A page of pictures of one shape.
+struct SheetPage {
+  double width;   ///< without margins
+  double height;  ///< without margins
+  double gap;
+  double aspect;  ///< of the pictures, width : height
+  int pictures;
+
+  int rows(int columns) const { return (pictures + columns - 1) / columns; }
+};
+
+/// What all captions of a sheet need below their pictures; nothing if there are none.
+struct CaptionSize {
+  double width = 0;
+  double height = 0;
+};
+
+/// Pictures in their cells, which are wider where captions are.
+struct SheetGrid {
+  int columns = 1;
+  CaptionSize caption = {};
+  double picture_width = 0;  ///< 0 if there is no room
+};
+
+double picture_width(const SheetPage& page, int columns, const CaptionSize& caption) {
+  const int rows = page.rows(columns);
+  const double room_x = (page.width - (columns - 1) * page.gap) / columns;
+  const double room_y = (page.height - (rows - 1) * page.gap) / rows - caption.height;
+  if (room_x < caption.width) return 0;
+  return std::max(0.0, std::min(room_x, room_y * page.aspect));
+}
+
+/// With the largest pictures.
+SheetGrid best_grid(const SheetPage& page, const CaptionSize& caption) {
+  SheetGrid best{1, caption, picture_width(page, 1, caption)};
+  for (int columns = 2; columns <= page.pictures; ++columns) {
+    const double width = picture_width(page, columns, caption);
+    if (width > best.picture_width) best = {columns, caption, width};
+  }
+  return best;
+}
+
+SheetGrid grid_of(const SheetPage& page, const CaptionSize& caption) {
+  const SheetGrid without = best_grid(page, {});
+  const SheetGrid with = best_grid(page, caption);
+  return with.picture_width >= kLeastShareWithCaptions * without.picture_width ? with : without;
+}
+
+CaptionSize caption_size(const std::vector<CaptionedPicture>& pictures, const Font& font,
+                         double text_px) {
+  double width_em = 0;
+  for (const CaptionedPicture& each : pictures) {
+    if (!each.caption.empty()) width_em = std::max(width_em, font.width_em(each.caption));
+  }
+  if (width_em == 0) return {};
+  return {width_em * text_px, kCaptionHeight * text_px};
 }
 
 }  // namespace
@@ -129,49 +185,39 @@ DrawList arrange(std::vector<CaptionedPicture> pictures, int width_px, int heigh
   const Font font;
   const double side = std::min(width_px, height_px);
   const double margin = style::kSheetMargin * side;
-  const double gap = style::kSheetGap * side;
   const double text_px = style::kSheetCaption * side;
   const double line_px = std::max(0.5, style::kSheetLine * side);
-  const double caption = kCaptionHeight * text_px;
   const DrawList& first = pictures.front().picture;
-  const double aspect = double(first.width_px) / first.height_px;
-  const int count = static_cast<int>(pictures.size());
-  const auto rows = [count](int columns) { return (count + columns - 1) / columns; };
-  const auto picture_width = [&](int columns) {
-    const double room_x = (width_px - 2 * margin - (columns - 1) * gap) / columns;
-    const double room_y =
-        (height_px - 2 * margin - (rows(columns) - 1) * gap) / rows(columns) - caption;
-    return std::max(0.0, std::min(room_x, room_y * aspect));
-  };
-  int columns = 1;
-  for (int more = 2; more <= count; ++more) {
-    if (picture_width(more) > picture_width(columns)) columns = more;
-  }
-  const double width = picture_width(columns);
-  const double height = width / aspect;
-  const double step_x = width + gap;
-  const double step_y = height + caption + gap;
-  const double left = (width_px - columns * step_x + gap) / 2;
-  const double top = (height_px - rows(columns) * step_y + gap) / 2;
+  const SheetPage page{width_px - 2 * margin, height_px - 2 * margin, style::kSheetGap * side,
+                       double(first.width_px) / first.height_px, static_cast<int>(pictures.size())};
+  const SheetGrid grid = grid_of(page, caption_size(pictures, font, text_px));
+  const double width = grid.picture_width;
+  const double height = width / page.aspect;
+  const double cell_width = std::max(width, grid.caption.width);
+  const double step_x = cell_width + page.gap;
+  const double step_y = height + grid.caption.height + page.gap;
+  const double left = (width_px - grid.columns * step_x + page.gap + cell_width - width) / 2;
+  const double top = (height_px - page.rows(grid.columns) * step_y + page.gap) / 2;
 
-  DrawList page{width_px, height_px, kPaper, {}};
+  DrawList list{width_px, height_px, style::kSheetPaper, {}};
   std::vector<DrawItem> above;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < page.pictures; ++i) {
     auto& [picture, text] = pictures[static_cast<std::size_t>(i)];
-    const int row = i / columns;
-    const Rectangle place{left + i % columns * step_x, top + row * step_y, width, height};
-    page.items.emplace_back(group_of(ItemId::compared, place, std::move(picture)));
+    const Rectangle place{left + i % grid.columns * step_x, top + i / grid.columns * step_y, width,
+                          height};
+    list.items.emplace_back(group_of(ItemId::compared, place, std::move(picture)));
     // Half of the line around the picture is inside of it.
     const Rectangle frame{place.x - line_px / 2, place.y - line_px / 2, width + line_px,
                           height + line_px};
-    above.emplace_back(RectangleItem{ItemId::wall, frame, std::nullopt, Stroke{kFrame, line_px}});
-    const double fitted_px = font.fitted_px(text, text_px, width);
-    const Point origin{place.x + (width - font.width_em(text) * fitted_px) / 2,
+    above.emplace_back(
+        RectangleItem{ItemId::wall, frame, std::nullopt, Stroke{style::kSheetFrame, line_px}});
+    if (grid.caption.height == 0 || text.empty()) continue;
+    const Point origin{place.x + (width - font.width_em(text) * text_px) / 2,
                        place.y + height + kCaptionBaseline * text_px};
-    above.emplace_back(TextItem{ItemId::label, origin, text, fitted_px, kCaption});
+    above.emplace_back(TextItem{ItemId::label, origin, text, text_px, style::kSheetText});
   }
-  std::ranges::move(above, std::back_inserter(page.items));
-  return page;
+  std::ranges::move(above, std::back_inserter(list.items));
+  return list;
 }
 
 }  // namespace piblocks

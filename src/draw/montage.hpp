@@ -38,11 +38,12 @@ DrawList faded(DrawList picture, double opacity);
 
 struct CaptionedPicture {
   DrawList picture;
-  std::string caption;  ///< UTF-8, one line, set underneath
+  std::string caption;  ///< UTF-8, one line, set underneath; may be empty
 };
 
 /// Pictures of one size in rows, from the upper left, as large as margins, gaps and captions allow.
-/// A caption that is too long for its picture is set smaller. @param pictures  at least one.
+/// Captions have one size. They are left out where pictures with them would be less than half as
+/// wide as without. @param pictures  at least one.
 /// @throws DrawError if the font cannot be loaded.
 DrawList arrange(std::vector<CaptionedPicture> pictures, int width_px, int height_px);
 

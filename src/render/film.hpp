@@ -98,8 +98,8 @@ class FilmSegment {
 struct PlacedSegment {
   FilmSegment segment;
   std::int64_t first_frame = 0;
-  std::int64_t fade_frames =
-      0;  ///< first frames, shared with the segment before: it fades out, then this one in
+  /// First frames, shared with the segment before: it fades out, then this one fades in.
+  std::int64_t fade_frames = 0;
 };
 
 /// Const members are thread-safe.

@@ -11,9 +11,15 @@
 namespace piblocks {
 namespace {
 
-/// Hits are counted over so much video. A scene that has just begun counts as having stood still
+/// Hits are counted over 1/4 s of video. A scene that has just begun counts as having stood still
 /// before, so that its first hit alone is no high rate.
 constexpr int kWindowsPerSecond = 4;
+/// So few in a window would make an even rate seem to go up and down by one hit a window. Their
+/// rate is taken of the times of the newest three instead.
+constexpr int kFewHits = 8;
+constexpr std::size_t kNewest = 3;
+/// Three hits of a rate above kMaxHits_per_s, the newest of which can still be seen, are not older.
+constexpr double kLongestAge_s = 0.5;
 
 /// Collisions that one stretch of video passes, all in the same direction.
 struct Passage {
@@ -46,18 +52,46 @@ std::vector<Passage> passages(const CollisionLog& log, const VideoMoment& moment
   return found;
 }
 
-double age_s(const Time& time, const Stretch& stretch, const Rational& video_s) {
-  const Rational since_start = (to_rational(time) - stretch.time) / stretch.speed;
-  // Only rounding can make a hit later than the moment.
-  return std::max(0.0, to_double(video_s - stretch.video_s - since_start));
+struct AgedCollision {
+  Collision collision;
+  double age_s;
+};
+
+/// The newest collisions that the picture has passed, the latest first.
+std::vector<AgedCollision> newest(const CollisionLog& log, const std::vector<Passage>& passages,
+                                  const Rational& video_s) {
+  std::vector<AgedCollision> found;
+  for (const Passage& passage : passages) {
+    const Stretch& stretch = passage.stretch;
+    const bool forward = passage.is_forward();
+    Integer index = forward ? passage.last : passage.first;
+    for (Integer left = passage.size(); left > 0; --left, index += forward ? -1 : 1) {
+      if (found.size() == kNewest) return found;
+      Collision collision = log.collision(index);
+      const Rational way_s = (to_rational(collision.time) - stretch.time) / stretch.speed;
+      const double age_s = to_double(video_s - stretch.video_s - way_s);
+      // Only rounding can make a hit later than the moment.
+      found.push_back({std::move(collision), std::max(0.0, age_s)});
+    }
+  }
+  return found;
 }
 
-Hit hit_of(const CollisionLog& log, const Collision& collision, double age_s) {
+/// While hits come evenly this is their rate. Afterwards it falls.
+double rate_of(const std::vector<AgedCollision>& three) {
+  const double newest_s = three.front().age_s;
+  const double both_intervals_s = three.back().age_s - newest_s;
+  return std::min<double>(2 / std::max(both_intervals_s, newest_s), kWindowsPerSecond * kFewHits);
+}
+
+Hit hit_of(const CollisionLog& log, const AgedCollision& aged) {
   const BlockSystem& system = log.system();
+  const Collision& collision = aged.collision;
   const double contact = collision.kind == CollisionKind::wall
                              ? to_double(system.wall_face)
                              : collision.blue.position + to_double(system.blue.width / 2);
-  return {collision.kind, collision.index, contact, age_s, gaps_at_collision(log, collision.index)};
+  return {collision.kind, collision.index, contact, aged.age_s,
+          gaps_at_collision(log, collision.index)};
 }
 
 bool is_moving(const VideoMoment& moment) {
@@ -80,20 +114,22 @@ FrameState frame_state(const CollisionLog& log, const FrameTime& shown, const Fr
 
 void add_hits(FrameState& state, const CollisionLog& log, const VideoMoment& moment) {
   state.video_s = to_double(moment.video_s);
-  const Rational begin_s = std::max<Rational>(moment.video_s - Rational(1, kWindowsPerSecond), 0);
-  const std::vector<Passage> found = passages(log, moment, state.state.count, begin_s);
-  Integer rate = 0;
-  for (const Passage& passage : found) rate += kWindowsPerSecond * passage.size();
-  if (is_moving(moment)) state.hits_per_s = rate.get_d();
+  const auto passed = [&](const Rational& length_s) {
+    return passages(log, moment, state.state.count,
+                    std::max<Rational>(moment.video_s - length_s, 0));
+  };
+  Integer count = 0;
+  for (const Passage& passage : passed(Rational(1, kWindowsPerSecond))) count += passage.size();
+  double rate = kWindowsPerSecond * count.get_d();
+  std::vector<AgedCollision> found;
+  if (count < kFewHits) {
+    found = newest(log, passed(Rational(kLongestAge_s)), moment.video_s);
+    if (found.size() == kNewest) rate = rate_of(found);
+  }
+  if (is_moving(moment)) state.hits_per_s = rate;
   if (rate > kMaxHits_per_s) return;
-  for (const Passage& passage : found | std::views::reverse) {
-    const bool forward = passage.is_forward();
-    Integer index = forward ? passage.first : passage.last;
-    for (Integer left = passage.size(); left > 0; --left, index += forward ? 1 : -1) {
-      const Collision collision = log.collision(index);
-      const double age = age_s(collision.time, passage.stretch, moment.video_s);
-      if (age < kHitLife_s) state.hits.push_back(hit_of(log, collision, age));
-    }
+  for (const AgedCollision& aged : found | std::views::reverse) {
+    if (aged.age_s < kHitLife_s) state.hits.push_back(hit_of(log, aged));
   }
 }
 

@@ -3,8 +3,8 @@
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 
-#include <algorithm>
-#include <map>
+#include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -12,10 +12,10 @@
 #include "core/text.hpp"
 #include "draw/canvas.hpp"
 #include "draw/montage.hpp"
-#include "draw/number_text.hpp"
 #include "physics/blocks.hpp"
 #include "render/film.hpp"
 #include "render/renderings.hpp"
+#include "render/sheet_captions.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -74,53 +74,63 @@ constexpr int kPageHeight_pt = 595;
 constexpr int kPageWidth_px = 2339;
 constexpr int kPageHeight_px = 1654;
 
-/// Significant digits of a time.
-constexpr int kUsualDigits = 6;
-constexpr int kMostDigits = 40;
-/// Zeros before the first digit of a time. A smaller one is written with a power of ten.
-constexpr int kMostZeros = 10;
-
-void drop_last_zeros(std::string& decimal) {
-  if (decimal.find('.') == std::string::npos) return;
-  decimal.erase(decimal.find_last_not_of('0') + 1);
-  if (decimal.back() == '.') decimal.pop_back();
-}
-
-/// With so many significant digits, but no zeros behind the last one; a time that is beyond that is
-/// written with a power of ten.
-std::string time_text(const Rational& time, int digits) {
-  // What is rounded to ten times as much keeps a digit more than was asked for.
-  const long exponent = time == 0 ? 0 : magnitude_of(abs(time)).exponent;
-  const bool is_short = exponent > -kMostZeros && exponent < kMostDigits;
-  const long unit = is_short ? 0 : exponent;
-  const Rational scaled = unit > 0 ? Rational(time / power(10, static_cast<unsigned long>(unit)))
-                                   : Rational(time * power(10, static_cast<unsigned long>(-unit)));
-  const int decimals = static_cast<int>(std::max(0L, digits - 1 - (exponent - unit)));
-  std::string text = fixed_text(scaled, decimals);
-  std::erase(text, ',');  // the count follows behind one
-  drop_last_zeros(text);
-  return is_short ? text : fmt::format("{}×{}", text, power_text(unit));
-}
-
-/// As short as can be where different times are still written differently.
-std::vector<std::string> time_texts(const std::vector<Rational>& times) {
-  std::vector<std::string> texts;
-  for (int digits = kUsualDigits; digits <= kMostDigits; ++digits) {
-    texts.clear();
-    std::map<std::string, Rational> written;
-    bool are_distinct = true;
-    for (const Rational& time : times) {
-      texts.push_back(time_text(time, digits));
-      are_distinct &= written.try_emplace(texts.back(), time).first->second == time;
-    }
-    if (are_distinct) break;
-  }
-  return texts;
-}
-
 void check_count(std::size_t pictures) {
   if (pictures >= 1 && pictures <= std::size_t{kMaxSheetPictures}) return;
   throw UsageError(fmt::format("sheet: {} pictures: use 1 to {}", pictures, kMaxSheetPictures));
+}
+
+std::vector<Instant> spread_over_time(const Span& span, int pictures) {
+  std::vector<Instant> instants = {span.from};
+  for (int i = 1; i < pictures; ++i) {
+    instants.emplace_back(Rational(span.from + (span.to - span.from) * i / (pictures - 1)));
+  }
+  return instants;
+}
+
+/// The collisions of a span: all after `before`, up to `last`.
+struct ShownCollisions {
+  Integer before;
+  Integer last;
+
+  Integer size() const { return last > before ? Integer(last - before) : 0; }
+};
+
+ShownCollisions collisions_of(const Span& span, const CollisionLog& log) {
+  return {log.state_at(span.from).count, log.state_at(span.to).count};
+}
+
+std::vector<Instant> spread_over_count(const Span& span, const ShownCollisions& shown,
+                                       int pictures) {
+  std::vector<Instant> instants = {span.from};
+  for (int i = 1; i < pictures; ++i) {
+    const Rational collisions = Rational(shown.size() * i) / (pictures - 1);
+    instants.push_back(
+        Instant::collision(shown.before + floor(Rational(collisions + Rational(1, 2)))));
+  }
+  return instants;
+}
+
+/// @throws UsageError if the run has not as many different counts.
+void check_spread_over_count(const Scene& scene, const ShownCollisions& shown, int pictures) {
+  if (corner_of(scene.system)) {
+    throw UsageError(
+        "sheet: cannot space pictures by count, since all collisions happen at once; use --by "
+        "time");
+  }
+  if (shown.size() + 1 >= pictures) return;
+  throw UsageError(fmt::format(
+      "sheet: cannot space {} pictures by count, since the scene shows {} collisions; use --frames "
+      "{} or fewer, or --by time",
+      pictures, shown.size().get_str(), Integer(shown.size() + 1).get_str()));
+}
+
+/// By count if pictures at equal times would miss the turn, where collisions are densest.
+Spacing usual_spacing(const Scene& scene, const Span& span, const ShownCollisions& shown,
+                      int pictures) {
+  const std::optional<Rational> turn = turn_of(scene.system);
+  const bool shows_turn = turn && span.from <= *turn && *turn <= span.to;
+  const bool is_enough = shown.size() + 1 >= pictures && !corner_of(scene.system);
+  return shows_turn && is_enough ? Spacing::count : Spacing::time;
 }
 
 }  // namespace
@@ -136,18 +146,17 @@ void render_still(const Script& script, const Instant& instant, const std::strin
   write_picture(output, "still", stop, [&] { return draw(list); });
 }
 
-std::vector<Instant> spread_instants(const Scene& scene, int count) {
-  if (count < 1 || count > kMaxSheetPictures) {
-    throw UsageError(fmt::format("sheet: {} pictures: use 1 to {}", count, kMaxSheetPictures));
-  }
+std::vector<Instant> spread_instants(const Scene& scene, int pictures, std::optional<Spacing> by) {
+  check_count(pictures < 0 ? 0 : static_cast<std::size_t>(pictures));
   require_valid(problems_of(scene));
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Span span = span_of(scene, *log);
-  std::vector<Instant> instants = {span.from};
-  for (int i = 1; i < count; ++i) {
-    instants.emplace_back(Rational(span.from + (span.to - span.from) * Rational(i, count - 1)));
-  }
-  return instants;
+  if (by == Spacing::time) return spread_over_time(span, pictures);
+  const ShownCollisions shown = collisions_of(span, *log);
+  if (by == Spacing::count) check_spread_over_count(scene, shown, pictures);
+  return by.value_or(usual_spacing(scene, span, shown, pictures)) == Spacing::count
+             ? spread_over_count(span, shown, pictures)
+             : spread_over_time(span, pictures);
 }
 
 std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
@@ -156,12 +165,10 @@ std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
   std::vector<Rational> times;
   times.reserve(instants.size());
   for (const Instant& instant : instants) times.push_back(time_of(instant, run.log()));
-  const std::vector<std::string> texts = time_texts(times);
+  const std::vector<std::string> captions = sheet_captions(scene, instants, times);
   std::vector<CaptionedPicture> pictures;
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const Integer count = run.log().state_at(times[i]).count;
-    pictures.push_back({run.picture({times[i]}), fmt::format("time {}, count {}", texts[i],
-                                                             count_text(count, scene.show.base))});
+    pictures.push_back({run.picture({times[i]}), captions[i]});
   }
   return pictures;
 }

@@ -320,6 +320,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"sheet", "--frames", "0", "-o", "a.pdf"}, "--frames 0: must be a whole number"},
         BadInput{{"sheet", "--frames", "201", "-o", "a.pdf"}, "a whole number from 1 to 200"},
         BadInput{{"sheet", "--frames", "2", "--at", "1", "-o", "a.pdf"}, "--frames and --at both"},
+        BadInput{{"sheet", "--by", "time", "--at", "1", "-o", "a.pdf"}, "--by and --at both"},
+        BadInput{{"sheet", "--by", "size", "-o", "a.pdf"}, "--by size: must be count or time"},
+        BadInput{{"sheet", "--digits", "1", "--by", "count", "-o", "a.pdf"},
+                 "cannot space 12 pictures by count, since the scene shows 3 collisions; use "
+                 "--frames 4 or fewer, or --by time"},
+        BadInput{{"sheet", "scene.toml", "--by", "count", "-o", "a.pdf"},
+                 "since all collisions happen at once; use --by time",
+                 "blue.position = 0.5\n"},
         BadInput{{"sheet", "--at", "1,noon", "-o", "a.pdf"}, "--at 1,noon: not a number"},
         BadInput{{"sheet", "--at", "#315", "-o", "a.pdf"}, "the scene has collisions #1 to #314"}));
 

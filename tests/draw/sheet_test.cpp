@@ -1,12 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "draw/canvas.hpp"
+#include "draw/font.hpp"
 #include "draw/montage.hpp"
 
 namespace piblocks {
@@ -15,10 +18,11 @@ namespace {
 constexpr Color kGreen = {10, 200, 30};
 
 /// So many pictures, green all over and beyond.
-std::vector<CaptionedPicture> green(int count, int width_px, int height_px) {
+std::vector<CaptionedPicture> green(int count, int width_px, int height_px,
+                                    const std::string& caption = "t = 3.49785") {
   const RectangleItem large{ItemId::wall, {-500, -500, 9000, 9000}, kGreen, std::nullopt};
   return {static_cast<std::size_t>(count),
-          {DrawList{width_px, height_px, Color{0, 0, 0}, {large}}, "time 1, count 2"}};
+          {DrawList{width_px, height_px, Color{0, 0, 0}, {large}}, caption}};
 }
 
 std::vector<Rectangle> places_on(const DrawList& page) {
@@ -48,6 +52,71 @@ TEST(Sheet, PicturesKeepTheirShapeAndDoNotOverlap) {
       }
     }
   }
+}
+
+std::vector<TextItem> captions_on(const DrawList& page) {
+  std::vector<TextItem> captions;
+  for (const DrawItem& item : page.items) {
+    if (const auto* text = std::get_if<TextItem>(&item)) captions.push_back(*text);
+  }
+  return captions;
+}
+
+/// Captions have their size, are inside of the margins, below their pictures and apart.
+void expect_legible(const std::vector<TextItem>& captions, const std::vector<Rectangle>& places,
+                    double width_px, double height_px) {
+  const Font font;
+  const double side = std::min(width_px, height_px);
+  const double margin = 0.04 * side;
+  for (std::size_t i = 0; i < captions.size(); ++i) {
+    const TextItem& caption = captions[i];
+    const double width = font.width_em(caption.text) * caption.size_px;
+    EXPECT_GE(caption.size_px, 0.018 * side);
+    EXPECT_GE(caption.origin.x, margin);
+    EXPECT_LE(caption.origin.x + width, width_px - margin);
+    EXPECT_LE(caption.origin.y + 0.25 * caption.size_px, height_px - margin);
+    const Rectangle& place = places[i];
+    EXPECT_NEAR(caption.origin.x + width / 2, place.x + place.width / 2, 1e-6);
+    EXPECT_GT(caption.origin.y - 0.8 * caption.size_px, place.y + place.height);
+    if (i + 1 == captions.size() || captions[i + 1].origin.y != caption.origin.y) continue;
+    EXPECT_GT(captions[i + 1].origin.x, caption.origin.x + width);
+  }
+}
+
+TEST(Sheet, CaptionsAreLegibleOrLeftOut) {
+  int with = 0;
+  for (const std::string text : {"t = 0", "t = 3.49785", "t = turn − 5.10853×10⁻¹⁹"}) {
+    for (const auto& [width, height] : {std::pair{1920, 1080}, {1080, 1920}, {1080, 1080}}) {
+      for (const int count : {1, 2, 3, 12, 13, 40, 100, 200}) {
+        SCOPED_TRACE(text + ", " + std::to_string(count) + " of " + std::to_string(width));
+        for (const auto& [page_width, page_height] : {std::pair{842, 595}, {2339, 1654}}) {
+          const DrawList page = arrange(green(count, width, height, text), page_width, page_height);
+          const auto places = places_on(page);
+          const auto captions = captions_on(page);
+          const auto plain =
+              places_on(arrange(green(count, width, height, ""), page_width, page_height));
+          EXPECT_GE(places.front().width, plain.front().width / 2);
+          if (captions.empty()) continue;
+          ++with;
+          ASSERT_EQ(captions.size(), std::size_t(count));
+          expect_legible(captions, places, page_width, page_height);
+        }
+      }
+    }
+  }
+  EXPECT_GT(with, 100);
+  EXPECT_EQ(
+      captions_on(arrange(green(12, 1080, 1920, "t = turn − 5.10853×10⁻¹⁹"), 842, 595)).size(),
+      12u);
+  EXPECT_EQ(captions_on(arrange(green(200, 1920, 1080), 842, 595)).size(), 0u);
+  EXPECT_EQ(captions_on(arrange(green(2, 160, 90, std::string(300, '9')), 842, 595)).size(), 0u);
+}
+
+TEST(Sheet, PicturesWithoutCaptionsTakeTheirRoom) {
+  const double with = places_on(arrange(green(4, 842, 595), 842, 595)).front().width;
+  const DrawList page = arrange(green(4, 842, 595, ""), 842, 595);
+  EXPECT_GT(places_on(page).front().width, with + 10);
+  EXPECT_TRUE(captions_on(page).empty());
 }
 
 TEST(Sheet, FillsThePageAsFarAsTheShapesAllow) {

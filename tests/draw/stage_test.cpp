@@ -37,7 +37,7 @@ const TextItem& text(const DrawList& list, ItemId id) {
 
 Layout lay_out(const Scene& scene, const Integer& longest_count) {
   const Rectangle whole{0, 0, double(scene.view.width_px), double(scene.view.height_px)};
-  return lay_out(scene, longest_count, whole, Font());
+  return lay_out_article(scene, longest_count, whole, Font());
 }
 
 DrawList compose(const Scene& scene, const BlockState& state) {
@@ -172,9 +172,11 @@ TEST(Stage, EverythingScalesWithTheFrame) {
   const Layout a = lay_out(small, 314);
   const Layout b = lay_out(large, 314);
   EXPECT_NEAR(b.scale, 3 * a.scale, 6) << "to even pixels";
-  EXPECT_NEAR(b.text_px, 3 * a.text_px, 1e-9);
+  EXPECT_NEAR(b.line.text_px, 3 * a.line.text_px, 1e-9);
   EXPECT_NEAR(b.line_px, 3 * a.line_px, 1.5) << "to whole pixels";
-  const auto count_x = [](const Layout& l) { return l.label.x + l.label_em * l.text_px; };
+  const auto count_x = [](const Layout& l) {
+    return l.line.label.x + l.line.label_em * l.line.text_px;
+  };
   EXPECT_NEAR(count_x(b), 3 * count_x(a), 1e-9);
 }
 

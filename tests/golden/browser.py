@@ -74,9 +74,10 @@ class Browser:
         while not any(event["method"] == "Page.loadEventFired" for event in self.events):
             self.events.append(self._next_message())
 
-    def resize(self, width, height):
+    def resize(self, width, height, zoom=1):
+        """The window, in CSS pixels, each of which is so many of the screen's."""
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
-                  deviceScaleFactor=1, mobile=False)
+                  deviceScaleFactor=zoom, mobile=False)
 
     def value(self, script):
         """What JavaScript says, promises kept."""

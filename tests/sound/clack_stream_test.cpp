@@ -47,6 +47,25 @@ TEST(ClackStream, HasEachCollisionAtItsSample) {
   }
 }
 
+/// Where slow motion eases in and out, each collision still has the sample at which it is seen.
+TEST(ClackStream, FollowsEasesStepByStep) {
+  Scene scene;
+  scene.system = article_system(3);
+  scene.time.to = Rational(7);
+  scene.pacing.automatic_slow_motion = true;
+  const auto log = make_collision_log(scene.system);
+  const Schedule schedule = make_schedule(scene, *log);
+  const auto stretches = schedule.stretches();
+  ASSERT_GT(stretches.size(), 50U);
+  const std::vector<Clack> clacks =
+      clacks_of(*log, {stretches.begin(), stretches.end()}, Rational(schedule.frame_count()) / 60);
+  ASSERT_EQ(clacks.size(), log->state_at(7).count.get_ui());
+  for (std::size_t i = 0; i < clacks.size(); ++i) {
+    const Rational seen = schedule.at(Rational(clacks[i].sample) / Rational(kRate_hz)).time;
+    EXPECT_NEAR(to_double(seen), log->collision(Integer(i + 1)).time.hi, 1e-10) << i + 1;
+  }
+}
+
 TEST(ClackStream, BackwardsHasTheSameInReverseOrder) {
   const auto log = make_collision_log(article_system(3));
   const std::vector<Clack> forwards = clacks_of(*log, {{0, 1, 1}}, 12);

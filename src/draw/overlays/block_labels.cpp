@@ -48,12 +48,14 @@ TextItem mass_label(std::size_t n, std::string text, const Block& block,
   const bool is_red = &block == &system.red;
   const BlockColors& colors = is_red ? context.palette.red : context.palette.blue;
   const BlockShape& shape = is_red ? layout.red : layout.blue;
-  const bool is_taller = shape.height_px > (is_red ? layout.blue : layout.red).height_px;
+  const BlockShape& other = is_red ? layout.blue : layout.red;
+  const bool is_lighter = is_red ? system.red.mass < system.blue.mass
+                                 : system.blue.mass <= system.red.mass;
   const double size_px = context.sizes.mass;
   const double left = -context.font.width_em(text) * size_px / 2;
   const double top = layout.floor_px - shape.height_px;
   const bool is_inside = fits(text, shape, layout, size_px, context.font);
-  if (!is_inside && !is_taller) {
+  if (!is_inside && (is_lighter || shape.height_px < other.height_px)) {
     throw UsageError(
         fmt::format("show.overlays: the mass '{}' does not fit on its block, which is {:.0f} "
                     "pixels wide; leave "

@@ -20,6 +20,8 @@ constexpr std::string_view kPiLabel = "π = ";
 constexpr std::size_t kMoreDigits = 4;
 /// Between label and count, in ems of the label.
 constexpr double kLabelGap_em = 0.5;
+/// Sums of the same advances in different order differ by less.
+constexpr double kNegligible_px = 0.01;
 
 /// Whether a system is one that counts the digits of pi in this base: blue at rest, off the wall,
 /// mass ratio a power of the base's square.
@@ -78,7 +80,10 @@ class Counter {
     const Integer& count = shown.state.count;
     const bool is_over = count >= last_;
     const std::string text = count_text(count, base_);
-    const double left = place_.right_px - count_widths_.width_em(text) * place_.size_px;
+    // An instant outside of the film may have a longer count than any in it.
+    const double count_em = count_widths_.width_em(text);
+    const double size_px = std::min(place_.size_px, (place_.room_px + kNegligible_px) / count_em);
+    const double left = place_.right_px - count_em * size_px;
     const double label_right = left - kLabelGap_em * sizes_.text;
     items.emplace_back(
         TextItem{ItemId::label,
@@ -90,7 +95,7 @@ class Counter {
     items.emplace_back(TextItem{ItemId::count,
                                 {left, place_.baseline_px},
                                 text,
-                                place_.size_px,
+                                size_px,
                                 is_over ? palette_.accent : palette_.text,
                                 Face::digits});
     if (!pi_.empty()) add_pi(lit_length(text, pi_count_), items);

@@ -11,7 +11,7 @@
 namespace piblocks {
 
 // Room for overlays around the blocks, in fractions of the frame's shorter side.
-inline constexpr double kArrowRoom = 0.09;
+inline constexpr double kArrowRoom = 0.08;
 inline constexpr double kMassRoom = 0.052;
 inline constexpr double kRulerRoom = 0.07;
 
