@@ -10,7 +10,7 @@ namespace {
 /// The picture is enlarged when red's gap is this part of its width …
 constexpr double kZoomFrom = 0.13;
 /// … and until it would have been this part of it.
-constexpr double kZoomTo = 0.08;
+constexpr double kZoomTo = 0.1;
 
 Gaps clipped(const Gaps& outside, const Gaps& inside, double limit) {
   const double share = (limit - inside.y2) / (outside.y2 - inside.y2);

@@ -16,6 +16,8 @@ constexpr double kBesideCount_em = 0.25;
 /// Wider figures than this part of the panel are left out.
 constexpr double kMostFigures = 0.4;
 
+constexpr double kStrip_em = 0.5;
+
 // Of the inset, in ems.
 constexpr double kInsetLabel_em = 1.25;  // the height of its labels, above it and below it
 constexpr double kAboveInset_em = 0.35;  // from the baseline of the label
@@ -216,7 +218,7 @@ class CountPanel {
   }
 
   void add_strips() {
-    const double width = std::max(2.0, std::round(diagram_.text_px()));
+    const double width = std::max(2.0, std::round(kStrip_em * diagram_.text_px()));
     const double end = axis_.right();
     // Neighbours overlap, so that there is no seam between them.
     constexpr double kOverlap_px = 1;

@@ -18,7 +18,7 @@ namespace {
 /// A wedge angle nearer to 0 or to a right angle could not be seen: another one is drawn.
 constexpr double kLeastAngle = 0.2;
 /// Path that would be nearer to itself than this, in widths of its line, is filled.
-constexpr double kLeastApart = 1.2;
+constexpr double kLeastApart = 1.8;
 /// Past this there is no more to be seen where the path goes into the corner itself.
 constexpr double kLeastShare = 1e-3;
 
@@ -108,7 +108,8 @@ class PositionPanel {
     add_names();
     const long most = std::lround(std::floor(zoom_exponent(least_share_)));
     for (long exponent = 0; exponent <= most; ++exponent) {
-      plateaus_.push_back(items_at(double(exponent)));
+      auto plate = std::make_shared<const Plate>(Plate{items_at(double(exponent))});
+      plateaus_.push_back({diagram_.moving(0), diagram_.item().bounds, std::move(plate)});
     }
     diagram_.finish();
   }
@@ -120,7 +121,7 @@ class PositionPanel {
     const double exponent = zoom_exponent(share);
     const auto whole = static_cast<std::size_t>(exponent);
     if (exponent == double(whole) && whole < plateaus_.size()) {
-      items.insert(items.end(), plateaus_[whole].begin(), plateaus_[whole].end());
+      items.emplace_back(plateaus_[whole]);
     } else {
       std::ranges::move(items_at(exponent), std::back_inserter(items));
     }
@@ -129,8 +130,11 @@ class PositionPanel {
   }
 
  private:
-  static constexpr std::size_t kZoomLabel = 4;
-  static constexpr std::size_t kDot = 64;
+  // The first of the things that move, by kind.
+  static constexpr std::size_t kLines = 1;
+  static constexpr std::size_t kZoomLabel = 16384;
+  static constexpr std::size_t kDot = kZoomLabel + 64;
+  static constexpr std::size_t kPiece = 6;  ///< segments of a line that are one item
 
   Point at(const Gaps& gaps, double exponent) const {
     const double zoom = std::pow(10, exponent);
@@ -170,7 +174,6 @@ class PositionPanel {
 
   void add_names() {
     const Palette& palette = diagram_.palette();
-    const FormulaSetter set = diagram_.setter();
     const double em = diagram_.text_px();
     const double top = corner_.y - height_;
     const Formula upwards = axis_name("1");
@@ -242,13 +245,19 @@ class PositionPanel {
           diagram_.moving_shape(0,
                                 {at({0, low}, exponent), at({0, high}, exponent),
                                  at({high, high}, exponent), at({low, low}, exponent)},
-                                palette.muted));
+                                palette.text));
     }
-    for (std::size_t n = 0; n < path.lines.size(); ++n) {
-      std::vector<Point> points;
-      for (const Gaps& gaps : path.lines[n]) points.push_back(at(gaps, exponent));
-      items.emplace_back(
-          diagram_.moving_line(1 + n, std::move(points), palette.text, diagram_.data_width()));
+    // Each area of the picture is painted by itself, and only with pieces that reach into it.
+    std::size_t n = kLines;
+    for (const std::vector<Gaps>& line : path.lines) {
+      for (std::size_t first = 0; first + 1 < line.size(); first += kPiece) {
+        std::vector<Point> points;
+        for (std::size_t i = first; i < std::min(first + kPiece + 1, line.size()); ++i) {
+          points.push_back(at(line[i], exponent));
+        }
+        items.emplace_back(
+            diagram_.moving_line(n++, std::move(points), palette.text, diagram_.data_width()));
+      }
     }
     if (exponent == 0) return items;
     const double em = diagram_.text_px();
@@ -269,7 +278,7 @@ class PositionPanel {
   // Of the wedge.
   double width_ = 1;
   double height_ = 1;
-  std::vector<std::vector<DrawItem>> plateaus_;  ///< by power of ten
+  std::vector<PlateItem> plateaus_;  ///< by power of ten: what stays while the zoom does
 };
 
 }  // namespace
