@@ -92,13 +92,33 @@ enum class Overlay {
 
 /// Diagrams below the blocks, in step with them.
 enum class Panel {
-  velocity,     ///< circle of (sqrt(m_red) v_red, sqrt(m_blue) v_blue) with each collision's sector
+  velocity,     ///< circle of (sqrt(m_red) v_red, sqrt(m_blue) v_blue) with each collision's chord
   position,     ///< path in the plane of both gaps, in the wedge between wall and contact
   unfolded,     ///< the wedge reflected again and again, and the straight line through it
   time,         ///< both gaps against time
   count,        ///< collisions so far against time
+  ellipse,      ///< ellipse of (v_red, v_blue), which becomes the circle of `velocity`
   conservation  ///< bars of energy and momentum, the wall's share included
 };
+
+/// While the loupe enlarges by a factor that the scene names, and by which.
+struct LoupeWindow {
+  Instant from;
+  Instant to;
+  Rational zoom;  ///< > 1
+};
+
+/// An inset that enlarges the gap between wall and red.
+struct Loupe {
+  bool is_on = true;
+  /// Without a window it is seen wherever the gap is small, and enlarges by powers of ten.
+  std::optional<LoupeWindow> window = {};
+};
+
+/// Reads "auto", "off", or "FROM:TO:ZOOM", as "turn-0.01:turn+0.01:100". @throws UsageError
+Loupe parse_loupe(std::string_view text);
+/// Exact text, which reads back as the same.
+std::string exact_text(const Loupe& loupe);
 
 struct Show {
   std::vector<Overlay> overlays = {};
@@ -107,6 +127,9 @@ struct Show {
   std::string caption = {};        ///< one line of UTF-8 below all
   std::string logo = {};           ///< a PNG file for the corner that is kept free for it
   int base = kUsualBase;           ///< of the counts in the picture, kMinBase … kMaxBase
+  bool hits = true;                ///< marks where blocks hit; none in Theme::article
+  /// Nothing: on in the lecture themes, off in the others.
+  std::optional<Loupe> loupe = {};
 
   bool has(Overlay overlay) const noexcept;
 };
@@ -142,6 +165,9 @@ struct View {
   /// The share of the time between two frames for which each is exposed, from its instant on,
   /// 0 … 1; 0 shows the instant alone.
   Rational shutter = 0;
+  /// The side of which type, lines and margins are fractions: 0 for the frame's shorter one. A row
+  /// of a split screen has that of the whole film.
+  int unit_px = 0;
   Theme theme = Theme::article;
   Background background = Background::opaque;
 };

@@ -22,14 +22,22 @@ struct Card {
   Rational length_s = 2;           ///< of video, > 0; rounded up to whole frames
 };
 
-/// One scene that fills the frame, or 2 … kMaxCompared side by side, or one above the other in a
-/// frame that is not wider than high. They have one clock, that of the run whose last collision
-/// comes last: its scene.time and scene.pacing hold for all, and so do instants such as "turn".
+/// How runs that are compared share the frame.
+enum class Split {
+  automatic,  ///< in columns if the frame is wider than high, else in rows
+  columns,    ///< side by side
+  rows        ///< one above the other
+};
+
+/// One scene that fills the frame, or 2 … kMaxCompared that share it. They have one clock, that of
+/// the run whose last collision comes last: its scene.time and scene.pacing hold for all, and so do
+/// instants such as "turn".
 using Scenes = std::vector<Scene>;
 
 /// A [[part]] of the file.
 struct Segment {
   std::variant<Scenes, Card> content;
+  Split split = Split::automatic;  ///< of several scenes
   /// Fade from the segment before, in seconds of video, rounded to whole frames; 0 for a cut. Both
   /// segments run meanwhile: in the first half the one before fades to the background, in the
   /// second half this one appears from it.
@@ -44,6 +52,10 @@ struct Storyboard {
   Golden golden = {};
   std::vector<Segment> segments = {};  ///< 1 … kMaxSegments
 };
+
+/// @throws UsageError that lists the names there are.
+Split parse_split(std::string_view name);
+std::string exact_text(Split split);
 
 inline constexpr std::size_t kMaxCardLines = 8;
 inline constexpr std::size_t kMaxCompared = 4;
@@ -84,7 +96,8 @@ inline constexpr int kMaxSceneNesting = 256;  ///< of lists and tables in a scen
 /// "golden.frames", "golden.size".
 ///
 /// A file with [[part]] is a storyboard: its other keys hold for all parts. A part takes the keys
-/// of a scene except those of the whole film, and also "card", "seconds", "compare" and "fade".
+/// of a scene except those of the whole film, and also "card", "seconds", "compare", "split" and
+/// "fade".
 class ScriptBuilder {
  public:
   ScriptBuilder();

@@ -112,6 +112,11 @@ void SceneOptions::add_show() {
   add_key("show.title", "--title", "TEXT", "A title line");
   add_key("show.caption", "--caption", "TEXT", "A caption line");
   add_key("show.logo", "--logo", "FILE.png", "Picture in the lower right corner");
+  add_flag({"show.hits", "--no-hits", "false"}, "No marks where the blocks hit");
+  add_key("show.loupe", "--loupe", "auto|off|FROM:TO:ZOOM",
+          "An inset that enlarges the gap between wall and red: where it is\n"
+          "small, by powers of ten; or from FROM to TO by ZOOM. FROM and TO\n"
+          "as 3.2, turn-0.3, last+1, #314");
   add_flag({"red.width", "--width-by-mass", "by-mass"}, "Make red as wide as its mass suggests");
 }
 

@@ -13,6 +13,8 @@
 #include "draw/look.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/counter.hpp"
+#include "draw/overlays/hits.hpp"
+#include "draw/overlays/loupe.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/region.hpp"
@@ -82,23 +84,38 @@ Composition::Composition(const Scene& scene, const CollisionLog& log,
                       : lay_out_stage(scene, plan.stage, font);
 
   const Show& show = scene.show;
+  const std::shared_ptr<const LoupeInset> loupe = LoupeInset::make(context, plan);
+  Drawable behind;
+  if (loupe) {
+    behind = [=](const FrameState& shown, std::vector<DrawItem>& items) {
+      loupe->add_lines(shown, items);
+    };
+    if (loupe->shows_slow_motion()) {
+      rows.leave_slow_motion_to([=](const FrameState& shown) { return loupe->opacity(shown); });
+    }
+  }
   if (is_article) {
-    drawables_.push_back(article_stage(context, pi));
+    drawables_.push_back(article_stage(context, pi, std::move(behind)));
   } else {
-    drawables_.push_back(stage(context));
+    drawables_.push_back(stage(context, std::move(behind)));
     drawables_.push_back(counter(context, plan.counter, pi));
   }
   if (show.has(Overlay::masses)) drawables_.push_back(mass_labels(context));
   if (show.has(Overlay::velocities)) drawables_.push_back(velocity_arrows(context));
+  if (show.hits && !is_article) drawables_.push_back(hit_marks(context));
   if (show.has(Overlay::ruler)) drawables_.push_back(ruler(context));
   rows.move(plan.read_outs_px);
   drawables_.emplace_back(std::move(rows));
+  if (loupe) {
+    drawables_.emplace_back(
+        [=](const FrameState& shown, std::vector<DrawItem>& items) { (*loupe)(shown, items); });
+  }
   std::vector<DrawItem> lines(plan.lines.begin(), plan.lines.end());
   if (logo) lines.emplace_back(place_logo(plan.logo, std::move(logo)));
   drawables_.push_back(unchanging(std::move(lines)));
   // In the order of Panel.
   constexpr std::array kPanels = {velocity_panel, position_panel, unfolded_panel, time_panel,
-                                  count_panel, conservation_panel};
+                                  count_panel,    ellipse_panel,  conservation_panel};
   for (std::size_t i = 0; i < show.panels.size(); ++i) {
     const auto make_panel = kPanels.at(static_cast<std::size_t>(show.panels[i]));
     const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +

@@ -29,6 +29,12 @@ constexpr std::size_t kMostLines = 2;  ///< of a title or a caption
 constexpr double kBelowHeader = 0.02;
 constexpr double kBelowStage = 0.045;
 constexpr double kLeastStage = 0.2;
+constexpr double kLeastRowStage = 0.12;
+/// A picture lower than this is a row of a split screen.
+constexpr double kRow = 0.55;
+/// The counter's part of a row's width, at most.
+constexpr double kMostCounter = 0.6;
+constexpr double kRowCounter = 0.35;
 /// Height of the stage where there are diagrams: without overlays, and at most.
 constexpr double kPlainStage = 0.24;
 
@@ -90,6 +96,7 @@ class FramePlanner {
         bottom_(view_.height_px) {}
 
   FramePlan run(double read_outs_px) {
+    if (counter_ && view_.height_px < kRow * sizes_.unit) return row(read_outs_px);
     place_header();
     place_foot();
     const bool has_edge = show_.panels.empty() && bottom_ == view_.height_px;
@@ -105,6 +112,40 @@ class FramePlanner {
   }
 
  private:
+  /// A row of a split screen: the counter is beside the stage.
+  FramePlan row(double read_outs_px) {
+    // Of equal width where counts are short, so that rows have one scale.
+    const double counter_width =
+        std::max(set_count_size(kMostCounter * (right_ - left_)), kRowCounter * (right_ - left_));
+    CounterPlace& place = plan_.counter;
+    place.right_px = right_;
+    place.baseline_px = std::round(view_.height_px / 2.0 + Font::kCapHeight_em * place.size_px / 4);
+    place.pi_baseline_px = std::round(place.baseline_px + kPiStep * sizes_.text);
+    top_ = 0.75 * sizes_.gap;
+    if (!show_.title.empty()) {
+      check_text("show.title", show_.title, sizes_.title);
+      const double baseline = top_ + Font::kCapHeight_em * sizes_.title;
+      const double room = right_ - left_ - counter_width - sizes_.gap;
+      // A second line would have no room.
+      if (context_.font.width_em(show_.title) * sizes_.title > room) {
+        throw UsageError(fmt::format(
+            "show.title: '{}' is too long to be read in {:.0f} pixels; shorten it, or make the "
+            "frame wider",
+            show_.title, room));
+      }
+      add_line(ItemId::title, show_.title, baseline, sizes_.title);
+      top_ = baseline + kBelowBaseline * sizes_.title;
+    }
+    const double height = view_.height_px - sizes_.gap / 2 - top_ - read_outs_px;
+    const bool is_full = !show_.panels.empty() || !show_.caption.empty() || !show_.logo.empty();
+    if (is_full || height < kLeastRowStage * sizes_.unit) throw_no_room();
+    // The floor ends a margin before its area does.
+    const double width = right_ - counter_width - 2 * sizes_.gap + sizes_.margin;
+    plan_.stage = {0, top_, width, height};
+    plan_.read_outs_px = top_ + height;
+    return std::move(plan_);
+  }
+
   /// Breaks a text into lines that fit. @param key  named in messages
   std::vector<std::string> lines_of(const char* key, const std::string& text, double size_px,
                                     double room_px) const {
@@ -204,6 +245,11 @@ class FramePlanner {
         counter_->pi_px > 0 && reach_px(context_.scene, context_.log) > left_of_pi;
     top_ = is_above ? place.pi_baseline_px : place.baseline_px;
     top_ += kBelowBaseline * sizes_.text;
+    place.pi_left_px = right_ - counter_->pi_px;
+    plan_.header_px = top_;
+    if (counter_->pi_px > 0) {
+      plan_.header_px = place.pi_baseline_px + kBelowBaseline * sizes_.text;
+    }
   }
 
   /// Caption and logo are at the bottom; the stage ends above.

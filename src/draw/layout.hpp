@@ -40,7 +40,7 @@ struct BlockShape {
 struct Layout {
   double scale = 1;     ///< pixels per unit of the scene
   Point origin;         ///< pixel position of the scene's (0, 0)
-  int frame_px = 0;     ///< width of the frame
+  int frame_px = 0;     ///< blocks are seen up to here: the width of the frame, or of the stage
   double line_px = 1;   ///< of the blocks' outlines
   double floor_px = 0;  ///< the blocks stand on it
   BlockShape blue;
@@ -48,6 +48,7 @@ struct Layout {
   double above_px = 0;  ///< room above the taller block
   double below_px = 0;  ///< room below the floor
   double foot_px = 0;   ///< lower end of the wall
+  double right_px = 0;  ///< end of the floor
   CountLine line = {};  ///< of the article's picture alone
 
   /// Pixel position of a point of the scene.
@@ -83,6 +84,7 @@ struct CounterPlace {
   double size_px = 0;         ///< of the count's type
   double room_px = 0;         ///< the longest count's width
   double pi_baseline_px = 0;  ///< of the line below
+  double pi_left_px = 0;      ///< where that begins
 };
 
 struct FramePlan {
@@ -90,6 +92,7 @@ struct FramePlan {
   CounterPlace counter;
   Rectangle logo;  ///< empty unless asked for
   Rectangle stage;
+  double header_px = 0;     ///< lower end of title, counter and digits of pi
   double read_outs_px = 0;  ///< upper end of their rows
   std::vector<Rectangle> panels;
 };

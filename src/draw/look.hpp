@@ -74,6 +74,13 @@ inline constexpr double kWallLine = 0.005;  ///< and floor
 inline constexpr double kDataLine = 0.0035;
 inline constexpr double kGridLine = 1.5 / 720;  ///< the thinnest that a projector of 720 rows shows
 
+// Radii of dots in diagrams.
+inline constexpr double kPresentDot = 0.011;
+inline constexpr double kHitDot = 0.0055;
+
+/// Share of the alpha of an area that text or lines are over, which still has a contrast of 2.
+inline constexpr double kWedgeFill = 0.55;
+
 inline constexpr double kHatch = 0.025;     ///< width of the wall
 inline constexpr double kHitReach = 0.06;   ///< how far the mark of a hit grows
 inline constexpr double kLoupe = 0.36;      ///< its width
@@ -124,7 +131,7 @@ inline Rectangle whole(const View& view) {
 /// Lengths of the look in a frame, in pixels.
 struct Sizes {
   explicit Sizes(const View& view)
-      : unit(std::min(view.width_px, view.height_px)),
+      : unit(view.unit_px > 0 ? view.unit_px : std::min(view.width_px, view.height_px)),
         margin(style::kMargin * unit),
         gap(style::kGap * unit),
         title(type(style::kTitle)),
@@ -136,7 +143,7 @@ struct Sizes {
 
   double type(double fraction) const { return std::max(style::kLeastText_px, fraction * unit); }
 
-  double unit;  ///< the frame's shorter side
+  double unit;  ///< the frame's shorter side, or that of the whole film
   double margin;
   double gap;
   // Of the em.

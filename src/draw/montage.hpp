@@ -3,6 +3,7 @@
 #pragma once
 
 #include <piblocks/scene.hpp>
+#include <piblocks/script.hpp>
 
 #include <string>
 #include <vector>
@@ -16,11 +17,14 @@ namespace piblocks {
 /// @throws UsageError if a line cannot be set, or is too long for the frame.
 DrawList compose_card(const std::vector<std::string>& lines, const View& view);
 
-/// The frame in equal cells: side by side, or one above the other if it is not wider than high.
+/// The frame in equal cells.
 class SplitScreen {
  public:
   /// @throws UsageError if the frame is too small for so many.
-  SplitScreen(const View& view, std::size_t count);
+  SplitScreen(const View& view, std::size_t count, Split split = Split::automatic);
+
+  /// Whether cells are one above the other in a frame that is wider than high.
+  bool is_in_rows() const noexcept { return is_in_rows_; }
 
   /// Whole pixels that do not overlap, in order.
   const std::vector<PixelRect>& cells() const noexcept { return cells_; }
@@ -30,6 +34,7 @@ class SplitScreen {
  private:
   DrawList empty_;  ///< with what is between the cells
   std::vector<PixelRect> cells_;
+  bool is_in_rows_ = false;
 };
 
 /// The picture on its way to its background, or from it. @param opacity  of what is on the

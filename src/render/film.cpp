@@ -33,7 +33,7 @@ std::size_t longest(const std::vector<std::unique_ptr<CollisionLog>>& logs) {
 
 FilmSegment made_from(const Segment& segment, const View& view, FilmUse use) {
   if (const auto* card = std::get_if<Card>(&segment.content)) return {*card, view, use};
-  return {std::get<Scenes>(segment.content), view, use};
+  return {std::get<Scenes>(segment.content), segment.split, view, use};
 }
 
 std::string place_of(const Storyboard& story, std::size_t segment) {
@@ -119,11 +119,11 @@ std::shared_ptr<const Image> read_logo(const Scene& scene) {
 
 FilmSegment::FilmSegment(const Scene& scene, FilmUse use) { show_one(scene, use); }
 
-FilmSegment::FilmSegment(const Scenes& scenes, const View& film, FilmUse use) {
+FilmSegment::FilmSegment(const Scenes& scenes, Split split, const View& film, FilmUse use) {
   if (scenes.size() == 1) {
     show_one(with_film_view(scenes.front(), film), use);
   } else {
-    compare(scenes, film, use);
+    compare(scenes, split, film, use);
   }
 }
 
@@ -144,8 +144,8 @@ void FilmSegment::show_one(Scene scene, FilmUse use) {
   runs_.emplace_back(std::move(scene), std::move(log), use);
 }
 
-void FilmSegment::compare(const Scenes& scenes, const View& film, FilmUse use) {
-  split_.emplace(film, scenes.size());
+void FilmSegment::compare(const Scenes& scenes, Split split, const View& film, FilmUse use) {
+  split_.emplace(film, scenes.size(), split);
   std::vector<std::unique_ptr<CollisionLog>> logs;
   for (const Scene& scene : scenes) logs.push_back(make_collision_log(scene.system));
   const std::size_t leader = longest(logs);
@@ -157,6 +157,7 @@ void FilmSegment::compare(const Scenes& scenes, const View& film, FilmUse use) {
     Scene scene = with_film_view(scenes[i], film);
     scene.view.width_px = split_->cells()[i].width_px;
     scene.view.height_px = split_->cells()[i].height_px;
+    if (split_->is_in_rows()) scene.view.unit_px = std::min(film.width_px, film.height_px);
     scene.time = {span.from, span.to, leading.time.speed};
     scene.pacing = leading.pacing;
     runs_.emplace_back(std::move(scene), std::move(logs[i]), use);

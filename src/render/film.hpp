@@ -64,7 +64,7 @@ class FilmSegment {
  public:
   /// Scenes and cards must have no problems. @throws UsageError, SimulationError, DrawError
   FilmSegment(const Scene& scene, FilmUse use);
-  FilmSegment(const Scenes& scenes, const View& film, FilmUse use);
+  FilmSegment(const Scenes& scenes, Split split, const View& film, FilmUse use);
   FilmSegment(const Card& card, const View& film, FilmUse use);
   FilmSegment(FilmSegment&&) = default;
   FilmSegment& operator=(FilmSegment&&) = default;
@@ -85,7 +85,7 @@ class FilmSegment {
 
  private:
   void show_one(Scene scene, FilmUse use);
-  void compare(const Scenes& scenes, const View& film, FilmUse use);
+  void compare(const Scenes& scenes, Split split, const View& film, FilmUse use);
 
   std::int64_t frame_count_ = 0;
   std::vector<FilmRun> runs_;

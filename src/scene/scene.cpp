@@ -115,6 +115,18 @@ void check_each_once(const char* key, const std::vector<Value>& list, const auto
   }
 }
 
+void check_loupe(const Loupe& loupe, SceneProblems& problems) {
+  constexpr const char* kKey = "show.loupe";
+  if (!loupe.window) return;
+  const auto& [from, to, zoom] = *loupe.window;
+  problems.require(zoom > 1 && is_finite(zoom), kKey,
+                   "enlarges by {}: it must be by more than 1, and within the range of a double",
+                   zoom);
+  const bool are_times = from.is_time() && to.is_time();
+  problems.require(!are_times || from.offset < to.offset, kKey, "ends at {}, before it begins",
+                   to.offset);
+}
+
 void check_show(const Show& show, SceneProblems& problems) {
   const auto name_of = [](auto value) { return exact_text(value); };
   check_each_once("show.overlays", show.overlays, name_of, problems);
@@ -124,6 +136,7 @@ void check_show(const Show& show, SceneProblems& problems) {
   check_line("show.title", show.title, problems);
   check_line("show.caption", show.caption, problems);
   problems.require(!has_control_characters(show.logo), "show.logo", "must be one line of text");
+  if (show.loupe) check_loupe(*show.loupe, problems);
 }
 
 void check_golden(const Golden& golden, SceneProblems& problems) {

@@ -71,6 +71,7 @@ void read(Theme& target, const Values& values) { target = parse_theme(single(val
 void read(std::string& target, const Values& values) { target = single(values); }
 void read(Values& target, const Values& values) { target = list_of(values); }
 void read(std::optional<FrameSize>& target, const Values& values) { target = parse_size(values); }
+void read(std::optional<Loupe>& target, const Values& v) { target = parse_loupe(single(v)); }
 void read(std::vector<Freeze>& list, const Values& v) { list = parse_list(v, parse_freeze); }
 void read(std::vector<Overlay>& list, const Values& v) { list = parse_list(v, parse_overlay); }
 void read(std::vector<Panel>& list, const Values& v) { list = parse_list(v, parse_panel); }
@@ -99,6 +100,7 @@ Values texts_of(bool value) { return {value ? "true" : "false"}; }
 Values texts_of(Background value) {
   return {value == Background::opaque ? "opaque" : "transparent"};
 }
+Values texts_of(const Loupe& value) { return {exact_text(value)}; }
 Values texts_of(const FrameSize& value) {
   return {fmt::format("{}x{}", value.width_px, value.height_px)};
 }
@@ -197,6 +199,8 @@ constexpr auto kKeys = std::to_array<SceneKey>({
     key<&Scene::show, &Show::title>("show.title"),
     key<&Scene::show, &Show::caption>("show.caption"),
     key<&Scene::show, &Show::logo>("show.logo"),
+    key<&Scene::show, &Show::hits>("show.hits"),
+    key<&Scene::show, &Show::loupe>("show.loupe"),
     key<&Scene::golden, &Golden::frames>("golden.frames"),
     key<&Scene::golden, &Golden::size>("golden.size"),
 });

@@ -30,6 +30,7 @@ std::vector<std::string> lines_of(const Values& values) {
 }
 
 Rational number_of(const Values& values) { return parse_rational(single(values)); }
+Split split_of(const Values& values) { return parse_split(single(values)); }
 
 /// Makes the segments of a storyboard from the tables of its file, and collects their problems.
 class StoryReader {
@@ -70,6 +71,7 @@ class StoryReader {
     if (find(table, "card") != nullptr) {
       segment.content = card_of(table, origins);
     } else {
+      take(table, "split", segment.split, split_of, origins);
       segment.content = scenes_of(table);
     }
     return segment;
@@ -107,7 +109,7 @@ class StoryReader {
       return key == "seconds" ? "is the length of a card; a run has time.duration" : nullptr;
     });
     std::erase_if(keys.entries, [](const TomlEntry& entry) {
-      return entry.key == "compare" || entry.key == "fade";
+      return entry.key == "compare" || entry.key == "split" || entry.key == "fade";
     });
     SceneDraft common = film_.next(origin_of(table.line));
     common.read(path_, keys);

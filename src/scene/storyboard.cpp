@@ -33,6 +33,7 @@ std::string described(const Scene& scene) {
 
 std::string described(const Segment& segment) {
   std::string text = "fade = " + segment.fade_s.get_str();
+  if (segment.split != Split::automatic) text += "\tsplit = " + exact_text(segment.split);
   if (const auto* card = std::get_if<Card>(&segment.content)) {
     return fmt::format("{}\tseconds = {}\t{}", text, card->length_s.get_str(),
                        fmt::join(card->lines, "\t"));

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/scene.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <array>
@@ -34,7 +35,11 @@ constexpr auto kPanels = std::to_array<Name<Panel>>({{"velocity", Panel::velocit
                                                      {"unfolded", Panel::unfolded},
                                                      {"time", Panel::time},
                                                      {"count", Panel::count},
+                                                     {"ellipse", Panel::ellipse},
                                                      {"conservation", Panel::conservation}});
+
+constexpr auto kSplits = std::to_array<Name<Split>>(
+    {{"auto", Split::automatic}, {"columns", Split::columns}, {"rows", Split::rows}});
 
 std::string names_of(const auto& table) {
   std::string names;
@@ -79,10 +84,12 @@ bool Show::has(Overlay overlay) const noexcept {
 Theme parse_theme(std::string_view name) { return parse(kThemes, name); }
 Overlay parse_overlay(std::string_view name) { return parse(kOverlays, name); }
 Panel parse_panel(std::string_view name) { return parse(kPanels, name); }
+Split parse_split(std::string_view name) { return parse(kSplits, name); }
 
 std::string exact_text(Theme theme) { return text_of(kThemes, theme); }
 std::string exact_text(Overlay overlay) { return text_of(kOverlays, overlay); }
 std::string exact_text(Panel panel) { return text_of(kPanels, panel); }
+std::string exact_text(Split split) { return text_of(kSplits, split); }
 
 std::string theme_names() { return names_of(kThemes); }
 std::string overlay_names() { return names_of(kOverlays); }
@@ -104,6 +111,21 @@ std::string exact_text(const SlowMotion& window) {
 
 std::string exact_text(const Freeze& freeze) {
   return exact_text(freeze.at) + ':' + freeze.length_s.get_str();
+}
+
+Loupe parse_loupe(std::string_view text) {
+  if (text == "auto") return {};
+  if (text == "off") return {.is_on = false};
+  const auto parts = split<3>(text, "auto, off, or FROM:TO:ZOOM, as turn-0.01:turn+0.01:100");
+  return {.window = LoupeWindow{parse_instant(parts[0]), parse_instant(parts[1]),
+                                parse_rational(parts[2])}};
+}
+
+std::string exact_text(const Loupe& loupe) {
+  if (!loupe.is_on) return "off";
+  if (!loupe.window) return "auto";
+  const auto& [from, to, zoom] = *loupe.window;
+  return exact_text(from) + ':' + exact_text(to) + ':' + zoom.get_str();
 }
 
 }  // namespace piblocks

@@ -349,41 +349,6 @@ TEST(Overlays, TimeIsExactHoweverLate) {
   EXPECT_TRUE(has_text(list, "t = 123,456,789,012,345,678.25"));
 }
 
-/// How far the sectors of the velocity circle reach that are lit, in radians, of both sides.
-double lit_angle(const DrawList& list) {
-  double sum = 0;
-  for (const DrawItem& item : list.items) {
-    const auto* path = std::get_if<PathItem>(&item);
-    if (path == nullptr || !path->fill || path->points.view().size() < 3) continue;
-    const std::span<const Point> points = path->points.view();
-    const Point& centre = points.back();
-    double angle = 0;
-    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-      const Point a{points[i - 1].x - centre.x, points[i - 1].y - centre.y};
-      const Point b{points[i].x - centre.x, points[i].y - centre.y};
-      angle += std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
-    }
-    sum += std::abs(angle);
-  }
-  return sum;
-}
-
-TEST(Panels, ASectorIsLitForEachCollision) {
-  for (const int digits : {1, 2, 3}) {
-    const Pictures pictures(scene_with(digits, {{"show.panels", "velocity"}}));
-    const double sector = 2 * std::atan(std::pow(10, 1 - digits));
-    const double half = std::numbers::pi;
-    for (int count = 0; count <= pictures.log->size(); ++count) {
-      const double below = std::min((count + 1) / 2 * sector, half);
-      const double above = std::min(count / 2 * sector, half);
-      const DrawList list = count == 0
-                                ? pictures.at(0)
-                                : pictures.composition.frame({state_after(*pictures.log, count)});
-      EXPECT_NEAR(lit_angle(list), below + above, 1e-6) << digits << " digits, " << count;
-    }
-  }
-}
-
 TEST(Panels, TheUnfoldedLineStaysInItsPlace) {
   const std::vector<Setting> usual = {{"show.panels", "unfolded"}, {"view.size", "800x450"}};
   const std::vector<std::vector<Setting>> systems = {

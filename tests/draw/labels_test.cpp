@@ -285,7 +285,7 @@ TEST(Labels, TitlesOfNarrowDiagramsAreBriefRatherThanSmall) {
     EXPECT_GE(title.size_px, 8);
     titles.push_back(title.text);
   }
-  EXPECT_EQ(titles, (std::vector<std::string>{"Velocities √m·v", "Positions", "Unfolded",
+  EXPECT_EQ(titles, (std::vector<std::string>{"Speeds on a circle", "Positions", "Unfolded",
                                               "Distances", "Collision rate"}));
 }
 

@@ -50,6 +50,8 @@ const std::map<std::string, Values> kOther = {
     {"show.title", {"One, two"}},
     {"show.caption", {"Three"}},
     {"show.logo", {"logos/a.png"}},
+    {"show.hits", {"false"}},
+    {"show.loupe", {"turn-1/100:turn+1/100:100"}},
     {"golden.frames", {"0", "#3"}},
     {"golden.size", {"64x48"}},
 };

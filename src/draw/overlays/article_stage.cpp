@@ -40,16 +40,18 @@ double length(const Range& range) { return to_double(range.high - range.low); }
 
 class ArticleStage {
  public:
-  ArticleStage(const DrawingContext& context, std::string lit_digits)
+  ArticleStage(const DrawingContext& context, std::string lit_digits, Drawable behind)
       : layout_(context.layout),
         palette_(context.palette),
         wall_(wall_of(context.scene)),
+        behind_(std::move(behind)),
         lit_digits_(std::move(lit_digits)),
         base_(context.scene.show.base),
         widths_(context.font, count_characters(base_)) {}
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     items.emplace_back(wall_);
+    if (behind_) behind_(shown, items);
     add_blocks(shown, layout_, palette_, items);
     add_line(shown.state.count, items);
   }
@@ -97,6 +99,7 @@ class ArticleStage {
   Layout layout_;
   Palette palette_;
   RectangleItem wall_;
+  Drawable behind_;
   std::string lit_digits_;
   int base_;  ///< of counts
   TextWidths widths_;
@@ -155,8 +158,8 @@ Layout lay_out_article(const Scene& scene, const Integer& longest_count, const R
   return layout;
 }
 
-Drawable article_stage(const DrawingContext& context, std::string lit_digits) {
-  return ArticleStage(context, std::move(lit_digits));
+Drawable article_stage(const DrawingContext& context, std::string lit_digits, Drawable behind) {
+  return ArticleStage(context, std::move(lit_digits), std::move(behind));
 }
 
 }  // namespace piblocks

@@ -49,8 +49,8 @@ TextItem mass_label(std::size_t n, std::string text, const Block& block,
   const BlockColors& colors = is_red ? context.palette.red : context.palette.blue;
   const BlockShape& shape = is_red ? layout.red : layout.blue;
   const BlockShape& other = is_red ? layout.blue : layout.red;
-  const bool is_lighter = is_red ? system.red.mass < system.blue.mass
-                                 : system.blue.mass <= system.red.mass;
+  const bool is_lighter =
+      is_red ? system.red.mass < system.blue.mass : system.blue.mass <= system.red.mass;
   const double size_px = context.sizes.mass;
   const double left = -context.font.width_em(text) * size_px / 2;
   const double top = layout.floor_px - shape.height_px;

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "draw/layout.hpp"
@@ -17,10 +18,11 @@ inline constexpr double kRulerRoom = 0.07;
 
 /// The article's picture: wall, blocks and counter.
 /// @param lit_digits  light up when the counter shows them in their places; may be empty
-Drawable article_stage(const DrawingContext& context, std::string lit_digits);
+/// @param behind      is drawn before the blocks; may be empty
+Drawable article_stage(const DrawingContext& context, std::string lit_digits, Drawable behind);
 
-/// Wall, floor and blocks.
-Drawable stage(const DrawingContext& context);
+/// Wall, floor and blocks. @param behind  is drawn before the blocks; may be empty
+Drawable stage(const DrawingContext& context, Drawable behind);
 
 /// Each block's mass, on it or, if that is too narrow for the heavier one's, above it.
 /// @throws UsageError if the lighter block is too narrow.
@@ -36,8 +38,15 @@ Drawable velocity_arrows(const DrawingContext& context);
 /// A scale of positions below the blocks. @throws UsageError if the view has no room there.
 Drawable ruler(const DrawingContext& context);
 
-/// Whether there is a read-out that says "10× slower".
+/// Whether there is a label that says "10× slower".
 bool has_slow_motion(const Pacing& pacing);
+
+/// What it says; empty while time runs as elsewhere.
+struct SlowMotionLabel {
+  std::string widest;
+  std::function<std::string(const FrameState&)> text;
+};
+SlowMotionLabel slow_motion_label(const DrawingContext& context);
 
 /// All read-outs in rows, from the frame's top on. A Drawable.
 class ReadOutRows {
@@ -48,6 +57,10 @@ class ReadOutRows {
   double height() const noexcept { return height_; }
   /// Moves all rows down.
   void move(double y);
+  /// The label of slow motion is seen as far as this is not. @param opacity  of the loupe, 0 … 1
+  void leave_slow_motion_to(std::function<double(const FrameState&)> opacity) {
+    loupe_opacity_ = std::move(opacity);
+  }
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const;
 
  private:
@@ -57,8 +70,10 @@ class ReadOutRows {
     std::size_t room_bytes;  ///< of the text that takes most room
     double room_px;
     Point origin;
+    bool is_slow_motion;
   };
   std::vector<Placed> placed_;
+  std::function<double(const FrameState&)> loupe_opacity_;  ///< may be empty
   TextWidths widths_;
   double text_px_;
   Face face_;

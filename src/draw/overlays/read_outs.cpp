@@ -25,6 +25,7 @@ struct ReadOut {
   std::string widest;  ///< the text that takes most room
   std::function<std::string(const FrameState&)> text;
   Color color;
+  bool is_slow_motion = false;
 };
 
 /// Slow motion has more decimals, since less time passes from frame to frame.
@@ -93,7 +94,9 @@ std::string passing_text(const Rational& slower, const Rational& most) {
   return rounded <= most ? slower_text(rounded) : "";
 }
 
-ReadOut slower_read_out(const DrawingContext& context) {
+}  // namespace
+
+SlowMotionLabel slow_motion_label(const DrawingContext& context) {
   std::string widest;
   std::vector<Rational> steady = steady_factors(context.scene.pacing);
   for (const Rational& slower : steady) {
@@ -112,7 +115,15 @@ ReadOut slower_read_out(const DrawingContext& context) {
     const bool is_steady = std::ranges::binary_search(steady, shown.slower);
     return is_steady ? slower_text(shown.slower) : passing_text(shown.slower, most);
   };
-  return {"slow motion", std::move(widest), text, context.palette.accent};
+  return {std::move(widest), text};
+}
+
+namespace {
+
+ReadOut slower_read_out(const DrawingContext& context) {
+  SlowMotionLabel label = slow_motion_label(context);
+  return {"slow motion", std::move(label.widest), std::move(label.text), context.palette.accent,
+          true};
 }
 
 /// How values up to a largest one are written: with as many decimals as give the largest six
@@ -232,7 +243,8 @@ ReadOutRows::ReadOutRows(const DrawingContext& context)
                          read_out.color,
                          read_out.widest.size(),
                          widths[first],
-                         {x, height_ + kRowBaseline * text_px_}});
+                         {x, height_ + kRowBaseline * text_px_},
+                         read_out.is_slow_motion});
       x += widths[first] + gap;
     }
     height_ += kRowHeight * text_px_;
@@ -251,12 +263,15 @@ void ReadOutRows::operator()(const FrameState& shown, std::vector<DrawItem>& ite
     if (n > 0 && placed.origin.y != placed_[n - 1].origin.y) shift = 0;
     std::string text = placed.text(shown);
     if (text.empty()) continue;
+    const bool is_shared = placed.is_slow_motion && loupe_opacity_;
+    const double opacity = is_shared ? 1 - loupe_opacity_(shown) : 1;
+    if (opacity <= 0) continue;
     const Point origin{placed.origin.x + shift, placed.origin.y};
     if (text.size() > placed.room_bytes) {
       shift += std::max(0.0, widths_.width_em(text) * text_px_ - placed.room_px);
     }
     items.emplace_back(TextItem{nth(ItemId::read_outs, n), origin, std::move(text), text_px_,
-                                placed.color, face_});
+                                faded(placed.color, opacity), face_});
   }
 }
 

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
+#include "draw/overlays/stage_parts.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -22,10 +24,9 @@ constexpr double kMostStep_px = 0.25;
 constexpr double kHeightByMass = 0.25;
 /// In fractions of the frame's shorter side.
 constexpr double kLeastHeight = 0.05;
-constexpr double kHatchStep = 0.02;
+/// Above the ids of a block's bars.
+constexpr std::size_t kCover = 1000;
 constexpr double kWallAbove = 0.03;  ///< of the taller block
-/// Distance from a block's edge to its first bar, and from bar to bar, in parts of its height.
-constexpr double kBarSpacing = 0.1;
 
 /// The heavier block's height, in heights of the lighter one.
 double height_ratio(const BlockSystem& system) {
@@ -33,10 +34,6 @@ double height_ratio(const BlockSystem& system) {
   const Magnitude ratio = magnitude_of(heavy / light);
   const double logarithm = std::log10(ratio.mantissa) + double(ratio.exponent);
   return std::min(style::kMostHeight, 1 + kHeightByMass * logarithm);
-}
-
-bool shows_wall(const Scene& scene) {
-  return scene.view.x.low <= scene.system.wall_face && scene.view.x.high > scene.system.wall_face;
 }
 
 /// What is seen of the axis, and where.
@@ -77,52 +74,9 @@ void fit_heights(double room_px, Layout& layout) {
   }
 }
 
-ExposedBlock exposed_block(const Rectangle& bounds, const BlockColors& colors, double line_px) {
-  ExposedBlock block{bounds, colors.fill, Stroke{colors.edge, line_px}, {}, {}};
-  const double height = std::min(2 * line_px, kBarSpacing * bounds.height / 2);
-  for (int bar = 1; bar <= colors.bars; ++bar) {
-    const bool is_upper = 2 * bar <= colors.bars;
-    const double down = kBarSpacing * (is_upper ? bar : bar - colors.bars - 1);
-    const double centre = std::round(bounds.y + bounds.height * (is_upper ? down : 1 + down));
-    block.bars.push_back({centre - height / 2, height});
-  }
-  return block;
-}
-
-/// A plate of what stays. @param around_px  how far lines reach out of the bounds
-PlateItem plate_of(ItemId id, const Rectangle& bounds, std::vector<DrawItem> items) {
-  const double left = std::floor(bounds.x);
-  const double top = std::floor(bounds.y);
-  return {id,
-          {left, top, std::ceil(bounds.x + bounds.width) - left,
-           std::ceil(bounds.y + bounds.height) - top},
-          std::make_shared<const Plate>(Plate{std::move(items)})};
-}
-
-/// The wall's face, and lines of 45 degrees behind it.
-PlateItem wall_of(const Layout& layout, double face_px, double top_px,
-                  const DrawingContext& context) {
-  const Sizes& sizes = context.sizes;
+Rectangle around(const WallPlace& wall, const Sizes& sizes) {
   const double width = style::kHatch * sizes.unit;
-  const double bottom = layout.floor_px + sizes.wall_line;
-  std::vector<DrawItem> items;
-  const Stroke hatch{context.palette.muted, sizes.grid_line};
-  for (double y = top_px; y < bottom + width; y += kHatchStep * sizes.unit) {
-    // From the face down to the left, cut off at the wall's ends.
-    const double from = std::max(0.0, y - bottom);
-    const double to = std::min(width, y - top_px);
-    if (to <= from) continue;
-    // y is the height at the wall's left end plus its width.
-    items.emplace_back(PathItem{
-        nth(ItemId::wall, items.size()),
-        std::vector<Point>{{face_px - width + to, y - to}, {face_px - width + from, y - from}},
-        false, std::nullopt, hatch});
-  }
-  const Rectangle face{face_px - sizes.wall_line, top_px, sizes.wall_line, bottom - top_px};
-  items.emplace_back(
-      RectangleItem{nth(ItemId::wall, items.size()), face, context.palette.wall, std::nullopt});
-  return plate_of(ItemId::wall, {face_px - width - 1, top_px - 1, width + 2, bottom - top_px + 2},
-                  std::move(items));
+  return {wall.face_px - width - 1, wall.top_px - 1, width + 2, wall.bottom_px - wall.top_px + 2};
 }
 
 }  // namespace
@@ -158,7 +112,9 @@ Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font
   const Sizes sizes(scene.view);
   const Axis axis(scene, area);
   Layout layout;
-  layout.frame_px = scene.view.width_px;
+  const bool is_whole = area.width >= scene.view.width_px;
+  layout.right_px = area.x + area.width - sizes.margin;
+  layout.frame_px = is_whole ? scene.view.width_px : static_cast<int>(layout.right_px);
   layout.line_px = std::max(1.0, std::round(sizes.data_line));
   layout.scale = axis.scale;
   check_resolution(scene.view, layout.scale);
@@ -190,9 +146,9 @@ Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font
 void add_blocks(const FrameState& shown, const Layout& layout, const Palette& palette,
                 std::vector<DrawItem>& items) {
   ExposedBlock red =
-      exposed_block(layout.at(layout.red, shown.state.red.position), palette.red, layout.line_px);
-  ExposedBlock blue = exposed_block(layout.at(layout.blue, shown.state.blue.position), palette.blue,
-                                    layout.line_px);
+      block_at(layout.at(layout.red, shown.state.red.position), palette.red, layout.line_px);
+  ExposedBlock blue =
+      block_at(layout.at(layout.blue, shown.state.blue.position), palette.blue, layout.line_px);
   if (shown.exposure.empty()) {
     add_rectangles(ItemId::red_block, red, items);
     add_rectangles(ItemId::blue_block, blue, items);
@@ -201,7 +157,7 @@ void add_blocks(const FrameState& shown, const Layout& layout, const Palette& pa
   }
 }
 
-Drawable stage(const DrawingContext& context) {
+Drawable stage(const DrawingContext& context, Drawable behind) {
   const Scene& scene = context.scene;
   const Layout& layout = context.layout;
   const Sizes& sizes = context.sizes;
@@ -210,19 +166,31 @@ Drawable stage(const DrawingContext& context) {
   double floor_left = 0;
   if (shows_wall(scene)) {
     const double face = layout.at(to_double(scene.system.wall_face), 0).x;
-    stays.emplace_back(wall_of(layout, face, top, context));
+    const WallPlace place{face, top, layout.foot_px};
+    stays.emplace_back(plate_of(ItemId::wall, around(place, sizes), wall_items(place, context)));
     floor_left = face - sizes.wall_line;
   }
-  const double floor_right = scene.view.width_px - sizes.margin;
   stays.emplace_back(
       RectangleItem{nth(ItemId::wall, 1),
-                    {floor_left, layout.floor_px, floor_right - floor_left, sizes.wall_line},
+                    {floor_left, layout.floor_px, layout.right_px - floor_left, sizes.wall_line},
                     context.palette.wall,
                     std::nullopt});
-  return [stays, layout, palette = context.palette](const FrameState& shown,
-                                                    std::vector<DrawItem>& items) {
+  std::optional<RectangleItem> cover;
+  const std::optional<Color> background = background_of(scene.view);
+  if (background && layout.frame_px < scene.view.width_px) {
+    cover = {
+        nth(ItemId::blue_block, kCover),
+        {layout.right_px, 0, scene.view.width_px - layout.right_px, double(scene.view.height_px)},
+        background,
+        std::nullopt};
+  }
+  return [stays, cover, layout, palette = context.palette, behind = std::move(behind)](
+             const FrameState& shown, std::vector<DrawItem>& items) {
     items.insert(items.end(), stays.begin(), stays.end());
+    if (behind) behind(shown, items);
     add_blocks(shown, layout, palette, items);
+    // Beside the stage of a row is the counter, which blocks pass behind.
+    if (cover) items.emplace_back(*cover);
   };
 }
 

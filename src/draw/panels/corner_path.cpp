@@ -4,13 +4,16 @@
 #include <cmath>
 #include <iterator>
 
+#include "draw/number_text.hpp"
+
 namespace piblocks {
 namespace {
 
-/// The picture is enlarged when red's gap is this part of its width …
-constexpr double kZoomFrom = 0.13;
-/// … and until it would have been this part of it.
-constexpr double kZoomTo = 0.1;
+/// The picture has been enlarged when red's gap is this part of its width.
+constexpr double kZoomedTo = 0.8;
+/// Of each way to the next power of ten, on a logarithmic scale, in which the zoom stays. A picture
+/// that stays costs next to nothing.
+constexpr double kStays = 0.9;
 
 Gaps clipped(const Gaps& outside, const Gaps& inside, double limit) {
   const double share = (limit - inside.y2) / (outside.y2 - inside.y2);
@@ -86,13 +89,46 @@ ShownPath CornerPath::shown(const GapWindow& window) const {
   return path;
 }
 
-double zoom_exponent(double share) {
-  static const double kEased = std::log10(kZoomFrom / kZoomTo);
-  const double decades = std::log10(kZoomFrom / share);
-  if (decades <= 0) return 0;
-  const double whole = std::floor(decades);
-  const double part = std::min(1.0, (decades - whole) / kEased);
-  return whole + part * part * (3 - 2 * part);
+CornerZoom::CornerZoom(double least_share)
+    // One power more than is shown: Zoom has no plateau at 1.
+    : zoom_(std::max(2L, std::lround(std::ceil(2 - std::log10(least_share)))), kStays) {}
+
+double CornerZoom::of(double share) const {
+  const double room = kZoomedTo / share;
+  if (room < 1) return 1;
+  const double zoom = zoom_.of(10 * room);
+  const long exponent = zoom_.exponent_of(zoom);
+  return zoom == zoom_.power(exponent) ? zoom_.power(exponent - 1) : zoom / 10;
+}
+
+std::optional<std::size_t> CornerZoom::exponent_of(double zoom) const {
+  const long exponent = zoom_.exponent_of(zoom);
+  if (zoom != zoom_.power(exponent)) return std::nullopt;
+  return static_cast<std::size_t>(exponent);
+}
+
+void CornerZoom::make_texts(const FormulaSetter& set) {
+  for (std::size_t exponent = 0; exponent < kPlain; ++exponent) {
+    // Of two digits.
+    for (int tenths = 0; tenths <= 100; ++tenths) {
+      const double value = power(exponent) * tenths / 10;
+      plain_.at(exponent).push_back(set.text("×" + fixed_text(value, exponent == 0 ? 1 : 0)));
+    }
+  }
+  for (long exponent = 0; exponent <= zoom_.most_exponent(); ++exponent) {
+    const bool is_plain = exponent < static_cast<long>(kPlain);
+    powers_.push_back(
+        set.text("×" + (is_plain ? fixed_text(power_of_ten(exponent), 0) : power_text(exponent))));
+  }
+}
+
+Formula CornerZoom::text(double zoom) const {
+  const auto exponent = static_cast<std::size_t>(zoom_.exponent_of(zoom));
+  const auto tenths = static_cast<std::size_t>(std::lround(10 * zoom / power(exponent)));
+  if (tenths <= 10) return powers_.at(exponent);
+  if (exponent < kPlain) return plain_.at(exponent).at(tenths);
+  if (tenths >= 100) return powers_.at(exponent + 1);
+  return plain_.at(0).at(tenths) + powers_.at(exponent);
 }
 
 }  // namespace piblocks

@@ -5,9 +5,12 @@
 
 #include <piblocks/run.hpp>
 
+#include <array>
 #include <optional>
 #include <vector>
 
+#include "draw/formula.hpp"
+#include "draw/overlays/zoom.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -54,10 +57,30 @@ class CornerPath {
   double least_ = 0;
 };
 
-/// The magnification of the plane while red's gap is this part of the greatest one: 1, 10, 100 …,
-/// and between them smooth. It grows as the gap shrinks, and the gap stays in the picture.
-/// @param share  0 < share
-/// @returns the power of ten, >= 0
-double zoom_exponent(double share);
+/// How many times the plane is enlarged about its corner: 1, 10, 100 …, and in between for as long
+/// as one rises to the next.
+class CornerZoom {
+ public:
+  /// @param least_share  the least part of red's greatest gap that is shown, > 0
+  explicit CornerZoom(double least_share);
+
+  /// Continuous; it grows as the gap shrinks, and the gap stays in the picture.
+  /// @param share  of red's greatest gap, > 0
+  double of(double share) const;
+  /// The exponent of a power of ten; nothing between them.
+  std::optional<std::size_t> exponent_of(double zoom) const;
+  double power(std::size_t exponent) const { return zoom_.power(static_cast<long>(exponent)); }
+  /// "×100", "×2.5×10⁷": two digits.
+  Formula text(double zoom) const;
+  /// Before text() is called.
+  void make_texts(const FormulaSetter& set);
+
+ private:
+  Zoom zoom_;
+  static constexpr std::size_t kPlain = 4;
+
+  std::array<std::vector<Formula>, kPlain> plain_;  ///< by exponent, and ten times the mantissa
+  std::vector<Formula> powers_;                     ///< by exponent
+};
 
 }  // namespace piblocks

@@ -20,8 +20,10 @@ struct PanelPlace {
   Panel panel = Panel::velocity;
 };
 
-/// The state as a point on a circle, and a sector for each collision.
+/// The velocities as a point on a circle, and a chord for each collision.
 Drawable velocity_panel(const DrawingContext& context, const PanelPlace& place);
+/// The same, first as the ellipse that it is before velocities are scaled by the masses' roots.
+Drawable ellipse_panel(const DrawingContext& context, const PanelPlace& place);
 /// The path through the plane of both gaps, enlarged near the corner.
 Drawable position_panel(const DrawingContext& context, const PanelPlace& place);
 /// The straight line through the unfolded wedge.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <memory>
 #include <numbers>
@@ -45,49 +44,6 @@ PanelTitle title_of_positions(const DrawingContext& context, const PanelPlace& p
                         set.text("A zigzag in a wedge"), set.text("Positions")});
 }
 
-/// A magnification as it is said: "×100", "×2.5×10⁷".
-class ZoomText {
- public:
-  ZoomText(const FormulaSetter& set, long most_exponent) {
-    for (long power = 0; power <= std::max(kPlain, most_exponent); ++power) {
-      powers_.push_back(set.text("×" + power_text(power)));
-    }
-    for (int value = 0; value <= kMostPlain; ++value) {
-      if (value > 100 && value % 10 != 0) {
-        plain_.emplace_back();
-        continue;
-      }
-      plain_.push_back(set.text("×" + fixed_text(double(value), 0)));
-    }
-    for (int tenths = 0; tenths < 100; ++tenths) {
-      mantissas_.push_back(set.text("×" + fixed_text(double(tenths) / 10, 1)));
-    }
-  }
-
-  /// Of two digits.
-  Formula of(double exponent) const {
-    const auto whole = static_cast<std::size_t>(exponent);
-    const double mantissa = std::pow(10, exponent - double(whole));
-    if (exponent <= double(kPlain)) {
-      const double unit = std::pow(10, std::max(0.0, double(whole) - 1));
-      return plain_.at(
-          static_cast<std::size_t>(std::lround(std::pow(10, exponent) / unit) * std::lround(unit)));
-    }
-    const auto tenths = static_cast<std::size_t>(std::lround(10 * mantissa));
-    if (tenths <= 10) return powers_.at(whole);
-    if (tenths >= 100) return powers_.at(whole + 1);
-    return mantissas_.at(tenths) + powers_.at(whole);
-  }
-
- private:
-  static constexpr long kPlain = 3;
-  static constexpr int kMostPlain = 1000;
-
-  std::vector<Formula> powers_;
-  std::vector<Formula> plain_;  ///< by value; empty ones have more than two digits
-  std::vector<Formula> mantissas_;
-};
-
 /// The path of both gaps runs to and fro between two lines, on which blue meets the wall and red.
 /// The picture is enlarged about their corner as red comes near, and seems to stay as it is: the
 /// wedge has no size of its own.
@@ -99,16 +55,17 @@ class PositionPanel {
               std::max(1, static_cast<int>(diagram_.inside().width))),
         most_(path_.most() > 0 ? path_.most() : 1),
         least_share_(path_.least() > 0 ? path_.least() / most_ : kLeastShare),
-        zoom_text_(context.setter(), std::lround(std::ceil(zoom_exponent(least_share_)))) {
+        zoom_(least_share_) {
     context.needs.gaps = true;
+    zoom_.make_texts(context.setter());
     const GapWedge wedge(context.scene.system);
     is_true_ = std::min(wedge.theta, std::numbers::pi / 2 - wedge.theta) >= kLeastAngle;
     place_wedge(is_true_ ? wedge.sine / wedge.cosine : 0);
     add_wedge();
     add_names();
-    const long most = std::lround(std::floor(zoom_exponent(least_share_)));
-    for (long exponent = 0; exponent <= most; ++exponent) {
-      auto plate = std::make_shared<const Plate>(Plate{items_at(double(exponent))});
+    const double most = zoom_.of(least_share_);
+    for (std::size_t exponent = 0; zoom_.power(exponent) <= most; ++exponent) {
+      auto plate = std::make_shared<const Plate>(Plate{items_at(zoom_.power(exponent))});
       plateaus_.push_back({diagram_.moving(0), diagram_.item().bounds, std::move(plate)});
     }
     diagram_.finish();
@@ -118,15 +75,14 @@ class PositionPanel {
     items.emplace_back(diagram_.item());
     const Gaps& gaps = shown.gaps;
     const double share = std::max(gaps.y2 / most_, least_share_);
-    const double exponent = zoom_exponent(share);
-    const auto whole = static_cast<std::size_t>(exponent);
-    if (exponent == double(whole) && whole < plateaus_.size()) {
-      items.emplace_back(plateaus_[whole]);
+    const double zoom = zoom_.of(share);
+    if (const auto exponent = zoom_.exponent_of(zoom); exponent && *exponent < plateaus_.size()) {
+      items.emplace_back(plateaus_[*exponent]);
     } else {
-      std::ranges::move(items_at(exponent), std::back_inserter(items));
+      std::ranges::move(items_at(zoom), std::back_inserter(items));
     }
     if (gaps.y2 > most_ * (1 + 1e-9)) return;
-    items.emplace_back(diagram_.dot(kDot, at(gaps, exponent), diagram_.palette().accent));
+    items.emplace_back(diagram_.dot(kDot, at(gaps, zoom), diagram_.palette().accent));
   }
 
  private:
@@ -136,8 +92,7 @@ class PositionPanel {
   static constexpr std::size_t kDot = kZoomLabel + 64;
   static constexpr std::size_t kPiece = 6;  ///< segments of a line that are one item
 
-  Point at(const Gaps& gaps, double exponent) const {
-    const double zoom = std::pow(10, exponent);
+  Point at(const Gaps& gaps, double zoom) const {
     return {corner_.x + gaps.y2 * zoom / most_ * width_,
             corner_.y - gaps.y1 * zoom / most_ * height_};
   }
@@ -232,20 +187,19 @@ class PositionPanel {
     diagram_.text(note, {left + room / 2, y}, 0.5, palette.muted);
   }
 
-  std::vector<DrawItem> items_at(double exponent) const {
+  std::vector<DrawItem> items_at(double zoom) const {
     const Palette& palette = diagram_.palette();
-    const double window = most_ * std::pow(10, -exponent);
+    const double window = most_ / zoom;
     const double line_px = diagram_.sizes().data_line;
     const ShownPath path =
         path_.shown({.to = window, .least_apart = kLeastApart * line_px / width_ * window});
     std::vector<DrawItem> items;
     if (path.filled_high > path.filled_low) {
       const auto& [lines, low, high] = path;
-      items.emplace_back(
-          diagram_.moving_shape(0,
-                                {at({0, low}, exponent), at({0, high}, exponent),
-                                 at({high, high}, exponent), at({low, low}, exponent)},
-                                palette.text));
+      items.emplace_back(diagram_.moving_shape(
+          0,
+          {at({0, low}, zoom), at({0, high}, zoom), at({high, high}, zoom), at({low, low}, zoom)},
+          palette.text));
     }
     // Each area of the picture is painted by itself, and only with pieces that reach into it.
     std::size_t n = kLines;
@@ -253,15 +207,15 @@ class PositionPanel {
       for (std::size_t first = 0; first + 1 < line.size(); first += kPiece) {
         std::vector<Point> points;
         for (std::size_t i = first; i < std::min(first + kPiece + 1, line.size()); ++i) {
-          points.push_back(at(line[i], exponent));
+          points.push_back(at(line[i], zoom));
         }
         items.emplace_back(
             diagram_.moving_line(n++, std::move(points), palette.text, diagram_.data_width()));
       }
     }
-    if (exponent == 0) return items;
+    if (zoom == 1) return items;
     const double em = diagram_.text_px();
-    zoom_text_.of(exponent).add_to(
+    zoom_.text(zoom).add_to(
         items, diagram_.moving(kZoomLabel),
         {corner_.x + kBesideAxis_em * em, corner_.y - height_ + kSecondRow_em * em}, em,
         palette.text);
@@ -272,7 +226,7 @@ class PositionPanel {
   CornerPath path_;
   double most_;         ///< of red's gap
   double least_share_;  ///< least of red's gap, in parts of it
-  ZoomText zoom_text_;
+  CornerZoom zoom_;
   bool is_true_ = false;
   Point corner_;
   // Of the wedge.

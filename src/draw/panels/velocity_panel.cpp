@@ -1,147 +1,220 @@
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
+#include "draw/look.hpp"
 #include "draw/panels/panels.hpp"
-#include "draw/panels/trajectory.hpp"
+#include "draw/panels/velocity_figure.hpp"
+#include "draw/panels/velocity_points.hpp"
 
 namespace piblocks {
 namespace {
 
-constexpr double kMargin_em = 0.8;
-/// Lines between sectors begin where they are this far apart.
-constexpr double kLeastApart_px = 4;
+// Of the moving items.
+constexpr std::size_t kFirstStrip = 8192;
+constexpr std::size_t kFirstAxis = 12280;
+constexpr std::size_t kFirstChord = 12288;
+constexpr std::size_t kFirstDot = 20480;
+constexpr std::size_t kPresent = 32767;
 
-PanelTitle title_of(const DrawingContext& context) {
-  const FormulaSetter set = context.setter();
-  return {set.text(fmt::format("Velocities √m·v ({} →, {} ↑)", context.palette.red.full_name,
-                               context.palette.blue.full_name)),
-          set.text("Velocities √m·v")};
+/// Width of the strips that a filled area grows by. Finished ones cost nothing.
+constexpr double kStrip_px = 16;
+constexpr int kStepsInStrip = 8;
+
+// Seconds of video at which the ellipse begins to become a circle, and is one.
+constexpr double kMorphBegin_s = 1.5;
+constexpr double kMorphEnd_s = 4;
+
+double smoothstep(double from, double to, double value) {
+  const double x = std::clamp((value - from) / (to - from), 0.0, 1.0);
+  return x * x * (3 - 2 * x);
 }
 
-/// The velocities are a point on a circle. A collision of the blocks moves it by two wedge angles
-/// to below the axis, and the wall mirrors it to above. Sector by sector both sides fill up.
+PanelTitle circle_title(const FormulaSetter& set) {
+  return {set.text("Energy keeps the speeds on a circle"), set.text("Speeds on a circle")};
+}
+
+PanelTitle ellipse_title(const FormulaSetter& set) {
+  const Formula root = set.root(set.italic("m"));
+  return {set.text("Equal energy is an ellipse; scaled by ") + root + set.text(", a circle"),
+          set.text("Ellipse becomes circle")};
+}
+
+/// The velocities are a point on a circle, and each collision moves it along a chord. Chords too
+/// close to be told apart become the area that they cover.
 class VelocityPanel {
  public:
-  VelocityPanel(const DrawingContext& context, const PanelPlace& place)
-      : diagram_(context, place, title_of(context)), wedge_(context.scene.system) {
-    const BlockSystem& system = context.scene.system;
-    const Rational energy = twice_energy(system);
-    if (energy > 0) {
-      moves_ = true;
-      red_factor_ = root_of(system.red.mass / energy);
-      blue_factor_ = root_of(system.blue.mass / energy);
-      const Point start = point_of(to_double(system.blue.velocity), to_double(system.red.velocity));
-      start_angle_ = std::abs(std::atan2(start.y, start.x));
-    }
-    const Rectangle& inside = diagram_.inside();
-    const double em = diagram_.text_px();
-    circle_ = {{inside.x + inside.width / 2, inside.y + inside.height / 2},
-               std::min(inside.width, inside.height) / 2 - kMargin_em * em};
-    place_sectors(context.log);
-    add_axes();
-    if (moves_) add_rays();
+  VelocityPanel(const DrawingContext& context, const PanelPlace& place, const PanelTitle& title,
+                bool is_ellipse_first)
+      : diagram_(context, place, title),
+        points_(context.scene, context.log),
+        figure_(context, diagram_, points_),
+        data_px_(context.sizes.data_line),
+        present_px_(style::kPresentDot * context.sizes.unit),
+        is_ellipse_first_(is_ellipse_first) {
+    if (is_ellipse_first) context.needs.hits = true;
     diagram_.finish();
+    circle_ = drawn(1);
+    circle_.still = plate_of(circle_.still);
+    if (!is_ellipse_first) return;
+    ellipse_ = drawn(0);
+    ellipse_.still = plate_of(ellipse_.still);
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
-    items.emplace_back(diagram_.item());
-    if (!moves_) return;
-    const Point velocity = point_of(shown.state.blue.velocity, shown.state.red.velocity);
-    // Below the axis, sectors are lit up to the point. Above it, they are one collision behind
-    // until blue meets the wall. After the last collision all are lit.
-    const bool is_over = shown.state.count >= collisions_;
-    const double angle = is_over ? 0 : std::abs(std::atan2(velocity.y, velocity.x));
-    add_lit(angle, below_, 0, items);
-    add_lit(velocity.y < 0 && !is_over ? angle + 2 * wedge_.theta : angle, above_, 1, items);
-    if (rays_.plate) items.emplace_back(rays_);
-    const Point at{circle_.centre.x + circle_.radius * velocity.x,
-                   circle_.centre.y - circle_.radius * velocity.y};
-    const Color accent = diagram_.palette().accent;
-    items.emplace_back(diagram_.moving_line(3, {circle_.centre, at}, accent, 1.5));
-    items.emplace_back(diagram_.dot(4, at, accent));
+    const double share =
+        is_ellipse_first_ ? smoothstep(kMorphBegin_s, kMorphEnd_s, shown.video_s) : 1;
+    if (share == 1) {
+      add(circle_, 1, shown.state, items);
+    } else if (share == 0) {
+      add(ellipse_, 0, shown.state, items);
+    } else {
+      add(drawn(share), share, shown.state, items);
+    }
   }
 
  private:
-  /// A point of the circle of radius 1.
-  Point point_of(double blue_velocity, double red_velocity) const {
-    return {mpf_class(red_factor_ * red_velocity).get_d(),
-            mpf_class(blue_factor_ * blue_velocity).get_d()};
-  }
-
-  /// The sectors above or below the axis.
-  struct Side {
-    double sign;
-    double swept;  ///< by all of its collisions together
+  /// All that depends on the share of the way from ellipse to circle alone.
+  struct Drawn {
+    std::vector<DrawItem> still;
+    std::vector<PathItem> chords;  ///< of each collision
+    std::vector<DiskItem> dots;    ///< of each velocity
   };
 
-  Side side_of(const Integer& collisions, double sign) const {
-    return {sign, std::min(2 * wedge_.angle(magnitude_of(Rational(collisions))), start_angle_)};
-  }
-
-  void place_sectors(const CollisionLog& log) {
-    collisions_ = log.size();
-    // If blue meets the wall first, that collision sweeps no sector.
-    const bool wall_first = collisions_ > 0 && log.collision(1).kind == CollisionKind::wall;
-    const Integer sweeping = collisions_ - (wall_first ? 1 : 0);
-    below_ = side_of((sweeping + 1) / 2, -1);
-    above_ = side_of(sweeping / 2, 1);
-  }
-
-  void add_axes() {
-    const Palette& palette = diagram_.palette();
-    const auto& [centre, radius] = circle_;
-    const double reach = radius + 0.5 * diagram_.text_px();
-    diagram_.line({{centre.x - reach, centre.y}, {centre.x + reach, centre.y}}, palette.grid);
-    diagram_.line({{centre.x, centre.y - reach}, {centre.x, centre.y + reach}}, palette.grid);
-    diagram_.shape(circle_.arc(0, 2 * std::numbers::pi), std::nullopt, palette.muted);
-  }
-
-  /// Rays between all sectors, lit or not, over what is lit. They are painted once.
-  void add_rays() {
-    const double inner = kLeastApart_px / (2 * wedge_.theta);
-    if (inner > circle_.radius) return;
-    Plate plate;
-    for (const Side& side : {below_, above_}) {
-      const double end = start_angle_ - side.swept - wedge_.theta / 2;
-      for (double angle = start_angle_; angle > end; angle -= 2 * wedge_.theta) {
-        const double at = side.sign * std::max(0.0, angle);
-        plate.items.emplace_back(diagram_.moving_line(
-            2, {Circle{circle_.centre, inner}.at(at), circle_.at(at)}, diagram_.palette().grid));
-      }
+  Drawn drawn(double share) const {
+    Drawn all{{diagram_.item()}, {}, {}};
+    std::ranges::move(figure_.items(share, diagram_.moving(0)), std::back_inserter(all.still));
+    const VelocityMap map = figure_.map(share);
+    const std::vector<double>& angles = figure_.angles();
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+      all.dots.push_back({diagram_.moving(kFirstDot + i), map.at(angles[i]), figure_.dot_px(),
+                          diagram_.palette().text, std::nullopt});
+      if (i == 0) continue;
+      all.chords.push_back(chord(kFirstChord + i, map, angles[i - 1], angles[i],
+                                 points_.kind_of(points_.before() + static_cast<long>(i))));
     }
-    rays_ = {diagram_.moving(2), diagram_.item().bounds,
-             std::make_shared<const Plate>(std::move(plate))};
+    return all;
   }
 
-  void add_lit(double angle, const Side& side, std::size_t n, std::vector<DrawItem>& items) const {
-    const double end = std::max(angle, start_angle_ - side.swept);
-    // A sector that is lit by less than half of itself is lit by rounding.
-    if (end > start_angle_ - wedge_.theta / 2) return;
-    std::vector<Point> outline = circle_.arc(side.sign * start_angle_, side.sign * end);
-    outline.push_back(circle_.centre);
-    items.emplace_back(diagram_.moving_shape(n, std::move(outline), diagram_.palette().shade));
+  /// Title and figure as one item.
+  std::vector<DrawItem> plate_of(const std::vector<DrawItem>& still) const {
+    PlateItem item = diagram_.item();
+    std::vector<DrawItem> parts = item.plate->items;
+    parts.insert(parts.end(), still.begin() + 1, still.end());
+    item.plate = std::make_shared<const Plate>(Plate{std::move(parts)});
+    return {item};
+  }
+
+  PathItem chord(std::size_t n, const VelocityMap& map, double from, double to,
+                 CollisionKind kind) const {
+    const Palette& palette = diagram_.palette();
+    const Color& color = kind == CollisionKind::wall ? palette.blue.line : palette.red.line;
+    return {diagram_.moving(n), Points({map.at(from), map.at(to)}), false, std::nullopt,
+            Stroke{color, data_px_}};
+  }
+
+  void add(const Drawn& drawn, double share, const BlockState& state,
+           std::vector<DrawItem>& items) const {
+    items.insert(items.end(), drawn.still.begin(), drawn.still.end());
+    const VelocityMap map = figure_.map(share);
+    const Point velocity =
+        points_.moves() ? points_.point_of(state.blue.velocity, state.red.velocity) : Point{};
+    const Integer reached =
+        std::clamp<Integer>(state.count, points_.before(), points_.last()) - points_.before();
+    if (figure_.has_chords()) {
+      const auto count = static_cast<std::ptrdiff_t>(reached.get_si());
+      items.insert(items.end(), drawn.chords.begin(), drawn.chords.begin() + count);
+      items.insert(items.end(), drawn.dots.begin(), drawn.dots.begin() + count + 1);
+    } else if (reached > 0) {
+      add_area(map, std::atan2(velocity.y, velocity.x), reached, items);
+    }
+    items.emplace_back(DiskItem{diagram_.moving(kPresent), map.at(velocity), present_px_,
+                                diagram_.palette().accent,
+                                Stroke{diagram_.palette().background, diagram_.sizes().grid_line}});
+  }
+
+  /// The chords so far cover what is between the first velocity and the last chord.
+  void add_area(const VelocityMap& map, double angle, const Integer& reached,
+                std::vector<DrawItem>& items) const {
+    const CollisionKind kind = points_.kind_of(points_.before() + reached);
+    const CollisionKind other =
+        kind == CollisionKind::wall ? CollisionKind::blocks : CollisionKind::wall;
+    const double before = points_.reflected(angle, kind);
+    add_strips(map, {std::max(angle, before), -std::min(angle, before)}, items);
+    std::size_t n = kFirstAxis;
+    for (std::vector<Point>& axis : figure_.axes()) {
+      items.emplace_back(diagram_.moving_line(n++, std::move(axis), diagram_.palette().muted));
+    }
+    // Blue's in front, so that they do not change places where they are one line.
+    std::vector<PathItem> newest{chord(kFirstChord + 1, map, before, angle, kind)};
+    if (reached > 1) {
+      newest.push_back(
+          chord(kFirstChord + 1, map, points_.reflected(before, other), before, other));
+    }
+    if (kind == CollisionKind::wall) std::ranges::reverse(newest);
+    for (std::size_t i = 0; i < newest.size(); ++i) {
+      newest[i].id = diagram_.moving(kFirstChord + i);
+      items.emplace_back(std::move(newest[i]));
+    }
+  }
+
+  /// Where the last chord ends, above the axis and below it, from the right.
+  struct Edge {
+    double above;
+    double below;
+  };
+
+  void add_strips(const VelocityMap& map, const Edge& edge, std::vector<DrawItem>& items) const {
+    const auto angle_at = [&](double x) {
+      return std::acos(std::clamp((x - map.centre.x) / map.red, -1.0, 1.0));
+    };
+    const double start = std::abs(std::remainder(points_.start_angle(), 2 * std::numbers::pi));
+    const double least = std::min(map.at(edge.above).x, map.at(edge.below).x);
+    double from = start;
+    double x = map.at(start).x;
+    for (std::size_t n = kFirstStrip;; ++n) {
+      // Strips meet at whole pixels, so that no line is seen between them.
+      x = (std::floor(x / kStrip_px) + 1) * kStrip_px;
+      const bool is_last = x >= least;
+      const double to = angle_at(x);
+      const Edge end = is_last ? edge : Edge{to, to};
+      items.emplace_back(diagram_.moving_shape(n, strip(map, from, end), diagram_.palette().shade));
+      if (is_last) return;
+      from = to;
+    }
+  }
+
+  static std::vector<Point> strip(const VelocityMap& map, double from, const Edge& end) {
+    std::vector<Point> points;
+    const auto add = [&](double begin, double step, int i) {
+      points.push_back(map.at(begin + step * i));
+    };
+    for (int i = 0; i <= kStepsInStrip; ++i) add(from, (end.above - from) / kStepsInStrip, i);
+    for (int i = 0; i <= kStepsInStrip; ++i) add(-end.below, (end.below - from) / kStepsInStrip, i);
+    return points;
   }
 
   Diagram diagram_;
-  GapWedge wedge_;
-  bool moves_ = false;
-  // From a velocity to its part of the radius; they may be beyond the range of a double.
-  mpf_class red_factor_;
-  mpf_class blue_factor_;
-  double start_angle_ = 0;
-  Circle circle_;
-  Integer collisions_;
-  Side below_{};
-  Side above_{};
-  PlateItem rays_;
+  VelocityPoints points_;
+  VelocityFigure figure_;
+  double data_px_;
+  double present_px_;
+  bool is_ellipse_first_;
+  Drawn circle_;
+  Drawn ellipse_;
 };
 
 }  // namespace
 
 Drawable velocity_panel(const DrawingContext& context, const PanelPlace& place) {
-  return VelocityPanel(context, place);
+  return VelocityPanel(context, place, circle_title(context.setter()), false);
+}
+
+Drawable ellipse_panel(const DrawingContext& context, const PanelPlace& place) {
+  return VelocityPanel(context, place, ellipse_title(context.setter()), true);
 }
 
 }  // namespace piblocks

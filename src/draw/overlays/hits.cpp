@@ -1,0 +1,119 @@
+#include "draw/overlays/hits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include "draw/overlays/overlays.hpp"
+#include "draw/overlays/zoom.hpp"
+
+namespace piblocks {
+namespace {
+
+/// Of an arc when it appears, in parts of its last radius.
+constexpr double kFirstRadius = 0.3;
+/// Directions in which an arc is drawn: without the first and the last, it keeps clear of the
+/// bodies.
+constexpr std::size_t kDirections = 13;
+/// Of an arc, in widths of the wall's line.
+constexpr double kArcLine = 1.2;
+/// Disks of rising size that make a glow, the greatest alpha of each, and the size of the largest
+/// in parts of an arc's.
+constexpr int kGlowDisks = 7;
+constexpr double kGlowAlpha = 0.24;
+constexpr double kGlowReach = 0.8;
+/// The strength of a glow goes from the least one at kMaxHits_per_s towards 1. It is half-way when
+/// the rate has doubled so many times.
+constexpr double kLeastGlow = 0.4;
+constexpr double kHalfGlow = 6;
+
+double glow_strength(double hits_per_s) {
+  const double doublings = straight_log2(hits_per_s / kMaxHits_per_s);
+  return kLeastGlow + (1 - kLeastGlow) * doublings / (doublings + kHalfGlow);
+}
+
+/// From one angle to another, counter-clockwise from the right.
+std::vector<Point> directions_of(double from, double to) {
+  std::vector<Point> directions;
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    const double angle = from + (to - from) * double(i) / double(kDirections - 1);
+    directions.push_back({std::cos(angle), -std::sin(angle)});
+  }
+  return directions;
+}
+
+}  // namespace
+
+HitMarks::HitMarks(const DrawingContext& context, const BlockShapes& shapes, double most_reach_px)
+    : reach_px_(std::min(most_reach_px, style::kHitReach * context.sizes.unit)),
+      glow_px_(std::min(kGlowReach * reach_px_, shapes.blue_width_px / 2)),
+      line_px_(kArcLine * context.sizes.wall_line) {
+  constexpr double kUp = std::numbers::pi / 2;
+  const Palette& palette = context.palette;
+  wall_ = {shapes.floor_px - shapes.blue_px, directions_of(0, kUp), palette.blue.line};
+  const bool is_left_free = shapes.blue_px <= shapes.red_px;
+  const bool is_right_free = shapes.red_px <= shapes.blue_px;
+  blocks_ = {shapes.floor_px - std::min(shapes.blue_px, shapes.red_px),
+             directions_of(is_right_free ? 0 : kUp, is_left_free ? 2 * kUp : kUp),
+             palette.red.line};
+}
+
+void HitMarks::add_arc(ItemId id, const Hit& hit, double x_px, std::vector<DrawItem>& items) const {
+  const Corner& corner = corner_of(hit.kind);
+  const std::span directions(corner.directions);
+  const double left = 1 - hit.age_s / kHitLife_s;  // of its life
+  const double radius = reach_px_ * (1 - (1 - kFirstRadius) * left * left);
+  std::vector<Point> arc;
+  for (const Point& direction : directions.subspan(1, kDirections - 2)) {
+    arc.push_back({x_px + radius * direction.x, corner.y_px + radius * direction.y});
+  }
+  items.emplace_back(PathItem{id, std::move(arc), false, std::nullopt,
+                              Stroke{faded(corner.color, left), line_px_}});
+}
+
+PathItem HitMarks::sector(ItemId id, const Corner& corner, double x_px, double radius_px) const {
+  std::vector<Point> outline = {{x_px, corner.y_px}};
+  for (const Point& direction : corner.directions) {
+    outline.push_back({x_px + radius_px * direction.x, corner.y_px + radius_px * direction.y});
+  }
+  return {id, std::move(outline), true, corner.color, std::nullopt};
+}
+
+void HitMarks::add_glow(double hits_per_s, const ContactColumns& columns,
+                        std::vector<DrawItem>& items) const {
+  if (hits_per_s <= kMaxHits_per_s) return;
+  const double alpha = kGlowAlpha * glow_strength(hits_per_s);
+  std::size_t n = 0;
+  for (const auto& [corner, x_px] :
+       {std::pair(&wall_, columns.wall_px), {&blocks_, columns.red_px}}) {
+    for (int disk = 1; disk <= kGlowDisks; ++disk) {
+      PathItem item = sector(nth(ItemId::hits, n++), *corner, x_px, glow_px_ * disk / kGlowDisks);
+      item.fill = faded(corner->color, alpha);
+      items.emplace_back(std::move(item));
+    }
+  }
+}
+
+Drawable hit_marks(const DrawingContext& context) {
+  context.needs.hits = true;
+  const Scene& scene = context.scene;
+  const Layout& layout = context.layout;
+  // A mass above the taller block may be wider than this.
+  const bool has_mass =
+      scene.show.has(Overlay::masses) && has_mass_above(scene, layout, context.font);
+  const double step_px = std::abs(layout.red.height_px - layout.blue.height_px);
+  const HitMarks marks(context,
+                       {layout.floor_px, layout.blue.height_px, layout.red.height_px,
+                        layout.blue.width * layout.scale},
+                       has_mass ? step_px : HUGE_VAL);
+  const double wall_px = layout.at(to_double(scene.system.wall_face), 0).x;
+  return [=, layout = context.layout](const FrameState& shown, std::vector<DrawItem>& items) {
+    const double red_px = layout.at(layout.red, shown.state.red.position).x;
+    const auto column_of = [&](const Hit& hit) { return layout.at(hit.contact, 0).x; };
+    marks.add(shown, {wall_px, red_px}, column_of, items);
+  };
+}
+
+}  // namespace piblocks

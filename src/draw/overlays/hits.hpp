@@ -1,0 +1,71 @@
+// Marks of hits: an arc for each, or a glow where they are too many to be told apart.
+// In: a FrameState, and the columns where bodies touch. Out: items above the lower body's edge.
+#pragma once
+
+#include <vector>
+
+#include "draw/layout.hpp"
+
+namespace piblocks {
+
+/// Of blocks that stand on one floor.
+struct BlockShapes {
+  double floor_px = 0;
+  double blue_px = 0;
+  double red_px = 0;
+  double blue_width_px = 0;
+};
+
+/// Where blue touches the wall, and where it touches red at present.
+struct ContactColumns {
+  double wall_px = 0;
+  double red_px = 0;
+};
+
+/// Marks open into the free corner above the lower of the bodies that touch, where they cover no
+/// label of a block.
+class HitMarks {
+ public:
+  /// @param most_reach_px  how far marks may reach
+  HitMarks(const DrawingContext& context, const BlockShapes& shapes, double most_reach_px);
+
+  /// An arc that grows and fades. @param x_px  of the surface where they met
+  void add_arc(ItemId id, const Hit& hit, double x_px, std::vector<DrawItem>& items) const;
+  /// A steady light at both contacts. Nothing if hits are few.
+  void add_glow(double hits_per_s, const ContactColumns& columns,
+                std::vector<DrawItem>& items) const;
+
+  /// @param column_of  the x_px of a hit
+  template <typename ColumnOf>
+  void add(const FrameState& shown, const ContactColumns& columns, const ColumnOf& column_of,
+           std::vector<DrawItem>& items) const {
+    for (std::size_t n = 0; n < shown.hits.size(); ++n) {
+      add_arc(nth(ItemId::hits, n), shown.hits[n], column_of(shown.hits[n]), items);
+    }
+    add_glow(shown.hits_per_s, columns, items);
+  }
+
+ private:
+  /// A corner between two bodies, as directions from their contact.
+  struct Corner {
+    double y_px = 0;
+    std::vector<Point> directions;  ///< of length 1, counter-clockwise
+    Color color;
+  };
+
+  const Corner& corner_of(CollisionKind kind) const {
+    return kind == CollisionKind::wall ? wall_ : blocks_;
+  }
+  PathItem sector(ItemId id, const Corner& corner, double x_px, double radius_px) const;
+
+  double reach_px_;  ///< of arcs
+  double glow_px_;   ///< and of glows, which do not meet above a narrow block
+  double line_px_;
+  Corner wall_;
+  Corner blocks_;
+};
+
+/// The marks of the stage.
+Drawable hit_marks(const DrawingContext& context);
+
+}  // namespace piblocks

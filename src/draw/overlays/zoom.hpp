@@ -1,0 +1,38 @@
+// By how much the loupe enlarges a gap.
+// In: how many times as large the gap may become. Out: a power of ten, or a step between two.
+#pragma once
+
+#include <vector>
+
+namespace piblocks {
+
+/// The logarithm to base 2, exact at powers of two and straight between them. Unlike std::log2() it
+/// is the same on every machine. @param x  > 0
+double straight_log2(double x);
+/// Its inverse.
+double straight_exp2(double y);
+
+/// Stays at each power of ten while the room for the gap grows to some part of the next, and then
+/// rises to that. Rising and continuous.
+class Zoom {
+ public:
+  /// The share of the way from one power of ten to the next, on a logarithmic scale, in which the
+  /// zoom stays: half of it is threefold.
+  static constexpr double kPlateau = 0.5;
+
+  /// @param most_exponent  of the largest power of ten, at least 1
+  explicit Zoom(long most_exponent, double plateau = kPlateau);
+
+  /// At most `room`, unless that is below 1. @param room  > 0, may be infinite
+  double of(double room) const;
+  double power(long exponent) const { return powers_.at(static_cast<std::size_t>(exponent)); }
+  long most_exponent() const noexcept { return static_cast<long>(powers_.size()) - 1; }
+  /// Of the greatest power of ten that is not above a zoom.
+  long exponent_of(double zoom) const;
+
+ private:
+  double plateau_;
+  std::vector<double> powers_;  ///< 1, 10, 100, …
+};
+
+}  // namespace piblocks

@@ -1,0 +1,82 @@
+// What stays in the diagram of velocities: axes and their names, the curve, chords that will come.
+// In: a diagram and points. Out: a map from points to pixels, and items.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "draw/panels/panels.hpp"
+#include "draw/panels/velocity_points.hpp"
+
+namespace piblocks {
+
+/// From angles of the circle to places on it, or on the ellipse that it is before velocities are
+/// scaled by the roots of the masses.
+struct VelocityMap {
+  Point centre;
+  // Semi-axes in pixels.
+  double red = 0;
+  double blue = 0;
+
+  Point at(double angle) const { return at(Point{std::cos(angle), std::sin(angle)}); }
+  Point at(const Point& unit) const { return {centre.x + red * unit.x, centre.y - blue * unit.y}; }
+};
+
+class VelocityFigure {
+ public:
+  /// @param context, diagram  not kept
+  VelocityFigure(const DrawingContext& context, const Diagram& diagram,
+                 const VelocityPoints& points);
+
+  /// @param share  of the way from the ellipse, 0, to the circle, 1; the map that multiplies each
+  ///               velocity by its mass to the power of share / 2
+  VelocityMap map(double share) const;
+  /// Whether chords are so far apart that each is drawn.
+  bool has_chords() const noexcept { return has_chords_; }
+  /// As all_angles(); none unless has_chords().
+  const std::vector<double>& angles() const noexcept { return angles_; }
+  double dot_px() const noexcept { return dot_px_; }
+
+  /// From back to front. @param first  the first of their ids
+  std::vector<DrawItem> items(double share, ItemId first) const;
+  /// Both axes, through the centre.
+  std::array<std::vector<Point>, 2> axes() const;
+
+ private:
+  enum class Part { ellipse, circle, arcs };
+  struct Label {
+    Formula formula;
+    Point at;
+    Color color;
+    Part part;
+  };
+
+  class Labels;
+
+  static double strength(Part part, double share);
+  void place_circle(const Rectangle& inside, double name_em, double words_em);
+  void place_axis_names(const FormulaSetter& set, Labels& labels);
+  void place_end(const FormulaSetter& set, Labels& labels);
+  void place_arc(const FormulaSetter& set, Labels& labels);
+  void place_words(const FormulaSetter& set, Labels& labels);
+  void place_energy(const FormulaSetter& set, bool is_to_scale, Labels& labels);
+  std::optional<Point> place_lines(const std::vector<Formula>& lines, double beside,
+                                   Labels& labels) const;
+  std::vector<Point> bracket(double from, double to) const;
+  void add_lines(double share, ItemId first, std::vector<DrawItem>& items) const;
+
+  VelocityPoints points_;
+  Palette palette_;
+  double em_;
+  double grid_px_;
+  double log_axes_;  ///< of the ellipse's drawn semi-axes, blue over red
+  Circle circle_;
+  bool has_chords_ = false;
+  double dot_px_ = 0;
+  std::vector<double> angles_;
+  std::vector<Point> bracket_;
+  std::vector<Label> labels_;
+};
+
+}  // namespace piblocks
