@@ -98,6 +98,7 @@ enum class Panel {
   time,         ///< both gaps against time
   count,        ///< collisions so far against time
   ellipse,      ///< ellipse of (v_red, v_blue), which becomes the circle of `velocity`
+  mirrors,      ///< as unfolded, with wedges that unfold one by one
   conservation  ///< bars of energy and momentum, the wall's share included
 };
 

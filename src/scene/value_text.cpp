@@ -36,6 +36,7 @@ constexpr auto kPanels = std::to_array<Name<Panel>>({{"velocity", Panel::velocit
                                                      {"time", Panel::time},
                                                      {"count", Panel::count},
                                                      {"ellipse", Panel::ellipse},
+                                                     {"mirrors", Panel::mirrors},
                                                      {"conservation", Panel::conservation}});
 
 constexpr auto kSplits = std::to_array<Name<Split>>(
