@@ -8,6 +8,7 @@
 
 #include "draw/layout.hpp"
 #include "draw/look.hpp"
+#include "draw/overlays/loupe.hpp"
 #include "draw/overlays/overlays.hpp"
 
 namespace piblocks {
@@ -37,6 +38,9 @@ constexpr double kMostCounter = 0.6;
 constexpr double kRowCounter = 0.35;
 /// Height of the stage where there are diagrams: without overlays, and at most.
 constexpr double kPlainStage = 0.24;
+/// What the loupe adds to it in upright frames, and what each diagram has at least beside it.
+constexpr double kLoupeRoom = 0.1;
+constexpr double kDiagramsBesideLoupe = 0.5;
 
 /// The grid in which `count` panels come out largest, if possible with no side below `least`.
 std::vector<Rectangle> panel_grid(std::size_t count, const Rectangle& area, double gap,
@@ -285,7 +289,7 @@ class FramePlanner {
 
   /// Where there are diagrams, the stage is as high as it has to be.
   /// @param room_px  for both
-  double stage_height(double room_px) const {
+  double stage_height(double room_px) {
     if (view_.theme == Theme::article) {
       // At this height the stage is as wide as the frame.
       const double lengths =
@@ -296,7 +300,15 @@ class FramePlanner {
     if (show_.has(Overlay::velocities)) height += kArrowRoom;
     if (show_.has(Overlay::masses)) height += kMassRoom / 2;
     if (show_.has(Overlay::ruler)) height += kRulerRoom;
-    return std::min(height * sizes_.unit, room_px / 2);
+    height *= sizes_.unit;
+    // In upright frames the loupe is below the digits of pi. It takes what diagrams do not need.
+    const double spare =
+        room_px - height - kDiagramsBesideLoupe * double(show_.panels.size()) * sizes_.unit;
+    if (view_.height_px > view_.width_px && spare > 0 && may_show_loupe(context_)) {
+      height += std::min(kLoupeRoom * sizes_.unit, spare);
+      plan_.has_low_floor = true;
+    }
+    return std::min(height, room_px / 2);
   }
 
   /// Diagrams are below the stage and its read-outs.

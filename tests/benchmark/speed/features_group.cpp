@@ -24,6 +24,12 @@ std::vector<Feature> features() {
   std::vector<Feature> features = {
       {"nothing", {}},
       {"--theme dark", {"--theme", "dark"}},
+      {"--theme lecture, no marks, no loupe",
+       {"--theme", "lecture", "--no-hits", "--loupe", "off"}},
+      {"--theme lecture, no loupe", {"--theme", "lecture", "--loupe", "off"}},
+      {"--theme lecture", {"--theme", "lecture"}},
+      {"--theme lecture and two diagrams",
+       {"--theme", "lecture", "--panels", "velocity,unfolded", "--show", "masses"}},
       {"--title and --caption", {"--title", "Counting collisions", "--caption", "m = 100 kg"}},
       {"--sound", {"--sound"}},
       {"--slow-motion auto", {"--slow-motion", "auto"}},
@@ -34,7 +40,7 @@ std::vector<Feature> features() {
        {"digits", "masses", "velocities", "energy", "momentum", "time", "ruler"}) {
     features.push_back({std::string("--show ") + overlay, {"--show", overlay}});
   }
-  for (const char* panel : {"velocity", "position", "unfolded", "time", "rate"}) {
+  for (const char* panel : {"velocity", "position", "unfolded", "time", "count", "conservation"}) {
     features.push_back({std::string("--panels ") + panel, {"--panels", panel}});
   }
   features.push_back({"four panels", {"--panels", "velocity,position,unfolded,time"}});
