@@ -47,6 +47,8 @@ constexpr double kWindowFade = 0.1;
 constexpr double kSweepHits = 1;
 constexpr double kSweepAlpha = 0.5;
 constexpr double kFastBlue = 0.35;  ///< alpha of blue then
+/// Where the lines to the inset begin, in parts of red's width.
+constexpr double kHiddenInRed = 0.8;
 /// Heights of the blocks in the inset differ by this factor at most.
 constexpr double kMostHeights = 1.6;
 
@@ -265,19 +267,29 @@ void LoupeInset::settle(const DrawingContext& context, const Place& place) {
 
 void LoupeInset::place_lines(const DrawingContext& context) {
   const Layout& layout = context.layout;
-  const Point gap{layout.at(to_double(context.scene.system.wall_face), 0).x,
-                  layout.floor_px - layout.blue.height_px / 2};
+  const double face = layout.at(to_double(context.scene.system.wall_face), 0).x;
+  const double blue_px = layout.blue.width * layout.scale;
   const double right = bounds_.x + bounds_.width;
   const double bottom = bounds_.y + bounds_.height;
   const bool is_above = bottom < layout.top_px();
   const Point first = is_above ? Point{bounds_.x, bottom} : Point{bounds_.x, bounds_.y};
   const Point second = is_above ? Point{right, bottom} : Point{bounds_.x, bottom};
-  lines_ = {Points({gap, first}), Points({gap, second})};
+  const Point from{is_above ? face + blue_px / 2 : face,
+                   layout.floor_px - layout.blue.height_px / 2};
+  // They begin behind red, or they would be seen between the blocks.
+  const double hidden_px = blue_px + std::min(style::kLoupeFrom * kFullyShown * sizes_.unit,
+                                              kHiddenInRed * layout.red.width * layout.scale);
+  const auto line_to = [&](const Point& to) {
+    const double way = is_above ? 0 : hidden_px / (to.x - from.x);
+    return Points({{from.x + way * (to.x - from.x), from.y + way * (to.y - from.y)}, to});
+  };
+  lines_ = {line_to(first), line_to(second)};
   std::vector<DrawItem> items;
   add_lines(1, items);
-  const double top = std::min(first.y, gap.y) - 1;
-  const Rectangle around{gap.x - 1, top, std::max(first.x, second.x) - gap.x + 2,
-                         std::max(second.y, gap.y) - top + 2};
+  const double left = std::min(from.x, first.x) - 1;
+  const double top = std::min(first.y, from.y) - 1;
+  const Rectangle around{left, top, std::max(from.x, second.x) + 1 - left,
+                         std::max(second.y, from.y) + 1 - top};
   full_lines_ = plate_of(nth(ItemId::wall, kFirstLine), around, std::move(items));
 }
 
