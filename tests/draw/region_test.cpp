@@ -119,7 +119,7 @@ TEST(Region, OfPicturesWithAllThatCanBeShownIsExact) {
     builder.set("test", "view.theme", theme);
     builder.set("test", "show.title", "π");
     builder.set("test", "show.overlays", "digits,masses,velocities,energy,momentum,time,ruler");
-    builder.set("test", "show.panels", "velocity,position,unfolded,time,rate");
+    builder.set("test", "show.panels", "velocity,position,unfolded,time,count");
     const Scene scene = builder.build_scene();
     const auto log = make_collision_log(scene.system);
     const Composition composition(scene, *log);

@@ -27,7 +27,7 @@ constexpr Bounds kPdfBounds{45, 40};
 
 constexpr const char* kOnePixelAPoint = "-r 72";
 constexpr const char* kAllOverlays = "digits,masses,velocities,energy,momentum,time,ruler";
-constexpr const char* kAllPanels = "velocity,position,unfolded,time,rate";
+constexpr const char* kAllPanels = "velocity,position,unfolded,time,count";
 
 struct VectorCase {
   std::string name;
