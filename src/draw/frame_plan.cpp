@@ -33,6 +33,8 @@ constexpr double kLeastStage = 0.2;
 constexpr double kLeastRowStage = 0.12;
 /// A picture lower than this is a row of a split screen.
 constexpr double kRow = 0.55;
+/// In parts of its largest size: a smaller count has its label above it, and more room.
+constexpr double kLeastBesideLabel = 0.6;
 /// The counter's part of a row's width, at most.
 constexpr double kMostCounter = 0.6;
 constexpr double kRowCounter = 0.35;
@@ -125,6 +127,10 @@ class FramePlanner {
     place.right_px = right_;
     place.baseline_px = std::round(view_.height_px / 2.0 + Font::kCapHeight_em * place.size_px / 4);
     place.pi_baseline_px = std::round(place.baseline_px + kPiStep * sizes_.text);
+    place.label_baseline_px = place.baseline_px;
+    if (has_label_above_) {
+      place.label_baseline_px -= Font::kCapHeight_em * place.size_px + kPiStep * sizes_.text / 2;
+    }
     top_ = 0.75 * sizes_.gap;
     place.slow_motion = {right_, top_ + Font::kCapHeight_em * sizes_.title};
     if (!show_.title.empty()) {
@@ -223,7 +229,13 @@ class FramePlanner {
   /// @returns the width of label and count
   double set_count_size(double room_px) {
     const double largest = sizes_.type(style::kCounter);
-    const double size = std::min(largest, (room_px - counter_->label_px) / counter_->count_em);
+    double size = std::min(largest, (room_px - counter_->label_px) / counter_->count_em);
+    double label_px = counter_->label_px;
+    has_label_above_ = size < kLeastBesideLabel * largest;
+    if (has_label_above_) {
+      size = std::min(largest, room_px / counter_->count_em);
+      label_px = 0;
+    }
     if (size < style::kLeastType * sizes_.unit) {
       throw UsageError(fmt::format(
           "view.theme: the count has too many digits for a frame of {}x{}; use the theme "
@@ -232,14 +244,19 @@ class FramePlanner {
     }
     plan_.counter.size_px = size;
     plan_.counter.room_px = counter_->count_em * size;
-    return counter_->label_px + counter_->count_em * size;
+    return label_px + counter_->count_em * size;
   }
 
   void place_counter(bool is_beside_title) {
     CounterPlace& place = plan_.counter;
     place.right_px = right_;
-    const double above = top_ > 0 ? top_ + kBelowHeader * sizes_.unit : sizes_.margin;
+    double above = top_ > 0 ? top_ + kBelowHeader * sizes_.unit : sizes_.margin;
+    if (has_label_above_) {
+      place.label_baseline_px = std::round(above + Font::kCapHeight_em * sizes_.text);
+      above += kLineStep * sizes_.text;
+    }
     place.baseline_px = std::round(above + Font::kCapHeight_em * place.size_px);
+    if (!has_label_above_) place.label_baseline_px = place.baseline_px;
     place.pi_baseline_px = std::round(place.baseline_px + kPiStep * sizes_.text);
     if (is_beside_title) {
       add_line(ItemId::title, show_.title, place.baseline_px, sizes_.title);
@@ -343,6 +360,7 @@ class FramePlanner {
   double right_;
   double top_ = 0;  ///< the stage begins below
   double bottom_;   ///< and ends above
+  bool has_label_above_ = false;
   FramePlan plan_;
 };
 

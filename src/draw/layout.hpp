@@ -81,11 +81,12 @@ struct DrawingContext {
 struct CounterPlace {
   double right_px = 0;
   double baseline_px = 0;
-  double size_px = 0;         ///< of the count's type
-  double room_px = 0;         ///< the longest count's width
-  double pi_baseline_px = 0;  ///< of the line below
-  Point slow_motion;          ///< right end of its label's baseline
-  double pi_left_px = 0;      ///< where that begins
+  double size_px = 0;            ///< of the count's type
+  double room_px = 0;            ///< the longest count's width
+  double label_baseline_px = 0;  ///< the count's, or above it at the right end
+  double pi_baseline_px = 0;     ///< of the line below
+  Point slow_motion;             ///< right end of its label's baseline
+  double pi_left_px = 0;         ///< where that begins
 };
 
 struct FramePlan {
