@@ -112,7 +112,8 @@ class VelocityArrows {
         scene.show.has(Overlay::masses) && has_mass_above(scene, layout_, context.font);
     const double masses = is_over_mass ? kMassRoom * unit_ : 0;
     foot_px_ = layout_.top_px() - masses;
-    if (layout_.above_px < kArrowRoom * unit_ + masses) {
+    // The stage rounds to whole pixels.
+    if (layout_.above_px + 1 < kArrowRoom * unit_ + masses) {
       throw UsageError(
           fmt::format("show.overlays: the velocities need {:.0f} pixels above the blocks, and "
                       "there are {:.0f}; "
