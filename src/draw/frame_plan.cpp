@@ -134,7 +134,7 @@ class FramePlanner {
     top_ = 0.75 * sizes_.gap;
     place.slow_motion = {right_, top_ + Font::kCapHeight_em * sizes_.title};
     if (!show_.title.empty()) {
-      check_text("show.title", show_.title, sizes_.title);
+      check_text("show.title", show_.title, style::kTitle);
       const double baseline = top_ + Font::kCapHeight_em * sizes_.title;
       const double room = right_ - left_ - counter_width - sizes_.gap;
       // A second line would have no room.
@@ -180,15 +180,16 @@ class FramePlanner {
         key, text, room_px));
   }
 
-  void check_text(const char* key, const std::string& text, double size_px) const {
+  /// @param size  of the type, in fractions of the frame's shorter side
+  void check_text(const char* key, const std::string& text, double size) const {
     context_.font.check(text, key);
-    if (view_.height_px >= kLeastFrame_px && view_.width_px >= kLeastFrame_px) return;
+    if (sizes_.unit >= kLeastFrame_px) return;
     throw UsageError(
         fmt::format("{}: '{}' would be {:.1f} pixels high in {}x{}, which cannot be read; leave it "
                     "out, or make "
                     "the frame {}",
-                    key, text, size_px * sizes_.unit / kLeastFrame_px, view_.width_px,
-                    view_.height_px, view_.height_px < view_.width_px ? "higher" : "wider"));
+                    key, text, size * sizes_.unit, view_.width_px, view_.height_px,
+                    view_.height_px < view_.width_px ? "higher" : "wider"));
   }
 
   void add_line(ItemId id, const std::string& text, double baseline, double size_px) {
@@ -207,7 +208,7 @@ class FramePlanner {
       if (title_width > 0) counter_width += 2 * sizes_.gap;
     }
     const bool is_beside = title_width > 0 && title_width + counter_width <= room;
-    if (!show_.title.empty()) check_text("show.title", show_.title, sizes_.title);
+    if (!show_.title.empty()) check_text("show.title", show_.title, style::kTitle);
     if (!show_.title.empty() && !(counter_ && is_beside)) {
       double baseline = sizes_.margin + Font::kCapHeight_em * sizes_.title;
       std::size_t n = 0;
@@ -290,7 +291,7 @@ class FramePlanner {
     }
     if (!show_.caption.empty()) {
       const double size_px = sizes_.text;
-      check_text("show.caption", show_.caption, size_px);
+      check_text("show.caption", show_.caption, style::kText);
       const auto lines = lines_of("show.caption", show_.caption, size_px, room);
       const double below = double(lines.size() - 1) * kLineStep * size_px;
       height = std::max(height, below + Font::kCapHeight_em * size_px);
