@@ -70,8 +70,9 @@ std::vector<Rectangle> panel_grid(std::size_t count, const Rectangle& area, doub
 }
 
 /// What a scene shows above and below the blocks, for a message.
-std::vector<std::string> names_of_lines(const Scene& scene) {
+std::vector<std::string> names_of_things(const Scene& scene) {
   std::vector<std::string> names;
+  if (scene.view.theme != Theme::article) names.emplace_back("the counter");
   if (!scene.show.title.empty()) names.emplace_back("the title");
   if (!scene.show.caption.empty()) names.emplace_back("the caption");
   if (!scene.show.logo.empty()) names.emplace_back("the logo");
@@ -79,6 +80,7 @@ std::vector<std::string> names_of_lines(const Scene& scene) {
     if (scene.show.has(overlay)) names.push_back(fmt::format("'{}'", exact_text(overlay)));
   }
   if (has_slow_motion(scene.pacing)) names.emplace_back("the slow motion's factor");
+  if (!scene.show.panels.empty()) names.emplace_back("the diagrams");
   return names;
 }
 
@@ -217,17 +219,19 @@ class FramePlanner {
 
   /// @returns the width of label and count
   double set_count_size(double room_px) {
-    const double largest = sizes_.type(style::kCounter);
-    const double size = std::min(largest, (room_px - counter_->label_px) / counter_->count_em);
-    if (size < style::kLeastType * sizes_.unit) {
+    CounterPlace& place = plan_.counter;
+    const double beside_label = (room_px - counter_->label_px) / counter_->count_em;
+    place.has_label = beside_label >= sizes_.text;
+    const double largest = place.has_label ? beside_label : room_px / counter_->count_em;
+    place.size_px = std::min(sizes_.type(style::kCounter), largest);
+    if (place.size_px < sizes_.type(style::kLeastType)) {
       throw UsageError(fmt::format(
-          "view.theme: the count has too many digits for a frame of {}x{}; use the theme "
-          "'article', or make the frame wider",
-          view_.width_px, view_.height_px));
+          "view.theme: the digits of the count would be {:.1f} pixels high in {}x{}, which cannot "
+          "be read; use the theme 'article', fewer digits or a larger frame",
+          std::max(0.0, place.size_px), view_.width_px, view_.height_px));
     }
-    plan_.counter.size_px = size;
-    plan_.counter.room_px = counter_->count_em * size;
-    return counter_->label_px + counter_->count_em * size;
+    place.room_px = counter_->count_em * place.size_px;
+    return place.room_px + (place.has_label ? counter_->label_px : 0);
   }
 
   void place_counter(bool is_beside_title) {
@@ -282,17 +286,17 @@ class FramePlanner {
   /// Where there are diagrams, the stage is as high as it has to be.
   /// @param room_px  for both
   double stage_height(double room_px) const {
-    if (view_.theme == Theme::article) {
-      // At this height the stage is as wide as the frame.
-      const double lengths =
-          to_double(view_.y.high - view_.y.low) / to_double(view_.x.high - view_.x.low);
-      return std::min(view_.width_px * lengths + kPlainStage * sizes_.unit, room_px / 2);
-    }
     double height = kPlainStage;
     if (show_.has(Overlay::velocities)) height += kArrowRoom;
     if (show_.has(Overlay::masses)) height += kMassRoom / 2;
     if (show_.has(Overlay::ruler)) height += kRulerRoom;
-    return std::min(height * sizes_.unit, room_px / 2);
+    height *= sizes_.unit;
+    if (view_.theme == Theme::article) {
+      // With this the stage is as wide as the frame.
+      height += view_.width_px * to_double((view_.y.high - view_.y.low) /
+                                           (view_.x.high - view_.x.low));
+    }
+    return std::min(height, room_px / 2);
   }
 
   /// Diagrams are below the stage and its read-outs.
@@ -312,10 +316,12 @@ class FramePlanner {
   }
 
   [[noreturn]] void throw_no_room() const {
+    const std::vector<std::string> names = names_of_things(context_.scene);
     throw UsageError(fmt::format(
-        "show: beside {} there is too little room for the blocks in {}x{}; leave something out, or "
-        "make the frame higher",
-        fmt::join(names_of_lines(context_.scene), ", "), view_.width_px, view_.height_px));
+        "show: {} {} too little room for the blocks in {}x{}; leave something out, or make the "
+        "frame higher",
+        fmt::join(names, ", "), names.size() == 1 ? "leaves" : "leave", view_.width_px,
+        view_.height_px));
   }
 
   const DrawingContext& context_;

@@ -83,6 +83,7 @@ struct CounterPlace {
   double baseline_px = 0;
   double size_px = 0;         ///< of the count's type
   double room_px = 0;         ///< the longest count's width
+  bool has_label = true;      ///< else there is room for the count alone
   double pi_baseline_px = 0;  ///< of the line below
   double pi_left_px = 0;      ///< where that begins
 };

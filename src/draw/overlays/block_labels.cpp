@@ -40,6 +40,14 @@ MassTexts mass_texts(const Scene& scene, const Layout& layout, const Font& font)
   return has_room ? full : plain;
 }
 
+/// Between two things above one another, in fractions of the frame's shorter side.
+constexpr double kClear = 0.006;
+
+double mass_room_px(const Sizes& sizes) {
+  return std::max(kMassRoom * sizes.unit,
+                  (kBelowMass + kClear) * sizes.unit + Font::kCapHeight_em * sizes.mass);
+}
+
 /// The label of a block whose middle is in column 0.
 TextItem mass_label(std::size_t n, std::string text, const Block& block,
                     const DrawingContext& context) {
@@ -61,6 +69,12 @@ TextItem mass_label(std::size_t n, std::string text, const Block& block,
                     "pixels wide; leave "
                     "out 'masses', make the block wider, or show less of the x axis",
                     text, shape.width * layout.scale));
+  }
+  if (!is_inside && layout.above_px < mass_room_px(context.sizes)) {
+    throw UsageError(
+        fmt::format("show.overlays: the mass '{}' needs {:.0f} pixels above its block, and there "
+                    "are {:.0f}; leave out 'masses', or make the block wider or the frame higher",
+                    text, mass_room_px(context.sizes), std::max(0.0, layout.above_px)));
   }
   const double baseline = is_inside
                               ? layout.floor_px - shape.height_px / 2 + kHalfFigure_em * size_px
@@ -89,6 +103,11 @@ mpf_class usual_speed(const BlockSystem& system) {
   return root_of(twice_energy(system) / std::max(system.blue.mass, system.red.mass));
 }
 
+double arrow_room_px(const Sizes& sizes) {
+  return std::max(kArrowRoom * sizes.unit, (kVelocityBaseline + kClear / 2) * sizes.unit +
+                                               Font::kCapHeight_em * sizes.text);
+}
+
 struct Figure {
   TextItem item;
   double width;
@@ -110,20 +129,21 @@ class VelocityArrows {
     const Scene& scene = context.scene;
     const bool is_over_mass =
         scene.show.has(Overlay::masses) && has_mass_above(scene, layout_, context.font);
-    const double masses = is_over_mass ? kMassRoom * unit_ : 0;
+    const double masses = is_over_mass ? mass_room_px(context.sizes) : 0;
     foot_px_ = layout_.top_px() - masses;
-    if (layout_.above_px < kArrowRoom * unit_ + masses) {
+    const double room = arrow_room_px(context.sizes);
+    if (layout_.above_px < room + masses) {
       throw UsageError(
           fmt::format("show.overlays: the velocities need {:.0f} pixels above the blocks, and "
-                      "there are {:.0f}; "
-                      "raise the upper end of view.y, or make the frame larger",
-                      kArrowRoom * unit_, std::max(0.0, layout_.above_px - masses)));
+                      "there are {:.0f}; leave out 'velocities', or make the frame higher",
+                      room, std::max(0.0, layout_.above_px - masses)));
     }
     longest_px_ = kLongest * (layout_.blue.width + layout_.red.width) / 2 * layout_.scale;
     const double face_px = layout_.at(to_double(scene.system.wall_face), 0).x;
     const double margin_px = kBetweenFigures_em / 2 * text_px_;
-    least_left_px_ = std::max(0.0, face_px) + margin_px;
-    most_right_px_ = layout_.frame_px - margin_px;
+    const double margin = context.sizes.margin;
+    least_left_px_ = std::max(margin, face_px + margin_px);
+    most_right_px_ = std::min(scene.view.width_px - margin, layout_.right_px);
     blue_px_ = layout_.blue.width * layout_.scale;
     red_px_ = layout_.red.width * layout_.scale;
   }
@@ -220,6 +240,13 @@ class VelocityArrows {
 
 }  // namespace
 
+double room_above_px(const Scene& scene, const Layout& layout, const Font& font) {
+  const Sizes sizes(scene.view);
+  const bool has_mass = scene.show.has(Overlay::masses) && has_mass_above(scene, layout, font);
+  return (has_mass ? mass_room_px(sizes) : 0) +
+         (scene.show.has(Overlay::velocities) ? arrow_room_px(sizes) : 0);
+}
+
 bool has_mass_above(const Scene& scene, const Layout& layout, const Font& font) {
   const double size_px = Sizes(scene.view).mass;
   const auto [blue, red] = mass_texts(scene, layout, font);
@@ -232,12 +259,15 @@ Drawable mass_labels(const DrawingContext& context) {
   const MassTexts texts = mass_texts(context.scene, context.layout, context.font);
   const TextItem red = mass_label(0, texts.red, system.red, context);
   const TextItem blue = mass_label(1, texts.blue, system.blue, context);
+  const double least_px = context.sizes.margin;
+  const double most_px =
+      std::min(context.scene.view.width_px - least_px, context.layout.right_px);
   return [=, layout = context.layout](const FrameState& shown, std::vector<DrawItem>& items) {
     const auto add = [&](TextItem label, const Motion& motion) {
       const double half_px = -label.origin.x;
       const double middle = layout.at(motion.position, 0).x;
       // Half a figure would be another number.
-      if (middle - half_px < 0 || middle + half_px > layout.frame_px) return;
+      if (middle - half_px < least_px || middle + half_px > most_px) return;
       label.origin.x += middle;
       items.emplace_back(std::move(label));
     };
