@@ -102,8 +102,8 @@ class FramePlanner {
     place_header();
     place_foot();
     const bool has_edge = show_.panels.empty() && bottom_ == view_.height_px;
-    // Else read-outs would stick to the lower edge.
-    if (read_outs_px > 0 && has_edge) bottom_ -= sizes_.margin / 2;
+    // Read-outs end at the margin.
+    if (read_outs_px > 0 && has_edge) bottom_ -= sizes_.margin - kBelowBaseline * sizes_.text;
     double height = bottom_ - top_ - read_outs_px;
     if (!show_.panels.empty()) height = stage_height(height);
     if (height < kLeastStage * sizes_.unit) throw_no_room();
@@ -293,8 +293,8 @@ class FramePlanner {
     height *= sizes_.unit;
     if (view_.theme == Theme::article) {
       // With this the stage is as wide as the frame.
-      height += view_.width_px * to_double((view_.y.high - view_.y.low) /
-                                           (view_.x.high - view_.x.low));
+      height +=
+          view_.width_px * to_double((view_.y.high - view_.y.low) / (view_.x.high - view_.x.low));
     }
     return std::min(height, room_px / 2);
   }

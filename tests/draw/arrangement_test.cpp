@@ -31,6 +31,8 @@ constexpr std::array kDigits{1, 3, 8};
 /// A raised or lowered part of a formula, in parts of its line.
 constexpr double kScriptScale = 0.65;
 constexpr double kTouch_px = 0.5;
+/// Places are whole pixels where that makes them sharp.
+constexpr double kRounded_px = 0.5;
 constexpr double kRounding = 1e-6;
 
 bool shows(ItemId item, ItemId thing) {
@@ -107,13 +109,12 @@ class Arrangement {
   bool is_inside(const Box& text) const {
     const bool is_counter = shows(text.id, ItemId::label) || shows(text.id, ItemId::count) ||
                             shows(text.id, ItemId::lit_count);
-    const double margin =
-        view_.theme == Theme::article && is_counter
-            ? 0  // of the article's own picture
-            : sizes_.margin - kRounding;
+    const double margin = view_.theme == Theme::article && is_counter
+                              ? 0  // of the article's own picture
+                              : sizes_.margin - kRounding;
     // What hangs below the line may reach into the margin.
     return text.left >= margin && text.right <= list_.width_px - margin && text.top >= margin / 2 &&
-           text.bottom - 0.2 * text.size_px <= list_.height_px - margin;
+           text.bottom - 0.2 * text.size_px <= list_.height_px - margin + kRounded_px;
   }
 
   /// As large as it has to be, or beside something that is.
@@ -176,9 +177,9 @@ std::string problem_of_refusal(const std::string& what) {
   const bool is_line = what.find('\n') == std::string::npos;
   const bool has_key = what.starts_with("show") || what.starts_with("view.");
   const std::size_t remedy = what.find("; ");
-  const bool has_remedy = remedy != std::string::npos &&
-                          (what.find("leave", remedy) != std::string::npos ||
-                           what.find("make", remedy) != std::string::npos);
+  const bool has_remedy =
+      remedy != std::string::npos && (what.find("leave", remedy) != std::string::npos ||
+                                      what.find("make", remedy) != std::string::npos);
   return is_line && has_key && has_remedy ? "" : "refused by: " + what;
 }
 

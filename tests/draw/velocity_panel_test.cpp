@@ -114,7 +114,7 @@ struct Frame {
   Point at(const Point& unit) const { return {centre.x + red * unit.x, centre.y - blue * unit.y}; }
 
   Point centre;
-  double red;         ///< semi-axis
+  double red;   ///< semi-axis
   double blue;  ///< as red on a circle
 };
 

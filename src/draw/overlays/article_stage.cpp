@@ -24,7 +24,7 @@ constexpr double kMinRounded_px = 16;
 // In ems of the label.
 constexpr double kLabelGap = 1.0;  // between the label's baseline and the view
 constexpr double kWordSpace = 0.34;
-/// The label moves up by at most this part of the area's height.
+/// Overlays take at most this part of the area's height in addition.
 constexpr double kMostOfArea = 0.3;
 /// Sums of the same advances in different order differ by less.
 constexpr double kNegligible_em = 1e-6;
@@ -107,10 +107,15 @@ class ArticleStage {
   TextWidths widths_;
 };
 
+/// What overlays need in addition, in pixels.
+struct MoreRoom {
+  double above = 0;  ///< between label and view
+  double below = 0;  ///< the view
+};
+
 /// Label and view form one group, centred in the area.
-/// @param more_px  how much farther from the view the label is than usual
 Layout article_layout(const Scene& scene, const CountLine& count_line, const Rectangle& area,
-                      double more_px) {
+                      const MoreRoom& more) {
   const View& view = scene.view;
   const double margin = article_style::kMargin * article_style::short_measure(area);
   Layout layout;
@@ -120,17 +125,18 @@ Layout article_layout(const Scene& scene, const CountLine& count_line, const Rec
   layout.right_px = view.width_px - Sizes(view).margin;
   layout.line_px =
       std::max(1.0, std::round(article_style::kLine * article_style::short_measure(whole(view))));
-  const double gap = kLabelGap * line.text_px + more_px;
+  const double gap = kLabelGap * line.text_px + more.above;
   const double label_height = Font::kCapHeight_em * line.text_px + gap;
-  const double inner_height = area.height - 2 * margin - label_height;
-  layout.scale = std::min((area.width - 2 * margin) / length(view.x), inner_height / length(view.y));
+  const double inner_height = area.height - 2 * margin - label_height - more.below;
+  layout.scale =
+      std::min((area.width - 2 * margin) / length(view.x), inner_height / length(view.y));
   const bool rounded = layout.scale >= kMinRounded_px;
   const auto to_pixel = [&](double px) { return rounded ? std::round(px) : px; };
   if (rounded) layout.scale = 2 * std::floor(layout.scale / 2);
   check_resolution(view, layout.scale);
   const double view_width = layout.scale * length(view.x);
   const double view_height = layout.scale * length(view.y);
-  const double top = area.y + (area.height - view_height - label_height) / 2;
+  const double top = area.y + (area.height - view_height - label_height - more.below) / 2;
   layout.origin = {
       to_pixel(area.x + (area.width - view_width) / 2 - to_double(view.x.low) * layout.scale),
       to_pixel(top + label_height + to_double(view.y.high) * layout.scale)};
@@ -168,13 +174,15 @@ Layout lay_out_article(const Scene& scene, const Integer& longest_count, const R
   // The label gives way to what is above the blocks. That may make the blocks smaller, which may
   // take a mass from its block.
   constexpr int kPasses = 4;
-  double more_px = 0;
-  Layout layout = article_layout(scene, line, area, more_px);
+  MoreRoom more;
+  Layout layout = article_layout(scene, line, area, more);
   for (int pass = 0; pass < kPasses; ++pass) {
-    const double missing_px = room_above_px(scene, layout, font) - layout.above_px;
-    more_px += std::max(0.0, missing_px);
-    if (missing_px <= 0 || more_px > kMostOfArea * area.height) break;
-    layout = article_layout(scene, line, area, more_px);
+    const double above = room_above_px(scene, layout, font) - layout.above_px;
+    const double below = room_below_px(scene) - layout.below_px;
+    more.above += std::max(0.0, above);
+    more.below += std::max(0.0, below);
+    if (std::max(above, below) <= 0 || more.above + more.below > kMostOfArea * area.height) break;
+    layout = article_layout(scene, line, area, more);
   }
   return layout;
 }

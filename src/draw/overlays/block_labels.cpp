@@ -14,13 +14,17 @@ namespace {
 
 /// A mass takes at most this part of its block's width.
 constexpr double kMostOfBlock = 0.9;
+/// Of the least block that a mass is written on, in ems. A unit has a letter below the line.
+constexpr double kHeight_em = 1;
+constexpr double kHeightWithUnit_em = 1.2;
 /// Between a block and the mass above it, in fractions of the frame's shorter side.
 constexpr double kBelowMass = 0.016;
 
 bool fits(const std::string& text, const BlockShape& block, const Layout& layout, double size_px,
           const Font& font) {
+  const bool has_unit = text.ends_with('g');
   return font.width_em(text) * size_px <= kMostOfBlock * block.width * layout.scale &&
-         size_px <= block.height_px;
+         (has_unit ? kHeightWithUnit_em : kHeight_em) * size_px <= block.height_px;
 }
 
 struct MassTexts {
@@ -65,12 +69,12 @@ TextItem mass_label(std::size_t n, std::string text, const Block& block,
   const bool is_inside = fits(text, shape, layout, size_px, context.font);
   if (!is_inside && (is_lighter || shape.height_px < other.height_px)) {
     throw UsageError(
-        fmt::format("show.overlays: the mass '{}' does not fit on its block, which is {:.0f} "
-                    "pixels wide; leave "
-                    "out 'masses', make the block wider, or show less of the x axis",
-                    text, shape.width * layout.scale));
+        fmt::format("show.overlays: the mass '{}' does not fit on its block of {:.0f}x{:.0f} "
+                    "pixels; leave out 'masses', make the block or the frame larger, or show less "
+                    "of the x axis",
+                    text, shape.width * layout.scale, shape.height_px));
   }
-  if (!is_inside && layout.above_px < mass_room_px(context.sizes)) {
+  if (!is_inside && layout.above_px + kRounded_px < mass_room_px(context.sizes)) {
     throw UsageError(
         fmt::format("show.overlays: the mass '{}' needs {:.0f} pixels above its block, and there "
                     "are {:.0f}; leave out 'masses', or make the block wider or the frame higher",
@@ -104,8 +108,8 @@ mpf_class usual_speed(const BlockSystem& system) {
 }
 
 double arrow_room_px(const Sizes& sizes) {
-  return std::max(kArrowRoom * sizes.unit, (kVelocityBaseline + kClear / 2) * sizes.unit +
-                                               Font::kCapHeight_em * sizes.text);
+  return std::max(kArrowRoom * sizes.unit,
+                  (kVelocityBaseline + kClear / 2) * sizes.unit + Font::kCapHeight_em * sizes.text);
 }
 
 struct Figure {
@@ -132,7 +136,7 @@ class VelocityArrows {
     const double masses = is_over_mass ? mass_room_px(context.sizes) : 0;
     foot_px_ = layout_.top_px() - masses;
     const double room = arrow_room_px(context.sizes);
-    if (layout_.above_px < room + masses) {
+    if (layout_.above_px + kRounded_px < room + masses) {
       throw UsageError(
           fmt::format("show.overlays: the velocities need {:.0f} pixels above the blocks, and "
                       "there are {:.0f}; leave out 'velocities', or make the frame higher",
@@ -260,8 +264,7 @@ Drawable mass_labels(const DrawingContext& context) {
   const TextItem red = mass_label(0, texts.red, system.red, context);
   const TextItem blue = mass_label(1, texts.blue, system.blue, context);
   const double least_px = context.sizes.margin;
-  const double most_px =
-      std::min(context.scene.view.width_px - least_px, context.layout.right_px);
+  const double most_px = std::min(context.scene.view.width_px - least_px, context.layout.right_px);
   return [=, layout = context.layout](const FrameState& shown, std::vector<DrawItem>& items) {
     const auto add = [&](TextItem label, const Motion& motion) {
       const double half_px = -label.origin.x;

@@ -17,7 +17,6 @@ constexpr int kLeastFigures = 2;
 constexpr double kBelowBlocks = 0.012;  ///< where there is no floor
 constexpr double kTickLength = 0.012;
 constexpr double kBelowTick = 0.01;
-constexpr double kBelowFigures = 0.01;
 // In ems.
 constexpr double kBesideWall_em = 0.25;
 constexpr double kLeastGap_em = 1.0;  // between figures
@@ -27,8 +26,8 @@ constexpr double kLeastGap_em = 1.0;  // between figures
 double room_below_px(const Scene& scene) {
   if (!scene.show.has(Overlay::ruler)) return 0;
   const Sizes sizes(scene.view);
-  const double mark = (kTickLength + kBelowTick + kBelowFigures) * sizes.unit;
-  return std::max(kRulerRoom * sizes.unit, mark + 2 * kHalfFigure_em * sizes.text);
+  const double figures = (kBelowBlocks + kTickLength + kBelowTick) * sizes.unit;
+  return std::max(kRulerRoom * sizes.unit, figures + 2 * kHalfFigure_em * sizes.text);
 }
 
 Drawable ruler(const DrawingContext& context) {
@@ -42,7 +41,7 @@ Drawable ruler(const DrawingContext& context) {
   const double tick_end = axis_px + kTickLength * sizes.unit;
   const double baseline = tick_end + kBelowTick * sizes.unit + 2 * kHalfFigure_em * size_px;
   const double below_px = baseline - layout.floor_px;
-  if (below_px > layout.below_px) {
+  if (below_px > layout.below_px + kRounded_px) {
     throw UsageError(
         fmt::format("show.overlays: the ruler needs {:.0f} pixels below the blocks, and there are "
                     "{:.0f}; leave out 'ruler', or make the frame higher",
