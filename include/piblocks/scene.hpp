@@ -97,7 +97,8 @@ enum class Panel {
   unfolded,  ///< the wedge reflected again and again, and the straight line through it
   time,      ///< positions against time
   rate,      ///< collisions per second against time
-  ellipse    ///< ellipse of (v_red, v_blue), which becomes the circle of `velocity`
+  ellipse,   ///< ellipse of (v_red, v_blue), which becomes the circle of `velocity`
+  mirrors    ///< as unfolded, with wedges that unfold one by one
 };
 
 /// While the loupe enlarges by a factor that the scene names, and by which.

@@ -1,5 +1,7 @@
 #include "render/frame_state.hpp"
 
+#include <piblocks/error.hpp>
+
 #include <algorithm>
 #include <iterator>
 #include <ranges>
@@ -52,6 +54,18 @@ std::vector<Passage> passages(const CollisionLog& log, const VideoMoment& moment
   return found;
 }
 
+/// As exact as its age needs it: where time all but stands still, a double-double is too coarse.
+Rational time_of(const CollisionLog& log, const Collision& collision, const Stretch& stretch) {
+  constexpr unsigned long kEnough_bits = 90;  // of the 104 that are right
+  const Rational rounded = to_rational(collision.time);
+  if (abs(stretch.speed) * power(2, kEnough_bits) >= abs(rounded)) return rounded;
+  try {
+    return log.time_after(collision.index);
+  } catch (const Error&) {  // several at once, or an engine that steps
+    return rounded;
+  }
+}
+
 struct AgedCollision {
   Collision collision;
   double age_s;
@@ -68,7 +82,7 @@ std::vector<AgedCollision> newest(const CollisionLog& log, const std::vector<Pas
     for (Integer left = passage.size(); left > 0; --left, index += forward ? -1 : 1) {
       if (found.size() == kNewest) return found;
       Collision collision = log.collision(index);
-      const Rational way_s = (to_rational(collision.time) - stretch.time) / stretch.speed;
+      const Rational way_s = (time_of(log, collision, stretch) - stretch.time) / stretch.speed;
       const double age_s = to_double(video_s - stretch.video_s - way_s);
       // Only rounding can make a hit later than the moment.
       found.push_back({std::move(collision), std::max(0.0, age_s)});

@@ -35,7 +35,8 @@ constexpr auto kPanels = std::to_array<Name<Panel>>({{"velocity", Panel::velocit
                                                      {"unfolded", Panel::unfolded},
                                                      {"time", Panel::time},
                                                      {"rate", Panel::rate},
-                                                     {"ellipse", Panel::ellipse}});
+                                                     {"ellipse", Panel::ellipse},
+                                                     {"mirrors", Panel::mirrors}});
 
 constexpr auto kSplits = std::to_array<Name<Split>>(
     {{"auto", Split::automatic}, {"columns", Split::columns}, {"rows", Split::rows}});

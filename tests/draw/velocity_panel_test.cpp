@@ -229,6 +229,31 @@ TEST(VelocityPanel, CountsFromTheScenesBeginning) {
   }
 }
 
+/// WCAG 2.1, "relative luminance".
+double luminance(const Color& color) {
+  const auto linear = [](double byte) {
+    const double value = byte / 255;
+    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(color.red) + 0.7152 * linear(color.green) + 0.0722 * linear(color.blue);
+}
+
+TEST(VelocityPanel, TheWedgeStandsOutInEveryTheme) {
+  for (const Theme theme : {Theme::article, Theme::lecture, Theme::lecture_light, Theme::chalkboard,
+                            Theme::dark, Theme::print, Theme::colorblind}) {
+    const Palette palette = palette_of(theme);
+    const auto mixed = [](std::uint8_t over, std::uint8_t below) {
+      return static_cast<std::uint8_t>(style::kWedgeFill * over + (1 - style::kWedgeFill) * below);
+    };
+    const Color fill{mixed(palette.done.red, palette.background.red),
+                     mixed(palette.done.green, palette.background.green),
+                     mixed(palette.done.blue, palette.background.blue)};
+    const double a = luminance(fill) + 0.05;
+    const double b = luminance(palette.background) + 0.05;
+    EXPECT_GE(std::max(a, b) / std::min(a, b), 2) << exact_text(theme);
+  }
+}
+
 TEST(VelocityPanel, ShowsThatNothingMoves) {
   const Figure figure(
       Pictures({{"digits", "2"}, {"red.velocity", "0"}, {"time.to", "1"}}).after(0));
@@ -332,6 +357,15 @@ TEST(EllipsePanel, SaysWhatIsNotToScale) {
   EXPECT_TRUE(says_at("1/145", 0));
   EXPECT_TRUE(says_at("10000000000000000000000000000000000000000", 0));
   EXPECT_FALSE(says_at("145", kMorphed_s));
+}
+
+TEST(EllipsePanel, SaysWhyItIsAnEllipse) {
+  for (const char* size : {"960x540", "1280x720", "3840x2160", "1080x1920"}) {
+    const Pictures pictures({{"digits", "2"}, {"view.size", size}}, "ellipse,velocity");
+    EXPECT_TRUE(says(Figure(pictures.after(0, 0)), "stays the same")) << size;
+    EXPECT_FALSE(says(Figure(pictures.after(0)), "stays the same")) << size;
+    EXPECT_TRUE(says(Figure(pictures.after(0)), "no more hits")) << size;
+  }
 }
 
 TEST(EllipsePanel, IsTheCircleInTheEnd) {

@@ -52,6 +52,7 @@ class LoupeInset {
   // Ids among those of the wall and of blue.
   static constexpr std::size_t kFirstLine = 100;
   static constexpr std::size_t kCut = 100;
+  static constexpr std::size_t kSweep = 100;
 
   /// All that does not depend on the place. @param least_gap_px  that is shown
   LoupeInset(const DrawingContext& context, const Loupe& loupe, double least_gap_px);
@@ -61,13 +62,15 @@ class LoupeInset {
 
   void add_lines(double seen, std::vector<DrawItem>& items) const;
   DrawList picture(const FrameState& shown, double zoomed) const;
-  void add_blocks(const Gaps& gaps, double px_per_unit, std::vector<DrawItem>& items) const;
+  void add_blocks(const FrameState& shown, double px_per_unit, std::vector<DrawItem>& items) const;
+  void add_blue(double x_px, double seen, std::vector<DrawItem>& items) const;
   void add_zoom(double zoomed, const Color& color, std::vector<DrawItem>& items) const;
 
   Sizes sizes_;
   Palette palette_;
   Face face_;
-  double scale_;    ///< of the stage, pixels per unit
+  double scale_;  ///< of the stage, pixels per unit
+  double frames_per_s_;
   double line_px_;  ///< of the blocks' outlines
   std::optional<Color> background_;
   std::optional<Window> window_;

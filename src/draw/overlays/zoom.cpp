@@ -48,7 +48,7 @@ double Zoom::of(double room) const {
   const double mantissa = room / power(exponent);
   const double way = straight_log2(mantissa) / straight_log2(10);
   const double eased = smooth_step((way - kPlateau) / (1 - kPlateau));
-  return power(exponent) * std::min(mantissa, straight_exp2(eased * straight_log2(10)));
+  return std::min(room, power(exponent) * straight_exp2(eased * straight_log2(10)));
 }
 
 }  // namespace piblocks

@@ -66,16 +66,24 @@ Diagram::Diagram(const DrawingContext& context, const PanelPlace& place, const P
   item_ = {nth(first_id_, 0), whole_pixels(whole, kAround * text_px_), nullptr};
 }
 
+void Diagram::check_range(const std::vector<DrawItem>& items) const {
+  if (are_finite(items)) return;
+  throw UsageError(fmt::format(
+      "show.panels: the diagram '{}' needs numbers beyond the range of a double (about 1.8e308); "
+      "leave it out, or use less extreme positions, velocities and times",
+      exact_text(panel_)));
+}
+
 void Diagram::finish() {
-  if (!are_finite(items_)) {
-    throw UsageError(fmt::format(
-        "show.panels: the diagram '{}' needs numbers beyond the range of a double (about 1.8e308); "
-        "leave it out, or use less extreme positions, velocities and times",
-        exact_text(panel_)));
-  }
+  check_range(items_);
   item_.plate = std::make_shared<const Plate>(Plate{std::move(items_)});
   fonts_ = nullptr;
   font_ = nullptr;
+}
+
+PlateItem Diagram::plate(std::size_t n, std::vector<DrawItem> items) const {
+  check_range(items);
+  return {moving(n), item_.bounds, std::make_shared<const Plate>(Plate{std::move(items)})};
 }
 
 void Diagram::text(const std::string& text, const Point& at, double anchor, const Color& color) {

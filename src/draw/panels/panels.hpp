@@ -26,8 +26,10 @@ Drawable velocity_panel(const DrawingContext& context, const PanelPlace& place);
 Drawable ellipse_panel(const DrawingContext& context, const PanelPlace& place);
 /// The path through the plane of both gaps.
 Drawable position_panel(const DrawingContext& context, const PanelPlace& place);
-/// The straight line through the unfolded wedge.
+/// The straight line through the unfolded wedges.
 Drawable unfolded_panel(const DrawingContext& context, const PanelPlace& place);
+/// The same, with wedges that unfold one by one, each at its collision.
+Drawable mirrors_panel(const DrawingContext& context, const PanelPlace& place);
 /// Both gaps against time.
 Drawable time_panel(const DrawingContext& context, const PanelPlace& place);
 /// Collisions per second against time.
@@ -88,6 +90,9 @@ class Diagram {
                         const std::optional<Color>& line = std::nullopt) const {
     return shape_item(moving(n), std::move(outline), fill, line);
   }
+  /// More that stays, above the first `n` of the things that move.
+  /// @throws UsageError as finish()
+  PlateItem plate(std::size_t n, std::vector<DrawItem> items) const;
   /// Marks the present.
   DiskItem dot(std::size_t n, const Point& at, const Color& color) const {
     return {moving(n), at, kDotRadius * sizes_.grid_line, color,
@@ -109,6 +114,7 @@ class Diagram {
     if (line) item.stroke = Stroke{*line, sizes_.grid_line};
     return item;
   }
+  void check_range(const std::vector<DrawItem>& items) const;
   ItemId next_id() const { return nth(first_id_, items_.size()); }
 
   Palette palette_;

@@ -1,143 +1,297 @@
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <utility>
 
-#include "draw/number_text.hpp"
 #include "draw/panels/panels.hpp"
-#include "draw/panels/trajectory.hpp"
+#include "draw/panels/unfolded_line.hpp"
+#include "draw/panels/unfolded_text.hpp"
 
 namespace piblocks {
 namespace {
 
-constexpr double kLeastBetween_px = 6;  // between rays, at their ends
-constexpr double kRimStep = 0.05;       // radians
-constexpr double kBelowWedge_em = 1.5;
+// In ems.
+constexpr double kNoteBaseline = 1.25;
+constexpr double kNoteStep = 1.3;
+constexpr double kBetweenNotes = 1.5;
+/// A panel that is lower or wider has one row of notes.
+constexpr double kTwoRowsHeight = 11;
+constexpr double kTwoRowsWidth = 32;
 
-/// The angle by which a straight line turns around the origin from one of its points to another.
-double angle_between(const Point& from, const Point& to) {
-  // Products of long vectors would leave the range of a double.
-  const auto direction = [](const Point& point) {
-    const double length = std::hypot(point.x, point.y);
-    return length > 0 ? Point{point.x / length, point.y / length} : Point{};
-  };
-  const Point a = direction(from);
-  const Point b = direction(to);
-  return std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
+// In widths of the grid's lines.
+constexpr double kPresentRadius = 5.2;
+constexpr double kDotRadius = 3.4;
+constexpr double kBandRadius = 1.5;
+constexpr double kLeastApart = 1;  ///< between mirrors, if they are many
+
+constexpr double kDotShare = 0.45;  ///< radius of a dot, of its distance to the next one
+constexpr double kDoneShare = 0.6;
+
+// The n-th of the things that move, from back to front.
+constexpr std::size_t kWedge = 0;
+constexpr std::size_t kRays = 1;
+constexpr std::size_t kLine = 4096;
+constexpr std::size_t kDots = 4097;
+constexpr std::size_t kPresent = 8192;
+
+PanelTitle title_of(const DrawingContext& context, const PanelPlace& place) {
+  const double room_em = place.area.width / context.sizes.text;
+  const Formula title = place.panel == Panel::mirrors ? mirrors_title(context, room_em)
+                                                      : unfolded_title(context, room_em);
+  return {title, title};
 }
 
+bool has_two_rows(const Diagram& diagram) {
+  const Rectangle& inside = diagram.inside();
+  const double em = diagram.text_px();
+  return inside.height >= kTwoRowsHeight * em && inside.width < kTwoRowsWidth * em;
+}
+
+double smooth(double part) { return part * part * (3 - 2 * part); }
+
 /// At each collision the wedge is reflected instead of the path. The wedges fill the half-plane,
-/// and the path is a straight line, which crosses a ray at every collision.
+/// and the path is a straight line, which crosses a mirror at every collision.
 class UnfoldedPanel {
  public:
   UnfoldedPanel(const DrawingContext& context, const PanelPlace& place)
-      : wedge_(context.scene.system),
-        diagram_(context, place,
-                 {context.setter().text("Unfolded: a straight line"),
-                  context.setter().text("Unfolded")}) {
-    const BlockSystem& system = context.scene.system;
-    start_ = {wedge_.cosine * to_double(system.blue_gap() + system.blocks_gap()),
-              wedge_.sine * to_double(system.blue_gap())};
-    velocity_ = {wedge_.cosine * to_double(system.red.velocity),
-                 wedge_.sine * to_double(system.blue.velocity)};
-    const Span span = span_of(context.scene, context.log);
-    from_ = plane_at(to_double(span.from));
-    const Point to = plane_at(to_double(span.to));
-    most_ = std::max({std::hypot(from_.x, from_.y), std::hypot(to.x, to.y), 1e-300});
-    tilt_to_hold(to);
-    place_half_plane();
-    add_rays();
-    diagram_.line({at(from_), at(to)}, diagram_.palette().muted, 1, 4);
+      : diagram_(context, place, title_of(context, place)),
+        grid_px_(context.sizes.grid_line),
+        unfolds_(place.panel == Panel::mirrors),
+        rows_(has_two_rows(diagram_) ? 2 : 1),
+        map_(context.scene, context.log, plot(), 2 * kPresentRadius * grid_px_),
+        mirrors_(map_.mirrors(context.log, kLeastApart * grid_px_)),
+        span_(span_of(context.scene, context.log)),
+        size_(context.log.size()) {
+    least_x_ = map_.left() + kPresentRadius * grid_px_;
+    most_x_ = map_.right() - kPresentRadius * grid_px_;
+    from_x_ = std::clamp(map_.x_at(span_.from), map_.left(), map_.right());
+    add_notes(context);
     diagram_.finish();
+    rays_ = diagram_.plate(kRays, standing_lines());
+    place_dots();
+    if (unfolds_) place_rays();
+    if (unfolds_) context.needs.hits = true;
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     items.emplace_back(diagram_.item());
-    const Point present = plane_at(to_double(shown.time));
-    if (std::hypot(present.x, present.y) > most_ * (1 + 1e-9)) return;
-    if (stride_exponent_ == 0) add_present_wedge(present, items);
-    const Color accent = diagram_.palette().accent;
-    items.emplace_back(diagram_.moving_line(1, {at(from_), at(present)}, accent, 2));
-    items.emplace_back(diagram_.dot(2, at(present), accent));
+    const auto next = static_cast<std::size_t>(
+        std::ranges::upper_bound(mirrors_, shown.state.count, {}, &Mirror::index) -
+        mirrors_.begin());
+    const bool is_seen = shown.time >= span_.from && shown.time <= span_.to;
+    const double opened = opened_part(shown);
+    if (is_seen) add_wedge(shown, next, opened, items);
+    items.emplace_back(rays_);
+    if (unfolds_) {
+      const std::size_t reached = opened < 1 ? next : next + 1;
+      items.insert(items.end(), unfolded_.begin(),
+                   unfolded_.begin() + std::ptrdiff_t(std::min(reached, unfolded_.size())));
+    }
+    if (!is_seen) return;
+    const double x = map_.x_at(shown.time);
+    add_line(x, items);
+    for (const DiskItem& dot : dots_) {
+      const auto k = static_cast<std::size_t>(dot.id) - static_cast<std::size_t>(dots_.front().id);
+      if (first_dot_ + k >= next) break;
+      items.emplace_back(dot);
+    }
+    if (x < least_x_ || x > most_x_) return;
+    const Palette& palette = diagram_.palette();
+    items.emplace_back(DiskItem{diagram_.moving(kPresent),
+                                {x, level()},
+                                kPresentRadius * grid_px_,
+                                palette.accent,
+                                Stroke{palette.background, grid_px_}});
   }
 
  private:
-  /// Where the straight line is, as if no reflection came before the start.
-  Point plane_at(double time) const {
-    return {start_.x + velocity_.x * time, start_.y + velocity_.y * time};
-  }
-  Point at(const Point& plane) const {
-    const double cos = std::cos(tilt_);
-    const double sin = std::sin(tilt_);
-    return {rim_.centre.x + scale_ * (plane.x * cos - plane.y * sin),
-            rim_.centre.y - scale_ * (plane.x * sin + plane.y * cos)};
-  }
-  /// If blue does not begin at rest, the line may leave the upper half-plane. It never turns by
-  /// more than half a turn, so that the plane can be turned until all of the line is seen.
-  void tilt_to_hold(const Point& to) {
-    from_angle_ = std::atan2(from_.y, from_.x);
-    const double to_angle = from_angle_ + angle_between(from_, to);
-    const auto [low, high] = std::minmax(from_angle_, to_angle);
-    if (low < 0) tilt_ = -low;
-    if (high > std::numbers::pi) tilt_ = std::numbers::pi - high;
+  /// Without the notes below it.
+  Rectangle plot() const {
+    Rectangle area = diagram_.inside();
+    area.height -= (kNoteBaseline + 0.3 + (rows_ - 1) * kNoteStep) * diagram_.text_px();
+    return area;
   }
 
-  void place_half_plane() {
-    const Rectangle& inside = diagram_.inside();
-    const double height = inside.height - kBelowWedge_em * diagram_.text_px();
-    rim_.radius = std::min(inside.width / 2, height);
-    scale_ = rim_.radius / most_;
-    rim_.centre = {inside.x + inside.width / 2, inside.y + (height + rim_.radius) / 2};
-  }
-
-  void add_rays() {
-    const double exponent =
-        std::ceil(std::log10(kLeastBetween_px / rim_.radius) - wedge_.log10_theta());
-    stride_exponent_ = static_cast<unsigned long>(std::max(0.0, exponent));
-    const double step = wedge_.angle({1, static_cast<long>(stride_exponent_)});
-    const Palette& palette = diagram_.palette();
-    constexpr double kPi = std::numbers::pi;
-    std::vector<Point> rays;
-    for (double k = std::ceil(-tilt_ / step); tilt_ + k * step <= kPi * (1 + 1e-12); ++k) {
-      rays.push_back(rim_.centre);
-      rays.push_back(rim_.at(tilt_ + k * step));
+  /// As many of the notes as there is room for, the most important ones last.
+  void add_notes(const DrawingContext& context) {
+    const FormulaSetter set = context.setter();
+    std::vector<Formula> notes{angle_note(context)};
+    if (auto thinned = thinning_note(set, mirrors_)) notes.push_back(std::move(*thinned));
+    notes.push_back(set.text("heights not to scale"));
+    const double room = map_.area().width / diagram_.text_px();
+    std::vector<Point> places;
+    while (!notes.empty()) {
+      places = flow(notes, room);
+      if (places.back().y < rows_) break;
+      notes.erase(notes.begin());
     }
-    diagram_.line(std::move(rays), palette.grid);
-    std::vector<Point> rim;
-    for (double angle = 0; angle < kPi; angle += kRimStep) rim.push_back(rim_.at(angle));
-    rim.push_back(rim_.at(kPi));
-    diagram_.shape(std::move(rim), std::nullopt, palette.muted);
-    if (stride_exponent_ == 0) return;
-    diagram_.text(fmt::format("1 ray in {}", short_text(Rational(power(10, stride_exponent_)))),
-                  {rim_.centre.x, rim_.centre.y + 1.2 * diagram_.text_px()}, 0.5, palette.muted);
+    for (std::size_t i = 0; i < notes.size(); ++i) {
+      const double em = diagram_.text_px();
+      const double y = map_.base_y() + (kNoteBaseline + places[i].y * kNoteStep) * em;
+      diagram_.formula(notes[i], {map_.left() + places[i].x * em, y}, 0, diagram_.palette().muted);
+    }
   }
 
-  void add_present_wedge(const Point& present, std::vector<DrawItem>& items) const {
-    const double k = std::floor((from_angle_ + angle_between(from_, present)) / wedge_.theta);
-    const double begin = std::max(0.0, tilt_ + k * wedge_.theta);
-    const double end = std::min(tilt_ + (k + 1) * wedge_.theta, std::numbers::pi);
-    std::vector<Point> outline = rim_.arc(begin, end);
-    outline.insert(outline.begin(), rim_.centre);
-    items.emplace_back(diagram_.moving_shape(0, std::move(outline), diagram_.palette().shade,
-                                             diagram_.palette().muted));
+  /// Left end in ems and row of each note.
+  static std::vector<Point> flow(const std::vector<Formula>& notes, double room_em) {
+    std::vector<Point> places;
+    double x = 0;
+    double row = 0;
+    for (const Formula& note : notes) {
+      if (x > 0 && x + note.width_em() > room_em) {
+        x = 0;
+        ++row;
+      }
+      if (note.width_em() > room_em) row = 1e9;
+      places.push_back({x, row});
+      x += note.width_em() + kBetweenNotes;
+    }
+    return places;
   }
 
-  GapWedge wedge_;
+  /// The base line, all mirrors unless they unfold, and the line that is yet to come.
+  std::vector<DrawItem> standing_lines() const {
+    const Palette& palette = diagram_.palette();
+    std::vector<DrawItem> lines;
+    if (!unfolds_) {
+      for (const Mirror& mirror : mirrors_) lines.emplace_back(ray(kRays, mirror));
+    }
+    add_base(lines);
+    if (map_.line().moves()) {
+      const double to_x = std::clamp(map_.x_at(span_.to), map_.left(), map_.right());
+      PathItem path =
+          diagram_.moving_line(kRays, {{from_x_, level()}, {to_x, level()}}, palette.muted);
+      path.stroke->width_px = diagram_.sizes().data_line * 0.7;
+      path.stroke->dash_px = 4 * grid_px_;
+      lines.emplace_back(std::move(path));
+    }
+    return lines;
+  }
+
+  /// It is the first mirror if blue begins at rest. The half that the line comes from is, strictly.
+  void add_base(std::vector<DrawItem>& lines) const {
+    const Palette& palette = diagram_.palette();
+    const double y = map_.base_y();
+    const Point left{map_.left(), y};
+    const Point right{map_.right(), y};
+    const bool is_mirror = map_.line().first_ray() == 0;
+    const bool is_whole = !is_mirror || !unfolds_;
+    const Point from = map_.line().velocity() > 0 ? left : right;
+    if (!is_whole) lines.emplace_back(diagram_.moving_line(kRays, {left, right}, palette.grid));
+    const double wall_width = diagram_.sizes().wall_line / grid_px_;
+    lines.emplace_back(
+        diagram_.moving_line(kRays, {is_whole ? left : map_.corner(), is_whole ? right : from},
+                             is_mirror ? palette.wall : palette.grid, is_mirror ? wall_width : 1));
+  }
+
+  /// Of the line; on the base if it goes through the corner.
+  double level() const { return map_.line().meets_corner() ? map_.base_y() : map_.line_y(); }
+
+  PathItem ray(std::size_t n, const Mirror& mirror) const {
+    return diagram_.moving_line(n, {map_.corner(), map_.end_of(mirror.towards)},
+                                diagram_.palette().grid);
+  }
+
+  void place_rays() {
+    for (const Mirror& mirror : mirrors_) {
+      unfolded_.push_back(ray(kRays + 1 + unfolded_.size(), mirror));
+    }
+  }
+
+  void place_dots() {
+    const auto met = [](const Mirror& mirror) { return mirror.is_met; };
+    const auto first = std::ranges::find_if(mirrors_, met);
+    first_dot_ = static_cast<std::size_t>(first - mirrors_.begin());
+    const Palette& palette = diagram_.palette();
+    for (auto mirror = first; mirror != mirrors_.end() && mirror->is_met; ++mirror) {
+      const double largest = kDotRadius * grid_px_;
+      const double radius =
+          std::clamp(kDotShare * mirror->apart_px, kBandRadius * grid_px_, largest);
+      const bool is_wall = mirror->kind == CollisionKind::wall;
+      DiskItem dot{diagram_.moving(kDots + dots_.size()),
+                   {mirror->x, map_.line_y()},
+                   radius,
+                   is_wall ? palette.blue.line : palette.red.line,
+                   std::nullopt};
+      if (radius == largest) dot.stroke = Stroke{palette.background, grid_px_};
+      dots_.push_back(dot);
+    }
+  }
+
+  /// How far the newest wedge is open, 0 … 1.
+  double opened_part(const FrameState& shown) const {
+    if (!unfolds_ || shown.hits.empty()) return 1;
+    const Hit& newest = shown.hits.back();
+    if (newest.index != shown.state.count) return 1;
+    return smooth(std::clamp(newest.age_s / kHitLife_s, 0.0, 1.0));
+  }
+
+  /// The wedge that the point is in. @param next  of the mirrors
+  void add_wedge(const FrameState& shown, std::size_t next, double opened,
+                 std::vector<DrawItem>& items) const {
+    const double forward = map_.line().velocity() > 0 ? 1 : -1;
+    const Point before = next > 0 ? mirrors_[next - 1].towards : Point{-forward, 0};
+    Point after = next < mirrors_.size() ? mirrors_[next].towards : Point{forward, 0};
+    if (opened < 1) after = turned(before, after, opened);
+    const Palette& palette = diagram_.palette();
+    const bool is_over = shown.state.count >= size_;
+    const Color color = is_over ? faded(palette.done, kDoneShare) : palette.shade;
+    const bool is_leftward = before.x * after.y > after.x * before.y;
+    std::vector<Point> outline =
+        is_leftward ? map_.sector(before, after) : map_.sector(after, before);
+    items.emplace_back(diagram_.moving_shape(kWedge, std::move(outline), color));
+  }
+
+  /// A wedge that turns over its mirror, seen from above: halfway it is seen edge on.
+  Point turned(const Point& mirror, const Point& after, double opened) const {
+    const auto unit = [](const Point& point) {
+      const double length = std::hypot(point.x, point.y);
+      return Point{point.x / length, point.y / length};
+    };
+    const Point axis = unit(map_.plane_of(mirror));
+    const Point open = unit(map_.plane_of(after));
+    const double along = axis.x * open.x + axis.y * open.y;
+    const double across = -std::cos(std::numbers::pi * opened);
+    const Point plane{along * axis.x + across * (open.x - along * axis.x),
+                      along * axis.y + across * (open.y - along * axis.y)};
+    const Point turned = map_.picture_of({plane.x, std::max(0.0, plane.y)});
+    return std::isfinite(turned.x) && std::isfinite(turned.y) ? turned : after;
+  }
+
+  /// The line up to now: a rectangle, of which only the end changes.
+  void add_line(double x, std::vector<DrawItem>& items) const {
+    const double to = std::clamp(x, map_.left(), map_.right());
+    const double width = 1.2 * diagram_.sizes().data_line;
+    const Rectangle bounds{std::min(from_x_, to), level() - width / 2, std::abs(to - from_x_),
+                           width};
+    items.emplace_back(
+        RectangleItem{diagram_.moving(kLine), bounds, diagram_.palette().accent, std::nullopt});
+  }
+
   Diagram diagram_;
-  Point start_;
-  Point velocity_;
-  Point from_;
-  double most_ = 1;
-  double scale_ = 1;
-  Circle rim_;  ///< of the half-plane; angles are the plane's and the tilt
-  double from_angle_ = 0;
-  double tilt_ = 0;
-  unsigned long stride_exponent_ = 0;  ///< 1 ray in 10^n is drawn, so that they are apart
+  double grid_px_;
+  bool unfolds_;
+  int rows_;  ///< of notes
+  UnfoldedMap map_;
+  std::vector<Mirror> mirrors_;
+  Span span_;
+  Integer size_;
+  double least_x_ = 0;  ///< from here to most_x_ the present is marked
+  double most_x_ = 0;
+  double from_x_ = 0;  ///< where the line that is shown begins
+  PlateItem rays_;
+  std::vector<PathItem> unfolded_;  ///< the mirrors, if they unfold one by one
+  std::vector<DiskItem> dots_;      ///< of the mirrors that are met, from `first_dot_` on
+  std::size_t first_dot_ = 0;
 };
 
 }  // namespace
 
 Drawable unfolded_panel(const DrawingContext& context, const PanelPlace& place) {
+  return UnfoldedPanel(context, place);
+}
+
+Drawable mirrors_panel(const DrawingContext& context, const PanelPlace& place) {
   return UnfoldedPanel(context, place);
 }
 

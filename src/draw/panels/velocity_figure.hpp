@@ -3,10 +3,9 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
-#include "draw/panels/panels.hpp"
+#include "draw/panels/velocity_labels.hpp"
 #include "draw/panels/velocity_points.hpp"
 
 namespace piblocks {
@@ -44,39 +43,17 @@ class VelocityFigure {
   std::array<std::vector<Point>, 2> axes() const;
 
  private:
-  enum class Part { ellipse, circle, arcs };
-  struct Label {
-    Formula formula;
-    Point at;
-    Color color;
-    Part part;
-  };
-
-  class Labels;
-
-  static double strength(Part part, double share);
-  void place_circle(const Rectangle& inside, double name_em, double words_em);
-  void place_axis_names(const FormulaSetter& set, Labels& labels);
-  void place_end(const FormulaSetter& set, Labels& labels);
-  void place_arc(const FormulaSetter& set, Labels& labels);
-  void place_words(const FormulaSetter& set, Labels& labels);
-  void place_energy(const FormulaSetter& set, bool is_to_scale, Labels& labels);
-  std::optional<Point> place_lines(const std::vector<Formula>& lines, double beside,
-                                   Labels& labels) const;
-  std::vector<Point> bracket(double from, double to) const;
   void add_lines(double share, ItemId first, std::vector<DrawItem>& items) const;
 
   VelocityPoints points_;
   Palette palette_;
-  double em_;
   double grid_px_;
   double log_axes_;  ///< of the ellipse's drawn semi-axes, blue over red
-  Circle circle_;
+  VelocityPlace place_;
   bool has_chords_ = false;
   double dot_px_ = 0;
   std::vector<double> angles_;
-  std::vector<Point> bracket_;
-  std::vector<Label> labels_;
+  VelocityLabels written_;
 };
 
 }  // namespace piblocks

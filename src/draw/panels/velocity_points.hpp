@@ -2,13 +2,13 @@
 // In: a scene and its log. Out: points, angles and kinds of collisions.
 #pragma once
 
-#include <gmpxx.h>
 #include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
 #include <vector>
 
 #include "draw/draw_list.hpp"
+#include "draw/number_text.hpp"
 
 namespace piblocks {
 

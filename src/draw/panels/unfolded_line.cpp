@@ -1,0 +1,169 @@
+#include "draw/panels/unfolded_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace piblocks {
+namespace {
+
+/// Of the area's height.
+constexpr double kLevel = 0.2;
+/// What is farther from the corner than so many times the farthest crossing is not shown.
+constexpr double kWidest = 4;
+/// More mirrors than these are thinned.
+constexpr int kMostMirrors = 128;
+/// Between rays where the line crosses none, in radians.
+constexpr double kFanStep = 0.02;
+
+}  // namespace
+
+StraightLine::StraightLine(const BlockSystem& system) : wedge_(system) {
+  const Rational y1 = system.blue_gap();
+  const Rational y2 = y1 + system.blocks_gap();
+  const Point start{wedge_.cosine * to_double(y2), wedge_.sine * to_double(y1)};
+  const Point velocity{wedge_.cosine * to_double(system.red.velocity),
+                       wedge_.sine * to_double(system.blue.velocity)};
+  const double speed = std::hypot(velocity.x, velocity.y);
+  if (speed == 0) {
+    start_ = start.x;
+    height_ = start.y;
+    return;
+  }
+  turn_ = turn_of(system).value();
+  const Rational turning = y2 * system.blue.velocity - y1 * system.red.velocity;
+  const double sign = turning < 0 ? 1 : -1;
+  velocity_ = sign * speed;
+  // The plane is turned so that this direction points to the right.
+  const Point right{velocity.x / velocity_, velocity.y / velocity_};
+  if (turning != 0) height_ = std::abs(start.x * right.y - start.y * right.x);
+  first_ray_ = -std::atan2(right.y, right.x);
+}
+
+double StraightLine::at(const Rational& time) const {
+  return moves() ? velocity_ * to_double(Rational(time - turn_)) : start_;
+}
+
+Rational StraightLine::time_at(double position) const {
+  return turn_ + Rational(position) / Rational(velocity_);
+}
+
+UnfoldedMap::UnfoldedMap(const Scene& scene, const CollisionLog& log, const Rectangle& area,
+                         double margin_px)
+    : line_(scene.system),
+      area_(area),
+      margin_px_(margin_px),
+      level_px_(kLevel * area.height),
+      span_(span_of(scene, log)) {
+  place_corner(log);
+}
+
+/// The corner and all of the line that is shown are in the area.
+void UnfoldedMap::place_corner(const CollisionLog& log) {
+  double from = line_.at(span_.from);
+  double to = line_.at(span_.to);
+  if (line_.moves() && !line_.meets_corner()) {
+    const Integer first = log.state_at(span_.from).count + 1;
+    const Integer last = log.state_at(span_.to).count;
+    if (first <= last) {
+      const auto distance = [&](const Integer& index) {
+        return std::abs(line_.at(to_rational(log.collision(index).time)));
+      };
+      const double reach = kWidest * std::max(distance(first), distance(last));
+      from = std::clamp(from, -reach, reach);
+      to = std::clamp(to, -reach, reach);
+    }
+  }
+  const double low = std::min({0.0, from, to});
+  const double high = std::max({0.0, from, to});
+  if (high > low) {
+    scale_ = (area_.width - 2 * margin_px_) / (high - low);
+    corner_x_ = area_.x + margin_px_ - low * scale_;
+  } else {
+    if (!line_.meets_corner()) scale_ = level_px_ / line_.height();
+    corner_x_ = area_.x + area_.width / 2;
+  }
+  across_ = line_.meets_corner() ? level_px_ : scale_ * line_.height();
+}
+
+Point UnfoldedMap::end_of(const Point& towards) const {
+  const double side = (towards.x > 0 ? right() : left()) - corner_x_;
+  const bool is_above = towards.y * std::abs(side) >= area_.height * std::abs(towards.x);
+  if (is_above) return {corner_x_ + towards.x / towards.y * area_.height, area_.y};
+  return {corner_x_ + side, base_y() - std::max(0.0, towards.y / towards.x * side)};
+}
+
+std::vector<Point> UnfoldedMap::sector(const Point& a, const Point& b) const {
+  std::vector<Point> outline{corner(), end_of(a)};
+  const bool is_a_low = outline.back().y > area_.y && a.x > 0;
+  const Point end = end_of(b);
+  const bool is_b_low = end.y > area_.y && b.x < 0;
+  if (is_a_low && (end.y <= area_.y || is_b_low)) outline.push_back({right(), area_.y});
+  if (is_b_low && (outline[1].y <= area_.y || is_a_low)) outline.push_back({left(), area_.y});
+  outline.push_back(end);
+  return outline;
+}
+
+Mirror UnfoldedMap::mirror_of(const CollisionLog& log, const Integer& index) const {
+  const Collision collision = log.collision(index);
+  const Rational time = to_rational(collision.time);
+  const double x = x_at(time);
+  return {.index = index,
+          .kind = collision.kind,
+          .x = x,
+          .is_met = time >= span_.from && time <= span_.to,
+          .towards = {x - corner_x_, level_px_}};
+}
+
+/// Beyond the sides, rays that leave the area so far apart can be seen.
+double UnfoldedMap::reach_px(double least_apart_px) const {
+  return area_.width * std::max(1.0, level_px_ / least_apart_px);
+}
+
+std::vector<Mirror> UnfoldedMap::mirrors(const CollisionLog& log, double least_apart_px) const {
+  if (!line_.moves() || line_.meets_corner()) return fan();
+  const double reach = std::copysign(reach_px(least_apart_px), line_.velocity());
+  const Integer first = log.state_at(line_.time_at(-reach / scale_)).count + 1;
+  const Integer last = log.state_at(line_.time_at(reach / scale_)).count;
+  const bool is_thinned = last - first >= kMostMirrors;
+  std::vector<Mirror> mirrors;
+  for (Integer index = first; index <= last;) {
+    mirrors.push_back(mirror_of(log, index));
+    const double x = mirrors.back().x - corner_x_;
+    Integer next = index + 1;
+    if (is_thinned) {
+      const double step = least_apart_px * std::max(1.0, x * x / (area_.width * level_px_));
+      const double target = x + std::copysign(step, reach);
+      next = std::max(next, Integer(log.state_at(line_.time_at(target / scale_)).count + 1));
+      // Both kinds take turns.
+      if (Integer(next - index) % 2 == 0) next += 1;
+    }
+    index = next;
+  }
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    const auto to = [&](std::size_t k) { return std::abs(mirrors[i].x - mirrors[k].x); };
+    double apart = area_.width;
+    if (i > 0) apart = std::min(apart, to(i - 1));
+    if (i + 1 < mirrors.size()) apart = std::min(apart, to(i + 1));
+    mirrors[i].apart_px = apart;
+  }
+  return mirrors;
+}
+
+/// Where no ray is crossed one by one.
+std::vector<Mirror> UnfoldedMap::fan() const {
+  std::vector<Mirror> mirrors;
+  if (line_.theta() == 0) return mirrors;
+  const double step = line_.theta() * std::ceil(kFanStep / line_.theta());
+  const double first = line_.first_ray();
+  for (double k = std::floor(-first / step) + 1; first + k * step < std::numbers::pi; ++k) {
+    const double angle = first + k * step;
+    mirrors.push_back({.index = Integer(static_cast<long>(mirrors.size()) + 1),
+                       .is_met = false,
+                       .towards = picture_of({std::cos(angle), std::sin(angle)})});
+  }
+  return mirrors;
+}
+
+}  // namespace piblocks

@@ -1,0 +1,104 @@
+// The unfolded wedges and the straight line through them, laid out in a rectangle.
+// In: a scene, its log, a rectangle. Out: where in pixels the line and its mirrors are.
+#pragma once
+
+#include <piblocks/run.hpp>
+#include <piblocks/scene.hpp>
+
+#include <optional>
+#include <vector>
+
+#include "draw/draw_list.hpp"
+#include "draw/panels/trajectory.hpp"
+
+namespace piblocks {
+
+/// The line, turned about the corner so that it is level and above it. Lengths are those of the
+/// plane with axes (sqrt(m) x gap), divided by the root of the sum of both masses.
+class StraightLine {
+ public:
+  explicit StraightLine(const BlockSystem& system);
+
+  /// False if neither block moves: then the line is a point.
+  bool moves() const noexcept { return velocity_ != 0; }
+  /// Whether it goes through the corner, in which all collisions happen at once.
+  bool meets_corner() const noexcept { return height_ == 0; }
+  /// Distance from the corner.
+  double height() const noexcept { return height_; }
+  /// How far to the right of the corner the point is at a time.
+  double at(const Rational& time) const;
+  /// When it is there. Only if it moves.
+  Rational time_at(double position) const;
+  /// < 0 if the point moves to the left, as it does unless it turns clockwise about the corner.
+  double velocity() const noexcept { return velocity_; }
+  /// Of the ray on which blue meets the wall before all reflections, counter-clockwise.
+  double first_ray() const noexcept { return first_ray_; }
+  double theta() const noexcept { return wedge_.theta; }
+
+ private:
+  GapWedge wedge_;
+  double start_ = 0;  ///< position of a point that does not move
+  double velocity_ = 0;
+  double height_ = 0;
+  double first_ray_ = 0;
+  Rational turn_;
+};
+
+/// A ray from the corner, which the line crosses at a collision.
+struct Mirror {
+  Integer index;  ///< of the collision
+  CollisionKind kind = CollisionKind::wall;
+  double x = 0;         ///< of the crossing, in pixels
+  bool is_met = true;   ///< within the time that the scene shows
+  double apart_px = 0;  ///< distance to the nearest of the other crossings listed
+  Point towards = {};   ///< direction of the ray in the picture, y up
+};
+
+/// A map from the plane to pixels. It keeps straight lines straight, and stretches heights so that
+/// the line is at a fifth of the area's height.
+class UnfoldedMap {
+ public:
+  /// @param margin_px  left and right of what is shown
+  UnfoldedMap(const Scene& scene, const CollisionLog& log, const Rectangle& area, double margin_px);
+
+  const StraightLine& line() const noexcept { return line_; }
+  const Rectangle& area() const noexcept { return area_; }
+  double base_y() const noexcept { return area_.y + area_.height; }
+  double line_y() const noexcept { return base_y() - level_px_; }
+  Point corner() const noexcept { return {corner_x_, base_y()}; }
+  double x_at(double position) const noexcept { return corner_x_ + scale_ * position; }
+  double x_at(const Rational& time) const { return x_at(line_.at(time)); }
+  double left() const noexcept { return area_.x; }
+  double right() const noexcept { return area_.x + area_.width; }
+
+  /// Direction in the picture, y up, of a direction in the plane, and back.
+  Point picture_of(const Point& plane) const { return {plane.x * across_, plane.y * level_px_}; }
+  Point plane_of(const Point& picture) const {
+    return {picture.x / across_, picture.y / level_px_};
+  }
+  /// Where a ray with this direction leaves the area.
+  Point end_of(const Point& towards) const;
+  /// What is between two rays, of which `a` is to the right of `b`.
+  std::vector<Point> sector(const Point& a, const Point& b) const;
+
+  /// The mirrors in the order of time: all, or, if they are more than can be told apart, those
+  /// that are so far apart, on the line or at the area's sides.
+  std::vector<Mirror> mirrors(const CollisionLog& log, double least_apart_px) const;
+
+ private:
+  void place_corner(const CollisionLog& log);
+  std::vector<Mirror> fan() const;
+  Mirror mirror_of(const CollisionLog& log, const Integer& index) const;
+  double reach_px(double least_apart_px) const;
+
+  StraightLine line_;
+  Rectangle area_;
+  double margin_px_;
+  double level_px_;  ///< height of the line above the base
+  Span span_;
+  double corner_x_ = 0;
+  double scale_ = 1;   ///< pixels per unit, across
+  double across_ = 1;  ///< pixels across for the line's distance from the corner
+};
+
+}  // namespace piblocks

@@ -1,0 +1,22 @@
+// What the panels of the unfolded line say: titles and notes.
+// In: a scene and its log. Out: formulas, with the numbers that are true of it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "draw/layout.hpp"
+#include "draw/panels/unfolded_line.hpp"
+
+namespace piblocks {
+
+/// How many mirrors the line crosses, in a title that fits.
+Formula unfolded_title(const DrawingContext& context, double room_em);
+Formula mirrors_title(const DrawingContext& context, double room_em);
+
+/// The wedge angle, as an expression and a number.
+Formula angle_note(const DrawingContext& context);
+/// How many of the mirrors are drawn; nothing if all are.
+std::optional<Formula> thinning_note(const FormulaSetter& set, const std::vector<Mirror>& mirrors);
+
+}  // namespace piblocks

@@ -1,0 +1,321 @@
+#include "draw/panels/velocity_labels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace piblocks {
+namespace {
+
+// In ems.
+constexpr double kAboveCircle = 1.05;
+constexpr double kBelowCircle = 0.35;
+constexpr double kBesideCircle = 0.35;
+constexpr double kBesideAxis = 0.4;  ///< from an axis to its name
+constexpr double kToLabel = 0.75;    ///< from the circle to what is written beside it
+constexpr double kEndAbove = 0.9;    ///< the end's words above the horizontal axis
+constexpr double kWordsStep = 1.25;  ///< from one line to the next
+constexpr double kToArc = 0.24;      ///< from the circle to the arc outside of it
+constexpr double kArcEnd = 0.12;
+constexpr double kToArcName = 0.18;
+constexpr double kAfterArcName = 0.6;
+constexpr double kHalfHeight = 0.4;  ///< of figures
+constexpr double kMiddle = 0.3;      ///< of letters, above the baseline
+constexpr double kLabelTop = 0.86;
+constexpr double kLabelBottom = 0.25;
+constexpr double kAround_em = 0.1;
+
+/// The circle's diameter is at least this part of the room's shorter side.
+constexpr double kLeastDiameter = 0.76;
+/// In a panel so many times as wide as what it shows, this is in the middle.
+constexpr double kWide = 1.6;
+/// Where the arc is, if there is room.
+constexpr double kArcAngle = -0.7;
+/// Where the words begin, below the circle's centre, in radii.
+constexpr double kWordsBelow = 0.62;
+
+Formula velocity_name(const FormulaSetter& set, const char* index) {
+  return set.lowered(set.italic("v"), set.text(index));
+}
+
+Formula scaled_name(const FormulaSetter& set, const char* index) {
+  return set.root(set.lowered(set.italic("m"), set.text(index))) + velocity_name(set, index);
+}
+
+Formula arc_name(const FormulaSetter& set) { return set.text("2") + set.italic("θ"); }
+
+/// Two lines.
+std::vector<Formula> words_of(const FormulaSetter& set, bool are_seen) {
+  const Formula arc = arc_name(set);
+  if (are_seen) return {set.text("each hit cuts off"), set.text("the same arc, ") + arc};
+  return {set.text("each hit cuts off the same"),
+          set.text("arc, ") + arc + set.text(", too small to see")};
+}
+
+/// Twice the kinetic energy of a block.
+Formula energy_name(const FormulaSetter& set, const char* index) {
+  return set.lowered(set.italic("m"), set.text(index)) +
+         set.raised(velocity_name(set, index), set.text("2"));
+}
+
+double widest_em(const std::vector<Formula>& lines) {
+  double widest = 0;
+  for (const Formula& line : lines) widest = std::max(widest, line.width_em());
+  return widest;
+}
+
+bool meet(const Rectangle& a, const Rectangle& b) {
+  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
+/// The room that is left around the circle.
+class FreeRoom {
+ public:
+  explicit FreeRoom(const VelocityPlace& place) : place_(place) {}
+
+  bool is_free(const Rectangle& box) const {
+    const auto& [inside, circle, em] = place_;
+    if (box.x < inside.x || box.x + box.width > inside.x + inside.width || box.y < inside.y ||
+        box.y + box.height > inside.y + inside.height) {
+      return false;
+    }
+    const double x = std::clamp(circle.centre.x, box.x, box.x + box.width);
+    const double y = std::clamp(circle.centre.y, box.y, box.y + box.height);
+    const double slack = kAround_em * em;
+    if (std::hypot(x - circle.centre.x, y - circle.centre.y) < circle.radius + slack) return false;
+    const Rectangle wide{box.x - slack, box.y, box.width + 2 * slack, box.height};
+    return std::ranges::none_of(taken_, [&](const Rectangle& other) { return meet(wide, other); });
+  }
+  bool is_free(const Formula& formula, const Point& at) const {
+    return is_free(box_of(formula, at));
+  }
+  void take(const Formula& formula, const Point& at) { taken_.push_back(box_of(formula, at)); }
+
+ private:
+  Rectangle box_of(const Formula& formula, const Point& at) const {
+    const double em = place_.em;
+    return {at.x, at.y - kLabelTop * em, formula.width_em() * em, (kLabelTop + kLabelBottom) * em};
+  }
+
+  VelocityPlace place_;
+  std::vector<Rectangle> taken_;
+};
+
+/// Takes room for one label after the other.
+class VelocityLabeller {
+ public:
+  VelocityLabeller(const DrawingContext& context, const VelocityPlace& place,
+                   const VelocityPoints& points)
+      : palette_(context.palette),
+        set_(context.setter()),
+        inside_(place.inside),
+        circle_(place.circle),
+        em_(place.em),
+        points_(points),
+        room_(place) {}
+
+  VelocityLabels run(const BlockSystem& system, const std::vector<double>& angles) {
+    add_axis_names();
+    if (!points_.moves()) return std::move(made_);
+    add_end();
+    const FreeRoom around_circle = room_;
+    add_energy(is_ellipse_to_scale(system));
+    room_ = around_circle;
+    add_arc(angles);
+    add_words(!angles.empty());
+    return std::move(made_);
+  }
+
+ private:
+  double bottom() const { return inside_.y + inside_.height - kLabelBottom * em_; }
+  double beside_circle() const { return circle_.centre.x + circle_.radius + kToLabel * em_; }
+  /// Where a text begins that ends at the right border.
+  double at_right(const Formula& formula) const {
+    return inside_.x + inside_.width - formula.width_em() * em_;
+  }
+
+  void add_axis_names() {
+    const auto add = [&](const char* index, const Point& at, const Color& color) {
+      const Formula scaled = scaled_name(set_, index);
+      made_.labels.push_back({scaled, at, color, VelocityPart::circle});
+      made_.labels.push_back({velocity_name(set_, index), at, color, VelocityPart::ellipse});
+      room_.take(scaled, at);
+    };
+    const auto& [centre, radius] = circle_;
+    add("1", {centre.x + kBesideAxis * em_, centre.y - radius - kBesideAxis * em_},
+        palette_.blue.label);
+    const Formula name = scaled_name(set_, "2");
+    for (const Point& at :
+         {Point{beside_circle(), centre.y + kMiddle * em_}, Point{at_right(name), bottom()}}) {
+      if (!room_.is_free(name, at)) continue;
+      add("2", at, palette_.red.label);
+      return;
+    }
+  }
+
+  /// Beside the wedge of the velocities after which nothing collides.
+  void add_end() {
+    const Formula words = set_.text("no more hits");
+    const auto& [centre, radius] = circle_;
+    const double middle = points_.wedge_angle() / 2;
+    const double baseline =
+        std::min(centre.y - radius * std::sin(middle) + kMiddle * em_, centre.y - kEndAbove * em_);
+    for (const Point& at :
+         {Point{circle_.at(middle).x + kToLabel * em_, baseline}, Point{beside_circle(), baseline},
+          Point{at_right(words), centre.y - radius}, Point{at_right(words), bottom()}}) {
+      if (!room_.is_free(words, at)) continue;
+      room_.take(words, at);
+      made_.labels.push_back({words, at, palette_.done, VelocityPart::circle});
+      return;
+    }
+  }
+
+  /// An arc outside of the circle, its ends bent towards two of its points.
+  std::vector<Point> arc_outside(double from, double to) const {
+    const Circle outer{circle_.centre, circle_.radius + kToArc * em_};
+    const Circle ends{circle_.centre, outer.radius - kArcEnd * em_};
+    std::vector<Point> points{ends.at(from)};
+    for (const Point& point : outer.arc(from, to)) points.push_back(point);
+    points.push_back(ends.at(to));
+    return points;
+  }
+
+  /// Every second point is on the same side of the axis: two of them are 2 theta apart.
+  void add_arc(const std::vector<double>& angles) {
+    const Formula name = arc_name(set_);
+    const double theta = points_.wedge_angle();
+    std::vector<double> middles;
+    for (std::size_t i = 2; i < angles.size(); ++i) {
+      const double middle = angles[i] + (angles[i] > angles[i - 2] ? -theta : theta);
+      middles.push_back(std::remainder(middle, 2 * std::numbers::pi));
+    }
+    std::ranges::sort(middles, {}, [](double middle) { return std::abs(middle - kArcAngle); });
+    const double half_em = name.width_em() / 2;
+    for (const double middle : middles) {
+      std::vector<Point> arc = arc_outside(middle - theta, middle + theta);
+      const double away_em = kToArc + kToArcName + std::abs(std::cos(middle)) * half_em +
+                             std::abs(std::sin(middle)) * kHalfHeight;
+      const Point centre = Circle{circle_.centre, circle_.radius + away_em * em_}.at(middle);
+      const Point at{centre.x - half_em * em_, centre.y + kMiddle * em_};
+      const bool fits = std::ranges::all_of(arc, [&](const Point& point) {
+        return room_.is_free({point.x, point.y, 0, 0});
+      });
+      if (!fits || !room_.is_free(name, at)) continue;
+      room_.take(name, at);
+      made_.arc = std::move(arc);
+      made_.labels.push_back({name, at, palette_.text, VelocityPart::arcs});
+      return;
+    }
+  }
+
+  /// @param are_told_apart  the points; then the words are of the arc that is marked
+  void add_words(bool are_told_apart) {
+    if (points_.last() - points_.before() < 2 || (are_told_apart && made_.arc.empty())) return;
+    double left = beside_circle();
+    if (are_told_apart) {
+      const auto& [name, at, color, part] = made_.labels.back();
+      const double after = at.x + (name.width_em() + kAfterArcName) * em_;
+      if (at.x > circle_.centre.x) left = std::max(left, after);
+    }
+    const std::vector<Formula> lines = words_of(set_, are_told_apart);
+    const auto at = place_lines(lines, left);
+    if (!at) return;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const Point start{at->x, at->y + double(i) * kWordsStep * em_};
+      made_.labels.push_back({lines[i], start, palette_.muted, VelocityPart::arcs});
+    }
+  }
+
+  /// Why it is an ellipse.
+  void add_energy(bool is_to_scale) {
+    const auto label = [](Formula formula, const Color& color) {
+      return VelocityLabel{std::move(formula), {}, color, VelocityPart::ellipse};
+    };
+    const std::array terms = {label(energy_name(set_, "1"), palette_.blue.label),
+                              label(set_.text(" + "), palette_.muted),
+                              label(energy_name(set_, "2"), palette_.red.label),
+                              label(set_.text(is_to_scale ? "" : " stays"), palette_.muted)};
+    Formula whole;
+    for (const VelocityLabel& term : terms) whole += term.formula;
+    VelocityLabel remark =
+        label(set_.text(is_to_scale ? "stays the same" : "not to scale"), palette_.muted);
+    const auto at = place_lines({whole, remark.formula}, beside_circle());
+    if (!at) return;
+    double x = at->x;
+    for (VelocityLabel term : terms) {
+      term.at = {x, at->y};
+      x += term.formula.width_em() * em_;
+      made_.labels.push_back(std::move(term));
+    }
+    remark.at = {at->x, at->y + kWordsStep * em_};
+    made_.labels.push_back(std::move(remark));
+  }
+
+  /// @returns where two lines begin, beside the circle or below it; nothing if there is no room
+  std::optional<Point> place_lines(const std::vector<Formula>& lines, double beside) {
+    const double step = kWordsStep * em_;
+    const double lowest = bottom() - step;
+    const double below = circle_.centre.x - widest_em(lines) * em_ / 2;
+    const double height = circle_.centre.y + kWordsBelow * circle_.radius;
+    for (const Point& at : {Point{beside, std::min(height, lowest)}, Point{below, lowest},
+                            Point{inside_.x, lowest}}) {
+      const Point next{at.x, at.y + step};
+      if (!room_.is_free(lines.front(), at) || !room_.is_free(lines.back(), next)) continue;
+      room_.take(lines.front(), at);
+      room_.take(lines.back(), next);
+      return at;
+    }
+    return std::nullopt;
+  }
+
+  const Palette& palette_;
+  FormulaSetter set_;
+  Rectangle inside_;
+  Circle circle_;
+  double em_;
+  const VelocityPoints& points_;
+  FreeRoom room_;
+  VelocityLabels made_;
+};
+
+}  // namespace
+
+VelocityPlace place_velocities(const Diagram& diagram, const FormulaSetter& set) {
+  const Rectangle& inside = diagram.inside();
+  const double em = diagram.text_px();
+  const double side = kBesideCircle * em;
+  const double high = inside.height - (kAboveCircle + kBelowCircle) * em;
+  const double beside_name =
+      inside.width - side - (kToLabel + scaled_name(set, "2").width_em()) * em;
+  double diameter = std::min(high, inside.width - 2 * side);
+  const bool has_name = beside_name >= kLeastDiameter * std::min(inside.width, inside.height);
+  if (has_name) diameter = std::min(diameter, beside_name);
+  const double whole = side + diameter + (2 * kToLabel + widest_em(words_of(set, true))) * em;
+  double left = side;
+  if (inside.width > kWide * whole) {
+    left += (inside.width - whole) / 2;
+  } else if (!has_name) {
+    left = (inside.width - diameter) / 2;
+  }
+  // Two lines have room below; less is shared with what is above.
+  const double rest = high - diameter;
+  const double above = kAboveCircle * em + (rest < 2 * kWordsStep * em ? rest / 2 : 0);
+  const double radius = diameter / 2;
+  return {inside, {{inside.x + left + radius, inside.y + above + radius}, radius}, em};
+}
+
+bool is_ellipse_to_scale(const BlockSystem& system) {
+  const Rational ratio = system.red.mass / system.blue.mass;
+  const Rational most = kMostLongEllipse * kMostLongEllipse;
+  return ratio <= most && ratio >= 1 / most;
+}
+
+VelocityLabels label_velocities(const DrawingContext& context, const VelocityPlace& place,
+                                const VelocityPoints& points, const std::vector<double>& angles) {
+  return VelocityLabeller(context, place, points).run(context.scene.system, angles);
+}
+
+}  // namespace piblocks

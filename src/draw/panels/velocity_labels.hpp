@@ -1,0 +1,49 @@
+// What is written in the diagram of velocities, and where there is room for it.
+// In: the circle in its panel, and points on it. Out: labels, and the arc that one of them names.
+#pragma once
+
+#include <vector>
+
+#include "draw/panels/panels.hpp"
+#include "draw/panels/velocity_points.hpp"
+
+namespace piblocks {
+
+/// What a label is true of. Arcs are equal on the circle alone.
+enum class VelocityPart { ellipse, circle, arcs };
+
+struct VelocityLabel {
+  Formula formula;
+  Point at;  ///< left end of the baseline
+  Color color;
+  VelocityPart part = VelocityPart::circle;
+};
+
+struct VelocityLabels {
+  std::vector<VelocityLabel> labels;
+  std::vector<Point> arc;  ///< outside of the circle, from one point to the next; may be empty
+};
+
+/// The circle and its room, in pixels.
+struct VelocityPlace {
+  Rectangle inside;
+  Circle circle;
+  double em = 0;
+};
+
+/// The circle as large as the names of its axes allow, and together with the words beside it in the
+/// middle of a wide panel.
+VelocityPlace place_velocities(const Diagram& diagram, const FormulaSetter& set);
+
+/// Of an ellipse with other proportions, blue's axis over red's, these are drawn.
+inline constexpr long kMostLongEllipse = 12;
+/// Whether the ellipse is drawn to scale.
+bool is_ellipse_to_scale(const BlockSystem& system);
+
+/// Names of the axes, the end, an arc and what it says, and why there is an ellipse. What has no
+/// room is left out.
+/// @param angles  of all points, if they can be told apart; else none
+VelocityLabels label_velocities(const DrawingContext& context, const VelocityPlace& place,
+                                const VelocityPoints& points, const std::vector<double>& angles);
+
+}  // namespace piblocks

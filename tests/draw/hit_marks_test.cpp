@@ -1,0 +1,225 @@
+// Marks of hits are where the log has them, for 0.15 s; where hits are many, a steady glow.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <stop_token>
+#include <string>
+
+#include "draw/lecture_frames.hpp"
+#include "draw/overlays/loupe.hpp"
+#include "render/film.hpp"
+#include "render/flash_meter.hpp"
+
+namespace piblocks {
+namespace {
+
+Settings lecture(int digits) {
+  return {{"digits", std::to_string(digits)},
+          {"view.theme", "lecture"},
+          {"view.size", "1280x720"},
+          {"time.to", "last+0.5"},
+          {"show.loupe", "off"}};
+}
+
+struct Arc {
+  Point centre;
+  double radius = 0;
+  Color color;
+};
+
+/// The circle through three of its points.
+Arc arc_of(const PathItem& item) {
+  const auto points = item.points.view();
+  const Point a = points.front();
+  const Point b = points[points.size() / 2];
+  const Point c = points.back();
+  const double d = 2 * (a.x * (b.y - c.y) + b.x * (c.y - a.y) + c.x * (a.y - b.y));
+  const auto square = [](const Point& p) { return p.x * p.x + p.y * p.y; };
+  const double x =
+      (square(a) * (b.y - c.y) + square(b) * (c.y - a.y) + square(c) * (a.y - b.y)) / d;
+  const double y =
+      (square(a) * (c.x - b.x) + square(b) * (a.x - c.x) + square(c) * (b.x - a.x)) / d;
+  return {{x, y}, std::hypot(a.x - x, a.y - y), item.stroke ? item.stroke->color : Color{}};
+}
+
+/// Every collision of the last 0.15 s has its arc, and nothing else has.
+TEST(HitMarks, AreWhereTheLogHasThem) {
+  for (const int digits : {1, 2}) {
+    SCOPED_TRACE(digits);
+    const Frames frames(lecture(digits));
+    const CollisionLog& log = frames.log();
+    const Schedule clock = make_schedule(frames.scene(), log);
+    int arcs_seen = 0;
+    for (std::int64_t number = 0; number < clock.frame_count().get_si(); ++number) {
+      const FrameState state = frames.film_state(clock, number);
+      if (state.hits_per_s > kMaxHits_per_s) continue;
+      const DrawList frame = frames.of(state);
+      const auto items = items_of<PathItem>(frame.items, ItemId::hits);
+      const double now = double(number) / 60;
+      std::size_t next = 0;
+      for (Integer k = 1; k <= log.size(); ++k) {
+        const Collision collision = log.collision(k);
+        const double age = now - collision.time.hi;
+        if (age < 0 || age >= 0.15 - 1e-9) continue;
+        ASSERT_LT(next, items.size());
+        const Arc arc = arc_of(items[next++]);
+        const auto blue = items_of<RectangleItem>(frame.items, ItemId::blue_block).front().bounds;
+        const double scale = blue.width;
+        const double present = log.state_at(state.time).blue.position;
+        const bool is_wall = collision.kind == CollisionKind::wall;
+        const double contact = is_wall ? 0 : collision.blue.position + 0.5;
+        EXPECT_NEAR(arc.centre.x, blue.x + (contact - present + 0.5) * scale, 1e-6);
+        EXPECT_NEAR(arc.centre.y, blue.y, 1e-6);
+        const double left = 1 - age / 0.15;
+        EXPECT_NEAR(arc.radius, 0.06 * 720 * (1 - 0.7 * left * left), 1e-6);
+        EXPECT_NEAR(arc.color.alpha, 255 * left, 0.6);
+        EXPECT_EQ(arc.color.blue, is_wall ? 255 : 94);
+        ++arcs_seen;
+      }
+      EXPECT_EQ(next, items.size()) << number;
+    }
+    EXPECT_GT(arcs_seen, 20);
+  }
+}
+
+/// The glow's alphas, added up; it has no stroke.
+int glow_of(const DrawList& frame) {
+  const auto items = items_of<PathItem>(frame.items, ItemId::hits);
+  return std::accumulate(items.begin(), items.end(), 0, [](int sum, const PathItem& item) {
+    return sum + (item.fill && !item.stroke ? item.fill->alpha : 0);
+  });
+}
+
+TEST(HitMarks, GlowByTheLogarithmOfTheRate) {
+  const Frames frames(lecture(3));
+  FrameState state = frames.state({frames.turn()});
+  int before = 0;
+  for (double rate = 1; rate < 1e40; rate *= 1.5) {
+    state.hits_per_s = rate;
+    const int glow = glow_of(frames.of(state));
+    EXPECT_EQ(glow > 0, rate > kMaxHits_per_s) << rate;
+    EXPECT_GE(glow, before) << rate;
+    // A little more light for half as many hits again.
+    if (before > 0) {
+      EXPECT_LE(glow, 1.12 * before) << rate;
+    }
+    before = glow;
+  }
+}
+
+TEST(HitMarks, OfTheWallAndOfBlocksAreInTheCornersAboveTheLowerBody) {
+  for (const char* mass : {"1/4", "1", "100"}) {
+    SCOPED_TRACE(mass);
+    const Frames frames(Settings{{"view.theme", "lecture"}, {"mass-ratio", mass}});
+    FrameState state = frames.state({Rational(3)});
+    state.hits = {{CollisionKind::wall, 1, 0, 0.1, {}}, {CollisionKind::blocks, 2, 1, 0.05, {}}};
+    const DrawList frame = frames.of(state);
+    const auto items = items_of<PathItem>(frame.items, ItemId::hits);
+    ASSERT_EQ(items.size(), 2U);
+    const auto blue = items_of<RectangleItem>(frame.items, ItemId::blue_block).front().bounds;
+    const auto red = items_of<RectangleItem>(frame.items, ItemId::red_block).front().bounds;
+    const auto bottom = [](const Rectangle& r) { return r.y + r.height; };
+    EXPECT_LT(bottom(items[0].points.bounds()), blue.y);
+    EXPECT_LT(bottom(items[1].points.bounds()), std::max(blue.y, red.y));
+    const double contact = arc_of(items[1]).centre.x;
+    const Rectangle arc = items[1].points.bounds();
+    EXPECT_EQ(arc.x < contact, blue.height <= red.height);
+    EXPECT_EQ(arc.x + arc.width > contact, red.height <= blue.height);
+  }
+}
+
+TEST(HitMarks, AreLeftOutWhereTheyAreNotWanted) {
+  for (const Settings& settings :
+       {Settings{{"digits", "2"}}, Settings{{"digits", "2"}, {"show.hits", "true"}},
+        Settings{{"view.theme", "lecture"}, {"show.hits", "false"}, {"show.loupe", "auto"}}}) {
+    const Frames frames(settings);
+    FrameState state = frames.state({frames.turn()});
+    state.hits = {{CollisionKind::wall, 1, 0, 0.1, {}}};
+    const DrawList frame = frames.of(state);
+    EXPECT_TRUE(items_of<PathItem>(frame.items, ItemId::hits).empty());
+    if (const auto seen = loupe_in(frame)) {
+      EXPECT_TRUE(items_of<PathItem>(seen->list.items, ItemId::hits).empty());
+    }
+    // Hits cost time and are found out only where they are shown.
+    const Schedule clock = make_schedule(frames.scene(), frames.log());
+    EXPECT_EQ(frames.film_state(clock, 60).video_s, 0);
+  }
+}
+
+TEST(HitMarks, AreInTheLoupeToo) {
+  Settings settings = lecture(5);
+  settings.back() = {"show.loupe", "auto"};
+  const Frames frames(settings);
+  FrameState state = frames.state({frames.turn()});
+  const Gaps gaps = state.gaps;
+  state.hits = {{CollisionKind::wall, 1, 0, 0.1, {0, gaps.y2}},
+                {CollisionKind::blocks, 2, 1 + gaps.y2, 0.05, {gaps.y2 / 2, gaps.y2 / 2}}};
+  const auto seen = loupe_in(frames.of(state));
+  ASSERT_TRUE(seen);
+  const auto items = items_of<PathItem>(seen->list.items, ItemId::hits);
+  ASSERT_EQ(items.size(), 2U);
+  const double red_gap = seen->red.x - seen->blue.width - seen->face;
+  EXPECT_NEAR(arc_of(items[0]).centre.x, seen->face, 1e-6);
+  EXPECT_NEAR(arc_of(items[1]).centre.x, seen->face + seen->blue.width + red_gap / 2, 1e-6);
+  EXPECT_NEAR(arc_of(items[1]).centre.y, seen->blue.y, 1e-6);
+}
+
+TEST(HitMarks, AndTheLoupeDoNotFlash) {
+  for (int digits = 1; digits <= 8; ++digits) {
+    for (const char* theme : {"lecture", "lecture-light"}) {
+      SCOPED_TRACE(digits);
+      Settings settings = {{"digits", std::to_string(digits)},
+                           {"view.theme", theme},
+                           {"view.size", "640x360"},
+                           {"time.from", "2"},
+                           {"time.to", "5"}};
+      if (digits % 2 == 0) settings.emplace_back("time.slow-motion", "turn-1/50:turn+1/50:100");
+      const Film film{Script(scene_with(settings))};
+      EXPECT_NO_THROW(check_flashes(film, 3, std::stop_token()));
+    }
+  }
+}
+
+/// Ten hits a second at the turn: blue crosses the loupe, and red hardly moves.
+TEST(Loupe, ShowsTheTurnHappening) {
+  for (const auto& [digits, window] :
+       {std::pair(5, "turn-1/10^6:turn+1/10^6:10^7"), {20, "turn-1/10^36:turn+1/10^36:10^37"}}) {
+    SCOPED_TRACE(digits);
+    Settings settings = lecture(digits);
+    settings.back() = {"show.loupe", "auto"};
+    settings.emplace_back("time.from", "turn");
+    settings.emplace_back("time.to", digits == 5 ? "turn+1/10^6" : "turn+1/10^36");
+    settings.emplace_back("time.slow-motion", window);
+    settings.emplace_back("view.fps", "30");
+    // No double has the time of the turn.
+    settings.emplace_back("red.position", "16/3");
+    const Frames frames(settings);
+    const Schedule clock = make_schedule(frames.scene(), frames.log());
+    double low = 1;
+    double high = 0;
+    double red_low = 1e9;
+    double red_high = 0;
+    int arcs = 0;
+    for (std::int64_t number = 0; number < 60; ++number) {
+      const FrameState state = frames.film_state(clock, number);
+      const auto seen = loupe_in(frames.of(state));
+      ASSERT_TRUE(seen);
+      const double room = seen->red.x - seen->face - seen->blue.width;
+      low = std::min(low, (seen->blue.x - seen->face) / room);
+      high = std::max(high, (seen->blue.x - seen->face) / room);
+      red_low = std::min(red_low, seen->red.x);
+      red_high = std::max(red_high, seen->red.x);
+      for (const auto& item : items_of<PathItem>(seen->list.items, ItemId::hits)) {
+        arcs += item.stroke ? 1 : 0;
+      }
+    }
+    EXPECT_LT(low, 0.1);
+    EXPECT_GT(high, 0.9);
+    EXPECT_LT(red_high - red_low, 1);
+    EXPECT_GT(arcs, 20);
+  }
+}
+
+}  // namespace
+}  // namespace piblocks

@@ -1,0 +1,99 @@
+// Frames of a scene, and what is found in them.
+// In: settings of a scene. Out: draw lists, and their items by what they show.
+#pragma once
+
+#include <piblocks/script.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "draw/composition.hpp"
+#include "render/frame_state.hpp"
+#include "scene/schedule.hpp"
+
+namespace piblocks {
+
+using Settings = std::vector<std::pair<const char*, std::string>>;
+
+inline Scene scene_with(const Settings& settings) {
+  ScriptBuilder builder;
+  for (const auto& [key, text] : settings) builder.set("test", key, text);
+  return builder.build_scene();
+}
+
+class Frames {
+ public:
+  explicit Frames(const Settings& settings) : Frames(scene_with(settings)) {}
+  explicit Frames(Scene scene)
+      : scene_(std::move(scene)),
+        log_(make_collision_log(scene_.system)),
+        composition_(scene_, *log_) {}
+
+  const Scene& scene() const { return scene_; }
+  const CollisionLog& log() const { return *log_; }
+  Rational turn() const { return turn_of(scene_.system).value(); }
+
+  FrameState state(const FrameTime& shown) const {
+    return frame_state(*log_, shown, composition_.needs());
+  }
+  DrawList at(const Rational& time) const { return composition_.frame(state({time})); }
+  DrawList of(const FrameState& state) const { return composition_.frame(state); }
+  /// A frame of the film, with its hits.
+  FrameState film_state(const Schedule& clock, std::int64_t number) const {
+    const Rational video_s = Rational(number) / scene_.view.frame_rate;
+    FrameState shown = state(clock.at(video_s));
+    if (composition_.needs().hits) add_hits(shown, *log_, {clock, video_s});
+    return shown;
+  }
+
+ private:
+  Scene scene_;
+  std::unique_ptr<CollisionLog> log_;
+  Composition composition_;
+};
+
+inline bool shows(ItemId item, ItemId thing) {
+  return static_cast<std::uint32_t>(item) >> 16 == static_cast<std::uint32_t>(thing) >> 16;
+}
+
+/// All items of a kind that show one thing.
+template <typename Item>
+std::vector<Item> items_of(const std::vector<DrawItem>& items, ItemId thing) {
+  std::vector<Item> found;
+  for (const DrawItem& item : items) {
+    const auto* one = std::get_if<Item>(&item);
+    if (one != nullptr && shows(one->id, thing)) found.push_back(*one);
+  }
+  return found;
+}
+
+/// What the loupe shows, in pixels of its inset.
+struct SeenLoupe {
+  Rectangle bounds;  ///< in the frame
+  double opacity = 0;
+  double face = 0;  ///< of the wall
+  Rectangle blue;
+  Rectangle red;
+  std::string zoom;  ///< as it is written, without its power
+  DrawList list;
+};
+
+inline std::optional<SeenLoupe> loupe_in(const DrawList& frame) {
+  const auto groups = items_of<GroupItem>(frame.items, ItemId::loupe);
+  if (groups.empty()) return std::nullopt;
+  const GroupItem& group = groups.front();
+  SeenLoupe seen{group.bounds, group.opacity, 0, {}, {}, {}, *group.list};
+  const PlateItem scenery = items_of<PlateItem>(seen.list.items, ItemId::wall).front();
+  for (const auto& line : items_of<RectangleItem>(scenery.plate->items, ItemId::wall)) {
+    if (line.bounds.height > line.bounds.width) seen.face = line.bounds.x + line.bounds.width;
+  }
+  seen.blue = items_of<RectangleItem>(seen.list.items, ItemId::blue_block).front().bounds;
+  seen.red = items_of<RectangleItem>(seen.list.items, ItemId::red_block).front().bounds;
+  seen.zoom = items_of<TextItem>(frame.items, ItemId::loupe).front().text;
+  return seen;
+}
+
+}  // namespace piblocks

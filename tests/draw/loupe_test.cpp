@@ -1,0 +1,346 @@
+// The loupe shows the gaps where they are, at any number of digits, and covers nothing.
+#include "draw/overlays/loupe.hpp"
+
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "draw/canvas.hpp"
+#include "draw/font.hpp"
+#include "draw/lecture_frames.hpp"
+#include "support/oracle.hpp"
+#include "support/property.hpp"
+
+namespace piblocks {
+namespace {
+
+Settings lecture(int digits, const char* size = "1280x720") {
+  return {{"digits", std::to_string(digits)}, {"view.theme", "lecture"}, {"view.size", size}};
+}
+
+Settings operator+(Settings settings, const Settings& more) {
+  settings.insert(settings.end(), more.begin(), more.end());
+  return settings;
+}
+
+double pixels_per_unit(const DrawList& frame, const Scene& scene) {
+  const auto blue = items_of<RectangleItem>(frame.items, ItemId::blue_block).front();
+  return blue.bounds.width / to_double(scene.system.blue.width);
+}
+
+struct ExactGaps {
+  Rational y1;
+  Rational y2;
+};
+
+ExactGaps exact_gaps(const BlockSystem& system, const Rational& time) {
+  const auto state = oracle::high_precision_state(system, time, 1024);
+  return {
+      state.blue.position - system.blue.width / 2 - system.wall_face,
+      state.red.position - system.wall_face - system.blue.width - system.red.width / 2,
+  };
+}
+
+void expect_exact(const Frames& frames, const Rational& time, int& plateaus) {
+  const DrawList frame = frames.at(time);
+  const auto seen = loupe_in(frame);
+  ASSERT_TRUE(seen) << to_double(time);
+  const ExactGaps gaps = exact_gaps(frames.scene().system, time);
+  const double tolerance = 1e-9 * seen->bounds.width;
+  const double blue_gap = seen->blue.x - seen->face;
+  const double red_gap = seen->red.x - seen->face - seen->blue.width;
+  EXPECT_NEAR(blue_gap, red_gap * to_double(gaps.y1 / gaps.y2), tolerance);
+  const std::string& zoom = seen->zoom;
+  for (const auto& [text, factor] : {std::pair("×10", 10), {"×100", 100}, {"×1,000", 1000}}) {
+    // What is rounded to it is not it.
+    const double expected = to_double(gaps.y2) * pixels_per_unit(frame, frames.scene()) * factor;
+    if (zoom != text || std::fabs(red_gap / expected - 1) > 1e-6) continue;
+    EXPECT_NEAR(red_gap, expected, tolerance);
+    ++plateaus;
+  }
+}
+
+TEST(Loupe, ShowsTheGapsWhereTheyAre) {
+  Random random(202611);
+  SCOPED_TRACE(random.trace());
+  for (const int digits : {3, 5, 20}) {
+    SCOPED_TRACE(digits);
+    const Frames frames(lecture(digits));
+    int plateaus = 0;
+    expect_exact(frames, frames.turn(), plateaus);
+    for (std::int64_t i = 0; i < many(60); ++i) {
+      const auto scale = static_cast<unsigned long>(random.integer(1, 7L * digits));
+      const Rational distance = Rational(random.uniform(-0.5, 0.5)) / power(2, scale);
+      expect_exact(frames, frames.turn() + distance, plateaus);
+    }
+    for (const char* near : {"0.01", "-0.02", "0.06", "-0.1", "0.15"}) {
+      expect_exact(frames, frames.turn() + parse_rational(near), plateaus);
+    }
+    EXPECT_GT(plateaus, 3);
+  }
+}
+
+TEST(Loupe, SaysPowersOfTenAtTheTurn) {
+  const auto power_at_turn = [](int digits) {
+    const Frames frames(lecture(digits));
+    const DrawList frame = frames.at(frames.turn());
+    std::string text;
+    for (const auto& item : items_of<TextItem>(frame.items, ItemId::loupe)) text += item.text;
+    return text;
+  };
+  EXPECT_EQ(power_at_turn(3), "×100");
+  EXPECT_EQ(power_at_turn(4), "×1,000");
+  EXPECT_EQ(power_at_turn(5), "×104");  // the exponent is raised
+  EXPECT_EQ(power_at_turn(20), "×1019");
+}
+
+TEST(Loupe, KeepsRedsFaceInside) {
+  for (const char* size : {"1280x720", "1080x1920", "800x800"}) {
+    for (const int digits : {2, 3, 5, 8, 20}) {
+      SCOPED_TRACE(std::string(size) + ", digits " + std::to_string(digits));
+      const Frames frames(lecture(digits, size));
+      int seen_times = 0;
+      for (double y2 = 1; y2 > std::pow(10.0, -digits); y2 *= 0.97) {
+        FrameState state = frames.state({frames.turn()});
+        state.gaps = {y2 / 3, y2};
+        const auto seen = loupe_in(frames.of(state));
+        if (!seen) continue;
+        ++seen_times;
+        EXPECT_GT(seen->red.x, seen->face + seen->blue.width);
+        EXPECT_LT(seen->red.x, seen->bounds.width - 0.03 * 720);
+        EXPECT_GT(seen->red.x + seen->red.width, seen->bounds.width);
+      }
+      EXPECT_GT(seen_times, 20);
+    }
+  }
+}
+
+TEST(Loupe, FadesWithTheGap) {
+  const Frames frames(lecture(3));
+  double before = 0;
+  bool was_half_seen = false;
+  for (double y2 = 2; y2 > 1e-3; y2 *= 0.99) {
+    FrameState state = frames.state({frames.turn()});
+    state.gaps = {0, y2};
+    const DrawList frame = frames.of(state);
+    const auto seen = loupe_in(frame);
+    const double gap_px = y2 * pixels_per_unit(frame, frames.scene());
+    const double opacity = seen ? seen->opacity : 0;
+    EXPECT_EQ(opacity > 0, gap_px < 72) << gap_px;
+    EXPECT_GE(opacity, before);
+    EXPECT_LE(opacity, before + 0.03);
+    was_half_seen |= opacity > 0.4 && opacity < 0.6;
+    before = opacity;
+  }
+  EXPECT_EQ(before, 1);
+  EXPECT_TRUE(was_half_seen);
+}
+
+TEST(Loupe, IsOnlyWhereItIsAskedFor) {
+  const Settings dark = {{"digits", "3"}, {"view.theme", "dark"}};
+  const Frames plain(dark);
+  const Frames off(dark + Settings{{"show.loupe", "off"}});
+  const Frames asked(dark + Settings{{"show.loupe", "auto"}});
+  const Frames article(Settings{{"show.loupe", "auto"}});
+  const Frames lecture_off(lecture(3) + Settings{{"show.loupe", "off"}});
+  EXPECT_EQ(draw_pixels(plain.at(plain.turn())).words, draw_pixels(off.at(off.turn())).words);
+  EXPECT_FALSE(loupe_in(plain.at(plain.turn())));
+  EXPECT_FALSE(loupe_in(lecture_off.at(plain.turn())));
+  EXPECT_TRUE(loupe_in(asked.at(asked.turn())));
+  EXPECT_TRUE(loupe_in(article.at(article.turn())));
+  // Gaps cost time and are found out only where they are shown.
+  EXPECT_EQ(off.state({off.turn()}).gaps.y2, 0);
+  EXPECT_GT(asked.state({asked.turn()}).gaps.y2, 0);
+  // Equal masses never come near each other.
+  EXPECT_EQ(Frames(lecture(1)).state({Rational(3)}).gaps.y2, 0);
+}
+
+TEST(Loupe, OfAWindowHasItsZoomAndIsNotSeenOutside) {
+  const Frames frames(lecture(4) + Settings{{"show.loupe", "turn-0.01:turn+0.01:50"}});
+  const auto zoom_at = [&](const char* distance) {
+    const auto seen = loupe_in(frames.at(frames.turn() + parse_rational(distance)));
+    return seen ? seen->zoom : std::string();
+  };
+  EXPECT_EQ(zoom_at("0"), "×50");
+  EXPECT_EQ(zoom_at("0.009"), "×50");
+  EXPECT_EQ(zoom_at("0.0101"), "");
+  EXPECT_EQ(zoom_at("-0.0101"), "");
+  const auto edge = loupe_in(frames.at(frames.turn() - parse_rational("0.0099")));
+  ASSERT_TRUE(edge);
+  EXPECT_NEAR(edge->opacity, 0.05, 1e-9);
+  // Red stays in sight.
+  const Frames large(lecture(4) + Settings{{"show.loupe", "turn-0.1:turn+0.1:10^9"}});
+  const auto turn = loupe_in(large.at(large.turn()));
+  ASSERT_TRUE(turn);
+  EXPECT_LT(turn->red.x, turn->bounds.width);
+}
+
+std::string refusal_of(const Settings& settings) {
+  try {
+    const Frames frames(settings);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Loupe, SaysWhyItCannotBeShown) {
+  const Settings window = {{"show.loupe", "turn-1:turn+1:10"}};
+  EXPECT_NE(refusal_of(lecture(3, "200x150") + window).find("show.loupe: there is no room"),
+            std::string::npos);
+  EXPECT_EQ(refusal_of(lecture(3, "200x150")), "");
+  Scene away = scene_with(lecture(3) + window);
+  away.view.x = {1, 12};
+  EXPECT_THROW(Frames{away}, UsageError);
+  EXPECT_NE(refusal_of(lecture(3) + Settings{{"show.loupe", "last:#1:10"}}).find("show.loupe"),
+            std::string::npos);
+  for (const char* wrong :
+       {"on", "turn:last", "turn:last:1", "3:2:10", "turn:last:ten", "1:2:3:4"}) {
+    EXPECT_NE(refusal_of(lecture(3) + Settings{{"show.loupe", wrong}}).find("show.loupe"),
+              std::string::npos)
+        << wrong;
+  }
+}
+
+TEST(Loupe, ShowsTheWayThatBlueSweepsWhereFramesMissItsHits) {
+  const Frames frames(lecture(3));
+  FrameState state = frames.state({frames.turn()});
+  int before = 0;
+  for (double rate = 10; rate < 1e6; rate *= 1.1) {
+    state.hits_per_s = rate;
+    const auto seen = loupe_in(frames.of(state));
+    const auto blue = items_of<RectangleItem>(seen->list.items, ItemId::blue_block).front();
+    const auto red = items_of<RectangleItem>(seen->list.items, ItemId::red_block);
+    const auto bodies = std::ranges::count(red, seen->red, &RectangleItem::bounds);
+    EXPECT_EQ(bodies, 1);
+    const int alpha = red.size() > 1 ? red.back().fill->alpha : 0;
+    EXPECT_EQ(alpha > 0, rate > 15.5) << rate;
+    EXPECT_GE(alpha, before);
+    EXPECT_EQ(blue.fill->alpha == 255, alpha == 0);
+    if (red.size() > 1) {
+      EXPECT_NEAR(red.back().bounds.x, seen->face, 1e-9);
+      EXPECT_NEAR(red.back().bounds.x + red.back().bounds.width, seen->red.x, 1e-9);
+    }
+    before = alpha;
+  }
+  EXPECT_LT(before, 140);
+}
+
+TEST(Loupe, SaysHowMuchSlowerTimeRuns) {
+  const Frames frames(lecture(3) + Settings{{"time.slow-motion", "turn-0.1:turn+0.1:100"}});
+  const auto texts = [](const std::vector<DrawItem>& items, ItemId thing) {
+    std::string text;
+    for (const auto& item : items_of<TextItem>(items, thing)) text += item.text;
+    return text;
+  };
+  FrameState state = frames.state({frames.turn(), Rational(100)});
+  DrawList frame = frames.of(state);
+  EXPECT_EQ(texts(loupe_in(frame)->list.items, ItemId::label), "100× slower");
+  EXPECT_EQ(texts(frame.items, ItemId::read_outs), "");
+  state.gaps.y2 = 2;
+  frame = frames.of(state);
+  EXPECT_FALSE(loupe_in(frame));
+  EXPECT_EQ(texts(frame.items, ItemId::read_outs), "100× slower");
+}
+
+/// A place that something takes.
+struct Taken {
+  std::string what;
+  double left;
+  double top;
+  double right;
+  double bottom;
+};
+
+Taken taken(std::string what, const Rectangle& r) {
+  return {std::move(what), r.x, r.y, r.x + r.width, r.y + r.height};
+}
+
+/// What the loupe must not cover: texts and blocks. Its own texts are checked against these too.
+std::vector<Taken> places(const DrawList& frame, const Fonts& fonts) {
+  std::vector<Taken> found;
+  for (const DrawItem& item : frame.items) {
+    if (const auto* text = std::get_if<TextItem>(&item)) {
+      const double width = fonts.of(text->face).width_em(text->text) * text->size_px;
+      found.push_back({shows(text->id, ItemId::loupe) ? "zoom" : text->text, text->origin.x,
+                       text->origin.y - Font::kCapHeight_em * text->size_px, text->origin.x + width,
+                       text->origin.y + 0.22 * text->size_px});
+    }
+    const auto* box = std::get_if<RectangleItem>(&item);
+    if (box != nullptr && shows(box->id, ItemId::red_block)) {
+      found.push_back(taken("red", box->bounds));
+    }
+    if (box != nullptr && shows(box->id, ItemId::blue_block)) {
+      found.push_back(taken("blue", box->bounds));
+    }
+    const auto* plate = std::get_if<PlateItem>(&item);
+    if (plate != nullptr && plate->id >= ItemId::panels) {
+      found.push_back(taken("panel", plate->bounds));
+    }
+    const auto* group = std::get_if<GroupItem>(&item);
+    if (group != nullptr) found.push_back(taken("loupe", group->bounds));
+  }
+  return found;
+}
+
+void expect_apart(const DrawList& frame, const Fonts& fonts) {
+  const std::vector<Taken> all = places(frame, fonts);
+  for (const Taken& one : all) {
+    if (one.what != "loupe" && one.what != "zoom") continue;
+    EXPECT_GE(one.left, 0) << one.what;
+    EXPECT_LE(one.right, frame.width_px) << one.what;
+    for (const Taken& other : all) {
+      const bool is_inside = one.what == "zoom" && other.what == "loupe";
+      if (other.what == "zoom" || other.what == one.what || is_inside) continue;
+      const bool overlap = one.left < other.right && other.left < one.right &&
+                           one.top < other.bottom && other.top < one.bottom;
+      EXPECT_FALSE(overlap) << one.what << " and " << other.what;
+    }
+  }
+}
+
+TEST(Loupe, CoversNothingInAnyShape) {
+  const Fonts fonts;
+  const std::vector<Settings> contents = {
+      {},
+      {{"show.overlays", "masses,velocities"}},
+      {{"show.overlays", "masses,velocities,time,ruler"}, {"show.title", "Why do blocks count π?"}},
+      {{"show.panels", "velocity,unfolded"}, {"red.width", "by-mass"}},
+      {{"show.panels", "velocity"}, {"show.overlays", "masses"}, {"show.title", "Why?"}},
+      {{"time.slow-motion", "auto"}, {"show.caption", "Slowly"}, {"show.overlays", "energy"}}};
+  int seen = 0;
+  int tried = 0;
+  for (const char* size : {"1280x720", "3840x2160", "1080x1920", "1080x1080", "1600x600",
+                           "720x1600", "1024x768", "640x360"}) {
+    for (const int digits : {2, 3, 20}) {
+      for (const char* theme : {"lecture", "article", "print"}) {
+        for (const Settings& content : contents) {
+          std::optional<Frames> frames;
+          try {
+            frames.emplace(lecture(digits, size) + Settings{{"view.theme", theme}} +
+                           Settings{{"show.loupe", "auto"}} + content);
+          } catch (const UsageError&) {  // too small for something else
+            continue;
+          }
+          SCOPED_TRACE(std::string(size) + ", digits " + std::to_string(digits) + ", " + theme +
+                       (content.empty() ? "" : ", " + content.front().second));
+          ++tried;
+          for (const char* distance : {"-0.7", "-0.4", "-0.1", "0", "0.01", "0.3", "0.6"}) {
+            const DrawList frame = frames->at(frames->turn() + parse_rational(distance));
+            seen += loupe_in(frame) ? 1 : 0;
+            expect_apart(frame, fonts);
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(tried, 250);
+  EXPECT_GT(seen, 4 * tried);
+}
+
+}  // namespace
+}  // namespace piblocks

@@ -1,0 +1,416 @@
+// The panels 'unfolded' and 'mirrors': every crossing in its place, counted, named, inside.
+#include <gtest/gtest.h>
+#include <piblocks/script.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "draw/composition.hpp"
+#include "draw/font.hpp"
+#include "draw/look.hpp"
+#include "scene/schedule.hpp"
+#include "support/state_after.hpp"
+
+namespace piblocks {
+namespace {
+
+using Setting = std::pair<const char*, std::string>;
+using Settings = std::vector<Setting>;
+
+constexpr double kPi = std::numbers::pi;
+
+Scene scene_with(int digits, const Settings& settings) {
+  ScriptBuilder builder;
+  builder.set("test", "digits", std::to_string(digits));
+  builder.set("test", "view.theme", "lecture");
+  builder.set("test", "show.panels", "unfolded");
+  for (const auto& [key, text] : settings) builder.set("test", key, text);
+  return builder.build_scene();
+}
+
+struct Pictures {
+  explicit Pictures(Scene of)
+      : scene(std::move(of)), log(make_collision_log(scene.system)), composition(scene, *log) {}
+
+  DrawList at(const Rational& time) const { return composition.frame({log->state_at(time), time}); }
+  DrawList after(const Integer& index) const {
+    const Rational time = log->time_after(index);
+    return composition.frame({log->state_at(time), time});
+  }
+  Rational end() const { return span_of(scene, *log).to; }
+
+  Scene scene;
+  std::unique_ptr<CollisionLog> log;
+  Composition composition;
+};
+
+template <typename Item>
+void add_all(const std::vector<DrawItem>& items, std::vector<Item>& found) {
+  for (const DrawItem& item : items) {
+    if (const auto* wanted = std::get_if<Item>(&item)) {
+      if (wanted->id >= ItemId::panels) found.push_back(*wanted);
+    }
+    if (const auto* plate = std::get_if<PlateItem>(&item)) add_all(plate->plate->items, found);
+  }
+}
+
+template <typename Item>
+std::vector<Item> all_of(const DrawList& list) {
+  std::vector<Item> found;
+  add_all(list.items, found);
+  return found;
+}
+
+/// Of the crossings.
+std::vector<DiskItem> dots_of(const DrawList& list) {
+  std::vector<DiskItem> disks = all_of<DiskItem>(list);
+  const Color present = palette_of(Theme::lecture).accent;
+  std::erase_if(disks, [&](const DiskItem& disk) { return disk.fill == present; });
+  return disks;
+}
+
+std::optional<DiskItem> present_of(const DrawList& list) {
+  const std::vector<DiskItem> disks = all_of<DiskItem>(list);
+  const Color present = palette_of(Theme::lecture).accent;
+  if (disks.empty() || disks.back().fill != present) return std::nullopt;
+  return disks.back();
+}
+
+/// Lines of two points that begin in one place: the corner.
+std::vector<PathItem> rays_of(const DrawList& list) {
+  std::vector<PathItem> paths = all_of<PathItem>(list);
+  std::erase_if(paths, [](const PathItem& path) {
+    const auto points = path.points.view();
+    return path.closed || points.size() != 2 || points[0].y == points[1].y;
+  });
+  return paths;
+}
+
+std::optional<PathItem> wedge_of(const DrawList& list) {
+  for (const PathItem& path : all_of<PathItem>(list)) {
+    if (path.closed && path.points.view().size() > 2 && path.id > ItemId::panels) {
+      if (path.fill && path.fill != palette_of(Theme::lecture).muted) return path;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The map back from the picture, found from two instants: positions along the line, seen from
+/// its point next to the corner.
+struct Plane {
+  explicit Plane(const Pictures& pictures) {
+    const BlockSystem& system = pictures.scene.system;
+    const double sigma = std::sqrt(to_double(system.blue.mass / system.red.mass));
+    theta = std::atan(sigma);
+    const double y1 = to_double(system.blue_gap());
+    const double y2 = y1 + to_double(system.blocks_gap());
+    const double x = std::cos(theta) * y2;
+    const double y = std::sin(theta) * y1;
+    const double vx = std::cos(theta) * to_double(system.red.velocity);
+    const double vy = std::sin(theta) * to_double(system.blue.velocity);
+    const double speed = std::hypot(vx, vy);
+    const double turning = x * vy - y * vx;
+    height = std::abs(turning) / speed;
+    sign = turning < 0 ? 1 : -1;
+    start_angle = std::atan2(y, x);
+    // Two instants at which the point is seen.
+    const double t_a = to_double(*turn_of(system)) - 0.25;
+    const double t_b = t_a + 0.5;
+    const double x_a = present_of(pictures.at(Rational(t_a)))->centre.x;
+    const double x_b = present_of(pictures.at(Rational(t_b)))->centre.x;
+    scale = (x_b - x_a) / (t_b - t_a) / (sign * speed);
+    foot_x = (x_a + x_b) / 2;
+  }
+  double along(const Point& dot) const { return (dot.x - foot_x) / scale; }
+  double distance(const Point& dot) const { return std::hypot(along(dot), height); }
+  /// Counter-clockwise from the base, to the right of the corner.
+  double angle(const Point& dot) const { return std::atan2(height, along(dot)); }
+
+  double theta;
+  double height;
+  double sign;
+  double start_angle;
+  double scale;
+  double foot_x;
+};
+
+const std::vector<Settings>& systems() {
+  static const std::vector<Settings> kSystems = {
+      {},
+      {{"red.mass", "7"}},
+      {{"red.mass", "3"}},
+      {{"red.mass", "1/5"}},
+      {{"blue.velocity", "1/2"}, {"red.mass", "60"}},
+      {{"blue.velocity", "-1/2"}, {"red.mass", "40"}},
+      {{"blue.velocity", "-3"}, {"red.velocity", "0"}, {"red.mass", "9"}, {"time.to", "3"}}};
+  return kSystems;
+}
+
+TEST(Unfolded, ADotIsWhereTheLineMeetsEachMirror) {
+  for (const Settings& settings : systems()) {
+    const Pictures pictures(scene_with(2, settings));
+    const Plane plane(pictures);
+    const std::vector<DiskItem> dots = dots_of(pictures.at(pictures.end()));
+    ASSERT_EQ(Integer(static_cast<unsigned long>(dots.size())),
+              pictures.log->state_at(pictures.end()).count);
+    ASSERT_GT(dots.size(), 1U);
+    double before = 0;
+    for (std::size_t i = 0; i < dots.size(); ++i) {
+      const Integer k(static_cast<unsigned long>(i) + 1);
+      const Collision collision = pictures.log->collision(k);
+      const Gaps gaps = gaps_at_collision(*pictures.log, k);
+      EXPECT_NEAR(plane.distance(dots[i].centre),
+                  std::hypot(std::cos(plane.theta) * gaps.y2, std::sin(plane.theta) * gaps.y1),
+                  1e-9)
+          << k;
+      const double angle = plane.angle(dots[i].centre);
+      if (i > 0) {
+        EXPECT_NEAR(angle - before, -plane.sign * plane.theta, 1e-9) << k;
+      }
+      before = angle;
+      const Palette palette = palette_of(Theme::lecture);
+      const bool is_wall = collision.kind == CollisionKind::wall;
+      EXPECT_EQ(dots[i].fill, is_wall ? palette.blue.line : palette.red.line) << k;
+    }
+  }
+}
+
+TEST(Unfolded, TheMirrorOfCollisionKIsAtKTimesTheta) {
+  for (const char* mass : {"1", "3", "7", "100", "1600", "2500", "1000000"}) {
+    const Pictures pictures(scene_with(2, {{"red.mass", mass}}));
+    const Plane plane(pictures);
+    const DrawList list = pictures.at(pictures.end());
+    const std::vector<DiskItem> dots = dots_of(list);
+    const std::vector<PathItem> rays = rays_of(list);
+    ASSERT_EQ(rays.size(), dots.size());
+    const bool is_thinned = pictures.log->size() > 128;
+    for (std::size_t i = 0; i < dots.size(); ++i) {
+      const double angle = plane.angle(dots[i].centre);
+      const double k = is_thinned ? std::round(angle / plane.theta) : double(i + 1);
+      EXPECT_NEAR(angle, k * plane.theta, 1e-9) << mass;
+      // The ray goes through the dot.
+      const Point& corner = rays[i].points.view()[0];
+      const Point& end = rays[i].points.view()[1];
+      const double at_line =
+          corner.x + (end.x - corner.x) * (dots[i].centre.y - corner.y) / (end.y - corner.y);
+      EXPECT_NEAR(at_line, dots[i].centre.x, 1e-6) << mass;
+      EXPECT_NEAR(plane.foot_x, corner.x, 1e-6);
+    }
+  }
+}
+
+TEST(Unfolded, DotsComeWithTheirCollisionsAndStay) {
+  const Pictures pictures(scene_with(2, {}));
+  std::vector<DiskItem> before;
+  for (int count = 1; count <= 31; ++count) {
+    const std::vector<DiskItem> dots = dots_of(pictures.after(count));
+    ASSERT_EQ(dots.size(), static_cast<std::size_t>(count));
+    EXPECT_TRUE(std::ranges::equal(before, std::span(dots).first(before.size())));
+    before = dots;
+  }
+}
+
+TEST(Unfolded, ManyMirrorsAreThinnedButTrue) {
+  for (const int digits : {3, 6, 12, 20, 40}) {
+    const Pictures pictures(scene_with(digits, {}));
+    const Plane plane(pictures);
+    const std::vector<DiskItem> dots = dots_of(pictures.at(pictures.end()));
+    ASSERT_GT(dots.size(), 20U) << digits;
+    ASSERT_LT(dots.size(), 600U) << digits;
+    const Integer& last = pictures.log->size();
+    const auto distance = [&](const Integer& k) {
+      const Gaps gaps = gaps_at_collision(*pictures.log, k);
+      return std::hypot(std::cos(plane.theta) * gaps.y2, std::sin(plane.theta) * gaps.y1);
+    };
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Integer n(static_cast<unsigned long>(i));
+      const Point& late = dots[dots.size() - 1 - i].centre;
+      EXPECT_NEAR(plane.distance(dots[i].centre), distance(1 + n), 1e-9) << digits;
+      EXPECT_NEAR(plane.distance(late), distance(last - n), 1e-9) << digits;
+      EXPECT_LT(plane.along(late), 0) << digits;
+    }
+    for (std::size_t i = 1; i < dots.size(); ++i) {
+      EXPECT_LT(dots[i].centre.x, dots[i - 1].centre.x) << digits;
+      EXPECT_NE(dots[i].fill, dots[i - 1].fill) << digits << ": both kinds take turns";
+    }
+  }
+}
+
+TEST(Unfolded, ThePresentIsInTheWedgeBetweenItsMirrors) {
+  for (const Settings& settings : systems()) {
+    const Pictures pictures(scene_with(2, settings));
+    for (int i = 0; i <= 60; ++i) {
+      const DrawList list = pictures.at(pictures.end() * i / 60);
+      const auto present = present_of(list);
+      const auto wedge = wedge_of(list);
+      ASSERT_TRUE(wedge);
+      if (!present) continue;
+      // The wedge's two sides, at the height of the line.
+      const auto points = wedge->points.view();
+      const Point& corner = points.front();
+      const auto side_x = [&](const Point& end) {
+        if (end.y == corner.y) return end.x > corner.x ? 1e9 : -1e9;
+        return corner.x + (end.x - corner.x) * (present->centre.y - corner.y) / (end.y - corner.y);
+      };
+      EXPECT_LE(present->centre.x, side_x(points[1]) + 1e-6) << i;
+      EXPECT_GE(present->centre.x, side_x(points.back()) - 1e-6) << i;
+    }
+  }
+}
+
+std::string text_of(const DrawList& list) {
+  std::string all;
+  for (const TextItem& text : all_of<TextItem>(list)) all += text.text;
+  return all;
+}
+
+TEST(Unfolded, TheTitleSaysHowManyMirrors) {
+  const auto text_with = [](int digits, const Settings& settings) {
+    return text_of(Pictures(scene_with(digits, settings)).at(1));
+  };
+  EXPECT_NE(text_with(2, {}).find("⌋ = 31 mirrors"), std::string::npos);
+  EXPECT_NE(text_with(5, {}).find("⌋ = 31,415 mirrors"), std::string::npos);
+  EXPECT_NE(text_with(2, {{"base", "2"}}).find("= 110 mirrors"), std::string::npos);
+  // Here π/θ is 4, 6 and 3, and the line is parallel to the last mirror.
+  for (const auto& [mass, count] : {std::pair("1", "3"), {"3", "5"}, {"1/3", "2"}}) {
+    const std::string text = text_with(1, {{"red.mass", mass}});
+    EXPECT_NE(text.find(std::string("crosses ") + count + " mirrors"), std::string::npos) << text;
+    EXPECT_EQ(text.find("⌊"), std::string::npos) << text;
+  }
+  for (const Settings& settings : systems()) {
+    const Pictures pictures(scene_with(2, settings));
+    const std::string text = text_of(pictures.at(1));
+    EXPECT_NE(text.find(pictures.log->size().get_str() + " mirror"), std::string::npos) << text;
+  }
+  EXPECT_NE(text_with(20, {{"view.size", "1080x1920"}}).find("mirrors drawn"), std::string::npos);
+}
+
+TEST(Unfolded, SaysTheAngle) {
+  const auto has = [](const char* mass, const char* angle) {
+    const std::string text = text_of(Pictures(scene_with(1, {{"red.mass", mass}})).at(1));
+    return text.find(angle) != std::string::npos;
+  };
+  EXPECT_TRUE(has("100", "≈ 1/10"));
+  EXPECT_TRUE(has("2500", "≈ 1/50"));
+  EXPECT_TRUE(has("1", "≈ 0.785"));
+  EXPECT_TRUE(has("7", "≈ 0.361"));
+  EXPECT_TRUE(has("16", "≈ 0.245")) << "1/4 is not good to three digits";
+  EXPECT_TRUE(has("1000", "≈ 0.0316"));
+  EXPECT_TRUE(has("300000000000", "≈ 1.83×10"));
+}
+
+class UnfoldedSizes : public testing::TestWithParam<const char*> {};
+
+/// The width of an item's text by its own typeface.
+Rectangle box_of(const TextItem& text, const Fonts& fonts) {
+  return {text.origin.x, text.origin.y - 0.76 * text.size_px,
+          fonts.of(text.face).width_em(text.text) * text.size_px, 0.96 * text.size_px};
+}
+
+bool overlap(const Rectangle& a, const Rectangle& b) {
+  constexpr double kTouch_px = 0.5;
+  return a.x < b.x + b.width - kTouch_px && b.x < a.x + a.width - kTouch_px &&
+         a.y < b.y + b.height - kTouch_px && b.y < a.y + a.height - kTouch_px;
+}
+
+void expect_inside(const DrawList& list, const Rectangle& place) {
+  const auto is_inside = [&](double x, double y, double around) {
+    return x - around >= place.x && x + around <= place.x + place.width && y - around >= place.y &&
+           y + around <= place.y + place.height;
+  };
+  for (const PathItem& path : all_of<PathItem>(list)) {
+    for (const Point& point : path.points.view()) EXPECT_TRUE(is_inside(point.x, point.y, 0));
+  }
+  for (const DiskItem& disk : all_of<DiskItem>(list)) {
+    EXPECT_TRUE(is_inside(disk.centre.x, disk.centre.y, disk.radius));
+  }
+}
+
+TEST_P(UnfoldedSizes, AllIsInsideAndNoTextsMeet) {
+  const Fonts fonts;
+  for (const char* panel : {"unfolded", "mirrors", "unfolded,mirrors"}) {
+    for (const int digits : {1, 2, 3, 20}) {
+      const Pictures pictures(
+          scene_with(digits, {{"view.size", GetParam()}, {"show.panels", panel}}));
+      for (int i = 0; i <= 4; ++i) {
+        const DrawList list = pictures.at(pictures.end() * i / 4);
+        const std::vector<TextItem> texts = all_of<TextItem>(list);
+        for (std::size_t a = 0; a < texts.size(); ++a) {
+          const Rectangle box = box_of(texts[a], fonts);
+          EXPECT_TRUE(box.x >= 0 && box.x + box.width <= list.width_px &&
+                      box.y + box.height <= list.height_px)
+              << texts[a].text;
+          for (std::size_t b = 0; b < a; ++b) {
+            EXPECT_FALSE(overlap(box, box_of(texts[b], fonts)))
+                << texts[a].text << " and " << texts[b].text;
+          }
+        }
+        const std::vector<DrawItem>& items = list.items;
+        const auto plate = std::ranges::find_if(items, [](const DrawItem& item) {
+          const auto* found = std::get_if<PlateItem>(&item);
+          return found != nullptr && found->id >= ItemId::panels;
+        });
+        ASSERT_NE(plate, items.end());
+        if (std::string(panel).find(',') == std::string::npos) {
+          expect_inside(list, std::get<PlateItem>(*plate).bounds);
+        }
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, UnfoldedSizes,
+                         testing::Values("1280x720", "3840x2160", "1080x1080", "1080x1920",
+                                         "2560x1080"));
+
+TEST(Mirrors, AppearWithTheirCollisions) {
+  const Pictures pictures(scene_with(2, {{"show.panels", "mirrors"}}));
+  EXPECT_EQ(rays_of(pictures.at(0)).size(), 1U) << "the mirror that comes first";
+  for (int count = 1; count <= 31; ++count) {
+    EXPECT_EQ(int(rays_of(pictures.after(count)).size()), std::min(count + 1, 31)) << count;
+  }
+}
+
+/// The sides of a wedge, as their places where they leave the picture.
+std::pair<Point, Point> sides_of(const DrawList& list) {
+  const std::optional<PathItem> wedge = wedge_of(list);
+  return {wedge->points.view()[1], wedge->points.view().back()};
+}
+
+TEST(Mirrors, OpenFromTheWedgeBefore) {
+  const Pictures pictures(scene_with(2, {{"show.panels", "mirrors"}}));
+  ASSERT_TRUE(pictures.composition.needs().hits);
+  const auto with_age = [&](int count, double age_s) {
+    const Rational time = pictures.log->time_after(count);
+    FrameState shown{pictures.log->state_at(time), time};
+    const Collision collision = pictures.log->collision(count);
+    shown.hits.push_back({.kind = collision.kind, .index = count, .age_s = age_s});
+    return pictures.composition.frame(shown);
+  };
+  for (int count = 1; count <= 31; ++count) {
+    const auto [right, left] = sides_of(pictures.after(count));
+    const auto [last_right, last_left] = sides_of(with_age(count, kHitLife_s));
+    EXPECT_EQ(right, last_right) << count;
+    EXPECT_EQ(left, last_left) << count;
+    if (count == 31) continue;  // the last wedge is cut off
+    const auto folded = sides_of(with_age(count, 0));
+    const auto wedge_before = sides_of(count == 1 ? pictures.at(0) : pictures.after(count - 1));
+    EXPECT_NEAR(folded.first.x, wedge_before.first.x, 1e-6) << count;
+    EXPECT_NEAR(folded.first.y, wedge_before.first.y, 1e-6) << count;
+    EXPECT_NEAR(folded.second.x, wedge_before.second.x, 1e-6) << count;
+    // Halfway it is seen edge on.
+    const auto half = sides_of(with_age(count, kHitLife_s / 2));
+    EXPECT_NEAR(half.first.x, half.second.x, 1e-6) << count;
+    EXPECT_NEAR(half.first.y, half.second.y, 1e-6) << count;
+  }
+}
+
+}  // namespace
+}  // namespace piblocks
