@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 #include "draw/layout.hpp"
@@ -19,6 +20,8 @@ constexpr double kBelowBaseline = 0.25;
 constexpr double kPiStep = 2.0;  ///< from the count's baseline to the digits of pi
 /// Least side of a diagram.
 constexpr double kLeastPanel_em = 6;
+/// A narrower one may have no room for its title.
+constexpr double kTitledPanel_em = 10;
 /// The width of a diagram that looks best, in parts of its height.
 constexpr double kPanelAspect = 1.6;
 /// In a smaller frame no text can be read.
@@ -38,9 +41,8 @@ constexpr double kRowCounter = 0.35;
 /// Height of the stage where there are diagrams: without overlays, and at most.
 constexpr double kPlainStage = 0.24;
 
-/// The grid in which `count` panels come out largest, if possible with no side below `least`.
-std::vector<Rectangle> panel_grid(std::size_t count, const Rectangle& area, double gap,
-                                  double least) {
+/// The grid in which `count` panels come out largest, if possible not too small.
+std::vector<Rectangle> panel_grid(std::size_t count, const Rectangle& area, double gap, double em) {
   const auto side = [gap](double length, std::size_t n) {
     return (length - gap * double(n - 1)) / double(n);
   };
@@ -48,9 +50,9 @@ std::vector<Rectangle> panel_grid(std::size_t count, const Rectangle& area, doub
     const std::size_t rows = (count + columns - 1) / columns;
     return Rectangle{0, 0, side(area.width, columns), side(area.height, rows)};
   };
-  const auto size = [least](const Rectangle& r) {
-    return std::pair(std::min(r.width, r.height) >= least,
-                     std::min(r.width / kPanelAspect, r.height));
+  const auto size = [em](const Rectangle& r) {
+    return std::tuple(std::min(r.width, r.height) >= kLeastPanel_em * em,
+                      r.width >= kTitledPanel_em * em, std::min(r.width / kPanelAspect, r.height));
   };
   std::size_t best = 1;
   for (std::size_t columns = 2; columns <= count; ++columns) {
@@ -122,7 +124,7 @@ class FramePlanner {
     CounterPlace& place = plan_.counter;
     place.right_px = right_;
     place.baseline_px = std::round(view_.height_px / 2.0 + Font::kCapHeight_em * place.size_px / 4);
-    place.pi_baseline_px = std::round(place.baseline_px + kPiStep * sizes_.text);
+    place_pi();
     top_ = 0.75 * sizes_.gap;
     if (!show_.title.empty()) {
       check_text("show.title", show_.title, sizes_.title);
@@ -239,21 +241,26 @@ class FramePlanner {
     place.right_px = right_;
     const double above = top_ > 0 ? top_ + kBelowHeader * sizes_.unit : sizes_.margin;
     place.baseline_px = std::round(above + Font::kCapHeight_em * place.size_px);
-    place.pi_baseline_px = std::round(place.baseline_px + kPiStep * sizes_.text);
+    place_pi();
     if (is_beside_title) {
       add_line(ItemId::title, show_.title, place.baseline_px, sizes_.title);
     }
     // Blocks that stay left of the digits of pi may be beside them.
     const double left_of_pi = right_ - counter_->pi_px - sizes_.gap;
-    const bool is_above =
-        counter_->pi_px > 0 && reach_px(context_.scene, context_.log) > left_of_pi;
+    const bool is_above = place.has_pi && reach_px(context_.scene, context_.log) > left_of_pi;
     top_ = is_above ? place.pi_baseline_px : place.baseline_px;
     top_ += kBelowBaseline * sizes_.text;
-    place.pi_left_px = right_ - counter_->pi_px;
+    place.pi_left_px = right_ - (place.has_pi ? counter_->pi_px : 0);
     plan_.header_px = top_;
-    if (counter_->pi_px > 0) {
-      plan_.header_px = place.pi_baseline_px + kBelowBaseline * sizes_.text;
-    }
+    if (place.has_pi) plan_.header_px = place.pi_baseline_px + kBelowBaseline * sizes_.text;
+  }
+
+  /// The digits of pi are below the count, or nowhere in a frame of a few pixels.
+  void place_pi() {
+    CounterPlace& place = plan_.counter;
+    place.pi_baseline_px = std::round(place.baseline_px + kPiStep * sizes_.text);
+    place.has_pi = counter_->pi_px > 0 && place.pi_baseline_px + kBelowBaseline * sizes_.text <=
+                                              view_.height_px - sizes_.margin;
   }
 
   /// Caption and logo are at the bottom; the stage ends above.
@@ -305,7 +312,7 @@ class FramePlanner {
     const double bottom = bottom_ == view_.height_px ? bottom_ - sizes_.margin : bottom_;
     const double least = kLeastPanel_em * sizes_.text;
     plan_.panels = panel_grid(show_.panels.size(), {left_, top, right_ - left_, bottom - top},
-                              sizes_.gap, least);
+                              sizes_.gap, sizes_.text);
     const Rectangle& panel = plan_.panels.front();
     if (std::min(panel.width, panel.height) >= least) return;
     const std::size_t count = show_.panels.size();

@@ -84,7 +84,8 @@ struct CounterPlace {
   double size_px = 0;         ///< of the count's type
   double room_px = 0;         ///< the longest count's width
   bool has_label = true;      ///< else there is room for the count alone
-  double pi_baseline_px = 0;  ///< of the line below
+  bool has_pi = false;        ///< the line below has room
+  double pi_baseline_px = 0;  ///< of that line
   double pi_left_px = 0;      ///< where that begins
 };
 

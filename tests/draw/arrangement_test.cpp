@@ -24,7 +24,8 @@ constexpr std::array kShapes{"1920x1080", "1280x720",  "3840x2160", "1440x1080",
                              "1080x1080", "1080x1920", "2560x1080", "640x360"};
 constexpr std::array kOverlays{"digits",   "masses", "velocities", "energy",
                                "momentum", "time",   "ruler"};
-constexpr std::array kPanels{"velocity", "position", "unfolded", "time", "rate", "ellipse"};
+constexpr std::array kPanels{"velocity", "position", "unfolded", "time",
+                             "rate",     "ellipse",  "mirrors"};
 constexpr std::array kThemes{"lecture", "lecture-light", "article", "print"};
 constexpr std::array kDigits{1, 3, 8};
 
@@ -44,6 +45,7 @@ struct Box {
   double top;
   double right;
   double bottom;
+  double baseline;
   ItemId id;
   double size_px;  ///< of type; 0 of a block
   std::string what;
@@ -71,8 +73,11 @@ class Arrangement {
         if (overlap(text, texts_[k])) return text.what + " meets " + texts_[k].what;
       }
       for (const Box& block : blocks_) {
-        // The loupe has blocks and a mass stands on one.
-        if (shows(text.id, ItemId::masses) && is_on(text, block)) continue;
+        // A mass may be on its block, and the loupe has a label of its own.
+        const bool belongs = shows(text.id, ItemId::masses)
+                                 ? !shows(block.id, ItemId::loupe)
+                                 : shows(text.id, ItemId::loupe) && shows(block.id, ItemId::loupe);
+        if (belongs && is_on(text, block)) continue;
         if (overlap(text, block)) return text.what + " meets " + block.what;
       }
     }
@@ -88,7 +93,7 @@ class Arrangement {
       if (const auto* block = std::get_if<RectangleItem>(&item)) add(*block);
       if (const auto* group = std::get_if<GroupItem>(&item)) {
         const Rectangle& r = group->bounds;
-        blocks_.push_back({r.x, r.y, r.x + r.width, r.y + r.height, group->id, 0, "the loupe"});
+        blocks_.push_back({r.x, r.y, r.x + r.width, r.y + r.height, 0, group->id, 0, "the loupe"});
       }
     }
   }
@@ -96,13 +101,17 @@ class Arrangement {
     if (text.text.empty() || text.text == " ") return;
     const double em = text.size_px;
     const double width = fonts_.of(text.face).width_em(text.text) * em;
+    // Beside letters, brackets and commas hang below the line.
+    const bool hangs =
+        text.face == Face::math || text.text.find_first_of("gjpqyQ,;()[]") != std::string::npos;
     texts_.push_back({text.origin.x, text.origin.y - 0.74 * em, text.origin.x + width,
-                      text.origin.y + 0.2 * em, text.id, em, "'" + text.text + "'"});
+                      text.origin.y + (hangs ? 0.2 : 0.02) * em, text.origin.y, text.id, em,
+                      "'" + text.text + "'"});
   }
   void add(const RectangleItem& item) {
     if (item.id != ItemId::red_block && item.id != ItemId::blue_block) return;
     const Rectangle& r = item.bounds;
-    blocks_.push_back({r.x, r.y, r.x + r.width, r.y + r.height, item.id, 0,
+    blocks_.push_back({r.x, r.y, r.x + r.width, r.y + r.height, 0, item.id, 0,
                        item.id == ItemId::red_block ? "the red block" : "the blue block"});
   }
 
@@ -114,7 +123,7 @@ class Arrangement {
                               : sizes_.margin - kRounding;
     // What hangs below the line may reach into the margin.
     return text.left >= margin && text.right <= list_.width_px - margin && text.top >= margin / 2 &&
-           text.bottom - 0.2 * text.size_px <= list_.height_px - margin + kRounded_px;
+           text.baseline <= list_.height_px - margin + kRounded_px;
   }
 
   /// As large as it has to be, or beside something that is.

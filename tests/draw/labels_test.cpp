@@ -286,7 +286,11 @@ TEST(Labels, TitlesOfNarrowDiagramsAreBriefRatherThanSmall) {
     for (const DrawItem& item : list.items) {
       const auto* plate = std::get_if<PlateItem>(&item);
       if (plate == nullptr) continue;
-      const double baseline = std::get<TextItem>(plate->plate->items.front()).origin.y;
+      double baseline = HUGE_VAL;
+      for (const DrawItem& inner : plate->plate->items) {
+        const auto* text = std::get_if<TextItem>(&inner);
+        if (text != nullptr) baseline = std::min(baseline, text->origin.y);
+      }
       for (const DrawItem& inner : plate->plate->items) {
         const auto* text = std::get_if<TextItem>(&inner);
         if (text == nullptr || text->origin.y != baseline) continue;

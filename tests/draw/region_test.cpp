@@ -120,7 +120,7 @@ TEST(Region, OfPicturesWithAllThatCanBeShownIsExact) {
     builder.set("test", "view.size", "800x600");
     builder.set("test", "view.theme", theme);
     builder.set("test", "show.title", "π");
-    builder.set("test", "show.overlays", "digits,masses,velocities,energy,momentum,time,ruler");
+    builder.set("test", "show.overlays", "digits,masses,velocities,time");
     builder.set("test", "show.panels", panels);
     const Scene scene = builder.build_scene();
     const auto log = make_collision_log(scene.system);

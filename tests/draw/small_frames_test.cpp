@@ -21,7 +21,7 @@ struct Feature {
   const char* named;  ///< in a refusal
 };
 
-constexpr std::array kFeatures{Feature{"view.theme", "print", "view.theme"},
+constexpr std::array kFeatures{Feature{"view.theme", "print", "count"},
                                Feature{"show.overlays", "digits", "-"},
                                Feature{"show.overlays", "masses", "mass"},
                                Feature{"show.overlays", "velocities", "velocities"},

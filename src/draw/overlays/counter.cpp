@@ -100,7 +100,7 @@ class Counter {
                                 size_px,
                                 is_over ? palette_.accent : palette_.text,
                                 Face::digits});
-    if (!pi_.empty()) add_pi(lit_length(text, pi_count_), items);
+    if (place_.has_pi) add_pi(lit_length(text, pi_count_), items);
   }
 
  private:

@@ -16,7 +16,7 @@ inline constexpr double kArrowRoom = 0.08;
 inline constexpr double kMassRoom = 0.052;
 inline constexpr double kRulerRoom = 0.07;
 
-/// Places are rounded to whole pixels, and room may be short by one.
+/// The floor is on whole pixels, and room above the blocks may be short by one.
 inline constexpr double kRounded_px = 1;
 
 /// Room that the scene's overlays need above the taller block, in pixels.

@@ -127,7 +127,7 @@ ReadOut slower_read_out(const DrawingContext& context) {
 }
 
 constexpr int kMostDigits = 6;
-constexpr int kLeastDigits = 4;
+constexpr int kLeastDigits = 3;
 
 /// How values up to a largest one are written: with as many decimals as give the largest so many
 /// digits, and as multiples of a power of ten if it is very large or very small.

@@ -41,7 +41,7 @@ Drawable ruler(const DrawingContext& context) {
   const double tick_end = axis_px + kTickLength * sizes.unit;
   const double baseline = tick_end + kBelowTick * sizes.unit + 2 * kHalfFigure_em * size_px;
   const double below_px = baseline - layout.floor_px;
-  if (below_px > layout.below_px + kRounded_px) {
+  if (below_px > layout.below_px) {
     throw UsageError(
         fmt::format("show.overlays: the ruler needs {:.0f} pixels below the blocks, and there are "
                     "{:.0f}; leave out 'ruler', or make the frame higher",

@@ -76,7 +76,7 @@ void fit_heights(double room_px, const View& view, Layout& layout) {
   }
   const double shrink = std::min(1.0, room_px / (layout.floor_px - layout.top_px()));
   for (BlockShape* block : {&layout.blue, &layout.red}) {
-    block->height_px = std::round(block->height_px * shrink);
+    block->height_px = std::floor(block->height_px * shrink);
   }
 }
 
@@ -137,7 +137,7 @@ Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font
   } while (room_above_px(scene, layout, font) > above);
   const double height = std::max(layout.blue.height_px, layout.red.height_px);
   // What is left over is above and below in equal parts.
-  layout.floor_px = std::round(area.y + area.height - below - (room - height) / 2);
+  layout.floor_px = std::floor(area.y + area.height - below - (room - height) / 2);
   layout.origin = {axis.left_px - to_double(axis.range.low) * layout.scale, layout.floor_px};
   layout.above_px = layout.top_px() - area.y;
   layout.below_px = area.y + area.height - layout.floor_px;
