@@ -81,7 +81,7 @@ Composition::Composition(const Scene& scene, const CollisionLog& log,
   if (!is_article) room = counter_room(context, pi);
   const FramePlan plan = plan_frame(context, room, rows.height());
   layout = is_article ? lay_out_article(scene, longest_count(scene, log), plan.stage, font)
-                      : lay_out_stage(scene, plan.stage, font);
+                      : lay_out_stage(scene, plan.stage, font, plan.has_low_floor);
 
   const Show& show = scene.show;
   const std::shared_ptr<const LoupeInset> loupe = LoupeInset::make(context, plan);

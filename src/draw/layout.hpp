@@ -94,8 +94,9 @@ struct FramePlan {
   CounterPlace counter;
   Rectangle logo;  ///< empty unless asked for
   Rectangle stage;
-  double header_px = 0;     ///< lower end of title, counter and digits of pi
-  double read_outs_px = 0;  ///< upper end of their rows
+  bool has_low_floor = false;  ///< all that is left over of the stage is above the blocks
+  double header_px = 0;        ///< lower end of title, counter and digits of pi
+  double read_outs_px = 0;     ///< upper end of their rows
   std::vector<Rectangle> panels;
 };
 
@@ -119,7 +120,9 @@ double reach_px(const Scene& scene, const CollisionLog& log);
 /// The stage in an area of the frame.
 /// @throws UsageError if the view is so close that doubles cannot hold the positions, or the area
 ///         is too low for the blocks.
-Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font);
+/// @param has_low_floor  as in FramePlan
+Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font,
+                     bool has_low_floor = false);
 /// The same of the article's picture. @param longest_count  of those that will be shown
 Layout lay_out_article(const Scene& scene, const Integer& longest_count, const Rectangle& area,
                        const Font& font);

@@ -303,6 +303,17 @@ void expect_apart(const DrawList& frame, const Fonts& fonts) {
   }
 }
 
+TEST(Loupe, HasRoomBesideTwoDiagrams) {
+  for (const char* size : {"1920x1080", "1280x720", "1080x1920", "720x1600"}) {
+    const Frames frames(lecture(5, size) +
+                        Settings{{"show.title", "The turn of five digits"},
+                                 {"show.overlays", "masses"},
+                                 {"show.panels", "velocity,unfolded"},
+                                 {"time.slow-motion", "turn-1e-6:turn+1e-6:1e7"}});
+    EXPECT_TRUE(loupe_in(frames.at(frames.turn()))) << size;
+  }
+}
+
 TEST(Loupe, CoversNothingInAnyShape) {
   const Fonts fonts;
   const std::vector<Settings> contents = {

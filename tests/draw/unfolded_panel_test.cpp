@@ -370,6 +370,33 @@ INSTANTIATE_TEST_SUITE_P(Shapes, UnfoldedSizes,
                          testing::Values("1280x720", "3840x2160", "1080x1080", "1080x1920",
                                          "2560x1080"));
 
+TEST(Unfolded, HoldsAnyScene) {
+  const std::vector<Settings> extremes = {
+      {{"blue.position", "1/2"}},
+      {{"red.velocity", "0"}},
+      {{"red.velocity", "1"}},
+      {{"red.velocity", "1e-300"}},
+      {{"red.position", "1e300"}, {"red.mass", "1"}},
+      {{"red.position", "1e306"}, {"red.mass", "1"}},
+      {{"blue.velocity", "-1"}, {"red.position", "1e150"}, {"red.velocity", "-1e150"}},
+      {{"red.mass", "1e310"}, {"view.theme", "article"}}};
+  for (const char* panel : {"unfolded", "mirrors"}) {
+    for (Settings settings : extremes) {
+      settings.insert(settings.end(), {{"show.panels", panel}, {"time.to", "6"}});
+      const Pictures pictures(scene_with(2, settings));
+      for (const int time : {0, 3, 6}) {
+        const DrawList list = pictures.at(time);
+        EXPECT_TRUE(wedge_of(list)) << settings.front().second;
+        const auto id_of = [](const DrawItem& item) {
+          return std::visit([](const auto& any) { return any.id; }, item);
+        };
+        EXPECT_EQ(std::ranges::adjacent_find(list.items, std::ranges::greater_equal(), id_of),
+                  list.items.end());
+      }
+    }
+  }
+}
+
 TEST(Mirrors, AppearWithTheirCollisions) {
   const Pictures pictures(scene_with(2, {{"show.panels", "mirrors"}}));
   EXPECT_EQ(rays_of(pictures.at(0)).size(), 1U) << "the mirror that comes first";

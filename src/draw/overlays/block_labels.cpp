@@ -32,15 +32,34 @@ struct MassTexts {
   std::string red;
 };
 
-/// With a unit, unless only a number fits on the lighter block.
+/// What the two masses can be written on, and which is the lighter one.
+struct MassPlaces {
+  const BlockShape& lighter;
+  const BlockShape& heavier;
+
+  /// The heavier block's mass may be above it, unless the other block would run into it.
+  bool can_be_above() const { return heavier.height_px >= lighter.height_px; }
+};
+
+bool is_red_lighter(const BlockSystem& system) { return system.red.mass < system.blue.mass; }
+
+MassPlaces mass_places(const BlockSystem& system, const Layout& layout) {
+  if (is_red_lighter(system)) return {layout.red, layout.blue};
+  return {layout.blue, layout.red};
+}
+
+/// With a unit, unless only a number has room.
 MassTexts mass_texts(const Scene& scene, const Layout& layout, const Font& font) {
   const BlockSystem& system = scene.system;
   const MassTexts plain{short_text(system.blue.mass), short_text(system.red.mass)};
   const MassTexts full{plain.blue + " kg", plain.red + " kg"};
-  const bool is_red_lighter = system.red.mass < system.blue.mass;
-  const bool has_room = is_red_lighter
-                            ? fits(full.red, layout.red, layout, Sizes(scene.view).mass, font)
-                            : fits(full.blue, layout.blue, layout, Sizes(scene.view).mass, font);
+  const MassPlaces places = mass_places(system, layout);
+  const bool is_red = is_red_lighter(system);
+  const double size_px = Sizes(scene.view).mass;
+  const bool has_room =
+      fits(is_red ? full.red : full.blue, places.lighter, layout, size_px, font) &&
+      (places.can_be_above() ||
+       fits(is_red ? full.blue : full.red, places.heavier, layout, size_px, font));
   return has_room ? full : plain;
 }
 
@@ -60,14 +79,12 @@ TextItem mass_label(std::size_t n, std::string text, const Block& block,
   const bool is_red = &block == &system.red;
   const BlockColors& colors = is_red ? context.palette.red : context.palette.blue;
   const BlockShape& shape = is_red ? layout.red : layout.blue;
-  const BlockShape& other = is_red ? layout.blue : layout.red;
-  const bool is_lighter =
-      is_red ? system.red.mass < system.blue.mass : system.blue.mass <= system.red.mass;
+  const bool is_lighter = is_red == is_red_lighter(system);
   const double size_px = context.sizes.mass;
   const double left = -context.font.width_em(text) * size_px / 2;
   const double top = layout.floor_px - shape.height_px;
   const bool is_inside = fits(text, shape, layout, size_px, context.font);
-  if (!is_inside && (is_lighter || shape.height_px < other.height_px)) {
+  if (!is_inside && (is_lighter || !mass_places(system, layout).can_be_above())) {
     throw UsageError(
         fmt::format("show.overlays: the mass '{}' does not fit on its block of {:.0f}x{:.0f} "
                     "pixels; leave out 'masses', make the block or the frame larger, or show less "

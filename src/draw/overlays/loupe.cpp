@@ -93,7 +93,12 @@ class LoupeInset::Placer {
   double unit() const { return context_.sizes.unit; }
   double row() const { return kRow_em * context_.sizes.text; }
   double width() const { return std::round(style::kLoupe * unit()); }
-  double right() const { return context_.scene.view.width_px - context_.sizes.margin; }
+  double right() const {
+    const View& view = context_.scene.view;
+    // The counter may be beside the stage.
+    const bool is_article = view.theme == Theme::article;
+    return is_article ? view.width_px - context_.sizes.margin : context_.layout.right_px;
+  }
 
   /// Red and what is above it stay left of this while the loupe is seen.
   double blocks_right() const {
@@ -152,6 +157,14 @@ class LoupeInset::Placer {
   const FramePlan& plan_;
   double zoom_px_;
 };
+
+bool may_show_loupe(const DrawingContext& context) {
+  const View& view = context.scene.view;
+  if (!shows_wall(context.scene) || !loupe_of(context.scene)) return false;
+  // The stage's scale is known only once there is a stage. It is not larger.
+  const double scale = view.width_px / to_double(view.x.high - context.scene.system.wall_face);
+  return least_gap(context) * scale < style::kLoupeFrom * context.sizes.unit;
+}
 
 std::shared_ptr<const LoupeInset> LoupeInset::make(const DrawingContext& context,
                                                    const FramePlan& plan) {

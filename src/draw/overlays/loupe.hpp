@@ -16,6 +16,9 @@
 
 namespace piblocks {
 
+/// Whether the loupe would be seen if it had room. @param context  its layout is not read
+bool may_show_loupe(const DrawingContext& context);
+
 class LoupeInset {
  public:
   /// Nothing if the scene has no loupe, or leaves it to the program and it would have no room or

@@ -114,7 +114,8 @@ double reach_px(const Scene& scene, const CollisionLog& log) {
   return axis.left_px + (right - to_double(axis.range.low)) * axis.scale;
 }
 
-Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font) {
+Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font,
+                     bool has_low_floor) {
   const Sizes sizes(scene.view);
   const Axis axis(scene, area);
   Layout layout;
@@ -137,7 +138,8 @@ Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font
   } while (room_above_px(scene, layout, font) > above);
   const double height = std::max(layout.blue.height_px, layout.red.height_px);
   // What is left over is above and below in equal parts.
-  layout.floor_px = std::floor(area.y + area.height - below - (room - height) / 2);
+  const double rest = has_low_floor ? 0 : (room - height) / 2;
+  layout.floor_px = std::floor(area.y + area.height - below - rest);
   layout.origin = {axis.left_px - to_double(axis.range.low) * layout.scale, layout.floor_px};
   layout.above_px = layout.top_px() - area.y;
   layout.below_px = area.y + area.height - layout.floor_px;

@@ -14,6 +14,8 @@ constexpr double kLevel = 0.2;
 constexpr double kWidest = 4;
 /// More mirrors than these are thinned.
 constexpr int kMostMirrors = 128;
+/// Mirrors are looked for up to this distance and time.
+constexpr double kFarthest = 1e300;
 /// Between rays where the line crosses none, in radians.
 constexpr double kFanStep = 0.02;
 
@@ -116,14 +118,17 @@ Mirror UnfoldedMap::mirror_of(const CollisionLog& log, const Integer& index) con
           .towards = {x - corner_x_, level_px_}};
 }
 
-/// Beyond the sides, rays that leave the area so far apart can be seen.
+/// Beyond the sides, rays that leave the area so far apart can be seen. Times stay in the range of
+/// a double.
 double UnfoldedMap::reach_px(double least_apart_px) const {
-  return area_.width * std::max(1.0, level_px_ / least_apart_px);
+  const double farthest = kFarthest * scale_ * std::min(1.0, std::abs(line_.velocity()));
+  return std::min(area_.width * std::max(1.0, level_px_ / least_apart_px), farthest);
 }
 
 std::vector<Mirror> UnfoldedMap::mirrors(const CollisionLog& log, double least_apart_px) const {
   if (!line_.moves() || line_.meets_corner()) return fan();
   const double reach = std::copysign(reach_px(least_apart_px), line_.velocity());
+  if (!(std::abs(reach) > 0)) return {};
   const Integer first = log.state_at(line_.time_at(-reach / scale_)).count + 1;
   const Integer last = log.state_at(line_.time_at(reach / scale_)).count;
   const bool is_thinned = last - first >= kMostMirrors;
@@ -134,7 +139,8 @@ std::vector<Mirror> UnfoldedMap::mirrors(const CollisionLog& log, double least_a
     Integer next = index + 1;
     if (is_thinned) {
       const double step = least_apart_px * std::max(1.0, x * x / (area_.width * level_px_));
-      const double target = x + std::copysign(step, reach);
+      const double target =
+          std::clamp(x + std::copysign(step, reach), -std::abs(reach), std::abs(reach));
       next = std::max(next, Integer(log.state_at(line_.time_at(target / scale_)).count + 1));
       // Both kinds take turns.
       if (Integer(next - index) % 2 == 0) next += 1;

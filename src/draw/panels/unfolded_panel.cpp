@@ -67,21 +67,20 @@ class UnfoldedPanel {
     from_x_ = std::clamp(map_.x_at(span_.from), map_.left(), map_.right());
     add_notes(context);
     diagram_.finish();
-    rays_ = diagram_.plate(kRays, standing_lines());
+    standing_ = diagram_.plate(kRays, standing_items());
     place_dots();
     if (unfolds_) place_rays();
     if (unfolds_) context.needs.hits = true;
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
-    items.emplace_back(diagram_.item());
     const auto next = static_cast<std::size_t>(
         std::ranges::upper_bound(mirrors_, shown.state.count, {}, &Mirror::index) -
         mirrors_.begin());
     const bool is_seen = shown.time >= span_.from && shown.time <= span_.to;
     const double opened = opened_part(shown);
     if (is_seen) add_wedge(shown, next, opened, items);
-    items.emplace_back(rays_);
+    items.emplace_back(standing_);
     if (unfolds_) {
       const std::size_t reached = opened < 1 ? next : next + 1;
       items.insert(items.end(), unfolded_.begin(),
@@ -149,10 +148,10 @@ class UnfoldedPanel {
     return places;
   }
 
-  /// The base line, all mirrors unless they unfold, and the line that is yet to come.
-  std::vector<DrawItem> standing_lines() const {
+  /// Texts, the base line, all mirrors unless they unfold, and the line that is yet to come.
+  std::vector<DrawItem> standing_items() const {
     const Palette& palette = diagram_.palette();
-    std::vector<DrawItem> lines;
+    std::vector<DrawItem> lines = diagram_.item().plate->items;
     if (!unfolds_) {
       for (const Mirror& mirror : mirrors_) lines.emplace_back(ray(kRays, mirror));
     }
@@ -278,8 +277,8 @@ class UnfoldedPanel {
   Integer size_;
   double least_x_ = 0;  ///< from here to most_x_ the present is marked
   double most_x_ = 0;
-  double from_x_ = 0;  ///< where the line that is shown begins
-  PlateItem rays_;
+  double from_x_ = 0;               ///< where the line that is shown begins
+  PlateItem standing_;              ///< all that stays, over the wedge
   std::vector<PathItem> unfolded_;  ///< the mirrors, if they unfold one by one
   std::vector<DiskItem> dots_;      ///< of the mirrors that are met, from `first_dot_` on
   std::size_t first_dot_ = 0;

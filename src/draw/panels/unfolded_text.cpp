@@ -59,7 +59,7 @@ Formula unfolded_title(const DrawingContext& context, double room_em) {
   const FormulaSetter set = context.setter();
   const BlockSystem& system = context.scene.system;
   const Integer count = crossings_of(context);
-  const std::string number = count_text(count, context.scene.show.base);
+  const std::string number = count == 0 ? "no" : count_text(count, context.scene.show.base);
   const std::string brief_number = count < 1000000 ? number : short_text(Rational(count));
   const char* const mirrors = count == 1 ? " mirror" : " mirrors";
   const bool is_whole_part = system.blue.velocity == 0 && system.red.velocity < 0 &&

@@ -24,6 +24,12 @@ std::vector<Feature> features() {
   std::vector<Feature> features = {
       {"nothing", {}},
       {"--theme dark", {"--theme", "dark"}},
+      {"--theme lecture, no marks, no loupe",
+       {"--theme", "lecture", "--no-hits", "--loupe", "off"}},
+      {"--theme lecture, no loupe", {"--theme", "lecture", "--loupe", "off"}},
+      {"--theme lecture", {"--theme", "lecture"}},
+      {"--theme lecture and two diagrams",
+       {"--theme", "lecture", "--panels", "velocity,unfolded", "--show", "masses"}},
       {"--title and --caption", {"--title", "Counting collisions", "--caption", "m = 100 kg"}},
       {"--sound", {"--sound"}},
       {"--slow-motion auto", {"--slow-motion", "auto"}},
