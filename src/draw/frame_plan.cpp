@@ -296,35 +296,24 @@ class FramePlanner {
 
   /// Where there are diagrams, the stage is as high as it has to be.
   /// @param room_px  for both
-<<<<<<< HEAD
-  double stage_height(double room_px) const {
-=======
   double stage_height(double room_px) {
-    if (view_.theme == Theme::article) {
-      // At this height the stage is as wide as the frame.
-      const double lengths =
-          to_double(view_.y.high - view_.y.low) / to_double(view_.x.high - view_.x.low);
-      return std::min(view_.width_px * lengths + kPlainStage * sizes_.unit, room_px / 2);
-    }
->>>>>>> main
     double height = kPlainStage;
     if (show_.has(Overlay::velocities)) height += kArrowRoom;
     if (show_.has(Overlay::masses)) height += kMassRoom / 2;
     if (show_.has(Overlay::ruler)) height += kRulerRoom;
     height *= sizes_.unit;
-<<<<<<< HEAD
     if (view_.theme == Theme::article) {
       // With this the stage is as wide as the frame.
       height +=
           view_.width_px * to_double((view_.y.high - view_.y.low) / (view_.x.high - view_.x.low));
-=======
+      return std::min(height, room_px / 2);
+    }
     // In upright frames the loupe is below the digits of pi. It takes what diagrams do not need.
     const double spare =
         room_px - height - kDiagramsBesideLoupe * double(show_.panels.size()) * sizes_.unit;
     if (view_.height_px > view_.width_px && spare > 0 && may_show_loupe(context_)) {
       height += std::min(kLoupeRoom * sizes_.unit, spare);
       plan_.has_low_floor = true;
->>>>>>> main
     }
     return std::min(height, room_px / 2);
   }
