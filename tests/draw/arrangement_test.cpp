@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -211,7 +210,6 @@ class Arrangements : public testing::Test {
       }
     } catch (const UsageError& error) {
       EXPECT_EQ(problem_of_refusal(error.what()), "") << one.text();
-      ++refusals_[error.what()];
     }
   }
 
@@ -233,7 +231,6 @@ class Arrangements : public testing::Test {
   int tried_ = 0;
   int drawn_ = 0;
   std::size_t texts_ = 0;
-  std::map<std::string, int> refusals_;
 };
 
 std::vector<std::string> all_overlays() {
@@ -299,10 +296,6 @@ TEST_F(Arrangements, OfOverlaysAndDiagramsTogether) {
     }
   }
   EXPECT_GT(drawn_, tried_ / 3);
-  if (std::getenv("DT_DEBUG") != nullptr) {
-    for (const auto& [what, count] : refusals_) fmt::print("{} {}\n", count, what);
-    fmt::print("{} of {}\n", drawn_, tried_);
-  }
 }
 
 }  // namespace

@@ -279,8 +279,8 @@ TEST(Labels, RatesDoNotDependOnTheSizeOfTheFrame) {
 TEST(Labels, TitlesOfNarrowDiagramsAreBriefRatherThanSmall) {
   const Fonts fonts;
   std::vector<double> lengths_em;
-  for (const char* size : {"1920x1080", "1920x960", "1080x1080", "480x360"}) {
-    const Labels labels(6, {{"view.size", size}, {"show.panels", "velocity,position,unfolded"}});
+  for (const char* size : {"1920x1080", "1440x1080", "1080x1080", "480x360"}) {
+    const Labels labels(6, {{"view.size", size}, {"show.panels", "velocity,position"}});
     const DrawList list = labels.at(4);
     double& length_em = lengths_em.emplace_back(0);
     for (const DrawItem& item : list.items) {

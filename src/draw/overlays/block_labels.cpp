@@ -116,6 +116,7 @@ constexpr double kHead = 0.014;
 /// Centred above its block, an arrow never meets the other one.
 constexpr double kLongest = 0.9;
 constexpr double kBetweenFigures_em = 0.5;
+constexpr const char* kUsualFigure = "−88.88";
 /// An arrow of so many times the usual speed has half the greatest length.
 constexpr double kHalfLength = 2;
 
@@ -165,6 +166,13 @@ class VelocityArrows {
     const double margin = context.sizes.margin;
     least_left_px_ = std::max(margin, face_px + margin_px);
     most_right_px_ = std::min(scene.view.width_px - margin, layout_.right_px);
+    const double figures = (2 * widths_.width_em(kUsualFigure) + kBetweenFigures_em) * text_px_;
+    if (most_right_px_ - least_left_px_ < figures) {
+      throw UsageError(
+          fmt::format("show.overlays: the velocities need {:.0f} pixels beside the wall, and there "
+                      "are {:.0f}; leave out 'velocities', or make the frame wider",
+                      figures, std::max(0.0, most_right_px_ - least_left_px_)));
+    }
     blue_px_ = layout_.blue.width * layout_.scale;
     red_px_ = layout_.red.width * layout_.scale;
   }
