@@ -130,6 +130,7 @@ class FramePlanner {
     place.baseline_px = std::round(view_.height_px / 2.0 + Font::kCapHeight_em * place.size_px / 4);
     place_pi();
     top_ = 0.75 * sizes_.gap;
+    place.slow_motion = {right_, top_ + Font::kCapHeight_em * sizes_.title};
     if (!show_.title.empty()) {
       check_text("show.title", show_.title, sizes_.title);
       const double baseline = top_ + Font::kCapHeight_em * sizes_.title;
@@ -249,14 +250,20 @@ class FramePlanner {
     if (is_beside_title) {
       add_line(ItemId::title, show_.title, place.baseline_px, sizes_.title);
     }
-    // Blocks that stay left of the digits of pi may be beside them.
-    const double left_of_pi = right_ - counter_->pi_px - sizes_.gap;
-    const bool is_above = place.has_pi && reach_px(context_.scene, context_.log) > left_of_pi;
+    // Digits of pi, and left of them the label of slow motion.
+    double left = right_;
+    if (place.has_pi) left -= counter_->pi_px + sizes_.gap;
+    place.slow_motion = {left, place.pi_baseline_px};
+    if (counter_->slow_motion_px > 0) left -= counter_->slow_motion_px + sizes_.gap;
+    // Blocks that stay left of this line may be beside it.
+    const bool is_above = left < right_ && reach_px(context_.scene, context_.log) > left;
     top_ = is_above ? place.pi_baseline_px : place.baseline_px;
     top_ += kBelowBaseline * sizes_.text;
-    place.pi_left_px = right_ - (place.has_pi ? counter_->pi_px : 0);
+    place.pi_left_px = std::min(right_, left + sizes_.gap);
     plan_.header_px = top_;
-    if (place.has_pi) plan_.header_px = place.pi_baseline_px + kBelowBaseline * sizes_.text;
+    if (left < right_) {
+      plan_.header_px = place.pi_baseline_px + kBelowBaseline * sizes_.text;
+    }
   }
 
   /// The digits of pi are below the count, or nowhere in a frame of a few pixels.

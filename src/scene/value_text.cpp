@@ -34,9 +34,10 @@ constexpr auto kPanels = std::to_array<Name<Panel>>({{"velocity", Panel::velocit
                                                      {"position", Panel::position},
                                                      {"unfolded", Panel::unfolded},
                                                      {"time", Panel::time},
-                                                     {"rate", Panel::rate},
+                                                     {"count", Panel::count},
                                                      {"ellipse", Panel::ellipse},
-                                                     {"mirrors", Panel::mirrors}});
+                                                     {"mirrors", Panel::mirrors},
+                                                     {"conservation", Panel::conservation}});
 
 constexpr auto kSplits = std::to_array<Name<Split>>(
     {{"auto", Split::automatic}, {"columns", Split::columns}, {"rows", Split::rows}});

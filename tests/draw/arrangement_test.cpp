@@ -24,7 +24,7 @@ constexpr std::array kShapes{"1920x1080", "1280x720",  "3840x2160", "1440x1080",
 constexpr std::array kOverlays{"digits",   "masses", "velocities", "energy",
                                "momentum", "time",   "ruler"};
 constexpr std::array kPanels{"velocity", "position", "unfolded", "time",
-                             "rate",     "ellipse",  "mirrors"};
+                             "count",    "ellipse",  "mirrors",  "conservation"};
 constexpr std::array kThemes{"lecture", "lecture-light", "article", "print"};
 constexpr std::array kDigits{1, 3, 8};
 
@@ -156,12 +156,14 @@ struct Case {
   std::string panels;
   bool has_title = false;
   bool has_caption = false;
+  bool is_slowed = false;
 
   std::string text() const {
     std::string text = size + " --theme " + theme + " --digits " + std::to_string(digits);
     if (!overlays.empty()) text += " --show " + overlays;
     if (!panels.empty()) text += " --panels " + panels;
-    return text + (has_title ? " titled" : "") + (has_caption ? " with a caption" : "");
+    return text + (has_title ? " titled" : "") + (has_caption ? " with a caption" : "") +
+           (is_slowed ? " --slow-motion auto" : "");
   }
 };
 
@@ -177,6 +179,7 @@ Scene scene_of(const Case& one) {
   set("show.panels", one.panels);
   if (one.has_title) set("show.title", "Why do two blocks count π?");
   if (one.has_caption) set("show.caption", "Two blocks, a wall and no friction");
+  if (one.is_slowed) set("time.slow-motion", "auto");
   return builder.build_scene();
 }
 
@@ -202,8 +205,10 @@ class Arrangements : public testing::Test {
       ++drawn_;
       const Rational end = span_of(scene, *log).to;
       for (const Rational& time : {Rational(0), Rational(33, 10), Rational(7, 2), end}) {
-        const DrawList list = composition.frame(
-            {.state = log->state_at(time), .time = time, .gaps = gaps_at(*log, time)});
+        const DrawList list = composition.frame({.state = log->state_at(time),
+                                                 .time = time,
+                                                 .slower = one.is_slowed && time != 0 ? 1000 : 1,
+                                                 .gaps = gaps_at(*log, time)});
         const Arrangement arrangement(list, scene.view, fonts_);
         EXPECT_EQ(arrangement.problem(), "") << one.text() << " --at " << time;
         texts_ += arrangement.text_count();
@@ -223,7 +228,8 @@ class Arrangements : public testing::Test {
             std::move(overlays),
             std::move(panels),
             random_.integer(0, 1) == 1,
-            random_.integer(0, 1) == 1};
+            random_.integer(0, 1) == 1,
+            random_.integer(0, 2) == 1};
   }
 
   Random random_{1618};

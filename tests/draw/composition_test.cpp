@@ -23,7 +23,7 @@ namespace {
 using Setting = std::pair<const char*, std::string>;
 
 constexpr const char* kAllOverlays = "digits,masses,velocities,energy,momentum,time,ruler";
-constexpr const char* kAllPanels = "velocity,position,unfolded,time,rate";
+constexpr const char* kAllPanels = "velocity,position,unfolded,time,count";
 constexpr const char* kLongTitle = "Counting the digits of π with two blocks and a wall";
 
 Scene scene_with(int digits, const std::vector<Setting>& settings) {
@@ -251,8 +251,8 @@ TEST(Overlays, PassingFactorsAreRounded) {
 
 TEST(Overlays, NameNoColourThatIsNotThere) {
   std::vector<Setting> things{{"show.overlays", kAllOverlays}};
-  for (const char* panel :
-       {"velocity", "position", "unfolded", "time", "rate", "ellipse", "mirrors"}) {
+  for (const char* panel : {"velocity", "position", "unfolded", "time", "count", "ellipse",
+                            "mirrors", "conservation"}) {
     things.emplace_back("show.panels", panel);
   }
   for (const char* theme : {"print", "colorblind"}) {
@@ -392,32 +392,10 @@ TEST(Panels, TheUnfoldedLineStaysInItsPlace) {
   }
 }
 
-/// Where the blocks arrive together at the wall at time 0, nothing happens later.
-TEST(Panels, RatesHoldWhatHappensAtTheVeryBeginning) {
-  const auto height_of_bars = [](const std::vector<Setting>& settings) {
-    const DrawList list = Pictures(scene_with(3, settings)).at(1);
-    for (const DrawItem& item : list.items) {
-      const auto* plate = std::get_if<PlateItem>(&item);
-      if (plate == nullptr) continue;
-      for (const DrawItem& part : plate->plate->items) {
-        const auto* path = std::get_if<PathItem>(&part);
-        if (path != nullptr && path->fill) return path->points.bounds().height;
-      }
-    }
-    return -1.0;
-  };
-  EXPECT_GT(height_of_bars({{"show.panels", "rate"},
-                            {"time.to", "1"},
-                            {"blue.position", "1/2"},
-                            {"red.position", "3/2"},
-                            {"blue.velocity", "-1"}}),
-            50);
-  EXPECT_EQ(height_of_bars({{"show.panels", "rate"}, {"time.to", "1"}, {"red.velocity", "1"}}), 0);
-}
-
 TEST(Panels, CostLittleForAnyNumberOfDigits) {
   for (const int digits : {1, 9, 20, 100, 200, 300}) {
-    for (const char* panels : {"velocity,position,unfolded", "time,rate", "ellipse,mirrors"}) {
+    for (const char* panels :
+         {"velocity,position,unfolded", "time,count", "ellipse,mirrors", "conservation"}) {
       const Pictures pictures(scene_with(digits, {{"show.panels", panels}}));
       EXPECT_LT(pictures.at(4).items.size(), 400U) << digits << ' ' << panels;
     }

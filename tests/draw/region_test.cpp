@@ -114,7 +114,7 @@ TEST(Region, OfAScenesFrameIsSmall) {
 
 TEST(Region, OfPicturesWithAllThatCanBeShownIsExact) {
   for (const auto& [theme, panels] : {std::pair{"article", "velocity,time"},
-                                      {"colorblind", "position,rate"},
+                                      {"colorblind", "position,count"},
                                       {"lecture", "unfolded,ellipse"}}) {
     ScriptBuilder builder;
     builder.set("test", "view.size", "800x600");

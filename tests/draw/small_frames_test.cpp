@@ -36,7 +36,8 @@ constexpr std::array kFeatures{Feature{"view.theme", "print", "count"},
                                Feature{"show.panels", "position", "show.panels"},
                                Feature{"show.panels", "unfolded", "show.panels"},
                                Feature{"show.panels", "time", "show.panels"},
-                               Feature{"show.panels", "rate", "show.panels"},
+                               Feature{"show.panels", "count", "show.panels"},
+                               Feature{"show.panels", "conservation", "show.panels"},
                                Feature{"show.logo", "logo.png", "logo"}};
 
 /// Rounding of sums of lengths.

@@ -27,7 +27,8 @@ constexpr Bounds kPdfBounds{45, 40};
 
 constexpr const char* kOnePixelAPoint = "-r 72";
 constexpr const char* kAllOverlays = "digits,masses,velocities,energy,momentum,time,ruler";
-constexpr const char* kAllPanels = "velocity,position,unfolded,time,rate,ellipse";
+constexpr const char* kAllPanels =
+    "velocity,position,unfolded,time,count,ellipse,mirrors,conservation";
 constexpr const char* kTwoPanels = "velocity,unfolded";
 
 struct VectorCase {

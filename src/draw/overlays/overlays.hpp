@@ -63,8 +63,10 @@ class ReadOutRows {
   explicit ReadOutRows(const DrawingContext& context);
 
   double height() const noexcept { return height_; }
-  /// Moves all rows down.
-  void move(double y);
+  /// Width of the label of slow motion if it stands alone; rows need no room then. Else 0.
+  double lone_slow_motion_px() const noexcept { return lone_px_; }
+  /// Moves all rows down, or the lone label to its place.
+  void move(double y, const Point& slow_motion);
   /// The label of slow motion is seen as far as this is not. @param opacity  of the loupe, 0 … 1
   void leave_slow_motion_to(std::function<double(const FrameState&)> opacity) {
     loupe_opacity_ = std::move(opacity);
@@ -86,6 +88,7 @@ class ReadOutRows {
   double text_px_;
   Face face_;
   double height_ = 0;
+  double lone_px_ = 0;
 };
 
 }  // namespace piblocks

@@ -265,10 +265,15 @@ ReadOutRows::ReadOutRows(const DrawingContext& context)
     }
     height_ += kRowHeight * text_px_;
   }
+  const bool is_article = context.scene.view.theme == Theme::article;
+  if (is_article || placed_.size() > 1 || !placed_.front().is_slow_motion) return;
+  height_ = 0;
+  lone_px_ = placed_.front().room_px;
 }
 
-void ReadOutRows::move(double y) {
+void ReadOutRows::move(double y, const Point& slow_motion) {
   for (Placed& placed : placed_) placed.origin.y += y;
+  if (lone_px_ > 0) placed_.front().origin = {slow_motion.x - lone_px_, slow_motion.y};
 }
 
 void ReadOutRows::operator()(const FrameState& shown, std::vector<DrawItem>& items) const {

@@ -41,6 +41,16 @@ std::vector<Point> Circle::arc(double from, double to) const {
   return points;
 }
 
+PanelTitle fitting_title(const DrawingContext& context, const PanelPlace& place,
+                         const std::vector<Formula>& wordings) {
+  const auto fits = [&](const Formula& wording) {
+    return wording.width_em() * context.sizes.text <= place.area.width;
+  };
+  const auto found = std::ranges::find_if(wordings, fits);
+  const Formula& wording = found == wordings.end() ? wordings.back() : *found;
+  return {wording, wording};
+}
+
 Diagram::Diagram(const DrawingContext& context, const PanelPlace& place, const PanelTitle& title)
     : palette_(context.palette),
       fonts_(&context.fonts),
@@ -162,9 +172,14 @@ void TimeAxis::add_base(Diagram& diagram) const {
   }
 }
 
-PathItem TimeAxis::cursor(const Diagram& diagram, double time) const {
-  const double x = std::round(x_of(time)) + 0.5;
-  return diagram.moving_line(0, {{x, plot_.y}, {x, bottom()}}, diagram.palette().accent);
+RectangleItem TimeAxis::cursor(const Diagram& diagram, std::size_t n, const Point& present) const {
+  const double width = std::max(1.0, std::round(diagram.sizes().grid_line));
+  const double top = std::round(present.y);
+  return {
+      diagram.moving(n),
+      {std::round(present.x - width / 2), top, width, std::max(0.0, std::round(bottom()) - top)},
+      diagram.palette().accent,
+      std::nullopt};
 }
 
 }  // namespace piblocks
