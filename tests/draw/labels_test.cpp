@@ -247,11 +247,11 @@ TEST(Labels, TitlesOfNarrowDiagramsAreBriefRatherThanSmall) {
     for (const DrawItem& item : list.items) {
       const auto* plate = std::get_if<PlateItem>(&item);
       if (plate == nullptr) continue;
-      double baseline = HUGE_VAL;
-      for (const DrawItem& inner : plate->plate->items) {
-        const auto* text = std::get_if<TextItem>(&inner);
-        if (text != nullptr) baseline = std::min(baseline, text->origin.y);
-      }
+      // The title comes first.
+      const auto first = std::ranges::find_if(plate->plate->items, [](const DrawItem& inner) {
+        return std::holds_alternative<TextItem>(inner);
+      });
+      const double baseline = std::get<TextItem>(*first).origin.y;
       for (const DrawItem& inner : plate->plate->items) {
         const auto* text = std::get_if<TextItem>(&inner);
         if (text == nullptr || text->origin.y != baseline) continue;
