@@ -205,7 +205,7 @@ TEST(CountsShown, AreRightInTheSecondsOfAStoryboard) {
   run.pacing.duration_s = 4;
   run.pacing.hold_end_s = 1;
   story.segments.push_back({Card{{"314"}, 1}});
-  story.segments.push_back({Scenes{run}, Rational(1, 2)});
+  story.segments.push_back({.content = Scenes{run}, .fade_s = Rational(1, 2)});
   EXPECT_EQ(count_of(still_picture(story, Instant::last())), "314");
   EXPECT_EQ(count_of(still_picture(story, Instant::last(Rational(-1, 2)))), "314");
 }

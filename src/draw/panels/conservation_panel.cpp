@@ -93,6 +93,9 @@ class ConservationPanel {
  private:
   static PanelTitle title_of(const DrawingContext& context, const PanelPlace& place) {
     const FormulaSetter set = context.setter();
+    const std::vector<Formula> plain{set.text("Energy and momentum are conserved"),
+                                     set.text("Conservation")};
+    if (!shows_a_turn(context)) return fitting_title(context, place, plain);
     return fitting_title(context, place,
                          {set.text("Energy only changes hands; the wall takes the momentum"),
                           set.text("Energy changes hands; the wall takes momentum"),

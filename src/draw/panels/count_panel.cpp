@@ -145,7 +145,7 @@ class CountPanel {
     const Color accent = diagram_.palette().accent;
     const Point at{axis_.x_of(time), y_of(shown.state.count)};
     items.emplace_back(axis_.cursor(diagram_, kCurve + 1, at));
-    items.emplace_back(diagram_.dot(kCurve + 2, at, accent));
+    items.emplace_back(diagram_.present_dot(kCurve + 2, at));
     if (!inset_ || shown.time < inset_->span.from || shown.time > inset_->span.to) return;
     items.emplace_back(
         diagram_.dot(kCurve + 3, inset_place(shown.time, shown.state.count), accent));

@@ -51,6 +51,13 @@ PanelTitle fitting_title(const DrawingContext& context, const PanelPlace& place,
   return {wording, wording};
 }
 
+bool shows_a_turn(const DrawingContext& context) {
+  const Span span = span_of(context.scene, context.log);
+  const BlockState first = context.log.state_at(span.from);
+  const BlockState last = context.log.state_at(span.to);
+  return first.red.velocity < 0 && last.red.velocity > 0 && last.count - first.count >= 3;
+}
+
 Diagram::Diagram(const DrawingContext& context, const PanelPlace& place, const PanelTitle& title)
     : palette_(context.palette),
       fonts_(&context.fonts),

@@ -47,6 +47,9 @@ struct PanelTitle {
 PanelTitle fitting_title(const DrawingContext& context, const PanelPlace& place,
                          const std::vector<Formula>& wordings);
 
+/// Whether red comes, at least three collisions happen, and red goes while the scene is shown.
+bool shows_a_turn(const DrawingContext& context);
+
 struct Circle {
   Point centre;
   double radius = 0;
@@ -105,6 +108,13 @@ class Diagram {
   DiskItem dot(std::size_t n, const Point& at, const Color& color) const {
     return {moving(n), at, kDotRadius * sizes_.grid_line, color,
             Stroke{palette_.background, sizes_.grid_line}};
+  }
+
+  /// The same, larger, where it is the only one.
+  DiskItem present_dot(std::size_t n, const Point& at) const {
+    DiskItem item = dot(n, at, palette_.accent);
+    item.radius = style::kPresentDot * sizes_.unit;
+    return item;
   }
 
   /// All that stays as one item; nothing can be added to it any more.

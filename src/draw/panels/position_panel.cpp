@@ -38,6 +38,9 @@ constexpr std::array kContactPlaces{0.78, 0.7, 0.86, 0.62, 0.54};
 
 PanelTitle title_of_positions(const DrawingContext& context, const PanelPlace& place) {
   const FormulaSetter set = context.setter();
+  const std::vector<Formula> plain{set.text("Both distances in their wedge"),
+                                   set.text("Both distances"), set.text("Positions")};
+  if (!shows_a_turn(context)) return fitting_title(context, place, plain);
   return fitting_title(context, place,
                        {set.text("The distances zigzag into the corner and out"),
                         set.text("A zigzag into the corner and out"),
@@ -82,7 +85,7 @@ class PositionPanel {
       std::ranges::move(items_at(zoom), std::back_inserter(items));
     }
     if (gaps.y2 > most_ * (1 + 1e-9)) return;
-    items.emplace_back(diagram_.dot(kDot, at(gaps, zoom), diagram_.palette().accent));
+    items.emplace_back(diagram_.present_dot(kDot, at(gaps, zoom)));
   }
 
  private:

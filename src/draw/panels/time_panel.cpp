@@ -130,6 +130,8 @@ PanelTitle title_of_time(const DrawingContext& context, const PanelPlace& place)
   const auto& [red, blue] = std::pair(context.palette.red, context.palette.blue);
   const Formula red_name = set.text(capitalised(red.full_name)).colored(red.label);
   const Formula blue_name = set.text(blue.full_name).colored(blue.label);
+  const std::vector<Formula> plain{set.text("Distances from the wall"), set.text("Distances")};
+  if (!shows_a_turn(context)) return fitting_title(context, place, plain);
   return fitting_title(
       context, place,
       {red_name + set.text(" turns around; ") + blue_name + set.text(" bounces between"),
