@@ -21,7 +21,7 @@ struct Feature {
   const char* named;  ///< in a refusal
 };
 
-constexpr std::array kFeatures{Feature{"view.theme", "print", "-"},
+constexpr std::array kFeatures{Feature{"view.theme", "print", "count"},
                                Feature{"show.overlays", "digits", "-"},
                                Feature{"show.overlays", "masses", "mass"},
                                Feature{"show.overlays", "velocities", "velocities"},
@@ -73,7 +73,7 @@ class Checker {
   void check_item(const TextItem& item) {
     if (!(item.size_px > 0) || !std::isfinite(item.size_px))
       problem += item.text + " has no size; ";
-    const double width_px = font_.width_em(item.text) * item.size_px;
+    const double width_px = fonts_.of(item.face).width_em(item.text) * item.size_px;
     check_inside(item.origin.x, item.origin.y - 0.73 * item.size_px, item.origin.x + width_px,
                  item.origin.y, item.text.c_str());
   }
@@ -96,7 +96,7 @@ class Checker {
   void check_item(const ExposedItem& /*item*/) {}
 
   const DrawList& list_;
-  Font font_;
+  Fonts fonts_;
 };
 
 /// Nothing if the feature is drawn or refused as it should be.

@@ -86,20 +86,22 @@ class Counter {
     const double left = place_.right_px - count_em * size_px;
     const bool is_beside = place_.label_baseline_px == place_.baseline_px;
     const double label_right = is_beside ? left - kLabelGap_em * sizes_.text : place_.right_px;
-    items.emplace_back(
-        TextItem{ItemId::label,
-                 {label_right - (is_over ? over_px_ : label_px_), place_.label_baseline_px},
-                 std::string(is_over ? kOverLabel : kCountLabel),
-                 sizes_.text,
-                 is_over ? palette_.done : palette_.muted,
-                 face_});
+    if (place_.has_label) {
+      items.emplace_back(
+          TextItem{ItemId::label,
+                   {label_right - (is_over ? over_px_ : label_px_), place_.label_baseline_px},
+                   std::string(is_over ? kOverLabel : kCountLabel),
+                   sizes_.text,
+                   is_over ? palette_.done : palette_.muted,
+                   face_});
+    }
     items.emplace_back(TextItem{ItemId::count,
                                 {left, place_.baseline_px},
                                 text,
                                 size_px,
                                 is_over ? palette_.accent : palette_.text,
                                 Face::digits});
-    if (!pi_.empty()) add_pi(lit_length(text, pi_count_), items);
+    if (place_.has_pi) add_pi(lit_length(text, pi_count_), items);
   }
 
  private:

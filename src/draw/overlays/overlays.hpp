@@ -16,6 +16,14 @@ inline constexpr double kArrowRoom = 0.08;
 inline constexpr double kMassRoom = 0.052;
 inline constexpr double kRulerRoom = 0.07;
 
+/// The floor is on whole pixels, and room above the blocks may be short by one.
+inline constexpr double kRounded_px = 1;
+
+/// Room that the scene's overlays need above the taller block, in pixels.
+double room_above_px(const Scene& scene, const Layout& layout, const Font& font);
+/// The same below the floor.
+double room_below_px(const Scene& scene);
+
 /// The article's picture: wall, blocks and counter.
 /// @param lit_digits  light up when the counter shows them in their places; may be empty
 /// @param behind      is drawn before the blocks; may be empty

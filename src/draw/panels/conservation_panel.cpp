@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
 #include <algorithm>
 #include <array>
 #include <string>
@@ -118,6 +121,12 @@ class ConservationPanel {
     };
     if (height_em() * em > inside.height) has_heading_ = false;
     if (height_em() * em > inside.height) has_sum_ = false;
+    if (height_em() * em > inside.height) {
+      throw UsageError(fmt::format(
+          "show.panels: the bars of the diagram 'conservation' need {:.0f} pixels, and there are "
+          "{:.0f}; leave something out, or make the frame higher",
+          height_em() * em, inside.height));
+    }
     const double stretch = std::clamp(inside.height / (height_em() * em), 1.0, kMostStretch);
     row_px_ = stretch * kMomentumRow_em * em;
     energy_px_ = stretch * kEnergyRow_em * em;

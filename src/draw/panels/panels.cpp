@@ -68,6 +68,13 @@ Diagram::Diagram(const DrawingContext& context, const PanelPlace& place, const P
       text_px_(context.sizes.text) {
   const Rectangle& whole = place.area;
   const bool is_full = title.full.width_em() * text_px_ <= whole.width;
+  const double brief_px = title.brief.width_em() * text_px_;
+  if (!is_full && brief_px > whole.width) {
+    throw UsageError(fmt::format(
+        "show.panels: the title of the diagram '{}' needs {:.0f} pixels, and there are {:.0f}; "
+        "leave out a diagram, or make the frame larger",
+        exact_text(panel_), brief_px, whole.width));
+  }
   formula(is_full ? title.full : title.brief, {whole.x, whole.y + kTitleBaseline * text_px_}, 0,
           palette_.text);
   const double top = kTitleHeight * text_px_;
