@@ -176,6 +176,21 @@ TEST(CountPanel, SaysThatHalfComesBeforeTheTurnIfItDoes) {
   EXPECT_FALSE(says_half({{"time.to", "3"}})) << "the turn is not shown";
 }
 
+/// The present moves through the inset as many times as fast as the inset says.
+TEST(CountPanel, EnlargesTimeAsOftenAsItSays) {
+  const Pictures pictures(3, {{"show.panels", "count"}, {"view.size", "1280x720"}});
+  const Rational turn = *turn_of(pictures.scene.system);
+  const auto dots_at = [&](const Rational& time) { return Shown(pictures.at(time)).disks; };
+  EXPECT_EQ(dots_at(1).size(), 1U) << "far from the turn";
+  const double scale = (dots_at(2).front().centre.x - dots_at(0).front().centre.x) / 2;
+  const Rational step(1, 100'000);
+  ASSERT_EQ(dots_at(turn).size(), 2U);
+  const double moved = dots_at(turn + step).back().centre.x - dots_at(turn).back().centre.x;
+  const long factor = std::lround(moved / scale / to_double(step));
+  EXPECT_NEAR(moved / scale / to_double(step), double(factor), 1e-6 * double(factor));
+  EXPECT_TRUE(Shown(pictures.at(turn)).has_text("time ×" + fixed_text(double(factor), 0)));
+}
+
 /// The area is filled up to the present and no further, by strips that stay as they are.
 TEST(CountPanel, IsFilledUpToThePresent) {
   const Pictures pictures(2, {{"show.panels", "count"}, {"view.size", "1280x720"}});

@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
 
-#include "draw/number_text.hpp"
 #include "draw/panels/count_curve.hpp"
+#include "draw/panels/count_inset.hpp"
+#include "draw/panels/count_scale.hpp"
 #include "draw/panels/panels.hpp"
 
 namespace piblocks {
@@ -19,9 +22,6 @@ constexpr double kMostFigures = 0.4;
 constexpr double kStrip_em = 0.5;
 
 // Of the inset, in ems.
-constexpr double kInsetLabel_em = 1.25;  // the height of its labels, above it and below it
-constexpr double kAboveInset_em = 0.35;  // from the baseline of the label
-constexpr double kBelowInset_em = 0.95;  // to that of the other one
 constexpr double kInsetFoot_em = 0.2;
 constexpr double kInsetLeft_em = 0.7;
 constexpr double kFromTurn_em = 1.4;
@@ -29,12 +29,10 @@ constexpr double kInsetWidest_em = 11;
 constexpr double kInsetLeastWidth_em = 4;
 constexpr double kInsetLeastHeight_em = 1.8;
 constexpr double kStepWidth_em = 0.6;
-constexpr double kMarked_em = 0.3;  // half of the rectangle around the place that it enlarges
-/// Of the inset's height, in hundredths, that steps take.
-constexpr int kFilled = 80;
-
-/// Rational from a length of the picture: its fraction does not matter.
-Rational whole(double value) { return {static_cast<long>(std::lround(value))}; }
+/// Of the inset's height that steps take.
+constexpr double kFilled = 0.8;
+/// Items above the filled area: the curve.
+constexpr std::size_t kWithoutInset = 1;
 
 Formula title_of_counts(const FormulaSetter& set, bool is_half) {
   return set.text(is_half ? "Half of the collisions come before the turn"
@@ -67,41 +65,6 @@ PanelTitle title_of_count(const DrawingContext& context, const PanelPlace& place
   wordings.push_back(set.text("Collisions"));
   return fitting_title(context, place, wordings);
 }
-
-/// The axis of counts, beside that of time.
-struct CountScale {
-  CountScale(const CollisionLog& log, const Span& span, int count_base) : base(count_base) {
-    low = std::min(Integer(0), log.state_at(span.from).count);
-    high = std::max(Integer(low + 1), log.state_at(span.to).count);
-  }
-
-  /// @param least  counts between figures
-  void place_figures(const Rational& least) {
-    Rational step = std::max(Rational(1), round_step(least));
-    if (base != kUsualBase) {
-      step = 1;
-      while (step < least) step *= base;
-    }
-    values.clear();
-    for (Integer k = ceil(low / step); k * step <= high; k += 1) values.emplace_back(k * step);
-    exponent = magnitude_of(step).exponent;
-  }
-
-  std::string text(const Integer& value) const {
-    constexpr long kMostPlain = 1'000'000;
-    if (base != kUsualBase || high < kMostPlain) return count_text(value, base);
-    if (value == 0) return "0";
-    const Rational multiple = value / power_of_ten(exponent);
-    const std::string power = power_text(exponent);
-    return multiple == 1 ? power : fixed_text(to_double(multiple), 0) + "×" + power;
-  }
-
-  int base;
-  Integer low;
-  Integer high;
-  std::vector<Integer> values;  ///< with figures
-  long exponent = 0;            ///< of ten, of the step between them
-};
 
 class CountPanel {
  public:
@@ -146,9 +109,8 @@ class CountPanel {
     const Point at{axis_.x_of(time), y_of(shown.state.count)};
     items.emplace_back(axis_.cursor(diagram_, kCurve + 1, at));
     items.emplace_back(diagram_.present_dot(kCurve + 2, at));
-    if (!inset_ || shown.time < inset_->span.from || shown.time > inset_->span.to) return;
-    items.emplace_back(
-        diagram_.dot(kCurve + 3, inset_place(shown.time, shown.state.count), accent));
+    if (!inset_ || !inset_->shows(shown.time)) return;
+    items.emplace_back(diagram_.dot(kCurve + 3, inset_->at(shown.time, shown.state.count), accent));
   }
 
  private:
@@ -171,8 +133,8 @@ class CountPanel {
   double indent_em(const DrawingContext& context) {
     const Rectangle& inside = diagram_.inside();
     const Rational least = Rational(scale_.high - scale_.low) *
-                           whole(kBetweenCounts_em * diagram_.text_px()) /
-                           std::max(Rational(1), whole(inside.height - 2 * diagram_.text_px()));
+                           Rational(kBetweenCounts_em * diagram_.text_px()) /
+                           Rational(std::max(1.0, inside.height - 2 * diagram_.text_px()));
     scale_.place_figures(least);
     double widest = 0;
     for (const Integer& value : scale_.values) {
@@ -229,15 +191,6 @@ class CountPanel {
     }
   }
 
-  Point inset_place(const Rational& time, const Integer& count) const {
-    const auto& [span, time_factor, count_factor, low, high] = *inset_;
-    const double across = to_double((time - span.from) / (span.to - span.from));
-    const double up = to_double(Rational(2 * count - low - high) * count_factor.value() /
-                                (2 * Rational(scale_.high - scale_.low)));
-    return {frame_.x + across * frame_.width,
-            frame_.y + frame_.height / 2 - up * axis_.plot().height};
-  }
-
   /// A place for the inset above the curve, left of the turn, or below it, right of the turn; of
   /// no width if there is no room.
   Rectangle inset_frame(double turn_x) const {
@@ -256,8 +209,8 @@ class CountPanel {
       top = height_at(left) + kInsetFoot_em * em;
       bottom = lowest;
     }
-    top += kInsetLabel_em * em;
-    bottom -= kInsetLabel_em * em;
+    top += CountInset::kLabel_em * em;
+    bottom -= CountInset::kLabel_em * em;
     const bool has_room =
         right - left >= kInsetLeastWidth_em * em && bottom - top >= kInsetLeastHeight_em * em;
     return has_room ? Rectangle{left, top, right - left, bottom - top} : Rectangle{};
@@ -266,84 +219,28 @@ class CountPanel {
   void add_inset(const DrawingContext& context, std::vector<DrawItem>& items) {
     if (!turn_.is_shown) return;
     const double turn_x = axis_.x_of(to_double(*turn_of(context.log.system())));
-    frame_ = inset_frame(turn_x);
-    if (frame_.width == 0) return;
+    const Rectangle frame = inset_frame(turn_x);
+    if (frame.width == 0) return;
+    const Rectangle& plot = axis_.plot();
     const double em = diagram_.text_px();
-    const Rational filled = whole(frame_.height) * kFilled / 100;
-    inset_ = enlarged_turn(
+    const Integer counts = scale_.high - scale_.low;
+    const auto part = enlarged_turn(
         context.log,
         {.whole = span_,
-         .share = whole(frame_.width) / whole(axis_.plot().width),
-         .most_steps = std::max(2, static_cast<int>(frame_.width / (kStepWidth_em * em))),
-         .counts_in_room =
-             filled / whole(axis_.plot().height) * Rational(scale_.high - scale_.low)});
-    if (!inset_) return;
-    const FormulaSetter set = context.setter();
-    const Formula time_label = set.text("time ×" + inset_->time_factor.text());
-    const bool is_count_enlarged = inset_->count_factor.value() > 1;
-    const Formula count_label =
-        is_count_enlarged ? set.text("count ×" + inset_->count_factor.text()) : Formula();
-    const bool is_left = frame_.x < turn_x;
-    const double room = is_left ? turn_x - frame_.x - kFromTurn_em / 2 * em : frame_.width;
-    if (std::max(time_label.width_em(), count_label.width_em()) * em > room) {
-      inset_.reset();
-      return;
-    }
-    add_frame({turn_x, y_of(inset_->low + (inset_->high - inset_->low) / 2)}, items);
-    add_steps(context.log, items);
-    const Color& muted = diagram_.palette().muted;
-    time_label.add_to(items, above_.id, {frame_.x, frame_.y - kAboveInset_em * em}, em, muted);
-    count_label.add_to(items, above_.id, {frame_.x, frame_.y + frame_.height + kBelowInset_em * em},
-                       em, muted);
-  }
-
-  /// The inset's outline, and thin lines to the place that it enlarges.
-  void add_frame(const Point& from, std::vector<DrawItem>& items) const {
-    const Color& color = diagram_.palette().muted;
-    const double em = diagram_.text_px();
-    const auto& [x, y, width, height] = frame_;
-    // The area below the curve must not be seen behind it and its labels.
-    const double above = y - kInsetLabel_em * em;
-    items.emplace_back(RectangleItem{above_.id,
-                                     {x, above, width, height + 2 * kInsetLabel_em * em},
-                                     diagram_.palette().background,
-                                     std::nullopt});
-    const bool is_left = x < from.x;
-    const double side = is_left ? x + width : x;
-    const double half = (is_left ? kMarked_em : -kMarked_em) * em;
-    const auto add = [&](std::vector<Point> points) {
-      items.emplace_back(diagram_.moving_line(kCurve, std::move(points), color));
-    };
-    add({{side, y}, {from.x - half, from.y - std::abs(half)}});
-    add({{side, y + height}, {from.x - half, from.y + std::abs(half)}});
-    for (const Rectangle& box : {frame_, Rectangle{from.x - half, from.y - std::abs(half), 2 * half,
-                                                   2 * std::abs(half)}}) {
-      add({{box.x, box.y},
-           {box.x + box.width, box.y},
-           {box.x + box.width, box.y + box.height},
-           {box.x, box.y + box.height},
-           {box.x, box.y}});
-    }
-  }
-
-  /// Steps have the colour of the hit that makes them.
-  void add_steps(const CollisionLog& log, std::vector<DrawItem>& items) const {
-    const Palette& palette = diagram_.palette();
-    const int columns = std::max(1, static_cast<int>(frame_.width));
-    const std::vector<CountPoint> points = count_curve(log, inset_->span, columns);
-    const auto at = [&](const CountPoint& point) {
-      Point place = inset_place(inset_->span.from, point.count);
-      place.x += point.share * frame_.width;
-      return place;
-    };
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      Color color = palette.text;
-      if (points[i].share == points[i - 1].share) {
-        const bool is_wall = log.collision(points[i].count).kind == CollisionKind::wall;
-        color = is_wall ? palette.blue.line : palette.red.line;
-      }
-      items.emplace_back(diagram_.moving_line(kCurve, {at(points[i - 1]), at(points[i])}, color,
-                                              diagram_.data_width()));
+         .share = Rational(frame.width) / Rational(plot.width),
+         .most_steps = std::max(2, static_cast<int>(frame.width / (kStepWidth_em * em))),
+         .counts_in_room = Rational(kFilled * frame.height) / Rational(plot.height) * counts});
+    if (!part) return;
+    CountInset inset(*part, frame, plot.height / to_double(Rational(counts)));
+    inset.add_frame(diagram_, {turn_x, y_of(part->low + (part->high - part->low) / 2)}, items);
+    inset.add_steps(diagram_, context.log, items);
+    const bool is_left = frame.x < turn_x;
+    const double room = is_left ? turn_x - frame.x - kFromTurn_em / 2 * em : frame.width;
+    // An inset that does not say what it is would mislead.
+    if (inset.add_labels(diagram_, room, items)) {
+      inset_ = std::move(inset);
+    } else {
+      items.resize(kWithoutInset);
     }
   }
 
@@ -355,8 +252,7 @@ class CountPanel {
   std::vector<Point> curve_;
   std::vector<Strip> strips_;
   PlateItem above_;  ///< the curve and its inset, over the filled area
-  std::optional<EnlargedTurn> inset_;
-  Rectangle frame_;  ///< of the inset
+  std::optional<CountInset> inset_;
 };
 
 }  // namespace
