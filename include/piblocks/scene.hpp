@@ -98,7 +98,8 @@ enum class Panel {
   time,      ///< positions against time
   rate,      ///< collisions per second against time
   ellipse,   ///< ellipse of (v_red, v_blue), which becomes the circle of `velocity`
-  mirrors    ///< as unfolded, with wedges that unfold one by one
+  mirrors,   ///< as unfolded, with wedges that unfold one by one
+  certainty  ///< how near the count comes to a wrong digit of pi
 };
 
 /// While the loupe enlarges by a factor that the scene names, and by which.

@@ -115,7 +115,7 @@ Composition::Composition(const Scene& scene, const CollisionLog& log,
   drawables_.push_back(unchanging(std::move(lines)));
   // In the order of Panel.
   constexpr std::array kPanels = {velocity_panel, position_panel, unfolded_panel, time_panel,
-                                  rate_panel,     ellipse_panel,  mirrors_panel};
+                                  rate_panel,     ellipse_panel,  mirrors_panel,  certainty_panel};
   for (std::size_t i = 0; i < show.panels.size(); ++i) {
     const auto make_panel = kPanels.at(static_cast<std::size_t>(show.panels[i]));
     const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +

@@ -36,7 +36,8 @@ constexpr auto kPanels = std::to_array<Name<Panel>>({{"velocity", Panel::velocit
                                                      {"time", Panel::time},
                                                      {"rate", Panel::rate},
                                                      {"ellipse", Panel::ellipse},
-                                                     {"mirrors", Panel::mirrors}});
+                                                     {"mirrors", Panel::mirrors},
+                                                     {"certainty", Panel::certainty}});
 
 constexpr auto kSplits = std::to_array<Name<Split>>(
     {{"auto", Split::automatic}, {"columns", Split::columns}, {"rows", Split::rows}});
