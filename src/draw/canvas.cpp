@@ -105,10 +105,13 @@ struct Canvas::Pixels {
 
   /// Paints what is in the region, and nothing else that would change a pixel.
   void paint(const DrawList& list) {
-    if (std::ranges::any_of(list.items, depends_on_surface)) {
-      paint_tiles(list);
-    } else {
-      for (const PixelRect& rect : region) paint_rect(list, rect);
+    in_tiles.clear();
+    for (const DrawItem& item : list.items) {
+      if (depends_on_surface(item)) in_tiles.push_back(&item);
+    }
+    if (!in_tiles.empty()) paint_tiles(list);
+    for (const PixelRect& rect : region) {
+      if (!is_painted_in_tiles(rect)) paint_rect(list, rect);
     }
   }
 
@@ -117,9 +120,16 @@ struct Canvas::Pixels {
   Painter painter{TextSetting::glyphs};
   std::optional<DrawList> shown;
   Region region;
-  std::vector<bool> is_in_region;  ///< by tile; kept for its memory
+  // Kept for their memory.
+  std::vector<bool> is_in_region;         ///< by tile
+  std::vector<const DrawItem*> in_tiles;  ///< items that are painted in tiles
 
  private:
+  bool is_painted_in_tiles(const PixelRect& rect) const {
+    return std::ranges::any_of(in_tiles,
+                               [&](const DrawItem* item) { return reaches(*item, rect); });
+  }
+
   /// Paints whole tiles of a fixed grid, so that the same pixels come out whatever the region is.
   void paint_tiles(const DrawList& list) {
     constexpr int kTile_px = 64;
@@ -127,6 +137,7 @@ struct Canvas::Pixels {
     const auto rows = static_cast<std::size_t>((list.height_px + kTile_px - 1) / kTile_px);
     is_in_region.assign(columns * rows, false);
     for (const PixelRect& rect : region) {
+      if (!is_painted_in_tiles(rect)) continue;
       for (int y = rect.y_px / kTile_px; y * kTile_px < rect.y_px + rect.height_px; ++y) {
         for (int x = rect.x_px / kTile_px; x * kTile_px < rect.x_px + rect.width_px; ++x) {
           is_in_region[static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x)] = true;

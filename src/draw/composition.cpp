@@ -78,7 +78,10 @@ Composition::Composition(const Scene& scene, const CollisionLog& log,
   const std::string pi = pi_count(scene, log);
   ReadOutRows rows(context);
   std::optional<CounterRoom> room;
-  if (!is_article) room = counter_room(context, pi);
+  if (!is_article) {
+    room = counter_room(context, pi);
+    room->slow_motion_px = rows.lone_slow_motion_px();
+  }
   const FramePlan plan = plan_frame(context, room, rows.height());
   layout = is_article ? lay_out_article(scene, longest_count(scene, log), plan.stage, font)
                       : lay_out_stage(scene, plan.stage, font, plan.has_low_floor);
@@ -104,7 +107,7 @@ Composition::Composition(const Scene& scene, const CollisionLog& log,
   if (show.has(Overlay::velocities)) drawables_.push_back(velocity_arrows(context));
   if (show.hits && !is_article) drawables_.push_back(hit_marks(context));
   if (show.has(Overlay::ruler)) drawables_.push_back(ruler(context));
-  rows.move(plan.read_outs_px);
+  rows.move(plan.read_outs_px, plan.counter.slow_motion);
   drawables_.emplace_back(std::move(rows));
   if (loupe) {
     drawables_.emplace_back(
@@ -114,8 +117,9 @@ Composition::Composition(const Scene& scene, const CollisionLog& log,
   if (logo) lines.emplace_back(place_logo(plan.logo, std::move(logo)));
   drawables_.push_back(unchanging(std::move(lines)));
   // In the order of Panel.
-  constexpr std::array kPanels = {velocity_panel, position_panel, unfolded_panel, time_panel,
-                                  rate_panel,     ellipse_panel,  mirrors_panel,  certainty_panel};
+  constexpr std::array kPanels = {velocity_panel, position_panel,     unfolded_panel,
+                                  time_panel,     count_panel,        ellipse_panel,
+                                  mirrors_panel,  conservation_panel, certainty_panel};
   for (std::size_t i = 0; i < show.panels.size(); ++i) {
     const auto make_panel = kPanels.at(static_cast<std::size_t>(show.panels[i]));
     const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +

@@ -13,7 +13,7 @@ namespace {
 // baseline, and glyphs beyond their advances.
 constexpr double kAscent = 1.1;
 constexpr double kDescent = 0.35;
-constexpr double kOverhang = 0.15;
+constexpr double kOverhang = 0.22;
 
 /// How far a centred line reaches beyond the outline it is drawn on.
 double reach_of(const std::optional<Stroke>& stroke) { return stroke ? stroke->width_px / 2 : 0; }

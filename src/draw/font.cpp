@@ -217,7 +217,8 @@ void Font::check(std::string_view utf8, const char* what) const {
   const std::string problem = shaping_problem(utf8);
   if (!problem.empty()) throw UsageError(fmt::format("{}: {}", what, problem));
   if (missing.empty()) return;
-  throw UsageError(fmt::format("{}: no embedded font has a glyph for '{}'", what, missing));
+  throw UsageError(fmt::format(
+      "{}: no embedded font has a glyph for '{}'; write it in other characters", what, missing));
 }
 
 double Font::width_em(std::string_view utf8) const {

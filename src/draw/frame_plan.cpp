@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 #include "draw/layout.hpp"
@@ -20,6 +21,8 @@ constexpr double kBelowBaseline = 0.25;
 constexpr double kPiStep = 2.0;  ///< from the count's baseline to the digits of pi
 /// Least side of a diagram.
 constexpr double kLeastPanel_em = 6;
+/// A narrower one may have no room for its title.
+constexpr double kTitledPanel_em = 10;
 /// The width of a diagram that looks best, in parts of its height.
 constexpr double kPanelAspect = 1.6;
 /// In a smaller frame no text can be read.
@@ -42,9 +45,8 @@ constexpr double kPlainStage = 0.24;
 constexpr double kLoupeRoom = 0.1;
 constexpr double kDiagramsBesideLoupe = 0.5;
 
-/// The grid in which `count` panels come out largest, if possible with no side below `least`.
-std::vector<Rectangle> panel_grid(std::size_t count, const Rectangle& area, double gap,
-                                  double least) {
+/// The grid in which `count` panels come out largest, if possible not too small.
+std::vector<Rectangle> panel_grid(std::size_t count, const Rectangle& area, double gap, double em) {
   const auto side = [gap](double length, std::size_t n) {
     return (length - gap * double(n - 1)) / double(n);
   };
@@ -52,9 +54,9 @@ std::vector<Rectangle> panel_grid(std::size_t count, const Rectangle& area, doub
     const std::size_t rows = (count + columns - 1) / columns;
     return Rectangle{0, 0, side(area.width, columns), side(area.height, rows)};
   };
-  const auto size = [least](const Rectangle& r) {
-    return std::pair(std::min(r.width, r.height) >= least,
-                     std::min(r.width / kPanelAspect, r.height));
+  const auto size = [em](const Rectangle& r) {
+    return std::tuple(std::min(r.width, r.height) >= kLeastPanel_em * em,
+                      r.width >= kTitledPanel_em * em, std::min(r.width / kPanelAspect, r.height));
   };
   std::size_t best = 1;
   for (std::size_t columns = 2; columns <= count; ++columns) {
@@ -74,8 +76,9 @@ std::vector<Rectangle> panel_grid(std::size_t count, const Rectangle& area, doub
 }
 
 /// What a scene shows above and below the blocks, for a message.
-std::vector<std::string> names_of_lines(const Scene& scene) {
+std::vector<std::string> names_of_things(const Scene& scene) {
   std::vector<std::string> names;
+  if (scene.view.theme != Theme::article) names.emplace_back("the counter");
   if (!scene.show.title.empty()) names.emplace_back("the title");
   if (!scene.show.caption.empty()) names.emplace_back("the caption");
   if (!scene.show.logo.empty()) names.emplace_back("the logo");
@@ -83,6 +86,7 @@ std::vector<std::string> names_of_lines(const Scene& scene) {
     if (scene.show.has(overlay)) names.push_back(fmt::format("'{}'", exact_text(overlay)));
   }
   if (has_slow_motion(scene.pacing)) names.emplace_back("the slow motion's factor");
+  if (!scene.show.panels.empty()) names.emplace_back("the diagrams");
   return names;
 }
 
@@ -104,8 +108,8 @@ class FramePlanner {
     place_header();
     place_foot();
     const bool has_edge = show_.panels.empty() && bottom_ == view_.height_px;
-    // Else read-outs would stick to the lower edge.
-    if (read_outs_px > 0 && has_edge) bottom_ -= sizes_.margin / 2;
+    // Read-outs end at the margin.
+    if (read_outs_px > 0 && has_edge) bottom_ -= sizes_.margin - kBelowBaseline * sizes_.text;
     double height = bottom_ - top_ - read_outs_px;
     if (!show_.panels.empty()) height = stage_height(height);
     if (height < kLeastStage * sizes_.unit) throw_no_room();
@@ -124,8 +128,9 @@ class FramePlanner {
     CounterPlace& place = plan_.counter;
     place.right_px = right_;
     place.baseline_px = std::round(view_.height_px / 2.0 + Font::kCapHeight_em * place.size_px / 4);
-    place.pi_baseline_px = std::round(place.baseline_px + kPiStep * sizes_.text);
+    place_pi();
     top_ = 0.75 * sizes_.gap;
+    place.slow_motion = {right_, top_ + Font::kCapHeight_em * sizes_.title};
     if (!show_.title.empty()) {
       check_text("show.title", show_.title, sizes_.title);
       const double baseline = top_ + Font::kCapHeight_em * sizes_.title;
@@ -221,17 +226,19 @@ class FramePlanner {
 
   /// @returns the width of label and count
   double set_count_size(double room_px) {
-    const double largest = sizes_.type(style::kCounter);
-    const double size = std::min(largest, (room_px - counter_->label_px) / counter_->count_em);
-    if (size < style::kLeastType * sizes_.unit) {
+    CounterPlace& place = plan_.counter;
+    const double beside_label = (room_px - counter_->label_px) / counter_->count_em;
+    place.has_label = beside_label >= sizes_.text;
+    const double largest = place.has_label ? beside_label : room_px / counter_->count_em;
+    place.size_px = std::min(sizes_.type(style::kCounter), largest);
+    if (place.size_px < sizes_.type(style::kLeastType)) {
       throw UsageError(fmt::format(
-          "view.theme: the count has too many digits for a frame of {}x{}; use the theme "
-          "'article', or make the frame wider",
-          view_.width_px, view_.height_px));
+          "view.theme: the digits of the count would be {:.1f} pixels high in {}x{}, which cannot "
+          "be read; use the theme 'article', fewer digits or a larger frame",
+          std::max(0.0, place.size_px), view_.width_px, view_.height_px));
     }
-    plan_.counter.size_px = size;
-    plan_.counter.room_px = counter_->count_em * size;
-    return counter_->label_px + counter_->count_em * size;
+    place.room_px = counter_->count_em * place.size_px;
+    return place.room_px + (place.has_label ? counter_->label_px : 0);
   }
 
   void place_counter(bool is_beside_title) {
@@ -239,21 +246,32 @@ class FramePlanner {
     place.right_px = right_;
     const double above = top_ > 0 ? top_ + kBelowHeader * sizes_.unit : sizes_.margin;
     place.baseline_px = std::round(above + Font::kCapHeight_em * place.size_px);
-    place.pi_baseline_px = std::round(place.baseline_px + kPiStep * sizes_.text);
+    place_pi();
     if (is_beside_title) {
       add_line(ItemId::title, show_.title, place.baseline_px, sizes_.title);
     }
-    // Blocks that stay left of the digits of pi may be beside them.
-    const double left_of_pi = right_ - counter_->pi_px - sizes_.gap;
-    const bool is_above =
-        counter_->pi_px > 0 && reach_px(context_.scene, context_.log) > left_of_pi;
+    // Digits of pi, and left of them the label of slow motion.
+    double left = right_;
+    if (place.has_pi) left -= counter_->pi_px + sizes_.gap;
+    place.slow_motion = {left, place.pi_baseline_px};
+    if (counter_->slow_motion_px > 0) left -= counter_->slow_motion_px + sizes_.gap;
+    // Blocks that stay left of this line may be beside it.
+    const bool is_above = left < right_ && reach_px(context_.scene, context_.log) > left;
     top_ = is_above ? place.pi_baseline_px : place.baseline_px;
     top_ += kBelowBaseline * sizes_.text;
-    place.pi_left_px = right_ - counter_->pi_px;
+    place.pi_left_px = std::min(right_, left + sizes_.gap);
     plan_.header_px = top_;
-    if (counter_->pi_px > 0) {
+    if (left < right_) {
       plan_.header_px = place.pi_baseline_px + kBelowBaseline * sizes_.text;
     }
+  }
+
+  /// The digits of pi are below the count, or nowhere in a frame of a few pixels.
+  void place_pi() {
+    CounterPlace& place = plan_.counter;
+    place.pi_baseline_px = std::round(place.baseline_px + kPiStep * sizes_.text);
+    place.has_pi = counter_->pi_px > 0 && place.pi_baseline_px + kBelowBaseline * sizes_.text <=
+                                              view_.height_px - sizes_.margin;
   }
 
   /// Caption and logo are at the bottom; the stage ends above.
@@ -286,17 +304,17 @@ class FramePlanner {
   /// Where there are diagrams, the stage is as high as it has to be.
   /// @param room_px  for both
   double stage_height(double room_px) {
-    if (view_.theme == Theme::article) {
-      // At this height the stage is as wide as the frame.
-      const double lengths =
-          to_double(view_.y.high - view_.y.low) / to_double(view_.x.high - view_.x.low);
-      return std::min(view_.width_px * lengths + kPlainStage * sizes_.unit, room_px / 2);
-    }
     double height = kPlainStage;
     if (show_.has(Overlay::velocities)) height += kArrowRoom;
     if (show_.has(Overlay::masses)) height += kMassRoom / 2;
     if (show_.has(Overlay::ruler)) height += kRulerRoom;
     height *= sizes_.unit;
+    if (view_.theme == Theme::article) {
+      // With this the stage is as wide as the frame.
+      height +=
+          view_.width_px * to_double((view_.y.high - view_.y.low) / (view_.x.high - view_.x.low));
+      return std::min(height, room_px / 2);
+    }
     // In upright frames the loupe is below the digits of pi. It takes what diagrams do not need.
     const double spare =
         room_px - height - kDiagramsBesideLoupe * double(show_.panels.size()) * sizes_.unit;
@@ -313,7 +331,7 @@ class FramePlanner {
     const double bottom = bottom_ == view_.height_px ? bottom_ - sizes_.margin : bottom_;
     const double least = kLeastPanel_em * sizes_.text;
     plan_.panels = panel_grid(show_.panels.size(), {left_, top, right_ - left_, bottom - top},
-                              sizes_.gap, least);
+                              sizes_.gap, sizes_.text);
     const Rectangle& panel = plan_.panels.front();
     if (std::min(panel.width, panel.height) >= least) return;
     const std::size_t count = show_.panels.size();
@@ -324,10 +342,12 @@ class FramePlanner {
   }
 
   [[noreturn]] void throw_no_room() const {
+    const std::vector<std::string> names = names_of_things(context_.scene);
     throw UsageError(fmt::format(
-        "show: beside {} there is too little room for the blocks in {}x{}; leave something out, or "
-        "make the frame higher",
-        fmt::join(names_of_lines(context_.scene), ", "), view_.width_px, view_.height_px));
+        "show: {} {} too little room for the blocks in {}x{}; leave something out, or make the "
+        "frame higher",
+        fmt::join(names, ", "), names.size() == 1 ? "leaves" : "leave", view_.width_px,
+        view_.height_px));
   }
 
   const DrawingContext& context_;

@@ -83,7 +83,10 @@ struct CounterPlace {
   double baseline_px = 0;
   double size_px = 0;         ///< of the count's type
   double room_px = 0;         ///< the longest count's width
-  double pi_baseline_px = 0;  ///< of the line below
+  bool has_label = true;      ///< else there is room for the count alone
+  bool has_pi = false;        ///< the line below has room
+  double pi_baseline_px = 0;  ///< of that line
+  Point slow_motion;          ///< right end of its label's baseline
   double pi_left_px = 0;      ///< where that begins
 };
 
@@ -100,9 +103,10 @@ struct FramePlan {
 
 /// What the counter needs room for.
 struct CounterRoom {
-  double count_em = 0;  ///< width of the longest count that is shown
-  double label_px = 0;  ///< width of what is before it
-  double pi_px = 0;     ///< width of the line of digits below it; 0 if there is none
+  double count_em = 0;        ///< width of the longest count that is shown
+  double label_px = 0;        ///< width of what is before it
+  double pi_px = 0;           ///< width of the line of digits below it; 0 if there is none
+  double slow_motion_px = 0;  ///< width of its label; 0 if it is among the read-outs
 };
 
 /// @param context  its layout is not read.

@@ -36,7 +36,9 @@ static library, and what CMake and pkg-config need to find them.")
 # Policy wants the licences in one file, in the folder of each package; nobody else needs that.
 set(doc_folder ${CMAKE_INSTALL_DATAROOTDIR}/doc)
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE PIBLOCKS_LICENSE)
-file(READ ${PROJECT_SOURCE_DIR}/assets/DejaVu-LICENSE.txt PIBLOCKS_FONT_LICENSE)
+foreach(font DejaVu Lato LatinModern)
+  file(READ ${PROJECT_SOURCE_DIR}/assets/${font}-LICENSE.txt PIBLOCKS_${font}_LICENSE)
+endforeach()
 configure_file(copyright.in copyright @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/copyright
         DESTINATION ${doc_folder}/piblocks COMPONENT program EXCLUDE_FROM_ALL)

@@ -34,9 +34,10 @@ constexpr auto kPanels = std::to_array<Name<Panel>>({{"velocity", Panel::velocit
                                                      {"position", Panel::position},
                                                      {"unfolded", Panel::unfolded},
                                                      {"time", Panel::time},
-                                                     {"rate", Panel::rate},
+                                                     {"count", Panel::count},
                                                      {"ellipse", Panel::ellipse},
                                                      {"mirrors", Panel::mirrors},
+                                                     {"conservation", Panel::conservation},
                                                      {"certainty", Panel::certainty}});
 
 constexpr auto kSplits = std::to_array<Name<Split>>(

@@ -102,7 +102,8 @@ TEST_F(StillTest, SaysWhatAFrameHasNoRoomFor) {
   const auto expect = [&](const char* size, const Arguments& show, const std::string& message) {
     expect_refusal(Arguments{"still", "--at", "3", "-o", "a.png", "--size", size} + show, message);
   };
-  expect("120x12", {"--show", "time"}, "show: beside 'time' there is too little room");
+  expect("120x12", {"--show", "time"},
+         "show: 'time' leaves too little room for the blocks in 120x12; leave");
   expect("16000x120", {"--title", "fi"},
          "show.title: 'fi' would be 7.2 pixels high in 16000x120, which cannot be read; leave it "
          "out, or make the frame higher");
@@ -129,9 +130,7 @@ TEST_F(StillTest, RefusesTextThatNeedsShaping) {
 /// Any still is a picture.
 TEST_F(StillTest, LogosOfAnyShapeAreShownOrRefused) {
   const auto logo = [&](const std::string& size, const Arguments& more = {}) {
-    output_of(
-        Arguments{"still", "--at", "3", "--theme", "dark", "--size", size, "-o", size + ".png"} +
-        more);
+    output_of(Arguments{"still", "--at", "3", "--size", size, "-o", size + ".png"} + more);
     return Arguments{"still", "--at", "3", "-o", "a.png", "--logo", size + ".png"};
   };
   const std::string plain = output_of({"still", "--at", "3", "--size", "640x360", "-o", "-"});

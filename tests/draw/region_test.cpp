@@ -74,7 +74,7 @@ double area(std::span<const PixelRect> rects) {
 }
 
 DrawList frame(const Composition& composition, const CollisionLog& log, const Rational& time) {
-  return composition.frame({log.state_at(time), time});
+  return composition.frame({.state = log.state_at(time), .time = time, .gaps = gaps_at(log, time)});
 }
 
 void expect_exact_updates(Background background) {
@@ -113,13 +113,15 @@ TEST(Region, OfAScenesFrameIsSmall) {
 }
 
 TEST(Region, OfPicturesWithAllThatCanBeShownIsExact) {
-  for (const char* theme : {"article", "colorblind"}) {
+  for (const auto& [theme, panels] : {std::pair{"article", "velocity,time"},
+                                      {"colorblind", "position,count"},
+                                      {"lecture", "unfolded,ellipse"}}) {
     ScriptBuilder builder;
     builder.set("test", "view.size", "800x600");
     builder.set("test", "view.theme", theme);
     builder.set("test", "show.title", "π");
-    builder.set("test", "show.overlays", "digits,masses,velocities,energy,momentum,time,ruler");
-    builder.set("test", "show.panels", "velocity,position,unfolded,time,rate");
+    builder.set("test", "show.overlays", "digits,masses,velocities,time");
+    builder.set("test", "show.panels", panels);
     const Scene scene = builder.build_scene();
     const auto log = make_collision_log(scene.system);
     const Composition composition(scene, *log);

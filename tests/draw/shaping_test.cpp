@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
+#include <array>
 #include <string>
 
 #include "draw/font.hpp"
@@ -9,8 +10,11 @@
 namespace piblocks {
 namespace {
 
-std::string refusal_of(const std::string& text) {
-  const Font font;
+/// Of titles.
+constexpr std::array kTitleFaces{Face::article, Face::text};
+
+std::string refusal_of(const std::string& text, Face face) {
+  const Font font(face);
   try {
     font.check(text, "show.title");
   } catch (const UsageError& error) {
@@ -24,17 +28,19 @@ TEST(Shaping, TakesWhatIsSetLetterByLetter) {
        {"Où se cache π ?", "Zwei Blöcke zählen", "Příliš žluťoučký kůň", "Δύο κύβοι και τοίχος",
         "Ἀρχιμήδης", "Два блока и стена", "√(m₁/m₂) ≤ 10⁻³ · ∑ ∫ ∞ ≈ ± → ∀ε", "Việt Nam",
         "İstanbul", "Երկու", "ორი", "…–—“”„‘’«»", "100 % 5\u202f000"}) {
-    EXPECT_EQ(refusal_of(text), "") << text;
+    for (const Face face : kTitleFaces) EXPECT_EQ(refusal_of(text, face), "") << text;
   }
 }
 
 TEST(Shaping, RefusesWhatWouldBeDrawnWrong) {
   const auto expect = [](const char* text, const char* code, const char* reason) {
-    const std::string refusal = refusal_of(text);
-    EXPECT_TRUE(refusal.starts_with("show.title: ")) << refusal;
-    EXPECT_NE(refusal.find(code), std::string::npos) << refusal;
-    EXPECT_NE(refusal.find(reason), std::string::npos) << refusal;
-    EXPECT_EQ(refusal.find('\n'), std::string::npos);
+    for (const Face face : kTitleFaces) {
+      const std::string refusal = refusal_of(text, face);
+      EXPECT_TRUE(refusal.starts_with("show.title: ")) << refusal;
+      EXPECT_NE(refusal.find(code), std::string::npos) << refusal;
+      EXPECT_NE(refusal.find(reason), std::string::npos) << refusal;
+      EXPECT_EQ(refusal.find('\n'), std::string::npos);
+    }
   };
   constexpr const char* kScript = "is in a script that needs shaping";
   constexpr const char* kMark = "is a combining mark";

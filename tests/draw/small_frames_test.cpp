@@ -21,7 +21,7 @@ struct Feature {
   const char* named;  ///< in a refusal
 };
 
-constexpr std::array kFeatures{Feature{"view.theme", "print", "-"},
+constexpr std::array kFeatures{Feature{"view.theme", "print", "count"},
                                Feature{"show.overlays", "digits", "-"},
                                Feature{"show.overlays", "masses", "mass"},
                                Feature{"show.overlays", "velocities", "velocities"},
@@ -36,7 +36,8 @@ constexpr std::array kFeatures{Feature{"view.theme", "print", "-"},
                                Feature{"show.panels", "position", "show.panels"},
                                Feature{"show.panels", "unfolded", "show.panels"},
                                Feature{"show.panels", "time", "show.panels"},
-                               Feature{"show.panels", "rate", "show.panels"},
+                               Feature{"show.panels", "count", "show.panels"},
+                               Feature{"show.panels", "conservation", "show.panels"},
                                Feature{"show.logo", "logo.png", "logo"}};
 
 /// Rounding of sums of lengths.
@@ -72,7 +73,7 @@ class Checker {
   void check_item(const TextItem& item) {
     if (!(item.size_px > 0) || !std::isfinite(item.size_px))
       problem += item.text + " has no size; ";
-    const double width_px = font_.width_em(item.text) * item.size_px;
+    const double width_px = fonts_.of(item.face).width_em(item.text) * item.size_px;
     check_inside(item.origin.x, item.origin.y - 0.73 * item.size_px, item.origin.x + width_px,
                  item.origin.y, item.text.c_str());
   }
@@ -95,7 +96,7 @@ class Checker {
   void check_item(const ExposedItem& /*item*/) {}
 
   const DrawList& list_;
-  Font font_;
+  Fonts fonts_;
 };
 
 /// Nothing if the feature is drawn or refused as it should be.

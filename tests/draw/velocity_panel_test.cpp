@@ -452,7 +452,7 @@ INSTANTIATE_TEST_SUITE_P(
     Aspects, Shapes,
     testing::Values(Shape{"1280x720", "velocity"}, Shape{"1280x720", "velocity,time"},
                     Shape{"1280x720", "ellipse,velocity"}, Shape{"3840x2160", "velocity,unfolded"},
-                    Shape{"1080x1920", "velocity,time"}, Shape{"1080x1920", "ellipse,time,rate"},
+                    Shape{"1080x1920", "velocity,time"}, Shape{"1080x1920", "ellipse,time,count"},
                     Shape{"1080x1080", "velocity"}, Shape{"1080x1080", "ellipse,unfolded"},
                     Shape{"1440x1080", "velocity,unfolded,time"}, Shape{"2560x1080", "velocity"},
                     Shape{"640x360", "velocity,time"}),

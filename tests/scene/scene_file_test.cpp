@@ -74,7 +74,7 @@ TEST_F(SceneFileTest, BlanksAroundNamesOfAListAreNone) {
       load("[time]\nslow-motion = ' auto , 5:6:3 '\n[show]\npanels = 'time ,\trate '\n");
   EXPECT_TRUE(scene.pacing.automatic_slow_motion);
   EXPECT_EQ(scene.pacing.slow_motion.size(), 1U);
-  EXPECT_EQ(scene.show.panels, (std::vector{Panel::time, Panel::rate}));
+  EXPECT_EQ(scene.show.panels, (std::vector{Panel::time, Panel::count}));
 }
 
 TEST_F(SceneFileTest, SpeedAndDurationExcludeEachOther) {
@@ -221,7 +221,7 @@ TEST_F(SceneFileTest, RefusesInvalidValuesOneByOne) {
       {"[time]\nto = [1, 2]", "time.to"},
       {"[time]\nfreeze = 'turn:0'", ":2: time.freeze has a freeze of 0 s"},
       {"[time]\nslow-motion = '1:2:-3'", ":2: time.slow-motion has a window whose factor is -3"},
-      {"[show]\npanels = ['time', 'rate', 'time']", ":2: show.panels has 'time' more than once"},
+      {"[show]\npanels = ['time', 'count', 'time']", ":2: show.panels has 'time' more than once"},
       {"[golden]\nframes = ['last', 'last']", ":2: golden.frames has 'last' more than once"},
       {"[golden]\nframes = ['first']", ":2: golden.frames has 'first': "},
       {"wall = 3", "wall"},

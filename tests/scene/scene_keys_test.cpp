@@ -46,7 +46,7 @@ const std::map<std::string, Values> kOther = {
     {"time.loop", {"true"}},
     {"sound.on", {"true"}},
     {"show.overlays", {"ruler", "digits"}},
-    {"show.panels", {"rate", "time"}},
+    {"show.panels", {"count", "time"}},
     {"show.title", {"One, two"}},
     {"show.caption", {"Three"}},
     {"show.logo", {"logos/a.png"}},
@@ -109,7 +109,7 @@ TEST(SceneKeys, SayWhatIsShownAndHeard) {
   EXPECT_EQ(scene.view.background, Background::transparent);
   EXPECT_TRUE(scene.sound.on);
   EXPECT_EQ(scene.show.overlays, (std::vector{Overlay::ruler, Overlay::digits}));
-  EXPECT_EQ(scene.show.panels, (std::vector{Panel::rate, Panel::time}));
+  EXPECT_EQ(scene.show.panels, (std::vector{Panel::count, Panel::time}));
   EXPECT_EQ(scene.show.title, "One, two");
   EXPECT_EQ(scene.show.caption, "Three");
   EXPECT_EQ(scene.show.logo, "logos/a.png");

@@ -53,7 +53,7 @@ TEST(SceneByHand, IsToldWhatIsWrongWithIt) {
        }},
       {"show.panels",
        [](Scene& s) {
-         s.show.panels = {Panel::rate, Panel::time, Panel::rate};
+         s.show.panels = {Panel::count, Panel::time, Panel::count};
        }},
       {"golden.frames",
        [](Scene& s) {

@@ -254,7 +254,10 @@ TEST_F(StoryboardFileTest, DescriptionsDifferWhereFilmsDo) {
 TEST(Storyboard, ProblemsOfOneMadeByHandAreToldAtOnce) {
   Storyboard story;
   EXPECT_EQ(problems_of(story).size(), 1U);
-  story.segments = {{Scenes{}, 1}, {Card{}, -1}, {Card{{"a", ""}, 0}}, {Scenes{Scene{}}}};
+  story.segments = {{.content = Scenes{}, .fade_s = 1},
+                    {.content = Card{}, .fade_s = -1},
+                    {Card{{"a", ""}, 0}},
+                    {Scenes{Scene{}}}};
   story.view.width_px = 0;
   const auto found = problems_of(story);
   // The frame, as the film's and as the last part's; fade and no run; fade and no line; an empty

@@ -24,6 +24,8 @@ constexpr double kMinRounded_px = 16;
 // In ems of the label.
 constexpr double kLabelGap = 1.0;  // between the label's baseline and the view
 constexpr double kWordSpace = 0.34;
+/// Overlays take at most this part of the area's height in addition.
+constexpr double kMostOfArea = 0.3;
 /// Sums of the same advances in different order differ by less.
 constexpr double kNegligible_em = 1e-6;
 // In line widths.
@@ -105,43 +107,40 @@ class ArticleStage {
   TextWidths widths_;
 };
 
-}  // namespace
+/// What overlays need in addition, in pixels.
+struct MoreRoom {
+  double above = 0;  ///< between label and view
+  double below = 0;  ///< the view
+};
 
-Layout lay_out_article(const Scene& scene, const Integer& longest_count, const Rectangle& area,
-                       const Font& font) {
+/// Label and view form one group, centred in the area.
+Layout article_layout(const Scene& scene, const CountLine& count_line, const Rectangle& area,
+                      const MoreRoom& more) {
   const View& view = scene.view;
   const double margin = article_style::kMargin * article_style::short_measure(area);
-  const double inner_width = area.width - 2 * margin;
-  const double label_em = font.width_em(kLabelText) + kWordSpace;
-  const double line_em = label_em + count_width_em(longest_count, scene.show.base, font);
-
   Layout layout;
+  layout.line = count_line;
   CountLine& line = layout.line;
   layout.frame_px = view.width_px;
+  layout.right_px = view.width_px - Sizes(view).margin;
   layout.line_px =
       std::max(1.0, std::round(article_style::kLine * article_style::short_measure(whole(view))));
-  line.text_px = std::min(text_size(area), inner_width / line_em);
-
-  // Label and view form one group, centred in the area.
-  const double label_height = (Font::kCapHeight_em + kLabelGap) * line.text_px;
-  const double inner_height = area.height - 2 * margin - label_height;
-  layout.scale = std::min(inner_width / length(view.x), inner_height / length(view.y));
+  const double gap = kLabelGap * line.text_px + more.above;
+  const double label_height = Font::kCapHeight_em * line.text_px + gap;
+  const double inner_height = area.height - 2 * margin - label_height - more.below;
+  layout.scale =
+      std::min((area.width - 2 * margin) / length(view.x), inner_height / length(view.y));
   const bool rounded = layout.scale >= kMinRounded_px;
   const auto to_pixel = [&](double px) { return rounded ? std::round(px) : px; };
   if (rounded) layout.scale = 2 * std::floor(layout.scale / 2);
   check_resolution(view, layout.scale);
   const double view_width = layout.scale * length(view.x);
   const double view_height = layout.scale * length(view.y);
-  const double top = area.y + (area.height - view_height - label_height) / 2;
+  const double top = area.y + (area.height - view_height - label_height - more.below) / 2;
   layout.origin = {
       to_pixel(area.x + (area.width - view_width) / 2 - to_double(view.x.low) * layout.scale),
       to_pixel(top + label_height + to_double(view.y.high) * layout.scale)};
-  line.label = {area.x + (area.width - line_em * line.text_px) / 2,
-                to_pixel(top + Font::kCapHeight_em * line.text_px)};
-  line.label_em = label_em;
-  line.count_em = line_em - label_em;
-  line.left_px = area.x + margin;
-  line.room_px = inner_width;
+  line.label.y = to_pixel(top + Font::kCapHeight_em * line.text_px);
 
   // The larger block's middle is at 0, and its sides are equal.
   const auto shape_of = [&](const Block& block) -> BlockShape {
@@ -153,8 +152,38 @@ Layout lay_out_article(const Scene& scene, const Integer& longest_count, const R
   const double half = std::max(layout.blue.width, layout.red.width) / 2;
   layout.floor_px = layout.at(0, -half).y;
   layout.foot_px = layout.at(0, to_double(view.y.low)).y;
-  layout.above_px = (to_double(view.y.high) - half) * layout.scale + kLabelGap * line.text_px / 2;
+  layout.above_px = (to_double(view.y.high) - half) * layout.scale + gap - line.text_px / 2;
   layout.below_px = area.y + area.height - layout.floor_px;
+  return layout;
+}
+
+}  // namespace
+
+Layout lay_out_article(const Scene& scene, const Integer& longest_count, const Rectangle& area,
+                       const Font& font) {
+  const double margin = article_style::kMargin * article_style::short_measure(area);
+  CountLine line;
+  line.label_em = font.width_em(kLabelText) + kWordSpace;
+  const double line_em = line.label_em + count_width_em(longest_count, scene.show.base, font);
+  line.count_em = line_em - line.label_em;
+  line.left_px = area.x + margin;
+  line.room_px = area.width - 2 * margin;
+  line.text_px = std::min(text_size(area), line.room_px / line_em);
+  line.label.x = area.x + (area.width - line_em * line.text_px) / 2;
+
+  // The label gives way to what is above the blocks. That may make the blocks smaller, which may
+  // take a mass from its block.
+  constexpr int kPasses = 4;
+  MoreRoom more;
+  Layout layout = article_layout(scene, line, area, more);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const double above = room_above_px(scene, layout, font) - layout.above_px;
+    const double below = room_below_px(scene) - layout.below_px;
+    more.above += std::max(0.0, above);
+    more.below += std::max(0.0, below);
+    if (std::max(above, below) <= 0 || more.above + more.below > kMostOfArea * area.height) break;
+    layout = article_layout(scene, line, area, more);
+  }
   return layout;
 }
 

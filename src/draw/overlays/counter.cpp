@@ -75,20 +75,22 @@ class Counter {
     const double size_px = std::min(place_.size_px, (place_.room_px + kNegligible_px) / count_em);
     const double left = place_.right_px - count_em * size_px;
     const double label_right = left - kLabelGap_em * sizes_.text;
-    items.emplace_back(
-        TextItem{ItemId::label,
-                 {label_right - (is_over ? over_px_ : label_px_), place_.baseline_px},
-                 std::string(is_over ? kOverLabel : kCountLabel),
-                 sizes_.text,
-                 is_over ? palette_.done : palette_.muted,
-                 face_});
+    if (place_.has_label) {
+      items.emplace_back(
+          TextItem{ItemId::label,
+                   {label_right - (is_over ? over_px_ : label_px_), place_.baseline_px},
+                   std::string(is_over ? kOverLabel : kCountLabel),
+                   sizes_.text,
+                   is_over ? palette_.done : palette_.muted,
+                   face_});
+    }
     items.emplace_back(TextItem{ItemId::count,
                                 {left, place_.baseline_px},
                                 text,
                                 size_px,
                                 is_over ? palette_.accent : palette_.text,
                                 Face::digits});
-    if (!pi_.empty()) add_pi(lit_length(text, pi_count_), items);
+    if (place_.has_pi) add_pi(lit_length(text, pi_count_), items);
   }
 
  private:

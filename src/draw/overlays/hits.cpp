@@ -18,7 +18,7 @@ constexpr double kFirstRadius = 0.3;
 /// bodies.
 constexpr std::size_t kDirections = 13;
 /// Of an arc, in widths of the wall's line.
-constexpr double kArcLine = 1.2;
+constexpr double kMarkLine = 1.2;
 /// Disks of rising size that make a glow, the greatest alpha of each, and the size of the largest
 /// in parts of an arc's.
 constexpr int kGlowDisks = 7;
@@ -49,7 +49,7 @@ std::vector<Point> directions_of(double from, double to) {
 HitMarks::HitMarks(const DrawingContext& context, const BlockShapes& shapes, double most_reach_px)
     : reach_px_(std::min(most_reach_px, style::kHitReach * context.sizes.unit)),
       glow_px_(std::min(kGlowReach * reach_px_, shapes.blue_width_px / 2)),
-      line_px_(kArcLine * context.sizes.wall_line) {
+      line_px_(kMarkLine * context.sizes.wall_line) {
   constexpr double kUp = std::numbers::pi / 2;
   const Palette& palette = context.palette;
   wall_ = {shapes.floor_px - shapes.blue_px, directions_of(0, kUp), palette.blue.line};

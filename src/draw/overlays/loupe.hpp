@@ -11,6 +11,7 @@
 
 #include "draw/layout.hpp"
 #include "draw/overlays/hits.hpp"
+#include "draw/overlays/loupe_place.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/overlays/zoom.hpp"
 
@@ -40,18 +41,11 @@ class LoupeInset {
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const;
 
  private:
-  struct Place {
-    Rectangle bounds;
-    double rows_px = 0;  ///< height of its rows of text
-    bool is_zoom_beside = true;
-  };
   struct Window {
     Rational from;
     Rational to;
     double zoom = 1;
   };
-  class Placer;
-
   // Ids among those of the wall and of blue.
   static constexpr std::size_t kFirstLine = 100;
   static constexpr std::size_t kCut = 100;
@@ -59,7 +53,7 @@ class LoupeInset {
 
   /// All that does not depend on the place. @param least_gap_px  that is shown
   LoupeInset(const DrawingContext& context, const Loupe& loupe, double least_gap_px);
-  void settle(const DrawingContext& context, const Place& place);
+  void settle(const DrawingContext& context, const LoupePlace& place);
   void place_lines(const DrawingContext& context);
   void place_scenery(const DrawingContext& context);
 

@@ -16,6 +16,14 @@ inline constexpr double kArrowRoom = 0.08;
 inline constexpr double kMassRoom = 0.052;
 inline constexpr double kRulerRoom = 0.07;
 
+/// The floor is on whole pixels, and room above the blocks may be short by one.
+inline constexpr double kRounded_px = 1;
+
+/// Room that the scene's overlays need above the taller block, in pixels.
+double room_above_px(const Scene& scene, const Layout& layout, const Font& font);
+/// The same below the floor.
+double room_below_px(const Scene& scene);
+
 /// The article's picture: wall, blocks and counter.
 /// @param lit_digits  light up when the counter shows them in their places; may be empty
 /// @param behind      is drawn before the blocks; may be empty
@@ -55,8 +63,10 @@ class ReadOutRows {
   explicit ReadOutRows(const DrawingContext& context);
 
   double height() const noexcept { return height_; }
-  /// Moves all rows down.
-  void move(double y);
+  /// Width of the label of slow motion if it stands alone; rows need no room then. Else 0.
+  double lone_slow_motion_px() const noexcept { return lone_px_; }
+  /// Moves all rows down, or the lone label to its place.
+  void move(double y, const Point& slow_motion);
   /// The label of slow motion is seen as far as this is not. @param opacity  of the loupe, 0 … 1
   void leave_slow_motion_to(std::function<double(const FrameState&)> opacity) {
     loupe_opacity_ = std::move(opacity);
@@ -78,6 +88,7 @@ class ReadOutRows {
   double text_px_;
   Face face_;
   double height_ = 0;
+  double lone_px_ = 0;
 };
 
 }  // namespace piblocks

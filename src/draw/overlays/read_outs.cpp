@@ -126,28 +126,30 @@ ReadOut slower_read_out(const DrawingContext& context) {
           true};
 }
 
-/// How values up to a largest one are written: with as many decimals as give the largest six
+constexpr int kMostDigits = 6;
+constexpr int kLeastDigits = 3;
+
+/// How values up to a largest one are written: with as many decimals as give the largest so many
 /// digits, and as multiples of a power of ten if it is very large or very small.
 struct Scale {
-  explicit Scale(const Magnitude& most)
-      : largest(written_with(kDigits - 1, most)),
-        is_plain(largest.exponent >= -2 && largest.exponent < kDigits),
-        decimals(kDigits - 1 - (is_plain ? static_cast<int>(largest.exponent) : 0)),
+  Scale(const Magnitude& most, int digits)
+      : largest(written_with(digits - 1, most)),
+        is_plain(largest.exponent >= -2 && largest.exponent < digits),
+        decimals(digits - 1 - (is_plain ? static_cast<int>(largest.exponent) : 0)),
         unit(is_plain ? "" : " ×" + power_text(largest.exponent)) {}
 
   std::string text(double value) const { return fixed_text(value, decimals); }
 
-  static constexpr int kDigits = 6;
   Magnitude largest;
   bool is_plain;
   int decimals;
   std::string unit;
 };
 
-ReadOut energy_read_out(const DrawingContext& context) {
+ReadOut energy_read_out(const DrawingContext& context, int digits) {
   const BlockSystem& system = context.scene.system;
   const Rational exact_sum = twice_energy(system) / 2;
-  const Scale scale(magnitude_of(exact_sum));
+  const Scale scale(magnitude_of(exact_sum), digits);
   const double sum = scale.is_plain ? to_double(exact_sum) : scale.largest.mantissa;
   const auto text = [=, red_name = context.palette.red.name, blue_name = context.palette.blue.name](
                         double red, double blue) {
@@ -164,11 +166,11 @@ ReadOut energy_read_out(const DrawingContext& context) {
   return {"energy", text(sum, sum), shown_text, context.palette.text};
 }
 
-ReadOut momentum_read_out(const DrawingContext& context) {
+ReadOut momentum_read_out(const DrawingContext& context, int digits) {
   const BlockSystem& system = context.scene.system;
   // The heavier block has the most momentum when it has all the energy.
   const Rational most_squared = twice_energy(system) * std::max(system.blue.mass, system.red.mass);
-  const Scale scale(root_magnitude_of(most_squared));
+  const Scale scale(root_magnitude_of(most_squared), digits);
   const auto text = [scale, red_name = context.palette.red.name,
                      blue_name = context.palette.blue.name](double red, double blue) {
     return fmt::format("Momentum{}: {} {}, {} {}, sum {}", scale.unit, red_name, scale.text(red),
@@ -190,13 +192,27 @@ ReadOut momentum_read_out(const DrawingContext& context) {
   return {"momentum", text(-most, -most), shown_text, context.palette.text};
 }
 
+double room_for_read_outs(const DrawingContext& context) {
+  return context.scene.view.width_px - 2 * context.sizes.margin;
+}
+
+/// With as many digits as have room, up to a most.
+ReadOut fitted(const DrawingContext& context,
+               ReadOut (*read_out_of)(const DrawingContext& context, int digits)) {
+  for (int digits = kMostDigits;; --digits) {
+    ReadOut read_out = read_out_of(context, digits);
+    const double width = context.font.width_em(read_out.widest) * context.sizes.text;
+    if (width <= room_for_read_outs(context) || digits == kLeastDigits) return read_out;
+  }
+}
+
 std::vector<ReadOut> read_outs_of(const DrawingContext& context) {
   const Show& show = context.scene.show;
   std::vector<ReadOut> read_outs;
   if (show.has(Overlay::time)) read_outs.push_back(time_read_out(context));
   if (has_slow_motion(context.scene.pacing)) read_outs.push_back(slower_read_out(context));
-  if (show.has(Overlay::energy)) read_outs.push_back(energy_read_out(context));
-  if (show.has(Overlay::momentum)) read_outs.push_back(momentum_read_out(context));
+  if (show.has(Overlay::energy)) read_outs.push_back(fitted(context, energy_read_out));
+  if (show.has(Overlay::momentum)) read_outs.push_back(fitted(context, momentum_read_out));
   return read_outs;
 }
 
@@ -211,7 +227,7 @@ ReadOutRows::ReadOutRows(const DrawingContext& context)
   std::vector<ReadOut> read_outs = read_outs_of(context);
   if (read_outs.empty()) return;
   const double margin = context.sizes.margin;
-  const double room_px = context.scene.view.width_px - 2 * margin;
+  const double room_px = room_for_read_outs(context);
   std::string characters(kNumberCharacters);
   for (const ReadOut& read_out : read_outs) characters += read_out.widest;
   widths_ = TextWidths(context.font, characters);
@@ -249,10 +265,15 @@ ReadOutRows::ReadOutRows(const DrawingContext& context)
     }
     height_ += kRowHeight * text_px_;
   }
+  const bool is_article = context.scene.view.theme == Theme::article;
+  if (is_article || placed_.size() > 1 || !placed_.front().is_slow_motion) return;
+  height_ = 0;
+  lone_px_ = placed_.front().room_px;
 }
 
-void ReadOutRows::move(double y) {
+void ReadOutRows::move(double y, const Point& slow_motion) {
   for (Placed& placed : placed_) placed.origin.y += y;
+  if (lone_px_ > 0) placed_.front().origin = {slow_motion.x - lone_px_, slow_motion.y};
 }
 
 void ReadOutRows::operator()(const FrameState& shown, std::vector<DrawItem>& items) const {

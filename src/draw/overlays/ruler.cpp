@@ -23,6 +23,13 @@ constexpr double kLeastGap_em = 1.0;  // between figures
 
 }  // namespace
 
+double room_below_px(const Scene& scene) {
+  if (!scene.show.has(Overlay::ruler)) return 0;
+  const Sizes sizes(scene.view);
+  const double figures = (kBelowBlocks + kTickLength + kBelowTick) * sizes.unit;
+  return std::max(kRulerRoom * sizes.unit, figures + 2 * kHalfFigure_em * sizes.text);
+}
+
 Drawable ruler(const DrawingContext& context) {
   const Layout& layout = context.layout;
   const Scene& scene = context.scene;
@@ -37,7 +44,7 @@ Drawable ruler(const DrawingContext& context) {
   if (below_px > layout.below_px) {
     throw UsageError(
         fmt::format("show.overlays: the ruler needs {:.0f} pixels below the blocks, and there are "
-                    "{:.0f}; lower the lower end of view.y, or make the frame larger",
+                    "{:.0f}; leave out 'ruler', or make the frame higher",
                     below_px, std::max(0.0, layout.below_px)));
   }
   const double left = to_double(std::max(scene.view.x.low, scene.system.wall_face));
@@ -46,8 +53,8 @@ Drawable ruler(const DrawingContext& context) {
   // Figures beside the foot of the wall are not below it.
   const bool are_below_wall = baseline - 2 * kHalfFigure_em * size_px > layout.foot_px;
   const double wall_end_px = are_below_wall ? 0 : wall_px + kBesideWall_em * size_px;
-  const double first_px = std::max(sizes.margin / 2, wall_end_px);
-  const double end_px = scene.view.width_px - sizes.margin / 2;
+  const double first_px = std::max(sizes.margin, wall_end_px);
+  const double end_px = std::min(scene.view.width_px - sizes.margin, layout.right_px);
   const FigureAxis axis{
       .low = left, .high = right, .em = size_px / layout.scale, .gap_em = kLeastGap_em};
   const Ticks ticks =

@@ -66,11 +66,17 @@ void set_shapes(const BlockSystem& system, Layout& layout) {
   heavy.height_px = light.height_px * height_ratio(system);
 }
 
-/// Makes both blocks lower until the taller one has room.
-void fit_heights(double room_px, Layout& layout) {
+/// Makes both blocks lower until the taller one has room. @throws UsageError if there is too little
+void fit_heights(double room_px, const View& view, Layout& layout) {
+  if (room_px < kLeastHeight * Sizes(view).unit) {
+    throw UsageError(fmt::format(
+        "show: the blocks would be {:.0f} pixels high in {}x{}; leave something out, or make the "
+        "frame larger",
+        std::max(0.0, room_px), view.width_px, view.height_px));
+  }
   const double shrink = std::min(1.0, room_px / (layout.floor_px - layout.top_px()));
   for (BlockShape* block : {&layout.blue, &layout.red}) {
-    block->height_px = std::round(block->height_px * shrink);
+    block->height_px = std::floor(block->height_px * shrink);
   }
 }
 
@@ -120,24 +126,20 @@ Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font
   layout.scale = axis.scale;
   check_resolution(scene.view, layout.scale);
 
-  const Show& show = scene.show;
+  const double below = sizes.wall_line + room_below_px(scene);
   set_shapes(scene.system, layout);
-  const bool has_label = show.has(Overlay::masses) && has_mass_above(scene, layout, font);
-  const double above =
-      (show.has(Overlay::velocities) ? kArrowRoom : 0) + (has_label ? kMassRoom : 0);
-  const double below = sizes.wall_line + (show.has(Overlay::ruler) ? kRulerRoom * sizes.unit : 0);
-  const double room = area.height - below - std::max(kWallAbove, above) * sizes.unit;
-  if (room < kLeastHeight * sizes.unit) {
-    throw UsageError(fmt::format(
-        "show: the blocks would be {:.0f} pixels high in {}x{}; leave something out, or make the "
-        "frame larger",
-        std::max(0.0, room), scene.view.width_px, scene.view.height_px));
-  }
-  fit_heights(room, layout);
+  double above = 0;
+  double room = 0;
+  do {
+    above = room_above_px(scene, layout, font);
+    room = area.height - below - std::max(kWallAbove * sizes.unit, above);
+    fit_heights(room, scene.view, layout);
+    // A mass that was on its block is above it where the block is now too low.
+  } while (room_above_px(scene, layout, font) > above);
   const double height = std::max(layout.blue.height_px, layout.red.height_px);
   // What is left over is above and below in equal parts.
   const double rest = has_low_floor ? 0 : (room - height) / 2;
-  layout.floor_px = std::round(area.y + area.height - below - rest);
+  layout.floor_px = std::floor(area.y + area.height - below - rest);
   layout.origin = {axis.left_px - to_double(axis.range.low) * layout.scale, layout.floor_px};
   layout.above_px = layout.top_px() - area.y;
   layout.below_px = area.y + area.height - layout.floor_px;

@@ -8,10 +8,6 @@
 namespace piblocks {
 namespace {
 
-/// The share of the way from one power of ten to the next, on a logarithmic scale, in which the
-/// zoom stays.
-constexpr double kPlateau = 0.5;
-
 /// Rises from 0 to 1, and is level at both ends.
 double smooth_step(double share) {
   const double x = std::clamp(share, 0.0, 1.0);
@@ -31,7 +27,7 @@ double straight_exp2(double y) {
   return std::ldexp(1 + (y - whole), static_cast<int>(whole));
 }
 
-Zoom::Zoom(long most_exponent) {
+Zoom::Zoom(long most_exponent, double plateau) : plateau_(plateau) {
   for (long exponent = 0; exponent <= most_exponent; ++exponent) {
     powers_.push_back(to_double(power_of_ten(exponent)));
   }
@@ -47,7 +43,7 @@ double Zoom::of(double room) const {
   if (exponent == most_exponent()) return powers_.back();
   const double mantissa = room / power(exponent);
   const double way = straight_log2(mantissa) / straight_log2(10);
-  const double eased = smooth_step((way - kPlateau) / (1 - kPlateau));
+  const double eased = smooth_step((way - plateau_) / (1 - plateau_));
   return std::min(room, power(exponent) * straight_exp2(eased * straight_log2(10)));
 }
 

@@ -12,12 +12,16 @@ double straight_log2(double x);
 /// Its inverse.
 double straight_exp2(double y);
 
-/// Stays at each power of ten while the room for the gap grows threefold, and then rises to the
-/// next. Rising and continuous.
+/// Stays at each power of ten while the room for the gap grows to some part of the next, and then
+/// rises to that. Rising and continuous.
 class Zoom {
  public:
+  /// The share of the way from one power of ten to the next, on a logarithmic scale, in which the
+  /// zoom stays: half of it is threefold.
+  static constexpr double kPlateau = 0.5;
+
   /// @param most_exponent  of the largest power of ten, at least 1
-  explicit Zoom(long most_exponent);
+  explicit Zoom(long most_exponent, double plateau = kPlateau);
 
   /// At most `room`, unless that is below 1. @param room  > 0, may be infinite
   double of(double room) const;
@@ -27,6 +31,7 @@ class Zoom {
   long exponent_of(double zoom) const;
 
  private:
+  double plateau_;
   std::vector<double> powers_;  ///< 1, 10, 100, …
 };
 

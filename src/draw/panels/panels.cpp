@@ -41,6 +41,23 @@ std::vector<Point> Circle::arc(double from, double to) const {
   return points;
 }
 
+PanelTitle fitting_title(const DrawingContext& context, const PanelPlace& place,
+                         const std::vector<Formula>& wordings) {
+  const auto fits = [&](const Formula& wording) {
+    return wording.width_em() * context.sizes.text <= place.area.width;
+  };
+  const auto found = std::ranges::find_if(wordings, fits);
+  const Formula& wording = found == wordings.end() ? wordings.back() : *found;
+  return {wording, wording};
+}
+
+bool shows_a_turn(const DrawingContext& context) {
+  const Span span = span_of(context.scene, context.log);
+  const BlockState first = context.log.state_at(span.from);
+  const BlockState last = context.log.state_at(span.to);
+  return first.red.velocity < 0 && last.red.velocity > 0 && last.count - first.count >= 3;
+}
+
 Diagram::Diagram(const DrawingContext& context, const PanelPlace& place, const PanelTitle& title)
     : palette_(context.palette),
       fonts_(&context.fonts),
@@ -51,6 +68,13 @@ Diagram::Diagram(const DrawingContext& context, const PanelPlace& place, const P
       text_px_(context.sizes.text) {
   const Rectangle& whole = place.area;
   const bool is_full = title.full.width_em() * text_px_ <= whole.width;
+  const double brief_px = title.brief.width_em() * text_px_;
+  if (!is_full && brief_px > whole.width) {
+    throw UsageError(fmt::format(
+        "show.panels: the title of the diagram '{}' needs {:.0f} pixels, and there are {:.0f}; "
+        "leave out a diagram, or make the frame larger",
+        exact_text(panel_), brief_px, whole.width));
+  }
   formula(is_full ? title.full : title.brief, {whole.x, whole.y + kTitleBaseline * text_px_}, 0,
           palette_.text);
   const double top = kTitleHeight * text_px_;
@@ -155,9 +179,14 @@ void TimeAxis::add_base(Diagram& diagram) const {
   }
 }
 
-PathItem TimeAxis::cursor(const Diagram& diagram, double time) const {
-  const double x = std::round(x_of(time)) + 0.5;
-  return diagram.moving_line(0, {{x, plot_.y}, {x, bottom()}}, diagram.palette().accent);
+RectangleItem TimeAxis::cursor(const Diagram& diagram, std::size_t n, const Point& present) const {
+  const double width = std::max(1.0, std::round(diagram.sizes().grid_line));
+  const double top = std::round(present.y);
+  return {
+      diagram.moving(n),
+      {std::round(present.x - width / 2), top, width, std::max(0.0, std::round(bottom()) - top)},
+      diagram.palette().accent,
+      std::nullopt};
 }
 
 }  // namespace piblocks

@@ -24,7 +24,7 @@ struct PanelPlace {
 Drawable velocity_panel(const DrawingContext& context, const PanelPlace& place);
 /// The same, first as the ellipse that it is before velocities are scaled by the masses' roots.
 Drawable ellipse_panel(const DrawingContext& context, const PanelPlace& place);
-/// The path through the plane of both gaps.
+/// The path through the plane of both gaps, enlarged near the corner.
 Drawable position_panel(const DrawingContext& context, const PanelPlace& place);
 /// The straight line through the unfolded wedges.
 Drawable unfolded_panel(const DrawingContext& context, const PanelPlace& place);
@@ -35,14 +35,23 @@ Drawable mirrors_panel(const DrawingContext& context, const PanelPlace& place);
 Drawable certainty_panel(const DrawingContext& context, const PanelPlace& place);
 /// Both gaps against time.
 Drawable time_panel(const DrawingContext& context, const PanelPlace& place);
-/// Collisions per second against time.
-Drawable rate_panel(const DrawingContext& context, const PanelPlace& place);
+/// Collisions so far against time.
+Drawable count_panel(const DrawingContext& context, const PanelPlace& place);
+/// Bars of energy and momentum.
+Drawable conservation_panel(const DrawingContext& context, const PanelPlace& place);
 
 /// A sentence that says what to see. The brief one is for panels too narrow for the full one.
 struct PanelTitle {
   Formula full;
   Formula brief;
 };
+
+/// The first of several wordings, from the longest to the shortest, that a panel has room for.
+PanelTitle fitting_title(const DrawingContext& context, const PanelPlace& place,
+                         const std::vector<Formula>& wordings);
+
+/// Whether red comes, at least three collisions happen, and red goes while the scene is shown.
+bool shows_a_turn(const DrawingContext& context);
 
 struct Circle {
   Point centre;
@@ -66,6 +75,8 @@ class Diagram {
   double text_px() const noexcept { return text_px_; }
   const Palette& palette() const noexcept { return palette_; }
   const Sizes& sizes() const noexcept { return sizes_; }
+  /// Width of lines of data, in widths of the grid's lines.
+  double data_width() const noexcept { return sizes_.data_line / sizes_.grid_line; }
   /// For formulas. Until finish().
   FormulaSetter setter() const { return {*fonts_, font_->face()}; }
 
@@ -100,6 +111,13 @@ class Diagram {
   DiskItem dot(std::size_t n, const Point& at, const Color& color) const {
     return {moving(n), at, kDotRadius * sizes_.grid_line, color,
             Stroke{palette_.background, sizes_.grid_line}};
+  }
+
+  /// The same, larger, where it is the only one.
+  DiskItem present_dot(std::size_t n, const Point& at) const {
+    DiskItem item = dot(n, at, palette_.accent);
+    item.radius = style::kPresentDot * sizes_.unit;
+    return item;
   }
 
   /// All that stays as one item; nothing can be added to it any more.
@@ -143,6 +161,7 @@ class TimeAxis {
   const Span& span() const noexcept { return span_; }
   /// The diagram without the figures below it.
   const Rectangle& plot() const noexcept { return plot_; }
+  double right() const noexcept { return plot_.x + plot_.width; }
   double bottom() const noexcept { return plot_.y + plot_.height; }
   double x_of(double time) const noexcept { return plot_.x + (time - from_) * scale_; }
   /// Whether a time is on the axis. Stills may show instants that are not.
@@ -153,8 +172,9 @@ class TimeAxis {
 
   /// Axis, ticks and figures.
   void add_base(Diagram& diagram) const;
-  /// Marks the present.
-  PathItem cursor(const Diagram& diagram, double time) const;
+  /// Marks the present as the n-th of the things that move, from the axis to a height. A rectangle
+  /// on whole pixels costs less than a line.
+  RectangleItem cursor(const Diagram& diagram, std::size_t n, const Point& present) const;
 
  private:
   struct Figure {

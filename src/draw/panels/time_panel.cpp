@@ -1,4 +1,12 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
 
 #include "draw/panels/panels.hpp"
 #include "draw/panels/trajectory.hpp"
@@ -6,16 +14,20 @@
 namespace piblocks {
 namespace {
 
+// In ems.
+constexpr double kNameTop_em = 0.78;     // of a name above its baseline
+constexpr double kNameBottom_em = 0.22;  // and below
+constexpr double kAroundName_em = 0.25;
+constexpr double kNameStep_em = 0.2;
+
 /// From a time and a gap to a place in the panel.
 using ToPlace = std::function<Point(double time, double gap)>;
 
-void add_blue(const TrajectoryPiece& piece, const ToPlace& at, Diagram& diagram) {
-  const Color color = diagram.palette().blue.line;
+std::vector<Point> outline_of(const TrajectoryPiece& piece, const ToPlace& at) {
   std::vector<Point> points;
   if (piece.bands.empty()) {
     for (const auto& [time, gaps] : piece.corners) points.push_back(at(time, gaps.y1));
-    diagram.line(std::move(points), color);
-    return;
+    return points;
   }
   for (const Band& band : piece.bands) {
     points.push_back(at(band.from.time, band.high));
@@ -23,10 +35,10 @@ void add_blue(const TrajectoryPiece& piece, const ToPlace& at, Diagram& diagram)
   }
   points.push_back(at(piece.bands.back().to.time, 0));
   points.push_back(at(piece.bands.front().from.time, 0));
-  diagram.shape(std::move(points), color, color);
+  return points;
 }
 
-void add_red(const std::vector<TrajectoryPiece>& pieces, const ToPlace& at, Diagram& diagram) {
+std::vector<Point> red_line(const std::vector<TrajectoryPiece>& pieces, const ToPlace& at) {
   std::vector<Point> points;
   for (const TrajectoryPiece& piece : pieces) {
     for (const auto& [time, gaps] : piece.corners) points.push_back(at(time, gaps.y2));
@@ -35,38 +47,198 @@ void add_red(const std::vector<TrajectoryPiece>& pieces, const ToPlace& at, Diag
       points.push_back(at(band.to.time, band.to.gaps.y2));
     }
   }
-  diagram.line(std::move(points), diagram.palette().red.line, 2);
+  return points;
 }
+
+/// What each curve and name takes of each column of pixels, to place names beside the curves.
+class TakenColumns {
+ public:
+  enum Layer : std::size_t { kBlue, kRed, kNames };
+
+  explicit TakenColumns(const Rectangle& plot) : plot_(plot) {
+    const auto columns = static_cast<std::size_t>(std::max(1.0, std::ceil(plot.width)));
+    for (auto& layer : layers_) layer.resize(columns);
+  }
+
+  /// Adds lines from point to point.
+  void add(Layer layer, const std::vector<Point>& points) {
+    for (std::size_t i = 1; i < points.size(); ++i) add(layer, points[i - 1], points[i]);
+  }
+
+  bool is_free(const Rectangle& box) const {
+    for (std::size_t i = column_of(box.x); i <= column_of(box.x + box.width); ++i) {
+      for (const auto& layer : layers_) {
+        if (layer[i].high >= box.y && layer[i].low <= box.y + box.height) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Where the curves are farthest from each other: a place on each, by its layer.
+  std::array<Point, 2> farthest_apart() const {
+    std::array<Point, 2> places{};
+    double most = -1;
+    for (std::size_t i = 0; i < layers_[kBlue].size(); ++i) {
+      const double x = plot_.x + double(i);
+      const std::array ys{layers_[kBlue][i].middle(), layers_[kRed][i].middle()};
+      if (!(std::abs(ys[0] - ys[1]) > most)) continue;
+      most = std::abs(ys[0] - ys[1]);
+      places = {Point{x, ys[0]}, Point{x, ys[1]}};
+    }
+    return places;
+  }
+
+ private:
+  /// Pixels between which something is drawn.
+  struct Column {
+    double middle() const { return (low + high) / 2; }
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+  };
+
+  std::size_t column_of(double x) const {
+    return static_cast<std::size_t>(
+        std::clamp(std::floor(x - plot_.x), 0.0, double(layers_[kBlue].size() - 1)));
+  }
+  void add(Layer layer, Point a, Point b) {
+    if (a.x > b.x) std::swap(a, b);
+    const bool is_upright = a.x == b.x;
+    for (std::size_t i = column_of(a.x); i <= column_of(b.x); ++i) {
+      const auto y_at = [&](double column) {
+        const double x = std::clamp(plot_.x + column, a.x, b.x);
+        return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
+      };
+      const double first = is_upright ? a.y : y_at(double(i));
+      const double last = is_upright ? b.y : y_at(double(i) + 1);
+      Column& column = layers_[layer][i];
+      column.low = std::min({column.low, first, last});
+      column.high = std::max({column.high, first, last});
+    }
+  }
+
+  Rectangle plot_;
+  std::array<std::vector<Column>, 3> layers_;
+};
+
+std::string capitalised(std::string name) {
+  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  return name;
+}
+
+PanelTitle title_of_time(const DrawingContext& context, const PanelPlace& place) {
+  const FormulaSetter set = context.setter();
+  const auto& [red, blue] = std::pair(context.palette.red, context.palette.blue);
+  const Formula red_name = set.text(capitalised(red.full_name)).colored(red.label);
+  const Formula blue_name = set.text(blue.full_name).colored(blue.label);
+  const std::vector<Formula> plain{set.text("Distances from the wall"), set.text("Distances")};
+  if (!shows_a_turn(context)) return fitting_title(context, place, plain);
+  return fitting_title(
+      context, place,
+      {red_name + set.text(" turns around; ") + blue_name + set.text(" bounces between"),
+       set.text(capitalised(red.name)).colored(red.label) + set.text(" turns; ") +
+           set.text(blue.name).colored(blue.label) + set.text(" bounces"),
+       set.text("Distances")});
+}
+
+class TimePanel {
+ public:
+  TimePanel(const DrawingContext& context, const PanelPlace& place)
+      : diagram_(context, place, title_of_time(context, place)),
+        wedge_(context.scene.system),
+        axis_(context, diagram_, 0) {
+    const int columns = std::max(1, static_cast<int>(std::ceil(axis_.plot().width)));
+    const auto pieces = trajectory_of(context.log, wedge_, axis_.span(), columns);
+    top_ = greatest_y2(pieces);
+    const Palette& palette = diagram_.palette();
+    const auto to_place = [this](double time, double gap) { return at(time, gap); };
+    TakenColumns taken(axis_.plot());
+    for (const TrajectoryPiece& piece : pieces) {
+      std::vector<Point> points = outline_of(piece, to_place);
+      taken.add(TakenColumns::kBlue, points);
+      if (piece.bands.empty()) {
+        diagram_.line(std::move(points), palette.blue.line, diagram_.data_width());
+      } else {
+        diagram_.shape(std::move(points), palette.blue.line, palette.blue.line);
+      }
+    }
+    // Red's line is over what blue covers.
+    std::vector<Point> red = red_line(pieces, to_place);
+    taken.add(TakenColumns::kRed, red);
+    diagram_.line(std::move(red), palette.red.line, diagram_.data_width());
+    axis_.add_base(diagram_);
+    add_names(taken);
+    diagram_.finish();
+  }
+
+  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
+    items.emplace_back(diagram_.item());
+    const double time = to_double(shown.time);
+    if (!axis_.shows(time)) return;
+    const GapPoint gaps = wedge_.gaps_of(shown.state);
+    const Point red = at(time, gaps.y2);
+    items.emplace_back(axis_.cursor(diagram_, 0, red));
+    items.emplace_back(diagram_.dot(1, red, diagram_.palette().red.line));
+    items.emplace_back(diagram_.dot(2, at(time, gaps.y1), diagram_.palette().blue.line));
+  }
+
+ private:
+  Point at(double time, double gap) const {
+    const double share = top_ > 0 ? gap / top_ : 0;
+    return {axis_.x_of(time), axis_.bottom() - share * axis_.plot().height};
+  }
+
+  /// Names both curves, and what they show, where nothing else is.
+  void add_names(TakenColumns& taken) {
+    const Palette& palette = diagram_.palette();
+    const auto [on_blue, on_red] = taken.farthest_apart();
+    add_name({palette.red.name, on_red, palette.red.label}, taken);
+    add_name({palette.blue.name, on_blue, palette.blue.label}, taken);
+    const Rectangle& plot = axis_.plot();
+    add_name({"distance from the wall", {plot.x + plot.width / 2, plot.y}, palette.muted}, taken);
+  }
+
+  struct Name {
+    std::string text;
+    Point near;
+    Color color;
+  };
+
+  /// Puts a name as near to its place as nothing else is; leaves it out if there is no room.
+  void add_name(const Name& name, TakenColumns& taken) {
+    const double em = diagram_.text_px();
+    const double around = kAroundName_em * em;
+    const Rectangle& plot = axis_.plot();
+    const double width = diagram_.setter().text(name.text).width_em() * em + 2 * around;
+    const double height = (kNameTop_em + kNameBottom_em) * em + 2 * around;
+    std::optional<Rectangle> best;
+    double least = std::numeric_limits<double>::infinity();
+    const double step = std::max(2.0, kNameStep_em * em);
+    for (double x = plot.x; x + width <= plot.x + plot.width; x += step) {
+      for (double y = plot.y; y + height <= axis_.bottom(); y += step) {
+        const Rectangle box{x, y, width, height};
+        const double far = std::hypot(x + width / 2 - name.near.x, y + height / 2 - name.near.y);
+        if (far >= least || !taken.is_free(box)) continue;
+        least = far;
+        best = box;
+      }
+    }
+    if (!best) return;
+    const auto& [x, y, box_width, box_height] = *best;
+    diagram_.text(name.text, {x + around, y + around + kNameTop_em * em}, 0, name.color);
+    taken.add(TakenColumns::kNames, {{x, y}, {x + box_width, y}});
+    taken.add(TakenColumns::kNames, {{x, y + box_height}, {x + box_width, y + box_height}});
+  }
+
+  Diagram diagram_;
+  GapWedge wedge_;
+  TimeAxis axis_;
+  double top_ = 0;  ///< red's greatest gap
+};
 
 }  // namespace
 
 Drawable time_panel(const DrawingContext& context, const PanelPlace& place) {
-  Diagram diagram(
-      context, place,
-      {context.setter().text("Distance from the wall"), context.setter().text("Distances")});
-  const GapWedge wedge(context.scene.system);
-  const TimeAxis axis(context, diagram, 0);
-  const int columns = std::max(1, static_cast<int>(std::ceil(axis.plot().width)));
-  const auto pieces = trajectory_of(context.log, wedge, axis.span(), columns);
-  const double top = greatest_y2(pieces);
-  const auto at = [axis, top](double time, double gap) {
-    const double share = top > 0 ? gap / top : 0;
-    return Point{axis.x_of(time), axis.bottom() - share * axis.plot().height};
-  };
-  // Red's line is over what blue covers.
-  for (const TrajectoryPiece& piece : pieces) add_blue(piece, at, diagram);
-  add_red(pieces, at, diagram);
-  axis.add_base(diagram);
-  diagram.finish();
-  return [=](const FrameState& shown, std::vector<DrawItem>& items) {
-    items.emplace_back(diagram.item());
-    const double time = to_double(shown.time);
-    if (!axis.shows(time)) return;
-    const GapPoint gaps = wedge.gaps_of(shown.state);
-    items.emplace_back(axis.cursor(diagram, time));
-    items.emplace_back(diagram.dot(1, at(time, gaps.y2), diagram.palette().red.line));
-    items.emplace_back(diagram.dot(2, at(time, gaps.y1), diagram.palette().blue.line));
-  };
+  return TimePanel(context, place);
 }
 
 }  // namespace piblocks

@@ -22,7 +22,7 @@ constexpr double kTwoRowsWidth = 32;
 constexpr double kPresentRadius = 5.2;
 constexpr double kDotRadius = 3.4;
 constexpr double kBandRadius = 1.5;
-constexpr double kLeastApart = 1;  ///< between mirrors, if they are many
+constexpr double kBetweenMirrors = 1;  ///< between mirrors, if they are many
 
 constexpr double kDotShare = 0.45;  ///< radius of a dot, of its distance to the next one
 constexpr double kDoneShare = 0.6;
@@ -59,7 +59,7 @@ class UnfoldedPanel {
         unfolds_(place.panel == Panel::mirrors),
         rows_(has_two_rows(diagram_) ? 2 : 1),
         map_(context.scene, context.log, plot(), 2 * kPresentRadius * grid_px_),
-        mirrors_(map_.mirrors(context.log, kLeastApart * grid_px_)),
+        mirrors_(map_.mirrors(context.log, kBetweenMirrors * grid_px_)),
         span_(span_of(context.scene, context.log)),
         size_(context.log.size()) {
     least_x_ = map_.left() + kPresentRadius * grid_px_;

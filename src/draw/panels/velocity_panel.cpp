@@ -18,7 +18,7 @@ constexpr std::size_t kFirstStrip = 8192;
 constexpr std::size_t kFirstAxis = 12280;
 constexpr std::size_t kFirstChord = 12288;
 constexpr std::size_t kFirstDot = 20480;
-constexpr std::size_t kPresent = 32767;
+constexpr std::size_t kPresentDot = 32767;
 
 /// Width of the strips that a filled area grows by. Finished ones cost nothing.
 constexpr double kStrip_px = 16;
@@ -131,7 +131,7 @@ class VelocityPanel {
     } else if (reached > 0) {
       add_area(map, std::atan2(velocity.y, velocity.x), reached, items);
     }
-    items.emplace_back(DiskItem{diagram_.moving(kPresent), map.at(velocity), present_px_,
+    items.emplace_back(DiskItem{diagram_.moving(kPresentDot), map.at(velocity), present_px_,
                                 diagram_.palette().accent,
                                 Stroke{diagram_.palette().background, diagram_.sizes().grid_line}});
   }

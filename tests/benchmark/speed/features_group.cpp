@@ -40,7 +40,7 @@ std::vector<Feature> features() {
        {"digits", "masses", "velocities", "energy", "momentum", "time", "ruler"}) {
     features.push_back({std::string("--show ") + overlay, {"--show", overlay}});
   }
-  for (const char* panel : {"velocity", "position", "unfolded", "time", "rate"}) {
+  for (const char* panel : {"velocity", "position", "unfolded", "time", "count", "conservation"}) {
     features.push_back({std::string("--panels ") + panel, {"--panels", panel}});
   }
   features.push_back({"four panels", {"--panels", "velocity,position,unfolded,time"}});

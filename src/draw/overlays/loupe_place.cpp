@@ -1,0 +1,123 @@
+#include "draw/overlays/loupe_place.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/overlays/overlays.hpp"
+
+namespace piblocks {
+namespace {
+
+// In fractions of the frame's shorter side.
+constexpr double kHeight = 0.27;  ///< of the inset, at most
+constexpr double kLeastBlocks = 0.075;
+/// Between blocks and zoom, for the lines from the one to the other.
+constexpr double kLinesLength = 0.16;
+// Room for figures of velocities and masses that reach beyond their block.
+constexpr double kVelocityOverhang = 0.12;
+constexpr double kMassOverhang = 0.08;
+
+constexpr double kBelowLine_em = 0.3;  ///< from the baseline of the article's counter
+
+/// Finds room for the inset: to the right of the blocks, or above them.
+class LoupePlacer {
+ public:
+  LoupePlacer(const DrawingContext& context, const FramePlan& plan, double zoom_px)
+      : context_(context), plan_(plan), zoom_px_(zoom_px) {}
+
+  std::optional<LoupePlace> find() const {
+    // Below the least size of type nothing could be read.
+    if (style::kLeastType * unit() < style::kLeastText_px) return std::nullopt;
+    const double farthest = right() - width();
+    const double floor = context_.layout.floor_px - loupe_style::kOutside * unit();
+    const double beside = blocks_right() + zoom_px_ + loupe_style::kOutside * unit();
+    std::optional<LoupePlace> found;
+    if (beside <= farthest) {
+      found = at(std::min(farthest, beside + kLinesLength * unit()), floor, true);
+      // The digits of pi may be in the way there, and not farther to the left.
+      if (!found) found = at(beside, floor, true);
+    }
+    if (!found && blocks_right() <= farthest) found = at(farthest, floor, false);
+    if (!found) found = at(farthest, stage_top(), false);
+    return found;
+  }
+
+ private:
+  double unit() const { return context_.sizes.unit; }
+  double row() const { return loupe_style::kRow_em * context_.sizes.text; }
+  double width() const { return std::round(style::kLoupe * unit()); }
+  double right() const {
+    const View& view = context_.scene.view;
+    // The counter may be beside the stage.
+    const bool is_article = view.theme == Theme::article;
+    return is_article ? view.width_px - context_.sizes.margin : context_.layout.right_px;
+  }
+
+  /// Red and what is above it stay left of this while the loupe is seen.
+  double blocks_right() const {
+    const Layout& layout = context_.layout;
+    const Show& show = context_.scene.show;
+    const double face = layout.at(to_double(context_.scene.system.wall_face), 0).x;
+    double right =
+        face + style::kLoupeFrom * unit() + (layout.blue.width + layout.red.width) * layout.scale;
+    if (show.has(Overlay::velocities)) right += kVelocityOverhang * unit();
+    if (show.has(Overlay::masses) && has_mass_above(context_.scene, layout, context_.font)) {
+      right += kMassOverhang * unit();
+    }
+    return right + loupe_style::kOutside * unit();
+  }
+
+  /// Upper end of the room for something that reaches from `left` to the right.
+  double top(double left) const {
+    const bool is_article = context_.scene.view.theme == Theme::article;
+    const CountLine& line = context_.layout.line;
+    double top = std::max(plan_.stage.y, context_.sizes.margin);
+    if (is_article) {
+      top = std::max(top, line.label.y + kBelowLine_em * line.text_px);
+    } else if (left + width() + loupe_style::kOutside * unit() > plan_.counter.pi_left_px) {
+      top = std::max(top, plan_.header_px);
+    }
+    return std::ceil(top + loupe_style::kOutside / 2 * unit());
+  }
+
+  /// Upper end of all that is above the floor.
+  double stage_top() const {
+    const Show& show = context_.scene.show;
+    const Layout& layout = context_.layout;
+    double above = loupe_style::kOutside;
+    if (show.has(Overlay::velocities)) above += kArrowRoom;
+    if (show.has(Overlay::masses) && has_mass_above(context_.scene, layout, context_.font)) {
+      above += kMassRoom;
+    }
+    return layout.top_px() - above * unit();
+  }
+
+  double rows_px(bool is_zoom_beside) const {
+    const int slow_motion = has_slow_motion(context_.scene.pacing) ? 1 : 0;
+    return row() * (slow_motion + (is_zoom_beside ? 0 : 1));
+  }
+
+  std::optional<LoupePlace> at(double left, double bottom, bool is_zoom_beside) const {
+    const double rows = rows_px(is_zoom_beside);
+    const double least = rows + (loupe_style::kBelowFloor + loupe_style::kAboveBlocks +
+                                 loupe_style::kInside + kLeastBlocks) *
+                                    unit();
+    const double lower = std::floor(bottom);
+    const double height = std::floor(std::min(kHeight * unit(), lower - top(left)));
+    if (height < least || left < context_.sizes.margin) return std::nullopt;
+    return LoupePlace{{std::floor(left), lower - height, width(), height}, rows, is_zoom_beside};
+  }
+
+  const DrawingContext& context_;
+  const FramePlan& plan_;
+  double zoom_px_;
+};
+
+}  // namespace
+
+std::optional<LoupePlace> find_loupe_place(const DrawingContext& context, const FramePlan& plan,
+                                           double zoom_px) {
+  return LoupePlacer(context, plan, zoom_px).find();
+}
+
+}  // namespace piblocks

@@ -1,0 +1,39 @@
+// Where the loupe is.
+// In: what else is in the frame. Out: a place that is clear of it all.
+#pragma once
+
+#include <optional>
+
+#include "draw/layout.hpp"
+
+namespace piblocks {
+
+struct LoupePlace {
+  Rectangle bounds;    ///< in whole pixels of the frame
+  double rows_px = 0;  ///< height of its rows of text
+  bool is_zoom_beside = true;
+};
+
+/// Room for the inset to the right of the blocks, or above them; nothing if there is none.
+/// @param zoom_px  width of the longest zoom
+std::optional<LoupePlace> find_loupe_place(const DrawingContext& context, const FramePlan& plan,
+                                           double zoom_px);
+
+/// Proportions of the inset.
+namespace loupe_style {
+
+// In fractions of the frame's shorter side.
+inline constexpr double kBelowFloor = 0.025;
+inline constexpr double kAboveBlocks = 0.015;
+inline constexpr double kInside = 0.012;   ///< between the inset's edges and what is in it
+inline constexpr double kOutside = 0.025;  ///< between the inset and what is around it
+
+inline constexpr double kRow_em = 1.35;  ///< from one row of text to the next
+/// From this exponent on a zoom is written as a power of ten.
+inline constexpr long kLeastPower = 4;
+/// The loupe is seen in full below this share of the gap at which it begins to be seen.
+inline constexpr double kFullyShown = 0.5;
+
+}  // namespace loupe_style
+
+}  // namespace piblocks

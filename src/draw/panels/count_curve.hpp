@@ -1,0 +1,63 @@
+// The number of collisions against time, as a line of any width.
+// In: a log, a span of time, how many columns a picture has for it. Out: the line's corners, with
+// exact counts.
+#pragma once
+
+#include <piblocks/run.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/schedule.hpp"
+
+namespace piblocks {
+
+struct CountPoint {
+  double share = 0;  ///< of the span, 0 … 1
+  Integer count;
+};
+
+/// A staircase where collisions are apart: each step is upright, at its time to 1/64 of a column.
+/// Where a column has more than two, a straight line from count to count at the column's ends.
+/// Collisions at the very beginning are a step at share 0.
+/// @param columns  >= 1
+/// @throws SimulationError as CollisionLog::state_at().
+std::vector<CountPoint> count_curve(const CollisionLog& log, const Span& span, int columns);
+
+/// A round factor, 1, 2 or 5 times a power of ten.
+struct RoundFactor {
+  int digit = 1;
+  long exponent = 0;
+
+  Rational value() const;
+  /// "200", "5×10⁷"
+  std::string text() const;
+  RoundFactor next() const;
+};
+
+/// The greatest that is no greater. @param value  >= 1
+RoundFactor round_factor_below(const Rational& value);
+
+/// Part of a curve of counts, enlarged around the turn until single steps are seen.
+struct EnlargedTurn {
+  Span span;
+  RoundFactor time_factor;
+  RoundFactor count_factor;
+  Integer low;  ///< count at the span's beginning
+  Integer high;
+};
+
+/// What of a picture of a curve is enlarged, and how far it may be.
+struct Enlargement {
+  Span whole;               ///< time that the picture shows
+  Rational share;           ///< of its width that the enlarged part is wide
+  int most_steps = 1;       ///< that the part may have
+  Rational counts_in_room;  ///< that would fill the part's height without being enlarged
+};
+
+/// Nothing if there is no turn within the span, nothing to enlarge, or all collisions happen at
+/// once.
+std::optional<EnlargedTurn> enlarged_turn(const CollisionLog& log, const Enlargement& enlargement);
+
+}  // namespace piblocks

@@ -1,0 +1,308 @@
+// Every combination of overlays and diagrams in frames of many shapes: texts keep apart from each
+// other, from blocks and from the margins, and can be read. What has no room is refused by its key.
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+#include <piblocks/script.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "draw/composition.hpp"
+#include "draw/font.hpp"
+#include "draw/look.hpp"
+#include "scene/schedule.hpp"
+#include "support/property.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr std::array kShapes{"1920x1080", "1280x720",  "3840x2160", "1440x1080",
+                             "1080x1080", "1080x1920", "2560x1080", "640x360"};
+constexpr std::array kOverlays{"digits",   "masses", "velocities", "energy",
+                               "momentum", "time",   "ruler"};
+constexpr std::array kPanels{"velocity", "position", "unfolded", "time",
+                             "count",    "ellipse",  "mirrors",  "conservation"};
+constexpr std::array kThemes{"lecture", "lecture-light", "article", "print"};
+constexpr std::array kDigits{1, 3, 8};
+
+/// A raised or lowered part of a formula, in parts of its line.
+constexpr double kScriptScale = 0.65;
+constexpr double kTouch_px = 0.5;
+/// Places are whole pixels where that makes them sharp.
+constexpr double kRounded_px = 0.5;
+constexpr double kRounding = 1e-6;
+
+bool shows(ItemId item, ItemId thing) {
+  return static_cast<std::uint32_t>(item) >> 16 == static_cast<std::uint32_t>(thing) >> 16;
+}
+
+struct Box {
+  double left;
+  double top;
+  double right;
+  double bottom;
+  double baseline;
+  ItemId id;
+  double size_px;  ///< of type; 0 of a block
+  std::string what;
+};
+
+bool overlap(const Box& a, const Box& b) {
+  return a.left < b.right - kTouch_px && b.left < a.right - kTouch_px &&
+         a.top < b.bottom - kTouch_px && b.top < a.bottom - kTouch_px;
+}
+
+/// The texts and blocks of a picture, and what is wrong with them.
+class Arrangement {
+ public:
+  Arrangement(const DrawList& list, const View& view, const Fonts& fonts)
+      : list_(list), view_(view), sizes_(view), fonts_(fonts) {
+    add(list.items);
+  }
+
+  std::string problem() const {
+    for (std::size_t i = 0; i < texts_.size(); ++i) {
+      const Box& text = texts_[i];
+      if (!is_inside(text)) return text.what + " is outside of the margins";
+      if (!can_be_read(text)) return text.what + " is too small";
+      for (std::size_t k = 0; k < i; ++k) {
+        if (overlap(text, texts_[k])) return text.what + " meets " + texts_[k].what;
+      }
+      for (const Box& block : blocks_) {
+        // A mass may be on its block, and the loupe has a label of its own.
+        const bool belongs = shows(text.id, ItemId::masses)
+                                 ? !shows(block.id, ItemId::loupe)
+                                 : shows(text.id, ItemId::loupe) && shows(block.id, ItemId::loupe);
+        if (belongs && is_on(text, block)) continue;
+        if (overlap(text, block)) return text.what + " meets " + block.what;
+      }
+    }
+    return {};
+  }
+  std::size_t text_count() const { return texts_.size(); }
+
+ private:
+  void add(const std::vector<DrawItem>& items) {
+    for (const DrawItem& item : items) {
+      if (const auto* text = std::get_if<TextItem>(&item)) add(*text);
+      if (const auto* plate = std::get_if<PlateItem>(&item)) add(plate->plate->items);
+      if (const auto* block = std::get_if<RectangleItem>(&item)) add(*block);
+      if (const auto* group = std::get_if<GroupItem>(&item)) {
+        const Rectangle& r = group->bounds;
+        blocks_.push_back({r.x, r.y, r.x + r.width, r.y + r.height, 0, group->id, 0, "the loupe"});
+      }
+    }
+  }
+  void add(const TextItem& text) {
+    if (text.text.empty() || text.text == " ") return;
+    const double em = text.size_px;
+    const double width = fonts_.of(text.face).width_em(text.text) * em;
+    // Beside letters, brackets and commas hang below the line.
+    const bool hangs =
+        text.face == Face::math || text.text.find_first_of("gjpqyQ,;()[]") != std::string::npos;
+    texts_.push_back({text.origin.x, text.origin.y - 0.74 * em, text.origin.x + width,
+                      text.origin.y + (hangs ? 0.2 : 0.02) * em, text.origin.y, text.id, em,
+                      "'" + text.text + "'"});
+  }
+  void add(const RectangleItem& item) {
+    if (item.id != ItemId::red_block && item.id != ItemId::blue_block) return;
+    const Rectangle& r = item.bounds;
+    blocks_.push_back({r.x, r.y, r.x + r.width, r.y + r.height, 0, item.id, 0,
+                       item.id == ItemId::red_block ? "the red block" : "the blue block"});
+  }
+
+  bool is_inside(const Box& text) const {
+    const bool is_counter = shows(text.id, ItemId::label) || shows(text.id, ItemId::count) ||
+                            shows(text.id, ItemId::lit_count);
+    const double margin = view_.theme == Theme::article && is_counter
+                              ? 0  // of the article's own picture
+                              : sizes_.margin - kRounding;
+    // What hangs below the line may reach into the margin.
+    return text.left >= margin && text.right <= list_.width_px - margin && text.top >= margin / 2 &&
+           text.baseline <= list_.height_px - margin + kRounded_px;
+  }
+
+  /// As large as it has to be, or beside something that is.
+  bool can_be_read(const Box& text) const {
+    const double least = style::kLeastType * sizes_.unit - kRounding;
+    return text.size_px >= least || std::ranges::any_of(texts_, [&](const Box& base) {
+             return base.size_px >= least &&
+                    std::abs(base.size_px * kScriptScale - text.size_px) < kRounding &&
+                    text.left >= base.left && text.left < base.right + 4 * base.size_px;
+           });
+  }
+
+  static bool is_on(const Box& text, const Box& block) {
+    return text.left >= block.left && text.right <= block.right && text.top >= block.top &&
+           text.bottom <= block.bottom;
+  }
+
+  const DrawList& list_;
+  const View& view_;
+  Sizes sizes_;
+  const Fonts& fonts_;
+  std::vector<Box> texts_;
+  std::vector<Box> blocks_;
+};
+
+struct Case {
+  std::string size;
+  std::string theme;
+  int digits = 3;
+  std::string overlays;
+  std::string panels;
+  bool has_title = false;
+  bool has_caption = false;
+  bool is_slowed = false;
+
+  std::string text() const {
+    std::string text = size + " --theme " + theme + " --digits " + std::to_string(digits);
+    if (!overlays.empty()) text += " --show " + overlays;
+    if (!panels.empty()) text += " --panels " + panels;
+    return text + (has_title ? " titled" : "") + (has_caption ? " with a caption" : "") +
+           (is_slowed ? " --slow-motion auto" : "");
+  }
+};
+
+Scene scene_of(const Case& one) {
+  ScriptBuilder builder;
+  const auto set = [&](const char* key, const std::string& text) {
+    if (!text.empty()) builder.set("test", key, text);
+  };
+  set("digits", std::to_string(one.digits));
+  set("view.size", one.size);
+  set("view.theme", one.theme);
+  set("show.overlays", one.overlays);
+  set("show.panels", one.panels);
+  if (one.has_title) set("show.title", "Why do two blocks count π?");
+  if (one.has_caption) set("show.caption", "Two blocks, a wall and no friction");
+  if (one.is_slowed) set("time.slow-motion", "auto");
+  return builder.build_scene();
+}
+
+/// A refusal names a key and what would help, in one line.
+std::string problem_of_refusal(const std::string& what) {
+  const bool is_line = what.find('\n') == std::string::npos;
+  const bool has_key = what.starts_with("show") || what.starts_with("view.");
+  const std::size_t remedy = what.find("; ");
+  const bool has_remedy =
+      remedy != std::string::npos && (what.find("leave", remedy) != std::string::npos ||
+                                      what.find("make", remedy) != std::string::npos);
+  return is_line && has_key && has_remedy ? "" : "refused by: " + what;
+}
+
+class Arrangements : public testing::Test {
+ protected:
+  void expect_sound(const Case& one) {
+    const Scene scene = scene_of(one);
+    const auto log = make_collision_log(scene.system);
+    ++tried_;
+    try {
+      const Composition composition(scene, *log);
+      ++drawn_;
+      const Rational end = span_of(scene, *log).to;
+      for (const Rational& time : {Rational(0), Rational(33, 10), Rational(7, 2), end}) {
+        const DrawList list = composition.frame({.state = log->state_at(time),
+                                                 .time = time,
+                                                 .slower = one.is_slowed && time != 0 ? 1000 : 1,
+                                                 .gaps = gaps_at(*log, time)});
+        const Arrangement arrangement(list, scene.view, fonts_);
+        EXPECT_EQ(arrangement.problem(), "") << one.text() << " --at " << time;
+        texts_ += arrangement.text_count();
+      }
+    } catch (const UsageError& error) {
+      EXPECT_EQ(problem_of_refusal(error.what()), "") << one.text();
+    }
+  }
+
+  Case any_case(std::string overlays, std::string panels) {
+    const auto any = [this](const auto& names) {
+      return names.at(static_cast<std::size_t>(random_.integer(0, std::ssize(names) - 1)));
+    };
+    return {any(kShapes),
+            any(kThemes),
+            any(kDigits),
+            std::move(overlays),
+            std::move(panels),
+            random_.integer(0, 1) == 1,
+            random_.integer(0, 1) == 1,
+            random_.integer(0, 2) == 1};
+  }
+
+  Random random_{1618};
+  Fonts fonts_;
+  int tried_ = 0;
+  int drawn_ = 0;
+  std::size_t texts_ = 0;
+};
+
+std::vector<std::string> all_overlays() {
+  std::vector<std::string> sets;
+  for (unsigned bits = 0; bits < 1U << kOverlays.size(); ++bits) {
+    std::string& names = sets.emplace_back();
+    for (std::size_t i = 0; i < kOverlays.size(); ++i) {
+      if ((bits >> i & 1) == 0) continue;
+      names += (names.empty() ? "" : ",") + std::string(kOverlays.at(i));
+    }
+  }
+  return sets;
+}
+
+/// None, each one, each pair, all.
+std::vector<std::string> panel_sets() {
+  const std::vector<std::string> names(kPanels.begin(), kPanels.end());
+  std::vector<std::string> sets{""};
+  std::string all;
+  for (const std::string& name : names) {
+    sets.push_back(name);
+    all += (all.empty() ? "" : ",") + name;
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) sets.push_back(names[k] + "," + names[i]);
+  }
+  sets.push_back(all);
+  return sets;
+}
+
+TEST_F(Arrangements, OfEveryCombinationOfOverlays) {
+  for (const std::string& overlays : all_overlays()) {
+    for (const char* shape : kShapes) {
+      Case one = any_case(overlays, "");
+      one.size = shape;
+      expect_sound(one);
+    }
+  }
+  EXPECT_GT(drawn_, tried_ * 3 / 4);
+  EXPECT_GT(texts_, 1000U);
+}
+
+TEST_F(Arrangements, OfEveryCombinationOfDiagrams) {
+  for (const std::string& panels : panel_sets()) {
+    for (const char* shape : kShapes) {
+      Case one = any_case("", panels);
+      one.size = shape;
+      expect_sound(one);
+      one = any_case("masses,velocities", panels);
+      one.size = shape;
+      expect_sound(one);
+    }
+  }
+  EXPECT_GT(drawn_, tried_ / 2);
+}
+
+TEST_F(Arrangements, OfOverlaysAndDiagramsTogether) {
+  const std::vector<std::string> panels = panel_sets();
+  for (const std::string& overlays : all_overlays()) {
+    for (std::int64_t i = 0; i < many(6); ++i) {
+      const auto any = static_cast<std::size_t>(random_.integer(0, std::ssize(panels) - 1));
+      expect_sound(any_case(overlays, panels.at(any)));
+    }
+  }
+  EXPECT_GT(drawn_, tried_ / 3);
+}
+
+}  // namespace
+}  // namespace piblocks

@@ -1,0 +1,453 @@
+// The diagrams of counts, positions, distances and conserved sums, against the log.
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+#include <piblocks/script.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "draw/composition.hpp"
+#include "draw/font.hpp"
+#include "draw/look.hpp"
+#include "draw/number_text.hpp"
+#include "draw/panels/corner_path.hpp"
+#include "draw/panels/count_curve.hpp"
+#include "support/state_after.hpp"
+
+namespace piblocks {
+namespace {
+
+using Setting = std::pair<const char*, std::string>;
+using Settings = std::vector<Setting>;
+
+struct Pictures {
+  Pictures(int digits, const Settings& settings)
+      : scene(scene_of(digits, settings)),
+        log(make_collision_log(scene.system)),
+        composition(scene, *log) {}
+
+  static Scene scene_of(int digits, const Settings& settings) {
+    ScriptBuilder builder;
+    builder.set("test", "view.theme", "lecture");
+    builder.set("test", "digits", std::to_string(digits));
+    for (const auto& [key, text] : settings) builder.set("test", key, text);
+    return builder.build_scene();
+  }
+  DrawList at(const Rational& time) const {
+    return composition.frame(
+        {.state = log->state_at(time), .time = time, .gaps = gaps_at(*log, time)});
+  }
+
+  Scene scene;
+  std::unique_ptr<CollisionLog> log;
+  Composition composition;
+};
+
+/// What the panels show, with the items of their plates.
+struct Shown {
+  explicit Shown(const DrawList& list) { add(list.items, false); }
+
+  void add(const std::vector<DrawItem>& items, bool is_inside) {
+    for (const DrawItem& item : items) {
+      const ItemId id = std::visit([](const auto& any) { return any.id; }, item);
+      if (!is_inside && (id < ItemId::panels || id >= ItemId::card)) continue;
+      if (const auto* plate = std::get_if<PlateItem>(&item)) add(plate->plate->items, true);
+      if (const auto* path = std::get_if<PathItem>(&item)) paths.push_back(*path);
+      if (const auto* disk = std::get_if<DiskItem>(&item)) disks.push_back(*disk);
+      if (const auto* text = std::get_if<TextItem>(&item)) texts.push_back(*text);
+      if (const auto* bar = std::get_if<RectangleItem>(&item); bar != nullptr && !is_inside) {
+        bars.push_back(*bar);
+      }
+    }
+  }
+  bool has_text(const std::string& wanted) const {
+    return std::ranges::find(texts, wanted, &TextItem::text) != texts.end();
+  }
+
+  std::vector<PathItem> paths;
+  std::vector<DiskItem> disks;
+  std::vector<TextItem> texts;
+  std::vector<RectangleItem> bars;  ///< that may move
+};
+
+const Palette kPalette = palette_of(Theme::lecture);
+
+TEST(CountCurve, IsTheLogs) {
+  for (const int digits : {1, 2, 3, 5, 20}) {
+    const auto log = make_collision_log(article_system(digits));
+    const Span span{0, 8};
+    constexpr int kColumns = 300;
+    const auto points = count_curve(*log, span, kColumns);
+    EXPECT_LT(points.size(), 3000U);
+    EXPECT_EQ(points.front().count, 0);
+    EXPECT_EQ(points.back().count, log->state_at(8).count);
+    constexpr double kStep = 1.0 / 64 / kColumns;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const auto& [share, count] = points[i];
+      EXPECT_GE(share, points[i - 1].share);
+      EXPECT_GE(count, points[i - 1].count);
+      if (share == points[i - 1].share && count > points[i - 1].count) {
+        EXPECT_EQ(count - points[i - 1].count, 1);
+        EXPECT_NEAR(log->collision(count).time.hi / 8, share, kStep) << digits << ' ' << count;
+      } else if (count > points[i - 1].count) {
+        // A straight line ends at the exact counts of its column.
+        const Rational time = span.to * std::lround(share * kColumns) / kColumns;
+        EXPECT_EQ(log->state_at(time).count, count) << digits;
+      }
+    }
+  }
+}
+
+TEST(CountCurve, BeginsWithWhatHappensAtTheVeryBeginning) {
+  const Pictures pictures(3, {{"blue.position", "1/2"},
+                              {"red.position", "3/2"},
+                              {"blue.velocity", "-1"},
+                              {"time.to", "1"}});
+  const auto points = count_curve(*pictures.log, {0, 1}, 100);
+  EXPECT_EQ(points.front().count, 0);
+  EXPECT_EQ(points[1].share, 0);
+  EXPECT_EQ(points[1].count, pictures.log->state_at(0).count);
+  EXPECT_GT(points[1].count, 1);
+}
+
+TEST(CountCurve, TheTurnIsEnlargedUntilStepsAreSeen) {
+  for (int digits = 2; digits <= 20; ++digits) {
+    const auto log = make_collision_log(article_system(digits));
+    const Integer total = log->size();
+    const Enlargement enlargement{
+        .whole = {0, 8}, .share = Rational(1, 3), .most_steps = 12, .counts_in_room = total / 2};
+    const auto part = enlarged_turn(*log, enlargement);
+    ASSERT_TRUE(part) << digits;
+    const auto& [span, time_factor, count_factor, low, high] = *part;
+    EXPECT_EQ((span.from + span.to) / 2, *turn_of(log->system()));
+    EXPECT_EQ((span.to - span.from) * time_factor.value(), Rational(8, 3));
+    EXPECT_EQ(log->state_at(span.from).count, low);
+    EXPECT_EQ(log->state_at(span.to).count, high);
+    EXPECT_GE(high - low, 2) << digits;
+    EXPECT_LE(high - low, 12) << digits;
+    EXPECT_LE((high - low) * count_factor.value(), enlargement.counts_in_room);
+    EXPECT_GT((high - low) * count_factor.next().value(), enlargement.counts_in_room);
+    // Each step is there, and at its time.
+    const auto points = count_curve(*log, span, 200);
+    Integer steps = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      if (points[i].count == points[i - 1].count) continue;
+      EXPECT_EQ(points[i].share, points[i - 1].share);
+      steps += points[i].count - points[i - 1].count;
+      const Rational exact = (log->time_after(points[i].count) - span.from) / (span.to - span.from);
+      EXPECT_NEAR(to_double(exact), points[i].share, 1.0 / 64 / 200) << digits;
+    }
+    EXPECT_EQ(steps, high - low) << digits;
+  }
+}
+
+TEST(CountCurve, NothingIsEnlargedWithoutNeed) {
+  const auto log = make_collision_log(article_system(1));
+  EXPECT_FALSE(enlarged_turn(*log, {{0, 8}, Rational(1, 3), 12, 10}));
+  const auto many = make_collision_log(article_system(4));
+  EXPECT_FALSE(enlarged_turn(*many, {{5, 8}, Rational(1, 3), 12, 1000})) << "no turn is shown";
+  BlockSystem corner = article_system(3);
+  corner.blue.position = 4;  // touches red
+  corner.blue.velocity = corner.red.velocity;
+  const Enlargement all{{0, 8}, Rational(1, 3), 12, 100};
+  EXPECT_FALSE(enlarged_turn(*make_collision_log(corner), all)) << "all happen at once";
+}
+
+TEST(CountCurve, FactorsAreRound) {
+  EXPECT_EQ(round_factor_below(1).text(), "1");
+  EXPECT_EQ(round_factor_below(Rational(199, 100)).text(), "1");
+  EXPECT_EQ(round_factor_below(4999).text(), "2,000");
+  EXPECT_EQ(round_factor_below(70'000'000).text(), "5×10⁷");
+  EXPECT_EQ(round_factor_below(power_of_ten(37)).text(), "10³⁷");
+}
+
+TEST(CountPanel, SaysThatHalfComesBeforeTheTurnIfItDoes) {
+  const auto says_half = [](const Settings& settings) {
+    Settings all{{"show.panels", "count"}, {"view.size", "1280x720"}};
+    all.insert(all.end(), settings.begin(), settings.end());
+    return Shown(Pictures(3, all).at(1)).has_text("Half of the collisions come before the turn");
+  };
+  EXPECT_TRUE(says_half({}));
+  EXPECT_FALSE(says_half({{"blue.velocity", "50"}}));
+  EXPECT_FALSE(says_half({{"time.to", "3"}})) << "the turn is not shown";
+}
+
+/// The present moves through the inset as many times as fast as the inset says.
+TEST(CountPanel, EnlargesTimeAsOftenAsItSays) {
+  const Pictures pictures(3, {{"show.panels", "count"}, {"view.size", "1280x720"}});
+  const Rational turn = *turn_of(pictures.scene.system);
+  const auto dots_at = [&](const Rational& time) { return Shown(pictures.at(time)).disks; };
+  EXPECT_EQ(dots_at(1).size(), 1U) << "far from the turn";
+  const double scale = (dots_at(2).front().centre.x - dots_at(0).front().centre.x) / 2;
+  const Rational step(1, 100'000);
+  ASSERT_EQ(dots_at(turn).size(), 2U);
+  const double moved = dots_at(turn + step).back().centre.x - dots_at(turn).back().centre.x;
+  const long factor = std::lround(moved / scale / to_double(step));
+  EXPECT_NEAR(moved / scale / to_double(step), double(factor), 1e-6 * double(factor));
+  EXPECT_TRUE(Shown(pictures.at(turn)).has_text("time ×" + fixed_text(double(factor), 0)));
+}
+
+/// The area is filled up to the present and no further, by strips that stay as they are.
+TEST(CountPanel, IsFilledUpToThePresent) {
+  const Pictures pictures(2, {{"show.panels", "count"}, {"view.size", "1280x720"}});
+  std::vector<PathItem> before;
+  for (int time = 1; time <= 6; ++time) {
+    const DrawList list = pictures.at(time);
+    const Shown shown(list);
+    const Point present = shown.disks.front().centre;
+    std::vector<PathItem> strips;
+    for (const PathItem& path : shown.paths) {
+      if (path.fill == kPalette.shade) strips.push_back(path);
+    }
+    double right = 0;
+    for (const PathItem& strip : strips) {
+      const Rectangle& box = strip.points.bounds();
+      right = std::max(right, box.x + box.width);
+    }
+    EXPECT_NEAR(right, present.x, 1e-9);
+    for (std::size_t i = 0; i + 1 < before.size(); ++i) EXPECT_EQ(before[i], strips[i]);
+    before = std::move(strips);
+  }
+}
+
+/// A sentence is said only where it is true.
+TEST(GraphPanels, SayWhatIsTrue) {
+  const std::vector<std::pair<const char*, const char*>> sentences = {
+      {"time", " turns around; "},
+      {"position", "The distances zigzag into the corner and out"},
+      {"conservation", "Energy only changes hands; the wall takes the momentum"}};
+  for (const auto& [panel, text] : sentences) {
+    const auto is_said = [&](const char* end) {
+      const Pictures pictures(
+          3, {{"show.panels", panel}, {"view.size", "1280x720"}, {"time.to", end}});
+      return Shown(pictures.at(1)).has_text(text);
+    };
+    EXPECT_TRUE(is_said("8")) << text;
+    EXPECT_FALSE(is_said("3")) << text << ": red has not turned by then";
+  }
+}
+
+TEST(CornerZoom, IsContinuousAndGrowsAsTheGapShrinks) {
+  const CornerZoom zoom(1e-19);
+  double last = 1;
+  EXPECT_EQ(zoom.of(1), 1);
+  for (double share = 1; share > 1e-19; share /= 1.0005) {
+    const double now = zoom.of(share);
+    EXPECT_GE(now, last);
+    EXPECT_LE(now, 1.02 * last) << share;
+    EXPECT_LE(now * share, 1) << "out of the picture at " << share;
+    EXPECT_GE(now * share, 0.07) << "hardly seen at " << share;
+    last = now;
+  }
+  EXPECT_EQ(zoom.of(0.5), 1);
+  EXPECT_EQ(zoom.of(0.05), 10);
+  EXPECT_EQ(zoom.of(5e-8), 1e7);
+  EXPECT_EQ(*zoom.exponent_of(1e7), 7U);
+  EXPECT_FALSE(zoom.exponent_of(2e7));
+}
+
+/// Whether a place is a corner of the lines that are shown.
+bool has_corner(const ShownPath& path, const Gaps& gaps, double within) {
+  return std::ranges::any_of(path.lines, [&](const std::vector<Gaps>& line) {
+    return std::ranges::any_of(line, [&](const Gaps& corner) {
+      return std::abs(corner.y1 - gaps.y1) <= within && std::abs(corner.y2 - gaps.y2) <= within;
+    });
+  });
+}
+
+TEST(CornerPath, HoldsAllCollisionsAtEveryMagnification) {
+  for (const int digits : {1, 2, 3, 4}) {
+    const auto log = make_collision_log(article_system(digits));
+    const CornerPath path(*log, {0, 8}, 200);
+    for (double window = path.most(); window > path.least(); window /= 3.7) {
+      const ShownPath shown = path.shown({.to = window, .least_apart = window / 100});
+      const Integer seen = log->state_at(8).count;
+      for (Integer k = 1; k <= seen; k += digits < 4 ? 1 : 13) {
+        const Gaps gaps = gaps_at_collision(*log, k);
+        if (gaps.y2 > window) continue;
+        const double slack = 1e-9 * window;
+        const bool is_filled =
+            gaps.y2 >= shown.filled_low - slack && gaps.y2 <= shown.filled_high + slack;
+        EXPECT_TRUE(is_filled || has_corner(shown, gaps, slack)) << digits << ' ' << k;
+      }
+      for (const auto& line : shown.lines) {
+        for (const Gaps& gaps : line) {
+          EXPECT_LE(gaps.y2, window * (1 + 1e-12));
+          EXPECT_LE(gaps.y1, gaps.y2 * (1 + 1e-12));
+        }
+      }
+      EXPECT_LE(shown.filled_high, window * (1 + 1e-12));
+    }
+  }
+}
+
+TEST(CornerPath, CostsNoMoreForMoreCollisions) {
+  const auto log = make_collision_log(article_system(20));
+  const CornerPath path(*log, {0, 8}, 200);
+  EXPECT_LT(path.least(), 1e-18);
+  for (double window = path.most(); window > path.least(); window /= 10) {
+    std::size_t points = 0;
+    for (const auto& line : path.shown({window, window / 200}).lines) points += line.size();
+    EXPECT_LT(points, 300U) << window;
+  }
+}
+
+/// The dot is where the gaps are, at the magnification that is said.
+TEST(PositionPanel, ZoomsWithThePoint) {
+  for (const int digits : {2, 5, 20}) {
+    const Pictures pictures(digits, {{"show.panels", "position"}, {"view.size", "1280x720"}});
+    const Rational turn = *turn_of(pictures.scene.system);
+    const Shown far(pictures.at(0));
+    EXPECT_FALSE(far.has_text("×10"));
+    // The corner at the lower left is where the first line of the wedge begins.
+    const auto corner_of = [](const Shown& shown) {
+      return shown.paths.front().points.view().front().x;
+    };
+    const double scale =
+        (far.disks.front().centre.x - corner_of(far)) / gaps_at(*pictures.log, 0).y2;
+    const Shown near(pictures.at(turn));
+    const double zoom =
+        (near.disks.front().centre.x - corner_of(near)) / scale / gaps_at(*pictures.log, turn).y2;
+    EXPECT_NEAR(zoom, std::pow(10, digits - 1), 1e-9 * zoom) << digits;
+    EXPECT_TRUE(near.has_text("×10")) << "with an exponent beside it from five digits on";
+  }
+}
+
+/// Bars begin at zero, and their signed lengths are the momenta: red's, blue's, the wall's.
+TEST(ConservationPanel, SumsAreConstant) {
+  for (const int digits : {1, 2, 3}) {
+    const Pictures pictures(digits, {{"show.panels", "conservation"}, {"view.size", "1280x720"}});
+    const double mass = to_double(pictures.scene.system.red.mass);
+    // All momentum is red's at first, to the left.
+    const Rectangle first = Shown(pictures.at(0)).bars.at(1).bounds;
+    const double zero = first.x + first.width;
+    const auto momentum = [&](const RectangleItem& bar) {
+      const Rectangle& box = bar.bounds;
+      const bool is_right = std::abs(box.x - zero) < 1e-9;
+      EXPECT_TRUE(is_right || std::abs(box.x + box.width - zero) < 1e-9);
+      return (is_right ? box.width : -box.width) / first.width;
+    };
+    for (Integer k = 1; k <= pictures.log->size(); k += 1) {
+      const BlockState state = state_after(*pictures.log, k);
+      const std::vector<RectangleItem> bars = Shown(pictures.composition.frame({state})).bars;
+      ASSERT_EQ(bars.size(), 4U);
+      EXPECT_NEAR(momentum(bars[1]), state.red.velocity, 1e-9);
+      EXPECT_NEAR(momentum(bars[2]), state.blue.velocity / mass, 1e-9);
+      EXPECT_NEAR(momentum(bars[1]) + momentum(bars[2]) + momentum(bars[3]), -1, 1e-9) << k;
+    }
+  }
+}
+
+TEST(ConservationPanel, EnergyIsShared) {
+  const Pictures pictures(3, {{"show.panels", "conservation"}, {"view.size", "1280x720"}});
+  const double whole = Shown(pictures.at(0)).bars.front().bounds.width;
+  for (Integer k = 1; k <= pictures.log->size(); k += 1) {
+    const BlockState state = state_after(*pictures.log, k);
+    const Shown shown(pictures.composition.frame({state}));
+    EXPECT_NEAR(shown.bars.front().bounds.width / whole, state.red.velocity * state.red.velocity,
+                1e-9);
+  }
+}
+
+TEST(GraphPanels, HoldAnySystem) {
+  const std::vector<Settings> systems = {
+      {{"blue.position", "4"}, {"blue.velocity", "-1"}},
+      {{"base", "2"}, {"red.mass", "4096"}},
+      {{"red.mass", "10^310"}},
+      {{"red.mass", "1/10^310"}},
+      {{"red.velocity", "0"}},
+      {{"blue.velocity", "1/3"}, {"red.velocity", "0"}},
+      {{"red.mass", "100"}, {"blue.velocity", "-100"}, {"red.velocity", "1"}}};
+  for (Settings settings : systems) {
+    settings.insert(settings.begin(), {"time.to", "9"});
+    settings.insert(settings.begin(), {"show.panels", "position,time,count,conservation"});
+    settings.insert(settings.begin(), {"view.theme", "article"});
+    const Pictures pictures(1, settings);
+    for (const int time : {0, 3, 9}) {
+      const Shown shown(pictures.at(time));
+      for (const TextItem& text : shown.texts) {
+        EXPECT_EQ(text.text.find("nan"), std::string::npos);
+        EXPECT_EQ(text.text.find("inf"), std::string::npos);
+      }
+      for (const RectangleItem& bar : shown.bars) {
+        EXPECT_GE(bar.bounds.x, 0);
+        EXPECT_LE(bar.bounds.x + bar.bounds.width, pictures.scene.view.width_px);
+      }
+    }
+  }
+}
+
+struct Box {
+  double left;
+  double top;
+  double right;
+  double bottom;
+};
+
+bool overlap(const Box& a, const Box& b) {
+  constexpr double kTouch_px = 0.5;
+  return a.left < b.right - kTouch_px && b.left < a.right - kTouch_px &&
+         a.top < b.bottom - kTouch_px && b.top < a.bottom - kTouch_px;
+}
+
+struct Shape {
+  const char* size;
+  const char* panels;
+};
+
+class GraphPanelShapes : public testing::TestWithParam<Shape> {};
+
+/// Texts are apart from each other, and all is inside of the margins.
+TEST_P(GraphPanelShapes, FitTheirPlaces) {
+  const Fonts fonts;
+  for (const char* theme : {"lecture", "lecture-light", "print"}) {
+    for (const int digits : {1, 2, 3, 6, 20}) {
+      const Pictures pictures(digits, {{"show.panels", GetParam().panels},
+                                       {"view.size", GetParam().size},
+                                       {"view.theme", theme}});
+      const Sizes sizes(pictures.scene.view);
+      const Rational turn = *turn_of(pictures.scene.system);
+      for (const Rational& time : {Rational(0), Rational(3), turn, Rational(turn + 1)}) {
+        const Shown shown(pictures.at(time));
+        std::vector<Box> boxes;
+        for (const TextItem& text : shown.texts) {
+          const double width = fonts.of(text.face).width_em(text.text) * text.size_px;
+          boxes.push_back({text.origin.x, text.origin.y - 0.74 * text.size_px,
+                           text.origin.x + width, text.origin.y + 0.2 * text.size_px});
+          const Box& box = boxes.back();
+          EXPECT_GE(box.left, sizes.margin - 1) << text.text;
+          EXPECT_LE(box.right, pictures.scene.view.width_px - sizes.margin + 1) << text.text;
+          EXPECT_LE(text.origin.y, pictures.scene.view.height_px - sizes.margin / 2) << text.text;
+          for (std::size_t i = 0; i + 1 < boxes.size(); ++i) {
+            EXPECT_FALSE(overlap(boxes[i], box))
+                << shown.texts[i].text << " and " << text.text << " of " << digits << " digits in "
+                << theme << " at " << time;
+          }
+        }
+        for (const PathItem& path : shown.paths) {
+          const Rectangle& bounds = path.points.bounds();
+          EXPECT_GE(bounds.x, sizes.margin - 1);
+          EXPECT_LE(bounds.x + bounds.width, pictures.scene.view.width_px - sizes.margin + 1);
+        }
+        if (HasFailure()) return;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, GraphPanelShapes,
+                         testing::Values(Shape{"1280x720", "position,count"},
+                                         Shape{"1280x720", "time,conservation"},
+                                         Shape{"3840x2160", "position,time,count,conservation"},
+                                         Shape{"1080x1920", "position,time,count,conservation"},
+                                         Shape{"1080x1080", "count,conservation"},
+                                         Shape{"1080x1080", "position,time"},
+                                         Shape{"1440x1080", "position,time,count,conservation"},
+                                         Shape{"1920x1080", "position,time,count,conservation"}));
+
+}  // namespace
+}  // namespace piblocks
