@@ -173,9 +173,9 @@ struct Figure {
   std::vector<Rectangle> lines;
 };
 
-class Bases : public testing::TestWithParam<int> {};
+class CertaintyBases : public testing::TestWithParam<int> {};
 
-TEST_P(Bases, MarksAreWhereTheyBelong) {
+TEST_P(CertaintyBases, MarksAreWhereTheyBelong) {
   for (int digits = 1; digits <= 20; ++digits) {
     const Figure figure({{"base", std::to_string(GetParam())}, {"digits", std::to_string(digits)}});
     const Expected expected(GetParam(), digits);
@@ -198,7 +198,7 @@ TEST_P(Bases, MarksAreWhereTheyBelong) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(OfTheCount, Bases, testing::Values(2, 10, 16));
+INSTANTIATE_TEST_SUITE_P(OfTheCount, CertaintyBases, testing::Values(2, 10, 16));
 
 TEST(CertaintyPanel, SaysWhichDigitsWouldBeNeeded) {
   const Figure three(Settings{{"digits", "3"}});
@@ -260,13 +260,22 @@ TEST(CertaintyPanel, RefusesScenesThatDoNotCountPi) {
 }
 
 TEST(CertaintyPanel, RefusesWhatIsTooSmallToRead) {
-  try {
-    const Figure figure({{"digits", "3"},
-                         {"view.size", "1280x720"},
-                         {"show.panels", "certainty,velocity,time,unfolded"}});
-    ADD_FAILURE();
-  } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what()).find("too little room"), std::string::npos) << error.what();
+  for (const Settings& settings :
+       {Settings{{"digits", "3"}, {"show.panels", "certainty,velocity,time,unfolded"}},
+        Settings{
+            {"digits", "5"}, {"show.title", "Pi"}, {"show.overlays", "velocities,energy,ruler"}},
+        Settings{{"digits", "20"},
+                 {"view.size", "640x480"},
+                 {"show.caption", "Pi"},
+                 {"show.overlays", "time,masses,velocities"}}}) {
+    try {
+      const Figure figure(settings);
+      ADD_FAILURE() << settings.back().second;
+    } catch (const UsageError& error) {
+      const std::string message = error.what();
+      EXPECT_EQ(message.find("show.panels: "), 0U) << message;
+      EXPECT_NE(message.find("make the frame larger"), std::string::npos) << message;
+    }
   }
 }
 
@@ -286,9 +295,9 @@ bool overlap(const Rectangle& a, const Rectangle& b) {
          a.y < b.y + b.height - kTouch_px && b.y < a.y + a.height - kTouch_px;
 }
 
-class Shapes : public testing::TestWithParam<const char*> {};
+class CertaintyShapes : public testing::TestWithParam<const char*> {};
 
-TEST_P(Shapes, HoldThePanelWithoutOverlaps) {
+TEST_P(CertaintyShapes, HoldThePanelWithoutOverlaps) {
   const Fonts fonts;
   for (const char* base : {"2", "7", "10", "16"}) {
     for (int digits = 1; digits <= 20; ++digits) {
@@ -313,7 +322,7 @@ TEST_P(Shapes, HoldThePanelWithoutOverlaps) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Aspects, Shapes,
+INSTANTIATE_TEST_SUITE_P(Aspects, CertaintyShapes,
                          testing::Values("1280x720", "3840x2160", "1080x1920", "1080x1080",
                                          "2560x1080", "1440x1080"));
 

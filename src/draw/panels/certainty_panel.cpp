@@ -342,8 +342,7 @@ Drawable certainty_panel(const DrawingContext& context, const PanelPlace& place)
   Diagram diagram(context, place, title);
   const auto width = [&](const Formula& text) { return text.width_em() * diagram.text_px(); };
   const double title_px = width(width(title.full) <= place.area.width ? title.full : title.brief);
-  const bool has_title = title_px <= place.area.width;
-  if (!has_title || !CertaintyFigure(diagram, numbers, words).add(title_px)) {
+  if (!CertaintyFigure(diagram, numbers, words).add(title_px)) {
     throw UsageError(fmt::format(
         "show.panels: the diagram 'certainty' has too little room in {:.0f}x{:.0f} pixels; leave "
         "something out, or make the frame larger",
