@@ -71,7 +71,7 @@ TEST_F(SceneFileTest, AnEmptyListIsNoneWhereThereMayBeNone) {
 
 TEST_F(SceneFileTest, BlanksAroundNamesOfAListAreNone) {
   const Scene scene =
-      load("[time]\nslow-motion = ' auto , 5:6:3 '\n[show]\npanels = 'time ,\trate '\n");
+      load("[time]\nslow-motion = ' auto , 5:6:3 '\n[show]\npanels = 'time ,\tcount '\n");
   EXPECT_TRUE(scene.pacing.automatic_slow_motion);
   EXPECT_EQ(scene.pacing.slow_motion.size(), 1U);
   EXPECT_EQ(scene.show.panels, (std::vector{Panel::time, Panel::count}));

@@ -13,7 +13,7 @@ namespace {
 constexpr double kZoomedTo = 0.8;
 /// Of each way to the next power of ten, on a logarithmic scale, in which the zoom stays. A picture
 /// that stays costs next to nothing.
-constexpr double kStays = 0.9;
+constexpr double kStays = 0.95;
 
 Gaps clipped(const Gaps& outside, const Gaps& inside, double limit) {
   const double share = (limit - inside.y2) / (outside.y2 - inside.y2);
