@@ -92,14 +92,15 @@ enum class Overlay {
 
 /// Diagrams below the blocks, in step with them.
 enum class Panel {
-  velocity,     ///< circle of (sqrt(m_red) v_red, sqrt(m_blue) v_blue) with each collision's chord
-  position,     ///< path in the plane of both gaps, in the wedge between wall and contact
-  unfolded,     ///< the wedge reflected again and again, and the straight line through it
-  time,         ///< both gaps against time
-  count,        ///< collisions so far against time
-  ellipse,      ///< ellipse of (v_red, v_blue), which becomes the circle of `velocity`
-  mirrors,      ///< as unfolded, with wedges that unfold one by one
-  conservation  ///< bars of energy and momentum, the wall's share included
+  velocity,      ///< circle of (sqrt(m_red) v_red, sqrt(m_blue) v_blue) with each collision's chord
+  position,      ///< path in the plane of both gaps, in the wedge between wall and contact
+  unfolded,      ///< the wedge reflected again and again, and the straight line through it
+  time,          ///< both gaps against time
+  count,         ///< collisions so far against time
+  ellipse,       ///< ellipse of (v_red, v_blue), which becomes the circle of `velocity`
+  mirrors,       ///< as unfolded, with wedges that unfold one by one
+  conservation,  ///< bars of energy and momentum, the wall's share included
+  certainty      ///< how near the count comes to a wrong digit of pi
 };
 
 /// While the loupe enlarges by a factor that the scene names, and by which.

@@ -117,9 +117,9 @@ Composition::Composition(const Scene& scene, const CollisionLog& log,
   if (logo) lines.emplace_back(place_logo(plan.logo, std::move(logo)));
   drawables_.push_back(unchanging(std::move(lines)));
   // In the order of Panel.
-  constexpr std::array kPanels = {velocity_panel, position_panel,    unfolded_panel,
-                                  time_panel,     count_panel,       ellipse_panel,
-                                  mirrors_panel,  conservation_panel};
+  constexpr std::array kPanels = {velocity_panel, position_panel,     unfolded_panel,
+                                  time_panel,     count_panel,        ellipse_panel,
+                                  mirrors_panel,  conservation_panel, certainty_panel};
   for (std::size_t i = 0; i < show.panels.size(); ++i) {
     const auto make_panel = kPanels.at(static_cast<std::size_t>(show.panels[i]));
     const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +

@@ -111,7 +111,9 @@ class FramePlanner {
     place_foot();
     const bool has_edge = show_.panels.empty() && bottom_ == view_.height_px;
     // Read-outs end at the margin.
-    if (read_outs_px > 0 && has_edge) bottom_ -= sizes_.margin - kBelowBaseline * sizes_.text;
+    if (read_outs_px > 0 && has_edge) {
+      bottom_ -= std::max(0.0, sizes_.margin - kBelowBaseline * sizes_.text);
+    }
     double height = bottom_ - top_ - read_outs_px;
     if (!show_.panels.empty()) height = stage_height(height);
     if (height < kLeastStage * sizes_.unit) throw_no_room();
@@ -138,7 +140,7 @@ class FramePlanner {
     top_ = 0.75 * sizes_.gap;
     place.slow_motion = {right_, top_ + Font::kCapHeight_em * sizes_.title};
     if (!show_.title.empty()) {
-      check_text("show.title", show_.title, style::kTitle);
+      check_text("show.title", show_.title);
       const double baseline = top_ + Font::kCapHeight_em * sizes_.title;
       const double room = right_ - left_ - counter_width - sizes_.gap;
       // A second line would have no room.
@@ -184,16 +186,15 @@ class FramePlanner {
         key, text, room_px));
   }
 
-  /// @param size  of the type, in fractions of the frame's shorter side
-  void check_text(const char* key, const std::string& text, double size) const {
+  /// @param key  named in messages
+  void check_text(const char* key, const std::string& text) const {
     context_.font.check(text, key);
     if (sizes_.unit >= kLeastFrame_px) return;
     throw UsageError(
-        fmt::format("{}: '{}' would be {:.1f} pixels high in {}x{}, which cannot be read; leave it "
-                    "out, or make "
-                    "the frame {}",
-                    key, text, size * sizes_.unit, view_.width_px, view_.height_px,
-                    view_.height_px < view_.width_px ? "higher" : "wider"));
+        fmt::format("{}: '{}' cannot be read in a frame of {}x{}; leave it out, or make the frame "
+                    "{} pixels {} or more",
+                    key, text, view_.width_px, view_.height_px, kLeastFrame_px,
+                    view_.height_px < view_.width_px ? "high" : "wide"));
   }
 
   void add_line(ItemId id, const std::string& text, double baseline, double size_px) {
@@ -212,7 +213,7 @@ class FramePlanner {
       if (title_width > 0) counter_width += 2 * sizes_.gap;
     }
     const bool is_beside = title_width > 0 && title_width + counter_width <= room;
-    if (!show_.title.empty()) check_text("show.title", show_.title, style::kTitle);
+    if (!show_.title.empty()) check_text("show.title", show_.title);
     if (!show_.title.empty() && !(counter_ && is_beside)) {
       double baseline = sizes_.margin + Font::kCapHeight_em * sizes_.title;
       std::size_t n = 0;
@@ -301,7 +302,7 @@ class FramePlanner {
     }
     if (!show_.caption.empty()) {
       const double size_px = sizes_.text;
-      check_text("show.caption", show_.caption, style::kText);
+      check_text("show.caption", show_.caption);
       const auto lines = lines_of("show.caption", show_.caption, size_px, room);
       const double below = double(lines.size() - 1) * kLineStep * size_px;
       height = std::max(height, below + Font::kCapHeight_em * size_px);

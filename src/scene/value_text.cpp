@@ -37,7 +37,8 @@ constexpr auto kPanels = std::to_array<Name<Panel>>({{"velocity", Panel::velocit
                                                      {"count", Panel::count},
                                                      {"ellipse", Panel::ellipse},
                                                      {"mirrors", Panel::mirrors},
-                                                     {"conservation", Panel::conservation}});
+                                                     {"conservation", Panel::conservation},
+                                                     {"certainty", Panel::certainty}});
 
 constexpr auto kSplits = std::to_array<Name<Split>>(
     {{"auto", Split::automatic}, {"columns", Split::columns}, {"rows", Split::rows}});

@@ -23,8 +23,8 @@ constexpr std::array kShapes{"1920x1080", "1280x720",  "3840x2160", "1440x1080",
                              "1080x1080", "1080x1920", "2560x1080", "640x360"};
 constexpr std::array kOverlays{"digits",   "masses", "velocities", "energy",
                                "momentum", "time",   "ruler"};
-constexpr std::array kPanels{"velocity", "position", "unfolded", "time",
-                             "count",    "ellipse",  "mirrors",  "conservation"};
+constexpr std::array kPanels{"velocity", "position", "unfolded",     "time",     "count",
+                             "ellipse",  "mirrors",  "conservation", "certainty"};
 constexpr std::array kThemes{"lecture", "lecture-light", "article", "print"};
 constexpr std::array kDigits{1, 3, 8};
 

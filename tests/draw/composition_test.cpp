@@ -252,7 +252,7 @@ TEST(Overlays, PassingFactorsAreRounded) {
 TEST(Overlays, NameNoColourThatIsNotThere) {
   std::vector<Setting> things{{"show.overlays", kAllOverlays}};
   for (const char* panel : {"velocity", "position", "unfolded", "time", "count", "ellipse",
-                            "mirrors", "conservation"}) {
+                            "mirrors", "conservation", "certainty"}) {
     things.emplace_back("show.panels", panel);
   }
   for (const char* theme : {"print", "colorblind"}) {
@@ -394,8 +394,8 @@ TEST(Panels, TheUnfoldedLineStaysInItsPlace) {
 
 TEST(Panels, CostLittleForAnyNumberOfDigits) {
   for (const int digits : {1, 9, 20, 100, 200, 300}) {
-    for (const char* panels :
-         {"velocity,position,unfolded", "time,count", "ellipse,mirrors", "conservation"}) {
+    for (const char* panels : {"velocity,position,unfolded", "time,count", "ellipse,mirrors",
+                               "conservation,certainty"}) {
       const Pictures pictures(scene_with(digits, {{"show.panels", panels}}));
       EXPECT_LT(pictures.at(4).items.size(), 400U) << digits << ' ' << panels;
     }

@@ -38,6 +38,7 @@ constexpr std::array kFeatures{Feature{"view.theme", "print", "count"},
                                Feature{"show.panels", "time", "show.panels"},
                                Feature{"show.panels", "count", "show.panels"},
                                Feature{"show.panels", "conservation", "show.panels"},
+                               Feature{"show.panels", "certainty", "show.panels"},
                                Feature{"show.logo", "logo.png", "logo"}};
 
 /// Rounding of sums of lengths.

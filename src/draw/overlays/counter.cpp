@@ -23,16 +23,6 @@ constexpr double kLabelGap_em = 0.5;
 /// Sums of the same advances in different order differ by less.
 constexpr double kNegligible_px = 0.01;
 
-/// Whether a system is one that counts the digits of pi in this base: blue at rest, off the wall,
-/// mass ratio a power of the base's square.
-bool counts_pi(const BlockSystem& system, int base) {
-  const Rational ratio = system.red.mass / system.blue.mass;
-  if (system.blue.velocity != 0 || system.red.velocity >= 0 || system.blue_gap() <= 0) return false;
-  Integer rest;
-  mpz_remove(rest.get_mpz_t(), ratio.get_num_mpz_t(), Integer(base * base).get_mpz_t());
-  return ratio.get_den() == 1 && rest == 1;
-}
-
 std::size_t digits_in(std::string_view text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return c != ',' && c != '.'; }));
@@ -141,11 +131,22 @@ class Counter {
 
 }  // namespace
 
+std::optional<unsigned long> places_of_pi(const BlockSystem& system, int base) {
+  const Rational ratio = system.red.mass / system.blue.mass;
+  const bool begins_apart = system.blue_gap() > 0;
+  if (system.blue.velocity != 0 || system.red.velocity >= 0 || !begins_apart) return std::nullopt;
+  Integer rest;
+  const unsigned long places =
+      mpz_remove(rest.get_mpz_t(), ratio.get_num_mpz_t(), Integer(base * base).get_mpz_t());
+  if (ratio.get_den() != 1 || rest != 1) return std::nullopt;
+  return places;
+}
+
 std::string pi_count(const Scene& scene, const CollisionLog& log) {
   const int base = scene.show.base;
   const bool is_asked_for = scene.show.has(Overlay::digits);
   if (!is_asked_for && scene.view.theme == Theme::article) return {};
-  if (!counts_pi(scene.system, base)) {
+  if (!places_of_pi(scene.system, base)) {
     if (!is_asked_for) return {};
     throw UsageError(fmt::format(
         "show.overlays: there are no digits of pi to light up, since this scene does not count "

@@ -30,6 +30,9 @@ Drawable position_panel(const DrawingContext& context, const PanelPlace& place);
 Drawable unfolded_panel(const DrawingContext& context, const PanelPlace& place);
 /// The same, with wedges that unfold one by one, each at its collision.
 Drawable mirrors_panel(const DrawingContext& context, const PanelPlace& place);
+/// How near the count comes to a wrong digit of pi.
+/// @throws UsageError if the scene does not count pi, or the panel is too small.
+Drawable certainty_panel(const DrawingContext& context, const PanelPlace& place);
 /// Both gaps against time.
 Drawable time_panel(const DrawingContext& context, const PanelPlace& place);
 /// Collisions so far against time.

@@ -40,7 +40,8 @@ std::vector<Feature> features() {
        {"digits", "masses", "velocities", "energy", "momentum", "time", "ruler"}) {
     features.push_back({std::string("--show ") + overlay, {"--show", overlay}});
   }
-  for (const char* panel : {"velocity", "position", "unfolded", "time", "count", "conservation"}) {
+  for (const char* panel :
+       {"velocity", "position", "unfolded", "time", "count", "conservation", "certainty"}) {
     features.push_back({std::string("--panels ") + panel, {"--panels", panel}});
   }
   features.push_back({"four panels", {"--panels", "velocity,position,unfolded,time"}});

@@ -1,0 +1,51 @@
+// How near a count of digits of pi comes to a wrong digit.
+// In: a base and the places behind the point. Out: exact distances, and digits that are certain.
+#pragma once
+
+#include <piblocks/exact.hpp>
+
+#include <string>
+
+namespace piblocks {
+
+/// With s = base^-places and theta = arctan s, the count is ceil(pi/theta) - 1, and the first
+/// digits of pi are floor(pi/s). pi/theta is a little more than pi/s, by about pi s/3.
+class Certainty {
+ public:
+  /// @param base  kMinBase … kMaxBase
+  Certainty(int base, unsigned long places);
+
+  int base() const noexcept { return base_; }
+  unsigned long places() const noexcept { return places_; }
+  /// The digits of pi that are counted, as one whole number.
+  const Integer& whole() const noexcept { return whole_; }
+
+  // Relative errors are below 2^-100.
+  const Rational& fraction() const noexcept { return fraction_; }  ///< pi/s - whole()
+  const Rational& gap() const noexcept { return gap_; }            ///< pi/theta - pi/s, > 0
+  /// whole() + 1 - pi/theta. It is 0, exactly, where there are no places: pi/theta is 4.
+  const Rational& rest() const noexcept { return rest_; }
+  /// Whether the count is one more than whole().
+  bool is_wrong() const noexcept { return rest_ < 0; }
+
+  // Truncated to so many places of the base: "314.159", with separators in base 10.
+  std::string scaled_pi(std::size_t digits) const;      ///< pi/s
+  std::string pi_over_theta(std::size_t digits) const;  ///< "4" where there are no places
+  /// The next digits of pi.
+  std::string following(std::size_t digits) const;
+  /// The next digits of the least pi with which the count would be more than whole().
+  std::string needed(std::size_t digits) const;
+  /// How many of needed() are the base's last digit, from the first on.
+  std::size_t nines() const;
+
+ private:
+  int base_;
+  unsigned long places_;
+  Rational scale_;  ///< 1/s
+  Integer whole_;
+  Rational fraction_;
+  Rational gap_;
+  Rational rest_;
+};
+
+}  // namespace piblocks
