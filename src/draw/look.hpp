@@ -79,7 +79,7 @@ inline constexpr double kPresentDot = 0.011;
 inline constexpr double kHitDot = 0.0055;
 
 /// Share of the alpha of an area that text or lines are over, which still has a contrast of 2.
-inline constexpr double kWedgeFill = 0.55;
+inline constexpr double kWedgeFill = 0.8;
 
 inline constexpr double kHatch = 0.025;     ///< width of the wall
 inline constexpr double kHitReach = 0.06;   ///< how far the mark of a hit grows

@@ -166,8 +166,8 @@ std::string pi_count(const Scene& scene, const CollisionLog& log) {
 
 std::size_t lit_length(std::string_view count, std::string_view expected) {
   if (count.size() != expected.size()) return 0;
-  const auto* const end = std::ranges::mismatch(count, expected).in1;
-  auto length = static_cast<std::size_t>(end - count.begin());
+  std::size_t length = 0;
+  while (length < count.size() && count[length] == expected[length]) ++length;
   if (length > 0 && length < count.size() && count[length - 1] == ',') --length;
   return length;
 }

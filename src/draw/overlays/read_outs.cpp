@@ -73,7 +73,8 @@ std::vector<Rational> steady_factors(const Pacing& pacing) {
     for (int factor = 10; factor <= kMaxAutomaticFactor; factor *= 10) factors.emplace_back(factor);
   }
   std::ranges::sort(factors);
-  factors.erase(std::ranges::unique(factors).begin(), factors.end());
+  const auto repeated = std::ranges::unique(factors);
+  factors.erase(repeated.begin(), repeated.end());
   return factors;
 }
 
