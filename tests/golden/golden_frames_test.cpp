@@ -44,19 +44,6 @@ Keys full(const char* theme) {
 
 Keys showing(const char* overlay) { return {{"view.size", "640x360"}, {"show.overlays", overlay}}; }
 
-Keys with_panels(const char* panels, const char* size = "560x315") {
-  return {{"view.size", size}, {"show.panels", panels}};
-}
-
-/// With everything that has to find its place beside diagrams.
-Keys lecture(const char* size, const char* panels = "velocity,position,unfolded,time") {
-  return {{"view.size", size},
-          {"show.title", "Où se cache π ?"},
-          {"show.caption", "Zwei Blöcke zählen seine Ziffern"},
-          {"show.overlays", "digits,masses,velocities,energy,momentum,time,ruler"},
-          {"show.panels", panels}};
-}
-
 Keys exposed(const char* shutter, const char* theme = "article") {
   return {{"view.size", "480x270"},
           {"view.fps", "10"},
@@ -95,19 +82,6 @@ const std::vector<GoldenFrame> kFrames{
     {"overlay-momentum", 3, "3.4", showing("momentum")},
     {"overlay-time", 3, "3.4", showing("time")},
     {"overlay-ruler", 3, "3.4", showing("ruler")},
-    {"panel-velocity", 2, "3.6", with_panels("velocity")},
-    {"panel-position", 1, "4", with_panels("position")},
-    {"panel-unfolded", 2, "3.6", with_panels("unfolded")},
-    {"panel-time", 2, "3.6", with_panels("time")},
-    {"panel-count", 9, "3.6", with_panels("count")},
-    {"panel-certainty", 3, "3.6", with_panels("certainty")},
-    {"panels-20-digits", 20, "3.6",
-     with_panels("velocity,position,unfolded,time,count", "640x360")},
-    {"panels-16-9", 3, "3.4", lecture("640x360")},
-    {"panels-4-3", 3, "3.4", lecture("480x360")},
-    {"panels-1-1", 3, "3.4", lecture("480x480")},
-    {"panels-9-16", 3, "3.4", lecture("450x800")},
-    {"panels-narrow", 6, "4.4", lecture("480x360", "velocity,position,unfolded,time,count")},
     {"shutter-approach", 3, "2.8", exposed("1/2")},
     {"shutter-turn", 9, "3.5", exposed("1")},
     {"shutter-collision", 1, "#1", exposed("1")},

@@ -98,6 +98,7 @@ class Counter {
   /// @param lit  length of the count's beginning that is right
   void add_pi(std::size_t lit, std::vector<DrawItem>& items) const {
     const std::size_t length = length_with(digits_in(pi_count_.substr(0, lit)), pi_);
+    const std::size_t counted = length_with(digits_in(pi_count_), pi_);
     double right = place_.right_px;
     const auto add = [&](std::size_t n, std::string text, const Color& color) {
       if (text.empty()) return;
@@ -109,10 +110,12 @@ class Counter {
                                   color,
                                   face_});
     };
-    // From the right to the left.
-    add(0, pi_.substr(length) + "…", palette_.muted);
-    add(1, pi_.substr(0, length), palette_.accent);
-    add(2, std::string(kPiLabel), palette_.text);
+    // From the right to the left: digits that the film does not count, those that are still to come,
+    // those that are reached.
+    add(0, pi_.substr(counted) + "…", palette_.muted);
+    add(1, pi_.substr(length, counted - length), palette_.text);
+    add(2, pi_.substr(0, length), palette_.accent);
+    add(3, std::string(kPiLabel), palette_.text);
   }
 
   CounterPlace place_;

@@ -69,6 +69,8 @@ Formula unfolded_title(const DrawingContext& context, double room_em) {
   if (is_whole_part) {
     const Formula ratio = set.symbol("⌊") + set.text("π/") + set.italic("θ") + set.symbol("⌋");
     titles.push_back(set.text("Each hit is a mirror: the line crosses ") + ratio +
+                     set.text(" = " + number + " of them"));
+    titles.push_back(set.text("Each hit is a mirror: the line crosses ") + ratio +
                      set.text(" = " + number));
     titles.push_back(set.text("A straight line crosses ") + ratio +
                      set.text(" = " + number + mirrors));

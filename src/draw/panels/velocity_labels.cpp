@@ -225,7 +225,7 @@ class VelocityLabeller {
     if (!at) return;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const Point start{at->x, at->y + double(i) * kWordsStep * em_};
-      made_.labels.push_back({lines[i], start, palette_.muted, VelocityPart::arcs});
+      made_.labels.push_back({lines[i], start, palette_.text, VelocityPart::arcs});
     }
   }
 
