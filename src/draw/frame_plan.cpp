@@ -36,6 +36,8 @@ constexpr double kLeastStage = 0.2;
 constexpr double kLeastRowStage = 0.12;
 /// A picture lower than this is a row of a split screen.
 constexpr double kRow = 0.55;
+/// In parts of its largest size: a smaller count has its label above it, and more room.
+constexpr double kLeastBesideLabel = 0.6;
 /// The counter's part of a row's width, at most.
 constexpr double kMostCounter = 0.6;
 constexpr double kRowCounter = 0.35;
@@ -109,7 +111,9 @@ class FramePlanner {
     place_foot();
     const bool has_edge = show_.panels.empty() && bottom_ == view_.height_px;
     // Read-outs end at the margin.
-    if (read_outs_px > 0 && has_edge) bottom_ -= sizes_.margin - kBelowBaseline * sizes_.text;
+    if (read_outs_px > 0 && has_edge) {
+      bottom_ -= std::max(0.0, sizes_.margin - kBelowBaseline * sizes_.text);
+    }
     double height = bottom_ - top_ - read_outs_px;
     if (!show_.panels.empty()) height = stage_height(height);
     if (height < kLeastStage * sizes_.unit) throw_no_room();
@@ -129,10 +133,14 @@ class FramePlanner {
     place.right_px = right_;
     place.baseline_px = std::round(view_.height_px / 2.0 + Font::kCapHeight_em * place.size_px / 4);
     place_pi();
+    place.label_baseline_px = place.baseline_px;
+    if (place.has_label && has_label_above_) {
+      place.label_baseline_px -= Font::kCapHeight_em * place.size_px + kPiStep * sizes_.text / 2;
+    }
     top_ = 0.75 * sizes_.gap;
     place.slow_motion = {right_, top_ + Font::kCapHeight_em * sizes_.title};
     if (!show_.title.empty()) {
-      check_text("show.title", show_.title, sizes_.title);
+      check_text("show.title", show_.title);
       const double baseline = top_ + Font::kCapHeight_em * sizes_.title;
       const double room = right_ - left_ - counter_width - sizes_.gap;
       // A second line would have no room.
@@ -178,15 +186,15 @@ class FramePlanner {
         key, text, room_px));
   }
 
-  void check_text(const char* key, const std::string& text, double size_px) const {
+  /// @param key  named in messages
+  void check_text(const char* key, const std::string& text) const {
     context_.font.check(text, key);
-    if (view_.height_px >= kLeastFrame_px && view_.width_px >= kLeastFrame_px) return;
+    if (sizes_.unit >= kLeastFrame_px) return;
     throw UsageError(
-        fmt::format("{}: '{}' would be {:.1f} pixels high in {}x{}, which cannot be read; leave it "
-                    "out, or make "
-                    "the frame {}",
-                    key, text, size_px * sizes_.unit / kLeastFrame_px, view_.width_px,
-                    view_.height_px, view_.height_px < view_.width_px ? "higher" : "wider"));
+        fmt::format("{}: '{}' cannot be read in a frame of {}x{}; leave it out, or make the frame "
+                    "{} pixels {} or more",
+                    key, text, view_.width_px, view_.height_px, kLeastFrame_px,
+                    view_.height_px < view_.width_px ? "high" : "wide"));
   }
 
   void add_line(ItemId id, const std::string& text, double baseline, double size_px) {
@@ -205,7 +213,7 @@ class FramePlanner {
       if (title_width > 0) counter_width += 2 * sizes_.gap;
     }
     const bool is_beside = title_width > 0 && title_width + counter_width <= room;
-    if (!show_.title.empty()) check_text("show.title", show_.title, sizes_.title);
+    if (!show_.title.empty()) check_text("show.title", show_.title);
     if (!show_.title.empty() && !(counter_ && is_beside)) {
       double baseline = sizes_.margin + Font::kCapHeight_em * sizes_.title;
       std::size_t n = 0;
@@ -227,10 +235,12 @@ class FramePlanner {
   /// @returns the width of label and count
   double set_count_size(double room_px) {
     CounterPlace& place = plan_.counter;
+    const double largest = sizes_.type(style::kCounter);
     const double beside_label = (room_px - counter_->label_px) / counter_->count_em;
-    place.has_label = beside_label >= sizes_.text;
-    const double largest = place.has_label ? beside_label : room_px / counter_->count_em;
-    place.size_px = std::min(sizes_.type(style::kCounter), largest);
+    has_label_above_ = beside_label < kLeastBesideLabel * largest;
+    place.has_label = counter_->label_px <= room_px;
+    place.size_px =
+        std::min(largest, has_label_above_ ? room_px / counter_->count_em : beside_label);
     if (place.size_px < sizes_.type(style::kLeastType)) {
       throw UsageError(fmt::format(
           "view.theme: the digits of the count would be {:.1f} pixels high in {}x{}, which cannot "
@@ -238,14 +248,19 @@ class FramePlanner {
           std::max(0.0, place.size_px), view_.width_px, view_.height_px));
     }
     place.room_px = counter_->count_em * place.size_px;
-    return place.room_px + (place.has_label ? counter_->label_px : 0);
+    return place.room_px + (has_label_above_ ? 0 : counter_->label_px);
   }
 
   void place_counter(bool is_beside_title) {
     CounterPlace& place = plan_.counter;
     place.right_px = right_;
-    const double above = top_ > 0 ? top_ + kBelowHeader * sizes_.unit : sizes_.margin;
+    double above = top_ > 0 ? top_ + kBelowHeader * sizes_.unit : sizes_.margin;
+    if (place.has_label && has_label_above_) {
+      place.label_baseline_px = std::round(above + Font::kCapHeight_em * sizes_.text);
+      above += kLineStep * sizes_.text;
+    }
     place.baseline_px = std::round(above + Font::kCapHeight_em * place.size_px);
+    if (!has_label_above_) place.label_baseline_px = place.baseline_px;
     place_pi();
     if (is_beside_title) {
       add_line(ItemId::title, show_.title, place.baseline_px, sizes_.title);
@@ -287,7 +302,7 @@ class FramePlanner {
     }
     if (!show_.caption.empty()) {
       const double size_px = sizes_.text;
-      check_text("show.caption", show_.caption, size_px);
+      check_text("show.caption", show_.caption);
       const auto lines = lines_of("show.caption", show_.caption, size_px, room);
       const double below = double(lines.size() - 1) * kLineStep * size_px;
       height = std::max(height, below + Font::kCapHeight_em * size_px);
@@ -359,6 +374,7 @@ class FramePlanner {
   double right_;
   double top_ = 0;  ///< the stage begins below
   double bottom_;   ///< and ends above
+  bool has_label_above_ = false;
   FramePlan plan_;
 };
 

@@ -81,13 +81,14 @@ struct DrawingContext {
 struct CounterPlace {
   double right_px = 0;
   double baseline_px = 0;
-  double size_px = 0;         ///< of the count's type
-  double room_px = 0;         ///< the longest count's width
-  bool has_label = true;      ///< else there is room for the count alone
-  bool has_pi = false;        ///< the line below has room
-  double pi_baseline_px = 0;  ///< of that line
-  Point slow_motion;          ///< right end of its label's baseline
-  double pi_left_px = 0;      ///< where that begins
+  double size_px = 0;            ///< of the count's type
+  double room_px = 0;            ///< the longest count's width
+  bool has_label = true;         ///< else there is room for the count alone
+  double label_baseline_px = 0;  ///< the count's, or above it at the right end
+  bool has_pi = false;           ///< the line below has room
+  double pi_baseline_px = 0;     ///< of that line
+  Point slow_motion;             ///< right end of its label's baseline
+  double pi_left_px = 0;         ///< where that begins
 };
 
 struct FramePlan {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "draw/painter.hpp"
 #include "draw/region.hpp"
@@ -16,6 +17,13 @@ struct Cover {
   double inner = 0;
   double bars = 0;
   bool operator==(const Cover&) const = default;
+};
+
+/// In one way for a share of the time.
+struct CoverShare {
+  Cover cover;
+  double share = 0;
+  bool operator==(const CoverShare&) const = default;
 };
 
 /// What both blocks cover of a row.
@@ -55,11 +63,6 @@ struct PixelCover {
 /// How a block covers a row, and a column over the time of the exposure.
 class BlockCover {
  public:
-  struct Share {
-    Cover cover;
-    double share = 0;
-  };
-
   explicit BlockCover(const ExposedBlock& block)
       : block_(block),
         // A shape thinner than its stroke is nothing but stroke.
@@ -83,7 +86,7 @@ class BlockCover {
   }
 
   /// All ways in which the block covers a column; valid until the next call.
-  std::span<const Share> shares_of_column(double column) {
+  std::span<const CoverShare> shares_of_column(double column) {
     shares_.clear();
     const double width = block_.bounds.width;
     if (block_.dwells.empty()) {
@@ -128,7 +131,7 @@ class BlockCover {
   const ExposedBlock& block_;
   double line_px_;
   std::vector<double> sums_;  // of the shares before each dwell
-  std::vector<Share> shares_;
+  std::vector<CoverShare> shares_;
 };
 
 /// One column after another.
@@ -137,44 +140,62 @@ class ExposedColumn {
   ExposedColumn(const ExposedItem& item, const Light& light)
       : item_(item), light_(light), behind_(item.behind), front_(item.front) {}
 
-  RowCover row_cover(int y) const { return {behind_.of_row(y), front_.of_row(y)}; }
+  /// Tells rows apart by how the blocks cover them: of a picture there are few kinds.
+  std::size_t kind_of_row(int y) {
+    const RowCover cover{behind_.of_row(y), front_.of_row(y)};
+    const auto found = std::ranges::find(rows_, cover);
+    if (found != rows_.end()) return static_cast<std::size_t>(found - rows_.begin());
+    rows_.push_back(cover);
+    return rows_.size() - 1;
+  }
 
   /// Turns to the column from `x` to `x` + 1. False if no block is ever in it.
   bool enter(int x) {
     x_ = x;
-    known_.clear();
-    behind_shares_ = behind_.shares_of_column(x);
-    front_shares_ = front_.shares_of_column(x);
     const auto at = [&](double place) {
       return std::ranges::lower_bound(item_.contacts, place, {}, &Contact::behind_x);
     };
+    const bool had_contacts = !contacts_.empty();
     contacts_ = {at(x), at(x + 1.0)};
+    // Within a block, one column is like the next.
+    bool is_new = had_contacts || !contacts_.empty();
+    is_new |= replace(behind_shares_, behind_.shares_of_column(x));
+    is_new |= replace(front_shares_, front_.shares_of_column(x));
+    if (is_new) known_.clear();
     return !behind_shares_.empty() || !front_shares_.empty();
   }
 
   /// The pixel of a row over a background; both 0x00RRGGBB.
-  std::uint32_t pixel(const RowCover& row, std::uint32_t background) {
+  std::uint32_t pixel(std::size_t kind, std::uint32_t background) {
     for (const Known& known : known_) {
-      if (known.background == background && known.row == row) return known.pixel;
+      if (known.background == background && known.row == kind) return known.pixel;
     }
+    const RowCover& row = rows_[kind];
     const auto sample = [&](int shift, std::uint8_t Color::*channel) {
       const double light = light_of(row, background >> shift & 0xFF, channel);
       return static_cast<std::uint32_t>(Light::sample(light)) << shift;
     };
     const std::uint32_t pixel =
         sample(16, &Color::red) | sample(8, &Color::green) | sample(0, &Color::blue);
-    known_.push_back({row, background, pixel});
+    known_.push_back({kind, background, pixel});
     return pixel;
   }
 
  private:
+  /// @returns whether that changes anything
+  static bool replace(std::vector<CoverShare>& shares, std::span<const CoverShare> by) {
+    if (std::ranges::equal(shares, by)) return false;
+    shares.assign(by.begin(), by.end());
+    return true;
+  }
+
   /// Each block changes the light behind it by its share of time. Where both are in one pixel at
   /// the same time, these changes do not add up: contacts correct that.
   double light_of(const RowCover& row, double background, std::uint8_t Color::*channel) const {
     const double plain = light_.of(background);
     double sum = plain;
     const auto add = [&](const ExposedBlock& block, const Cover& of_row,
-                         std::span<const BlockCover::Share> shares) {
+                         const std::vector<CoverShare>& shares) {
       for (const auto& [cover, share] : shares) {
         const PixelCover pixel{block, cover, of_row};
         sum += share * (light_.of(pixel.over(background, channel)) - plain);
@@ -200,16 +221,17 @@ class ExposedColumn {
   const Light& light_;
   BlockCover behind_;
   BlockCover front_;
-  std::span<const BlockCover::Share> behind_shares_;
-  std::span<const BlockCover::Share> front_shares_;
+  std::vector<RowCover> rows_;  // of each kind
+  std::vector<CoverShare> behind_shares_;
+  std::vector<CoverShare> front_shares_;
   std::span<const Contact> contacts_;
   int x_ = 0;
   struct Known {
-    RowCover row;
+    std::size_t row = 0;  // its kind
     std::uint32_t background = 0;
     std::uint32_t pixel = 0;
   };
-  std::vector<Known> known_;  // of this column
+  std::vector<Known> known_;  // of this column and those like it before
 };
 
 }  // namespace
@@ -238,8 +260,8 @@ void Painter::paint_exposed(cairo_t& cr, const ExposedItem& item, const PixelRec
   cairo_surface_flush(surface);
   if (!light_) light_ = std::make_unique<Light>();
   ExposedColumn column(item, *light_);
-  std::vector<RowCover> rows;
-  for (int y = moving.y_px; y < end_y; ++y) rows.push_back(column.row_cover(y));
+  std::vector<std::size_t> kinds;
+  for (int y = moving.y_px; y < end_y; ++y) kinds.push_back(column.kind_of_row(y));
   auto background = background_.begin();
   for (int x = moving.x_px; x < end_x; ++x) {
     if (!column.enter(x)) {
@@ -247,8 +269,8 @@ void Painter::paint_exposed(cairo_t& cr, const ExposedItem& item, const PixelRec
       continue;
     }
     for (int y = moving.y_px; y < end_y; ++y, ++background) {
-      const RowCover& row = rows[static_cast<std::size_t>(y - moving.y_px)];
-      word(x, y) = (*background & 0xFF000000U) | column.pixel(row, *background & 0xFFFFFFU);
+      const std::size_t kind = kinds[static_cast<std::size_t>(y - moving.y_px)];
+      word(x, y) = (*background & 0xFF000000U) | column.pixel(kind, *background & 0xFFFFFFU);
     }
   }
   cairo_surface_mark_dirty(surface);

@@ -104,13 +104,13 @@ TEST_F(StillTest, SaysWhatAFrameHasNoRoomFor) {
   };
   expect("120x12", {"--show", "time"},
          "show: 'time' leaves too little room for the blocks in 120x12; leave");
-  expect("16000x120", {"--title", "fi"},
-         "show.title: 'fi' would be 7.2 pixels high in 16000x120, which cannot be read; leave it "
-         "out, or make the frame higher");
-  expect("120x16000", {"--title", "fi"}, "make the frame wider");
-  expect("64x36", {"--show", "masses"}, "show.overlays: the mass '10,000'");
+  expect("16000x119", {"--title", "fi"},
+         "show.title: 'fi' cannot be read in a frame of 16000x119; leave it out, or make the frame "
+         "120 pixels high or more");
+  expect("119x16000", {"--title", "fi"}, "make the frame 120 pixels wide or more");
+  expect("64x36", {"--show", "masses"}, "show.overlays: the mass '1' does not fit on its block");
   expect("400x60", {"--panels", "time"}, "show.panels: a diagram does not fit into 400x60");
-  expect("100x1000", {"--show", "ruler"}, "show.overlays: the ruler needs");
+  expect("40x1000", {"--show", "ruler"}, "show.overlays: the ruler has no room");
 }
 
 TEST_F(StillTest, RefusesTextThatNeedsShaping) {

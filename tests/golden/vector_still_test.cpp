@@ -93,16 +93,22 @@ TEST_P(VectorStills, LookLikeThePixelsOnBlack) {
 
 Arguments sized(const Arguments& options) { return Arguments{"--size", "640x480"} + options; }
 
+/// Overlays, and beside fewer of them diagrams.
 std::vector<VectorCase> themes() {
   std::vector<VectorCase> cases;
   for (const char* theme :
        {"article", "lecture", "lecture-light", "chalkboard", "dark", "print", "colorblind"}) {
-    std::string name = std::string("theme_") + theme;
+    std::string name = theme;
     std::ranges::replace(name, '-', '_');
-    cases.push_back({name,
-                     {"--digits", "2", "--at", "4", "--size", "960x720", "--theme", theme, "--show",
-                      kAllOverlays, "--panels", kTwoPanels, "--title", "Où se cache π ?",
-                      "--caption", "Zwei Blöcke zählen"}});
+    const Arguments common{"--digits",  "2",
+                           "--at",      "4",
+                           "--size",    "960x720",
+                           "--theme",   theme,
+                           "--title",   "Où se cache π ?",
+                           "--caption", "Zwei Blöcke zählen"};
+    cases.push_back({"theme_" + name, common + Arguments{"--show", kAllOverlays}});
+    cases.push_back({"diagrams_" + name,
+                     common + Arguments{"--show", "masses,velocities", "--panels", kTwoPanels}});
   }
   return cases;
 }

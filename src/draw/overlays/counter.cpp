@@ -74,11 +74,12 @@ class Counter {
     const double count_em = count_widths_.width_em(text);
     const double size_px = std::min(place_.size_px, (place_.room_px + kNegligible_px) / count_em);
     const double left = place_.right_px - count_em * size_px;
-    const double label_right = left - kLabelGap_em * sizes_.text;
+    const bool is_beside = place_.label_baseline_px == place_.baseline_px;
+    const double label_right = is_beside ? left - kLabelGap_em * sizes_.text : place_.right_px;
     if (place_.has_label) {
       items.emplace_back(
           TextItem{ItemId::label,
-                   {label_right - (is_over ? over_px_ : label_px_), place_.baseline_px},
+                   {label_right - (is_over ? over_px_ : label_px_), place_.label_baseline_px},
                    std::string(is_over ? kOverLabel : kCountLabel),
                    sizes_.text,
                    is_over ? palette_.done : palette_.muted,
