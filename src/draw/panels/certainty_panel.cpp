@@ -51,7 +51,7 @@ class CertaintyFigure {
 
  private:
   double width(const Formula& formula) const { return formula.width_em() * em_; }
-  const Stretch& line() const { return plan_.line; }
+  const XRange& line() const { return plan_.line; }
 
   void add_label(const CertaintyPlan::Label& label, double baseline, const Color& color) {
     diagram_.formula(label.formula, {label.x, baseline}, 0, color);
@@ -89,7 +89,7 @@ class CertaintyFigure {
   }
 
   /// From pi/s to pi/theta.
-  void add_band(const Stretch& gap) {
+  void add_band(const XRange& gap) {
     const double top = y_ - kBand * em_;
     const double bottom = y_ + kBand * em_;
     diagram_.shape({{gap.left, top}, {gap.right, top}, {gap.right, bottom}, {gap.left, bottom}},
@@ -161,7 +161,7 @@ class CertaintyFigure {
   double em_;
   double right_;
   CertaintyPlan plan_;
-  Stretch gap_;   ///< on the first line
+  XRange gap_;    ///< on the first line
   double y_ = 0;  ///< of the line that was added last
 };
 

@@ -67,8 +67,8 @@ class CertaintyPlanner {
   void place_marks() {
     const Rational from = numbers_.fraction();
     const Rational to = from + numbers_.gap();
-    Stretch room{left_, right_};
-    Stretch gap{plan_.x_of(from), plan_.x_of(to)};
+    XRange room{left_, right_};
+    XRange gap{plan_.x_of(from), plan_.x_of(to)};
     if (is_enlarged()) {
       room = {plan_.line.left + kBeside * em_, plan_.line.right - kBeside * em_};
       gap = {plan_.enlarged_x_of(from), plan_.enlarged_x_of(to)};

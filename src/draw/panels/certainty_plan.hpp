@@ -18,7 +18,7 @@ struct CertaintyRoom {
 };
 
 /// Part of a row, in pixels.
-struct Stretch {
+struct XRange {
   double left = 0;
   double right = 0;
 };
@@ -58,7 +58,7 @@ struct CertaintyPlan {
   int units = 1;      ///< length of the first line
   long exponent = 0;  ///< the second line is 10^n times as large; 0 if there is none
   Rational middle;    ///< of the gap
-  Stretch line;       ///< both lines
+  XRange line;        ///< both lines
   CertaintyWords::Pair ends;
   std::array<Label, 2> marks;               ///< above the line that shows the gap best
   std::optional<Label> both;                ///< above the first line, if marks are above the second
