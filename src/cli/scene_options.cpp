@@ -33,6 +33,18 @@ const std::vector<Destination>& destinations() {
   return all;
 }
 
+/// A list of names with line breaks after commas.
+std::string in_lines(std::string names) {
+  constexpr std::size_t kLongest = 72;
+  for (std::size_t begin = 0; names.size() - begin > kLongest;) {
+    const std::size_t space = names.rfind(' ', begin + kLongest);
+    if (space == std::string::npos || space <= begin) break;
+    names[space] = '\n';
+    begin = space + 1;
+  }
+  return names;
+}
+
 }  // namespace
 
 SceneOptions::SceneOptions(const Command& command) : command_(command) {
@@ -108,7 +120,8 @@ void SceneOptions::add_show() {
   add_key("view.theme", "--theme", "NAME", "Colours:\n" + theme_names());
   add_key("show.overlays", "--show", "NAMES",
           "What is drawn over the scene, with commas:\n" + overlay_names());
-  add_key("show.panels", "--panels", "NAMES", "Diagrams below it, with commas:\n" + panel_names());
+  add_key("show.panels", "--panels", "NAMES",
+          "Diagrams below it, with commas:\n" + in_lines(panel_names()));
   add_key("show.title", "--title", "TEXT", "A title line");
   add_key("show.caption", "--caption", "TEXT", "A caption line");
   add_key("show.logo", "--logo", "FILE.png", "Picture in the lower right corner");

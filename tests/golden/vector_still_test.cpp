@@ -28,7 +28,7 @@ constexpr Bounds kPdfBounds{45, 40};
 constexpr const char* kOnePixelAPoint = "-r 72";
 constexpr const char* kAllOverlays = "digits,masses,velocities,energy,momentum,time,ruler";
 constexpr const char* kAllPanels =
-    "velocity,position,unfolded,time,count,ellipse,mirrors,conservation";
+    "velocity,position,unfolded,time,count,ellipse,mirrors,conservation,certainty";
 constexpr const char* kTwoPanels = "velocity,unfolded";
 
 struct VectorCase {

@@ -19,6 +19,8 @@ inline constexpr double kRulerRoom = 0.07;
 /// The floor is on whole pixels, and room above the blocks may be short by one.
 inline constexpr double kRounded_px = 1;
 
+/// Room that a mass needs above its block, in pixels.
+double mass_room_px(const Sizes& sizes);
 /// Room that the scene's overlays need above the taller block, in pixels.
 double room_above_px(const Scene& scene, const Layout& layout, const Font& font);
 /// The same below the floor.

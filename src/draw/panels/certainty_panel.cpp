@@ -2,13 +2,10 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
-#include "draw/look.hpp"
 #include "draw/overlays/counter.hpp"
-#include "draw/panels/certainty.hpp"
-#include "draw/panels/certainty_words.hpp"
+#include "draw/panels/certainty_plan.hpp"
 #include "draw/panels/panels.hpp"
 
 namespace piblocks {
@@ -16,312 +13,155 @@ namespace {
 
 // In ems.
 constexpr double kBelowTitle = 0.77;  ///< from its baseline to the inside
-constexpr double kCap = 0.73;         ///< from a text's top to its baseline
-constexpr double kToLine = 0.75;      ///< from the baseline of labels down to their line
-constexpr double kFromLine = 1.3;     ///< from a line down to the baseline of the label below it
-constexpr double kToNotes = 1.5;      ///< from there to the first line of notes
-constexpr double kNoteStep = 1.25;    ///< from line to line
-constexpr double kBetweenNotes = 0.2;
-constexpr double kRow = 1.25;
-constexpr double kLens = 1.6;    ///< from a line to the labels of the one that enlarges it
-constexpr double kBeside = 0.5;  ///< between a line and its ends' labels
-constexpr double kBetween = 1;   ///< between labels side by side
-constexpr double kEndTick = 0.42;
-constexpr double kBand = 0.24;  ///< half of its height
-constexpr double kTick = 0.16;
-constexpr double kBetweenTicks = 0.8;
-// More room is given to the lens and to the notes, up to these.
-constexpr double kMostLens = 3;
-constexpr double kMostGap = 1.2;
-
-/// Height that longer notes leave free, so that not all is tight.
-constexpr double kLoose = 1;
-
-/// Ends with long labels take at most this part of the width.
-constexpr double kMostEnds = 0.3;
-/// The gap is enlarged to at most this part of a line, by the largest power of ten.
-constexpr double kMostShown = 0.55;
-
-/// Part of a text's row.
-struct Stretch {
-  double left = 0;
-  double right = 0;
-};
+constexpr double kLeastBesideTitle = 2;
+constexpr double kAboveMarks = 0.95;  ///< from the lens's lower end to the baseline of labels
+constexpr double kEndTick = 0.42;     ///< half of its height, as of those below
+constexpr double kSmallTick = 0.16;
+constexpr double kBand = 0.24;
+constexpr double kLeastStep = 0.8;  ///< between ticks
 
 class CertaintyFigure {
  public:
   CertaintyFigure(Diagram& diagram, const Certainty& numbers, const CertaintyWords& words)
       : diagram_(diagram),
+        palette_(diagram.palette()),
         numbers_(numbers),
         words_(words),
         em_(diagram.text_px()),
-        left_(diagram.inside().x),
-        right_(left_ + diagram.inside().width),
-        units_(numbers.is_wrong() ? 2 : 1) {
-    if (numbers.is_wrong()) return;
-    for (Rational shown = numbers.gap() * 10; shown <= kMostShown; shown *= 10) ++exponent_;
-  }
+        right_(diagram.inside().x + diagram.inside().width) {}
 
+  /// @param title_px  width of the title
   /// @returns whether it had room
-  /// @param title_px  its width
   bool add(double title_px) {
     const Formula definition = words_.definition();
     const double x = right_ - width(definition);
-    is_defined_ = x >= left_ + title_px + 2 * kBetween * em_;
-    if (is_defined_) add_label({definition, x}, title_y(), diagram_.palette().muted);
-    place_line();
-    place_marks();
-    if (!place_rows()) return false;
-    add_whole_line();
-    if (exponent_ > 0) add_enlarged_line();
+    const double title_right = diagram_.inside().x + title_px;
+    const bool is_defined = x >= title_right + kLeastBesideTitle * em_;
+    const double title_y = diagram_.inside().y - kBelowTitle * em_;
+    if (is_defined) add_label({definition, x}, title_y, palette_.muted);
+    std::optional<CertaintyPlan> plan =
+        plan_certainty({diagram_.inside(), em_, is_defined}, numbers_, words_);
+    if (!plan) return false;
+    plan_ = std::move(*plan);
+    add_first_line();
+    if (plan_.exponent > 0) add_enlarged_line();
     add_notes();
     return true;
   }
 
  private:
-  struct Label {
-    Formula formula;
-    double x = 0;  ///< left end
-  };
-
-  /// Baseline of the diagram's title.
-  double title_y() const { return diagram_.inside().y - kBelowTitle * em_; }
   double width(const Formula& formula) const { return formula.width_em() * em_; }
-  double x_of(const Rational& fraction) const {
-    return line_.left + to_double(fraction / units_) * (line_.right - line_.left);
-  }
-  /// On the enlarged line, whose middle is that of the gap. @param offset  from pi/s
-  double enlarged_x_of(const Rational& offset) const {
-    const Rational share =
-        (offset - numbers_.gap() / 2) * power(10, static_cast<unsigned long>(exponent_));
-    return x_of(Rational(1, 2) + share);
-  }
+  const XRange& line() const { return plan_.line; }
 
-  /// Both lines have the labels of the first one's ends beside them.
-  void place_line() {
-    const double room = right_ - left_;
-    for (const CertaintyWords::Pair& ends : words_.ends()) {
-      ends_ = ends;
-      if (width(ends.left) + width(ends.right) <= kMostEnds * room) break;
-    }
-    double beside = width(ends_.left);
-    if (exponent_ > 0) beside = std::max(beside, width(words_.magnification(exponent_)));
-    line_ = {left_ + beside + kBeside * em_, right_ - width(ends_.right) - kBeside * em_};
-  }
-
-  /// The labels of pi/s and pi/theta, left and right of the gap if possible.
-  void place_marks() {
-    const bool is_enlarged = exponent_ > 0;
-    const Stretch room = is_enlarged
-                             ? Stretch{line_.left + kBeside * em_, line_.right - kBeside * em_}
-                             : Stretch{left_, right_};
-    const double a = is_enlarged ? enlarged_x_of(0) : x_of(numbers_.fraction());
-    const double b =
-        is_enlarged ? enlarged_x_of(numbers_.gap()) : x_of(numbers_.fraction() + numbers_.gap());
-    for (const CertaintyWords::Pair& pair : words_.marks()) {
-      const double second = std::min(b, room.right - width(pair.right));
-      const double first =
-          std::max(room.left, std::min(a, second - kBetween * em_) - width(pair.left));
-      marks_[0] = {pair.left, first};
-      marks_[1] = {pair.right, std::max(second, first + width(pair.left) + kBetween * em_)};
-      if (marks_[1].x + width(pair.right) <= room.right + 1e-6) break;
-    }
-    above_ = {marks_[0].x, marks_[1].x + width(marks_[1].formula)};
-    if (!is_enlarged) return;
-    // On the other line both are one.
-    both_.formula = words_.both();
-    const double at = x_of(numbers_.fraction());
-    both_.x = std::clamp(at - width(both_.formula) / 2, left_,
-                         std::max(left_, right_ - width(both_.formula)));
-    above_ = {both_.x, both_.x + width(both_.formula)};
-  }
-
-  /// Lines of a text that fit. Nothing if a word is too long.
-  std::optional<std::vector<Formula>> lines_of(const Words& words) const {
-    std::vector<Formula> lines;
-    for (const Formula& word : words) {
-      if (width(word) > right_ - left_) return std::nullopt;
-      Formula longer = lines.empty() ? word : lines.back() + words_.space() + word;
-      if (!lines.empty() && width(longer) <= right_ - left_) {
-        lines.back() = std::move(longer);
-      } else {
-        lines.push_back(word);
-      }
-    }
-    return lines;
-  }
-
-  /// The longest notes, and what is beyond the line's end, as there is room.
-  bool place_rows() {
-    const double room = diagram_.inside().height / em_;
-    double height = kCap + kToLine + kFromLine;
-    if (exponent_ > 0) height += kLens + kToLine;
-    double loose = kLoose;
-    for (const std::vector<Words>& notes : words_.notes(is_defined_)) {
-      notes_.clear();
-      if (notes.size() == 1) loose = 0;
-      double notes_height = kToNotes - kNoteStep - kBetweenNotes;
-      bool fits = true;
-      for (const Words& note : notes) {
-        const auto lines = lines_of(note);
-        fits = fits && lines;
-        if (!lines) continue;
-        notes_height += kBetweenNotes + kNoteStep * double(lines->size());
-        notes_.push_back(*lines);
-      }
-      if (!fits || height + notes_height + loose > room) continue;
-      place_beyond(room - height - notes_height);
-      double spare = room - height - notes_height - (is_beyond_above_ ? kRow : 0);
-      if (exponent_ > 0) lens_ += std::min(spare / 2, kMostLens);
-      spare -= lens_ - kLens;
-      gap_ = std::min(spare / 2, kMostGap);
-      return true;
-    }
-    return false;
-  }
-
-  /// @param spare  height that is left, in ems
-  void place_beyond(double spare) {
-    for (const Formula& formula : words_.beyond()) {
-      const double x = right_ - width(formula);
-      if (x < left_) continue;
-      const bool is_beside = x >= above_.right + kBetween * em_;
-      if (!is_beside && spare < kRow) continue;
-      beyond_ = {formula, x};
-      is_beyond_above_ = !is_beside;
-      return;
-    }
-  }
-
-  void add_label(const Label& label, double baseline, const Color& color) {
+  void add_label(const CertaintyPlan::Label& label, double baseline, const Color& color) {
     diagram_.formula(label.formula, {label.x, baseline}, 0, color);
   }
+  void add_left_of_line(const Formula& formula, const Color& color) {
+    const double x = line().left - certainty::kBeside * em_ - width(formula);
+    add_label({formula, x}, y_ + certainty::kCap / 2 * em_, color);
+  }
+  void add_below_line(const Formula& formula, double x, const Color& color) {
+    const double left =
+        std::clamp(x - width(formula) / 2, diagram_.inside().x, right_ - width(formula));
+    add_label({formula, left}, y_ + certainty::kFromLine * em_, color);
+  }
+  void add_marks(double baseline) {
+    add_label(plan_.marks[0], baseline, palette_.text);
+    add_label(plan_.marks[1], baseline, palette_.accent);
+  }
 
-  void add_ticks(double y, const Rational& middle, long exponent) {
-    // The least power of the base whose multiples are apart, in parts of the line.
-    const int base = numbers_.base();
-    const Rational zoom = power(10, static_cast<unsigned long>(exponent));
-    const int units = exponent == 0 ? units_ : 1;
-    const double least = units * kBetweenTicks * em_ / (line_.right - line_.left);
+  /// A line, and ticks at multiples of the least power of the base that leaves room between them.
+  /// @param length  of what is on the line
+  template <typename PlaceOf>
+  void add_line(const Rational& middle, const Rational& length, const PlaceOf& place_of) {
+    diagram_.line({{line().left, y_}, {line().right, y_}}, palette_.muted);
+    const Rational base = numbers_.base();
+    const double least = kLeastStep * em_ / (line().right - line().left);
     Rational step = 1;
-    while (to_double(step * zoom / base) >= least) step /= base;
-    const Rational half = Rational(units) / (2 * zoom);
-    const Integer last = floor((middle + half) / step);
-    for (Integer k = ceil((middle - half) / step); k <= last; k += 1) {
+    while (to_double(step / base / length) >= least) step /= base;
+    const Integer last = floor((middle + length / 2) / step);
+    for (Integer k = ceil((middle - length / 2) / step); k <= last; k += 1) {
       const Rational at = k * step;
-      const double x = exponent == 0 ? x_of(at) : x_of(Rational(1, 2) + (at - middle) * zoom);
-      const double reach = (at.get_den() == 1 ? kEndTick : kTick) * em_;
-      diagram_.line({{x, y - reach}, {x, y + reach}}, diagram_.palette().muted);
+      const double x = place_of(at);
+      const double reach = (at.get_den() == 1 ? kEndTick : kSmallTick) * em_;
+      diagram_.line({{x, y_ - reach}, {x, y_ + reach}}, palette_.muted);
     }
   }
 
   /// From pi/s to pi/theta.
-  void add_band(double from, double to, double y) {
-    const Palette& palette = diagram_.palette();
-    const double reach = kBand * em_;
-    diagram_.shape({{from, y - reach}, {to, y - reach}, {to, y + reach}, {from, y + reach}},
-                   palette.accent);
+  void add_band(const XRange& gap) {
+    const double top = y_ - kBand * em_;
+    const double bottom = y_ + kBand * em_;
+    diagram_.shape({{gap.left, top}, {gap.right, top}, {gap.right, bottom}, {gap.left, bottom}},
+                   palette_.accent);
     const double width = diagram_.sizes().data_line / diagram_.sizes().grid_line;
     const double tick = kEndTick * em_;
-    diagram_.line({{from, y - tick}, {from, y + tick}}, palette.text, width);
-    diagram_.line({{to, y - tick}, {to, y + tick}}, palette.accent, width);
+    diagram_.line({{gap.left, y_ - tick}, {gap.left, y_ + tick}}, palette_.text, width);
+    diagram_.line({{gap.right, y_ - tick}, {gap.right, y_ + tick}}, palette_.accent, width);
   }
 
-  void add_gap(double from, double to, double y) {
-    const Formula formula = words_.gap();
-    const double x = std::clamp((from + to - width(formula)) / 2, left_, right_ - width(formula));
-    add_label({formula, x}, y + kFromLine * em_, diagram_.palette().accent);
-  }
-
-  void add_whole_line() {
-    const Palette& palette = diagram_.palette();
-    double baseline = diagram_.inside().y + kCap * em_;
-    if (beyond_ && is_beyond_above_) {
-      add_label(*beyond_, baseline, palette.muted);
-      baseline += kRow * em_;
-    } else if (beyond_) {
-      add_label(*beyond_, baseline, palette.muted);
+  void add_first_line() {
+    double baseline = diagram_.inside().y + certainty::kCap * em_;
+    if (plan_.beyond) add_label(*plan_.beyond, baseline, palette_.muted);
+    if (plan_.has_row_above) baseline += certainty::kRow * em_;
+    y_ = baseline + certainty::kToLine * em_;
+    add_left_of_line(plan_.ends.left, palette_.text);
+    add_label({plan_.ends.right, line().right + certainty::kBeside * em_},
+              y_ + certainty::kCap / 2 * em_, palette_.text);
+    add_line(Rational(plan_.units, 2), plan_.units,
+             [&](const Rational& at) { return plan_.x_of(at); });
+    gap_ = {plan_.x_of(numbers_.fraction()), plan_.x_of(numbers_.fraction() + numbers_.gap())};
+    add_band(gap_);
+    if (plan_.both) {
+      add_label(*plan_.both, baseline, palette_.accent);
+      return;
     }
-    y_ = baseline + kToLine * em_;
-    const double beside = y_ + kCap / 2 * em_;
-    add_label({ends_.left, line_.left - kBeside * em_ - width(ends_.left)}, beside, palette.text);
-    add_label({ends_.right, line_.right + kBeside * em_}, beside, palette.text);
-    diagram_.line({{line_.left, y_}, {line_.right, y_}}, palette.muted);
-    add_ticks(y_, Rational(units_, 2), 0);
-    const double from = x_of(numbers_.fraction());
-    const double to = x_of(numbers_.fraction() + numbers_.gap());
-    add_band(from, to, y_);
-    if (exponent_ > 0) {
-      add_label(both_, baseline, palette.accent);
+    add_marks(baseline);
+    if (numbers_.is_wrong()) {
+      add_below_line(words_.next_whole(), plan_.x_of(1), palette_.text);
     } else {
-      add_marks(baseline);
-      if (numbers_.is_wrong()) {
-        const Formula next = words_.next_whole();
-        add_label({next, x_of(1) - width(next) / 2}, y_ + kFromLine * em_, palette.text);
-      } else {
-        add_gap(from, to, y_);
-      }
+      add_below_line(words_.gap(), (gap_.left + gap_.right) / 2, palette_.accent);
     }
-  }
-
-  void add_marks(double baseline) {
-    add_label(marks_[0], baseline, diagram_.palette().text);
-    add_label(marks_[1], baseline, diagram_.palette().accent);
   }
 
   /// Below the first line, with lines of sight from the gap.
   void add_enlarged_line() {
-    const Palette& palette = diagram_.palette();
-    const double from = x_of(numbers_.fraction());
-    const double to = x_of(numbers_.fraction() + numbers_.gap());
-    const double above = y_ + kEndTick * em_;
-    const double baseline = y_ + lens_ * em_;
-    const double below = baseline - 0.95 * em_;
-    y_ = baseline + kToLine * em_;
-    diagram_.line({{from, above}, {line_.left, below}, {line_.left, y_}}, palette.grid);
-    diagram_.line({{to, above}, {line_.right, below}, {line_.right, y_}}, palette.grid);
-    const Formula times = words_.magnification(exponent_);
-    add_label({times, line_.left - kBeside * em_ - width(times)}, y_ + kCap / 2 * em_,
-              palette.muted);
-    diagram_.line({{line_.left, y_}, {line_.right, y_}}, palette.muted);
-    add_ticks(y_, numbers_.fraction() + numbers_.gap() / 2, exponent_);
-    add_band(enlarged_x_of(0), enlarged_x_of(numbers_.gap()), y_);
+    const double eye = y_ + kEndTick * em_;
+    const double baseline = y_ + plan_.lens_em * em_;
+    const double top = baseline - kAboveMarks * em_;
+    y_ = baseline + certainty::kToLine * em_;
+    diagram_.line({{gap_.left, eye}, {line().left, top}, {line().left, y_}}, palette_.grid);
+    diagram_.line({{gap_.right, eye}, {line().right, top}, {line().right, y_}}, palette_.grid);
+    add_left_of_line(words_.magnification(plan_.exponent), palette_.muted);
+    const Rational length = 1 / power(10, static_cast<unsigned long>(plan_.exponent));
+    const auto place_of = [&](const Rational& at) { return plan_.enlarged_x_of(at); };
+    add_line(plan_.middle, length, place_of);
+    add_band({place_of(numbers_.fraction()), place_of(numbers_.fraction() + numbers_.gap())});
     add_marks(baseline);
-    add_gap(enlarged_x_of(0), enlarged_x_of(numbers_.gap()), y_);
+    add_below_line(words_.gap(), place_of(plan_.middle), palette_.accent);
   }
 
+  /// The last one is what to remember.
   void add_notes() {
-    double baseline = y_ + (kFromLine + kToNotes + gap_) * em_;
-    for (const std::vector<Formula>& lines : notes_) {
-      const Color& color =
-          &lines == &notes_.back() ? diagram_.palette().text : diagram_.palette().muted;
-      for (const Formula& line : lines) {
-        add_label({line, left_}, baseline, color);
-        baseline += kNoteStep * em_;
+    double baseline = y_ + (certainty::kFromLine + certainty::kToNotes + plan_.notes_em) * em_;
+    for (const std::vector<Formula>& lines : plan_.notes) {
+      const bool is_last = &lines == &plan_.notes.back();
+      for (const Formula& text : lines) {
+        add_label({text, diagram_.inside().x}, baseline, is_last ? palette_.text : palette_.muted);
+        baseline += certainty::kNoteStep * em_;
       }
-      baseline += kBetweenNotes * em_;
+      baseline += certainty::kBetweenNotes * em_;
     }
   }
 
   Diagram& diagram_;
+  const Palette& palette_;
   const Certainty& numbers_;
   const CertaintyWords& words_;
   double em_;
-  double left_;
   double right_;
-  long exponent_ = 0;  ///< the second line is 10^n times as large; 0 if there is none
-  int units_;          ///< length of the first line
-  Stretch line_;
-  CertaintyWords::Pair ends_;
-  Label marks_[2];
-  Label both_;
-  Stretch above_;  ///< what labels above the first line take
-  std::optional<Label> beyond_;
-  bool is_beyond_above_ = false;
-  bool is_defined_ = false;  ///< beside the title
-  std::vector<std::vector<Formula>> notes_;
-  double lens_ = kLens;
-  double gap_ = 0;
+  CertaintyPlan plan_;
+  XRange gap_;    ///< on the first line
   double y_ = 0;  ///< of the line that was added last
 };
 

@@ -216,7 +216,7 @@ Words CertaintyWords::reason(bool is_defined) const {
 }
 
 Words CertaintyWords::distance() const {
-  if (numbers_.base() != kUsualBase || numbers_.rest() <= numbers_.gap()) return {};
+  if (numbers_.base() != kUsualBase || numbers_.rest() < 2 * numbers_.gap()) return {};
   const Rational times = numbers_.rest() / numbers_.gap();
   constexpr int kMostWritten = 100'000;
   const std::string many = times < kMostWritten
@@ -251,8 +251,9 @@ Words CertaintyWords::needed() const {
 }
 
 Words CertaintyWords::needed_briefly() const {
-  if (numbers_.places() == 0)
+  if (numbers_.places() == 0) {
     return words("Equal masses:") + Words{rays() + set_.text(" = " + next())};
+  }
   if (nines_ > kFewNines) {
     return words(fmt::format("Needed next in π: {} {}. Found: {}…", nines_, nine(),
                              numbers_.following(kDigitsOfMany)));

@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <utility>
+
+#include "draw/number_text.hpp"
+#include "draw/overlays/overlays.hpp"
+
+namespace piblocks {
+namespace {
+
+/// A mass takes at most this part of its block's width.
+constexpr double kMostOfBlock = 0.9;
+/// Of the least block that a mass is written on, in ems. A unit has a letter below the line.
+constexpr double kHeight_em = 1;
+constexpr double kHeightWithUnit_em = 1.2;
+/// Between a block and the mass above it, in fractions of the frame's shorter side.
+constexpr double kBelowMass = 0.016;
+/// And between that mass and what is above it.
+constexpr double kAboveMass = 0.006;
+
+bool fits(const std::string& text, const BlockShape& block, const Layout& layout, double size_px,
+          const Font& font) {
+  const bool has_unit = text.ends_with('g');
+  return font.width_em(text) * size_px <= kMostOfBlock * block.width * layout.scale &&
+         (has_unit ? kHeightWithUnit_em : kHeight_em) * size_px <= block.height_px;
+}
+
+struct MassTexts {
+  std::string blue;
+  std::string red;
+};
+
+/// What the two masses can be written on, and which is the lighter one.
+struct MassPlaces {
+  const BlockShape& lighter;
+  const BlockShape& heavier;
+
+  /// The heavier block's mass may be above it, unless the other block would run into it.
+  bool can_be_above() const { return heavier.height_px >= lighter.height_px; }
+};
+
+bool is_red_lighter(const BlockSystem& system) { return system.red.mass < system.blue.mass; }
+
+MassPlaces mass_places(const BlockSystem& system, const Layout& layout) {
+  if (is_red_lighter(system)) return {layout.red, layout.blue};
+  return {layout.blue, layout.red};
+}
+
+/// With a unit, unless only a number has room.
+MassTexts mass_texts(const Scene& scene, const Layout& layout, const Font& font) {
+  const BlockSystem& system = scene.system;
+  const MassTexts plain{short_text(system.blue.mass), short_text(system.red.mass)};
+  const MassTexts full{plain.blue + " kg", plain.red + " kg"};
+  const MassPlaces places = mass_places(system, layout);
+  const bool is_red = is_red_lighter(system);
+  const double size_px = Sizes(scene.view).mass;
+  const bool has_room =
+      fits(is_red ? full.red : full.blue, places.lighter, layout, size_px, font) &&
+      (places.can_be_above() ||
+       fits(is_red ? full.blue : full.red, places.heavier, layout, size_px, font));
+  return has_room ? full : plain;
+}
+
+/// The label of a block whose middle is in column 0.
+TextItem mass_label(std::size_t n, std::string text, const Block& block,
+                    const DrawingContext& context) {
+  const BlockSystem& system = context.scene.system;
+  const Layout& layout = context.layout;
+  const bool is_red = &block == &system.red;
+  const BlockColors& colors = is_red ? context.palette.red : context.palette.blue;
+  const BlockShape& shape = is_red ? layout.red : layout.blue;
+  const bool is_lighter = is_red == is_red_lighter(system);
+  const double size_px = context.sizes.mass;
+  const double left = -context.font.width_em(text) * size_px / 2;
+  const double top = layout.floor_px - shape.height_px;
+  const bool is_inside = fits(text, shape, layout, size_px, context.font);
+  if (!is_inside && (is_lighter || !mass_places(system, layout).can_be_above())) {
+    throw UsageError(
+        fmt::format("show.overlays: the mass '{}' does not fit on its block of {:.0f}x{:.0f} "
+                    "pixels; leave out 'masses', make the block or the frame larger, or show less "
+                    "of the x axis",
+                    text, shape.width * layout.scale, shape.height_px));
+  }
+  if (!is_inside && layout.above_px + kRounded_px < mass_room_px(context.sizes)) {
+    throw UsageError(
+        fmt::format("show.overlays: the mass '{}' needs {:.0f} pixels above its block, and there "
+                    "are {:.0f}; leave out 'masses', or make the block wider or the frame higher",
+                    text, mass_room_px(context.sizes), std::max(0.0, layout.above_px)));
+  }
+  const double baseline = is_inside
+                              ? layout.floor_px - shape.height_px / 2 + kHalfFigure_em * size_px
+                              : top - kBelowMass * context.sizes.unit;
+  return {nth(ItemId::masses, n),
+          {left, baseline},
+          std::move(text),
+          size_px,
+          is_inside ? colors.text : colors.label,
+          context.font.face()};
+}
+
+}  // namespace
+
+double mass_room_px(const Sizes& sizes) {
+  return std::max(kMassRoom * sizes.unit,
+                  (kBelowMass + kAboveMass) * sizes.unit + Font::kCapHeight_em * sizes.mass);
+}
+
+bool has_mass_above(const Scene& scene, const Layout& layout, const Font& font) {
+  const double size_px = Sizes(scene.view).mass;
+  const auto [blue, red] = mass_texts(scene, layout, font);
+  return !fits(red, layout.red, layout, size_px, font) ||
+         !fits(blue, layout.blue, layout, size_px, font);
+}
+
+Drawable mass_labels(const DrawingContext& context) {
+  const BlockSystem& system = context.scene.system;
+  const MassTexts texts = mass_texts(context.scene, context.layout, context.font);
+  const TextItem red = mass_label(0, texts.red, system.red, context);
+  const TextItem blue = mass_label(1, texts.blue, system.blue, context);
+  const double least_px = context.sizes.margin;
+  const double most_px = std::min(context.scene.view.width_px - least_px, context.layout.right_px);
+  return [=, layout = context.layout](const FrameState& shown, std::vector<DrawItem>& items) {
+    const auto add = [&](TextItem label, const Motion& motion) {
+      const double half_px = -label.origin.x;
+      const double middle = layout.at(motion.position, 0).x;
+      // Half a figure would be another number.
+      if (middle - half_px < least_px || middle + half_px > most_px) return;
+      label.origin.x += middle;
+      items.emplace_back(std::move(label));
+    };
+    add(red, shown.state.red);
+    add(blue, shown.state.blue);
+  };
+}
+
+}  // namespace piblocks
