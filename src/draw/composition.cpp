@@ -63,7 +63,7 @@ Composition::Composition(const Scene& scene, const CollisionLog& log,
     : empty_{scene.view.width_px, scene.view.height_px, background_of(scene.view), {}} {
   const Fonts fonts;
   const Font& font = fonts.of(text_face_of(scene.view.theme));
-  const Palette palette = palette_of(scene.view.theme);
+  const Palette palette = palette_of(scene.view.theme, scene.system);
   const Sizes sizes(scene.view);
   Layout layout;  // made below: what else there is decides it
   const DrawingContext context{.scene = scene,
