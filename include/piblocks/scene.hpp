@@ -76,6 +76,10 @@ enum class Theme {
   colorblind      ///< blue and orange that all can tell apart, and that differ in pattern
 };
 
+constexpr bool is_lecture(Theme theme) {
+  return theme == Theme::lecture || theme == Theme::lecture_light;
+}
+
 /// What is behind everything: the theme's colour, or nothing.
 enum class Background { opaque, transparent };
 

@@ -36,6 +36,9 @@ int parse_digits(const Values& values) {
   return digits;
 }
 
+/// Of the lecture themes, unless a scene says otherwise.
+const Rational kLectureShutter(1, 2);
+
 }  // namespace
 
 void SceneDraft::read(const std::string& path, const TomlTable& table) {
@@ -113,6 +116,11 @@ Scene SceneDraft::scene() const {
       digits_ ? std::optional(mass_ratio_of(*digits_, scene.show.base)) : mass_ratio_;
   if (ratio) scene.system.red.mass = scene.system.blue.mass * *ratio;
   if (width_by_mass_) scene.system.red.width = width_by_mass(scene.system);
+  // A blurred frame cannot be transparent.
+  const bool is_opaque = scene.view.background == Background::opaque;
+  if (is_lecture(scene.view.theme) && is_opaque && !origins_.contains("view.shutter")) {
+    scene.view.shutter = kLectureShutter;
+  }
   return scene;
 }
 

@@ -132,6 +132,22 @@ TEST(SceneKeys, RefuseOtherNames) {
   }
 }
 
+using Keys = std::vector<std::pair<const char*, const char*>>;
+
+TEST(SceneKeys, LectureThemesHaveAShutterUnlessTheSceneSaysOtherwise) {
+  const auto shutter = [](const Keys& keys) {
+    ScriptBuilder builder;
+    for (const auto& [key, text] : keys) builder.set("--option", key, text);
+    return builder.build_scene().view.shutter;
+  };
+  EXPECT_EQ(shutter({{"view.theme", "lecture"}}), Rational(1, 2));
+  EXPECT_EQ(shutter({{"view.theme", "lecture-light"}}), Rational(1, 2));
+  EXPECT_EQ(shutter({{"view.theme", "lecture"}, {"view.shutter", "0"}}), 0);
+  EXPECT_EQ(shutter({{"view.shutter", "1/4"}, {"view.theme", "lecture"}}), Rational(1, 4));
+  EXPECT_EQ(shutter({{"view.theme", "lecture"}, {"view.background", "transparent"}}), 0);
+  EXPECT_EQ(shutter({{"view.theme", "dark"}}), 0);
+}
+
 TEST(SceneKeys, DigitsAreThoseOfTheBaseInTheEnd) {
   ScriptBuilder builder;
   builder.set("test", "blue.mass", "3");

@@ -27,9 +27,7 @@ constexpr double kHiddenInRed = 0.8;
 constexpr double kMostHeights = 1.6;
 
 std::optional<Loupe> loupe_of(const Scene& scene) {
-  const Theme theme = scene.view.theme;
-  const bool is_lecture = theme == Theme::lecture || theme == Theme::lecture_light;
-  Loupe loupe = scene.show.loupe.value_or(Loupe{.is_on = is_lecture});
+  Loupe loupe = scene.show.loupe.value_or(Loupe{.is_on = is_lecture(scene.view.theme)});
   return loupe.is_on ? std::optional(std::move(loupe)) : std::nullopt;
 }
 
