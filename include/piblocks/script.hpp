@@ -92,8 +92,8 @@ inline constexpr int kMaxSceneNesting = 256;  ///< of lists and tables in a scen
 /// width_by_mass()); "view.x", "view.y", "view.size", "view.fps", "view.shutter",
 /// "view.background", "view.theme"; "time.from", "time.to", "time.speed", "time.duration",
 /// "time.slow-motion", "time.ease", "time.freeze", "time.hold-start", "time.hold-end", "time.loop";
-/// "show.overlays", "show.panels", "show.title", "show.caption", "show.logo"; "sound.on";
-/// "golden.frames", "golden.size".
+/// "show.overlays", "show.panels", "show.title", "show.caption", "show.logo", "show.hits",
+/// "show.loupe"; "sound.on"; "golden.frames", "golden.size".
 ///
 /// A file with [[part]] is a storyboard: its other keys hold for all parts. A part takes the keys
 /// of a scene except those of the whole film, and also "card", "seconds", "compare", "split" and
