@@ -44,7 +44,7 @@ std::optional<Rational> turn_of(const BlockSystem& system);
 
 inline constexpr int kMaxDigits = 100'000;
 
-/// The mass ratio at which the collisions count pi to digits - 1 places behind the point:
+/// The mass ratio at which the collisions count pi to digits - 1 places after the point:
 /// base^(2 (digits - 1)). In base 10 these are its first `digits` digits; in base 2 and 3, where
 /// pi's whole part has two digits, there is one more.
 /// @throws UsageError unless 1 <= digits <= kMaxDigits and kMinBase <= base <= kMaxBase.
@@ -215,7 +215,8 @@ struct Gaps {
 /// @throws SimulationError as CollisionLog::state_at().
 Gaps gaps_at(const CollisionLog& log, const Rational& time);
 
-/// The same of collision(index), in which y1 = 0 or y1 = y2, whoever met. @param index  of the log
+/// The gaps at this collision: y1 is exactly 0 at the wall, and equals y2 exactly if the blocks
+/// meet. @param index  of the log
 /// @throws SimulationError as CollisionLog::collision().
 Gaps gaps_at_collision(const CollisionLog& log, const Integer& index);
 

@@ -30,7 +30,7 @@ constexpr double kLeastLogoLength_px = 3;
 void check(bool is_finite, const Rational& time) {
   if (is_finite) return;
   throw UsageError(
-      fmt::format("frame: at time {} something is at a place beyond the range of a double (about "
+      fmt::format("frame: at time {} a position exceeds the range of a double (about "
                   "1.8e308); show another time, or use less extreme positions, velocities and "
                   "widths",
                   short_text(time)));

@@ -63,7 +63,7 @@ class Font {
   Face face_;
   struct Loaded;
   std::unique_ptr<Loaded> loaded_;
-  mutable std::unique_ptr<Font> fallback_;  ///< loaded when a character is lacking
+  mutable std::unique_ptr<Font> fallback_;  ///< loaded when a character is missing
 };
 
 /// Each typeface, loaded when it is asked for. For one thread.

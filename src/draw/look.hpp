@@ -82,7 +82,7 @@ inline constexpr double kGridLine = 1.5 / 720;  ///< the thinnest that a project
 inline constexpr double kPresentDot = 0.011;
 inline constexpr double kHitDot = 0.0055;
 
-/// Share of the alpha of an area that text or lines are over, which still has a contrast of 2.
+/// Opacity of a filled area behind text or lines. It keeps a contrast of 2 with the background.
 inline constexpr double kWedgeFill = 0.8;
 
 inline constexpr double kHatch = 0.025;     ///< width of the wall

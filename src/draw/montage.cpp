@@ -139,7 +139,7 @@ SplitScreen::SplitScreen(const View& view, std::size_t count, Split split)
     : empty_{view.width_px, view.height_px, background_of(view), {}} {
   const bool is_wide_frame = view.width_px > view.height_px;
   const bool is_wide = split == Split::automatic ? is_wide_frame : split == Split::columns;
-  is_in_rows_ = is_wide_frame && !is_wide;
+  is_in_rows_ = !is_wide;
   const int length = is_wide ? view.width_px : view.height_px;
   const int breadth = is_wide ? view.height_px : view.width_px;
   const int line_px = std::max(1, static_cast<int>(std::lround(Sizes(view).data_line)));

@@ -23,7 +23,7 @@ class SplitScreen {
   /// @throws UsageError if the frame is too small for so many.
   SplitScreen(const View& view, std::size_t count, Split split = Split::automatic);
 
-  /// Whether cells are one above the other in a frame that is wider than high.
+  /// Whether cells are one above the other.
   bool is_in_rows() const noexcept { return is_in_rows_; }
 
   /// Whole pixels that do not overlap, in order.

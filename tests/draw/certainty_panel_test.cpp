@@ -53,7 +53,7 @@ struct Expected {
     mpfr_mul(least.value, least.value, scale.value, MPFR_RNDN);
     mpfr_sub_z(least.value, least.value, whole.get_mpz_t(), MPFR_RNDN);
   }
-  /// Digits behind the point of a number from 0 to 1.
+  /// Digits after the point of a number from 0 to 1.
   static std::string digits_of(const Float& number, int base, std::size_t count) {
     Float rest;
     mpfr_set(rest.value, number.value, MPFR_RNDN);

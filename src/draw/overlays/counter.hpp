@@ -13,7 +13,7 @@
 
 namespace piblocks {
 
-/// How many digits of pi behind the point the count has in this base, save for the last digit of a
+/// How many digits of pi after the point the count has in this base, save for the last digit of a
 /// few counts. Nothing unless blue is at rest, off the wall, and the mass ratio is a power of the
 /// base's square.
 std::optional<unsigned long> places_of_pi(const BlockSystem& system, int base);

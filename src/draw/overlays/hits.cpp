@@ -12,18 +12,16 @@
 namespace piblocks {
 namespace {
 
-/// Of an arc when it appears, in parts of its last radius.
+/// Radius of an arc when it appears, in parts of its final radius.
 constexpr double kFirstRadius = 0.3;
 /// Directions in which an arc is drawn: without the first and the last, it keeps clear of the
 /// bodies.
 constexpr std::size_t kDirections = 13;
-/// Of an arc, in widths of the wall's line.
+/// Width of an arc's line, in widths of the wall's line.
 constexpr double kMarkLine = 1.2;
-/// Disks of rising size that make a glow, the greatest alpha of each, and the size of the largest
-/// in parts of an arc's.
-constexpr int kGlowDisks = 7;
-constexpr double kGlowAlpha = 0.24;
-constexpr double kGlowReach = 0.8;
+constexpr int kGlowDisks = 7;        ///< concentric disks that make a glow
+constexpr double kGlowAlpha = 0.24;  ///< greatest opacity of one of them
+constexpr double kGlowReach = 0.8;   ///< radius of the largest, in parts of an arc's final radius
 /// The strength of a glow goes from the least one at kMaxHits_per_s towards 1. It is half-way when
 /// the rate has doubled so many times.
 constexpr double kLeastGlow = 0.4;

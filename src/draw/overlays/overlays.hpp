@@ -58,7 +58,7 @@ struct SlowMotionLabel {
 };
 SlowMotionLabel slow_motion_label(const DrawingContext& context);
 
-/// All read-outs in rows, from the frame's top on. A Drawable.
+/// All read-outs in rows. A Drawable.
 class ReadOutRows {
  public:
   /// @throws UsageError if one is too long to be read.
@@ -69,7 +69,8 @@ class ReadOutRows {
   double lone_slow_motion_px() const noexcept { return lone_px_; }
   /// Moves all rows down, or the lone label to its place.
   void move(double y, const Point& slow_motion);
-  /// The label of slow motion is seen as far as this is not. @param opacity  of the loupe, 0 … 1
+  /// Fades the label of slow motion out as the loupe, which has the same label, fades in. @param
+  /// opacity  of the loupe, 0 … 1
   void leave_slow_motion_to(std::function<double(const FrameState&)> opacity) {
     loupe_opacity_ = std::move(opacity);
   }

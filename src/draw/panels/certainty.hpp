@@ -1,5 +1,5 @@
 // How near a count of digits of pi comes to a wrong digit.
-// In: a base and the places behind the point. Out: exact distances, and digits that are certain.
+// In: a base and the places after the point. Out: exact distances, and digits that are certain.
 #pragma once
 
 #include <piblocks/exact.hpp>

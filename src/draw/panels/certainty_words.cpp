@@ -16,7 +16,7 @@ constexpr unsigned long kFewPlaces = 5;
 constexpr unsigned long kFewZeros = 3;  ///< of a power of ten
 constexpr std::size_t kFewNines = 5;
 constexpr std::size_t kDigitsOfMany = 6;  ///< of pi, beside a number of nines
-/// Digits behind the point, or behind those that two numbers share.
+/// Digits after the point, or behind those that two numbers share.
 constexpr std::size_t kLeastDigits = 3;
 constexpr std::size_t kAfterNines = 3;
 

@@ -48,12 +48,12 @@ struct EnlargedTurn {
   Integer high;
 };
 
-/// What of a picture of a curve is enlarged, and how far it may be.
+/// Limits for the inset of the count's curve.
 struct Enlargement {
   Span whole;               ///< time that the picture shows
   Rational share;           ///< of its width that the enlarged part is wide
   int most_steps = 1;       ///< that the part may have
-  Rational counts_in_room;  ///< that would fill the part's height without being enlarged
+  Rational counts_in_room;  ///< counts that fill the inset's height at the scale of the curve
 };
 
 /// Nothing if there is no turn within the span, nothing to enlarge, or all collisions happen at

@@ -126,7 +126,7 @@ double UnfoldedMap::reach_px(double least_apart_px) const {
 }
 
 std::vector<Mirror> UnfoldedMap::mirrors(const CollisionLog& log, double least_apart_px) const {
-  if (!line_.moves() || line_.meets_corner()) return fan();
+  if (!line_.moves() || line_.meets_corner()) return evenly_spaced_mirrors();
   const double reach = std::copysign(reach_px(least_apart_px), line_.velocity());
   if (!(std::abs(reach) > 0)) return {};
   const Integer first = log.state_at(line_.time_at(-reach / scale_)).count + 1;
@@ -158,7 +158,7 @@ std::vector<Mirror> UnfoldedMap::mirrors(const CollisionLog& log, double least_a
 }
 
 /// Where no ray is crossed one by one.
-std::vector<Mirror> UnfoldedMap::fan() const {
+std::vector<Mirror> UnfoldedMap::evenly_spaced_mirrors() const {
   std::vector<Mirror> mirrors;
   if (line_.theta() == 0) return mirrors;
   const double step = line_.theta() * std::ceil(kFanStep / line_.theta());

@@ -87,7 +87,7 @@ class UnfoldedMap {
 
  private:
   void place_corner(const CollisionLog& log);
-  std::vector<Mirror> fan() const;
+  std::vector<Mirror> evenly_spaced_mirrors() const;
   Mirror mirror_of(const CollisionLog& log, const Integer& index) const;
   double reach_px(double least_apart_px) const;
 

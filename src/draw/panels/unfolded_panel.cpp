@@ -167,7 +167,7 @@ class UnfoldedPanel {
     return lines;
   }
 
-  /// It is the first mirror if blue begins at rest. The half that the line comes from is, strictly.
+  /// If blue starts at rest, the half of the base that the line comes from is the first mirror.
   void add_base(std::vector<DrawItem>& lines) const {
     const Palette& palette = diagram_.palette();
     const double y = map_.base_y();

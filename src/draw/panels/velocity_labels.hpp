@@ -35,7 +35,7 @@ struct VelocityPlace {
 /// middle of a wide panel.
 VelocityPlace place_velocities(const Diagram& diagram, const FormulaSetter& set);
 
-/// Of an ellipse with other proportions, blue's axis over red's, these are drawn.
+/// The greatest ratio of the axes that is drawn. A longer ellipse is drawn with this ratio.
 inline constexpr long kMostLongEllipse = 12;
 /// Whether the ellipse is drawn to scale.
 bool is_ellipse_to_scale(const BlockSystem& system);
