@@ -20,7 +20,8 @@ constexpr int kWindowsPerSecond = 4;
 /// rate is taken of the times of the newest three instead.
 constexpr int kFewHits = 8;
 constexpr std::size_t kNewest = 3;
-/// Three hits of a rate above kMaxHits_per_s, the newest of which can still be seen, are not older.
+/// Three hits of a rate above kMaxHitsPerSecond, the newest of which can still be seen, are not
+/// older.
 constexpr double kLongestAge_s = 0.5;
 
 /// Collisions that one stretch of video passes, all in the same direction.
@@ -141,7 +142,7 @@ void add_hits(FrameState& state, const CollisionLog& log, const VideoMoment& mom
     if (found.size() == kNewest) rate = rate_of(found);
   }
   if (is_moving(moment)) state.hits_per_s = rate;
-  if (rate > kMaxHits_per_s) return;
+  if (rate > kMaxHitsPerSecond) return;
   for (const AgedCollision& aged : found | std::views::reverse) {
     if (aged.age_s < kHitLife_s) state.hits.push_back(hit_of(log, aged));
   }
