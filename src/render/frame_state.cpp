@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -58,7 +57,7 @@ std::vector<Passage> passages(const CollisionLog& log, const VideoMoment& moment
 /// As exact as its age needs it: where time all but stands still, a double-double is too coarse.
 Rational time_of(const CollisionLog& log, const Collision& collision, const Stretch& stretch) {
   constexpr unsigned long kEnough_bits = 90;  // of the 104 that are right
-  const Rational rounded = to_rational(collision.time);
+  Rational rounded = to_rational(collision.time);
   if (abs(stretch.speed) * power(2, kEnough_bits) >= abs(rounded)) return rounded;
   try {
     return log.time_after(collision.index);
@@ -143,8 +142,8 @@ void add_hits(FrameState& state, const CollisionLog& log, const VideoMoment& mom
   }
   if (is_moving(moment)) state.hits_per_s = rate;
   if (rate > kMaxHitsPerSecond) return;
-  for (const AgedCollision& aged : found | std::views::reverse) {
-    if (aged.age_s < kHitLife_s) state.hits.push_back(hit_of(log, aged));
+  for (auto aged = found.rbegin(); aged != found.rend(); ++aged) {
+    if (aged->age_s < kHitLife_s) state.hits.push_back(hit_of(log, *aged));
   }
 }
 
