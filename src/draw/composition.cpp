@@ -64,7 +64,7 @@ class Composer {
   Composer(const Scene& scene, const CollisionLog& log, FrameNeeds& needs)
       : scene_(scene),
         is_article_(scene.view.theme == Theme::article),
-        palette_(palette_of(scene.view.theme)),
+        palette_(palette_of(scene.view.theme, scene.system)),
         sizes_(scene.view),
         context_{.scene = scene,
                  .log = log,

@@ -136,6 +136,20 @@ Palette palette_of(Theme theme) {
   return kPalettes.at(static_cast<std::size_t>(theme));
 }
 
+Palette palette_of(Theme theme, const BlockSystem& system) {
+  Palette palette = palette_of(theme);
+  const bool has_colors_as_names = palette.blue.name == palette.blue.full_name;
+  if (has_colors_as_names || system.blue.mass == system.red.mass) return palette;
+  const bool is_red_large = system.red.mass > system.blue.mass;
+  BlockColors& large = is_red_large ? palette.red : palette.blue;
+  BlockColors& small = is_red_large ? palette.blue : palette.red;
+  large.name = "large";
+  large.full_name = "large block";
+  small.name = "small";
+  small.full_name = "small block";
+  return palette;
+}
+
 std::optional<Color> background_of(const View& view) {
   if (view.background == Background::transparent) return std::nullopt;
   return palette_of(view.theme).background;

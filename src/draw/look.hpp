@@ -23,7 +23,8 @@ struct BlockColors {
   /// Bars across the block in its edge's colour, half of them near each of the upper and the lower
   /// edge. They tell it from the other block without colours.
   int bars = 0;
-  /// The block's name in the picture: its colour, or, where blocks are not red and blue, its side.
+  /// The block's name in the picture: its colour, or, where blocks are not red and blue, its size
+  /// or its side.
   const char* name = "";
   const char* full_name = name;  ///< where the name alone might be read as a direction
 };
@@ -43,6 +44,9 @@ struct Palette {
 };
 
 Palette palette_of(Theme theme);
+/// The same for one system: blocks that are not red and blue are called large and small, unless
+/// their masses are equal.
+Palette palette_of(Theme theme, const BlockSystem& system);
 
 /// Nothing if the view is transparent.
 std::optional<Color> background_of(const View& view);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "draw/look.hpp"
@@ -105,6 +106,16 @@ TEST(Theme, BlocksAreCalledByColoursThatTheyHave) {
     EXPECT_EQ(palette.red.name, std::string(are_red_and_blue ? "red" : "right"));
     EXPECT_EQ(palette.blue.name, std::string(are_red_and_blue ? "blue" : "left"));
   }
+}
+
+TEST(Theme, BlocksWithoutColoursAreCalledBySize) {
+  BlockSystem system = article_system(2);
+  EXPECT_EQ(palette_of(Theme::print, system).red.name, std::string("large"));
+  EXPECT_EQ(palette_of(Theme::print, system).blue.full_name, std::string("small block"));
+  std::swap(system.red.mass, system.blue.mass);
+  EXPECT_EQ(palette_of(Theme::colorblind, system).red.name, std::string("small"));
+  EXPECT_EQ(palette_of(Theme::colorblind, article_system(1)).red.name, std::string("right"));
+  EXPECT_EQ(palette_of(Theme::lecture, system).red.name, std::string("red"));
 }
 
 TEST(Theme, PrintIsGrey) {

@@ -364,7 +364,7 @@ TEST(EllipsePanel, SaysWhyItIsAnEllipse) {
     const Pictures pictures({{"digits", "2"}, {"view.size", size}}, "ellipse,velocity");
     EXPECT_TRUE(says(Figure(pictures.after(0, 0)), "stays the same")) << size;
     EXPECT_FALSE(says(Figure(pictures.after(0)), "stays the same")) << size;
-    EXPECT_TRUE(says(Figure(pictures.after(0)), "no more hits come")) << size;
+    EXPECT_TRUE(says(Figure(pictures.after(0)), "no more hits here")) << size;
   }
 }
 

@@ -50,7 +50,7 @@ const std::vector<Element> kElements{
     {"ruler", 3, "3", {{"show.overlays", "ruler"}}},
     {"read-outs", 3, "3", {{"show.overlays", "time,energy,momentum"}}},
     {"lines", 3, "3", {{"show.title", "Où se cache π ?"}, {"show.caption", "Zwei Blöcke zählen"}}},
-    {"hit-at-wall", 1, "#2+0.05", {{"blue.velocity", "-1"}}},
+    {"hit-at-wall", 1, "#1+0.05", {{"blue.velocity", "-1"}}},
     {"hit-of-blocks", 1, "#1+0.05", {}},
     {"glow", 4, "3.3", {}},
     {"loupe", 5, "turn", {}},

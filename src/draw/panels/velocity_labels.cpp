@@ -158,7 +158,7 @@ class VelocityLabeller {
 
   /// Beside the wedge of the velocities after which nothing collides.
   void add_end() {
-    const Formula words = set_.text("here no more hits come");
+    const Formula words = set_.text("no more hits here");
     const auto& [centre, radius] = circle_;
     const double middle = points_.wedge_angle() / 2;
     const double baseline =
