@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "draw/layout.hpp"
 #include "draw/look.hpp"
@@ -56,77 +58,135 @@ ImageItem place_logo(const Rectangle& place, std::shared_ptr<const Image> logo) 
           std::move(logo)};
 }
 
+/// Places all that a scene shows, and makes its drawables in the order of their ids.
+class Composer {
+ public:
+  Composer(const Scene& scene, const CollisionLog& log, FrameNeeds& needs)
+      : scene_(scene),
+        is_article_(scene.view.theme == Theme::article),
+        palette_(palette_of(scene.view.theme, scene.system)),
+        sizes_(scene.view),
+        context_{.scene = scene,
+                 .log = log,
+                 .palette = palette_,
+                 .fonts = fonts_,
+                 .font = fonts_.of(text_face_of(scene.view.theme)),
+                 .layout = layout_,
+                 .sizes = sizes_,
+                 .needs = needs},
+        pi_(pi_count(scene, log)),
+        read_outs_(context_),
+        plan_(plan_frame(context_, counter_room_beside_read_outs(), read_outs_.height())) {}
+
+  std::vector<Drawable> run(std::shared_ptr<const Image> logo) {
+    layout_ = lay_out();
+    loupe_ = LoupeInset::make(context_, plan_);
+    add_stage();
+    add_overlays();
+    add_read_outs();
+    add_loupe();
+    add_lines(std::move(logo));
+    add_panels();
+    return std::move(drawables_);
+  }
+
+ private:
+  std::optional<CounterRoom> counter_room_beside_read_outs() const {
+    if (is_article_) return std::nullopt;
+    CounterRoom room = counter_room(context_, pi_);
+    room.slow_motion_px = read_outs_.lone_slow_motion_px();
+    return room;
+  }
+
+  Layout lay_out() const {
+    if (!is_article_) {
+      return lay_out_stage(scene_, plan_.stage, context_.font, plan_.has_low_floor);
+    }
+    return lay_out_article(scene_, longest_count(scene_, context_.log), plan_.stage, context_.font);
+  }
+
+  /// Wall, floor, blocks and count.
+  void add_stage() {
+    Drawable behind;
+    if (loupe_) {
+      behind = [loupe = loupe_](const FrameState& shown, std::vector<DrawItem>& items) {
+        loupe->add_lines(shown, items);
+      };
+    }
+    if (is_article_) {
+      drawables_.push_back(article_stage(context_, pi_, std::move(behind)));
+    } else {
+      drawables_.push_back(stage(context_, std::move(behind)));
+      drawables_.push_back(counter(context_, plan_.counter, pi_));
+    }
+  }
+
+  void add_overlays() {
+    const Show& show = scene_.show;
+    if (show.has(Overlay::masses)) drawables_.push_back(mass_labels(context_));
+    if (show.has(Overlay::velocities)) drawables_.push_back(velocity_arrows(context_));
+    if (show.hits && !is_article_) drawables_.push_back(hit_marks(context_));
+    if (show.has(Overlay::ruler)) drawables_.push_back(ruler(context_));
+  }
+
+  void add_read_outs() {
+    if (loupe_ && loupe_->shows_slow_motion()) {
+      read_outs_.leave_slow_motion_to(
+          [loupe = loupe_](const FrameState& shown) { return loupe->opacity(shown); });
+    }
+    read_outs_.move(plan_.read_outs_px, plan_.counter.slow_motion);
+    drawables_.emplace_back(std::move(read_outs_));
+  }
+
+  void add_loupe() {
+    if (!loupe_) return;
+    drawables_.emplace_back(
+        [loupe = loupe_](const FrameState& shown, std::vector<DrawItem>& items) {
+          (*loupe)(shown, items);
+        });
+  }
+
+  /// Title, caption and logo.
+  void add_lines(std::shared_ptr<const Image> logo) {
+    std::vector<DrawItem> lines(plan_.lines.begin(), plan_.lines.end());
+    if (logo) lines.emplace_back(place_logo(plan_.logo, std::move(logo)));
+    drawables_.push_back(unchanging(std::move(lines)));
+  }
+
+  void add_panels() {
+    // In the order of Panel.
+    constexpr std::array kPanels = {velocity_panel, position_panel,     unfolded_panel,
+                                    time_panel,     count_panel,        ellipse_panel,
+                                    mirrors_panel,  conservation_panel, certainty_panel};
+    const std::vector<Panel>& panels = scene_.show.panels;
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      const auto make_panel = kPanels.at(static_cast<std::size_t>(panels[i]));
+      const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +
+                                   ids_from(static_cast<std::uint32_t>(i))};
+      drawables_.push_back(make_panel(context_, {plan_.panels[i], first_id, panels[i]}));
+    }
+  }
+
+  const Scene& scene_;
+  bool is_article_;
+  Fonts fonts_;
+  Palette palette_;
+  Sizes sizes_;
+  Layout layout_;  ///< made by run(): what else there is decides it
+  DrawingContext context_;
+  std::string pi_;  ///< the count, if it is digits of pi
+  ReadOutRows read_outs_;
+  FramePlan plan_;
+  std::shared_ptr<const LoupeInset> loupe_;  ///< may be empty
+  std::vector<Drawable> drawables_;
+};
+
 }  // namespace
 
 Composition::Composition(const Scene& scene, const CollisionLog& log,
                          std::shared_ptr<const Image> logo)
-    : empty_{scene.view.width_px, scene.view.height_px, background_of(scene.view), {}} {
-  const Fonts fonts;
-  const Font& font = fonts.of(text_face_of(scene.view.theme));
-  const Palette palette = palette_of(scene.view.theme, scene.system);
-  const Sizes sizes(scene.view);
-  Layout layout;  // made below: what else there is decides it
-  const DrawingContext context{.scene = scene,
-                               .log = log,
-                               .palette = palette,
-                               .fonts = fonts,
-                               .font = font,
-                               .layout = layout,
-                               .sizes = sizes,
-                               .needs = needs_};
-  const bool is_article = scene.view.theme == Theme::article;
-  const std::string pi = pi_count(scene, log);
-  ReadOutRows rows(context);
-  std::optional<CounterRoom> room;
-  if (!is_article) {
-    room = counter_room(context, pi);
-    room->slow_motion_px = rows.lone_slow_motion_px();
-  }
-  const FramePlan plan = plan_frame(context, room, rows.height());
-  layout = is_article ? lay_out_article(scene, longest_count(scene, log), plan.stage, font)
-                      : lay_out_stage(scene, plan.stage, font, plan.has_low_floor);
-
-  const Show& show = scene.show;
-  const std::shared_ptr<const LoupeInset> loupe = LoupeInset::make(context, plan);
-  Drawable behind;
-  if (loupe) {
-    behind = [=](const FrameState& shown, std::vector<DrawItem>& items) {
-      loupe->add_lines(shown, items);
-    };
-    if (loupe->shows_slow_motion()) {
-      rows.leave_slow_motion_to([=](const FrameState& shown) { return loupe->opacity(shown); });
-    }
-  }
-  if (is_article) {
-    drawables_.push_back(article_stage(context, pi, std::move(behind)));
-  } else {
-    drawables_.push_back(stage(context, std::move(behind)));
-    drawables_.push_back(counter(context, plan.counter, pi));
-  }
-  if (show.has(Overlay::masses)) drawables_.push_back(mass_labels(context));
-  if (show.has(Overlay::velocities)) drawables_.push_back(velocity_arrows(context));
-  if (show.hits && !is_article) drawables_.push_back(hit_marks(context));
-  if (show.has(Overlay::ruler)) drawables_.push_back(ruler(context));
-  rows.move(plan.read_outs_px, plan.counter.slow_motion);
-  drawables_.emplace_back(std::move(rows));
-  if (loupe) {
-    drawables_.emplace_back(
-        [=](const FrameState& shown, std::vector<DrawItem>& items) { (*loupe)(shown, items); });
-  }
-  std::vector<DrawItem> lines(plan.lines.begin(), plan.lines.end());
-  if (logo) lines.emplace_back(place_logo(plan.logo, std::move(logo)));
-  drawables_.push_back(unchanging(std::move(lines)));
-  // In the order of Panel.
-  constexpr std::array kPanels = {velocity_panel, position_panel,     unfolded_panel,
-                                  time_panel,     count_panel,        ellipse_panel,
-                                  mirrors_panel,  conservation_panel, certainty_panel};
-  for (std::size_t i = 0; i < show.panels.size(); ++i) {
-    const auto make_panel = kPanels.at(static_cast<std::size_t>(show.panels[i]));
-    const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +
-                                 ids_from(static_cast<std::uint32_t>(i))};
-    drawables_.push_back(make_panel(context, {plan.panels[i], first_id, show.panels[i]}));
-  }
-}
+    : empty_{scene.view.width_px, scene.view.height_px, background_of(scene.view), {}},
+      drawables_(Composer(scene, log, needs_).run(std::move(logo))) {}
 
 DrawList Composition::frame(const FrameState& shown) const {
   check(is_finite(shown.state.blue) && is_finite(shown.state.red), shown.time);

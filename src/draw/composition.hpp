@@ -23,7 +23,7 @@ struct WeightedExposure {
 /// How long a hit is seen, in seconds of video.
 inline constexpr double kHitLife_s = 0.15;
 /// Most collisions per second of video that are listed as hits.
-inline constexpr int kMaxHits_per_s = 8;
+inline constexpr int kMaxHitsPerSecond = 8;
 
 /// A collision that the picture has just passed.
 struct Hit {
@@ -45,7 +45,7 @@ struct FrameState {
 
   // Filled in if FrameNeeds asks for hits, and left alone in a still that is not in its video.
   double video_s = 0;          ///< of the frame, since its scene began
-  std::vector<Hit> hits = {};  ///< oldest first; none if hits_per_s was above kMaxHits_per_s
+  std::vector<Hit> hits = {};  ///< oldest first; none if hits_per_s was above kMaxHitsPerSecond
   double hits_per_s = 0;       ///< of video, lately; 0 while the picture stands still
 };
 

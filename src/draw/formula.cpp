@@ -184,6 +184,7 @@ Formula FormulaSetter::italic(std::string_view utf8) const {
 
 Formula FormulaSetter::symbol(std::string_view utf8) const { return set(Face::math, utf8); }
 
+// NOLINTBEGIN(readability-convert-member-functions-to-static): set.root() reads like set.text()
 Formula FormulaSetter::root(const Formula& of) const {
   Formula content = of;
   content.shift(kRootWidth, 0, 1);
@@ -213,5 +214,6 @@ Formula FormulaSetter::lowered(const Formula& base, const Formula& index) const 
   line.width_em_ += kAfterScript;
   return line;
 }
+// NOLINTEND(readability-convert-member-functions-to-static)
 
 }  // namespace piblocks

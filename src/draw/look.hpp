@@ -6,6 +6,8 @@
 #include <piblocks/scene.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "draw/draw_list.hpp"
@@ -56,7 +58,7 @@ inline Face text_face_of(Theme theme) {
 
 /// The color with this share of its alpha.
 inline Color faded(Color color, double share) {
-  color.alpha = static_cast<std::uint8_t>(std::clamp(share, 0.0, 1.0) * color.alpha + 0.5);
+  color.alpha = static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0, 1.0) * color.alpha));
   return color;
 }
 

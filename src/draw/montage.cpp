@@ -206,8 +206,9 @@ DrawList arrange(std::vector<CaptionedPicture> pictures, int width_px, int heigh
   std::vector<DrawItem> above;
   for (int i = 0; i < page.pictures; ++i) {
     auto& [picture, text] = pictures[static_cast<std::size_t>(i)];
-    const Rectangle place{left + i % grid.columns * step_x, top + i / grid.columns * step_y, width,
-                          height};
+    const int column = i % grid.columns;
+    const int row = i / grid.columns;
+    const Rectangle place{left + column * step_x, top + row * step_y, width, height};
     list.items.emplace_back(group_of(ItemId::compared, place, std::move(picture)));
     // Half of the line around the picture is inside of it.
     const Rectangle frame{place.x - line_px / 2, place.y - line_px / 2, width + line_px,

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -20,7 +19,8 @@ constexpr int kWindowsPerSecond = 4;
 /// rate is taken of the times of the newest three instead.
 constexpr int kFewHits = 8;
 constexpr std::size_t kNewest = 3;
-/// Three hits of a rate above kMaxHits_per_s, the newest of which can still be seen, are not older.
+/// Three hits of a rate above kMaxHitsPerSecond, the newest of which can still be seen, are not
+/// older.
 constexpr double kLongestAge_s = 0.5;
 
 /// Collisions that one stretch of video passes, all in the same direction.
@@ -57,7 +57,7 @@ std::vector<Passage> passages(const CollisionLog& log, const VideoMoment& moment
 /// As exact as its age needs it: where time all but stands still, a double-double is too coarse.
 Rational time_of(const CollisionLog& log, const Collision& collision, const Stretch& stretch) {
   constexpr unsigned long kEnough_bits = 90;  // of the 104 that are right
-  const Rational rounded = to_rational(collision.time);
+  Rational rounded = to_rational(collision.time);
   if (abs(stretch.speed) * power(2, kEnough_bits) >= abs(rounded)) return rounded;
   try {
     return log.time_after(collision.index);
@@ -141,9 +141,9 @@ void add_hits(FrameState& state, const CollisionLog& log, const VideoMoment& mom
     if (found.size() == kNewest) rate = rate_of(found);
   }
   if (is_moving(moment)) state.hits_per_s = rate;
-  if (rate > kMaxHits_per_s) return;
-  for (const AgedCollision& aged : found | std::views::reverse) {
-    if (aged.age_s < kHitLife_s) state.hits.push_back(hit_of(log, aged));
+  if (rate > kMaxHitsPerSecond) return;
+  for (auto aged = found.rbegin(); aged != found.rend(); ++aged) {
+    if (aged->age_s < kHitLife_s) state.hits.push_back(hit_of(log, *aged));
   }
 }
 

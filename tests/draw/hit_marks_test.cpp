@@ -53,7 +53,7 @@ TEST(HitMarks, AreWhereTheLogHasThem) {
     int arcs_seen = 0;
     for (std::int64_t number = 0; number < clock.frame_count().get_si(); ++number) {
       const FrameState state = frames.film_state(clock, number);
-      if (state.hits_per_s > kMaxHits_per_s) continue;
+      if (state.hits_per_s > kMaxHitsPerSecond) continue;
       const DrawList frame = frames.of(state);
       const auto items = items_of<PathItem>(frame.items, ItemId::hits);
       const double now = double(number) / 60;
@@ -98,7 +98,7 @@ TEST(HitMarks, GlowByTheLogarithmOfTheRate) {
   for (double rate = 1; rate < 1e40; rate *= 1.5) {
     state.hits_per_s = rate;
     const int glow = glow_of(frames.of(state));
-    EXPECT_EQ(glow > 0, rate > kMaxHits_per_s) << rate;
+    EXPECT_EQ(glow > 0, rate > kMaxHitsPerSecond) << rate;
     EXPECT_GE(glow, before) << rate;
     // A little more light for half as many hits again.
     if (before > 0) {

@@ -125,11 +125,11 @@ Seen expect_true_hits(const CollisionLog& log, const Schedule& clock) {
     const bool is_moving = clock.at(video_s).time != clock.at(video_s + Rational(1, 100'000)).time;
     const double rate = rate_at(passes, video_s);
     EXPECT_NEAR(state.hits_per_s, is_moving ? rate : 0, 1e-9 * rate);
-    if (std::fabs(rate - kMaxHits_per_s) < 1e-9) continue;  // rounding decides
+    if (std::fabs(rate - kMaxHitsPerSecond) < 1e-9) continue;  // rounding decides
     // Rounding decides about what is just about to fade.
     std::vector<Pass> wanted = during(passes, video_s - kSeen_s, video_s);
     std::erase_if(state.hits, [](const Hit& hit) { return hit.age_s >= to_double(kSeen_s); });
-    if (rate > kMaxHits_per_s) {
+    if (rate > kMaxHitsPerSecond) {
       seen.crowds += wanted.empty() ? 0 : 1;
       wanted.clear();
     }
@@ -216,7 +216,7 @@ TEST(Hits, ThatComeEvenlyDoNotComeAndGo) {
     for (std::int64_t frame = 60; frame < 300; ++frame) {
       const FrameState state = state_of(*log, clock, frame);
       EXPECT_NEAR(state.hits_per_s, rate, rate < 28 ? 1e-6 : 4) << frame;
-      EXPECT_TRUE(rate <= kMaxHits_per_s || state.hits.empty()) << frame;
+      EXPECT_TRUE(rate <= kMaxHitsPerSecond || state.hits.empty()) << frame;
     }
   }
 }
@@ -263,7 +263,7 @@ TEST(Hits, OfTwentyDigitsCostNoMore) {
       EXPECT_EQ(state.hits_per_s, Integer(4 * passed).get_d());
     }
     most = std::max(most, state.hits_per_s);
-    EXPECT_TRUE(state.hits.empty() || state.hits_per_s <= kMaxHits_per_s);
+    EXPECT_TRUE(state.hits.empty() || state.hits_per_s <= kMaxHitsPerSecond);
   }
   EXPECT_GT(most, 1e19);
 }

@@ -110,8 +110,7 @@ class Counter {
                                   color,
                                   face_});
     };
-    // From the right to the left: digits that the film does not count, those that are still to come,
-    // those that are reached.
+    // From right to left: digits that the film does not count, those still to come, those reached.
     add(0, pi_.substr(counted) + "…", palette_.muted);
     add(1, pi_.substr(length, counted - length), palette_.text);
     add(2, pi_.substr(0, length), palette_.accent);

@@ -19,16 +19,18 @@ constexpr double kFirstRadius = 0.3;
 constexpr std::size_t kDirections = 13;
 /// Width of an arc's line, in widths of the wall's line.
 constexpr double kMarkLine = 1.2;
-constexpr int kGlowDisks = 7;        ///< concentric disks that make a glow
-constexpr double kGlowAlpha = 0.24;  ///< greatest opacity of one of them
-constexpr double kGlowReach = 0.8;   ///< radius of the largest, in parts of an arc's final radius
-/// The strength of a glow goes from the least one at kMaxHits_per_s towards 1. It is half-way when
-/// the rate has doubled so many times.
+/// Of concentric disks that make a glow: their number, the greatest opacity of each, and the radius
+/// of the largest in parts of an arc's final radius.
+constexpr int kGlowDisks = 7;
+constexpr double kGlowAlpha = 0.24;
+constexpr double kGlowReach = 0.8;
+/// The strength of a glow goes from the least one at kMaxHitsPerSecond towards 1. It is half-way
+/// when the rate has doubled so many times.
 constexpr double kLeastGlow = 0.4;
 constexpr double kHalfGlow = 6;
 
 double glow_strength(double hits_per_s) {
-  const double doublings = straight_log2(hits_per_s / kMaxHits_per_s);
+  const double doublings = straight_log2(hits_per_s / kMaxHitsPerSecond);
   return kLeastGlow + (1 - kLeastGlow) * doublings / (doublings + kHalfGlow);
 }
 
@@ -71,7 +73,7 @@ void HitMarks::add_arc(ItemId id, const Hit& hit, double x_px, std::vector<DrawI
                               Stroke{faded(corner.color, left), line_px_}});
 }
 
-PathItem HitMarks::sector(ItemId id, const Corner& corner, double x_px, double radius_px) const {
+PathItem HitMarks::sector(ItemId id, const Corner& corner, double x_px, double radius_px) {
   std::vector<Point> outline = {{x_px, corner.y_px}};
   for (const Point& direction : corner.directions) {
     outline.push_back({x_px + radius_px * direction.x, corner.y_px + radius_px * direction.y});
@@ -81,7 +83,7 @@ PathItem HitMarks::sector(ItemId id, const Corner& corner, double x_px, double r
 
 void HitMarks::add_glow(double hits_per_s, const ContactColumns& columns,
                         std::vector<DrawItem>& items) const {
-  if (hits_per_s <= kMaxHits_per_s) return;
+  if (hits_per_s <= kMaxHitsPerSecond) return;
   const double alpha = kGlowAlpha * glow_strength(hits_per_s);
   std::size_t n = 0;
   for (const auto& [corner, x_px] :

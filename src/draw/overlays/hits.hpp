@@ -56,7 +56,7 @@ class HitMarks {
   const Corner& corner_of(CollisionKind kind) const {
     return kind == CollisionKind::wall ? wall_ : blocks_;
   }
-  PathItem sector(ItemId id, const Corner& corner, double x_px, double radius_px) const;
+  static PathItem sector(ItemId id, const Corner& corner, double x_px, double radius_px);
 
   double reach_px_;  ///< of arcs
   double glow_px_;   ///< and of glows, which do not meet above a narrow block

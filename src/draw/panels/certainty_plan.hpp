@@ -13,8 +13,8 @@ namespace piblocks {
 
 struct CertaintyRoom {
   Rectangle inside;
-  double em;
-  bool is_defined;  ///< whether theta and s are explained outside
+  double em = 0;
+  bool is_defined = false;  ///< whether theta and s are explained outside
 };
 
 /// Part of a row, in pixels.

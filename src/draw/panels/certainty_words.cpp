@@ -69,6 +69,7 @@ std::vector<CertaintyWords::Pair> CertaintyWords::ends() const {
   const Integer right = whole + (numbers_.is_wrong() ? 2 : 1);
   constexpr std::array<std::size_t, 3> kLengths{std::string::npos, 7, 3};
   std::vector<Pair> ends;
+  ends.reserve(kLengths.size());
   for (const std::size_t length : kLengths) {
     ends.push_back(
         {set_.text(end_of(whole, base, length)), set_.text(end_of(right, base, length))});

@@ -51,7 +51,11 @@ struct Momenta {
   double least = -1;  ///< of the wall
 };
 
-enum Row : std::size_t { kRed, kBlue, kWall, kSum };
+// Rows of momentum, from top to bottom.
+constexpr std::size_t kRedRow = 0;
+constexpr std::size_t kBlueRow = 1;
+constexpr std::size_t kWallRow = 2;
+constexpr std::size_t kSumRow = 3;
 constexpr std::size_t kRows = 4;
 
 /// Energy as one bar that the blocks share. Momentum as bars on both sides of zero: those of the
@@ -79,11 +83,11 @@ class ConservationPanel {
     const double share = mpf_class(red_factor_ * red).get_d();
     add_energy(std::clamp(share * share, 0.0, 1.0), items);
     std::array<double, kRows> values{};
-    values[kRed] = mpf_class(momenta_.red_factor * red).get_d();
-    values[kBlue] = mpf_class(momenta_.blue_factor * shown.state.blue.velocity).get_d();
-    values[kWall] = momenta_.sum - values[kRed] - values[kBlue];
+    values[kRedRow] = mpf_class(momenta_.red_factor * red).get_d();
+    values[kBlueRow] = mpf_class(momenta_.blue_factor * shown.state.blue.velocity).get_d();
+    values[kWallRow] = momenta_.sum - values[kRedRow] - values[kBlueRow];
     const std::array colors = colors_of_rows();
-    for (const Row row : {kRed, kBlue, kWall}) {
+    for (const std::size_t row : {kRedRow, kBlueRow, kWallRow}) {
       items.emplace_back(RectangleItem{diagram_.moving(3 + 2 * row), bar_of(row, values[row]),
                                        colors[row].first, std::nullopt});
       add_figure(row, values[row], 4 + 2 * row, items);
@@ -192,7 +196,7 @@ class ConservationPanel {
       diagram_.text("momentum", {left, baseline(top_ - row_px_, row_px_)}, 0, palette.muted);
     }
     const std::array colors = colors_of_rows();
-    const std::size_t rows = has_sum_ ? kRows : kSum;
+    const std::size_t rows = has_sum_ ? kRows : kSumRow;
     for (std::size_t row = 0; row < rows; ++row) {
       diagram_.text(names_.at(row), {left, baseline(row_top(row), row_px_)}, 0,
                     colors.at(row).second);
@@ -200,7 +204,7 @@ class ConservationPanel {
     const double zero = x_of(0);
     diagram_.line({{zero, top_}, {zero, row_top(rows)}}, palette.muted);
     if (!has_sum_) return;
-    const Rectangle sum = bar_of(kSum, momenta_.sum);
+    const Rectangle sum = bar_of(kSumRow, momenta_.sum);
     diagram_.shape({{sum.x, sum.y},
                     {sum.x + sum.width, sum.y},
                     {sum.x + sum.width, sum.y + sum.height},
@@ -210,8 +214,8 @@ class ConservationPanel {
     const std::string text = text_of(momenta_.sum);
     const double x = diagram_.inside().x + diagram_.inside().width;
     const double width = widths_.width_em(text) * diagram_.text_px();
-    diagram_.formula(diagram_.setter().digits(text), {x - width, baseline(row_top(kSum), row_px_)},
-                     0, palette.muted);
+    diagram_.formula(diagram_.setter().digits(text),
+                     {x - width, baseline(row_top(kSumRow), row_px_)}, 0, palette.muted);
   }
 
   void add_energy(double red_share, std::vector<DrawItem>& items) const {
@@ -243,7 +247,8 @@ class ConservationPanel {
 
   static std::string text_of(double value) { return fixed_text(value, kDecimals); }
 
-  void add_figure(Row row, double value, std::size_t n, std::vector<DrawItem>& items) const {
+  void add_figure(std::size_t row, double value, std::size_t n,
+                  std::vector<DrawItem>& items) const {
     if (!has_figures_) return;
     std::string text = text_of(value);
     const double em = diagram_.text_px();

@@ -76,10 +76,10 @@ RoundFactor round_factor_below(const Rational& value) {
 }
 
 std::optional<EnlargedTurn> enlarged_turn(const CollisionLog& log, const Enlargement& enlargement) {
-  const auto& [whole, share, most_steps, counts_in_room] = enlargement;
+  const Span& whole = enlargement.whole;
   const std::optional<Rational> turn = turn_of(log.system());
   if (!turn || *turn <= whole.from || *turn >= whole.to) return std::nullopt;
-  const Rational half = (whole.to - whole.from) * share / 2;
+  const Rational half = (whole.to - whole.from) * enlargement.share / 2;
   EnlargedTurn part;
   const auto fits = [&](const RoundFactor& factor) {
     part.time_factor = factor;
@@ -87,7 +87,7 @@ std::optional<EnlargedTurn> enlarged_turn(const CollisionLog& log, const Enlarge
     part.low = log.state_at(part.span.from).count;
     part.high = log.state_at(part.span.to).count;
     const Integer steps = part.high - part.low;
-    return steps <= most_steps && steps <= counts_in_room;
+    return steps <= enlargement.most_steps && steps <= enlargement.counts_in_room;
   };
   RoundFactor factor;
   if (fits(factor)) return std::nullopt;
@@ -96,7 +96,7 @@ std::optional<EnlargedTurn> enlarged_turn(const CollisionLog& log, const Enlarge
   }
   while (!fits(factor)) factor = factor.next();
   if (part.high - part.low < 2) return std::nullopt;
-  part.count_factor = round_factor_below(counts_in_room / (part.high - part.low));
+  part.count_factor = round_factor_below(enlargement.counts_in_room / (part.high - part.low));
   return part;
 }
 

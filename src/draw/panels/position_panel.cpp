@@ -125,7 +125,7 @@ class PositionPanel {
   /// sqrt(m) x where the wedge is drawn as it is, else x.
   Formula axis_name(const char* index) const {
     const FormulaSetter set = diagram_.setter();
-    const Formula position = set.lowered(set.italic("x"), set.text(index));
+    Formula position = set.lowered(set.italic("x"), set.text(index));
     if (!is_true_) return position;
     return set.root(set.lowered(set.italic("m"), set.text(index))) + position;
   }

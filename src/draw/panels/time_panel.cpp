@@ -53,7 +53,7 @@ std::vector<Point> red_line(const std::vector<TrajectoryPiece>& pieces, const To
 /// What each curve and name takes of each column of pixels, to place names beside the curves.
 class TakenColumns {
  public:
-  enum Layer : std::size_t { kBlue, kRed, kNames };
+  enum Layer : std::size_t { blue, red, names };
 
   explicit TakenColumns(const Rectangle& plot) : plot_(plot) {
     const auto columns = static_cast<std::size_t>(std::max(1.0, std::ceil(plot.width)));
@@ -78,9 +78,9 @@ class TakenColumns {
   std::array<Point, 2> farthest_apart() const {
     std::array<Point, 2> places{};
     double most = -1;
-    for (std::size_t i = 0; i < layers_[kBlue].size(); ++i) {
+    for (std::size_t i = 0; i < layers_[blue].size(); ++i) {
       const double x = plot_.x + double(i);
-      const std::array ys{layers_[kBlue][i].middle(), layers_[kRed][i].middle()};
+      const std::array ys{layers_[blue][i].middle(), layers_[red][i].middle()};
       if (!(std::abs(ys[0] - ys[1]) > most)) continue;
       most = std::abs(ys[0] - ys[1]);
       places = {Point{x, ys[0]}, Point{x, ys[1]}};
@@ -98,7 +98,7 @@ class TakenColumns {
 
   std::size_t column_of(double x) const {
     return static_cast<std::size_t>(
-        std::clamp(std::floor(x - plot_.x), 0.0, double(layers_[kBlue].size() - 1)));
+        std::clamp(std::floor(x - plot_.x), 0.0, double(layers_[blue].size() - 1)));
   }
   void add(Layer layer, Point a, Point b) {
     if (a.x > b.x) std::swap(a, b);
@@ -154,7 +154,7 @@ class TimePanel {
     TakenColumns taken(axis_.plot());
     for (const TrajectoryPiece& piece : pieces) {
       std::vector<Point> points = outline_of(piece, to_place);
-      taken.add(TakenColumns::kBlue, points);
+      taken.add(TakenColumns::blue, points);
       if (piece.bands.empty()) {
         diagram_.line(std::move(points), palette.blue.line, diagram_.data_width());
       } else {
@@ -163,7 +163,7 @@ class TimePanel {
     }
     // Red's line is over what blue covers.
     std::vector<Point> red = red_line(pieces, to_place);
-    taken.add(TakenColumns::kRed, red);
+    taken.add(TakenColumns::red, red);
     diagram_.line(std::move(red), palette.red.line, diagram_.data_width());
     axis_.add_base(diagram_);
     add_names(taken);
@@ -225,8 +225,8 @@ class TimePanel {
     if (!best) return;
     const auto& [x, y, box_width, box_height] = *best;
     diagram_.text(name.text, {x + around, y + around + kNameTop_em * em}, 0, name.color);
-    taken.add(TakenColumns::kNames, {{x, y}, {x + box_width, y}});
-    taken.add(TakenColumns::kNames, {{x, y + box_height}, {x + box_width, y + box_height}});
+    taken.add(TakenColumns::names, {{x, y}, {x + box_width, y}});
+    taken.add(TakenColumns::names, {{x, y + box_height}, {x + box_width, y + box_height}});
   }
 
   Diagram diagram_;

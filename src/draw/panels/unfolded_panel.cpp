@@ -61,10 +61,10 @@ class UnfoldedPanel {
         map_(context.scene, context.log, plot(), 2 * kPresentRadius * grid_px_),
         mirrors_(map_.mirrors(context.log, kBetweenMirrors * grid_px_)),
         span_(span_of(context.scene, context.log)),
-        size_(context.log.size()) {
-    least_x_ = map_.left() + kPresentRadius * grid_px_;
-    most_x_ = map_.right() - kPresentRadius * grid_px_;
-    from_x_ = std::clamp(map_.x_at(span_.from), map_.left(), map_.right());
+        size_(context.log.size()),
+        least_x_(map_.left() + kPresentRadius * grid_px_),
+        most_x_(map_.right() - kPresentRadius * grid_px_),
+        from_x_(std::clamp(map_.x_at(span_.from), map_.left(), map_.right())) {
     add_notes(context);
     diagram_.finish();
     standing_ = diagram_.plate(kRays, standing_items());
@@ -275,9 +275,9 @@ class UnfoldedPanel {
   std::vector<Mirror> mirrors_;
   Span span_;
   Integer size_;
-  double least_x_ = 0;  ///< from here to most_x_ the present is marked
-  double most_x_ = 0;
-  double from_x_ = 0;               ///< where the line that is shown begins
+  double least_x_;  ///< from here to most_x_ the present is marked
+  double most_x_;
+  double from_x_;                   ///< where the line that is shown begins
   PlateItem standing_;              ///< all that stays, over the wedge
   std::vector<PathItem> unfolded_;  ///< the mirrors, if they unfold one by one
   std::vector<DiskItem> dots_;      ///< of the mirrors that are met, from `first_dot_` on

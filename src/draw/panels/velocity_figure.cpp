@@ -49,8 +49,8 @@ std::vector<Point> curve(const VelocityMap& map, double from, double to) {
 }  // namespace
 
 VelocityFigure::VelocityFigure(const DrawingContext& context, const Diagram& diagram,
-                               const VelocityPoints& points)
-    : points_(points),
+                               VelocityPoints points)
+    : points_(std::move(points)),
       palette_(context.palette),
       grid_px_(context.sizes.grid_line),
       log_axes_(log_axes_of(context.scene.system)),

@@ -25,8 +25,7 @@ struct VelocityMap {
 class VelocityFigure {
  public:
   /// @param context, diagram  not kept
-  VelocityFigure(const DrawingContext& context, const Diagram& diagram,
-                 const VelocityPoints& points);
+  VelocityFigure(const DrawingContext& context, const Diagram& diagram, VelocityPoints points);
 
   /// @param share  of the way from the ellipse, 0, to the circle, 1; the map that multiplies each
   ///               velocity by its mass to the power of share / 2
