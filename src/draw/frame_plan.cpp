@@ -126,6 +126,12 @@ class FramePlanner {
  private:
   /// A row of a split screen: the counter is beside the stage.
   FramePlan row(double read_outs_px) {
+    if (view_.background == Background::transparent) {
+      // Red would be seen behind the counter.
+      throw UsageError(
+          "view.background: low rows of a split screen cannot be transparent; use columns, or an "
+          "opaque background");
+    }
     // Of equal width where counts are short, so that rows have one scale.
     const double counter_width =
         std::max(set_count_size(kMostCounter * (right_ - left_)), kRowCounter * (right_ - left_));

@@ -35,7 +35,14 @@ std::optional<Loupe> loupe_of(const Scene& scene) {
 double least_gap(const DrawingContext& context) {
   const std::optional<Rational> turn = turn_of(context.scene.system);
   try {
-    return gaps_at(context.log, turn.value_or(0)).y2;
+    double least = gaps_at(context.log, turn.value_or(0)).y2;
+    // A light red is nearest at a collision beside the turn.
+    const Integer before = context.log.state_at(turn.value_or(0)).count;
+    for (const Integer& k : {before, Integer(before + 1)}) {
+      if (k < context.log.first_index() || k > context.log.size()) continue;
+      least = std::min(least, gaps_at_collision(context.log, k).y2);
+    }
+    return least;
   } catch (const SimulationError&) {  // beyond the range of a double
     return HUGE_VAL;
   }
@@ -88,7 +95,8 @@ LoupeInset::LoupeInset(const DrawingContext& context, const Loupe& loupe, double
       line_px_(context.layout.line_px),
       background_(background_of(context.scene.view)),
       zoom_([&] {
-        const double most = std::floor(std::log10(style::kLoupe * sizes_.unit / least_gap_px));
+        double most = std::floor(std::log10(style::kLoupe * sizes_.unit / least_gap_px));
+        if (loupe.window) most = std::max(most, std::log10(to_double(loupe.window->zoom)) + 1);
         return static_cast<long>(std::clamp<double>(most, 1, kMostPower));
       }()),
       widths_(context.font, "0123456789,.×·") {
@@ -98,7 +106,7 @@ LoupeInset::LoupeInset(const DrawingContext& context, const Loupe& loupe, double
     window_ = Window{time_of(loupe.window->from, kKey, context.log),
                      time_of(loupe.window->to, kKey, context.log), to_double(loupe.window->zoom)};
     if (window_->from >= window_->to) {
-      throw UsageError(fmt::format("{}: its window from {} to {} ends before it begins", kKey,
+      throw UsageError(fmt::format("{}: its window from {} to {} must end after it begins", kKey,
                                    to_text(window_->from), to_text(window_->to)));
     }
   }

@@ -138,6 +138,7 @@ void LoupeInset::add_blue(double x_px, double seen, std::vector<DrawItem>& items
 
 /// "×100" and "×10⁷" where the zoom stays; two digits, as "×3.5·10⁷", where it does not.
 void LoupeInset::add_zoom(double zoomed, const Color& color, std::vector<DrawItem>& items) const {
+  zoomed = std::min(zoomed, zoom_.power(zoom_.most_exponent()));
   long exponent = zoom_.exponent_of(zoomed);
   long tens = std::lround(zoomed / zoom_.power(exponent) * 10);
   if (tens >= 100) {

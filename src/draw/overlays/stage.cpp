@@ -41,6 +41,11 @@ struct Axis {
   Axis(const Scene& scene, const Rectangle& area)
       // Nothing is drawn behind the wall's face.
       : range{std::max(scene.view.x.low, scene.system.wall_face), scene.view.x.high} {
+    if (range.high <= range.low) {
+      throw UsageError(fmt::format(
+          "view.x: ends at {}, and the wall's face is at {}; raise its upper end, or move the wall",
+          to_text(range.high), to_text(scene.system.wall_face)));
+    }
     const Sizes sizes(scene.view);
     const bool has_wall = shows_wall(scene);
     left_px = area.x + (has_wall ? sizes.margin + style::kHatch * sizes.unit : 0);
@@ -76,7 +81,7 @@ void fit_heights(double room_px, const View& view, Layout& layout) {
   }
   const double shrink = std::min(1.0, room_px / (layout.floor_px - layout.top_px()));
   for (BlockShape* block : {&layout.blue, &layout.red}) {
-    block->height_px = std::floor(block->height_px * shrink);
+    block->height_px = std::max(1.0, std::floor(block->height_px * shrink));
   }
 }
 

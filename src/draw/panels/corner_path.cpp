@@ -91,9 +91,9 @@ ShownPath CornerPath::shown(const GapWindow& window) const {
 
 CornerZoom::CornerZoom(double least_share)
     // One power more than is shown: Zoom has no plateau at 1.
-    : zoom_(
-          std::max(static_cast<long>(kPlain), std::lround(std::ceil(2 - std::log10(least_share)))),
-          kStays) {}
+    : zoom_(std::clamp(std::lround(std::ceil(2 - std::log10(least_share))),
+                       static_cast<long>(kPlain), kMostPower),
+            kStays) {}
 
 double CornerZoom::of(double share) const {
   const double room = kZoomedTo / share;
