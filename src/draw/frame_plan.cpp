@@ -3,14 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <tuple>
 #include <utility>
 
 #include "draw/layout.hpp"
 #include "draw/look.hpp"
 #include "draw/overlays/loupe.hpp"
 #include "draw/overlays/overlays.hpp"
+#include "draw/panel_grid.hpp"
+#include "draw/text_lines.hpp"
 
 namespace piblocks {
 namespace {
@@ -19,15 +19,6 @@ namespace {
 constexpr double kLineStep = 1.25;  ///< from one line of a text to the next
 constexpr double kBelowBaseline = 0.25;
 constexpr double kPiStep = 2.0;  ///< from the count's baseline to the digits of pi
-/// Least side of a diagram.
-constexpr double kLeastPanel_em = 6;
-/// A narrower one may have no room for its title.
-constexpr double kTitledPanel_em = 10;
-/// The width of a diagram that looks best, in parts of its height.
-constexpr double kPanelAspect = 1.6;
-/// In a smaller frame no text can be read.
-constexpr int kLeastFrame_px = 120;
-constexpr std::size_t kMostLines = 2;  ///< of a title or a caption
 
 // In fractions of the frame's shorter side.
 constexpr double kBelowHeader = 0.02;
@@ -46,36 +37,6 @@ constexpr double kPlainStage = 0.24;
 /// What the loupe adds to it in upright frames, and what each diagram has at least beside it.
 constexpr double kLoupeRoom = 0.1;
 constexpr double kDiagramsBesideLoupe = 0.5;
-
-/// The grid in which `count` panels come out largest, if possible not too small.
-std::vector<Rectangle> panel_grid(std::size_t count, const Rectangle& area, double gap, double em) {
-  const auto side = [gap](double length, std::size_t n) {
-    return (length - gap * double(n - 1)) / double(n);
-  };
-  const auto cell = [&](std::size_t columns) {
-    const std::size_t rows = (count + columns - 1) / columns;
-    return Rectangle{0, 0, side(area.width, columns), side(area.height, rows)};
-  };
-  const auto size = [em](const Rectangle& r) {
-    return std::tuple(std::min(r.width, r.height) >= kLeastPanel_em * em,
-                      r.width >= kTitledPanel_em * em, std::min(r.width / kPanelAspect, r.height));
-  };
-  std::size_t best = 1;
-  for (std::size_t columns = 2; columns <= count; ++columns) {
-    if (size(cell(columns)) > size(cell(best))) best = columns;
-  }
-  std::vector<Rectangle> cells(count, cell(best));
-  for (std::size_t i = 0; i < count; ++i) {
-    Rectangle& place = cells[i];
-    const std::size_t row = i / best;
-    // A last row that is not full is centred.
-    const std::size_t in_row = std::min(best, count - row * best);
-    const double shift = double(best - in_row) * (place.width + gap) / 2;
-    place.x = area.x + shift + double(i % best) * (place.width + gap);
-    place.y = area.y + double(row) * (place.height + gap);
-  }
-  return cells;
-}
 
 /// What a scene shows above and below the blocks, for a message.
 std::vector<std::string> names_of_things(const Scene& scene) {
@@ -146,15 +107,12 @@ class FramePlanner {
     top_ = 0.75 * sizes_.gap;
     place.slow_motion = {right_, top_ + Font::kCapHeight_em * sizes_.title};
     if (!show_.title.empty()) {
-      check_text("show.title", show_.title);
+      check_readable(context_, "show.title", show_.title);
       const double baseline = top_ + Font::kCapHeight_em * sizes_.title;
       const double room = right_ - left_ - counter_width - sizes_.gap;
       // A second line would have no room.
       if (context_.font.width_em(show_.title) * sizes_.title > room) {
-        throw UsageError(fmt::format(
-            "show.title: '{}' is too long to be read in {:.0f} pixels; shorten it, or make the "
-            "frame wider",
-            show_.title, room));
+        throw_too_long("show.title", show_.title, room);
       }
       add_line(ItemId::title, show_.title, baseline, sizes_.title);
       top_ = baseline + kBelowBaseline * sizes_.title;
@@ -167,40 +125,6 @@ class FramePlanner {
     plan_.stage = {0, top_, width, height};
     plan_.read_outs_px = top_ + height;
     return std::move(plan_);
-  }
-
-  /// Breaks a text into lines that fit. @param key  named in messages
-  std::vector<std::string> lines_of(const char* key, const std::string& text, double size_px,
-                                    double room_px) const {
-    std::vector<std::string> lines;
-    std::istringstream words(text);
-    for (std::string word; words >> word;) {
-      const std::string longer = lines.empty() ? word : lines.back() + ' ' + word;
-      const bool fits = context_.font.width_em(longer) * size_px <= room_px;
-      if (!lines.empty() && fits) {
-        lines.back() = longer;
-      } else {
-        lines.push_back(word);
-      }
-    }
-    const bool is_too_wide = std::ranges::any_of(lines, [&](const std::string& line) {
-      return context_.font.width_em(line) * size_px > room_px;
-    });
-    if (lines.size() <= kMostLines && !is_too_wide) return lines;
-    throw UsageError(fmt::format(
-        "{}: '{}' is too long to be read in {:.0f} pixels; shorten it, or make the frame wider",
-        key, text, room_px));
-  }
-
-  /// @param key  named in messages
-  void check_text(const char* key, const std::string& text) const {
-    context_.font.check(text, key);
-    if (sizes_.unit >= kLeastFrame_px) return;
-    throw UsageError(
-        fmt::format("{}: '{}' cannot be read in a frame of {}x{}; leave it out, or make the frame "
-                    "{} pixels {} or more",
-                    key, text, view_.width_px, view_.height_px, kLeastFrame_px,
-                    view_.height_px < view_.width_px ? "high" : "wide"));
   }
 
   void add_line(ItemId id, const std::string& text, double baseline, double size_px) {
@@ -219,11 +143,12 @@ class FramePlanner {
       if (title_width > 0) counter_width += 2 * sizes_.gap;
     }
     const bool is_beside = title_width > 0 && title_width + counter_width <= room;
-    if (!show_.title.empty()) check_text("show.title", show_.title);
+    if (!show_.title.empty()) check_readable(context_, "show.title", show_.title);
     if (!show_.title.empty() && !(counter_ && is_beside)) {
       double baseline = sizes_.margin + Font::kCapHeight_em * sizes_.title;
       std::size_t n = 0;
-      for (const std::string& line : lines_of("show.title", show_.title, sizes_.title, room)) {
+      for (const std::string& line :
+           break_lines(context_.font, show_.title, {"show.title", sizes_.title, room})) {
         add_line(nth(ItemId::title, n++), line, baseline, sizes_.title);
         top_ = baseline + kBelowBaseline * sizes_.title;
         baseline += kLineStep * sizes_.title;
@@ -308,8 +233,8 @@ class FramePlanner {
     }
     if (!show_.caption.empty()) {
       const double size_px = sizes_.text;
-      check_text("show.caption", show_.caption);
-      const auto lines = lines_of("show.caption", show_.caption, size_px, room);
+      check_readable(context_, "show.caption", show_.caption);
+      const auto lines = break_lines(context_.font, show_.caption, {"show.caption", size_px, room});
       const double below = double(lines.size() - 1) * kLineStep * size_px;
       height = std::max(height, below + Font::kCapHeight_em * size_px);
       double baseline = lower - below;

@@ -73,8 +73,7 @@ std::vector<Rational> steady_factors(const Pacing& pacing) {
     for (int factor = 10; factor <= kMaxAutomaticFactor; factor *= 10) factors.emplace_back(factor);
   }
   std::ranges::sort(factors);
-  const auto repeated = std::ranges::unique(factors);
-  factors.erase(repeated.begin(), repeated.end());
+  factors.erase(std::unique(factors.begin(), factors.end()), factors.end());
   return factors;
 }
 

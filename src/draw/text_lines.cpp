@@ -1,0 +1,54 @@
+#include "draw/text_lines.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <sstream>
+
+namespace piblocks {
+namespace {
+
+/// In a smaller frame no text can be read.
+constexpr int kLeastFrame_px = 120;
+constexpr std::size_t kMostLines = 2;  ///< of a title or a caption
+
+}  // namespace
+
+std::vector<std::string> break_lines(const Font& font, const std::string& text,
+                                     const LineRoom& room) {
+  const auto fits = [&](const std::string& line) {
+    return font.width_em(line) * room.size_px <= room.width_px;
+  };
+  std::vector<std::string> lines;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::string longer = lines.empty() ? word : lines.back() + ' ' + word;
+    if (!lines.empty() && fits(longer)) {
+      lines.back() = longer;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  if (lines.size() <= kMostLines && std::ranges::all_of(lines, fits)) return lines;
+  throw_too_long(room.key, text, room.width_px);
+}
+
+void throw_too_long(const char* key, const std::string& text, double room_px) {
+  throw UsageError(fmt::format(
+      "{}: '{}' is too long to be read in {:.0f} pixels; shorten it, or make the frame wider", key,
+      text, room_px));
+}
+
+void check_readable(const DrawingContext& context, const char* key, const std::string& text) {
+  context.font.check(text, key);
+  if (context.sizes.unit >= kLeastFrame_px) return;
+  const View& view = context.scene.view;
+  throw UsageError(
+      fmt::format("{}: '{}' cannot be read in a frame of {}x{}; leave it out, or make the frame "
+                  "{} pixels {} or more",
+                  key, text, view.width_px, view.height_px, kLeastFrame_px,
+                  view.height_px < view.width_px ? "high" : "wide"));
+}
+
+}  // namespace piblocks
