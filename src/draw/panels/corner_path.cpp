@@ -14,6 +14,8 @@ constexpr double kZoomedTo = 0.8;
 /// Of each way to the next power of ten, on a logarithmic scale, in which the zoom stays. A picture
 /// that stays costs next to nothing.
 constexpr double kStays = 0.95;
+/// Larger powers of ten are beyond the range of a double.
+constexpr long kMostPower = 300;
 
 Gaps clipped(const Gaps& outside, const Gaps& inside, double limit) {
   const double share = (limit - inside.y2) / (outside.y2 - inside.y2);

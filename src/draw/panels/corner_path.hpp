@@ -70,6 +70,7 @@ class CornerZoom {
   /// The exponent of a power of ten; nothing between them.
   std::optional<std::size_t> exponent_of(double zoom) const;
   double power(std::size_t exponent) const { return zoom_.power(static_cast<long>(exponent)); }
+  std::size_t most_exponent() const { return static_cast<std::size_t>(zoom_.most_exponent()); }
   /// "×100", "×2.5×10⁷": two digits.
   Formula text(double zoom) const;
   /// Before text() is called.

@@ -67,7 +67,8 @@ class PositionPanel {
     add_wedge();
     add_names();
     const double most = zoom_.of(least_share_);
-    for (std::size_t exponent = 0; zoom_.power(exponent) <= most; ++exponent) {
+    for (std::size_t exponent = 0;
+         exponent <= zoom_.most_exponent() && zoom_.power(exponent) <= most; ++exponent) {
       auto plate = std::make_shared<const Plate>(Plate{items_at(zoom_.power(exponent))});
       plateaus_.push_back({diagram_.moving(0), diagram_.item().bounds, std::move(plate)});
     }
