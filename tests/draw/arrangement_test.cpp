@@ -245,7 +245,8 @@ std::vector<std::string> all_overlays() {
     std::string& names = sets.emplace_back();
     for (std::size_t i = 0; i < kOverlays.size(); ++i) {
       if ((bits >> i & 1) == 0) continue;
-      names += (names.empty() ? "" : ",") + std::string(kOverlays.at(i));
+      if (!names.empty()) names += ',';
+      names += kOverlays.at(i);
     }
   }
   return sets;
