@@ -92,6 +92,8 @@ class BlockCover {
     if (block_.dwells.empty()) {
       const Cover still = of_column(column, block_.bounds.x);
       if (still.outer > 0) shares_.push_back({still, 1});
+    } else if (block_.dwells.back().x < column - width || block_.dwells.front().x >= column + 1) {
+      // The block is never there.
     } else if (line_px_ < 1 || width - 2 * line_px_ < 1) {
       add_each(column, column - width, column + 1);
     } else {
@@ -234,45 +236,98 @@ class ExposedColumn {
   std::vector<Known> known_;  // of this column and those like it before
 };
 
+/// Columns from `begin` to before `end`.
+struct ColumnRun {
+  int begin = 0;
+  int end = 0;
+};
+
+/// The pixels of an area, and what was there before the blocks were painted.
+class ExposedArea {
+ public:
+  /// @param row_of  returns the first pixel of the area in a row of the picture.
+  template <typename RowOf>
+  ExposedArea(const PixelRect& area, std::vector<std::uint32_t>& background, const RowOf& row_of)
+      : area_(area), background_(background) {
+    background_.clear();
+    for (int y = 0; y < area.height_px; ++y) {
+      rows_.push_back(row_of(area.y_px + y));
+      background_.insert(background_.end(), rows_.back(), rows_.back() + area.width_px);
+    }
+  }
+
+  /// Paints the rows that are unlike the one above, column by column, and copies the others.
+  void paint(ExposedColumn& column) {
+    find_rows(column);
+    for (int x = 0; x < area_.width_px; ++x) {
+      if (!column.enter(area_.x_px + x)) continue;
+      if (runs_.empty() || runs_.back().end != x) runs_.push_back({x, x});
+      runs_.back().end = x + 1;
+      for (const auto& [y, kind] : unlike_) {
+        const std::uint32_t background = background_row(y)[x];
+        rows_[y][x] = (background & 0xFF000000U) | column.pixel(kind, background & 0xFFFFFFU);
+      }
+    }
+    copy_rows();
+  }
+
+ private:
+  struct Row {
+    std::size_t y = 0;
+    std::size_t kind = 0;
+  };
+
+  const std::uint32_t* background_row(std::size_t y) const {
+    return background_.data() + y * static_cast<std::size_t>(area_.width_px);
+  }
+  void find_rows(ExposedColumn& column) {
+    for (std::size_t y = 0; y < rows_.size(); ++y) {
+      const std::size_t kind = column.kind_of_row(area_.y_px + static_cast<int>(y));
+      const bool is_alike =
+          y > 0 && kind == unlike_.back().kind &&
+          std::equal(background_row(y), background_row(y) + area_.width_px, background_row(y - 1));
+      if (!is_alike) unlike_.push_back({y, kind});
+    }
+  }
+  void copy_rows() {
+    for (std::size_t i = 0; i < unlike_.size(); ++i) {
+      const std::size_t end = i + 1 < unlike_.size() ? unlike_[i + 1].y : rows_.size();
+      for (std::size_t y = unlike_[i].y + 1; y < end; ++y) {
+        const std::uint32_t* const above = rows_[y - 1];
+        for (const ColumnRun& run : runs_) {
+          std::copy(above + run.begin, above + run.end, rows_[y] + run.begin);
+        }
+      }
+    }
+  }
+
+  PixelRect area_;
+  std::vector<std::uint32_t>& background_;  // row by row
+  std::vector<std::uint32_t*> rows_;
+  std::vector<Row> unlike_;      // the row above, in what the blocks cover or in the background
+  std::vector<ColumnRun> runs_;  // with blocks in them
+};
+
 }  // namespace
 
 /// A pixel depends on its column and its background alone, so that a part of the picture has the
 /// pixels of the whole. Cairo paints a block that stays, except where the other one passes.
 void Painter::paint_exposed(cairo_t& cr, const ExposedItem& item, const PixelRect& area) {
-  cairo_surface_t* const surface = cairo_get_target(&cr);
   const PixelRect moving = moving_area(item, area);
-  const int end_x = moving.x_px + moving.width_px;
-  const int end_y = moving.y_px + moving.height_px;
+  if (moving.width_px <= 0 || moving.height_px <= 0) return paint_still_blocks(cr, item);
+  cairo_surface_t* const surface = cairo_get_target(&cr);
   cairo_surface_flush(surface);
   unsigned char* const data = cairo_image_surface_get_data(surface);
   const std::ptrdiff_t stride_bytes = cairo_image_surface_get_stride(surface);
-  const auto word = [&](int x, int y) -> std::uint32_t& {
+  ExposedArea exposed(moving, background_, [&](int y) {
     unsigned char* const row = data + (y - area.y_px) * stride_bytes;
-    return reinterpret_cast<std::uint32_t*>(row)[x - area.x_px];
-  };
-  background_.clear();
-  for (int x = moving.x_px; x < end_x; ++x) {
-    for (int y = moving.y_px; y < end_y; ++y) background_.push_back(word(x, y));
-  }
+    return reinterpret_cast<std::uint32_t*>(row) + (moving.x_px - area.x_px);
+  });
   paint_still_blocks(cr, item);
-  if (background_.empty()) return;
-
   cairo_surface_flush(surface);
   if (!light_) light_ = std::make_unique<Light>();
   ExposedColumn column(item, *light_);
-  std::vector<std::size_t> kinds;
-  for (int y = moving.y_px; y < end_y; ++y) kinds.push_back(column.kind_of_row(y));
-  auto background = background_.begin();
-  for (int x = moving.x_px; x < end_x; ++x) {
-    if (!column.enter(x)) {
-      background += moving.height_px;
-      continue;
-    }
-    for (int y = moving.y_px; y < end_y; ++y, ++background) {
-      const std::size_t kind = kinds[static_cast<std::size_t>(y - moving.y_px)];
-      word(x, y) = (*background & 0xFF000000U) | column.pixel(kind, *background & 0xFFFFFFU);
-    }
-  }
+  exposed.paint(column);
   cairo_surface_mark_dirty(surface);
 }
 
