@@ -101,16 +101,18 @@ std::vector<std::uint8_t> with_fixed_ids(const std::vector<std::uint8_t>& svg) {
 struct Canvas::Pixels {
   Pixels(int width_px, int height_px, Background background)
       : format(background == Background::transparent ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24),
-        surface(image_surface(format, width_px, height_px, "make a canvas")) {}
+        surface(image_surface(format, width_px, height_px, "make a canvas")),
+        region(width_px, height_px) {}
 
   /// Paints what is in the region, and nothing else that would change a pixel.
   void paint(const DrawList& list) {
+    rects = region.rects();
     in_tiles.clear();
     for (const DrawItem& item : list.items) {
       if (depends_on_surface(item)) in_tiles.push_back(&item);
     }
     if (!in_tiles.empty()) paint_tiles(list);
-    for (const PixelRect& rect : region) {
+    for (const PixelRect& rect : rects) {
       if (!is_painted_in_tiles(rect)) paint_rect(list, rect);
     }
   }
@@ -120,32 +122,50 @@ struct Canvas::Pixels {
   Painter painter{TextSetting::glyphs};
   std::optional<DrawList> shown;
   Region region;
+  std::span<const PixelRect> rects;  ///< of the region
   // Kept for their memory.
-  std::vector<bool> is_in_region;         ///< by tile
+  std::vector<bool> is_tile_painted;
   std::vector<const DrawItem*> in_tiles;  ///< items that are painted in tiles
 
  private:
-  bool is_painted_in_tiles(const PixelRect& rect) const {
+  static constexpr int kTile_px = 4 * Region::kCell_px;
+
+  std::size_t columns_of_tiles() const {
+    return static_cast<std::size_t>(cairo_image_surface_get_width(surface.get()) + kTile_px - 1) /
+           kTile_px;
+  }
+  /// Of each tile that shares a pixel with the rectangle; its number, row by row.
+  template <typename Visit>
+  void for_each_tile(const PixelRect& rect, const Visit& visit) const {
+    const std::size_t columns = columns_of_tiles();
+    for (int y = rect.y_px / kTile_px; y * kTile_px < rect.y_px + rect.height_px; ++y) {
+      for (int x = rect.x_px / kTile_px; x * kTile_px < rect.x_px + rect.width_px; ++x) {
+        visit(static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x));
+      }
+    }
+  }
+  bool needs_tiles(const PixelRect& rect) const {
     return std::ranges::any_of(in_tiles,
                                [&](const DrawItem* item) { return reaches(*item, rect); });
+  }
+  bool is_painted_in_tiles(const PixelRect& rect) const {
+    bool is_painted = !in_tiles.empty();
+    if (is_painted)
+      for_each_tile(rect, [&](std::size_t tile) { is_painted &= is_tile_painted[tile]; });
+    return is_painted;
   }
 
   /// Paints whole tiles of a fixed grid, so that the same pixels come out whatever the region is.
   void paint_tiles(const DrawList& list) {
-    constexpr int kTile_px = 64;
-    const auto columns = static_cast<std::size_t>((list.width_px + kTile_px - 1) / kTile_px);
+    const std::size_t columns = columns_of_tiles();
     const auto rows = static_cast<std::size_t>((list.height_px + kTile_px - 1) / kTile_px);
-    is_in_region.assign(columns * rows, false);
-    for (const PixelRect& rect : region) {
-      if (!is_painted_in_tiles(rect)) continue;
-      for (int y = rect.y_px / kTile_px; y * kTile_px < rect.y_px + rect.height_px; ++y) {
-        for (int x = rect.x_px / kTile_px; x * kTile_px < rect.x_px + rect.width_px; ++x) {
-          is_in_region[static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x)] = true;
-        }
-      }
+    is_tile_painted.assign(columns * rows, false);
+    for (const PixelRect& rect : rects) {
+      if (!needs_tiles(rect)) continue;
+      for_each_tile(rect, [&](std::size_t tile) { is_tile_painted[tile] = true; });
     }
-    for (std::size_t tile = 0; tile < is_in_region.size(); ++tile) {
-      if (!is_in_region[tile]) continue;
+    for (std::size_t tile = 0; tile < is_tile_painted.size(); ++tile) {
+      if (!is_tile_painted[tile]) continue;
       const int left = static_cast<int>(tile % columns) * kTile_px;
       const int top = static_cast<int>(tile / columns) * kTile_px;
       paint_rect(list, {left, top, std::min(kTile_px, list.width_px - left),
@@ -184,7 +204,8 @@ Canvas::~Canvas() = default;
 void Canvas::paint(const DrawList& list) {
   assert(list.width_px == view().width_px && list.height_px == view().height_px);
   assert(list.background || view().has_alpha);
-  pixels_->region = {{0, 0, list.width_px, list.height_px}};
+  pixels_->region.clear();
+  pixels_->region.add({0, 0, list.width_px, list.height_px});
   pixels_->paint(list);
   pixels_->shown = list;
 }
@@ -192,14 +213,16 @@ void Canvas::paint(const DrawList& list) {
 std::span<const PixelRect> Canvas::update(DrawList list) {
   if (!pixels_->shown) {
     paint(list);
-    return pixels_->region;
+    return pixels_->rects;
   }
-  pixels_->region = changed_region(*pixels_->shown, list, [this](Face face, std::string_view text) {
+  const MeasureText width_em = [this](Face face, std::string_view text) {
     return pixels_->painter.font(face).width_em(text);
-  });
+  };
+  pixels_->region.clear();
+  add_changes(*pixels_->shown, list, width_em, pixels_->region);
   pixels_->paint(list);
   pixels_->shown = std::move(list);
-  return pixels_->region;
+  return pixels_->rects;
 }
 
 ImageView Canvas::view() const {

@@ -19,7 +19,7 @@
 #include "draw/overlays/loupe.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/panels/panels.hpp"
-#include "draw/region.hpp"
+#include "draw/extent.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {

@@ -1,10 +1,10 @@
+#include "draw/extent.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <optional>
 #include <utility>
-
-#include "draw/region.hpp"
 
 namespace piblocks {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "draw/painter.hpp"
-#include "draw/region.hpp"
+#include "draw/extent.hpp"
 
 namespace piblocks {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "draw/region.hpp"
+#include "draw/extent.hpp"
 
 namespace piblocks {
 namespace {

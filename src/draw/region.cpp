@@ -1,198 +1,91 @@
 #include "draw/region.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
-#include <variant>
 
 namespace piblocks {
-namespace {
 
-ItemId id_of(const DrawItem& item) {
-  return std::visit([](const auto& any) { return any.id; }, item);
+Region::Region(int width_px, int height_px)
+    : width_cells_((width_px + kCell_px - 1) / kCell_px),
+      rows_(static_cast<std::size_t>((height_px + kCell_px - 1) / kCell_px)) {
+  cells_.resize(static_cast<std::size_t>(width_cells_) * rows_.size());
 }
 
-bool has_rising_ids(const DrawList& list) {
-  return std::ranges::adjacent_find(list.items, std::ranges::greater_equal(), id_of) ==
-         list.items.end();
+void Region::clear() {
+  for (std::size_t y = 0; y < rows_.size(); ++y) {
+    const auto [begin, end] = std::exchange(rows_[y], {});
+    Box* const boxes = row(static_cast<int>(y));
+    std::fill(boxes + begin, boxes + end, Box{});
+  }
 }
 
-/// Whether only the ends of a rectangle that moves sideways change.
-bool slides(const RectangleItem& before, const RectangleItem& after) {
-  const bool dashed = before.stroke && before.stroke->dash_px > 0;
-  return !dashed && before.fill == after.fill && before.stroke == after.stroke &&
-         before.bounds.y == after.bounds.y && before.bounds.height == after.bounds.height;
+void Region::add(const PixelRect& rect) {
+  const int end_x = rect.x_px + rect.width_px;
+  const int end_y = rect.y_px + rect.height_px;
+  if (rect.width_px <= 0 || rect.height_px <= 0) return;
+  const int begin_column = rect.x_px / kCell_px;
+  const int end_column = (end_x - 1) / kCell_px + 1;
+  for (int y = rect.y_px / kCell_px; y * kCell_px < end_y; ++y) {
+    const auto top = static_cast<std::uint8_t>(std::max(0, rect.y_px - y * kCell_px));
+    const auto bottom = static_cast<std::uint8_t>(std::min(kCell_px, end_y - y * kCell_px));
+    Columns& columns = rows_[static_cast<std::size_t>(y)];
+    const bool is_empty = columns.begin == columns.end;
+    columns = {is_empty ? begin_column : std::min(columns.begin, begin_column),
+               std::max(columns.end, end_column)};
+    for (int x = begin_column; x < end_column; ++x) {
+      const auto left = static_cast<std::uint8_t>(std::max(0, rect.x_px - x * kCell_px));
+      const auto right = static_cast<std::uint8_t>(std::min(kCell_px, end_x - x * kCell_px));
+      Box& box = row(y)[x];
+      box = box.right == 0 ? Box{left, top, right, bottom}
+                           : Box{std::min(box.left, left), std::min(box.top, top),
+                                 std::max(box.right, right), std::max(box.bottom, bottom)};
+    }
+  }
 }
 
-/// The same of an exposed block.
-bool slides(const ExposedBlock& before, const ExposedBlock& after) {
-  return before.fill == after.fill && before.stroke == after.stroke && before.bars == after.bars &&
-         before.bounds.y == after.bounds.y && before.bounds.height == after.bounds.height &&
-         before.bounds.width == after.bounds.width && before.dwells.empty() == after.dwells.empty();
+std::span<const PixelRect> Region::rects() {
+  rects_.clear();
+  above_.clear();
+  for (std::size_t y = 0; y < rows_.size(); ++y) {
+    here_.clear();
+    add_row(static_cast<int>(y));
+    std::swap(above_, here_);
+  }
+  return rects_;
 }
 
-/// Whether only the content of a group changes.
-bool stays(const GroupItem& before, const GroupItem& after) {
-  const bool is_scaled = after.bounds.width != after.list->width_px;
-  return !is_scaled && before.bounds == after.bounds && before.opacity == after.opacity &&
-         before.list->width_px == after.list->width_px &&
-         before.list->height_px == after.list->height_px;
+void Region::add_row(int y_cells) {
+  const auto [begin, end] = rows_[static_cast<std::size_t>(y_cells)];
+  auto above = above_.begin();
+  for (int x = begin; x < end; ++x) {
+    if (row(y_cells)[x].right == 0) continue;
+    const PixelRect rect = run(x, y_cells);
+    above = std::find_if(above, above_.end(),
+                         [&](std::size_t i) { return rects_[i].x_px >= rect.x_px; });
+    const bool continues = above != above_.end() && rect.y_px == y_cells * kCell_px &&
+                           rects_[*above].x_px == rect.x_px &&
+                           rects_[*above].width_px == rect.width_px;
+    const std::size_t index = continues ? *above : rects_.size();
+    if (continues) {
+      rects_[index].height_px += rect.height_px;
+    } else {
+      rects_.push_back(rect);
+    }
+    if (rect.y_px + rect.height_px == (y_cells + 1) * kCell_px) here_.push_back(index);
+  }
 }
 
-/// Bytes that both texts begin with, whole characters only.
-std::size_t common_prefix(std::string_view a, std::string_view b) {
-  auto length = static_cast<std::size_t>(
-      std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
-  const auto continues = [](std::string_view text, std::size_t at) {
-    return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80;
+PixelRect Region::run(int& x_cells, int y_cells) {
+  const Box* const boxes = row(y_cells);
+  const Box& first = boxes[x_cells];
+  const int left = x_cells * kCell_px + first.left;
+  const auto continues = [&](const Box& box, const Box& next) {
+    return box.right == kCell_px && next.right > 0 && next.left == 0 && next.top == first.top &&
+           next.bottom == first.bottom;
   };
-  while (length > 0 && (continues(a, length) || continues(b, length))) --length;
-  return length;
-}
-
-/// Collects what differs, cut to whole pixels of the frame.
-class Comparison {
- public:
-  Comparison(const DrawList& list, const MeasureText& width_em)
-      : frame_{0, 0, list.width_px, list.height_px}, width_em_(width_em) {}
-
-  void compare(const DrawList& before, const DrawList& after) {
-    const bool alike = before.width_px == after.width_px && before.height_px == after.height_px &&
-                       before.background == after.background;
-    if (alike && std::ranges::equal(before.items, after.items, {}, id_of, id_of)) {
-      for (std::size_t i = 0; i < after.items.size(); ++i) compare(before.items[i], after.items[i]);
-      return;
-    }
-    if (!alike || !has_rising_ids(before) || !has_rising_ids(after)) {
-      region_ = {frame_};
-      return;
-    }
-    auto a = before.items.begin();
-    auto b = after.items.begin();
-    while (a != before.items.end() && b != after.items.end()) {
-      if (id_of(*a) < id_of(*b)) {
-        add(*a++);
-      } else if (id_of(*b) < id_of(*a)) {
-        add(*b++);
-      } else {
-        compare(*a++, *b++);
-      }
-    }
-    while (a != before.items.end()) add(*a++);
-    while (b != after.items.end()) add(*b++);
-  }
-
-  Region take() { return std::move(region_); }
-
- private:
-  /// Two items that show the same thing.
-  void compare(const DrawItem& before, const DrawItem& after) {
-    if (before == after) return;
-    if (before.index() == after.index()) {
-      if (const auto* a = std::get_if<TextItem>(&before))
-        return compare(*a, std::get<TextItem>(after));
-      if (const auto* a = std::get_if<RectangleItem>(&before))
-        return compare(*a, std::get<RectangleItem>(after));
-      if (const auto* a = std::get_if<GroupItem>(&before))
-        return compare(*a, std::get<GroupItem>(after));
-      if (const auto* a = std::get_if<ExposedItem>(&before))
-        return compare(*a, std::get<ExposedItem>(after));
-    }
-    add(before);
-    add(after);
-  }
-
-  /// Every glyph is painted by itself, so that the common beginning keeps its pixels.
-  void compare(const TextItem& before, const TextItem& after) {
-    const bool set_alike = before.origin == after.origin && before.size_px == after.size_px &&
-                           before.color == after.color && before.face == after.face;
-    const std::size_t common = set_alike ? common_prefix(before.text, after.text) : 0;
-    const std::string_view prefix = std::string_view(after.text).substr(0, common);
-    const double left = common > 0 ? width_em_(after.face, prefix) : 0;
-    add(extent_of(before, left, width_em_(before.face, before.text)));
-    add(extent_of(after, left, width_em_(after.face, after.text)));
-  }
-
-  void compare(const RectangleItem& before, const RectangleItem& after) {
-    const Extent a = extent_of(before.bounds);
-    const Extent b = extent_of(after.bounds);
-    if (!slides(before, after)) {
-      add(a);
-      add(b);
-      return;
-    }
-    const double line = before.stroke ? before.stroke->width_px : 0;
-    add({std::min(a.left, b.left), a.top, std::max(a.left, b.left) + line, a.bottom});
-    add({std::min(a.right, b.right) - line, a.top, std::max(a.right, b.right), a.bottom});
-  }
-
-  void compare(const GroupItem& before, const GroupItem& after) {
-    if (!stays(before, after)) {
-      add(extent_of(before.bounds));
-      add(extent_of(after.bounds));
-      return;
-    }
-    for (const PixelRect& rect : changed_region(*before.list, *after.list, width_em_)) {
-      const double x = after.bounds.x + rect.x_px;
-      const double y = after.bounds.y + rect.y_px;
-      add({x, y, x + rect.width_px, y + rect.height_px});
-    }
-  }
-
-  /// Where one block passes, the other is painted with it: all rows of both change.
-  void compare(const ExposedItem& before, const ExposedItem& after) {
-    const std::array extents = {extent_of(before.behind), extent_of(before.front),
-                                extent_of(after.behind), extent_of(after.front)};
-    const double top = std::ranges::min(extents, {}, &Extent::top).top;
-    const double bottom = std::ranges::max(extents, {}, &Extent::bottom).bottom;
-    compare(before.behind, after.behind, top, bottom);
-    compare(before.front, after.front, top, bottom);
-    if (before.contacts == after.contacts) return;
-    for (const ExposedItem* item : {&before, &after}) {
-      if (item->contacts.empty()) continue;
-      add({item->contacts.front().behind_x, top, item->contacts.back().behind_x + 1, bottom});
-    }
-  }
-
-  /// Between the ends of its way, a moving block has the same pixels wherever these ends are.
-  void compare(const ExposedBlock& before, const ExposedBlock& after, double top, double bottom) {
-    if (before == after) return;
-    const Extent a = extent_of(before);
-    const Extent b = extent_of(after);
-    if (!slides(before, after)) {
-      add({a.left, top, a.right, bottom});
-      add({b.left, top, b.right, bottom});
-      return;
-    }
-    const double from = std::min(a.left, b.left);
-    const double to = std::max(a.right, b.right);
-    const double width = before.bounds.width;
-    const double line = before.stroke.width_px;
-    add({from, top, to - width + line, bottom});
-    add({from + width - line, top, to, bottom});
-  }
-
-  void add(const DrawItem& item) { add(extent_of(item, width_em_)); }
-  void add(const Extent& extent) {
-    if (region_.size() == 1 && region_.front() == frame_) return;
-    const PixelRect rect = pixels_of(extent.grown(kRounding_px), frame_);
-    if (rect.width_px <= 0 || rect.height_px <= 0) return;
-    if (rect == frame_) region_.clear();
-    region_.push_back(rect);
-  }
-
-  PixelRect frame_;
-  const MeasureText& width_em_;
-  Region region_;
-};
-
-}  // namespace
-
-Region changed_region(const DrawList& before, const DrawList& after, const MeasureText& width_em) {
-  Comparison comparison(after, width_em);
-  comparison.compare(before, after);
-  return comparison.take();
+  while (x_cells + 1 < width_cells_ && continues(boxes[x_cells], boxes[x_cells + 1])) ++x_cells;
+  return {left, y_cells * kCell_px + first.top, x_cells * kCell_px + boxes[x_cells].right - left,
+          first.bottom - first.top};
 }
 
 }  // namespace piblocks

@@ -1,57 +1,65 @@
-// Where draw items are, and what changes from one picture to the next.
-// In: draw lists. Out: the region outside of which their pixels are equal.
+// What changes from one picture to the next.
+// In: two draw lists. Out: the region outside of which their pixels are equal.
 #pragma once
 
 #include <piblocks/image.hpp>
 
-#include <functional>
+#include <cstddef>
+#include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
-#include "draw/draw_list.hpp"
+#include "draw/extent.hpp"
 
 namespace piblocks {
 
-/// In pixels, but not whole ones.
-struct Extent {
-  double left;
-  double top;
-  double right;
-  double bottom;
+/// Pixels of a picture, as a grid of cells. Each cell holds the least rectangle around those of the
+/// region's pixels that are in it: so no pixel is painted or converted twice, however much the
+/// rectangles overlap that were added.
+class Region {
+ public:
+  static constexpr int kCell_px = 16;
 
-  Extent grown(double px) const { return {left - px, top - px, right + px, bottom + px}; }
+  Region(int width_px, int height_px);
+
+  void clear();
+  /// @param rect  inside the picture
+  void add(const PixelRect& rect);
+  /// The region as disjoint rectangles, row of cells by row of cells, valid until the next call.
+  /// The rectangles of cells beside each other are joined where that makes a rectangle.
+  std::span<const PixelRect> rects();
+
+ private:
+  /// From its cell's upper left corner; empty if `right` is 0.
+  struct Box {
+    std::uint8_t left = 0;
+    std::uint8_t top = 0;
+    std::uint8_t right = 0;
+    std::uint8_t bottom = 0;
+  };
+  /// Columns of cells, of which those outside are empty.
+  struct Columns {
+    int begin = 0;
+    int end = 0;
+  };
+
+  Box* row(int y_cells) { return cells_.data() + std::size_t(y_cells) * std::size_t(width_cells_); }
+  void add_row(int y_cells);
+  /// The rectangle of the cell at `x_cells` and of those right of it that continue it.
+  PixelRect run(int& x_cells, int y_cells);
+
+  int width_cells_;
+  std::vector<Box> cells_;
+  std::vector<Columns> rows_;
+  std::vector<PixelRect> rects_;
+  // Of rects_, those that reach the lower end of the row of cells above, and of this row.
+  std::vector<std::size_t> above_;
+  std::vector<std::size_t> here_;
 };
 
-/// An item may paint so far out of its extent: Cairo rounds coordinates and sums to 1/256 pixel.
-inline constexpr double kRounding_px = 1.0 / 64;
-
-/// Width of a line of text, in ems.
-using MeasureText = std::function<double(Face face, std::string_view utf8)>;
-
-Extent extent_of(const Rectangle& rectangle);
-Extent extent_of(const ExposedBlock& block);
-/// The characters of a line of text between two distances from its origin.
-Extent extent_of(const TextItem& text, double left_em, double right_em);
-Extent extent_of(const DrawItem& item, const MeasureText& width_em);
-
-/// The whole pixels of an area that an extent, maybe far outside or not a number, reaches into.
-PixelRect pixels_of(const Extent& extent, const PixelRect& area);
-
-/// The pixels of an area that a moving block reaches into; of no width if nothing moves.
-PixelRect moving_area(const ExposedItem& item, const PixelRect& area);
-
-/// False only if the item has certainly painted nothing into the rectangle.
-bool reaches(const DrawItem& item, const PixelRect& rect);
-
-/// Whether every place and length is finite. Items in plates and groups were checked before.
-bool are_finite(std::span<const DrawItem> items);
-
-/// Rectangles of whole pixels, inside the frame. They may overlap.
-using Region = std::vector<PixelRect>;
-
-/// Covers every pixel in which the pictures may differ. It is the whole frame if the lists have
+/// Adds every pixel in which the pictures may differ. These are all pixels if the lists have
 /// neither the same ids nor rising ones.
-Region changed_region(const DrawList& before, const DrawList& after, const MeasureText& width_em);
+void add_changes(const DrawList& before, const DrawList& after, const MeasureText& width_em,
+                 Region& region);
 
 }  // namespace piblocks

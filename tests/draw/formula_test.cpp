@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "draw/canvas.hpp"
-#include "draw/region.hpp"
+#include "draw/extent.hpp"
 
 namespace piblocks {
 namespace {

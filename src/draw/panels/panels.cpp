@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "draw/number_text.hpp"
-#include "draw/region.hpp"
+#include "draw/extent.hpp"
 
 namespace piblocks {
 namespace {

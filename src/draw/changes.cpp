@@ -1,0 +1,201 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "draw/region.hpp"
+
+namespace piblocks {
+namespace {
+
+ItemId id_of(const DrawItem& item) {
+  return std::visit([](const auto& any) { return any.id; }, item);
+}
+
+bool has_rising_ids(const DrawList& list) {
+  return std::ranges::adjacent_find(list.items, std::ranges::greater_equal(), id_of) ==
+         list.items.end();
+}
+
+/// Whether only the ends of a rectangle that moves sideways change.
+bool slides(const RectangleItem& before, const RectangleItem& after) {
+  const bool dashed = before.stroke && before.stroke->dash_px > 0;
+  return !dashed && before.fill == after.fill && before.stroke == after.stroke &&
+         before.bounds.y == after.bounds.y && before.bounds.height == after.bounds.height;
+}
+
+/// The same of an exposed block.
+bool slides(const ExposedBlock& before, const ExposedBlock& after) {
+  return before.fill == after.fill && before.stroke == after.stroke && before.bars == after.bars &&
+         before.bounds.y == after.bounds.y && before.bounds.height == after.bounds.height &&
+         before.bounds.width == after.bounds.width && before.dwells.empty() == after.dwells.empty();
+}
+
+/// Whether only the content of a group changes.
+bool stays(const GroupItem& before, const GroupItem& after) {
+  const bool is_scaled = after.bounds.width != after.list->width_px;
+  return !is_scaled && before.bounds == after.bounds && before.opacity == after.opacity &&
+         before.list->width_px == after.list->width_px &&
+         before.list->height_px == after.list->height_px;
+}
+
+/// Bytes that both texts begin with, whole characters only.
+std::size_t common_prefix(std::string_view a, std::string_view b) {
+  auto length = static_cast<std::size_t>(
+      std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
+  const auto continues = [](std::string_view text, std::size_t at) {
+    return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80;
+  };
+  while (length > 0 && (continues(a, length) || continues(b, length))) --length;
+  return length;
+}
+
+/// Collects what differs, cut to whole pixels of the frame.
+class Comparison {
+ public:
+  Comparison(const DrawList& list, const MeasureText& width_em)
+      : frame_{0, 0, list.width_px, list.height_px}, width_em_(width_em) {}
+
+  void compare(const DrawList& before, const DrawList& after) {
+    const bool alike = before.width_px == after.width_px && before.height_px == after.height_px &&
+                       before.background == after.background;
+    if (alike && std::ranges::equal(before.items, after.items, {}, id_of, id_of)) {
+      for (std::size_t i = 0; i < after.items.size(); ++i) compare(before.items[i], after.items[i]);
+      return;
+    }
+    if (!alike || !has_rising_ids(before) || !has_rising_ids(after)) {
+      rects_ = {frame_};
+      return;
+    }
+    auto a = before.items.begin();
+    auto b = after.items.begin();
+    while (a != before.items.end() && b != after.items.end()) {
+      if (id_of(*a) < id_of(*b)) {
+        add(*a++);
+      } else if (id_of(*b) < id_of(*a)) {
+        add(*b++);
+      } else {
+        compare(*a++, *b++);
+      }
+    }
+    while (a != before.items.end()) add(*a++);
+    while (b != after.items.end()) add(*b++);
+  }
+
+  const std::vector<PixelRect>& rects() const { return rects_; }
+
+ private:
+  /// Two items that show the same thing.
+  void compare(const DrawItem& before, const DrawItem& after) {
+    if (before == after) return;
+    if (before.index() == after.index()) {
+      if (const auto* a = std::get_if<TextItem>(&before))
+        return compare(*a, std::get<TextItem>(after));
+      if (const auto* a = std::get_if<RectangleItem>(&before))
+        return compare(*a, std::get<RectangleItem>(after));
+      if (const auto* a = std::get_if<GroupItem>(&before))
+        return compare(*a, std::get<GroupItem>(after));
+      if (const auto* a = std::get_if<ExposedItem>(&before))
+        return compare(*a, std::get<ExposedItem>(after));
+    }
+    add(before);
+    add(after);
+  }
+
+  /// Every glyph is painted by itself, so that the common beginning keeps its pixels.
+  void compare(const TextItem& before, const TextItem& after) {
+    const bool set_alike = before.origin == after.origin && before.size_px == after.size_px &&
+                           before.color == after.color && before.face == after.face;
+    const std::size_t common = set_alike ? common_prefix(before.text, after.text) : 0;
+    const std::string_view prefix = std::string_view(after.text).substr(0, common);
+    const double left = common > 0 ? width_em_(after.face, prefix) : 0;
+    add(extent_of(before, left, width_em_(before.face, before.text)));
+    add(extent_of(after, left, width_em_(after.face, after.text)));
+  }
+
+  void compare(const RectangleItem& before, const RectangleItem& after) {
+    const Extent a = extent_of(before.bounds);
+    const Extent b = extent_of(after.bounds);
+    if (!slides(before, after)) {
+      add(a);
+      add(b);
+      return;
+    }
+    const double line = before.stroke ? before.stroke->width_px : 0;
+    add({std::min(a.left, b.left), a.top, std::max(a.left, b.left) + line, a.bottom});
+    add({std::min(a.right, b.right) - line, a.top, std::max(a.right, b.right), a.bottom});
+  }
+
+  void compare(const GroupItem& before, const GroupItem& after) {
+    if (!stays(before, after)) {
+      add(extent_of(before.bounds));
+      add(extent_of(after.bounds));
+      return;
+    }
+    Comparison within(*after.list, width_em_);
+    within.compare(*before.list, *after.list);
+    for (const PixelRect& rect : within.rects()) {
+      const double x = after.bounds.x + rect.x_px;
+      const double y = after.bounds.y + rect.y_px;
+      add({x, y, x + rect.width_px, y + rect.height_px});
+    }
+  }
+
+  /// Where one block passes, the other is painted with it: all rows of both change.
+  void compare(const ExposedItem& before, const ExposedItem& after) {
+    const std::array extents = {extent_of(before.behind), extent_of(before.front),
+                                extent_of(after.behind), extent_of(after.front)};
+    const double top = std::ranges::min(extents, {}, &Extent::top).top;
+    const double bottom = std::ranges::max(extents, {}, &Extent::bottom).bottom;
+    compare(before.behind, after.behind, top, bottom);
+    compare(before.front, after.front, top, bottom);
+    if (before.contacts == after.contacts) return;
+    for (const ExposedItem* item : {&before, &after}) {
+      if (item->contacts.empty()) continue;
+      add({item->contacts.front().behind_x, top, item->contacts.back().behind_x + 1, bottom});
+    }
+  }
+
+  /// Between the ends of its way, a moving block has the same pixels wherever these ends are.
+  void compare(const ExposedBlock& before, const ExposedBlock& after, double top, double bottom) {
+    if (before == after) return;
+    const Extent a = extent_of(before);
+    const Extent b = extent_of(after);
+    if (!slides(before, after)) {
+      add({a.left, top, a.right, bottom});
+      add({b.left, top, b.right, bottom});
+      return;
+    }
+    const double from = std::min(a.left, b.left);
+    const double to = std::max(a.right, b.right);
+    const double width = before.bounds.width;
+    const double line = before.stroke.width_px;
+    add({from, top, to - width + line, bottom});
+    add({from + width - line, top, to, bottom});
+  }
+
+  void add(const DrawItem& item) { add(extent_of(item, width_em_)); }
+  void add(const Extent& extent) {
+    if (rects_.size() == 1 && rects_.front() == frame_) return;
+    const PixelRect rect = pixels_of(extent.grown(kRounding_px), frame_);
+    if (rect.width_px <= 0 || rect.height_px <= 0) return;
+    if (rect == frame_) rects_.clear();
+    rects_.push_back(rect);
+  }
+
+  PixelRect frame_;
+  const MeasureText& width_em_;
+  std::vector<PixelRect> rects_;  // may overlap
+};
+
+}  // namespace
+
+void add_changes(const DrawList& before, const DrawList& after, const MeasureText& width_em,
+                 Region& region) {
+  Comparison comparison(after, width_em);
+  comparison.compare(before, after);
+  for (const PixelRect& rect : comparison.rects()) region.add(rect);
+}
+
+}  // namespace piblocks

@@ -1,0 +1,50 @@
+// Where draw items are.
+// In: an item. Out: an extent that it paints nothing out of.
+#pragma once
+
+#include <piblocks/image.hpp>
+
+#include <functional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "draw/draw_list.hpp"
+
+namespace piblocks {
+
+/// In pixels, but not whole ones.
+struct Extent {
+  double left;
+  double top;
+  double right;
+  double bottom;
+
+  Extent grown(double px) const { return {left - px, top - px, right + px, bottom + px}; }
+};
+
+/// An item may paint so far out of its extent: Cairo rounds coordinates and sums to 1/256 pixel.
+inline constexpr double kRounding_px = 1.0 / 64;
+
+/// Width of a line of text, in ems.
+using MeasureText = std::function<double(Face face, std::string_view utf8)>;
+
+Extent extent_of(const Rectangle& rectangle);
+Extent extent_of(const ExposedBlock& block);
+/// The characters of a line of text between two distances from its origin.
+Extent extent_of(const TextItem& text, double left_em, double right_em);
+Extent extent_of(const DrawItem& item, const MeasureText& width_em);
+
+/// The whole pixels of an area that an extent, maybe far outside or not a number, reaches into.
+PixelRect pixels_of(const Extent& extent, const PixelRect& area);
+
+/// The pixels of an area that a moving block reaches into; of no width if nothing moves.
+PixelRect moving_area(const ExposedItem& item, const PixelRect& area);
+
+/// False only if the item has certainly painted nothing into the rectangle.
+bool reaches(const DrawItem& item, const PixelRect& rect);
+
+/// Whether every place and length is finite. Items in plates and groups were checked before.
+bool are_finite(std::span<const DrawItem> items);
+
+}  // namespace piblocks
