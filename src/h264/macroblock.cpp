@@ -67,6 +67,14 @@ AdjacentSamples beside_block(const Borders& borders, const Samples& samples, Blo
   return adjacent;
 }
 
+/// mb_type P_L0_16x16 and mvd_l0, in quarters of a sample (7.3.5.1).
+void write_p_l0_16x16(MotionVector vector, const Neighbours& neighbours, BitWriter& bits) {
+  const MotionVector predicted = predicted_vector(neighbours);
+  bits.put_unsigned(kPL016x16);
+  bits.put_signed(4 * (vector.x - predicted.x));
+  bits.put_signed(4 * (vector.y - predicted.y));
+}
+
 int error_of(const Samples& a, const Samples& b) { return luma_error(a, b) + chroma_error(a, b); }
 
 }  // namespace
@@ -93,11 +101,17 @@ CodedMacroblock MacroblockCoder::code(const MacroblockInput& input) const {
   if (!may_cost_less(kTryI16x16_bits)) return best;
   const CodedMacroblock predicted = i_16x16(input);
   compare(predicted);
-  if (is_p && may_cost_less(kTryPL016x16_bits)) compare(p_l0_16x16(input));
+  if (is_p && may_cost_less(kTryPL016x16_bits)) {
+    const CodedMacroblock moved = p_moved(input);
+    if (moved.cost < best.cost) return moved;
+    compare(p_l0_16x16(input, skip_vector(input.neighbours), input.before));
+  }
   if (may_cost_less(kTryINxN_bits)) compare(i_nxn(input, predicted));
   if (best.cost == CodedMacroblock::kImpossible) {
     best.type = MbType::i_pcm;
     best.samples = input.source;
+    best.state = {};
+    best.state.is_intra = true;
     best.state.total_coeff.fill(16);  // 9.2.1
   }
   return best;
@@ -113,7 +127,8 @@ void MacroblockCoder::finish(const MacroblockInput& input, const Residual& resid
   coded.bits.put_unsigned(coded.type == MbType::i_nxn ? kIntraCodes[pattern]
                                                       : kInterCodes[pattern]);
   coded.state.total_coeff = residual.total_coeff();
-  if (pattern != 0) {
+  coded.has_residual = pattern != 0;
+  if (coded.has_residual) {
     coded.bits.put_signed(0);  // mb_qp_delta
     if (!residual.write(pattern, coded.state, input.neighbours, coded.bits)) return;
   }
@@ -124,7 +139,16 @@ CodedMacroblock MacroblockCoder::p_skip(const MacroblockInput& input) const {
   CodedMacroblock coded(MbType::p_skip);
   if (largest_difference(input.source, input.before) > tolerance_) return coded;
   coded.samples = input.before;
+  coded.state.vector = skip_vector(input.neighbours);
   set_cost(coded, error_of(input.source, input.before));
+  return coded;
+}
+
+CodedMacroblock MacroblockCoder::hold(const Samples& before, const Neighbours& neighbours) const {
+  CodedMacroblock coded(MbType::p_l0_16x16);
+  coded.samples = before;
+  write_p_l0_16x16({}, neighbours, coded.bits);
+  coded.bits.put_unsigned(kInterCodes[0]);
   return coded;
 }
 
@@ -170,19 +194,35 @@ CodedMacroblock MacroblockCoder::i_16x16(const MacroblockInput& input) const {
   return coded;
 }
 
-CodedMacroblock MacroblockCoder::p_l0_16x16(const MacroblockInput& input) const {
+CodedMacroblock MacroblockCoder::p_moved(const MacroblockInput& input) const {
+  const auto& [before, search, x_mb, y_mb] = input.reference;
+  if (search == nullptr) return CodedMacroblock(MbType::p_l0_16x16);
+  const auto vector = search->find(input.source, *before, x_mb, y_mb, input.neighbours);
+  if (!vector || *vector == skip_vector(input.neighbours)) {
+    return CodedMacroblock(MbType::p_l0_16x16);
+  }
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): written right after
+  Samples moved;
+  predict_moved(*before, x_mb, y_mb, *vector, moved);
+  return p_l0_16x16(input, *vector, moved);
+}
+
+CodedMacroblock MacroblockCoder::p_l0_16x16(const MacroblockInput& input, MotionVector vector,
+                                            const Samples& predicted) const {
   CodedMacroblock coded(MbType::p_l0_16x16);
-  coded.samples = input.before;
+  coded.samples = predicted;
+  coded.state.vector = vector;
   Residual residual;
   for (int index = 0; index < 16; ++index) {
     residual.code_luma(inter_.luma, luma_place(index), input.source, coded.samples);
   }
   residual.code_chroma(inter_.chroma, input.source, coded.samples);
   const int pattern = residual.coded_block_pattern();
-  if (pattern == 0) return coded;  // it would be P_Skip
-  coded.bits.put_unsigned(kPL016x16);
-  coded.bits.put_signed(0);  // mvd_l0: no motion here, and none anywhere to predict other
-  coded.bits.put_signed(0);
+  if (pattern == 0) {
+    if (vector == skip_vector(input.neighbours)) return coded;  // it would be P_Skip
+    if (largest_difference(input.source, coded.samples) > tolerance_) return coded;
+  }
+  write_p_l0_16x16(vector, input.neighbours, coded.bits);
   finish(input, residual, pattern, coded);
   return coded;
 }

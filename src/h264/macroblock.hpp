@@ -8,6 +8,7 @@
 
 #include "h264/bit_stream.hpp"
 #include "h264/intra_prediction.hpp"
+#include "h264/motion.hpp"
 #include "h264/picture.hpp"
 #include "h264/residual.hpp"
 
@@ -17,31 +18,43 @@ enum class SliceType : std::uint8_t { p, i };
 
 /// mb_type, tables 7-11 and 7-13, as far as it is used here.
 enum class MbType : std::uint8_t {
-  p_skip,      ///< stays as it was
-  i_16x16,     ///< without coefficients
-  p_l0_16x16,  ///< without motion
-  i_nxn,       ///< of 4x4 blocks
+  p_skip,   ///< stays as it was
+  i_16x16,  ///< without coefficients
+  p_l0_16x16,
+  i_nxn,  ///< of 4x4 blocks
   i_pcm
+};
+
+/// Where motion is looked for, and whence: a macroblock of the decoded picture before.
+struct Reference {
+  const Picture* before = nullptr;
+  MotionSearch* search = nullptr;  ///< none if nothing moves
+  int x_mb = 0;
+  int y_mb = 0;
 };
 
 struct MacroblockInput {
   SliceType slice_type{};
   Samples source;
-  Samples before;  ///< of the decoded picture before; not used in I slices
+  Samples before;  ///< of the decoded picture before, by the vector of P_Skip; not used in I slices
   Borders borders{};
   Neighbours neighbours{};
+  Reference reference{};  ///< not used in I slices
 };
 
 struct CodedMacroblock {
   static constexpr std::int64_t kImpossible = std::numeric_limits<std::int64_t>::max();
 
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): samples are written right after
-  explicit CodedMacroblock(MbType mb_type) : type(mb_type) {}
+  explicit CodedMacroblock(MbType mb_type) : type(mb_type) {
+    state.is_intra = mb_type != MbType::p_skip && mb_type != MbType::p_l0_16x16;
+  }
 
   MbType type;
   PredMode chroma_mode{};  ///< of intra types
   Samples samples;         ///< as decoders have them
   MacroblockState state{};
+  bool has_residual = false;
   BitWriter bits{};  ///< empty for P_Skip and I_PCM; write_i_pcm() writes the latter
   std::int64_t cost = kImpossible;
 };
@@ -53,6 +66,8 @@ class MacroblockCoder {
   MacroblockCoder(int qp, int chroma_qp_offset);
 
   CodedMacroblock code(const MacroblockInput& input) const;
+  /// Codes a macroblock of a P slice as what was there before, though P_Skip would move it.
+  CodedMacroblock hold(const Samples& before, const Neighbours& neighbours) const;
 
  private:
   struct Quantisers {
@@ -64,7 +79,10 @@ class MacroblockCoder {
   // large an error or take too many bits.
   CodedMacroblock p_skip(const MacroblockInput& input) const;
   CodedMacroblock i_16x16(const MacroblockInput& input) const;
-  CodedMacroblock p_l0_16x16(const MacroblockInput& input) const;
+  /// By the vector that the search finds, if there is one.
+  CodedMacroblock p_moved(const MacroblockInput& input) const;
+  CodedMacroblock p_l0_16x16(const MacroblockInput& input, MotionVector vector,
+                             const Samples& predicted) const;
   /// Its chroma is predicted as that of `i_16x16`.
   CodedMacroblock i_nxn(const MacroblockInput& input, const CodedMacroblock& i_16x16) const;
   /// Predicts one luma block of I_NxN into the macroblock, and writes its mode.

@@ -42,6 +42,15 @@ void Picture::store(int x_mb, int y_mb, const Samples& samples) {
   }
 }
 
+void Picture::copy(int x_mb, int y_mb, const Picture& from) {
+  const std::ptrdiff_t luma = offset(0, x_mb, y_mb);
+  copy_plane<16>(from.plane(0) + luma, stride_bytes(0), plane(0) + luma, stride_bytes(0));
+  const std::ptrdiff_t chroma = offset(1, x_mb, y_mb);
+  for (int i = 1; i < 3; ++i) {
+    copy_plane<8>(from.plane(i) + chroma, stride_bytes(i), plane(i) + chroma, stride_bytes(i));
+  }
+}
+
 void Picture::load_borders(int x_mb, int y_mb, Borders& borders) const {
   borders.has_above = y_mb > 0;
   borders.has_left = x_mb > 0;

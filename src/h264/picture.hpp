@@ -100,6 +100,8 @@ class Picture {
 
   void load(int x_mb, int y_mb, Samples& samples) const;
   void store(int x_mb, int y_mb, const Samples& samples);
+  /// Takes a macroblock of another picture of this size.
+  void copy(int x_mb, int y_mb, const Picture& from);
   void load_borders(int x_mb, int y_mb, Borders& borders) const;
 
  private:
@@ -116,32 +118,39 @@ class Picture {
 class MacroblockSet {
  public:
   MacroblockSet(int width_mb, int height_mb)
-      : width_mb_(width_mb), words_((static_cast<std::size_t>(width_mb * height_mb) + 63) / 64) {}
+      : width_mb_(width_mb),
+        count_(width_mb * height_mb),
+        words_((static_cast<std::size_t>(count_) + 63) / 64) {}
 
   /// Adds all macroblocks that share a pixel with a rectangle inside the picture.
   void add(int x_px, int y_px, int width_px, int height_px) {
     if (width_px <= 0 || height_px <= 0) return;
     for (int y = y_px / 16; y <= (y_px + height_px - 1) / 16; ++y) {
-      for (int x = x_px / 16; x <= (x_px + width_px - 1) / 16; ++x) add_one(y * width_mb_ + x);
+      for (int x = x_px / 16; x <= (x_px + width_px - 1) / 16; ++x) add_one(x, y);
     }
   }
+  /// Adds a macroblock, if it is in the picture.
+  void add_one(int x_mb, int y_mb) {
+    const int address = y_mb * width_mb_ + x_mb;
+    if (x_mb < 0 || x_mb >= width_mb_ || address >= count_) return;
+    words_[static_cast<std::size_t>(address / 64)] |= std::uint64_t{1} << address % 64;
+  }
   void clear() { words_.assign(words_.size(), 0); }
-
-  template <typename Visit>
-  void for_each(Visit visit) const {
-    for (std::size_t i = 0; i < words_.size(); ++i) {
-      for (std::uint64_t left = words_[i]; left != 0; left &= left - 1) {
-        visit(static_cast<int>(64 * i) + std::countr_zero(left));
-      }
-    }
+  bool contains(int address) const {
+    return (words_[static_cast<std::size_t>(address / 64)] >> address % 64 & 1) != 0;
+  }
+  /// The first address in the set that is no less; -1 if there is none.
+  int next(int address) const {
+    if (address >= count_) return -1;
+    auto i = static_cast<std::size_t>(address / 64);
+    std::uint64_t word = words_[i] >> address % 64 << address % 64;
+    while (word == 0 && ++i < words_.size()) word = words_[i];
+    return word == 0 ? -1 : static_cast<int>(64 * i) + std::countr_zero(word);
   }
 
  private:
-  void add_one(int address) {
-    words_[static_cast<std::size_t>(address / 64)] |= std::uint64_t{1} << address % 64;
-  }
-
   int width_mb_;
+  int count_;
   std::vector<std::uint64_t> words_;
 };
 

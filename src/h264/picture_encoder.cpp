@@ -20,13 +20,16 @@ PictureEncoder::PictureEncoder(const ParameterSets& sets, int qp)
     : sets_(sets),
       qp_(qp),
       coder_(qp, sets.chroma_qp_offset),
+      before_(sets.width_mb, sets.height_mb),
       decoded_(sets.width_mb, sets.height_mb),
+      visited_(sets.width_mb, sets.height_mb),
       states_(static_cast<std::size_t>(sets.width_mb) * sets.height_mb) {
   assert(0 <= qp && qp <= kMaxQp);
 }
 
 std::vector<std::uint8_t> PictureEncoder::encode_idr(const Picture& source) {
   frame_num_ = 0;
+  motion_.begin_group();
   begin_slice(SliceType::i);
   const int count = sets_.width_mb * sets_.height_mb;
   for (int address = 0; address < count; ++address) add(address, source);
@@ -37,7 +40,11 @@ std::vector<std::uint8_t> PictureEncoder::encode_p(const Picture& source,
                                                    const MacroblockSet& changed) {
   frame_num_ = (frame_num_ + 1) & ((1U << sets_.log2_max_frame_num) - 1);
   begin_slice(SliceType::p);
-  changed.for_each([&](int address) { add(address, source); });
+  motion_.begin_picture();
+  visited_ = changed;
+  for (int address = visited_.next(0); address >= 0; address = visited_.next(address + 1)) {
+    changed.contains(address) ? add(address, source) : keep(address);
+  }
   const int skipped = sets_.width_mb * sets_.height_mb - next_address_;
   if (skipped > 0) bits_.put_unsigned(static_cast<std::uint32_t>(skipped));  // mb_skip_run
   return finish_slice();
@@ -70,17 +77,56 @@ void PictureEncoder::begin_slice(SliceType type) {
   bits_.put_unsigned(1);  // disable_deblocking_filter_idc
 }
 
+MotionVector PictureEncoder::enter(int address) {
+  const int width = sets_.width_mb;
+  const int x = address % width;
+  const int y = address / width;
+  const auto state = [&](bool is_available, int distance) {
+    return is_available ? &states_[static_cast<std::size_t>(address - distance)] : nullptr;
+  };
+  const bool has_above_right = y > 0 && x + 1 < width;
+  input_.neighbours = {state(y > 0, width), state(x > 0, 1),
+                       has_above_right ? state(true, width - 1) : state(y > 0 && x > 0, width + 1)};
+  return skip_vector(input_.neighbours);
+}
+
 void PictureEncoder::add(int address, const Picture& source) {
   const int x = address % sets_.width_mb;
   const int y = address / sets_.width_mb;
+  const MotionVector vector = enter(address);
   source.load(x, y, input_.source);
-  if (input_.slice_type == SliceType::p) decoded_.load(x, y, input_.before);
   decoded_.load_borders(x, y, input_.borders);
-  input_.neighbours = {y > 0 ? &states_[address - sets_.width_mb] : nullptr,
-                       x > 0 ? &states_[address - 1] : nullptr};
-  const CodedMacroblock coded = coder_.code(input_);
+  if (input_.slice_type == SliceType::p) {
+    input_.reference = {&before_, &motion_, x, y};
+    predict_moved(before_, x, y, vector, input_.before);
+  }
+  put(address, coder_.code(input_));
+}
+
+void PictureEncoder::keep(int address) {
+  const MotionVector vector = enter(address);
+  if (vector == MotionVector{}) return;
+  const int x = address % sets_.width_mb;
+  const int y = address / sets_.width_mb;
+  before_.load(x, y, input_.before);
+  put(address, coder_.hold(input_.before, input_.neighbours));
+}
+
+void PictureEncoder::put(int address, const CodedMacroblock& coded) {
+  const bool is_moved = coded.state.vector != MotionVector{};
+  if (coded.type == MbType::p_skip && !is_moved) return;
+  const int x = address % sets_.width_mb;
+  const int y = address / sets_.width_mb;
+  decoded_.store(x, y, coded.samples);
+  states_[address] = coded.state;
+  coded_.push_back(address);
+  if (is_moved) {
+    // Their vectors as P_Skip follow from this one.
+    visited_.add_one(x + 1, y);
+    for (const int beside : {x - 1, x, x + 1}) visited_.add_one(beside, y + 1);
+  }
   if (coded.type == MbType::p_skip) return;
-  if (coded.type != MbType::i_16x16) ++transformed_;
+  if (coded.has_residual || coded.type == MbType::i_pcm) ++transformed_;
 
   // mb_skip_run, 7.3.4.
   if (input_.slice_type == SliceType::p) {
@@ -91,13 +137,17 @@ void PictureEncoder::add(int address, const Picture& source) {
   } else {
     bits_.append(coded.bits);
   }
-  decoded_.store(x, y, coded.samples);
-  states_[address] = coded.state;
-  coded_.push_back(address);
   next_address_ = address + 1;
 }
 
 std::vector<std::uint8_t> PictureEncoder::finish_slice() {
+  if (input_.slice_type == SliceType::i) {
+    before_ = decoded_;
+  } else {
+    for (const int address : coded_) {
+      before_.copy(address % sets_.width_mb, address / sets_.width_mb, decoded_);
+    }
+  }
   bits_.put_trailing_bits();
   std::vector<std::uint8_t> stream;
   const bool is_idr = input_.slice_type == SliceType::i;

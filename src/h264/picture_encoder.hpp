@@ -2,14 +2,16 @@
 // In: a picture, and which of its macroblocks may differ from the picture before. Out: an access
 // unit of one slice, which skips all other macroblocks.
 //
-// All motion vectors are zero. So are the vectors predicted for skipped macroblocks (8.4.1.1), and
-// a picture can be decoded over the one before it.
+// Where nothing moves by whole samples, all motion vectors are zero, and so are those predicted for
+// skipped macroblocks (8.4.1.1). Beside a macroblock with another vector, those that would move
+// with it are told to stay.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "h264/macroblock.hpp"
+#include "h264/motion.hpp"
 #include "h264/parameter_sets.hpp"
 #include "h264/picture.hpp"
 
@@ -32,18 +34,26 @@ class PictureEncoder {
 
   /// The last picture as every decoder has it.
   const Picture& decoded() const noexcept { return decoded_; }
-  /// How many macroblocks of the last picture are neither P_Skip nor I_16x16.
+  /// How many macroblocks of the last picture have coefficients or are I_PCM.
   int transformed_macroblocks() const noexcept { return transformed_; }
 
  private:
   void begin_slice(SliceType type);
+  /// Sets what a macroblock is predicted from. @returns its vector as P_Skip
+  MotionVector enter(int address);
   void add(int address, const Picture& source);
+  /// A macroblock that does not change, beside some that may move.
+  void keep(int address);
+  void put(int address, const CodedMacroblock& coded);
   std::vector<std::uint8_t> finish_slice();
 
   ParameterSets sets_;
   int qp_;
   MacroblockCoder coder_;
+  MotionSearch motion_;
+  Picture before_;  // decoded
   Picture decoded_;
+  MacroblockSet visited_;  // what changes, and what is beside motion
   std::vector<MacroblockState> states_;
   std::vector<int> coded_;  // addresses of the macroblocks whose states are set
   MacroblockInput input_{};

@@ -29,6 +29,13 @@ struct BlockPlace {
   }
 };
 
+/// mvL0, in whole luma samples.
+struct MotionVector {
+  int x = 0;
+  int y = 0;
+  bool operator==(const MotionVector&) const = default;
+};
+
 /// At first that of a macroblock that is skipped, or not coded yet.
 struct MacroblockState {
   static constexpr std::uint8_t kDc = 2;
@@ -38,12 +45,16 @@ struct MacroblockState {
   /// Intra4x4PredMode of every luma block; DC in macroblocks of other types (8.3.1.1).
   std::array<std::uint8_t, 16> pred_modes = {kDc, kDc, kDc, kDc, kDc, kDc, kDc, kDc,
                                              kDc, kDc, kDc, kDc, kDc, kDc, kDc, kDc};
+  MotionVector vector{};  ///< of inter macroblocks
+  bool is_intra = false;
 };
 
-/// mbAddrB and mbAddrA (6.4.9); null at the edges of the picture.
+/// mbAddrB, mbAddrA, and mbAddrC or, if that is not available, mbAddrD (6.4.9, 8.4.1.3.2); null
+/// outside of the picture.
 struct Neighbours {
   const MacroblockState* above;
   const MacroblockState* left;
+  const MacroblockState* corner = nullptr;
 
   /// The values of the blocks left of a block and above it (6.4.11.4); -1 outside the picture.
   template <typename Values>

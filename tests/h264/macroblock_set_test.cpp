@@ -14,7 +14,9 @@ using Addresses = std::vector<int>;
 
 Addresses addresses_of(const MacroblockSet& set) {
   Addresses addresses;
-  set.for_each([&](int address) { addresses.push_back(address); });
+  for (int address = set.next(0); address >= 0; address = set.next(address + 1)) {
+    addresses.push_back(address);
+  }
   return addresses;
 }
 

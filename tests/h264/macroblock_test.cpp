@@ -67,7 +67,7 @@ MacroblockInput inside(const Samples& source, const Samples& before, int beside)
     border.above.fill(byte(beside));
     border.left.fill(byte(beside));
   }
-  input.neighbours = {&skipped, &skipped};
+  input.neighbours = {&skipped, &skipped, &skipped};
   return input;
 }
 

@@ -34,10 +34,11 @@ class RandomPictures {
     ramp,
     extremes,      // black and white, in blocks
     copy,          // of what is elsewhere
+    slide,         // of what is near, by any number of samples
     small_change,  // of what was there
     no_change
   };
-  static constexpr int kKinds = 8;
+  static constexpr int kKinds = 9;
   struct Rect {
     int x, y, width, height;
   };
@@ -59,14 +60,24 @@ class RandomPictures {
     const auto kind = static_cast<Kind>(pick(0, kKinds - 1));
     noise_ = static_cast<std::uint32_t>(pick(0, 255));
     if (kind == Kind::no_change) return;
-    if (kind == Kind::copy) return copy(rect);
+    if (kind == Kind::copy) {
+      return copy(rect, 2 * pick(0, (16 * picture_.width_mb() - rect.width) / 2),
+                  2 * pick(0, (16 * picture_.height_mb() - rect.height) / 2));
+    }
+    if (kind == Kind::slide)
+      return copy(rect, near(rect.x, rect.width, picture_.width_mb()),
+                  near(rect.y, rect.height, picture_.height_mb()));
     for (int plane = 0; plane < 3; ++plane) fill(plane, kind, rect);
   }
 
-  void copy(const Rect& rect) {
+  /// A place of a side that has this length, not far from `at`.
+  int near(int at, int length, int size_mb) {
+    const int distance = pick(0, 2) == 0 ? pick(-60, 60) : pick(-3, 3);
+    return std::clamp(at + distance, 0, 16 * size_mb - length);
+  }
+
+  void copy(const Rect& rect, int from_x, int from_y) {
     const Picture before = picture_;
-    const int from_x = 2 * pick(0, (16 * picture_.width_mb() - rect.width) / 2);
-    const int from_y = 2 * pick(0, (16 * picture_.height_mb() - rect.height) / 2);
     for (int plane = 0; plane < 3; ++plane) {
       const int step = plane == 0 ? 1 : 2;
       const std::uint8_t* const from =

@@ -2,6 +2,7 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "draw/number_text.hpp"
@@ -127,7 +128,8 @@ Drawable mass_labels(const DrawingContext& context) {
       const double middle = layout.at(motion.position, 0).x;
       // Half a figure would be another number.
       if (middle - half_px < least_px || middle + half_px > most_px) return;
-      label.origin.x += middle;
+      // By whole pixels, its figures keep their distances, and encoders find it again.
+      label.origin.x = std::round(label.origin.x + middle);
       items.emplace_back(std::move(label));
     };
     add(red, shown.state.red);
