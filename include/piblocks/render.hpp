@@ -110,7 +110,7 @@ void render_still(const Script& script, const Instant& instant, const std::strin
 /// Most pictures of a sheet.
 inline constexpr int kMaxSheetPictures = 200;
 
-/// What the instants of a sheet are equally far apart in.
+/// The quantity in which the instants of a sheet are evenly spaced.
 enum class Spacing : std::uint8_t {
   count,  ///< of collisions, to the nearest one
   time

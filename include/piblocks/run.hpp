@@ -203,8 +203,8 @@ struct PositionBounds {
 /// Of state_at(time); nothing for an engine that steps, whose errors add up.
 std::optional<PositionBounds> position_bounds(const CollisionLog& log, const Rational& time);
 
-/// The blocks as seen from the wall, without widths: they touch where y1 = y2. Near the turn of
-/// many digits both are far below what is left of them in a position. 0 <= y1 <= y2.
+/// The blocks as seen from the wall, without widths: they touch where y1 = y2. Near the turn
+/// of many digits both are far smaller than the rounding error of a position. 0 <= y1 <= y2.
 struct Gaps {
   double y1 = 0;  ///< between the wall and blue
   double y2 = 0;  ///< between the wall and red, less blue's width

@@ -107,7 +107,7 @@ enum class Panel {
   certainty      ///< how near the count comes to a wrong digit of pi
 };
 
-/// While the loupe enlarges by a factor that the scene names, and by which.
+/// A window of simulation time in which the loupe enlarges by a given factor.
 struct LoupeWindow {
   Instant from;
   Instant to;
@@ -171,9 +171,9 @@ struct View {
   /// The share of the time between two frames for which each is exposed, from its instant on,
   /// 0 … 1; 0 shows the instant alone.
   Rational shutter = 0;
-  /// The side of which type, lines and margins are fractions: 0 for the frame's shorter one. A row
-  /// of a split screen has that of the whole film.
-  int unit_px = 0;
+  /// Type, lines and margins are fractions of this length. 0 stands for the shorter side of the
+  /// frame. In a row of a split screen it is the shorter side of the whole film.
+  int short_side_px = 0;
   Theme theme = Theme::article;
   Background background = Background::opaque;
 };

@@ -49,7 +49,7 @@ std::string without_command(const CLI::App& app, const std::vector<std::string>&
   const bool is_option = extra.starts_with('-');
   const std::string near = nearest_name(extra, is_option ? option_names(app) : command_names(app));
   return fmt::format("{}unknown {} '{}'{} {}", who, is_option ? "option" : "command", extra,
-                     near.empty() ? ":" : question(near), advice);
+                     near.empty() ? ":" : did_you_mean(near), advice);
 }
 
 std::string about_extra(const CLI::App& command, const std::string& extra) {
@@ -60,7 +60,7 @@ std::string about_extra(const CLI::App& command, const std::string& extra) {
   }
   const std::string near = nearest_name(extra.substr(0, extra.find('=')), option_names(command));
   return fmt::format("{}: unknown option '{}'{} {}", full_name(command), extra,
-                     near.empty() ? ";" : question(near), help_of(command));
+                     near.empty() ? ";" : did_you_mean(near), help_of(command));
 }
 
 std::string about_missing(const CLI::App& command) {

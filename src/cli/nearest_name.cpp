@@ -34,7 +34,7 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
   return distance(*nearest) <= std::max<std::size_t>(1, (word.size() + 1) / 3) ? *nearest : "";
 }
 
-std::string question(const std::string& near) {
+std::string did_you_mean(const std::string& near) {
   return near.empty() ? "" : fmt::format("; did you mean '{}'?", near);
 }
 

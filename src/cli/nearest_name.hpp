@@ -1,5 +1,6 @@
 // The name that a misspelt word was meant to be, for messages.
-// In: a word of the command line, and the names there are. Out: the nearest name, or a question.
+// In: a word of the command line, and the names there are. Out: the nearest name, and
+// "did you mean" for it.
 #pragma once
 
 #include <string>
@@ -12,6 +13,6 @@ namespace piblocks::cli {
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
 
 /// "; did you mean 'lecture'?", or an empty text if `near` is empty.
-std::string question(const std::string& near);
+std::string did_you_mean(const std::string& near);
 
 }  // namespace piblocks::cli

@@ -28,7 +28,7 @@ bool is_file(const std::string& path) {
 /// "; did you mean 'lecture'? 'piblocks scenes' lists them"
 std::string advice(const std::string& name) {
   const std::string near = nearest_name(name, shipped_scene_names());
-  return fmt::format("{} 'piblocks scenes' lists them", near.empty() ? ";" : question(near));
+  return fmt::format("{} 'piblocks scenes' lists them", near.empty() ? ";" : did_you_mean(near));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct ShippedScene {
 std::span<const ShippedScene> shipped_scenes();
 std::vector<std::string> shipped_scene_names();
 
-/// Nothing but names are looked at. @throws UsageError if there is none of this name.
+/// Compares names only. @throws UsageError if there is none of this name.
 const ShippedScene& find_shipped_scene(const std::string& name);
 
 /// Reads a scene file or, if there is none at this path, the shipped scene of this name.

@@ -100,7 +100,7 @@ class Composer {
 
   Layout lay_out() const {
     if (!is_article_) {
-      return lay_out_stage(scene_, plan_.stage, context_.font, plan_.has_low_floor);
+      return lay_out_stage(scene_, plan_.stage, context_.font, plan_.is_floor_at_bottom);
     }
     return lay_out_article(scene_, longest_count(scene_, context_.log), plan_.stage, context_.font);
   }
@@ -134,7 +134,7 @@ class Composer {
       read_outs_.leave_slow_motion_to(
           [loupe = loupe_](const FrameState& shown) { return loupe->opacity(shown); });
     }
-    read_outs_.move(plan_.read_outs_px, plan_.counter.slow_motion);
+    read_outs_.move(plan_.read_outs_top_px, plan_.counter.slow_motion);
     drawables_.emplace_back(std::move(read_outs_));
   }
 

@@ -37,8 +37,8 @@ struct Hit {
 /// What a frame is drawn from. It depends on nothing but the frame.
 struct FrameState {
   BlockState state;
-  Rational time = 0;    ///< simulation time of the state
-  Rational slower = 1;  ///< as in Stretch
+  Rational time = 0;      ///< simulation time of the state
+  Rational slowdown = 1;  ///< as in Stretch
   /// Where the blocks are while the frame is exposed; if empty, as all else, at the instant.
   std::vector<WeightedExposure> exposure = {};
   Gaps gaps = {};  ///< of the state; filled in if FrameNeeds asks for them
@@ -49,7 +49,7 @@ struct FrameState {
   double hits_per_s = 0;       ///< of video, lately; 0 while the picture stands still
 };
 
-/// What costs time to find out, and is found out only for drawables that read it.
+/// The costly parts of a FrameState. They are computed only for drawables that read them.
 struct FrameNeeds {
   bool gaps = false;
   bool hits = false;  ///< and video_s and hits_per_s

@@ -27,14 +27,14 @@ double spacing_px(double range_px) {
 struct ToPixels {
   double zero_px;
   double scale;
-  double block_px;  ///< width of the block
-  int frame_px;     ///< and of the frame
+  double block_px;       ///< width of the block
+  int visible_right_px;  ///< blocks are seen up to here
 
   ToPixels(const Layout& layout, const ExposedBlock& block)
       : zero_px(layout.origin.x - block.bounds.width / 2),
         scale(layout.scale),
         block_px(block.bounds.width),
-        frame_px(layout.frame_px) {}
+        visible_right_px(layout.visible_right_px) {}
   double operator()(double position) const { return zero_px + position * scale; }
   Travel operator()(const Travel& way) const { return {(*this)(way.from), (*this)(way.to)}; }
   double back(double x_px) const { return (x_px - zero_px) / scale; }
@@ -92,7 +92,7 @@ std::vector<Dwell> dwells_of(BlockName block, const ToPixels& to_px,
   for (const auto& [share, exposure] : exposures) range.include(to_px(exposure.range(block)));
   if (!(range.to - range.from > kStill_px)) return {};
   range.from = std::max(range.from, -to_px.block_px - kMargin_px);
-  range.to = std::min(range.to, to_px.frame_px + kMargin_px);
+  range.to = std::min(range.to, to_px.visible_right_px + kMargin_px);
   if (!(range.to > range.from)) return {};
   DwellTable table(range, spacing_px(range.to - range.from));
   for (const WeightedExposure& weighted : exposures) {

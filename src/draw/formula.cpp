@@ -10,7 +10,7 @@
 namespace piblocks {
 namespace {
 
-// In ems of what they are beside.
+// Of scripts, in ems of the text that they are attached to.
 constexpr double kScriptScale = 0.65;
 constexpr double kRaise = 0.4;
 constexpr double kLower = 0.18;

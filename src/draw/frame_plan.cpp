@@ -39,7 +39,7 @@ constexpr double kLoupeRoom = 0.1;
 constexpr double kDiagramsBesideLoupe = 0.5;
 
 /// What a scene shows above and below the blocks, for a message.
-std::vector<std::string> names_of_things(const Scene& scene) {
+std::vector<std::string> shown_element_names(const Scene& scene) {
   std::vector<std::string> names;
   if (scene.view.theme != Theme::article) names.emplace_back("the counter");
   if (!scene.show.title.empty()) names.emplace_back("the title");
@@ -66,27 +66,27 @@ class FramePlanner {
         right_(view_.width_px - sizes_.margin),
         bottom_(view_.height_px) {}
 
-  FramePlan run(double read_outs_px) {
-    if (counter_ && view_.height_px < kRow * sizes_.unit) return row(read_outs_px);
+  FramePlan run(double read_outs_height_px) {
+    if (counter_ && view_.height_px < kRow * sizes_.short_side) return row(read_outs_height_px);
     place_header();
     place_foot();
     const bool has_edge = show_.panels.empty() && bottom_ == view_.height_px;
     // Read-outs end at the margin.
-    if (read_outs_px > 0 && has_edge) {
+    if (read_outs_height_px > 0 && has_edge) {
       bottom_ -= std::max(0.0, sizes_.margin - kBelowBaseline * sizes_.text);
     }
-    double height = bottom_ - top_ - read_outs_px;
+    double height = bottom_ - top_ - read_outs_height_px;
     if (!show_.panels.empty()) height = stage_height(height);
-    if (height < kLeastStage * sizes_.unit) throw_no_room();
+    if (height < kLeastStage * sizes_.short_side) throw_no_room();
     plan_.stage = {0, top_, double(view_.width_px), height};
-    plan_.read_outs_px = top_ + height;
-    if (!show_.panels.empty()) place_panels(plan_.read_outs_px + read_outs_px);
+    plan_.read_outs_top_px = top_ + height;
+    if (!show_.panels.empty()) place_panels(plan_.read_outs_top_px + read_outs_height_px);
     return std::move(plan_);
   }
 
  private:
   /// A row of a split screen: the counter is beside the stage.
-  FramePlan row(double read_outs_px) {
+  FramePlan row(double read_outs_height_px) {
     if (view_.background == Background::transparent) {
       // Red would be seen behind the counter.
       throw UsageError(
@@ -117,13 +117,13 @@ class FramePlanner {
       add_line(ItemId::title, show_.title, baseline, sizes_.title);
       top_ = baseline + kBelowBaseline * sizes_.title;
     }
-    const double height = view_.height_px - sizes_.gap / 2 - top_ - read_outs_px;
+    const double height = view_.height_px - sizes_.gap / 2 - top_ - read_outs_height_px;
     const bool is_full = !show_.panels.empty() || !show_.caption.empty() || !show_.logo.empty();
-    if (is_full || height < kLeastRowStage * sizes_.unit) throw_no_room();
+    if (is_full || height < kLeastRowStage * sizes_.short_side) throw_no_room();
     // The floor ends a margin before its area does.
     const double width = right_ - counter_width - 2 * sizes_.gap + sizes_.margin;
     plan_.stage = {0, top_, width, height};
-    plan_.read_outs_px = top_ + height;
+    plan_.read_outs_top_px = top_ + height;
     return std::move(plan_);
   }
 
@@ -156,7 +156,7 @@ class FramePlanner {
     }
     if (counter_) place_counter(is_beside);
     if (top_ > 0) {
-      top_ += kBelowHeader * sizes_.unit;
+      top_ += kBelowHeader * sizes_.short_side;
     } else if (!show_.panels.empty()) {
       // Else the counter of the stage would stick to the upper edge.
       top_ = sizes_.margin / 2;
@@ -185,7 +185,7 @@ class FramePlanner {
   void place_counter(bool is_beside_title) {
     CounterPlace& place = plan_.counter;
     place.right_px = right_;
-    double above = top_ > 0 ? top_ + kBelowHeader * sizes_.unit : sizes_.margin;
+    double above = top_ > 0 ? top_ + kBelowHeader * sizes_.short_side : sizes_.margin;
     if (place.has_label && has_label_above_) {
       place.label_baseline_px = std::round(above + Font::kCapHeight_em * sizes_.text);
       above += kLineStep * sizes_.text;
@@ -205,10 +205,10 @@ class FramePlanner {
     const bool is_above = left < right_ && reach_px(context_.scene, context_.log) > left;
     top_ = is_above ? place.pi_baseline_px : place.baseline_px;
     top_ += kBelowBaseline * sizes_.text;
-    place.pi_left_px = std::min(right_, left + sizes_.gap);
-    plan_.header_px = top_;
+    place.pi_row_left_px = std::min(right_, left + sizes_.gap);
+    plan_.header_bottom_px = top_;
     if (left < right_) {
-      plan_.header_px = place.pi_baseline_px + kBelowBaseline * sizes_.text;
+      plan_.header_bottom_px = place.pi_baseline_px + kBelowBaseline * sizes_.text;
     }
   }
 
@@ -226,8 +226,8 @@ class FramePlanner {
     double height = 0;
     double room = right_ - left_;
     if (!show_.logo.empty()) {
-      const double width = style::kLogoWidth * sizes_.unit;
-      height = style::kLogoHeight * sizes_.unit;
+      const double width = style::kLogoWidth * sizes_.short_side;
+      height = style::kLogoHeight * sizes_.short_side;
       plan_.logo = {right_ - width, lower - height, width, height};
       room -= width + sizes_.gap;
     }
@@ -244,7 +244,7 @@ class FramePlanner {
         baseline += kLineStep * size_px;
       }
     }
-    if (height > 0) bottom_ = lower - height - kBelowStage * sizes_.unit;
+    if (height > 0) bottom_ = lower - height - kBelowStage * sizes_.short_side;
   }
 
   /// Where there are diagrams, the stage is as high as it has to be.
@@ -254,7 +254,7 @@ class FramePlanner {
     if (show_.has(Overlay::velocities)) height += kArrowRoom;
     if (show_.has(Overlay::masses)) height += kMassRoom / 2;
     if (show_.has(Overlay::ruler)) height += kRulerRoom;
-    height *= sizes_.unit;
+    height *= sizes_.short_side;
     if (view_.theme == Theme::article) {
       // With this the stage is as wide as the frame.
       height +=
@@ -263,17 +263,17 @@ class FramePlanner {
     }
     // In upright frames the loupe is below the digits of pi. It takes what diagrams do not need.
     const double spare =
-        room_px - height - kDiagramsBesideLoupe * double(show_.panels.size()) * sizes_.unit;
+        room_px - height - kDiagramsBesideLoupe * double(show_.panels.size()) * sizes_.short_side;
     if (view_.height_px > view_.width_px && spare > 0 && may_show_loupe(context_)) {
-      height += std::min(kLoupeRoom * sizes_.unit, spare);
-      plan_.has_low_floor = true;
+      height += std::min(kLoupeRoom * sizes_.short_side, spare);
+      plan_.is_floor_at_bottom = true;
     }
     return std::min(height, room_px / 2);
   }
 
   /// Diagrams are below the stage and its read-outs.
   void place_panels(double top_px) {
-    const double top = top_px + kBelowStage * sizes_.unit;
+    const double top = top_px + kBelowStage * sizes_.short_side;
     const double bottom = bottom_ == view_.height_px ? bottom_ - sizes_.margin : bottom_;
     const double least = kLeastPanel_em * sizes_.text;
     plan_.panels = panel_grid(show_.panels.size(), {left_, top, right_ - left_, bottom - top},
@@ -288,7 +288,7 @@ class FramePlanner {
   }
 
   [[noreturn]] void throw_no_room() const {
-    const std::vector<std::string> names = names_of_things(context_.scene);
+    const std::vector<std::string> names = shown_element_names(context_.scene);
     throw UsageError(fmt::format(
         "show: {} {} too little room for the blocks in {}x{}; leave something out, or make the "
         "frame higher",
@@ -312,8 +312,8 @@ class FramePlanner {
 }  // namespace
 
 FramePlan plan_frame(const DrawingContext& context, const std::optional<CounterRoom>& counter,
-                     double read_outs_px) {
-  return FramePlanner(context, counter).run(read_outs_px);
+                     double read_outs_height_px) {
+  return FramePlanner(context, counter).run(read_outs_height_px);
 }
 
 }  // namespace piblocks

@@ -38,18 +38,18 @@ struct BlockShape {
 /// The stage: the map from scene to pixels. It depends on the area and on the longest count alone,
 /// so that nothing shifts while the counter grows.
 struct Layout {
-  double scale = 1;     ///< pixels per unit of the scene
-  Point origin;         ///< pixel position of the scene's (0, 0)
-  int frame_px = 0;     ///< blocks are seen up to here: the width of the frame, or of the stage
-  double line_px = 1;   ///< of the blocks' outlines
-  double floor_px = 0;  ///< the blocks stand on it
+  double scale = 1;          ///< pixels per unit of the scene
+  Point origin;              ///< pixel position of the scene's (0, 0)
+  int visible_right_px = 0;  ///< blocks are seen up to here
+  double line_px = 1;        ///< of the blocks' outlines
+  double floor_px = 0;       ///< the blocks stand on it
   BlockShape blue;
   BlockShape red;
   double above_px = 0;  ///< room above the taller block
   double below_px = 0;  ///< room below the floor
-  double foot_px = 0;   ///< lower end of the wall
-  double right_px = 0;  ///< end of the floor
-  CountLine line = {};  ///< of the article's picture alone
+  double wall_bottom_px = 0;
+  double content_right_px = 0;  ///< floor and labels end here
+  CountLine count_line = {};    ///< of the article's picture alone
 
   /// Pixel position of a point of the scene.
   Point at(double x, double y) const noexcept {
@@ -88,7 +88,7 @@ struct CounterPlace {
   bool has_pi = false;           ///< the line below has room
   double pi_baseline_px = 0;     ///< of that line
   Point slow_motion;             ///< right end of its label's baseline
-  double pi_left_px = 0;         ///< where that begins
+  double pi_row_left_px = 0;     ///< left end of that label and of the digits of pi
 };
 
 struct FramePlan {
@@ -96,9 +96,9 @@ struct FramePlan {
   CounterPlace counter;
   Rectangle logo;  ///< empty unless asked for
   Rectangle stage;
-  bool has_low_floor = false;  ///< all that is left over of the stage is above the blocks
-  double header_px = 0;        ///< lower end of title, counter and digits of pi
-  double read_outs_px = 0;     ///< upper end of their rows
+  bool is_floor_at_bottom = false;  ///< all spare height of the stage is above the blocks
+  double header_bottom_px = 0;      ///< lower end of title, counter and digits of pi
+  double read_outs_top_px = 0;
   std::vector<Rectangle> panels;
 };
 
@@ -112,10 +112,9 @@ struct CounterRoom {
 
 /// @param context  its layout is not read.
 /// @throws UsageError if a line cannot be set or is too long, or something gets too small.
-/// @param counter       nothing where the stage has it
-/// @param read_outs_px  height of their rows
+/// @param counter  nothing where the stage has it
 FramePlan plan_frame(const DrawingContext& context, const std::optional<CounterRoom>& counter,
-                     double read_outs_px);
+                     double read_outs_height_px);
 
 /// How far to the right blocks and what is above them come while the film lasts, in pixels.
 double reach_px(const Scene& scene, const CollisionLog& log);
@@ -123,9 +122,9 @@ double reach_px(const Scene& scene, const CollisionLog& log);
 /// The stage in an area of the frame.
 /// @throws UsageError if the view is so close that doubles cannot hold the positions, or the area
 ///         is too low for the blocks.
-/// @param has_low_floor  as in FramePlan
+/// @param is_floor_at_bottom  as in FramePlan
 Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font,
-                     bool has_low_floor = false);
+                     bool is_floor_at_bottom = false);
 /// The same of the article's picture. @param longest_count  of those that will be shown
 Layout lay_out_article(const Scene& scene, const Integer& longest_count, const Rectangle& area,
                        const Font& font);

@@ -68,7 +68,7 @@ namespace style {
 inline constexpr double kMargin = 0.06;
 inline constexpr double kGap = 0.04;  ///< between things side by side
 
-// Sizes of type. Nothing is smaller than kLeastType: what does not fit is left out or refused.
+// Sizes of type. Nothing is smaller than kLeastType: what does not fit is left out or rejected.
 inline constexpr double kCounter = 0.15;
 inline constexpr double kTitle = 0.055;
 inline constexpr double kMass = 0.042;
@@ -87,11 +87,11 @@ inline constexpr double kHitDot = 0.0055;
 /// Opacity of a filled area behind text or lines. It keeps a contrast of 2 with the background.
 inline constexpr double kWedgeFill = 0.8;
 
-inline constexpr double kHatch = 0.025;     ///< width of the wall
-inline constexpr double kHitReach = 0.06;   ///< how far the mark of a hit grows
-inline constexpr double kLoupe = 0.36;      ///< its width
-inline constexpr double kLoupeFrom = 0.1;   ///< gaps below this are enlarged
-inline constexpr double kMostHeight = 2.2;  ///< of a block, in heights of the lighter one
+inline constexpr double kWallWidth = 0.025;
+inline constexpr double kHitReach = 0.06;  ///< how far the mark of a hit grows
+inline constexpr double kLoupeWidth = 0.36;
+inline constexpr double kMaxLoupeGap = 0.1;     ///< the loupe shows smaller gaps
+inline constexpr double kMaxHeightRatio = 2.2;  ///< of the heavier block to the lighter one
 
 // The picture in the corner, at most.
 inline constexpr double kLogoWidth = 0.24;
@@ -137,19 +137,22 @@ inline Rectangle whole(const View& view) {
 /// Lengths of the look in a frame, in pixels.
 struct Sizes {
   explicit Sizes(const View& view)
-      : unit(view.unit_px > 0 ? view.unit_px : std::min(view.width_px, view.height_px)),
-        margin(style::kMargin * unit),
-        gap(style::kGap * unit),
+      : short_side(view.short_side_px > 0 ? view.short_side_px
+                                          : std::min(view.width_px, view.height_px)),
+        margin(style::kMargin * short_side),
+        gap(style::kGap * short_side),
         title(type(style::kTitle)),
         mass(type(style::kMass)),
         text(type(style::kText)),
-        wall_line(std::max(1.0, style::kWallLine * unit)),
-        data_line(std::max(1.0, style::kDataLine * unit)),
-        grid_line(std::max(1.0, style::kGridLine * unit)) {}
+        wall_line(std::max(1.0, style::kWallLine * short_side)),
+        data_line(std::max(1.0, style::kDataLine * short_side)),
+        grid_line(std::max(1.0, style::kGridLine * short_side)) {}
 
-  double type(double fraction) const { return std::max(style::kLeastText_px, fraction * unit); }
+  double type(double fraction) const {
+    return std::max(style::kLeastText_px, fraction * short_side);
+  }
 
-  double unit;  ///< the frame's shorter side, or that of the whole film
+  double short_side;  ///< the frame's shorter side, or that of the whole film
   double margin;
   double gap;
   // Of the em.

@@ -107,7 +107,7 @@ CaptionSize caption_size(const std::vector<CaptionedPicture>& pictures, const Fo
 DrawList compose_card(const std::vector<std::string>& lines, const View& view) {
   const Font font(text_face_of(view.theme));
   const Palette palette = palette_of(view.theme);
-  const double measure = Sizes(view).unit;
+  const double measure = Sizes(view).short_side;
   const double inner_px = view.width_px - 2 * style::kCardMargin * measure;
 
   const double heading_px = fitted_px(lines.front(), style::kCardHeading * measure, inner_px, font);

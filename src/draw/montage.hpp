@@ -37,7 +37,7 @@ class SplitScreen {
   bool is_in_rows_ = false;
 };
 
-/// The picture on its way to its background, or from it. @param opacity  of what is on the
+/// The picture, partly faded into its background. @param opacity  of what is on the
 /// background, 0 … 1.
 DrawList faded(DrawList picture, double opacity);
 

@@ -42,7 +42,7 @@ void throw_too_long(const char* key, const std::string& text, double room_px) {
 
 void check_readable(const DrawingContext& context, const char* key, const std::string& text) {
   context.font.check(text, key);
-  if (context.sizes.unit >= kLeastFrame_px) return;
+  if (context.sizes.short_side >= kLeastFrame_px) return;
   const View& view = context.scene.view;
   throw UsageError(
       fmt::format("{}: '{}' cannot be read in a frame of {}x{}; leave it out, or make the frame "

@@ -41,7 +41,7 @@ std::string place_of(const Storyboard& story, std::size_t segment) {
   return origin.empty() ? fmt::format("part {}", segment + 1) : origin;
 }
 
-/// How loud the segments of a fade are: as their pictures are seen.
+/// The volume of both segments of a fade. It follows the opacity of their pictures.
 struct FadeRamps {
   std::optional<Ramp> fall;  ///< of the segment before
   std::optional<Ramp> rise;  ///< of the segment itself
@@ -93,23 +93,23 @@ DrawList FilmRun::picture(const FrameTime& shown) const {
   return composition_->frame(frame_state(*log_, shown, composition_->needs()));
 }
 
-DrawList FilmRun::picture(const FrameTime& shown, const VideoMoment& moment) const {
+DrawList FilmRun::picture(const FrameTime& shown, const VideoTime& video_time) const {
   FrameState state = frame_state(*log_, shown, composition_->needs());
-  if (composition_->needs().hits) add_hits(state, *log_, moment);
+  if (composition_->needs().hits) add_hits(state, *log_, video_time);
   return composition_->frame(state);
 }
 
-DrawList FilmRun::frame(const Schedule& clock, std::int64_t number) const {
+DrawList FilmRun::frame(const Schedule& schedule, std::int64_t number) const {
   const Rational video_s = Rational(number) / scene_.view.frame_rate;
-  return picture(clock.at(video_s, open_s(scene_.view)), {clock, video_s});
+  return picture(schedule.at(video_s, open_s(scene_.view)), {schedule, video_s});
 }
 
 DrawList FilmRun::still(const Rational& time) const {
   const FrameTime shown = still_time(scene_, *log_, time);
   if (!composition_->needs().hits || !has_span(scene_, *log_)) return picture(shown);
-  const Schedule clock = make_schedule(scene_, *log_);
-  const std::optional<Rational> video_s = clock.first_shown_s(time);
-  return video_s ? picture(shown, {clock, *video_s}) : picture(shown);
+  const Schedule schedule = make_schedule(scene_, *log_);
+  const std::optional<Rational> video_s = schedule.first_shown_s(time);
+  return video_s ? picture(shown, {schedule, *video_s}) : picture(shown);
 }
 
 std::shared_ptr<const Image> read_logo(const Scene& scene) {
@@ -157,7 +157,7 @@ void FilmSegment::compare(const Scenes& scenes, Split split, const View& film, F
     Scene scene = with_film_view(scenes[i], film);
     scene.view.width_px = split_->cells()[i].width_px;
     scene.view.height_px = split_->cells()[i].height_px;
-    if (split_->is_in_rows()) scene.view.unit_px = std::min(film.width_px, film.height_px);
+    if (split_->is_in_rows()) scene.view.short_side_px = std::min(film.width_px, film.height_px);
     scene.time = {span.from, span.to, leading.time.speed};
     scene.pacing = leading.pacing;
     runs_.emplace_back(std::move(scene), std::move(logs[i]), use);
@@ -217,10 +217,10 @@ void Film::place_segments(const Storyboard& story) {
     const Integer fade = floor(fade_s * view_.frame_rate + Rational(1, 2));
     const std::int64_t room = i == 0 ? 0 : std::min(before, own - 1);
     if (fade > room) {
-      problems.push_back(
-          fmt::format("{}: fade = {}: must take at most {} frames, not {}: a fade is shorter than "
-                      "its own part, and than what the fade before leaves of the part before",
-                      place_of(story, i), to_text(fade_s), room, readable(fade)));
+      problems.push_back(fmt::format(
+          "{}: fade = {}: must take at most {} frames, not {}: a fade must be shorter than "
+          "its own part and the part before, and must not overlap the fade of the part before",
+          place_of(story, i), to_text(fade_s), room, readable(fade)));
     } else {
       placed.fade_frames = fade.get_si();
     }

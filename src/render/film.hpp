@@ -39,8 +39,8 @@ class FilmRun {
 
   const Scene& scene() const noexcept { return scene_; }
   const CollisionLog& log() const noexcept { return *log_; }
-  /// A frame by a clock, which may be another run's. @param number  >= 0
-  DrawList frame(const Schedule& clock, std::int64_t number) const;
+  /// A frame by a schedule, which may be another run's. @param number  >= 0
+  DrawList frame(const Schedule& schedule, std::int64_t number) const;
   /// What a still of this time shows. @throws UsageError as still_time(), or if the picture shows
   /// hits and the scene has no schedule.
   DrawList still(const Rational& time) const;
@@ -48,7 +48,7 @@ class FilmRun {
   DrawList picture(const FrameTime& shown) const;
 
  private:
-  DrawList picture(const FrameTime& shown, const VideoMoment& moment) const;
+  DrawList picture(const FrameTime& shown, const VideoTime& video_time) const;
 
   Scene scene_;
   std::unique_ptr<CollisionLog> log_;

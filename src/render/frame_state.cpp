@@ -15,12 +15,12 @@ namespace {
 /// Hits are counted over 1/4 s of video. A scene that has just begun counts as having stood still
 /// before, so that its first hit alone is no high rate.
 constexpr int kWindowsPerSecond = 4;
-/// So few in a window would make an even rate seem to go up and down by one hit a window. Their
-/// rate is taken of the times of the newest three instead.
+/// With fewer hits than this in a window, the count of evenly spaced hits would vary by one from
+/// window to window. The rate then comes from the times of the newest three hits.
 constexpr int kFewHits = 8;
 constexpr std::size_t kNewest = 3;
-/// Three hits of a rate above kMaxHitsPerSecond, the newest of which can still be seen, are not
-/// older.
+/// If three hits have a rate above kMaxHitsPerSecond and the newest is still seen, none of them is
+/// older than this.
 constexpr double kLongestAge_s = 0.5;
 
 /// Collisions that one stretch of video passes, all in the same direction.
@@ -35,12 +35,12 @@ struct Passage {
 
 /// What is passed from `begin_s` on until the moment, the latest first.
 /// @param count  at the moment
-std::vector<Passage> passages(const CollisionLog& log, const VideoMoment& moment, Integer count,
+std::vector<Passage> passages(const CollisionLog& log, const VideoTime& video_time, Integer count,
                               const Rational& begin_s) {
-  const auto stretches = moment.clock.stretches();
+  const auto stretches = video_time.schedule.stretches();
   std::vector<Passage> found;
-  auto next = std::ranges::upper_bound(stretches, moment.video_s, {}, &Stretch::video_s);
-  for (Rational now_s = moment.video_s; now_s > begin_s;) {
+  auto next = std::ranges::upper_bound(stretches, video_time.video_s, {}, &Stretch::video_s);
+  for (Rational now_s = video_time.video_s; now_s > begin_s;) {
     const Stretch& stretch = *--next;
     now_s = std::max(stretch.video_s, begin_s);
     if (stretch.speed == 0) continue;
@@ -56,9 +56,9 @@ std::vector<Passage> passages(const CollisionLog& log, const VideoMoment& moment
 
 /// As exact as its age needs it: where time all but stands still, a double-double is too coarse.
 Rational time_of(const CollisionLog& log, const Collision& collision, const Stretch& stretch) {
-  constexpr unsigned long kEnough_bits = 90;  // of the 104 that are right
+  constexpr unsigned long kUsed_bits = 90;  // of the 104 that are right
   Rational rounded = to_rational(collision.time);
-  if (abs(stretch.speed) * power(2, kEnough_bits) >= abs(rounded)) return rounded;
+  if (abs(stretch.speed) * power(2, kUsed_bits) >= abs(rounded)) return rounded;
   try {
     return log.time_after(collision.index);
   } catch (const Error&) {  // several at once, or an engine that steps
@@ -108,16 +108,16 @@ Hit hit_of(const CollisionLog& log, const AgedCollision& aged) {
           gaps_at_collision(log, collision.index)};
 }
 
-bool is_moving(const VideoMoment& moment) {
-  const auto next =
-      std::ranges::upper_bound(moment.clock.stretches(), moment.video_s, {}, &Stretch::video_s);
+bool is_moving(const VideoTime& video_time) {
+  const auto next = std::ranges::upper_bound(video_time.schedule.stretches(), video_time.video_s,
+                                             {}, &Stretch::video_s);
   return std::prev(next)->speed != 0;
 }
 
 }  // namespace
 
 FrameState frame_state(const CollisionLog& log, const FrameTime& shown, const FrameNeeds& needs) {
-  FrameState state{log.state_at(shown.time), shown.time, shown.slower};
+  FrameState state{log.state_at(shown.time), shown.time, shown.slowdown};
   state.exposure.reserve(shown.exposure.size());
   for (const TimeSlice& slice : shown.exposure) {
     state.exposure.push_back({to_double(slice.share), expose(log, slice.from, slice.to)});
@@ -126,21 +126,21 @@ FrameState frame_state(const CollisionLog& log, const FrameTime& shown, const Fr
   return state;
 }
 
-void add_hits(FrameState& state, const CollisionLog& log, const VideoMoment& moment) {
-  state.video_s = to_double(moment.video_s);
+void add_hits(FrameState& state, const CollisionLog& log, const VideoTime& video_time) {
+  state.video_s = to_double(video_time.video_s);
   const auto passed = [&](const Rational& length_s) {
-    return passages(log, moment, state.state.count,
-                    std::max<Rational>(moment.video_s - length_s, 0));
+    return passages(log, video_time, state.state.count,
+                    std::max<Rational>(video_time.video_s - length_s, 0));
   };
   Integer count = 0;
   for (const Passage& passage : passed(Rational(1, kWindowsPerSecond))) count += passage.size();
   double rate = kWindowsPerSecond * count.get_d();
   std::vector<AgedCollision> found;
   if (count < kFewHits) {
-    found = newest(log, passed(Rational(kLongestAge_s)), moment.video_s);
+    found = newest(log, passed(Rational(kLongestAge_s)), video_time.video_s);
     if (found.size() == kNewest) rate = rate_of(found);
   }
-  if (is_moving(moment)) state.hits_per_s = rate;
+  if (is_moving(video_time)) state.hits_per_s = rate;
   if (rate > kMaxHitsPerSecond) return;
   for (auto aged = found.rbegin(); aged != found.rend(); ++aged) {
     if (aged->age_s < kHitLife_s) state.hits.push_back(hit_of(log, *aged));

@@ -10,18 +10,18 @@
 namespace piblocks {
 
 /// When a picture is shown.
-struct VideoMoment {
-  const Schedule& clock;
+struct VideoTime {
+  const Schedule& schedule;
   Rational video_s;  ///< >= 0
 };
 
 /// State, time and exposure; gaps if they are needed; no hits.
 FrameState frame_state(const CollisionLog& log, const FrameTime& shown, const FrameNeeds& needs);
 
-/// Adds the video's time, the hits and their rate to what is shown at a moment. A hit is a change
-/// of the counter: forwards at the collision's time, backwards just after it. The state at the
-/// scene's first instant includes collisions that are no hits.
+/// Adds the video's time, the hits and their rate to what is shown at that time. A hit is a
+/// change of the counter: forwards at the collision's time, backwards just after it. The state at
+/// the scene's first instant includes collisions that are no hits.
 /// @throws SimulationError as CollisionLog::collision().
-void add_hits(FrameState& state, const CollisionLog& log, const VideoMoment& moment);
+void add_hits(FrameState& state, const CollisionLog& log, const VideoTime& video_time);
 
 }  // namespace piblocks

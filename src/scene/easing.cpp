@@ -50,11 +50,11 @@ std::vector<Move> eased(const std::vector<Move>& moves, const Rational& ease_s,
   std::vector<Move> smooth;
   for (std::size_t i = 0; i < moves.size(); ++i) {
     const Move& move = moves[i];
-    const Rational own = speed / move.slower;
+    const Rational own = speed / move.slowdown;
     // The speed at a border: the neighbour's if that is slower, so that the change happens here.
     const auto speed_beside = [&](const Move& neighbour) -> Rational {
       const bool is_moving = move.frozen_s == 0 && neighbour.frozen_s == 0;
-      return is_moving ? std::min<Rational>(own, speed / neighbour.slower) : own;
+      return is_moving ? std::min<Rational>(own, speed / neighbour.slowdown) : own;
     };
     Ease in{i > 0 ? speed_beside(moves[i - 1]) : own, own, ease_s};
     Ease out{own, i + 1 < moves.size() ? speed_beside(moves[i + 1]) : own, ease_s};

@@ -10,9 +10,9 @@
 
 namespace piblocks {
 
-/// The moves, in which the speed goes from one to the next in steps along a smooth curve. The
-/// slower of two moves stays as it is; the steps are taken from the faster one. Where it is too
-/// short for them, they are shorter. A freeze begins and ends at once.
+/// The same moves, with steps along a smooth curve from one speed to the next. The slower of two
+/// moves stays as it is; the steps replace a part of the faster one. If the faster move is too
+/// short, its steps are shorter. A freeze begins and ends at once.
 /// @param ease_s  how long a change of speed takes, in seconds of video at `speed`; >= 0
 /// @param speed   simulation time per second of video where nothing is slower; > 0
 std::vector<Move> eased(const std::vector<Move>& moves, const Rational& ease_s,

@@ -52,15 +52,15 @@ std::vector<Move> automatic_windows(const Scene& scene, const CollisionLog& log)
   // From the outermost to the innermost and out again.
   std::vector<Move> windows;
   const std::size_t count = halves.size();
-  Rational slower = 1;
+  Rational slowdown = 1;
   for (std::size_t i = 0; i < count; ++i) {
-    slower *= kStep;
+    slowdown *= kStep;
     if (i + 1 == count) {
-      windows.push_back({*turn - halves[i], *turn + halves[i], slower});
+      windows.push_back({*turn - halves[i], *turn + halves[i], slowdown});
       break;
     }
-    windows.push_back({*turn - halves[i], *turn - halves[i + 1], slower});
-    windows.push_back({*turn + halves[i + 1], *turn + halves[i], slower});
+    windows.push_back({*turn - halves[i], *turn - halves[i + 1], slowdown});
+    windows.push_back({*turn + halves[i + 1], *turn + halves[i], slowdown});
   }
   return windows;
 }
@@ -68,7 +68,7 @@ std::vector<Move> automatic_windows(const Scene& scene, const CollisionLog& log)
 void check(const Move& window, const Span& span) {
   const std::string name = fmt::format("{}: the window from {} to {}", kSlowMotionKey,
                                        to_text(window.from), to_text(window.to));
-  if (window.from >= window.to) throw UsageError(name + " ends before it begins");
+  if (window.from >= window.to) throw UsageError(name + " must end after it begins");
   if (window.from < span.to && window.to > span.from) return;
   throw UsageError(fmt::format("{} is outside of what is shown, {} to {}", name, to_text(span.from),
                                to_text(span.to)));
@@ -132,20 +132,20 @@ std::vector<Move> moves_of(const Scene& scene, const CollisionLog& log, const Sp
   std::vector<Move> moves;
   Rational now = span.from;
   auto freeze = freezes.begin();
-  const auto move_to = [&](const Rational& time, const Rational& slower) {
-    if (time > now) moves.push_back({now, time, slower});
+  const auto move_to = [&](const Rational& time, const Rational& slowdown) {
+    if (time > now) moves.push_back({now, time, slowdown});
     now = std::max(now, time);
   };
-  const auto pass_freezes = [&](const Rational& time, const Rational& slower) {
+  const auto pass_freezes = [&](const Rational& time, const Rational& slowdown) {
     for (; freeze != freezes.end() && freeze->from < time; ++freeze) {
-      move_to(freeze->from, slower);
-      moves.push_back({now, now, slower, freeze->frozen_s});
+      move_to(freeze->from, slowdown);
+      moves.push_back({now, now, slowdown, freeze->frozen_s});
     }
-    move_to(time, slower);
+    move_to(time, slowdown);
   };
   for (const Move& window : windows) {
     pass_freezes(window.from, 1);
-    pass_freezes(window.to, window.slower);
+    pass_freezes(window.to, window.slowdown);
   }
   pass_freezes(span.to, 1);
   moves.insert(moves.end(), freeze, freezes.end());

@@ -15,7 +15,7 @@ namespace piblocks {
 struct Move {
   Rational from;
   Rational to;  ///< the same as `from` for a freeze
-  Rational slower = 1;
+  Rational slowdown = 1;
   Rational frozen_s = 0;
 };
 
@@ -26,8 +26,8 @@ Rational time_of(const Instant& instant, const char* key, const CollisionLog& lo
 Rational whole_frames(const Rational& length_s, const Rational& frame_rate);
 
 /// The moves that fill the span.
-/// @throws UsageError as time_of(); if windows of slow motion overlap or end before they begin; if
-///         a window or a freeze that the scene names is outside of the span.
+/// @throws UsageError as time_of(); if windows of slow motion overlap, or do not end after they
+///         begin; if a window or a freeze that the scene names is outside of the span.
 std::vector<Move> moves_of(const Scene& scene, const CollisionLog& log, const Span& span);
 
 }  // namespace piblocks

@@ -119,12 +119,12 @@ void check_loupe(const Loupe& loupe, SceneProblems& problems) {
   constexpr const char* kKey = "show.loupe";
   if (!loupe.window) return;
   const auto& [from, to, zoom] = *loupe.window;
-  problems.require(zoom > 1 && is_finite(zoom), kKey,
-                   "enlarges by {}: it must be by more than 1, and within the range of a double",
-                   zoom);
+  problems.require(
+      zoom > 1 && is_finite(zoom), kKey,
+      "enlarges by {}: the factor must be more than 1, and within the range of a double", zoom);
   const bool are_times = from.is_time() && to.is_time();
-  problems.require(!are_times || from.offset < to.offset, kKey, "ends at {}, before it begins",
-                   to.offset);
+  problems.require(!are_times || from.offset < to.offset, kKey,
+                   "ends at {}: it must end after it begins", to.offset);
 }
 
 void check_show(const Show& show, SceneProblems& problems) {

@@ -23,7 +23,7 @@ Rational speed_for_duration(const Scene& scene, const std::vector<Move>& moves, 
   if (shows_end(scene)) frames -= 1;                     // one frame stands at the end
   Rational length = 0;                                   // seconds of video at speed 1
   for (const Move& move : moves) {
-    length += (move.to - move.from) * move.slower;
+    length += (move.to - move.from) * move.slowdown;
     still_s += move.frozen_s;
   }
   const Rational moving_s = Rational(frames) / scene.view.frame_rate - still_s;
@@ -45,10 +45,10 @@ struct StretchList {
   std::vector<Stretch> stretches = {};
   Rational end_s = 0;  ///< of the last stretch
 
-  void add(const Rational& time, const Rational& speed, const Rational& slower,
+  void add(const Rational& time, const Rational& speed, const Rational& slowdown,
            const Rational& length_s) {
     if (length_s == 0) return;
-    stretches.push_back({end_s, time, speed, slower});
+    stretches.push_back({end_s, time, speed, slowdown});
     end_s += length_s;
   }
 };
@@ -61,7 +61,8 @@ std::vector<Stretch> played_back(std::vector<Stretch> stretches, const Rational&
   Rational end_s = last_frame_s;
   for (auto stretch = stretches.rbegin(); stretch != stretches.rend(); ++stretch) {
     const Rational length_s = end_s - stretch->video_s;
-    back.add(stretch->time + stretch->speed * length_s, -stretch->speed, stretch->slower, length_s);
+    back.add(stretch->time + stretch->speed * length_s, -stretch->speed, stretch->slowdown,
+             length_s);
     end_s = stretch->video_s;
   }
   // A stretch that begins at the last frame would have no length, since the way back begins there.
@@ -104,8 +105,8 @@ Schedule make_schedule(const Scene& scene, const CollisionLog& log) {
   video.add(span.from, 0, 1, hold_start_s);
   for (const Move& move : moves) {
     const bool is_frozen = move.frozen_s > 0;
-    video.add(move.from, is_frozen ? Rational(0) : Rational(speed / move.slower), move.slower,
-              is_frozen ? move.frozen_s : Rational((move.to - move.from) * move.slower / speed));
+    video.add(move.from, is_frozen ? Rational(0) : Rational(speed / move.slowdown), move.slowdown,
+              is_frozen ? move.frozen_s : Rational((move.to - move.from) * move.slowdown / speed));
   }
   Integer frame_count = ceil(video.end_s * rate);
   Rational end = span.to;
@@ -158,7 +159,7 @@ Schedule::Schedule(std::vector<Stretch> stretches, Integer frame_count, Rational
 FrameTime Schedule::at(const Rational& video_s, const Rational& open_s) const {
   const auto next = std::ranges::upper_bound(stretches_, video_s, {}, &Stretch::video_s);
   const Stretch& stretch = *std::prev(next);
-  FrameTime shown{stretch.time + stretch.speed * (video_s - stretch.video_s), stretch.slower};
+  FrameTime shown{stretch.time + stretch.speed * (video_s - stretch.video_s), stretch.slowdown};
   if (open_s > 0) shown.exposure = during(video_s, open_s);
   return shown;
 }

@@ -19,10 +19,10 @@ inline constexpr std::int64_t kMaxFrames = 1'000'000;
 /// At v seconds of video, from `video_s` to the next stretch, simulation time is
 /// time + speed * (v - video_s).
 struct Stretch {
-  Rational video_s;     ///< seconds since the video began
-  Rational time;        ///< simulation time then
-  Rational speed;       ///< per second of video; 0 while it stands still, negative backwards
-  Rational slower = 1;  ///< how many times slower than the scene runs elsewhere
+  Rational video_s;       ///< seconds since the video began
+  Rational time;          ///< simulation time then
+  Rational speed;         ///< per second of video; 0 while it stands still, negative backwards
+  Rational slowdown = 1;  ///< how many times slower than the scene runs elsewhere
 };
 
 /// Simulation time that runs evenly, in either direction or not at all, during a share of an
@@ -36,7 +36,7 @@ struct TimeSlice {
 /// The time that a picture shows.
 struct FrameTime {
   Rational time;
-  Rational slower = 1;  ///< as in Stretch
+  Rational slowdown = 1;  ///< as in Stretch
   /// The times while the shutter is open, in order; empty without a shutter.
   std::vector<TimeSlice> exposure = {};
 };

@@ -135,8 +135,9 @@ class StoryReader {
     for (const TomlTable& table : compare.tables) {
       drafts.emplace_back(common).read(
           path_, checked(table, [](const std::string& key) {
-            return key.starts_with("time.") ? "what is compared has one clock; say it for the part"
-                                            : nullptr;
+            return key.starts_with("time.")
+                       ? "compared runs share one clock; set this key for the part"
+                       : nullptr;
           }));
     }
     return drafts;

@@ -41,7 +41,6 @@ class SheetTextTest : public SheetTest {
         "pdftotext -layout " + (folder_ / "a.pdf") + " " + (folder_ / "a.txt");
     EXPECT_EQ(std::system(command.c_str()), 0);
     // Spaces that are narrower than those between pictures get lost.
-    // Blanks that are narrower than those between pictures get lost.
     std::string text;
     for (const char c : contents("a.txt")) {
       if (c == '=' && text.ends_with('t')) text += ' ';

@@ -125,9 +125,9 @@ class Arrangement {
            text.baseline <= list_.height_px - margin + kRounded_px;
   }
 
-  /// As large as it has to be, or beside something that is.
+  /// Whether a text has the least size of type, or is a script beside a text that has it.
   bool can_be_read(const Box& text) const {
-    const double least = style::kLeastType * sizes_.unit - kRounding;
+    const double least = style::kLeastType * sizes_.short_side - kRounding;
     return text.size_px >= least || std::ranges::any_of(texts_, [&](const Box& base) {
              return base.size_px >= least &&
                     std::abs(base.size_px * kScriptScale - text.size_px) < kRounding &&
@@ -207,7 +207,7 @@ class Arrangements : public testing::Test {
       for (const Rational& time : {Rational(0), Rational(33, 10), Rational(7, 2), end}) {
         const DrawList list = composition.frame({.state = log->state_at(time),
                                                  .time = time,
-                                                 .slower = one.is_slowed && time != 0 ? 1000 : 1,
+                                                 .slowdown = one.is_slowed && time != 0 ? 1000 : 1,
                                                  .gaps = gaps_at(*log, time)});
         const Arrangement arrangement(list, scene.view, fonts_);
         EXPECT_EQ(arrangement.problem(), "") << one.text() << " --at " << time;

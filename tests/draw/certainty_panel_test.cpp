@@ -46,7 +46,7 @@ struct Expected {
     mpfr_mul(fraction.value, pi.value, scale.value, MPFR_RNDN);
     mpfr_get_z(whole.get_mpz_t(), fraction.value, MPFR_RNDD);
     mpfr_div(rays.value, pi.value, theta.value, MPFR_RNDN);
-    mpfr_sub(gap.value, rays.value, fraction.value, MPFR_RNDN);
+    mpfr_sub(excess.value, rays.value, fraction.value, MPFR_RNDN);
     mpfr_sub_z(fraction.value, fraction.value, whole.get_mpz_t(), MPFR_RNDN);
     mpfr_sub_z(rays.value, rays.value, whole.get_mpz_t(), MPFR_RNDN);
     mpfr_mul_z(least.value, theta.value, Integer(whole + 1).get_mpz_t(), MPFR_RNDN);
@@ -70,7 +70,7 @@ struct Expected {
   Integer whole;
   Float fraction;
   Float rays;  ///< less the whole part
-  Float gap;
+  Float excess;
   Float least;
 };
 
@@ -86,8 +86,8 @@ TEST(Certainty, AgreesWithMpfr) {
         EXPECT_NEAR(to_double(value), number, 1e-15 * std::abs(number)) << base << ' ' << digits;
       };
       expect_near(found.fraction(), nearest(expected.fraction));
-      expect_near(found.gap(), nearest(expected.gap));
-      EXPECT_EQ(found.rest() < 0, nearest(expected.rays) > 1) << base << ' ' << digits;
+      expect_near(found.excess(), nearest(expected.excess));
+      EXPECT_EQ(found.distance_to_next() < 0, nearest(expected.rays) > 1) << base << ' ' << digits;
       EXPECT_EQ(found.following(20), Expected::digits_of(expected.fraction, base, 20));
       if (digits > 1) {
         EXPECT_EQ(found.needed(20), Expected::digits_of(expected.least, base, 20));
@@ -97,7 +97,7 @@ TEST(Certainty, AgreesWithMpfr) {
   }
 }
 
-/// Galperin's conjecture, as far as it is false: the count is more than the digits of pi.
+/// Counterexamples to Galperin's conjecture in other bases: counts that exceed the digits of pi.
 TEST(Certainty, KnowsTheCountsThatAreWrong) {
   for (int base = kMinBase; base <= kMaxBase; ++base) {
     for (int digits = 1; digits <= 12; ++digits) {
@@ -180,20 +180,20 @@ TEST_P(CertaintyBases, MarksAreWhereTheyBelong) {
     const Figure figure({{"base", std::to_string(GetParam())}, {"digits", std::to_string(digits)}});
     const Expected expected(GetParam(), digits);
     const double fraction = nearest(expected.fraction);
-    double gap = nearest(expected.gap);
+    double excess = nearest(expected.excess);
     const Rectangle& line = figure.lines.at(0);
     const Rectangle& band = figure.bands.at(0);
     EXPECT_NEAR(band.x, line.x + fraction * line.width, 1e-6) << digits;
-    EXPECT_NEAR(band.width, gap * line.width, 1e-6) << digits;
-    if (gap * 10 > 0.55) {
+    EXPECT_NEAR(band.width, excess * line.width, 1e-6) << digits;
+    if (excess * 10 > 0.55) {
       EXPECT_EQ(figure.lines.size(), 1U) << digits;
       continue;
     }
-    while (gap * 10 <= 0.55) gap *= 10;
+    while (excess * 10 <= 0.55) excess *= 10;
     ASSERT_EQ(figure.lines.size(), 2U) << digits;
     EXPECT_EQ(figure.lines[1].x, line.x);
     EXPECT_NEAR(figure.lines[1].width, line.width, 1e-6);
-    EXPECT_NEAR(figure.bands.at(1).width, gap * line.width, 1e-6) << digits;
+    EXPECT_NEAR(figure.bands.at(1).width, excess * line.width, 1e-6) << digits;
     EXPECT_NEAR(figure.bands[1].x + figure.bands[1].width / 2, line.x + line.width / 2, 1e-6);
   }
 }

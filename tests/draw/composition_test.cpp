@@ -48,10 +48,10 @@ struct Pictures {
   explicit Pictures(const Scene& scene)
       : log(make_collision_log(scene.system)), composition(scene, *log) {}
 
-  DrawList at(const Rational& time, const Rational& slower = 1) const {
+  DrawList at(const Rational& time, const Rational& slowdown = 1) const {
     return composition.frame({.state = log->state_at(time),
                               .time = time,
-                              .slower = slower,
+                              .slowdown = slowdown,
                               .gaps = gaps_at(*log, time)});
   }
 
@@ -218,8 +218,8 @@ TEST(Overlays, ReadOutsSayWhatIs) {
 
 /// While slow motion eases in, in whole numbers that need no more room than those of the windows.
 TEST(Overlays, PassingFactorsAreRounded) {
-  const auto label = [](const Pictures& pictures, const Rational& slower) -> std::string {
-    for (const Box& box : texts_of(pictures.at(0, slower))) {
+  const auto label = [](const Pictures& pictures, const Rational& slowdown) -> std::string {
+    for (const Box& box : texts_of(pictures.at(0, slowdown))) {
       if (box.what.ends_with("er")) return box.what;
     }
     return "";

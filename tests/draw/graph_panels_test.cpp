@@ -118,9 +118,11 @@ TEST(CountCurve, TheTurnIsEnlargedUntilStepsAreSeen) {
   for (int digits = 2; digits <= 20; ++digits) {
     const auto log = make_collision_log(article_system(digits));
     const Integer total = log->size();
-    const Enlargement enlargement{
-        .whole = {0, 8}, .share = Rational(1, 3), .most_steps = 12, .counts_in_room = total / 2};
-    const auto part = enlarged_turn(*log, enlargement);
+    const InsetLimits limits{.span = {0, 8},
+                             .width_share = Rational(1, 3),
+                             .most_steps = 12,
+                             .counts_in_height = total / 2};
+    const auto part = enlarged_turn(*log, limits);
     ASSERT_TRUE(part) << digits;
     const auto& [span, time_factor, count_factor, low, high] = *part;
     EXPECT_EQ((span.from + span.to) / 2, *turn_of(log->system()));
@@ -129,8 +131,8 @@ TEST(CountCurve, TheTurnIsEnlargedUntilStepsAreSeen) {
     EXPECT_EQ(log->state_at(span.to).count, high);
     EXPECT_GE(high - low, 2) << digits;
     EXPECT_LE(high - low, 12) << digits;
-    EXPECT_LE((high - low) * count_factor.value(), enlargement.counts_in_room);
-    EXPECT_GT((high - low) * count_factor.next().value(), enlargement.counts_in_room);
+    EXPECT_LE((high - low) * count_factor.value(), limits.counts_in_height);
+    EXPECT_GT((high - low) * count_factor.next().value(), limits.counts_in_height);
     // Each step is there, and at its time.
     const auto points = count_curve(*log, span, 200);
     Integer steps = 0;
@@ -153,7 +155,7 @@ TEST(CountCurve, NothingIsEnlargedWithoutNeed) {
   BlockSystem corner = article_system(3);
   corner.blue.position = 4;  // touches red
   corner.blue.velocity = corner.red.velocity;
-  const Enlargement all{{0, 8}, Rational(1, 3), 12, 100};
+  const InsetLimits all{{0, 8}, Rational(1, 3), 12, 100};
   EXPECT_FALSE(enlarged_turn(*make_collision_log(corner), all)) << "all happen at once";
 }
 
@@ -234,18 +236,18 @@ TEST(GraphPanels, SayWhatIsTrue) {
 TEST(CornerZoom, IsContinuousAndGrowsAsTheGapShrinks) {
   const CornerZoom zoom(1e-19);
   double last = 1;
-  EXPECT_EQ(zoom.of(1), 1);
+  EXPECT_EQ(zoom.factor_for(1), 1);
   for (double share = 1; share > 1e-19; share /= 1.0005) {
-    const double now = zoom.of(share);
+    const double now = zoom.factor_for(share);
     EXPECT_GE(now, last);
     EXPECT_LE(now, 1.02 * last) << share;
     EXPECT_LE(now * share, 1) << "out of the picture at " << share;
     EXPECT_GE(now * share, 0.07) << "hardly seen at " << share;
     last = now;
   }
-  EXPECT_EQ(zoom.of(0.5), 1);
-  EXPECT_EQ(zoom.of(0.05), 10);
-  EXPECT_EQ(zoom.of(5e-8), 1e7);
+  EXPECT_EQ(zoom.factor_for(0.5), 1);
+  EXPECT_EQ(zoom.factor_for(0.05), 10);
+  EXPECT_EQ(zoom.factor_for(5e-8), 1e7);
   EXPECT_EQ(*zoom.exponent_of(1e7), 7U);
   EXPECT_FALSE(zoom.exponent_of(2e7));
 }
@@ -263,7 +265,7 @@ TEST(CornerPath, HoldsAllCollisionsAtEveryMagnification) {
   for (const int digits : {1, 2, 3, 4}) {
     const auto log = make_collision_log(article_system(digits));
     const CornerPath path(*log, {0, 8}, 200);
-    for (double window = path.most(); window > path.least(); window /= 3.7) {
+    for (double window = path.greatest_y2(); window > path.least_y2(); window /= 3.7) {
       const ShownPath shown = path.shown({.to = window, .least_apart = window / 100});
       const Integer seen = log->state_at(8).count;
       for (Integer k = 1; k <= seen; k += digits < 4 ? 1 : 13) {
@@ -288,8 +290,8 @@ TEST(CornerPath, HoldsAllCollisionsAtEveryMagnification) {
 TEST(CornerPath, CostsNoMoreForMoreCollisions) {
   const auto log = make_collision_log(article_system(20));
   const CornerPath path(*log, {0, 8}, 200);
-  EXPECT_LT(path.least(), 1e-18);
-  for (double window = path.most(); window > path.least(); window /= 10) {
+  EXPECT_LT(path.least_y2(), 1e-18);
+  for (double window = path.greatest_y2(); window > path.least_y2(); window /= 10) {
     std::size_t points = 0;
     for (const auto& line : path.shown({window, window / 200}).lines) points += line.size();
     EXPECT_LT(points, 300U) << window;

@@ -49,10 +49,10 @@ TEST(HitMarks, AreWhereTheLogHasThem) {
     SCOPED_TRACE(digits);
     const Frames frames(lecture(digits));
     const CollisionLog& log = frames.log();
-    const Schedule clock = make_schedule(frames.scene(), log);
+    const Schedule schedule = make_schedule(frames.scene(), log);
     int arcs_seen = 0;
-    for (std::int64_t number = 0; number < clock.frame_count().get_si(); ++number) {
-      const FrameState state = frames.film_state(clock, number);
+    for (std::int64_t number = 0; number < schedule.frame_count().get_si(); ++number) {
+      const FrameState state = frames.film_state(schedule, number);
       if (state.hits_per_s > kMaxHitsPerSecond) continue;
       const DrawList frame = frames.of(state);
       const auto items = items_of<PathItem>(frame.items, ItemId::hits);
@@ -142,8 +142,8 @@ TEST(HitMarks, AreLeftOutWhereTheyAreNotWanted) {
       EXPECT_TRUE(items_of<PathItem>(seen->list.items, ItemId::hits).empty());
     }
     // Hits cost time and are found out only where they are shown.
-    const Schedule clock = make_schedule(frames.scene(), frames.log());
-    EXPECT_EQ(frames.film_state(clock, 60).video_s, 0);
+    const Schedule schedule = make_schedule(frames.scene(), frames.log());
+    EXPECT_EQ(frames.film_state(schedule, 60).video_s, 0);
   }
 }
 
@@ -195,14 +195,14 @@ TEST(Loupe, ShowsTheTurnHappening) {
     // No double has the time of the turn.
     settings.emplace_back("red.position", "16/3");
     const Frames frames(settings);
-    const Schedule clock = make_schedule(frames.scene(), frames.log());
+    const Schedule schedule = make_schedule(frames.scene(), frames.log());
     double low = 1;
     double high = 0;
     double red_low = 1e9;
     double red_high = 0;
     int arcs = 0;
     for (std::int64_t number = 0; number < 60; ++number) {
-      const FrameState state = frames.film_state(clock, number);
+      const FrameState state = frames.film_state(schedule, number);
       const auto seen = loupe_in(frames.of(state));
       ASSERT_TRUE(seen);
       const double room = seen->red.x - seen->face - seen->blue.width;

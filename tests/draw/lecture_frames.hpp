@@ -42,10 +42,10 @@ class Frames {
   DrawList at(const Rational& time) const { return composition_.frame(state({time})); }
   DrawList of(const FrameState& state) const { return composition_.frame(state); }
   /// A frame of the film, with its hits.
-  FrameState film_state(const Schedule& clock, std::int64_t number) const {
+  FrameState film_state(const Schedule& schedule, std::int64_t number) const {
     const Rational video_s = Rational(number) / scene_.view.frame_rate;
-    FrameState shown = state(clock.at(video_s));
-    if (composition_.needs().hits) add_hits(shown, *log_, {clock, video_s});
+    FrameState shown = state(schedule.at(video_s));
+    if (composition_.needs().hits) add_hits(shown, *log_, {schedule, video_s});
     return shown;
   }
 

@@ -179,10 +179,10 @@ TEST(Stage, EverythingScalesWithTheFrame) {
   const Layout a = lay_out(small, 314);
   const Layout b = lay_out(large, 314);
   EXPECT_NEAR(b.scale, 3 * a.scale, 6) << "to even pixels";
-  EXPECT_NEAR(b.line.text_px, 3 * a.line.text_px, 1e-9);
+  EXPECT_NEAR(b.count_line.text_px, 3 * a.count_line.text_px, 1e-9);
   EXPECT_NEAR(b.line_px, 3 * a.line_px, 1.5) << "to whole pixels";
   const auto count_x = [](const Layout& l) {
-    return l.line.label.x + l.line.label_em * l.line.text_px;
+    return l.count_line.label.x + l.count_line.label_em * l.count_line.text_px;
   };
   EXPECT_NEAR(count_x(b), 3 * count_x(a), 1e-9);
 }

@@ -33,7 +33,7 @@ TEST(Trajectory, BandsCoverWhatBlueDoesAndNoMore) {
         for (Integer k = 1; k <= traced.log->size(); k += 1) {
           const Collision collision = traced.log->collision(k);
           if (collision.time.hi < band.from.time || collision.time.hi > band.to.time) continue;
-          const GapPoint at = traced.wedge.gaps_of(collision.blue, collision.red);
+          const Gaps at = traced.wedge.gaps_of(collision.blue, collision.red);
           low = std::min(low, at.y1);
           high = std::max(high, at.y1);
         }
@@ -53,7 +53,7 @@ TEST(Trajectory, CornersAreTheCollisions) {
   }
   for (const Integer& k : {Integer(1), Integer(2), Integer(30), Integer(31)}) {
     const Collision collision = traced.log->collision(k);
-    const GapPoint at = traced.wedge.gaps_of(collision.blue, collision.red);
+    const Gaps at = traced.wedge.gaps_of(collision.blue, collision.red);
     EXPECT_TRUE(std::ranges::any_of(corners, [&](const TimedGaps& corner) {
       return corner.time == collision.time.hi && corner.gaps.y1 == at.y1 && corner.gaps.y2 == at.y2;
     })) << k;

@@ -12,10 +12,10 @@ namespace {
 TEST(Zoom, RisesWithoutJumpsAndNeverBeyondItsRoom) {
   const Zoom zoom(20);
   constexpr double kStep = 1.0001;
-  double before = zoom.of(1e-3);
+  double before = zoom.factor_for(1e-3);
   EXPECT_EQ(before, 1);
   for (double room = 1e-3; room < 1e22; room *= kStep) {
-    const double now = zoom.of(room);
+    const double now = zoom.factor_for(room);
     EXPECT_LE(now, std::max(1.0, room)) << room;
     EXPECT_GE(now, before) << room;
     // Its steepest rise is the fourth power.
@@ -29,11 +29,11 @@ TEST(Zoom, StaysAtPowersOfTen) {
   for (long exponent = 1; exponent <= 20; ++exponent) {
     const double power = std::pow(10.0, double(exponent));
     for (const double share : {1.000001, 2.0, 3.0}) {
-      EXPECT_NEAR(zoom.of(power * share) / power, 1, 1e-14) << exponent;
+      EXPECT_NEAR(zoom.factor_for(power * share) / power, 1, 1e-14) << exponent;
     }
     EXPECT_EQ(zoom.exponent_of(zoom.power(exponent)), exponent);
   }
-  EXPECT_EQ(zoom.of(std::numeric_limits<double>::infinity()), zoom.power(20));
+  EXPECT_EQ(zoom.factor_for(std::numeric_limits<double>::infinity()), zoom.power(20));
 }
 
 TEST(Zoom, ItsLogarithmIsNearTheTrueOneAndHasAnInverse) {

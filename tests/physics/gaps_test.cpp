@@ -13,7 +13,7 @@ namespace piblocks {
 namespace {
 
 constexpr double kBound = 16 * 0x1p-53;
-/// What the oracle knows to more digits than we ask for, with these bits more than it has.
+/// Precision in bits that the oracle adds to its own.
 constexpr std::int64_t kExtraBits = 1024;
 
 struct ExactGaps {

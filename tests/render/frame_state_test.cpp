@@ -35,9 +35,9 @@ Rational exact_time(const CollisionLog& log, const Collision& collision) {
 }
 
 /// All passes of a video, by looking for every collision in every stretch.
-std::vector<Pass> all_passes(const CollisionLog& log, const Schedule& clock) {
-  const auto stretches = clock.stretches();
-  const Rational end_s = Rational(clock.frame_count()) / kFrames_hz;
+std::vector<Pass> all_passes(const CollisionLog& log, const Schedule& schedule) {
+  const auto stretches = schedule.stretches();
+  const Rational end_s = Rational(schedule.frame_count()) / kFrames_hz;
   std::vector<Pass> passes;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     const Stretch& now = stretches[i];
@@ -82,17 +82,17 @@ double surface_of(const BlockSystem& system, const Collision& collision) {
   return collision.red.position - to_double(system.red.width / 2);
 }
 
-FrameState state_of(const CollisionLog& log, const Schedule& clock, std::int64_t frame) {
+FrameState state_of(const CollisionLog& log, const Schedule& schedule, std::int64_t frame) {
   const Rational video_s = Rational(frame) / kFrames_hz;
-  FrameState state = frame_state(log, clock.at(video_s), {});
-  add_hits(state, log, {clock, video_s});
+  FrameState state = frame_state(log, schedule.at(video_s), {});
+  add_hits(state, log, {schedule, video_s});
   return state;
 }
 
 struct Seen {
-  int hits = 0;      ///< frames that list some
-  int crowds = 0;    ///< frames with too many of them
-  int standing = 0;  ///< frames with hits, in which the picture stands still
+  int hits = 0;            ///< frames that list some
+  int crowded_frames = 0;  ///< frames with too many of them
+  int still_frames = 0;    ///< frames with hits, in which the picture stands still
 };
 
 void expect_hits(const FrameState& state, const std::vector<Pass>& wanted,
@@ -114,15 +114,16 @@ void expect_hits(const FrameState& state, const std::vector<Pass>& wanted,
 }
 
 /// Every frame has the hits that are found among all passes.
-Seen expect_true_hits(const CollisionLog& log, const Schedule& clock) {
+Seen expect_true_hits(const CollisionLog& log, const Schedule& schedule) {
   Seen seen;
-  const std::vector<Pass> passes = all_passes(log, clock);
-  for (std::int64_t frame = 0; frame < clock.frame_count().get_si(); ++frame) {
+  const std::vector<Pass> passes = all_passes(log, schedule);
+  for (std::int64_t frame = 0; frame < schedule.frame_count().get_si(); ++frame) {
     SCOPED_TRACE("frame " + std::to_string(frame));
     const Rational video_s = Rational(frame) / kFrames_hz;
-    FrameState state = state_of(log, clock, frame);
+    FrameState state = state_of(log, schedule, frame);
     EXPECT_EQ(state.video_s, to_double(video_s));
-    const bool is_moving = clock.at(video_s).time != clock.at(video_s + Rational(1, 100'000)).time;
+    const bool is_moving =
+        schedule.at(video_s).time != schedule.at(video_s + Rational(1, 100'000)).time;
     const double rate = rate_at(passes, video_s);
     EXPECT_NEAR(state.hits_per_s, is_moving ? rate : 0, 1e-9 * rate);
     if (std::fabs(rate - kMaxHitsPerSecond) < 1e-9) continue;  // rounding decides
@@ -130,11 +131,11 @@ Seen expect_true_hits(const CollisionLog& log, const Schedule& clock) {
     std::vector<Pass> wanted = during(passes, video_s - kSeen_s, video_s);
     std::erase_if(state.hits, [](const Hit& hit) { return hit.age_s >= to_double(kSeen_s); });
     if (rate > kMaxHitsPerSecond) {
-      seen.crowds += wanted.empty() ? 0 : 1;
+      seen.crowded_frames += wanted.empty() ? 0 : 1;
       wanted.clear();
     }
     seen.hits += wanted.empty() ? 0 : 1;
-    seen.standing += wanted.empty() || is_moving ? 0 : 1;
+    seen.still_frames += wanted.empty() || is_moving ? 0 : 1;
     expect_hits(state, wanted, log.system(), video_s);
   }
   return seen;
@@ -156,8 +157,8 @@ TEST(Hits, OfAPlainFilm) {
   for (int digits = 1; digits <= 3; ++digits) {
     const Seen seen = expect_true_hits(film_of(digits));
     EXPECT_GT(seen.hits, 10) << digits;
-    EXPECT_EQ(seen.crowds > 0, digits > 1) << digits;
-    EXPECT_EQ(seen.standing, 0) << digits;
+    EXPECT_EQ(seen.crowded_frames > 0, digits > 1) << digits;
+    EXPECT_EQ(seen.still_frames, 0) << digits;
   }
 }
 
@@ -178,14 +179,15 @@ TEST(Hits, GoOnWhileThePictureStandsStill) {
   scene.pacing.hold_start_s = Rational(1, 3);
   scene.pacing.hold_end_s = 1;
   scene.time.to = Instant::last();
-  // Each of the freezes and the end: 0.15 s but for what has passed before.
-  EXPECT_GT(expect_true_hits(scene).standing, 15);
+  // In each freeze, and at the end, a hit is shown for 0.15 s less its age when the standstill
+  // begins.
+  EXPECT_GT(expect_true_hits(scene).still_frames, 15);
 }
 
 TEST(Hits, GoAwayWhereAFastCrowdFreezes) {
   Scene scene = film_of(3);
   scene.pacing.freezes = {{Instant::turn(), 1}};
-  EXPECT_EQ(expect_true_hits(scene).standing, 0);
+  EXPECT_EQ(expect_true_hits(scene).still_frames, 0);
 }
 
 TEST(Hits, OfALoopAreSeenInBothDirections) {
@@ -211,10 +213,10 @@ TEST(Hits, ThatComeEvenlyDoNotComeAndGo) {
     // Two hits in the time of a passage there and back.
     scene.system.blue.velocity = Rational(tenths) / 10 * 3;
     const auto log = make_collision_log(scene.system);
-    const Schedule clock = make_schedule(scene, *log);
+    const Schedule schedule = make_schedule(scene, *log);
     const double rate = to_double(scene.system.blue.velocity / (2 + scene.system.blue_gap()));
     for (std::int64_t frame = 60; frame < 300; ++frame) {
-      const FrameState state = state_of(*log, clock, frame);
+      const FrameState state = state_of(*log, schedule, frame);
       EXPECT_NEAR(state.hits_per_s, rate, rate < 28 ? 1e-6 : 4) << frame;
       EXPECT_TRUE(rate <= kMaxHitsPerSecond || state.hits.empty()) << frame;
     }
@@ -232,11 +234,11 @@ TEST(Hits, BeforeTimeZero) {
 TEST(Hits, OfARunThatFollowsAnotherClock) {
   const Scene leading = film_of(2);
   const auto leader = make_collision_log(leading.system);
-  const Schedule clock = make_schedule(leading, *leader);
+  const Schedule schedule = make_schedule(leading, *leader);
   BlockSystem other = article_system(1);
   other.red.mass = Rational(1, 2);  // the exact list of events
-  EXPECT_GT(expect_true_hits(*make_collision_log(other), clock).hits, 10);
-  EXPECT_GT(expect_true_hits(*make_collision_log(article_system(2), Engine::events), clock).hits,
+  EXPECT_GT(expect_true_hits(*make_collision_log(other), schedule).hits, 10);
+  EXPECT_GT(expect_true_hits(*make_collision_log(article_system(2), Engine::events), schedule).hits,
             10);
 }
 
@@ -246,18 +248,18 @@ TEST(Hits, OfACornerAreACrowd) {
   scene.system.blue.velocity = scene.system.red.velocity;
   const Seen seen = expect_true_hits(scene);
   EXPECT_EQ(seen.hits, 0);
-  EXPECT_GT(seen.crowds, 0);
+  EXPECT_GT(seen.crowded_frames, 0);
 }
 
 TEST(Hits, OfTwentyDigitsCostNoMore) {
   Scene scene = film_of(20);
   scene.time.to = Rational(7);
   const auto log = make_collision_log(scene.system);
-  const Schedule clock = make_schedule(scene, *log);
+  const Schedule schedule = make_schedule(scene, *log);
   double most = 0;
   for (std::int64_t frame = 0; frame < 420; ++frame) {
-    const FrameState state = state_of(*log, clock, frame);
-    const FrameState before = state_of(*log, clock, std::max<std::int64_t>(0, frame - 15));
+    const FrameState state = state_of(*log, schedule, frame);
+    const FrameState before = state_of(*log, schedule, std::max<std::int64_t>(0, frame - 15));
     const Integer passed = state.state.count - before.state.count;
     if (passed >= 8) {
       EXPECT_EQ(state.hits_per_s, Integer(4 * passed).get_d());
@@ -298,16 +300,16 @@ TEST(Hits, DoNotDependOnTheOrderOfFrames) {
   Scene scene = film_of(2);
   scene.pacing.loop = true;
   const auto log = make_collision_log(scene.system);
-  const Schedule clock = make_schedule(scene, *log);
+  const Schedule schedule = make_schedule(scene, *log);
   const auto text_of = [&](std::int64_t frame) {
-    const FrameState state = state_of(*log, clock, frame);
+    const FrameState state = state_of(*log, schedule, frame);
     std::string text = std::to_string(state.hits_per_s);
     for (const Hit& hit : state.hits) {
       text += ' ' + hit.index.get_str() + ' ' + std::to_string(hit.age_s);
     }
     return text;
   };
-  const std::int64_t count = clock.frame_count().get_si();
+  const std::int64_t count = schedule.frame_count().get_si();
   std::vector<std::string> forwards;
   for (std::int64_t frame = 0; frame < count; ++frame) forwards.push_back(text_of(frame));
   for (std::int64_t frame = count - 1; frame >= 0; --frame) {

@@ -62,7 +62,7 @@ TEST(Ease, FillsTheSpanAndNeverRunsFasterThanWithoutIt) {
       ASSERT_EQ(move.from, i > 0 ? eased[i - 1].to : Rational(0)) << i;
       const bool is_no_faster = std::ranges::any_of(plain, [&](const Move& without) {
         return without.from <= move.from && move.to <= without.to &&
-               without.frozen_s == move.frozen_s && without.slower <= move.slower;
+               without.frozen_s == move.frozen_s && without.slowdown <= move.slowdown;
       });
       ASSERT_TRUE(is_no_faster) << i;
     }
@@ -82,7 +82,7 @@ TEST(Ease, LeavesTheSlowerSideAsItIs) {
     const std::vector<Move> plain = paced(with_ease(scene, 0));
     for (std::size_t i = 0; i < plain.size(); ++i) {
       const auto is_no_faster = [&](std::size_t k) {
-        return k >= plain.size() || is_frozen(plain[k]) || plain[k].slower <= plain[i].slower;
+        return k >= plain.size() || is_frozen(plain[k]) || plain[k].slowdown <= plain[i].slowdown;
       };
       if (!is_no_faster(i - 1) || !is_no_faster(i + 1)) continue;
       const auto same = std::ranges::find_if(eased, [&](const Move& move) {
@@ -90,7 +90,7 @@ TEST(Ease, LeavesTheSlowerSideAsItIs) {
                move.frozen_s == plain[i].frozen_s;
       });
       ASSERT_NE(same, eased.end()) << i;
-      EXPECT_EQ(same->slower, plain[i].slower) << i;
+      EXPECT_EQ(same->slowdown, plain[i].slowdown) << i;
       ++kept;
     }
   }
@@ -110,7 +110,7 @@ TEST(Ease, NoStepIsMoreThanAnEighthOfTheChange) {
       const std::vector<Move> moves = paced(scene);
       const Rational whole = abs(Rational(1 - 1 / parse_rational(factor)));
       for (std::size_t i = 1; i < moves.size(); ++i) {
-        const Rational jump = 1 / moves[i].slower - 1 / moves[i - 1].slower;
+        const Rational jump = 1 / moves[i].slowdown - 1 / moves[i - 1].slowdown;
         EXPECT_LE(abs(jump), whole / 8) << factor << ", " << ease << ": " << i;
       }
     }
@@ -124,16 +124,16 @@ TEST(Ease, TakesItsTimeBesideTheWindow) {
   const Rational ease_s(1, 2);
   const Rational begin_s = 2 - Rational(11, 40);
   EXPECT_EQ(schedule.at(begin_s).time, begin_s);
-  EXPECT_EQ(schedule.at(begin_s - Rational(1, 1000)).slower, 1);
-  EXPECT_GT(schedule.at(begin_s).slower, 1);
+  EXPECT_EQ(schedule.at(begin_s - Rational(1, 1000)).slowdown, 1);
+  EXPECT_GT(schedule.at(begin_s).slowdown, 1);
   EXPECT_EQ(schedule.at(begin_s + ease_s).time, 2);
-  EXPECT_EQ(schedule.at(begin_s + ease_s).slower, 10);
+  EXPECT_EQ(schedule.at(begin_s + ease_s).slowdown, 10);
   const Rational end_s = begin_s + ease_s + 20;
-  EXPECT_EQ(schedule.at(end_s - Rational(1, 1000)).slower, 10);
+  EXPECT_EQ(schedule.at(end_s - Rational(1, 1000)).slowdown, 10);
   EXPECT_EQ(schedule.at(end_s).time, 4);
-  EXPECT_LT(schedule.at(end_s).slower, 10);
+  EXPECT_LT(schedule.at(end_s).slowdown, 10);
   EXPECT_EQ(schedule.at(end_s + ease_s).time, 4 + Rational(11, 40));
-  EXPECT_EQ(schedule.at(end_s + ease_s).slower, 1);
+  EXPECT_EQ(schedule.at(end_s + ease_s).slowdown, 1);
   // The integral of 1 - 0.9 (3u^2 - 2u^3) from 1/2 to 1.
   EXPECT_NEAR(to_double(2 - schedule.at(begin_s + ease_s / 2).time), 0.5 * (0.5 - 0.9 * 0.40625),
               4e-5);
@@ -162,9 +162,9 @@ TEST(Ease, IsMeasuredAtTheSpeedOfTheSceneAndScaledByADuration) {
     const Schedule schedule =
         schedule_of({{"time.to", "10"}, {"time.slow-motion", "4:6:10"}, speed});
     const auto stretches = schedule.stretches();
-    const auto first_step =
-        std::ranges::find_if(stretches, [](const Stretch& stretch) { return stretch.slower != 1; });
-    const auto window = std::ranges::find(stretches, Rational(10), &Stretch::slower);
+    const auto first_step = std::ranges::find_if(
+        stretches, [](const Stretch& stretch) { return stretch.slowdown != 1; });
+    const auto window = std::ranges::find(stretches, Rational(10), &Stretch::slowdown);
     return std::pair<Rational, Rational>(window->video_s - first_step->video_s,
                                          window->time - first_step->time);
   };

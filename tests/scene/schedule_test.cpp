@@ -25,7 +25,7 @@ TEST(Schedule, RunsEvenlyUnlessAskedOtherwise) {
   const Schedule schedule = schedule_of({{"time.from", "1"}, {"time.speed", "1/3"}});
   ASSERT_EQ(schedule.stretches().size(), 1U);
   EXPECT_EQ(schedule.at(Rational(7, 2)).time, 1 + Rational(7, 6));
-  EXPECT_EQ(schedule.at(Rational(7, 2)).slower, 1);
+  EXPECT_EQ(schedule.at(Rational(7, 2)).slowdown, 1);
 }
 
 TEST(Schedule, WindowTakesItsFactorOfTime) {
@@ -36,9 +36,9 @@ TEST(Schedule, WindowTakesItsFactorOfTime) {
   EXPECT_EQ(slow.frame_count() - plain.frame_count(), 2 * 9 * 60);
   EXPECT_EQ(slow.at(2).time, 2);
   EXPECT_EQ(slow.at(12).time, 3);
-  EXPECT_EQ(slow.at(12).slower, 10);
+  EXPECT_EQ(slow.at(12).slowdown, 10);
   EXPECT_EQ(slow.at(22).time, 4);
-  EXPECT_EQ(slow.at(22).slower, 1);
+  EXPECT_EQ(slow.at(22).slowdown, 1);
   EXPECT_EQ(slow.at(23).time, 5);
 }
 
@@ -181,7 +181,7 @@ TEST(Schedule, AutomaticWindowsTellCollisionsApart) {
     // At the turn, where the video stands in the middle of its slowest stretches.
     const Rational turn = *turn_of(scene.system);
     const auto stretches = schedule.stretches();
-    const auto slowest = std::ranges::max_element(stretches, {}, &Stretch::slower);
+    const auto slowest = std::ranges::max_element(stretches, {}, &Stretch::slowdown);
     const Rational turn_s = slowest->video_s + (turn - slowest->time) / slowest->speed;
     const Integer in_a_second = log->state_at(schedule.at(turn_s + Rational(1, 2)).time).count -
                                 log->state_at(schedule.at(turn_s - Rational(1, 2)).time).count;
@@ -207,7 +207,7 @@ TEST(Schedule, AutomaticWindowsDoNotDependOnUnits) {
 TEST(Schedule, AutomaticWindowsStopWhereNothingMovesAnyMore) {
   const Schedule schedule = schedule_of({{"time.slow-motion", "auto"}, {"time.ease", "0"}}, 20);
   const auto stretches = schedule.stretches();
-  EXPECT_EQ(std::ranges::max_element(stretches, {}, &Stretch::slower)->slower, 1000);
+  EXPECT_EQ(std::ranges::max_element(stretches, {}, &Stretch::slowdown)->slowdown, 1000);
   EXPECT_EQ(stretches.size(), 7U);
 }
 
@@ -328,7 +328,7 @@ TEST(Schedule, RefusesWhatCannotBe) {
   EXPECT_EQ(problem({{"time.slow-motion", "2:4:3,3:5:3"}}),
             "time.slow-motion: windows overlap at 3; let one begin where the other ends");
   EXPECT_EQ(problem({{"time.slow-motion", "4:3:2"}}),
-            "time.slow-motion: the window from 4 to 3 ends before it begins");
+            "time.slow-motion: the window from 4 to 3 must end after it begins");
   EXPECT_EQ(problem({{"time.slow-motion", "auto,3:4:2"}}),
             "time.slow-motion: windows overlap at 16/5; let one begin where the other ends");
   EXPECT_EQ(problem({{"time.freeze", "turn:1"}, {"time.to", "3"}}, 0),

@@ -152,7 +152,7 @@ TEST_F(StoryboardFileTest, EveryProblemNamesItsLine) {
       {"[[part]]\ncompare = [{}]", ":2: compare: must be a list of 2 to 4 tables"},
       {"[[part]]\ncompare = [{}, {}, {}, {}, {}]", ":2: compare: must be a list of 2 to 4"},
       {"[[part]]\ncompare = [{}, 3]", ":2: compare: must be a list of 2 to 4 tables"},
-      {"[[part]]\ncompare = [{}, { time.speed = 2 }]", ":2: time.speed: what is compared has one"},
+      {"[[part]]\ncompare = [{}, { time.speed = 2 }]", ":2: time.speed: compared runs share one"},
       {"[[part]]\ncompare = [{}, { view.size = 2 }]", ":2: view.size: holds for the whole film"},
       {"[[part]]\ncompare = [{}, { fade = 2 }]", ":2: fade: unknown key"},
       {"[part]\ndigits = 2", ":2: part: is written [[part]]"},

@@ -75,7 +75,7 @@ class ArticleStage {
   void add_line(const Integer& count, std::vector<DrawItem>& items) const {
     const std::string text = count_text(count, base_);
     const std::size_t lit = lit_length(text, lit_digits_);
-    const CountLine& line = layout_.line;
+    const CountLine& line = layout_.count_line;
     Point label = line.label;
     double text_px = line.text_px;
     const double count_em = widths_.width_em(text);
@@ -108,26 +108,26 @@ class ArticleStage {
 };
 
 /// What overlays need in addition, in pixels.
-struct MoreRoom {
+struct ExtraRoom {
   double above = 0;  ///< between label and view
   double below = 0;  ///< the view
 };
 
 /// Label and view form one group, centred in the area.
 Layout article_layout(const Scene& scene, const CountLine& count_line, const Rectangle& area,
-                      const MoreRoom& more) {
+                      const ExtraRoom& extra) {
   const View& view = scene.view;
   const double margin = article_style::kMargin * article_style::short_measure(area);
   Layout layout;
-  layout.line = count_line;
-  CountLine& line = layout.line;
-  layout.frame_px = view.width_px;
-  layout.right_px = view.width_px - Sizes(view).margin;
+  layout.count_line = count_line;
+  CountLine& line = layout.count_line;
+  layout.visible_right_px = view.width_px;
+  layout.content_right_px = view.width_px - Sizes(view).margin;
   layout.line_px =
       std::max(1.0, std::round(article_style::kLine * article_style::short_measure(whole(view))));
-  const double gap = kLabelGap * line.text_px + more.above;
+  const double gap = kLabelGap * line.text_px + extra.above;
   const double label_height = Font::kCapHeight_em * line.text_px + gap;
-  const double inner_height = area.height - 2 * margin - label_height - more.below;
+  const double inner_height = area.height - 2 * margin - label_height - extra.below;
   layout.scale =
       std::min((area.width - 2 * margin) / length(view.x), inner_height / length(view.y));
   const bool rounded = layout.scale >= kMinRounded_px;
@@ -136,7 +136,7 @@ Layout article_layout(const Scene& scene, const CountLine& count_line, const Rec
   check_resolution(view, layout.scale);
   const double view_width = layout.scale * length(view.x);
   const double view_height = layout.scale * length(view.y);
-  const double top = area.y + (area.height - view_height - label_height - more.below) / 2;
+  const double top = area.y + (area.height - view_height - label_height - extra.below) / 2;
   layout.origin = {
       to_pixel(area.x + (area.width - view_width) / 2 - to_double(view.x.low) * layout.scale),
       to_pixel(top + label_height + to_double(view.y.high) * layout.scale)};
@@ -151,7 +151,7 @@ Layout article_layout(const Scene& scene, const CountLine& count_line, const Rec
   layout.red = shape_of(scene.system.red);
   const double half = std::max(layout.blue.width, layout.red.width) / 2;
   layout.floor_px = layout.at(0, -half).y;
-  layout.foot_px = layout.at(0, to_double(view.y.low)).y;
+  layout.wall_bottom_px = layout.at(0, to_double(view.y.low)).y;
   layout.above_px = (to_double(view.y.high) - half) * layout.scale + gap - line.text_px / 2;
   layout.below_px = area.y + area.height - layout.floor_px;
   return layout;
@@ -171,18 +171,18 @@ Layout lay_out_article(const Scene& scene, const Integer& longest_count, const R
   line.text_px = std::min(text_size(area), line.room_px / line_em);
   line.label.x = area.x + (area.width - line_em * line.text_px) / 2;
 
-  // The label gives way to what is above the blocks. That may make the blocks smaller, which may
-  // take a mass from its block.
+  // The label makes room for what is above the blocks. That may make the blocks smaller, and then a
+  // mass may no longer fit on its block.
   constexpr int kPasses = 4;
-  MoreRoom more;
-  Layout layout = article_layout(scene, line, area, more);
+  ExtraRoom extra;
+  Layout layout = article_layout(scene, line, area, extra);
   for (int pass = 0; pass < kPasses; ++pass) {
     const double above = room_above_px(scene, layout, font) - layout.above_px;
     const double below = room_below_px(scene) - layout.below_px;
-    more.above += std::max(0.0, above);
-    more.below += std::max(0.0, below);
-    if (std::max(above, below) <= 0 || more.above + more.below > kMostOfArea * area.height) break;
-    layout = article_layout(scene, line, area, more);
+    extra.above += std::max(0.0, above);
+    extra.below += std::max(0.0, below);
+    if (std::max(above, below) <= 0 || extra.above + extra.below > kMostOfArea * area.height) break;
+    layout = article_layout(scene, line, area, extra);
   }
   return layout;
 }

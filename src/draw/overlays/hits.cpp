@@ -46,51 +46,53 @@ std::vector<Point> directions_of(double from, double to) {
 
 }  // namespace
 
-HitMarks::HitMarks(const DrawingContext& context, const BlockShapes& shapes, double most_reach_px)
-    : reach_px_(std::min(most_reach_px, style::kHitReach * context.sizes.unit)),
-      glow_px_(std::min(kGlowReach * reach_px_, shapes.blue_width_px / 2)),
+HitMarks::HitMarks(const DrawingContext& context, const BlockDimensions& dimensions,
+                   double most_reach_px)
+    : reach_px_(std::min(most_reach_px, style::kHitReach * context.sizes.short_side)),
+      glow_px_(std::min(kGlowReach * reach_px_, dimensions.blue_width_px / 2)),
       line_px_(kMarkLine * context.sizes.wall_line) {
   constexpr double kUp = std::numbers::pi / 2;
   const Palette& palette = context.palette;
-  wall_ = {shapes.floor_px - shapes.blue_px, directions_of(0, kUp), palette.blue.line};
-  const bool is_left_free = shapes.blue_px <= shapes.red_px;
-  const bool is_right_free = shapes.red_px <= shapes.blue_px;
-  blocks_ = {shapes.floor_px - std::min(shapes.blue_px, shapes.red_px),
+  wall_ = {dimensions.floor_px - dimensions.blue_height_px, directions_of(0, kUp),
+           palette.blue.line};
+  const bool is_left_free = dimensions.blue_height_px <= dimensions.red_height_px;
+  const bool is_right_free = dimensions.red_height_px <= dimensions.blue_height_px;
+  blocks_ = {dimensions.floor_px - std::min(dimensions.blue_height_px, dimensions.red_height_px),
              directions_of(is_right_free ? 0 : kUp, is_left_free ? 2 * kUp : kUp),
              palette.red.line};
 }
 
 void HitMarks::add_arc(ItemId id, const Hit& hit, double x_px, std::vector<DrawItem>& items) const {
-  const Corner& corner = corner_of(hit.kind);
-  const std::span directions(corner.directions);
+  const MarkSector& sector = sector_of(hit.kind);
+  const std::span directions(sector.directions);
   const double left = 1 - hit.age_s / kHitLife_s;  // of its life
   const double radius = reach_px_ * (1 - (1 - kFirstRadius) * left * left);
   std::vector<Point> arc;
   for (const Point& direction : directions.subspan(1, kDirections - 2)) {
-    arc.push_back({x_px + radius * direction.x, corner.y_px + radius * direction.y});
+    arc.push_back({x_px + radius * direction.x, sector.y_px + radius * direction.y});
   }
   items.emplace_back(PathItem{id, std::move(arc), false, std::nullopt,
-                              Stroke{faded(corner.color, left), line_px_}});
+                              Stroke{faded(sector.color, left), line_px_}});
 }
 
-PathItem HitMarks::sector(ItemId id, const Corner& corner, double x_px, double radius_px) {
-  std::vector<Point> outline = {{x_px, corner.y_px}};
-  for (const Point& direction : corner.directions) {
-    outline.push_back({x_px + radius_px * direction.x, corner.y_px + radius_px * direction.y});
+PathItem HitMarks::filled(ItemId id, const MarkSector& sector, double x_px, double radius_px) {
+  std::vector<Point> outline = {{x_px, sector.y_px}};
+  for (const Point& direction : sector.directions) {
+    outline.push_back({x_px + radius_px * direction.x, sector.y_px + radius_px * direction.y});
   }
-  return {id, std::move(outline), true, corner.color, std::nullopt};
+  return {id, std::move(outline), true, sector.color, std::nullopt};
 }
 
-void HitMarks::add_glow(double hits_per_s, const ContactColumns& columns,
+void HitMarks::add_glow(double hits_per_s, const ContactPositions& contacts,
                         std::vector<DrawItem>& items) const {
   if (hits_per_s <= kMaxHitsPerSecond) return;
   const double alpha = kGlowAlpha * glow_strength(hits_per_s);
   std::size_t n = 0;
-  for (const auto& [corner, x_px] :
-       {std::pair(&wall_, columns.wall_px), {&blocks_, columns.red_px}}) {
+  for (const auto& [sector, x_px] :
+       {std::pair(&wall_, contacts.wall_x_px), {&blocks_, contacts.blocks_x_px}}) {
     for (int disk = 1; disk <= kGlowDisks; ++disk) {
-      PathItem item = sector(nth(ItemId::hits, n++), *corner, x_px, glow_px_ * disk / kGlowDisks);
-      item.fill = faded(corner->color, alpha);
+      PathItem item = filled(nth(ItemId::hits, n++), *sector, x_px, glow_px_ * disk / kGlowDisks);
+      item.fill = faded(sector->color, alpha);
       items.emplace_back(std::move(item));
     }
   }
@@ -108,11 +110,11 @@ Drawable hit_marks(const DrawingContext& context) {
                        {layout.floor_px, layout.blue.height_px, layout.red.height_px,
                         layout.blue.width * layout.scale},
                        has_mass ? step_px : HUGE_VAL);
-  const double wall_px = layout.at(to_double(scene.system.wall_face), 0).x;
+  const double wall_x_px = layout.at(to_double(scene.system.wall_face), 0).x;
   return [=, layout = context.layout](const FrameState& shown, std::vector<DrawItem>& items) {
-    const double red_px = layout.at(layout.red, shown.state.red.position).x;
-    const auto column_of = [&](const Hit& hit) { return layout.at(hit.contact, 0).x; };
-    marks.add(shown, {wall_px, red_px}, column_of, items);
+    const double blocks_x_px = layout.at(layout.red, shown.state.red.position).x;
+    const auto x_of = [&](const Hit& hit) { return layout.at(hit.contact, 0).x; };
+    marks.add(shown, {wall_x_px, blocks_x_px}, x_of, items);
   };
 }
 

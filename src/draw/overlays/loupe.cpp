@@ -24,7 +24,7 @@ constexpr long kMostPower = 300;
 /// Where the lines to the inset begin, in parts of red's width.
 constexpr double kHiddenInRed = 0.8;
 /// Heights of the blocks in the inset differ by this factor at most.
-constexpr double kMostHeights = 1.6;
+constexpr double kMaxInsetHeightRatio = 1.6;
 
 std::optional<Loupe> loupe_of(const Scene& scene) {
   Loupe loupe = scene.show.loupe.value_or(Loupe{.is_on = is_lecture(scene.view.theme)});
@@ -55,7 +55,7 @@ bool may_show_loupe(const DrawingContext& context) {
   if (!shows_wall(context.scene) || !loupe_of(context.scene)) return false;
   // The stage's scale is known only once there is a stage. It is not larger.
   const double scale = view.width_px / to_double(view.x.high - context.scene.system.wall_face);
-  return least_gap(context) * scale < style::kLoupeFrom * context.sizes.unit;
+  return least_gap(context) * scale < style::kMaxLoupeGap * context.sizes.short_side;
 }
 
 std::shared_ptr<const LoupeInset> LoupeInset::make(const DrawingContext& context,
@@ -68,15 +68,15 @@ std::shared_ptr<const LoupeInset> LoupeInset::make(const DrawingContext& context
   if (!shows_wall(scene)) {
     if (!is_asked_for) return nullptr;
     throw UsageError(
-        "show.loupe: it enlarges the gap at the wall, which the view does not show; let view.x "
-        "reach from below wall.face, or leave the loupe out");
+        "show.loupe: the loupe enlarges the gap at the wall, and the view does not show the wall; "
+        "let view.x begin at or below wall.face and end above it, or leave the loupe out");
   }
-  const bool is_small = gap_px < style::kLoupeFrom * context.sizes.unit;
+  const bool is_small = gap_px < style::kMaxLoupeGap * context.sizes.short_side;
   if (!is_asked_for && !is_small) return nullptr;
   auto inset = std::shared_ptr<LoupeInset>(new LoupeInset(context, *loupe, gap_px));
   const std::optional<LoupePlace> place = find_loupe_place(context, plan, inset->widest_zoom_px_);
   if (place) {
-    inset->settle(context, *place);
+    inset->place(context, *place);
     return inset;
   }
   if (!is_asked_for) return nullptr;
@@ -95,7 +95,7 @@ LoupeInset::LoupeInset(const DrawingContext& context, const Loupe& loupe, double
       line_px_(context.layout.line_px),
       background_(background_of(context.scene.view)),
       zoom_([&] {
-        double most = std::floor(std::log10(style::kLoupe * sizes_.unit / least_gap_px));
+        double most = std::floor(std::log10(style::kLoupeWidth * sizes_.short_side / least_gap_px));
         if (loupe.window) most = std::max(most, std::log10(to_double(loupe.window->zoom)) + 1);
         return static_cast<long>(std::clamp<double>(most, 1, kMostPower));
       }()),
@@ -121,38 +121,38 @@ LoupeInset::LoupeInset(const DrawingContext& context, const Loupe& loupe, double
   if (has_slow_motion(context.scene.pacing)) {
     SlowMotionLabel label = slow_motion_label(context);
     const double width = context.font.width_em(label.widest) * sizes_.text;
-    if (width <= (style::kLoupe - 2 * loupe_style::kInside) * sizes_.unit)
+    if (width <= (style::kLoupeWidth - 2 * loupe_style::kInside) * sizes_.short_side)
       slow_text_ = std::move(label.text);
   }
 }
 
-void LoupeInset::settle(const DrawingContext& context, const LoupePlace& place) {
-  const double unit = sizes_.unit;
+void LoupeInset::place(const DrawingContext& context, const LoupePlace& found) {
+  const double short_side = sizes_.short_side;
   const Layout& layout = context.layout;
-  bounds_ = place.bounds;
-  face_px_ = std::round(sizes_.grid_line + (loupe_style::kInside + style::kHatch) * unit);
-  blue_px_ = std::round(kBlueWidth * unit);
-  room_px_ = bounds_.width - face_px_ - blue_px_ - kLeastRed * unit;
-  const double floor_px = std::round(bounds_.height - loupe_style::kBelowFloor * unit);
+  bounds_ = found.bounds;
+  face_px_ = std::round(sizes_.grid_line + (loupe_style::kInside + style::kWallWidth) * short_side);
+  blue_width_px_ = std::round(kBlueWidth * short_side);
+  room_px_ = bounds_.width - face_px_ - blue_width_px_ - kLeastRed * short_side;
+  const double floor_px = std::round(bounds_.height - loupe_style::kBelowFloor * short_side);
   const double room =
-      floor_px - place.rows_px - (loupe_style::kInside + loupe_style::kAboveBlocks) * unit;
-  const double taller = std::round(std::min(kBlocksHeight * unit, room));
-  const double ratio =
-      std::clamp(layout.red.height_px / layout.blue.height_px, 1 / kMostHeights, kMostHeights);
-  shapes_ = {floor_px, std::round(taller / std::max(1.0, ratio)),
-             std::round(taller * std::min(1.0, ratio)), HUGE_VAL};
+      floor_px - found.rows_px - (loupe_style::kInside + loupe_style::kAboveBlocks) * short_side;
+  const double taller = std::round(std::min(kBlocksHeight * short_side, room));
+  const double ratio = std::clamp(layout.red.height_px / layout.blue.height_px,
+                                  1 / kMaxInsetHeightRatio, kMaxInsetHeightRatio);
+  dimensions_ = {floor_px, std::round(taller / std::max(1.0, ratio)),
+                 std::round(taller * std::min(1.0, ratio)), HUGE_VAL};
   if (context.scene.show.hits && context.scene.view.theme != Theme::article) {
-    marks_.emplace(context, shapes_, HUGE_VAL);
+    marks_.emplace(context, dimensions_, HUGE_VAL);
   }
 
-  const double baseline = loupe_style::kInside * unit + sizes_.text;
+  const double baseline = loupe_style::kInside * short_side + sizes_.text;
   slow_baseline_px_ = baseline;
-  if (place.is_zoom_beside) {
-    zoom_right_ = {bounds_.x - loupe_style::kOutside * unit,
+  if (found.is_zoom_beside) {
+    zoom_right_ = {bounds_.x - loupe_style::kOutside * short_side,
                    bounds_.y + bounds_.height / 2 + kHalfFigure_em * sizes_.mass};
   } else {
     const double row = slow_text_ ? loupe_style::kRow_em * sizes_.text : 0;
-    zoom_right_ = {bounds_.x + bounds_.width - loupe_style::kInside * unit,
+    zoom_right_ = {bounds_.x + bounds_.width - loupe_style::kInside * short_side,
                    bounds_.y + baseline + row};
   }
   place_lines(context);
@@ -172,7 +172,7 @@ void LoupeInset::place_lines(const DrawingContext& context) {
                    layout.floor_px - layout.blue.height_px / 2};
   // They begin behind red, or they would be seen between the blocks.
   const double hidden_px =
-      blue_px + std::min(style::kLoupeFrom * loupe_style::kFullyShown * sizes_.unit,
+      blue_px + std::min(style::kMaxLoupeGap * loupe_style::kFullyShown * sizes_.short_side,
                          kHiddenInRed * layout.red.width * layout.scale);
   const auto line_to = [&](const Point& to) {
     const double way = is_above ? 0 : hidden_px / (to.x - from.x);
@@ -190,11 +190,12 @@ void LoupeInset::place_lines(const DrawingContext& context) {
 
 void LoupeInset::place_scenery(const DrawingContext& context) {
   const double line = sizes_.wall_line;
-  const double top = shapes_.floor_px - std::max(shapes_.blue_px, shapes_.red_px) -
-                     loupe_style::kAboveBlocks / 2 * sizes_.unit;
-  std::vector<DrawItem> items = wall_items({face_px_, top, shapes_.floor_px + line}, context);
+  const double top = dimensions_.floor_px -
+                     std::max(dimensions_.blue_height_px, dimensions_.red_height_px) -
+                     loupe_style::kAboveBlocks / 2 * sizes_.short_side;
+  std::vector<DrawItem> items = wall_items({face_px_, top, dimensions_.floor_px + line}, context);
   items.emplace_back(RectangleItem{nth(ItemId::wall, items.size()),
-                                   {face_px_ - line, shapes_.floor_px, bounds_.width, line},
+                                   {face_px_ - line, dimensions_.floor_px, bounds_.width, line},
                                    palette_.wall,
                                    std::nullopt});
   scenery_ = plate_of(ItemId::wall, {0, 0, bounds_.width, bounds_.height}, std::move(items));

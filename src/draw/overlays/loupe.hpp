@@ -53,7 +53,7 @@ class LoupeInset {
 
   /// All that does not depend on the place. @param least_gap_px  that is shown
   LoupeInset(const DrawingContext& context, const Loupe& loupe, double least_gap_px);
-  void settle(const DrawingContext& context, const LoupePlace& place);
+  void place(const DrawingContext& context, const LoupePlace& found);
   void place_lines(const DrawingContext& context);
   void place_scenery(const DrawingContext& context);
 
@@ -82,10 +82,10 @@ class LoupeInset {
   PlateItem full_lines_;
   // In the inset.
   double slow_baseline_px_ = 0;
-  double face_px_ = 0;  ///< of the wall
-  double blue_px_ = 0;  ///< width of blue, which is cut
-  double room_px_ = 0;  ///< for the gap between wall and red, less blue
-  BlockShapes shapes_;
+  double face_px_ = 0;        ///< of the wall
+  double blue_width_px_ = 0;  ///< blue is cut to this
+  double room_px_ = 0;        ///< for the gap between wall and red, less blue
+  BlockDimensions dimensions_;
   std::optional<HitMarks> marks_;
   PlateItem scenery_;
 };

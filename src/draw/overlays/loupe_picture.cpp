@@ -15,8 +15,8 @@ constexpr double kCutWidth = 0.016;
 constexpr double kCutSlant = 0.02;
 /// The share of its window in which the loupe fades in, and out.
 constexpr double kWindowFade = 0.1;
-/// From so many hits a frame on, blue seems to be at any place between wall and red, and what is
-/// seen of it most is the way that it sweeps. Below a quarter of this only the block is seen.
+/// At this many hits a frame or more, blue may be anywhere between wall and red, and the loupe
+/// shows mostly the interval that blue sweeps. Below a quarter of this it shows only the block.
 constexpr double kSweepHits = 1;
 constexpr double kSweepAlpha = 0.5;
 constexpr double kFastBlue = 0.35;  ///< alpha of blue then
@@ -24,7 +24,7 @@ constexpr double kFastBlue = 0.35;  ///< alpha of blue then
 }  // namespace
 
 double LoupeInset::opacity(const FrameState& shown) const {
-  const double from_px = style::kLoupeFrom * sizes_.unit;
+  const double from_px = style::kMaxLoupeGap * sizes_.short_side;
   const double gap_px = shown.gaps.y2 * scale_;
   double opacity = (from_px - gap_px) / (from_px * (1 - loupe_style::kFullyShown));
   if (window_) {
@@ -37,7 +37,7 @@ double LoupeInset::opacity(const FrameState& shown) const {
 
 double LoupeInset::zoom(double gap) const {
   const double room = room_px_ / (gap * scale_);
-  return window_ ? std::max(1.0, std::min(window_->zoom, room)) : zoom_.of(room);
+  return window_ ? std::max(1.0, std::min(window_->zoom, room)) : zoom_.factor_for(room);
 }
 
 void LoupeInset::add_lines(const FrameState& shown, std::vector<DrawItem>& items) const {
@@ -74,18 +74,18 @@ DrawList LoupeInset::picture(const FrameState& shown, double zoomed) const {
   std::string slow = slow_text_ ? slow_text_(shown) : std::string();
   if (!slow.empty()) {
     list.items.emplace_back(TextItem{ItemId::label,
-                                     {loupe_style::kInside * sizes_.unit, slow_baseline_px_},
+                                     {loupe_style::kInside * sizes_.short_side, slow_baseline_px_},
                                      std::move(slow),
                                      sizes_.text,
                                      palette_.accent,
                                      face_});
   }
   if (marks_) {
-    const auto red_face = [&](double gap) { return face_px_ + gap * px_per_unit + blue_px_; };
-    const auto column_of = [&](const Hit& hit) {
+    const auto red_face = [&](double gap) { return face_px_ + gap * px_per_unit + blue_width_px_; };
+    const auto x_of = [&](const Hit& hit) {
       return hit.kind == CollisionKind::wall ? face_px_ : red_face(hit.gaps.y2);
     };
-    marks_->add(shown, {face_px_, red_face(shown.gaps.y2)}, column_of, list.items);
+    marks_->add(shown, {face_px_, red_face(shown.gaps.y2)}, x_of, list.items);
   }
   list.items.emplace_back(RectangleItem{ItemId::loupe,
                                         {0, 0, bounds_.width, bounds_.height},
@@ -96,38 +96,40 @@ DrawList LoupeInset::picture(const FrameState& shown, double zoomed) const {
 
 void LoupeInset::add_blocks(const FrameState& shown, double px_per_unit,
                             std::vector<DrawItem>& items) const {
-  const double floor_px = shapes_.floor_px;
-  const double red_x = face_px_ + shown.gaps.y2 * px_per_unit + blue_px_;
+  const double floor_px = dimensions_.floor_px;
+  const double red_x = face_px_ + shown.gaps.y2 * px_per_unit + blue_width_px_;
   // Red's far side is outside.
   const double red_width = std::max(0.0, bounds_.width - red_x) + 2 * line_px_;
-  add_rectangles(ItemId::red_block,
-                 block_at({red_x, floor_px - shapes_.red_px, red_width, shapes_.red_px},
-                          palette_.red, line_px_),
-                 items);
+  add_rectangles(
+      ItemId::red_block,
+      block_at({red_x, floor_px - dimensions_.red_height_px, red_width, dimensions_.red_height_px},
+               palette_.red, line_px_),
+      items);
   const double hits = shown.hits_per_s / frames_per_s_;
   const double swept =
       std::clamp((hits - kSweepHits / 4) / (kSweepHits - kSweepHits / 4), 0.0, 1.0);
   if (swept > 0) {
-    items.emplace_back(
-        RectangleItem{nth(ItemId::red_block, kSweep),
-                      {face_px_, floor_px - shapes_.blue_px, red_x - face_px_, shapes_.blue_px},
-                      faded(palette_.blue.fill, swept * kSweepAlpha),
-                      std::nullopt});
+    items.emplace_back(RectangleItem{nth(ItemId::red_block, kSweep),
+                                     {face_px_, floor_px - dimensions_.blue_height_px,
+                                      red_x - face_px_, dimensions_.blue_height_px},
+                                     faded(palette_.blue.fill, swept * kSweepAlpha),
+                                     std::nullopt});
   }
   add_blue(face_px_ + shown.gaps.y1 * px_per_unit, 1 - swept * (1 - kFastBlue), items);
 }
 
 void LoupeInset::add_blue(double x_px, double seen, std::vector<DrawItem>& items) const {
-  const double floor_px = shapes_.floor_px;
-  const double top = floor_px - shapes_.blue_px;
+  const double floor_px = dimensions_.floor_px;
+  const double top = floor_px - dimensions_.blue_height_px;
   BlockColors colors = palette_.blue;
   colors.fill = faded(colors.fill, seen);
   colors.edge = faded(colors.edge, seen);
-  add_rectangles(ItemId::blue_block,
-                 block_at({x_px, top, blue_px_, shapes_.blue_px}, colors, line_px_), items);
-  const double half = kCutWidth / 2 * sizes_.unit;
-  const double slant = kCutSlant / 2 * sizes_.unit;
-  const double middle = x_px + blue_px_ / 2;
+  add_rectangles(
+      ItemId::blue_block,
+      block_at({x_px, top, blue_width_px_, dimensions_.blue_height_px}, colors, line_px_), items);
+  const double half = kCutWidth / 2 * sizes_.short_side;
+  const double slant = kCutSlant / 2 * sizes_.short_side;
+  const double middle = x_px + blue_width_px_ / 2;
   items.emplace_back(PathItem{nth(ItemId::blue_block, kCut),
                               std::vector<Point>{{middle - half + slant, top},
                                                  {middle + half + slant, top},

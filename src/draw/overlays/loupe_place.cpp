@@ -27,13 +27,13 @@ class LoupePlacer {
 
   std::optional<LoupePlace> find() const {
     // Below the least size of type nothing could be read.
-    if (style::kLeastType * unit() < style::kLeastText_px) return std::nullopt;
+    if (style::kLeastType * short_side() < style::kLeastText_px) return std::nullopt;
     const double farthest = right() - width();
-    const double floor = context_.layout.floor_px - loupe_style::kOutside * unit();
-    const double beside = blocks_right() + zoom_px_ + loupe_style::kOutside * unit();
+    const double floor = context_.layout.floor_px - loupe_style::kOutside * short_side();
+    const double beside = blocks_right() + zoom_px_ + loupe_style::kOutside * short_side();
     std::optional<LoupePlace> found;
     if (beside <= farthest) {
-      found = at(std::min(farthest, beside + kLinesLength * unit()), floor, true);
+      found = at(std::min(farthest, beside + kLinesLength * short_side()), floor, true);
       // The digits of pi may be in the way there, and not farther to the left.
       if (!found) found = at(beside, floor, true);
     }
@@ -43,14 +43,14 @@ class LoupePlacer {
   }
 
  private:
-  double unit() const { return context_.sizes.unit; }
+  double short_side() const { return context_.sizes.short_side; }
   double row() const { return loupe_style::kRow_em * context_.sizes.text; }
-  double width() const { return std::round(style::kLoupe * unit()); }
+  double width() const { return std::round(style::kLoupeWidth * short_side()); }
   double right() const {
     const View& view = context_.scene.view;
     // The counter may be beside the stage.
     const bool is_article = view.theme == Theme::article;
-    return is_article ? view.width_px - context_.sizes.margin : context_.layout.right_px;
+    return is_article ? view.width_px - context_.sizes.margin : context_.layout.content_right_px;
   }
 
   /// Red and what is above it stay left of this while the loupe is seen.
@@ -58,26 +58,27 @@ class LoupePlacer {
     const Layout& layout = context_.layout;
     const Show& show = context_.scene.show;
     const double face = layout.at(to_double(context_.scene.system.wall_face), 0).x;
-    double right =
-        face + style::kLoupeFrom * unit() + (layout.blue.width + layout.red.width) * layout.scale;
-    if (show.has(Overlay::velocities)) right += kVelocityOverhang * unit();
+    double right = face + style::kMaxLoupeGap * short_side() +
+                   (layout.blue.width + layout.red.width) * layout.scale;
+    if (show.has(Overlay::velocities)) right += kVelocityOverhang * short_side();
     if (show.has(Overlay::masses) && has_mass_above(context_.scene, layout, context_.font)) {
-      right += kMassOverhang * unit();
+      right += kMassOverhang * short_side();
     }
-    return right + loupe_style::kOutside * unit();
+    return right + loupe_style::kOutside * short_side();
   }
 
   /// Upper end of the room for something that reaches from `left` to the right.
   double top(double left) const {
     const bool is_article = context_.scene.view.theme == Theme::article;
-    const CountLine& line = context_.layout.line;
+    const CountLine& line = context_.layout.count_line;
     double top = std::max(plan_.stage.y, context_.sizes.margin);
     if (is_article) {
       top = std::max(top, line.label.y + kBelowLine_em * line.text_px);
-    } else if (left + width() + loupe_style::kOutside * unit() > plan_.counter.pi_left_px) {
-      top = std::max(top, plan_.header_px);
+    } else if (left + width() + loupe_style::kOutside * short_side() >
+               plan_.counter.pi_row_left_px) {
+      top = std::max(top, plan_.header_bottom_px);
     }
-    return std::ceil(top + loupe_style::kOutside / 2 * unit());
+    return std::ceil(top + loupe_style::kOutside / 2 * short_side());
   }
 
   /// Upper end of all that is above the floor.
@@ -89,7 +90,7 @@ class LoupePlacer {
     if (show.has(Overlay::masses) && has_mass_above(context_.scene, layout, context_.font)) {
       above += kMassRoom;
     }
-    return layout.top_px() - above * unit();
+    return layout.top_px() - above * short_side();
   }
 
   double rows_px(bool is_zoom_beside) const {
@@ -101,9 +102,9 @@ class LoupePlacer {
     const double rows = rows_px(is_zoom_beside);
     const double least = rows + (loupe_style::kBelowFloor + loupe_style::kAboveBlocks +
                                  loupe_style::kInside + kLeastBlocks) *
-                                    unit();
+                                    short_side();
     const double lower = std::floor(bottom);
-    const double height = std::floor(std::min(kHeight * unit(), lower - top(left)));
+    const double height = std::floor(std::min(kHeight * short_side(), lower - top(left)));
     if (height < least || left < context_.sizes.margin) return std::nullopt;
     return LoupePlace{{std::floor(left), lower - height, width(), height}, rows, is_zoom_beside};
   }

@@ -92,7 +92,7 @@ TextItem mass_label(std::size_t n, std::string text, const Block& block,
   }
   const double baseline = is_inside
                               ? layout.floor_px - shape.height_px / 2 + kHalfFigure_em * size_px
-                              : top - kBelowMass * context.sizes.unit;
+                              : top - kBelowMass * context.sizes.short_side;
   return {nth(ItemId::masses, n),
           {left, baseline},
           std::move(text),
@@ -104,8 +104,8 @@ TextItem mass_label(std::size_t n, std::string text, const Block& block,
 }  // namespace
 
 double mass_room_px(const Sizes& sizes) {
-  return std::max(kMassRoom * sizes.unit,
-                  (kBelowMass + kAboveMass) * sizes.unit + Font::kCapHeight_em * sizes.mass);
+  return std::max(kMassRoom * sizes.short_side,
+                  (kBelowMass + kAboveMass) * sizes.short_side + Font::kCapHeight_em * sizes.mass);
 }
 
 bool has_mass_above(const Scene& scene, const Layout& layout, const Font& font) {
@@ -121,7 +121,8 @@ Drawable mass_labels(const DrawingContext& context) {
   const TextItem red = mass_label(0, texts.red, system.red, context);
   const TextItem blue = mass_label(1, texts.blue, system.blue, context);
   const double least_px = context.sizes.margin;
-  const double most_px = std::min(context.scene.view.width_px - least_px, context.layout.right_px);
+  const double most_px =
+      std::min(context.scene.view.width_px - least_px, context.layout.content_right_px);
   return [=, layout = context.layout](const FrameState& shown, std::vector<DrawItem>& items) {
     const auto add = [&](TextItem label, const Motion& motion) {
       const double half_px = -label.origin.x;

@@ -59,10 +59,10 @@ ReadOut time_read_out(const DrawingContext& context) {
           context.palette.text};
 }
 
-std::string slower_text(const Rational& slower) {
-  if (slower == 1) return {};
-  if (slower < 1) return fmt::format("{}× faster", short_text(1 / slower));
-  return fmt::format("{}× slower", short_text(slower));
+std::string slowdown_text(const Rational& slowdown) {
+  if (slowdown == 1) return {};
+  if (slowdown < 1) return fmt::format("{}× faster", short_text(1 / slowdown));
+  return fmt::format("{}× slower", short_text(slowdown));
 }
 
 /// The factors at which slow motion stays, in rising order.
@@ -84,14 +84,15 @@ Rational of_two_digits(const Rational& value) {
   return floor(value / unit + Rational(1, 2)) * unit;
 }
 
-/// A factor that is passed while slow motion eases in or out; empty if `most` is less.
-std::string passing_text(const Rational& slower, const Rational& most) {
-  if (slower < 1) {
-    const Rational faster = of_two_digits(1 / slower);
-    return faster <= most ? slower_text(1 / faster) : "";
+/// The label of a factor between two steady ones, while slow motion eases in or out. Empty if the
+/// rounded factor is above `most`.
+std::string passing_text(const Rational& slowdown, const Rational& most) {
+  if (slowdown < 1) {
+    const Rational faster = of_two_digits(1 / slowdown);
+    return faster <= most ? slowdown_text(1 / faster) : "";
   }
-  const Rational rounded = of_two_digits(slower);
-  return rounded <= most ? slower_text(rounded) : "";
+  const Rational rounded = of_two_digits(slowdown);
+  return rounded <= most ? slowdown_text(rounded) : "";
 }
 
 }  // namespace
@@ -99,28 +100,28 @@ std::string passing_text(const Rational& slower, const Rational& most) {
 SlowMotionLabel slow_motion_label(const DrawingContext& context) {
   std::string widest;
   std::vector<Rational> steady = steady_factors(context.scene.pacing);
-  for (const Rational& slower : steady) {
-    std::string text = slower_text(slower);
+  for (const Rational& slowdown : steady) {
+    std::string text = slowdown_text(slowdown);
     if (context.font.width_em(text) > context.font.width_em(widest)) widest = std::move(text);
   }
   // Passing factors take no more room than those that stay.
   const double room_em = context.font.width_em(widest);
   Rational most = 0;
   for (const int passing : {9, 99, 990, 9'900, 99'000, 990'000}) {
-    const double width_em = std::max(context.font.width_em(slower_text(passing)),
-                                     context.font.width_em(slower_text(Rational(1, passing))));
+    const double width_em = std::max(context.font.width_em(slowdown_text(passing)),
+                                     context.font.width_em(slowdown_text(Rational(1, passing))));
     if (width_em <= room_em) most = passing;
   }
   const auto text = [steady = std::move(steady), most](const FrameState& shown) {
-    const bool is_steady = std::ranges::binary_search(steady, shown.slower);
-    return is_steady ? slower_text(shown.slower) : passing_text(shown.slower, most);
+    const bool is_steady = std::ranges::binary_search(steady, shown.slowdown);
+    return is_steady ? slowdown_text(shown.slowdown) : passing_text(shown.slowdown, most);
   };
   return {std::move(widest), text};
 }
 
 namespace {
 
-ReadOut slower_read_out(const DrawingContext& context) {
+ReadOut slow_motion_read_out(const DrawingContext& context) {
   SlowMotionLabel label = slow_motion_label(context);
   return {"slow motion", std::move(label.widest), std::move(label.text), context.palette.accent,
           true};
@@ -210,7 +211,7 @@ std::vector<ReadOut> read_outs_of(const DrawingContext& context) {
   const Show& show = context.scene.show;
   std::vector<ReadOut> read_outs;
   if (show.has(Overlay::time)) read_outs.push_back(time_read_out(context));
-  if (has_slow_motion(context.scene.pacing)) read_outs.push_back(slower_read_out(context));
+  if (has_slow_motion(context.scene.pacing)) read_outs.push_back(slow_motion_read_out(context));
   if (show.has(Overlay::energy)) read_outs.push_back(fitted(context, energy_read_out));
   if (show.has(Overlay::momentum)) read_outs.push_back(fitted(context, momentum_read_out));
   return read_outs;

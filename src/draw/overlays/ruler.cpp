@@ -26,8 +26,8 @@ constexpr double kLeastGap_em = 1.0;  // between figures
 double room_below_px(const Scene& scene) {
   if (!scene.show.has(Overlay::ruler)) return 0;
   const Sizes sizes(scene.view);
-  const double figures = (kBelowBlocks + kTickLength + kBelowTick) * sizes.unit;
-  return std::max(kRulerRoom * sizes.unit, figures + 2 * kHalfFigure_em * sizes.text);
+  const double figures = (kBelowBlocks + kTickLength + kBelowTick) * sizes.short_side;
+  return std::max(kRulerRoom * sizes.short_side, figures + 2 * kHalfFigure_em * sizes.text);
 }
 
 Drawable ruler(const DrawingContext& context) {
@@ -37,9 +37,9 @@ Drawable ruler(const DrawingContext& context) {
   const double size_px = sizes.text;
   const bool has_floor = scene.view.theme != Theme::article;
   const double axis_px =
-      layout.floor_px + (has_floor ? sizes.wall_line : kBelowBlocks * sizes.unit);
-  const double tick_end = axis_px + kTickLength * sizes.unit;
-  const double baseline = tick_end + kBelowTick * sizes.unit + 2 * kHalfFigure_em * size_px;
+      layout.floor_px + (has_floor ? sizes.wall_line : kBelowBlocks * sizes.short_side);
+  const double tick_end = axis_px + kTickLength * sizes.short_side;
+  const double baseline = tick_end + kBelowTick * sizes.short_side + 2 * kHalfFigure_em * size_px;
   const double below_px = baseline - layout.floor_px;
   if (below_px > layout.below_px) {
     throw UsageError(
@@ -51,10 +51,10 @@ Drawable ruler(const DrawingContext& context) {
   const double right = to_double(scene.view.x.high);
   const double wall_px = layout.at(to_double(scene.system.wall_face), 0).x;
   // Figures beside the foot of the wall are not below it.
-  const bool are_below_wall = baseline - 2 * kHalfFigure_em * size_px > layout.foot_px;
+  const bool are_below_wall = baseline - 2 * kHalfFigure_em * size_px > layout.wall_bottom_px;
   const double wall_end_px = are_below_wall ? 0 : wall_px + kBesideWall_em * size_px;
   const double first_px = std::max(sizes.margin, wall_end_px);
-  const double end_px = std::min(scene.view.width_px - sizes.margin, layout.right_px);
+  const double end_px = std::min(scene.view.width_px - sizes.margin, layout.content_right_px);
   const FigureAxis axis{
       .low = left, .high = right, .em = size_px / layout.scale, .gap_em = kLeastGap_em};
   const Ticks ticks =

@@ -33,7 +33,7 @@ double height_ratio(const BlockSystem& system) {
   const auto [light, heavy] = std::minmax(system.blue.mass, system.red.mass);
   const Magnitude ratio = magnitude_of(heavy / light);
   const double logarithm = std::log10(ratio.mantissa) + double(ratio.exponent);
-  return std::min(style::kMostHeight, 1 + kHeightByMass * logarithm);
+  return std::min(style::kMaxHeightRatio, 1 + kHeightByMass * logarithm);
 }
 
 /// What is seen of the axis, and where.
@@ -48,7 +48,7 @@ struct Axis {
     }
     const Sizes sizes(scene.view);
     const bool has_wall = shows_wall(scene);
-    left_px = area.x + (has_wall ? sizes.margin + style::kHatch * sizes.unit : 0);
+    left_px = area.x + (has_wall ? sizes.margin + style::kWallWidth * sizes.short_side : 0);
     const double right = area.x + area.width - (has_wall ? sizes.margin : 0);
     scale = (right - left_px) / to_double(range.high - range.low);
     if (scale < kLeastRounded_px) return;
@@ -73,7 +73,7 @@ void set_shapes(const BlockSystem& system, Layout& layout) {
 
 /// Makes both blocks lower until the taller one has room. @throws UsageError if there is too little
 void fit_heights(double room_px, const View& view, Layout& layout) {
-  if (room_px < kLeastHeight * Sizes(view).unit) {
+  if (room_px < kLeastHeight * Sizes(view).short_side) {
     throw UsageError(fmt::format(
         "show: the blocks would be {:.0f} pixels high in {}x{}; leave something out, or make the "
         "frame larger",
@@ -86,7 +86,7 @@ void fit_heights(double room_px, const View& view, Layout& layout) {
 }
 
 Rectangle around(const WallPlace& wall, const Sizes& sizes) {
-  const double width = style::kHatch * sizes.unit;
+  const double width = style::kWallWidth * sizes.short_side;
   return {wall.face_px - width - 1, wall.top_px - 1, width + 2, wall.bottom_px - wall.top_px + 2};
 }
 
@@ -120,13 +120,14 @@ double reach_px(const Scene& scene, const CollisionLog& log) {
 }
 
 Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font,
-                     bool has_low_floor) {
+                     bool is_floor_at_bottom) {
   const Sizes sizes(scene.view);
   const Axis axis(scene, area);
   Layout layout;
   const bool is_whole = area.width >= scene.view.width_px;
-  layout.right_px = area.x + area.width - sizes.margin;
-  layout.frame_px = is_whole ? scene.view.width_px : static_cast<int>(layout.right_px);
+  layout.content_right_px = area.x + area.width - sizes.margin;
+  layout.visible_right_px =
+      is_whole ? scene.view.width_px : static_cast<int>(layout.content_right_px);
   layout.line_px = std::max(1.0, std::round(sizes.data_line));
   layout.scale = axis.scale;
   check_resolution(scene.view, layout.scale);
@@ -137,18 +138,18 @@ Layout lay_out_stage(const Scene& scene, const Rectangle& area, const Font& font
   double room = 0;
   do {
     above = room_above_px(scene, layout, font);
-    room = area.height - below - std::max(kWallAbove * sizes.unit, above);
+    room = area.height - below - std::max(kWallAbove * sizes.short_side, above);
     fit_heights(room, scene.view, layout);
-    // A mass that was on its block is above it where the block is now too low.
+    // If a block is now too low for its mass, the mass moves above it and needs room there.
   } while (room_above_px(scene, layout, font) > above);
   const double height = std::max(layout.blue.height_px, layout.red.height_px);
   // What is left over is above and below in equal parts.
-  const double rest = has_low_floor ? 0 : (room - height) / 2;
+  const double rest = is_floor_at_bottom ? 0 : (room - height) / 2;
   layout.floor_px = std::floor(area.y + area.height - below - rest);
   layout.origin = {axis.left_px - to_double(axis.range.low) * layout.scale, layout.floor_px};
   layout.above_px = layout.top_px() - area.y;
   layout.below_px = area.y + area.height - layout.floor_px;
-  layout.foot_px = layout.floor_px + sizes.wall_line;
+  layout.wall_bottom_px = layout.floor_px + sizes.wall_line;
   return layout;
 }
 
@@ -170,28 +171,28 @@ Drawable stage(const DrawingContext& context, Drawable behind) {
   const Scene& scene = context.scene;
   const Layout& layout = context.layout;
   const Sizes& sizes = context.sizes;
-  const double top = layout.top_px() - kWallAbove * sizes.unit;
+  const double top = layout.top_px() - kWallAbove * sizes.short_side;
   std::vector<DrawItem> stays;
   double floor_left = 0;
   if (shows_wall(scene)) {
     const double face = layout.at(to_double(scene.system.wall_face), 0).x;
-    const WallPlace place{face, top, layout.foot_px};
+    const WallPlace place{face, top, layout.wall_bottom_px};
     stays.emplace_back(plate_of(ItemId::wall, around(place, sizes), wall_items(place, context)));
     floor_left = face - sizes.wall_line;
   }
-  stays.emplace_back(
-      RectangleItem{nth(ItemId::wall, 1),
-                    {floor_left, layout.floor_px, layout.right_px - floor_left, sizes.wall_line},
-                    context.palette.wall,
-                    std::nullopt});
+  stays.emplace_back(RectangleItem{
+      nth(ItemId::wall, 1),
+      {floor_left, layout.floor_px, layout.content_right_px - floor_left, sizes.wall_line},
+      context.palette.wall,
+      std::nullopt});
   std::optional<RectangleItem> cover;
   const std::optional<Color> background = background_of(scene.view);
-  if (background && layout.frame_px < scene.view.width_px) {
-    cover = {
-        nth(ItemId::blue_block, kCover),
-        {layout.right_px, 0, scene.view.width_px - layout.right_px, double(scene.view.height_px)},
-        background,
-        std::nullopt};
+  if (background && layout.visible_right_px < scene.view.width_px) {
+    cover = {nth(ItemId::blue_block, kCover),
+             {layout.content_right_px, 0, scene.view.width_px - layout.content_right_px,
+              double(scene.view.height_px)},
+             background,
+             std::nullopt};
   }
   return [stays, cover, layout, palette = context.palette, behind = std::move(behind)](
              const FrameState& shown, std::vector<DrawItem>& items) {

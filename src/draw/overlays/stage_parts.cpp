@@ -42,10 +42,10 @@ PlateItem plate_of(ItemId id, const Rectangle& bounds, std::vector<DrawItem> ite
 std::vector<DrawItem> wall_items(const WallPlace& place, const DrawingContext& context) {
   const auto& [face_px, top_px, bottom] = place;
   const Sizes& sizes = context.sizes;
-  const double width = style::kHatch * sizes.unit;
+  const double width = style::kWallWidth * sizes.short_side;
   std::vector<DrawItem> items;
   const Stroke hatch{context.palette.muted, sizes.grid_line};
-  for (double y = top_px; y < bottom + width; y += kHatchStep * sizes.unit) {
+  for (double y = top_px; y < bottom + width; y += kHatchStep * sizes.short_side) {
     // From the face down to the left, cut off at the wall's ends.
     const double from = std::max(0.0, y - bottom);
     const double to = std::min(width, y - top_px);

@@ -31,8 +31,9 @@ mpf_class usual_speed(const BlockSystem& system) {
 }
 
 double arrow_room_px(const Sizes& sizes) {
-  return std::max(kArrowRoom * sizes.unit, (kVelocityBaseline + kAboveFigures) * sizes.unit +
-                                               Font::kCapHeight_em * sizes.text);
+  return std::max(
+      kArrowRoom * sizes.short_side,
+      (kVelocityBaseline + kAboveFigures) * sizes.short_side + Font::kCapHeight_em * sizes.text);
 }
 
 struct Figure {
@@ -51,7 +52,7 @@ class VelocityArrows {
         widths_(context.font, kNumberCharacters),
         usual_speed_(usual_speed(context.scene.system)),
         line_px_(context.sizes.data_line),
-        unit_(context.sizes.unit),
+        short_side_(context.sizes.short_side),
         text_px_(context.sizes.text) {
     const Scene& scene = context.scene;
     const bool is_over_mass =
@@ -70,7 +71,7 @@ class VelocityArrows {
     const double margin_px = kBetweenFigures_em / 2 * text_px_;
     const double margin = context.sizes.margin;
     least_left_px_ = std::max(margin, face_px + margin_px);
-    most_right_px_ = std::min(scene.view.width_px - margin, layout_.right_px);
+    most_right_px_ = std::min(scene.view.width_px - margin, layout_.content_right_px);
     const double figures = (2 * widths_.width_em(kUsualFigure) + kBetweenFigures_em) * text_px_;
     if (most_right_px_ - least_left_px_ < figures) {
       throw UsageError(
@@ -105,12 +106,14 @@ class VelocityArrows {
   /// A block that has left the frame has no figure: half a figure would be another number.
   std::optional<Figure> figure_of(std::size_t n, const Motion& motion, double side_px) const {
     const Point foot{layout_.at(motion.position, 0).x, foot_px_};
-    if (foot.x + side_px / 2 <= 0 || foot.x - side_px / 2 >= layout_.frame_px) return std::nullopt;
+    if (foot.x + side_px / 2 <= 0 || foot.x - side_px / 2 >= layout_.visible_right_px) {
+      return std::nullopt;
+    }
     std::string text = rounded_text(motion.velocity);
     const double width = widths_.width_em(text) * text_px_;
     const double left = std::min(foot.x - width / 2, most_right_px_ - width);
     return Figure{{nth(ItemId::velocities, n),
-                   {left, foot.y - kVelocityBaseline * unit_},
+                   {left, foot.y - kVelocityBaseline * short_side_},
                    std::move(text),
                    text_px_,
                    palette_.text,
@@ -141,8 +144,8 @@ class VelocityArrows {
   void add_arrow(std::size_t n, const Motion& motion, const Color& color,
                  std::vector<DrawItem>& items) const {
     const Point foot{layout_.at(motion.position, 0).x, foot_px_};
-    const double y = foot.y - kShaft * unit_;
-    const double head = kHead * unit_;
+    const double y = foot.y - kShaft * short_side_;
+    const double head = kHead * short_side_;
     const double length = length_px(motion.velocity);
     if (std::abs(length) <= head) return;
     const double tail = foot.x - length / 2;
@@ -162,7 +165,7 @@ class VelocityArrows {
   TextWidths widths_;
   mpf_class usual_speed_;
   double line_px_;
-  double unit_;  ///< the frame's shorter side
+  double short_side_;
   double text_px_;
   double foot_px_ = 0;  ///< arrows and figures are above it
   double longest_px_ = 0;

@@ -37,7 +37,7 @@ long Zoom::exponent_of(double zoom) const {
   return std::max<long>(1, std::ranges::upper_bound(powers_, zoom) - powers_.begin()) - 1;
 }
 
-double Zoom::of(double room) const {
+double Zoom::factor_for(double room) const {
   if (room < powers_.at(1)) return std::max(1.0, room);
   const long exponent = exponent_of(room);
   if (exponent == most_exponent()) return powers_.back();

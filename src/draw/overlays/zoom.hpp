@@ -12,19 +12,19 @@ double straight_log2(double x);
 /// Its inverse.
 double straight_exp2(double y);
 
-/// Stays at each power of ten while the room for the gap grows to some part of the next, and then
-/// rises to that. Rising and continuous.
+/// As the room for the gap grows, the zoom stays at each power of ten for a part of the way to the
+/// next, and then rises to the next. It is continuous and never falls.
 class Zoom {
  public:
   /// The share of the way from one power of ten to the next, on a logarithmic scale, in which the
-  /// zoom stays: half of it is threefold.
+  /// zoom stays. Half of the way is about a factor of three.
   static constexpr double kPlateau = 0.5;
 
   /// @param most_exponent  of the largest power of ten, at least 1
   explicit Zoom(long most_exponent, double plateau = kPlateau);
 
   /// At most `room`, unless that is below 1. @param room  > 0, may be infinite
-  double of(double room) const;
+  double factor_for(double room) const;
   double power(long exponent) const { return powers_.at(static_cast<std::size_t>(exponent)); }
   long most_exponent() const noexcept { return static_cast<long>(powers_.size()) - 1; }
   /// Of the greatest power of ten that is not above a zoom.

@@ -59,11 +59,11 @@ Certainty::Certainty(int base, unsigned long places)
   whole_ = floor_of([](mpfr_prec_t any) { return Real::pi(any); }, scale_,
                     bits_of(scale_.get_num()) + 2);
   fraction_ = (scaled_pi - whole_).to_rational();
-  gap_ = (rays - scaled_pi).to_rational();
+  excess_ = (rays - scaled_pi).to_rational();
   if (places == 0) {
-    gap_ = 1 - fraction_;
+    excess_ = 1 - fraction_;
   } else {
-    rest_ = -(rays - Integer(whole_ + 1)).to_rational();
+    distance_to_next_ = -(rays - Integer(whole_ + 1)).to_rational();
   }
 }
 

@@ -22,11 +22,11 @@ class Certainty {
 
   // Relative errors are below 2^-100.
   const Rational& fraction() const noexcept { return fraction_; }  ///< pi/s - whole()
-  const Rational& gap() const noexcept { return gap_; }            ///< pi/theta - pi/s, > 0
+  const Rational& excess() const noexcept { return excess_; }      ///< pi/theta - pi/s, > 0
   /// whole() + 1 - pi/theta. It is 0, exactly, where there are no places: pi/theta is 4.
-  const Rational& rest() const noexcept { return rest_; }
+  const Rational& distance_to_next() const noexcept { return distance_to_next_; }
   /// Whether the count is one more than whole().
-  bool is_wrong() const noexcept { return rest_ < 0; }
+  bool is_wrong() const noexcept { return distance_to_next_ < 0; }
 
   // Truncated to so many places of the base: "314.159", with separators in base 10.
   std::string scaled_pi(std::size_t digits) const;      ///< pi/s
@@ -44,8 +44,8 @@ class Certainty {
   Rational scale_;  ///< 1/s
   Integer whole_;
   Rational fraction_;
-  Rational gap_;
-  Rational rest_;
+  Rational excess_;
+  Rational distance_to_next_;
 };
 
 }  // namespace piblocks

@@ -89,20 +89,20 @@ class CertaintyFigure {
   }
 
   /// From pi/s to pi/theta.
-  void add_band(const XRange& gap) {
+  void add_band(const XRange& band) {
     const double top = y_ - kBand * em_;
     const double bottom = y_ + kBand * em_;
-    diagram_.shape({{gap.left, top}, {gap.right, top}, {gap.right, bottom}, {gap.left, bottom}},
+    diagram_.shape({{band.left, top}, {band.right, top}, {band.right, bottom}, {band.left, bottom}},
                    palette_.accent);
     const double width = diagram_.sizes().data_line / diagram_.sizes().grid_line;
     const double tick = kEndTick * em_;
-    diagram_.line({{gap.left, y_ - tick}, {gap.left, y_ + tick}}, palette_.text, width);
-    diagram_.line({{gap.right, y_ - tick}, {gap.right, y_ + tick}}, palette_.accent, width);
+    diagram_.line({{band.left, y_ - tick}, {band.left, y_ + tick}}, palette_.text, width);
+    diagram_.line({{band.right, y_ - tick}, {band.right, y_ + tick}}, palette_.accent, width);
   }
 
   void add_first_line() {
     double baseline = diagram_.inside().y + certainty::kCap * em_;
-    if (plan_.beyond) add_label(*plan_.beyond, baseline, palette_.muted);
+    if (plan_.next_whole_meaning) add_label(*plan_.next_whole_meaning, baseline, palette_.muted);
     if (plan_.has_row_above) baseline += certainty::kRow * em_;
     y_ = baseline + certainty::kToLine * em_;
     add_left_of_line(plan_.ends.left, palette_.text);
@@ -110,35 +110,35 @@ class CertaintyFigure {
               y_ + certainty::kCap / 2 * em_, palette_.text);
     add_line(Rational(plan_.units, 2), plan_.units,
              [&](const Rational& at) { return plan_.x_of(at); });
-    gap_ = {plan_.x_of(numbers_.fraction()), plan_.x_of(numbers_.fraction() + numbers_.gap())};
-    add_band(gap_);
-    if (plan_.both) {
-      add_label(*plan_.both, baseline, palette_.accent);
+    band_ = {plan_.x_of(numbers_.fraction()), plan_.x_of(numbers_.fraction() + numbers_.excess())};
+    add_band(band_);
+    if (plan_.mark_names) {
+      add_label(*plan_.mark_names, baseline, palette_.accent);
       return;
     }
     add_marks(baseline);
     if (numbers_.is_wrong()) {
       add_below_line(words_.next_whole(), plan_.x_of(1), palette_.text);
     } else {
-      add_below_line(words_.gap(), (gap_.left + gap_.right) / 2, palette_.accent);
+      add_below_line(words_.excess_label(), (band_.left + band_.right) / 2, palette_.accent);
     }
   }
 
-  /// Below the first line, with lines of sight from the gap.
+  /// Below the first line, with lines of sight from the band.
   void add_enlarged_line() {
     const double eye = y_ + kEndTick * em_;
     const double baseline = y_ + plan_.lens_em * em_;
     const double top = baseline - kAboveMarks * em_;
     y_ = baseline + certainty::kToLine * em_;
-    diagram_.line({{gap_.left, eye}, {line().left, top}, {line().left, y_}}, palette_.grid);
-    diagram_.line({{gap_.right, eye}, {line().right, top}, {line().right, y_}}, palette_.grid);
+    diagram_.line({{band_.left, eye}, {line().left, top}, {line().left, y_}}, palette_.grid);
+    diagram_.line({{band_.right, eye}, {line().right, top}, {line().right, y_}}, palette_.grid);
     add_left_of_line(words_.magnification(plan_.exponent), palette_.muted);
     const Rational length = 1 / power(10, static_cast<unsigned long>(plan_.exponent));
     const auto place_of = [&](const Rational& at) { return plan_.enlarged_x_of(at); };
     add_line(plan_.middle, length, place_of);
-    add_band({place_of(numbers_.fraction()), place_of(numbers_.fraction() + numbers_.gap())});
+    add_band({place_of(numbers_.fraction()), place_of(numbers_.fraction() + numbers_.excess())});
     add_marks(baseline);
-    add_below_line(words_.gap(), place_of(plan_.middle), palette_.accent);
+    add_below_line(words_.excess_label(), place_of(plan_.middle), palette_.accent);
   }
 
   /// The last one is what to remember.
@@ -161,7 +161,7 @@ class CertaintyFigure {
   double em_;
   double right_;
   CertaintyPlan plan_;
-  XRange gap_;    ///< on the first line
+  XRange band_;   ///< on the first line
   double y_ = 0;  ///< of the line that was added last
 };
 

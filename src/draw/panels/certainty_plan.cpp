@@ -17,7 +17,8 @@ constexpr double kLoose = 1;
 
 /// Ends with long labels take at most this part of the width.
 constexpr double kMostEnds = 0.3;
-/// The gap is enlarged to at most this part of a line, by the largest power of ten.
+/// The excess of pi/theta over pi/s is enlarged to at most this part of a line, by the largest
+/// power of ten.
 constexpr double kMostShown = 0.55;
 /// Sums of the same widths in different order differ by less.
 constexpr double kNegligibleWidth_px = 1e-6;
@@ -33,11 +34,11 @@ class CertaintyPlanner {
         right_(left_ + room.inside.width) {}
 
   std::optional<CertaintyPlan> run() {
-    plan_.middle = numbers_.fraction() + numbers_.gap() / 2;
+    plan_.middle = numbers_.fraction() + numbers_.excess() / 2;
     if (numbers_.is_wrong()) {
       plan_.units = 2;
     } else {
-      for (Rational shown = numbers_.gap() * 10; shown <= kMostShown; shown *= 10) {
+      for (Rational shown = numbers_.excess() * 10; shown <= kMostShown; shown *= 10) {
         ++plan_.exponent;
       }
     }
@@ -63,31 +64,31 @@ class CertaintyPlanner {
     plan_.line = {left_ + beside + kBeside * em_, right_ - width(plan_.ends.right) - kBeside * em_};
   }
 
-  /// The labels of pi/s and pi/theta, left and right of the gap if possible.
+  /// The labels of pi/s and pi/theta, left and right of the band if possible.
   void place_marks() {
     const Rational from = numbers_.fraction();
-    const Rational to = from + numbers_.gap();
+    const Rational to = from + numbers_.excess();
     XRange room{left_, right_};
-    XRange gap{plan_.x_of(from), plan_.x_of(to)};
+    XRange band{plan_.x_of(from), plan_.x_of(to)};
     if (is_enlarged()) {
       room = {plan_.line.left + kBeside * em_, plan_.line.right - kBeside * em_};
-      gap = {plan_.enlarged_x_of(from), plan_.enlarged_x_of(to)};
+      band = {plan_.enlarged_x_of(from), plan_.enlarged_x_of(to)};
     }
     auto& [first, second] = plan_.marks;
     for (const CertaintyWords::Pair& pair : words_.marks()) {
       const double between = kBetween * em_;
-      const double right = std::min(gap.right, room.right - width(pair.right));
+      const double right = std::min(band.right, room.right - width(pair.right));
       first = {pair.left,
-               std::max(room.left, std::min(gap.left, right - between) - width(pair.left))};
+               std::max(room.left, std::min(band.left, right - between) - width(pair.left))};
       second = {pair.right, std::max(right, first.x + width(pair.left) + between)};
       if (second.x + width(pair.right) <= room.right + kNegligibleWidth_px) break;
     }
     above_px_ = second.x + width(second.formula);
     if (!is_enlarged()) return;
-    const Formula both = words_.both();
-    const double most = std::max(left_, right_ - width(both));
-    plan_.both = {both, std::clamp(plan_.x_of(from) - width(both) / 2, left_, most)};
-    above_px_ = plan_.both->x + width(both);
+    const Formula names = words_.mark_names();
+    const double most = std::max(left_, right_ - width(names));
+    plan_.mark_names = {names, std::clamp(plan_.x_of(from) - width(names) / 2, left_, most)};
+    above_px_ = plan_.mark_names->x + width(names);
   }
 
   /// Nothing if a word is too long.
@@ -127,7 +128,7 @@ class CertaintyPlanner {
       const double loose = notes.size() > 1 ? kLoose : 0;
       if (!height || *height + loose > room) continue;
       double spare = room - *height;
-      place_beyond(spare);
+      place_next_whole_meaning(spare);
       if (plan_.has_row_above) spare -= kRow;
       if (is_enlarged()) {
         const double more = std::min(spare / 2, kMoreLens);
@@ -141,12 +142,12 @@ class CertaintyPlanner {
   }
 
   /// @param spare  height that is left, in ems
-  void place_beyond(double spare) {
-    for (const Formula& formula : words_.beyond()) {
+  void place_next_whole_meaning(double spare) {
+    for (const Formula& formula : words_.next_whole_meaning()) {
       const double x = right_ - width(formula);
       const bool is_beside = x >= above_px_ + kBetween * em_;
       if (x < left_ || (!is_beside && spare < kRow)) continue;
-      plan_.beyond = {formula, x};
+      plan_.next_whole_meaning = {formula, x};
       plan_.has_row_above = !is_beside;
       return;
     }

@@ -57,13 +57,13 @@ struct CertaintyPlan {
 
   int units = 1;      ///< length of the first line
   long exponent = 0;  ///< the second line is 10^n times as large; 0 if there is none
-  Rational middle;    ///< of the gap
+  Rational middle;    ///< of the band from pi/s to pi/theta
   XRange line;        ///< both lines
   CertaintyWords::Pair ends;
-  std::array<Label, 2> marks;               ///< above the line that shows the gap best
-  std::optional<Label> both;                ///< above the first line, if marks are above the second
-  std::optional<Label> beyond;              ///< right of them
-  bool has_row_above = false;               ///< which `beyond` is in
+  std::array<Label, 2> marks;               ///< above the line that shows the band best
+  std::optional<Label> mark_names;          ///< above the first line, if marks are above the second
+  std::optional<Label> next_whole_meaning;  ///< right of them
+  bool has_row_above = false;               ///< which next_whole_meaning is in
   std::vector<std::vector<Formula>> notes;  ///< lines of paragraphs
   double lens_em = 0;   ///< from the first line to the baseline of the second one's labels
   double notes_em = 0;  ///< room above the notes, beside what is always there

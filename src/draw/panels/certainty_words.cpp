@@ -59,8 +59,8 @@ PanelTitle CertaintyWords::title() const {
   if (nines_ == 0) {
     return {set_.text("Could a digit be wrong? Not here"), set_.text("No digit is wrong")};
   }
-  return {set_.text(fmt::format("Could a digit be wrong? Only if {} followed", nine())),
-          set_.text(fmt::format("Only {} could mislead it", nine()))};
+  return {set_.text(fmt::format("Could a digit be wrong? Only if {} followed", largest_digits())),
+          set_.text(fmt::format("Only {} could mislead it", largest_digits()))};
 }
 
 std::vector<CertaintyWords::Pair> CertaintyWords::ends() const {
@@ -78,8 +78,8 @@ std::vector<CertaintyWords::Pair> CertaintyWords::ends() const {
 }
 
 std::vector<CertaintyWords::Pair> CertaintyWords::marks() const {
-  const Formula pi = multiple() + set_.text(" = ");
-  const Formula ray = rays() + set_.text(" = ");
+  const Formula pi = pi_over_s() + set_.text(" = ");
+  const Formula ray = pi_over_theta() + set_.text(" = ");
   std::vector<Pair> pairs;
   if (numbers_.places() == 0) {
     pairs.push_back({pi + set_.text(numbers_.scaled_pi(kLeastDigits) + "…"),
@@ -99,18 +99,18 @@ std::vector<CertaintyWords::Pair> CertaintyWords::marks() const {
                        ray + set_.text("…" + b.substr(from, length - from) + "…")});
     }
   }
-  pairs.push_back({multiple(), rays()});
+  pairs.push_back({pi_over_s(), pi_over_theta()});
   return pairs;
 }
 
-std::vector<Formula> CertaintyWords::beyond() const {
+std::vector<Formula> CertaintyWords::next_whole_meaning() const {
   if (numbers_.is_wrong()) return {};
-  const Formula who = set_.text(one_more() + " would need ") + rays();
+  const Formula who = set_.text(one_more() + " would need ") + pi_over_theta();
   if (!is_small()) {
     return {who + set_.text(" past this end"), set_.text("one more: past this end")};
   }
-  const Formula than = set_.text(" > " + next());
-  return {who + than, rays() + than + set_.text(": one more")};
+  const Formula than = set_.text(" > " + next_whole_text());
+  return {who + than, pi_over_theta() + than + set_.text(": one more")};
 }
 
 std::vector<std::vector<Words>> CertaintyWords::notes(bool is_defined) const {
@@ -126,13 +126,15 @@ std::vector<std::vector<Words>> CertaintyWords::notes(bool is_defined) const {
   return notes;
 }
 
-Formula CertaintyWords::both() const { return multiple() + set_.text(" and ") + rays(); }
+Formula CertaintyWords::mark_names() const {
+  return pi_over_s() + set_.text(" and ") + pi_over_theta();
+}
 
-Formula CertaintyWords::gap() const {
+Formula CertaintyWords::excess_label() const {
   const Formula product = set_.text("π") + set_.italic("s") + set_.text("/3");
-  if (numbers_.places() == 0) return set_.text(short_text(numbers_.gap()));
+  if (numbers_.places() == 0) return set_.text(short_text(numbers_.excess()));
   if (numbers_.base() != kUsualBase) return set_.text("about ") + product;
-  return set_.text(short_text(numbers_.gap()) + " ≈ ") + product;
+  return set_.text(short_text(numbers_.excess()) + " ≈ ") + product;
 }
 
 Formula CertaintyWords::magnification(long exponent) const {
@@ -148,10 +150,9 @@ Words CertaintyWords::words(const std::string& text) const {
 
 Formula CertaintyWords::theta() const { return set_.italic("θ"); }
 
-Formula CertaintyWords::rays() const { return set_.text("π/") + theta(); }
+Formula CertaintyWords::pi_over_theta() const { return set_.text("π/") + theta(); }
 
-/// pi/s: "100 π".
-Formula CertaintyWords::multiple() const {
+Formula CertaintyWords::pi_over_s() const {
   const unsigned long places = numbers_.places();
   if (places == 0) return set_.text("π");
   const int base = numbers_.base();
@@ -162,15 +163,14 @@ Formula CertaintyWords::multiple() const {
          set_.text(" π");
 }
 
-/// The base's last digit, in the plural.
-std::string CertaintyWords::nine() const {
+std::string CertaintyWords::largest_digits() const {
   const int base = numbers_.base();
   if (base == kUsualBase) return "nines";
   if (base == 2) return "ones";
   return "digits " + Integer(base - 1).get_str(base);
 }
 
-std::string CertaintyWords::next() const {
+std::string CertaintyWords::next_whole_text() const {
   return count_text(numbers_.whole() + 1, numbers_.base());
 }
 
@@ -203,8 +203,8 @@ Formula CertaintyWords::definition() const {
 }
 
 Words CertaintyWords::reason(bool is_defined) const {
-  const Words result = words("so") + Words{rays()} + words("is a little more than") +
-                       Words{multiple() + set_.text(".")};
+  const Words result = words("so") + Words{pi_over_theta()} + words("is a little more than") +
+                       Words{pi_over_s() + set_.text(".")};
   if (is_defined) {
     return Words{theta()} + words("is a little less than") +
            Words{set_.italic("s") + set_.text(",")} + result;
@@ -217,27 +217,31 @@ Words CertaintyWords::reason(bool is_defined) const {
 }
 
 Words CertaintyWords::distance() const {
-  if (numbers_.base() != kUsualBase || numbers_.rest() < 2 * numbers_.gap()) return {};
-  const Rational times = numbers_.rest() / numbers_.gap();
+  if (numbers_.base() != kUsualBase || numbers_.distance_to_next() < 2 * numbers_.excess()) {
+    return {};
+  }
+  const Rational times = numbers_.distance_to_next() / numbers_.excess();
   constexpr int kMostWritten = 100'000;
   const std::string many = times < kMostWritten
                                ? with_thousands_separators(floor(times))
                                : "More than " + power_text(magnitude_of(times).exponent);
-  const std::string after = is_small() ? next() : "the next whole number";
-  return words(many + " such gaps would fit between") + Words{rays()} + words("and " + after + ".");
+  const std::string after = is_small() ? next_whole_text() : "the next whole number";
+  return words(many + " such gaps would fit between") + Words{pi_over_theta()} +
+         words("and " + after + ".");
 }
 
 Words CertaintyWords::needed() const {
   if (numbers_.places() == 0) {
-    return words("For " + one_more() + ",") + Words{rays()} +
-           words("would have to be more than " + next() + "; it is " + next() + " exactly.");
+    return words("For " + one_more() + ",") + Words{pi_over_theta()} +
+           words("would have to be more than " + next_whole_text() + "; it is " +
+                 next_whole_text() + " exactly.");
   }
   const std::size_t counted = numbers_.whole().get_str(numbers_.base()).size();
   if (nines_ > kFewNines) {
     return words(
         fmt::format("One more collision would need {} {} after these {} digits of π; it "
                     "goes on with {}…",
-                    nines_, nine(), counted, numbers_.following(kDigitsOfMany)));
+                    nines_, largest_digits(), counted, numbers_.following(kDigitsOfMany)));
   }
   const std::size_t many = nines_ + kAfterNines;
   const std::string begun = pi_digits(numbers_.base(), counted);
@@ -253,10 +257,10 @@ Words CertaintyWords::needed() const {
 
 Words CertaintyWords::needed_briefly() const {
   if (numbers_.places() == 0) {
-    return words("Equal masses:") + Words{rays() + set_.text(" = " + next())};
+    return words("Equal masses:") + Words{pi_over_theta() + set_.text(" = " + next_whole_text())};
   }
   if (nines_ > kFewNines) {
-    return words(fmt::format("Needed next in π: {} {}. Found: {}…", nines_, nine(),
+    return words(fmt::format("Needed next in π: {} {}. Found: {}…", nines_, largest_digits(),
                              numbers_.following(kDigitsOfMany)));
   }
   const std::size_t many = nines_ + kAfterNines;

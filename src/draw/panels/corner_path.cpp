@@ -9,11 +9,11 @@
 namespace piblocks {
 namespace {
 
-/// The picture has been enlarged when red's gap is this part of its width.
-constexpr double kZoomedTo = 0.8;
-/// Of each way to the next power of ten, on a logarithmic scale, in which the zoom stays. A picture
-/// that stays costs next to nothing.
-constexpr double kStays = 0.95;
+/// The picture is enlarged so that red's gap is at most this share of its width.
+constexpr double kGapShare = 0.8;
+/// The share of the way to the next power of ten, on a logarithmic scale, in which the zoom stays.
+/// A picture whose zoom stays costs next to nothing.
+constexpr double kPlateau = 0.95;
 /// Larger powers of ten are beyond the range of a double.
 constexpr long kMostPower = 300;
 
@@ -48,11 +48,11 @@ CornerPath::CornerPath(const CollisionLog& log, const Span& span, int most_corne
   for (Integer k = before + 1; k <= in_end; k += 1) in_.push_back(gaps_at_collision(log, k));
   for (Integer k = last; k >= out_end; k -= 1) out_.push_back(gaps_at_collision(log, k));
   is_complete_ = in_end == at_turn && out_end == at_turn + 1;
-  least_ = std::min({gaps_at(log, middle).y2, in_.back().y2, out_.back().y2});
-  if (at_turn > before) least_ = std::min(least_, gaps_at_collision(log, at_turn).y2);
-  if (at_turn < last) least_ = std::min(least_, gaps_at_collision(log, at_turn + 1).y2);
+  least_y2_ = std::min({gaps_at(log, middle).y2, in_.back().y2, out_.back().y2});
+  if (at_turn > before) least_y2_ = std::min(least_y2_, gaps_at_collision(log, at_turn).y2);
+  if (at_turn < last) least_y2_ = std::min(least_y2_, gaps_at_collision(log, at_turn + 1).y2);
   for (const auto* side : {&in_, &out_}) {
-    for (const Gaps& gaps : *side) most_ = std::max(most_, gaps.y2);
+    for (const Gaps& gaps : *side) greatest_y2_ = std::max(greatest_y2_, gaps.y2);
   }
 }
 
@@ -75,15 +75,15 @@ ShownPath CornerPath::shown(const GapWindow& window) const {
   Side in = side_of(in_, window);
   Side out = side_of(out_, window);
   ShownPath path;
-  path.filled_low = path.filled_high = least_;
+  path.filled_low = path.filled_high = least_y2_;
   if (in.dense_from == 0 && out.dense_from == 0) {
     std::ranges::reverse(out.line);
     std::ranges::move(out.line, std::back_inserter(in.line));
     path.lines.push_back(std::move(in.line));
     return path;
   }
-  if (least_ < window.to) {
-    path.filled_high = std::max({least_, in.dense_from, out.dense_from});
+  if (least_y2_ < window.to) {
+    path.filled_high = std::max({least_y2_, in.dense_from, out.dense_from});
   }
   for (Side* side : {&in, &out}) {
     if (side->line.size() > 1) path.lines.push_back(std::move(side->line));
@@ -95,12 +95,12 @@ CornerZoom::CornerZoom(double least_share)
     // One power more than is shown: Zoom has no plateau at 1.
     : zoom_(std::clamp(std::lround(std::ceil(2 - std::log10(least_share))),
                        static_cast<long>(kPlain), kMostPower),
-            kStays) {}
+            kPlateau) {}
 
-double CornerZoom::of(double share) const {
-  const double room = kZoomedTo / share;
+double CornerZoom::factor_for(double share) const {
+  const double room = kGapShare / share;
   if (room < 1) return 1;
-  const double zoom = zoom_.of(10 * room);
+  const double zoom = zoom_.factor_for(10 * room);
   const long exponent = zoom_.exponent_of(zoom);
   return zoom == zoom_.power(exponent) ? zoom_.power(exponent - 1) : zoom / 10;
 }

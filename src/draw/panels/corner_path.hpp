@@ -37,8 +37,8 @@ class CornerPath {
   CornerPath(const CollisionLog& log, const Span& span, int most_corners);
 
   /// Red's greatest and least gap.
-  double most() const noexcept { return most_; }
-  double least() const noexcept { return least_; }
+  double greatest_y2() const noexcept { return greatest_y2_; }
+  double least_y2() const noexcept { return least_y2_; }
 
   ShownPath shown(const GapWindow& window) const;
 
@@ -53,12 +53,12 @@ class CornerPath {
   std::vector<Gaps> in_;
   std::vector<Gaps> out_;
   bool is_complete_ = true;  ///< no corner was left out
-  double most_ = 0;
-  double least_ = 0;
+  double greatest_y2_ = 0;
+  double least_y2_ = 0;
 };
 
-/// How many times the plane is enlarged about its corner: 1, 10, 100 …, and in between for as long
-/// as one rises to the next.
+/// How many times the plane is enlarged about its corner. The zoom stays at 1, 10, 100 …, and takes
+/// the values between them while it rises from one to the next.
 class CornerZoom {
  public:
   /// @param least_share  the least part of red's greatest gap that is shown, > 0
@@ -66,14 +66,14 @@ class CornerZoom {
 
   /// Continuous; it grows as the gap shrinks, and the gap stays in the picture.
   /// @param share  of red's greatest gap, > 0
-  double of(double share) const;
+  double factor_for(double share) const;
   /// The exponent of a power of ten; nothing between them.
   std::optional<std::size_t> exponent_of(double zoom) const;
   double power(std::size_t exponent) const { return zoom_.power(static_cast<long>(exponent)); }
   std::size_t most_exponent() const { return static_cast<std::size_t>(zoom_.most_exponent()); }
   /// "×100", "×2.5×10⁷": two digits.
   Formula text(double zoom) const;
-  /// Before text() is called.
+  /// Must be called before text().
   void make_texts(const FormulaSetter& set);
 
  private:

@@ -75,11 +75,11 @@ RoundFactor round_factor_below(const Rational& value) {
   return factor;
 }
 
-std::optional<EnlargedTurn> enlarged_turn(const CollisionLog& log, const Enlargement& enlargement) {
-  const Span& whole = enlargement.whole;
+std::optional<EnlargedTurn> enlarged_turn(const CollisionLog& log, const InsetLimits& limits) {
+  const Span& span = limits.span;
   const std::optional<Rational> turn = turn_of(log.system());
-  if (!turn || *turn <= whole.from || *turn >= whole.to) return std::nullopt;
-  const Rational half = (whole.to - whole.from) * enlargement.share / 2;
+  if (!turn || *turn <= span.from || *turn >= span.to) return std::nullopt;
+  const Rational half = (span.to - span.from) * limits.width_share / 2;
   EnlargedTurn part;
   const auto fits = [&](const RoundFactor& factor) {
     part.time_factor = factor;
@@ -87,7 +87,7 @@ std::optional<EnlargedTurn> enlarged_turn(const CollisionLog& log, const Enlarge
     part.low = log.state_at(part.span.from).count;
     part.high = log.state_at(part.span.to).count;
     const Integer steps = part.high - part.low;
-    return steps <= enlargement.most_steps && steps <= enlargement.counts_in_room;
+    return steps <= limits.most_steps && steps <= limits.counts_in_height;
   };
   RoundFactor factor;
   if (fits(factor)) return std::nullopt;
@@ -96,7 +96,7 @@ std::optional<EnlargedTurn> enlarged_turn(const CollisionLog& log, const Enlarge
   }
   while (!fits(factor)) factor = factor.next();
   if (part.high - part.low < 2) return std::nullopt;
-  part.count_factor = round_factor_below(enlargement.counts_in_room / (part.high - part.low));
+  part.count_factor = round_factor_below(limits.counts_in_height / (part.high - part.low));
   return part;
 }
 

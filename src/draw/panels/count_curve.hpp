@@ -36,7 +36,7 @@ struct RoundFactor {
   RoundFactor next() const;
 };
 
-/// The greatest that is no greater. @param value  >= 1
+/// The greatest round factor that is not above the value. @param value  >= 1
 RoundFactor round_factor_below(const Rational& value);
 
 /// Part of a curve of counts, enlarged around the turn until single steps are seen.
@@ -49,15 +49,15 @@ struct EnlargedTurn {
 };
 
 /// Limits for the inset of the count's curve.
-struct Enlargement {
-  Span whole;               ///< time that the picture shows
-  Rational share;           ///< of its width that the enlarged part is wide
-  int most_steps = 1;       ///< that the part may have
-  Rational counts_in_room;  ///< counts that fill the inset's height at the scale of the curve
+struct InsetLimits {
+  Span span;                  ///< time that the picture shows
+  Rational width_share;       ///< width of the enlarged part, as a share of the picture's
+  int most_steps = 1;         ///< collisions in the enlarged part, at most
+  Rational counts_in_height;  ///< counts that fill the inset's height at the scale of the curve
 };
 
 /// Nothing if there is no turn within the span, nothing to enlarge, or all collisions happen at
 /// once.
-std::optional<EnlargedTurn> enlarged_turn(const CollisionLog& log, const Enlargement& enlargement);
+std::optional<EnlargedTurn> enlarged_turn(const CollisionLog& log, const InsetLimits& limits);
 
 }  // namespace piblocks

@@ -226,10 +226,10 @@ class CountPanel {
     const Integer counts = scale_.high - scale_.low;
     const auto part = enlarged_turn(
         context.log,
-        {.whole = span_,
-         .share = Rational(frame.width) / Rational(plot.width),
+        {.span = span_,
+         .width_share = Rational(frame.width) / Rational(plot.width),
          .most_steps = std::max(2, static_cast<int>(frame.width / (kStepWidth_em * em))),
-         .counts_in_room = Rational(kFilled * frame.height) / Rational(plot.height) * counts});
+         .counts_in_height = Rational(kFilled * frame.height) / Rational(plot.height) * counts});
     if (!part) return;
     CountInset inset(*part, frame, plot.height / to_double(Rational(counts)));
     inset.add_frame(diagram_, {turn_x, y_of(part->low + (part->high - part->low) / 2)}, items);

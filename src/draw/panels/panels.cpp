@@ -119,7 +119,13 @@ TimeAxis::TimeAxis(const DrawingContext& context, const Diagram& diagram, double
       from_(to_double(span_.from)),
       length_(to_double(span_.to - span_.from)),
       plot_(diagram.inside()) {
-  if (span_.to <= span_.from) throw UsageError("show.panels: the scene ends before it begins");
+  if (span_.to <= span_.from) {
+    throw UsageError(
+        fmt::format("show.panels: a diagram over time needs an end after the beginning, and the "
+                    "scene goes from {} to {}; change time.from or time.to, or leave the diagram "
+                    "out",
+                    to_text(span_.from), to_text(span_.to)));
+  }
   if (!(length_ > 0) || !std::isfinite(length_)) {
     throw UsageError(
         "show.panels: the time that the scene shows is beyond the range of a double; leave out "
@@ -131,8 +137,8 @@ TimeAxis::TimeAxis(const DrawingContext& context, const Diagram& diagram, double
   plot_.height -= kBelow * em;
   plot_.x += indent_em * em;
   plot_.width -= indent_em * em;
-  // Figures are centred on their marks, and those at the ends need room beside the axis. To make
-  // room moves the marks, by less and less.
+  // Figures are centred on their marks, and those at the ends need room beside the axis. Making
+  // room moves the marks, each time by less.
   constexpr int kPasses = 4;
   for (int pass = 0; pass < kPasses; ++pass) {
     place_figures(context.font, em);

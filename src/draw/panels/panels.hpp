@@ -116,7 +116,7 @@ class Diagram {
   /// The same, larger, where it is the only one.
   DiskItem present_dot(std::size_t n, const Point& at) const {
     DiskItem item = dot(n, at, palette_.accent);
-    item.radius = style::kPresentDot * sizes_.unit;
+    item.radius = style::kPresentDot * sizes_.short_side;
     return item;
   }
 
@@ -155,7 +155,7 @@ class TimeAxis {
  public:
   /// From the scene's beginning to its end, with its figures inside the diagram.
   /// @param indent_em  room left of the axis
-  /// @throws UsageError if the scene ends before it begins, or its time is beyond a double.
+  /// @throws UsageError unless the scene ends after it begins, or if its time is beyond a double.
   TimeAxis(const DrawingContext& context, const Diagram& diagram, double indent_em);
 
   const Span& span() const noexcept { return span_; }

@@ -47,17 +47,17 @@ PanelTitle title_of_positions(const DrawingContext& context, const PanelPlace& p
                         set.text("A zigzag in a wedge"), set.text("Positions")});
 }
 
-/// The path of both gaps runs to and fro between two lines, on which blue meets the wall and red.
-/// The picture is enlarged about their corner as red comes near, and seems to stay as it is: the
-/// wedge has no size of its own.
+/// The path of both gaps runs back and forth between two lines: on one blue meets the wall, on the
+/// other it meets red. As red comes near, the picture is enlarged about the corner of the lines.
+/// The wedge looks the same at every magnification.
 class PositionPanel {
  public:
   PositionPanel(const DrawingContext& context, const PanelPlace& place)
       : diagram_(context, place, title_of_positions(context, place)),
         path_(context.log, span_of(context.scene, context.log),
               std::max(1, static_cast<int>(diagram_.inside().width))),
-        most_(path_.most() > 0 ? path_.most() : 1),
-        least_share_(path_.least() > 0 ? path_.least() / most_ : kLeastShare),
+        most_(path_.greatest_y2() > 0 ? path_.greatest_y2() : 1),
+        least_share_(path_.least_y2() > 0 ? path_.least_y2() / most_ : kLeastShare),
         zoom_(least_share_) {
     context.needs.gaps = true;
     zoom_.make_texts(context.setter());
@@ -66,7 +66,7 @@ class PositionPanel {
     place_wedge(is_true_ ? wedge.sine / wedge.cosine : 0);
     add_wedge();
     add_names();
-    const double most = zoom_.of(least_share_);
+    const double most = zoom_.factor_for(least_share_);
     for (std::size_t exponent = 0;
          exponent <= zoom_.most_exponent() && zoom_.power(exponent) <= most; ++exponent) {
       auto plate = std::make_shared<const Plate>(Plate{items_at(zoom_.power(exponent))});
@@ -79,7 +79,7 @@ class PositionPanel {
     items.emplace_back(diagram_.item());
     const Gaps& gaps = shown.gaps;
     const double share = std::max(gaps.y2 / most_, least_share_);
-    const double zoom = zoom_.of(share);
+    const double zoom = zoom_.factor_for(share);
     if (const auto exponent = zoom_.exponent_of(zoom); exponent && *exponent < plateaus_.size()) {
       items.emplace_back(plateaus_[*exponent]);
     } else {

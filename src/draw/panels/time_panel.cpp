@@ -174,7 +174,7 @@ class TimePanel {
     items.emplace_back(diagram_.item());
     const double time = to_double(shown.time);
     if (!axis_.shows(time)) return;
-    const GapPoint gaps = wedge_.gaps_of(shown.state);
+    const Gaps gaps = wedge_.gaps_of(shown.state);
     const Point red = at(time, gaps.y2);
     items.emplace_back(axis_.cursor(diagram_, 0, red));
     items.emplace_back(diagram_.dot(1, red, diagram_.palette().red.line));

@@ -15,7 +15,7 @@ struct Column {
   Integer last;
 };
 
-GapPoint gaps_at(const Collision& collision, const GapWedge& wedge) {
+Gaps gaps_at(const Collision& collision, const GapWedge& wedge) {
   return wedge.gaps_of(collision.blue, collision.red);
 }
 

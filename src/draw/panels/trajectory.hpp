@@ -14,12 +14,6 @@
 
 namespace piblocks {
 
-/// Blue's distance from the wall, and red's less blue's width: 0 <= y1 <= y2, equal at a contact.
-struct GapPoint {
-  double y1 = 0;
-  double y2 = 0;
-};
-
 /// The wedge 0 <= y1 <= y2 in which the gaps stay, in scaled units.
 struct GapWedge {
   explicit GapWedge(const BlockSystem& system)
@@ -30,10 +24,11 @@ struct GapWedge {
         theta(std::atan2(sine, cosine)),
         tangent(root_magnitude_of(system.blue.mass / system.red.mass)) {}
 
-  GapPoint gaps_of(const Motion& blue, const Motion& red) const {
+  /// The gaps of these positions, with the rounding of positions: not as exact as gaps_at().
+  Gaps gaps_of(const Motion& blue, const Motion& red) const {
     return {blue.position - blue_offset, red.position - red_offset};
   }
-  GapPoint gaps_of(const BlockState& state) const { return gaps_of(state.blue, state.red); }
+  Gaps gaps_of(const BlockState& state) const { return gaps_of(state.blue, state.red); }
 
   /// So many times the wedge angle, which alone may be below the range of a double.
   double angle(const Magnitude& times) const {
@@ -62,7 +57,7 @@ struct GapWedge {
 
 struct TimedGaps {
   double time = 0;
-  GapPoint gaps;
+  Gaps gaps;
 };
 
 /// From one instant to the next, blue's gap takes all values from 0 to `high`.

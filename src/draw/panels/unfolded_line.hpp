@@ -81,8 +81,8 @@ class UnfoldedMap {
   /// What is between two rays, of which `a` is to the right of `b`.
   std::vector<Point> sector(const Point& a, const Point& b) const;
 
-  /// The mirrors in the order of time: all, or, if they are more than can be told apart, those
-  /// that are so far apart, on the line or at the area's sides.
+  /// The mirrors in the order of time. If they cannot all be told apart, only mirrors that are at
+  /// least this far apart, on the line or at the area's sides.
   std::vector<Mirror> mirrors(const CollisionLog& log, double least_apart_px) const;
 
  private:

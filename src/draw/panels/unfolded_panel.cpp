@@ -67,7 +67,7 @@ class UnfoldedPanel {
         from_x_(std::clamp(map_.x_at(span_.from), map_.left(), map_.right())) {
     add_notes(context);
     diagram_.finish();
-    standing_ = diagram_.plate(kRays, standing_items());
+    static_items_ = diagram_.plate(kRays, static_items());
     place_dots();
     if (unfolds_) place_rays();
     if (unfolds_) context.needs.hits = true;
@@ -80,7 +80,7 @@ class UnfoldedPanel {
     const bool is_seen = shown.time >= span_.from && shown.time <= span_.to;
     const double opened = opened_part(shown);
     if (is_seen) add_wedge(shown, next, opened, items);
-    items.emplace_back(standing_);
+    items.emplace_back(static_items_);
     if (unfolds_) {
       const std::size_t reached = opened < 1 ? next : next + 1;
       items.insert(items.end(), unfolded_.begin(),
@@ -149,7 +149,7 @@ class UnfoldedPanel {
   }
 
   /// Texts, the base line, all mirrors unless they unfold, and the line that is yet to come.
-  std::vector<DrawItem> standing_items() const {
+  std::vector<DrawItem> static_items() const {
     const Palette& palette = diagram_.palette();
     std::vector<DrawItem> lines = diagram_.item().plate->items;
     if (!unfolds_) {
@@ -278,7 +278,7 @@ class UnfoldedPanel {
   double least_x_;  ///< from here to most_x_ the present is marked
   double most_x_;
   double from_x_;                   ///< where the line that is shown begins
-  PlateItem standing_;              ///< all that stays, over the wedge
+  PlateItem static_items_;          ///< all that stays, over the wedge
   std::vector<PathItem> unfolded_;  ///< the mirrors, if they unfold one by one
   std::vector<DiskItem> dots_;      ///< of the mirrors that are met, from `first_dot_` on
   std::size_t first_dot_ = 0;

@@ -58,7 +58,7 @@ VelocityFigure::VelocityFigure(const DrawingContext& context, const Diagram& dia
   const double apart_px = 2 * points_.wedge_angle() * place_.circle.radius;
   has_chords_ = points_.moves() && apart_px >= kChordsApart * context.sizes.data_line;
   if (has_chords_) angles_ = points_.all_angles();
-  dot_px_ = std::min(style::kHitDot * context.sizes.unit, kDotsApart * apart_px);
+  dot_px_ = std::min(style::kHitDot * context.sizes.short_side, kDotsApart * apart_px);
   written_ = label_velocities(context, place_, points_, angles_);
 }
 

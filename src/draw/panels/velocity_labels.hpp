@@ -40,8 +40,8 @@ inline constexpr long kMostLongEllipse = 12;
 /// Whether the ellipse is drawn to scale.
 bool is_ellipse_to_scale(const BlockSystem& system);
 
-/// Names of the axes, the end, an arc and what it says, and why there is an ellipse. What has no
-/// room is left out.
+/// Labels: the names of the axes, "no more hits here", the marked arc's explanation, and the
+/// ellipse's explanation. Labels without room are left out.
 /// @param angles  of all points, if they can be told apart; else none
 VelocityLabels label_velocities(const DrawingContext& context, const VelocityPlace& place,
                                 const VelocityPoints& points, const std::vector<double>& angles);

@@ -53,15 +53,15 @@ class VelocityPanel {
         points_(context.scene, context.log),
         figure_(context, diagram_, points_),
         data_px_(context.sizes.data_line),
-        present_px_(style::kPresentDot * context.sizes.unit),
+        present_px_(style::kPresentDot * context.sizes.short_side),
         is_ellipse_first_(is_ellipse_first) {
     if (is_ellipse_first) context.needs.hits = true;
     diagram_.finish();
-    circle_ = drawn(1);
-    circle_.still = plate_of(circle_.still);
+    circle_ = figure_items(1);
+    circle_.static_items = plate_of(circle_.static_items);
     if (!is_ellipse_first) return;
-    ellipse_ = drawn(0);
-    ellipse_.still = plate_of(ellipse_.still);
+    ellipse_ = figure_items(0);
+    ellipse_.static_items = plate_of(ellipse_.static_items);
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
@@ -72,21 +72,22 @@ class VelocityPanel {
     } else if (share == 0) {
       add(ellipse_, 0, shown.state, items);
     } else {
-      add(drawn(share), share, shown.state, items);
+      add(figure_items(share), share, shown.state, items);
     }
   }
 
  private:
   /// All that depends on the share of the way from ellipse to circle alone.
-  struct Drawn {
-    std::vector<DrawItem> still;
+  struct FigureItems {
+    std::vector<DrawItem> static_items;
     std::vector<PathItem> chords;  ///< of each collision
     std::vector<DiskItem> dots;    ///< of each velocity
   };
 
-  Drawn drawn(double share) const {
-    Drawn all{{diagram_.item()}, {}, {}};
-    std::ranges::move(figure_.items(share, diagram_.moving(0)), std::back_inserter(all.still));
+  FigureItems figure_items(double share) const {
+    FigureItems all{{diagram_.item()}, {}, {}};
+    std::ranges::move(figure_.items(share, diagram_.moving(0)),
+                      std::back_inserter(all.static_items));
     const VelocityMap map = figure_.map(share);
     const std::vector<double>& angles = figure_.angles();
     for (std::size_t i = 0; i < angles.size(); ++i) {
@@ -100,10 +101,10 @@ class VelocityPanel {
   }
 
   /// Title and figure as one item.
-  std::vector<DrawItem> plate_of(const std::vector<DrawItem>& still) const {
+  std::vector<DrawItem> plate_of(const std::vector<DrawItem>& static_items) const {
     PlateItem item = diagram_.item();
     std::vector<DrawItem> parts = item.plate->items;
-    parts.insert(parts.end(), still.begin() + 1, still.end());
+    parts.insert(parts.end(), static_items.begin() + 1, static_items.end());
     item.plate = std::make_shared<const Plate>(Plate{std::move(parts)});
     return {item};
   }
@@ -116,9 +117,9 @@ class VelocityPanel {
             Stroke{color, data_px_}};
   }
 
-  void add(const Drawn& drawn, double share, const BlockState& state,
+  void add(const FigureItems& parts, double share, const BlockState& state,
            std::vector<DrawItem>& items) const {
-    items.insert(items.end(), drawn.still.begin(), drawn.still.end());
+    items.insert(items.end(), parts.static_items.begin(), parts.static_items.end());
     const VelocityMap map = figure_.map(share);
     const Point velocity =
         points_.moves() ? points_.point_of(state.blue.velocity, state.red.velocity) : Point{};
@@ -126,8 +127,8 @@ class VelocityPanel {
         std::clamp<Integer>(state.count, points_.before(), points_.last()) - points_.before();
     if (figure_.has_chords()) {
       const auto count = static_cast<std::ptrdiff_t>(reached.get_si());
-      items.insert(items.end(), drawn.chords.begin(), drawn.chords.begin() + count);
-      items.insert(items.end(), drawn.dots.begin(), drawn.dots.begin() + count + 1);
+      items.insert(items.end(), parts.chords.begin(), parts.chords.begin() + count);
+      items.insert(items.end(), parts.dots.begin(), parts.dots.begin() + count + 1);
     } else if (reached > 0) {
       add_area(map, std::atan2(velocity.y, velocity.x), reached, items);
     }
@@ -203,8 +204,8 @@ class VelocityPanel {
   double data_px_;
   double present_px_;
   bool is_ellipse_first_;
-  Drawn circle_;
-  Drawn ellipse_;
+  FigureItems circle_;
+  FigureItems ellipse_;
 };
 
 }  // namespace
