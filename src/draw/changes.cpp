@@ -32,6 +32,16 @@ bool slides(const ExposedBlock& before, const ExposedBlock& after) {
          before.bounds.width == after.bounds.width && before.dwells.empty() == after.dwells.empty();
 }
 
+/// Whether only the second end of a level line changes. What stays of it has the same pixels.
+bool grows(const PathItem& before, const PathItem& after) {
+  const std::span<const Point> a = before.points.view();
+  const std::span<const Point> b = after.points.view();
+  return !before.fill && !after.fill && before.stroke && before.stroke == after.stroke &&
+         before.stroke->dash_px == 0 && !before.closed && !after.closed && a.size() == 2 &&
+         b.size() == 2 && a[0] == b[0] && a[1].y == a[0].y && b[1].y == b[0].y &&
+         (a[1].x < a[0].x) == (b[1].x < b[0].x);
+}
+
 /// Whether only the content of a group changes.
 bool stays(const GroupItem& before, const GroupItem& after) {
   const bool is_scaled = after.bounds.width != after.list->width_px;
@@ -94,6 +104,8 @@ class Comparison {
         return compare(*a, std::get<TextItem>(after));
       if (const auto* a = std::get_if<RectangleItem>(&before))
         return compare(*a, std::get<RectangleItem>(after));
+      if (const auto* a = std::get_if<PathItem>(&before))
+        return compare(*a, std::get<PathItem>(after));
       if (const auto* a = std::get_if<GroupItem>(&before))
         return compare(*a, std::get<GroupItem>(after));
       if (const auto* a = std::get_if<ExposedItem>(&before))
@@ -125,6 +137,17 @@ class Comparison {
     const double line = before.stroke ? before.stroke->width_px : 0;
     add({std::min(a.left, b.left), a.top, std::max(a.left, b.left) + line, a.bottom});
     add({std::min(a.right, b.right) - line, a.top, std::max(a.right, b.right), a.bottom});
+  }
+
+  void compare(const PathItem& before, const PathItem& after) {
+    if (!grows(before, after)) {
+      add(before);
+      add(after);
+      return;
+    }
+    const double y = after.points.view()[0].y;
+    const auto [left, right] = std::minmax(before.points.view()[1].x, after.points.view()[1].x);
+    add(Extent{left, y, right, y}.grown(after.stroke->width_px / 2));
   }
 
   void compare(const GroupItem& before, const GroupItem& after) {
@@ -176,6 +199,9 @@ class Comparison {
   }
 
   void add(const DrawItem& item) { add(extent_of(item, width_em_)); }
+  void add(const PathItem& path) {
+    for (const Extent& extent : extents_of(path)) add(extent);
+  }
   void add(const Extent& extent) {
     if (rects_.size() == 1 && rects_.front() == frame_) return;
     const PixelRect rect = pixels_of(extent.grown(kRounding_px), frame_);

@@ -180,6 +180,7 @@ struct PlateItem {
   ItemId id = ItemId::wall;
   Rectangle bounds;  ///< in whole pixels; the plate is cut off at them
   std::shared_ptr<const Plate> plate;
+  Point origin{};  ///< of the plate's items, in whole pixels
   bool operator==(const PlateItem&) const = default;
 };
 

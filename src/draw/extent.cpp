@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace piblocks {
@@ -41,6 +42,38 @@ struct ExtentOf {
   Extent operator()(const auto& item) const { return extent_of(item.bounds); }
 };
 
+/// Whether a straight line has a point in the extent: whether it enters all of its sides'
+/// half-planes before it leaves any.
+bool crosses(const Point& from, const Point& to, const Extent& extent) {
+  double enters = 0;
+  double leaves = 1;
+  const auto clip = [&](double at, double step, double low, double high) {
+    if (step == 0) return low <= at && at <= high;
+    const auto [first, last] = std::minmax({(low - at) / step, (high - at) / step});
+    enters = std::max(enters, first);
+    leaves = std::min(leaves, last);
+    return enters <= leaves;
+  };
+  return clip(from.x, to.x - from.x, extent.left, extent.right) &&
+         clip(from.y, to.y - from.y, extent.top, extent.bottom);
+}
+
+/// Lines that are worth a look at each of them.
+bool is_few_lines(const PathItem& path) {
+  const std::size_t points = path.points.view().size();
+  return !path.fill && !path.closed && points > 1 && points <= 16;
+}
+
+/// False only if the path has certainly no point in the extent.
+bool may_cross(const PathItem& path, const Extent& extent) {
+  const std::span<const Point> points = path.points.view();
+  if (!is_few_lines(path)) return true;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (crosses(points[i - 1], points[i], extent)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Extent extent_of(const Rectangle& r) { return {r.x, r.y, r.x + r.width, r.y + r.height}; }
@@ -62,6 +95,31 @@ Extent extent_of(const TextItem& text, double left_em, double right_em) {
 
 Extent extent_of(const DrawItem& item, const MeasureText& width_em) {
   return std::visit(ExtentOf{width_em}, item);
+}
+
+std::vector<Extent> extents_of(const PathItem& path) {
+  constexpr double kPiece_px = 64;
+  constexpr double kMaxPieces = 256;
+  const std::span<const Point> points = path.points.view();
+  std::vector<Extent> extents;
+  if (!is_few_lines(path)) {
+    extents.push_back(extent_of(path.points.bounds()).grown(reach_of(path.stroke)));
+    return extents;
+  }
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Point& from = points[i - 1];
+    const Point step{points[i].x - from.x, points[i].y - from.y};
+    const double slant_px = std::min(std::abs(step.x), std::abs(step.y));
+    const double pieces = std::ceil(std::clamp(slant_px / kPiece_px, 1.0, kMaxPieces));
+    for (double piece = 0; piece < pieces; ++piece) {
+      const auto [left, right] =
+          std::minmax({from.x + piece / pieces * step.x, from.x + (piece + 1) / pieces * step.x});
+      const auto [top, bottom] =
+          std::minmax({from.y + piece / pieces * step.y, from.y + (piece + 1) / pieces * step.y});
+      extents.push_back(Extent{left, top, right, bottom}.grown(reach_of(path.stroke)));
+    }
+  }
+  return extents;
 }
 
 PixelRect pixels_of(const Extent& extent, const PixelRect& area) {
@@ -96,8 +154,11 @@ bool reaches(const DrawItem& item, const PixelRect& rect) {
     return 1e6;
   };
   const Extent extent = extent_of(item, endless_em).grown(kRounding_px);
-  return extent.left < rect.x_px + rect.width_px && extent.right > rect.x_px &&
-         extent.top < rect.y_px + rect.height_px && extent.bottom > rect.y_px;
+  const bool may_reach = extent.left < rect.x_px + rect.width_px && extent.right > rect.x_px &&
+                         extent.top < rect.y_px + rect.height_px && extent.bottom > rect.y_px;
+  const auto* path = std::get_if<PathItem>(&item);
+  if (!may_reach || path == nullptr) return may_reach;
+  return may_cross(*path, extent_of(to_rectangle(rect)).grown(reach_of(path->stroke) + 1));
 }
 
 bool are_finite(std::span<const DrawItem> items) {

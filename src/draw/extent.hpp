@@ -35,6 +35,10 @@ Extent extent_of(const ExposedBlock& block);
 Extent extent_of(const TextItem& text, double left_em, double right_em);
 Extent extent_of(const DrawItem& item, const MeasureText& width_em);
 
+/// Extents that hold a path together. Those of slanted lines are far smaller than the rectangle
+/// around them.
+std::vector<Extent> extents_of(const PathItem& path);
+
 /// The whole pixels of an area that an extent, maybe far outside or not a number, reaches into.
 PixelRect pixels_of(const Extent& extent, const PixelRect& area);
 

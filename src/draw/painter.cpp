@@ -115,7 +115,10 @@ void Painter::paint_image(cairo_t& cr, const ImageItem& item) {
 
 void Painter::paint_plate(cairo_t& cr, const PlateItem& item) {
   if (setting_ == TextSetting::lines) {
+    cairo_save(&cr);
+    cairo_translate(&cr, item.origin.x, item.origin.y);
     for (const DrawItem& inner : item.plate->items) paint_item(cr, inner);
+    cairo_restore(&cr);
     return;
   }
   copy_pixels(cr, kept_pixels(item.plate, [&] { return pixels_of(item); }), item.bounds);
@@ -124,7 +127,8 @@ void Painter::paint_plate(cairo_t& cr, const PlateItem& item) {
 CairoSurfacePtr Painter::pixels_of(const PlateItem& item) {
   CairoSurfacePtr pixels = image_surface(CAIRO_FORMAT_ARGB32, static_cast<int>(item.bounds.width),
                                          static_cast<int>(item.bounds.height), "paint a plate");
-  cairo_surface_set_device_offset(pixels.get(), -item.bounds.x, -item.bounds.y);
+  cairo_surface_set_device_offset(pixels.get(), item.origin.x - item.bounds.x,
+                                  item.origin.y - item.bounds.y);
   const CairoPtr inner(cairo_create(pixels.get()));
   for (const DrawItem& item_on_plate : item.plate->items) paint_item(*inner, item_on_plate);
   check_cairo(cairo_status(inner.get()), "paint a plate");
@@ -135,9 +139,12 @@ CairoSurfacePtr Painter::pixels_of(const PlateItem& item) {
 cairo_surface_t& Painter::kept_pixels(std::shared_ptr<const void> source,
                                       const std::function<CairoSurfacePtr()>& make) {
   const auto kept = std::ranges::find(kept_, source, &KeptPixels::source);
-  if (kept != kept_.end()) return *kept->pixels;
+  if (kept != kept_.end()) {
+    std::rotate(kept, kept + 1, kept_.end());
+    return *kept_.back().pixels;
+  }
   CairoSurfacePtr pixels = make();
-  // A long film does not need its oldest pixels any more.
+  // A long film does not need any more what it has not shown for the longest time.
   constexpr std::size_t kMostKept = 40;
   if (kept_.size() == kMostKept) kept_.erase(kept_.begin());
   kept_.push_back({std::move(source), std::move(pixels)});

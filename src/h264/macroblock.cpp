@@ -137,9 +137,9 @@ void MacroblockCoder::finish(const MacroblockInput& input, const Residual& resid
 
 CodedMacroblock MacroblockCoder::p_skip(const MacroblockInput& input) const {
   CodedMacroblock coded(MbType::p_skip);
-  if (largest_difference(input.source, input.before) > tolerance_) return coded;
-  coded.samples = input.before;
   coded.state.vector = skip_vector(input.neighbours);
+  if (largest_difference(input.source, input.before) > tolerance(coded.state.vector)) return coded;
+  coded.samples = input.before;
   set_cost(coded, error_of(input.source, input.before));
   return coded;
 }
@@ -220,7 +220,7 @@ CodedMacroblock MacroblockCoder::p_l0_16x16(const MacroblockInput& input, Motion
   const int pattern = residual.coded_block_pattern();
   if (pattern == 0) {
     if (vector == skip_vector(input.neighbours)) return coded;  // it would be P_Skip
-    if (largest_difference(input.source, coded.samples) > tolerance_) return coded;
+    if (largest_difference(input.source, coded.samples) > tolerance(vector)) return coded;
   }
   write_p_l0_16x16(vector, input.neighbours, coded.bits);
   finish(input, residual, pattern, coded);

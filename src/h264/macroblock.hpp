@@ -96,8 +96,14 @@ class MacroblockCoder {
   void finish(const MacroblockInput& input, const Residual& residual, int pattern,
               CodedMacroblock& coded) const;
 
+  /// The largest difference that may stay where nothing corrects it. What moves is looked at again
+  /// in the next picture.
+  int tolerance(MotionVector vector) const {
+    return vector == MotionVector{} ? tolerance_ : 2 * tolerance_;
+  }
+
   std::int64_t lambda_;  // what a bit costs
-  int tolerance_;        // the largest difference that may stay where nothing corrects it
+  int tolerance_;        // of what stays
   Quantisers intra_;
   Quantisers inter_;
 };

@@ -13,7 +13,7 @@ constexpr int kRange = 48;
 
 /// The largest sum of differences of 256 samples that still is motion. A quantiser of 14 leaves
 /// less than half of it.
-constexpr int kNear = 512;
+constexpr int kNear = 768;
 
 bool is_zero(MotionVector vector) { return vector == MotionVector{}; }
 
@@ -56,7 +56,7 @@ class Nearest {
     least_ = sum;
     vector_ = vector;
   }
-  bool is_certain() const { return least_ < kNear / 2; }
+  bool is_certain() const { return least_ < 1 * kNear / 2; }
   const std::optional<MotionVector>& vector() const { return vector_; }
 
  private:

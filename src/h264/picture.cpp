@@ -11,6 +11,14 @@ void copy_plane(const std::uint8_t* from, std::ptrdiff_t from_stride, std::uint8
   for (int y = 0; y < side; ++y, from += from_stride, to += to_stride) std::memcpy(to, from, side);
 }
 
+template <int side>
+bool is_plane_equal(const std::uint8_t* a, const std::uint8_t* b, std::ptrdiff_t stride) {
+  for (int y = 0; y < side; ++y) {
+    if (std::memcmp(a + y * stride, b + y * stride, side) != 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 int largest_difference(const Samples& a, const Samples& b) {
@@ -40,6 +48,14 @@ void Picture::store(int x_mb, int y_mb, const Samples& samples) {
   for (int i = 1; i < 3; ++i) {
     copy_plane<8>(samples.plane(i), 8, plane(i) + offset(i, x_mb, y_mb), stride_bytes(i));
   }
+}
+
+bool Picture::has_equal(int x_mb, int y_mb, const Picture& other) const {
+  const std::ptrdiff_t luma = offset(0, x_mb, y_mb);
+  const std::ptrdiff_t chroma = offset(1, x_mb, y_mb);
+  return is_plane_equal<16>(plane(0) + luma, other.plane(0) + luma, stride_bytes(0)) &&
+         is_plane_equal<8>(plane(1) + chroma, other.plane(1) + chroma, stride_bytes(1)) &&
+         is_plane_equal<8>(plane(2) + chroma, other.plane(2) + chroma, stride_bytes(2));
 }
 
 void Picture::copy(int x_mb, int y_mb, const Picture& from) {

@@ -100,6 +100,7 @@ class Picture {
 
   void load(int x_mb, int y_mb, Samples& samples) const;
   void store(int x_mb, int y_mb, const Samples& samples);
+  bool has_equal(int x_mb, int y_mb, const Picture& other) const;
   /// Takes a macroblock of another picture of this size.
   void copy(int x_mb, int y_mb, const Picture& from);
   void load_borders(int x_mb, int y_mb, Borders& borders) const;

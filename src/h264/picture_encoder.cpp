@@ -20,6 +20,7 @@ PictureEncoder::PictureEncoder(const ParameterSets& sets, int qp)
     : sets_(sets),
       qp_(qp),
       coder_(qp, sets.chroma_qp_offset),
+      source_before_(sets.width_mb, sets.height_mb),
       before_(sets.width_mb, sets.height_mb),
       decoded_(sets.width_mb, sets.height_mb),
       visited_(sets.width_mb, sets.height_mb),
@@ -33,6 +34,7 @@ std::vector<std::uint8_t> PictureEncoder::encode_idr(const Picture& source) {
   begin_slice(SliceType::i);
   const int count = sets_.width_mb * sets_.height_mb;
   for (int address = 0; address < count; ++address) add(address, source);
+  source_before_ = source;
   return finish_slice();
 }
 
@@ -43,7 +45,7 @@ std::vector<std::uint8_t> PictureEncoder::encode_p(const Picture& source,
   motion_.begin_picture();
   visited_ = changed;
   for (int address = visited_.next(0); address >= 0; address = visited_.next(address + 1)) {
-    changed.contains(address) ? add(address, source) : keep(address);
+    changed.contains(address) && is_new(address, source) ? add(address, source) : keep(address);
   }
   const int skipped = sets_.width_mb * sets_.height_mb - next_address_;
   if (skipped > 0) bits_.put_unsigned(static_cast<std::uint32_t>(skipped));  // mb_skip_run
@@ -75,6 +77,14 @@ void PictureEncoder::begin_slice(SliceType type) {
   }
   bits_.put_signed(qp_ - sets_.initial_qp);
   bits_.put_unsigned(1);  // disable_deblocking_filter_idc
+}
+
+bool PictureEncoder::is_new(int address, const Picture& source) {
+  const int x = address % sets_.width_mb;
+  const int y = address / sets_.width_mb;
+  if (source.has_equal(x, y, source_before_)) return false;
+  source_before_.copy(x, y, source);
+  return true;
 }
 
 MotionVector PictureEncoder::enter(int address) {

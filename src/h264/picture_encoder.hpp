@@ -39,6 +39,8 @@ class PictureEncoder {
 
  private:
   void begin_slice(SliceType type);
+  /// Whether the macroblock is not what it was in the source before.
+  bool is_new(int address, const Picture& source);
   /// Sets what a macroblock is predicted from. @returns its vector as P_Skip
   MotionVector enter(int address);
   void add(int address, const Picture& source);
@@ -51,6 +53,7 @@ class PictureEncoder {
   int qp_;
   MacroblockCoder coder_;
   MotionSearch motion_;
+  Picture source_before_;
   Picture before_;  // decoded
   Picture decoded_;
   MacroblockSet visited_;  // what changes, and what is beside motion

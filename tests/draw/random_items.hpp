@@ -143,7 +143,8 @@ inline PlateItem any_plate(Random& random, ItemId id, int width, int height) {
   return {id,
           {std::round(anywhere(random, width)), std::round(anywhere(random, height)),
            double(random.integer(1, width)), double(random.integer(1, height))},
-          std::make_shared<const Plate>(std::move(plate))};
+          std::make_shared<const Plate>(std::move(plate)),
+          {double(random.integer(-9, 9)), double(random.integer(-9, 9))}};
 }
 
 inline DrawItem any_item(Random& random, ItemId id, int width, int height) {

@@ -28,10 +28,17 @@ constexpr double kGlowReach = 0.8;
 /// when the rate has doubled so many times.
 constexpr double kLeastGlow = 0.4;
 constexpr double kHalfGlow = 6;
+/// Strengths that are told apart, from kLeastGlow to 1: one for each of its opacities.
+constexpr int kGlows = 38;
 
-double glow_strength(double hits_per_s) {
+/// The number of the strength.
+int glow_of(double hits_per_s) {
   const double doublings = straight_log2(hits_per_s / kMaxHitsPerSecond);
-  return kLeastGlow + (1 - kLeastGlow) * doublings / (doublings + kHalfGlow);
+  return static_cast<int>(std::lround((kGlows - 1) * doublings / (doublings + kHalfGlow)));
+}
+
+double opacity_of_glow(int glow) {
+  return kGlowAlpha * (kLeastGlow + (1 - kLeastGlow) * glow / (kGlows - 1));
 }
 
 /// From one angle to another, counter-clockwise from the right.
@@ -53,13 +60,18 @@ HitMarks::HitMarks(const DrawingContext& context, const BlockDimensions& dimensi
       line_px_(kMarkLine * context.sizes.wall_line) {
   constexpr double kUp = std::numbers::pi / 2;
   const Palette& palette = context.palette;
-  wall_ = {dimensions.floor_px - dimensions.blue_height_px, directions_of(0, kUp),
-           palette.blue.line};
+  wall_ = {dimensions.floor_px - dimensions.blue_height_px,
+           directions_of(0, kUp),
+           palette.blue.line,
+           {}};
   const bool is_left_free = dimensions.blue_height_px <= dimensions.red_height_px;
   const bool is_right_free = dimensions.red_height_px <= dimensions.blue_height_px;
   blocks_ = {dimensions.floor_px - std::min(dimensions.blue_height_px, dimensions.red_height_px),
              directions_of(is_right_free ? 0 : kUp, is_left_free ? 2 * kUp : kUp),
-             palette.red.line};
+             palette.red.line,
+             {}};
+  set_glows(wall_);
+  set_glows(blocks_);
 }
 
 void HitMarks::add_arc(ItemId id, const Hit& hit, double x_px, std::vector<DrawItem>& items) const {
@@ -75,26 +87,40 @@ void HitMarks::add_arc(ItemId id, const Hit& hit, double x_px, std::vector<DrawI
                               Stroke{faded(sector.color, left), line_px_}});
 }
 
-PathItem HitMarks::filled(ItemId id, const MarkSector& sector, double x_px, double radius_px) {
-  std::vector<Point> outline = {{x_px, sector.y_px}};
-  for (const Point& direction : sector.directions) {
-    outline.push_back({x_px + radius_px * direction.x, sector.y_px + radius_px * direction.y});
+void HitMarks::set_glows(MarkSector& sector) const {
+  std::vector<Points> outlines;
+  for (int disk = 1; disk <= kGlowDisks; ++disk) {
+    const double radius_px = glow_px_ * disk / kGlowDisks;
+    std::vector<Point> outline = {{0, sector.y_px}};
+    for (const Point& direction : sector.directions) {
+      outline.push_back({radius_px * direction.x, sector.y_px + radius_px * direction.y});
+    }
+    outlines.emplace_back(std::move(outline));
   }
-  return {id, std::move(outline), true, sector.color, std::nullopt};
+  for (int glow = 0; glow < kGlows; ++glow) {
+    const Color color = faded(sector.color, opacity_of_glow(glow));
+    Plate plate;
+    for (const Points& outline : outlines) {
+      plate.items.emplace_back(PathItem{ItemId::hits, outline, true, color, std::nullopt});
+    }
+    sector.glows.push_back(std::make_shared<const Plate>(std::move(plate)));
+  }
 }
 
 void HitMarks::add_glow(double hits_per_s, const ContactPositions& contacts,
                         std::vector<DrawItem>& items) const {
   if (hits_per_s <= kMaxHitsPerSecond) return;
-  const double alpha = kGlowAlpha * glow_strength(hits_per_s);
+  const auto glow = static_cast<std::size_t>(glow_of(hits_per_s));
+  const double reach_px = std::ceil(glow_px_) + 1;
   std::size_t n = 0;
   for (const auto& [sector, x_px] :
        {std::pair(&wall_, contacts.wall_x_px), {&blocks_, contacts.blocks_x_px}}) {
-    for (int disk = 1; disk <= kGlowDisks; ++disk) {
-      PathItem item = filled(nth(ItemId::hits, n++), *sector, x_px, glow_px_ * disk / kGlowDisks);
-      item.fill = faded(sector->color, alpha);
-      items.emplace_back(std::move(item));
-    }
+    const double x = std::round(x_px);
+    items.emplace_back(
+        PlateItem{nth(ItemId::hits, n++),
+                  {x - reach_px, std::floor(sector->y_px) - reach_px, 2 * reach_px, reach_px + 1},
+                  sector->glows[glow],
+                  {x, 0}});
   }
 }
 

@@ -2,6 +2,7 @@
 // In: a FrameState, and where bodies touch. Out: items above the lower body's edge.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "draw/layout.hpp"
@@ -51,12 +52,14 @@ class HitMarks {
     double y_px = 0;
     std::vector<Point> directions;  ///< of length 1, counter-clockwise
     Color color;
+    /// By strength, from the weakest, around a contact at x = 0.
+    std::vector<std::shared_ptr<const Plate>> glows;
   };
 
   const MarkSector& sector_of(CollisionKind kind) const {
     return kind == CollisionKind::wall ? wall_ : blocks_;
   }
-  static PathItem filled(ItemId id, const MarkSector& sector, double x_px, double radius_px);
+  void set_glows(MarkSector& sector) const;
 
   double reach_px_;  ///< of arcs
   double glow_px_;   ///< and of glows, which do not meet above a narrow block

@@ -1,0 +1,200 @@
+// Motion vectors: prediction by clause 8.4 of ITU-T H.264, and what the search finds.
+#include "h264/motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "h264/picture_encoder.hpp"
+#include "h264/stream_fixture.hpp"
+#include "support/property.hpp"
+
+namespace piblocks::h264 {
+namespace {
+
+MacroblockState inter(MotionVector vector) {
+  MacroblockState state;
+  state.vector = vector;
+  return state;
+}
+
+MacroblockState intra() {
+  MacroblockState state;
+  state.is_intra = true;
+  return state;
+}
+
+const MacroblockState kStays = inter({0, 0});
+const MacroblockState kRight = inter({8, 0});
+const MacroblockState kFarRight = inter({20, -4});
+const MacroblockState kUp = inter({2, -6});
+const MacroblockState kIntra = intra();
+
+TEST(PredictedVector, IsTheMedianOfThree) {
+  EXPECT_EQ(predicted_vector({&kRight, &kFarRight, &kUp}), (MotionVector{8, -4}));
+  EXPECT_EQ(predicted_vector({&kStays, &kStays, &kUp}), (MotionVector{0, 0}));
+}
+
+TEST(PredictedVector, IsThatOfTheOnlyInterMacroblock) {
+  EXPECT_EQ(predicted_vector({&kIntra, &kIntra, &kUp}), kUp.vector);
+  EXPECT_EQ(predicted_vector({&kRight, &kIntra, nullptr}), kRight.vector);
+  EXPECT_EQ(predicted_vector({nullptr, &kFarRight, nullptr}), kFarRight.vector);
+}
+
+TEST(PredictedVector, TakesOthersThanInterAsZero) {
+  EXPECT_EQ(predicted_vector({&kRight, &kIntra, &kFarRight}), (MotionVector{8, 0}));
+  EXPECT_EQ(predicted_vector({&kIntra, &kIntra, &kIntra}), MotionVector{});
+  EXPECT_EQ(predicted_vector({nullptr, nullptr, nullptr}), MotionVector{});
+}
+
+TEST(SkipVector, IsZeroAtTheEdgesAndBesideWhatStays) {
+  EXPECT_EQ(skip_vector({nullptr, &kRight, &kRight}), MotionVector{});
+  EXPECT_EQ(skip_vector({&kRight, nullptr, &kRight}), MotionVector{});
+  EXPECT_EQ(skip_vector({&kRight, &kStays, &kRight}), MotionVector{});
+  EXPECT_EQ(skip_vector({&kStays, &kRight, &kRight}), MotionVector{});
+  EXPECT_EQ(skip_vector({&kIntra, &kRight, &kIntra}), kRight.vector);
+  EXPECT_EQ(skip_vector({&kRight, &kRight, &kUp}), kRight.vector);
+}
+
+Picture noise(Random& random, int width_mb, int height_mb) {
+  Picture picture(width_mb, height_mb);
+  for (int plane = 0; plane < 3; ++plane) {
+    const std::ptrdiff_t count = picture.stride_bytes(plane) * side_of(plane) * height_mb;
+    std::generate_n(picture.plane(plane), count,
+                    [&] { return static_cast<std::uint8_t>(random.integer(0, 255)); });
+  }
+  return picture;
+}
+
+/// A sample of the picture whose edges go on for ever.
+int sample(const Picture& picture, int plane, int x, int y) {
+  const int side = side_of(plane);
+  const int column = std::clamp(x, 0, side * picture.width_mb() - 1);
+  const int row = std::clamp(y, 0, side * picture.height_mb() - 1);
+  return picture.plane(plane)[row * picture.stride_bytes(plane) + column];
+}
+
+/// 8.4.2.2.2, by a vector in eighths of a chroma sample.
+int chroma_sample(const Picture& picture, int plane, int x, int y, MotionVector eighths) {
+  const int left = x + (eighths.x >> 3);
+  const int top = y + (eighths.y >> 3);
+  const int fx = eighths.x & 7;
+  const int fy = eighths.y & 7;
+  return ((8 - fx) * (8 - fy) * sample(picture, plane, left, top) +
+          fx * (8 - fy) * sample(picture, plane, left + 1, top) +
+          (8 - fx) * fy * sample(picture, plane, left, top + 1) +
+          fx * fy * sample(picture, plane, left + 1, top + 1) + 32) >>
+         6;
+}
+
+TEST(PredictMoved, IsInterPredictionInsideAndOutsideThePicture) {
+  Random random(84);
+  SCOPED_TRACE(random.trace());
+  const auto pick = [&](int first, int last) {
+    return static_cast<int>(random.integer(first, last));
+  };
+  for (std::int64_t i = 0; i < many(300); ++i) {
+    const Picture before = noise(random, pick(1, 5), pick(1, 4));
+    const int x_mb = pick(0, before.width_mb() - 1);
+    const int y_mb = pick(0, before.height_mb() - 1);
+    const MotionVector vector = {pick(-70, 70), pick(-70, 70)};
+    Samples samples;
+    predict_moved(before, x_mb, y_mb, vector, samples);
+    for (int at = 0; at < 256; ++at) {
+      ASSERT_EQ(samples.plane(0)[at],
+                sample(before, 0, 16 * x_mb + at % 16 + vector.x, 16 * y_mb + at / 16 + vector.y));
+    }
+    // A quarter of a luma sample is an eighth of a chroma sample.
+    const MotionVector eighths = {4 * vector.x, 4 * vector.y};
+    for (int plane = 1; plane < 3; ++plane) {
+      for (int at = 0; at < 64; ++at) {
+        ASSERT_EQ(samples.plane(plane)[at],
+                  chroma_sample(before, plane, 8 * x_mb + at % 8, 8 * y_mb + at / 8, eighths));
+      }
+    }
+  }
+}
+
+TEST(MotionSearch, FindsWhatSlidOrScrolled) {
+  Random random(16);
+  SCOPED_TRACE(random.trace());
+  const Picture before = noise(random, 8, 8);
+  const MacroblockState still;
+  for (const MotionVector moved :
+       {MotionVector{3, 0}, {-17, 0}, {48, 0}, {0, 1}, {0, -48}, {16, 0}, {-1, 0}}) {
+    Samples source;
+    predict_moved(before, 4, 4, moved, source);
+    MotionSearch search;
+    EXPECT_EQ(search.find(source, before, 4, 4, {&still, &still, &still}), moved)
+        << moved.x << ", " << moved.y;
+  }
+}
+
+TEST(MotionSearch, FindsNothingInNoiseAndAfterFailuresGoesOnWithTheNextPicture) {
+  Random random(61);
+  SCOPED_TRACE(random.trace());
+  const Picture before = noise(random, 8, 8);
+  const MacroblockState still;
+  const Neighbours neighbours = {&still, &still, &still};
+  Samples other;
+  noise(random, 8, 8).load(1, 1, other);
+  Samples slid;
+  predict_moved(before, 4, 4, {5, 0}, slid);
+  MotionSearch search;
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(search.find(other, before, 4, 4, neighbours));
+  EXPECT_FALSE(search.find(slid, before, 4, 4, neighbours)) << "it has given up for this picture";
+  search.begin_picture();
+  EXPECT_EQ(search.find(slid, before, 4, 4, neighbours), (MotionVector{5, 0}));
+}
+
+/// Writing on flat ground: squares of two samples, dark or not, with their left edge at `x`.
+void write(Picture& picture, MacroblockSet& changed, int x) {
+  constexpr int kWidth = 96;
+  constexpr int kHeight = 32;
+  for (int plane = 0; plane < 3; ++plane) {
+    const int step = plane == 0 ? 1 : 2;
+    const std::ptrdiff_t stride = picture.stride_bytes(plane);
+    std::fill_n(picture.plane(plane), stride * side_of(plane) * picture.height_mb(),
+                plane == 0 ? 120 : 90);
+    for (int row = 0; row < kHeight / step; ++row) {
+      for (int column = 0; column < kWidth / step; ++column) {
+        const int square = (column * step / 2) * 7919 + (row * step / 2) * 104'729;
+        std::uint8_t* const at = picture.plane(plane) + (row + 32 / step) * stride;
+        if (square % 5 < 2) at[column + x / step] = plane == 0 ? 16 : 128;
+      }
+    }
+  }
+  changed.add(0, 32, 16 * picture.width_mb(), kHeight);
+}
+
+TEST(Motion, OfWritingCostsATenthOfTheWriting) {
+  const StreamHeaders headers({.width_px = 320, .height_px = 96});
+  Picture picture(headers.sets.width_mb, headers.sets.height_mb);
+  MacroblockSet changed(headers.sets.width_mb, headers.sets.height_mb);
+  PictureEncoder encoder(headers.sets, 14);
+  StrictDecoder decoder(headers.bytes);
+  write(picture, changed, 20);
+  const auto first = encoder.encode_idr(picture);
+  ASSERT_TRUE(decoder.decode(first));
+  for (int frame = 1; frame < 10; ++frame) {
+    write(picture, changed, 20 + 6 * frame);
+    const auto next = encoder.encode_p(picture, changed);
+    const auto shown = decoder.decode(next);
+    ASSERT_TRUE(shown);
+    ASSERT_EQ(difference(encoder.decoded(), *shown), "") << frame;
+    EXPECT_LT(next.size(), first.size() / 10) << frame;
+  }
+}
+
+TEST(Motion, LeavesWhatIsMarkedAndDoesNotChangeAlone) {
+  const StreamHeaders headers({.width_px = 320, .height_px = 96});
+  Picture picture(headers.sets.width_mb, headers.sets.height_mb);
+  MacroblockSet changed(headers.sets.width_mb, headers.sets.height_mb);
+  PictureEncoder encoder(headers.sets, 38);  // so coarse that some samples are far off
+  write(picture, changed, 20);
+  encoder.encode_idr(picture);
+  EXPECT_LE(encoder.encode_p(picture, changed).size(), 12U);
+}
+
+}  // namespace
+}  // namespace piblocks::h264
