@@ -259,10 +259,12 @@ class UnfoldedPanel {
 
   /// The line up to now: a rectangle, of which only the end changes.
   void add_line(double x, std::vector<DrawItem>& items) const {
-    const double to = std::clamp(x, map_.left(), map_.right());
+    // Cairo rounds places and lengths to 1/256 pixel. Both are multiples, so that the end that stays
+    // has the same pixels in every frame.
+    const double from = std::round(256 * from_x_) / 256;
+    const double to = std::round(256 * std::clamp(x, map_.left(), map_.right())) / 256;
     const double width = 1.2 * diagram_.sizes().data_line;
-    const Rectangle bounds{std::min(from_x_, to), level() - width / 2, std::abs(to - from_x_),
-                           width};
+    const Rectangle bounds{std::min(from, to), level() - width / 2, std::abs(to - from), width};
     items.emplace_back(
         RectangleItem{diagram_.moving(kLine), bounds, diagram_.palette().accent, std::nullopt});
   }
