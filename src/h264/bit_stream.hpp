@@ -58,6 +58,23 @@ class BitWriter {
     }
   }
 
+  /// Bits of `bytes`, from `begin` to before `end`.
+  void append(std::span<const std::uint8_t> bytes, std::size_t begin, std::size_t end) {
+    while (begin < end) {
+      const std::size_t count = std::min(8 - begin % 8, end - begin);
+      const unsigned rest = bytes[begin / 8] >> (8 - begin % 8 - count);
+      put(rest & ((1U << count) - 1), static_cast<int>(count));
+      begin += count;
+      // Then whole words, as long as there are any.
+      for (; end - begin >= 32; begin += 32) {
+        const std::uint8_t* const at = bytes.data() + begin / 8;
+        put(std::uint32_t{at[0]} << 24 | std::uint32_t{at[1]} << 16 | std::uint32_t{at[2]} << 8 |
+                at[3],
+            32);
+      }
+    }
+  }
+
   std::size_t bit_count() const noexcept {
     return 8 * size_ + static_cast<std::size_t>(waiting_count_);
   }

@@ -133,7 +133,9 @@ class MacroblockSet {
   /// Adds a macroblock, if it is in the picture.
   void add_one(int x_mb, int y_mb) {
     const int address = y_mb * width_mb_ + x_mb;
-    if (x_mb < 0 || x_mb >= width_mb_ || address >= count_) return;
+    if (x_mb >= 0 && x_mb < width_mb_ && address < count_) add_one(address);
+  }
+  void add_one(int address) {
     words_[static_cast<std::size_t>(address / 64)] |= std::uint64_t{1} << address % 64;
   }
   void clear() { words_.assign(words_.size(), 0); }

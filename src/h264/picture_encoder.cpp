@@ -1,5 +1,6 @@
 #include "h264/picture_encoder.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 #include "h264/nal_unit.hpp"
@@ -24,18 +25,68 @@ PictureEncoder::PictureEncoder(const ParameterSets& sets, int qp)
       before_(sets.width_mb, sets.height_mb),
       decoded_(sets.width_mb, sets.height_mb),
       visited_(sets.width_mb, sets.height_mb),
-      states_(static_cast<std::size_t>(sets.width_mb) * sets.height_mb) {
+      states_(static_cast<std::size_t>(sets.width_mb) * sets.height_mb),
+      last_idr_(sets),
+      starts_(states_.size() + 1),
+      differs_(states_.size()) {
+  last_idr_.starts = starts_;
   assert(0 <= qp && qp <= kMaxQp);
 }
 
 std::vector<std::uint8_t> PictureEncoder::encode_idr(const Picture& source) {
+  MacroblockSet all(sets_.width_mb, sets_.height_mb);
+  all.add(0, 0, kLumaSide * sets_.width_mb, kLumaSide * sets_.height_mb);
+  return encode_idr(source, all);
+}
+
+std::vector<std::uint8_t> PictureEncoder::encode_idr(const Picture& source,
+                                                     const MacroblockSet& changed) {
   frame_num_ = 0;
   motion_.begin_group();
+  for (int address = changed.next(0); address >= 0; address = changed.next(address + 1)) {
+    if (is_new(address, source)) last_idr_.changed.add_one(address);
+  }
   begin_slice(SliceType::i);
+  encode_all(source);
+  starts_.back() = bits_.bit_count();
+  std::vector<std::uint8_t> unit = finish_slice();
+  last_idr_.is_valid = !has_i_pcm_;
+  last_idr_.changed.clear();
+  last_idr_.states = states_;
+  std::swap(last_idr_.slice, bits_);
+  std::swap(last_idr_.starts, starts_);
+  return unit;
+}
+
+void PictureEncoder::encode_all(const Picture& source) {
   const int count = sets_.width_mb * sets_.height_mb;
-  for (int address = 0; address < count; ++address) add(address, source);
-  source_before_ = source;
-  return finish_slice();
+  if (last_idr_.is_valid) states_ = last_idr_.states;
+  int done = 0;
+  for (int address = 0; address < count; ++address) {
+    differs_[address] = is_other(address) ? 1 : 0;
+    if (differs_[address] == 0) continue;
+    repeat(done, address);
+    starts_[address] = bits_.bit_count();
+    add(address, source);
+    done = address + 1;
+  }
+  repeat(done, count);
+}
+
+bool PictureEncoder::is_other(int address) const {
+  return !last_idr_.is_valid || last_idr_.changed.contains(address) ||
+         (address % sets_.width_mb > 0 && differs_[address - 1] != 0) ||
+         (address >= sets_.width_mb && differs_[address - sets_.width_mb] != 0);
+}
+
+void PictureEncoder::repeat(int begin, int end) {
+  if (begin == end) return;
+  const std::vector<std::size_t>& starts = last_idr_.starts;
+  const std::size_t to = bits_.bit_count();
+  for (int address = begin; address < end; ++address) {
+    starts_[address] = to + (starts[address] - starts[begin]);
+  }
+  bits_.append(last_idr_.slice.bytes(), starts[begin], starts[end]);
 }
 
 std::vector<std::uint8_t> PictureEncoder::encode_p(const Picture& source,
@@ -45,7 +96,12 @@ std::vector<std::uint8_t> PictureEncoder::encode_p(const Picture& source,
   motion_.begin_picture();
   visited_ = changed;
   for (int address = visited_.next(0); address >= 0; address = visited_.next(address + 1)) {
-    changed.contains(address) && is_new(address, source) ? add(address, source) : keep(address);
+    if (!changed.contains(address) || !is_new(address, source)) {
+      keep(address);
+      continue;
+    }
+    last_idr_.changed.add_one(address);
+    add(address, source);
   }
   const int skipped = sets_.width_mb * sets_.height_mb - next_address_;
   if (skipped > 0) bits_.put_unsigned(static_cast<std::uint32_t>(skipped));  // mb_skip_run
@@ -53,8 +109,13 @@ std::vector<std::uint8_t> PictureEncoder::encode_p(const Picture& source,
 }
 
 void PictureEncoder::begin_slice(SliceType type) {
-  for (const int address : coded_) states_[address] = {};
+  if (input_.slice_type == SliceType::i) {
+    std::ranges::fill(states_, MacroblockState{});
+  } else {
+    for (const int address : coded_) states_[address] = {};
+  }
   coded_.clear();
+  has_i_pcm_ = false;
   bits_.clear();
   transformed_ = 0;
   next_address_ = 0;
@@ -110,7 +171,17 @@ void PictureEncoder::add(int address, const Picture& source) {
     input_.reference = {&before_, &motion_, x, y};
     predict_moved(before_, x, y, vector, input_.before);
   }
-  put(address, coder_.code(input_));
+  const CodedMacroblock coded = coder_.code(input_);
+  if (input_.slice_type == SliceType::i)
+    differs_[address] = has_other_result(address, coded) ? 1 : 0;
+  put(address, coded);
+}
+
+bool PictureEncoder::has_other_result(int address, const CodedMacroblock& coded) {
+  if (!last_idr_.is_valid || last_idr_.changed.contains(address)) return true;
+  // What has not changed since then has the decoded samples that it had then.
+  decoded_.load(address % sets_.width_mb, address / sets_.width_mb, input_.before);
+  return coded.samples.values != input_.before.values || coded.state != last_idr_.states[address];
 }
 
 void PictureEncoder::keep(int address) {
@@ -143,6 +214,7 @@ void PictureEncoder::put(int address, const CodedMacroblock& coded) {
     bits_.put_unsigned(static_cast<std::uint32_t>(address - next_address_));
   }
   if (coded.type == MbType::i_pcm) {
+    has_i_pcm_ = true;
     write_i_pcm(input_.slice_type, coded.samples, bits_);
   } else {
     bits_.append(coded.bits);
@@ -151,12 +223,8 @@ void PictureEncoder::put(int address, const CodedMacroblock& coded) {
 }
 
 std::vector<std::uint8_t> PictureEncoder::finish_slice() {
-  if (input_.slice_type == SliceType::i) {
-    before_ = decoded_;
-  } else {
-    for (const int address : coded_) {
-      before_.copy(address % sets_.width_mb, address / sets_.width_mb, decoded_);
-    }
+  for (const int address : coded_) {
+    before_.copy(address % sets_.width_mb, address / sets_.width_mb, decoded_);
   }
   bits_.put_trailing_bits();
   std::vector<std::uint8_t> stream;

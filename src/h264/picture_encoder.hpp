@@ -27,7 +27,11 @@ class PictureEncoder {
   /// @param qp  from 0 to kMaxQp.
   PictureEncoder(const ParameterSets& sets, int qp);
 
-  /// An IDR picture, with a start code of four bytes.
+  /// An IDR picture, with a start code of four bytes. Macroblocks keep the bits of the last one
+  /// where they are coded alike, which changes no byte.
+  /// @param changed  macroblocks that may differ from the source before; of the first, all
+  std::vector<std::uint8_t> encode_idr(const Picture& source, const MacroblockSet& changed);
+  /// The same if all may differ.
   std::vector<std::uint8_t> encode_idr(const Picture& source);
   /// The next picture.
   std::vector<std::uint8_t> encode_p(const Picture& source, const MacroblockSet& changed);
@@ -39,8 +43,27 @@ class PictureEncoder {
 
  private:
   void begin_slice(SliceType type);
+  /// What the last IDR picture says of its macroblocks.
+  struct LastIdr {
+    explicit LastIdr(const ParameterSets& sets) : changed(sets.width_mb, sets.height_mb) {}
+
+    bool is_valid = false;
+    MacroblockSet changed;  ///< since then, in the source
+    std::vector<MacroblockState> states;
+    BitWriter slice;
+    std::vector<std::size_t> starts;  ///< of each macroblock's bits in the slice, and its end
+  };
+
   /// Whether the macroblock is not what it was in the source before.
   bool is_new(int address, const Picture& source);
+  void encode_all(const Picture& source);
+  /// Whether the macroblock or one that it is predicted from is coded in another way than in the
+  /// last IDR picture.
+  bool is_other(int address) const;
+  /// Whether it has, now that it is coded, other samples or another state than in the last one.
+  bool has_other_result(int address, const CodedMacroblock& coded);
+  /// Takes the bits of macroblocks from `begin` to before `end` out of the last IDR picture.
+  void repeat(int begin, int end);
   /// Sets what a macroblock is predicted from. @returns its vector as P_Skip
   MotionVector enter(int address);
   void add(int address, const Picture& source);
@@ -61,7 +84,11 @@ class PictureEncoder {
   std::vector<int> coded_;  // addresses of the macroblocks whose states are set
   MacroblockInput input_{};
   BitWriter bits_;
-  int next_address_ = 0;  // after the last macroblock that is not skipped
+  LastIdr last_idr_;
+  std::vector<std::size_t> starts_;    // as in LastIdr, of the IDR picture that is being made
+  std::vector<std::uint8_t> differs_;  // whether a macroblock is other than in the last IDR picture
+  bool has_i_pcm_ = false;             // the slice has I_PCM, whose bits depend on where they are
+  int next_address_ = 0;               // after the last macroblock that is not skipped
   std::uint32_t frame_num_ = 0;
   int transformed_ = 0;
 };

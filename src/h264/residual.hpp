@@ -47,6 +47,8 @@ struct MacroblockState {
                                              kDc, kDc, kDc, kDc, kDc, kDc, kDc, kDc};
   MotionVector vector{};  ///< of inter macroblocks
   bool is_intra = false;
+
+  bool operator==(const MacroblockState&) const = default;
 };
 
 /// mbAddrB, mbAddrA, and mbAddrC or, if that is not available, mbAddrD (6.4.9, 8.4.1.3.2); null

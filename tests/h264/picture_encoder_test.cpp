@@ -212,5 +212,27 @@ TEST_F(PictureEncoderTest, MakesTheSameGroupAfterAnyOther) {
   }
 }
 
+TEST_F(PictureEncoderTest, MakesKeyFramesOfTheSameBytesWhetherItRemembersTheLastOrNot) {
+  Random random(7);
+  SCOPED_TRACE(random.trace());
+  for (const int qp : {2, kDefaultQp, 34}) {
+    RandomPictures pictures(headers_.sets.width_mb, headers_.sets.height_mb, random);
+    PictureEncoder used(headers_.sets, qp);
+    used.encode_idr(pictures.picture());
+    for (std::int64_t i = 0; i < many(40); ++i) {
+      for (std::int64_t between = random.integer(0, 3); between > 0; --between) {
+        pictures.advance();
+        used.encode_p(pictures.picture(), pictures.changed());
+      }
+      pictures.advance();
+      PictureEncoder fresh(headers_.sets, qp);
+      ASSERT_EQ(used.encode_idr(pictures.picture(), pictures.changed()),
+                fresh.encode_idr(pictures.picture()))
+          << i << " at QP " << qp;
+      ASSERT_EQ(error_of(used.decoded(), fresh.decoded()).largest, 0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace piblocks::h264

@@ -44,11 +44,11 @@ class H264ChunkEncoder final : public ChunkEncoder {
   void encode() override {
     if (is_handed_over_) return libav_encoder_->encode();
     const bool is_first = chunk_.empty();
-    chunk_.push_back(
-        {.bytes = is_first ? coder_.encode_idr(picture_) : coder_.encode_p(picture_, changed_),
-         .pts = next_frame_,
-         .dts = next_frame_,
-         .key_frame = is_first});
+    chunk_.push_back({.bytes = is_first ? coder_.encode_idr(picture_, changed_)
+                                        : coder_.encode_p(picture_, changed_),
+                      .pts = next_frame_,
+                      .dts = next_frame_,
+                      .key_frame = is_first});
     if (!is_first) transformed_ += coder_.transformed_macroblocks();
     changed_.clear();
     ++next_frame_;
