@@ -25,14 +25,14 @@ namespace piblocks {
 namespace {
 
 /// How Cairo rounds a slanted edge depends on where the surface ends. The pixels of rectangles,
-/// text, plates and exposed blocks do not depend on it.
+/// text, small disks, plates and exposed blocks do not depend on it.
 bool depends_on_surface(const DrawItem& item) {
   if (const auto* group = std::get_if<GroupItem>(&item)) {
     const bool is_scaled = group->bounds.width != group->list->width_px;
     return is_scaled || std::ranges::any_of(group->list->items, depends_on_surface);
   }
-  return std::holds_alternative<PathItem>(item) || std::holds_alternative<DiskItem>(item) ||
-         std::holds_alternative<ImageItem>(item);
+  if (const auto* disk = std::get_if<DiskItem>(&item)) return !is_small(*disk);
+  return std::holds_alternative<PathItem>(item) || std::holds_alternative<ImageItem>(item);
 }
 
 using MakeSurface = cairo_surface_t* (*)(cairo_write_func_t write, void* bytes, double width,

@@ -16,6 +16,9 @@ constexpr double kAscent = 1.1;
 constexpr double kDescent = 0.35;
 constexpr double kOverhang = 0.22;
 
+/// How far a disk may be painted from its place.
+constexpr double kDiskPlace_px = 1.0 / 8;
+
 /// How far a centred line reaches beyond the outline it is drawn on.
 double reach_of(const std::optional<Stroke>& stroke) { return stroke ? stroke->width_px / 2 : 0; }
 
@@ -30,7 +33,7 @@ struct ExtentOf {
   }
   Extent operator()(const DiskItem& disk) const {
     return Extent{disk.centre.x, disk.centre.y, disk.centre.x, disk.centre.y}.grown(
-        disk.radius + reach_of(disk.stroke));
+        disk.radius + reach_of(disk.stroke) + kDiskPlace_px);
   }
   Extent operator()(const ExposedItem& item) const {
     const Extent a = extent_of(item.behind);

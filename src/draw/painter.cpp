@@ -40,7 +40,22 @@ CairoSurfacePtr premultiplied(const Image& image) {
   return surface;
 }
 
+/// From a disk's centre to the outside of its line.
+double reach_of(const DiskItem& disk) {
+  return disk.radius + (disk.stroke ? disk.stroke->width_px / 2 : 0);
+}
+
+/// Disks are painted at the nearest of these places.
+constexpr double kPlacesPerPixel = 8;
+
+double nearest_place(double px) { return std::round(px * kPlacesPerPixel) / kPlacesPerPixel; }
+
 }  // namespace
+
+bool is_small(const DiskItem& disk) {
+  constexpr double kSmall_px = 32;
+  return reach_of(disk) <= kSmall_px;
+}
 
 void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rectangle& bounds) {
   cairo_set_source_surface(&cr, &pixels, bounds.x, bounds.y);
@@ -80,7 +95,7 @@ void Painter::paint_item(cairo_t& cr, const DrawItem& item) {
   if (const auto* rectangle = std::get_if<RectangleItem>(&item)) paint_shape(cr, *rectangle);
   if (const auto* text = std::get_if<TextItem>(&item)) paint_text(cr, *text);
   if (const auto* path = std::get_if<PathItem>(&item)) paint_shape(cr, *path);
-  if (const auto* disk = std::get_if<DiskItem>(&item)) paint_shape(cr, *disk);
+  if (const auto* disk = std::get_if<DiskItem>(&item)) paint_disk(cr, *disk);
   if (const auto* image = std::get_if<ImageItem>(&item)) paint_image(cr, *image);
   if (const auto* plate = std::get_if<PlateItem>(&item)) paint_plate(cr, *plate);
 }
@@ -100,6 +115,30 @@ void Painter::paint_text(cairo_t& cr, const TextItem& item) {
     }
     if (text.size() < item.text.size()) origin.x += font->width_em(text) * item.size_px;
   }
+}
+
+void Painter::paint_disk(cairo_t& cr, const DiskItem& item) {
+  if (!is_small(item) || !has_pixels_of_picture(cr)) return paint_shape(cr, item);
+  const Point place{nearest_place(item.centre.x), nearest_place(item.centre.y)};
+  const Point pixel{std::floor(place.x), std::floor(place.y)};
+  const int reach_px = static_cast<int>(std::ceil(reach_of(item))) + 1;
+  const DiskItem disk{ItemId{},
+                      {reach_px + place.x - pixel.x, reach_px + place.y - pixel.y},
+                      item.radius,
+                      item.fill,
+                      item.stroke};
+  auto kept = std::ranges::find(disks_, disk, &KeptDisk::disk);
+  if (kept == disks_.end()) {
+    constexpr std::size_t kMostKept = 256;
+    if (disks_.size() == kMostKept) disks_.clear();
+    const int side_px = 2 * reach_px + 1;
+    CairoSurfacePtr pixels = image_surface(CAIRO_FORMAT_ARGB32, side_px, side_px, "paint a disk");
+    paint_shape(*CairoPtr(cairo_create(pixels.get())), disk);
+    disks_.push_back({disk, std::move(pixels)});
+    kept = disks_.end() - 1;
+  }
+  const double side_px = 2 * reach_px + 1;
+  copy_pixels(cr, *kept->pixels, {pixel.x - reach_px, pixel.y - reach_px, side_px, side_px});
 }
 
 void Painter::paint_image(cairo_t& cr, const ImageItem& item) {

@@ -27,6 +27,9 @@ void paint_shape(cairo_t& cr, const DiskItem& item);
 /// Fills a rectangle with a surface whose upper left corner is there.
 void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rectangle& bounds);
 
+/// Whether a disk has few pixels: they are painted once for each place within a pixel, and kept.
+bool is_small(const DiskItem& disk);
+
 /// How text is set. Cairo blends overlapping glyphs of a line differently, if both are visible: a
 /// part of a picture would differ from the whole by a step of grey.
 enum class TextSetting {
@@ -49,6 +52,7 @@ class Painter {
   /// Any item but groups and exposed ones.
   void paint_item(cairo_t& cr, const DrawItem& item);
   void paint_text(cairo_t& cr, const TextItem& item);
+  void paint_disk(cairo_t& cr, const DiskItem& item);
   void paint_image(cairo_t& cr, const ImageItem& item);
   void paint_plate(cairo_t& cr, const PlateItem& item);
   CairoSurfacePtr pixels_of(const PlateItem& item);
@@ -70,6 +74,11 @@ class Painter {
     CairoSurfacePtr pixels;
   };
   std::vector<KeptPixels> kept_;
+  struct KeptDisk {
+    DiskItem disk;  ///< in the surface, without an id
+    CairoSurfacePtr pixels;
+  };
+  std::vector<KeptDisk> disks_;
 };
 
 }  // namespace piblocks
