@@ -42,6 +42,26 @@ Character first_character(std::string_view text) {
   return {code, length};
 }
 
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = first_character(text).length_bytes;
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+std::string with_single_blanks(std::string_view line) {
+  std::string words;
+  for (const char c : line) {
+    const bool is_blank = c == ' ';
+    if (is_blank && (words.empty() || words.back() == ' ')) continue;
+    words += c;
+  }
+  if (!words.empty() && words.back() == ' ') words.pop_back();
+  return words;
+}
+
 std::string printable(std::string_view text) {
   std::string result;
   result.reserve(text.size());
@@ -52,7 +72,7 @@ std::string printable(std::string_view text) {
     } else {
       result += is_plain(code) ? std::string(text.substr(0, length_bytes)) : escape(code);
     }
-    text.remove_prefix(std::max<std::size_t>(length_bytes, 1));
+    text.remove_prefix(step_bytes(text));
   }
   return result;
 }

@@ -20,6 +20,17 @@ struct Character {
 /// surrogates, nothing above U+10FFFF.
 Character first_character(std::string_view text);
 
+/// How far to go to the next character: a byte if the first one is not UTF-8, so that every loop
+/// over a text ends. @param text  not empty
+inline std::size_t step_bytes(std::string_view text) {
+  return std::max<std::size_t>(first_character(text).length_bytes, 1);
+}
+
+bool is_utf8(std::string_view text);
+
+/// The words of a line, with one blank between them; empty if it has none.
+std::string with_single_blanks(std::string_view line);
+
 /// Whether a name has this file extension, in small letters or in capitals.
 /// @param ending  in small letters, such as ".png".
 constexpr bool has_ending(std::string_view name, std::string_view ending) {

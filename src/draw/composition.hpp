@@ -43,7 +43,7 @@ struct FrameState {
   std::vector<WeightedExposure> exposure = {};
   Gaps gaps = {};  ///< of the state; filled in if FrameNeeds asks for them
 
-  // Filled in if FrameNeeds asks for hits, and left alone in a still that is not in its video.
+  // Left alone in a still that is not in its video, or if no drawable reads them.
   double video_s = 0;          ///< of the frame, since its scene began
   std::vector<Hit> hits = {};  ///< oldest first; none if hits_per_s was above kMaxHitsPerSecond
   double hits_per_s = 0;       ///< of video, lately; 0 while the picture stands still
@@ -52,7 +52,8 @@ struct FrameState {
 /// The costly parts of a FrameState. They are computed only for drawables that read them.
 struct FrameNeeds {
   bool gaps = false;
-  bool hits = false;  ///< and video_s and hits_per_s
+  bool hits = false;     ///< and hits_per_s
+  bool video_s = false;  ///< in stills too, which have to look it up
 };
 
 /// Appends the items of one thing, such as an overlay, in the order of their ids. Thread-safe.

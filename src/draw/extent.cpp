@@ -176,6 +176,8 @@ bool are_finite(std::span<const DrawItem> items) {
         return is_finite({point.x, point.y});
       });
     }
+    const auto* group = std::get_if<GroupItem>(&item);
+    if (group != nullptr && !are_finite(group->list->items)) return false;
     const auto [left, top, right, bottom] = extent_of(item, no_width);
     return is_finite({left, top, right, bottom});
   });

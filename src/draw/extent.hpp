@@ -48,7 +48,7 @@ PixelRect moving_area(const ExposedItem& item, const PixelRect& area);
 /// False only if the item has certainly painted nothing into the rectangle.
 bool reaches(const DrawItem& item, const PixelRect& rect);
 
-/// Whether every place and length is finite. Items in plates and groups were checked before.
+/// Whether every place and length is finite, in groups too. Items in plates were checked before.
 bool are_finite(std::span<const DrawItem> items);
 
 }  // namespace piblocks

@@ -134,9 +134,10 @@ constexpr std::array kUnshaped{
 /// left, or that is an instruction. Empty if there is none. @param utf8  valid
 std::string shaping_problem(std::string_view utf8) {
   while (!utf8.empty()) {
-    const auto [code, length_bytes] = first_character(utf8);
+    const std::uint32_t code = first_character(utf8).code;
+    const std::size_t length_bytes = step_bytes(utf8);
     for (const Unshaped& kind : kUnshaped) {
-      const auto has_code = [code = code](const CodeRange& range) {
+      const auto has_code = [code](const CodeRange& range) {
         return code >= range.first && code <= range.last;
       };
       if (std::ranges::none_of(kind.ranges, has_code)) continue;
@@ -177,7 +178,8 @@ std::vector<Font::Run> Font::runs(std::string_view utf8) const {
   if (face_ == Face::article) return {{this, utf8}};
   std::vector<Run> runs;
   for (std::size_t at = 0; at < utf8.size();) {
-    const auto [code, length_bytes] = first_character(utf8.substr(at));
+    const std::uint32_t code = first_character(utf8.substr(at)).code;
+    const std::size_t length_bytes = step_bytes(utf8.substr(at));
     const Font* font = has_glyph(code) ? this : &fallback();
     if (runs.empty() || runs.back().font != font) runs.push_back({font, utf8.substr(at, 0)});
     std::string_view& text = runs.back().text;
@@ -236,7 +238,7 @@ double Font::own_width_em(std::string_view utf8) const {
 
 TextWidths::TextWidths(const Font& font, std::string_view characters) {
   while (!characters.empty()) {
-    const std::size_t length = first_character(characters).length_bytes;
+    const std::size_t length = step_bytes(characters);
     const std::string character(characters.substr(0, length));
     advances_.try_emplace(character, font.width_em(character));
     characters.remove_prefix(length);
@@ -246,7 +248,7 @@ TextWidths::TextWidths(const Font& font, std::string_view characters) {
 double TextWidths::width_em(std::string_view text) const {
   double sum = 0;
   while (!text.empty()) {
-    const std::size_t length = first_character(text).length_bytes;
+    const std::size_t length = step_bytes(text);
     const auto found = advances_.find(text.substr(0, length));
     if (found != advances_.end()) sum += found->second;
     text.remove_prefix(length);

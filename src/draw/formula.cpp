@@ -142,7 +142,7 @@ Formula FormulaSetter::text(std::string_view utf8) const {
     std::string plain;
     const SmallFigure* first = nullptr;
     while (size < utf8.size()) {
-      const std::size_t length = first_character(utf8.substr(size)).length_bytes;
+      const std::size_t length = step_bytes(utf8.substr(size));
       const SmallFigure* const script = small_figure_of(utf8.substr(size, length));
       if (size == 0) first = script;
       const bool is_alike = (script == nullptr) == (first == nullptr) &&
@@ -169,7 +169,8 @@ Formula FormulaSetter::digits(std::string_view utf8) const {
 Formula FormulaSetter::italic(std::string_view utf8) const {
   Formula line;
   while (!utf8.empty()) {
-    const auto [code, length_bytes] = first_character(utf8);
+    const std::uint32_t code = first_character(utf8).code;
+    const std::size_t length_bytes = step_bytes(utf8);
     const std::uint32_t italic = italic_of(code);
     Formula letter = italic == 0 ? set(text_face_, utf8.substr(0, length_bytes))
                                  : set(Face::math, utf8_of(italic));

@@ -19,7 +19,6 @@ class Formula {
   Formula() = default;
 
   double width_em() const noexcept { return width_em_; }
-  bool is_empty() const noexcept { return marks_.empty(); }
 
   /// Sets `more` to the right of it.
   Formula& operator+=(const Formula& more);
@@ -31,8 +30,6 @@ class Formula {
   /// @param id      of the first item; the others get the ids after it
   void add_to(std::vector<DrawItem>& items, ItemId id, const Point& origin, double size_px,
               const Color& color) const;
-  /// Items that add_to() adds.
-  std::size_t item_count() const noexcept { return marks_.size(); }
 
  private:
   friend class FormulaSetter;

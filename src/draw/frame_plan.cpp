@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
 #include <utility>
 
+#include "core/text.hpp"
 #include "draw/layout.hpp"
 #include "draw/look.hpp"
 #include "draw/overlays/loupe.hpp"
@@ -42,8 +45,8 @@ constexpr double kDiagramsBesideLoupe = 0.5;
 std::vector<std::string> shown_element_names(const Scene& scene) {
   std::vector<std::string> names;
   if (scene.view.theme != Theme::article) names.emplace_back("the counter");
-  if (!scene.show.title.empty()) names.emplace_back("the title");
-  if (!scene.show.caption.empty()) names.emplace_back("the caption");
+  if (!with_single_blanks(scene.show.title).empty()) names.emplace_back("the title");
+  if (!with_single_blanks(scene.show.caption).empty()) names.emplace_back("the caption");
   if (!scene.show.logo.empty()) names.emplace_back("the logo");
   for (const Overlay overlay : {Overlay::time, Overlay::energy, Overlay::momentum}) {
     if (scene.show.has(overlay)) names.push_back(fmt::format("'{}'", exact_text(overlay)));
@@ -51,6 +54,14 @@ std::vector<std::string> shown_element_names(const Scene& scene) {
   if (has_slow_motion(scene.pacing)) names.emplace_back("the slow motion's factor");
   if (!scene.show.panels.empty()) names.emplace_back("the diagrams");
   return names;
+}
+
+/// A title or a caption as it is set; empty if there is nothing to be seen.
+/// @throws UsageError as check_readable()
+std::string readable_line(const DrawingContext& context, const char* key, std::string_view line) {
+  std::string text = with_single_blanks(line);
+  if (!text.empty()) check_readable(context, key, text);
+  return text;
 }
 
 /// Places things from the edges of the frame inwards. The stage gets what is left.
@@ -61,6 +72,8 @@ class FramePlanner {
         view_(context.scene.view),
         show_(context.scene.show),
         sizes_(context.sizes),
+        title_(readable_line(context, "show.title", show_.title)),
+        caption_(readable_line(context, "show.caption", show_.caption)),
         counter_(counter),
         left_(sizes_.margin),
         right_(view_.width_px - sizes_.margin),
@@ -104,21 +117,24 @@ class FramePlanner {
     if (place.has_label && has_label_above_) {
       place.label_baseline_px -= Font::kCapHeight_em * place.size_px + kPiStep * sizes_.text / 2;
     }
+    place.pi_row_left_px =
+        right_ - std::max({counter_width, counter_->pi_px, counter_->slow_motion_px});
     top_ = 0.75 * sizes_.gap;
     place.slow_motion = {right_, top_ + Font::kCapHeight_em * sizes_.title};
-    if (!show_.title.empty()) {
-      check_readable(context_, "show.title", show_.title);
+    if (!title_.empty()) {
       const double baseline = top_ + Font::kCapHeight_em * sizes_.title;
       const double room = right_ - left_ - counter_width - sizes_.gap;
       // A second line would have no room.
-      if (context_.font.width_em(show_.title) * sizes_.title > room) {
-        throw_too_long("show.title", show_.title, room);
+      if (context_.font.width_em(title_) * sizes_.title > room) {
+        throw_too_long("show.title", title_, room);
       }
-      add_line(ItemId::title, show_.title, baseline, sizes_.title);
+      add_line(ItemId::title, title_, baseline, sizes_.title);
       top_ = baseline + kBelowBaseline * sizes_.title;
     }
+    // Beside the stage the counter is as high as the row.
+    plan_.header_bottom_px = view_.height_px;
     const double height = view_.height_px - sizes_.gap / 2 - top_ - read_outs_height_px;
-    const bool is_full = !show_.panels.empty() || !show_.caption.empty() || !show_.logo.empty();
+    const bool is_full = !show_.panels.empty() || !caption_.empty() || !show_.logo.empty();
     if (is_full || height < kLeastRowStage * sizes_.short_side) throw_no_room();
     // The floor ends a margin before its area does.
     const double width = right_ - counter_width - 2 * sizes_.gap + sizes_.margin;
@@ -136,19 +152,18 @@ class FramePlanner {
   /// The title at the left. The counter at the right, on the same line if there is room.
   void place_header() {
     const double room = right_ - left_;
-    const double title_width = context_.font.width_em(show_.title) * sizes_.title;
+    const double title_width = context_.font.width_em(title_) * sizes_.title;
     double counter_width = 0;
     if (counter_) {
       counter_width = set_count_size(room);
       if (title_width > 0) counter_width += 2 * sizes_.gap;
     }
     const bool is_beside = title_width > 0 && title_width + counter_width <= room;
-    if (!show_.title.empty()) check_readable(context_, "show.title", show_.title);
-    if (!show_.title.empty() && !(counter_ && is_beside)) {
+    if (!title_.empty() && !(counter_ && is_beside)) {
       double baseline = sizes_.margin + Font::kCapHeight_em * sizes_.title;
       std::size_t n = 0;
       for (const std::string& line :
-           break_lines(context_.font, show_.title, {"show.title", sizes_.title, room})) {
+           break_lines(context_.font, title_, {"show.title", sizes_.title, room})) {
         add_line(nth(ItemId::title, n++), line, baseline, sizes_.title);
         top_ = baseline + kBelowBaseline * sizes_.title;
         baseline += kLineStep * sizes_.title;
@@ -194,7 +209,7 @@ class FramePlanner {
     if (!has_label_above_) place.label_baseline_px = place.baseline_px;
     place_pi();
     if (is_beside_title) {
-      add_line(ItemId::title, show_.title, place.baseline_px, sizes_.title);
+      add_line(ItemId::title, title_, place.baseline_px, sizes_.title);
     }
     // Digits of pi, and left of them the label of slow motion.
     double left = right_;
@@ -231,10 +246,9 @@ class FramePlanner {
       plan_.logo = {right_ - width, lower - height, width, height};
       room -= width + sizes_.gap;
     }
-    if (!show_.caption.empty()) {
+    if (!caption_.empty()) {
       const double size_px = sizes_.text;
-      check_readable(context_, "show.caption", show_.caption);
-      const auto lines = break_lines(context_.font, show_.caption, {"show.caption", size_px, room});
+      const auto lines = break_lines(context_.font, caption_, {"show.caption", size_px, room});
       const double below = double(lines.size() - 1) * kLineStep * size_px;
       height = std::max(height, below + Font::kCapHeight_em * size_px);
       double baseline = lower - below;
@@ -300,6 +314,8 @@ class FramePlanner {
   const View& view_;
   const Show& show_;
   const Sizes& sizes_;
+  std::string title_;
+  std::string caption_;
   const std::optional<CounterRoom>& counter_;
   double left_;
   double right_;

@@ -6,6 +6,7 @@
 #include <piblocks/scene.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,6 +35,14 @@ struct BlockShape {
   double width = 1;  ///< in units of the scene
   double height_px = 1;
 };
+
+/// The whole pixels around an area.
+inline Rectangle whole_pixels(const Rectangle& area, double around_px = 0) {
+  const double left = std::floor(area.x - around_px);
+  const double top = std::floor(area.y - around_px);
+  return {left, top, std::ceil(area.x + area.width + around_px) - left,
+          std::ceil(area.y + area.height + around_px) - top};
+}
 
 /// The stage: the map from scene to pixels. It depends on the area and on the longest count alone,
 /// so that nothing shifts while the counter grows.

@@ -4,6 +4,7 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 
 namespace piblocks {
@@ -20,16 +21,9 @@ std::vector<std::string> break_lines(const Font& font, const std::string& text,
   const auto fits = [&](const std::string& line) {
     return font.width_em(line) * room.size_px <= room.width_px;
   };
-  std::vector<std::string> lines;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    const std::string longer = lines.empty() ? word : lines.back() + ' ' + word;
-    if (!lines.empty() && fits(longer)) {
-      lines.back() = longer;
-    } else {
-      lines.push_back(word);
-    }
-  }
+  std::istringstream stream(text);
+  const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
+  std::vector<std::string> lines = filled_lines(words, std::string(" "), fits);
   if (lines.size() <= kMostLines && std::ranges::all_of(lines, fits)) return lines;
   throw_too_long(room.key, text, room.width_px);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "draw/layout.hpp"
@@ -14,6 +15,23 @@ struct LineRoom {
   double size_px = 0;    ///< of the type
   double width_px = 0;
 };
+
+/// Fills lines with words, as many as fit. A word that does not fit has a line of its own.
+/// @param space  between words
+template <typename Word>
+std::vector<Word> filled_lines(const std::vector<Word>& words, const Word& space,
+                               const auto& fits) {
+  std::vector<Word> lines;
+  for (const Word& word : words) {
+    Word longer = lines.empty() ? word : lines.back() + space + word;
+    if (!lines.empty() && fits(longer)) {
+      lines.back() = std::move(longer);
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
+}
 
 /// Breaks a text between words. @throws UsageError if a word, or the text, is too long.
 std::vector<std::string> break_lines(const Font& font, const std::string& text,

@@ -94,9 +94,7 @@ DrawList FilmRun::picture(const FrameTime& shown) const {
 }
 
 DrawList FilmRun::picture(const FrameTime& shown, const VideoTime& video_time) const {
-  FrameState state = frame_state(*log_, shown, composition_->needs());
-  if (composition_->needs().hits) add_hits(state, *log_, video_time);
-  return composition_->frame(state);
+  return composition_->frame(frame_state(*log_, shown, composition_->needs(), video_time));
 }
 
 DrawList FilmRun::frame(const Schedule& schedule, std::int64_t number) const {
@@ -106,7 +104,8 @@ DrawList FilmRun::frame(const Schedule& schedule, std::int64_t number) const {
 
 DrawList FilmRun::still(const Rational& time) const {
   const FrameTime shown = still_time(scene_, *log_, time);
-  if (!composition_->needs().hits || !has_span(scene_, *log_)) return picture(shown);
+  const FrameNeeds& needs = composition_->needs();
+  if (!(needs.hits || needs.video_s) || !has_span(scene_, *log_)) return picture(shown);
   const Schedule schedule = make_schedule(scene_, *log_);
   const std::optional<Rational> video_s = schedule.first_shown_s(time);
   return video_s ? picture(shown, {schedule, *video_s}) : picture(shown);

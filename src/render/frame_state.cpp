@@ -126,8 +126,15 @@ FrameState frame_state(const CollisionLog& log, const FrameTime& shown, const Fr
   return state;
 }
 
-void add_hits(FrameState& state, const CollisionLog& log, const VideoTime& video_time) {
+FrameState frame_state(const CollisionLog& log, const FrameTime& shown, const FrameNeeds& needs,
+                       const VideoTime& video_time) {
+  FrameState state = frame_state(log, shown, needs);
   state.video_s = to_double(video_time.video_s);
+  if (needs.hits) add_hits(state, log, video_time);
+  return state;
+}
+
+void add_hits(FrameState& state, const CollisionLog& log, const VideoTime& video_time) {
   const auto passed = [&](const Rational& length_s) {
     return passages(log, video_time, state.state.count,
                     std::max<Rational>(video_time.video_s - length_s, 0));

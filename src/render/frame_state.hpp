@@ -18,7 +18,12 @@ struct VideoTime {
 /// State, time and exposure; gaps if they are needed; no hits.
 FrameState frame_state(const CollisionLog& log, const FrameTime& shown, const FrameNeeds& needs);
 
-/// Adds the video's time, the hits and their rate to what is shown at that time. A hit is a
+/// The same of a picture that is shown at this time of a video, with its hits if they are needed.
+/// @throws SimulationError as CollisionLog::collision().
+FrameState frame_state(const CollisionLog& log, const FrameTime& shown, const FrameNeeds& needs,
+                       const VideoTime& video_time);
+
+/// Adds the hits and their rate to what is shown at that time. A hit is a
 /// change of the counter: forwards at the collision's time, backwards just after it. The state at
 /// the scene's first instant includes collisions that are no hits.
 /// @throws SimulationError as CollisionLog::collision().

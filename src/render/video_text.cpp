@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/text.hpp"
 #include "draw/number_text.hpp"
 #include "render/video_facts.hpp"
 
@@ -72,7 +73,7 @@ std::string time_text(std::int64_t frame, const Rational& frame_rate) {
 }  // namespace
 
 std::string title_of(const Scene& scene, const VideoCount& count) {
-  if (!scene.show.title.empty()) return scene.show.title;
+  if (std::string title = with_single_blanks(scene.show.title); !title.empty()) return title;
   return fmt::format("Masses {} and {}: {}", short_text(scene.system.blue.mass),
                      short_text(scene.system.red.mass), collisions(count.total));
 }

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/smooth_step.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -23,8 +25,6 @@ struct Ease {
   Rational span() const { return length_s * (first + last) / 2; }
 };
 
-Rational smoothstep(const Rational& u) { return u * u * (3 - 2 * u); }
-
 /// Adds the steps, each with the speed of its middle. @return the time at their end.
 Rational add_steps(const Ease& ease, const Rational& from, const Rational& speed,
                    std::vector<Move>& moves) {
@@ -33,7 +33,7 @@ Rational add_steps(const Ease& ease, const Rational& from, const Rational& speed
   Rational now = from;
   for (long i = 0; i < count; ++i) {
     const Rational middle = Rational(2 * i + 1) / (2 * count);
-    const Rational in_step = ease.first + (ease.last - ease.first) * smoothstep(middle);
+    const Rational in_step = ease.first + (ease.last - ease.first) * smooth_step(middle);
     Rational end = now + in_step * step_s;
     moves.push_back({std::move(now), end, speed / in_step});
     now = std::move(end);

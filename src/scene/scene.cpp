@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/text.hpp"
 #include "scene/scene_keys.hpp"
 
 namespace piblocks {
@@ -158,7 +159,9 @@ void check_golden(const Golden& golden, SceneProblems& problems) {
 void check_line(const char* key, std::string_view text, SceneProblems& problems) {
   const bool is_short = text.size() <= kMaxLine_bytes;
   problems.require(is_short, key, "is longer than {} bytes", kMaxLine_bytes);
-  problems.require(!is_short || !has_control_characters(text), key, "must be one line of text");
+  if (!is_short) return;
+  problems.require(is_utf8(text), key, "is not valid UTF-8; write it in that encoding");
+  problems.require(!has_control_characters(text), key, "must be one line of text");
 }
 
 Rational width_by_mass(const BlockSystem& system) {

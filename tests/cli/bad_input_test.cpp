@@ -82,6 +82,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"count", "--digits"}, "--digits needs a value: --digits D"},
         BadInput{{"render", "-o"}, "--output needs a value: --output OUT"},
         BadInput{{"render", "-o", "null", "--size"}, "--size needs a value: --size WxH"},
+        BadInput{still({"--at", "turn", "--theme", "lecture", "--title",
+                        "a\xff"
+                        "b"}),
+                 "--title: show.title is not valid UTF-8; write it in that encoding"},
+        BadInput{still({"--at", "turn", "--caption", "\xcf"}),
+                 "--caption: show.caption is not valid UTF-8; write it in that encoding"},
         BadInput{render({"--max-flashes", "0"}), "--max-flashes 0: must be a whole number"},
         BadInput{render({"--max-flashes", "99"}), "--max-flashes 99: must be a whole number"},
         BadInput{{"count", "--digits", "1", "--digits", "2"}, "--digits is given more than once"},

@@ -22,6 +22,33 @@ TEST(Printable, EscapesWhatATerminalObeys) {
   EXPECT_EQ(printable("\u202egpj.exe \u2066 \u2028"), "\\u{202e}gpj.exe \\u{2066} \\u{2028}");
 }
 
+TEST(Utf8, IsTold) {
+  for (const char* text : {"", "a", "π … 🙂", "\xef\xbf\xbd"})
+    EXPECT_TRUE(is_utf8(text)) << text;
+  for (const char* text : {"a\xff"
+                           "b",
+                           "\xcf", "\xc0\x9b", "\xed\xa0\x80", "π\x80"}) {
+    EXPECT_FALSE(is_utf8(text)) << printable(text);
+  }
+}
+
+TEST(Utf8, HasAStepForEveryText) {
+  EXPECT_EQ(step_bytes("aπ"), 1U);
+  EXPECT_EQ(step_bytes("πa"), 2U);
+  EXPECT_EQ(step_bytes("🙂"), 4U);
+  for (const char* text : {"\xff",
+                           "\xff"
+                           "a",
+                           "\xcf", "\x80π"})
+    EXPECT_EQ(step_bytes(text), 1U);
+}
+
+TEST(Blanks, BetweenWordsAreSingle) {
+  EXPECT_EQ(with_single_blanks("  a  bc π "), "a bc π");
+  EXPECT_EQ(with_single_blanks("a bc"), "a bc");
+  for (const char* blank : {"", " ", "    "}) EXPECT_EQ(with_single_blanks(blank), "");
+}
+
 TEST(Printable, EscapesBytesThatAreNoUtf8) {
   EXPECT_EQ(printable("\xff\x80"), "\\xff\\x80");
   EXPECT_EQ(printable("\xc0\x9b"), "\\xc0\\x9b") << "too long a form";

@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
+#include <memory>
 #include <string>
+#include <vector>
+
+#include "draw/extent.hpp"
 
 namespace piblocks {
 namespace {
@@ -22,6 +27,16 @@ DrawList with_rectangle(const Rectangle& bounds) {
 }
 
 std::string as_text(const std::vector<std::uint8_t>& bytes) { return {bytes.begin(), bytes.end()}; }
+
+TEST(Extent, FindsWhatIsNotFiniteInGroups) {
+  for (const double x : {1.0, std::nan(""), HUGE_VAL}) {
+    const auto inner = std::make_shared<const DrawList>(with_rectangle({x, 0, 1, 1}));
+    const auto outer = std::make_shared<const DrawList>(
+        DrawList{40, 30, kWhite, {GroupItem{ItemId::loupe, {0, 0, 9, 9}, inner}}});
+    const std::vector<DrawItem> items{GroupItem{ItemId::loupe, {0, 0, 40, 30}, outer}};
+    EXPECT_EQ(are_finite(items), x == 1) << x;
+  }
+}
 
 TEST(Canvas, FillsExactlyTheRectangle) {
   Canvas canvas(40, 30);

@@ -1,6 +1,7 @@
 // Whole pictures with all that can be shown: in the frame, apart from each other, right.
 #include "draw/composition.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 #include <piblocks/script.hpp>
@@ -406,6 +407,60 @@ TEST(Composition, WhatIsOffIsNotThere) {
   EXPECT_EQ(Pictures(scene_with(3, {})).at(1).items.size(), 5U);
 }
 
+/// Scenes of other programs may not have been checked.
+TEST(Composition, RefusesLinesThatAreNotUtf8) {
+  for (const char* theme : {"article", "lecture"}) {
+    for (std::string Show::*const line : {&Show::title, &Show::caption}) {
+      Scene scene = scene_with(3, {{"view.theme", theme}});
+      scene.show.*line =
+          "a\xff"
+          "b";
+      EXPECT_THROW(Pictures{scene}, UsageError) << theme;
+    }
+  }
+}
+
+/// Texts of a frame, and where the blocks are.
+std::string described(const Scene& scene) {
+  std::string text;
+  for (const DrawItem& item : Pictures(scene).at(1).items) {
+    if (const auto* line = std::get_if<TextItem>(&item)) {
+      text += fmt::format("{} {} {}\n", line->text, line->origin.x, line->origin.y);
+    }
+    if (const auto* block = std::get_if<RectangleItem>(&item)) {
+      text += fmt::format("{} {}\n", block->bounds.x, block->bounds.y);
+    }
+  }
+  return text;
+}
+
+TEST(Composition, SetsLinesWithSingleBlanks) {
+  const auto shown = [](const Setting& theme, const Setting& line, bool is_row) {
+    Scene scene = scene_with(3, {theme, line});
+    if (is_row) {
+      scene.view.short_side_px = 720;
+      scene.view.height_px = 240;
+    }
+    return described(scene);
+  };
+  for (const char* theme : {"article", "lecture"}) {
+    for (const char* key : {"show.title", "show.caption"}) {
+      const std::string wide =
+          "The collisions of two blocks and a wall count all of the digits of π";
+      for (const std::string& line : {std::string("fi fi"), std::string(), wide}) {
+        const bool is_row = theme == std::string("lecture") && key == std::string("show.title");
+        std::string spaced = " ";
+        for (const char c : line) spaced += c == ' ' ? std::string("   ") : std::string(1, c);
+        for (const bool row : {false, is_row && line.size() < 10}) {
+          EXPECT_EQ(shown({"view.theme", theme}, {key, spaced + ' '}, row),
+                    shown({"view.theme", theme}, {key, line}, row))
+              << theme << ' ' << key << ' ' << line;
+        }
+      }
+    }
+  }
+}
+
 std::string problem_of(const std::vector<Setting>& settings, int digits = 3) {
   try {
     Pictures pictures(scene_with(digits, settings));
@@ -418,13 +473,18 @@ std::string problem_of(const std::vector<Setting>& settings, int digits = 3) {
 TEST(Composition, SaysWhyItCannotBeShown) {
   EXPECT_EQ(problem_of({{"show.title", "Zahlen 数"}}),
             "show.title: no embedded font has a glyph for '数'; write it in other characters");
-  EXPECT_EQ(problem_of({{"show.caption", "\xff\xfe"}}), "show.caption: is not valid UTF-8");
+  EXPECT_EQ(problem_of({{"show.caption", "\xff\xfe"}}),
+            "test: show.caption is not valid UTF-8; write it in that encoding");
   EXPECT_TRUE(problem_of({{"show.title", std::string(200, 'w')}}).starts_with("show.title: 'www"));
   EXPECT_EQ(problem_of({{"show.panels", kAllPanels}, {"view.size", "200x180"}}),
             "show.panels: 5 diagrams do not fit into 200x180; leave some out, or make the frame "
             "larger");
   EXPECT_TRUE(problem_of({{"show.panels", kAllPanels}, {"view.size", "320x180"}})
                   .starts_with("show.panels: the title of the diagram 'velocity' needs"));
+  EXPECT_TRUE(problem_of({{"show.panels", "mirrors,unfolded,time"}, {"view.size", "190x160"}})
+                  .starts_with("show.panels: the title of the diagram 'mirrors' needs"));
+  EXPECT_TRUE(problem_of({{"show.panels", "unfolded,mirrors,time"}, {"view.size", "190x160"}})
+                  .starts_with("show.panels: the title of the diagram 'unfolded' needs"));
   EXPECT_TRUE(problem_of({{"show.overlays", "velocities"}, {"view.size", "60x300"}})
                   .starts_with("show.overlays: the velocities need"));
   EXPECT_TRUE(problem_of({{"show.overlays", "ruler"}, {"view.size", "160x20"}})

@@ -2,6 +2,7 @@
 #include "draw/formula.hpp"
 
 #include <gtest/gtest.h>
+#include <piblocks/error.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -56,15 +57,29 @@ TEST_F(Formulas, AreAsWideAsTheirParts) {
   EXPECT_EQ(texts[0].origin.x, 0);
   EXPECT_NEAR(texts[1].origin.x, kSize_px * set_.text("2").width_em(), 1e-6);
   EXPECT_EQ(texts[1].origin.y, texts[0].origin.y);
-  EXPECT_TRUE(Formula().is_empty());
   EXPECT_EQ(Formula().width_em(), 0);
+}
+
+/// Whatever the bytes, measuring ends.
+TEST_F(Formulas, RefuseWhatIsNotUtf8) {
+  const std::string wrong =
+      "a\xff"
+      "b";
+  for (const Face face : {Face::article, Face::text, Face::math}) {
+    EXPECT_THROW(Font(face).width_em(wrong), DrawError);
+    EXPECT_THROW(TextWidths(Font(face), wrong), DrawError);
+  }
+  EXPECT_THROW(set_.text(wrong), DrawError);
+  const Fonts fonts;
+  EXPECT_THROW(FormulaSetter(fonts, Face::text).italic(wrong), DrawError);
+  EXPECT_GT(TextWidths(fonts.of(Face::digits), "ab").width_em(wrong), 0);
 }
 
 TEST_F(Formulas, HaveRisingIds) {
   const Formula formula = set_.root(set_.lowered(set_.italic("m"), set_.text("1"))) +
                           set_.text(" v² and 10⁻³") + set_.symbol("⌋");
   const std::vector<DrawItem> items = items_of(formula);
-  EXPECT_EQ(items.size(), formula.item_count());
+  EXPECT_GT(items.size(), 4U);
   for (std::size_t n = 0; n < items.size(); ++n) {
     EXPECT_EQ(std::visit([](const auto& any) { return any.id; }, items[n]), nth(ItemId::title, n));
   }

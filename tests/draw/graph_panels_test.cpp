@@ -47,6 +47,14 @@ struct Pictures {
   Composition composition;
 };
 
+std::vector<ItemId> ids_of(const DrawList& list) {
+  std::vector<ItemId> ids;
+  for (const DrawItem& item : list.items) {
+    ids.push_back(std::visit([](const auto& any) { return any.id; }, item));
+  }
+  return ids;
+}
+
 /// What the panels show, with the items of their plates.
 struct Shown {
   explicit Shown(const DrawList& list) { add(list.items, false); }
@@ -450,6 +458,13 @@ INSTANTIATE_TEST_SUITE_P(Shapes, GraphPanelShapes,
                                          Shape{"1080x1080", "position,time"},
                                          Shape{"1440x1080", "position,time,count,conservation"},
                                          Shape{"1920x1080", "position,time,count,conservation"}));
+
+TEST(CountPanel, HasRisingIdsInTheWidestFrame) {
+  const Pictures pictures(3, {{"show.panels", "count"}, {"view.size", "16384x400"}});
+  const std::vector<ItemId> ids = ids_of(pictures.at(100));
+  EXPECT_GT(ids.size(), 500U);
+  EXPECT_EQ(std::ranges::adjacent_find(ids, std::ranges::greater_equal()), ids.end());
+}
 
 }  // namespace
 }  // namespace piblocks

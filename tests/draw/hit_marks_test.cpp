@@ -146,7 +146,7 @@ TEST(HitMarks, AreLeftOutWhereTheyAreNotWanted) {
     }
     // Hits cost time and are found out only where they are shown.
     const Schedule schedule = make_schedule(frames.scene(), frames.log());
-    EXPECT_EQ(frames.film_state(schedule, 60).video_s, 0);
+    EXPECT_EQ(frames.film_state(schedule, 220).hits_per_s, 0);
   }
 }
 

@@ -44,9 +44,7 @@ class Frames {
   /// A frame of the film, with its hits.
   FrameState film_state(const Schedule& schedule, std::int64_t number) const {
     const Rational video_s = Rational(number) / scene_.view.frame_rate;
-    FrameState shown = state(schedule.at(video_s));
-    if (composition_.needs().hits) add_hits(shown, *log_, {schedule, video_s});
-    return shown;
+    return frame_state(*log_, schedule.at(video_s), composition_.needs(), {schedule, video_s});
   }
 
  private:

@@ -206,6 +206,31 @@ TEST(Loupe, SaysWhyItCannotBeShown) {
   }
 }
 
+TEST(Loupe, IsRefusedWhereItIsNeverSeen) {
+  const auto expect = [](int digits, const char* window, const char* message) {
+    const std::string refusal = refusal_of(lecture(digits) + Settings{{"show.loupe", window}});
+    EXPECT_NE(refusal.find(message), std::string::npos) << window << ": " << refusal;
+    EXPECT_EQ(refusal.find('\n'), std::string::npos);
+  };
+  expect(1, "turn-0.3:turn+0.3:10",
+         "show.loupe: in its window from 16/5 to 19/5 the gap between wall and red is never below");
+  expect(3, "turn+2:turn+3:10", "the loupe is seen below 72; move the window to the turn");
+  expect(3, "turn-3:turn-2:10", "is never below");
+  expect(1, "100:101:10",
+         "show.loupe: its window from 100 to 101 is outside of what is shown, 0 to");
+  expect(3, "-2:-1:10", "is outside of what is shown");
+  // It is seen at one end alone, or before and after what is shown too.
+  for (const char* window : {"turn+0.2:turn+1:10", "turn-1:turn-0.2:10", "-5:100:10"}) {
+    EXPECT_EQ(refusal_of(lecture(3) + Settings{{"show.loupe", window}}), "") << window;
+  }
+  // A light red is nearest at a collision beside the turn.
+  EXPECT_EQ(refusal_of({{"view.theme", "lecture"},
+                        {"mass-ratio", "1/400"},
+                        {"blue.position", "0.55"},
+                        {"show.loupe", "turn-1:turn+1:10"}}),
+            "");
+}
+
 TEST(Loupe, ShowsTheWayThatBlueSweepsWhereFramesMissItsHits) {
   const Frames frames(lecture(3));
   FrameState state = frames.state({frames.turn()});
@@ -245,6 +270,28 @@ TEST(Loupe, SaysHowMuchSlowerTimeRuns) {
   frame = frames.of(state);
   EXPECT_FALSE(loupe_in(frame));
   EXPECT_EQ(texts(frame.items, ItemId::read_outs), "100× slower");
+}
+
+TEST(Loupe, LeavesNoRoomForALabelThatItDoesNotHave) {
+  const char* const kLong = "turn-0.1:turn+0.1:12345.6789";
+  int seen = 0;
+  for (const char* size :
+       {"1280x720", "1080x1920", "800x800", "1024x768", "1600x600", "720x1600", "1280x560"}) {
+    const Settings content =
+        lecture(3, size) + Settings{{"show.overlays", "masses,velocities,time"}};
+    const Frames plain(content);
+    const Frames slow(content + Settings{{"time.slow-motion", kLong}});
+    const auto without = loupe_in(plain.at(plain.turn()));
+    const DrawList frame = slow.of(slow.state({slow.turn(), parse_rational("12345.6789")}));
+    const auto with = loupe_in(frame);
+    if (!without || !with) continue;
+    ++seen;
+    EXPECT_TRUE(items_of<TextItem>(with->list.items, ItemId::label).empty());
+    EXPECT_EQ(items_of<TextItem>(frame.items, ItemId::read_outs).size(), 2U);
+    EXPECT_EQ(with->red.height, without->red.height) << size;
+    EXPECT_EQ(with->bounds.height, without->bounds.height) << size;
+  }
+  EXPECT_GT(seen, 3);
 }
 
 /// A place that something takes.

@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
+#include <piblocks/run.hpp>
 
+#include <algorithm>
 #include <cstring>
 
 #include "draw/canvas.hpp"
+#include "draw/layout.hpp"
 #include "draw/montage.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
@@ -54,6 +57,37 @@ TEST(SplitScreen, CellsAreEqualApartAndInsideTheFrame) {
     }
   }
   EXPECT_THROW(SplitScreen(view_of_size(20, 16), 3), UsageError);
+}
+
+/// What other things are placed by is said of rows too, where the counter is beside the stage.
+TEST(SplitScreen, ARowHasThePlaceOfItsCounter) {
+  Scene scene;
+  scene.view = view_of_size(1280, 240);
+  scene.view.short_side_px = 720;
+  scene.view.theme = Theme::lecture;
+  const auto log = make_collision_log(scene.system);
+  const Palette palette = palette_of(scene.view.theme);
+  const Fonts fonts;
+  const Layout layout;
+  const Sizes sizes(scene.view);
+  FrameNeeds needs;
+  const DrawingContext context{scene,  *log,  palette, fonts, fonts.of(Face::text),
+                               layout, sizes, needs};
+  for (const double pi_px : {0.0, 100.0, 700.0}) {
+    for (const double slow_px : {0.0, 120.0, 800.0}) {
+      const CounterRoom room{
+          .count_em = 2, .label_px = 90, .pi_px = pi_px, .slow_motion_px = slow_px};
+      const FramePlan plan = plan_frame(context, room, 0);
+      const double left = plan.counter.pi_row_left_px;
+      EXPECT_LE(left, 1280 - sizes.margin - std::max(pi_px, slow_px));
+      EXPECT_LE(left, plan.counter.right_px - plan.counter.room_px);
+      EXPECT_GT(left, 0);
+      EXPECT_GE(plan.header_bottom_px, plan.counter.pi_baseline_px);
+      // The counter is no obstacle above the stage, unless its line is wider.
+      EXPECT_EQ(left > plan.stage.x + plan.stage.width - sizes.margin,
+                pi_px < 300 && slow_px < 300);
+    }
+  }
 }
 
 TEST(SplitScreen, NothingLeavesItsCell) {

@@ -374,6 +374,30 @@ INSTANTIATE_TEST_SUITE_P(Shapes, UnfoldedSizes,
                          testing::Values("1280x720", "3840x2160", "1080x1080", "1080x1920",
                                          "2560x1080"));
 
+/// Where red comes from changes when it is there, and nothing else about the line. From far away
+/// times are too long for pairs of doubles to tell collisions apart.
+TEST(Unfolded, IsTheSameFromAnyDistance) {
+  for (const char* mass : {"100", "1e12"}) {
+    const auto dots_from = [&](const char* position) {
+      const Pictures pictures(scene_with(1, {{"red.mass", mass},
+                                             {"red.position", position},
+                                             {"time.from", "turn-3"},
+                                             {"time.to", "turn+3"}}));
+      return dots_of(pictures.at(pictures.end()));
+    };
+    const std::vector<DiskItem> near = dots_from("8");
+    EXPECT_GT(near.size(), 20U);
+    for (const char* position : {"1e20", "1e40", "1e300"}) {
+      const std::vector<DiskItem> far = dots_from(position);
+      ASSERT_EQ(far.size(), near.size()) << position;
+      for (std::size_t i = 0; i < far.size(); ++i) {
+        EXPECT_NEAR(far[i].centre.x, near[i].centre.x, 0.1) << position;
+        EXPECT_EQ(far[i].fill, near[i].fill) << position;
+      }
+    }
+  }
+}
+
 TEST(Unfolded, HoldsAnyScene) {
   const std::vector<Settings> extremes = {
       {{"blue.position", "1/2"}},

@@ -320,6 +320,10 @@ TEST(VelocityPanel, CostsLittleForAnyNumberOfDigits) {
 
 TEST(EllipsePanel, FollowsOneMapToTheCircle) {
   const Pictures pictures({{"mass-ratio", "100"}}, "ellipse");
+  // Hits cost time, and it shows none.
+  EXPECT_TRUE(pictures.composition.needs().video_s);
+  EXPECT_EQ(pictures.composition.needs().hits, pictures.scene.show.hits);
+  EXPECT_FALSE(Pictures({{"show.hits", "false"}}, "ellipse").composition.needs().hits);
   const Frame circle{Figure(pictures.after(0))};
   for (const auto& [video_s, share] :
        {std::pair(0.0, 0.0), {1.5, 0.0}, {2.125, 5.0 / 32}, {2.75, 0.5}, {4.0, 1.0}}) {

@@ -10,6 +10,7 @@
 
 #include "support/oracle.hpp"
 #include "support/property.hpp"
+#include "support/random_system.hpp"
 
 namespace piblocks {
 namespace {
@@ -102,18 +103,7 @@ TEST(Accuracy, OfRandomSystems) {
   Random random(271828);
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < 400; ++i) {
-    BlockSystem system;
-    system.blue.mass = random.rational(1, 50, 7);
-    system.red.mass = system.blue.mass * Rational(std::exp(random.uniform(-8, 25)));
-    system.wall_face = random.rational(-3, 3, 4);
-    system.blue.width = random.rational(1, 3, 5);
-    system.red.width = random.rational(1, 3, 5);
-    system.blue.position = system.wall_face + system.blue.width / 2 + random.rational(0, 4, 9);
-    system.red.position = system.blue.position + (system.blue.width + system.red.width) / 2 +
-                          random.rational(0, 4, 9) + Rational(1, 11);
-    system.blue.velocity = random.rational(-3, 3, 8);
-    system.red.velocity = random.rational(-3, 3, 8);
-    if (system.red.velocity == 0) system.red.velocity = -1;
+    const BlockSystem system = random_system(random, -8, 25);
     const auto log = make_collision_log(system);
     EXPECT_EQ(log->size(), oracle::high_precision_total(system));
     for (int j = 0; j < 4; ++j) expect_accurate(system, *log, random.rational(-10, 20, 1000));

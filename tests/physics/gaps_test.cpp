@@ -8,6 +8,7 @@
 
 #include "support/oracle.hpp"
 #include "support/property.hpp"
+#include "support/random_system.hpp"
 
 namespace piblocks {
 namespace {
@@ -124,27 +125,11 @@ TEST(Gaps, JustAfterACollision) {
   }
 }
 
-BlockSystem any_system(Random& random) {
-  BlockSystem system;
-  system.blue.mass = random.rational(1, 50, 7);
-  system.red.mass = system.blue.mass * Rational(std::exp(random.uniform(-4, 40)));
-  system.wall_face = random.rational(-3, 3, 4);
-  system.blue.width = random.rational(1, 3, 5);
-  system.red.width = random.rational(1, 3, 5);
-  system.blue.position = system.wall_face + system.blue.width / 2 + random.rational(0, 4, 9);
-  system.red.position = system.blue.position + (system.blue.width + system.red.width) / 2 +
-                        random.rational(0, 4, 9) + Rational(1, 11);
-  system.blue.velocity = random.rational(-3, 3, 8);
-  system.red.velocity = random.rational(-3, 3, 8);
-  if (system.red.velocity == 0) system.red.velocity = -1;
-  return system;
-}
-
 TEST(Gaps, OfRandomSystems) {
   Random random(141421);
   SCOPED_TRACE(random.trace());
   for (std::int64_t i = 0; i < many(150); ++i) {
-    const BlockSystem system = any_system(random);
+    const BlockSystem system = random_system(random, -4, 40);
     const auto log = make_collision_log(system);
     for (int j = 0; j < 4; ++j) expect_gaps(system, *log, random.rational(-10, 20, 1000));
     expect_gaps(system, *log, turn_of(system).value());

@@ -15,6 +15,7 @@
 #include "support/exposure_sums.hpp"
 #include "support/oracle.hpp"
 #include "support/property.hpp"
+#include "support/random_system.hpp"
 
 namespace piblocks {
 namespace {
@@ -71,13 +72,7 @@ BlockSystem random_heavy_system(Random& random) {
   system.red.mass =
       system.blue.mass * (1 + power(2, static_cast<unsigned long>(random.integer(0, 1990))) *
                                   random.rational(1, 2, 1000));
-  system.wall_face = random.rational(-3, 3, 4);
-  system.blue.width = random.rational(1, 3, 5);
-  system.red.width = random.rational(1, 3, 5);
-  system.blue.position = system.wall_face + system.blue.width / 2 + random.rational(0, 4, 9);
-  system.red.position = system.blue.position + (system.blue.width + system.red.width) / 2 +
-                        random.rational(0, 4, 9) + Rational(1, 11);
-  system.blue.velocity = random.rational(-3, 3, 8);
+  place_blocks(random, system);
   if (system.blue.velocity == 0) system.blue.velocity = 1;
   switch (random.integer(0, 4)) {
     case 0:

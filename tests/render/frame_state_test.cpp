@@ -84,9 +84,7 @@ double surface_of(const BlockSystem& system, const Collision& collision) {
 
 FrameState state_of(const CollisionLog& log, const Schedule& schedule, std::int64_t frame) {
   const Rational video_s = Rational(frame) / kFrames_hz;
-  FrameState state = frame_state(log, schedule.at(video_s), {});
-  add_hits(state, log, {schedule, video_s});
-  return state;
+  return frame_state(log, schedule.at(video_s), {.hits = true}, {schedule, video_s});
 }
 
 struct Seen {

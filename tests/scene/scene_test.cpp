@@ -46,6 +46,13 @@ TEST(SceneByHand, IsToldWhatIsWrongWithIt) {
       {"show.title", [](Scene& s) { s.show.title = std::string(kMaxLine_bytes + 1, 'a'); }},
       {"show.caption", [](Scene& s) { s.show.caption = std::string(kMaxLine_bytes + 1, 'a'); }},
       {"show.title", [](Scene& s) { s.show.title = "a\tb"; }},
+      {"show.title",
+       [](Scene& s) {
+         s.show.title =
+             "a\xff"
+             "b";
+       }},
+      {"show.caption", [](Scene& s) { s.show.caption = "\xcf"; }},
       {"show.logo", [](Scene& s) { s.show.logo = "a\n.png"; }},
       {"show.overlays",
        [](Scene& s) {

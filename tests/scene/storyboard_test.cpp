@@ -257,12 +257,13 @@ TEST(Storyboard, ProblemsOfOneMadeByHandAreToldAtOnce) {
   story.segments = {{.content = Scenes{}, .fade_s = 1},
                     {.content = Card{}, .fade_s = -1},
                     {Card{{"a", ""}, 0}},
+                    {Card{{"a\xff"}}},
                     {Scenes{Scene{}}}};
   story.view.width_px = 0;
   const auto found = problems_of(story);
   // The frame, as the film's and as the last part's; fade and no run; fade and no line; an empty
-  // line and no time.
-  EXPECT_EQ(found.size(), 8U) << testing::PrintToString(found);
+  // line and no time; a line that is not UTF-8.
+  EXPECT_EQ(found.size(), 9U) << testing::PrintToString(found);
 }
 
 }  // namespace

@@ -18,9 +18,6 @@ constexpr std::string_view kLabelText = "Collisions:";
 
 constexpr double kUsualAspect = 16.0 / 9;
 constexpr double kMostBannerText = 2.2;
-/// From this size on, a unit of the scene is rounded to an even number of pixels. That makes edges
-/// that do not move sharp, and the upper and lower edges of blocks of width 1.
-constexpr double kMinRounded_px = 16;
 // In ems of the label.
 constexpr double kLabelGap = 1.0;  // between the label's baseline and the view
 constexpr double kWordSpace = 0.34;
@@ -130,7 +127,7 @@ Layout article_layout(const Scene& scene, const CountLine& count_line, const Rec
   const double inner_height = area.height - 2 * margin - label_height - extra.below;
   layout.scale =
       std::min((area.width - 2 * margin) / length(view.x), inner_height / length(view.y));
-  const bool rounded = layout.scale >= kMinRounded_px;
+  const bool rounded = layout.scale >= kLeastRounded_px;
   const auto to_pixel = [&](double px) { return rounded ? std::round(px) : px; };
   if (rounded) layout.scale = 2 * std::floor(layout.scale / 2);
   check_resolution(view, layout.scale);

@@ -20,6 +20,7 @@ constexpr double kBlocksHeight = 0.2;  ///< of the taller block, at most
 constexpr double kBlueWidth = 0.068;   ///< cut: enlarged like the gaps, it would have no room
 constexpr double kLeastRed = 0.04;     ///< what is seen of red at least
 
+constexpr const char* kLoupeKey = "show.loupe";
 constexpr long kMostPower = 300;
 /// Where the lines to the inset begin, in parts of red's width.
 constexpr double kHiddenInRed = 0.8;
@@ -32,20 +33,60 @@ std::optional<Loupe> loupe_of(const Scene& scene) {
 }
 
 /// The gap between wall and red when it is about least; infinite if that cannot be told.
-double least_gap(const DrawingContext& context) {
-  const std::optional<Rational> turn = turn_of(context.scene.system);
+/// @param within  the times of interest; if empty, all
+double least_gap(const DrawingContext& context, const std::optional<Span>& within = {}) {
+  const CollisionLog& log = context.log;
+  const auto is_within = [&](const Rational& time) {
+    return !within || (time >= within->from && time <= within->to);
+  };
+  const Rational turn = turn_of(context.scene.system).value_or(0);
   try {
-    double least = gaps_at(context.log, turn.value_or(0)).y2;
+    double least = HUGE_VAL;
+    if (is_within(turn)) least = gaps_at(log, turn).y2;
     // A light red is nearest at a collision beside the turn.
-    const Integer before = context.log.state_at(turn.value_or(0)).count;
+    const Integer before = log.state_at(turn).count;
     for (const Integer& k : {before, Integer(before + 1)}) {
-      if (k < context.log.first_index() || k > context.log.size()) continue;
-      least = std::min(least, gaps_at_collision(context.log, k).y2);
+      if (k < log.first_index() || k > log.size()) continue;
+      if (!is_within(to_rational(log.collision(k).time))) continue;
+      least = std::min(least, gaps_at_collision(log, k).y2);
     }
-    return least;
+    if (!within) return least;
+    // Red comes nearer all the time up to then, and goes away all the time from then on.
+    return std::min({least, gaps_at(log, within->from).y2, gaps_at(log, within->to).y2});
   } catch (const SimulationError&) {  // beyond the range of a double
     return HUGE_VAL;
   }
+}
+
+Span span_of_window(const LoupeWindow& window, const CollisionLog& log) {
+  Span span{time_of(window.from, kLoupeKey, log), time_of(window.to, kLoupeKey, log)};
+  if (span.from < span.to) return span;
+  throw UsageError(fmt::format("{}: its window from {} to {} must end after it begins", kLoupeKey,
+                               to_text(span.from), to_text(span.to)));
+}
+
+/// @throws UsageError if the loupe would not be seen in its window.
+void check_is_seen(const DrawingContext& context, const Span& window) {
+  Span shown = window;
+  if (has_span(context.scene, context.log)) {
+    const Span span = span_of(context.scene, context.log);
+    shown = {std::max(window.from, span.from), std::min(window.to, span.to)};
+    if (shown.from >= shown.to) {
+      throw UsageError(fmt::format(
+          "{}: its window from {} to {} is outside of what is shown, {} to {}; move it there, or "
+          "leave the loupe out",
+          kLoupeKey, to_text(window.from), to_text(window.to), to_text(span.from),
+          to_text(span.to)));
+    }
+  }
+  const double gap_px = least_gap(context, shown) * context.layout.scale;
+  const double most_px = style::kMaxLoupeGap * context.sizes.short_side;
+  if (gap_px < most_px) return;
+  throw UsageError(
+      fmt::format("{}: in its window from {} to {} the gap between wall and red is never below "
+                  "{:.4g} pixels, and the loupe is seen below {:.4g}; move the window to the turn, "
+                  "use more digits, or leave the loupe out",
+                  kLoupeKey, to_text(window.from), to_text(window.to), gap_px, most_px));
 }
 
 }  // namespace
@@ -73,8 +114,9 @@ std::shared_ptr<const LoupeInset> LoupeInset::make(const DrawingContext& context
   }
   const bool is_small = gap_px < style::kMaxLoupeGap * context.sizes.short_side;
   if (!is_asked_for && !is_small) return nullptr;
+  if (is_asked_for) check_is_seen(context, span_of_window(*loupe->window, context.log));
   auto inset = std::shared_ptr<LoupeInset>(new LoupeInset(context, *loupe, gap_px));
-  const std::optional<LoupePlace> place = find_loupe_place(context, plan, inset->widest_zoom_px_);
+  const std::optional<LoupePlace> place = find_loupe_place(context, plan, inset->texts());
   if (place) {
     inset->place(context, *place);
     return inset;
@@ -102,13 +144,7 @@ LoupeInset::LoupeInset(const DrawingContext& context, const Loupe& loupe, double
       widths_(context.font, "0123456789,.×·") {
   context.needs.gaps = true;
   if (loupe.window) {
-    constexpr const char* kKey = "show.loupe";
-    window_ = Window{time_of(loupe.window->from, kKey, context.log),
-                     time_of(loupe.window->to, kKey, context.log), to_double(loupe.window->zoom)};
-    if (window_->from >= window_->to) {
-      throw UsageError(fmt::format("{}: its window from {} to {} must end after it begins", kKey,
-                                   to_text(window_->from), to_text(window_->to)));
-    }
+    window_ = Window{span_of_window(*loupe.window, context.log), to_double(loupe.window->zoom)};
   }
   const FormulaSetter setter = context.setter();
   const long most = zoom_.most_exponent() + 1;
@@ -121,8 +157,10 @@ LoupeInset::LoupeInset(const DrawingContext& context, const Loupe& loupe, double
   if (has_slow_motion(context.scene.pacing)) {
     SlowMotionLabel label = slow_motion_label(context);
     const double width = context.font.width_em(label.widest) * sizes_.text;
-    if (width <= (style::kLoupeWidth - 2 * loupe_style::kInside) * sizes_.short_side)
+    // Else it stays among the read-outs.
+    if (width <= (style::kLoupeWidth - 2 * loupe_style::kInside) * sizes_.short_side) {
       slow_text_ = std::move(label.text);
+    }
   }
 }
 

@@ -14,6 +14,7 @@
 #include "draw/overlays/loupe_place.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/overlays/zoom.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks {
 
@@ -24,7 +25,8 @@ class LoupeInset {
  public:
   /// Nothing if the scene has no loupe, or leaves it to the program and it would have no room or
   /// nothing to show.
-  /// @throws UsageError if the scene names a window, and the loupe has no room or no wall.
+  /// @throws UsageError if the scene names a window, and the loupe has no room or no wall, or is
+  ///         never seen in the window.
   static std::shared_ptr<const LoupeInset> make(const DrawingContext& context,
                                                 const FramePlan& plan);
 
@@ -42,8 +44,7 @@ class LoupeInset {
 
  private:
   struct Window {
-    Rational from;
-    Rational to;
+    Span span;
     double zoom = 1;
   };
   // Ids among those of the wall and of blue.
@@ -53,6 +54,7 @@ class LoupeInset {
 
   /// All that does not depend on the place. @param least_gap_px  that is shown
   LoupeInset(const DrawingContext& context, const Loupe& loupe, double least_gap_px);
+  LoupeTexts texts() const { return {widest_zoom_px_, shows_slow_motion()}; }
   void place(const DrawingContext& context, const LoupePlace& found);
   void place_lines(const DrawingContext& context);
   void place_scenery(const DrawingContext& context);

@@ -28,7 +28,8 @@ double LoupeInset::opacity(const FrameState& shown) const {
   const double gap_px = shown.gaps.y2 * scale_;
   double opacity = (from_px - gap_px) / (from_px * (1 - loupe_style::kFullyShown));
   if (window_) {
-    const Rational way = (shown.time - window_->from) / (window_->to - window_->from);
+    const Rational way =
+        (shown.time - window_->span.from) / (window_->span.to - window_->span.from);
     const double from_end = to_double(std::min<Rational>(way, 1 - way));
     opacity = std::min(opacity, from_end / kWindowFade);
   }

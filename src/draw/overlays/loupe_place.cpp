@@ -22,15 +22,15 @@ constexpr double kBelowLine_em = 0.3;  ///< from the baseline of the article's c
 /// Finds room for the inset: to the right of the blocks, or above them.
 class LoupePlacer {
  public:
-  LoupePlacer(const DrawingContext& context, const FramePlan& plan, double zoom_px)
-      : context_(context), plan_(plan), zoom_px_(zoom_px) {}
+  LoupePlacer(const DrawingContext& context, const FramePlan& plan, const LoupeTexts& texts)
+      : context_(context), plan_(plan), texts_(texts) {}
 
   std::optional<LoupePlace> find() const {
     // Below the least size of type nothing could be read.
     if (style::kLeastType * short_side() < style::kLeastText_px) return std::nullopt;
     const double farthest = right() - width();
     const double floor = context_.layout.floor_px - loupe_style::kOutside * short_side();
-    const double beside = blocks_right() + zoom_px_ + loupe_style::kOutside * short_side();
+    const double beside = blocks_right() + texts_.zoom_px + loupe_style::kOutside * short_side();
     std::optional<LoupePlace> found;
     if (beside <= farthest) {
       found = at(std::min(farthest, beside + kLinesLength * short_side()), floor, true);
@@ -94,8 +94,7 @@ class LoupePlacer {
   }
 
   double rows_px(bool is_zoom_beside) const {
-    const int slow_motion = has_slow_motion(context_.scene.pacing) ? 1 : 0;
-    return row() * (slow_motion + (is_zoom_beside ? 0 : 1));
+    return row() * ((texts_.has_slow_motion ? 1 : 0) + (is_zoom_beside ? 0 : 1));
   }
 
   std::optional<LoupePlace> at(double left, double bottom, bool is_zoom_beside) const {
@@ -111,14 +110,14 @@ class LoupePlacer {
 
   const DrawingContext& context_;
   const FramePlan& plan_;
-  double zoom_px_;
+  const LoupeTexts& texts_;
 };
 
 }  // namespace
 
 std::optional<LoupePlace> find_loupe_place(const DrawingContext& context, const FramePlan& plan,
-                                           double zoom_px) {
-  return LoupePlacer(context, plan, zoom_px).find();
+                                           const LoupeTexts& texts) {
+  return LoupePlacer(context, plan, texts).find();
 }
 
 }  // namespace piblocks

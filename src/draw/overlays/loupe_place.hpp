@@ -14,10 +14,15 @@ struct LoupePlace {
   bool is_zoom_beside = true;
 };
 
+/// What the inset has to have room for.
+struct LoupeTexts {
+  double zoom_px = 0;  ///< width of the longest zoom
+  bool has_slow_motion = false;
+};
+
 /// Room for the inset to the right of the blocks, or above them; nothing if there is none.
-/// @param zoom_px  width of the longest zoom
 std::optional<LoupePlace> find_loupe_place(const DrawingContext& context, const FramePlan& plan,
-                                           double zoom_px);
+                                           const LoupeTexts& texts);
 
 /// Proportions of the inset.
 namespace loupe_style {

@@ -19,6 +19,11 @@ inline constexpr double kRulerRoom = 0.07;
 /// The floor is on whole pixels, and room above the blocks may be short by one.
 inline constexpr double kRounded_px = 1;
 
+/// From this size on, a unit of the scene is rounded to an even number of pixels. That makes edges
+/// that do not move sharp, and in the article's picture the upper and lower edges of blocks of
+/// width 1.
+inline constexpr double kLeastRounded_px = 16;
+
 /// Room that a mass needs above its block, in pixels.
 double mass_room_px(const Sizes& sizes);
 /// Room that the scene's overlays need above the taller block, in pixels.

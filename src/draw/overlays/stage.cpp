@@ -15,9 +15,6 @@
 namespace piblocks {
 namespace {
 
-/// From this size on, a unit of the scene is rounded to an even number of pixels. That makes edges
-/// that do not move sharp.
-constexpr double kLeastRounded_px = 16;
 /// Greatest distance of neighbouring doubles on the axis.
 constexpr double kMostStep_px = 0.25;
 /// The heavier block is higher by this for every factor of ten in mass, in heights of the other.

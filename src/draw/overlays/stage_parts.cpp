@@ -31,12 +31,7 @@ ExposedBlock block_at(const Rectangle& bounds, const BlockColors& colors, double
 }
 
 PlateItem plate_of(ItemId id, const Rectangle& bounds, std::vector<DrawItem> items) {
-  const double left = std::floor(bounds.x);
-  const double top = std::floor(bounds.y);
-  return {id,
-          {left, top, std::ceil(bounds.x + bounds.width) - left,
-           std::ceil(bounds.y + bounds.height) - top},
-          std::make_shared<const Plate>(Plate{std::move(items)})};
+  return {id, whole_pixels(bounds), std::make_shared<const Plate>(Plate{std::move(items)})};
 }
 
 std::vector<DrawItem> wall_items(const WallPlace& place, const DrawingContext& context) {

@@ -3,18 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/smooth_step.hpp"
 #include "draw/number_text.hpp"
 
 namespace piblocks {
-namespace {
-
-/// Rises from 0 to 1, and is level at both ends.
-double smooth_step(double share) {
-  const double x = std::clamp(share, 0.0, 1.0);
-  return x * x * (3 - 2 * x);
-}
-
-}  // namespace
 
 double straight_log2(double x) {
   int exponent = 0;
@@ -43,7 +35,7 @@ double Zoom::factor_for(double room) const {
   if (exponent == most_exponent()) return powers_.back();
   const double mantissa = room / power(exponent);
   const double way = straight_log2(mantissa) / straight_log2(10);
-  const double eased = smooth_step((way - plateau_) / (1 - plateau_));
+  const double eased = smooth_step(std::clamp((way - plateau_) / (1 - plateau_), 0.0, 1.0));
   return std::min(room, power(exponent) * straight_exp2(eased * straight_log2(10)));
 }
 

@@ -30,12 +30,11 @@ class CertaintyFigure {
         em_(diagram.text_px()),
         right_(diagram.inside().x + diagram.inside().width) {}
 
-  /// @param title_px  width of the title
   /// @returns whether it had room
-  bool add(double title_px) {
+  bool add() {
     const Formula definition = words_.definition();
     const double x = right_ - width(definition);
-    const double title_right = diagram_.inside().x + title_px;
+    const double title_right = diagram_.inside().x + diagram_.title_px();
     const bool is_defined = x >= title_right + kLeastBesideTitle * em_;
     const double title_y = diagram_.inside().y - kBelowTitle * em_;
     if (is_defined) add_label({definition, x}, title_y, palette_.muted);
@@ -92,9 +91,8 @@ class CertaintyFigure {
   void add_band(const XRange& band) {
     const double top = y_ - kBand * em_;
     const double bottom = y_ + kBand * em_;
-    diagram_.shape({{band.left, top}, {band.right, top}, {band.right, bottom}, {band.left, bottom}},
-                   palette_.accent);
-    const double width = diagram_.sizes().data_line / diagram_.sizes().grid_line;
+    diagram_.box({band.left, top, band.right - band.left, bottom - top}, palette_.accent);
+    const double width = diagram_.data_width();
     const double tick = kEndTick * em_;
     diagram_.line({{band.left, y_ - tick}, {band.left, y_ + tick}}, palette_.text, width);
     diagram_.line({{band.right, y_ - tick}, {band.right, y_ + tick}}, palette_.accent, width);
@@ -178,11 +176,8 @@ Drawable certainty_panel(const DrawingContext& context, const PanelPlace& place)
   }
   const Certainty numbers(base, *places);
   const CertaintyWords words(context.setter(), numbers);
-  const PanelTitle title = words.title();
-  Diagram diagram(context, place, title);
-  const auto width = [&](const Formula& text) { return text.width_em() * diagram.text_px(); };
-  const double title_px = width(width(title.full) <= place.area.width ? title.full : title.brief);
-  if (!CertaintyFigure(diagram, numbers, words).add(title_px)) {
+  Diagram diagram(context, place, words.titles());
+  if (!CertaintyFigure(diagram, numbers, words).add()) {
     throw UsageError(fmt::format(
         "show.panels: the diagram 'certainty' has too little room in {:.0f}x{:.0f} pixels; leave "
         "something out, or make the frame larger",

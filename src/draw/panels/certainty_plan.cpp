@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "draw/text_lines.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -93,16 +95,9 @@ class CertaintyPlanner {
 
   /// Nothing if a word is too long.
   std::optional<std::vector<Formula>> lines_of(const Words& words) const {
-    std::vector<Formula> lines;
-    for (const Formula& word : words) {
-      if (width(word) > right_ - left_) return std::nullopt;
-      Formula longer = lines.empty() ? word : lines.back() + words_.space() + word;
-      if (!lines.empty() && width(longer) <= right_ - left_) {
-        lines.back() = std::move(longer);
-      } else {
-        lines.push_back(word);
-      }
-    }
+    const auto fits = [&](const Formula& line) { return width(line) <= right_ - left_; };
+    std::vector<Formula> lines = filled_lines(words, words_.space(), fits);
+    if (!std::ranges::all_of(lines, fits)) return std::nullopt;
     return lines;
   }
 

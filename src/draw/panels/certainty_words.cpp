@@ -51,7 +51,7 @@ Words operator+(Words a, const Words& b) {
 CertaintyWords::CertaintyWords(const FormulaSetter& setter, const Certainty& certainty)
     : set_(setter), numbers_(certainty), nines_(certainty.nines()) {}
 
-PanelTitle CertaintyWords::title() const {
+std::vector<Formula> CertaintyWords::titles() const {
   if (numbers_.is_wrong()) {
     return {set_.text("Could a digit be wrong? Here the last one is"),
             set_.text("The last digit is wrong")};

@@ -21,7 +21,7 @@ class CertaintyWords {
   /// @param certainty  must outlive it
   CertaintyWords(const FormulaSetter& setter, const Certainty& certainty);
 
-  PanelTitle title() const;
+  std::vector<Formula> titles() const;  ///< from the longest to the shortest
   struct Pair {
     Formula left;
     Formula right;

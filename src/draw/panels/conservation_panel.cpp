@@ -63,7 +63,7 @@ constexpr std::size_t kRows = 4;
 class ConservationPanel {
  public:
   ConservationPanel(const DrawingContext& context, const PanelPlace& place)
-      : diagram_(context, place, title_of(context, place)),
+      : diagram_(context, place, titles_of(context)),
         momenta_(context.scene.system),
         face_(context.font.face() == Face::article ? Face::article : Face::digits),
         widths_(context.fonts.of(face_), "0123456789.,−% ") {
@@ -95,16 +95,15 @@ class ConservationPanel {
   }
 
  private:
-  static PanelTitle title_of(const DrawingContext& context, const PanelPlace& place) {
+  static std::vector<Formula> titles_of(const DrawingContext& context) {
     const FormulaSetter set = context.setter();
-    const std::vector<Formula> plain{set.text("Energy and momentum are conserved"),
-                                     set.text("Conservation")};
-    if (!shows_a_turn(context)) return fitting_title(context, place, plain);
-    return fitting_title(context, place,
-                         {set.text("Energy only changes hands; the wall takes the momentum"),
-                          set.text("Energy changes hands; the wall takes momentum"),
-                          set.text("The wall takes momentum, no energy"),
-                          set.text("Energy stays; momentum goes"), set.text("Conservation")});
+    if (!shows_a_turn(context)) {
+      return {set.text("Energy and momentum are conserved"), set.text("Conservation")};
+    }
+    return {set.text("Energy only changes hands; the wall takes the momentum"),
+            set.text("Energy changes hands; the wall takes momentum"),
+            set.text("The wall takes momentum, no energy"), set.text("Energy stays; momentum goes"),
+            set.text("Conservation")};
   }
 
   /// Of the bar and of its name.
@@ -183,14 +182,10 @@ class ConservationPanel {
     const Rectangle bar = energy_bar();
     const double left = diagram_.inside().x;
     diagram_.text("energy", {left, baseline(diagram_.inside().y, energy_px_)}, 0, palette.muted);
-    const std::vector<Point> outline{{bar.x, bar.y},
-                                     {bar.x + bar.width, bar.y},
-                                     {bar.x + bar.width, bar.y + bar.height},
-                                     {bar.x, bar.y + bar.height}};
     if (moves_) {
-      diagram_.shape(outline, context.palette.blue.fill);
+      diagram_.box(bar, context.palette.blue.fill);
     } else {
-      diagram_.shape(outline, std::nullopt, palette.muted);
+      diagram_.box(bar, std::nullopt, palette.muted);
     }
     if (has_heading_) {
       diagram_.text("momentum", {left, baseline(top_ - row_px_, row_px_)}, 0, palette.muted);
@@ -204,12 +199,7 @@ class ConservationPanel {
     const double zero = x_of(0);
     diagram_.line({{zero, top_}, {zero, row_top(rows)}}, palette.muted);
     if (!has_sum_) return;
-    const Rectangle sum = bar_of(kSumRow, momenta_.sum);
-    diagram_.shape({{sum.x, sum.y},
-                    {sum.x + sum.width, sum.y},
-                    {sum.x + sum.width, sum.y + sum.height},
-                    {sum.x, sum.y + sum.height}},
-                   palette.muted);
+    diagram_.box(bar_of(kSumRow, momenta_.sum), palette.muted);
     if (!has_figures_) return;
     const std::string text = text_of(momenta_.sum);
     const double x = diagram_.inside().x + diagram_.inside().width;

@@ -58,11 +58,9 @@ void CountInset::add_frame(const Diagram& diagram, const Point& from,
   add({{side, y + height}, {from.x - half, from.y + std::abs(half)}});
   for (const Rectangle& box :
        {frame_, Rectangle{from.x - half, from.y - std::abs(half), 2 * half, 2 * std::abs(half)}}) {
-    add({{box.x, box.y},
-         {box.x + box.width, box.y},
-         {box.x + box.width, box.y + box.height},
-         {box.x, box.y + box.height},
-         {box.x, box.y}});
+    std::vector<Point> around = corners_of(box);
+    around.push_back(around.front());
+    add(std::move(around));
   }
 }
 

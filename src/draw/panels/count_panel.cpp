@@ -52,8 +52,7 @@ struct TurnFacts {
   bool is_half = false;
 };
 
-PanelTitle title_of_count(const DrawingContext& context, const PanelPlace& place,
-                          const TurnFacts& turn) {
+std::vector<Formula> titles_of_count(const DrawingContext& context, const TurnFacts& turn) {
   const FormulaSetter set = context.setter();
   std::vector<Formula> wordings;
   if (turn.is_shown) wordings.push_back(title_of_counts(set, turn.is_half));
@@ -63,7 +62,7 @@ PanelTitle title_of_count(const DrawingContext& context, const PanelPlace& place
   }
   wordings.push_back(set.text("Collisions so far"));
   wordings.push_back(set.text("Collisions"));
-  return fitting_title(context, place, wordings);
+  return wordings;
 }
 
 class CountPanel {
@@ -71,7 +70,7 @@ class CountPanel {
   CountPanel(const DrawingContext& context, const PanelPlace& place)
       : span_(span_of(context.scene, context.log)),
         turn_(context.log, span_),
-        diagram_(context, place, title_of_count(context, place, turn_)),
+        diagram_(context, place, titles_of_count(context, turn_)),
         scale_(context.log, span_, context.scene.show.base),
         axis_(context, diagram_, indent_em(context)) {
     const Rectangle& plot = axis_.plot();
@@ -86,8 +85,7 @@ class CountPanel {
     above.emplace_back(
         diagram_.moving_line(kCurve, curve_, diagram_.palette().text, diagram_.data_width()));
     add_inset(context, above);
-    above_ = {diagram_.moving(kCurve), diagram_.item().bounds,
-              std::make_shared<const Plate>(Plate{std::move(above)})};
+    above_ = diagram_.plate(kCurve, std::move(above));
     diagram_.finish();
   }
 
@@ -180,8 +178,10 @@ class CountPanel {
   }
 
   void add_strips() {
-    const double width = std::max(2.0, std::round(kStrip_em * diagram_.text_px()));
     const double end = axis_.right();
+    // The first and the last one may be narrower.
+    const double least = std::ceil(axis_.plot().width / double(kCurve - 2));
+    const double width = std::max({2.0, least, std::round(kStrip_em * diagram_.text_px())});
     // Neighbours overlap, so that there is no seam between them.
     constexpr double kOverlap_px = 1;
     for (double left = axis_.plot().x; left < end; left = std::floor(left) + width) {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "draw/number_text.hpp"
 #include "draw/extent.hpp"
+#include "draw/number_text.hpp"
 
 namespace piblocks {
 namespace {
@@ -15,13 +15,6 @@ namespace {
 constexpr double kTitleHeight = 1.5;
 constexpr double kTitleBaseline = 0.73;
 constexpr double kAround = 0.5;
-
-Rectangle whole_pixels(const Rectangle& area, double around) {
-  const double left = std::floor(area.x - around);
-  const double top = std::floor(area.y - around);
-  return {left, top, std::ceil(area.x + area.width + around) - left,
-          std::ceil(area.y + area.height + around) - top};
-}
 
 // Of the time axis, in ems.
 constexpr double kBelow = 1.7;
@@ -41,14 +34,9 @@ std::vector<Point> Circle::arc(double from, double to) const {
   return points;
 }
 
-PanelTitle fitting_title(const DrawingContext& context, const PanelPlace& place,
-                         const std::vector<Formula>& wordings) {
-  const auto fits = [&](const Formula& wording) {
-    return wording.width_em() * context.sizes.text <= place.area.width;
-  };
-  const auto found = std::ranges::find_if(wordings, fits);
-  const Formula& wording = found == wordings.end() ? wordings.back() : *found;
-  return {wording, wording};
+std::vector<Point> corners_of(const Rectangle& box) {
+  const auto& [x, y, width, height] = box;
+  return {{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}};
 }
 
 bool shows_a_turn(const DrawingContext& context) {
@@ -58,7 +46,8 @@ bool shows_a_turn(const DrawingContext& context) {
   return first.red.velocity < 0 && last.red.velocity > 0 && last.count - first.count >= 3;
 }
 
-Diagram::Diagram(const DrawingContext& context, const PanelPlace& place, const PanelTitle& title)
+Diagram::Diagram(const DrawingContext& context, const PanelPlace& place,
+                 const std::vector<Formula>& titles)
     : palette_(context.palette),
       fonts_(&context.fonts),
       font_(&context.font),
@@ -67,16 +56,17 @@ Diagram::Diagram(const DrawingContext& context, const PanelPlace& place, const P
       sizes_(context.sizes),
       text_px_(context.sizes.text) {
   const Rectangle& whole = place.area;
-  const bool is_full = title.full.width_em() * text_px_ <= whole.width;
-  const double brief_px = title.brief.width_em() * text_px_;
-  if (!is_full && brief_px > whole.width) {
+  const auto width_px = [&](const Formula& title) { return title.width_em() * text_px_; };
+  const auto title = std::ranges::find_if(
+      titles, [&](const Formula& wording) { return width_px(wording) <= whole.width; });
+  if (title == titles.end()) {
     throw UsageError(fmt::format(
         "show.panels: the title of the diagram '{}' needs {:.0f} pixels, and there are {:.0f}; "
         "leave out a diagram, or make the frame larger",
-        exact_text(panel_), brief_px, whole.width));
+        exact_text(panel_), width_px(titles.back()), whole.width));
   }
-  formula(is_full ? title.full : title.brief, {whole.x, whole.y + kTitleBaseline * text_px_}, 0,
-          palette_.text);
+  title_px_ = width_px(*title);
+  formula(*title, {whole.x, whole.y + kTitleBaseline * text_px_}, 0, palette_.text);
   const double top = kTitleHeight * text_px_;
   inside_ = {whole.x, whole.y + top, whole.width, whole.height - top};
   // Lines along its border are wider than the area.

@@ -40,16 +40,6 @@ Drawable count_panel(const DrawingContext& context, const PanelPlace& place);
 /// Bars of energy and momentum.
 Drawable conservation_panel(const DrawingContext& context, const PanelPlace& place);
 
-/// A sentence that says what to see. The brief one is for panels too narrow for the full one.
-struct PanelTitle {
-  Formula full;
-  Formula brief;
-};
-
-/// The first of several wordings, from the longest to the shortest, that a panel has room for.
-PanelTitle fitting_title(const DrawingContext& context, const PanelPlace& place,
-                         const std::vector<Formula>& wordings);
-
 /// Whether red comes, at least three collisions happen, and red goes while the scene is shown.
 bool shows_a_turn(const DrawingContext& context);
 
@@ -65,14 +55,23 @@ struct Circle {
   std::vector<Point> arc(double from, double to) const;
 };
 
+/// From the upper left one, clockwise.
+std::vector<Point> corners_of(const Rectangle& box);
+
 /// A panel's title, its items that stay, and forms for those that move.
 class Diagram {
  public:
-  Diagram(const DrawingContext& context, const PanelPlace& place, const PanelTitle& title);
+  /// @param titles  sentences that say what to see, from the longest to the shortest; the first one
+  ///                that fits is shown
+  /// @throws UsageError if none does.
+  Diagram(const DrawingContext& context, const PanelPlace& place,
+          const std::vector<Formula>& titles);
 
   /// What is left below the title.
   const Rectangle& inside() const noexcept { return inside_; }
   double text_px() const noexcept { return text_px_; }
+  /// Width of the title.
+  double title_px() const noexcept { return title_px_; }
   const Palette& palette() const noexcept { return palette_; }
   const Sizes& sizes() const noexcept { return sizes_; }
   /// Width of lines of data, in widths of the grid's lines.
@@ -88,6 +87,10 @@ class Diagram {
   void shape(std::vector<Point> outline, const std::optional<Color>& fill,
              const std::optional<Color>& line = std::nullopt) {
     items_.emplace_back(shape_item(next_id(), std::move(outline), fill, line));
+  }
+  void box(const Rectangle& box, const std::optional<Color>& fill,
+           const std::optional<Color>& line = std::nullopt) {
+    shape(corners_of(box), fill, line);
   }
   /// @param anchor  the part of the text's width that is left of `at`: 0, 0.5 or 1
   void text(const std::string& text, const Point& at, double anchor, const Color& color);
@@ -146,6 +149,7 @@ class Diagram {
   Panel panel_;
   Sizes sizes_;
   double text_px_;
+  double title_px_ = 0;
   Rectangle inside_;
   std::vector<DrawItem> items_;
   PlateItem item_;

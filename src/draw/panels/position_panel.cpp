@@ -36,15 +36,15 @@ constexpr double kLeftShare = 0.25;
 /// Places of the name along the line of contact, in parts of the wedge; the first that fits.
 constexpr std::array kContactPlaces{0.78, 0.7, 0.86, 0.62, 0.54};
 
-PanelTitle title_of_positions(const DrawingContext& context, const PanelPlace& place) {
+std::vector<Formula> titles_of_positions(const DrawingContext& context) {
   const FormulaSetter set = context.setter();
-  const std::vector<Formula> plain{set.text("Both distances in their wedge"),
-                                   set.text("Both distances"), set.text("Positions")};
-  if (!shows_a_turn(context)) return fitting_title(context, place, plain);
-  return fitting_title(context, place,
-                       {set.text("The distances zigzag into the corner and out"),
-                        set.text("A zigzag into the corner and out"),
-                        set.text("A zigzag in a wedge"), set.text("Positions")});
+  if (!shows_a_turn(context)) {
+    return {set.text("Both distances in their wedge"), set.text("Both distances"),
+            set.text("Positions")};
+  }
+  return {set.text("The distances zigzag into the corner and out"),
+          set.text("A zigzag into the corner and out"), set.text("A zigzag in a wedge"),
+          set.text("Positions")};
 }
 
 /// The path of both gaps runs back and forth between two lines: on one blue meets the wall, on the
@@ -53,7 +53,7 @@ PanelTitle title_of_positions(const DrawingContext& context, const PanelPlace& p
 class PositionPanel {
  public:
   PositionPanel(const DrawingContext& context, const PanelPlace& place)
-      : diagram_(context, place, title_of_positions(context, place)),
+      : diagram_(context, place, titles_of_positions(context)),
         path_(context.log, span_of(context.scene, context.log),
               std::max(1, static_cast<int>(diagram_.inside().width))),
         most_(path_.greatest_y2() > 0 ? path_.greatest_y2() : 1),
@@ -69,8 +69,7 @@ class PositionPanel {
     const double most = zoom_.factor_for(least_share_);
     for (std::size_t exponent = 0;
          exponent <= zoom_.most_exponent() && zoom_.power(exponent) <= most; ++exponent) {
-      auto plate = std::make_shared<const Plate>(Plate{items_at(zoom_.power(exponent))});
-      plateaus_.push_back({diagram_.moving(0), diagram_.item().bounds, std::move(plate)});
+      plateaus_.push_back(diagram_.plate(0, items_at(zoom_.power(exponent))));
     }
     diagram_.finish();
   }

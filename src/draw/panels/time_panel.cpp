@@ -125,25 +125,22 @@ std::string capitalised(std::string name) {
   return name;
 }
 
-PanelTitle title_of_time(const DrawingContext& context, const PanelPlace& place) {
+std::vector<Formula> titles_of_time(const DrawingContext& context) {
   const FormulaSetter set = context.setter();
   const auto& [red, blue] = std::pair(context.palette.red, context.palette.blue);
   const Formula red_name = set.text(capitalised(red.full_name)).colored(red.label);
   const Formula blue_name = set.text(blue.full_name).colored(blue.label);
-  const std::vector<Formula> plain{set.text("Distances from the wall"), set.text("Distances")};
-  if (!shows_a_turn(context)) return fitting_title(context, place, plain);
-  return fitting_title(
-      context, place,
-      {red_name + set.text(" turns around; ") + blue_name + set.text(" bounces between"),
-       set.text(capitalised(red.name)).colored(red.label) + set.text(" turns; ") +
-           set.text(blue.name).colored(blue.label) + set.text(" bounces"),
-       set.text("Distances")});
+  if (!shows_a_turn(context)) return {set.text("Distances from the wall"), set.text("Distances")};
+  return {red_name + set.text(" turns around; ") + blue_name + set.text(" bounces between"),
+          set.text(capitalised(red.name)).colored(red.label) + set.text(" turns; ") +
+              set.text(blue.name).colored(blue.label) + set.text(" bounces"),
+          set.text("Distances")};
 }
 
 class TimePanel {
  public:
   TimePanel(const DrawingContext& context, const PanelPlace& place)
-      : diagram_(context, place, title_of_time(context, place)),
+      : diagram_(context, place, titles_of_time(context)),
         wedge_(context.scene.system),
         axis_(context, diagram_, 0) {
     const int columns = std::max(1, static_cast<int>(std::ceil(axis_.plot().width)));

@@ -16,6 +16,10 @@ constexpr double kWidest = 4;
 constexpr int kMostMirrors = 128;
 /// Mirrors are looked for up to this distance and time.
 constexpr double kFarthest = 1e300;
+/// More would be seen.
+constexpr double kMostRounding_px = 1.0 / 64;
+/// Of the times of collisions, in parts of the time: they are pairs of doubles.
+constexpr double kTimeRounding = 0x1p-102;
 /// Between rays where the line crosses none, in radians.
 constexpr double kFanStep = 0.02;
 
@@ -47,6 +51,10 @@ double StraightLine::at(const Rational& time) const {
   return moves() ? velocity_ * to_double(Rational(time - turn_)) : start_;
 }
 
+double StraightLine::rounding() const {
+  return std::abs(velocity_) * to_double(abs(turn_)) * kTimeRounding;
+}
+
 Rational StraightLine::time_at(double position) const {
   return turn_ + Rational(position) / Rational(velocity_);
 }
@@ -59,6 +67,15 @@ UnfoldedMap::UnfoldedMap(const Scene& scene, const CollisionLog& log, const Rect
       level_px_(kLevel * area.height),
       span_(span_of(scene, log)) {
   place_corner(log);
+  if (!line_.moves() || line_.rounding() * scale_ <= kMostRounding_px) return;
+  // Collisions are nearer to each other than their rounded times can tell.
+  is_exact_ = true;
+  place_corner(log);
+}
+
+/// Of a collision; exact only where its rounded time would show in the picture.
+Rational UnfoldedMap::time_of(const CollisionLog& log, const Collision& collision) const {
+  return is_exact_ ? log.time_after(collision.index) : to_rational(collision.time);
 }
 
 /// The corner and all of the line that is shown are in the area.
@@ -70,7 +87,7 @@ void UnfoldedMap::place_corner(const CollisionLog& log) {
     const Integer last = log.state_at(span_.to).count;
     if (first <= last) {
       const auto distance = [&](const Integer& index) {
-        return std::abs(line_.at(to_rational(log.collision(index).time)));
+        return std::abs(line_.at(time_of(log, log.collision(index))));
       };
       const double reach = kWidest * std::max(distance(first), distance(last));
       from = std::clamp(from, -reach, reach);
@@ -109,7 +126,7 @@ std::vector<Point> UnfoldedMap::sector(const Point& a, const Point& b) const {
 
 Mirror UnfoldedMap::mirror_of(const CollisionLog& log, const Integer& index) const {
   const Collision collision = log.collision(index);
-  const Rational time = to_rational(collision.time);
+  const Rational time = time_of(log, collision);
   const double x = x_at(time);
   return {.index = index,
           .kind = collision.kind,

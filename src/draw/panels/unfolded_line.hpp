@@ -27,6 +27,8 @@ class StraightLine {
   double height() const noexcept { return height_; }
   /// How far to the right of the corner the point is at a time.
   double at(const Rational& time) const;
+  /// How far a place near the corner may be off if its time is rounded as those of collisions are.
+  double rounding() const;
   /// When it is there. Only if it moves.
   Rational time_at(double position) const;
   /// < 0 if the point moves to the left, as it does unless it turns clockwise about the corner.
@@ -59,6 +61,7 @@ struct Mirror {
 class UnfoldedMap {
  public:
   /// @param margin_px  left and right of what is shown
+  /// @throws Error as CollisionLog::time_after(), where collisions are that near to each other.
   UnfoldedMap(const Scene& scene, const CollisionLog& log, const Rectangle& area, double margin_px);
 
   const StraightLine& line() const noexcept { return line_; }
@@ -88,6 +91,7 @@ class UnfoldedMap {
  private:
   void place_corner(const CollisionLog& log);
   std::vector<Mirror> evenly_spaced_mirrors() const;
+  Rational time_of(const CollisionLog& log, const Collision& collision) const;
   Mirror mirror_of(const CollisionLog& log, const Integer& index) const;
   double reach_px(double least_apart_px) const;
 
@@ -97,7 +101,8 @@ class UnfoldedMap {
   double level_px_;  ///< height of the line above the base
   Span span_;
   double corner_x_ = 0;
-  double scale_ = 1;   ///< pixels per unit, across
+  double scale_ = 1;  ///< pixels per unit, across
+  bool is_exact_ = false;
   double across_ = 1;  ///< pixels across for the line's distance from the corner
 };
 

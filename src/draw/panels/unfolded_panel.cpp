@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/smooth_step.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/panels/unfolded_line.hpp"
 #include "draw/panels/unfolded_text.hpp"
@@ -34,27 +35,20 @@ constexpr std::size_t kLine = 4096;
 constexpr std::size_t kDots = 4097;
 constexpr std::size_t kPresent = 8192;
 
-PanelTitle title_of(const DrawingContext& context, const PanelPlace& place) {
-  const double room_em = place.area.width / context.sizes.text;
-  const Formula title = place.panel == Panel::mirrors ? mirrors_title(context, room_em)
-                                                      : unfolded_title(context, room_em);
-  return {title, title};
-}
-
 bool has_two_rows(const Diagram& diagram) {
   const Rectangle& inside = diagram.inside();
   const double em = diagram.text_px();
   return inside.height >= kTwoRowsHeight * em && inside.width < kTwoRowsWidth * em;
 }
 
-double smooth(double part) { return part * part * (3 - 2 * part); }
-
 /// At each collision the wedge is reflected instead of the path. The wedges fill the half-plane,
 /// and the path is a straight line, which crosses a mirror at every collision.
 class UnfoldedPanel {
  public:
   UnfoldedPanel(const DrawingContext& context, const PanelPlace& place)
-      : diagram_(context, place, title_of(context, place)),
+      : diagram_(
+            context, place,
+            place.panel == Panel::mirrors ? mirrors_titles(context) : unfolded_titles(context)),
         grid_px_(context.sizes.grid_line),
         unfolds_(place.panel == Panel::mirrors),
         rows_(has_two_rows(diagram_) ? 2 : 1),
@@ -222,7 +216,7 @@ class UnfoldedPanel {
     if (!unfolds_ || shown.hits.empty()) return 1;
     const Hit& newest = shown.hits.back();
     if (newest.index != shown.state.count) return 1;
-    return smooth(std::clamp(newest.age_s / kHitLife_s, 0.0, 1.0));
+    return smooth_step(std::clamp(newest.age_s / kHitLife_s, 0.0, 1.0));
   }
 
   /// The wedge that the point is in. @param next  of the mirrors

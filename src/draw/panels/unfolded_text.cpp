@@ -24,13 +24,6 @@ Integer crossings_of(const DrawingContext& context) {
   return context.log.size() - (before < 0 ? before : Integer(0));
 }
 
-/// The longest of the titles that fits.
-Formula first_that_fits(std::vector<Formula> titles, double room_em) {
-  const auto fits = [room_em](const Formula& title) { return title.width_em() <= room_em; };
-  const auto found = std::ranges::find_if(titles, fits);
-  return found == titles.end() ? Formula() : *found;
-}
-
 /// The wedge angle in radians: as a unit fraction where that is good to three digits.
 std::string angle_text(const BlockSystem& system) {
   const GapWedge wedge(system);
@@ -55,7 +48,7 @@ std::string angle_text(const BlockSystem& system) {
 
 }  // namespace
 
-Formula unfolded_title(const DrawingContext& context, double room_em) {
+std::vector<Formula> unfolded_titles(const DrawingContext& context) {
   const FormulaSetter set = context.setter();
   const BlockSystem& system = context.scene.system;
   const Integer count = crossings_of(context);
@@ -79,14 +72,13 @@ Formula unfolded_title(const DrawingContext& context, double room_em) {
   titles.push_back(set.text("A straight line crosses " + brief_number + mirrors));
   titles.push_back(set.text("The line crosses " + brief_number + mirrors));
   titles.push_back(set.text("A straight line"));
-  return first_that_fits(std::move(titles), room_em);
+  return titles;
 }
 
-Formula mirrors_title(const DrawingContext& context, double room_em) {
+std::vector<Formula> mirrors_titles(const DrawingContext& context) {
   const FormulaSetter set = context.setter();
-  return first_that_fits({set.text("Mirrors unfold one by one; the path stays straight"),
-                          set.text("Mirrors unfold one by one"), set.text("Mirrors unfold")},
-                         room_em);
+  return {set.text("Mirrors unfold one by one; the path stays straight"),
+          set.text("Mirrors unfold one by one"), set.text("Mirrors unfold")};
 }
 
 Formula angle_note(const DrawingContext& context) {

@@ -10,9 +10,10 @@
 
 namespace piblocks {
 
-/// How many mirrors the line crosses, in a title that fits.
-Formula unfolded_title(const DrawingContext& context, double room_em);
-Formula mirrors_title(const DrawingContext& context, double room_em);
+// Titles, from the longest to the shortest.
+/// How many mirrors the line crosses.
+std::vector<Formula> unfolded_titles(const DrawingContext& context);
+std::vector<Formula> mirrors_titles(const DrawingContext& context);
 
 /// The wedge angle, as an expression and a number.
 Formula angle_note(const DrawingContext& context);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/smooth_step.hpp"
 #include "draw/look.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/panels/velocity_figure.hpp"
@@ -28,16 +29,17 @@ constexpr int kStepsInStrip = 8;
 constexpr double kMorphBegin_s = 1.5;
 constexpr double kMorphEnd_s = 4;
 
-double smoothstep(double from, double to, double value) {
-  const double x = std::clamp((value - from) / (to - from), 0.0, 1.0);
-  return x * x * (3 - 2 * x);
+/// How much of the way to the circle is done.
+double morphed_share(double video_s) {
+  return smooth_step(
+      std::clamp((video_s - kMorphBegin_s) / (kMorphEnd_s - kMorphBegin_s), 0.0, 1.0));
 }
 
-PanelTitle circle_title(const FormulaSetter& set) {
+std::vector<Formula> circle_titles(const FormulaSetter& set) {
   return {set.text("Energy keeps the speeds on a circle"), set.text("Speeds on a circle")};
 }
 
-PanelTitle ellipse_title(const FormulaSetter& set) {
+std::vector<Formula> ellipse_titles(const FormulaSetter& set) {
   const Formula root = set.root(set.italic("m"));
   return {set.text("Equal energy is an ellipse; scaled by ") + root + set.text(", a circle"),
           set.text("Ellipse becomes circle")};
@@ -47,15 +49,13 @@ PanelTitle ellipse_title(const FormulaSetter& set) {
 /// close to be told apart become the area that they cover.
 class VelocityPanel {
  public:
-  VelocityPanel(const DrawingContext& context, const PanelPlace& place, const PanelTitle& title,
-                bool is_ellipse_first)
-      : diagram_(context, place, title),
+  VelocityPanel(const DrawingContext& context, const PanelPlace& place,
+                const std::vector<Formula>& titles, bool is_ellipse_first)
+      : diagram_(context, place, titles),
         points_(context.scene, context.log),
         figure_(context, diagram_, points_),
-        data_px_(context.sizes.data_line),
-        present_px_(style::kPresentDot * context.sizes.short_side),
         is_ellipse_first_(is_ellipse_first) {
-    if (is_ellipse_first) context.needs.hits = true;
+    if (is_ellipse_first) context.needs.video_s = true;
     diagram_.finish();
     circle_ = figure_items(1);
     circle_.static_items = plate_of(circle_.static_items);
@@ -65,8 +65,7 @@ class VelocityPanel {
   }
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
-    const double share =
-        is_ellipse_first_ ? smoothstep(kMorphBegin_s, kMorphEnd_s, shown.video_s) : 1;
+    const double share = is_ellipse_first_ ? morphed_share(shown.video_s) : 1;
     if (share == 1) {
       add(circle_, 1, shown.state, items);
     } else if (share == 0) {
@@ -102,11 +101,9 @@ class VelocityPanel {
 
   /// Title and figure as one item.
   std::vector<DrawItem> plate_of(const std::vector<DrawItem>& static_items) const {
-    PlateItem item = diagram_.item();
-    std::vector<DrawItem> parts = item.plate->items;
+    std::vector<DrawItem> parts = diagram_.item().plate->items;
     parts.insert(parts.end(), static_items.begin() + 1, static_items.end());
-    item.plate = std::make_shared<const Plate>(Plate{std::move(parts)});
-    return {item};
+    return {diagram_.plate(0, std::move(parts))};
   }
 
   PathItem chord(std::size_t n, const VelocityMap& map, double from, double to,
@@ -114,7 +111,7 @@ class VelocityPanel {
     const Palette& palette = diagram_.palette();
     const Color& color = kind == CollisionKind::wall ? palette.blue.line : palette.red.line;
     return {diagram_.moving(n), Points({map.at(from), map.at(to)}), false, std::nullopt,
-            Stroke{color, data_px_}};
+            Stroke{color, diagram_.sizes().data_line}};
   }
 
   void add(const FigureItems& parts, double share, const BlockState& state,
@@ -132,9 +129,7 @@ class VelocityPanel {
     } else if (reached > 0) {
       add_area(map, std::atan2(velocity.y, velocity.x), reached, items);
     }
-    items.emplace_back(DiskItem{diagram_.moving(kPresentDot), map.at(velocity), present_px_,
-                                diagram_.palette().accent,
-                                Stroke{diagram_.palette().background, diagram_.sizes().grid_line}});
+    items.emplace_back(diagram_.present_dot(kPresentDot, map.at(velocity)));
   }
 
   /// The chords so far cover what is between the first velocity and the last chord.
@@ -201,8 +196,6 @@ class VelocityPanel {
   Diagram diagram_;
   VelocityPoints points_;
   VelocityFigure figure_;
-  double data_px_;
-  double present_px_;
   bool is_ellipse_first_;
   FigureItems circle_;
   FigureItems ellipse_;
@@ -211,11 +204,11 @@ class VelocityPanel {
 }  // namespace
 
 Drawable velocity_panel(const DrawingContext& context, const PanelPlace& place) {
-  return VelocityPanel(context, place, circle_title(context.setter()), false);
+  return VelocityPanel(context, place, circle_titles(context.setter()), false);
 }
 
 Drawable ellipse_panel(const DrawingContext& context, const PanelPlace& place) {
-  return VelocityPanel(context, place, ellipse_title(context.setter()), true);
+  return VelocityPanel(context, place, ellipse_titles(context.setter()), true);
 }
 
 }  // namespace piblocks
