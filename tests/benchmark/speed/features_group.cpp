@@ -24,9 +24,9 @@ std::vector<Feature> features() {
   std::vector<Feature> features = {
       {"nothing", {}},
       {"--theme dark", {"--theme", "dark"}},
-      {"--theme lecture, no marks, no loupe",
+      {"--theme lecture without marks and loupe",
        {"--theme", "lecture", "--no-hits", "--loupe", "off"}},
-      {"--theme lecture, no loupe", {"--theme", "lecture", "--loupe", "off"}},
+      {"--theme lecture without loupe", {"--theme", "lecture", "--loupe", "off"}},
       {"--theme lecture", {"--theme", "lecture"}},
       {"--theme lecture and two diagrams",
        {"--theme", "lecture", "--panels", "velocity,unfolded", "--show", "masses"}},
