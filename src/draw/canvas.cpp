@@ -17,8 +17,8 @@
 #include <variant>
 
 #include "draw/cairo_handles.hpp"
+#include "draw/changes.hpp"
 #include "draw/painter.hpp"
-#include "draw/region.hpp"
 #include FT_FREETYPE_H
 
 namespace piblocks {
@@ -28,8 +28,7 @@ namespace {
 /// text, small disks, plates and exposed blocks do not depend on it.
 bool depends_on_surface(const DrawItem& item) {
   if (const auto* group = std::get_if<GroupItem>(&item)) {
-    const bool is_scaled = group->bounds.width != group->list->width_px;
-    return is_scaled || std::ranges::any_of(group->list->items, depends_on_surface);
+    return !is_on_pixels(*group) || std::ranges::any_of(group->list->items, depends_on_surface);
   }
   if (const auto* disk = std::get_if<DiskItem>(&item)) return !is_small(*disk);
   return std::holds_alternative<PathItem>(item) || std::holds_alternative<ImageItem>(item);

@@ -1,10 +1,10 @@
+#include "draw/changes.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 #include <variant>
-
-#include "draw/region.hpp"
 
 namespace piblocks {
 namespace {
@@ -44,8 +44,7 @@ bool grows(const PathItem& before, const PathItem& after) {
 
 /// Whether only the content of a group changes.
 bool stays(const GroupItem& before, const GroupItem& after) {
-  const bool is_scaled = after.bounds.width != after.list->width_px;
-  return !is_scaled && before.bounds == after.bounds && before.opacity == after.opacity &&
+  return is_on_pixels(after) && before.bounds == after.bounds && before.opacity == after.opacity &&
          before.list->width_px == after.list->width_px &&
          before.list->height_px == after.list->height_px;
 }

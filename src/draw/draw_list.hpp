@@ -5,6 +5,7 @@
 #include <piblocks/image.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -176,6 +177,7 @@ struct ImageItem {
 struct Plate;
 
 /// Items that never change, painted once and kept as pixels. Equal if the plate is the same object.
+/// All items with the same plate have bounds of one size, and at one place from the origin.
 struct PlateItem {
   ItemId id = ItemId::wall;
   Rectangle bounds;  ///< in whole pixels; the plate is cut off at them
@@ -258,6 +260,12 @@ struct DrawList {
 
 /// Adds a block that stays: a rectangle for it, and one for each of its bars.
 void add_rectangles(ItemId id, const ExposedBlock& block, std::vector<DrawItem>& items);
+
+/// Whether a pixel of the group's list is a pixel of the picture.
+inline bool is_on_pixels(const GroupItem& group) {
+  const Rectangle& r = group.bounds;
+  return r.width == group.list->width_px && r.x == std::floor(r.x) && r.y == std::floor(r.y);
+}
 
 inline bool operator==(const GroupItem& a, const GroupItem& b) {
   return a.id == b.id && a.bounds == b.bounds && a.opacity == b.opacity &&

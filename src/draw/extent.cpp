@@ -16,9 +16,6 @@ constexpr double kAscent = 1.1;
 constexpr double kDescent = 0.35;
 constexpr double kOverhang = 0.22;
 
-/// How far a disk may be painted from its place.
-constexpr double kDiskPlace_px = 1.0 / 8;
-
 /// How far a centred line reaches beyond the outline it is drawn on.
 double reach_of(const std::optional<Stroke>& stroke) { return stroke ? stroke->width_px / 2 : 0; }
 
@@ -33,7 +30,7 @@ struct ExtentOf {
   }
   Extent operator()(const DiskItem& disk) const {
     return Extent{disk.centre.x, disk.centre.y, disk.centre.x, disk.centre.y}.grown(
-        disk.radius + reach_of(disk.stroke) + kDiskPlace_px);
+        disk.radius + reach_of(disk.stroke) + kDiskStep_px / 2);
   }
   Extent operator()(const ExposedItem& item) const {
     const Extent a = extent_of(item.behind);
@@ -61,10 +58,13 @@ bool crosses(const Point& from, const Point& to, const Extent& extent) {
          clip(from.y, to.y - from.y, extent.top, extent.bottom);
 }
 
-/// Lines that are worth a look at each of them.
+/// Whether there are so few lines that each is looked at by itself, painted where they are.
 bool is_few_lines(const PathItem& path) {
   const std::size_t points = path.points.view().size();
-  return !path.fill && !path.closed && points > 1 && points <= 16;
+  const Rectangle& r = path.points.bounds();
+  const double reach_px =
+      std::max({std::abs(r.x), std::abs(r.y), std::abs(r.x + r.width), std::abs(r.y + r.height)});
+  return !path.fill && !path.closed && points > 1 && points <= 16 && reach_px <= kFar_px;
 }
 
 /// False only if the path has certainly no point in the extent.

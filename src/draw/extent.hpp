@@ -26,6 +26,13 @@ struct Extent {
 /// An item may paint so far out of its extent: Cairo rounds coordinates and sums to 1/256 pixel.
 inline constexpr double kRounding_px = 1.0 / 64;
 
+/// Small disks are painted at whole multiples of this.
+inline constexpr double kDiskStep_px = 1.0 / 8;
+
+/// Cairo's coordinates wrap around at 2^23 pixels. Paths are painted as if they ended here; no
+/// frame and no line reaches as far.
+inline constexpr double kFar_px = 1 << 22;
+
 /// Width of a line of text, in ems.
 using MeasureText = std::function<double(Face face, std::string_view utf8)>;
 
@@ -35,8 +42,8 @@ Extent extent_of(const ExposedBlock& block);
 Extent extent_of(const TextItem& text, double left_em, double right_em);
 Extent extent_of(const DrawItem& item, const MeasureText& width_em);
 
-/// Extents that hold a path together. Those of slanted lines are far smaller than the rectangle
-/// around them.
+/// Extents outside of which the path paints nothing: of a slanted line many small ones, since one
+/// rectangle around it would be far larger.
 std::vector<Extent> extents_of(const PathItem& path);
 
 /// The whole pixels of an area that an extent, maybe far outside or not a number, reaches into.

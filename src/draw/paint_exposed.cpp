@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "draw/painter.hpp"
 #include "draw/extent.hpp"
+#include "draw/painter.hpp"
 
 namespace piblocks {
 namespace {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "draw/extent.hpp"
 #include "draw/painter.hpp"
 
 namespace piblocks {
@@ -46,11 +47,7 @@ void stroke_inside(cairo_t& cr, const Rectangle& bounds, const Stroke& stroke) {
   cairo_set_line_cap(&cr, CAIRO_LINE_CAP_BUTT);
 }
 
-/// Cairo's coordinates wrap around at 2^23 pixels. No frame and no line reaches as far as this.
-double within_reach(double px) {
-  constexpr double kFar_px = 1 << 22;
-  return std::clamp(px, -kFar_px, kFar_px);
-}
+double within_reach(double px) { return std::clamp(px, -kFar_px, kFar_px); }
 
 Rectangle within_reach(const Rectangle& r) {
   const double x = within_reach(r.x);

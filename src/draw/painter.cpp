@@ -45,10 +45,7 @@ double reach_of(const DiskItem& disk) {
   return disk.radius + (disk.stroke ? disk.stroke->width_px / 2 : 0);
 }
 
-/// Disks are painted at the nearest of these places.
-constexpr double kPlacesPerPixel = 8;
-
-double nearest_place(double px) { return std::round(px * kPlacesPerPixel) / kPlacesPerPixel; }
+double nearest_place(double px) { return std::round(px / kDiskStep_px) * kDiskStep_px; }
 
 }  // namespace
 
@@ -127,18 +124,18 @@ void Painter::paint_disk(cairo_t& cr, const DiskItem& item) {
                       item.radius,
                       item.fill,
                       item.stroke};
+  const int side_px = 2 * reach_px + 1;
   auto kept = std::ranges::find(disks_, disk, &KeptDisk::disk);
   if (kept == disks_.end()) {
     constexpr std::size_t kMostKept = 256;
     if (disks_.size() == kMostKept) disks_.clear();
-    const int side_px = 2 * reach_px + 1;
     CairoSurfacePtr pixels = image_surface(CAIRO_FORMAT_ARGB32, side_px, side_px, "paint a disk");
     paint_shape(*CairoPtr(cairo_create(pixels.get())), disk);
     disks_.push_back({disk, std::move(pixels)});
     kept = disks_.end() - 1;
   }
-  const double side_px = 2 * reach_px + 1;
-  copy_pixels(cr, *kept->pixels, {pixel.x - reach_px, pixel.y - reach_px, side_px, side_px});
+  copy_pixels(cr, *kept->pixels,
+              {pixel.x - reach_px, pixel.y - reach_px, double(side_px), double(side_px)});
 }
 
 void Painter::paint_image(cairo_t& cr, const ImageItem& item) {
@@ -193,9 +190,7 @@ cairo_surface_t& Painter::kept_pixels(std::shared_ptr<const void> source,
 /// A vector file can only paint a group over what is behind it.
 void Painter::paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& area) {
   const Rectangle& bounds = item.bounds;
-  const bool is_on_pixels = bounds.width == item.list->width_px &&
-                            bounds.x == std::floor(bounds.x) && bounds.y == std::floor(bounds.y);
-  if (is_on_pixels && has_pixels_of_picture(cr)) {
+  if (is_on_pixels(item) && has_pixels_of_picture(cr)) {
     paint_group_pixels(cr, item, area);
     return;
   }

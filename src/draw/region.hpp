@@ -1,5 +1,6 @@
-// What changes from one picture to the next.
-// In: two draw lists. Out: the region outside of which their pixels are equal.
+// A set of pixels of a picture.
+// In: rectangles. Out: disjoint rectangles around them, at most one in each cell of 16x16 pixels,
+// joined where they continue each other.
 #pragma once
 
 #include <piblocks/image.hpp>
@@ -8,8 +9,6 @@
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include "draw/extent.hpp"
 
 namespace piblocks {
 
@@ -56,10 +55,5 @@ class Region {
   std::vector<std::size_t> above_;
   std::vector<std::size_t> here_;
 };
-
-/// Adds every pixel in which the pictures may differ. These are all pixels if the lists have
-/// neither the same ids nor rising ones.
-void add_changes(const DrawList& before, const DrawList& after, const MeasureText& width_em,
-                 Region& region);
 
 }  // namespace piblocks

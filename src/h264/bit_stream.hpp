@@ -62,7 +62,7 @@ class BitWriter {
   void append(std::span<const std::uint8_t> bytes, std::size_t begin, std::size_t end) {
     while (begin < end) {
       const std::size_t count = std::min(8 - begin % 8, end - begin);
-      const unsigned rest = bytes[begin / 8] >> (8 - begin % 8 - count);
+      const unsigned rest = unsigned{bytes[begin / 8]} >> (8 - begin % 8 - count);
       put(rest & ((1U << count) - 1), static_cast<int>(count));
       begin += count;
       // Then whole words, as long as there are any.

@@ -25,10 +25,10 @@ enum class MbType : std::uint8_t {
   i_pcm
 };
 
-/// Where motion is looked for, and whence: a macroblock of the decoded picture before.
+/// A macroblock's place, and the decoded picture before, in which its motion is looked for.
 struct Reference {
   const Picture* before = nullptr;
-  MotionSearch* search = nullptr;  ///< none if nothing moves
+  MotionSearch* search = nullptr;  ///< null: no motion is looked for
   int x_mb = 0;
   int y_mb = 0;
 };
@@ -96,8 +96,7 @@ class MacroblockCoder {
   void finish(const MacroblockInput& input, const Residual& residual, int pattern,
               CodedMacroblock& coded) const;
 
-  /// The largest difference that may stay where nothing corrects it. What moves is looked at again
-  /// in the next picture.
+  /// The largest difference that may stay where nothing corrects it.
   int tolerance(MotionVector vector) const {
     return vector == MotionVector{} ? tolerance_ : 2 * tolerance_;
   }

@@ -8,12 +8,14 @@
 namespace piblocks::h264 {
 namespace {
 
-/// Levels below 1.1 allow 64 samples up and down (table A-1).
+/// The longest vector, each way. Level 1 allows 64 samples: up and down by table A-1, and to the
+/// sides by the parameter sets of libx264 (log2_max_mv_length_horizontal).
 constexpr int kRange = 48;
 
-/// The largest sum of differences of 256 samples that still is motion. A quantiser of 14 leaves
-/// less than half of it.
+/// Motion leaves a smaller sum of differences in 256 samples.
 constexpr int kNear = 768;
+/// With a smaller one the search ends. A quantiser of 14 leaves less.
+constexpr int kNearEnough = kNear / 2;
 
 bool is_zero(MotionVector vector) { return vector == MotionVector{}; }
 
@@ -49,14 +51,15 @@ class Nearest {
       : source_(source), before_(before), x_mb_(x_mb), y_mb_(y_mb) {}
 
   void try_vector(MotionVector vector) {
-    if (!stays_inside(before_, x_mb_, y_mb_, vector)) return;
+    const bool is_short = std::abs(vector.x) <= kRange && std::abs(vector.y) <= kRange;
+    if (!is_short || !stays_inside(before_, x_mb_, y_mb_, vector)) return;
     const int sum = sum_of_differences(source_, before_, kLumaSide * x_mb_ + vector.x,
                                        kLumaSide * y_mb_ + vector.y, least_);
     if (sum >= least_) return;
     least_ = sum;
     vector_ = vector;
   }
-  bool is_certain() const { return least_ < 1 * kNear / 2; }
+  bool is_near_enough() const { return least_ < kNearEnough; }
   const std::optional<MotionVector>& vector() const { return vector_; }
 
  private:
@@ -74,7 +77,7 @@ void try_near(MotionVector vector, Nearest& nearest) {
   const int x = vector.x != 0 ? 1 : 0;
   const int y = 1 - x;
   for (const int sign : {-1, 1}) {
-    if (!nearest.is_certain()) nearest.try_vector({vector.x + sign * x, vector.y + sign * y});
+    if (!nearest.is_near_enough()) nearest.try_vector({vector.x + sign * x, vector.y + sign * y});
   }
 }
 
@@ -182,17 +185,17 @@ std::optional<MotionVector> MotionSearch::find(const Samples& source, const Pict
     if (!is_zero(vector_of(state))) nearest.try_vector(vector_of(state));
   }
   for (const MotionVector vector : recent_) {
-    if (!nearest.is_certain()) try_near(vector, nearest);
+    if (!nearest.is_near_enough()) try_near(vector, nearest);
   }
-  if (!nearest.is_certain() && patience_ > 0) {
-    for (int i = 1; i <= kRange && !nearest.is_certain(); ++i) {
+  if (!nearest.is_near_enough() && searches_left_ > 0) {
+    for (int i = 1; i <= kRange && !nearest.is_near_enough(); ++i) {
       for (const MotionVector vector : {MotionVector{i, 0}, {-i, 0}, {0, i}, {0, -i}}) {
         nearest.try_vector(vector);
       }
     }
-    patience_ = nearest.is_certain() ? kPatience : patience_ - 1;
+    searches_left_ = nearest.is_near_enough() ? kMostSearches : searches_left_ - 1;
   }
-  if (nearest.is_certain()) remember(*nearest.vector());
+  if (nearest.is_near_enough()) remember(*nearest.vector());
   return nearest.vector();
 }
 

@@ -28,7 +28,7 @@ void predict_moved(const Picture& before, int x_mb, int y_mb, MotionVector vecto
 class MotionSearch {
  public:
   void begin_group() { *this = {}; }
-  void begin_picture() { patience_ = std::min(patience_ + 1, kPatience); }
+  void begin_picture() { searches_left_ = std::min(searches_left_ + 1, kMostSearches); }
   /// The vector by which the luma samples of the picture before are nearest, if they are near.
   std::optional<MotionVector> find(const Samples& source, const Picture& before, int x_mb, int y_mb,
                                    const Neighbours& neighbours);
@@ -36,10 +36,10 @@ class MotionSearch {
  private:
   void remember(MotionVector vector);
 
-  static constexpr int kPatience = 4;
+  static constexpr int kMostSearches = 4;
 
-  std::vector<MotionVector> recent_;  // the latest first
-  int patience_ = kPatience;          // searches that may find nothing before they wait
+  std::vector<MotionVector> recent_;   // the latest first
+  int searches_left_ = kMostSearches;  // far ones that may still find nothing
 };
 
 }  // namespace piblocks::h264

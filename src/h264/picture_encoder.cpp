@@ -28,7 +28,7 @@ PictureEncoder::PictureEncoder(const ParameterSets& sets, int qp)
       states_(static_cast<std::size_t>(sets.width_mb) * sets.height_mb),
       last_idr_(sets),
       starts_(states_.size() + 1),
-      differs_(states_.size()) {
+      has_new_result_(states_.size()) {
   last_idr_.starts = starts_;
   assert(0 <= qp && qp <= kMaxQp);
 }
@@ -44,7 +44,7 @@ std::vector<std::uint8_t> PictureEncoder::encode_idr(const Picture& source,
   frame_num_ = 0;
   motion_.begin_group();
   for (int address = changed.next(0); address >= 0; address = changed.next(address + 1)) {
-    if (is_new(address, source)) last_idr_.changed.add_one(address);
+    if (update_source(address, source)) last_idr_.changed.add_one(address);
   }
   begin_slice(SliceType::i);
   encode_all(source);
@@ -55,6 +55,7 @@ std::vector<std::uint8_t> PictureEncoder::encode_idr(const Picture& source,
   last_idr_.states = states_;
   std::swap(last_idr_.slice, bits_);
   std::swap(last_idr_.starts, starts_);
+  transformed_ = 0;
   return unit;
 }
 
@@ -63,8 +64,10 @@ void PictureEncoder::encode_all(const Picture& source) {
   if (last_idr_.is_valid) states_ = last_idr_.states;
   int done = 0;
   for (int address = 0; address < count; ++address) {
-    differs_[address] = is_other(address) ? 1 : 0;
-    if (differs_[address] == 0) continue;
+    if (!needs_coding(address)) {
+      has_new_result_[address] = 0;
+      continue;
+    }
     repeat(done, address);
     starts_[address] = bits_.bit_count();
     add(address, source);
@@ -73,10 +76,10 @@ void PictureEncoder::encode_all(const Picture& source) {
   repeat(done, count);
 }
 
-bool PictureEncoder::is_other(int address) const {
+bool PictureEncoder::needs_coding(int address) const {
   return !last_idr_.is_valid || last_idr_.changed.contains(address) ||
-         (address % sets_.width_mb > 0 && differs_[address - 1] != 0) ||
-         (address >= sets_.width_mb && differs_[address - sets_.width_mb] != 0);
+         (address % sets_.width_mb > 0 && has_new_result_[address - 1] != 0) ||
+         (address >= sets_.width_mb && has_new_result_[address - sets_.width_mb] != 0);
 }
 
 void PictureEncoder::repeat(int begin, int end) {
@@ -96,7 +99,7 @@ std::vector<std::uint8_t> PictureEncoder::encode_p(const Picture& source,
   motion_.begin_picture();
   visited_ = changed;
   for (int address = visited_.next(0); address >= 0; address = visited_.next(address + 1)) {
-    if (!changed.contains(address) || !is_new(address, source)) {
+    if (!changed.contains(address) || !update_source(address, source)) {
       keep(address);
       continue;
     }
@@ -140,7 +143,7 @@ void PictureEncoder::begin_slice(SliceType type) {
   bits_.put_unsigned(1);  // disable_deblocking_filter_idc
 }
 
-bool PictureEncoder::is_new(int address, const Picture& source) {
+bool PictureEncoder::update_source(int address, const Picture& source) {
   const int x = address % sets_.width_mb;
   const int y = address / sets_.width_mb;
   if (source.has_equal(x, y, source_before_)) return false;
@@ -173,11 +176,11 @@ void PictureEncoder::add(int address, const Picture& source) {
   }
   const CodedMacroblock coded = coder_.code(input_);
   if (input_.slice_type == SliceType::i)
-    differs_[address] = has_other_result(address, coded) ? 1 : 0;
+    has_new_result_[address] = has_new_result(address, coded) ? 1 : 0;
   put(address, coded);
 }
 
-bool PictureEncoder::has_other_result(int address, const CodedMacroblock& coded) {
+bool PictureEncoder::has_new_result(int address, const CodedMacroblock& coded) {
   if (!last_idr_.is_valid || last_idr_.changed.contains(address)) return true;
   // What has not changed since then has the decoded samples that it had then.
   decoded_.load(address % sets_.width_mb, address / sets_.width_mb, input_.before);

@@ -38,11 +38,10 @@ class PictureEncoder {
 
   /// The last picture as every decoder has it.
   const Picture& decoded() const noexcept { return decoded_; }
-  /// How many macroblocks of the last picture have coefficients or are I_PCM.
+  /// How many macroblocks of the last P picture have coefficients or are I_PCM.
   int transformed_macroblocks() const noexcept { return transformed_; }
 
  private:
-  void begin_slice(SliceType type);
   /// What the last IDR picture says of its macroblocks.
   struct LastIdr {
     explicit LastIdr(const ParameterSets& sets) : changed(sets.width_mb, sets.height_mb) {}
@@ -54,14 +53,15 @@ class PictureEncoder {
     std::vector<std::size_t> starts;  ///< of each macroblock's bits in the slice, and its end
   };
 
-  /// Whether the macroblock is not what it was in the source before.
-  bool is_new(int address, const Picture& source);
+  void begin_slice(SliceType type);
+  /// Takes the macroblock into source_before_. @returns whether that changes anything
+  bool update_source(int address, const Picture& source);
   void encode_all(const Picture& source);
-  /// Whether the macroblock or one that it is predicted from is coded in another way than in the
-  /// last IDR picture.
-  bool is_other(int address) const;
-  /// Whether it has, now that it is coded, other samples or another state than in the last one.
-  bool has_other_result(int address, const CodedMacroblock& coded);
+  /// Whether the bits of the macroblock in the last IDR picture cannot be used: its source has
+  /// changed since, or the macroblock left of it or above it has another result.
+  bool needs_coding(int address) const;
+  /// Whether the macroblock now has other samples or another state than in the last IDR picture.
+  bool has_new_result(int address, const CodedMacroblock& coded);
   /// Takes the bits of macroblocks from `begin` to before `end` out of the last IDR picture.
   void repeat(int begin, int end);
   /// Sets what a macroblock is predicted from. @returns its vector as P_Skip
@@ -85,10 +85,10 @@ class PictureEncoder {
   MacroblockInput input_{};
   BitWriter bits_;
   LastIdr last_idr_;
-  std::vector<std::size_t> starts_;    // as in LastIdr, of the IDR picture that is being made
-  std::vector<std::uint8_t> differs_;  // whether a macroblock is other than in the last IDR picture
-  bool has_i_pcm_ = false;             // the slice has I_PCM, whose bits depend on where they are
-  int next_address_ = 0;               // after the last macroblock that is not skipped
+  std::vector<std::size_t> starts_;  // as in LastIdr, of the IDR picture that is being made
+  std::vector<std::uint8_t> has_new_result_;  // of each macroblock of this IDR picture
+  bool has_i_pcm_ = false;  // the slice has I_PCM, whose bits depend on where they are
+  int next_address_ = 0;    // after the last macroblock that is not skipped
   std::uint32_t frame_num_ = 0;
   int transformed_ = 0;
 };

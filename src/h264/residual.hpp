@@ -36,7 +36,7 @@ struct MotionVector {
   bool operator==(const MotionVector&) const = default;
 };
 
-/// At first that of a macroblock that is skipped, or not coded yet.
+/// By default the state of a macroblock that is skipped without motion, or not coded yet.
 struct MacroblockState {
   static constexpr std::uint8_t kDc = 2;
 

@@ -68,7 +68,7 @@ inline PathItem any_path(Random& random, ItemId id, int width, int height) {
 }
 
 inline DiskItem any_disk(Random& random, ItemId id, int width, int height) {
-  return {id, any_point(random, width, height), random.uniform(0.5, 30), any_fill(random),
+  return {id, any_point(random, width, height), random.uniform(0.5, 60), any_fill(random),
           any_stroke(random)};
 }
 

@@ -147,6 +147,21 @@ TEST(MotionSearch, FindsNothingInNoiseAndAfterFailuresGoesOnWithTheNextPicture) 
   EXPECT_EQ(search.find(slid, before, 4, 4, neighbours), (MotionVector{5, 0}));
 }
 
+TEST(MotionSearch, StaysWithinTheRangeOfAllLevelsWhereMotionSpeedsUp) {
+  Random random(48);
+  SCOPED_TRACE(random.trace());
+  const Picture before = noise(random, 3, 28);
+  const MacroblockState still;
+  MotionSearch search;
+  for (int distance = 40; distance <= 70; ++distance) {
+    Samples source;
+    predict_moved(before, 1, 10, {0, distance}, source);
+    search.begin_picture();
+    const auto found = search.find(source, before, 1, 10, {&still, &still, &still});
+    EXPECT_EQ(found.has_value(), distance <= 48) << distance;
+  }
+}
+
 /// Writing on flat ground: squares of two samples, dark or not, with their left edge at `x`.
 void write(Picture& picture, MacroblockSet& changed, int x) {
   constexpr int kWidth = 96;

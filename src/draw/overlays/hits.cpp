@@ -31,7 +31,7 @@ constexpr double kHalfGlow = 6;
 /// Strengths that are told apart, from kLeastGlow to 1: one for each of its opacities.
 constexpr int kGlows = 38;
 
-/// The number of the strength.
+/// Which of the kGlows strengths the rate has, from 0, the weakest.
 int glow_of(double hits_per_s) {
   const double doublings = straight_log2(hits_per_s / kMaxHitsPerSecond);
   return static_cast<int>(std::lround((kGlows - 1) * doublings / (doublings + kHalfGlow)));
