@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "draw/extent.hpp"
 #include "draw/layout.hpp"
 #include "draw/look.hpp"
 #include "draw/number_text.hpp"
@@ -19,7 +20,6 @@
 #include "draw/overlays/loupe.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/panels/panels.hpp"
-#include "draw/extent.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {

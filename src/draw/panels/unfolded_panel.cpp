@@ -253,8 +253,8 @@ class UnfoldedPanel {
 
   /// The line up to now: a rectangle, of which only the end changes.
   void add_line(double x, std::vector<DrawItem>& items) const {
-    // Cairo rounds places and lengths to 1/256 pixel. Both are multiples, so that the end that stays
-    // has the same pixels in every frame.
+    // Cairo rounds places and lengths to 1/256 pixel. Both are multiples, so that the end that
+    // stays has the same pixels in every frame.
     const double from = std::round(256 * from_x_) / 256;
     const double to = std::round(256 * std::clamp(x, map_.left(), map_.right())) / 256;
     const double width = 1.2 * diagram_.sizes().data_line;
