@@ -23,8 +23,14 @@ std::vector<Word> filled_lines(const std::vector<Word>& words, const Word& space
                                const auto& fits) {
   std::vector<Word> lines;
   for (const Word& word : words) {
-    Word longer = lines.empty() ? word : lines.back() + space + word;
-    if (!lines.empty() && fits(longer)) {
+    if (lines.empty()) {
+      lines.push_back(word);
+      continue;
+    }
+    Word longer = lines.back();
+    longer += space;
+    longer += word;
+    if (fits(longer)) {
       lines.back() = std::move(longer);
     } else {
       lines.push_back(word);

@@ -102,7 +102,7 @@ CodedMacroblock MacroblockCoder::code(const MacroblockInput& input) const {
   const CodedMacroblock predicted = i_16x16(input);
   compare(predicted);
   if (is_p && may_cost_less(kTryPL016x16_bits)) {
-    const CodedMacroblock moved = p_moved(input);
+    CodedMacroblock moved = p_moved(input);
     if (moved.cost < best.cost) return moved;
     compare(p_l0_16x16(input, skip_vector(input.neighbours), input.before));
   }
@@ -144,7 +144,7 @@ CodedMacroblock MacroblockCoder::p_skip(const MacroblockInput& input) const {
   return coded;
 }
 
-CodedMacroblock MacroblockCoder::hold(const Samples& before, const Neighbours& neighbours) const {
+CodedMacroblock MacroblockCoder::hold(const Samples& before, const Neighbours& neighbours) {
   CodedMacroblock coded(MbType::p_l0_16x16);
   coded.samples = before;
   write_p_l0_16x16({}, neighbours, coded.bits);

@@ -67,7 +67,7 @@ class MacroblockCoder {
 
   CodedMacroblock code(const MacroblockInput& input) const;
   /// Codes a macroblock of a P slice as what was there before, though P_Skip would move it.
-  CodedMacroblock hold(const Samples& before, const Neighbours& neighbours) const;
+  static CodedMacroblock hold(const Samples& before, const Neighbours& neighbours);
 
  private:
   struct Quantisers {

@@ -193,7 +193,7 @@ void PictureEncoder::keep(int address) {
   const int x = address % sets_.width_mb;
   const int y = address / sets_.width_mb;
   before_.load(x, y, input_.before);
-  put(address, coder_.hold(input_.before, input_.neighbours));
+  put(address, MacroblockCoder::hold(input_.before, input_.neighbours));
 }
 
 void PictureEncoder::put(int address, const CodedMacroblock& coded) {
