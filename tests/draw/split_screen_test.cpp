@@ -59,7 +59,7 @@ TEST(SplitScreen, CellsAreEqualApartAndInsideTheFrame) {
   EXPECT_THROW(SplitScreen(view_of_size(20, 16), 3), UsageError);
 }
 
-/// What other things are placed by is said of rows too, where the counter is beside the stage.
+/// In a row the counter is beside the stage. Its place is known there too: the loupe needs it.
 TEST(SplitScreen, ARowHasThePlaceOfItsCounter) {
   Scene scene;
   scene.view = view_of_size(1280, 240);
