@@ -25,6 +25,8 @@ readonly scene="it's {} & \"\$HOME\" %06d.toml"
 echo 'red.mass = 100' >"$scene"
 # Twenty seconds: more chunks than parts.
 readonly rendering=("$scene" --size 320x180 --fps 30 --speed 1/4)
+# Hours of work, however fast our own encoder becomes.
+readonly endless=("$scene" --smallest --speed 1/5000 --to 3)
 readonly out="out {}/%.mp4"
 
 # The program, which notes its process and the way that ssh has come, if it has.
@@ -93,8 +95,8 @@ expect_failure() {
   echo "ok: $1"
 }
 
-# expect_interruption WHAT COMMAND…: the command, which renders for minutes with the program
-# "noting", leaves no process and no file when it is told to stop.
+# expect_interruption WHAT COMMAND…: the command, which renders "endless" with the program "noting",
+# leaves no process and no file when it is told to stop.
 expect_interruption() {
   local runner status=0
   : >"$work/notes"
