@@ -1,0 +1,113 @@
+// An H.264 encoder for pictures of which little changes: drawings, diagrams, screens.
+// In: pictures in 4:2:0, and the rectangles of each that may have changed. Out: a stream of access
+// units, Constrained Baseline, in the byte stream format of annex B.
+//
+// This header, and h264.h for C, are all that a user of the library needs. The library needs the
+// standard library alone.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace piblocks::h264 {
+
+/// What can go wrong: a config that no stream can have, or a picture without samples.
+struct Error : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What all pictures of a stream have in common.
+struct Config {
+  int width_px = 0;   ///< even, from 2
+  int height_px = 0;  ///< even, from 2
+  /// Pictures a second: numerator / denominator, each from 1 to 2^31 - 1.
+  std::int64_t rate_numerator = 60;
+  std::int64_t rate_denominator = 1;
+  /// The quantiser, QP: 0 (nearly lossless) to 41. Above 41, decoders would disagree (8.5.12.2).
+  int qp = 14;
+  /// level_idc, ten times the level's number: 20 to 62. 0: the lowest that holds the size and the
+  /// rate of the pictures. Where a level's bit rate does not suffice, pictures are quantised more
+  /// coarsely.
+  int level_idc = 0;
+  /// The most pictures from one IDR picture up to the next, 1 to 65535: how many bits frame_num has.
+  int max_group = 600;
+};
+
+/// One plane of samples of 8 bits, row by row.
+struct Plane {
+  const std::uint8_t* samples = nullptr;
+  std::ptrdiff_t stride_bytes = 0;  ///< from row to row
+};
+
+/// A picture in 4:2:0: chroma planes have half the width and half the height. BT.709, limited range.
+struct Planes {
+  Plane y;
+  Plane cb;
+  Plane cr;
+};
+
+/// Pixels from (x_px, y_px), the upper left, to before (x_px + width_px, y_px + height_px).
+struct Rect {
+  int x_px = 0;
+  int y_px = 0;
+  int width_px = 0;
+  int height_px = 0;
+};
+
+enum class PictureType : std::uint8_t {
+  idr,  ///< depends on no other: where a player can begin
+  p     ///< what has changed since the picture before
+};
+
+/// How a picture was coded.
+struct CodedPicture {
+  PictureType type;
+  int qp;                       ///< the config's, or more, where the level's rate did not suffice
+  bool is_within_level;         ///< false if no quantiser of the encoder could keep the rate
+  int transformed_macroblocks;  ///< of a P picture: with coefficients, or I_PCM
+};
+
+/// Encodes one stream. An object may be used by one thread at a time.
+class Encoder {
+ public:
+  /// @throws Error naming the field and its limits, before anything large is allocated.
+  explicit Encoder(const Config& config);
+  ~Encoder();
+  Encoder(Encoder&&) noexcept;
+  Encoder& operator=(Encoder&&) noexcept;
+
+  /// Sequence and picture parameter set, with start codes: the beginning of a byte stream, or what
+  /// avcC of an MP4 file is made of.
+  std::span<const std::uint8_t> headers() const;
+  /// level_idc of the stream.
+  int level_idc() const;
+
+  /// Encodes the next picture. The first of a stream is an IDR picture, whatever is asked for.
+  /// @param source   the caller's planes of width_px x height_px pixels; only read, and not kept
+  /// @param changed  covers every pixel that differs from the last picture; may be coarse. The very
+  ///                 first picture is taken whole. What reaches out of the picture is cut off.
+  /// @param unit     the caller's; its bytes are replaced by the access unit's, which begins with a
+  ///                 start code of four bytes. Kept from picture to picture, it is allocated once.
+  /// @throws Error if a plane has no samples
+  CodedPicture encode(const Planes& source, std::span<const Rect> changed, PictureType type,
+                      std::vector<std::uint8_t>& unit);
+
+  /// Makes the stream begin anew: the next picture is an IDR picture, whose bytes depend on its
+  /// samples alone. Nothing has to be passed whole again.
+  void restart();
+
+  /// The most bytes that an access unit of such a stream can have.
+  static std::size_t max_unit_bytes(const Config& config);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace piblocks::h264
