@@ -127,7 +127,11 @@ inline std::vector<Sample> samples_of(const Mp4Boxes& boxes) {
   for (std::uint64_t chunk = 0; chunk < chunks; ++chunk) {
     if (run + 1 < run_count && number_at(runs, 8 + 12 * (run + 1)) == chunk + 1) ++run;
     std::uint64_t at = number_at(offsets, 8 + (is_far ? 8 : 4) * chunk, is_far ? 8 : 4);
-    for (std::uint64_t i = number_at(runs, 12 + 12 * run); i > 0 && samples.size() < count; --i) {
+    for (std::uint64_t i = number_at(runs, 12 + 12 * run); i > 0; --i) {
+      if (samples.size() == count) {
+        ADD_FAILURE() << "chunks of too many pictures";
+        return samples;
+      }
       const std::uint64_t size = number_at(sizes, 12 + 4 * samples.size());
       samples.push_back({at, size});
       at += size;

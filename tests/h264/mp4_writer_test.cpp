@@ -312,17 +312,50 @@ TEST(Mp4Writer, HasRoomForManyKeyFrames) {
   EXPECT_EQ(most_of(9000, {3, 1}), 9000);
 }
 
-/// As many key frames as there is room for, in the shortest file: nothing overlaps.
-TEST(Mp4Writer, FillsItsRoom) {
+/// As many key frames as there is room for.
+TEST(Mp4Writer, FillsTheRoomForKeyFrames) {
   Mp4Memory file;
-  Mp4Writer writer(track_of(4097, {1, 131071}), file.writer());
+  Mp4Writer writer(track_of(4097), file.writer());
   for (int i = 0; i < 4097; ++i) writer.append(ByteVector{0, 0, 1, 0x65}, i > 0);
   writer.finish();
   const Mp4Boxes boxes(file.bytes(), file.size);
   EXPECT_EQ(key_frames_of(boxes).size(), 4096u);
   EXPECT_EQ(samples_of(boxes).size(), 4097u);
   EXPECT_EQ(boxes.sizes.at("free'"), 8u);  // the header of mdat is short
-  EXPECT_LT(boxes.sizes.at("free"), 10'000u);
+}
+
+/// The longest index: 64 bits for durations and offsets, a shorter last chunk, and all pictures but
+/// one are key frames. Of the room, the number of that one is left, and 4 bytes of an offset.
+TEST(Mp4Writer, FillsTheWholeRoom) {
+  ByteVector unit(std::size_t{1} << 27, 0xff);
+  std::ranges::copy(ByteVector{0, 0, 0, 1, 0x65}, unit.begin());
+  Mp4Memory file(1 << 20);
+  Mp4Writer writer(track_of(35, {2'147'483'647, 1'000'000'000}), file.writer());
+  for (int i = 0; i < 35; ++i) writer.append(unit, i > 0);
+  writer.finish();
+  const Mp4Boxes boxes(file.bytes(), file.size);
+  EXPECT_EQ(samples_of(boxes).size(), 35u);
+  EXPECT_EQ(number_at(boxes.at(kTables + "co64"), 4), 18u);
+  EXPECT_EQ(number_at(boxes.at(kTables + "stsc"), 4), 2u);
+  EXPECT_EQ(boxes.at("moov/mvhd")[0], 1);
+  EXPECT_EQ(boxes.sizes.at("free"), 8u);
+  EXPECT_EQ(boxes.sizes.at("free'"), 0u);
+}
+
+/// With its header, mdat may have 2^32 - 1 bytes; above, the header is longer.
+TEST(Mp4Writer, DataOf4GiBHaveALongHeader) {
+  ByteVector unit(std::size_t{1} << 27, 0xff);
+  std::ranges::copy(ByteVector{0, 0, 0, 1, 0x65}, unit.begin());
+  for (const std::size_t missing : {9U, 8U}) {
+    Mp4Memory file(1 << 20);
+    Mp4Writer writer(track_of(32), file.writer());
+    for (int i = 0; i < 31; ++i) writer.append(unit, true);
+    writer.append(std::span(unit).first(unit.size() - missing), true);
+    writer.finish();
+    const Mp4Boxes boxes(file.bytes(), file.size);
+    EXPECT_EQ(boxes.sizes.at("mdat"), (std::uint64_t{1} << 32) - missing);
+    EXPECT_EQ(boxes.sizes.at("free'"), missing == 9 ? 8U : 0U);
+  }
 }
 
 TEST(Mp4Writer, OffsetsBeyond4GiBHave64Bits) {
