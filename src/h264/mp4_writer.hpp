@@ -24,6 +24,8 @@ struct Mp4Track {
   std::span<const std::uint8_t> headers;
   /// No more may follow; 1 … 500,000,000. The file has 4 bytes for each, and up to 4 more.
   std::int64_t max_pictures;
+  /// No more IDR pictures may follow; 0: all may be. The file has 4 bytes for each.
+  std::int64_t max_key_frames = 0;
 };
 
 /// Its memory does not depend on the number of pictures, but for 4 bytes for each key frame.
@@ -43,8 +45,7 @@ class Mp4Writer {
 
   /// Adds the next picture, without parameter sets and access unit delimiters.
   /// @param unit  an access unit with start codes of three or four bytes.
-  /// @throws Error if there are more pictures or key frames than there is room for: of key frames,
-  ///         4096, or more if max_pictures is above: two a second, or one picture in eight. Or if
+  /// @throws Error if there are more pictures or key frames than there is room for, or
   ///         the unit is empty, does not fit 32 bits, or comes with parameter sets that are not the
   ///         headers'. The file is then as it was before.
   void append(std::span<const std::uint8_t> unit, bool is_idr);

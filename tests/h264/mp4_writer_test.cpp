@@ -292,36 +292,30 @@ TEST(Mp4Writer, RefusesWhatHasNoRoom) {
   EXPECT_EQ(Mp4Boxes(file.bytes(), file.size).at("mdat").size(), 10u);
 }
 
-TEST(Mp4Writer, HasRoomForManyKeyFrames) {
-  // How many of so many pictures can be key frames.
-  const auto most_of = [](std::int64_t pictures, PictureRate rate) {
-    Mp4Writer writer(track_of(pictures, rate), [](auto, auto) {});
-    std::int64_t count = 0;
-    try {
-      for (; count < pictures; ++count) writer.append(ByteVector{0, 0, 1, 0x65}, true);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.what(),
-                "h264: an MP4 file has room for " + std::to_string(count) + " key frames");
-    }
-    return count;
-  };
-  EXPECT_EQ(most_of(4096, kRate), 4096);
-  EXPECT_EQ(most_of(5000, kRate), 4096);
-  EXPECT_EQ(most_of(80'000, kRate), 10'001);
-  EXPECT_EQ(most_of(20'000, {5, 1}), 10'001);
-  EXPECT_EQ(most_of(9000, {3, 1}), 9000);
-}
-
-/// As many key frames as there is room for.
+/// As many key frames as there is room for, and no more.
 TEST(Mp4Writer, FillsTheRoomForKeyFrames) {
-  Mp4Memory file;
-  Mp4Writer writer(track_of(4097), file.writer());
-  for (int i = 0; i < 4097; ++i) writer.append(ByteVector{0, 0, 1, 0x65}, i > 0);
-  writer.finish();
-  const Mp4Boxes boxes(file.bytes(), file.size);
-  EXPECT_EQ(key_frames_of(boxes).size(), 4096u);
-  EXPECT_EQ(samples_of(boxes).size(), 4097u);
-  EXPECT_EQ(boxes.sizes.at("free'"), 8u);  // the header of mdat is short
+  constexpr std::int64_t kKeyFrames = 40;
+  for (const std::int64_t announced : {std::int64_t{0}, kKeyFrames}) {
+    Mp4Memory file;
+    Mp4Track track = track_of(kKeyFrames + 1);
+    track.max_key_frames = announced;
+    Mp4Writer writer(track, file.writer());
+    for (std::int64_t i = 0; i <= kKeyFrames; ++i) {
+      writer.append(ByteVector{0, 0, 1, 0x65}, i > 0);
+    }
+    writer.finish();
+    const Mp4Boxes boxes(file.bytes(), file.size);
+    EXPECT_EQ(std::ssize(key_frames_of(boxes)), kKeyFrames);
+    EXPECT_EQ(std::ssize(samples_of(boxes)), kKeyFrames + 1);
+    EXPECT_EQ(boxes.sizes.at("free'"), 8u);  // the header of mdat is short
+  }
+  Mp4Track track = track_of(3);
+  track.max_key_frames = 1;
+  Mp4Writer writer(track, [](auto, auto) {});
+  writer.append(ByteVector{0, 0, 1, 0x65}, true);
+  EXPECT_THROW(writer.append(ByteVector{0, 0, 1, 0x65}, true), Error);
+  track.max_key_frames = 4;
+  EXPECT_EQ(problem_of(track), "h264: max_key_frames of an MP4 file is 4, not in [1, 3]");
 }
 
 /// The longest index: 64 bits for durations and offsets, a shorter last chunk, and all pictures but
