@@ -72,6 +72,8 @@ struct Profile {
 struct Rendered {
   std::int64_t frame_count = 0;
   Profile profile;  ///< zero unless asked for
+  /// What a user should know of the output, one line each: players that may not show it.
+  std::vector<std::string> notes = {};
 };
 
 struct Progress {

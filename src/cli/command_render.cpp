@@ -123,7 +123,9 @@ void run_render(const Command& options, const SceneOptions& scene) {
       job, [&](const Progress& progress) { report.update(progress); }, signals.token());
   report.finish();
   if (job.profile) print_profile(rendered);
-  if (!quiet) note_convention(job.script);
+  if (quiet) return;
+  for (const std::string& note : rendered.notes) say("piblocks: note: {}\n", note);
+  note_convention(job.script);
 }
 
 void add_encoder_options(Command& command) {

@@ -231,8 +231,7 @@ CodedMacroblock MacroblockCoder::p_l0_16x16(const MacroblockInput& input, Motion
   return coded;
 }
 
-CodedMacroblock MacroblockCoder::i_nxn(const MacroblockInput& input,
-                                       const CodedMacroblock& i_16x16,
+CodedMacroblock MacroblockCoder::i_nxn(const MacroblockInput& input, const CodedMacroblock& i_16x16,
                                        std::int64_t cost_limit) const {
   CodedMacroblock coded(MbType::i_nxn);
   coded.samples = i_16x16.samples;

@@ -176,7 +176,9 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
     };
   };
 
-  Rendered rendered{plan.output.has_frames ? frames_until(range.end) : plan.film.frame_count(), {}};
+  Rendered rendered{plan.output.has_frames ? frames_until(range.end) : plan.film.frame_count(),
+                    {},
+                    plan.output.notes};
   on_progress({0, rendered.frame_count});
   StepClock clock(job.profile, Step::mux);
   SoundWork sound;

@@ -43,6 +43,27 @@ TEST_F(RenderTest, WritesEveryKind) {
   EXPECT_NE(contents("a.framehash").find("#dimensions 0: 64x36"), std::string::npos);
 }
 
+TEST_F(RenderTest, NamesPlayersThatPromiseLessThanTheVideoNeeds) {
+  const auto errors_of = [&](const char* size, const char* fps, const Arguments& more) {
+    const Arguments arguments{"render", "--size", size, "--fps", fps, "--to", "1/10"};
+    const CommandResult result = piblocks(arguments + more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err;
+  };
+  const std::string note =
+      "piblocks: note: H.264 of 3840x2160 at level 5.2: Windows, and PowerPoint with it, promises "
+      "to play no more than 4096x2304 at level 5.1; for these use a smaller --size or fewer "
+      "--fps\n";
+  for (const char* name : {"a.mp4", "a.mov"}) {
+    EXPECT_TRUE(errors_of("3840x2160", "60", {"-o", name}).ends_with(note)) << name;
+    EXPECT_EQ(errors_of("3840x2160", "30", {"-o", name}).find("note"), std::string::npos) << name;
+  }
+  EXPECT_NE(errors_of("64x2306", "30", {"-o", "a.mp4"}).find("H.264 of 64x2306 at level"),
+            std::string::npos);
+  EXPECT_EQ(errors_of("3840x2160", "60", {"--quiet", "-o", "a.mp4"}), "");
+  EXPECT_EQ(errors_of("3840x2160", "60", {"-o", "a.apng"}).find("note"), std::string::npos);
+}
+
 TEST_F(RenderTest, StandardOutputGetsTheBytesOfTheFile) {
   output_of(frames(3) + Arguments{"-o", "a.y4m"});
   EXPECT_EQ(output_of(frames(3) + Arguments{"-o", "-"}), contents("a.y4m"));

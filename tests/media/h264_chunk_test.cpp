@@ -272,7 +272,9 @@ TEST_P(DamageChunkSizeTest, ShowsWhatWasDrawnFromDamageAlone) {
       std::vector<Pixels> drawn;
       encoder->begin(chunk * kFramesPerChunk);
       for (int i = 0; i < kFramesPerChunk; ++i) {
-        encoder->take(frame.pixels().view(), frame.change());
+        std::vector<PixelRect> changed = frame.change();
+        if (chunk == 0 && i == 0) changed = {{0, 0, format.width_px, format.height_px}};
+        encoder->take(frame.pixels().view(), changed);
         encoder->encode();
         drawn.push_back(frame.pixels());
       }

@@ -64,11 +64,11 @@ Output sequence_of(const ImageView& image) {
   return set_up_output("%d.png", {image.width_px, image.height_px, 25, image.has_alpha}, {});
 }
 
-/// The file of the next picture.
+/// The file of the next picture, of which all has changed unless something is said.
 Bytes encoded(ChunkEncoder& encoder, const ImageView& image,
               const std::vector<PixelRect>& changed = {}) {
   encoder.begin(0);
-  encoder.take(image, changed);
+  changed.empty() ? encoder.take(image) : encoder.take(image, changed);
   encoder.encode();
   return encoder.finish().front().bytes;
 }

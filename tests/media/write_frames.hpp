@@ -31,8 +31,7 @@ inline PaintFrame random_frames(const VideoFormat& format) {
 
 /// Takes the whole frame, and encodes it.
 inline void add(ChunkEncoder& encoder, const ImageView& frame) {
-  const PixelRect whole{0, 0, frame.width_px, frame.height_px};
-  encoder.take(frame, {&whole, 1});
+  encoder.take(frame);
   encoder.encode();
 }
 

@@ -68,15 +68,18 @@ Output encoded_output(const OutputRequest& request, const Container& container,
 Output h264_output(const OutputRequest& request, const Container& container) {
   check_duration_of_frame(request.format.frame_rate);
   if (!is_damage(request.settings)) {
-    return encoded_output(request, container,
-                          h264_setup(request.format, request.settings, container.encoders));
+    EncoderSetup setup = h264_setup(request.format, request.settings, container.encoders);
+    Output output = encoded_output(request, container, std::move(setup));
+    output.notes = h264_notes(request.format);
+    return output;
   }
   const auto parts = std::make_shared<const Damage>(request, container);
   return with_file(
       {.frames_per_chunk = parts->pictures.frames_per_chunk,
        .signature = parts->pictures.signature(),
        .make_encoder = [parts] { return h264_chunk_encoder(parts->pictures, h264_successor); },
-       .open = {}},
+       .open = {},
+       .notes = h264_notes(request.format)},
       request, container, parts, parts->stream);
 }
 

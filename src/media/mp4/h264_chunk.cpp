@@ -100,14 +100,15 @@ class H264ChunkEncoder final : public ChunkEncoder {
 
  private:
   void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
-    const PixelRect whole{0, 0, frame.width_px, frame.height_px};
-    const std::span<const PixelRect> all(&whole, 1);
     if (is_handed_over_) {
       successor_->take(frame, rects);
     } else if (changes_too_much() && hand_over()) {
-      successor_->take(frame, all);
+      successor_->take(frame);
+    } else if (std::exchange(is_behind_, false)) {
+      const PixelRect whole{0, 0, frame.width_px, frame.height_px};
+      convert_here(frame, {&whole, 1});
     } else {
-      convert_here(frame, std::exchange(is_behind_, false) ? all : rects);
+      convert_here(frame, rects);
     }
   }
   void convert_here(const ImageView& frame, std::span<const PixelRect> rects) {
@@ -169,6 +170,21 @@ std::string h264_level_problem(const VideoFormat& format) {
       "output: H.264 cannot hold this video: {}; make it smaller or slower, or write *.webm, "
       "*.apng or *.png",
       problem);
+}
+
+/// The limits are those of Microsoft's page "H.264 Video Decoder" (Media Foundation).
+std::vector<std::string> h264_notes(const VideoFormat& format) {
+  constexpr int kLongSide_px = 4096;
+  constexpr int kShortSide_px = 2304;
+  constexpr int kLevel = 51;
+  const int level = h264::lowest_level(format.width_px, format.height_px, rate_of(format))->idc;
+  if (format.width_px <= kLongSide_px && format.height_px <= kShortSide_px && level <= kLevel)
+    return {};
+  return {
+      fmt::format("H.264 of {}x{} at level {}.{}: Windows, and PowerPoint with it, promises to "
+                  "play no more than "
+                  "4096x2304 at level 5.1; for these use a smaller --size or fewer --fps",
+                  format.width_px, format.height_px, level / 10, level % 10)};
 }
 
 H264Stream::H264Stream(const VideoFormat& video_format, const EncoderSettings& settings)

@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "h264/encoder.hpp"
 #include "h264/parameter_sets.hpp"
@@ -25,6 +26,10 @@ bool is_damage(const EncoderSettings& settings);
 
 /// Why H.264 cannot hold pictures of this size and rate; empty if it can.
 std::string h264_level_problem(const VideoFormat& format);
+
+/// Which players may not show pictures of this size and rate; nothing if none is known.
+/// @pre h264_level_problem() is empty
+std::vector<std::string> h264_notes(const VideoFormat& format);
 
 /// A stream of our own encoder.
 struct H264Stream {

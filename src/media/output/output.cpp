@@ -118,9 +118,12 @@ void ChunkEncoder::take(const ImageView& frame, std::span<const PixelRect> chang
     throw MediaError(fmt::format("output: cannot take frame: it is {}x{}, the output {}x{}",
                                  frame.width_px, frame.height_px, width_px_, height_px_));
   }
-  const PixelRect whole{0, 0, width_px_, height_px_};
-  convert(frame, is_empty_ ? std::span(&whole, 1) : changed);
-  is_empty_ = false;
+  convert(frame, changed);
+}
+
+void ChunkEncoder::take(const ImageView& frame) {
+  const PixelRect whole{0, 0, frame.width_px, frame.height_px};
+  take(frame, {&whole, 1});
 }
 
 void FrameSink::take_sound(PacketSource& /*sound*/) {

@@ -78,9 +78,11 @@ class ChunkEncoder {
   virtual void begin(std::int64_t first_frame) = 0;
   /// Updates the picture that the encoder keeps from frame to frame.
   /// @param changed  rectangles that cover every pixel in which the frame differs from the one
-  ///                 taken before, in this chunk or the last. The very first is taken whole.
+  ///                 taken before, in this chunk or the last; of the very first frame, all
   /// @throws MediaError if the frame is not of the size of the output.
   void take(const ImageView& frame, std::span<const PixelRect> changed);
+  /// The same if all pixels may differ.
+  void take(const ImageView& frame);
   /// Encodes that picture as the chunk's next frame. @throws MediaError if the encoder refuses it.
   virtual void encode() = 0;
   /// The chunk's packets.
@@ -94,7 +96,6 @@ class ChunkEncoder {
  private:
   int width_px_;
   int height_px_;
-  bool is_empty_ = true;
 };
 
 /// An output being written. Destroying it before finish() removes every trace of it.
@@ -141,7 +142,8 @@ struct Output {
   /// The packets that this output makes of a soundtrack; both must outlive them.
   /// @throws MediaError if the output was set up without sound, or its encoder cannot be opened.
   std::function<std::unique_ptr<PacketSource>(SampleSource& samples)> encode_sound = reject_sound;
-  bool has_frames = true;  ///< if false, no frames may be encoded or appended
+  bool has_frames = true;               ///< if false, no frames may be encoded or appended
+  std::vector<std::string> notes = {};  ///< as Rendered's
 };
 
 /// Sets up the output whose kind the name tells (the table in output.cpp), such as `*.mp4`, `*.png`

@@ -157,7 +157,7 @@ Bytes encode_png(const ImageView& image) {
   PngEncoder encoder(
       {.width_px = image.width_px, .height_px = image.height_px, .has_alpha = image.has_alpha});
   encoder.begin(0);
-  encoder.take(image, {});
+  encoder.take(image);
   encoder.encode();
   return encoder.finish().front().bytes;
 }
