@@ -1,0 +1,43 @@
+// The encoders that are compared, behind one interface.
+// In: pictures. Out: the bytes of each.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "screen/recording.hpp"
+
+namespace piblocks::benchmark {
+
+/// One stream of one thread, without delay: every picture gives its bytes at once.
+class PictureEncoder {
+ public:
+  virtual ~PictureEncoder() = default;
+  /// @return the access unit, valid until the next call; with start codes, the headers first.
+  ///         Nothing if the picture was left out.
+  virtual std::span<const std::uint8_t> encode(const Picture& picture) = 0;
+};
+
+struct Contender {
+  std::string name;
+  std::string version;
+  std::string settings;  ///< but the quantiser
+  /// The quantisers to search for the quality of the first contender; none: it keeps its settings.
+  struct Range {
+    int least_qp;
+    int greatest_qp;
+  };
+  std::optional<Range> range;
+  std::function<std::unique_ptr<PictureEncoder>(int qp)> make;
+};
+
+Contender piblocks_contender();
+std::vector<Contender> x264_contenders();
+/// Nothing where it was not installed when this was built.
+std::optional<Contender> openh264_contender();
+
+}  // namespace piblocks::benchmark

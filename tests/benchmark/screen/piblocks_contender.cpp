@@ -1,0 +1,52 @@
+#include <utility>
+
+#include "h264/encoder.hpp"
+#include "screen/contenders.hpp"
+
+namespace piblocks::benchmark {
+namespace {
+
+h264::Config config(int qp) {
+  return {.width_px = kScreenWidth_px,
+          .height_px = kScreenHeight_px,
+          .rate_numerator = kPicturesPerSecond,
+          .qp = qp};
+}
+
+class PiblocksEncoder : public PictureEncoder {
+ public:
+  explicit PiblocksEncoder(int qp) : encoder_(config(qp)) {}
+
+  std::span<const std::uint8_t> encode(const Picture& picture) override {
+    rects_.clear();
+    for (const PixelRect& rect : picture.changed) {
+      rects_.push_back({rect.x_px, rect.y_px, rect.width_px, rect.height_px});
+    }
+    const h264::Planes planes = {.y = {picture.y(), kScreenWidth_px},
+                                 .cb = {picture.cb(), kScreenWidth_px / 2},
+                                 .cr = {picture.cr(), kScreenWidth_px / 2}};
+    encoder_.encode(planes, rects_, h264::PictureType::p, unit_);
+    if (!std::exchange(is_first_, false)) return unit_;
+    const auto headers = encoder_.headers();
+    unit_.insert(unit_.begin(), headers.begin(), headers.end());
+    return unit_;
+  }
+
+ private:
+  h264::Encoder encoder_;
+  std::vector<h264::Rect> rects_;
+  std::vector<std::uint8_t> unit_;
+  bool is_first_ = true;
+};
+
+}  // namespace
+
+Contender piblocks_contender() {
+  return {.name = "piblocks::h264",
+          .version = "piblocks",
+          .settings = "default",
+          .range = {},
+          .make = [](int qp) { return std::make_unique<PiblocksEncoder>(qp); }};
+}
+
+}  // namespace piblocks::benchmark
