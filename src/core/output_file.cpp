@@ -142,7 +142,7 @@ void OutputFile::write(std::string_view text) {
   write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
-void OutputFile::overwrite(std::uint64_t position, std::span<const std::uint8_t> bytes) {
+void OutputFile::write_at(std::uint64_t position, std::span<const std::uint8_t> bytes) {
   const int file = descriptor_.get();
   const off_t end = ::lseek(file, 0, SEEK_CUR);
   if (end < 0 || ::lseek(file, static_cast<off_t>(position), SEEK_SET) < 0) {

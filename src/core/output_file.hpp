@@ -131,8 +131,9 @@ class OutputFile {
   ///         closed pipe.
   void write(std::span<const std::uint8_t> bytes);
   void write(std::string_view text);
-  /// Replaces bytes that were written before. Not on standard output. @throws IoError
-  void overwrite(std::uint64_t position, std::span<const std::uint8_t> bytes);
+  /// Writes to another place, from this position of the file on; write() goes on where it was. Not
+  /// on standard output. @throws IoError
+  void write_at(std::uint64_t position, std::span<const std::uint8_t> bytes);
   /// Closes, syncs and renames. @throws IoError
   void finish();
 

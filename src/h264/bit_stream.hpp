@@ -9,9 +9,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "h264/encoder.hpp"
 
 namespace piblocks::h264 {
 
@@ -103,8 +104,8 @@ class BitWriter {
 };
 
 /// A header of a stream is broken, or the slices of this encoder do not fit it.
-struct HeaderError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct HeaderError : Error {
+  using Error::Error;
 };
 
 /// Reads what BitWriter writes. Every function that reads throws HeaderError where the bits end.

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -35,8 +34,6 @@ struct Config {
   /// rate of the pictures. Where a level's bit rate does not suffice, pictures are quantised more
   /// coarsely.
   int level_idc = 0;
-  /// The most pictures from one IDR picture up to the next, 1 to 65535: how many bits frame_num has.
-  int max_group = 600;
 };
 
 /// One plane of samples of 8 bits, row by row.
@@ -45,7 +42,8 @@ struct Plane {
   std::ptrdiff_t stride_bytes = 0;  ///< from row to row
 };
 
-/// A picture in 4:2:0: chroma planes have half the width and half the height. BT.709, limited range.
+/// A picture in 4:2:0: chroma planes have half the width and half the height. BT.709, limited
+/// range.
 struct Planes {
   Plane y;
   Plane cb;

@@ -1,5 +1,6 @@
 // Levels: how large, how fast and how heavy a stream may be (ITU-T H.264 (08/2021), Annex A).
-// In: the size of the pictures, their rate, and the bytes of each. Out: the lowest level that holds.
+// In: the size of the pictures, their rate, and the bytes of each. Out: the lowest level that
+// holds.
 #pragma once
 
 #include <cstdint>
@@ -32,17 +33,20 @@ std::span<const Level> levels();
 /// The longest side that the highest level allows: floor(Sqrt(8 MaxFS)), by A.3.1, items f and g.
 inline constexpr int kMaxSide_mb = 1055;
 
-/// Empty if some level holds such pictures at such a rate; else the limit of level 6.2, the highest,
-/// that they exceed.
+/// Empty if some level holds such pictures at such a rate; else the limit of level 6.2, the
+/// highest, that they exceed.
 std::string level_problem(int width_px, int height_px, PictureRate rate);
+
+/// Whether the level allows such pictures at such a rate, whatever their bytes.
+bool can_hold(const Level& level, int width_px, int height_px, PictureRate rate);
 
 /// The lowest of levels() that holds such pictures at such a rate, whatever their bytes; null if
 /// none does.
 const Level* lowest_level(int width_px, int height_px, PictureRate rate);
 
-/// The buffer of a decoder of one level (the hypothetical reference decoder, C.1): it is full before
-/// the first picture, each picture empties its bits at once, and MaxBR fills it. And MinCR, the
-/// least compression of each picture.
+/// The buffer of a decoder of one level (the hypothetical reference decoder, C.1): it is full
+/// before the first picture, each picture empties its bits at once, and MaxBR fills it. And MinCR,
+/// the least compression of each picture.
 class RateWatch {
  public:
   RateWatch(const Level& level, int size_mb, PictureRate rate);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 namespace piblocks::h264 {
 namespace {
@@ -24,7 +25,16 @@ std::vector<std::uint8_t> without_emulation_prevention(Bytes bytes) {
 
 /// A fourth zero before the start code is one of those that may follow any unit.
 Bytes::iterator next_unit(Bytes stream, Bytes::iterator from) {
-  return std::search(from, stream.end(), kStartCode.begin() + 1, kStartCode.end());
+  // The C library looks for the one of a start code much faster than a loop for the whole.
+  while (stream.end() - from > 2) {
+    const void* const one =
+        std::memchr(&from[2], 1, static_cast<std::size_t>(stream.end() - from - 2));
+    if (one == nullptr) break;
+    from += static_cast<const std::uint8_t*>(one) - &from[2];
+    if (from[0] == 0 && from[1] == 0) return from;
+    ++from;
+  }
+  return stream.end();
 }
 
 }  // namespace
@@ -44,15 +54,24 @@ void append_unit(UnitType type, int nal_ref_idc, Bytes rbsp, std::vector<std::ui
   if (zeros > 0) stream.push_back(kEmulationPrevention);
 }
 
-std::vector<Unit> read_units(Bytes stream) {
-  std::vector<Unit> units;
+Bytes take_unit(Bytes& stream) {
   for (auto start = next_unit(stream, stream.begin()); start != stream.end();) {
     const auto begin = start + 3;
     start = next_unit(stream, begin);
     auto end = start;
     while (end != begin && end[-1] == 0) --end;
     if (begin == end) continue;
-    units.push_back({*begin & 31, without_emulation_prevention(Bytes(begin + 1, end))});
+    stream = {start, stream.end()};
+    return {begin, end};
+  }
+  stream = {};
+  return {};
+}
+
+std::vector<Unit> read_units(Bytes stream) {
+  std::vector<Unit> units;
+  for (Bytes unit = take_unit(stream); !unit.empty(); unit = take_unit(stream)) {
+    units.push_back({unit[0] & 31, without_emulation_prevention(unit.subspan(1))});
   }
   return units;
 }

@@ -14,7 +14,8 @@ enum class UnitType : std::uint8_t {
   idr_slice = 5,
   sei = 6,
   sequence_parameters = 7,
-  picture_parameters = 8
+  picture_parameters = 8,
+  access_unit_delimiter = 9
 };
 
 /// Appends a start code of four bytes, the header, and the RBSP with
@@ -23,6 +24,10 @@ enum class UnitType : std::uint8_t {
 /// @param rbsp  with its trailing bits, after which only cabac_zero_words may follow.
 void append_unit(UnitType type, int nal_ref_idc, std::span<const std::uint8_t> rbsp,
                  std::vector<std::uint8_t>& stream);
+
+/// Takes the first NAL unit off the front of a stream with start codes of three or four bytes.
+/// @return its bytes, without its start code and zeros after it; empty if there is none.
+std::span<const std::uint8_t> take_unit(std::span<const std::uint8_t>& stream);
 
 struct Unit {
   int type;

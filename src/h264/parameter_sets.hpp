@@ -1,11 +1,14 @@
-// What a stream's headers say about its slices, and how large and fast a stream can be.
-// In: the sequence and picture parameter sets of another encoder. Out: the numbers that our own
-// slices in its stream need.
+// What the headers of a stream say: the sequence and the picture parameter set.
+// In: a config. Out: the headers of our own stream. Or, in: the headers of another encoder. Out:
+// the numbers that its slices are coded with.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
+
+#include "h264/encoder.hpp"
 
 namespace piblocks::h264 {
 
@@ -18,7 +21,19 @@ struct ParameterSets {
   bool overrides_reference_count;  ///< slices need num_ref_idx_active_override_flag
   int initial_qp;                  ///< 26 + pic_init_qp_minus26
   int chroma_qp_offset;            ///< chroma_qp_index_offset
+
+  /// Slices that are coded with equal numbers may follow one another under one pair of headers.
+  bool operator==(const ParameterSets&) const = default;
 };
+
+/// Those of our own stream: what libx264 codes its slices with in its preset ultrafast, at this
+/// quantiser.
+ParameterSets parameter_sets(const Config& config);
+
+/// The same as headers, with start codes, for a stream of this level: Constrained Baseline, BT.709
+/// limited, square pixels, a fixed rate, one reference picture, no reordering (7.3.2.1, 7.3.2.2,
+/// E.1.1).
+std::vector<std::uint8_t> write_parameter_sets(const Config& config, int level_idc);
 
 /// Reads one sequence and one picture parameter set, in this order, from a stream with start codes,
 /// and ignores other units.
@@ -28,19 +43,5 @@ struct ParameterSets {
 /// off.
 /// @throws HeaderError naming what is missing, broken or not accepted.
 ParameterSets read_parameter_sets(std::span<const std::uint8_t> stream);
-
-/// MaxFS of level 6.2, which allows all that any level does: macroblocks of a picture (ITU-T H.264
-/// (08/2021), table A-1).
-inline constexpr std::int64_t kMaxPicture_mb = 139'264;
-/// The longest side of a picture: floor(Sqrt(8 MaxFS)), by A.3.1, items f and g.
-inline constexpr std::int64_t kMaxSide_mb = 1055;
-static_assert(kMaxSide_mb * kMaxSide_mb <= 8 * kMaxPicture_mb &&
-              (kMaxSide_mb + 1) * (kMaxSide_mb + 1) > 8 * kMaxPicture_mb);
-
-/// Empty if level 6.2 allows such pictures at the rate numerator / denominator a second; else which
-/// of its limits they exceed.
-/// @param rate_numerator, rate_denominator  1 … 2^31 - 1
-std::string level_problem(int width_px, int height_px, std::int64_t rate_numerator,
-                          std::int64_t rate_denominator);
 
 }  // namespace piblocks::h264

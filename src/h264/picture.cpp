@@ -12,11 +12,32 @@ void copy_plane(const std::uint8_t* from, std::ptrdiff_t from_stride, std::uint8
 }
 
 template <int side>
-bool is_plane_equal(const std::uint8_t* a, const std::uint8_t* b, std::ptrdiff_t stride) {
+bool is_plane_equal(const std::uint8_t* a, std::ptrdiff_t a_stride, const std::uint8_t* b,
+                    std::ptrdiff_t b_stride) {
   for (int y = 0; y < side; ++y) {
-    if (std::memcmp(a + y * stride, b + y * stride, side) != 0) return false;
+    if (std::memcmp(a + y * a_stride, b + y * b_stride, side) != 0) return false;
   }
   return true;
+}
+
+/// Takes a square of samples. @returns whether that changes anything
+template <int side>
+bool update_plane(const std::uint8_t* from, std::ptrdiff_t from_stride, std::uint8_t* to,
+                  std::ptrdiff_t to_stride) {
+  if (is_plane_equal<side>(from, from_stride, to, to_stride)) return false;
+  copy_plane<side>(from, from_stride, to, to_stride);
+  return true;
+}
+
+/// The macroblock's part of a plane of width x height samples, continued beyond its edges.
+template <int side>
+void load_continued(const Plane& plane, int x_mb, int y_mb, int width, int height,
+                    std::uint8_t* to) {
+  for (int y = 0; y < side; ++y) {
+    const std::uint8_t* const row =
+        plane.samples + std::min(side * y_mb + y, height - 1) * plane.stride_bytes;
+    for (int x = 0; x < side; ++x) *to++ = row[std::min(side * x_mb + x, width - 1)];
+  }
 }
 
 }  // namespace
@@ -50,12 +71,29 @@ void Picture::store(int x_mb, int y_mb, const Samples& samples) {
   }
 }
 
-bool Picture::has_equal(int x_mb, int y_mb, const Picture& other) const {
+bool Picture::update(int x_mb, int y_mb, const Planes& from, int width_px, int height_px) {
   const std::ptrdiff_t luma = offset(0, x_mb, y_mb);
   const std::ptrdiff_t chroma = offset(1, x_mb, y_mb);
-  return is_plane_equal<16>(plane(0) + luma, other.plane(0) + luma, stride_bytes(0)) &&
-         is_plane_equal<8>(plane(1) + chroma, other.plane(1) + chroma, stride_bytes(1)) &&
-         is_plane_equal<8>(plane(2) + chroma, other.plane(2) + chroma, stride_bytes(2));
+  const auto update_all = [&](const Plane& y, const Plane& cb, const Plane& cr) {
+    const bool has_luma =
+        update_plane<16>(y.samples, y.stride_bytes, plane(0) + luma, stride_bytes(0));
+    const bool has_cb =
+        update_plane<8>(cb.samples, cb.stride_bytes, plane(1) + chroma, stride_bytes(1));
+    const bool has_cr =
+        update_plane<8>(cr.samples, cr.stride_bytes, plane(2) + chroma, stride_bytes(2));
+    return has_luma || has_cb || has_cr;
+  };
+  if (16 * (x_mb + 1) <= width_px && 16 * (y_mb + 1) <= height_px) {
+    const auto at = [&](const Plane& plane, int side) -> Plane {
+      return {plane.samples + side * (y_mb * plane.stride_bytes + x_mb), plane.stride_bytes};
+    };
+    return update_all(at(from.y, 16), at(from.cb, 8), at(from.cr, 8));
+  }
+  Samples samples;  // NOLINT(cppcoreguidelines-pro-type-member-init): all are written
+  load_continued<16>(from.y, x_mb, y_mb, width_px, height_px, samples.plane(0));
+  load_continued<8>(from.cb, x_mb, y_mb, width_px / 2, height_px / 2, samples.plane(1));
+  load_continued<8>(from.cr, x_mb, y_mb, width_px / 2, height_px / 2, samples.plane(2));
+  return update_all({samples.plane(0), 16}, {samples.plane(1), 8}, {samples.plane(2), 8});
 }
 
 void Picture::copy(int x_mb, int y_mb, const Picture& from) {

@@ -10,6 +10,8 @@
 #include <cstring>
 #include <vector>
 
+#include "h264/encoder.hpp"
+
 namespace piblocks::h264 {
 
 /// A block of 4x4 samples, row by row.
@@ -97,10 +99,16 @@ class Picture {
   std::ptrdiff_t stride_bytes(int plane) const noexcept {
     return std::ptrdiff_t{width_mb_} * side_of(plane);
   }
+  Planes planes() const noexcept {
+    return {{plane(0), stride_bytes(0)}, {plane(1), stride_bytes(1)}, {plane(2), stride_bytes(2)}};
+  }
 
   void load(int x_mb, int y_mb, Samples& samples) const;
   void store(int x_mb, int y_mb, const Samples& samples);
-  bool has_equal(int x_mb, int y_mb, const Picture& other) const;
+  /// Takes a macroblock of a caller's picture of width_px x height_px pixels. Where it reaches out
+  /// of that picture, the last column and row are repeated: that costs the fewest bits.
+  /// @returns whether that changes anything
+  bool update(int x_mb, int y_mb, const Planes& from, int width_px, int height_px);
   /// Takes a macroblock of another picture of this size.
   void copy(int x_mb, int y_mb, const Picture& from);
   void load_borders(int x_mb, int y_mb, Borders& borders) const;
@@ -137,6 +145,13 @@ class MacroblockSet {
   }
   void add_one(int address) {
     words_[static_cast<std::size_t>(address / 64)] |= std::uint64_t{1} << address % 64;
+  }
+  /// Adds those of a set for a picture of the same size.
+  void add(const MacroblockSet& other) {
+    for (std::size_t i = 0; i < words_.size(); ++i) words_[i] |= other.words_[i];
+  }
+  void remove_one(int address) {
+    words_[static_cast<std::size_t>(address / 64)] &= ~(std::uint64_t{1} << address % 64);
   }
   void clear() { words_.assign(words_.size(), 0); }
   bool contains(int address) const {

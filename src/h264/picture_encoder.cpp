@@ -12,18 +12,20 @@ namespace {
 constexpr unsigned kAllP = 5;
 constexpr unsigned kAllI = 7;
 
-/// Differs from that of an adjacent IDR picture of libx264 (7.4.3), which counts from 0.
-constexpr unsigned kIdrPicId = 1;
-
 }  // namespace
 
-PictureEncoder::PictureEncoder(const ParameterSets& sets, int qp)
+PictureEncoder::PictureEncoder(const ParameterSets& sets, int width_px, int height_px, int qp)
     : sets_(sets),
+      width_px_(width_px),
+      height_px_(height_px),
       qp_(qp),
+      slice_qp_(qp),
       coder_(qp, sets.chroma_qp_offset),
-      source_before_(sets.width_mb, sets.height_mb),
+      source_(sets.width_mb, sets.height_mb),
       before_(sets.width_mb, sets.height_mb),
       decoded_(sets.width_mb, sets.height_mb),
+      fresh_(sets.width_mb, sets.height_mb),
+      coarse_(sets.width_mb, sets.height_mb),
       visited_(sets.width_mb, sets.height_mb),
       states_(static_cast<std::size_t>(sets.width_mb) * sets.height_mb),
       last_idr_(sets),
@@ -33,33 +35,78 @@ PictureEncoder::PictureEncoder(const ParameterSets& sets, int qp)
   assert(0 <= qp && qp <= kMaxQp);
 }
 
-std::vector<std::uint8_t> PictureEncoder::encode_idr(const Picture& source) {
-  MacroblockSet all(sets_.width_mb, sets_.height_mb);
-  all.add(0, 0, kLumaSide * sets_.width_mb, kLumaSide * sets_.height_mb);
-  return encode_idr(source, all);
-}
-
-std::vector<std::uint8_t> PictureEncoder::encode_idr(const Picture& source,
-                                                     const MacroblockSet& changed) {
+void PictureEncoder::encode_idr(const Planes& source, const MacroblockSet& changed, Bytes& unit) {
+  begin_picture(source, changed);
+  // Those of adjacent IDR pictures differ (7.4.3), also from libx264's, which counts from 0.
+  idr_pic_id_ = is_after_idr_ ? 3 - idr_pic_id_ : 1;
+  is_after_idr_ = true;
   frame_num_ = 0;
   motion_.begin_group();
-  for (int address = changed.next(0); address >= 0; address = changed.next(address + 1)) {
-    if (update_source(address, source)) last_idr_.changed.add_one(address);
+  code_idr(unit);
+}
+
+void PictureEncoder::encode_p(const Planes& source, const MacroblockSet& changed, Bytes& unit) {
+  begin_picture(source, changed);
+  is_after_idr_ = false;
+  fresh_.add(coarse_);
+  frame_num_ = (frame_num_ + 1) & ((1U << sets_.log2_max_frame_num) - 1);
+  motion_.begin_picture();
+  code_p(unit);
+}
+
+void PictureEncoder::encode_again(int qp, Bytes& unit) {
+  for (const int address : coded_) {
+    decoded_.copy(address % sets_.width_mb, address / sets_.width_mb, before_);
   }
+  set_slice_qp(qp);
+  last_idr_.is_valid = last_idr_.is_valid && input_.slice_type == SliceType::p;
+  return input_.slice_type == SliceType::i ? code_idr(unit) : code_p(unit);
+}
+
+void PictureEncoder::begin_picture(const Planes& source, const MacroblockSet& changed) {
+  commit();
+  set_slice_qp(qp_);
+  fresh_.clear();
+  const int width = sets_.width_mb;
+  for (int address = changed.next(0); address >= 0; address = changed.next(address + 1)) {
+    if (!source_.update(address % width, address / width, source, width_px_, height_px_)) continue;
+    fresh_.add_one(address);
+    last_idr_.changed.add_one(address);
+  }
+}
+
+void PictureEncoder::commit() {
+  for (const int address : coded_) {
+    before_.copy(address % sets_.width_mb, address / sets_.width_mb, decoded_);
+  }
+  if (slice_qp_ == qp_) {
+    coarse_.clear();
+  } else if (input_.slice_type == SliceType::i) {
+    coarse_.add(0, 0, kLumaSide * sets_.width_mb, kLumaSide * sets_.height_mb);
+  } else {
+    coarse_.add(fresh_);
+  }
+}
+
+void PictureEncoder::set_slice_qp(int qp) {
+  if (qp != slice_qp_) coder_ = MacroblockCoder(qp, sets_.chroma_qp_offset);
+  slice_qp_ = qp;
+}
+
+void PictureEncoder::code_idr(Bytes& unit) {
   begin_slice(SliceType::i);
-  encode_all(source);
+  encode_all();
   starts_.back() = bits_.bit_count();
-  std::vector<std::uint8_t> unit = finish_slice();
-  last_idr_.is_valid = !has_i_pcm_;
+  finish_slice(unit);
+  last_idr_.is_valid = !has_i_pcm_ && slice_qp_ == qp_;
   last_idr_.changed.clear();
   last_idr_.states = states_;
   std::swap(last_idr_.slice, bits_);
   std::swap(last_idr_.starts, starts_);
   transformed_ = 0;
-  return unit;
 }
 
-void PictureEncoder::encode_all(const Picture& source) {
+void PictureEncoder::encode_all() {
   const int count = sets_.width_mb * sets_.height_mb;
   if (last_idr_.is_valid) states_ = last_idr_.states;
   int done = 0;
@@ -70,10 +117,25 @@ void PictureEncoder::encode_all(const Picture& source) {
     }
     repeat(done, address);
     starts_[address] = bits_.bit_count();
-    add(address, source);
+    add(address);
     done = address + 1;
   }
   repeat(done, count);
+}
+
+void PictureEncoder::code_p(Bytes& unit) {
+  begin_slice(SliceType::p);
+  visited_ = fresh_;
+  for (int address = visited_.next(0); address >= 0; address = visited_.next(address + 1)) {
+    if (fresh_.contains(address)) {
+      add(address);
+    } else {
+      keep(address);
+    }
+  }
+  const int skipped = sets_.width_mb * sets_.height_mb - next_address_;
+  if (skipped > 0) bits_.put_unsigned(static_cast<std::uint32_t>(skipped));  // mb_skip_run
+  finish_slice(unit);
 }
 
 bool PictureEncoder::needs_coding(int address) const {
@@ -90,25 +152,6 @@ void PictureEncoder::repeat(int begin, int end) {
     starts_[address] = to + (starts[address] - starts[begin]);
   }
   bits_.append(last_idr_.slice.bytes(), starts[begin], starts[end]);
-}
-
-std::vector<std::uint8_t> PictureEncoder::encode_p(const Picture& source,
-                                                   const MacroblockSet& changed) {
-  frame_num_ = (frame_num_ + 1) & ((1U << sets_.log2_max_frame_num) - 1);
-  begin_slice(SliceType::p);
-  motion_.begin_picture();
-  visited_ = changed;
-  for (int address = visited_.next(0); address >= 0; address = visited_.next(address + 1)) {
-    if (!changed.contains(address) || !update_source(address, source)) {
-      keep(address);
-      continue;
-    }
-    last_idr_.changed.add_one(address);
-    add(address, source);
-  }
-  const int skipped = sets_.width_mb * sets_.height_mb - next_address_;
-  if (skipped > 0) bits_.put_unsigned(static_cast<std::uint32_t>(skipped));  // mb_skip_run
-  return finish_slice();
 }
 
 void PictureEncoder::begin_slice(SliceType type) {
@@ -129,7 +172,7 @@ void PictureEncoder::begin_slice(SliceType type) {
   bits_.put_unsigned(sets_.picture_parameter_set_id);
   bits_.put(frame_num_, sets_.log2_max_frame_num);
   if (type == SliceType::i) {
-    bits_.put_unsigned(kIdrPicId);
+    bits_.put_unsigned(idr_pic_id_);
     // dec_ref_pic_marking(), 7.3.3.3
     bits_.put_flag(false);  // no_output_of_prior_pics_flag
     bits_.put_flag(false);  // long_term_reference_flag
@@ -139,16 +182,8 @@ void PictureEncoder::begin_slice(SliceType type) {
     bits_.put_flag(false);  // ref_pic_list_modification_flag_l0
     bits_.put_flag(false);  // adaptive_ref_pic_marking_mode_flag
   }
-  bits_.put_signed(qp_ - sets_.initial_qp);
-  bits_.put_unsigned(1);  // disable_deblocking_filter_idc
-}
-
-bool PictureEncoder::update_source(int address, const Picture& source) {
-  const int x = address % sets_.width_mb;
-  const int y = address / sets_.width_mb;
-  if (source.has_equal(x, y, source_before_)) return false;
-  source_before_.copy(x, y, source);
-  return true;
+  bits_.put_signed(slice_qp_ - sets_.initial_qp);  // slice_qp_delta
+  bits_.put_unsigned(1);                           // disable_deblocking_filter_idc
 }
 
 MotionVector PictureEncoder::enter(int address) {
@@ -164,11 +199,11 @@ MotionVector PictureEncoder::enter(int address) {
   return skip_vector(input_.neighbours);
 }
 
-void PictureEncoder::add(int address, const Picture& source) {
+void PictureEncoder::add(int address) {
   const int x = address % sets_.width_mb;
   const int y = address / sets_.width_mb;
   const MotionVector vector = enter(address);
-  source.load(x, y, input_.source);
+  source_.load(x, y, input_.source);
   decoded_.load_borders(x, y, input_.borders);
   if (input_.slice_type == SliceType::p) {
     input_.reference = {&before_, &motion_, x, y};
@@ -225,16 +260,11 @@ void PictureEncoder::put(int address, const CodedMacroblock& coded) {
   next_address_ = address + 1;
 }
 
-std::vector<std::uint8_t> PictureEncoder::finish_slice() {
-  for (const int address : coded_) {
-    before_.copy(address % sets_.width_mb, address / sets_.width_mb, decoded_);
-  }
+void PictureEncoder::finish_slice(Bytes& unit) {
   bits_.put_trailing_bits();
-  std::vector<std::uint8_t> stream;
   const bool is_idr = input_.slice_type == SliceType::i;
-  append_unit(is_idr ? UnitType::idr_slice : UnitType::slice, is_idr ? 3 : 2, bits_.bytes(),
-              stream);
-  return stream;
+  unit.clear();
+  append_unit(is_idr ? UnitType::idr_slice : UnitType::slice, is_idr ? 3 : 2, bits_.bytes(), unit);
 }
 
 }  // namespace piblocks::h264

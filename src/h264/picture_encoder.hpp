@@ -22,19 +22,27 @@ namespace piblocks::h264 {
 /// At QP 51, libavcodec has shown 0 where 255 is right.
 inline constexpr int kMaxQp = 41;
 
+using Bytes = std::vector<std::uint8_t>;
+
 class PictureEncoder {
  public:
+  /// @param width_px, height_px  of the source's part that is shown
   /// @param qp  from 0 to kMaxQp.
-  PictureEncoder(const ParameterSets& sets, int qp);
+  PictureEncoder(const ParameterSets& sets, int width_px, int height_px, int qp);
 
-  /// An IDR picture, with a start code of four bytes. Macroblocks keep the bits of the last one
-  /// where they are coded alike, which changes no byte.
+  /// An IDR picture. Macroblocks keep the bits of the last one where they are coded alike, which
+  /// changes no byte.
   /// @param changed  macroblocks that may differ from the source before; of the first, all
-  std::vector<std::uint8_t> encode_idr(const Picture& source, const MacroblockSet& changed);
-  /// The same if all may differ.
-  std::vector<std::uint8_t> encode_idr(const Picture& source);
+  /// @param unit     is replaced by the access unit, with a start code of four bytes
+  void encode_idr(const Planes& source, const MacroblockSet& changed, Bytes& unit);
   /// The next picture.
-  std::vector<std::uint8_t> encode_p(const Picture& source, const MacroblockSet& changed);
+  void encode_p(const Planes& source, const MacroblockSet& changed, Bytes& unit);
+  /// Encodes the last picture anew, by another quantiser. Those after it have the first one again,
+  /// and correct what is coarser here.
+  void encode_again(int qp, Bytes& unit);
+
+  /// The next picture, which is an IDR picture, begins a stream of its own.
+  void restart() { is_after_idr_ = false; }
 
   /// The last picture as every decoder has it.
   const Picture& decoded() const noexcept { return decoded_; }
@@ -53,10 +61,14 @@ class PictureEncoder {
     std::vector<std::size_t> starts;  ///< of each macroblock's bits in the slice, and its end
   };
 
+  /// Ends the last picture for good, and begins one of another source.
+  void begin_picture(const Planes& source, const MacroblockSet& changed);
+  void commit();
+  void set_slice_qp(int qp);
+  void code_idr(Bytes& unit);
+  void code_p(Bytes& unit);
   void begin_slice(SliceType type);
-  /// Takes the macroblock into source_before_. @returns whether that changes anything
-  bool update_source(int address, const Picture& source);
-  void encode_all(const Picture& source);
+  void encode_all();
   /// Whether the bits of the macroblock in the last IDR picture cannot be used: its source has
   /// changed since, or the macroblock left of it or above it has another result.
   bool needs_coding(int address) const;
@@ -66,19 +78,24 @@ class PictureEncoder {
   void repeat(int begin, int end);
   /// Sets what a macroblock is predicted from. @returns its vector as P_Skip
   MotionVector enter(int address);
-  void add(int address, const Picture& source);
+  void add(int address);
   /// A macroblock that does not change, beside some that may move.
   void keep(int address);
   void put(int address, const CodedMacroblock& coded);
-  std::vector<std::uint8_t> finish_slice();
+  void finish_slice(Bytes& unit);
 
   ParameterSets sets_;
+  int width_px_;
+  int height_px_;
   int qp_;
+  int slice_qp_;  // of the last picture
   MacroblockCoder coder_;
   MotionSearch motion_;
-  Picture source_before_;
-  Picture before_;  // decoded
+  Picture source_;
+  Picture before_;  // the decoded picture before the last
   Picture decoded_;
+  MacroblockSet fresh_;    // what the last picture had to change
+  MacroblockSet coarse_;   // coded by a coarser quantiser than qp_
   MacroblockSet visited_;  // what changes, and what is beside motion
   std::vector<MacroblockState> states_;
   std::vector<int> coded_;  // addresses of the macroblocks whose states are set
@@ -90,6 +107,8 @@ class PictureEncoder {
   bool has_i_pcm_ = false;  // the slice has I_PCM, whose bits depend on where they are
   int next_address_ = 0;    // after the last macroblock that is not skipped
   std::uint32_t frame_num_ = 0;
+  unsigned idr_pic_id_ = 1;
+  bool is_after_idr_ = false;
   int transformed_ = 0;
 };
 

@@ -93,7 +93,7 @@ ChunkRange range_of(const std::optional<Shard>& shard, std::int64_t chunks) {
 }
 
 std::unique_ptr<FrameSink> open_sink(const RenderJob& job, const Plan& plan) {
-  if (!job.shard) return plan.output.open();
+  if (!job.shard) return plan.output.open(plan.chunks.frame_count);
   ShardHeader header = describe(job, plan.output, plan.chunks.frame_count);
   header.emplace_back("part", fmt::format("{}/{}", job.shard->number, job.shard->count));
   return open_shard(shard_name(job.output, *job.shard), header);

@@ -56,7 +56,7 @@ double encode(const fs::path& path, const EncoderSettings& settings, std::int64_
   const VideoFormat format = {kWidth_px, kHeight_px, kFramesPerSecond};
   const auto output = set_up_output(path, format, settings);
   const auto encoder = output.make_encoder();
-  const auto sink = output.open();
+  const auto sink = output.open(frames);
   const std::array whole = {PixelRect{0, 0, kWidth_px, kHeight_px}};
   double spent_s = 0;
   for (std::int64_t first = 0; first < frames; first += output.frames_per_chunk) {

@@ -39,7 +39,6 @@ struct Counter {
   long long pictures = 0;
 } counter;
 
-/// libx264 takes longer to open than all the rest: once for each size.
 const StreamHeaders& headers_of(int number) {
   constexpr std::array<std::array<int, 2>, 8> kSizes = {
       {{2, 2}, {16, 16}, {18, 14}, {34, 18}, {64, 16}, {2, 50}, {48, 46}, {80, 64}}};
@@ -48,8 +47,8 @@ const StreamHeaders& headers_of(int number) {
   if (!headers[i]) {
     piblocks::silence_av();
     const auto [width, height] = kSizes[i];
-    headers[i] = std::make_unique<const StreamHeaders>(
-        piblocks::VideoFormat{.width_px = width, .height_px = height});
+    headers[i] =
+        std::make_unique<const StreamHeaders>(Config{.width_px = width, .height_px = height});
   }
   return *headers[i];
 }
@@ -74,15 +73,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   constexpr int kOneKeyFrameIn = 10;
   Numbers numbers({data, size});
   const StreamHeaders& headers = headers_of(numbers.integer(0, 7));
-  PictureEncoder encoder(headers.sets, numbers.integer(0, kMaxQp));
+  PictureEncoder encoder = headers.encoder(numbers.integer(0, kMaxQp));
   RandomPictures pictures(headers.sets.width_mb, headers.sets.height_mb, numbers);
   StrictDecoder decoder(headers.bytes);
-  check(encoder.decoded(), decoder.decode(encoder.encode_idr(pictures.picture())));
+  check(encoder.decoded(), decoder.decode(encoded_idr(encoder, pictures.picture())));
   for (int frame = 1; frame < kMostFrames && numbers.has_more(); ++frame) {
     pictures.advance();
     const bool is_key_frame = numbers.integer(1, kOneKeyFrameIn) == kOneKeyFrameIn;
-    const auto unit = is_key_frame ? encoder.encode_idr(pictures.picture())
-                                   : encoder.encode_p(pictures.picture(), pictures.changed());
+    const auto unit = is_key_frame ? encoded_idr(encoder, pictures.picture())
+                                   : encoded_p(encoder, pictures.picture(), pictures.changed());
     check(encoder.decoded(), decoder.decode(unit));
   }
   return 0;

@@ -34,13 +34,13 @@ void expect_every_picture(const Case& c, int qp) {
   Random random(static_cast<std::uint64_t>(1000 * qp + c.width_px));
   SCOPED_TRACE(random.trace());
   RandomPictures pictures(headers.sets.width_mb, headers.sets.height_mb, random);
-  PictureEncoder encoder(headers.sets, qp);
+  PictureEncoder encoder = headers.encoder(qp);
   Decoder decoder(headers.bytes);
   for (std::int64_t frame = 0; frame < groups * kFramesInGroup; ++frame) {
     if (frame > 0) pictures.advance();
     const auto unit = frame % kFramesInGroup == 0
-                          ? encoder.encode_idr(pictures.picture())
-                          : encoder.encode_p(pictures.picture(), pictures.changed());
+                          ? encoded_idr(encoder, pictures.picture())
+                          : encoded_p(encoder, pictures.picture(), pictures.changed());
     const auto shown = decoder.decode(unit);
     ASSERT_TRUE(shown) << "frame " << frame;
     ASSERT_GE(shown->width, c.width_px);
@@ -77,7 +77,7 @@ TEST(Conformance, LibavcodecShowsTheLargestDifferencesAsTheyWereMade) {
   Random random(255);
   SCOPED_TRACE(random.trace());
   for (int qp = 0; qp <= kMaxQp; ++qp) {
-    PictureEncoder encoder(headers.sets, qp);
+    PictureEncoder encoder = headers.encoder(qp);
     StrictDecoder decoder(headers.bytes);
     Picture picture(headers.sets.width_mb, headers.sets.height_mb);
     MacroblockSet changed(headers.sets.width_mb, headers.sets.height_mb);
@@ -89,8 +89,8 @@ TEST(Conformance, LibavcodecShowsTheLargestDifferencesAsTheyWereMade) {
                                : static_cast<std::uint8_t>(255 * random.integer(0, 1));
       }
       changed.add(0, 0, kSide_px, kSide_px);
-      const auto shown = decoder.decode(frame == 0 ? encoder.encode_idr(picture)
-                                                   : encoder.encode_p(picture, changed));
+      const auto shown = decoder.decode(frame == 0 ? encoded_idr(encoder, picture)
+                                                   : encoded_p(encoder, picture, changed));
       ASSERT_TRUE(shown) << "frame " << frame << " at QP " << qp;
       ASSERT_EQ(difference(encoder.decoded(), *shown), "") << "frame " << frame << " at QP " << qp;
     }

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
-#include "h264/parameter_sets.hpp"
+#include "h264/levels.hpp"
 
 namespace piblocks::h264 {
 namespace {
 
 bool fits(int width_px, int height_px, std::int64_t numerator = 1, std::int64_t denominator = 1) {
-  return level_problem(width_px, height_px, numerator, denominator).empty();
+  return level_problem(width_px, height_px, {numerator, denominator}).empty();
 }
 
 /// Levels of table A-1, from 1 to 6.2: a picture of MaxFS macroblocks at their rate.
@@ -28,7 +28,7 @@ TEST(LevelLimits, NoSideIsTooLong) {
   EXPECT_FALSE(fits(16881, 16));
   EXPECT_TRUE(fits(16, 16880));
   EXPECT_FALSE(fits(16, 16881));
-  EXPECT_NE(level_problem(16881, 16, 1, 1).find("16880 px"), std::string::npos);
+  EXPECT_NE(level_problem(16881, 16, {1, 1}).find("16880 px"), std::string::npos);
 }
 
 }  // namespace

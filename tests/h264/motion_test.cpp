@@ -186,14 +186,14 @@ TEST(Motion, OfWritingCostsATenthOfTheWriting) {
   const StreamHeaders headers({.width_px = 320, .height_px = 96});
   Picture picture(headers.sets.width_mb, headers.sets.height_mb);
   MacroblockSet changed(headers.sets.width_mb, headers.sets.height_mb);
-  PictureEncoder encoder(headers.sets, 14);
+  PictureEncoder encoder = headers.encoder(14);
   StrictDecoder decoder(headers.bytes);
   write(picture, changed, 20);
-  const auto first = encoder.encode_idr(picture);
+  const auto first = encoded_idr(encoder, picture);
   ASSERT_TRUE(decoder.decode(first));
   for (int frame = 1; frame < 10; ++frame) {
     write(picture, changed, 20 + 6 * frame);
-    const auto next = encoder.encode_p(picture, changed);
+    const auto next = encoded_p(encoder, picture, changed);
     const auto shown = decoder.decode(next);
     ASSERT_TRUE(shown);
     ASSERT_EQ(difference(encoder.decoded(), *shown), "") << frame;
@@ -205,10 +205,10 @@ TEST(Motion, LeavesWhatIsMarkedAndDoesNotChangeAlone) {
   const StreamHeaders headers({.width_px = 320, .height_px = 96});
   Picture picture(headers.sets.width_mb, headers.sets.height_mb);
   MacroblockSet changed(headers.sets.width_mb, headers.sets.height_mb);
-  PictureEncoder encoder(headers.sets, 38);  // so coarse that some samples are far off
+  PictureEncoder encoder = headers.encoder(38);  // so coarse that some samples are far off
   write(picture, changed, 20);
-  encoder.encode_idr(picture);
-  EXPECT_LE(encoder.encode_p(picture, changed).size(), 12U);
+  encoded_idr(encoder, picture);
+  EXPECT_LE(encoded_p(encoder, picture, changed).size(), 12U);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "h264/nal_unit.hpp"
 #include "h264/random_pictures.hpp"
 #include "h264/stream_fixture.hpp"
-#include "media/libav/h264_chunk.hpp"
+#include "media/pixels/yuv.hpp"
 #include "support/article_frames.hpp"
 #include "support/property.hpp"
 
@@ -19,11 +19,9 @@ namespace {
 using testing_support::article_frame;
 using testing_support::Pixels;
 
-using Bytes = std::vector<std::uint8_t>;
-
 constexpr int kDefaultQp = 14;
 
-const VideoFormat kFormat = {.width_px = 320, .height_px = 176, .frame_rate = 10};
+const Config kConfig = {.width_px = 320, .height_px = 176, .rate_numerator = 10};
 
 /// Sets a rectangle of all planes to a value, and notes that it has changed.
 void fill(Picture& picture, MacroblockSet& changed, const PixelRect& rect, std::uint8_t value) {
@@ -38,15 +36,19 @@ void fill(Picture& picture, MacroblockSet& changed, const PixelRect& rect, std::
 }
 
 void convert(const Pixels& pixels, Picture& picture) {
-  convert_to_yuv420(pixels.view(), {0, 0, pixels.width_px, pixels.height_px}, view_of(picture));
+  const auto plane = [&](int number) -> PlaneView<std::uint8_t> {
+    return {picture.plane(number), picture.stride_bytes(number)};
+  };
+  convert_to_yuv420(pixels.view(), {0, 0, pixels.width_px, pixels.height_px},
+                    {plane(0), plane(1), plane(2)});
 }
 
-struct Error {
+struct Deviation {
   double psnr_db;
   int largest;
 };
 
-Error error_of(const Picture& wanted, const Picture& shown) {
+Deviation deviation_of(const Picture& wanted, const Picture& shown) {
   double sum = 0;
   double count = 0;
   int largest = 0;
@@ -65,10 +67,10 @@ Error error_of(const Picture& wanted, const Picture& shown) {
 class PictureEncoderTest : public testing::Test {
  protected:
   PictureEncoderTest()
-      : headers_(kFormat),
+      : headers_(kConfig),
         picture_(headers_.sets.width_mb, headers_.sets.height_mb),
         changed_(headers_.sets.width_mb, headers_.sets.height_mb) {
-    fill(picture_, changed_, {0, 0, kFormat.width_px, kFormat.height_px}, 235);
+    fill(picture_, changed_, {0, 0, kConfig.width_px, kConfig.height_px}, 235);
     changed_.clear();
   }
 
@@ -79,39 +81,39 @@ class PictureEncoderTest : public testing::Test {
 
 TEST_F(PictureEncoderTest, SpendsAFewBytesOnAPictureThatStays) {
   constexpr std::size_t kFewBytes = 12;  // with 5 of start code and header
-  convert(article_frame(kFormat.width_px, kFormat.height_px, 0.5), picture_);
-  PictureEncoder encoder(headers_.sets, kDefaultQp);
-  encoder.encode_idr(picture_);
-  EXPECT_LE(encoder.encode_p(picture_, changed_).size(), kFewBytes);
+  convert(article_frame(kConfig.width_px, kConfig.height_px, 0.5), picture_);
+  PictureEncoder encoder = headers_.encoder(kDefaultQp);
+  encoded_idr(encoder, picture_);
+  EXPECT_LE(encoded_p(encoder, picture_, changed_).size(), kFewBytes);
   EXPECT_EQ(encoder.transformed_macroblocks(), 0);
 
   // Also if all macroblocks are marked, but none changes.
   const Picture shown = encoder.decoded();
-  changed_.add(0, 0, kFormat.width_px, kFormat.height_px);
-  EXPECT_LE(encoder.encode_p(shown, changed_).size(), kFewBytes);
+  changed_.add(0, 0, kConfig.width_px, kConfig.height_px);
+  EXPECT_LE(encoded_p(encoder, shown, changed_).size(), kFewBytes);
   EXPECT_EQ(encoder.transformed_macroblocks(), 0);
-  EXPECT_EQ(error_of(shown, encoder.decoded()).largest, 0);
+  EXPECT_EQ(deviation_of(shown, encoder.decoded()).largest, 0);
 }
 
 TEST_F(PictureEncoderTest, LeavesUnmarkedMacroblocksAlone) {
-  PictureEncoder encoder(headers_.sets, kDefaultQp);
-  encoder.encode_idr(picture_);
+  PictureEncoder encoder = headers_.encoder(kDefaultQp);
+  encoded_idr(encoder, picture_);
   const Picture before = encoder.decoded();
   fill(picture_, changed_, {32, 32, 64, 64}, 100);
   changed_.clear();
-  encoder.encode_p(picture_, changed_);
-  EXPECT_EQ(error_of(before, encoder.decoded()).largest, 0);
+  encoded_p(encoder, picture_, changed_);
+  EXPECT_EQ(deviation_of(before, encoder.decoded()).largest, 0);
 }
 
 TEST_F(PictureEncoderTest, CountsWhatIsTransformed) {
-  PictureEncoder encoder(headers_.sets, kDefaultQp);
-  encoder.encode_idr(picture_);
+  PictureEncoder encoder = headers_.encoder(kDefaultQp);
+  encoded_idr(encoder, picture_);
   fill(picture_, changed_, {36, 36, 8, 8}, 16);
-  encoder.encode_p(picture_, changed_);
+  encoded_p(encoder, picture_, changed_);
   EXPECT_EQ(encoder.transformed_macroblocks(), 1);
   changed_.clear();
   fill(picture_, changed_, {32, 32, 16, 16}, 235);
-  encoder.encode_p(picture_, changed_);
+  encoded_p(encoder, picture_, changed_);
   EXPECT_EQ(encoder.transformed_macroblocks(), 0) << "it is what is beside it";
 }
 
@@ -129,11 +131,11 @@ std::pair<int, int> number_of(const Bytes& access_unit, const ParameterSets& set
 TEST_F(PictureEncoderTest, NumbersThePicturesOfEveryGroup) {
   using Number = std::pair<int, int>;
   const int numbers = 1 << headers_.sets.log2_max_frame_num;
-  PictureEncoder encoder(headers_.sets, kDefaultQp);
+  PictureEncoder encoder = headers_.encoder(kDefaultQp);
   for (const int pictures : {3, 2 * numbers + 1, 1, 2}) {
-    EXPECT_EQ(number_of(encoder.encode_idr(picture_), headers_.sets), Number(5, 0));
+    EXPECT_EQ(number_of(encoded_idr(encoder, picture_), headers_.sets), Number(5, 0));
     for (int i = 1; i < pictures; ++i) {
-      EXPECT_EQ(number_of(encoder.encode_p(picture_, changed_), headers_.sets),
+      EXPECT_EQ(number_of(encoded_p(encoder, picture_, changed_), headers_.sets),
                 Number(1, i % numbers));
     }
   }
@@ -141,16 +143,16 @@ TEST_F(PictureEncoderTest, NumbersThePicturesOfEveryGroup) {
 
 TEST_F(PictureEncoderTest, GoesOnWhereFrameNumbersBeginAgain) {
   const int pictures = std::max(300, 3 << headers_.sets.log2_max_frame_num);
-  PictureEncoder encoder(headers_.sets, kDefaultQp);
+  PictureEncoder encoder = headers_.encoder(kDefaultQp);
   StrictDecoder decoder(headers_.bytes);
-  ASSERT_TRUE(decoder.decode(encoder.encode_idr(picture_)));
+  ASSERT_TRUE(decoder.decode(encoded_idr(encoder, picture_)));
   for (int i = 1; i < pictures; ++i) {
     changed_.clear();
     if (i % 3 > 0) {
       const PixelRect rect = {2 * (i % 140), 2 * (i % 70), 24, 18};
       fill(picture_, changed_, rect, static_cast<std::uint8_t>(i));
     }
-    const auto shown = decoder.decode(encoder.encode_p(picture_, changed_));
+    const auto shown = decoder.decode(encoded_p(encoder, picture_, changed_));
     ASSERT_TRUE(shown) << "picture " << i;
     ASSERT_EQ(difference(encoder.decoded(), *shown), "") << "picture " << i;
   }
@@ -159,32 +161,32 @@ TEST_F(PictureEncoderTest, GoesOnWhereFrameNumbersBeginAgain) {
 TEST_F(PictureEncoderTest, KeepsFlatColoursExactWithinOne) {
   Random random(10);
   SCOPED_TRACE(random.trace());
-  PictureEncoder encoder(headers_.sets, kDefaultQp);
-  encoder.encode_idr(picture_);
+  PictureEncoder encoder = headers_.encoder(kDefaultQp);
+  encoded_idr(encoder, picture_);
   for (int i = 0; i < 200; ++i) {
     changed_.clear();
     const PixelRect rect = {16 * static_cast<int>(random.integer(0, 15)),
                             16 * static_cast<int>(random.integer(0, 6)), 64, 64};
     fill(picture_, changed_, rect, static_cast<std::uint8_t>(random.integer(0, 255)));
-    encoder.encode_p(picture_, changed_);
-    ASSERT_LE(error_of(picture_, encoder.decoded()).largest, 1) << i;
-    encoder.encode_idr(picture_);
-    ASSERT_LE(error_of(picture_, encoder.decoded()).largest, 1) << i;
+    encoded_p(encoder, picture_, changed_);
+    ASSERT_LE(deviation_of(picture_, encoder.decoded()).largest, 1) << i;
+    encoded_idr(encoder, picture_);
+    ASSERT_LE(deviation_of(picture_, encoder.decoded()).largest, 1) << i;
   }
 }
 
 TEST_F(PictureEncoderTest, ShowsWhatWasDrawn) {
   constexpr double kLeast_dB = 60;
-  const VideoFormat format = {.width_px = 1280, .height_px = 720, .frame_rate = 10};
+  const Config format = {.width_px = 1280, .height_px = 720, .rate_numerator = 10};
   const StreamHeaders headers(format);
   Picture picture(headers.sets.width_mb, headers.sets.height_mb);
   MacroblockSet changed(headers.sets.width_mb, headers.sets.height_mb);
   changed.add(0, 0, format.width_px, format.height_px);
-  PictureEncoder encoder(headers.sets, kDefaultQp);
+  PictureEncoder encoder = headers.encoder(kDefaultQp);
   for (int i = 0; i < 20; ++i) {
     convert(article_frame(format.width_px, format.height_px, i / 10.0), picture);
-    i == 0 ? encoder.encode_idr(picture) : encoder.encode_p(picture, changed);
-    const Error error = error_of(picture, encoder.decoded());
+    i == 0 ? encoded_idr(encoder, picture) : encoded_p(encoder, picture, changed);
+    const Deviation error = deviation_of(picture, encoder.decoded());
     EXPECT_GE(error.psnr_db, kLeast_dB) << i;
     EXPECT_LE(error.largest, 10) << i;
   }
@@ -194,19 +196,19 @@ TEST_F(PictureEncoderTest, ShowsWhatWasDrawn) {
 Bytes encode_group(PictureEncoder& encoder, const ParameterSets& sets, std::uint64_t seed) {
   Random random(seed);
   RandomPictures pictures(sets.width_mb, sets.height_mb, random);
-  Bytes stream = encoder.encode_idr(pictures.picture());
+  Bytes stream = encoded_idr(encoder, pictures.picture());
   for (int i = 1; i < 12; ++i) {
     pictures.advance();
-    const Bytes unit = encoder.encode_p(pictures.picture(), pictures.changed());
+    const Bytes unit = encoded_p(encoder, pictures.picture(), pictures.changed());
     stream.insert(stream.end(), unit.begin(), unit.end());
   }
   return stream;
 }
 
 TEST_F(PictureEncoderTest, MakesTheSameGroupAfterAnyOther) {
-  PictureEncoder used(headers_.sets, kDefaultQp);
+  PictureEncoder used = headers_.encoder(kDefaultQp);
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    PictureEncoder fresh(headers_.sets, kDefaultQp);
+    PictureEncoder fresh = headers_.encoder(kDefaultQp);
     EXPECT_EQ(encode_group(used, headers_.sets, seed), encode_group(fresh, headers_.sets, seed))
         << seed;
   }
@@ -217,19 +219,20 @@ TEST_F(PictureEncoderTest, MakesKeyFramesOfTheSameBytesWhetherItRemembersTheLast
   SCOPED_TRACE(random.trace());
   for (const int qp : {2, kDefaultQp, 34}) {
     RandomPictures pictures(headers_.sets.width_mb, headers_.sets.height_mb, random);
-    PictureEncoder used(headers_.sets, qp);
-    used.encode_idr(pictures.picture());
+    PictureEncoder used = headers_.encoder(qp);
+    encoded_idr(used, pictures.picture());
     for (std::int64_t i = 0; i < many(40); ++i) {
       for (std::int64_t between = random.integer(0, 3); between > 0; --between) {
         pictures.advance();
-        used.encode_p(pictures.picture(), pictures.changed());
+        encoded_p(used, pictures.picture(), pictures.changed());
       }
       pictures.advance();
-      PictureEncoder fresh(headers_.sets, qp);
-      ASSERT_EQ(used.encode_idr(pictures.picture(), pictures.changed()),
-                fresh.encode_idr(pictures.picture()))
+      PictureEncoder fresh = headers_.encoder(qp);
+      used.restart();
+      ASSERT_EQ(encoded_idr(used, pictures.picture(), pictures.changed()),
+                encoded_idr(fresh, pictures.picture()))
           << i << " at QP " << qp;
-      ASSERT_EQ(error_of(used.decoded(), fresh.decoded()).largest, 0);
+      ASSERT_EQ(deviation_of(used.decoded(), fresh.decoded()).largest, 0);
     }
   }
 }

@@ -11,25 +11,50 @@
 #include <string>
 #include <vector>
 
+#include "h264/levels.hpp"
 #include "h264/picture_encoder.hpp"
 #include "media/libav/av.hpp"
-#include "media/libav/encoder_setup.hpp"
-#include "media/libav/video_encoder.hpp"
 
 namespace piblocks::h264 {
 
-/// libx264's headers with the program's settings.
+/// The headers of a stream of our own.
 struct StreamHeaders {
-  explicit StreamHeaders(const VideoFormat& format)
-      : encoder(format, h264_setup(format, {}, {EncoderKind::h264})) {
-    const AVCodecParameters& parameters = encoder.parameters();
-    bytes.assign(parameters.extradata, parameters.extradata + parameters.extradata_size);
-    sets = read_parameter_sets(bytes);
-  }
-  VideoEncoder encoder;
+  explicit StreamHeaders(const Config& stream)
+      : config(stream),
+        bytes(write_parameter_sets(config,
+                                   lowest_level(config.width_px, config.height_px,
+                                                {config.rate_numerator, config.rate_denominator})
+                                       ->idc)),
+        sets(parameter_sets(config)) {}
+
+  /// For pictures of whole or cut macroblocks.
+  PictureEncoder encoder(int qp) const { return {sets, config.width_px, config.height_px, qp}; }
+
+  Config config;
   std::vector<std::uint8_t> bytes;
-  ParameterSets sets{};
+  ParameterSets sets;
 };
+
+inline Bytes encoded_idr(PictureEncoder& encoder, const Picture& source,
+                         const MacroblockSet& changed) {
+  Bytes unit;
+  encoder.encode_idr(source.planes(), changed, unit);
+  return unit;
+}
+
+/// The same if all may have changed.
+inline Bytes encoded_idr(PictureEncoder& encoder, const Picture& source) {
+  MacroblockSet all(source.width_mb(), source.height_mb());
+  all.add(0, 0, 16 * source.width_mb(), 16 * source.height_mb());
+  return encoded_idr(encoder, source, all);
+}
+
+inline Bytes encoded_p(PictureEncoder& encoder, const Picture& source,
+                       const MacroblockSet& changed) {
+  Bytes unit;
+  encoder.encode_p(source.planes(), changed, unit);
+  return unit;
+}
 
 /// A decoder's picture in 4:2:0, valid until its next call.
 struct ShownPicture {

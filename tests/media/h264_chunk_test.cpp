@@ -1,5 +1,5 @@
 // Chunks that are coded from what changes, as the product makes them.
-#include "media/libav/h264_chunk.hpp"
+#include "media/mp4/h264_chunk.hpp"
 
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "h264/stream_fixture.hpp"
+#include "media/pixels/yuv.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
 #include "support/property.hpp"
@@ -55,7 +56,11 @@ PaintFrame random_then_article(const VideoFormat& format) {
 /// The largest difference between a shown and a drawn sample.
 int largest_error(const Pixels& drawn, const h264::ShownPicture& shown) {
   h264::Picture wanted((drawn.width_px + 15) / 16, (drawn.height_px + 15) / 16);
-  convert_to_yuv420(drawn.view(), {0, 0, drawn.width_px, drawn.height_px}, view_of(wanted));
+  const auto view = [&](int number) -> PlaneView<std::uint8_t> {
+    return {wanted.plane(number), wanted.stride_bytes(number)};
+  };
+  convert_to_yuv420(drawn.view(), {0, 0, drawn.width_px, drawn.height_px},
+                    {view(0), view(1), view(2)});
   int largest = 0;
   for (int plane = 0; plane < 3; ++plane) {
     const auto at = static_cast<std::size_t>(plane);
@@ -164,7 +169,8 @@ TEST_F(DamageChunkTest, IsTheSameFromManyThreads) {
 
 TEST_F(DamageChunkTest, ShowsEveryFrameOfBothEncoders) {
   constexpr std::int64_t kFrames = 2 * kFramesPerChunk + 1;  // the last chunk has one frame
-  const h264::StreamHeaders headers(kFormat);
+  const h264::StreamHeaders headers(
+      h264::Config{.width_px = kFormat.width_px, .height_px = kFormat.height_px});
   for (const EncoderSettings& settings : {EncoderSettings{}, kDamage}) {
     const auto made = output(settings);
     const auto encoder = made.make_encoder();
@@ -253,7 +259,8 @@ TEST_P(DamageChunkSizeTest, ShowsWhatWasDrawnFromDamageAlone) {
   constexpr int kChunks = 3;
   const VideoFormat format = {
       .width_px = GetParam().width_px, .height_px = GetParam().height_px, .frame_rate = 30};
-  const h264::StreamHeaders headers(format);
+  const h264::StreamHeaders headers(
+      h264::Config{.width_px = format.width_px, .height_px = format.height_px});
   Random random(11);
   SCOPED_TRACE(random.trace());
   for (const EncoderSettings& settings : {EncoderSettings{}, kDamage}) {

@@ -30,7 +30,7 @@ const VideoFormat kSmall = {.width_px = 64, .height_px = 36, .frame_rate = 10};
 std::string opening_error(const std::string& name, const VideoFormat& format,
                           const EncoderSettings& settings = {}) {
   try {
-    set_up_output(name, format, settings).open();
+    set_up_output(name, format, settings).open(1000);
   } catch (const UsageError& error) {
     return error.what();
   }
@@ -153,7 +153,7 @@ TEST_P(EveryFile, LeavesNoTraceWhenAbandoned) {
   const TemporaryFolder folder;
   {
     const auto output = set_up_output(folder / GetParam(), kSmall, {});
-    const auto sink = output.open();
+    const auto sink = output.open(1000);
     sink->append(encode_chunk(output, 0, 1000, article_frames(kSmall)));
     EXPECT_FALSE(folder.is_empty());
   }
@@ -187,7 +187,7 @@ TEST_P(EveryFile, RefusesAFrameOfAnotherSize) {
 TEST_P(EveryFile, RefusesAChunkOutOfOrder) {
   const TemporaryFolder folder;
   const auto output = set_up_output(folder / GetParam(), kSmall, {});
-  const auto sink = output.open();
+  const auto sink = output.open(1000);
   const EncodedChunk second =
       encode_chunk(output, output.frames_per_chunk, 1000, article_frames(kSmall));
   EXPECT_THROW(sink->append(second), MediaError);
@@ -230,7 +230,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryFile,
 
 TEST(NullSink, KeepsNothing) {
   const auto output = set_up_output("null", kSmall, {});
-  const auto sink = output.open();
+  const auto sink = output.open(1000);
   EXPECT_TRUE(encode_chunk(output, 0, 100, article_frames(kSmall)).empty());
   sink->finish();
 }
@@ -252,7 +252,7 @@ TEST(PngSequence, ReplacesFilesOnlyWhenItIsComplete) {
   const TemporaryFolder folder;
   std::ofstream(folder / "1.png") << "old";
   const auto output = set_up_output(folder / "%d.png", kSmall, {});
-  const auto sink = output.open();
+  const auto sink = output.open(1000);
   sink->append(encode_chunk(output, 0, 3, article_frames(kSmall)));
   EXPECT_EQ(file_contents(folder / "1.png"), "old");
   EXPECT_FALSE(fs::exists(folder / "2.png"));

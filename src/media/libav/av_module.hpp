@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "h264/parameter_sets.hpp"
 #include "media/output/output_kinds.hpp"
 #include "media/pixels/frame_reader.hpp"
 
@@ -19,12 +20,15 @@ namespace piblocks {
 /// The functions of the module.
 struct AvModule {
   const char* version;  ///< kVersion of the build; if it is another, nothing else may be touched
-  // output_kinds.hpp
+  // output_kinds.hpp; the first is mp4_output() for what is not written without libav
   Output (*mp4_output)(const OutputRequest& request);
   Output (*mov_output)(const OutputRequest& request);
   Output (*webm_output)(const OutputRequest& request);
   Output (*gif_output)(const OutputRequest& request);
   Output (*framehash_output)(const OutputRequest& request);
+  /// MakeSuccessor
+  std::unique_ptr<ChunkEncoder> (*h264_successor)(const VideoFormat& format,
+                                                  const h264::ParameterSets& sets);
   // The module's sides of the functions below, and of media_library_versions().
   std::unique_ptr<FrameReader> (*read_video)(const std::string& path, const std::stop_token& stop);
   std::string (*hash_of_bytes)(ByteSpan bytes);
@@ -52,6 +56,11 @@ std::string hash_of_bytes(ByteSpan bytes);
 
 // The module's own functions, behind those above. Only the module and tests link them.
 
+/// mp4_output() by libavformat: with sound, or by one of libavcodec's encoders.
+Output mp4_output_by_libav(const OutputRequest& request);
+/// libavcodec's encoder for a stream with these headers; null if there is none.
+std::unique_ptr<ChunkEncoder> h264_successor(const VideoFormat& format,
+                                             const h264::ParameterSets& sets);
 /// read_video()
 std::unique_ptr<FrameReader> decode_video_file(const std::string& path,
                                                const std::stop_token& stop = {});

@@ -8,11 +8,12 @@
 extern "C" const piblocks::AvModule* piblocks_av_module() {
   using namespace piblocks;
   static constexpr AvModule kModule = {.version = kVersion,
-                                       .mp4_output = mp4_output,
+                                       .mp4_output = mp4_output_by_libav,
                                        .mov_output = mov_output,
                                        .webm_output = webm_output,
                                        .gif_output = gif_output,
                                        .framehash_output = framehash_output,
+                                       .h264_successor = h264_successor,
                                        .read_video = decode_video_file,
                                        .hash_of_bytes = compute_hash,
                                        .encoder_names = usable_encoders,

@@ -48,12 +48,6 @@ std::string usable_encoders(std::span<const EncoderKind> kinds) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// At least 2: decoders take successive IDR pictures with equal headers for one (H.264, 7.4.1.2.4).
-int frames_in_a_second(const Rational& frame_rate) {
-  constexpr int kMaxFramesPerChunk = 300;
-  return int(std::clamp<Integer>(floor(frame_rate), 2, kMaxFramesPerChunk).get_si());
-}
-
 bool has_option(const AVCodec& codec, const char* name) {
   if (codec.priv_class == nullptr) return false;
   const AVClass* options = codec.priv_class;
@@ -74,14 +68,6 @@ bool can_be_opened(const AVCodec& codec, const std::function<void(AVCodecContext
   context->thread_count = 1;
   if (set_up) set_up(*context);
   return avcodec_open2(context.get(), &codec, nullptr) >= 0;
-}
-
-std::string no_crf(std::string_view encoder) {
-  return fmt::format("video: encoder '{}' has no crf; leave it out", encoder);
-}
-
-std::string no_preset(std::string_view encoder) {
-  return fmt::format("video: encoder '{}' has no presets; leave the preset out", encoder);
 }
 
 EncoderSetup prores_setup(const VideoFormat& format, const EncoderSettings& settings) {

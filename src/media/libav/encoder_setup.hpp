@@ -14,8 +14,6 @@
 
 namespace piblocks {
 
-/// Our own encoder (h264_chunk.hpp). Its stream has the headers of libx264.
-inline constexpr std::string_view kDamage = "damage";
 inline constexpr std::string_view kX264 = "libx264";
 inline constexpr std::string_view kProres = "prores_ks";
 
@@ -46,9 +44,6 @@ std::vector<std::string> usable_h264_encoders();
 std::vector<std::string> usable_webm_encoders();
 std::vector<std::string> usable_sound_encoders();
 
-/// Frames of a closed group of pictures that lasts about a second; 2 to 300.
-int frames_in_a_second(const Rational& frame_rate);
-
 /// Whether the encoder has an option of its own with this name.
 bool has_option(const AVCodec& codec, const char* name);
 /// Sets it. @throws MediaError if the encoder does not take the value.
@@ -57,9 +52,5 @@ void set_option(AVCodecContext& context, const char* name, const std::string& va
 /// Whether the encoder opens for a small picture in 4:2:0. Being registered is not enough: wrappers
 /// load what they wrap only when they are opened. @param set_up  sets the encoder's own options.
 bool can_be_opened(const AVCodec& codec, const std::function<void(AVCodecContext&)>& set_up = {});
-
-// Messages about a setting that an encoder does not take.
-std::string no_crf(std::string_view encoder);
-std::string no_preset(std::string_view encoder);
 
 }  // namespace piblocks

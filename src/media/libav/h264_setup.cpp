@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
-#include "h264/parameter_sets.hpp"
 #include "media/libav/encoder_setup.hpp"
+#include "media/mp4/h264_chunk.hpp"
 
 namespace piblocks {
 namespace {
@@ -63,17 +63,6 @@ const AVCodec& find_encoder(const std::optional<std::string>& name,
   }
   throw UsageError(
       fmt::format("video: cannot use encoder '{}'; use one of: {}", *name, usable_encoders(kinds)));
-}
-
-std::string level_problem(const VideoFormat& format) {
-  const Rational& rate = format.frame_rate;
-  const std::string problem = h264::level_problem(format.width_px, format.height_px,
-                                                  rate.get_num().get_si(), rate.get_den().get_si());
-  if (problem.empty()) return {};
-  return fmt::format(
-      "output: H.264 cannot hold this video: {}; make it smaller or slower, or write *.webm, "
-      "*.apng or *.png",
-      problem);
 }
 
 std::string crf_problem(const AVCodec& codec, double crf) {
@@ -145,7 +134,7 @@ EncoderSetup h264_setup(const VideoFormat& format, const EncoderSettings& settin
   const AVCodec* codec = nullptr;
   Problems problems;
   problems.add(odd_size_problem(format, "H.264 in 4:2:0"));
-  problems.add(level_problem(format));
+  problems.add(h264_level_problem(format));
   try {
     codec = &find_encoder(settings.encoder, kinds);
     if (settings.crf) problems.add(crf_problem(*codec, *settings.crf));

@@ -44,6 +44,14 @@ YuvView<Sample> view_of(const AVFrame& picture) {
   return {plane(0), plane(1), plane(2), plane(3)};
 }
 
+void set_headers(AVCodecParameters& stream, ByteSpan headers) {
+  void* const copy = av_mallocz(headers.size() + AV_INPUT_BUFFER_PADDING_SIZE);
+  if (copy == nullptr) throw std::bad_alloc();
+  stream.extradata = static_cast<std::uint8_t*>(copy);
+  stream.extradata_size = int(headers.size());
+  std::ranges::copy(headers, stream.extradata);
+}
+
 void convert_rect(const ImageView& frame, const PixelRect& rect, const AVFrame& picture) {
   if (picture.format == AV_PIX_FMT_YUV420P) {
     convert_to_yuv420(frame, chroma_aligned(rect, frame), view_of<std::uint8_t>(picture));
@@ -74,7 +82,7 @@ class LibavChunkEncoder final : public ChunkEncoder {
   explicit LibavChunkEncoder(const VideoEncoder& encoder)
       : ChunkEncoder(encoder.format()),
         encoder_(encoder),
-        picture_(allocate_picture(encoder.parameters())),
+        picture_(allocate_picture(*encoder.stream().parameters)),
         packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {}
   void begin(std::int64_t first_frame) override {
     context_ = encoder_.open();
@@ -143,11 +151,11 @@ class LibavChunkEncoder final : public ChunkEncoder {
 VideoEncoder::VideoEncoder(const VideoFormat& format, EncoderSetup setup)
     : format_(format),
       setup_(std::move(setup)),
-      frame_rate_(to_av(format.frame_rate)),
-      parameters_(own_av<AvParametersPtr>(avcodec_parameters_alloc(), "stream parameters")) {
+      stream_{to_av(format.frame_rate),
+              own_av<AvParametersPtr>(avcodec_parameters_alloc(), "stream parameters")} {
   try {
     const AvCodecContextPtr first = open_unchecked();
-    check_av(avcodec_parameters_from_context(parameters_.get(), first.get()),
+    check_av(avcodec_parameters_from_context(stream_.parameters.get(), first.get()),
              "describe the stream of", name());
     if (first->codec_id == AV_CODEC_ID_AV1 && first->extradata_size == 0) take_headers(*first);
   } catch (const Error& error) {
@@ -158,7 +166,7 @@ VideoEncoder::VideoEncoder(const VideoFormat& format, EncoderSetup setup)
 
 /// libaom gives the stream's headers only beside its first packet.
 void VideoEncoder::take_headers(AVCodecContext& context) {
-  const AvFramePtr picture = allocate_picture(*parameters_);
+  const AvFramePtr picture = allocate_picture(*stream_.parameters);
   for (int plane = 0; plane < 3; ++plane) {
     const int rows = plane == 0 ? picture->height : picture->height / 2;
     std::fill_n(picture->data[plane], std::ptrdiff_t{rows} * picture->linesize[plane], 128);
@@ -174,22 +182,18 @@ void VideoEncoder::take_headers(AVCodecContext& context) {
   if (headers == nullptr) {
     throw MediaError(fmt::format("video: encoder '{}' does not tell its headers", name()));
   }
-  void* const copy = av_mallocz(size + AV_INPUT_BUFFER_PADDING_SIZE);
-  if (copy == nullptr) throw std::bad_alloc();
-  parameters_->extradata = static_cast<std::uint8_t*>(copy);
-  parameters_->extradata_size = int(size);
-  std::copy_n(headers, size, parameters_->extradata);
+  set_headers(*stream_.parameters, {headers, size});
 }
 
 std::string VideoEncoder::signature() const {
   return fmt::format("{}, libavcodec {}, {:02x}", name(), version_text(avcodec_version()),
-                     fmt::join(extradata(*parameters_), ""));
+                     fmt::join(extradata(*stream_.parameters), ""));
 }
 
 AvCodecContextPtr VideoEncoder::open() const {
   AvCodecContextPtr context = open_unchecked();
   if (context->extradata_size > 0 &&
-      !std::ranges::equal(extradata(*context), extradata(*parameters_))) {
+      !std::ranges::equal(extradata(*context), extradata(*stream_.parameters))) {
     throw MediaError(
         fmt::format("video: cannot join the chunks of encoder '{}': their headers differ", name()));
   }
@@ -199,8 +203,8 @@ AvCodecContextPtr VideoEncoder::open() const {
 AvCodecContextPtr VideoEncoder::open_unchecked() const {
   auto context = own_av<AvCodecContextPtr>(avcodec_alloc_context3(setup_.codec), name());
   set_picture_format(*context, format_, setup_.pixel_format);
-  context->framerate = frame_rate_;
-  context->time_base = av_inv_q(frame_rate_);
+  context->framerate = stream_.frame_rate;
+  context->time_base = av_inv_q(stream_.frame_rate);
   // Never reached: the last chunk of a video may be one and a half times as long as the others.
   context->gop_size = 2 * setup_.frames_per_chunk;
   // Threads inside an encoder may change its output. Chunks run in parallel instead.
@@ -210,6 +214,27 @@ AvCodecContextPtr VideoEncoder::open_unchecked() const {
   setup_.apply(*context);
   check_av(avcodec_open2(context.get(), setup_.codec, nullptr), "open encoder", name());
   return context;
+}
+
+VideoStream h264_stream(const VideoFormat& format, ByteSpan headers, int level_idc) {
+  VideoStream stream{to_av(format.frame_rate),
+                     own_av<AvParametersPtr>(avcodec_parameters_alloc(), "stream parameters")};
+  AVCodecParameters& parameters = *stream.parameters;
+  parameters.codec_type = AVMEDIA_TYPE_VIDEO;
+  parameters.codec_id = AV_CODEC_ID_H264;
+  parameters.profile = FF_PROFILE_H264_CONSTRAINED_BASELINE;
+  parameters.level = level_idc;
+  parameters.format = AV_PIX_FMT_YUV420P;
+  parameters.width = format.width_px;
+  parameters.height = format.height_px;
+  parameters.sample_aspect_ratio = {1, 1};
+  parameters.color_space = AVCOL_SPC_BT709;
+  parameters.color_primaries = AVCOL_PRI_BT709;
+  parameters.color_trc = AVCOL_TRC_BT709;
+  parameters.color_range = AVCOL_RANGE_MPEG;
+  parameters.chroma_location = AVCHROMA_LOC_LEFT;
+  set_headers(parameters, headers);
+  return stream;
 }
 
 std::unique_ptr<ChunkEncoder> libav_chunk_encoder(const VideoEncoder& encoder) {

@@ -12,6 +12,12 @@
 
 namespace piblocks {
 
+/// A video stream, as a muxer describes it.
+struct VideoStream {
+  AVRational frame_rate;
+  AvParametersPtr parameters;
+};
+
 /// An encoder that exists and opens with its settings.
 class VideoEncoder {
  public:
@@ -24,15 +30,14 @@ class VideoEncoder {
   const VideoFormat& format() const noexcept { return format_; }
   /// libavcodec's.
   const char* name() const noexcept { return setup_.codec->name; }
-  AVRational frame_rate() const noexcept { return frame_rate_; }
-  /// The stream's parameters, which are those of every encoder that open() returns.
-  const AVCodecParameters& parameters() const noexcept { return *parameters_; }
+  /// Its parameters are those of every encoder that open() returns.
+  const VideoStream& stream() const noexcept { return stream_; }
   /// The encoder's name, libavcodec's version and, in hexadecimal digits, the encoder's own
   /// headers, such as the parameter sets of H.264.
   std::string signature() const;
 
   /// A fresh encoder for one chunk; time stamps are counted in frames. Thread-safe.
-  /// @throws MediaError if it cannot be opened, or its headers differ from parameters().
+  /// @throws MediaError if it cannot be opened, or its headers differ from stream()'s.
   AvCodecContextPtr open() const;
 
  private:
@@ -41,13 +46,15 @@ class VideoEncoder {
 
   VideoFormat format_;
   EncoderSetup setup_;
-  AVRational frame_rate_;
-  AvParametersPtr parameters_;
+  VideoStream stream_;
 };
 
 /// Makes the chunks of a stream, each by an encoder of its own.
 /// @param encoder  must outlive the result.
 std::unique_ptr<ChunkEncoder> libav_chunk_encoder(const VideoEncoder& encoder);
+
+/// The stream of H.264 that has these headers.
+VideoStream h264_stream(const VideoFormat& format, ByteSpan headers, int level_idc);
 
 /// A packet of a picture and of its transparency, which VP9 codes as a video of its own.
 struct PictureAndAlpha {

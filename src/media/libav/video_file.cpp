@@ -86,10 +86,10 @@ AvOutputPtr open_muxer(const std::string& path, const std::string& name, const c
 class VideoFile final : public FrameSink {
  public:
   /// @param sound  of the second stream, if there is one.
-  VideoFile(const std::string& name, const Container& container, const VideoEncoder& encoder,
+  VideoFile(const std::string& name, const Container& container, const VideoStream& stream,
             const SoundEncoder* sound)
       : name_(name),
-        encoder_(encoder),
+        stream_(stream),
         container_(container),
         file_(name),
         muxer_(open_muxer(file_.path(), name_, container.muxer)),
@@ -121,11 +121,11 @@ class VideoFile final : public FrameSink {
   void add_stream() {
     AVStream* stream = avformat_new_stream(muxer_.get(), nullptr);
     if (stream == nullptr) throw std::bad_alloc();
-    check_av(avcodec_parameters_copy(stream->codecpar, &encoder_.parameters()),
+    check_av(avcodec_parameters_copy(stream->codecpar, stream_.parameters.get()),
              "describe the stream of", name_);
-    stream->time_base = av_inv_q(encoder_.frame_rate());
-    stream->avg_frame_rate = encoder_.frame_rate();
-    stream->r_frame_rate = encoder_.frame_rate();
+    stream->time_base = av_inv_q(stream_.frame_rate);
+    stream->avg_frame_rate = stream_.frame_rate;
+    stream->r_frame_rate = stream_.frame_rate;
     stream->sample_aspect_ratio = {1, 1};
   }
   void write_header() {
@@ -136,10 +136,10 @@ class VideoFile final : public FrameSink {
     check_av(avformat_write_header(muxer_.get(), nullptr), "write the header of", name_);
   }
   void write(const Packet& packet) {
-    if (sound_) sound_->write_until(packet.dts, av_inv_q(encoder_.frame_rate()));
+    if (sound_) sound_->write_until(packet.dts, av_inv_q(stream_.frame_rate));
     av_packet_unref(packet_.get());
     ByteSpan picture = packet.bytes;
-    if (encoder_.parameters().format == AV_PIX_FMT_YUVA420P) {
+    if (stream_.parameters->format == AV_PIX_FMT_YUVA420P) {
       const PictureAndAlpha both = without_alpha(packet.bytes);
       picture = both.picture;
       if (!both.alpha.empty()) add_alpha(both.alpha);
@@ -152,14 +152,14 @@ class VideoFile final : public FrameSink {
     packet_->duration = 1;
     packet_->flags = packet.key_frame ? AV_PKT_FLAG_KEY : 0;
     packet_->stream_index = 0;
-    av_packet_rescale_ts(packet_.get(), av_inv_q(encoder_.frame_rate()),
+    av_packet_rescale_ts(packet_.get(), av_inv_q(stream_.frame_rate),
                          muxer_->streams[0]->time_base);
     check_av(av_write_frame(muxer_.get(), packet_.get()), "write to", name_);
   }
   /// Reads the file back: without memory, libavformat may leave something out and not report it.
   void check() const {
     const AvInputPtr file = open_av_input(file_.path());
-    const AVCodecParameters& written = encoder_.parameters();
+    const AVCodecParameters& written = *stream_.parameters;
     const auto is_ours = [&](const AVCodecParameters& read) {
       return read.codec_id == written.codec_id &&
              (read.extradata_size > 0) == (written.extradata_size > 0);
@@ -181,7 +181,7 @@ class VideoFile final : public FrameSink {
   }
 
   std::string name_;
-  const VideoEncoder& encoder_;
+  const VideoStream& stream_;
   const Container& container_;
   TemporaryFile file_;
   AvOutputPtr muxer_;  // after file_: closed before the file is removed
@@ -213,8 +213,7 @@ const Container kWebm = {.muxer = "webm",
                          .sound_from_zero = true};
 
 std::unique_ptr<FrameSink> open_video_file(const std::string& name, const Container& container,
-                                           const VideoEncoder& pictures,
-                                           const SoundEncoder* sound) {
+                                           const VideoStream& pictures, const SoundEncoder* sound) {
   return std::make_unique<VideoFile>(name, container, pictures, sound);
 }
 

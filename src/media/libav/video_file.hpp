@@ -32,10 +32,10 @@ extern const Container kMp4;
 extern const Container kMov;
 extern const Container kWebm;
 
-/// @param pictures  their encoder; must outlive the sink.
+/// @param pictures  must outlive the sink.
 /// @param sound     its encoder, or null; must outlive the sink.
 /// @throws UsageError if the file cannot be opened.
 std::unique_ptr<FrameSink> open_video_file(const std::string& name, const Container& container,
-                                           const VideoEncoder& pictures, const SoundEncoder* sound);
+                                           const VideoStream& pictures, const SoundEncoder* sound);
 
 }  // namespace piblocks

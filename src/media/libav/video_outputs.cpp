@@ -1,129 +1,135 @@
 #include <fmt/format.h>
+#include <piblocks/error.hpp>
 
-#include <cstdint>
-#include <limits>
 #include <memory>
 
 #include "h264/bit_stream.hpp"
-#include "media/libav/h264_chunk.hpp"
 #include "media/libav/video_encoder.hpp"
 #include "media/libav/video_file.hpp"
-#include "media/output/output_kinds.hpp"
+#include "media/mp4/h264_chunk.hpp"
+#include "media/mp4/mp4_file.hpp"
 
 namespace piblocks {
 namespace {
 
-/// The quantiser of our own encoder; src/h264/README.md has the measurements.
-constexpr int kQp = 14;
-
-/// In MP4 and MOV, libavformat 59 counts time in units of one over the frame rate's numerator,
-/// which it doubles up to 10,000, and has 31 bits for the duration of a frame (movenc.c).
-/// @throws UsageError if a frame lasts longer.
-void check_duration_of_frame(const Rational& frame_rate) {
-  constexpr int kFewestUnits = 10'000;
-  const Integer longest = std::numeric_limits<std::int32_t>::max() - 1;
-  Integer units_per_s = frame_rate.get_num();
-  while (units_per_s < kFewestUnits) units_per_s *= 2;
-  if (units_per_s / frame_rate <= longest) return;
-  const Integer longest_s = longest / units_per_s;
-  throw UsageError(
-      fmt::format("output: frame rate {} is too low for *.mp4 and *.mov: a frame can last {} s at "
-                  "most; use --fps 1/100000 or more, or write *.webm or *.png",
-                  frame_rate.get_str(), longest_s.get_str()));
+std::optional<SoundEncoder> sound_encoder(const OutputRequest& request,
+                                          const Container& container) {
+  if (!request.sound) return std::nullopt;
+  return std::optional<SoundEncoder>(std::in_place, container.sound, *request.sound);
 }
 
-/// The settings of the encoder whose headers the stream has.
-/// @throws UsageError if a setting is given for our own encoder.
-EncoderSettings settings_of_stream(const EncoderSettings& settings) {
-  if (settings.encoder != kDamage) return settings;
-  Problems problems;
-  if (settings.crf) problems.add(no_crf(kDamage));
-  if (settings.preset) problems.add(no_preset(kDamage));
-  problems.check();
-  return {};
-}
-
-/// The parameter sets that slices of our own need; nothing if the stream gets none.
-/// @throws UsageError if such slices are asked for, but the stream cannot have them.
-std::optional<h264::ParameterSets> sets_for_damage(const VideoEncoder& encoder,
-                                                   const EncoderSettings& settings) {
-  const bool is_asked_for = settings.encoder == kDamage;
-  if (!is_asked_for && (settings.encoder || settings.crf || settings.preset)) return std::nullopt;
-  const AVCodecParameters& stream = encoder.parameters();
-  try {
-    return h264::read_parameter_sets({stream.extradata, std::size_t(stream.extradata_size)});
-  } catch (const h264::HeaderError& error) {
-    if (is_asked_for) throw UsageError(error.what());
-    return std::nullopt;
-  }
-}
-
-/// The encoders of a file. The functions of an output share them.
-struct Encoders {
-  Encoders(const OutputRequest& request, const Container& container, EncoderSetup setup)
-      : pictures(request.format, std::move(setup)) {
-    if (request.sound) sound.emplace(container.sound, *request.sound);
-  }
+/// What a file is made of. The functions of an output share it.
+struct Encoded {
+  Encoded(const OutputRequest& request, const Container& container, EncoderSetup setup)
+      : pictures(request.format, std::move(setup)), sound(sound_encoder(request, container)) {}
 
   VideoEncoder pictures;
   std::optional<SoundEncoder> sound;
 };
 
-Output encoded_output(const OutputRequest& request, const Container& container,
-                      const std::shared_ptr<const Encoders>& encoders) {
-  const auto& [pictures, sound] = *encoders;
-  Output output = {.frames_per_chunk = pictures.frames_per_chunk(),
-                   .signature = fmt::format("{} by {}", container.muxer, pictures.signature()),
-                   .make_encoder = [encoders] { return libav_chunk_encoder(encoders->pictures); },
-                   .open =
-                       [name = request.name, &container, encoders] {
-                         return open_video_file(name, container, encoders->pictures,
-                                                encoders->sound ? &*encoders->sound : nullptr);
-                       }};
-  if (sound) {
-    output.signature += ", sound by " + sound->signature();
-    output.encode_sound = [encoders](SampleSource& samples) {
-      return encoders->sound->encode(samples);
-    };
+/// The same with pictures by our own encoder.
+struct Damage {
+  Damage(const OutputRequest& request, const Container& container)
+      : pictures(request.format, request.settings),
+        stream(h264_stream(request.format, pictures.headers, pictures.level_idc)),
+        sound(sound_encoder(request, container)) {}
+
+  H264Stream pictures;
+  VideoStream stream;
+  std::optional<SoundEncoder> sound;
+};
+
+/// Adds the sound of `parts`, an Encoded or Damage, to an output that has all else but its sink.
+template <typename Parts>
+Output with_file(Output output, const OutputRequest& request, const Container& container,
+                 const std::shared_ptr<const Parts>& parts, const VideoStream& stream) {
+  output.signature = fmt::format("{} by {}", container.muxer, output.signature);
+  output.open = [name = request.name, &container, parts, &stream](std::int64_t /*frames*/) {
+    return open_video_file(name, container, stream, parts->sound ? &*parts->sound : nullptr);
+  };
+  if (parts->sound) {
+    output.signature += ", sound by " + parts->sound->signature();
+    output.encode_sound = [parts](SampleSource& samples) { return parts->sound->encode(samples); };
   }
   return output;
 }
 
-/// H.264 in MP4 or MOV, with slices of our own if the stream can have them.
+Output encoded_output(const OutputRequest& request, const Container& container,
+                      EncoderSetup setup) {
+  const auto parts = std::make_shared<const Encoded>(request, container, std::move(setup));
+  return with_file({.frames_per_chunk = parts->pictures.frames_per_chunk(),
+                    .signature = parts->pictures.signature(),
+                    .make_encoder = [parts] { return libav_chunk_encoder(parts->pictures); },
+                    .open = {}},
+                   request, container, parts, parts->pictures.stream());
+}
+
+/// H.264 in MP4 or MOV: our own, unless something is asked for that only libavcodec's encoders do.
 Output h264_output(const OutputRequest& request, const Container& container) {
   check_duration_of_frame(request.format.frame_rate);
-  const auto encoders = std::make_shared<const Encoders>(
-      request, container,
-      h264_setup(request.format, settings_of_stream(request.settings), container.encoders));
-  Output output = encoded_output(request, container, encoders);
-  if (const auto sets = sets_for_damage(encoders->pictures, request.settings)) {
-    output.signature += fmt::format(", changes at QP {}", kQp);
-    const bool may_hand_over = request.settings.encoder != kDamage;
-    output.make_encoder = [encoders, sets = *sets, may_hand_over] {
-      return h264_chunk_encoder(encoders->pictures, sets, kQp, may_hand_over);
-    };
+  if (!is_damage(request.settings)) {
+    return encoded_output(request, container,
+                          h264_setup(request.format, request.settings, container.encoders));
   }
-  return output;
+  const auto parts = std::make_shared<const Damage>(request, container);
+  return with_file(
+      {.frames_per_chunk = parts->pictures.frames_per_chunk,
+       .signature = parts->pictures.signature(),
+       .make_encoder = [parts] { return h264_chunk_encoder(parts->pictures, h264_successor); },
+       .open = {}},
+      request, container, parts, parts->stream);
 }
+
+/// Owns the encoder of the stream that its chunks are made for.
+class SuccessorEncoder final : public ChunkEncoder {
+ public:
+  SuccessorEncoder(const VideoFormat& format, std::unique_ptr<const VideoEncoder> stream)
+      : ChunkEncoder(format), stream_(std::move(stream)), encoder_(libav_chunk_encoder(*stream_)) {}
+
+  void begin(std::int64_t first_frame) override { encoder_->begin(first_frame); }
+  void encode() override { encoder_->encode(); }
+  EncodedChunk finish() override { return encoder_->finish(); }
+  std::string method() const override { return stream_->name(); }
+
+ private:
+  void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
+    encoder_->take(frame, rects);
+  }
+
+  std::unique_ptr<const VideoEncoder> stream_;
+  std::unique_ptr<ChunkEncoder> encoder_;
+};
 
 }  // namespace
 
-Output mp4_output(const OutputRequest& request) { return h264_output(request, kMp4); }
+Output mp4_output_by_libav(const OutputRequest& request) { return h264_output(request, kMp4); }
 
 Output mov_output(const OutputRequest& request) {
   if (!request.format.has_alpha && request.settings.encoder != kProres) {
     return h264_output(request, kMov);
   }
   check_duration_of_frame(request.format.frame_rate);
-  return encoded_output(request, kMov,
-                        std::make_shared<const Encoders>(
-                            request, kMov, prores_setup(request.format, request.settings)));
+  return encoded_output(request, kMov, prores_setup(request.format, request.settings));
 }
 
 Output webm_output(const OutputRequest& request) {
-  return encoded_output(request, kWebm,
-                        std::make_shared<const Encoders>(
-                            request, kWebm, webm_setup(request.format, request.settings)));
+  return encoded_output(request, kWebm, webm_setup(request.format, request.settings));
+}
+
+std::unique_ptr<ChunkEncoder> h264_successor(const VideoFormat& format,
+                                             const h264::ParameterSets& sets) {
+  try {
+    auto stream =
+        std::make_unique<const VideoEncoder>(format, h264_setup(format, {}, {EncoderKind::h264}));
+    const AVCodecParameters& parameters = *stream->stream().parameters;
+    const ByteSpan headers(parameters.extradata, std::size_t(parameters.extradata_size));
+    if (h264::read_parameter_sets(headers) != sets) return nullptr;
+    return std::make_unique<SuccessorEncoder>(format, std::move(stream));
+  } catch (const UsageError&) {
+    return nullptr;  // there is no encoder
+  } catch (const h264::HeaderError&) {
+    return nullptr;
+  }
 }
 
 }  // namespace piblocks

@@ -4,6 +4,7 @@
 #include <piblocks/error.hpp>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <string_view>
@@ -40,7 +41,7 @@ struct OutputKind {
 };
 
 constexpr std::array kOutputKinds = {
-    OutputKind{".mp4", by_module<&AvModule::mp4_output>, kPictures | kSettings | kSound},
+    OutputKind{".mp4", mp4_output, kPictures | kSettings | kSound},
     OutputKind{".mov", by_module<&AvModule::mov_output>, kPictures | kSettings | kSound | kAlpha},
     OutputKind{".webm", by_module<&AvModule::webm_output>, kPictures | kSettings | kSound | kAlpha},
     OutputKind{".gif", by_module<&AvModule::gif_output>, kPictures},
@@ -145,6 +146,20 @@ std::string odd_size_problem(const VideoFormat& format, const std::string& what)
   const auto even = [](int side) { return std::max(2, side - side % 2); };
   return fmt::format("output: size {}x{} is odd: {} needs even sides; use {}x{}", width, height,
                      what, even(width), even(height));
+}
+
+/// At least 2: decoders take successive IDR pictures with equal headers for one (H.264, 7.4.1.2.4).
+int frames_in_a_second(const Rational& frame_rate) {
+  constexpr int kMaxFramesPerChunk = 300;
+  return int(std::clamp<Integer>(floor(frame_rate), 2, kMaxFramesPerChunk).get_si());
+}
+
+std::string no_crf(std::string_view encoder) {
+  return fmt::format("video: encoder '{}' has no crf; leave it out", encoder);
+}
+
+std::string no_preset(std::string_view encoder) {
+  return fmt::format("video: encoder '{}' has no presets; leave the preset out", encoder);
 }
 
 Output set_up_output(const std::string& name, const VideoFormat& format,

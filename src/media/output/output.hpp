@@ -135,9 +135,9 @@ struct Output {
   std::string signature;
   /// Makes an encoder for one worker; it must not outlive the output. Thread-safe.
   std::function<std::unique_ptr<ChunkEncoder>()> make_encoder;
-  /// The sink must not outlive the output.
+  /// A sink for at most so many frames; it must not outlive the output.
   /// @throws UsageError if it cannot be opened; nothing is left behind then.
-  std::function<std::unique_ptr<FrameSink>()> open;
+  std::function<std::unique_ptr<FrameSink>(std::int64_t frames)> open;
   /// The packets that this output makes of a soundtrack; both must outlive them.
   /// @throws MediaError if the output was set up without sound, or its encoder cannot be opened.
   std::function<std::unique_ptr<PacketSource>(SampleSource& samples)> encode_sound = reject_sound;

@@ -179,7 +179,7 @@ Output null_output(const OutputRequest& request) {
       .frames_per_chunk = 64,
       .signature = "null",
       .make_encoder = [format = request.format] { return std::make_unique<NullEncoder>(format); },
-      .open = [] { return std::make_unique<NullSink>(); }};
+      .open = [](std::int64_t /*frames*/) { return std::make_unique<NullSink>(); }};
 }
 
 Output y4m_output(const OutputRequest& request) {
@@ -202,7 +202,8 @@ Output wav_output(const OutputRequest& request) {
       .make_encoder = []() -> std::unique_ptr<ChunkEncoder> {
         throw MediaError("output: cannot encode frames as sound");
       },
-      .open = [name = request.name, sound] { return std::make_unique<WavSink>(name, sound); },
+      .open = [name = request.name,
+               sound](std::int64_t /*frames*/) { return std::make_unique<WavSink>(name, sound); },
       .encode_sound = [](SampleSource& samples) { return std::make_unique<PcmPackets>(samples); },
       .has_frames = false};
 }

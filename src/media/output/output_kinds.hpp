@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -44,6 +45,13 @@ class Problems {
 /// Empty if both sides are even, as 4:2:0 needs; else what is wrong and which size to use.
 /// @param what  what needs it, such as "H.264 in 4:2:0".
 std::string odd_size_problem(const VideoFormat& format, const std::string& what);
+
+/// Frames of a closed group of pictures that lasts about a second; 2 to 300.
+int frames_in_a_second(const Rational& frame_rate);
+
+// Messages about a setting that an encoder does not take.
+std::string no_crf(std::string_view encoder);
+std::string no_preset(std::string_view encoder);
 
 /// Makes one packet of each frame.
 class PacketPerFrameEncoder : public ChunkEncoder {
@@ -89,8 +97,10 @@ Output stream_output(const OutputRequest& request, std::int64_t frames_per_chunk
   return {.frames_per_chunk = frames_per_chunk,
           .signature = signature,
           .make_encoder = [format = request.format] { return std::make_unique<Encoder>(format); },
-          .open = [name = request.name,
-                   write_trailer] { return std::make_unique<StreamSink>(name, write_trailer); }};
+          .open =
+              [name = request.name, write_trailer](std::int64_t /*frames*/) {
+                return std::make_unique<StreamSink>(name, write_trailer);
+              }};
 }
 
 // All throw UsageError if the kind cannot hold the format or does not take a setting.

@@ -91,7 +91,7 @@ void write_trailer(OutputFile& file, std::int64_t frames) {
   file.write(end);
   Bytes control;
   append_animation_control(control, frames);
-  file.overwrite(kAnimationControl, control);
+  file.write_at(kAnimationControl, control);
 }
 
 }  // namespace

@@ -167,8 +167,8 @@ Output png_output(const OutputRequest& request) {
       .frames_per_chunk = 16,  // few wait to be written, and workers end nearly together
       .signature = fmt::format("png by zlib {}", zlibVersion()),
       .make_encoder = [format = request.format] { return std::make_unique<PngEncoder>(format); },
-      .open = [pattern =
-                   FramePattern(request.name)] { return std::make_unique<PngSequence>(pattern); }};
+      .open = [pattern = FramePattern(request.name)](
+                  std::int64_t /*frames*/) { return std::make_unique<PngSequence>(pattern); }};
 }
 
 }  // namespace piblocks

@@ -1,0 +1,134 @@
+#include "h264/levels.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "h264/text.hpp"
+
+namespace piblocks::h264 {
+namespace {
+
+/// Table A-1. MaxBR and MaxCPB are those of the VCL, in units of 1000 bits (table A-2 allows the
+/// whole NAL stream a fifth more).
+constexpr std::array kLevels = {Level{20, 11'880, 396, 2'000'000, 2'000'000, 2},
+                                Level{21, 19'800, 792, 4'000'000, 4'000'000, 2},
+                                Level{22, 20'250, 1'620, 4'000'000, 4'000'000, 2},
+                                Level{30, 40'500, 1'620, 10'000'000, 10'000'000, 2},
+                                Level{31, 108'000, 3'600, 14'000'000, 14'000'000, 4},
+                                Level{32, 216'000, 5'120, 20'000'000, 20'000'000, 4},
+                                Level{40, 245'760, 8'192, 20'000'000, 25'000'000, 4},
+                                Level{41, 245'760, 8'192, 50'000'000, 62'500'000, 2},
+                                Level{42, 522'240, 8'704, 50'000'000, 62'500'000, 2},
+                                Level{50, 589'824, 22'080, 135'000'000, 135'000'000, 2},
+                                Level{51, 983'040, 36'864, 240'000'000, 240'000'000, 2},
+                                Level{52, 2'073'600, 36'864, 240'000'000, 240'000'000, 2},
+                                Level{60, 4'177'920, 139'264, 240'000'000, 240'000'000, 2},
+                                Level{61, 8'355'840, 139'264, 480'000'000, 480'000'000, 2},
+                                Level{62, 16'711'680, 139'264, 800'000'000, 800'000'000, 2}};
+
+constexpr const Level& kHighest = kLevels.back();
+static_assert(kMaxSide_mb * kMaxSide_mb <= 8 * kHighest.max_size_mb &&
+              (kMaxSide_mb + 1) * (kMaxSide_mb + 1) > 8 * kHighest.max_size_mb);
+
+/// Bytes of a macroblock's samples: what MinCR counts from.
+constexpr std::int64_t kMacroblock_bytes = 384;
+
+struct Size {
+  std::int64_t width_mb;
+  std::int64_t height_mb;
+
+  std::int64_t area_mb() const { return width_mb * height_mb; }
+};
+
+Size size_of(int width_px, int height_px) {
+  return {(std::int64_t{width_px} + 15) / 16, (std::int64_t{height_px} + 15) / 16};
+}
+
+/// A.3.1, items a, e, f and g. One frame always fits into the buffer of decoded pictures.
+bool holds(const Level& level, const Size& size, PictureRate rate) {
+  const std::int64_t side = std::max(size.width_mb, size.height_mb);
+  return side * side <= 8 * level.max_size_mb && size.area_mb() <= level.max_size_mb &&
+         size.area_mb() * rate.numerator <= level.max_rate_mb * rate.denominator;
+}
+
+}  // namespace
+
+std::span<const Level> levels() { return kLevels; }
+
+bool can_hold(const Level& level, int width_px, int height_px, PictureRate rate) {
+  return holds(level, size_of(width_px, height_px), rate);
+}
+
+const Level* lowest_level(int width_px, int height_px, PictureRate rate) {
+  const Size size = size_of(width_px, height_px);
+  const auto found =
+      std::ranges::find_if(kLevels, [&](const Level& level) { return holds(level, size, rate); });
+  return found == kLevels.end() ? nullptr : &*found;
+}
+
+std::string level_problem(int width_px, int height_px, PictureRate rate) {
+  const Size size = size_of(width_px, height_px);
+  if (std::max(size.width_mb, size.height_mb) > kMaxSide_mb) {
+    return text("a side of ", std::max(width_px, height_px), " px is longer than the ",
+                16 * kMaxSide_mb, " px of level 6.2, the highest");
+  }
+  if (size.area_mb() > kHighest.max_size_mb) {
+    return text(width_px, "x", height_px, " are ", size.area_mb(),
+                " macroblocks of 16x16 pixels, more than the ", kHighest.max_size_mb,
+                " of level 6.2, the highest");
+  }
+  if (!holds(kHighest, size, rate)) {
+    const std::string divisor = rate.denominator == 1 ? "" : text("/", rate.denominator);
+    return text(size.area_mb(), " macroblocks of 16x16 pixels in each of ", rate.numerator, divisor,
+                " frames a second are more than the ", kHighest.max_rate_mb,
+                " a second of level 6.2, the highest");
+  }
+  return {};
+}
+
+RateWatch::RateWatch(const Level& level, int size_mb, PictureRate rate)
+    : level_(level), filled_b_(static_cast<double>(level.max_buffer_b)) {
+  const double duration_s =
+      static_cast<double>(rate.denominator) / static_cast<double>(rate.numerator);
+  const double limit_bytes =
+      static_cast<double>(kMacroblock_bytes) / static_cast<double>(level.min_compression);
+  // A.3.1, items c and d; 172 frames a second are the most that a level below 6 counts with.
+  const double max_rate_mb = static_cast<double>(level.max_rate_mb);
+  picture_limit_bytes_ =
+      static_cast<std::int64_t>(std::min(limit_bytes * max_rate_mb * duration_s, 1e15));
+  first_picture_limit_bytes_ =
+      static_cast<std::int64_t>(limit_bytes * std::max(double(size_mb), max_rate_mb / 172));
+  refill_b_ = static_cast<double>(level.max_rate_bps) * duration_s;
+}
+
+std::int64_t RateWatch::room_bytes() const {
+  const auto in_buffer = static_cast<std::int64_t>(filled_b_ / 8);
+  return std::min(in_buffer, is_first_ ? first_picture_limit_bytes_ : picture_limit_bytes_);
+}
+
+bool RateWatch::take(std::int64_t size_bytes) {
+  const bool is_kept = size_bytes <= room_bytes();
+  is_first_ = false;
+  filled_b_ = std::max(filled_b_ - 8 * static_cast<double>(size_bytes), 0.0) + refill_b_;
+  filled_b_ = std::min(filled_b_, static_cast<double>(level_.max_buffer_b));
+  return is_kept;
+}
+
+LevelWatch::LevelWatch(int width_px, int height_px, PictureRate rate) {
+  const Size size = size_of(width_px, height_px);
+  for (const Level& level : kLevels) {
+    if (!holds(level, size, rate)) continue;
+    candidates_.push_back({&level, RateWatch(level, static_cast<int>(size.area_mb()), rate)});
+  }
+}
+
+void LevelWatch::take(std::int64_t size_bytes) {
+  std::erase_if(candidates_,
+                [&](Candidate& candidate) { return !candidate.watch.take(size_bytes); });
+}
+
+const Level* LevelWatch::level() const {
+  return candidates_.empty() ? nullptr : candidates_.front().level;
+}
+
+}  // namespace piblocks::h264

@@ -1,0 +1,231 @@
+#include "h264/mp4_writer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "h264/encoder.hpp"
+#include "h264/mp4_boxes.hpp"
+#include "h264/mp4_index.hpp"
+#include "h264/nal_unit.hpp"
+
+namespace piblocks::h264 {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+
+constexpr std::int64_t kMaxInt = std::numeric_limits<std::int32_t>::max();
+/// The index stays below 2^32 bytes, also if all pictures are key frames.
+constexpr std::int64_t kMaxPictures = 500'000'000;
+constexpr std::int64_t kMaxChunks = 4096;
+constexpr std::int64_t kFirstKeyFrames = 4096;
+constexpr std::uint64_t kFileType_bytes = 32;
+constexpr std::uint64_t kBoxHeader_bytes = 8;
+constexpr std::uint64_t kLargeBoxHeader_bytes = 16;
+constexpr std::size_t kDataBlock_bytes = 65536;
+constexpr std::size_t kSizesBlock_bytes = 4096;
+
+std::int64_t in_range(std::int64_t value, std::int64_t most, std::string_view name) {
+  if (1 <= value && value <= most) return value;
+  throw Error("h264: " + std::string(name) + " of an MP4 file is " + std::to_string(value) +
+              ", not in [1, " + std::to_string(most) + "]");
+}
+
+bool has_type(Bytes unit, UnitType type) { return (unit[0] & 31) == static_cast<int>(type); }
+
+/// Parameter sets of the track: one of each.
+void take_headers(Bytes headers, TrackFacts& facts) {
+  const auto take_set = [](Bytes unit, std::vector<std::uint8_t>& set) {
+    if (!set.empty()) throw Error("h264: the headers of an MP4 file have two sets of one type");
+    in_range(std::ssize(unit), 65535, "the size of a parameter set");
+    set.assign(unit.begin(), unit.end());
+  };
+  for (Bytes unit = take_unit(headers); !unit.empty(); unit = take_unit(headers)) {
+    if (has_type(unit, UnitType::sequence_parameters)) take_set(unit, facts.sequence);
+    if (has_type(unit, UnitType::picture_parameters)) take_set(unit, facts.picture);
+  }
+  if (facts.sequence.size() < 4 || facts.picture.empty()) {
+    throw Error("h264: the headers of an MP4 file lack a parameter set");
+  }
+  const int profile = facts.sequence[1];
+  if (profile == 66 || profile == 77 || profile == 88) return;
+  throw Error("h264: profile_idc of an MP4 file is " + std::to_string(profile) +
+              ", not 66, 77 or 88");  // avcC of other profiles has more fields
+}
+
+TrackFacts facts_of(const Mp4Track& track) {
+  TrackFacts facts{};
+  facts.width_px = in_range(track.width_px, 65535, "width_px");
+  facts.height_px = in_range(track.height_px, 65535, "height_px");
+  facts.max_pictures = in_range(track.max_pictures, kMaxPictures, "max_pictures");
+  // As libavformat chooses it.
+  facts.time_scale = in_range(track.rate.numerator, kMaxInt, "rate.numerator");
+  std::int64_t factor = 1;
+  for (; facts.time_scale < 10'000; facts.time_scale *= 2) factor *= 2;
+  facts.picture_units =
+      factor * in_range(track.rate.denominator, kMaxInt / factor, "rate.denominator");
+  // A chunk is a second, if there are not too many.
+  facts.chunk_pictures =
+      std::max({std::int64_t{1}, (facts.time_scale + facts.picture_units / 2) / facts.picture_units,
+                (facts.max_pictures - 1) / kMaxChunks + 1});
+  const auto step = std::clamp<std::int64_t>(facts.time_scale / facts.picture_units / 2, 1, 8);
+  facts.max_key_frames =
+      std::min(facts.max_pictures, std::max(kFirstKeyFrames, facts.max_pictures / step + 1));
+  take_headers(track.headers, facts);
+  return facts;
+}
+
+/// Bytes that follow each other in the file, written in blocks.
+class Blocks {
+ public:
+  Blocks(std::uint64_t offset, std::size_t block_bytes) : offset_(offset) {
+    waiting_.reserve(block_bytes);
+  }
+  void put(Bytes bytes, const Mp4Writer::WriteAt& write_at) {
+    if (waiting_.size() + bytes.size() > waiting_.capacity()) flush(write_at);
+    if (bytes.size() > waiting_.capacity()) {
+      write_at(std::exchange(offset_, offset_ + bytes.size()), bytes);
+    } else {
+      waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
+    }
+  }
+  void put_32(std::uint64_t value, const Mp4Writer::WriteAt& write_at) {
+    const auto byte = [&](int shift) { return static_cast<std::uint8_t>(value >> shift); };
+    put(std::array{byte(24), byte(16), byte(8), byte(0)}, write_at);
+  }
+  void flush(const Mp4Writer::WriteAt& write_at) {
+    if (waiting_.empty()) return;
+    write_at(offset_, waiting_);
+    offset_ += waiting_.size();
+    waiting_.clear();
+  }
+
+ private:
+  std::uint64_t offset_;  // of the first byte that waits
+  std::vector<std::uint8_t> waiting_;
+};
+
+}  // namespace
+
+void raise_level(std::span<std::uint8_t> sequence, const Level* level) {
+  assert(sequence.size() >= 4);
+  if (level == nullptr || level->idc <= sequence[3]) return;
+  sequence[3] = static_cast<std::uint8_t>(level->idc);
+}
+
+class Mp4Writer::Impl {
+ public:
+  Impl(const Mp4Track& track, WriteAt write_at)
+      : track_(facts_of(track)),
+        write_at_(std::move(write_at)),
+        watch_(track.width_px, track.height_px, track.rate),
+        sizes_start_(kFileType_bytes + kBoxHeader_bytes + index_room(track_)),
+        data_start_(sizes_start_ + 4 * static_cast<std::uint64_t>(track_.max_pictures) +
+                    kBoxHeader_bytes + kLargeBoxHeader_bytes),
+        sizes_(sizes_start_, kSizesBlock_bytes),
+        data_(data_start_, kDataBlock_bytes) {}
+
+  void append(Bytes unit, bool is_idr) {
+    check_room(tables_.pictures, track_.max_pictures, "pictures");
+    if (is_idr) check_room(std::ssize(tables_.key_frames), track_.max_key_frames, "key frames");
+    const std::uint64_t size_bytes = split(unit);
+    if (tables_.pictures % track_.chunk_pictures == 0) {
+      tables_.chunks.push_back(data_start_ + tables_.data_bytes);
+    }
+    for (const Bytes part : parts_) {
+      data_.put_32(part.size(), write_at_);
+      data_.put(part, write_at_);
+    }
+    sizes_.put_32(size_bytes, write_at_);
+    ++tables_.pictures;
+    if (is_idr) tables_.key_frames.push_back(static_cast<std::uint32_t>(tables_.pictures));
+    tables_.data_bytes += size_bytes;
+    watch_.take(static_cast<std::int64_t>(size_bytes));
+  }
+
+  void finish() {
+    if (tables_.pictures == 0) throw Error("h264: an MP4 file has no picture");
+    data_.flush(write_at_);
+    sizes_.flush(write_at_);
+    raise_level(track_.sequence, watch_.level());
+    const std::vector<std::uint8_t> index = make_index(track_, tables_);
+    const std::uint64_t index_start = sizes_start_ - index.size();
+    write_at_(index_start, index);
+    write_data_header(sizes_start_ + 4 * static_cast<std::uint64_t>(tables_.pictures));
+
+    BoxWriter front(index_start - kFileType_bytes - kBoxHeader_bytes);
+    front.box("ftyp", [&] {
+      front.put("isom");
+      front.put(512, 4);
+      front.put("isomiso2avc1mp41");
+    });
+    front.last_box("free", [] {});
+    write_at_(0, front.bytes());
+  }
+
+ private:
+  static void check_room(std::int64_t count, std::int64_t most, std::string_view name) {
+    if (count < most) return;
+    throw Error("h264: an MP4 file has room for " + std::to_string(most) + " " + std::string(name));
+  }
+  /// Finds the NAL units that become parts of the file. @return their size with their lengths.
+  std::uint64_t split(Bytes unit) {
+    parts_.clear();
+    std::uint64_t size_bytes = 0;
+    for (Bytes part = take_unit(unit); !part.empty(); part = take_unit(unit)) {
+      if (is_known(part)) continue;
+      parts_.push_back(part);
+      size_bytes += 4 + part.size();
+    }
+    in_range(static_cast<std::int64_t>(size_bytes), std::int64_t{kMax32}, "the size of a picture");
+    return size_bytes;
+  }
+  /// Whether the file says it elsewhere: parameter sets, and where access units begin.
+  bool is_known(Bytes part) const {
+    const bool is_sequence = has_type(part, UnitType::sequence_parameters);
+    if (is_sequence || has_type(part, UnitType::picture_parameters)) {
+      if (std::ranges::equal(part, is_sequence ? track_.sequence : track_.picture)) return true;
+      throw Error("h264: a picture of an MP4 file comes with other parameter sets");
+    }
+    return has_type(part, UnitType::access_unit_delimiter);
+  }
+  /// From the end of the index to the first picture.
+  void write_data_header(std::uint64_t index_end) {
+    const bool is_large = tables_.data_bytes > kMax32 - kBoxHeader_bytes;
+    const std::uint64_t size_bytes = is_large ? kLargeBoxHeader_bytes : kBoxHeader_bytes;
+    BoxWriter gap(data_start_ - size_bytes - index_end - kBoxHeader_bytes);
+    gap.last_box("free", [] {});
+    write_at_(index_end, gap.bytes());
+
+    BoxWriter header(0);
+    header.put(is_large ? 1 : size_bytes + tables_.data_bytes, 4);
+    header.put("mdat");
+    if (is_large) header.put(size_bytes + tables_.data_bytes, 8);
+    write_at_(data_start_ - size_bytes, header.bytes());
+  }
+
+  TrackFacts track_;
+  WriteAt write_at_;
+  LevelWatch watch_;
+  PictureTables tables_;
+  std::uint64_t sizes_start_;
+  std::uint64_t data_start_;
+  Blocks sizes_;
+  Blocks data_;
+  std::vector<Bytes> parts_;  // of the picture that is being appended
+};
+
+Mp4Writer::Mp4Writer(const Mp4Track& track, WriteAt write_at)
+    : impl_(std::make_unique<Impl>(track, std::move(write_at))) {}
+Mp4Writer::~Mp4Writer() = default;
+Mp4Writer::Mp4Writer(Mp4Writer&&) noexcept = default;
+Mp4Writer& Mp4Writer::operator=(Mp4Writer&&) noexcept = default;
+void Mp4Writer::append(Bytes unit, bool is_idr) { impl_->append(unit, is_idr); }
+void Mp4Writer::finish() { impl_->finish(); }
+
+}  // namespace piblocks::h264

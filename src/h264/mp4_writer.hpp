@@ -1,0 +1,61 @@
+// H.264 in an MP4 file (ISO/IEC 14496-12 and -15), which is written once.
+// In: a stream's headers, and its access units one after another. Out: bytes, and where they go.
+//
+// The file: ftyp | free | moov | free | mdat. The index, moov, stands in front, so that a player
+// can begin before it has the whole file. Its longest table, stsz, is the last thing in it, and
+// grows where it stands while the pictures come; finish() writes the rest directly in front of it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "h264/levels.hpp"
+
+namespace piblocks::h264 {
+
+/// What an MP4 file says of its one track.
+struct Mp4Track {
+  int width_px;      ///< 1 … 65535
+  int height_px;     ///< 1 … 65535
+  PictureRate rate;  ///< a picture's duration may not exceed 2^31 - 1 units of the time scale
+  /// One sequence and one picture parameter set, with start codes: profile_idc 66, 77 or 88.
+  std::span<const std::uint8_t> headers;
+  /// No more may follow; 1 … 500,000,000. The file has 4 bytes for each, and up to 4 more.
+  std::int64_t max_pictures;
+};
+
+/// Its memory does not depend on the number of pictures, but for 4 bytes for each key frame.
+class Mp4Writer {
+ public:
+  /// Writes bytes into a new file, whose other bytes are zeros, as those of a hole are. No byte is
+  /// written twice. May throw.
+  using WriteAt = std::function<void(std::uint64_t offset, std::span<const std::uint8_t> bytes)>;
+
+  /// @throws Error naming what is out of range, and its limits.
+  Mp4Writer(const Mp4Track& track, WriteAt write_at);
+  ~Mp4Writer();
+  Mp4Writer(Mp4Writer&&) noexcept;
+  Mp4Writer& operator=(Mp4Writer&&) noexcept;
+
+  /// Adds the next picture, without parameter sets and access unit delimiters.
+  /// @param unit  an access unit with start codes of three or four bytes.
+  /// @throws Error if there are more pictures or key frames than there is room for: of key frames,
+  ///         4096, or more if max_pictures is above: two a second, or one picture in eight. Or if
+  ///         the unit is empty or its size does not fit 32 bits. The file is then as it was before.
+  void append(std::span<const std::uint8_t> unit, bool is_idr);
+  /// Writes the index and all that was held back. Only the destructor may follow.
+  /// @throws Error if no picture was appended.
+  void finish();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Sets level_idc of a sequence parameter set to that of `level`, if that is higher. Null: none is.
+/// @param sequence  a NAL unit without a start code, of 4 bytes or more.
+void raise_level(std::span<std::uint8_t> sequence, const Level* level);
+
+}  // namespace piblocks::h264

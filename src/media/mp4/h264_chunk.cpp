@@ -1,0 +1,198 @@
+#include "media/mp4/h264_chunk.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "h264/levels.hpp"
+#include "media/output/output_kinds.hpp"
+#include "media/pixels/yuv.hpp"
+
+namespace piblocks {
+namespace {
+
+/// The quantiser; src/h264/README.md has the measurements.
+constexpr int kQp = 14;
+
+h264::PictureRate rate_of(const VideoFormat& format) {
+  return {format.frame_rate.get_num().get_si(), format.frame_rate.get_den().get_si()};
+}
+
+h264::Config config_of(const VideoFormat& format) {
+  return {.width_px = format.width_px,
+          .height_px = format.height_px,
+          .rate_numerator = rate_of(format).numerator,
+          .rate_denominator = rate_of(format).denominator,
+          .qp = kQp,
+          // The highest: where a lower one does not suffice, the file says a higher one.
+          .level_idc = h264::levels().back().idc};
+}
+
+/// A picture in 4:2:0 of the size of the frames.
+class YuvPicture {
+ public:
+  YuvPicture(int width_px, int height_px)
+      : width_px_(width_px),
+        luma_bytes_(std::size_t(width_px) * std::size_t(height_px)),
+        samples_(luma_bytes_ / 2 * 3) {}
+
+  YuvView<std::uint8_t> view() {
+    std::uint8_t* const y = samples_.data();
+    return {
+        {y, width_px_}, {y + luma_bytes_, width_px_ / 2}, {y + luma_bytes_ / 4 * 5, width_px_ / 2}};
+  }
+
+ private:
+  std::ptrdiff_t width_px_;
+  std::size_t luma_bytes_;
+  Bytes samples_;
+};
+
+h264::Planes planes_of(const YuvView<std::uint8_t>& view) {
+  return {{view.y.samples, view.y.stride_bytes},
+          {view.cb.samples, view.cb.stride_bytes},
+          {view.cr.samples, view.cr.stride_bytes}};
+}
+
+class H264ChunkEncoder final : public ChunkEncoder {
+ public:
+  H264ChunkEncoder(const H264Stream& stream, MakeSuccessor make_successor)
+      : ChunkEncoder(stream.format),
+        stream_(stream),
+        make_successor_(std::move(make_successor)),
+        may_hand_over_(stream.may_hand_over),
+        encoder_(stream.config),
+        picture_(stream.format.width_px, stream.format.height_px) {}
+
+  void begin(std::int64_t first_frame) override {
+    next_frame_ = first_frame;
+    transformed_ = 0;
+    coarsest_qp_ = 0;
+    is_handed_over_ = false;
+    encoder_.restart();
+  }
+  void encode() override {
+    if (is_handed_over_) return successor_->encode();
+    const h264::CodedPicture coded =
+        encoder_.encode(planes_of(picture_.view()), changed_, h264::PictureType::p, unit_);
+    chunk_.push_back({.bytes = unit_,
+                      .pts = next_frame_,
+                      .dts = next_frame_,
+                      .key_frame = coded.type == h264::PictureType::idr});
+    transformed_ += coded.transformed_macroblocks;
+    coarsest_qp_ = std::max(coarsest_qp_, coded.qp);
+    changed_.clear();
+    ++next_frame_;
+  }
+  EncodedChunk finish() override {
+    EncodedChunk chunk = std::exchange(chunk_, {});
+    if (is_handed_over_) std::ranges::move(successor_->finish(), std::back_inserter(chunk));
+    return chunk;
+  }
+  std::string method() const override {
+    std::string method(kDamage);
+    if (coarsest_qp_ > kQp) method += fmt::format(" at QP up to {}", coarsest_qp_);
+    return is_handed_over_ ? fmt::format("{}, then {}", method, successor_->method()) : method;
+  }
+
+ private:
+  void convert(const ImageView& frame, std::span<const PixelRect> rects) override {
+    const PixelRect whole{0, 0, frame.width_px, frame.height_px};
+    const std::span<const PixelRect> all(&whole, 1);
+    if (is_handed_over_) {
+      successor_->take(frame, rects);
+    } else if (changes_too_much() && hand_over()) {
+      successor_->take(frame, all);
+    } else {
+      convert_here(frame, std::exchange(is_behind_, false) ? all : rects);
+    }
+  }
+  void convert_here(const ImageView& frame, std::span<const PixelRect> rects) {
+    for (const PixelRect& rect : rects) {
+      const PixelRect aligned = chroma_aligned(rect, frame);
+      convert_to_yuv420(frame, aligned, picture_.view());
+      changed_.push_back({aligned.x_px, aligned.y_px, aligned.width_px, aligned.height_px});
+    }
+  }
+  /// Makes the next frame a key frame of libavcodec's encoder. @returns whether there is one
+  bool hand_over() {
+    if (!successor_) successor_ = make_successor_(stream_.format, parameter_sets(stream_.config));
+    may_hand_over_ = successor_ != nullptr;
+    if (!successor_) return false;
+    is_handed_over_ = true;
+    is_behind_ = true;
+    successor_->begin(next_frame_);
+    return true;
+  }
+  /// libavcodec's encoder is the faster one if more than a twentieth of the macroblocks, and more
+  /// than a few, have to be transformed (tests/benchmark/encoders.md).
+  bool changes_too_much() const {
+    constexpr std::int64_t kOneIn = 20;
+    constexpr std::int64_t kFew = 64;
+    const h264::ParameterSets sets = parameter_sets(stream_.config);
+    const std::int64_t macroblocks = std::int64_t{sets.width_mb} * sets.height_mb;
+    return may_hand_over_ &&
+           transformed_ > std::max(kFew, macroblocks / kOneIn) * stream_.frames_per_chunk;
+  }
+
+  const H264Stream& stream_;
+  MakeSuccessor make_successor_;
+  bool may_hand_over_;
+  h264::Encoder encoder_;
+  YuvPicture picture_;
+  std::vector<h264::Rect> changed_;
+  Bytes unit_;
+  std::int64_t next_frame_ = 0;
+  EncodedChunk chunk_;
+  std::int64_t transformed_ = 0;  // macroblocks of the chunk's P pictures
+  int coarsest_qp_ = 0;
+  bool is_handed_over_ = false;  // to libavcodec's encoder
+  bool is_behind_ = false;       // picture_ lacks frames that only libavcodec's encoder took
+  std::unique_ptr<ChunkEncoder> successor_;
+};
+
+}  // namespace
+
+bool is_damage(const EncoderSettings& settings) {
+  if (settings.encoder) return settings.encoder == kDamage;
+  return !settings.crf && !settings.preset;
+}
+
+std::string h264_level_problem(const VideoFormat& format) {
+  const std::string problem =
+      h264::level_problem(format.width_px, format.height_px, rate_of(format));
+  if (problem.empty()) return {};
+  return fmt::format(
+      "output: H.264 cannot hold this video: {}; make it smaller or slower, or write *.webm, "
+      "*.apng or *.png",
+      problem);
+}
+
+H264Stream::H264Stream(const VideoFormat& video_format, const EncoderSettings& settings)
+    : format(video_format),
+      config(config_of(video_format)),
+      frames_per_chunk(frames_in_a_second(video_format.frame_rate)),
+      may_hand_over(settings.encoder != kDamage) {
+  Problems problems;
+  problems.add(odd_size_problem(format, "H.264 in 4:2:0"));
+  problems.add(h264_level_problem(format));
+  if (settings.crf) problems.add(no_crf(kDamage));
+  if (settings.preset) problems.add(no_preset(kDamage));
+  problems.check();
+  level_idc = h264::lowest_level(format.width_px, format.height_px, rate_of(format))->idc;
+  headers = write_parameter_sets(config, level_idc);
+}
+
+std::string H264Stream::signature() const {
+  return fmt::format("{}, {:02x}", kDamage, fmt::join(headers, ""));
+}
+
+std::unique_ptr<ChunkEncoder> h264_chunk_encoder(const H264Stream& stream,
+                                                 const MakeSuccessor& make_successor) {
+  return std::make_unique<H264ChunkEncoder>(stream, make_successor);
+}
+
+}  // namespace piblocks

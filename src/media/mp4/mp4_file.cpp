@@ -1,0 +1,89 @@
+// MP4 files of H.264 without sound.
+#include "media/mp4/mp4_file.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include "core/output_file.hpp"
+#include "h264/mp4_writer.hpp"
+#include "media/libav/av_module.hpp"
+#include "media/mp4/h264_chunk.hpp"
+#include "media/output/output_kinds.hpp"
+
+namespace piblocks {
+namespace {
+
+class Mp4File final : public FrameSink {
+ public:
+  Mp4File(const std::string& name, const H264Stream& stream, std::int64_t frames)
+      : file_(name),
+        writer_(track_of(stream, frames),
+                [this](std::uint64_t offset, ByteSpan bytes) { file_.write_at(offset, bytes); }) {}
+
+  void append(const EncodedChunk& chunk) override {
+    counter_.take(chunk);
+    for (const Packet& packet : chunk) writer_.append(packet.bytes, packet.key_frame);
+  }
+  void finish() override {
+    writer_.finish();
+    file_.finish();
+  }
+
+ private:
+  static h264::Mp4Track track_of(const H264Stream& stream, std::int64_t frames) {
+    return {.width_px = stream.config.width_px,
+            .height_px = stream.config.height_px,
+            .rate = {stream.config.rate_numerator, stream.config.rate_denominator},
+            .headers = stream.headers,
+            .max_pictures = frames};
+  }
+
+  OutputFile file_;
+  h264::Mp4Writer writer_;
+  FrameCounter counter_;
+};
+
+std::unique_ptr<ChunkEncoder> load_successor(const VideoFormat& format,
+                                             const h264::ParameterSets& sets) {
+  try {
+    return av_module().h264_successor(format, sets);
+  } catch (const MediaError&) {
+    return nullptr;  // the encoders are not installed
+  }
+}
+
+}  // namespace
+
+void check_duration_of_frame(const Rational& frame_rate) {
+  // Time is counted in units of one over the rate's numerator, which is doubled up to 10,000. A
+  // frame's duration has 31 bits in libavformat 59 (movenc.c), and in our own files.
+  constexpr int kFewestUnits = 10'000;
+  const Integer longest = std::numeric_limits<std::int32_t>::max() - 1;
+  Integer units_per_s = frame_rate.get_num();
+  while (units_per_s < kFewestUnits) units_per_s *= 2;
+  if (units_per_s / frame_rate <= longest) return;
+  const Integer longest_s = longest / units_per_s;
+  throw UsageError(
+      fmt::format("output: frame rate {} is too low for *.mp4 and *.mov: a frame can last {} s at "
+                  "most; use --fps 1/100000 or more, or write *.webm or *.png",
+                  frame_rate.get_str(), longest_s.get_str()));
+}
+
+Output mp4_output(const OutputRequest& request) {
+  if (request.sound || !is_damage(request.settings)) return av_module().mp4_output(request);
+  check_duration_of_frame(request.format.frame_rate);
+  const auto stream = std::make_shared<const H264Stream>(request.format, request.settings);
+  return {.frames_per_chunk = stream->frames_per_chunk,
+          .signature = "mp4 by " + stream->signature(),
+          .make_encoder = [stream] { return h264_chunk_encoder(*stream, load_successor); },
+          .open =
+              [name = request.name, stream](std::int64_t frames) {
+                return std::make_unique<Mp4File>(name, *stream, frames);
+              }};
+}
+
+}  // namespace piblocks
