@@ -20,18 +20,15 @@ class PictureEncoder {
   /// @return the access unit, valid until the next call; with start codes, the headers first.
   ///         Nothing if the picture was left out.
   virtual std::span<const std::uint8_t> encode(const Picture& picture) = 0;
+  /// How many were quantised more coarsely than asked for.
+  virtual int coarser_pictures() const { return 0; }
 };
 
 struct Contender {
   std::string name;
   std::string version;
   std::string settings;  ///< but the quantiser
-  /// The quantisers to search for the quality of the first contender; none: it keeps its settings.
-  struct Range {
-    int least_qp;
-    int greatest_qp;
-  };
-  std::optional<Range> range;
+  bool has_qp;           ///< otherwise one setting, of whatever quality
   std::function<std::unique_ptr<PictureEncoder>(int qp)> make;
 };
 

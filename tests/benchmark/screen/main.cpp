@@ -29,6 +29,7 @@ struct Entry {
   const Contender* contender;
   Match match;
   std::size_t bytes = 0;
+  int coarser_pictures = 0;
   std::vector<double> cpu_s = {};
   std::vector<double> ratios = {};  ///< to the first entry's time of the same round
 };
@@ -51,9 +52,8 @@ std::vector<Entry> match_all(const std::vector<Contender>& contenders, int qp,
                              const Recording& recording) {
   std::vector<Entry> entries;
   for (const Contender& contender : contenders) {
-    if (!entries.empty() && contender.range) {
-      const double wanted_dB = entries.front().match.fidelity.psnr_dB;
-      entries.push_back({&contender, nearest_match(contender, wanted_dB, recording)});
+    if (!entries.empty() && contender.has_qp) {
+      entries.push_back({&contender, nearest_match(contender, entries.front().match, recording)});
     } else {
       entries.push_back({&contender, {qp, fidelity(encode(contender, qp, recording), recording)}});
     }
@@ -67,6 +67,7 @@ void run_rounds(std::vector<Entry>& entries, int rounds, const Recording& record
     for (Entry& entry : entries) {
       const Stream stream = encode(*entry.contender, entry.match.qp, recording);
       entry.bytes = size_bytes(stream);
+      entry.coarser_pictures = stream.coarser_pictures;
       entry.cpu_s.push_back(stream.cpu_s / kPictures);
       entry.ratios.push_back(entry.cpu_s.back() / entries.front().cpu_s.back());
     }
@@ -76,25 +77,26 @@ void run_rounds(std::vector<Entry>& entries, int rounds, const Recording& record
 void print_header() {
   fmt::print(
       "date,commit,cpu,compiler,processors,material,size,pictures,changed_share,reference_qp,name,"
-      "version,settings,qp,runs,cpu_seconds,least_cpu_seconds,greatest_cpu_seconds,bytes,psnr_dB,"
+      "version,settings,qp,runs,cpu_seconds,least_cpu_seconds,greatest_cpu_seconds,bytes,coarser_"
+      "pictures,psnr_dB,"
       "least_psnr_dB,ratio,least_ratio,greatest_ratio\n");
 }
 
 void print_entry(const Settings& settings, const Material& material, const Recording& recording,
                  int reference_qp, const Entry& entry) {
   const Contender& contender = *entry.contender;
-  const bool has_qp = contender.range || contender.name.starts_with("piblocks");
   fmt::print(
-      "{},{},{},{}x{},{},{:.4g},{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{},{:.2f},{:.2f},"
+      "{},{},{},{}x{},{},{:.4g},{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{},{},{:.2f},{:.2f},"
       "{:.4g},{:.4g},{:.4g}\n",
       Circumstances{.commit = settings.commit}.fields(), std::thread::hardware_concurrency(),
       material.name, kScreenWidth_px, kScreenHeight_px, kPictures, recording.changed_share,
       reference_qp, csv_text(contender.name), csv_text(contender.version),
-      csv_text(contender.settings), has_qp ? std::to_string(entry.match.qp) : "",
+      csv_text(contender.settings), contender.has_qp ? std::to_string(entry.match.qp) : "",
       entry.cpu_s.size(), median(entry.cpu_s).value_or(0), std::ranges::min(entry.cpu_s),
-      std::ranges::max(entry.cpu_s), entry.bytes, entry.match.fidelity.psnr_dB,
-      entry.match.fidelity.least_psnr_dB, median(entry.ratios).value_or(0),
-      std::ranges::min(entry.ratios), std::ranges::max(entry.ratios));
+      std::ranges::max(entry.cpu_s), entry.bytes, entry.coarser_pictures,
+      entry.match.fidelity.psnr_dB, entry.match.fidelity.least_psnr_dB,
+      median(entry.ratios).value_or(0), std::ranges::min(entry.ratios),
+      std::ranges::max(entry.ratios));
   std::fflush(stdout);
 }
 

@@ -13,6 +13,10 @@
 namespace piblocks::benchmark {
 namespace {
 
+// Of H.264; libx264 takes 0 for another profile, without loss.
+constexpr int kLeastQp = 1;
+constexpr int kGreatestQp = 51;
+
 /// Of all threads of the process, whatever threads an encoder starts.
 double process_seconds() {
   timespec now{};
@@ -96,6 +100,7 @@ Stream encode(const Contender& contender, int qp, const Recording& recording) {
     stream.cpu_s += process_seconds() - start_s;
     stream.units.emplace_back(unit.begin(), unit.end());
   }
+  stream.coarser_pictures = encoder->coarser_pictures();
   return stream;
 }
 
@@ -125,20 +130,29 @@ Fidelity fidelity(const Stream& stream, const Recording& recording) {
   return comparison.result();
 }
 
-Match nearest_match(const Contender& contender, double psnr_dB, const Recording& recording) {
-  const auto at = [&](int qp) {
-    return Match{qp, fidelity(encode(contender, qp, recording), recording)};
-  };
-  // PSNR falls with the quantiser: `finer` is as near as asked for, or the least there is.
-  Match finer = at(contender.range->least_qp);
-  Match coarser = at(contender.range->greatest_qp);
-  while (coarser.qp - finer.qp > 1) {
-    const Match middle = at((finer.qp + coarser.qp) / 2);
-    (middle.fidelity.psnr_dB >= psnr_dB ? finer : coarser) = middle;
+Match nearest_match(const Contender& contender, const Match& wanted, const Recording& recording) {
+  constexpr int kReach = 8;
+  constexpr double kNear_dB = 0.25;
+  Match best;
+  double least_dB = std::numeric_limits<double>::infinity();
+  // PSNR falls with the quantiser.
+  int finest = std::max(kLeastQp, wanted.qp - kReach);
+  int coarsest = std::min(kGreatestQp, wanted.qp + kReach);
+  while (finest <= coarsest && least_dB > kNear_dB) {
+    const int qp = (finest + coarsest) / 2;
+    const Match match = {qp, fidelity(encode(contender, qp, recording), recording)};
+    const double above_dB = match.fidelity.psnr_dB - wanted.fidelity.psnr_dB;
+    if (std::abs(above_dB) < least_dB) {
+      least_dB = std::abs(above_dB);
+      best = match;
+    }
+    if (above_dB > 0) {
+      finest = qp + 1;
+    } else {
+      coarsest = qp - 1;
+    }
   }
-  const double above = std::abs(finer.fidelity.psnr_dB - psnr_dB);
-  const double below = std::abs(coarser.fidelity.psnr_dB - psnr_dB);
-  return above <= below ? finer : coarser;
+  return best;
 }
 
 }  // namespace piblocks::benchmark

@@ -92,7 +92,7 @@ std::optional<Contender> openh264_contender() {
                    .version = fmt::format("openh264 {}.{}.{}", version.uMajor, version.uMinor,
                                           version.uRevision),
                    .settings = "SCREEN_CONTENT_REAL_TIME; LOW_COMPLEXITY; constant QP",
-                   .range = Contender::Range{1, 51},
+                   .has_qp = true,
                    .make = [](int qp) { return std::make_unique<OpenH264Encoder>(qp); }};
 }
 

@@ -15,7 +15,7 @@ h264::Config config(int qp) {
 
 class PiblocksEncoder : public PictureEncoder {
  public:
-  explicit PiblocksEncoder(int qp) : encoder_(config(qp)) {}
+  explicit PiblocksEncoder(int qp) : qp_(qp), encoder_(config(qp)) {}
 
   std::span<const std::uint8_t> encode(const Picture& picture) override {
     rects_.clear();
@@ -25,14 +25,19 @@ class PiblocksEncoder : public PictureEncoder {
     const h264::Planes planes = {.y = {picture.y(), kScreenWidth_px},
                                  .cb = {picture.cb(), kScreenWidth_px / 2},
                                  .cr = {picture.cr(), kScreenWidth_px / 2}};
-    encoder_.encode(planes, rects_, h264::PictureType::p, unit_);
+    const auto coded = encoder_.encode(planes, rects_, h264::PictureType::p, unit_);
+    if (coded.qp > qp_) ++coarser_pictures_;
     if (!std::exchange(is_first_, false)) return unit_;
     const auto headers = encoder_.headers();
     unit_.insert(unit_.begin(), headers.begin(), headers.end());
     return unit_;
   }
 
+  int coarser_pictures() const override { return coarser_pictures_; }
+
  private:
+  int qp_;
+  int coarser_pictures_ = 0;
   h264::Encoder encoder_;
   std::vector<h264::Rect> rects_;
   std::vector<std::uint8_t> unit_;
@@ -45,7 +50,7 @@ Contender piblocks_contender() {
   return {.name = "piblocks::h264",
           .version = "piblocks",
           .settings = "default",
-          .range = {},
+          .has_qp = true,
           .make = [](int qp) { return std::make_unique<PiblocksEncoder>(qp); }};
 }
 

@@ -39,7 +39,7 @@ class Terminal : public Application {
  private:
   void begin_command() {
     lines_.emplace_back(kPromptText);
-    command_ = "make -C " + text_.word() + " " + text_.sentence(4);
+    command_ = "make " + text_.word();
     drop_old();
   }
 
@@ -75,8 +75,8 @@ class Terminal : public Application {
     screen.fill(kWholeScreen, kGround);
     int y = 0;
     for (const std::string& line : lines_) {
-      const bool is_prompt = line.starts_with(kPromptText);
-      screen.write(kMargin_px, y, line, is_prompt ? kPrompt : kText);
+      screen.write(kMargin_px, y, line, kText);
+      if (line.starts_with(kPromptText)) screen.write(kMargin_px, y, kPromptText, kPrompt);
       y += Screen::kLineHeight_px;
     }
     if (lines_.back().starts_with(kPromptText)) draw_cursor(screen);

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <piblocks/error.hpp>
 
 #include <utility>
@@ -75,13 +74,20 @@ class X264Encoder : public PictureEncoder {
   std::int64_t pts_ = 0;
 };
 
+/// "x264 core 164 r3095 baee400", as its streams say.
+std::string x264_version() {
+  const Picture black = {.samples = std::vector<std::uint8_t>(Picture::kLuma / 2 * 3),
+                         .changed = {}};
+  X264Encoder encoder({{"preset", "ultrafast"}, {"tune", "zerolatency"}});
+  const auto unit = encoder.encode(black);
+  const std::string bytes(unit.begin(), unit.end());
+  const std::size_t at = bytes.find("x264 - core");
+  return at == std::string::npos ? "x264" : bytes.substr(at, bytes.find(" - H.264", at) - at);
+}
+
 Contender x264(const std::string& name, const std::string& settings, const Options& options) {
   Contender contender = {
-      .name = name,
-      .version = fmt::format("libx264 of libavcodec {}", version_text(avcodec_version())),
-      .settings = settings,
-      .range = Contender::Range{1, 51},
-      .make = {}};
+      .name = name, .version = x264_version(), .settings = settings, .has_qp = true, .make = {}};
   contender.make = [options](int qp) {
     Options all = options;
     all.emplace_back("qp", std::to_string(qp));
@@ -93,15 +99,21 @@ Contender x264(const std::string& name, const std::string& settings, const Optio
 }  // namespace
 
 std::vector<Contender> x264_contenders() {
-  Contender crf = x264("libx264 ultrafast CRF 18", "preset ultrafast; CRF 18", {});
-  crf.range.reset();
-  crf.make = [](int) {
-    return std::make_unique<X264Encoder>(Options{{"preset", "ultrafast"}, {"crf", "18"}});
+  silence_av();
+  // Without tune zerolatency, even ultrafast gives each picture one call later.
+  const Options ultrafast = {{"preset", "ultrafast"}, {"tune", "zerolatency"}};
+  const Options animation = {{"preset", "veryfast"}, {"tune", "animation,zerolatency"}};
+  Contender crf =
+      x264("libx264 ultrafast CRF 18", "preset ultrafast; tune zerolatency; CRF 18", {});
+  crf.has_qp = false;
+  crf.make = [ultrafast](int) {
+    Options all = ultrafast;
+    all.emplace_back("crf", "18");
+    return std::make_unique<X264Encoder>(all);
   };
-  return {x264("libx264 ultrafast", "preset ultrafast; constant QP", {{"preset", "ultrafast"}}),
+  return {x264("libx264 ultrafast", "preset ultrafast; tune zerolatency; constant QP", ultrafast),
           x264("libx264 veryfast animation",
-               "preset veryfast; tune animation and zerolatency; constant QP",
-               {{"preset", "veryfast"}, {"tune", "animation,zerolatency"}}),
+               "preset veryfast; tune animation and zerolatency; constant QP", animation),
           std::move(crf)};
 }
 
