@@ -32,7 +32,8 @@ struct Contender {
   std::function<std::unique_ptr<PictureEncoder>(int qp)> make;
 };
 
-Contender piblocks_contender();
+/// The library as an application uses it, and told that all of each picture may have changed.
+std::vector<Contender> piblocks_contenders();
 std::vector<Contender> x264_contenders();
 /// Nothing where it was not installed when this was built.
 std::optional<Contender> openh264_contender();

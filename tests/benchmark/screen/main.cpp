@@ -35,7 +35,7 @@ struct Entry {
 };
 
 std::vector<Contender> all_contenders() {
-  std::vector<Contender> contenders = {piblocks_contender()};
+  std::vector<Contender> contenders = piblocks_contenders();
   for (Contender& contender : x264_contenders()) contenders.push_back(std::move(contender));
   if (auto openh264 = openh264_contender()) {
     contenders.push_back(std::move(*openh264));

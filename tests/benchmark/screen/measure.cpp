@@ -131,7 +131,7 @@ Fidelity fidelity(const Stream& stream, const Recording& recording) {
 }
 
 Match nearest_match(const Contender& contender, const Match& wanted, const Recording& recording) {
-  constexpr int kReach = 8;
+  constexpr int kReach = 12;
   constexpr double kNear_dB = 0.25;
   Match best;
   double least_dB = std::numeric_limits<double>::infinity();

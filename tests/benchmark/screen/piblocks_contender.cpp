@@ -15,11 +15,12 @@ h264::Config config(int qp) {
 
 class PiblocksEncoder : public PictureEncoder {
  public:
-  explicit PiblocksEncoder(int qp) : qp_(qp), encoder_(config(qp)) {}
+  PiblocksEncoder(int qp, bool is_told) : qp_(qp), is_told_(is_told), encoder_(config(qp)) {}
 
   std::span<const std::uint8_t> encode(const Picture& picture) override {
     rects_.clear();
-    for (const PixelRect& rect : picture.changed) {
+    const std::span<const PixelRect> told = picture.changed;
+    for (const PixelRect& rect : is_told_ ? told : std::span(&kWholeScreen, 1)) {
       rects_.push_back({rect.x_px, rect.y_px, rect.width_px, rect.height_px});
     }
     const h264::Planes planes = {.y = {picture.y(), kScreenWidth_px},
@@ -37,6 +38,7 @@ class PiblocksEncoder : public PictureEncoder {
 
  private:
   int qp_;
+  bool is_told_;
   int coarser_pictures_ = 0;
   h264::Encoder encoder_;
   std::vector<h264::Rect> rects_;
@@ -46,12 +48,17 @@ class PiblocksEncoder : public PictureEncoder {
 
 }  // namespace
 
-Contender piblocks_contender() {
-  return {.name = "piblocks::h264",
-          .version = "piblocks",
-          .settings = "default",
-          .has_qp = true,
-          .make = [](int qp) { return std::make_unique<PiblocksEncoder>(qp); }};
+std::vector<Contender> piblocks_contenders() {
+  const Contender told = {
+      .name = "piblocks::h264",
+      .version = "piblocks",
+      .settings = "default",
+      .has_qp = true,
+      .make = [](int qp) { return std::make_unique<PiblocksEncoder>(qp, true); }};
+  Contender untold = told;
+  untold.name = "piblocks::h264 without rectangles";
+  untold.make = [](int qp) { return std::make_unique<PiblocksEncoder>(qp, false); };
+  return {told, untold};
 }
 
 }  // namespace piblocks::benchmark
