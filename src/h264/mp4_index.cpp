@@ -1,7 +1,7 @@
 #include "h264/mp4_index.hpp"
 
 #include <algorithm>
-#include <cstddef>
+#include <initializer_list>
 #include <span>
 #include <string_view>
 
@@ -44,7 +44,7 @@ class Index : private BoxWriter {
  private:
   void put_versioned_times(std::initializer_list<std::uint64_t> between) {
     const int size_bytes = has_long_duration_ ? 8 : 4;
-    put_zeros(static_cast<std::size_t>(2 * size_bytes));  // times of creation and change
+    for (int i = 0; i < 2; ++i) put(0, size_bytes);  // times of creation and change
     put_all(between);
     put(duration_, size_bytes);
   }

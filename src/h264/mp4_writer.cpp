@@ -23,7 +23,6 @@ constexpr std::int64_t kMaxInt = std::numeric_limits<std::int32_t>::max();
 /// The index stays below 2^32 bytes, also if all pictures are key frames.
 constexpr std::int64_t kMaxPictures = 500'000'000;
 constexpr std::int64_t kMaxChunks = 4096;
-constexpr std::int64_t kFirstKeyFrames = 4096;
 constexpr std::uint64_t kFileType_bytes = 32;
 constexpr std::uint64_t kBoxHeader_bytes = 8;
 constexpr std::uint64_t kLargeBoxHeader_bytes = 16;
@@ -73,9 +72,9 @@ TrackFacts facts_of(const Mp4Track& track) {
   facts.chunk_pictures =
       std::max({std::int64_t{1}, (facts.time_scale + facts.picture_units / 2) / facts.picture_units,
                 (facts.max_pictures - 1) / kMaxChunks + 1});
-  const auto step = std::clamp<std::int64_t>(facts.time_scale / facts.picture_units / 2, 1, 8);
-  facts.max_key_frames =
-      std::min(facts.max_pictures, std::max(kFirstKeyFrames, facts.max_pictures / step + 1));
+  facts.max_key_frames = track.max_key_frames == 0
+                             ? facts.max_pictures
+                             : in_range(track.max_key_frames, facts.max_pictures, "max_key_frames");
   take_headers(track.headers, facts);
   return facts;
 }

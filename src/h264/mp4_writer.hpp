@@ -24,26 +24,30 @@ struct Mp4Track {
   std::span<const std::uint8_t> headers;
   /// No more may follow; 1 … 500,000,000. The file has 4 bytes for each, and up to 4 more.
   std::int64_t max_pictures;
+  /// No more IDR pictures may follow; 0: all may be. The file has 4 bytes for each.
+  std::int64_t max_key_frames = 0;
 };
 
 /// Its memory does not depend on the number of pictures, but for 4 bytes for each key frame.
 class Mp4Writer {
  public:
   /// Writes bytes into a new file, whose other bytes are zeros, as those of a hole are. No byte is
-  /// written twice. May throw.
+  /// written twice. If it throws, only the destructor may follow.
   using WriteAt = std::function<void(std::uint64_t offset, std::span<const std::uint8_t> bytes)>;
 
   /// @throws Error naming what is out of range, and its limits.
   Mp4Writer(const Mp4Track& track, WriteAt write_at);
   ~Mp4Writer();
-  Mp4Writer(Mp4Writer&&) noexcept;
-  Mp4Writer& operator=(Mp4Writer&&) noexcept;
+  Mp4Writer(Mp4Writer&& other) noexcept;
+  Mp4Writer& operator=(Mp4Writer&& other) noexcept;
+  Mp4Writer(const Mp4Writer&) = delete;
+  Mp4Writer& operator=(const Mp4Writer&) = delete;
 
   /// Adds the next picture, without parameter sets and access unit delimiters.
   /// @param unit  an access unit with start codes of three or four bytes.
-  /// @throws Error if there are more pictures or key frames than there is room for: of key frames,
-  ///         4096, or more if max_pictures is above: two a second, or one picture in eight. Or if
-  ///         the unit is empty or its size does not fit 32 bits. The file is then as it was before.
+  /// @throws Error if there are more pictures or key frames than there is room for, or
+  ///         the unit is empty, does not fit 32 bits, or comes with parameter sets that are not the
+  ///         headers'. The file is then as it was before.
   void append(std::span<const std::uint8_t> unit, bool is_idr);
   /// Writes the index and all that was held back. Only the destructor may follow.
   /// @throws Error if no picture was appended.

@@ -68,8 +68,9 @@ TEST(NalUnit, ReadsStartCodesOfThreeAndFourBytes) {
 }
 
 TEST(NalUnit, FindsNothingWhereThereIsNoUnit) {
-  for (const Bytes& stream : {Bytes{}, Bytes{0}, Bytes{0, 0, 1}, Bytes{0, 0, 0, 1}, Bytes{0, 0, 2},
-                              Bytes{0, 0, 0, 0}, Bytes{9, 9, 9, 9}}) {
+  for (const Bytes& stream :
+       {Bytes{}, Bytes{0}, Bytes{0, 0, 1}, Bytes{0, 0, 0, 1}, Bytes{0, 0, 2}, Bytes{0, 0, 0, 0},
+        Bytes{9, 9, 9, 9}, Bytes{9, 0, 1, 9}, Bytes{0, 9, 1, 9}}) {
     EXPECT_TRUE(read_units(stream).empty());
   }
 }

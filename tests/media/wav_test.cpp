@@ -93,7 +93,7 @@ TEST(Sound, IsNotTakenByAnOutputThatWasSetUpWithout) {
   Samples samples({0, 0});
   EXPECT_THROW(output.encode_sound(samples), MediaError);
   const auto packets = set_up_output("a.wav", {}, {}).encode_sound(samples);
-  EXPECT_THROW(output.open(0)->take_sound(*packets), MediaError);
+  EXPECT_THROW(output.open(1)->take_sound(*packets), MediaError);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/output_file.hpp"
+#include "media/mp4/mp4_file.hpp"
 #include "media/output/output_kinds.hpp"
 
 extern "C" {
@@ -133,6 +134,13 @@ class VideoFile final : public FrameSink {
     muxer_->flags |= AVFMT_FLAG_BITEXACT;
     check_av(av_opt_set(muxer_->priv_data, container_.index_option, container_.index_value, 0),
              "set up the muxer of", name_);
+    if (container_.time_scale_option != nullptr) {
+      // Those of the pictures: milliseconds would round the duration.
+      const Rational rate(stream_.frame_rate.num, stream_.frame_rate.den);
+      check_av(av_opt_set_int(muxer_->priv_data, container_.time_scale_option,
+                              units_per_second(rate).get_si(), 0),
+               "set up the muxer of", name_);
+    }
     check_av(avformat_write_header(muxer_.get(), nullptr), "write the header of", name_);
   }
   void write(const Packet& packet) {
@@ -195,6 +203,7 @@ class VideoFile final : public FrameSink {
 const Container kMp4 = {.muxer = "mp4",
                         .index_option = "movflags",
                         .index_value = "+faststart",
+                        .time_scale_option = "movie_timescale",
                         .is_whole = is_whole_mov,
                         .sound = kAac,
                         .encoders = {EncoderKind::h264}};

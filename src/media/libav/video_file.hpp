@@ -19,6 +19,8 @@ struct Container {
   const char* muxer = nullptr;         ///< libavformat's name
   const char* index_option = nullptr;  ///< the muxer's option that moves the index to the front
   const char* index_value = nullptr;
+  /// The muxer's option for the units of the movie's time; null if it has no such time.
+  const char* time_scale_option = nullptr;
   /// Whether a file that is read back has so many packets of each stream.
   bool (*is_whole)(AVFormatContext& file, std::span<const std::int64_t> packets) = nullptr;
   SoundCodec sound = {};

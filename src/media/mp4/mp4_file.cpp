@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -39,7 +40,9 @@ class Mp4File final : public FrameSink {
             .height_px = stream.config.height_px,
             .rate = {stream.config.rate_numerator, stream.config.rate_denominator},
             .headers = stream.headers,
-            .max_pictures = frames};
+            .max_pictures = frames,
+            // A chunk that is handed over has one more. No chunk but the last is shorter than half.
+            .max_key_frames = std::min(frames, 4 * (frames / stream.frames_per_chunk + 1))};
   }
 
   OutputFile file_;
@@ -58,13 +61,17 @@ std::unique_ptr<ChunkEncoder> load_successor(const VideoFormat& format,
 
 }  // namespace
 
-void check_duration_of_frame(const Rational& frame_rate) {
-  // Time is counted in units of one over the rate's numerator, which is doubled up to 10,000. A
-  // frame's duration has 31 bits in libavformat 59 (movenc.c), and in our own files.
+Integer units_per_second(const Rational& frame_rate) {
   constexpr int kFewestUnits = 10'000;
+  Integer units = frame_rate.get_num();
+  while (units < kFewestUnits) units *= 2;
+  return units;
+}
+
+void check_duration_of_frame(const Rational& frame_rate) {
+  // A frame's duration has 31 bits in libavformat 59 (movenc.c), and in our own files.
   const Integer longest = std::numeric_limits<std::int32_t>::max() - 1;
-  Integer units_per_s = frame_rate.get_num();
-  while (units_per_s < kFewestUnits) units_per_s *= 2;
+  const Integer units_per_s = units_per_second(frame_rate);
   if (units_per_s / frame_rate <= longest) return;
   const Integer longest_s = longest / units_per_s;
   throw UsageError(
