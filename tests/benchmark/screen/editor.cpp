@@ -93,7 +93,7 @@ class Editor : public Application {
   }
 
   /// Behind the text of a line in the middle, wherever that stands.
-  void draw_cursor(Screen& screen, Colour colour) {
+  void draw_cursor(Screen& screen, Colour colour) const {
     const int line = offset_px_ / Screen::kLineHeight_px + 20;
     screen.fill({kText.x_px + 1200, kText.y_px + line * Screen::kLineHeight_px - offset_px_, 2,
                  Screen::kLineHeight_px},
