@@ -43,14 +43,40 @@ Coefficients coefficients_of(std::span<const std::int16_t> levels) {
   return found;
 }
 
-void put(const Code& code, BitWriter& bits) {
-  assert(code.length > 0);
-  bits.put(code.bits, code.length);
-}
+/// Bits of a block, which wait in registers: a BitWriter is in memory.
+class WaitingBits {
+ public:
+  explicit WaitingBits(BitWriter& writer) : writer_(writer) {}
 
-void put_token(const Coefficients& block, int nc, BitWriter& bits) {
+  /// As BitWriter::put().
+  void put(std::uint32_t value, int count) {
+    if (count_ + count > 64) flush();
+    value_ = value_ << count | value;
+    count_ += count;
+  }
+  void put(const Code& code) {
+    assert(code.length > 0);
+    put(code.bits, code.length);
+  }
+  /// To be called in the end.
+  void flush() {
+    const int high = std::max(count_ - 32, 0);
+    writer_.put(static_cast<std::uint32_t>(high == 0 ? 0 : value_ >> 32 & ((1ULL << high) - 1)),
+                high);
+    const int low = count_ - high;
+    writer_.put(static_cast<std::uint32_t>(value_ & ((1ULL << low) - 1)), low);
+    count_ = 0;
+  }
+
+ private:
+  BitWriter& writer_;
+  std::uint64_t value_ = 0;  // only the lowest count_ bits count
+  int count_ = 0;
+};
+
+void put_token(const Coefficients& block, int nc, WaitingBits& bits) {
   const auto put_from = [&](const auto& table) {
-    put(table[block.total][block.trailing_ones], bits);
+    bits.put(table[block.total][block.trailing_ones]);
   };
   if (nc == kChromaDc) return put_from(kChromaDcTokens);
   if (nc < 2) return put_from(kCoefficientTokens[0]);
@@ -62,7 +88,7 @@ void put_token(const Coefficients& block, int nc, BitWriter& bits) {
 }
 
 /// level_prefix and level_suffix for levelCode, 9.2.2.1.
-bool put_level_code(int code, int suffix_length, BitWriter& bits) {
+bool put_level_code(int code, int suffix_length, WaitingBits& bits) {
   constexpr int kEscapePrefix = 15;
   constexpr int kEscapeBits = 12;
   // Without a suffix, prefix 14 has a suffix of four bits for the next 16 codes.
@@ -81,13 +107,12 @@ bool put_level_code(int code, int suffix_length, BitWriter& bits) {
     suffix_bits = kEscapeBits;
     if (suffix >> kEscapeBits != 0) return false;
   }
-  bits.put(1, prefix + 1);
-  bits.put(static_cast<std::uint32_t>(suffix), suffix_bits);
+  bits.put(1U << suffix_bits | static_cast<std::uint32_t>(suffix), prefix + 1 + suffix_bits);
   return true;
 }
 
 /// The levels after the trailing ones.
-bool put_large_levels(const Coefficients& block, BitWriter& bits) {
+bool put_large_levels(const Coefficients& block, WaitingBits& bits) {
   constexpr int kMaxSuffixLength = 6;
   int suffix_length = block.total > 10 && block.trailing_ones < 3 ? 1 : 0;
   for (std::size_t i = block.trailing_ones; i < block.total; ++i) {
@@ -104,33 +129,36 @@ bool put_large_levels(const Coefficients& block, BitWriter& bits) {
   return true;
 }
 
-void put_runs(const Coefficients& block, BitWriter& bits) {
+void put_runs(const Coefficients& block, WaitingBits& bits) {
   std::size_t zeros_left = block.total_zeros;
   for (std::size_t i = 0; i + 1 < block.total && zeros_left > 0; ++i) {
-    put(kRunsBefore[std::min(zeros_left, kRunsBefore.size()) - 1][block.runs[i]], bits);
+    bits.put(kRunsBefore[std::min(zeros_left, kRunsBefore.size()) - 1][block.runs[i]]);
     zeros_left -= block.runs[i];
   }
 }
 
 }  // namespace
 
-bool write_levels(std::span<const std::int16_t> levels, int total, int nc, BitWriter& bits) {
+bool write_levels(std::span<const std::int16_t> levels, int total, int nc, BitWriter& writer) {
   assert(levels.size() == 15 || levels.size() == kMaxLevels || levels.size() == kChromaDcLevels);
   assert((nc == kChromaDc) == (levels.size() == kChromaDcLevels));
+  WaitingBits bits(writer);
   if (total == 0) {
     put_token(Coefficients{}, nc, bits);
+    bits.flush();
     return true;
   }
   const Coefficients block = coefficients_of(levels);
   assert(block.total == static_cast<std::size_t>(total));
   put_token(block, nc, bits);
-  for (std::size_t i = 0; i < block.trailing_ones; ++i) bits.put_flag(block.levels[i] < 0);
+  for (std::size_t i = 0; i < block.trailing_ones; ++i) bits.put(block.levels[i] < 0 ? 1 : 0, 1);
   if (!put_large_levels(block, bits)) return false;
-  if (block.total == levels.size()) return true;
-  put(nc == kChromaDc ? kChromaDcTotalZeros[block.total - 1][block.total_zeros]
-                      : kTotalZeros[block.total - 1][block.total_zeros],
-      bits);
-  put_runs(block, bits);
+  if (block.total < levels.size()) {
+    bits.put(nc == kChromaDc ? kChromaDcTotalZeros[block.total - 1][block.total_zeros]
+                             : kTotalZeros[block.total - 1][block.total_zeros]);
+    put_runs(block, bits);
+  }
+  bits.flush();
   return true;
 }
 

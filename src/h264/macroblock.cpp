@@ -102,11 +102,11 @@ CodedMacroblock MacroblockCoder::code(const MacroblockInput& input) const {
   const CodedMacroblock predicted = i_16x16(input);
   compare(predicted);
   if (is_p && may_cost_less(kTryPL016x16_bits)) {
-    CodedMacroblock moved = p_moved(input);
+    CodedMacroblock moved = p_moved(input, best.cost);
     if (moved.cost < best.cost) return moved;
-    compare(p_l0_16x16(input, skip_vector(input.neighbours), input.before));
+    compare(p_l0_16x16(input, skip_vector(input.neighbours), input.before, best.cost));
   }
-  if (may_cost_less(kTryINxN_bits)) compare(i_nxn(input, predicted));
+  if (may_cost_less(kTryINxN_bits)) compare(i_nxn(input, predicted, best.cost));
   if (best.cost == CodedMacroblock::kImpossible) {
     best.type = MbType::i_pcm;
     best.samples = input.source;
@@ -123,16 +123,18 @@ void MacroblockCoder::set_cost(CodedMacroblock& coded, int squared_error) const 
 }
 
 void MacroblockCoder::finish(const MacroblockInput& input, const Residual& residual, int pattern,
-                             CodedMacroblock& coded) const {
+                             std::int64_t cost_limit, CodedMacroblock& coded) const {
+  const int error = error_of(input.source, coded.samples);
+  const std::size_t most_bits = bits_below(cost_limit, error);
   coded.bits.put_unsigned(coded.type == MbType::i_nxn ? kIntraCodes[pattern]
                                                       : kInterCodes[pattern]);
   coded.state.total_coeff = residual.total_coeff();
   coded.has_residual = pattern != 0;
   if (coded.has_residual) {
     coded.bits.put_signed(0);  // mb_qp_delta
-    if (!residual.write(pattern, coded.state, input.neighbours, coded.bits)) return;
+    if (!residual.write(pattern, coded.state, input.neighbours, most_bits, coded.bits)) return;
   }
-  set_cost(coded, error_of(input.source, coded.samples));
+  set_cost(coded, error);
 }
 
 CodedMacroblock MacroblockCoder::p_skip(const MacroblockInput& input) const {
@@ -194,7 +196,8 @@ CodedMacroblock MacroblockCoder::i_16x16(const MacroblockInput& input) const {
   return coded;
 }
 
-CodedMacroblock MacroblockCoder::p_moved(const MacroblockInput& input) const {
+CodedMacroblock MacroblockCoder::p_moved(const MacroblockInput& input,
+                                         std::int64_t cost_limit) const {
   const auto& [before, search, x_mb, y_mb] = input.reference;
   if (search == nullptr) return CodedMacroblock(MbType::p_l0_16x16);
   const auto vector = search->find(input.source, *before, x_mb, y_mb, input.neighbours);
@@ -204,11 +207,12 @@ CodedMacroblock MacroblockCoder::p_moved(const MacroblockInput& input) const {
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): written right after
   Samples moved;
   predict_moved(*before, x_mb, y_mb, *vector, moved);
-  return p_l0_16x16(input, *vector, moved);
+  return p_l0_16x16(input, *vector, moved, cost_limit);
 }
 
 CodedMacroblock MacroblockCoder::p_l0_16x16(const MacroblockInput& input, MotionVector vector,
-                                            const Samples& predicted) const {
+                                            const Samples& predicted,
+                                            std::int64_t cost_limit) const {
   CodedMacroblock coded(MbType::p_l0_16x16);
   coded.samples = predicted;
   coded.state.vector = vector;
@@ -223,12 +227,13 @@ CodedMacroblock MacroblockCoder::p_l0_16x16(const MacroblockInput& input, Motion
     if (largest_difference(input.source, coded.samples) > tolerance(vector)) return coded;
   }
   write_p_l0_16x16(vector, input.neighbours, coded.bits);
-  finish(input, residual, pattern, coded);
+  finish(input, residual, pattern, cost_limit, coded);
   return coded;
 }
 
 CodedMacroblock MacroblockCoder::i_nxn(const MacroblockInput& input,
-                                       const CodedMacroblock& i_16x16) const {
+                                       const CodedMacroblock& i_16x16,
+                                       std::int64_t cost_limit) const {
   CodedMacroblock coded(MbType::i_nxn);
   coded.samples = i_16x16.samples;
   Residual residual;
@@ -240,7 +245,7 @@ CodedMacroblock MacroblockCoder::i_nxn(const MacroblockInput& input,
   }
   coded.bits.put_unsigned(chroma_number(i_16x16.chroma_mode));
   residual.code_chroma(intra_.chroma, input.source, coded.samples);
-  finish(input, residual, residual.coded_block_pattern(), coded);
+  finish(input, residual, residual.coded_block_pattern(), cost_limit, coded);
   return coded;
 }
 

@@ -76,25 +76,31 @@ class MacroblockCoder {
   };
 
   // Each codes the macroblock by one mb_type. The cost stays kImpossible if that would leave too
-  // large an error or take too many bits.
+  // large an error or take too many bits, and may stay so if it would be cost_limit or more.
   CodedMacroblock p_skip(const MacroblockInput& input) const;
   CodedMacroblock i_16x16(const MacroblockInput& input) const;
   /// By the vector that the search finds, if there is one.
-  CodedMacroblock p_moved(const MacroblockInput& input) const;
+  CodedMacroblock p_moved(const MacroblockInput& input, std::int64_t cost_limit) const;
   CodedMacroblock p_l0_16x16(const MacroblockInput& input, MotionVector vector,
-                             const Samples& predicted) const;
+                             const Samples& predicted, std::int64_t cost_limit) const;
   /// Its chroma is predicted as that of `i_16x16`.
-  CodedMacroblock i_nxn(const MacroblockInput& input, const CodedMacroblock& i_16x16) const;
+  CodedMacroblock i_nxn(const MacroblockInput& input, const CodedMacroblock& i_16x16,
+                        std::int64_t cost_limit) const;
   /// Predicts one luma block of I_NxN into the macroblock, and writes its mode.
   void predict_block(const MacroblockInput& input, BlockPlace place, CodedMacroblock& coded) const;
   /// For an error and so many bits, in 1024ths of a squared error.
   std::int64_t cost(int squared_error, std::int64_t bits) const {
     return (std::int64_t{squared_error} << 10) + lambda_ * bits;
   }
+  /// The bits with which a type costs no more than the limit.
+  std::size_t bits_below(std::int64_t cost_limit, int squared_error) const {
+    const std::int64_t left = cost_limit - cost(squared_error, 0);
+    return left <= 0 ? 0 : static_cast<std::size_t>(left / lambda_);
+  }
   void set_cost(CodedMacroblock& coded, int squared_error) const;
   /// Writes coded_block_pattern and the residual, if there is any, and sets the cost.
   void finish(const MacroblockInput& input, const Residual& residual, int pattern,
-              CodedMacroblock& coded) const;
+              std::int64_t cost_limit, CodedMacroblock& coded) const;
 
   /// The largest difference that may stay where nothing corrects it.
   int tolerance(MotionVector vector) const {

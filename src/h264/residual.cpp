@@ -84,9 +84,10 @@ int Residual::coded_block_pattern() const {
 }
 
 bool Residual::write(int pattern, const MacroblockState& own, const Neighbours& neighbours,
-                     BitWriter& bits) const {
+                     std::size_t most_bits, BitWriter& bits) const {
   for (int index = 0; index < 16; ++index) {
     if ((pattern >> index / 4 & 1) == 0) continue;
+    if (bits.bit_count() > most_bits) return false;
     const BlockPlace place = luma_place(index);
     const std::size_t i = place.number();
     if (!write_levels(levels_[i], total_coeff_[i], nc_of(own, neighbours, place), bits)) {

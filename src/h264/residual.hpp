@@ -109,10 +109,11 @@ class Residual {
   int coded_block_pattern() const;
   /// residual(), 7.3.5.3.
   /// @param pattern  coded_block_pattern()
-  /// @param own      has this residual's total_coeff().
-  /// @return false if a level is too large for its code.
+  /// @param own        has this residual's total_coeff().
+  /// @param most_bits  of `bits` in all: it may stop beyond that.
+  /// @return false if it has stopped, or a level is too large for its code.
   bool write(int pattern, const MacroblockState& own, const Neighbours& neighbours,
-             BitWriter& bits) const;
+             std::size_t most_bits, BitWriter& bits) const;
 
  private:
   void code_chroma_plane(const Quantiser& quantiser, int plane, const Samples& source,
