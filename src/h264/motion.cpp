@@ -2,20 +2,20 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 
 namespace piblocks::h264 {
 namespace {
 
-/// The longest vector, each way. Level 1 allows 64 samples: up and down by table A-1, and to the
-/// sides by the parameter sets of libx264 (log2_max_mv_length_horizontal).
-constexpr int kRange = 48;
+/// The longest vector, each way: some lines of text. Level 2, the lowest, allows 128 samples up and
+/// down (table A-1).
+constexpr int kRange = 120;
 
-/// Motion leaves a smaller sum of differences in 256 samples.
-constexpr int kNear = 768;
-/// With a smaller one the search ends. A quantiser of 14 leaves less.
-constexpr int kNearEnough = kNear / 2;
+/// Motion leaves a smaller sum of differences in 256 samples: what a quantiser leaves doubles with
+/// every 6 steps.
+int near_of(int qp) { return static_cast<int>(768 * std::exp2((qp - 14) / 6.0)); }
 
 bool is_zero(MotionVector vector) { return vector == MotionVector{}; }
 
@@ -47,8 +47,14 @@ int sum_of_differences(const Samples& source, const Picture& before, int x_px, i
 /// The nearest of some vectors.
 class Nearest {
  public:
-  Nearest(const Samples& source, const Picture& before, int x_mb, int y_mb)
-      : source_(source), before_(before), x_mb_(x_mb), y_mb_(y_mb) {}
+  /// @param near  nothing is found that is not below it
+  Nearest(const Samples& source, const Picture& before, int x_mb, int y_mb, int near)
+      : source_(source),
+        before_(before),
+        x_mb_(x_mb),
+        y_mb_(y_mb),
+        near_enough_(near / 2),
+        least_(near) {}
 
   void try_vector(MotionVector vector) {
     const bool is_short = std::abs(vector.x) <= kRange && std::abs(vector.y) <= kRange;
@@ -59,7 +65,7 @@ class Nearest {
     least_ = sum;
     vector_ = vector;
   }
-  bool is_near_enough() const { return least_ < kNearEnough; }
+  bool is_near_enough() const { return least_ < near_enough_; }
   const std::optional<MotionVector>& vector() const { return vector_; }
 
  private:
@@ -67,7 +73,8 @@ class Nearest {
   const Picture& before_;
   int x_mb_;
   int y_mb_;
-  int least_ = kNear;
+  int near_enough_;  // with less the search ends
+  int least_;
   std::optional<MotionVector> vector_;
 };
 
@@ -179,7 +186,7 @@ void predict_moved(const Picture& before, int x_mb, int y_mb, MotionVector vecto
 
 std::optional<MotionVector> MotionSearch::find(const Samples& source, const Picture& before,
                                                int x_mb, int y_mb, const Neighbours& neighbours) {
-  Nearest nearest(source, before, x_mb, y_mb);
+  Nearest nearest(source, before, x_mb, y_mb, near_);
   if (!is_zero(skip_vector(neighbours))) nearest.try_vector({});
   for (const MacroblockState* state : {neighbours.left, neighbours.above, neighbours.corner}) {
     if (!is_zero(vector_of(state))) nearest.try_vector(vector_of(state));
@@ -188,15 +195,32 @@ std::optional<MotionVector> MotionSearch::find(const Samples& source, const Pict
     if (!nearest.is_near_enough()) try_near(vector, nearest);
   }
   if (!nearest.is_near_enough() && searches_left_ > 0) {
-    for (int i = 1; i <= kRange && !nearest.is_near_enough(); ++i) {
+    for (int i = 1; i <= reach_ && !nearest.is_near_enough(); ++i) {
       for (const MotionVector vector : {MotionVector{i, 0}, {-i, 0}, {0, i}, {0, -i}}) {
         nearest.try_vector(vector);
       }
     }
-    searches_left_ = nearest.is_near_enough() ? kMostSearches : searches_left_ - 1;
+    searches_left_ = nearest.is_near_enough() ? std::max(searches_left_, kMostSearches)
+                                              : searches_left_ - 1;
   }
   if (nearest.is_near_enough()) remember(*nearest.vector());
   return nearest.vector();
+}
+
+MotionSearch::MotionSearch(int qp) : near_(near_of(qp)) {}
+
+void MotionSearch::begin_group() {
+  recent_.clear();
+  searches_left_ = kMostSearches;
+}
+
+void MotionSearch::begin_picture(int changed_macroblocks) {
+  // What scrolls is large, and may go far. Beside it, searches fail where a window ends.
+  constexpr int kOneSearchIn = 64;
+  constexpr int kFew = 256;
+  searches_left_ =
+      std::min(searches_left_ + 1, kMostSearches) + changed_macroblocks / kOneSearchIn;
+  reach_ = changed_macroblocks < kFew ? kShortReach : kRange;
 }
 
 void MotionSearch::remember(MotionVector vector) {

@@ -27,8 +27,12 @@ void predict_moved(const Picture& before, int x_mb, int y_mb, MotionVector vecto
 /// theirs, in this picture and in those before since the last IDR picture.
 class MotionSearch {
  public:
-  void begin_group() { *this = {}; }
-  void begin_picture() { searches_left_ = std::min(searches_left_ + 1, kMostSearches); }
+  /// @param qp  of the pictures: a coarser quantiser leaves larger differences
+  explicit MotionSearch(int qp);
+
+  void begin_group();
+  /// @param changed_macroblocks  how many of the picture changed: of more, more searches go far
+  void begin_picture(int changed_macroblocks);
   /// The vector by which the luma samples of the picture before are nearest, if they are near.
   std::optional<MotionVector> find(const Samples& source, const Picture& before, int x_mb, int y_mb,
                                    const Neighbours& neighbours);
@@ -37,9 +41,12 @@ class MotionSearch {
   void remember(MotionVector vector);
 
   static constexpr int kMostSearches = 4;
+  static constexpr int kShortReach = 48;
 
+  int near_;                           // a larger sum of differences is no motion
   std::vector<MotionVector> recent_;   // the latest first
   int searches_left_ = kMostSearches;  // far ones that may still find nothing
+  int reach_ = kShortReach;            // of these, in samples
 };
 
 }  // namespace piblocks::h264

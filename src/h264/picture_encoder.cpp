@@ -21,6 +21,7 @@ PictureEncoder::PictureEncoder(const ParameterSets& sets, int width_px, int heig
       qp_(qp),
       slice_qp_(qp),
       coder_(qp, sets.chroma_qp_offset),
+      motion_(qp),
       source_(sets.width_mb, sets.height_mb),
       before_(sets.width_mb, sets.height_mb),
       decoded_(sets.width_mb, sets.height_mb),
@@ -50,7 +51,7 @@ void PictureEncoder::encode_p(const Planes& source, const MacroblockSet& changed
   is_after_idr_ = false;
   fresh_.add(coarse_);
   frame_num_ = (frame_num_ + 1) & ((1U << sets_.log2_max_frame_num) - 1);
-  motion_.begin_picture();
+  motion_.begin_picture(fresh_.count());
   code_p(unit);
 }
 

@@ -124,7 +124,7 @@ TEST(MotionSearch, FindsWhatSlidOrScrolled) {
        {MotionVector{3, 0}, {-17, 0}, {48, 0}, {0, 1}, {0, -48}, {16, 0}, {-1, 0}}) {
     Samples source;
     predict_moved(before, 4, 4, moved, source);
-    MotionSearch search;
+    MotionSearch search(14);
     EXPECT_EQ(search.find(source, before, 4, 4, {&still, &still, &still}), moved)
         << moved.x << ", " << moved.y;
   }
@@ -140,11 +140,42 @@ TEST(MotionSearch, FindsNothingInNoiseAndAfterFailuresGoesOnWithTheNextPicture) 
   noise(random, 8, 8).load(1, 1, other);
   Samples slid;
   predict_moved(before, 4, 4, {5, 0}, slid);
-  MotionSearch search;
+  MotionSearch search(14);
   for (int i = 0; i < 20; ++i) EXPECT_FALSE(search.find(other, before, 4, 4, neighbours));
   EXPECT_FALSE(search.find(slid, before, 4, 4, neighbours)) << "it has given up for this picture";
-  search.begin_picture();
+  search.begin_picture(0);
   EXPECT_EQ(search.find(slid, before, 4, 4, neighbours), (MotionVector{5, 0}));
+}
+
+TEST(MotionSearch, GoesFarWhereMuchHasChanged) {
+  Random random(3);
+  SCOPED_TRACE(random.trace());
+  const Picture before = noise(random, 3, 20);
+  const MacroblockState still;
+  const Neighbours neighbours = {&still, &still, &still};
+  Samples other;
+  noise(random, 3, 20).load(1, 1, other);
+  for (const int changed : {0, 640}) {
+    MotionSearch search(14);
+    search.begin_picture(changed);
+    for (int i = 0; i < 10; ++i) EXPECT_FALSE(search.find(other, before, 1, 4, neighbours));
+    Samples source;
+    predict_moved(before, 1, 4, {0, 100}, source);
+    EXPECT_EQ(search.find(source, before, 1, 4, neighbours).has_value(), changed > 0) << changed;
+  }
+}
+
+TEST(MotionSearch, TakesWhatACoarserQuantiserLeavesForTheSame) {
+  Random random(4);
+  SCOPED_TRACE(random.trace());
+  const Picture before = noise(random, 8, 8);
+  const MacroblockState still;
+  const Neighbours neighbours = {&still, &still, &still};
+  Samples source;
+  predict_moved(before, 4, 4, {5, 0}, source);
+  for (int i = 0; i < 256; ++i) source.plane(0)[i] ^= 4;  // a sum of 1024
+  EXPECT_FALSE(MotionSearch(14).find(source, before, 4, 4, neighbours));
+  EXPECT_EQ(MotionSearch(26).find(source, before, 4, 4, neighbours), (MotionVector{5, 0}));
 }
 
 TEST(MotionSearch, StaysWithinTheRangeOfAllLevelsWhereMotionSpeedsUp) {
@@ -152,13 +183,13 @@ TEST(MotionSearch, StaysWithinTheRangeOfAllLevelsWhereMotionSpeedsUp) {
   SCOPED_TRACE(random.trace());
   const Picture before = noise(random, 3, 28);
   const MacroblockState still;
-  MotionSearch search;
-  for (int distance = 40; distance <= 70; ++distance) {
+  MotionSearch search(14);
+  for (int distance = 40; distance <= 140; ++distance) {
     Samples source;
     predict_moved(before, 1, 10, {0, distance}, source);
-    search.begin_picture();
+    search.begin_picture(0);
     const auto found = search.find(source, before, 1, 10, {&still, &still, &still});
-    EXPECT_EQ(found.has_value(), distance <= 48) << distance;
+    EXPECT_EQ(found.has_value(), distance <= 120) << distance;
   }
 }
 
