@@ -65,6 +65,7 @@ class Nearest {
     least_ = sum;
     vector_ = vector;
   }
+  void take_only_near_enough() { least_ = std::min(least_, near_enough_); }
   bool is_near_enough() const { return least_ < near_enough_; }
   const std::optional<MotionVector>& vector() const { return vector_; }
 
@@ -85,6 +86,28 @@ void try_near(MotionVector vector, Nearest& nearest) {
   const int y = 1 - x;
   for (const int sign : {-1, 1}) {
     if (!nearest.is_near_enough()) nearest.try_vector({vector.x + sign * x, vector.y + sign * y});
+  }
+}
+
+/// Where something slides or scrolls.
+void try_along_axes(int reach, Nearest& nearest) {
+  for (int i = 1; i <= reach && !nearest.is_near_enough(); ++i) {
+    for (const MotionVector vector : {MotionVector{i, 0}, {-i, 0}, {0, i}, {0, -i}}) {
+      nearest.try_vector(vector);
+    }
+  }
+}
+
+/// Where something is dragged.
+void try_around(Nearest& nearest) {
+  constexpr int kReach = 24;
+  nearest.take_only_near_enough();
+  for (int y = 1; y <= kReach && !nearest.is_near_enough(); ++y) {
+    for (int x = 1; x <= kReach; ++x) {
+      for (const MotionVector vector : {MotionVector{x, y}, {-x, y}, {x, -y}, {-x, -y}}) {
+        nearest.try_vector(vector);
+      }
+    }
   }
 }
 
@@ -195,13 +218,10 @@ std::optional<MotionVector> MotionSearch::find(const Samples& source, const Pict
     if (!nearest.is_near_enough()) try_near(vector, nearest);
   }
   if (!nearest.is_near_enough() && searches_left_ > 0) {
-    for (int i = 1; i <= reach_ && !nearest.is_near_enough(); ++i) {
-      for (const MotionVector vector : {MotionVector{i, 0}, {-i, 0}, {0, i}, {0, -i}}) {
-        nearest.try_vector(vector);
-      }
-    }
-    searches_left_ = nearest.is_near_enough() ? std::max(searches_left_, kMostSearches)
-                                              : searches_left_ - 1;
+    try_along_axes(reach_, nearest);
+    if (reach_ == kRange && !nearest.vector()) try_around(nearest);
+    searches_left_ =
+        nearest.is_near_enough() ? std::max(searches_left_, kMostSearches) : searches_left_ - 1;
   }
   if (nearest.is_near_enough()) remember(*nearest.vector());
   return nearest.vector();
@@ -218,8 +238,7 @@ void MotionSearch::begin_picture(int changed_macroblocks) {
   // What scrolls is large, and may go far. Beside it, searches fail where a window ends.
   constexpr int kOneSearchIn = 64;
   constexpr int kFew = 256;
-  searches_left_ =
-      std::min(searches_left_ + 1, kMostSearches) + changed_macroblocks / kOneSearchIn;
+  searches_left_ = std::min(searches_left_ + 1, kMostSearches) + changed_macroblocks / kOneSearchIn;
   reach_ = changed_macroblocks < kFew ? kShortReach : kRange;
 }
 
