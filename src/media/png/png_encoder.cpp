@@ -30,10 +30,10 @@ class PngEncoder final : public PacketPerFrameEncoder {
         height_px_(format.height_px),
         has_alpha_(format.has_alpha),
         row_bytes_(std::size_t(width_px_) * packed_bytes(has_alpha_) + 1),
-        rows_(row_bytes_ * std::size_t(height_px_)),
+        blank_(row_bytes_ * kStripRows),
         strips_(std::size_t((height_px_ + kStripRows - 1) / kStripRows)) {
     constexpr std::uint8_t kUp = 2;
-    for (std::size_t at = 0; at < rows_.size(); at += row_bytes_) rows_[at] = kUp;
+    for (std::size_t at = 0; at < blank_.size(); at += row_bytes_) blank_[at] = kUp;
   }
 
  private:
@@ -41,6 +41,7 @@ class PngEncoder final : public PacketPerFrameEncoder {
   static constexpr int kStripRows = 8;
 
   struct Strip {
+    Bytes rows;  // filtered; none if they are blank_
     Bytes chunk;
     std::uint32_t checksum = 0;  // Adler-32 of the filtered rows
     bool stale = true;
@@ -78,25 +79,43 @@ class PngEncoder final : public PacketPerFrameEncoder {
     Bytes current(bytes);
     if (rect.y_px > 0) pack_row(image, rect, rect.y_px - 1, above.data());
     const int end = std::min(rect.y_px + rect.height_px + 1, height_px_);
+    const Bytes zeros(bytes);
+    Bytes difference(bytes);
     for (int y = rect.y_px; y < end; ++y) {
+      // So are most rows, and packing them costs more than all the rest.
+      if (y > 0 && is_row_as_above(image, rect, y)) {
+        set_filtered(y, rect.x_px, zeros);
+        continue;
+      }
       pack_row(image, rect, y, current.data());
-      filter_row(y, rect.x_px, current, above);
+      subtract_bytes(current.data(), above.data(), bytes, difference.data());
+      set_filtered(y, rect.x_px, difference);
       current.swap(above);
     }
   }
-  void filter_row(int y, int x, ByteSpan row, ByteSpan above) {
-    std::uint8_t* const filtered =
-        rows_.data() + std::size_t(y) * row_bytes_ + 1 + std::size_t(x) * packed_bytes(has_alpha_);
-    difference_.resize(row.size());
-    subtract_bytes(row.data(), above.data(), row.size(), difference_.data());
-    if (std::memcmp(difference_.data(), filtered, row.size()) == 0) return;
-    std::memcpy(filtered, difference_.data(), row.size());
-    strips_[std::size_t(y / kStripRows)].stale = true;
+  static bool is_row_as_above(const ImageView& image, const PixelRect& rect, int y) {
+    const std::ptrdiff_t left = std::ptrdiff_t{4} * rect.x_px;
+    return std::memcmp(image.row(y) + left, image.row(y - 1) + left,
+                       4 * std::size_t(rect.width_px)) == 0;
+  }
+  void set_filtered(int y, int x, ByteSpan difference) {
+    Strip& strip = strips_[std::size_t(y / kStripRows)];
+    const std::size_t at =
+        std::size_t(y % kStripRows) * row_bytes_ + 1 + std::size_t(x) * packed_bytes(has_alpha_);
+    const Bytes& before = strip.rows.empty() ? blank_ : strip.rows;
+    if (std::memcmp(difference.data(), before.data() + at, difference.size()) == 0) return;
+    if (strip.rows.empty()) strip.rows = blank_;
+    std::memcpy(strip.rows.data() + at, difference.data(), difference.size());
+    strip.stale = true;
   }
   /// The pieces of all strips make one zlib stream, whose header the first strip has.
   void compress_strip(std::size_t index) {
     const ByteSpan rows = rows_of(index);
     Strip& strip = strips_[index];
+    if (index > 1 && std::ranges::equal(rows, rows_of(index - 1))) {
+      strip = strips_[index - 1];
+      return;
+    }
     strip.chunk.clear();
     const std::size_t start = begin_png_chunk(strip.chunk, "IDAT");
     if (index == 0) append(strip.chunk, "\x78\x01");  // compressed fast (RFC 1950)
@@ -105,9 +124,10 @@ class PngEncoder final : public PacketPerFrameEncoder {
     strip.checksum = std::uint32_t(adler32_z(1, rows.data(), rows.size()));
     strip.stale = false;
   }
-  ByteSpan rows_of(std::size_t strip) const {
-    const std::size_t begin = strip * kStripRows * row_bytes_;
-    return {rows_.data() + begin, std::min(kStripRows * row_bytes_, rows_.size() - begin)};
+  ByteSpan rows_of(std::size_t index) const {
+    const Bytes& rows = strips_[index].rows.empty() ? blank_ : strips_[index].rows;
+    const std::size_t count = std::size_t(height_px_) - index * kStripRows;
+    return ByteSpan(rows).first(std::min<std::size_t>(count, kStripRows) * row_bytes_);
   }
 
   Deflater deflater_{Deflater::Form::piece};
@@ -115,8 +135,7 @@ class PngEncoder final : public PacketPerFrameEncoder {
   int height_px_;
   bool has_alpha_;
   std::size_t row_bytes_;  // with the byte that names the filter
-  Bytes rows_;             // filtered
-  Bytes difference_;       // room for one row
+  Bytes blank_;            // the filtered rows of a strip that repeats the row above it
   std::vector<Strip> strips_;
 };
 
