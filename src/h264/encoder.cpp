@@ -162,7 +162,7 @@ CodedPicture Encoder::encode(const Planes& source, std::span<const Rect> changed
 std::size_t Encoder::max_unit_bytes(const Config& config) {
   constexpr std::size_t kHeader_bytes = 64;
   constexpr std::size_t kMacroblock_bytes = 400;  // 3200 bits, by A.3.1
-  check(config);
+  level_of(config);  // refuses what no encoder takes
   const ParameterSets sets = parameter_sets(config);
   const std::size_t macroblocks = static_cast<std::size_t>(sets.width_mb) * sets.height_mb;
   // In the worst case every third byte is an emulation_prevention_three_byte.

@@ -100,7 +100,8 @@ class Encoder {
   /// samples alone. Nothing has to be passed whole again.
   void restart();
 
-  /// The most bytes that an access unit of such a stream can have.
+  /// The most bytes that headers or an access unit of such a stream can have.
+  /// @throws Error as the constructor does
   static std::size_t max_unit_bytes(const Config& config);
 
  private:
