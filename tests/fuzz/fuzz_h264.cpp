@@ -9,29 +9,14 @@
 #include <span>
 #include <string>
 
+#include "fuzz/numbers.hpp"
 #include "h264/random_pictures.hpp"
 #include "h264/stream_fixture.hpp"
 
 namespace {
 
 using namespace piblocks::h264;
-
-/// Numbers from the bytes of an input, and the least that are asked for after its end.
-class Numbers {
- public:
-  explicit Numbers(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-
-  bool has_more() const { return !bytes_.empty(); }
-  int integer(int first, int last) {
-    if (bytes_.empty()) return first;
-    const int byte = bytes_.front();
-    bytes_ = bytes_.subspan(1);
-    return first + byte % (last - first + 1);
-  }
-
- private:
-  std::span<const std::uint8_t> bytes_;
-};
+using piblocks::fuzz::Numbers;
 
 /// Says at the end how many pictures were compared.
 struct Counter {
