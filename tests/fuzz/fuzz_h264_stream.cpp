@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fuzz/numbers.hpp"
+#include "h264/callers_picture.hpp"
 #include "h264/deviation_bound.hpp"
 #include "h264/encoder.hpp"
 #include "h264/levels.hpp"
@@ -78,38 +79,6 @@ Config config_of(Numbers& numbers) {
       held[static_cast<std::size_t>(numbers.integer(0, static_cast<int>(held.size()) - 1))];
   return config;
 }
-
-/// A copy of a picture with rows as far apart as a caller may have them.
-class CallersPicture {
- public:
-  CallersPicture(const Config& config, int padding_bytes)
-      : config_(config), padding_bytes_(padding_bytes) {}
-
-  Planes copy_of(const Picture& picture) {
-    return {plane(picture, 0), plane(picture, 1), plane(picture, 2)};
-  }
-
- private:
-  Plane plane(const Picture& picture, int number) {
-    const int step = number == 0 ? 1 : 2;
-    const int width = config_.width_px / step;
-    const int height = config_.height_px / step;
-    const int stride = width + padding_bytes_;
-    // Not a byte after the last row: the encoder may not read any.
-    auto& samples = samples_[static_cast<std::size_t>(number)];
-    samples =
-        std::make_unique<std::uint8_t[]>(static_cast<std::size_t>(stride * (height - 1) + width));
-    for (int y = 0; y < height; ++y) {
-      std::copy_n(picture.plane(number) + y * picture.stride_bytes(number), width,
-                  samples.get() + y * stride);
-    }
-    return {samples.get(), stride};
-  }
-
-  Config config_;
-  int padding_bytes_;
-  std::array<std::unique_ptr<std::uint8_t[]>, 3> samples_;
-};
 
 /// Rectangles that cover what has changed, and others.
 std::vector<Rect> rects_of(const MacroblockSet& changed, const Config& config, Numbers& numbers) {
@@ -189,7 +158,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Encoder encoder(config);
   auto other = std::make_unique<Encoder>(config);  // is told that all may have changed
   auto stream = std::make_unique<Stream>(config, encoder);
-  CallersPicture callers(config, numbers.integer(0, 70));
+  CallersPicture callers(config.width_px, config.height_px, numbers.integer(0, 70));
   RandomPictures pictures((config.width_px + 15) / 16, (config.height_px + 15) / 16, numbers);
   std::vector<std::uint8_t> unit;
   std::vector<std::uint8_t> other_unit;
@@ -204,7 +173,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       stream = std::make_unique<Stream>(config, encoder);
       other = std::make_unique<Encoder>(config);
     }
-    const Planes source = callers.copy_of(pictures.picture());
+    callers.copy(pictures.picture());
+    const Planes source = callers.planes();
     const PictureType type = chance == 1 && frame > 0 ? PictureType::idr : PictureType::p;
     const std::vector<Rect> changed = rects_of(pictures.changed(), config, numbers);
     const CodedPicture coded = encoder.encode(source, changed, type, unit);

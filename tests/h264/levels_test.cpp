@@ -145,7 +145,8 @@ TEST(Levels, OfRandomPicturesAreTheLowestThatHold) {
     ASSERT_EQ(level_problem(width_px, height_px, rate).empty(), lowest != nullptr);
     seen.insert(lowest == nullptr ? 0 : lowest->idc);
   }
-  EXPECT_EQ(seen.size(), levels().size() + 1);
+  // Also none; but level 4.1 differs from 4 in its bytes alone.
+  EXPECT_EQ(seen.size(), levels().size());
 }
 
 /// Levels of table A-1, from 2 to 6.2: a picture of MaxFS macroblocks at their rate.
