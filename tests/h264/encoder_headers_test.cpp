@@ -301,9 +301,9 @@ TEST(EncoderHeaders, AreUnderstoodByLibavcodec) {
     EXPECT_EQ(context->level, encoder.level_idc());
     EXPECT_EQ(context->has_b_frames, 0);
     EXPECT_EQ(context->refs, 1);
+    const double rate = double(config.rate_numerator) / double(config.rate_denominator);
     // libavcodec rounds to terms of 30 bits.
-    EXPECT_FLOAT_EQ(float(av_q2d(context->framerate)),
-                    float(config.rate_numerator) / float(config.rate_denominator));
+    EXPECT_NEAR(av_q2d(context->framerate), rate, 1e-9 * (1 + rate));
     EXPECT_EQ(frame->width, config.width_px);
     EXPECT_EQ(frame->height, config.height_px);
     EXPECT_EQ(frame->format, AV_PIX_FMT_YUV420P);
