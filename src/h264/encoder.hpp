@@ -68,6 +68,8 @@ struct CodedPicture {
   PictureType type;
   int qp;                       ///< the config's, or more, where the level's rate did not suffice
   bool is_within_level;         ///< false if no quantiser of the encoder could keep the rate
+  int coarse_macroblocks;       ///< with a coarser quantiser than the config's, of this picture or
+                                ///< those before; the next ones correct as many as fit
   int transformed_macroblocks;  ///< of a P picture: with coefficients, or I_PCM
 };
 

@@ -68,7 +68,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Bytes unit = chance == kOneIn ? encoded_idr(encoder, pictures.picture())
                                   : encoded_p(encoder, pictures.picture(), pictures.changed());
     const int again = chance == 5 ? 2 : chance == 6 || chance == kOneIn ? 1 : 0;
-    for (int i = 0; i < again; ++i) encoder.encode_again(numbers.integer(0, kMaxQp), unit);
+    for (int i = 0; i < again; ++i)
+      encoder.encode_again(numbers.integer(0, kMaxQp), numbers.integer(0, 10), unit);
     check(encoder.decoded(), decoder.decode(unit));
   }
   return 0;

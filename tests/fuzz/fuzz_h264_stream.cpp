@@ -127,8 +127,11 @@ class Stream {
     require(watch_.take(std::ssize(unit)) == coded.is_within_level, "the level is not kept");
     const auto shown = decoder_.decode(unit);
     require(shown.has_value(), "no picture");
+    require(coded.coarse_macroblocks > 0 || coded.qp == config_.qp, "what is coarse is not said");
+    if (coded.coarse_macroblocks == 0) coarsest_qp_ = config_.qp;
+    coarsest_qp_ = std::max(coarsest_qp_, coded.qp);
     const std::string problem =
-        excess(source, config_.width_px, config_.height_px, *shown, coded.qp);
+        excess(source, config_.width_px, config_.height_px, *shown, coarsest_qp_);
     require(problem.empty(), problem);
     file_.append(unit, coded.type == PictureType::idr);
   }
@@ -143,6 +146,7 @@ class Stream {
   }
 
   Config config_;
+  int coarsest_qp_ = config_.qp;  // of what is shown
   RateWatch watch_;
   StrictDecoder decoder_;
   Mp4Writer file_;
