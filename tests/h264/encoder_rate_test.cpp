@@ -148,6 +148,28 @@ TEST_P(EncoderRate, IsSharedByWhatChangesAndWhatIsCoarse) {
   EXPECT_EQ(left, 0);
 }
 
+/// A few macroblocks cost much more than what all that wait cost on average.
+TEST_P(EncoderRate, IsNotExceededByCorrectionsThatCostMoreThanOthers) {
+  Random random(28);
+  SCOPED_TRACE(random.trace());
+  CheckedStream stream(noisy_config(GetParam()));
+  for (int i = 0; i < 6; ++i) {
+    stream.set_noise(random);
+    stream.encode();
+  }
+  stream.picture().set([&](int plane, int, int y) {
+    return y < (plane == 0 ? 32 : 16) ? random.integer(0, 255) : random.integer(120, 123);
+  });
+  int left = stream.encode().coarse_macroblocks;
+  EXPECT_EQ(left, 396);
+  for (int i = 0; i < 60; ++i) {
+    const CodedPicture coded = stream.encode();
+    EXPECT_TRUE(coded.is_within_level);
+    left = coded.coarse_macroblocks;
+  }
+  EXPECT_EQ(left, 0);
+}
+
 /// The bytes of a key frame at the config's quantiser are those of a new encoder.
 TEST_P(EncoderRate, LeavesNoTraceInKeyFrames) {
   Random random(23);
