@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
-#include <new>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,7 +17,8 @@ struct piblocks_h264_encoder {
   std::size_t max_unit_bytes;
   std::vector<std::uint8_t> unit = {};
   std::vector<h264::Rect> changed = {};
-  std::string problem = {};
+  std::string text = {};
+  const char* problem = "";  // of the text, or a constant
 };
 
 namespace {
@@ -45,13 +45,16 @@ std::size_t copy(std::span<const std::uint8_t> from, std::uint8_t* to) {
 
 /// What `action` returns; 0, and a problem, if it throws.
 template <typename Action>
-std::size_t result_of(const Action& action, std::string& problem) noexcept {
+std::size_t result_of(const Action& action, piblocks_h264_encoder& encoder) noexcept {
   try {
-    return action();
-  } catch (const std::bad_alloc&) {
-    problem = "out of memory";  // so short that it needs none
-  } catch (const std::exception& error) {
-    problem = error.what();
+    try {
+      return action();
+    } catch (const h264::Error& error) {
+      encoder.text = error.what();
+      encoder.problem = encoder.text.c_str();
+    }
+  } catch (const std::exception&) {
+    encoder.problem = "h264: out of memory";
   }
   return 0;
 }
@@ -96,7 +99,7 @@ size_t piblocks_h264_headers(piblocks_h264_encoder* encoder, uint8_t* unit, size
         require_room(headers.size(), unit, unit_bytes);
         return copy(headers, unit);
       },
-      encoder->problem);
+      *encoder);
 }
 
 size_t piblocks_h264_encode(piblocks_h264_encoder* encoder, const piblocks_h264_plane planes[3],
@@ -117,9 +120,7 @@ size_t piblocks_h264_encode(piblocks_h264_encoder* encoder, const piblocks_h264_
                                 encoder->unit);
         return copy(encoder->unit, unit);
       },
-      encoder->problem);
+      *encoder);
 }
 
-const char* piblocks_h264_problem(const piblocks_h264_encoder* encoder) {
-  return encoder->problem.c_str();
-}
+const char* piblocks_h264_problem(const piblocks_h264_encoder* encoder) { return encoder->problem; }
