@@ -79,8 +79,10 @@ class Encoder {
   /// @throws Error naming the field and its limits, before anything large is allocated.
   explicit Encoder(const Config& config);
   ~Encoder();
-  Encoder(Encoder&&) noexcept;
-  Encoder& operator=(Encoder&&) noexcept;
+  Encoder(Encoder&& other) noexcept;
+  Encoder& operator=(Encoder&& other) noexcept;
+  Encoder(const Encoder&) = delete;
+  Encoder& operator=(const Encoder&) = delete;
 
   /// Sequence and picture parameter set, with start codes: the beginning of a byte stream, or what
   /// avcC of an MP4 file is made of.

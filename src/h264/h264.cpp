@@ -90,7 +90,9 @@ piblocks_h264_encoder* piblocks_h264_open(const piblocks_h264_config* config, ch
   }
 }
 
-void piblocks_h264_close(piblocks_h264_encoder* encoder) { delete encoder; }
+void piblocks_h264_close(piblocks_h264_encoder* encoder) {
+  delete encoder;  // NOLINT(cppcoreguidelines-owning-memory): this is the owner
+}
 
 size_t piblocks_h264_headers(piblocks_h264_encoder* encoder, uint8_t* unit, size_t unit_bytes) {
   return result_of(

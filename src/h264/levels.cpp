@@ -61,9 +61,10 @@ bool can_hold(const Level& level, int width_px, int height_px, PictureRate rate)
 
 const Level* lowest_level(int width_px, int height_px, PictureRate rate) {
   const Size size = size_of(width_px, height_px);
-  const auto found =
-      std::ranges::find_if(kLevels, [&](const Level& level) { return holds(level, size, rate); });
-  return found == kLevels.end() ? nullptr : &*found;
+  for (const Level& level : kLevels) {
+    if (holds(level, size, rate)) return &level;
+  }
+  return nullptr;
 }
 
 std::string level_problem(int width_px, int height_px, PictureRate rate) {
