@@ -302,6 +302,8 @@ TEST(EncodeAgain, CorrectsAsManyMacroblocksAsAreAskedFor) {
   EXPECT_EQ(encoder.coarse_macroblocks(), 0);
   encoder.encode_again(14, 0, unit);
   EXPECT_EQ(encoder.coarse_macroblocks(), 6);
+  encoder.encode_again(14, 2, unit);
+  EXPECT_EQ(encoder.coarse_macroblocks(), 4) << "what changes is not counted";
   encoder.encode_again(20, 2, unit);
   EXPECT_EQ(encoder.coarse_macroblocks(), 7);
 }

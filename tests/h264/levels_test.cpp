@@ -51,6 +51,31 @@ TEST(Levels, AreInOrder) {
   }
 }
 
+/// Its rows, in its units: MaxMBPS, MaxFS, MaxBR, MaxCPB and MinCR.
+TEST(Levels, AreThoseOfTableA1) {
+  struct Row {
+    int idc, rate_mb, size_mb, rate_kbps, buffer_kb, compression;
+  };
+  const std::vector<Row> rows = {
+      {20, 11880, 396, 2000, 2000, 2},          {21, 19800, 792, 4000, 4000, 2},
+      {22, 20250, 1620, 4000, 4000, 2},         {30, 40500, 1620, 10000, 10000, 2},
+      {31, 108000, 3600, 14000, 14000, 4},      {32, 216000, 5120, 20000, 20000, 4},
+      {40, 245760, 8192, 20000, 25000, 4},      {41, 245760, 8192, 50000, 62500, 2},
+      {42, 522240, 8704, 50000, 62500, 2},      {50, 589824, 22080, 135000, 135000, 2},
+      {51, 983040, 36864, 240000, 240000, 2},   {52, 2073600, 36864, 240000, 240000, 2},
+      {60, 4177920, 139264, 240000, 240000, 2}, {61, 8355840, 139264, 480000, 480000, 2},
+      {62, 16711680, 139264, 800000, 800000, 2}};
+  for (const Row& row : rows) {
+    SCOPED_TRACE(row.idc);
+    const Level& level = level_with(row.idc);
+    EXPECT_EQ(level.max_rate_mb, row.rate_mb);
+    EXPECT_EQ(level.max_size_mb, row.size_mb);
+    EXPECT_EQ(level.max_rate_bps, 1000LL * row.rate_kbps);
+    EXPECT_EQ(level.max_buffer_b, 1000LL * row.buffer_kb);
+    EXPECT_EQ(level.min_compression, row.compression);
+  }
+}
+
 /// What table A-1 is known for.
 TEST(Levels, HoldWellKnownPictures) {
   const auto lowest = [](int width_px, int height_px, std::int64_t rate) {
