@@ -1,7 +1,6 @@
 #include "h264/encoder.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 #include <string_view>
 
@@ -58,13 +57,14 @@ const Level& level_of(const Config& config) {
   return *asked;
 }
 
-/// The next quantiser to try for a picture that has `size_bytes` instead of at most `room_bytes`.
-/// Six steps halve the bits.
+/// The next quantiser to try for a picture that has `size_bytes`, more than `room_bytes`. Each step
+/// takes about a ninth of the bits, so that six halve them.
 int coarser(int qp, std::int64_t size_bytes, std::int64_t room_bytes) {
-  const auto excess =
-      static_cast<std::uint64_t>(size_bytes / std::max<std::int64_t>(room_bytes, 1));
-  const int halvings = static_cast<int>(std::bit_width(excess)) - 1;
-  return std::min(kMaxQp, qp + 1 + 6 * std::max(halvings, 0));
+  while (size_bytes > room_bytes && qp < kMaxQp) {
+    size_bytes -= size_bytes / 9;
+    ++qp;
+  }
+  return qp;
 }
 
 }  // namespace
@@ -103,10 +103,11 @@ class Encoder::Impl {
       coder_.encode_p(source, changed_, unit);
     }
     changed_.clear();
-    const int qp = keep_rate(unit);
+    const int qp = keep_rate(type, unit);
     return {.type = type,
             .qp = qp,
             .is_within_level = watch_.take(std::ssize(unit)),
+            .coarse_macroblocks = coder_.coarse_macroblocks(),
             .transformed_macroblocks = coder_.transformed_macroblocks()};
   }
 
@@ -124,15 +125,41 @@ class Encoder::Impl {
     const int below = clamp(std::int64_t{rect.y_px} + rect.height_px, config_.height_px);
     changed_.add(left, above, right - left, below - above);
   }
-  /// Quantises the picture more coarsely until the level's rate suffices. @returns its quantiser
-  int keep_rate(Bytes& unit) {
+  /// Leaves macroblocks as coarse as they are, or quantises the picture more coarsely, until the
+  /// level's rate suffices. @returns the quantiser of what changes
+  int keep_rate(PictureType type, Bytes& unit) {
     int qp = config_.qp;
     const std::int64_t room_bytes = watch_.room_bytes();
+    if (std::ssize(unit) <= room_bytes) return qp;
+    const int waiting = type == PictureType::p ? coder_.waiting() : 0;
+    if (waiting > 0) {
+      const std::int64_t corrected_bytes = std::ssize(unit);
+      coder_.encode_again(qp, 0, unit);
+      const std::int64_t spare_bytes = room_bytes - std::ssize(unit);
+      if (spare_bytes >= 0) {
+        correct(waiting, corrected_bytes - std::ssize(unit), spare_bytes, unit);
+        return qp;
+      }
+    }
     while (std::ssize(unit) > room_bytes && qp < kMaxQp) {
       qp = coarser(qp, std::ssize(unit), room_bytes);
-      coder_.encode_again(qp, unit);
+      coder_.encode_again(qp, 0, unit);
     }
     return qp;
+  }
+  /// Corrects as many coarse macroblocks as half of the spare bytes is likely to suffice for: the
+  /// other half is left to what changes next.
+  /// @param all_bytes  for all that wait
+  void correct(int waiting, std::int64_t all_bytes, std::int64_t spare_bytes, Bytes& unit) {
+    const std::int64_t most_bytes = std::ssize(unit) + spare_bytes;
+    const auto affordable = static_cast<int>(waiting * (spare_bytes / 2) / all_bytes);
+    int corrections = std::min(std::max(affordable, 1), waiting - 1);
+    while (corrections > 0) {
+      coder_.encode_again(config_.qp, corrections, unit);
+      if (std::ssize(unit) <= most_bytes) return;
+      corrections /= 2;
+    }
+    coder_.encode_again(config_.qp, 0, unit);
   }
 
   const Level& level_;
@@ -162,7 +189,7 @@ CodedPicture Encoder::encode(const Planes& source, std::span<const Rect> changed
 std::size_t Encoder::max_unit_bytes(const Config& config) {
   constexpr std::size_t kHeader_bytes = 64;
   constexpr std::size_t kMacroblock_bytes = 400;  // 3200 bits, by A.3.1
-  check(config);
+  level_of(config);                               // refuses what no encoder takes
   const ParameterSets sets = parameter_sets(config);
   const std::size_t macroblocks = static_cast<std::size_t>(sets.width_mb) * sets.height_mb;
   // In the worst case every third byte is an emulation_prevention_three_byte.

@@ -68,6 +68,8 @@ struct CodedPicture {
   PictureType type;
   int qp;                       ///< the config's, or more, where the level's rate did not suffice
   bool is_within_level;         ///< false if no quantiser of the encoder could keep the rate
+  int coarse_macroblocks;       ///< with a coarser quantiser than the config's, of this picture or
+                                ///< those before; the next ones correct as many as fit
   int transformed_macroblocks;  ///< of a P picture: with coefficients, or I_PCM
 };
 
@@ -77,8 +79,10 @@ class Encoder {
   /// @throws Error naming the field and its limits, before anything large is allocated.
   explicit Encoder(const Config& config);
   ~Encoder();
-  Encoder(Encoder&&) noexcept;
-  Encoder& operator=(Encoder&&) noexcept;
+  Encoder(Encoder&& other) noexcept;
+  Encoder& operator=(Encoder&& other) noexcept;
+  Encoder(const Encoder&) = delete;
+  Encoder& operator=(const Encoder&) = delete;
 
   /// Sequence and picture parameter set, with start codes: the beginning of a byte stream, or what
   /// avcC of an MP4 file is made of.
@@ -100,7 +104,8 @@ class Encoder {
   /// samples alone. Nothing has to be passed whole again.
   void restart();
 
-  /// The most bytes that an access unit of such a stream can have.
+  /// The most bytes that headers or an access unit of such a stream can have.
+  /// @throws Error as the constructor does
   static std::size_t max_unit_bytes(const Config& config);
 
  private:

@@ -4,6 +4,8 @@
 #ifndef PIBLOCKS_H264_H
 #define PIBLOCKS_H264_H
 
+/* NOLINTBEGIN(modernize-*, readability-identifier-naming, cppcoreguidelines-avoid-c-arrays):
+ * this is C. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -49,7 +51,8 @@ piblocks_h264_encoder* piblocks_h264_open(const piblocks_h264_config* config, ch
 void piblocks_h264_close(piblocks_h264_encoder* encoder);
 
 /* Both write to `unit`, which has room for piblocks_h264_max_unit_bytes(), and return the number of
- * bytes; 0 if they fail, and piblocks_h264_problem() says why. */
+ * bytes; 0 if they fail, and piblocks_h264_problem() says why. A picture that there may be no room
+ * for is refused before it is encoded: the stream stays as it was. */
 size_t piblocks_h264_headers(piblocks_h264_encoder* encoder, uint8_t* unit, size_t unit_bytes);
 /* planes: Y, Cb, Cr. changed: as many rectangles as `rects` says. is_idr: not 0 for a picture that
  * depends on no other. */
@@ -62,5 +65,6 @@ const char* piblocks_h264_problem(const piblocks_h264_encoder* encoder);
 #ifdef __cplusplus
 }
 #endif
+/* NOLINTEND(modernize-*, readability-identifier-naming, cppcoreguidelines-avoid-c-arrays) */
 
 #endif

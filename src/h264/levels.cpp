@@ -61,9 +61,10 @@ bool can_hold(const Level& level, int width_px, int height_px, PictureRate rate)
 
 const Level* lowest_level(int width_px, int height_px, PictureRate rate) {
   const Size size = size_of(width_px, height_px);
-  const auto found =
-      std::ranges::find_if(kLevels, [&](const Level& level) { return holds(level, size, rate); });
-  return found == kLevels.end() ? nullptr : &*found;
+  for (const Level& level : kLevels) {
+    if (holds(level, size, rate)) return &level;
+  }
+  return nullptr;
 }
 
 std::string level_problem(int width_px, int height_px, PictureRate rate) {
@@ -87,30 +88,27 @@ std::string level_problem(int width_px, int height_px, PictureRate rate) {
 }
 
 RateWatch::RateWatch(const Level& level, int size_mb, PictureRate rate)
-    : level_(level), filled_b_(static_cast<double>(level.max_buffer_b)) {
-  const double duration_s =
-      static_cast<double>(rate.denominator) / static_cast<double>(rate.numerator);
-  const double limit_bytes =
-      static_cast<double>(kMacroblock_bytes) / static_cast<double>(level.min_compression);
+    : byte_(8 * rate.numerator),
+      capacity_(level.max_buffer_b * rate.numerator),
+      filled_(capacity_) {
+  // The products are below 2^63: rates have terms of 31 bits.
+  refill_ = std::min(level.max_rate_bps * rate.denominator, capacity_);
   // A.3.1, items c and d; 172 frames a second are the most that a level below 6 counts with.
-  const double max_rate_mb = static_cast<double>(level.max_rate_mb);
-  picture_limit_bytes_ =
-      static_cast<std::int64_t>(std::min(limit_bytes * max_rate_mb * duration_s, 1e15));
+  const std::int64_t limit_bytes = kMacroblock_bytes / level.min_compression;
+  picture_limit_bytes_ = limit_bytes * level.max_rate_mb * rate.denominator / rate.numerator;
   first_picture_limit_bytes_ =
-      static_cast<std::int64_t>(limit_bytes * std::max(double(size_mb), max_rate_mb / 172));
-  refill_b_ = static_cast<double>(level.max_rate_bps) * duration_s;
+      std::max(limit_bytes * size_mb, limit_bytes * level.max_rate_mb / 172);
 }
 
 std::int64_t RateWatch::room_bytes() const {
-  const auto in_buffer = static_cast<std::int64_t>(filled_b_ / 8);
-  return std::min(in_buffer, is_first_ ? first_picture_limit_bytes_ : picture_limit_bytes_);
+  return std::min(filled_ / byte_, is_first_ ? first_picture_limit_bytes_ : picture_limit_bytes_);
 }
 
 bool RateWatch::take(std::int64_t size_bytes) {
   const bool is_kept = size_bytes <= room_bytes();
   is_first_ = false;
-  filled_b_ = std::max(filled_b_ - 8 * static_cast<double>(size_bytes), 0.0) + refill_b_;
-  filled_b_ = std::min(filled_b_, static_cast<double>(level_.max_buffer_b));
+  filled_ = size_bytes > filled_ / byte_ ? 0 : filled_ - size_bytes * byte_;
+  filled_ = std::min(filled_ + refill_, capacity_);
   return is_kept;
 }
 

@@ -54,15 +54,17 @@ class RateWatch {
   /// The most bytes that the next picture may have.
   std::int64_t room_bytes() const;
   /// The next picture has this many bytes.
-  /// @return whether it keeps the limits; if it does not, the buffer is empty then.
+  /// @return whether it keeps the limits; if the buffer has less, it is empty then.
   bool take(std::int64_t size_bytes);
 
  private:
-  Level level_;
   std::int64_t picture_limit_bytes_;        // by MinCR, of all pictures but the first
   std::int64_t first_picture_limit_bytes_;  // by MinCR
-  double filled_b_;                         // bits in the buffer
-  double refill_b_;                         // bits that come in from picture to picture
+  // In parts of a bit, as many as the rate's numerator: so all of them are whole numbers.
+  std::int64_t byte_;      // how many a byte has
+  std::int64_t capacity_;  // of the buffer
+  std::int64_t refill_;    // what comes in from picture to picture
+  std::int64_t filled_;    // what is in the buffer
   bool is_first_ = true;
 };
 

@@ -150,14 +150,18 @@ class MacroblockSet {
   void add(const MacroblockSet& other) {
     for (std::size_t i = 0; i < words_.size(); ++i) words_[i] |= other.words_[i];
   }
+  /// Removes those of a set for a picture of the same size.
+  void remove(const MacroblockSet& other) {
+    for (std::size_t i = 0; i < words_.size(); ++i) words_[i] &= ~other.words_[i];
+  }
   void clear() { words_.assign(words_.size(), 0); }
   bool contains(int address) const {
     return (words_[static_cast<std::size_t>(address / 64)] >> address % 64 & 1) != 0;
   }
   int count() const {
-    int count = 0;
-    for (const std::uint64_t word : words_) count += std::popcount(word);
-    return count;
+    int sum = 0;
+    for (const std::uint64_t word : words_) sum += std::popcount(word);
+    return sum;
   }
   /// The first address in the set that is no less; -1 if there is none.
   int next(int address) const {

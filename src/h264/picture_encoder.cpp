@@ -25,6 +25,7 @@ PictureEncoder::PictureEncoder(const ParameterSets& sets, int width_px, int heig
       source_(sets.width_mb, sets.height_mb),
       before_(sets.width_mb, sets.height_mb),
       decoded_(sets.width_mb, sets.height_mb),
+      changed_(sets.width_mb, sets.height_mb),
       fresh_(sets.width_mb, sets.height_mb),
       coarse_(sets.width_mb, sets.height_mb),
       visited_(sets.width_mb, sets.height_mb),
@@ -49,29 +50,52 @@ void PictureEncoder::encode_idr(const Planes& source, const MacroblockSet& chang
 void PictureEncoder::encode_p(const Planes& source, const MacroblockSet& changed, Bytes& unit) {
   begin_picture(source, changed);
   is_after_idr_ = false;
+  fresh_ = changed_;
   fresh_.add(coarse_);
   frame_num_ = (frame_num_ + 1) & ((1U << sets_.log2_max_frame_num) - 1);
   motion_.begin_picture(fresh_.count());
   code_p(unit);
 }
 
-void PictureEncoder::encode_again(int qp, Bytes& unit) {
+void PictureEncoder::encode_again(int qp, int corrections, Bytes& unit) {
   for (const int address : coded_) {
     decoded_.copy(address % sets_.width_mb, address / sets_.width_mb, before_);
   }
   set_slice_qp(qp);
-  last_idr_.is_valid = last_idr_.is_valid && input_.slice_type == SliceType::p;
-  return input_.slice_type == SliceType::i ? code_idr(unit) : code_p(unit);
+  if (input_.slice_type == SliceType::i) {
+    last_idr_.is_valid = false;
+    return code_idr(unit);
+  }
+  fresh_ = changed_;
+  int next = coarse_.next(0);
+  for (; next >= 0 && corrections > 0; next = coarse_.next(next + 1)) {
+    if (changed_.contains(next)) continue;
+    fresh_.add_one(next);
+    --corrections;
+  }
+  code_p(unit);
+}
+
+int PictureEncoder::waiting() const {
+  MacroblockSet others = coarse_;
+  others.remove(changed_);
+  return others.count();
+}
+
+int PictureEncoder::coarse_macroblocks() const {
+  MacroblockSet coarse = coarse_;
+  update(coarse);
+  return coarse.count();
 }
 
 void PictureEncoder::begin_picture(const Planes& source, const MacroblockSet& changed) {
   commit();
   set_slice_qp(qp_);
-  fresh_.clear();
+  changed_.clear();
   const int width = sets_.width_mb;
   for (int address = changed.next(0); address >= 0; address = changed.next(address + 1)) {
     if (!source_.update(address % width, address / width, source, width_px_, height_px_)) continue;
-    fresh_.add_one(address);
+    changed_.add_one(address);
     last_idr_.changed.add_one(address);
   }
 }
@@ -80,13 +104,15 @@ void PictureEncoder::commit() {
   for (const int address : coded_) {
     before_.copy(address % sets_.width_mb, address / sets_.width_mb, decoded_);
   }
-  if (slice_qp_ == qp_) {
-    coarse_.clear();
-  } else if (input_.slice_type == SliceType::i) {
-    coarse_.add(0, 0, kLumaSide * sets_.width_mb, kLumaSide * sets_.height_mb);
-  } else {
-    coarse_.add(fresh_);
-  }
+  update(coarse_);
+}
+
+void PictureEncoder::update(MacroblockSet& coarse) const {
+  const bool is_coarse = slice_qp_ != qp_;
+  if (input_.slice_type == SliceType::p)
+    return is_coarse ? coarse.add(fresh_) : coarse.remove(fresh_);
+  coarse.clear();
+  if (is_coarse) coarse.add(0, 0, kLumaSide * sets_.width_mb, kLumaSide * sets_.height_mb);
 }
 
 void PictureEncoder::set_slice_qp(int qp) {

@@ -1,5 +1,5 @@
-// The encoder of H.264 on pictures and changes that the bytes say. libavcodec has to show every
-// picture as the encoder believes it is shown.
+// The encoder of H.264 on pictures and changes that the bytes say, some of them encoded again by
+// another quantiser. libavcodec has to show every picture as the encoder believes it is shown.
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -9,29 +9,14 @@
 #include <span>
 #include <string>
 
+#include "fuzz/numbers.hpp"
 #include "h264/random_pictures.hpp"
 #include "h264/stream_fixture.hpp"
 
 namespace {
 
 using namespace piblocks::h264;
-
-/// Numbers from the bytes of an input, and the least that are asked for after its end.
-class Numbers {
- public:
-  explicit Numbers(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-
-  bool has_more() const { return !bytes_.empty(); }
-  int integer(int first, int last) {
-    if (bytes_.empty()) return first;
-    const int byte = bytes_.front();
-    bytes_ = bytes_.subspan(1);
-    return first + byte % (last - first + 1);
-  }
-
- private:
-  std::span<const std::uint8_t> bytes_;
-};
+using piblocks::fuzz::Numbers;
 
 /// Says at the end how many pictures were compared.
 struct Counter {
@@ -70,7 +55,7 @@ void check(const Picture& decoded, const std::optional<ShownPicture>& shown) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   constexpr int kMostFrames = 16;
-  constexpr int kOneKeyFrameIn = 10;
+  constexpr int kOneIn = 10;  // pictures is a key frame
   Numbers numbers({data, size});
   const StreamHeaders& headers = headers_of(numbers.integer(0, 7));
   PictureEncoder encoder = headers.encoder(numbers.integer(0, kMaxQp));
@@ -79,9 +64,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   check(encoder.decoded(), decoder.decode(encoded_idr(encoder, pictures.picture())));
   for (int frame = 1; frame < kMostFrames && numbers.has_more(); ++frame) {
     pictures.advance();
-    const bool is_key_frame = numbers.integer(1, kOneKeyFrameIn) == kOneKeyFrameIn;
-    const auto unit = is_key_frame ? encoded_idr(encoder, pictures.picture())
-                                   : encoded_p(encoder, pictures.picture(), pictures.changed());
+    const int chance = numbers.integer(1, kOneIn);
+    Bytes unit = chance == kOneIn ? encoded_idr(encoder, pictures.picture())
+                                  : encoded_p(encoder, pictures.picture(), pictures.changed());
+    const int again = chance == 5 ? 2 : chance == 6 || chance == kOneIn ? 1 : 0;
+    for (int i = 0; i < again; ++i)
+      encoder.encode_again(numbers.integer(0, kMaxQp), numbers.integer(0, 10), unit);
     check(encoder.decoded(), decoder.decode(unit));
   }
   return 0;

@@ -1,0 +1,191 @@
+// The public Encoder of H.264 on configs, pictures and rectangles that the bytes say. libavcodec
+// decodes every picture without an error and near its source; the level's limits are kept or said
+// to be broken; neither coarser rectangles nor what was before a restart change a byte; the units
+// fit into an MP4 file.
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fuzz/numbers.hpp"
+#include "h264/callers_picture.hpp"
+#include "h264/deviation_bound.hpp"
+#include "h264/encoder.hpp"
+#include "h264/levels.hpp"
+#include "h264/mp4_writer.hpp"
+#include "h264/random_pictures.hpp"
+#include "h264/stream_fixture.hpp"
+
+namespace {
+
+using namespace piblocks::h264;
+using piblocks::fuzz::Numbers;
+
+constexpr int kMostFrames = 16;
+
+/// Says at the end how many pictures there were.
+struct Counter {
+  ~Counter() {
+    std::fprintf(stderr,
+                 "fuzz_h264_stream: %lld pictures were compared, %lld of them coarser than "
+                 "asked for, %lld above their level; %lld restarts\n",
+                 pictures, coarser, above_level, restarts);
+  }
+  long long pictures = 0;
+  long long coarser = 0;
+  long long above_level = 0;
+  long long restarts = 0;
+} counter;
+
+void require(bool is_right, const std::string& what) {
+  if (is_right) return;
+  std::fprintf(stderr, "fuzz_h264_stream: %s\n", what.c_str());
+  std::abort();
+}
+
+PictureRate rate_of(const Config& config) {
+  return {config.rate_numerator, config.rate_denominator};
+}
+
+/// One that some level holds.
+Config config_of(Numbers& numbers) {
+  constexpr std::array<std::array<int, 2>, 10> kRates = {{{60, 1},
+                                                          {30000, 1001},
+                                                          {1, 1},
+                                                          {1, 30},
+                                                          {172, 1},
+                                                          {360, 1},
+                                                          {990, 1},
+                                                          {11880, 1},
+                                                          {65535, 2},
+                                                          {500'000, 1}}};
+  Config config;
+  config.width_px = 2 * numbers.integer(1, 48);
+  config.height_px = 2 * numbers.integer(1, 40);
+  config.qp = numbers.integer(0, kMaxQp);
+  const auto& rate = kRates[static_cast<std::size_t>(numbers.integer(0, kRates.size() - 1))];
+  config.rate_numerator = rate[0];
+  config.rate_denominator = rate[1];
+  std::vector<int> held = {0};
+  for (const Level& level : levels()) {
+    if (can_hold(level, config.width_px, config.height_px, rate_of(config))) {
+      held.push_back(level.idc);
+    }
+  }
+  config.level_idc =
+      held[static_cast<std::size_t>(numbers.integer(0, static_cast<int>(held.size()) - 1))];
+  return config;
+}
+
+/// Rectangles that cover what has changed, and others.
+std::vector<Rect> rects_of(const MacroblockSet& changed, const Config& config, Numbers& numbers) {
+  const int width_mb = (config.width_px + 15) / 16;
+  std::vector<Rect> rects;
+  const int way = numbers.integer(0, 3);
+  if (way == 0) return {{-7, -1000, 1 << 30, 1 << 30}};
+  for (int i = changed.next(0); i >= 0; i = changed.next(i + 1)) {
+    const int x = 16 * (i % width_mb);
+    const int y = 16 * (i / width_mb);
+    rects.push_back(way == 1 ? Rect{x - 3, y - 3, 22, 22} : Rect{x, y, 16, 16});
+  }
+  if (way == 2) return rects;
+  constexpr int kMost = 2'147'483'647;
+  rects.push_back({numbers.integer(0, 255) - 100, numbers.integer(0, 255) - 100,
+                   numbers.integer(0, 255) - 100, numbers.integer(0, 255) - 100});
+  rects.push_back({-kMost - 1, kMost, kMost, -kMost});
+  rects.push_back({kMost, kMost, kMost, kMost});
+  rects.push_back({5, 5, 0, 1});
+  return rects;
+}
+
+/// A stream, and all that is checked with each of its pictures.
+class Stream {
+ public:
+  Stream(const Config& config, const Encoder& encoder)
+      : config_(config),
+        watch_(level_of(encoder), ((config.width_px + 15) / 16) * ((config.height_px + 15) / 16),
+               rate_of(config)),
+        decoder_({encoder.headers().begin(), encoder.headers().end()}),
+        file_({.width_px = config.width_px,
+               .height_px = config.height_px,
+               .rate = rate_of(config),
+               .headers = encoder.headers(),
+               .max_pictures = kMostFrames},
+              [](auto, auto) {}) {}
+
+  void take(const Planes& source, const CodedPicture& coded,
+            const std::vector<std::uint8_t>& unit) {
+    ++counter.pictures;
+    counter.coarser += coded.qp > config_.qp ? 1 : 0;
+    counter.above_level += coded.is_within_level ? 0 : 1;
+    require(coded.qp >= config_.qp && coded.qp <= kMaxQp, "the quantiser is out of range");
+    require(coded.is_within_level || coded.qp == kMaxQp, "a coarser quantiser was not tried");
+    require(unit.size() <= Encoder::max_unit_bytes(config_), "a unit is too long");
+    require(watch_.take(std::ssize(unit)) == coded.is_within_level, "the level is not kept");
+    const auto shown = decoder_.decode(unit);
+    require(shown.has_value(), "no picture");
+    require(coded.coarse_macroblocks > 0 || coded.qp == config_.qp, "what is coarse is not said");
+    if (coded.coarse_macroblocks == 0) coarsest_qp_ = config_.qp;
+    coarsest_qp_ = std::max(coarsest_qp_, coded.qp);
+    const std::string problem =
+        excess(source, config_.width_px, config_.height_px, *shown, coarsest_qp_);
+    require(problem.empty(), problem);
+    file_.append(unit, coded.type == PictureType::idr);
+  }
+  void finish() { file_.finish(); }
+
+ private:
+  static const Level& level_of(const Encoder& encoder) {
+    for (const Level& level : levels()) {
+      if (level.idc == encoder.level_idc()) return level;
+    }
+    std::abort();
+  }
+
+  Config config_;
+  int coarsest_qp_ = config_.qp;  // of what is shown
+  RateWatch watch_;
+  StrictDecoder decoder_;
+  Mp4Writer file_;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  constexpr int kOneIn = 10;  // pictures is a key frame, and the first after a restart
+  piblocks::silence_av();
+  Numbers numbers({data, size});
+  const Config config = config_of(numbers);
+  Encoder encoder(config);
+  auto other = std::make_unique<Encoder>(config);  // is told that all may have changed
+  auto stream = std::make_unique<Stream>(config, encoder);
+  CallersPicture callers(config.width_px, config.height_px, numbers.integer(0, 70));
+  RandomPictures pictures((config.width_px + 15) / 16, (config.height_px + 15) / 16, numbers);
+  std::vector<std::uint8_t> unit;
+  std::vector<std::uint8_t> other_unit;
+  const std::vector<Rect> all = {{0, 0, config.width_px, config.height_px}};
+  for (int frame = 0; frame < kMostFrames && (frame == 0 || numbers.has_more()); ++frame) {
+    if (frame > 0) pictures.advance();
+    const int chance = numbers.integer(1, kOneIn);
+    if (chance == 2 && frame > 0) {
+      ++counter.restarts;
+      stream->finish();
+      encoder.restart();
+      stream = std::make_unique<Stream>(config, encoder);
+      other = std::make_unique<Encoder>(config);
+    }
+    callers.copy(pictures.picture());
+    const Planes source = callers.planes();
+    const PictureType type = chance == 1 && frame > 0 ? PictureType::idr : PictureType::p;
+    const std::vector<Rect> changed = rects_of(pictures.changed(), config, numbers);
+    const CodedPicture coded = encoder.encode(source, changed, type, unit);
+    stream->take(source, coded, unit);
+    other->encode(source, all, type, other_unit);
+    require(unit == other_unit, "the bytes depend on what was before, or on the rectangles");
+  }
+  stream->finish();
+  return 0;
+}

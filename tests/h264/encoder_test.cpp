@@ -1,0 +1,390 @@
+// The public encoder: what it refuses, and what its bytes do and do not depend on.
+#include "h264/encoder.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "h264/bit_stream.hpp"
+#include "h264/callers_picture.hpp"
+#include "h264/deviation_bound.hpp"
+#include "h264/nal_unit.hpp"
+#include "h264/random_pictures.hpp"
+#include "h264/stream_fixture.hpp"
+#include "support/property.hpp"
+
+namespace piblocks::h264 {
+namespace {
+
+constexpr int kMostInt = std::numeric_limits<int>::max();
+
+std::string problem_of(const Config& config) {
+  try {
+    const Encoder encoder(config);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void expect_refused(const Config& config, const std::string& problem) {
+  EXPECT_EQ(problem_of(config), "h264: " + problem);
+  EXPECT_THROW(Encoder::max_unit_bytes(config), Error) << problem;
+}
+
+TEST(EncoderConfig, IsRefusedByItsFieldAndLimits) {
+  Config config = {.width_px = 64, .height_px = 48};
+  const auto refuses = [&](auto Config::*field, auto value, const std::string& problem) {
+    Config other = config;
+    other.*field = value;
+    expect_refused(other, problem);
+  };
+  refuses(&Config::width_px, 0, "width_px is 0, not in [2, 16880]");
+  refuses(&Config::width_px, 1, "width_px is 1, not in [2, 16880]");
+  refuses(&Config::width_px, -64, "width_px is -64, not in [2, 16880]");
+  refuses(&Config::width_px, 16882, "width_px is 16882, not in [2, 16880]");
+  refuses(&Config::width_px, kMostInt, "width_px is 2147483647, not in [2, 16880]");
+  refuses(&Config::width_px, 63, "width_px is 63, which is odd");
+  refuses(&Config::height_px, 0, "height_px is 0, not in [2, 16880]");
+  refuses(&Config::height_px, 16881, "height_px is 16881, not in [2, 16880]");
+  refuses(&Config::height_px, 49, "height_px is 49, which is odd");
+  for (const std::int64_t term : {std::int64_t{0}, std::int64_t{-1}, std::int64_t{1} << 31,
+                                  std::numeric_limits<std::int64_t>::max()}) {
+    const std::string is = " is " + std::to_string(term) + ", not in [1, 2147483647]";
+    refuses(&Config::rate_numerator, term, "rate_numerator" + is);
+    refuses(&Config::rate_denominator, term, "rate_denominator" + is);
+  }
+  refuses(&Config::qp, -1, "qp is -1, not in [0, 41]");
+  refuses(&Config::qp, 42, "qp is 42, not in [0, 41]");
+  for (const int idc : {-20, 1, 10, 13, 19, 23, 33, 53, 63, 255}) {
+    refuses(&Config::level_idc, idc,
+            "level_idc is " + std::to_string(idc) + ", which is no level from 20 to 62");
+  }
+  EXPECT_EQ(problem_of(config), "");
+}
+
+TEST(EncoderConfig, IsRefusedIfItsLevelIsTooLow) {
+  Config config = {.width_px = 1920, .height_px = 1080, .rate_numerator = 60, .level_idc = 41};
+  expect_refused(config, "level_idc is 41, but 1920x1080 at this rate needs level 4.2 or more");
+  config.level_idc = 20;
+  expect_refused(config, "level_idc is 20, but 1920x1080 at this rate needs level 4.2 or more");
+  config.level_idc = 42;
+  EXPECT_EQ(Encoder(config).level_idc(), 42);
+  config.level_idc = 62;
+  EXPECT_EQ(Encoder(config).level_idc(), 62);
+  config.level_idc = 0;
+  EXPECT_EQ(Encoder(config).level_idc(), 42);
+}
+
+/// The largest of what a process has had in memory.
+long peak_kb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
+TEST(EncoderConfig, ThatNoLevelHoldsIsRefusedBeforeAnythingLargeIsAllocated) {
+  const long before_kb = peak_kb();
+  expect_refused({.width_px = 16880, .height_px = 16880},
+                 "16880x16880 are 1113025 macroblocks of 16x16 pixels, more than the 139264 of "
+                 "level 6.2, the highest");
+  expect_refused({.width_px = 8192, .height_px = 4352, .rate_numerator = 121},
+                 "139264 macroblocks of 16x16 pixels in each of 121 frames a second are more than "
+                 "the 16711680 a second of level 6.2, the highest");
+  expect_refused({.width_px = 8192, .height_px = 4352, .rate_numerator = 60, .level_idc = 60},
+                 "level_idc is 60, but 8192x4352 at this rate needs level 6.1 or more");
+  EXPECT_LT(peak_kb() - before_kb, 20'000);
+}
+
+/// Noise of a seed.
+CallersPicture noise(const Config& config, std::uint64_t seed, int padding_bytes = 0) {
+  Random random(seed);
+  CallersPicture picture(config.width_px, config.height_px, padding_bytes);
+  picture.set([&](int, int, int) { return random.integer(0, 255); });
+  return picture;
+}
+
+std::vector<Rect> whole(const Config& config) {
+  return {{0, 0, config.width_px, config.height_px}};
+}
+
+Bytes headers_of(const Encoder& encoder) {
+  return {encoder.headers().begin(), encoder.headers().end()};
+}
+
+TEST(Encoder, TakesTheFirstPictureWholeAndAsAKeyFrame) {
+  const Config config = {.width_px = 70, .height_px = 38};
+  const CallersPicture picture = noise(config, 1);
+  Bytes whole_unit;
+  Encoder(config).encode(picture.planes(), whole(config), PictureType::idr, whole_unit);
+  const std::vector<std::vector<Rect>> some = {{}, {{0, 0, 2, 2}}, {{5, 5, -1, 3}}};
+  for (const std::vector<Rect>& rects : some) {
+    Encoder encoder(config);
+    Bytes unit;
+    const CodedPicture coded = encoder.encode(picture.planes(), rects, PictureType::p, unit);
+    EXPECT_EQ(coded.type, PictureType::idr);
+    EXPECT_EQ(coded.qp, config.qp);
+    EXPECT_TRUE(coded.is_within_level);
+    EXPECT_EQ(coded.transformed_macroblocks, 0);
+    EXPECT_EQ(unit, whole_unit);
+    StrictDecoder decoder(headers_of(encoder));
+    const auto shown = decoder.decode(unit);
+    ASSERT_TRUE(shown);
+    EXPECT_EQ(excess(picture.planes(), config.width_px, config.height_px, *shown, config.qp), "");
+    // The next is what was asked for.
+    EXPECT_EQ(encoder.encode(picture.planes(), {}, PictureType::p, unit).type, PictureType::p);
+    EXPECT_LE(unit.size(), 12u);
+  }
+}
+
+/// The units of a stream whose picture changes in a square, told by these rectangles.
+std::vector<Bytes> units_told(const Config& config, const std::vector<Rect>& rects) {
+  Encoder encoder(config);
+  CallersPicture picture = noise(config, 2);
+  std::vector<Bytes> units(4);
+  encoder.encode(picture.planes(), {}, PictureType::idr, units[0]);
+  for (std::size_t i = 1; i < units.size(); ++i) {
+    for (int y = 20; y < 30; ++y) std::fill_n(picture.row(0, y) + 36, 10, std::uint8_t(50 * i));
+    encoder.encode(picture.planes(), rects, i == 2 ? PictureType::idr : PictureType::p, units[i]);
+  }
+  return units;
+}
+
+TEST(Encoder, MakesTheSameBytesHoweverCoarseTheRectanglesAre) {
+  const Config config = {.width_px = 70, .height_px = 38};
+  const std::vector<Bytes> expected = units_told(config, {{36, 20, 10, 10}});
+  const std::vector<std::vector<Rect>> others = {
+      {{35, 19, 12, 12}},
+      {{36, 20, 5, 10}, {41, 20, 5, 10}, {36, 20, 10, 10}},
+      whole(config),
+      {{-10, -10, 1000, 1000}},
+      {{-kMostInt, -kMostInt, kMostInt, kMostInt}, {0, 0, kMostInt, kMostInt}},
+      {{36, 20, kMostInt, kMostInt}},
+      {{30, 20, 1000, 10}, {kMostInt, kMostInt, kMostInt, kMostInt}},
+      // What is empty or outside says nothing.
+      {{36, 20, 10, 10}, {0, 0, 0, 5}, {0, 0, 5, -5}, {-20, 0, 20, 38}, {70, 0, 5, 5}},
+      {{36, 20, 10, 10}, {50, 3, -kMostInt - 1, 5}, {3, 38, 5, 5}, {3, -4, 5, 4}}};
+  for (const std::vector<Rect>& rects : others) {
+    EXPECT_EQ(units_told(config, rects), expected) << &rects - others.data();
+  }
+}
+
+TEST(Encoder, LeavesWhatIsInNoRectangle) {
+  const Config config = {.width_px = 70, .height_px = 38};
+  const std::vector<Bytes> units =
+      units_told(config, {{0, 0, 0, 5}, {-20, 0, 20, 38}, {70, 0, 5, 5}, {0, 38, 70, 9}});
+  EXPECT_LE(units[1].size(), 12u);
+  EXPECT_EQ(units[2].size(), units[0].size()) << "as the first, but for idr_pic_id";
+  EXPECT_LE(units[3].size(), 12u);
+}
+
+TEST(Encoder, RefusesPlanesWithoutSamplesAndGoesOn) {
+  const Config config = {.width_px = 36, .height_px = 20};
+  const CallersPicture picture = noise(config, 3);
+  Encoder encoder(config);
+  Bytes unit = {1, 2, 3};
+  for (Plane Planes::*const plane : {&Planes::y, &Planes::cb, &Planes::cr}) {
+    Planes planes = picture.planes();
+    (planes.*plane).samples = nullptr;
+    EXPECT_THROW(encoder.encode(planes, {}, PictureType::p, unit), Error);
+    EXPECT_EQ(unit, Bytes({1, 2, 3}));
+  }
+  Bytes expected;
+  Encoder(config).encode(picture.planes(), {}, PictureType::idr, expected);
+  EXPECT_EQ(encoder.encode(picture.planes(), {}, PictureType::p, unit).type, PictureType::idr);
+  EXPECT_EQ(unit, expected);
+}
+
+TEST(Encoder, TakesRowsHoweverFarApartAndEitherWay) {
+  const Config config = {.width_px = 52, .height_px = 36};
+  const CallersPicture dense = noise(config, 4);
+  Bytes expected;
+  Encoder(config).encode(dense.planes(), {}, PictureType::idr, expected);
+  for (const int padding_bytes : {1, 12, 77}) {
+    CallersPicture wide(config.width_px, config.height_px, padding_bytes);
+    wide.set([&](int plane, int x, int y) { return dense.row(plane, y)[x]; });
+    wide.set_padding(std::uint8_t(padding_bytes));
+    Bytes unit;
+    Encoder(config).encode(wide.planes(), {}, PictureType::idr, unit);
+    EXPECT_EQ(unit, expected) << padding_bytes;
+  }
+  CallersPicture upside_down(config.width_px, config.height_px, 6);
+  upside_down.set(
+      [&](int plane, int x, int y) { return dense.row(plane, dense.height(plane) - 1 - y)[x]; });
+  const auto last_row = [&](int plane) -> Plane {
+    return {upside_down.row(plane, dense.height(plane) - 1), -upside_down.stride_bytes(plane)};
+  };
+  Bytes unit;
+  Encoder(config).encode({last_row(0), last_row(1), last_row(2)}, {}, PictureType::idr, unit);
+  EXPECT_EQ(unit, expected);
+}
+
+/// The last column and row are repeated, as here by hand.
+TEST(Encoder, ExtendsPicturesOfNoWholeMacroblocks) {
+  for (const auto& [width, height] :
+       {std::pair(2, 2), {2, 50}, {30, 4}, {18, 14}, {64, 46}, {62, 48}}) {
+    const Config config = {.width_px = width, .height_px = height};
+    const ParameterSets sets = parameter_sets(config);
+    Picture extended(sets.width_mb, sets.height_mb);
+    PictureEncoder by_hand(sets, 16 * sets.width_mb, 16 * sets.height_mb, config.qp);
+    MacroblockSet all(sets.width_mb, sets.height_mb);
+    all.add(0, 0, 16 * sets.width_mb, 16 * sets.height_mb);
+    Encoder encoder(config);
+    for (std::uint64_t i = 0; i < 4; ++i) {
+      const CallersPicture picture = noise(config, i);
+      for (int plane = 0; plane < 3; ++plane) {
+        for (int y = 0; y < side_of(plane) * sets.height_mb; ++y) {
+          for (int x = 0; x < side_of(plane) * sets.width_mb; ++x) {
+            const std::uint8_t* const row =
+                picture.row(plane, std::min(y, picture.height(plane) - 1));
+            extended.plane(plane)[y * extended.stride_bytes(plane) + x] =
+                row[std::min(x, picture.width(plane) - 1)];
+          }
+        }
+      }
+      Bytes unit;
+      encoder.encode(picture.planes(), whole(config), i == 0 ? PictureType::idr : PictureType::p,
+                     unit);
+      EXPECT_EQ(unit, i == 0 ? encoded_idr(by_hand, extended) : encoded_p(by_hand, extended, all))
+          << width << 'x' << height << ", picture " << i;
+    }
+  }
+}
+
+/// The units of random pictures, always the same for a seed.
+std::vector<Bytes> units_of(Encoder& encoder, const Config& config, std::uint64_t seed) {
+  Random random(seed);
+  const ParameterSets sets = parameter_sets(config);
+  RandomPictures pictures(sets.width_mb, sets.height_mb, random);
+  CallersPicture picture(config.width_px, config.height_px);
+  std::vector<Bytes> units;
+  for (int i = 0; i < 10; ++i) {
+    if (i > 0) pictures.advance();
+    picture.copy(pictures.picture());
+    encoder.encode(picture.planes(), whole(config), i == 6 ? PictureType::idr : PictureType::p,
+                   units.emplace_back());
+  }
+  return units;
+}
+
+TEST(Encoder, BeginsAnewAsANewOneDoes) {
+  const Config config = {.width_px = 100, .height_px = 68};
+  Encoder used(config);
+  for (std::uint64_t seed = 1; seed <= std::uint64_t(many(20)); ++seed) {
+    Encoder fresh(config);
+    used.restart();
+    ASSERT_EQ(units_of(used, config, seed), units_of(fresh, config, seed)) << seed;
+    // Also after a key frame, whose idr_pic_id would be another one.
+    Bytes unit;
+    used.encode(noise(config, seed).planes(), {}, PictureType::idr, unit);
+  }
+}
+
+/// The level is so low that quantisers are coarser, and the buffer is full again after a restart.
+TEST(Encoder, BeginsAnewAsANewOneDoesAlsoAfterCoarsePictures) {
+  const Config config = {
+      .width_px = 352, .height_px = 288, .rate_numerator = 30, .qp = 4, .level_idc = 20};
+  Encoder used(config);
+  for (const int pictures : {1, 5}) {  // the last ones find the buffer empty
+    Bytes unit;
+    bool is_within_level = true;
+    for (int i = 0; i < pictures; ++i) {
+      const CallersPicture picture = noise(config, std::uint64_t(i));
+      is_within_level =
+          used.encode(picture.planes(), whole(config), PictureType::p, unit).is_within_level;
+    }
+    EXPECT_EQ(is_within_level, pictures == 1);
+    Encoder fresh(config);
+    used.restart();
+    Bytes fresh_unit;
+    const CallersPicture picture = noise(config, 100);
+    used.encode(picture.planes(), whole(config), PictureType::p, unit);
+    fresh.encode(picture.planes(), whole(config), PictureType::p, fresh_unit);
+    EXPECT_EQ(unit, fresh_unit);
+    ASSERT_EQ(units_of(used, config, 9), units_of(fresh, config, 9)) << pictures;
+    used.restart();
+  }
+}
+
+TEST(Encoder, CanBeMoved) {
+  const Config config = {.width_px = 100, .height_px = 68};
+  Encoder first(config);
+  Encoder second(std::move(first));
+  Encoder third({.width_px = 2, .height_px = 2});
+  third = std::move(second);
+  Encoder fresh(config);
+  EXPECT_EQ(units_of(third, config, 5), units_of(fresh, config, 5));
+}
+
+/// At QP 0, noise takes the most bytes; zeros and small numbers, the most start codes prevented.
+TEST(Encoder, NeverExceedsTheMostBytes) {
+  Random random(400);
+  SCOPED_TRACE(random.trace());
+  for (int height = 2; height <= 48; height += 2) {
+    const Config config = {.width_px = static_cast<int>(2 * random.integer(1, 32)),
+                           .height_px = height,
+                           .rate_numerator = 1,
+                           .qp = 0,
+                           .level_idc = 62};
+    Encoder encoder(config);
+    const std::size_t most = Encoder::max_unit_bytes(config);
+    Bytes unit;
+    for (int i = 0; i < 8; ++i) {
+      CallersPicture picture = noise(config, std::uint64_t(100 * height + i));
+      if (i % 4 == 3) picture.set([&](int, int, int) { return random.integer(0, 9) / 9 * 255; });
+      if (i % 4 == 2) picture.set([&](int, int, int) { return random.integer(0, 1) * 255; });
+      const PictureType type = i % 3 == 0 ? PictureType::idr : PictureType::p;
+      const CodedPicture coded = encoder.encode(picture.planes(), whole(config), type, unit);
+      EXPECT_LE(unit.size(), most) << config.width_px << 'x' << height << ", picture " << i;
+      EXPECT_TRUE(coded.is_within_level);
+      EXPECT_EQ(coded.qp, 0);
+    }
+  }
+}
+
+TEST(Encoder, KeepsTheCallersBytesFromPictureToPicture) {
+  const Config config = {.width_px = 64, .height_px = 48};
+  Encoder encoder(config);
+  Bytes unit;
+  unit.reserve(Encoder::max_unit_bytes(config));
+  const std::uint8_t* const begin = unit.data();
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    const CallersPicture picture = noise(config, i);
+    encoder.encode(picture.planes(), whole(config), PictureType::p, unit);
+    EXPECT_EQ(unit.data(), begin);
+    EXPECT_EQ(std::vector(unit.begin(), unit.begin() + 4), Bytes({0, 0, 0, 1}));
+    EXPECT_EQ(read_units(unit).size(), 1u);
+    EXPECT_EQ(unit[4], i == 0 ? 0x65 : 0x41);
+  }
+}
+
+/// Consecutive IDR pictures differ in idr_pic_id (7.4.3), also at a level that makes them coarse.
+TEST(Encoder, NumbersKeyFramesThatFollowEachOther) {
+  for (const int level_idc : {0, 20}) {
+    const Config config = {
+        .width_px = 96, .height_px = 80, .rate_numerator = 360, .qp = 4, .level_idc = level_idc};
+    Encoder encoder(config);
+    std::uint32_t last = 1000;
+    for (std::uint64_t i = 0; i < 8; ++i) {
+      Bytes unit;
+      encoder.encode(noise(config, i).planes(), whole(config), PictureType::idr, unit);
+      const std::vector<Unit> units = read_units(unit);
+      ASSERT_EQ(units.size(), 1u);
+      EXPECT_EQ(units[0].type, 5);
+      BitReader bits(units[0].rbsp);
+      for (int field = 0; field < 3; ++field) bits.get_unsigned();  // up to the picture set's id
+      EXPECT_EQ(bits.get(4), 0u) << "frame_num";
+      const std::uint32_t id = bits.get_unsigned();
+      EXPECT_NE(id, last);
+      EXPECT_LE(id, 65535u);
+      last = id;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace piblocks::h264

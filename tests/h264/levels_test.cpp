@@ -1,0 +1,390 @@
+// Levels: what they allow, and what a stream needs. The model of the decoder's buffer that the
+// watches are compared with is written here anew, in exact fractions.
+#include "h264/levels.hpp"
+
+#include <gtest/gtest.h>
+#include <piblocks/exact.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "support/property.hpp"
+
+namespace piblocks::h264 {
+namespace {
+
+constexpr PictureRate kSlow = {1, std::numeric_limits<std::int32_t>::max()};
+constexpr PictureRate kFast = {std::numeric_limits<std::int32_t>::max(), 1};
+
+bool fits(int width_px, int height_px, std::int64_t numerator = 1, std::int64_t denominator = 1) {
+  return level_problem(width_px, height_px, {numerator, denominator}).empty();
+}
+
+const Level& level_with(int idc) { return *std::ranges::find(levels(), idc, &Level::idc); }
+
+/// The largest picture of n macroblocks or fewer that is nearly a square.
+struct Sides {
+  int width_px;
+  int height_px;
+};
+Sides square_of(std::int64_t size_mb) {
+  const auto side = static_cast<int>(std::sqrt(static_cast<double>(size_mb)));
+  return {16 * side, 16 * static_cast<int>(size_mb / side)};
+}
+
+TEST(Levels, AreInOrder) {
+  const std::vector<int> numbers = {20, 21, 22, 30, 31, 32, 40, 41, 42, 50, 51, 52, 60, 61, 62};
+  ASSERT_EQ(levels().size(), numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    EXPECT_EQ(levels()[i].idc, numbers[i]);
+    if (i == 0) continue;
+    const Level& before = levels()[i - 1];
+    const Level& level = levels()[i];
+    EXPECT_GE(level.max_rate_mb, before.max_rate_mb);
+    EXPECT_GE(level.max_size_mb, before.max_size_mb);
+    EXPECT_GE(level.max_rate_bps, before.max_rate_bps);
+    EXPECT_GE(level.max_buffer_b, before.max_buffer_b);
+  }
+}
+
+/// Its rows, in its units: MaxMBPS, MaxFS, MaxBR, MaxCPB and MinCR.
+TEST(Levels, AreThoseOfTableA1) {
+  struct Row {
+    int idc, rate_mb, size_mb, rate_kbps, buffer_kb, compression;
+  };
+  const std::vector<Row> rows = {
+      {20, 11880, 396, 2000, 2000, 2},          {21, 19800, 792, 4000, 4000, 2},
+      {22, 20250, 1620, 4000, 4000, 2},         {30, 40500, 1620, 10000, 10000, 2},
+      {31, 108000, 3600, 14000, 14000, 4},      {32, 216000, 5120, 20000, 20000, 4},
+      {40, 245760, 8192, 20000, 25000, 4},      {41, 245760, 8192, 50000, 62500, 2},
+      {42, 522240, 8704, 50000, 62500, 2},      {50, 589824, 22080, 135000, 135000, 2},
+      {51, 983040, 36864, 240000, 240000, 2},   {52, 2073600, 36864, 240000, 240000, 2},
+      {60, 4177920, 139264, 240000, 240000, 2}, {61, 8355840, 139264, 480000, 480000, 2},
+      {62, 16711680, 139264, 800000, 800000, 2}};
+  for (const Row& row : rows) {
+    SCOPED_TRACE(row.idc);
+    const Level& level = level_with(row.idc);
+    EXPECT_EQ(level.max_rate_mb, row.rate_mb);
+    EXPECT_EQ(level.max_size_mb, row.size_mb);
+    EXPECT_EQ(level.max_rate_bps, 1000LL * row.rate_kbps);
+    EXPECT_EQ(level.max_buffer_b, 1000LL * row.buffer_kb);
+    EXPECT_EQ(level.min_compression, row.compression);
+  }
+}
+
+/// What table A-1 is known for.
+TEST(Levels, HoldWellKnownPictures) {
+  const auto lowest = [](int width_px, int height_px, std::int64_t rate) {
+    const Level* const level = lowest_level(width_px, height_px, {rate, 1});
+    return level == nullptr ? 0 : level->idc;
+  };
+  EXPECT_EQ(lowest(2, 2, 1), 20);
+  EXPECT_EQ(lowest(352, 288, 30), 20);
+  EXPECT_EQ(lowest(352, 480, 30), 21);
+  EXPECT_EQ(lowest(720, 480, 15), 22);
+  EXPECT_EQ(lowest(720, 576, 25), 30);
+  EXPECT_EQ(lowest(1280, 720, 30), 31);
+  EXPECT_EQ(lowest(1280, 720, 60), 32);
+  EXPECT_EQ(lowest(1920, 1080, 30), 40);
+  EXPECT_EQ(lowest(1920, 1080, 60), 42);
+  EXPECT_EQ(lowest(2560, 1920, 30), 50);
+  EXPECT_EQ(lowest(3840, 2160, 30), 51);
+  EXPECT_EQ(lowest(3840, 2160, 60), 52);
+  EXPECT_EQ(lowest(7680, 4320, 30), 60);
+  EXPECT_EQ(lowest(7680, 4320, 60), 61);
+  EXPECT_EQ(lowest(7680, 4320, 120), 62);
+  EXPECT_EQ(lowest(7680, 4320, 200), 0);
+}
+
+TEST(Levels, HoldTheirLargestPicturesAndNoneBelowDoes) {
+  std::int64_t size_before_mb = 0;
+  for (const Level& level : levels()) {
+    SCOPED_TRACE(level.idc);
+    const Sides sides = square_of(level.max_size_mb);
+    EXPECT_TRUE(can_hold(level, sides.width_px, sides.height_px, kSlow));
+    EXPECT_FALSE(can_hold(level, sides.width_px + 1, sides.height_px + 16, kSlow));
+    if (level.max_size_mb > size_before_mb) {
+      EXPECT_EQ(lowest_level(sides.width_px, sides.height_px, kSlow), &level);
+    }
+    size_before_mb = level.max_size_mb;
+  }
+}
+
+TEST(Levels, HoldTheirFastestPicturesAndNoneBelowDoes) {
+  std::int64_t rate_before_mb = 0;
+  for (const Level& level : levels()) {
+    SCOPED_TRACE(level.idc);
+    EXPECT_TRUE(can_hold(level, 16, 16, {level.max_rate_mb, 1}));
+    EXPECT_FALSE(can_hold(level, 16, 16, {level.max_rate_mb + 1, 1}));
+    EXPECT_FALSE(can_hold(level, 17, 16, {level.max_rate_mb, 1}));
+    EXPECT_TRUE(can_hold(level, 48, 16, {level.max_rate_mb, 3}));
+    EXPECT_FALSE(can_hold(level, 48, 16, {1000 * level.max_rate_mb + 1, 3000}));
+    if (level.max_rate_mb > rate_before_mb) {
+      EXPECT_EQ(lowest_level(16, 16, {level.max_rate_mb, 1}), &level);
+    }
+    rate_before_mb = level.max_rate_mb;
+  }
+}
+
+/// By A.3.1, a side has at most Sqrt(8 MaxFS) macroblocks.
+TEST(Levels, HoldTheirLongestSides) {
+  for (const Level& level : levels()) {
+    SCOPED_TRACE(level.idc);
+    int side_mb = 1;
+    while (std::int64_t{side_mb + 1} * (side_mb + 1) <= 8 * level.max_size_mb) ++side_mb;
+    EXPECT_TRUE(can_hold(level, 16 * side_mb, 16, kSlow));
+    EXPECT_FALSE(can_hold(level, 16 * side_mb + 1, 16, kSlow));
+    EXPECT_TRUE(can_hold(level, 16, 16 * side_mb, kSlow));
+    EXPECT_FALSE(can_hold(level, 16, 16 * side_mb + 1, kSlow));
+  }
+}
+
+/// By the inequalities of A.3.1, in fractions.
+TEST(Levels, OfRandomPicturesAreTheLowestThatHold) {
+  Random random(31);
+  SCOPED_TRACE(random.trace());
+  std::set<int> seen;
+  for (std::int64_t i = 0; i < many(20000); ++i) {
+    const auto width_px = static_cast<int>(random.integer(1, 1 << random.integer(1, 14)));
+    const auto height_px = static_cast<int>(random.integer(1, 1 << random.integer(1, 14)));
+    const PictureRate rate = {random.integer(1, std::int64_t{1} << random.integer(1, 30)),
+                              random.integer(1, std::int64_t{1} << random.integer(1, 30))};
+    const long width_mb = (width_px + 15) / 16;
+    const long height_mb = (height_px + 15) / 16;
+    const Rational per_second =
+        Rational(width_mb * height_mb) * Rational(long(rate.numerator), long(rate.denominator));
+    const Level* lowest = nullptr;
+    for (const Level& level : levels()) {
+      const bool holds = width_mb * height_mb <= level.max_size_mb &&
+                         width_mb * width_mb <= 8 * level.max_size_mb &&
+                         height_mb * height_mb <= 8 * level.max_size_mb &&
+                         per_second <= Rational(long(level.max_rate_mb));
+      if (holds && lowest == nullptr) lowest = &level;
+      ASSERT_EQ(can_hold(level, width_px, height_px, rate), holds);
+    }
+    ASSERT_EQ(lowest_level(width_px, height_px, rate), lowest);
+    ASSERT_EQ(level_problem(width_px, height_px, rate).empty(), lowest != nullptr);
+    seen.insert(lowest == nullptr ? 0 : lowest->idc);
+  }
+  // Also none; but level 4.1 differs from 4 in its bytes alone.
+  EXPECT_EQ(seen.size(), levels().size());
+}
+
+/// Levels of table A-1, from 2 to 6.2: a picture of MaxFS macroblocks at their rate.
+TEST(LevelProblem, IsThatOfTheHighestLevel) {
+  EXPECT_TRUE(fits(8192, 4352));  // 512 x 272 = 139,264 macroblocks
+  EXPECT_FALSE(fits(8192, 4353));
+  EXPECT_FALSE(fits(8193, 4352));
+  EXPECT_TRUE(fits(16, 16, 16'711'680));
+  EXPECT_FALSE(fits(16, 16, 16'711'681));
+  EXPECT_TRUE(fits(8192, 4352, 120));
+  EXPECT_FALSE(fits(8192, 4352, 120001, 1000));
+  EXPECT_TRUE(fits(1, 1, 2147483647, 2147483647));
+  EXPECT_FALSE(fits(16880, 16880, kFast.numerator));
+}
+
+/// Sqrt(8 x 139,264) = 1055.5 macroblocks.
+TEST(LevelProblem, IsASideThatIsTooLong) {
+  EXPECT_EQ(kMaxSide_mb, 1055);
+  EXPECT_TRUE(fits(16880, 16));
+  EXPECT_FALSE(fits(16881, 16));
+  EXPECT_TRUE(fits(16, 16880));
+  EXPECT_FALSE(fits(16, 16881));
+  EXPECT_FALSE(fits(std::numeric_limits<int>::max(), 16));
+  EXPECT_NE(level_problem(16881, 16, {1, 1}).find("16880 px"), std::string::npos);
+}
+
+TEST(LevelProblem, SaysTheLimit) {
+  EXPECT_EQ(level_problem(8194, 4352, {1, 1}),
+            "8194x4352 are 139536 macroblocks of 16x16 pixels, more than the 139264 of level 6.2, "
+            "the highest");
+  EXPECT_EQ(level_problem(32, 16, {16'711'681, 2}),
+            "2 macroblocks of 16x16 pixels in each of 16711681/2 frames a second are more than the "
+            "16711680 a second of level 6.2, the highest");
+}
+
+/// C.1.1 and A.3.1, items c and d: a leaky bucket in exact fractions of bits.
+class Bucket {
+ public:
+  Bucket(const Level& level, int size_mb, PictureRate rate)
+      : capacity_(long(level.max_buffer_b)),
+        in_buffer_(capacity_),
+        duration_(long(rate.denominator), long(rate.numerator)),
+        compressed_bytes_(384, level.min_compression) {
+    duration_.canonicalize();
+    compressed_bytes_.canonicalize();
+    refill_ = duration_ * long(level.max_rate_bps);
+    limit_bytes_ = compressed_bytes_ * long(level.max_rate_mb) * duration_;
+    const Rational least(long(level.max_rate_mb), 172L);
+    first_limit_bytes_ = compressed_bytes_ * std::max(Rational(size_mb), Rational(least));
+  }
+
+  bool has_room_for(std::int64_t size_bytes) const {
+    const Rational size(static_cast<long>(size_bytes));
+    return 8 * size <= in_buffer_ && size <= (is_first_ ? first_limit_bytes_ : limit_bytes_);
+  }
+  bool take(std::int64_t size_bytes) {
+    const bool is_kept = has_room_for(size_bytes);
+    is_first_ = false;
+    in_buffer_ -= 8 * Rational(static_cast<long>(size_bytes));
+    if (in_buffer_ < 0) in_buffer_ = 0;
+    in_buffer_ += refill_;
+    if (in_buffer_ > capacity_) in_buffer_ = capacity_;
+    return is_kept;
+  }
+
+ private:
+  Rational capacity_;  // in bits
+  Rational in_buffer_;
+  Rational duration_;  // in seconds
+  Rational compressed_bytes_;
+  Rational refill_;
+  Rational limit_bytes_;
+  Rational first_limit_bytes_;
+  bool is_first_ = true;
+};
+
+PictureRate random_rate(Random& random) {
+  switch (random.integer(0, 5)) {
+    case 0:
+      return {60, 1};
+    case 1:
+      return {30000, 1001};
+    case 2:
+      return {24000, 1001};
+    case 3:
+      return {random.integer(1, 300), 1};
+    case 4:
+      return {random.integer(1, 1000), random.integer(1, 1000)};
+    default:
+      return {random.integer(1, kFast.numerator), random.integer(1, kFast.numerator)};
+  }
+}
+
+/// Sizes that the buffer has exactly, nearly, or by far not.
+TEST(RateWatch, IsAnExactLeakyBucket) {
+  Random random(20);
+  SCOPED_TRACE(random.trace());
+  int kept = 0;
+  int broken = 0;
+  for (std::int64_t i = 0; i < many(600); ++i) {
+    const Level& level = levels()[std::size_t(random.integer(0, std::ssize(levels()) - 1))];
+    const PictureRate rate = random_rate(random);
+    const auto size_mb = static_cast<int>(random.integer(1, level.max_size_mb));
+    RateWatch watch(level, size_mb, rate);
+    Bucket bucket(level, size_mb, rate);
+    const std::int64_t greed = random.integer(0, 4);
+    for (int picture = 0; picture < 40; ++picture) {
+      const std::int64_t room = watch.room_bytes();
+      ASSERT_TRUE(bucket.has_room_for(room)) << level.idc << ", picture " << picture;
+      ASSERT_FALSE(bucket.has_room_for(room + 1)) << level.idc << ", picture " << picture;
+      std::int64_t size = room;
+      if (greed > 0) size = random.integer(0, 2 + 2 * room / greed);
+      if (random.integer(0, 20) == 0) size = room + random.integer(0, 1);
+      const bool is_kept = bucket.take(size);
+      ASSERT_EQ(watch.take(size), is_kept) << level.idc << ", picture " << picture;
+      ++(is_kept ? kept : broken);
+    }
+  }
+  EXPECT_GT(kept, 1000);
+  EXPECT_GT(broken, 1000);
+}
+
+TEST(RateWatch, HasAFullBufferAtFirstAndALittleMoreWithEveryPicture) {
+  // Level 2.0: 2,000,000 bits, and as many a second. MinCR 2 allows much more at one a second.
+  RateWatch watch(level_with(20), 396, {10, 1});
+  EXPECT_EQ(watch.room_bytes(), 192 * 396);
+  EXPECT_TRUE(watch.take(192 * 396));
+  EXPECT_EQ(watch.room_bytes(), 250'000 - 192 * 396 + 25'000);
+  EXPECT_TRUE(watch.take(watch.room_bytes()));
+  EXPECT_EQ(watch.room_bytes(), 25'000);
+  EXPECT_FALSE(watch.take(1'000'000));
+  EXPECT_EQ(watch.room_bytes(), 25'000);
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(watch.take(0));
+  EXPECT_EQ(watch.room_bytes(), 192 * 1188);
+}
+
+/// 384 bytes a macroblock, by MinCR; of the first picture, for as many macroblocks as it has, or as
+/// the level has in 1/172 s.
+TEST(RateWatch, AsksForTheLeastCompression) {
+  const auto first = [](int idc, int size_mb, PictureRate rate) {
+    return RateWatch(level_with(idc), size_mb, rate).room_bytes();
+  };
+  const auto second = [](int idc, int size_mb, PictureRate rate) {
+    RateWatch watch(level_with(idc), size_mb, rate);
+    watch.take(0);
+    return watch.room_bytes();
+  };
+  EXPECT_EQ(first(20, 1, {60, 1}), 13'261);  // 192 * 11880 / 172
+  EXPECT_EQ(first(20, 100, {60, 1}), 19'200);
+  EXPECT_EQ(first(31, 3600, {30, 1}), 96 * 3600);
+  EXPECT_EQ(first(62, 139'264, {1, 1}), 192 * 139'264);
+  EXPECT_EQ(second(20, 1, {60, 1}), 192 * 198);
+  EXPECT_EQ(second(31, 1, {30, 1}), 96 * 3600);
+  EXPECT_EQ(second(41, 8160, {30, 1}), 192 * 8192);
+  EXPECT_EQ(second(20, 1, {11'880, 1}), 192);
+  EXPECT_EQ(second(62, 1, {16'711'680, 1}), 192);
+  EXPECT_EQ(second(62, 1, kFast), 1);
+  EXPECT_EQ(second(62, 1, kSlow), 100'000'000) << "the whole buffer";
+}
+
+/// Rates and sizes at their ends: nothing overflows (the sanitizers would say so).
+TEST(RateWatch, TakesTheLargestNumbers) {
+  for (const Level& level : levels()) {
+    for (const PictureRate rate : {kSlow, kFast, PictureRate{kFast.numerator, kFast.numerator}}) {
+      RateWatch watch(level, static_cast<int>(level.max_size_mb), rate);
+      for (const std::int64_t size : {std::int64_t{0}, std::numeric_limits<std::int64_t>::max(),
+                                      std::int64_t{1}, level.max_buffer_b, watch.room_bytes()}) {
+        watch.take(size);
+        EXPECT_GE(watch.room_bytes(), 0);
+        EXPECT_LE(8 * watch.room_bytes(), level.max_buffer_b);
+      }
+    }
+  }
+}
+
+TEST(LevelWatch, IsTheLowestLevelThatNeverBreaks) {
+  Random random(62);
+  SCOPED_TRACE(random.trace());
+  std::set<int> seen;
+  for (std::int64_t i = 0; i < many(500); ++i) {
+    const auto width_px = static_cast<int>(random.integer(1, 2000));
+    const auto height_px = static_cast<int>(random.integer(1, 2000));
+    const PictureRate rate = {random.integer(1, 120), random.integer(1, 4)};
+    const int size_mb = ((width_px + 15) / 16) * ((height_px + 15) / 16);
+    const std::int64_t most_bytes = random.integer(1, std::int64_t{1} << random.integer(1, 26));
+    std::vector<std::int64_t> sizes;
+    LevelWatch watch(width_px, height_px, rate);
+    EXPECT_EQ(watch.level(), lowest_level(width_px, height_px, rate));
+    for (int picture = 0; picture < 30; ++picture) {
+      sizes.push_back(random.integer(0, most_bytes));
+      watch.take(sizes.back());
+    }
+    const Level* lowest = nullptr;
+    for (const Level& level : levels()) {
+      if (lowest != nullptr || !can_hold(level, width_px, height_px, rate)) continue;
+      RateWatch single(level, size_mb, rate);
+      bool never_breaks = true;
+      for (const std::int64_t size : sizes) never_breaks = single.take(size) && never_breaks;
+      if (never_breaks) lowest = &level;
+    }
+    ASSERT_EQ(watch.level(), lowest);
+    seen.insert(lowest == nullptr ? 0 : lowest->idc);
+  }
+  EXPECT_GT(seen.size(), 10u);
+  EXPECT_TRUE(seen.contains(0));
+}
+
+TEST(LevelWatch, HasNoneForWhatNoLevelHolds) {
+  LevelWatch watch(16881, 16, {1, 1});
+  EXPECT_EQ(watch.level(), nullptr);
+  watch.take(1);
+  EXPECT_EQ(watch.level(), nullptr);
+}
+
+}  // namespace
+}  // namespace piblocks::h264
