@@ -59,7 +59,7 @@ const Level& level_of(const Config& config) {
 
 /// The next quantiser to try for a picture that has `size_bytes`, more than `room_bytes`. Each step
 /// takes about a ninth of the bits, so that six halve them.
-int coarser(int qp, std::int64_t size_bytes, std::int64_t room_bytes) {
+int next_qp(int qp, std::int64_t size_bytes, std::int64_t room_bytes) {
   while (size_bytes > room_bytes && qp < kMaxQp) {
     size_bytes -= size_bytes / 9;
     ++qp;
@@ -142,7 +142,7 @@ class Encoder::Impl {
       }
     }
     while (std::ssize(unit) > room_bytes && qp < kMaxQp) {
-      qp = coarser(qp, std::ssize(unit), room_bytes);
+      qp = next_qp(qp, std::ssize(unit), room_bytes);
       coder_.encode_again(qp, 0, unit);
     }
     return qp;

@@ -2,8 +2,8 @@
 // In: pictures in 4:2:0, and the rectangles of each that may have changed. Out: a stream of access
 // units, Constrained Baseline, in the byte stream format of annex B.
 //
-// This header, and h264.h for C, are all that a user of the library needs. The library needs the
-// standard library alone.
+// Users of the library need this header, or h264.h from C, and mp4_writer.hpp for MP4 files. The
+// library needs the standard library alone.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace piblocks::h264 {
 
-/// What can go wrong: a config that no stream can have, or a picture without samples.
+/// What the library throws: a config or a picture that cannot be, or a limit that is passed.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

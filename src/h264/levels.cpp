@@ -8,8 +8,8 @@
 namespace piblocks::h264 {
 namespace {
 
-/// Table A-1. MaxBR and MaxCPB are those of the VCL, in units of 1000 bits (table A-2 allows the
-/// whole NAL stream a fifth more).
+/// Table A-1. MaxBR and MaxCPB are those of the VCL, times 1000 (the whole NAL stream may have a
+/// fifth more).
 constexpr std::array kLevels = {Level{20, 11'880, 396, 2'000'000, 2'000'000, 2},
                                 Level{21, 19'800, 792, 4'000'000, 4'000'000, 2},
                                 Level{22, 20'250, 1'620, 4'000'000, 4'000'000, 2},
@@ -27,8 +27,8 @@ constexpr std::array kLevels = {Level{20, 11'880, 396, 2'000'000, 2'000'000, 2},
                                 Level{62, 16'711'680, 139'264, 800'000'000, 800'000'000, 2}};
 
 constexpr const Level& kHighest = kLevels.back();
-static_assert(kMaxSide_mb * kMaxSide_mb <= 8 * kHighest.max_size_mb &&
-              (kMaxSide_mb + 1) * (kMaxSide_mb + 1) > 8 * kHighest.max_size_mb);
+static_assert(kMaxSide_mb * kMaxSide_mb <= 8 * kHighest.max_macroblocks &&
+              (kMaxSide_mb + 1) * (kMaxSide_mb + 1) > 8 * kHighest.max_macroblocks);
 
 /// Bytes of a macroblock's samples: what MinCR counts from.
 constexpr std::int64_t kMacroblock_bytes = 384;
@@ -47,8 +47,8 @@ Size size_of(int width_px, int height_px) {
 /// A.3.1, items a, e, f and g. One frame always fits into the buffer of decoded pictures.
 bool holds(const Level& level, const Size& size, PictureRate rate) {
   const std::int64_t side = std::max(size.width_mb, size.height_mb);
-  return side * side <= 8 * level.max_size_mb && size.area_mb() <= level.max_size_mb &&
-         size.area_mb() * rate.numerator <= level.max_rate_mb * rate.denominator;
+  return side * side <= 8 * level.max_macroblocks && size.area_mb() <= level.max_macroblocks &&
+         size.area_mb() * rate.numerator <= level.max_macroblocks_per_s * rate.denominator;
 }
 
 }  // namespace
@@ -73,15 +73,15 @@ std::string level_problem(int width_px, int height_px, PictureRate rate) {
     return text("a side of ", std::max(width_px, height_px), " px is longer than the ",
                 16 * kMaxSide_mb, " px of level 6.2, the highest");
   }
-  if (size.area_mb() > kHighest.max_size_mb) {
+  if (size.area_mb() > kHighest.max_macroblocks) {
     return text(width_px, "x", height_px, " are ", size.area_mb(),
-                " macroblocks of 16x16 pixels, more than the ", kHighest.max_size_mb,
+                " macroblocks of 16x16 pixels, more than the ", kHighest.max_macroblocks,
                 " of level 6.2, the highest");
   }
   if (!holds(kHighest, size, rate)) {
     const std::string divisor = rate.denominator == 1 ? "" : text("/", rate.denominator);
     return text(size.area_mb(), " macroblocks of 16x16 pixels in each of ", rate.numerator, divisor,
-                " frames a second are more than the ", kHighest.max_rate_mb,
+                " frames a second are more than the ", kHighest.max_macroblocks_per_s,
                 " a second of level 6.2, the highest");
   }
   return {};
@@ -89,15 +89,16 @@ std::string level_problem(int width_px, int height_px, PictureRate rate) {
 
 RateWatch::RateWatch(const Level& level, int size_mb, PictureRate rate)
     : byte_(8 * rate.numerator),
-      capacity_(level.max_buffer_b * rate.numerator),
+      capacity_(level.max_buffer_bits * rate.numerator),
       filled_(capacity_) {
   // The products are below 2^63: rates have terms of 31 bits.
   refill_ = std::min(level.max_rate_bps * rate.denominator, capacity_);
-  // A.3.1, items c and d; 172 frames a second are the most that a level below 6 counts with.
+  // A.3.1, items c and d; fR is 1/172 s below level 6, and 1/300 s from there on.
+  const int most_pictures_per_s = level.idc < 60 ? 172 : 300;
   const std::int64_t limit_bytes = kMacroblock_bytes / level.min_compression;
-  picture_limit_bytes_ = limit_bytes * level.max_rate_mb * rate.denominator / rate.numerator;
+  picture_limit_bytes_ = limit_bytes * level.max_macroblocks_per_s * rate.denominator / rate.numerator;
   first_picture_limit_bytes_ =
-      std::max(limit_bytes * size_mb, limit_bytes * level.max_rate_mb / 172);
+      std::max(limit_bytes * size_mb, limit_bytes * level.max_macroblocks_per_s / most_pictures_per_s);
 }
 
 std::int64_t RateWatch::room_bytes() const {

@@ -19,10 +19,10 @@ struct PictureRate {
 /// A row of table A-1.
 struct Level {
   int idc;                    ///< level_idc: ten times the level's number
-  std::int64_t max_rate_mb;   ///< MaxMBPS: macroblocks a second
-  std::int64_t max_size_mb;   ///< MaxFS: macroblocks of a picture
+  std::int64_t max_macroblocks_per_s;   ///< MaxMBPS
+  std::int64_t max_macroblocks;   ///< MaxFS: of a picture
   std::int64_t max_rate_bps;  ///< MaxBR of the VCL: bits a second
-  std::int64_t max_buffer_b;  ///< MaxCPB of the VCL: bits
+  std::int64_t max_buffer_bits;  ///< MaxCPB of the VCL: bits
   int min_compression;        ///< MinCR
 };
 

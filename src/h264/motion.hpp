@@ -23,7 +23,7 @@ bool stays_inside(const Picture& picture, int x_mb, int y_mb, MotionVector vecto
 void predict_moved(const Picture& before, int x_mb, int y_mb, MotionVector vector,
                    Samples& samples);
 
-/// Finds vectors of what slides or scrolls by whole samples. It looks first where others have found
+/// Finds vectors of what slides, scrolls or is dragged, by whole samples. It looks first where others have found
 /// theirs, in this picture and in those before since the last IDR picture.
 class MotionSearch {
  public:
@@ -31,7 +31,7 @@ class MotionSearch {
   explicit MotionSearch(int qp);
 
   void begin_group();
-  /// @param changed_macroblocks  how many of the picture changed: of more, more searches go far
+  /// @param changed_macroblocks  more of them allow more far searches
   void begin_picture(int changed_macroblocks);
   /// The vector by which the luma samples of the picture before are nearest, if they are near.
   std::optional<MotionVector> find(const Samples& source, const Picture& before, int x_mb, int y_mb,

@@ -37,7 +37,7 @@ class BoxWriter {
   void box(std::string_view type, const Fill& fill) {
     sized_box(type, 0, fill);
   }
-  /// A box that ends the index. What the caller writes behind all boxes belongs to it.
+  /// A box that ends the index: its size includes what the caller writes behind all boxes.
   template <typename Fill>
   void last_box(std::string_view type, const Fill& fill) {
     sized_box(type, later_bytes_, fill);

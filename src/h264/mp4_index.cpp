@@ -23,7 +23,7 @@ class Index : private BoxWriter {
       : BoxWriter(4 * static_cast<std::uint64_t>(tables.pictures)),
         track_(track),
         tables_(tables),
-        duration_(static_cast<std::uint64_t>(tables.pictures * track.picture_units)),
+        duration_(static_cast<std::uint64_t>(tables.pictures * track.picture_duration)),
         has_long_duration_(duration_ >= kMax32) {  // kMax32 itself means "unknown"
     last_box("moov", [&] {
       put_movie();
@@ -111,7 +111,7 @@ class Index : private BoxWriter {
       put_all({0, 1});
       box("avc1", [&] { put_sample_entry(); });
     });
-    const auto units = static_cast<std::uint64_t>(track_.picture_units);
+    const auto units = static_cast<std::uint64_t>(track_.picture_duration);
     box("stts", [&] { put_all({0, 1, pictures, units}); });
     // Without stss, all pictures are key frames.
     if (tables_.key_frames.size() < pictures) {
@@ -150,13 +150,13 @@ class Index : private BoxWriter {
     put_all({0x18ffff});               // depth
     box("avcC", [&] {
       put(1, 1);
-      put(Bytes(track_.sequence).subspan(1, 3));  // profile and level
+      put(Bytes(track_.sequence_set).subspan(1, 3));  // profile and level
       put(0xffe1, 2);                             // lengths of 4 bytes; one sequence parameter set
-      put(track_.sequence.size(), 2);
-      put(Bytes(track_.sequence));
+      put(track_.sequence_set.size(), 2);
+      put(Bytes(track_.sequence_set));
       put(1, 1);
-      put(track_.picture.size(), 2);
-      put(Bytes(track_.picture));
+      put(track_.picture_set.size(), 2);
+      put(Bytes(track_.picture_set));
     });
     box("colr", [&] {
       put("nclx");

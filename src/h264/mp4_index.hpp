@@ -17,12 +17,12 @@ struct TrackFacts {
   std::int64_t width_px;
   std::int64_t height_px;
   std::int64_t time_scale;     ///< units a second
-  std::int64_t picture_units;  ///< a picture's duration
+  std::int64_t picture_duration;  ///< a picture's duration
   std::int64_t max_pictures;
   std::int64_t max_key_frames;
   std::int64_t chunk_pictures;         ///< of each chunk but the last
-  std::vector<std::uint8_t> sequence;  ///< NAL units
-  std::vector<std::uint8_t> picture;
+  std::vector<std::uint8_t> sequence_set;  ///< parameter sets: NAL units
+  std::vector<std::uint8_t> picture_set;
 };
 
 /// What is known of the pictures.
@@ -36,8 +36,7 @@ struct PictureTables {
 /// moov without the sizes of the pictures. 4 bytes for each picture have to follow.
 /// @param tables  of at least one picture.
 std::vector<std::uint8_t> make_index(const TrackFacts& track, const PictureTables& tables);
-/// No index of the track's pictures is longer, if they are no more and no more of them are key
-/// frames than `track` says.
+/// The size of the largest index, for max_pictures pictures and max_key_frames key frames.
 std::uint64_t index_room(const TrackFacts& track);
 
 }  // namespace piblocks::h264

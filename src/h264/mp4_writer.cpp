@@ -45,13 +45,13 @@ void take_headers(Bytes headers, TrackFacts& facts) {
     set.assign(unit.begin(), unit.end());
   };
   for (Bytes unit = take_unit(headers); !unit.empty(); unit = take_unit(headers)) {
-    if (has_type(unit, UnitType::sequence_parameters)) take_set(unit, facts.sequence);
-    if (has_type(unit, UnitType::picture_parameters)) take_set(unit, facts.picture);
+    if (has_type(unit, UnitType::sequence_parameters)) take_set(unit, facts.sequence_set);
+    if (has_type(unit, UnitType::picture_parameters)) take_set(unit, facts.picture_set);
   }
-  if (facts.sequence.size() < 4 || facts.picture.empty()) {
+  if (facts.sequence_set.size() < 4 || facts.picture_set.empty()) {
     throw Error("h264: the headers of an MP4 file lack a parameter set");
   }
-  const int profile = facts.sequence[1];
+  const int profile = facts.sequence_set[1];
   if (profile == 66 || profile == 77 || profile == 88) return;
   throw Error("h264: profile_idc of an MP4 file is " + std::to_string(profile) +
               ", not 66, 77 or 88");  // avcC of other profiles has more fields
@@ -62,15 +62,13 @@ TrackFacts facts_of(const Mp4Track& track) {
   facts.width_px = in_range(track.width_px, 65535, "width_px");
   facts.height_px = in_range(track.height_px, 65535, "height_px");
   facts.max_pictures = in_range(track.max_pictures, kMaxPictures, "max_pictures");
-  // As libavformat chooses it.
-  facts.time_scale = in_range(track.rate.numerator, kMaxInt, "rate.numerator");
-  std::int64_t factor = 1;
-  for (; facts.time_scale < 10'000; facts.time_scale *= 2) factor *= 2;
-  facts.picture_units =
+  facts.time_scale = mp4_time_scale(in_range(track.rate.numerator, kMaxInt, "rate.numerator"));
+  const std::int64_t factor = facts.time_scale / track.rate.numerator;
+  facts.picture_duration =
       factor * in_range(track.rate.denominator, kMaxInt / factor, "rate.denominator");
   // A chunk is a second, if there are not too many.
   facts.chunk_pictures =
-      std::max({std::int64_t{1}, (facts.time_scale + facts.picture_units / 2) / facts.picture_units,
+      std::max({std::int64_t{1}, (facts.time_scale + facts.picture_duration / 2) / facts.picture_duration,
                 (facts.max_pictures - 1) / kMaxChunks + 1});
   facts.max_key_frames = track.max_key_frames == 0
                              ? facts.max_pictures
@@ -110,6 +108,12 @@ class Blocks {
 };
 
 }  // namespace
+
+std::int64_t mp4_time_scale(std::int64_t rate_numerator) {
+  constexpr std::int64_t kFewestUnits = 10'000;
+  while (rate_numerator < kFewestUnits) rate_numerator *= 2;
+  return rate_numerator;
+}
 
 void raise_level(std::span<std::uint8_t> sequence, const Level* level) {
   assert(sequence.size() >= 4);
@@ -151,7 +155,7 @@ class Mp4Writer::Impl {
     if (tables_.pictures == 0) throw Error("h264: an MP4 file has no picture");
     data_.flush(write_at_);
     sizes_.flush(write_at_);
-    raise_level(track_.sequence, watch_.level());
+    raise_level(track_.sequence_set, watch_.level());
     const std::vector<std::uint8_t> index = make_index(track_, tables_);
     const std::uint64_t index_start = sizes_start_ - index.size();
     write_at_(index_start, index);
@@ -177,7 +181,7 @@ class Mp4Writer::Impl {
     parts_.clear();
     std::uint64_t size_bytes = 0;
     for (Bytes part = take_unit(unit); !part.empty(); part = take_unit(unit)) {
-      if (is_known(part)) continue;
+      if (is_left_out(part)) continue;
       parts_.push_back(part);
       size_bytes += 4 + part.size();
     }
@@ -185,10 +189,10 @@ class Mp4Writer::Impl {
     return size_bytes;
   }
   /// Whether the file says it elsewhere: parameter sets, and where access units begin.
-  bool is_known(Bytes part) const {
+  bool is_left_out(Bytes part) const {
     const bool is_sequence = has_type(part, UnitType::sequence_parameters);
     if (is_sequence || has_type(part, UnitType::picture_parameters)) {
-      if (std::ranges::equal(part, is_sequence ? track_.sequence : track_.picture)) return true;
+      if (std::ranges::equal(part, is_sequence ? track_.sequence_set : track_.picture_set)) return true;
       throw Error("h264: a picture of an MP4 file comes with other parameter sets");
     }
     return has_type(part, UnitType::access_unit_delimiter);

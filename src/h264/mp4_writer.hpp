@@ -22,7 +22,7 @@ struct Mp4Track {
   PictureRate rate;  ///< a picture's duration may not exceed 2^31 - 1 units of the time scale
   /// One sequence and one picture parameter set, with start codes: profile_idc 66, 77 or 88.
   std::span<const std::uint8_t> headers;
-  /// No more may follow; 1 … 500,000,000. The file has 4 bytes for each, and up to 4 more.
+  /// No more may follow; 1 … 500,000,000. The file has 4 bytes for each.
   std::int64_t max_pictures;
   /// No more IDR pictures may follow; 0: all may be. The file has 4 bytes for each.
   std::int64_t max_key_frames = 0;
@@ -58,7 +58,12 @@ class Mp4Writer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Sets level_idc of a sequence parameter set to that of `level`, if that is higher. Null: none is.
+/// Units a second in which such files count time: the rate's numerator, doubled up to 10,000, as
+/// libavformat does.
+std::int64_t mp4_time_scale(std::int64_t rate_numerator);
+
+/// Raises level_idc of a sequence parameter set to that of `level`. Does nothing if `level` is null
+/// or not higher.
 /// @param sequence  a NAL unit without a start code, of 4 bytes or more.
 void raise_level(std::span<std::uint8_t> sequence, const Level* level);
 

@@ -3,8 +3,8 @@
 // unit of one slice, which skips all other macroblocks.
 //
 // Where nothing moves by whole samples, all motion vectors are zero, and so are those predicted for
-// skipped macroblocks (8.4.1.1). Beside a macroblock with another vector, those that would move
-// with it are told to stay.
+// skipped macroblocks (8.4.1.1). P_Skip beside a macroblock with another vector may
+// mean that vector; what stays there gets a vector of zero.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +37,8 @@ class PictureEncoder {
   void encode_idr(const Planes& source, const MacroblockSet& changed, Bytes& unit);
   /// The next picture. It codes again what the ones before have left coarse.
   void encode_p(const Planes& source, const MacroblockSet& changed, Bytes& unit);
-  /// Encodes the last picture anew, by another quantiser. Those after it have the first one again,
-  /// and correct what is coarser here.
+  /// Encodes the last picture anew, by another quantiser. Later pictures have the first one again,
+  /// and correct what this one leaves coarse.
   /// @param corrections  of a P picture: it codes again no more macroblocks of those waiting()
   void encode_again(int qp, int corrections, Bytes& unit);
   /// How many macroblocks the pictures before have left coarse and the last one does not change.

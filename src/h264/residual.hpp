@@ -110,7 +110,7 @@ class Residual {
   /// residual(), 7.3.5.3.
   /// @param pattern  coded_block_pattern()
   /// @param own        has this residual's total_coeff().
-  /// @param most_bits  of `bits` in all: it may stop beyond that.
+  /// @param most_bits  it may stop once `bits` has more
   /// @return false if it has stopped, or a level is too large for its code.
   bool write(int pattern, const MacroblockState& own, const Neighbours& neighbours,
              std::size_t most_bits, BitWriter& bits) const;

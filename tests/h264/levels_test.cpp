@@ -44,10 +44,10 @@ TEST(Levels, AreInOrder) {
     if (i == 0) continue;
     const Level& before = levels()[i - 1];
     const Level& level = levels()[i];
-    EXPECT_GE(level.max_rate_mb, before.max_rate_mb);
-    EXPECT_GE(level.max_size_mb, before.max_size_mb);
+    EXPECT_GE(level.max_macroblocks_per_s, before.max_macroblocks_per_s);
+    EXPECT_GE(level.max_macroblocks, before.max_macroblocks);
     EXPECT_GE(level.max_rate_bps, before.max_rate_bps);
-    EXPECT_GE(level.max_buffer_b, before.max_buffer_b);
+    EXPECT_GE(level.max_buffer_bits, before.max_buffer_bits);
   }
 }
 
@@ -68,10 +68,10 @@ TEST(Levels, AreThoseOfTableA1) {
   for (const Row& row : rows) {
     SCOPED_TRACE(row.idc);
     const Level& level = level_with(row.idc);
-    EXPECT_EQ(level.max_rate_mb, row.rate_mb);
-    EXPECT_EQ(level.max_size_mb, row.size_mb);
+    EXPECT_EQ(level.max_macroblocks_per_s, row.rate_mb);
+    EXPECT_EQ(level.max_macroblocks, row.size_mb);
     EXPECT_EQ(level.max_rate_bps, 1000LL * row.rate_kbps);
-    EXPECT_EQ(level.max_buffer_b, 1000LL * row.buffer_kb);
+    EXPECT_EQ(level.max_buffer_bits, 1000LL * row.buffer_kb);
     EXPECT_EQ(level.min_compression, row.compression);
   }
 }
@@ -104,13 +104,13 @@ TEST(Levels, HoldTheirLargestPicturesAndNoneBelowDoes) {
   std::int64_t size_before_mb = 0;
   for (const Level& level : levels()) {
     SCOPED_TRACE(level.idc);
-    const Sides sides = square_of(level.max_size_mb);
+    const Sides sides = square_of(level.max_macroblocks);
     EXPECT_TRUE(can_hold(level, sides.width_px, sides.height_px, kSlow));
     EXPECT_FALSE(can_hold(level, sides.width_px + 1, sides.height_px + 16, kSlow));
-    if (level.max_size_mb > size_before_mb) {
+    if (level.max_macroblocks > size_before_mb) {
       EXPECT_EQ(lowest_level(sides.width_px, sides.height_px, kSlow), &level);
     }
-    size_before_mb = level.max_size_mb;
+    size_before_mb = level.max_macroblocks;
   }
 }
 
@@ -118,15 +118,15 @@ TEST(Levels, HoldTheirFastestPicturesAndNoneBelowDoes) {
   std::int64_t rate_before_mb = 0;
   for (const Level& level : levels()) {
     SCOPED_TRACE(level.idc);
-    EXPECT_TRUE(can_hold(level, 16, 16, {level.max_rate_mb, 1}));
-    EXPECT_FALSE(can_hold(level, 16, 16, {level.max_rate_mb + 1, 1}));
-    EXPECT_FALSE(can_hold(level, 17, 16, {level.max_rate_mb, 1}));
-    EXPECT_TRUE(can_hold(level, 48, 16, {level.max_rate_mb, 3}));
-    EXPECT_FALSE(can_hold(level, 48, 16, {1000 * level.max_rate_mb + 1, 3000}));
-    if (level.max_rate_mb > rate_before_mb) {
-      EXPECT_EQ(lowest_level(16, 16, {level.max_rate_mb, 1}), &level);
+    EXPECT_TRUE(can_hold(level, 16, 16, {level.max_macroblocks_per_s, 1}));
+    EXPECT_FALSE(can_hold(level, 16, 16, {level.max_macroblocks_per_s + 1, 1}));
+    EXPECT_FALSE(can_hold(level, 17, 16, {level.max_macroblocks_per_s, 1}));
+    EXPECT_TRUE(can_hold(level, 48, 16, {level.max_macroblocks_per_s, 3}));
+    EXPECT_FALSE(can_hold(level, 48, 16, {1000 * level.max_macroblocks_per_s + 1, 3000}));
+    if (level.max_macroblocks_per_s > rate_before_mb) {
+      EXPECT_EQ(lowest_level(16, 16, {level.max_macroblocks_per_s, 1}), &level);
     }
-    rate_before_mb = level.max_rate_mb;
+    rate_before_mb = level.max_macroblocks_per_s;
   }
 }
 
@@ -135,7 +135,7 @@ TEST(Levels, HoldTheirLongestSides) {
   for (const Level& level : levels()) {
     SCOPED_TRACE(level.idc);
     int side_mb = 1;
-    while (std::int64_t{side_mb + 1} * (side_mb + 1) <= 8 * level.max_size_mb) ++side_mb;
+    while (std::int64_t{side_mb + 1} * (side_mb + 1) <= 8 * level.max_macroblocks) ++side_mb;
     EXPECT_TRUE(can_hold(level, 16 * side_mb, 16, kSlow));
     EXPECT_FALSE(can_hold(level, 16 * side_mb + 1, 16, kSlow));
     EXPECT_TRUE(can_hold(level, 16, 16 * side_mb, kSlow));
@@ -159,10 +159,10 @@ TEST(Levels, OfRandomPicturesAreTheLowestThatHold) {
         Rational(width_mb * height_mb) * Rational(long(rate.numerator), long(rate.denominator));
     const Level* lowest = nullptr;
     for (const Level& level : levels()) {
-      const bool holds = width_mb * height_mb <= level.max_size_mb &&
-                         width_mb * width_mb <= 8 * level.max_size_mb &&
-                         height_mb * height_mb <= 8 * level.max_size_mb &&
-                         per_second <= Rational(long(level.max_rate_mb));
+      const bool holds = width_mb * height_mb <= level.max_macroblocks &&
+                         width_mb * width_mb <= 8 * level.max_macroblocks &&
+                         height_mb * height_mb <= 8 * level.max_macroblocks &&
+                         per_second <= Rational(long(level.max_macroblocks_per_s));
       if (holds && lowest == nullptr) lowest = &level;
       ASSERT_EQ(can_hold(level, width_px, height_px, rate), holds);
     }
@@ -211,15 +211,15 @@ TEST(LevelProblem, SaysTheLimit) {
 class Bucket {
  public:
   Bucket(const Level& level, int size_mb, PictureRate rate)
-      : capacity_(long(level.max_buffer_b)),
+      : capacity_(long(level.max_buffer_bits)),
         in_buffer_(capacity_),
         duration_(long(rate.denominator), long(rate.numerator)),
         compressed_bytes_(384, level.min_compression) {
     duration_.canonicalize();
     compressed_bytes_.canonicalize();
     refill_ = duration_ * long(level.max_rate_bps);
-    limit_bytes_ = compressed_bytes_ * long(level.max_rate_mb) * duration_;
-    const Rational least(long(level.max_rate_mb), 172L);
+    limit_bytes_ = compressed_bytes_ * long(level.max_macroblocks_per_s) * duration_;
+    const Rational least(long(level.max_macroblocks_per_s), level.idc < 60 ? 172L : 300L);
     first_limit_bytes_ = compressed_bytes_ * std::max(Rational(size_mb), Rational(least));
   }
 
@@ -274,7 +274,7 @@ TEST(RateWatch, IsAnExactLeakyBucket) {
   for (std::int64_t i = 0; i < many(600); ++i) {
     const Level& level = levels()[std::size_t(random.integer(0, std::ssize(levels()) - 1))];
     const PictureRate rate = random_rate(random);
-    const auto size_mb = static_cast<int>(random.integer(1, level.max_size_mb));
+    const auto size_mb = static_cast<int>(random.integer(1, level.max_macroblocks));
     RateWatch watch(level, size_mb, rate);
     Bucket bucket(level, size_mb, rate);
     const std::int64_t greed = random.integer(0, 4);
@@ -309,7 +309,7 @@ TEST(RateWatch, HasAFullBufferAtFirstAndALittleMoreWithEveryPicture) {
 }
 
 /// 384 bytes a macroblock, by MinCR; of the first picture, for as many macroblocks as it has, or as
-/// the level has in 1/172 s.
+/// the level has in 1/172 s, from level 6 on in 1/300 s.
 TEST(RateWatch, AsksForTheLeastCompression) {
   const auto first = [](int idc, int size_mb, PictureRate rate) {
     return RateWatch(level_with(idc), size_mb, rate).room_bytes();
@@ -321,6 +321,7 @@ TEST(RateWatch, AsksForTheLeastCompression) {
   };
   EXPECT_EQ(first(20, 1, {60, 1}), 13'261);  // 192 * 11880 / 172
   EXPECT_EQ(first(20, 100, {60, 1}), 19'200);
+  EXPECT_EQ(first(60, 1, {60, 1}), 192 * 4'177'920 / 300);
   EXPECT_EQ(first(31, 3600, {30, 1}), 96 * 3600);
   EXPECT_EQ(first(62, 139'264, {1, 1}), 192 * 139'264);
   EXPECT_EQ(second(20, 1, {60, 1}), 192 * 198);
@@ -336,12 +337,12 @@ TEST(RateWatch, AsksForTheLeastCompression) {
 TEST(RateWatch, TakesTheLargestNumbers) {
   for (const Level& level : levels()) {
     for (const PictureRate rate : {kSlow, kFast, PictureRate{kFast.numerator, kFast.numerator}}) {
-      RateWatch watch(level, static_cast<int>(level.max_size_mb), rate);
+      RateWatch watch(level, static_cast<int>(level.max_macroblocks), rate);
       for (const std::int64_t size : {std::int64_t{0}, std::numeric_limits<std::int64_t>::max(),
-                                      std::int64_t{1}, level.max_buffer_b, watch.room_bytes()}) {
+                                      std::int64_t{1}, level.max_buffer_bits, watch.room_bytes()}) {
         watch.take(size);
         EXPECT_GE(watch.room_bytes(), 0);
-        EXPECT_LE(8 * watch.room_bytes(), level.max_buffer_b);
+        EXPECT_LE(8 * watch.room_bytes(), level.max_buffer_bits);
       }
     }
   }

@@ -385,10 +385,10 @@ TEST(Mp4Writer, RaisesTheLevelOfHeadersOnly) {
     return int(sequence[3]);
   };
   const Level level = {.idc = 32,
-                       .max_rate_mb = 0,
-                       .max_size_mb = 0,
+                       .max_macroblocks_per_s = 0,
+                       .max_macroblocks = 0,
                        .max_rate_bps = 0,
-                       .max_buffer_b = 0,
+                       .max_buffer_bits = 0,
                        .min_compression = 0};
   EXPECT_EQ(raised(31, &level), 32);
   EXPECT_EQ(raised(32, &level), 32);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "media/libav/av.hpp"
 #include "media/output/output.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
@@ -99,6 +100,26 @@ TEST_F(Mp4Test, LooksLikeWhatWasDrawn) {
     const Pixels drawn = article_frames(format)(static_cast<std::int64_t>(i));
     const double error = testing_support::rgb_mean_squared_error(drawn, video.frames[i].rgb);
     EXPECT_GT(testing_support::psnr_db(error), 45) << i;
+  }
+}
+
+/// Noise of 64x48 pixels: 4 Mbit/s, of which level 2 allows 2.
+TEST_F(Mp4Test, SaysAHigherLevelWhereThePicturesNeedIt) {
+  const VideoFormat format = {.width_px = 64, .height_px = 48, .frame_rate = 60};
+  const auto levels_of = [&](const char* name, const EncoderSettings& settings,
+                             const PaintFrame& paint) {
+    write_frames(folder_ / name, format, settings, 120, paint);
+    const AvInputPtr file = open_av_input(folder_ / name);
+    const std::uint8_t* const headers = file->streams[0]->codecpar->extradata;
+    return std::pair(int(headers[3]), int(headers[8 + 3]));  // in avcC, in its parameter set
+  };
+  const EncoderSettings damage = {.encoder = "damage"};
+  const auto raised = levels_of("noise.mp4", damage, random_frames(format));
+  EXPECT_GT(raised.first, 20);
+  EXPECT_EQ(raised.first, raised.second);
+  EXPECT_EQ(levels_of("noise.mov", damage, random_frames(format)), raised);
+  for (const char* name : {"article.mp4", "article.mov"}) {
+    EXPECT_EQ(levels_of(name, damage, article_frames(format)), std::pair(20, 20)) << name;
   }
 }
 

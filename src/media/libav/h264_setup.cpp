@@ -125,7 +125,7 @@ void set_up(AVCodecContext& context, const AVCodec& codec, const EncoderSettings
 
 std::vector<std::string> usable_h264_encoders() {
   std::vector<std::string> names = software_encoders();
-  if (std::ranges::count(names, kX264) > 0) names.emplace(names.begin(), kDamage);
+  names.emplace(names.begin(), kDamage);
   return names;
 }
 

@@ -4,11 +4,13 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <fstream>
 #include <new>
 #include <optional>
 #include <utility>
 
 #include "core/output_file.hpp"
+#include "h264/levels.hpp"
 #include "media/mp4/mp4_file.hpp"
 #include "media/output/output_kinds.hpp"
 
@@ -96,6 +98,10 @@ class VideoFile final : public FrameSink {
         muxer_(open_muxer(file_.path(), name_, container.muxer)),
         packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")) {
     add_stream();
+    if (stream.parameters->codec_id == AV_CODEC_ID_H264) {
+      levels_.emplace(stream.parameters->width, stream.parameters->height,
+                      h264::PictureRate{stream.frame_rate.num, stream.frame_rate.den});
+    }
     if (sound != nullptr) sound_.emplace(*sound, *muxer_, container_.sound_from_zero, name_);
     write_header();
   }
@@ -115,6 +121,7 @@ class VideoFile final : public FrameSink {
     check_av(muxer_->pb->error, "write to", name_);
     check_av(avio_closep(&muxer_->pb), "close", name_);
     check();
+    if (levels_ && levels_->level() != nullptr) raise_level(levels_->level()->idc);
     file_.commit();
   }
 
@@ -138,7 +145,7 @@ class VideoFile final : public FrameSink {
       // Those of the pictures: milliseconds would round the duration.
       const Rational rate(stream_.frame_rate.num, stream_.frame_rate.den);
       check_av(av_opt_set_int(muxer_->priv_data, container_.time_scale_option,
-                              units_per_second(rate).get_si(), 0),
+                              units_per_second(rate), 0),
                "set up the muxer of", name_);
     }
     check_av(avformat_write_header(muxer_.get(), nullptr), "write the header of", name_);
@@ -152,6 +159,7 @@ class VideoFile final : public FrameSink {
       picture = both.picture;
       if (!both.alpha.empty()) add_alpha(both.alpha);
     }
+    if (levels_) levels_->take(std::ssize(picture));
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): the muxer only reads what has no owner
     packet_->data = const_cast<std::uint8_t*>(picture.data());
     packet_->size = int(picture.size());
@@ -181,6 +189,24 @@ class VideoFile final : public FrameSink {
       throw MediaError(fmt::format("video: the index of '{}' was not written whole", name_));
     }
   }
+  /// Writes a higher level into the headers. They were written before the pictures were known.
+  void raise_level(int level_idc) const {
+    if (level_idc <= stream_.parameters->level) return;
+    constexpr std::size_t kStart_bytes = 65536;  // the headers are the first thing in the index
+    std::fstream file(file_.path(), std::ios::in | std::ios::out | std::ios::binary);
+    std::string start(kStart_bytes, '\0');
+    file.read(start.data(), std::ssize(start));
+    file.clear();
+    // ISO/IEC 14496-15, 5.3.3.1: four bytes with the level, four more, the sequence parameter set.
+    const std::size_t at = start.find("avcC\x01");
+    if (at == std::string::npos) {
+      throw MediaError(fmt::format("video: cannot find the headers in '{}'", name_));
+    }
+    for (const std::size_t level : {at + 4 + 3, at + 4 + 8 + 3}) {
+      file.seekp(std::streamoff(level)).put(static_cast<char>(level_idc));
+    }
+    if (!file.flush()) throw IoError(fmt::format("output: cannot write to '{}'", name_));
+  }
   void add_alpha(ByteSpan alpha) {
     std::uint8_t* const data =
         av_packet_new_side_data(packet_.get(), AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, alpha.size());
@@ -196,6 +222,7 @@ class VideoFile final : public FrameSink {
   AvPacketPtr packet_;
   std::optional<SoundStream> sound_;
   FrameCounter counter_;
+  std::optional<h264::LevelWatch> levels_;  // of H.264
 };
 
 }  // namespace

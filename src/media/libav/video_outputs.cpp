@@ -2,8 +2,10 @@
 #include <piblocks/error.hpp>
 
 #include <memory>
+#include <optional>
+#include <utility>
 
-#include "h264/bit_stream.hpp"
+#include "h264/parameter_sets.hpp"
 #include "media/libav/video_encoder.hpp"
 #include "media/libav/video_file.hpp"
 #include "media/mp4/h264_chunk.hpp"
@@ -19,8 +21,8 @@ std::optional<SoundEncoder> sound_encoder(const OutputRequest& request,
 }
 
 /// What a file is made of. The functions of an output share it.
-struct Encoded {
-  Encoded(const OutputRequest& request, const Container& container, EncoderSetup setup)
+struct LibavParts {
+  LibavParts(const OutputRequest& request, const Container& container, EncoderSetup setup)
       : pictures(request.format, std::move(setup)), sound(sound_encoder(request, container)) {}
 
   VideoEncoder pictures;
@@ -28,8 +30,8 @@ struct Encoded {
 };
 
 /// The same with pictures by our own encoder.
-struct Damage {
-  Damage(const OutputRequest& request, const Container& container)
+struct OwnParts {
+  OwnParts(const OutputRequest& request, const Container& container)
       : pictures(request.format, request.settings),
         stream(h264_stream(request.format, pictures.headers, pictures.level_idc)),
         sound(sound_encoder(request, container)) {}
@@ -39,7 +41,7 @@ struct Damage {
   std::optional<SoundEncoder> sound;
 };
 
-/// Adds the sound of `parts`, an Encoded or Damage, to an output that has all else but its sink.
+/// Adds the sound of `parts`, an LibavParts or OwnParts, to an output that has all else but its sink.
 template <typename Parts>
 Output with_file(Output output, const OutputRequest& request, const Container& container,
                  const std::shared_ptr<const Parts>& parts, const VideoStream& stream) {
@@ -56,7 +58,7 @@ Output with_file(Output output, const OutputRequest& request, const Container& c
 
 Output encoded_output(const OutputRequest& request, const Container& container,
                       EncoderSetup setup) {
-  const auto parts = std::make_shared<const Encoded>(request, container, std::move(setup));
+  const auto parts = std::make_shared<const LibavParts>(request, container, std::move(setup));
   return with_file({.frames_per_chunk = parts->pictures.frames_per_chunk(),
                     .signature = parts->pictures.signature(),
                     .make_encoder = [parts] { return libav_chunk_encoder(parts->pictures); },
@@ -73,7 +75,7 @@ Output h264_output(const OutputRequest& request, const Container& container) {
     output.notes = h264_notes(request.format);
     return output;
   }
-  const auto parts = std::make_shared<const Damage>(request, container);
+  const auto parts = std::make_shared<const OwnParts>(request, container);
   return with_file(
       {.frames_per_chunk = parts->pictures.frames_per_chunk,
        .signature = parts->pictures.signature(),
@@ -130,8 +132,8 @@ std::unique_ptr<ChunkEncoder> h264_successor(const VideoFormat& format,
     return std::make_unique<SuccessorEncoder>(format, std::move(stream));
   } catch (const UsageError&) {
     return nullptr;  // there is no encoder
-  } catch (const h264::HeaderError&) {
-    return nullptr;
+  } catch (const h264::Error&) {
+    return nullptr;  // its headers are of another kind
   }
 }
 

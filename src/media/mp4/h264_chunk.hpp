@@ -45,7 +45,7 @@ struct H264Stream {
   /// Whether libavcodec's encoder may take the rest of a chunk in which much changes.
   bool may_hand_over;
 
-  /// What decides the bytes, in one line.
+  /// What the parts of one file have to agree in, in one line.
   std::string signature() const;
 };
 

@@ -55,17 +55,14 @@ std::unique_ptr<ChunkEncoder> load_successor(const VideoFormat& format,
   try {
     return av_module().h264_successor(format, sets);
   } catch (const MediaError&) {
-    return nullptr;  // the encoders are not installed
+    return nullptr;  // the module is not installed
   }
 }
 
 }  // namespace
 
-Integer units_per_second(const Rational& frame_rate) {
-  constexpr int kFewestUnits = 10'000;
-  Integer units = frame_rate.get_num();
-  while (units < kFewestUnits) units *= 2;
-  return units;
+std::int64_t units_per_second(const Rational& frame_rate) {
+  return h264::mp4_time_scale(frame_rate.get_num().get_si());
 }
 
 void check_duration_of_frame(const Rational& frame_rate) {
