@@ -96,9 +96,10 @@ RateWatch::RateWatch(const Level& level, int size_mb, PictureRate rate)
   // A.3.1, items c and d; fR is 1/172 s below level 6, and 1/300 s from there on.
   const int most_pictures_per_s = level.idc < 60 ? 172 : 300;
   const std::int64_t limit_bytes = kMacroblock_bytes / level.min_compression;
-  picture_limit_bytes_ = limit_bytes * level.max_macroblocks_per_s * rate.denominator / rate.numerator;
-  first_picture_limit_bytes_ =
-      std::max(limit_bytes * size_mb, limit_bytes * level.max_macroblocks_per_s / most_pictures_per_s);
+  picture_limit_bytes_ =
+      limit_bytes * level.max_macroblocks_per_s * rate.denominator / rate.numerator;
+  first_picture_limit_bytes_ = std::max(
+      limit_bytes * size_mb, limit_bytes * level.max_macroblocks_per_s / most_pictures_per_s);
 }
 
 std::int64_t RateWatch::room_bytes() const {

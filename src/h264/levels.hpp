@@ -18,12 +18,12 @@ struct PictureRate {
 
 /// A row of table A-1.
 struct Level {
-  int idc;                    ///< level_idc: ten times the level's number
-  std::int64_t max_macroblocks_per_s;   ///< MaxMBPS
-  std::int64_t max_macroblocks;   ///< MaxFS: of a picture
-  std::int64_t max_rate_bps;  ///< MaxBR of the VCL: bits a second
-  std::int64_t max_buffer_bits;  ///< MaxCPB of the VCL: bits
-  int min_compression;        ///< MinCR
+  int idc;                             ///< level_idc: ten times the level's number
+  std::int64_t max_macroblocks_per_s;  ///< MaxMBPS
+  std::int64_t max_macroblocks;        ///< MaxFS: of a picture
+  std::int64_t max_rate_bps;           ///< MaxBR of the VCL: bits a second
+  std::int64_t max_buffer_bits;        ///< MaxCPB of the VCL: bits
+  int min_compression;                 ///< MinCR
 };
 
 /// Levels 2 to 6.2, the lowest first. Those below 2 have so small a buffer that a single key frame

@@ -23,8 +23,8 @@ bool stays_inside(const Picture& picture, int x_mb, int y_mb, MotionVector vecto
 void predict_moved(const Picture& before, int x_mb, int y_mb, MotionVector vector,
                    Samples& samples);
 
-/// Finds vectors of what slides, scrolls or is dragged, by whole samples. It looks first where others have found
-/// theirs, in this picture and in those before since the last IDR picture.
+/// Finds vectors of what slides, scrolls or is dragged, by whole samples. It looks first where
+/// others have found theirs, in this picture and in those before since the last IDR picture.
 class MotionSearch {
  public:
   /// @param qp  of the pictures: a coarser quantiser leaves larger differences

@@ -151,7 +151,7 @@ class Index : private BoxWriter {
     box("avcC", [&] {
       put(1, 1);
       put(Bytes(track_.sequence_set).subspan(1, 3));  // profile and level
-      put(0xffe1, 2);                             // lengths of 4 bytes; one sequence parameter set
+      put(0xffe1, 2);  // lengths of 4 bytes; one sequence parameter set
       put(track_.sequence_set.size(), 2);
       put(Bytes(track_.sequence_set));
       put(1, 1);

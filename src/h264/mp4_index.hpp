@@ -16,11 +16,11 @@ inline constexpr std::uint64_t kMax32 = std::numeric_limits<std::uint32_t>::max(
 struct TrackFacts {
   std::int64_t width_px;
   std::int64_t height_px;
-  std::int64_t time_scale;     ///< units a second
+  std::int64_t time_scale;        ///< units a second
   std::int64_t picture_duration;  ///< a picture's duration
   std::int64_t max_pictures;
   std::int64_t max_key_frames;
-  std::int64_t chunk_pictures;         ///< of each chunk but the last
+  std::int64_t chunk_pictures;             ///< of each chunk but the last
   std::vector<std::uint8_t> sequence_set;  ///< parameter sets: NAL units
   std::vector<std::uint8_t> picture_set;
 };

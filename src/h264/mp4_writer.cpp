@@ -67,9 +67,9 @@ TrackFacts facts_of(const Mp4Track& track) {
   facts.picture_duration =
       factor * in_range(track.rate.denominator, kMaxInt / factor, "rate.denominator");
   // A chunk is a second, if there are not too many.
-  facts.chunk_pictures =
-      std::max({std::int64_t{1}, (facts.time_scale + facts.picture_duration / 2) / facts.picture_duration,
-                (facts.max_pictures - 1) / kMaxChunks + 1});
+  facts.chunk_pictures = std::max(
+      {std::int64_t{1}, (facts.time_scale + facts.picture_duration / 2) / facts.picture_duration,
+       (facts.max_pictures - 1) / kMaxChunks + 1});
   facts.max_key_frames = track.max_key_frames == 0
                              ? facts.max_pictures
                              : in_range(track.max_key_frames, facts.max_pictures, "max_key_frames");
@@ -192,7 +192,8 @@ class Mp4Writer::Impl {
   bool is_left_out(Bytes part) const {
     const bool is_sequence = has_type(part, UnitType::sequence_parameters);
     if (is_sequence || has_type(part, UnitType::picture_parameters)) {
-      if (std::ranges::equal(part, is_sequence ? track_.sequence_set : track_.picture_set)) return true;
+      if (std::ranges::equal(part, is_sequence ? track_.sequence_set : track_.picture_set))
+        return true;
       throw Error("h264: a picture of an MP4 file comes with other parameter sets");
     }
     return has_type(part, UnitType::access_unit_delimiter);

@@ -103,9 +103,9 @@ TEST_F(Mp4Test, LooksLikeWhatWasDrawn) {
   }
 }
 
-/// Noise of 64x48 pixels: 4 Mbit/s, of which level 2 allows 2.
+/// Noise of 128x96 pixels: 9 Mbit/s, of which level 2 allows 2.
 TEST_F(Mp4Test, SaysAHigherLevelWhereThePicturesNeedIt) {
-  const VideoFormat format = {.width_px = 64, .height_px = 48, .frame_rate = 60};
+  const VideoFormat format = {.width_px = 128, .height_px = 96, .frame_rate = 60};
   const auto levels_of = [&](const char* name, const EncoderSettings& settings,
                              const PaintFrame& paint) {
     write_frames(folder_ / name, format, settings, 120, paint);

@@ -41,7 +41,8 @@ struct OwnParts {
   std::optional<SoundEncoder> sound;
 };
 
-/// Adds the sound of `parts`, an LibavParts or OwnParts, to an output that has all else but its sink.
+/// Adds the sound of `parts`, an LibavParts or OwnParts, to an output that has all else but its
+/// sink.
 template <typename Parts>
 Output with_file(Output output, const OutputRequest& request, const Container& container,
                  const std::shared_ptr<const Parts>& parts, const VideoStream& stream) {
