@@ -4,8 +4,7 @@
 #ifndef PIBLOCKS_H264_H
 #define PIBLOCKS_H264_H
 
-/* NOLINTBEGIN(modernize-*, readability-identifier-naming, cppcoreguidelines-avoid-c-arrays):
- * this is C. */
+/* NOLINTBEGIN(modernize-*,readability-identifier-naming,cppcoreguidelines-avoid-c-arrays): C */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -65,6 +64,6 @@ const char* piblocks_h264_problem(const piblocks_h264_encoder* encoder);
 #ifdef __cplusplus
 }
 #endif
-/* NOLINTEND(modernize-*, readability-identifier-naming, cppcoreguidelines-avoid-c-arrays) */
+/* NOLINTEND(modernize-*,readability-identifier-naming,cppcoreguidelines-avoid-c-arrays) */
 
 #endif

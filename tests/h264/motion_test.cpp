@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "h264/picture_encoder.hpp"
 #include "h264/stream_fixture.hpp"
@@ -229,6 +230,50 @@ TEST(Motion, OfWritingCostsATenthOfTheWriting) {
     ASSERT_TRUE(shown);
     ASSERT_EQ(difference(encoder.decoded(), *shown), "") << frame;
     EXPECT_LT(next.size(), first.size() / 10) << frame;
+  }
+}
+
+/// A window of noise on grey, whose noise has its corner at (x, y).
+void draw_window(Picture& picture, const Picture& noise, const Rect& window, int x, int y) {
+  for (int plane = 0; plane < 3; ++plane) {
+    const int step = plane == 0 ? 1 : 2;
+    const std::ptrdiff_t stride = picture.stride_bytes(plane);
+    std::fill_n(picture.plane(plane), stride * side_of(plane) * picture.height_mb(), 128);
+    for (int row = 0; row < window.height_px / step; ++row) {
+      std::memcpy(picture.plane(plane) + (window.y_px / step + row) * stride + window.x_px / step,
+                  noise.plane(plane) + (y / step + row) * noise.stride_bytes(plane) + x / step,
+                  static_cast<std::size_t>(window.width_px / step));
+    }
+  }
+}
+
+TEST(Motion, FollowsLargeWindowsThatScrollFarOrAreDragged) {
+  Random random(66);
+  SCOPED_TRACE(random.trace());
+  const Picture texture = noise(random, 60, 60);
+  const StreamHeaders headers({.width_px = 640, .height_px = 480});
+  PictureEncoder encoder = headers.encoder(14);
+  StrictDecoder decoder(headers.bytes);
+  Picture picture(headers.sets.width_mb, headers.sets.height_mb);
+  struct Step {
+    Rect window;
+    int x, y;
+  };
+  std::size_t first_bytes = 0;
+  for (const auto& [window, x, y] :
+       {Step{{32, 32, 512, 384}, 0, 0}, Step{{32, 32, 512, 384}, 0, 66},
+        Step{{32, 32, 512, 384}, 100, 66}, Step{{32, 32, 512, 384}, 100, 186},
+        Step{{42, 20, 512, 384}, 100, 186}, Step{{66, 44, 512, 384}, 100, 186}}) {
+    draw_window(picture, texture, window, x, y);
+    const bool is_first = first_bytes == 0;
+    MacroblockSet all(picture.width_mb(), picture.height_mb());
+    all.add(0, 0, 640, 480);
+    const Bytes unit = is_first ? encoded_idr(encoder, picture) : encoded_p(encoder, picture, all);
+    if (is_first) first_bytes = unit.size();
+    const auto shown = decoder.decode(unit);
+    ASSERT_TRUE(shown);
+    ASSERT_EQ(difference(encoder.decoded(), *shown), "") << x << ", " << y;
+    if (!is_first) EXPECT_LT(unit.size(), first_bytes / 2) << x << ", " << y;
   }
 }
 
