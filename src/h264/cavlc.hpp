@@ -18,7 +18,7 @@ inline constexpr int kChromaDc = -1;
 /// @param nc  nC, from 0 to 16, or kChromaDc.
 /// @return false if a level needs a long escape (9.2.2.1), which the profile lacks. The bits are
 ///         then incomplete.
-bool write_levels(std::span<const std::int16_t> levels, int total, int nc, BitWriter& bits);
+bool write_levels(std::span<const std::int16_t> levels, int total, int nc, BitWriter& writer);
 
 /// Variable-length codes, from the tables of ITU-T H.264 for 4:2:0.
 struct Code {

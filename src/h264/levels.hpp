@@ -79,7 +79,7 @@ class LevelWatch {
 
  private:
   struct Candidate {
-    const Level* level;
+    const Level* level = nullptr;
     RateWatch watch;
   };
   std::vector<Candidate> candidates_;  // that still hold, the lowest first

@@ -165,7 +165,7 @@ VideoEncoder::VideoEncoder(const VideoFormat& format, EncoderSetup setup)
 }
 
 /// libaom gives the stream's headers only beside its first packet.
-void VideoEncoder::take_headers(AVCodecContext& context) {
+void VideoEncoder::take_headers(AVCodecContext& context) const {
   const AvFramePtr picture = allocate_picture(*stream_.parameters);
   for (int plane = 0; plane < 3; ++plane) {
     const int rows = plane == 0 ? picture->height : picture->height / 2;

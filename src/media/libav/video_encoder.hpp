@@ -42,7 +42,7 @@ class VideoEncoder {
 
  private:
   AvCodecContextPtr open_unchecked() const;
-  void take_headers(AVCodecContext& context);
+  void take_headers(AVCodecContext& context) const;
 
   VideoFormat format_;
   EncoderSetup setup_;
