@@ -273,7 +273,9 @@ TEST(Motion, FollowsLargeWindowsThatScrollFarOrAreDragged) {
     const auto shown = decoder.decode(unit);
     ASSERT_TRUE(shown);
     ASSERT_EQ(difference(encoder.decoded(), *shown), "") << x << ", " << y;
-    if (!is_first) EXPECT_LT(unit.size(), first_bytes / 2) << x << ", " << y;
+    if (!is_first) {
+      EXPECT_LT(unit.size(), first_bytes / 2) << x << ", " << y;
+    }
   }
 }
 
