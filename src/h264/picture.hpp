@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 #include <vector>
 
 #include "h264/encoder.hpp"
@@ -85,6 +86,23 @@ struct Borders {
   std::array<Border, 3> planes;
 };
 
+/// Memory of zeros, which the system gives page by page when it is first used.
+template <typename Element>
+struct ZeroedMemory {
+  using value_type = Element;
+
+  Element* allocate(std::size_t count) {
+    void* const memory = std::calloc(count, sizeof(Element));
+    if (memory == nullptr) throw std::bad_alloc();
+    return static_cast<Element*>(memory);
+  }
+  void deallocate(Element* memory, std::size_t /*count*/) noexcept { std::free(memory); }
+  /// The elements of a new vector are zeros already.
+  void construct(Element* /*element*/) noexcept {}
+  void construct(Element* element, Element value) noexcept { *element = value; }
+  bool operator==(const ZeroedMemory&) const = default;
+};
+
 /// Planes of whole macroblocks.
 class Picture {
  public:
@@ -120,7 +138,7 @@ class Picture {
 
   int width_mb_;
   int height_mb_;
-  std::array<std::vector<std::uint8_t>, 3> planes_;
+  std::array<std::vector<std::uint8_t, ZeroedMemory<std::uint8_t>>, 3> planes_;
 };
 
 /// The macroblocks of a picture that may have changed, by their addresses in raster order.

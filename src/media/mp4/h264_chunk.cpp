@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "h264/levels.hpp"
+#include "h264/picture.hpp"
 #include "media/output/output_kinds.hpp"
 #include "media/pixels/yuv.hpp"
 
@@ -48,7 +49,7 @@ class YuvPicture {
  private:
   std::ptrdiff_t width_px_;
   std::size_t luma_bytes_;
-  Bytes samples_;
+  std::vector<std::uint8_t, h264::ZeroedMemory<std::uint8_t>> samples_;
 };
 
 h264::Planes planes_of(const YuvView<std::uint8_t>& view) {
