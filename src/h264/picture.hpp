@@ -87,9 +87,10 @@ struct Borders {
 };
 
 /// Memory of zeros, which the system gives page by page when it is first used.
+// NOLINTBEGIN(cppcoreguidelines-no-malloc,cppcoreguidelines-owning-memory): an allocator
 template <typename Element>
 struct ZeroedMemory {
-  using value_type = Element;
+  using value_type = Element;  // NOLINT(readability-identifier-naming): of the standard
 
   Element* allocate(std::size_t count) {
     void* const memory = std::calloc(count, sizeof(Element));
@@ -102,6 +103,7 @@ struct ZeroedMemory {
   void construct(Element* element, Element value) noexcept { *element = value; }
   bool operator==(const ZeroedMemory&) const = default;
 };
+// NOLINTEND(cppcoreguidelines-no-malloc,cppcoreguidelines-owning-memory)
 
 /// Planes of whole macroblocks.
 class Picture {

@@ -217,23 +217,17 @@ AvCodecContextPtr VideoEncoder::open_unchecked() const {
 }
 
 VideoStream h264_stream(const VideoFormat& format, ByteSpan headers, int level_idc) {
+  const auto context = own_av<AvCodecContextPtr>(avcodec_alloc_context3(nullptr), "H.264");
+  set_picture_format(*context, format, AV_PIX_FMT_YUV420P);
+  context->codec_type = AVMEDIA_TYPE_VIDEO;
+  context->codec_id = AV_CODEC_ID_H264;
+  context->profile = FF_PROFILE_H264_CONSTRAINED_BASELINE;
+  context->level = level_idc;
   VideoStream stream{to_av(format.frame_rate),
                      own_av<AvParametersPtr>(avcodec_parameters_alloc(), "stream parameters")};
-  AVCodecParameters& parameters = *stream.parameters;
-  parameters.codec_type = AVMEDIA_TYPE_VIDEO;
-  parameters.codec_id = AV_CODEC_ID_H264;
-  parameters.profile = FF_PROFILE_H264_CONSTRAINED_BASELINE;
-  parameters.level = level_idc;
-  parameters.format = AV_PIX_FMT_YUV420P;
-  parameters.width = format.width_px;
-  parameters.height = format.height_px;
-  parameters.sample_aspect_ratio = {1, 1};
-  parameters.color_space = AVCOL_SPC_BT709;
-  parameters.color_primaries = AVCOL_PRI_BT709;
-  parameters.color_trc = AVCOL_TRC_BT709;
-  parameters.color_range = AVCOL_RANGE_MPEG;
-  parameters.chroma_location = AVCHROMA_LOC_LEFT;
-  set_headers(parameters, headers);
+  check_av(avcodec_parameters_from_context(stream.parameters.get(), context.get()),
+           "describe the stream of", "H.264");
+  set_headers(*stream.parameters, headers);
   return stream;
 }
 
