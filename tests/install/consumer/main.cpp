@@ -1,5 +1,5 @@
 // A program of another project that renders with the library.
-// In: a folder. Out: the count on standard output; frame.png and video.mp4 in the folder.
+// In: a folder. Out: the count on standard output; frame.png and video.mov in the folder.
 #include <piblocks/piblocks.hpp>
 
 #include <exception>
@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
     const auto png = piblocks::encode_png(renderer.frame(renderer.frame_count() - 1));
     std::ofstream(folder + "/frame.png", std::ios::binary)
         .write(reinterpret_cast<const char*>(png.data()), std::ssize(png));
-    piblocks::render({scene, folder + "/video.mp4"}, [](const piblocks::Progress&) {});
+    piblocks::render({scene, folder + "/video.mov"}, [](const piblocks::Progress&) {});
     std::cout << "piblocks " << piblocks::kVersion << ": "
               << piblocks::count_collisions(scene.system) << '\n';
     return 0;
