@@ -9,7 +9,7 @@ namespace piblocks::h264 {
 namespace {
 
 constexpr std::size_t kMaxLevels = 16;
-constexpr std::size_t kChromaDcLevels = 4;
+[[maybe_unused]] constexpr std::size_t kChromaDcLevels = 4;
 
 /// The levels that are not zero, in the order of writing: the last one of the scan first.
 struct Coefficients {

@@ -17,7 +17,8 @@
 namespace piblocks::h264 {
 namespace {
 
-/// A stream that is checked picture by picture: its level, its samples, and what is said of it.
+/// Encodes a stream and checks each picture: the level, the decoded samples, and what the encoder
+/// reports of the picture.
 class CheckedStream {
  public:
   explicit CheckedStream(const Config& config)

@@ -27,7 +27,7 @@ class Screen {
 
   Screen();
 
-  /// For shapes. Whoever draws them calls mark_changed().
+  /// For drawing shapes. The caller reports what it has drawn by mark_changed().
   cairo_t& cairo() { return *cairo_; }
   void set_colour(Colour colour);
 
