@@ -31,11 +31,21 @@ decltype(auto) printable_value(const Value& value) {
   }
 }
 
+/// Calls `use` with the values as arguments for fmt, which takes no temporaries from version 10 on.
+template <typename Use, typename... Values>
+void with_printable(Use use, const Values&... values) {
+  const auto call = [&](const auto&... shown) { use(fmt::make_format_args(shown...)); };
+  call(printable_value(values)...);
+}
+
 template <typename... Values>
 void say(fmt::format_string<const Values&...> format, const Values&... values) noexcept {
   try {
-    fmt::vprint(stderr, fmt::string_view(format),
-                fmt::make_format_args(printable_value(values)...));
+    with_printable(
+        [&](fmt::format_args arguments) {
+          fmt::vprint(stderr, fmt::string_view(format), arguments);
+        },
+        values...);
   } catch (const std::exception&) {
     return;
   }
@@ -86,8 +96,11 @@ class TextOutput {
   }
   template <typename... Values>
   void format_line(fmt::format_string<const Values&...> format, const Values&... values) {
-    fmt::vformat_to(fmt::appender(buffer_), fmt::string_view(format),
-                    fmt::make_format_args(printable_value(values)...));
+    with_printable(
+        [&](fmt::format_args arguments) {
+          fmt::vformat_to(fmt::appender(buffer_), fmt::string_view(format), arguments);
+        },
+        values...);
     end_line();
   }
   /// Hands on what a reader may wait for. @throws IoError

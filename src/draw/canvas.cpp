@@ -7,6 +7,7 @@
 #include <pixman.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstring>
 #include <map>
@@ -71,18 +72,22 @@ std::vector<std::uint8_t> draw_file(const DrawList& list, MakeSurface make) {
   return bytes;
 }
 
-/// Cairo 1.16 numbers groups through the whole process, as "surface12", so that equal draw lists
-/// give different files. This numbers them from the beginning of the file.
+/// How Cairo names groups in an SVG file: "surface12" in version 1.16, "source-12" in 1.18.
+constexpr std::array<std::string_view, 2> kGroupNames = {"surface", "source-"};
+
+/// Cairo numbers groups through the whole process, so that equal draw lists give different files.
+/// This numbers them from the beginning of the file.
 std::vector<std::uint8_t> with_fixed_ids(const std::vector<std::uint8_t>& svg) {
-  constexpr std::string_view kCounted = "surface";
   const std::string_view text(reinterpret_cast<const char*>(svg.data()), svg.size());
   std::map<std::string_view, std::size_t> numbers;
   std::string fixed;
   std::size_t copied = 0;
-  for (auto at = text.find(kCounted); at != std::string_view::npos;
-       at = text.find(kCounted, at + 1)) {
+  for (auto at = text.find('s'); at != std::string_view::npos; at = text.find('s', at + 1)) {
+    const auto name = std::ranges::find_if(
+        kGroupNames, [&](std::string_view group) { return text.substr(at).starts_with(group); });
+    if (name == kGroupNames.end()) continue;
     const bool is_name = text.substr(0, at).ends_with("id=\"") || text.substr(0, at).ends_with('#');
-    const std::size_t begin = at + kCounted.size();
+    const std::size_t begin = at + name->size();
     const std::size_t end = std::min(text.find_first_not_of("0123456789", begin), text.size());
     if (!is_name || end == begin) continue;
     const std::string_view count = text.substr(begin, end - begin);

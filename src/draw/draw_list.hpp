@@ -86,7 +86,8 @@ inline Rectangle to_rectangle(const PixelRect& r) {
 struct Stroke {
   Color color;
   double width_px = 1;
-  double dash_px = 0;  ///< length of dashes and of the gaps between them; 0 for a solid line
+  /// Length of dashes and of the gaps between them; 0 for a solid line, as that of every disk.
+  double dash_px = 0;
   bool operator==(const Stroke&) const = default;
 };
 

@@ -6,6 +6,7 @@
 #include <piblocks/error.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -204,6 +205,15 @@ std::vector<cairo_glyph_t> Font::glyphs(cairo_t& cr, const Point& origin, std::s
               "set text");
   std::vector<cairo_glyph_t> glyphs(found, found + count);
   cairo_glyph_free(found);
+  double left = 0;
+  double top = 0;
+  cairo_surface_get_device_offset(cairo_get_group_target(&cr), &left, &top);
+  for (cairo_glyph_t& glyph : glyphs) {
+    cairo_user_to_device(&cr, &glyph.x, &glyph.y);
+    glyph.x = std::floor(glyph.x + left + 0.5) - left;
+    glyph.y = std::floor(glyph.y + top + 0.5) - top;
+    cairo_device_to_user(&cr, &glyph.x, &glyph.y);
+  }
   return glyphs;
 }
 

@@ -44,6 +44,8 @@ class Font {
   /// Makes it the font of `cr`, unhinted and antialiased in grey. @param size_px  of the em
   void select(cairo_t& cr, double size_px) const;
   /// The glyphs of a line of text that starts at `origin`, in a context where select() was called.
+  /// Each is at a whole pixel of the surface. Cairo 1.16 rounds to these anyway. Cairo 1.18 paints
+  /// glyphs at quarters of a pixel, and elsewhere where the surface ends within the text.
   static std::vector<cairo_glyph_t> glyphs(cairo_t& cr, const Point& origin, std::string_view utf8);
   /// @param what  names the text in messages
   /// @throws UsageError if it is not UTF-8, a character needs shaping, or the font has no glyph.

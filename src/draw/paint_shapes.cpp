@@ -5,8 +5,11 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "draw/extent.hpp"
+#include "draw/outline.hpp"
 #include "draw/painter.hpp"
 
 namespace piblocks {
@@ -56,6 +59,16 @@ Rectangle within_reach(const Rectangle& r) {
   return {x, y, within_reach(r.x + r.width) - x, within_reach(r.y + r.height) - y};
 }
 
+/// Vector files have lines and circles; only pixels need polygons.
+bool has_pixels(cairo_t& cr) {
+  return cairo_surface_get_type(cairo_get_target(&cr)) == CAIRO_SURFACE_TYPE_IMAGE;
+}
+
+void fill(cairo_t& cr, const Color& color) {
+  set_color(cr, color);
+  cairo_fill(&cr);
+}
+
 /// The fill of the current path, then its line, centred on it.
 void fill_and_stroke(cairo_t& cr, const std::optional<Color>& fill,
                      const std::optional<Stroke>& stroke) {
@@ -72,6 +85,23 @@ void fill_and_stroke(cairo_t& cr, const std::optional<Color>& fill,
     cairo_set_line_join(&cr, CAIRO_LINE_JOIN_MITER);
   }
   cairo_new_path(&cr);
+}
+
+void add_path(cairo_t& cr, std::span<const Point> points, bool closed) {
+  for (const Point& point : points) cairo_line_to(&cr, point.x, point.y);
+  if (closed) cairo_close_path(&cr);
+}
+
+/// Without a copy of the points, unless Cairo could not take one of them.
+template <typename Use>
+void with_points_in_reach(const Points& all, const Use& use) {
+  const auto is_in_reach = [](const Point& p) {
+    return within_reach(p.x) == p.x && within_reach(p.y) == p.y;
+  };
+  if (std::ranges::all_of(all.view(), is_in_reach)) return use(all.view());
+  std::vector<Point> points(all.view().begin(), all.view().end());
+  for (Point& point : points) point = {within_reach(point.x), within_reach(point.y)};
+  use(std::span<const Point>(points));
 }
 
 }  // namespace
@@ -97,17 +127,40 @@ void paint_shape(cairo_t& cr, const RectangleItem& item) {
 }
 
 void paint_shape(cairo_t& cr, const PathItem& item) {
-  for (const Point& point : item.points.view()) {
-    cairo_line_to(&cr, within_reach(point.x), within_reach(point.y));
-  }
-  if (item.closed) cairo_close_path(&cr);
-  fill_and_stroke(cr, item.fill, item.stroke);
+  with_points_in_reach(item.points, [&](std::span<const Point> points) {
+    if (!has_pixels(cr)) {
+      add_path(cr, points, item.closed);
+      return fill_and_stroke(cr, item.fill, item.stroke);
+    }
+    if (item.fill) {
+      add_path(cr, points, true);
+      fill(cr, *item.fill);
+    }
+    if (item.stroke) {
+      add_line_outline(cr, points, item.closed, item.stroke->width_px, item.stroke->dash_px);
+      fill(cr, item.stroke->color);
+    }
+  });
 }
 
 void paint_shape(cairo_t& cr, const DiskItem& item) {
-  cairo_arc(&cr, item.centre.x, item.centre.y, item.radius, 0, 2 * std::numbers::pi);
-  cairo_close_path(&cr);
-  fill_and_stroke(cr, item.fill, item.stroke);
+  if (!has_pixels(cr)) {
+    cairo_arc(&cr, item.centre.x, item.centre.y, item.radius, 0, 2 * std::numbers::pi);
+    cairo_close_path(&cr);
+    return fill_and_stroke(cr, item.fill, item.stroke);
+  }
+  if (item.fill) {
+    add_circle(cr, item.centre, item.radius);
+    fill(cr, *item.fill);
+  }
+  if (item.stroke) {
+    const double half_px = item.stroke->width_px / 2;
+    add_circle(cr, item.centre, item.radius + half_px);
+    if (item.radius > half_px) {
+      add_circle(cr, item.centre, item.radius - half_px, Turn::counterclockwise);
+    }
+    fill(cr, item.stroke->color);
+  }
 }
 
 }  // namespace piblocks

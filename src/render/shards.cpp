@@ -67,13 +67,13 @@ struct JobDescription {
 };
 
 /// @throws UsageError if the header has no value of that name.
-const std::string& value_of(const ShardFile& part, const std::string& name) {
+const std::string& value_of(const ShardFile& part, std::string_view name) {
   const auto at = std::ranges::find(part.header, name, &ShardHeader::value_type::first);
   if (at != part.header.end()) return at->second;
   throw UsageError(fmt::format("join: '{}' lacks '{}'", part.path, name));
 }
 
-std::optional<std::string> setting(const ShardFile& part, const std::string& name) {
+std::optional<std::string> setting(const ShardFile& part, std::string_view name) {
   const std::string& value = value_of(part, name);
   return value == kDefault ? std::nullopt : std::optional(value);
 }

@@ -178,8 +178,10 @@ TEST(Fade, AsAVectorFileIsTheSameEveryTime) {
   draw_svg(picture);
   EXPECT_EQ(draw_svg(half), svg);
   const std::string text(svg.begin(), svg.end());
+  // The names of Cairo 1.16 and 1.18 have numbers that count through the whole process.
   EXPECT_EQ(text.find("surface"), std::string::npos) << text;
-  EXPECT_NE(text.find("id=\"picture2\""), std::string::npos) << text;
+  EXPECT_EQ(text.find("source-"), std::string::npos) << text;
+  EXPECT_NE(text.find("id=\"picture\""), std::string::npos) << text;
   EXPECT_EQ(draw_pdf(half), draw_pdf(half));
 }
 

@@ -127,7 +127,8 @@ class Stream {
     require(watch_.take(std::ssize(unit)) == coded.is_within_level, "the level is not kept");
     const auto shown = decoder_.decode(unit);
     require(shown.has_value(), "no picture");
-    require(coded.coarse_macroblocks > 0 || coded.qp == config_.qp, "coarser than asked, but no coarse macroblocks reported");
+    require(coded.coarse_macroblocks > 0 || coded.qp == config_.qp,
+            "coarser than asked, but no coarse macroblocks reported");
     if (coded.coarse_macroblocks == 0) coarsest_qp_ = config_.qp;
     coarsest_qp_ = std::max(coarsest_qp_, coded.qp);
     const std::string problem =

@@ -11,6 +11,7 @@
 #include "h264/encoder.hpp"
 #include "h264/parameter_sets.hpp"
 #include "media/libav/av.hpp"
+#include "media/libav/av_versions.hpp"
 
 namespace piblocks::h264 {
 namespace {
@@ -307,7 +308,7 @@ TEST(EncoderHeaders, AreUnderstoodByLibavcodec) {
     EXPECT_EQ(frame->width, config.width_px);
     EXPECT_EQ(frame->height, config.height_px);
     EXPECT_EQ(frame->format, AV_PIX_FMT_YUV420P);
-    EXPECT_EQ(frame->key_frame, 1);
+    EXPECT_TRUE(is_key_frame(*frame));
     EXPECT_EQ(frame->sample_aspect_ratio.num, 1);
     EXPECT_EQ(frame->sample_aspect_ratio.den, 1);
     EXPECT_EQ(frame->color_range, AVCOL_RANGE_MPEG);

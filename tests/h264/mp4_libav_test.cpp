@@ -67,6 +67,17 @@ class Mp4Libav : public testing::TestWithParam<std::string> {
   std::string theirs_ = folder_ / "theirs.mp4";
 };
 
+/// libavformat from FFmpeg 6 on leaves the average rate open where the encoder did not name one. It
+/// is the last field of the last box, btrt.
+void copy_average_rate(const ByteVector& ours, ByteVector& theirs) {
+  constexpr std::size_t kField_bytes = 4;
+  if (theirs.size() != ours.size() || theirs.size() < kField_bytes) return;
+  const auto field = theirs.end() - kField_bytes;
+  if (std::all_of(field, theirs.end(), [](auto byte) { return byte == 0; })) {
+    std::copy(ours.end() - kField_bytes, ours.end(), field);
+  }
+}
+
 TEST_P(Mp4Libav, BoxesAreTheSame) {
   const ByteVector our_file = bytes_of(ours_);
   const ByteVector their_file = bytes_of(theirs_);
@@ -86,7 +97,9 @@ TEST_P(Mp4Libav, BoxesAreTheSame) {
   names.insert(theirs.order.begin(), theirs.order.end());
   for (const std::string& name : names) {
     if (others.contains(name)) continue;
-    EXPECT_EQ(ours.at(name), theirs.at(name)) << name;
+    ByteVector their_box = theirs.at(name);
+    if (name == kTables + "stsd") copy_average_rate(ours.at(name), their_box);
+    EXPECT_EQ(ours.at(name), their_box) << name;
   }
   EXPECT_FALSE(ours.has("moov/udta"));
   EXPECT_GT(names.size(), 20u);

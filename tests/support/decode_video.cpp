@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "media/libav/av.hpp"
+#include "media/libav/av_versions.hpp"
 
 extern "C" {
 #include <libavutil/pixdesc.h>
@@ -81,7 +82,7 @@ DecodedFrame decoded_frame(const AVFrame& frame, const AVStream& stream) {
   }
   DecodedFrame decoded{
       .time_s = Rational(frame.best_effort_timestamp) * to_rational(stream.time_base),
-      .key_frame = frame.key_frame != 0,
+      .key_frame = is_key_frame(frame),
       .rgb = rgb_of(frame),
       .luma = {}};
   for (int y = 0; y < frame.height && frame.format == AV_PIX_FMT_YUV420P; ++y) {

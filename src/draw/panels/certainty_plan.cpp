@@ -8,8 +8,6 @@
 namespace piblocks {
 namespace {
 
-using namespace certainty;
-
 // In ems. More room is given to the lens and the notes, up to these.
 constexpr double kLeastLens = 1.6;
 constexpr double kMoreLens = 3;
@@ -63,7 +61,8 @@ class CertaintyPlanner {
     }
     double beside = width(plan_.ends.left);
     if (is_enlarged()) beside = std::max(beside, width(words_.magnification(plan_.exponent)));
-    plan_.line = {left_ + beside + kBeside * em_, right_ - width(plan_.ends.right) - kBeside * em_};
+    plan_.line = {left_ + beside + certainty::kBeside * em_,
+                  right_ - width(plan_.ends.right) - certainty::kBeside * em_};
   }
 
   /// The labels of pi/s and pi/theta, left and right of the band if possible.
@@ -73,12 +72,13 @@ class CertaintyPlanner {
     XRange room{left_, right_};
     XRange band{plan_.x_of(from), plan_.x_of(to)};
     if (is_enlarged()) {
-      room = {plan_.line.left + kBeside * em_, plan_.line.right - kBeside * em_};
+      room = {plan_.line.left + certainty::kBeside * em_,
+              plan_.line.right - certainty::kBeside * em_};
       band = {plan_.enlarged_x_of(from), plan_.enlarged_x_of(to)};
     }
     auto& [first, second] = plan_.marks;
     for (const CertaintyWords::Pair& pair : words_.marks()) {
-      const double between = kBetween * em_;
+      const double between = certainty::kBetween * em_;
       const double right = std::min(band.right, room.right - width(pair.right));
       first = {pair.left,
                std::max(room.left, std::min(band.left, right - between) - width(pair.left))};
@@ -104,11 +104,11 @@ class CertaintyPlanner {
   /// @returns their height in ems, or nothing if a word is too long.
   std::optional<double> set_notes(const std::vector<Words>& notes) {
     plan_.notes.clear();
-    double height = kToNotes - kNoteStep - kBetweenNotes;
+    double height = certainty::kToNotes - certainty::kNoteStep - certainty::kBetweenNotes;
     for (const Words& note : notes) {
       auto lines = lines_of(note);
       if (!lines) return std::nullopt;
-      height += kBetweenNotes + kNoteStep * double(lines->size());
+      height += certainty::kBetweenNotes + certainty::kNoteStep * double(lines->size());
       plan_.notes.push_back(std::move(*lines));
     }
     return height;
@@ -116,15 +116,16 @@ class CertaintyPlanner {
 
   /// The longest notes, and what is beyond the line's end, as there is room.
   bool place_notes() {
-    double room = room_.inside.height / em_ - kCap - kToLine - kFromLine;
-    if (is_enlarged()) room -= kLeastLens + kToLine;
+    double room =
+        room_.inside.height / em_ - certainty::kCap - certainty::kToLine - certainty::kFromLine;
+    if (is_enlarged()) room -= kLeastLens + certainty::kToLine;
     for (const std::vector<Words>& notes : words_.notes(room_.is_defined)) {
       const std::optional<double> height = set_notes(notes);
       const double loose = notes.size() > 1 ? kLoose : 0;
       if (!height || *height + loose > room) continue;
       double spare = room - *height;
       place_next_whole_meaning(spare);
-      if (plan_.has_row_above) spare -= kRow;
+      if (plan_.has_row_above) spare -= certainty::kRow;
       if (is_enlarged()) {
         const double more = std::min(spare / 2, kMoreLens);
         plan_.lens_em = kLeastLens + more;
@@ -140,8 +141,8 @@ class CertaintyPlanner {
   void place_next_whole_meaning(double spare) {
     for (const Formula& formula : words_.next_whole_meaning()) {
       const double x = right_ - width(formula);
-      const bool is_beside = x >= above_px_ + kBetween * em_;
-      if (x < left_ || (!is_beside && spare < kRow)) continue;
+      const bool is_beside = x >= above_px_ + certainty::kBetween * em_;
+      if (x < left_ || (!is_beside && spare < certainty::kRow)) continue;
       plan_.next_whole_meaning = {formula, x};
       plan_.has_row_above = !is_beside;
       return;

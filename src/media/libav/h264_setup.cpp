@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "media/libav/av_versions.hpp"
 #include "media/libav/encoder_setup.hpp"
 #include "media/mp4/h264_chunk.hpp"
 
@@ -20,9 +21,7 @@ constexpr double kX264Crf = 21;
 constexpr double kBitsPerPixel = 0.1;
 
 bool takes_yuv420p(const AVCodec& codec) {
-  const AVPixelFormat* format = codec.pix_fmts;
-  while (format != nullptr && *format != AV_PIX_FMT_NONE && *format != AV_PIX_FMT_YUV420P) ++format;
-  return format != nullptr && *format == AV_PIX_FMT_YUV420P;
+  return std::ranges::count(pixel_formats_of(codec), AV_PIX_FMT_YUV420P) > 0;
 }
 
 bool is_software_h264(const AVCodec& codec) {

@@ -10,6 +10,7 @@
 
 #include "media/libav/av.hpp"
 #include "media/libav/av_module.hpp"
+#include "media/libav/av_versions.hpp"
 #include "media/libav/decoded_frame.hpp"
 
 extern "C" {
@@ -133,9 +134,7 @@ class VideoReader final : public FrameReader {
     AVStream* const stream = input_->streams[stream_];
     const AVFrameSideData* const own =
         av_frame_get_side_data(frame_.get(), AV_FRAME_DATA_DISPLAYMATRIX);
-    const std::uint8_t* const matrix =
-        own != nullptr ? own->data
-                       : av_stream_get_side_data(stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+    const std::uint8_t* const matrix = own != nullptr ? own->data : display_matrix_of(*stream);
     std::string text =
         matrix == nullptr ? "" : turn_of(reinterpret_cast<const std::int32_t*>(matrix));
     const AVRational aspect = av_guess_sample_aspect_ratio(input_.get(), stream, frame_.get());
