@@ -14,7 +14,9 @@ namespace {
 
 /// Line breaks, tabs and the like.
 bool has_control_characters(std::string_view text) {
-  return std::ranges::any_of(text, [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; });
+  // A char has a sign on x86-64, and none on arm64.
+  return std::ranges::any_of(
+      text, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; });
 }
 
 void check_range(const char* key, const Range& range, SceneProblems& problems) {
