@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/rounded.hpp"
 #include "draw/extent.hpp"
 #include "draw/painter.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 
 /// Dashes along one side, fitted to end in each corner and to look the same from both ends.
 void stroke_side(cairo_t& cr, const Point& from, const Point& to, double dash_px) {
-  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const double length = rounded::hypot(to.x - from.x, to.y - from.y);
   const double periods = std::max(1.0, std::round((length / dash_px - 1) / 2));
   const double fitted = length / (2 * periods + 1);
   cairo_set_dash(&cr, &fitted, 1, 0);
@@ -74,6 +75,36 @@ void fill_and_stroke(cairo_t& cr, const std::optional<Color>& fill,
   cairo_new_path(&cr);
 }
 
+/// The curves of cairo_arc(), whose sine and cosine are the C library's. Their distance from the
+/// circle is at most Cairo's tolerance.
+void add_circle(cairo_t& cr, const Point& centre, double radius) {
+  // The error of 1, 2, … curves for half a turn, in parts of the radius: 2/27 sin^6(a/4) /
+  // cos^2(a/4) for curves of the angle a.
+  constexpr std::array kErrors{0.0185185185185185, 0.000272567143730180, 2.38647043651461e-05,
+                               4.24554377432224e-06};
+  const double tolerance = cairo_get_tolerance(&cr) / radius;
+  const auto found = std::ranges::find_if(kErrors, [&](double error) { return error < tolerance; });
+  const auto curves = std::min<std::ptrdiff_t>(found - kErrors.begin() + 1, kErrors.size());
+  const double angle = std::numbers::pi / double(curves);
+  const auto [quarter_sine, quarter_cosine] = rounded::sin_cos(angle / 4);
+  const double handle = 4.0 / 3 * radius * (quarter_sine / quarter_cosine);
+  const auto direction = [&](std::ptrdiff_t index) {
+    const auto [sine, cosine] = rounded::sin_cos(double(index) * angle);
+    return Point{cosine, sine};
+  };
+  Point from = direction(0);
+  cairo_move_to(&cr, centre.x + radius * from.x, centre.y + radius * from.y);
+  for (std::ptrdiff_t i = 1; i <= 2 * curves; ++i) {
+    const Point to = direction(i);
+    const Point end{centre.x + radius * to.x, centre.y + radius * to.y};
+    cairo_curve_to(&cr, centre.x + radius * from.x - handle * from.y,
+                   centre.y + radius * from.y + handle * from.x, end.x + handle * to.y,
+                   end.y - handle * to.x, end.x, end.y);
+    from = to;
+  }
+  cairo_close_path(&cr);
+}
+
 }  // namespace
 
 void set_color(cairo_t& cr, const Color& color) {
@@ -105,8 +136,7 @@ void paint_shape(cairo_t& cr, const PathItem& item) {
 }
 
 void paint_shape(cairo_t& cr, const DiskItem& item) {
-  cairo_arc(&cr, item.centre.x, item.centre.y, item.radius, 0, 2 * std::numbers::pi);
-  cairo_close_path(&cr);
+  add_circle(cr, item.centre, item.radius);
   fill_and_stroke(cr, item.fill, item.stroke);
 }
 
