@@ -9,9 +9,9 @@
 
 #include "core/two_sum.hpp"
 
-// How: a table takes the argument to a small rest, a short polynomial takes it from there. The
-// table and the first terms have two doubles; only terms below 2^-17 of the value have one, and so
-// no error is above a few times 2^-53 2^-17. "ulp" below is 2^-53 of a term.
+// A table takes the argument to a small rest, a short polynomial takes it from there. The table and
+// the first terms have two doubles; only terms below 2^-19 of the value have one. So no error is
+// above a few times 2^-53 2^-19 of it.
 
 namespace piblocks::near {
 namespace {
@@ -40,8 +40,7 @@ constexpr DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
   return DoubleDouble{first, 0} + DoubleDouble{second, after.hi / b.hi};
 }
 
-/// sum of first x^(step n) / divisor(n) for n = 0, 1, …, until nothing is added. @param power
-/// x^step
+/// The sum of first power^n / divisor(n) for n = 0, 1, …, until nothing is added.
 template <typename Divisor>
 constexpr DoubleDouble series(DoubleDouble first, const DoubleDouble& power,
                               const Divisor& divisor) {
@@ -214,9 +213,10 @@ constexpr double kLn2Low = (kLn2.hi - kLn2High) + kLn2.lo;
 DoubleDouble log_of(const DoubleDouble& x) {
   const auto bits = std::bit_cast<std::int64_t>(x.hi);
   const std::int64_t k = (bits - kThreeQuarters) >> 52;
-  const double m = std::bit_cast<double>(bits - (k << 52));
+  const auto m = std::bit_cast<double>(bits - (k << 52));
   const double m_low = x.lo == 0 ? 0 : x.lo * power_of_two(-k);
-  const auto& [c, log_c] = kReciprocalTable[std::size_t(m * kReciprocals + 0.5) - kFirstReciprocal];
+  const auto& [c, log_c] =
+      kReciprocalTable[std::size_t(to_multiple(m * kReciprocals, 1)) - kFirstReciprocal];
   const DoubleDouble product = split_product(m, c);
   const DoubleDouble z = two_sum(product.hi - 1, product.lo + m_low * c);
   const DoubleDouble square = split_product(z.hi, z.hi);
@@ -320,7 +320,7 @@ DoubleDouble atan2(double y, double x) {
   const bool is_steep = up > along;
   const double n = is_steep ? along : up;
   const double d = is_steep ? up : along;
-  const auto index = static_cast<std::size_t>(n / d * kArcs + 0.5);
+  const auto index = static_cast<std::size_t>(to_multiple(n / d * kArcs, 1));
   const DoubleDouble r = rest_of_tangent(n, d, double(index) / kArcs);
   const double square = r.hi * r.hi;
   const double cube = r.hi * (square * (-1.0 / 3 + square * (1.0 / 5 - square * (1.0 / 7))));

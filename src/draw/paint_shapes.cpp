@@ -83,18 +83,18 @@ void add_circle(cairo_t& cr, const Point& centre, double radius) {
   constexpr std::array kErrors{0.0185185185185185, 0.000272567143730180, 2.38647043651461e-05,
                                4.24554377432224e-06};
   const double tolerance = cairo_get_tolerance(&cr) / radius;
-  const auto found = std::ranges::find_if(kErrors, [&](double error) { return error < tolerance; });
-  const auto curves = std::min<std::ptrdiff_t>(found - kErrors.begin() + 1, kErrors.size());
+  std::size_t curves = 1;
+  while (curves < kErrors.size() && kErrors.at(curves - 1) >= tolerance) ++curves;
   const double angle = std::numbers::pi / double(curves);
   const auto [quarter_sine, quarter_cosine] = rounded::sin_cos(angle / 4);
   const double handle = 4.0 / 3 * radius * (quarter_sine / quarter_cosine);
-  const auto direction = [&](std::ptrdiff_t index) {
+  const auto direction = [&](std::size_t index) {
     const auto [sine, cosine] = rounded::sin_cos(double(index) * angle);
     return Point{cosine, sine};
   };
   Point from = direction(0);
   cairo_move_to(&cr, centre.x + radius * from.x, centre.y + radius * from.y);
-  for (std::ptrdiff_t i = 1; i <= 2 * curves; ++i) {
+  for (std::size_t i = 1; i <= 2 * curves; ++i) {
     const Point to = direction(i);
     const Point end{centre.x + radius * to.x, centre.y + radius * to.y};
     cairo_curve_to(&cr, centre.x + radius * from.x - handle * from.y,
