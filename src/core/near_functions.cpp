@@ -86,7 +86,7 @@ struct Turn {
   DoubleDouble cosine;
 };
 
-constexpr auto kTurns = [] {
+constexpr std::array<Turn, kQuarter + 1> make_turns() {
   const DoubleDouble step = kPi / DoubleDouble{kSteps, 0};
   const DoubleDouble minus_square = -(step * step);
   const Turn first{series(step, minus_square, [](int n) { return factorial(2 * n + 1); }),
@@ -99,16 +99,18 @@ constexpr auto kTurns = [] {
                 cosine * first.cosine + -(sine * first.sine)};
   }
   return turns;
-}();
+}
+constexpr auto kTurns = make_turns();
 
 /// pi/1024 as two numbers of 33 bits, multiples of which are exact up to 2^20, and a rest.
-constexpr auto kStepParts = [] {
+constexpr std::array<double, 3> split_step() {
   const double high = to_multiple(kPi.hi, 0x1p-31);
   const DoubleDouble rest = two_sum(kPi.hi - high, kPi.lo);
   const double middle = to_multiple(rest.hi, 0x1p-64);
   const double low = (rest.hi - middle) + (rest.lo + kPiThird);
   return std::array{high / kSteps, middle / kSteps, low / kSteps};
-}();
+}
+constexpr auto kStepParts = split_step();
 
 /// An argument of sine and cosine: a multiple of pi/2, an angle of the table, and a rest.
 struct ReducedAngle {
@@ -167,14 +169,15 @@ bool is_turn_at_hand(double x) { return std::fabs(x) >= 0x1p-27 && std::fabs(x) 
 constexpr int kPowers = 256;
 
 /// 2^(index/256)
-constexpr auto kRoots = [] {
+constexpr std::array<DoubleDouble, kPowers> make_roots() {
   const DoubleDouble step = kLn2 / DoubleDouble{kPowers, 0};
   const DoubleDouble root = series({1, 0}, step, factorial);
   std::array<DoubleDouble, kPowers> roots{};
   roots[0] = {1, 0};
   for (std::size_t i = 1; i < roots.size(); ++i) roots[i] = roots[i - 1] * root;
   return roots;
-}();
+}
+constexpr auto kRoots = make_roots();
 
 /// ln 2/256: 33 bits and a double. Together they are right to 2^-95.
 constexpr double kPowerHigh = to_multiple(kLn2.hi, 0x1p-33) / kPowers;
@@ -191,7 +194,7 @@ struct Reciprocal {
   DoubleDouble log;  ///< -ln c
 };
 
-constexpr auto kReciprocalTable = [] {
+constexpr std::array<Reciprocal, kFirstReciprocal + 1> make_reciprocals() {
   std::array<Reciprocal, kFirstReciprocal + 1> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
     const double c = to_multiple(kReciprocals / double(i + kFirstReciprocal), 0x1p-11);
@@ -201,7 +204,8 @@ constexpr auto kReciprocalTable = [] {
     table[i] = {c, series(minus_2q, q * q, [](int n) { return 2.0 * n + 1; })};
   }
   return table;
-}();
+}
+constexpr auto kReciprocalTable = make_reciprocals();
 
 /// ln 2: 42 bits and a double. Together they are right to 2^-96.
 constexpr double kLn2High = to_multiple(kLn2.hi, 0x1p-42);
@@ -235,18 +239,19 @@ DoubleDouble log_of(const DoubleDouble& x) {
 constexpr int kArcs = 256;
 
 /// arctan(index/256)
-constexpr auto kArcTable = [] {
+constexpr std::array<DoubleDouble, kArcs + 1> make_arcs() {
   std::array<DoubleDouble, kArcs + 1> table{};
-  for (int i = 0; i < kArcs; ++i) {
+  for (std::size_t i = 1; i < table.size(); ++i) {
     // Of the difference of both angles.
+    const DoubleDouble product{double(i - 1) * double(i), 0};
     const DoubleDouble tangent =
-        DoubleDouble{kArcs, 0} / DoubleDouble{kArcs * kArcs + i * (i + 1.0), 0};
-    const DoubleDouble difference =
-        series(tangent, -(tangent * tangent), [](int n) { return 2.0 * n + 1; });
-    table[std::size_t(i) + 1] = table[std::size_t(i)] + difference;
+        DoubleDouble{kArcs, 0} / (DoubleDouble{kArcs * kArcs, 0} + product);
+    table[i] =
+        table[i - 1] + series(tangent, -(tangent * tangent), [](int n) { return 2.0 * n + 1; });
   }
   return table;
-}();
+}
+constexpr auto kArcTable = make_arcs();
 
 /// (n - i/256 d)/(d + i/256 n). The numerator is exact where it is small beside n; the quotient is
 /// right to 2^-100.

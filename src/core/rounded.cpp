@@ -21,7 +21,7 @@ class Number {
   Number(const Number&) = delete;
   Number& operator=(const Number&) = delete;
   ~Number() { mpfr_clear(value_); }
-  operator mpfr_ptr() { return value_; }  // NOLINT(google-explicit-constructor)
+  mpfr_ptr get() { return value_; }
 
  private:
   mpfr_t value_{};
@@ -35,10 +35,10 @@ double by_mpfr(Operation operation, Arguments... arguments) {
   mpfr_set_emin(std::numeric_limits<double>::min_exponent - std::numeric_limits<double>::digits +
                 1);
   Number result;
-  const int rounding = operation(result, Number(arguments)..., MPFR_RNDN);
-  mpfr_subnormalize(result, rounding, MPFR_RNDN);
+  const int rounding = operation(result.get(), Number(arguments).get()..., MPFR_RNDN);
+  mpfr_subnormalize(result.get(), rounding, MPFR_RNDN);
   mpfr_set_emin(least);
-  return mpfr_get_d(result, MPFR_RNDN);
+  return mpfr_get_d(result.get(), MPFR_RNDN);
 }
 
 /// The value that is near, or MPFR's.

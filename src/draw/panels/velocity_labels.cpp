@@ -87,8 +87,8 @@ class FreeRoom {
     const double x = std::clamp(circle.centre.x, box.x, box.x + box.width);
     const double y = std::clamp(circle.centre.y, box.y, box.y + box.height);
     const double slack = kAround_em * em;
-    if (rounded::hypot(x - circle.centre.x, y - circle.centre.y) < circle.radius + slack)
-      return false;
+    const double distance = rounded::hypot(x - circle.centre.x, y - circle.centre.y);
+    if (distance < circle.radius + slack) return false;
     const Rectangle wide{box.x - slack, box.y, box.width + 2 * slack, box.height};
     return std::ranges::none_of(taken_, [&](const Rectangle& other) { return meet(wide, other); });
   }
