@@ -40,20 +40,36 @@ struct Particle {
 
 namespace detail {
 
+/// The sum of products, in the order of coordinates. Eigen's dot() adds in an order that depends on
+/// the vectors of the processor, and so rounds differently.
+template <typename Scalar, int Dim>
+Scalar dot(const Eigen::Matrix<Scalar, Dim, 1>& a, const Eigen::Matrix<Scalar, Dim, 1>& b) {
+  Scalar sum = a[0] * b[0];
+  for (int i = 1; i < Dim; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// The root of the sum of squares.
+template <typename Scalar, int Dim>
+Scalar norm(const Eigen::Matrix<Scalar, Dim, 1>& v) {
+  using std::sqrt;
+  return Scalar(sqrt(dot(v, v)));
+}
+
 /// Euclidean length of v. Scaled by the largest coefficient, so that squares neither overflow nor
 /// underflow; exact in one dimension.
 template <typename Scalar, int Dim>
 Scalar length(const Eigen::Matrix<Scalar, Dim, 1>& v) {
   const Scalar largest = v.cwiseAbs().maxCoeff();
   if (largest == 0) return Scalar(0);
-  return Scalar(largest * Eigen::Matrix<Scalar, Dim, 1>(v / largest).norm());
+  return Scalar(largest * norm(Eigen::Matrix<Scalar, Dim, 1>(v / largest)));
 }
 
 /// v / length(v), scaled likewise; NaN for the zero vector.
 template <typename Scalar, int Dim>
 Eigen::Matrix<Scalar, Dim, 1> direction(const Eigen::Matrix<Scalar, Dim, 1>& v) {
   const Eigen::Matrix<Scalar, Dim, 1> scaled = v / v.cwiseAbs().maxCoeff();
-  return scaled / scaled.norm();
+  return scaled / norm(scaled);
 }
 
 /// other / (own + other), the share of a collision's velocity change for the body with mass `own`.
@@ -96,7 +112,7 @@ std::optional<Scalar> collision_time(const Particle<Scalar, Dim>& p,
   const Vector x = q.position - p.position;
   const Vector v = q.velocity - p.velocity;
   const Vector course = detail::direction(v);
-  const Scalar along = -x.dot(course);
+  const Scalar along = -detail::dot(x, course);
   if (along <= 0) return std::nullopt;
 
   const Scalar reach = p.radius + q.radius;
@@ -122,7 +138,7 @@ template <typename Scalar, int Dim>
 void collide(Particle<Scalar, Dim>& p, Particle<Scalar, Dim>& q) {
   using Vector = typename Particle<Scalar, Dim>::Vector;
   const Vector normal = detail::direction(Vector(q.position - p.position));
-  const Scalar closing_speed = (p.velocity - q.velocity).dot(normal);
+  const Scalar closing_speed = detail::dot(Vector(p.velocity - q.velocity), normal);
   // Rounding can leave a grazing pair receding at contact; an impulse would pull it together.
   if (closing_speed <= 0) return;
   const Scalar change = Scalar(2) * closing_speed;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -16,25 +15,40 @@ class Light {
  public:
   Light() {
     for (std::size_t i = 0; i < table_.size(); ++i) {
-      const double v = double(i) / (255 * kPerStep);
-      table_[i] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+      const double v = double(i) / double(255 * kPerStep);
+      table_[i] = v <= 0.04045 ? v / 12.92 : power_2_4((v + 0.055) / 1.055);
     }
   }
 
   double of(double sample) const {
-    const double at = std::clamp(sample, 0.0, 255.0) * kPerStep;
+    const double at = std::clamp(sample, 0.0, 255.0) * double(kPerStep);
     const auto i = std::min(static_cast<std::size_t>(at), table_.size() - 2);
     return table_[i] + (table_[i + 1] - table_[i]) * (at - double(i));
   }
   /// The nearest sample.
-  static std::uint8_t sample(double light) {
-    const double l = std::clamp(light, 0.0, 1.0);
-    const double v = l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(255 * v));
+  std::uint8_t sample(double light) const {
+    // The last one that begins, half a step below itself, at less light.
+    std::size_t sample = 0;
+    for (std::size_t step = 128; step > 0; step /= 2) {
+      if (light >= table_[(sample + step) * kPerStep - kPerStep / 2]) sample += step;
+    }
+    return static_cast<std::uint8_t>(sample);
   }
 
  private:
-  static constexpr int kPerStep = 4;
+  /// x^2.4 for 0 < x <= 1, by Newton's method for the fifth root of x^2, from above. std::pow()
+  /// would round differently on other machines.
+  static double power_2_4(double x) {
+    const double square = x * x;
+    double root = 1;
+    for (double next = root;; root = next) {
+      const double fourth = root * root * root * root;
+      next = (4 * root + square / fourth) / 5;
+      if (next >= root) return square * root;
+    }
+  }
+
+  static constexpr std::size_t kPerStep = 4;
   std::array<double, 255 * kPerStep + 1> table_{};
 };
 

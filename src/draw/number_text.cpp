@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/rounded.hpp"
 #include "draw/font.hpp"
 
 namespace piblocks {
@@ -52,11 +53,9 @@ double count_width_em(const Integer& count, int base, const Font& font) {
 Magnitude magnitude_of(const Rational& value) { return split(mpf_class(value, kBits)); }
 
 double to_double(const Magnitude& value) {
-  // In two steps: 10^-330 alone is below the range, and its product with a mantissa may not be.
   constexpr long kMostExponent = 1000;
   const long exponent = std::clamp(value.exponent, -kMostExponent, kMostExponent);
-  const long half = exponent / 2;
-  return value.mantissa * std::pow(10, double(half)) * std::pow(10, double(exponent - half));
+  return to_double(Rational(value.mantissa) * power_of_ten(exponent));
 }
 
 Rational power_of_ten(long exponent) {
@@ -69,7 +68,7 @@ Magnitude root_magnitude_of(const Rational& value) { return split(root_of(value)
 mpf_class root_of(const Rational& value) { return sqrt(mpf_class(value, kBits)); }
 
 Magnitude written_with(int decimals, Magnitude size) {
-  if (size.mantissa < 10 - 0.5 * std::pow(10, -decimals)) return size;
+  if (size.mantissa < 10 - 0.5 * to_double(power_of_ten(-decimals))) return size;
   return {size.mantissa / 10, size.exponent + 1};
 }
 
@@ -144,7 +143,7 @@ Ticks ticks_of(double low, double high, double least) {
   Ticks ticks;
   least = std::max(least, (high - low) / kMost);
   if (!(least > 0) || !std::isfinite(least)) return ticks;
-  const double power = std::pow(10, std::floor(std::log10(least)));
+  const double power = to_double(power_of_ten(std::lround(std::floor(rounded::log10(least)))));
   for (const double factor : {1, 2, 5, 10}) {
     ticks.step = factor * power;
     if (ticks.step >= least) break;
@@ -175,12 +174,13 @@ Ticks with_room_for_figures(Ticks ticks, const FigureAxis& axis, const Font& fon
 std::string tick_text(double value, double step) {
   constexpr double kLeastPlain = 1e-4;
   constexpr double kMostPlain = 1e6;
-  const double exponent = std::floor(std::log10(step) + 1e-9);
+  const double exponent = std::floor(rounded::log10(step) + 1e-9);
   if (step >= kLeastPlain && step < kMostPlain) {
     return fixed_text(value, static_cast<int>(std::max(0.0, -exponent)));
   }
   // A step is 1, 2 or 5 times a power of ten: values are whole multiples of that.
-  const double multiple = std::round(value / step) * std::round(step / std::pow(10, exponent));
+  const double multiple =
+      std::round(value / step) * std::round(step / to_double(power_of_ten(std::lround(exponent))));
   const std::string text = fixed_text(multiple, 0);
   return multiple == 0 ? text : text + "×" + power_text(std::lround(exponent));
 }

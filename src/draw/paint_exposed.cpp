@@ -175,7 +175,7 @@ class ExposedColumn {
     const RowCover& row = rows_[kind];
     const auto sample = [&](int shift, std::uint8_t Color::*channel) {
       const double light = light_of(row, background >> shift & 0xFF, channel);
-      return static_cast<std::uint32_t>(Light::sample(light)) << shift;
+      return static_cast<std::uint32_t>(light_.sample(light)) << shift;
     };
     const std::uint32_t pixel =
         sample(16, &Color::red) | sample(8, &Color::green) | sample(0, &Color::blue);

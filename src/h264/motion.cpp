@@ -14,8 +14,18 @@ namespace {
 constexpr int kRange = 120;
 
 /// Motion leaves a smaller sum of differences in 256 samples: what a quantiser leaves doubles with
-/// every 6 steps.
-int near_of(int qp) { return static_cast<int>(768 * std::exp2((qp - 14) / 6.0)); }
+/// every 6 steps. 768 * 2^((qp - 14)/6), rounded down.
+int near_of(int qp) {
+  // 2^(i/6). Not std::exp2(), which rounds differently in other C libraries.
+  constexpr std::array kSixthRoots{1.0,
+                                   1.122462048309373,
+                                   1.2599210498948732,
+                                   1.4142135623730951,
+                                   1.5874010519681994,
+                                   1.7817974362806785};
+  const int steps = qp + 4;  // 18 below 14, which is three doublings
+  return static_cast<int>(std::ldexp(768 * kSixthRoots[std::size_t(steps % 6)], steps / 6 - 3));
+}
 
 bool is_zero(MotionVector vector) { return vector == MotionVector{}; }
 

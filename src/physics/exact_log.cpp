@@ -68,7 +68,7 @@ std::vector<ExactCollision> run(const BlockSystem& system) {
 }
 
 /// Rounded once.
-Collision rounded(const Integer& index, const ExactCollision& exact) {
+Collision rounded_collision(const Integer& index, const ExactCollision& exact) {
   Collision result{index, to_time(exact.time), exact.kind, motion_of(exact.blocks.blue),
                    motion_of(exact.blocks.red)};
   require_finite(result.time, result.blue, result.red, "exact events");
@@ -93,11 +93,13 @@ class ExactLog final : public CollisionLog {
     set_range(1 - past, events_.size() - past);
   }
 
-  Collision collision(const Integer& index) const override { return rounded(index, event(index)); }
+  Collision collision(const Integer& index) const override {
+    return rounded_collision(index, event(index));
+  }
 
   BlockState state_at(const Rational& time) const override {
     const Integer count = first_index() - 1 + Integer(happened(time) - events_.begin());
-    const Collision at = rounded(count, {time, CollisionKind::wall, blocks_at(time)});
+    const Collision at = rounded_collision(count, {time, CollisionKind::wall, blocks_at(time)});
     return {at.index, at.blue, at.red};
   }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/rounded.hpp"
 #include "physics/unfolded_log.hpp"
 
 namespace piblocks {
@@ -107,7 +108,7 @@ Exposure UnfoldedLog::expose(const Rational& first, const Rational& last) const 
   // Durations come from triangles with the corner, so that a long turn costs no precision. This is
   // one between a point and a ray, less than one ray apart, with the sine of the ray.
   const auto time_to_ray = [&](const LinePoint& point, double rays, double sine) {
-    return std::hypot(form_.passage, point.tau) * (std::sin(rays * form_.theta.hi) / sine);
+    return rounded::hypot(form_.passage, point.tau) * (rounded::sin(rays * form_.theta.hi) / sine);
   };
   PieceList pieces(start.blue.position, start.red.position);
   double before = 0;  // the sine of the ray before

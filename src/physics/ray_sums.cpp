@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/rounded.hpp"
 #include "physics/unfolded_exposure.hpp"
 
 namespace piblocks {
@@ -36,6 +37,11 @@ constexpr std::array<std::pair<double, double>, 4> kNodes{
      {0.7966664774136267, 0.2223810344533745},
      {0.9602898564975363, 0.1012285362903763}}};
 
+double log_tan_half(double angle) {
+  const auto [sine, cosine] = rounded::sin_cos(angle / 2);
+  return rounded::log(sine / cosine);
+}
+
 }  // namespace
 
 RayPhase RaySums::later(RayPhase ray, double rays) const {
@@ -51,7 +57,8 @@ double RaySums::rays_between(const RayPhase& a, const RayPhase& b) const {
 }
 
 double RaySums::tau(const RayPhase& ray) const {
-  const double size = form_.passage / std::tan(angle(ray));
+  const auto [sine, cosine] = rounded::sin_cos(angle(ray));
+  const double size = form_.passage * (cosine / sine);
   return ray.late ? size : -size;
 }
 
@@ -59,15 +66,16 @@ double RaySums::duration(const RayPhase& a, const RayPhase& b) const {
   if (a.late != b.late) return tau(b) - tau(a);
   // The difference of the cotangents, without cancellation.
   const double turn = rays_between(a, b) * form_.theta.hi;
-  return (std::sin(turn) / std::sin(angle(a))) * (form_.passage / std::sin(angle(b)));
+  return (rounded::sin(turn) / rounded::sin(angle(a))) * (form_.passage / rounded::sin(angle(b)));
 }
 
-double RaySums::inverse_sine(const RayPhase& ray) const { return sine_ / std::sin(angle(ray)); }
+double RaySums::inverse_sine(const RayPhase& ray) const { return sine_ / rounded::sin(angle(ray)); }
 
 std::optional<RayRange> RaySums::nearer_than(double gap, const RayRange& odd_rays) const {
   const double sine = form_.ell * sine_ / gap;
   if (!(gap > 0) || sine > 1) return std::nullopt;
-  const double least = std::asin(sine) / form_.theta.hi;
+  const double cosine = std::sqrt((1 - sine) * (1 + sine));
+  const double least = rounded::atan2(sine, cosine) / form_.theta.hi;
   const auto inwards = [&](const RayPhase& ray, double direction, bool towards_middle) {
     const double rays = towards_middle ? 2 * std::max(0.0, std::ceil((least - ray.phase) / 2)) : 0;
     return later(ray, direction * rays);
@@ -85,15 +93,16 @@ template <typename Summand>
 double RaySums::integral(const RayPhase& from, const RayPhase& to) const {
   const double a = angle(from);
   const double b = angle(to);
-  const double low = std::log(std::tan(a / 2)) * (from.late ? -1 : 1);
+  const double low = log_tan_half(a) * (from.late ? -1 : 1);
   double length = 0;
   if (from.late == to.late) {
     const double turn = rays_between(from, to) * form_.theta.hi;
     const double near = std::min(a, b);
     const double far = std::max(a, b);
-    length = std::log1p((std::sin(turn / 2) / std::sin(near / 2)) / std::cos(far / 2));
+    length =
+        rounded::log1p((rounded::sin(turn / 2) / rounded::sin(near / 2)) / rounded::cos(far / 2));
   } else {
-    length = -std::log(std::tan(a / 2)) - std::log(std::tan(b / 2));
+    length = -log_tan_half(a) - log_tan_half(b);
   }
   const double panels = std::ceil(length);
   const double half = length / panels / 2;
@@ -102,7 +111,8 @@ double RaySums::integral(const RayPhase& from, const RayPhase& to) const {
     const double middle = low + (2 * panel + 1) * half;
     for (const auto& [x, weight] : kNodes) {
       for (const double v : {middle - half * x, middle + half * x}) {
-        sum += weight * Summand::over_u(sine_ * std::cosh(v));
+        const double power = rounded::exp(v);
+        sum += weight * Summand::over_u(sine_ * ((power + 1 / power) / 2));  // cosh v
       }
     }
   }

@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "core/rounded.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -56,7 +58,7 @@ class Bounces {
         (rays_.tau(rays_.later(even_.last, -kOutermost)) - slow_begin) / (2 * kSlowBounces);
     for (int i = 1; i < 2 * kSlowBounces; ++i) {
       const double tau = slow_begin + step * i;
-      const double gap = std::hypot(form_.corner_distance, form_.speed * tau);
+      const double gap = rounded::hypot(form_.corner_distance, form_.speed * tau);
       fly_to(tau, i % 2 == 1 ? gap : 0, gap);
     }
     for (int i = kOutermost; i >= 0; --i) meet(rays_.later(even_.last, -i), i % 2 == 1);

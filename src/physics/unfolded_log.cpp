@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/rounded.hpp"
 #include "core/two_sum.hpp"
 #include "physics/blocks.hpp"
 
@@ -67,24 +68,24 @@ double UnfoldedLog::tau_at(const Rational& time, const Time& t) const {
 UnfoldedLog::LinePoint UnfoldedLog::point_at(double tau, const Time& t) const {
   // Seen from the corner, in units of ell; the line passes it at distance sigma.
   const double ahead = exact_.through_corner() ? kFarAway : form_.distance_at(tau);
-  const double range = std::hypot(form_.sigma, ahead);
+  const double range = rounded::hypot(form_.sigma, ahead);
 
   LinePoint point;
   point.time = t;
   point.tau = tau;
   point.end = tau < 0 ? &form_.past : &form_.future;
-  point.distance = std::hypot(form_.corner_distance, form_.speed * tau);
+  point.distance = rounded::hypot(form_.corner_distance, form_.speed * tau);
   point.sine = form_.sigma / range;
   point.cosine = ahead / range;
   const Landmark* landmark = point.end;
-  double angle = std::atan2(form_.sigma, ahead);
+  double angle = rounded::atan2(form_.sigma, ahead);
   const auto nearer = [&](const Landmark& other, double its_angle) {
     if (its_angle >= angle) return;
     landmark = &other;
     angle = its_angle;
   };
   if (!exact_.through_corner()) {
-    nearer(form_.turn.seen(tau >= 0), std::atan2(std::fabs(tau), form_.passage));
+    nearer(form_.turn.seen(tau >= 0), rounded::atan2(std::fabs(tau), form_.passage));
     const double now = t.hi / form_.time_unit;
     if (std::fabs(now) < std::fabs(tau)) {
       nearer(form_.start.seen(now >= 0), std::fabs(form_.angle_since_start(now)));
@@ -135,8 +136,7 @@ BlockState UnfoldedLog::state_of(const LinePoint& point, const Phase& at,
   // it is on the other side, and its velocity is reflected once more.
   const bool odd = is_odd(at.ray);
   const double angle = (odd ? 1 - at.fraction : at.fraction) * form_.theta.hi;
-  const double sine = std::sin(angle);
-  const double cosine = std::cos(angle);
+  const auto [sine, cosine] = rounded::sin_cos(angle);
   const double y2 = point.distance * cosine;
   const double y1 = std::min(point.distance * (sine / form_.sigma), y2);  // never past contact
 
@@ -207,7 +207,7 @@ std::unique_ptr<CollisionStream> UnfoldedLog::stream(const Integer& first,
 
 PositionBounds UnfoldedLog::bounds_at(const Rational& time) const {
   const double distance =
-      std::hypot(form_.corner_distance, form_.speed * tau_at(time, to_time(time)));
+      rounded::hypot(form_.corner_distance, form_.speed * tau_at(time, to_time(time)));
   // An offset is rounded once, and once more in the sum.
   const auto bound = [&](double gap, double offset) {
     return kUnitRoundoff * (8 * gap + 2 * std::fabs(offset) + distance);
@@ -231,10 +231,11 @@ Gaps UnfoldedLog::gaps_at(const Rational& time) const {
     phase = is_odd(ray) ? (1 - beyond.hi) - beyond.lo : beyond.hi;
   }
   const double angle = phase * form_.theta.hi;
-  const double distance = std::hypot(form_.sigma * to_double(free_y1), to_double(free_y2));
+  const double distance = rounded::hypot(form_.sigma * to_double(free_y1), to_double(free_y2));
   // sin(angle)/sigma, which does not lose a small angle among the denormal numbers.
-  const double sine_share = angle < 0x1p-30 ? 1 : std::sin(angle) / angle;
-  const double y2 = distance * std::cos(angle);
+  const auto [sine, cosine] = rounded::sin_cos(angle);
+  const double sine_share = angle < 0x1p-30 ? 1 : sine / angle;
+  const double y2 = distance * cosine;
   return {std::min(distance * phase * (form_.theta.hi / form_.sigma) * sine_share, y2), y2};
 }
 

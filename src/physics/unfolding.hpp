@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/rounded.hpp"
 #include "core/two_sum.hpp"
 #include "physics/exact_motion.hpp"
 
@@ -80,8 +81,7 @@ struct ClosedForm {
     phase.lo += steps.lo + beyond.lo;
     DoubleDouble angle = two_product(phase.hi, theta.hi);
     angle.lo += phase.hi * theta.lo + phase.lo * theta.hi;
-    const double sine = std::sin(angle.hi);
-    const double cosine = std::cos(angle.hi);
+    const auto [sine, cosine] = rounded::sin_cos(angle.hi);
     return {sine + cosine * angle.lo, cosine - sine * angle.lo};
   }
 
@@ -110,8 +110,8 @@ struct ClosedForm {
   /// approach, so that nothing cancels.
   double angle_since_start(double now) const {
     const double share = now / start_range;
-    return std::atan2(share * (passage / start_range),
-                      1 - share * (closest_approach.hi / start_range));
+    return rounded::atan2(share * (passage / start_range),
+                          1 - share * (closest_approach.hi / start_range));
   }
 
   /// @param sign  of the end of time

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "core/rounded.hpp"
 #include "render/video_facts.hpp"
 
 namespace piblocks {
@@ -21,8 +22,8 @@ constexpr double kLargest = 1e250;
 
 /// Decimals that tell two times apart which lie `distance` from each other.
 int decimals_for(const Rational& distance, const Rational& span) {
-  const double decimals = std::ceil(-std::log10(to_double(distance))) + 1;
-  const double room = std::log10(kLargest) - std::log10(std::max(1.0, to_double(span)));
+  const double decimals = std::ceil(-rounded::log10(to_double(distance))) + 1;
+  const double room = rounded::log10(kLargest) - rounded::log10(std::max(1.0, to_double(span)));
   return static_cast<int>(std::clamp(std::min(decimals, room), 0.0, double{kMostDecimals}));
 }
 

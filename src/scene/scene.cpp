@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/rounded.hpp"
 #include "core/text.hpp"
 #include "scene/scene_keys.hpp"
 
@@ -169,13 +170,13 @@ void check_line(const char* key, std::string_view text, SceneProblems& problems)
 Rational width_by_mass(const BlockSystem& system) {
   if (system.blue.mass <= 0 || system.red.mass <= 0) return system.red.width;
   // Either mass may be beyond the range of a double.
-  const auto log_2 = [](const Integer& value) {
+  const auto log_100 = [](const Integer& value) {
     long exponent = 0;
     const double mantissa = mpz_get_d_2exp(&exponent, value.get_mpz_t());
-    return static_cast<double>(exponent) + std::log2(mantissa);
+    return (rounded::log10(mantissa) + static_cast<double>(exponent) * rounded::log10(2)) / 2;
   };
   const Rational ratio = system.red.mass / system.blue.mass;
-  const double hundreds = (log_2(ratio.get_num()) - log_2(ratio.get_den())) / std::log2(100.0);
+  const double hundreds = log_100(ratio.get_num()) - log_100(ratio.get_den());
   const double factor = std::clamp(1 + hundreds / 8, 0.5, 1.5);
   // To a thousandth, which makes the eighths exact.
   return system.blue.width * Rational(Integer(std::lround(factor * 1000))) / 1000;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/rounded.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -57,7 +59,9 @@ constexpr double kNothing = 1e-8;
 }  // namespace
 
 double compressed(double impulse) {
-  const double knee = std::asinh(bounded(impulse));
+  // arsinh x = ln(1 + x + x^2/(1 + sqrt(1 + x^2)))
+  const double x = bounded(impulse);
+  const double knee = rounded::log1p(x + x * (x / (1 + rounded::hypot(1, x))));
   return knee / (1 + knee / kHighest);
 }
 
@@ -78,7 +82,7 @@ double height(std::span<const Clack> clacks, std::size_t index) {
 
 double sinc(double x) {
   const double angle = std::numbers::pi * x;
-  return angle == 0 ? 1 : std::sin(angle) / angle;
+  return angle == 0 ? 1 : rounded::sin(angle) / angle;
 }
 
 double kaiser(double x, double beta) {
@@ -111,9 +115,9 @@ void ClickKernel::add(double fraction, double left, double right, double* sample
 
 Timbre::Timbre(CollisionKind kind, double rate_hz) {
   for (const Mode& mode : kind == CollisionKind::wall ? kWallModes : kBlockModes) {
-    const double radius = std::exp(-1 / (mode.decay_s * rate_hz));
+    const double radius = rounded::exp(-1 / (mode.decay_s * rate_hz));
     const double angle = 2 * std::numbers::pi * mode.frequency_hz / rate_hz;
-    resonators_.push_back({-radius * radius, 2 * radius * std::cos(angle), mode.height});
+    resonators_.push_back({-radius * radius, 2 * radius * rounded::cos(angle), mode.height});
   }
 }
 

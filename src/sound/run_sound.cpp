@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/rounded.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -56,7 +58,8 @@ StereoSample RunSound::channels(const Clack& clack) const {
   const double in_view = (clack.blue_position + side - view_low_) / view_width_;
   const double x = left_ + width_ * std::clamp(in_view, 0.0, 1.0);
   const double angle = std::numbers::pi / 2 * (0.15 + 0.7 * x);
-  return {std::cos(angle), std::sin(angle)};
+  const auto [sine, cosine] = rounded::sin_cos(angle);
+  return {cosine, sine};
 }
 
 /// Adds the clicks that reach into the block.
@@ -117,7 +120,7 @@ StereoSample RunSound::next() {
 double weight_before_cut(double samples) {
   constexpr double kLength = 240;  // 5 ms
   const double rest = samples / kLength;
-  return rest >= 1 ? 1 : (1 - std::cos(std::numbers::pi * rest)) / 2;
+  return rest >= 1 ? 1 : (1 - rounded::cos(std::numbers::pi * rest)) / 2;
 }
 
 }  // namespace piblocks

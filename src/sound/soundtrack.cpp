@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/rounded.hpp"
 #include "sound/click.hpp"
 
 namespace piblocks {
@@ -39,7 +40,7 @@ void check(std::span<const Stretch> stretches) {
 }  // namespace
 
 Limiter::Limiter(double ceiling, double rate_hz)
-    : ceiling_(ceiling), recovery_(1 - std::exp(-1 / (kRecovery_s * rate_hz))) {
+    : ceiling_(ceiling), recovery_(1 - rounded::exp(-1 / (kRecovery_s * rate_hz))) {
   for (int phase = 0; phase < kPhases; ++phase) {
     for (int tap = 0; tap < kTaps; ++tap) {
       const double distance = tap - (kHalf - 1) - double(phase) / kPhases;

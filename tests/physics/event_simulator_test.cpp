@@ -239,6 +239,18 @@ TEST(EventSimulator, StopsAtTheLimit) {
             "simulation: collision 31: the limit of 30 was reached");
 }
 
+/// With vectors, of which there are 2, 4 or 8 numbers in one, 1 would be lost or not.
+TEST(EventSimulator, AddsCoordinatesInTheirOrder) {
+  const Eigen::Matrix<double, 8, 1> ones = Eigen::Matrix<double, 8, 1>::Ones();
+  Eigen::Matrix<double, 8, 1> terms;
+  terms << 1, 0x1p60, -0x1p60, 1, 0x1p60, 1, -0x1p60, 1;
+  EXPECT_EQ(detail::dot(terms, ones), 1);
+  terms << 0x1p60, -0x1p60, 1, 1, 1, 0x1p60, -0x1p60, 1;
+  EXPECT_EQ(detail::dot(terms, ones), 1);
+  terms << 0x1p60, 1, 1, 1, -0x1p60, 1, 1, 1;
+  EXPECT_EQ(detail::dot(terms, ones), 3);
+}
+
 TEST(EventSimulator, ReportsNumbersThatLeaveTheRange) {
   const double huge = std::numeric_limits<double>::max();
   // The distance between the centres overflows at once.

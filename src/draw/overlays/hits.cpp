@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "core/rounded.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/overlays/zoom.hpp"
 
@@ -46,7 +47,8 @@ std::vector<Point> directions_of(double from, double to) {
   std::vector<Point> directions;
   for (std::size_t i = 0; i < kDirections; ++i) {
     const double angle = from + (to - from) * double(i) / double(kDirections - 1);
-    directions.push_back({std::cos(angle), -std::sin(angle)});
+    const auto [sine, cosine] = rounded::sin_cos(angle);
+    directions.push_back({cosine, -sine});
   }
   return directions;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "core/rounded.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/stage_parts.hpp"
 #include "scene/pacing.hpp"
@@ -137,8 +138,9 @@ LoupeInset::LoupeInset(const DrawingContext& context, const Loupe& loupe, double
       line_px_(context.layout.line_px),
       background_(background_of(context.scene.view)),
       zoom_([&] {
-        double most = std::floor(std::log10(style::kLoupeWidth * sizes_.short_side / least_gap_px));
-        if (loupe.window) most = std::max(most, std::log10(to_double(loupe.window->zoom)) + 1);
+        double most =
+            std::floor(rounded::log10(style::kLoupeWidth * sizes_.short_side / least_gap_px));
+        if (loupe.window) most = std::max(most, rounded::log10(to_double(loupe.window->zoom)) + 1);
         return static_cast<long>(std::clamp<double>(most, 1, kMostPower));
       }()),
       widths_(context.font, "0123456789,.×·") {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/rounded.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "scene/schedule.hpp"
@@ -41,7 +42,7 @@ int time_decimals(const Scene& scene, const CollisionLog& log) {
     // A scene whose end never comes can still be shown at an instant.
     least_speed = std::min(least_speed, to_double(scene.time.speed));
   }
-  const double more = std::ceil(-std::log10(least_speed) - 1e-9);
+  const double more = std::ceil(-rounded::log10(least_speed) - 1e-9);
   return static_cast<int>(
       std::clamp<double>(kLeastTimeDecimals + more, kLeastTimeDecimals, kMostTimeDecimals));
 }
@@ -177,8 +178,8 @@ ReadOut momentum_read_out(const DrawingContext& context, int digits) {
     return fmt::format("Momentum{}: {} {}, {} {}, sum {}", scale.unit, red_name, scale.text(red),
                        blue_name, scale.text(blue), scale.text(red + blue));
   };
-  const double most =
-      scale.largest.mantissa * (scale.is_plain ? std::pow(10, double(scale.largest.exponent)) : 1);
+  const double most = scale.largest.mantissa *
+                      (scale.is_plain ? to_double(power_of_ten(scale.largest.exponent)) : 1);
   // Masses may be beyond the range of a double, and so may these factors.
   const auto momentum_per_velocity = [&](const Block& block) -> mpf_class {
     if (most_squared == 0) return 0;

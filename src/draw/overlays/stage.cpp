@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/rounded.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
 #include "draw/overlays/stage_parts.hpp"
@@ -29,7 +30,7 @@ constexpr double kWallAbove = 0.03;  ///< of the taller block
 double height_ratio(const BlockSystem& system) {
   const auto [light, heavy] = std::minmax(system.blue.mass, system.red.mass);
   const Magnitude ratio = magnitude_of(heavy / light);
-  const double logarithm = std::log10(ratio.mantissa) + double(ratio.exponent);
+  const double logarithm = rounded::log10(ratio.mantissa) + double(ratio.exponent);
   return std::min(style::kMaxHeightRatio, 1 + kHeightByMass * logarithm);
 }
 

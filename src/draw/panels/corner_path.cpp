@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/rounded.hpp"
 #include "draw/number_text.hpp"
 
 namespace piblocks {
@@ -93,7 +94,7 @@ ShownPath CornerPath::shown(const GapWindow& window) const {
 
 CornerZoom::CornerZoom(double least_share)
     // One power more than is shown: Zoom has no plateau at 1.
-    : zoom_(std::clamp(std::lround(std::ceil(2 - std::log10(least_share))),
+    : zoom_(std::clamp(std::lround(std::ceil(2 - rounded::log10(least_share))),
                        static_cast<long>(kPlain), kMostPower),
             kPlateau) {}
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/rounded.hpp"
 #include "draw/layout.hpp"
 #include "scene/schedule.hpp"
 
@@ -49,7 +50,8 @@ struct Circle {
 
   /// @param angle  counter-clockwise, from the right
   Point at(double angle) const {
-    return {centre.x + radius * std::cos(angle), centre.y - radius * std::sin(angle)};
+    const auto [sine, cosine] = rounded::sin_cos(angle);
+    return {centre.x + radius * cosine, centre.y - radius * sine};
   }
   /// Points whose connecting lines are within 0.03 % of the radius.
   std::vector<Point> arc(double from, double to) const;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "core/rounded.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/panels/trajectory.hpp"
 
@@ -213,7 +214,8 @@ class TimePanel {
     for (double x = plot.x; x + width <= plot.x + plot.width; x += step) {
       for (double y = plot.y; y + height <= axis_.bottom(); y += step) {
         const Rectangle box{x, y, width, height};
-        const double far = std::hypot(x + width / 2 - name.near.x, y + height / 2 - name.near.y);
+        const double far =
+            rounded::hypot(x + width / 2 - name.near.x, y + height / 2 - name.near.y);
         if (far >= least || !taken.is_free(box)) continue;
         least = far;
         best = box;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/rounded.hpp"
 #include "draw/number_text.hpp"
 #include "scene/schedule.hpp"
 
@@ -21,7 +22,7 @@ struct GapWedge {
         red_offset(to_double(system.wall_face + system.blue.width + system.red.width / 2)),
         sine(root_of(system.blue.mass / (system.blue.mass + system.red.mass)).get_d()),
         cosine(root_of(system.red.mass / (system.blue.mass + system.red.mass)).get_d()),
-        theta(std::atan2(sine, cosine)),
+        theta(rounded::atan2(sine, cosine)),
         tangent(root_magnitude_of(system.blue.mass / system.red.mass)) {}
 
   /// The gaps of these positions, with the rounding of positions: not as exact as gaps_at().
@@ -36,9 +37,8 @@ struct GapWedge {
     return to_double(
         Magnitude{tangent.mantissa * times.mantissa, tangent.exponent + times.exponent});
   }
-  double log10_theta() const {
-    if (theta > kNarrow) return std::log10(theta);
-    return std::log10(tangent.mantissa) + double(tangent.exponent);
+  Magnitude theta_magnitude() const {
+    return theta > kNarrow ? magnitude_of(Rational(theta)) : tangent;
   }
 
   double blue_offset;

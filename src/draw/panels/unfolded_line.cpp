@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/rounded.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -31,7 +33,7 @@ StraightLine::StraightLine(const BlockSystem& system) : wedge_(system) {
   const Point start{wedge_.cosine * to_double(y2), wedge_.sine * to_double(y1)};
   const Point velocity{wedge_.cosine * to_double(system.red.velocity),
                        wedge_.sine * to_double(system.blue.velocity)};
-  const double speed = std::hypot(velocity.x, velocity.y);
+  const double speed = rounded::hypot(velocity.x, velocity.y);
   if (speed == 0) {
     start_ = start.x;
     height_ = start.y;
@@ -44,7 +46,7 @@ StraightLine::StraightLine(const BlockSystem& system) : wedge_(system) {
   // The plane is turned so that this direction points to the right.
   const Point right{velocity.x / velocity_, velocity.y / velocity_};
   if (turning != 0) height_ = std::abs(start.x * right.y - start.y * right.x);
-  first_ray_ = -std::atan2(right.y, right.x);
+  first_ray_ = -rounded::atan2(right.y, right.x);
 }
 
 double StraightLine::at(const Rational& time) const {
@@ -182,9 +184,10 @@ std::vector<Mirror> UnfoldedMap::evenly_spaced_mirrors() const {
   const double first = line_.first_ray();
   for (double k = std::floor(-first / step) + 1; first + k * step < std::numbers::pi; ++k) {
     const double angle = first + k * step;
+    const auto [sine, cosine] = rounded::sin_cos(angle);
     mirrors.push_back({.index = Integer(static_cast<long>(mirrors.size()) + 1),
                        .is_met = false,
-                       .towards = picture_of({std::cos(angle), std::sin(angle)})});
+                       .towards = picture_of({cosine, sine})});
   }
   return mirrors;
 }

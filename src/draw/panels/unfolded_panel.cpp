@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/rounded.hpp"
 #include "core/smooth_step.hpp"
 #include "draw/panels/panels.hpp"
 #include "draw/panels/unfolded_line.hpp"
@@ -238,13 +239,13 @@ class UnfoldedPanel {
   /// A wedge that turns over its mirror, seen from above: halfway it is seen edge on.
   Point turned(const Point& mirror, const Point& after, double opened) const {
     const auto unit = [](const Point& point) {
-      const double length = std::hypot(point.x, point.y);
+      const double length = rounded::hypot(point.x, point.y);
       return Point{point.x / length, point.y / length};
     };
     const Point axis = unit(map_.plane_of(mirror));
     const Point open = unit(map_.plane_of(after));
     const double along = axis.x * open.x + axis.y * open.y;
-    const double across = -std::cos(std::numbers::pi * opened);
+    const double across = -rounded::cos(std::numbers::pi * opened);
     const Point plane{along * axis.x + across * (open.x - along * axis.x),
                       along * axis.y + across * (open.y - along * axis.y)};
     const Point turned = map_.picture_of({plane.x, std::max(0.0, plane.y)});

@@ -37,13 +37,11 @@ std::string angle_text(const BlockSystem& system) {
     if (is_power && zeros > 2) return power_text(-zeros);
     if (zeros <= 4) return "1/" + short_text(Rational(root));
   }
-  const double log = wedge.log10_theta();
-  const double exponent = std::floor(log);
-  if (exponent >= -4) {
-    return fixed_text(wedge.theta, static_cast<int>(std::max(2.0, 2 - exponent)));
+  const Magnitude theta = written_with(2, wedge.theta_magnitude());
+  if (theta.exponent >= -4) {
+    return fixed_text(wedge.theta, static_cast<int>(std::max(2L, 2 - theta.exponent)));
   }
-  return fmt::format("{}×{}", fixed_text(std::pow(10, log - exponent), 2),
-                     power_text(static_cast<long>(exponent)));
+  return fmt::format("{}×{}", fixed_text(theta.mantissa, 2), power_text(theta.exponent));
 }
 
 }  // namespace

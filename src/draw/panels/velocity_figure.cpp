@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/rounded.hpp"
 #include "draw/look.hpp"
 
 namespace piblocks {
@@ -25,7 +26,7 @@ constexpr double kArcLine = 1.2;
 double log_axes_of(const BlockSystem& system) {
   const Rational ratio = system.red.mass / system.blue.mass;
   const Rational most = kMostLongEllipse * kMostLongEllipse;
-  return std::log(to_double(std::clamp<Rational>(ratio, 1 / most, most))) / 2;
+  return rounded::log(to_double(std::clamp<Rational>(ratio, 1 / most, most))) / 2;
 }
 
 /// Of a label's color. One part fades out before the other fades in.
@@ -64,7 +65,7 @@ VelocityFigure::VelocityFigure(const DrawingContext& context, const Diagram& dia
 
 VelocityMap VelocityFigure::map(double share) const {
   const auto& [centre, radius] = place_.circle;
-  const double shorter = radius * std::exp(-std::abs(log_axes_) * (1 - share));
+  const double shorter = radius * rounded::exp(-std::abs(log_axes_) * (1 - share));
   return log_axes_ > 0 ? VelocityMap{centre, shorter, radius}
                        : VelocityMap{centre, radius, shorter};
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "core/rounded.hpp"
 #include "draw/panels/velocity_labels.hpp"
 #include "draw/panels/velocity_points.hpp"
 
@@ -18,7 +19,10 @@ struct VelocityMap {
   double red = 0;
   double blue = 0;
 
-  Point at(double angle) const { return at(Point{std::cos(angle), std::sin(angle)}); }
+  Point at(double angle) const {
+    const auto [sine, cosine] = rounded::sin_cos(angle);
+    return at(Point{cosine, sine});
+  }
   Point at(const Point& unit) const { return {centre.x + red * unit.x, centre.y - blue * unit.y}; }
 };
 

@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/rounded.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -85,7 +87,8 @@ class FreeRoom {
     const double x = std::clamp(circle.centre.x, box.x, box.x + box.width);
     const double y = std::clamp(circle.centre.y, box.y, box.y + box.height);
     const double slack = kAround_em * em;
-    if (std::hypot(x - circle.centre.x, y - circle.centre.y) < circle.radius + slack) return false;
+    const double distance = rounded::hypot(x - circle.centre.x, y - circle.centre.y);
+    if (distance < circle.radius + slack) return false;
     const Rectangle wide{box.x - slack, box.y, box.width + 2 * slack, box.height};
     return std::ranges::none_of(taken_, [&](const Rectangle& other) { return meet(wide, other); });
   }
@@ -161,8 +164,8 @@ class VelocityLabeller {
     const Formula words = set_.text("no more hits here");
     const auto& [centre, radius] = circle_;
     const double middle = points_.wedge_angle() / 2;
-    const double baseline =
-        std::min(centre.y - radius * std::sin(middle) + kMiddle * em_, centre.y - kEndAbove * em_);
+    const double baseline = std::min(centre.y - radius * rounded::sin(middle) + kMiddle * em_,
+                                     centre.y - kEndAbove * em_);
     for (const Point& at :
          {Point{circle_.at(middle).x + kToLabel * em_, baseline}, Point{beside_circle(), baseline},
           Point{at_right(words), centre.y - radius}, Point{at_right(words), bottom()}}) {
@@ -196,8 +199,8 @@ class VelocityLabeller {
     const double half_em = name.width_em() / 2;
     for (const double middle : middles) {
       std::vector<Point> arc = arc_outside(middle - theta, middle + theta);
-      const double away_em = kToArc + kToArcName + std::abs(std::cos(middle)) * half_em +
-                             std::abs(std::sin(middle)) * kHalfHeight;
+      const double away_em = kToArc + kToArcName + std::abs(rounded::cos(middle)) * half_em +
+                             std::abs(rounded::sin(middle)) * kHalfHeight;
       const Point centre = Circle{circle_.centre, circle_.radius + away_em * em_}.at(middle);
       const Point at{centre.x - half_em * em_, centre.y + kMiddle * em_};
       const bool fits = std::ranges::all_of(arc, [&](const Point& point) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/rounded.hpp"
 #include "core/smooth_step.hpp"
 #include "draw/look.hpp"
 #include "draw/panels/panels.hpp"
@@ -127,7 +128,7 @@ class VelocityPanel {
       items.insert(items.end(), parts.chords.begin(), parts.chords.begin() + count);
       items.insert(items.end(), parts.dots.begin(), parts.dots.begin() + count + 1);
     } else if (reached > 0) {
-      add_area(map, std::atan2(velocity.y, velocity.x), reached, items);
+      add_area(map, rounded::atan2(velocity.y, velocity.x), reached, items);
     }
     items.emplace_back(diagram_.present_dot(kPresentDot, map.at(velocity)));
   }
@@ -165,7 +166,8 @@ class VelocityPanel {
 
   void add_strips(const VelocityMap& map, const Edge& edge, std::vector<DrawItem>& items) const {
     const auto angle_at = [&](double x) {
-      return std::acos(std::clamp((x - map.centre.x) / map.red, -1.0, 1.0));
+      const double cosine = std::clamp((x - map.centre.x) / map.red, -1.0, 1.0);
+      return rounded::atan2(std::sqrt((1 - cosine) * (1 + cosine)), cosine);
     };
     const double start = std::abs(std::remainder(points_.start_angle(), 2 * std::numbers::pi));
     const double least = std::min(map.at(edge.above).x, map.at(edge.below).x);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/rounded.hpp"
 #include "draw/layout.hpp"
 #include "draw/panels/trajectory.hpp"
 
@@ -25,7 +26,7 @@ VelocityPoints::VelocityPoints(const Scene& scene, const CollisionLog& log)
       start = point_of(state.blue.velocity, state.red.velocity);
     }
   }
-  start_angle_ = std::atan2(start.y, start.x);
+  start_angle_ = rounded::atan2(start.y, start.x);
   if (before_ < last_) first_ = log.collision(before_ + 1).kind;
 }
 
