@@ -1,12 +1,37 @@
 # The Debian packages: piblocks, to be run, and libpiblocks-dev, to be built on.
+set(PIBLOCKS_MAINTAINER "The piblocks authors <piblocks@piblocks.invalid>" CACHE STRING
+    "who makes the packages, with an address that takes mail")
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME piblocks)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "renders the colliding blocks that count the digits of pi")
 set(CPACK_PACKAGE_VENDOR "The piblocks authors")
-set(CPACK_PACKAGE_CONTACT "The piblocks authors <piblocks@localhost>")
+set(CPACK_PACKAGE_CONTACT "${PIBLOCKS_MAINTAINER}")
 set(CPACK_COMPONENTS_ALL program development)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_THREADS 0)
+
+# Packages of different releases have different versions, that of the newer release the higher one.
+set(system_release 1)
+set(system_codename unstable)
+if(EXISTS /etc/os-release)
+  file(STRINGS /etc/os-release lines REGEX "^(ID|VERSION_ID|VERSION_CODENAME)=")
+  string(REGEX REPLACE "[\"']" "" lines "${lines}")
+  if(lines MATCHES "(^|;)ID=([a-z]+)" AND CMAKE_MATCH_2 STREQUAL debian)
+    if(lines MATCHES "VERSION_ID=([0-9]+)")
+      set(system_release 1~deb${CMAKE_MATCH_1})
+    endif()
+    if(lines MATCHES "VERSION_CODENAME=([a-z]+)")
+      set(system_codename ${CMAKE_MATCH_1})
+    endif()
+  endif()
+endif()
+set(CPACK_DEBIAN_PACKAGE_RELEASE ${system_release})
+set(package_version ${PROJECT_VERSION}-${system_release})
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL aarch64)
+  set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE arm64)
+elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL x86_64)
+  set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE amd64)
+endif()
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -24,7 +49,7 @@ as raw video or as a still, and states the exact count and all collisions.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpiblocks-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-"piblocks (= ${PROJECT_VERSION}), libgmp-dev, libmpfr-dev, libtomlplusplus-dev, \
+"piblocks (= ${package_version}), libgmp-dev, libmpfr-dev, libtomlplusplus-dev, \
 libcairo2-dev, libfreetype-dev, libpixman-1-dev, libpng-dev, zlib1g-dev, \
 libfmt-dev")
 # For event_simulator.hpp.
@@ -40,9 +65,24 @@ foreach(font DejaVu Lato LatinModern)
   file(READ ${PROJECT_SOURCE_DIR}/assets/${font}-LICENSE.txt PIBLOCKS_${font}_LICENSE)
 endforeach()
 configure_file(copyright.in copyright @ONLY)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/copyright
-        DESTINATION ${doc_folder}/piblocks COMPONENT program EXCLUDE_FROM_ALL)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/copyright
-        DESTINATION ${doc_folder}/libpiblocks-dev COMPONENT development EXCLUDE_FROM_ALL)
+# The changes in Debian's form, which only says where ours are, and ours.
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+configure_file(changelog.in changelog.Debian @ONLY)
+add_custom_command(
+  OUTPUT changelog.Debian.gz changelog.gz
+  COMMAND gzip -9nc changelog.Debian > changelog.Debian.gz
+  COMMAND gzip -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md > changelog.gz
+  DEPENDS ${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+  VERBATIM)
+add_custom_target(piblocks_changelog ALL DEPENDS changelog.Debian.gz)
+foreach(package program:piblocks development:libpiblocks-dev)
+  string(REPLACE ":" ";" package ${package})
+  list(GET package 0 component)
+  list(GET package 1 name)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/copyright
+                ${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian.gz
+                ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz
+          DESTINATION ${doc_folder}/${name} COMPONENT ${component} EXCLUDE_FROM_ALL)
+endforeach()
 
 include(CPack)
