@@ -95,8 +95,6 @@ def path(name: str, value: Any) -> bytes:
             raise UsageError(f"{name}: {ascii(value)} is not the name of a file") from None
         if b"\0" in text:
             raise UsageError(f"{name}: {ascii(value)} has a null character; leave it out")
-        if not text:
-            raise UsageError(f"{name}: is empty; name a file")
         return text
     raise TypeError(f"{name}: must be a str or a path, not {type(value).__name__}")
 
