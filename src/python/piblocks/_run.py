@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ast
-from typing import Any, NamedTuple, Optional
+from dataclasses import dataclass
+from typing import Any, Optional
 
 import numpy as np
 
@@ -17,7 +18,8 @@ _STATE = ast.literal_eval(_piblocks.STATE_TYPE)
 _BOUNDS = ast.literal_eval(_piblocks.BOUND_TYPE)
 
 
-class State(NamedTuple):
+@dataclass(frozen=True)
+class State:
     """The blocks at one instant. Positions are those of centres, in the scene's units."""
 
     time: float
@@ -91,8 +93,10 @@ def log(
 
 def _fill(run: _piblocks.Run, times: Any, bounds: bool, shape: tuple[int, ...]) -> np.ndarray:
     rows = np.empty(len(times), np.dtype(_STATE + (_BOUNDS if bounds else [])))
-    fill = run.states_of_numbers if isinstance(times, np.ndarray) else run.states_of_texts
-    counts = fill(times, bounds, rows.view(np.uint8))
+    if isinstance(times, np.ndarray):
+        counts = run.states_of_numbers(times, bounds, rows.view(np.uint8))
+    else:
+        counts = run.states_of_texts(times, bounds, rows.view(np.uint8))
     if counts:
         whole = [int(text, 16) if text else int(row) for text, row in zip(counts, rows["count"])]
         rows = _replace_column(rows, "count", whole)
