@@ -166,3 +166,24 @@ def test_exceptions_are_those_of_python_too():
     assert issubclass(piblocks.IoError, OSError)
     for name in ("UsageError", "SimulationError", "DrawError", "MediaError", "IoError"):
         assert issubclass(getattr(piblocks, name), piblocks.Error)
+
+
+@pytest.mark.parametrize(
+    "ask, words",
+    [
+        (lambda: piblocks.Scene(1, time_speed="1/10000").frames(),
+         "narrow them with time_from and time_to, or raise time_speed"),
+        (lambda: piblocks.Scene(10).log(),
+         "narrow them with from_, to or first, or allow them with limit"),
+        (lambda: piblocks.Scene(view_shutter=1, view_background="transparent"),
+         "leave the shutter out, or use view_background='opaque'"),
+        (lambda: piblocks.Scene().render("a.mp4", for_="web", smallest=True, crf=3),
+         "smallest chooses the encoder and its settings; leave out crf"),
+        (lambda: piblocks.Scene(show_title="--size")._script.count() and
+         piblocks.Scene.shipped("--size"), "there is no scene '--size'"),
+    ],
+)
+def test_messages_name_keywords(ask, words):
+    with pytest.raises(piblocks.UsageError) as raised:
+        ask()
+    assert words in str(raised.value)

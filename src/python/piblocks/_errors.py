@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-# Options of the command line that are keywords here. A message names them as the user wrote them.
+# Options of the command line that messages name, and what they are called here.
 _KEYWORDS = {
     "at": "at",
     "bounds": "bounds",
@@ -17,25 +17,36 @@ _KEYWORDS = {
     "engine": "engine",
     "first": "first",
     "for": "for_",
+    "fps": "view_fps",
     "frames": "frames",
-    "from": "from_",
+    "freeze": "time_freeze",
+    "from": "time_from",
+    "hold-end": "time_hold_end",
+    "hold-start": "time_hold_start",
     "jobs": "jobs",
     "limit": "limit",
     "max-flashes": "max_flashes",
+    "no-sound": "sound_on=False",
+    "opaque": "view_background='opaque'",
     "part": "part",
     "poster": "poster",
     "preset": "preset",
+    "shutter": "view_shutter",
+    "size": "view_size",
+    "slow-motion": "time_slow_motion",
     "smallest": "smallest",
-    "to": "to",
-    "opaque": "view_background='opaque'",
-    "transparent": "view_background='transparent'",
-    "no-sound": "sound_on=False",
+    "sound": "sound_on=True",
+    "speed": "time_speed",
+    "to": "time_to",
 }
+_OF_LOG = {"from": "from_", "to": "to"}
 _OPTION = re.compile(r"(?<![\w'-])--([a-z]+(?:-[a-z]+)*)(?![\w-])")
 
 
 def _as_keywords(message: str) -> str:
-    return _OPTION.sub(lambda match: _KEYWORDS.get(match[1], match[0]), message)
+    is_of_log = message.startswith(("log:", "--from", "--to", "--first"))
+    keywords = {**_KEYWORDS, **_OF_LOG} if is_of_log else _KEYWORDS
+    return _OPTION.sub(lambda match: keywords.get(match[1], match[0]), message)
 
 
 class Error(Exception):

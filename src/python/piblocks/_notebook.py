@@ -123,6 +123,14 @@ def slider(scene: Scene) -> Any:
         import ipywidgets
     except ImportError:
         return Player(film_html(scene))
+    # Older ones, such as Debian 12's, speak a protocol that Jupyter no longer understands.
+    if int(ipywidgets.__version__.split(".")[0]) < 7:
+        return Player(film_html(scene))
+    return widget(scene, ipywidgets)
+
+
+def widget(scene: Scene, ipywidgets: Any) -> Any:
+    """A picture above a button to play and a slider."""
     shown = _for_display(scene)
     frames = shown.frames()
     last = len(frames) - 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from fractions import Fraction
 from typing import Any, Union
 
@@ -359,7 +360,15 @@ class Scene:
         return _golden.act(self._script, "check", name, dir, frames, diff)
 
 
+def _shown(text: bytes) -> Union[str, int, bool]:
+    """What stands for the text in a call: a number that reads as this text, or the text."""
+    if text in (b"true", b"false"):
+        return text == b"true"
+    is_plain = text == b"0" or re.fullmatch(rb"-?[1-9][0-9]{0,17}", text) is not None
+    return int(text) if is_plain else text.decode("utf-8", "surrogateescape")
+
+
 def _argument(keyword: bytes, texts: list[bytes]) -> str:
-    values = [os.fsdecode(text) for text in texts]
-    value: Union[str, list[str]] = values[0] if len(values) == 1 else values
+    values = [_shown(text) for text in texts]
+    value = values[0] if len(values) == 1 else values
     return f"{keyword.decode()}={value!r}"
