@@ -73,6 +73,7 @@ class Command final : public OptionTexts {
   std::optional<std::string> text(const std::string& option) const override;
   /// Of an option that may be given several times.
   std::vector<std::string> texts(const std::string& option) const;
+
  private:
   CLI::App* app_;
 };

@@ -75,8 +75,8 @@ void run_check(const Command& options) {
   bool is_equal = true;
   for (const References& references : all) {
     is_equal &= check_golden(
-        references, options.text("--diff"), [&](const std::string& line) { out.format_line("{}", line); },
-        signals.token());
+        references, options.text("--diff"),
+        [&](const std::string& line) { out.format_line("{}", line); }, signals.token());
     out.flush();
   }
   out.finish();

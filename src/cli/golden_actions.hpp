@@ -16,8 +16,8 @@ namespace piblocks::cli {
 /// Takes a line about a scene, without its end.
 using SayLine = std::function<void(const std::string& line)>;
 
-/// Enters the folder of the references as one that is read, and the pictures of differences as files
-/// that are written. @param diff  the folder for these, if there is one.
+/// Enters the folder of the references as one that is read, and the pictures of differences as
+/// files that are written. @param diff  the folder for these, if there is one.
 void claim_diff(OverwriteCheck& check, const std::vector<References>& all,
                 const std::string& folder, const std::optional<std::string>& diff);
 

@@ -45,7 +45,8 @@ struct Bound {
 };
 
 /// Nothing if the option was not given.
-std::optional<Bound> bound_of(const OptionTexts& options, const char* option, const CollisionLog& log) {
+std::optional<Bound> bound_of(const OptionTexts& options, const char* option,
+                              const CollisionLog& log) {
   return options.value(option, [&](const std::string& text) {
     Instant instant = parse_instant(text);
     Rational time = time_of(instant, log);

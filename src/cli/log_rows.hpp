@@ -1,6 +1,6 @@
 // Which rows of a log are asked for, and how a row lies in memory.
-// In: a log, options as texts, batches of collisions. Out: a range of indices, and rows as NumPy has
-// them.
+// In: a log, options as texts, batches of collisions. Out: a range of indices, and rows as NumPy
+// has them.
 #pragma once
 
 #include <piblocks/exact.hpp>

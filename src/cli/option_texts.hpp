@@ -1,5 +1,6 @@
 // Options as texts, from a command line or from another program.
-// In: the name of an option, such as "--output". Out: its text, or the value that a parser makes of it.
+// In: the name of an option, such as "--output". Out: its text, or the value that a parser makes of
+// it.
 #pragma once
 
 #include <fmt/format.h>

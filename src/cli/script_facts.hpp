@@ -1,5 +1,6 @@
 // What commands ask of a scene or a storyboard, apart from its film.
-// In: a script, and options as texts. Out: its log, the files that it reads, what a user should know.
+// In: a script, and options as texts. Out: its log, the files that it reads, what a user should
+// know.
 #pragma once
 
 #include <piblocks/run.hpp>

@@ -1,6 +1,6 @@
 // Long work that Ctrl-C stops, and that calls Python now and then.
-// In: a function that looks at a stop token. Out: it has run; or what it threw, or what Python threw
-// meanwhile: KeyboardInterrupt, or the exception of a callback.
+// In: a function that looks at a stop token. Out: it has run; or what it threw, or what Python
+// threw meanwhile: KeyboardInterrupt, or the exception of a callback.
 #pragma once
 
 #include <functional>

@@ -26,8 +26,8 @@ using Options = std::map<std::string, std::string>;
 
 void refuse_standard_output(const std::string& output, const char* operation) {
   if (output != "-") return;
-  throw UsageError(fmt::format(
-      "{}: '-' is standard output only for the command line; name a file", operation));
+  throw UsageError(
+      fmt::format("{}: '-' is standard output only for the command line; name a file", operation));
 }
 
 RenderJob make_job(const BoundScript& bound, const std::string& output,
@@ -104,7 +104,8 @@ void still_file(const BoundScript& bound, const std::string& at, const std::stri
 std::vector<std::uint8_t> draw(const DrawList& list, const std::string& format) {
   if (format == "svg") return draw_svg(list);
   if (format == "pdf") return draw_pdf(list);
-  if (format != "png") throw UsageError(fmt::format("format {}: must be png or svg or pdf", format));
+  if (format != "png")
+    throw UsageError(fmt::format("format {}: must be png or svg or pdf", format));
   Canvas canvas(list.width_px, list.height_px,
                 list.background ? Background::opaque : Background::transparent);
   canvas.paint(list);

@@ -176,8 +176,7 @@ py::list states_of_numbers(const BoundRun& run, const py::buffer& times, bool ha
 }  // namespace
 
 void bind_run(py::module_& module) {
-  py::class_<BoundRun, std::shared_ptr<BoundRun>>(module, "Run",
-                                                  "The log of a scene's collisions.")
+  py::class_<BoundRun, std::shared_ptr<BoundRun>>(module, "Run", "The log of a scene's collisions.")
       .def(py::init<const BoundScript&, const std::map<std::string, std::string>&>(),
            py::arg("script"), py::arg("options"), "By the engine that '--engine' names.")
       .def_property_readonly(

@@ -1,5 +1,6 @@
 // A scene or a storyboard, and what it was made from.
-// In: the text of a scene file, if there is one, and keys with their texts. Out: the library's script.
+// In: the text of a scene file, if there is one, and keys with their texts. Out: the library's
+// script.
 #pragma once
 
 #include <piblocks/script.hpp>

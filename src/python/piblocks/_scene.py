@@ -151,7 +151,7 @@ class Scene:
     def to_toml(self) -> str:
         """The text of a scene file that reads back as an equal scene.
 
-        Keys at their defaults are left out. The path of a logo is absolute.
+        Keys at their defaults are left out. The path of a logo becomes absolute.
         """
         return self._script.to_toml().decode("utf-8", "surrogateescape")
 
