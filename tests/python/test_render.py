@@ -174,3 +174,31 @@ def test_an_output_that_cannot_be_opened():
     for write, name in ((SMALL.render, "file/a.mp4"), (SMALL.still, "file/a.png")):
         with pytest.raises(piblocks.UsageError, match=f"'{name}': Not a directory|'file'"):
             write(name)
+
+
+AT_EXIT = """
+import atexit, threading, time
+from piblocks import Scene
+scene = Scene(3, view_size="1280x720", time_speed="1/100")
+frames = scene.frames()
+def work():
+    while True:
+        {call}
+for _ in range(2):
+    threading.Thread(target=work, daemon=True).start()
+atexit.register(lambda: print(Scene(2, view_size="64x36").render("b.mp4").frames))
+time.sleep(0.3)
+"""
+
+
+@pytest.mark.parametrize(
+    "call",
+    ["scene.render('a.mp4')", "scene.render('a.webm', progress=lambda *_: time.sleep(0.001))",
+     "frames[len(frames) // 3]", "scene.frame(3)", "scene.state([1, 2, 3])", "scene.log()",
+     "Scene(3)", "scene.still('a.png')"],
+)
+def test_the_interpreter_may_end_while_other_threads_work(call):
+    result = subprocess.run([sys.executable, "-c", AT_EXIT.format(call=call)], capture_output=True,
+                            text=True, timeout=60)
+    assert (result.returncode, result.stderr) == (0, "")
+    assert int(result.stdout) > 100 and set(os.listdir()) <= {"b.mp4", "a.png"}

@@ -14,6 +14,7 @@
 #include "physics/blocks.hpp"
 #include "python/extension/canvas_pool.hpp"
 #include "python/extension/script.hpp"
+#include "python/extension/without_gil.hpp"
 #include "render/film.hpp"
 
 namespace piblocks::python {
@@ -37,24 +38,24 @@ class Pictures {
   }
 
   std::int64_t frame_count() {
-    const py::gil_scoped_release released;
+    const WithoutGil released;
     return film().frame_count();
   }
   Frame frame(std::int64_t number) {
-    const py::gil_scoped_release released;
+    const WithoutGil released;
     const Film& all = film();
     if (number < 0 || number >= all.frame_count()) throw std::out_of_range("no such frame");
     return {pool_->paint(all.frame(number))};
   }
   /// The picture of 'piblocks still'.
   Frame still(const std::string& at) {
-    const py::gil_scoped_release released;
+    const WithoutGil released;
     const Instant instant = *BoundOptions({{"--at", at}}).value("--at", parse_instant);
     return {pool_->paint(list_at(instant))};
   }
   /// Simulation time of a frame of a single scene.
   double time_of(std::int64_t number) {
-    const py::gil_scoped_release released;
+    const WithoutGil released;
     scene_of(*script_, "time");
     return to_double(film().segments().front().segment.schedule()->time_of(number));
   }
@@ -113,7 +114,7 @@ void copy_rgba(const Frame& frame, const py::buffer& buffer) {
     throw std::invalid_argument("the array has another size");
   }
   auto* const to = static_cast<std::uint8_t*>(info.ptr);
-  const py::gil_scoped_release released;
+  const WithoutGil released;
   const PixelRect all{0, 0, view.width_px, view.height_px};
   for (int y = 0; y < view.height_px; ++y) pack_row(view, all, y, to + std::size_t(y) * row_bytes);
 }
@@ -121,7 +122,7 @@ void copy_rgba(const Frame& frame, const py::buffer& buffer) {
 py::bytes png_of(const Frame& frame) {
   std::vector<std::uint8_t> png;
   {
-    const py::gil_scoped_release released;
+    const WithoutGil released;
     png = encode_png(frame.view());
   }
   return {reinterpret_cast<const char*>(png.data()), png.size()};

@@ -1,5 +1,6 @@
 #include "python/extension/interruptible.hpp"
 
+#include <cxxabi.h>
 #include <pthread.h>
 #include <pybind11/pybind11.h>
 
@@ -11,6 +12,8 @@
 #include <optional>
 #include <thread>
 #include <utility>
+
+#include "python/extension/without_gil.hpp"
 
 namespace piblocks::python {
 namespace {
@@ -68,7 +71,7 @@ class Conversation {
   }
 
   /// By the thread that waits, without the GIL, until the work has ended.
-  void listen(std::thread& worker, std::stop_source& stop) {
+  void listen(WithoutGil& gil, std::thread& worker, std::stop_source& stop) {
     using Clock = std::chrono::steady_clock;
     std::optional<Clock::time_point> stopped;
     std::optional<BreakOff> break_off;
@@ -78,8 +81,9 @@ class Conversation {
       if (is_ended_) return;
       const std::function<void()>* const function = function_;
       lock.unlock();
-      if (!interruption_) attend(function);
-      if (interruption_ && !stopped) {
+      const bool is_to_stop = interruption_ || gil.is_closing();
+      if (!is_to_stop) attend(gil, function);
+      if ((is_to_stop || interruption_) && !stopped) {
         stop.request_stop();
         stopped = Clock::now();
       } else if (stopped && Clock::now() - *stopped > kPatience) {
@@ -99,14 +103,17 @@ class Conversation {
   }
 
  private:
-  void attend(const std::function<void()>* function) {
-    const py::gil_scoped_acquire gil;
+  void attend(WithoutGil& gil, const std::function<void()>* function) {
+    gil.take();
     try {
       if (function != nullptr) (*function)();
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    } catch (const abi::__forced_unwind&) {  // the interpreter has ended under a callback
+      wait_for_exit();
     } catch (...) {
       interruption_ = std::current_exception();
     }
+    gil.give();
   }
 
   std::mutex mutex_;
@@ -122,7 +129,7 @@ class Conversation {
 void run_interruptibly(const InterruptibleWork& work) {
   Conversation conversation;
   {
-    const py::gil_scoped_release released;
+    WithoutGil gil;
     std::stop_source stop;
     std::thread worker([&] {
       std::exception_ptr failure;
@@ -133,7 +140,7 @@ void run_interruptibly(const InterruptibleWork& work) {
       }
       conversation.end(failure);
     });
-    conversation.listen(worker, stop);
+    conversation.listen(gil, worker, stop);
     worker.join();
   }
   conversation.rethrow();

@@ -15,6 +15,7 @@
 #include "cli/text_output.hpp"
 #include "python/extension/interruptible.hpp"
 #include "python/extension/script.hpp"
+#include "python/extension/without_gil.hpp"
 
 namespace piblocks::python {
 namespace {
@@ -26,7 +27,7 @@ using cli::shown;
 class BoundRun {
  public:
   BoundRun(const BoundScript& script, const std::map<std::string, std::string>& options) {
-    const py::gil_scoped_release released;
+    const WithoutGil released;
     log_ = cli::make_log(scene_of(script, "log").system, BoundOptions(options));
   }
   const CollisionLog& log() const { return *log_; }
@@ -48,7 +49,7 @@ std::span<std::uint8_t> bytes_of(const py::buffer& buffer, std::size_t size_byte
 py::tuple select(const BoundRun& run, const std::map<std::string, std::string>& options) {
   cli::Rows rows;
   {
-    const py::gil_scoped_release released;
+    const WithoutGil released;
     rows = cli::select_rows(BoundOptions(options), run.log());
   }
   return py::make_tuple(hexadecimal(rows.first), hexadecimal(rows.count()));

@@ -14,6 +14,7 @@
 #include "cli/script_facts.hpp"
 #include "cli/shipped_scenes.hpp"
 #include "python/extension/scene_toml.hpp"
+#include "python/extension/without_gil.hpp"
 #include "scene/scene_keys.hpp"
 
 namespace piblocks::python {
@@ -35,7 +36,7 @@ void refuse_several(const std::vector<KeyTexts>& keys, const std::vector<std::st
 
 BoundScript make(std::string origin, std::optional<std::string> text, bool is_file,
                  std::vector<KeyTexts> keys) {
-  const py::gil_scoped_release released;
+  const WithoutGil released;
   Recipe recipe{std::move(origin), std::move(text), is_file, std::move(keys)};
   Script script = recipe.script();
   return {std::move(recipe), std::move(script)};
@@ -65,7 +66,7 @@ std::vector<std::string> key_names() {
 }
 
 std::string count_of(const BoundScript& bound) {
-  const py::gil_scoped_release released;
+  const WithoutGil released;
   return hexadecimal(count_collisions(scene_of(bound, "count").system));
 }
 
