@@ -3,6 +3,7 @@
 // know.
 #pragma once
 
+#include <piblocks/instant.hpp>
 #include <piblocks/run.hpp>
 #include <piblocks/script.hpp>
 
@@ -18,6 +19,13 @@ namespace piblocks::cli {
 /// The system's log, made by the engine that --engine names.
 /// @throws UsageError if that engine would have to store too many collisions.
 std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const OptionTexts& options);
+
+/// How exact the state at a time is. @throws UsageError if the engine cannot say.
+PositionBounds bounds_at(const CollisionLog& log, const Rational& time);
+
+/// What --at, or --frames and --by, say that a sheet shows.
+/// @throws UsageError, and as spread_instants()
+std::vector<Instant> sheet_instants(const Scene& scene, const OptionTexts& options);
 
 /// Enters the logos of a scene or storyboard as files that are read.
 void claim_logos(OverwriteCheck& check, const Script& script);

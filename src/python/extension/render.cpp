@@ -11,7 +11,6 @@
 
 #include "cli/render_job.hpp"
 #include "cli/script_facts.hpp"
-#include "cli/values.hpp"
 #include "core/overwrite_check.hpp"
 #include "draw/canvas.hpp"
 #include "python/extension/interruptible.hpp"
@@ -121,30 +120,12 @@ py::bytes still_bytes(const BoundScript& bound, const std::string& at, const std
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::vector<Instant> sheet_instants(const Scene& scene, const BoundOptions& options) {
-  constexpr int kUsualCount = 12;
-  for (const char* option : {"--frames", "--by"}) {
-    if (!options.is_given(option) || !options.is_given("--at")) continue;
-    throw UsageError(
-        fmt::format("{} and --at both say which instants are shown; give one of them", option));
-  }
-  if (const auto named = options.value("--at", cli::parse_instants)) return *named;
-  const auto parse_count = [](const std::string& text) {
-    return cli::parse_int(text, 1, kMaxSheetPictures);
-  };
-  const auto parse_spacing = [](const std::string& text) {
-    return cli::parse_choice<Spacing>(text, {{"count", Spacing::count}, {"time", Spacing::time}});
-  };
-  const int count = options.value("--frames", parse_count).value_or(kUsualCount);
-  return spread_instants(scene, count, options.value("--by", parse_spacing));
-}
-
 void sheet_file(const BoundScript& bound, const std::string& output, const Options& texts) {
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
     const Scene& scene = scene_of(bound, "sheet");
     refuse_standard_output(output, "sheet");
     check_still(bound, output);
-    render_sheet(scene, sheet_instants(scene, BoundOptions(texts)), output, stop);
+    render_sheet(scene, cli::sheet_instants(scene, BoundOptions(texts)), output, stop);
   });
 }
 

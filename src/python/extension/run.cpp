@@ -93,13 +93,6 @@ constexpr std::string_view kStateType =
     "('v_red', '<f8')]";
 constexpr std::string_view kBoundType = "[('x_blue_bound', '<f8'), ('x_red_bound', '<f8')]";
 
-/// @throws UsageError if the engine cannot say, as the command line does.
-PositionBounds bounds_at(const CollisionLog& log, const Rational& time) {
-  if (const auto bounds = position_bounds(log, time)) return *bounds;
-  throw UsageError(
-      "--bounds: engines that step cannot say how exact they are; use --engine unfolded");
-}
-
 /// A state, and its count where it does not fit.
 struct FoundState {
   BoundedStateRow row{};
@@ -114,7 +107,7 @@ FoundState state_at(const CollisionLog& log, const Rational& time, bool has_boun
                      shown(state.blue.velocity), shown(state.red.velocity)};
   found.count = state.count;
   if (has_bounds) {
-    const PositionBounds bounds = bounds_at(log, time);
+    const PositionBounds bounds = cli::bounds_at(log, time);
     found.row.x_blue_bound = shown(bounds.blue);
     found.row.x_red_bound = shown(bounds.red);
   }
