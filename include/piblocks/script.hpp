@@ -114,6 +114,9 @@ class ScriptBuilder {
   /// whole film only, whether it is read before or after.
   /// @param origin  named in messages, such as "--size".
   void set(const std::string& origin, const std::string& key, const std::string& text);
+  /// The same with the texts of a list, such as the two of "view.x".
+  void set(const std::string& origin, const std::string& key,
+           const std::vector<std::string>& texts);
 
   /// @throws SceneError with every problem: origin, key, value and reason.
   Script build() const;

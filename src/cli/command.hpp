@@ -3,13 +3,14 @@
 // CLI11 is behind this: it costs a compiler seconds wherever it is included.
 #pragma once
 
-#include <fmt/format.h>
 #include <piblocks/error.hpp>
 
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "cli/option_texts.hpp"
 
 // NOLINTNEXTLINE(readability-identifier-naming): CLI11 is called so
 namespace CLI {
@@ -41,7 +42,7 @@ class ExitError : public Error {
 /// Refers to a command, and is valid as long as the program's command line. An option is named as
 /// in messages: "--output", or "SCENE" for an argument without a name.
 /// CLI11 only collects texts: users never see its errors about conversion.
-class Command {
+class Command final : public OptionTexts {
  public:
   explicit Command(CLI::App& app) : app_(&app) {}
 
@@ -68,25 +69,10 @@ class Command {
   void on_run(std::function<void()> run);
 
   std::string name() const;
-  /// False also if the command has no such option.
-  bool is_given(const std::string& option) const;
-  /// Nothing if the option was not given.
-  std::optional<std::string> text(const std::string& option) const;
+  bool is_given(const std::string& option) const override;
+  std::optional<std::string> text(const std::string& option) const override;
   /// Of an option that may be given several times.
   std::vector<std::string> texts(const std::string& option) const;
-  /// The option's value as `parse` makes it of the text; nothing if it was not given.
-  /// @throws UsageError that names option and text if `parse` throws one
-  template <typename Parse>
-  auto value(const std::string& option, const Parse& parse) const
-      -> std::optional<decltype(parse(std::string()))> {
-    const std::optional<std::string> given = text(option);
-    if (!given) return std::nullopt;
-    try {
-      return parse(*given);
-    } catch (const UsageError& error) {
-      throw UsageError(fmt::format("{} {}: {}", option, *given, error.what()));
-    }
-  }
 
  private:
   CLI::App* app_;

@@ -17,13 +17,6 @@
 namespace piblocks::cli {
 namespace {
 
-/// @throws UsageError if the engine cannot say.
-PositionBounds bounds_at(const CollisionLog& log, const Rational& time) {
-  if (const auto bounds = position_bounds(log, time)) return *bounds;
-  throw UsageError(
-      "--bounds: engines that step cannot say how exact they are; use --engine unfolded");
-}
-
 std::string described(const Motion& motion, const std::optional<double>& position_bound) {
   const std::string bound =
       position_bound ? fmt::format(R"(,"position_bound":{})", shown(*position_bound)) : "";
@@ -64,28 +57,13 @@ void run_still(const Command& options, const SceneOptions& scene_options) {
   note_convention(script);
 }
 
-int parse_count(const std::string& text) { return parse_int(text, 1, kMaxSheetPictures); }
-
-Spacing parse_spacing(const std::string& text) {
-  return parse_choice<Spacing>(text, {{"count", Spacing::count}, {"time", Spacing::time}});
-}
-
 void run_sheet(const Command& options, const SceneOptions& scene_options) {
-  constexpr int kUsualCount = 12;
   refuse_terminal(options);
-  for (const char* option : {"--frames", "--by"}) {
-    if (!options.is_given(option) || !options.is_given("--at")) continue;
-    throw UsageError(
-        fmt::format("{} and --at both say which instants are shown; give one of them", option));
-  }
   const Scene scene = scene_options.scene();
   scene_options.check_output(scene);
-  const auto named = options.value("--at", parse_instants);
-  const int count = options.value("--frames", parse_count).value_or(kUsualCount);
-  const auto spacing = options.value("--by", parse_spacing);
+  const std::vector<Instant> instants = sheet_instants(scene, options);
   const StopOnSignals signals;
-  render_sheet(scene, named ? *named : spread_instants(scene, count, spacing), output_of(options),
-               signals.token());
+  render_sheet(scene, instants, output_of(options), signals.token());
   note_convention(scene);
 }
 

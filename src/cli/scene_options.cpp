@@ -4,34 +4,14 @@
 #include <piblocks/error.hpp>
 #include <piblocks/script.hpp>
 
-#include <algorithm>
-
 #include "cli/options.hpp"
 #include "cli/shipped_scenes.hpp"
 #include "cli/text_output.hpp"
-#include "core/text.hpp"
 
 namespace piblocks::cli {
 namespace {
 
 constexpr const char* kScene = "SCENE";
-
-/// src/media/README.md has the reasons.
-const std::vector<Destination>& destinations() {
-  static const std::vector<Destination> all = {
-      {"powerpoint", {{"view.size", "1920x1080"}, {"view.fps", "60"}}, {".mp4"}},
-      {"keynote", {{"view.size", "1920x1080"}, {"view.fps", "60"}}, {".mp4", ".mov"}},
-      {"web",
-       {{"view.size", "1280x720"}, {"view.fps", "30"}},
-       {".mp4", ".webm", ".gif", ".apng", ".html"}},
-      {"editor",
-       {{"view.size", "1920x1080"}, {"view.fps", "60"}, {"view.background", "transparent"}},
-       {".mov", ".png"},
-       "prores_ks"},
-      {"shorts", {{"view.size", "1080x1920"}, {"view.fps", "60"}}, {".mp4"}},
-      {"beamer", {{"view.size", "1280x720"}, {"view.fps", "25"}}, {".mp4", ".png"}}};
-  return all;
-}
 
 /// A list of names with line breaks after commas.
 std::string in_lines(std::string names) {
@@ -187,52 +167,8 @@ void add_engine(Command& command) {
                     "velocities: a loop over velocities alone, in double precision");
 }
 
-std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const Command& command) {
-  const auto parse_engine = [](const std::string& text) {
-    return parse_choice<Engine>(text, {{"unfolded", Engine::unfolded},
-                                       {"events", Engine::events},
-                                       {"velocities", Engine::velocities}});
-  };
-  return make_collision_log(system,
-                            command.value("--engine", parse_engine).value_or(Engine::unfolded));
-}
-
-void claim_logos(OverwriteCheck& check, const Script& script) {
-  for (const Scene* scene : scenes_of(script)) {
-    if (!scene->show.logo.empty()) check.reads("the logo", scene->show.logo);
-  }
-}
-
 void note_convention(const Script& script) {
-  for (const Scene* scene : scenes_of(script)) {
-    const auto corner = corner_of(scene->system);
-    if (!corner) continue;
-    say("piblocks: note: all collisions happen at once, at t = {}, when blue touches both wall "
-        "and red: by convention {}, which makes {} ({} first: {})\n",
-        to_text(corner->time),
-        corner->blocks_first ? "the blocks meet first" : "blue meets the wall first",
-        readable(corner->count), corner->blocks_first ? "wall" : "blocks",
-        readable(corner->other_count));
-  }
-}
-
-std::string destination_names() {
-  std::vector<std::string_view> names;
-  for (const Destination& destination : destinations()) names.push_back(destination.name);
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
-const Destination& parse_destination(const std::string& name) {
-  const auto found = std::ranges::find(destinations(), name, &Destination::name);
-  if (found != destinations().end()) return *found;
-  throw UsageError("must be one of: " + destination_names());
-}
-
-void check_ending(const Destination& destination, const std::string& output) {
-  const auto is_ending = [&](std::string_view ending) { return has_ending(output, ending); };
-  if (std::ranges::any_of(destination.endings, is_ending)) return;
-  throw UsageError(fmt::format("--for {}: cannot use '{}' there; write one of: *{}",
-                               destination.name, output, fmt::join(destination.endings, ", *")));
+  for (const std::string& note : convention_notes(script)) say("piblocks: note: {}\n", note);
 }
 
 }  // namespace piblocks::cli

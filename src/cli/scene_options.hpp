@@ -1,45 +1,20 @@
-// Options that describe a scene, shared by several commands; what a video is for, in one word.
+// Options that describe a scene, shared by several commands.
 // In: the command line. Out: a valid scene or storyboard, and the log of its collisions.
 #pragma once
 
 #include <piblocks/run.hpp>
 #include <piblocks/script.hpp>
 
-#include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/destination.hpp"
+#include "cli/script_facts.hpp"
 #include "core/overwrite_check.hpp"
 
 namespace piblocks::cli {
-
-/// The value of a key of the scene file.
-struct SceneDefault {
-  std::string key;
-  std::string text;
-};
-
-/// What --for names: the settings that suit a use of the video.
-struct Destination {
-  std::string_view name;
-  /// They win over the scene file.
-  std::vector<SceneDefault> defaults;
-  std::vector<std::string_view> endings;  ///< of the files that it takes
-  /// Of *.mov, where it is not the usual one.
-  std::optional<std::string> mov_encoder = {};
-};
-
-/// @throws UsageError with all the names if there is none of this one.
-const Destination& parse_destination(const std::string& name);
-
-/// @throws UsageError if the destination does not take files of this name.
-void check_ending(const Destination& destination, const std::string& output);
-
-/// The names, as a message lists them.
-std::string destination_names();
 
 /// Refers to options of the command it was made for, and is valid as long as they are.
 class SceneOptions {
@@ -91,13 +66,6 @@ class SceneOptions {
 
 /// Adds --engine.
 void add_engine(Command& command);
-
-/// The system's log, made by the engine that --engine names.
-/// @throws UsageError if that engine would have to store too many collisions.
-std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const Command& command);
-
-/// Enters the logos of a scene or storyboard as files that are read.
-void claim_logos(OverwriteCheck& check, const Script& script);
 
 /// Says on standard error which of two equally good counts is shown, if all collisions of a run
 /// happen at once: their number then depends on a convention.

@@ -217,8 +217,13 @@ void ScriptBuilder::State::read(const std::string& origin, TomlTable root) {
 
 void ScriptBuilder::set(const std::string& origin, const std::string& key,
                         const std::string& text) {
+  set(origin, key, std::vector{text});
+}
+
+void ScriptBuilder::set(const std::string& origin, const std::string& key,
+                        const std::vector<std::string>& texts) {
   state_->set_keys.emplace_back(origin, key);
-  state_->film.set(origin, key, {text});
+  state_->film.set(origin, key, texts);
 }
 
 Script ScriptBuilder::build() const {

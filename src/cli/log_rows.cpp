@@ -1,0 +1,124 @@
+#include "cli/log_rows.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <piblocks/instant.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "cli/values.hpp"
+#include "physics/exact_motion.hpp"
+
+namespace piblocks::cli {
+namespace {
+
+static_assert(std::endian::native == std::endian::little && sizeof(long) == 8,
+              "rows are written as they are in memory");
+
+using Kind = std::array<char, 6>;
+static_assert(kRow_bytes == 7 * 8 + sizeof(Kind));
+
+constexpr Kind kWall{'w', 'a', 'l', 'l'};
+constexpr Kind kBlocks{'b', 'l', 'o', 'c', 'k', 's'};
+
+template <typename Value>
+char* put(char* at, const Value& value) {
+  std::memcpy(at, &value, sizeof value);
+  return at + sizeof value;
+}
+
+Integer parse_index(const std::string& text) {
+  const Rational index = parse_rational(text);
+  if (index.get_den() != 1) throw UsageError("must be a whole number");
+  return index.get_num();
+}
+
+/// An end of what is printed.
+struct Bound {
+  Instant instant;
+  Rational time;
+};
+
+/// Nothing if the option was not given.
+std::optional<Bound> bound_of(const OptionTexts& options, const char* option,
+                              const CollisionLog& log) {
+  return options.value(option, [&](const std::string& text) {
+    Instant instant = parse_instant(text);
+    Rational time = time_of(instant, log);
+    return Bound{std::move(instant), std::move(time)};
+  });
+}
+
+/// The first collision at this instant or after it.
+Integer first_since(const CollisionLog& log, const Bound& bound) {
+  const auto& [instant, time] = bound;
+  if (instant.offset == 0 && instant.anchor == Instant::Anchor::collision) return instant.index;
+  if (instant.offset == 0 && instant.anchor == Instant::Anchor::last) return log.size();
+  const Integer last = log.state_at(time).count;
+  if (last < log.first_index()) return log.first_index();
+  // Collisions happen together only in the corner, and there all of them do.
+  const ExactMotion motion(log.system());
+  if (motion.through_corner() && motion.closest_approach == time) return log.first_index();
+  return log.collision(last).time == to_time(time) ? last : Integer(last + 1);
+}
+
+Rows rows_within_times(const OptionTexts& options, const CollisionLog& log) {
+  const auto from = bound_of(options, "--from", log);
+  const auto to = bound_of(options, "--to", log);
+  if (from && to && to->time < from->time) {
+    throw UsageError(fmt::format("--to {}: is before --from {}", exact_text(to->instant),
+                                 exact_text(from->instant)));
+  }
+  Rows rows{1, log.size()};
+  if (from) rows.first = first_since(log, *from);
+  if (to) rows.last = log.state_at(to->time).count;
+  return rows;
+}
+
+}  // namespace
+
+Rows select_rows(const OptionTexts& options, const CollisionLog& log) {
+  Rows rows = rows_within_times(options, log);
+  if (const auto first = options.value("--first", parse_index)) {
+    if (*first > log.size() || *first < log.first_index()) {
+      throw UsageError(
+          fmt::format("--first {}: the scene has {}", readable(*first),
+                      log.size() < log.first_index()
+                          ? "no collisions"
+                          : fmt::format("collisions {} to {}", readable(log.first_index()),
+                                        readable(log.size()))));
+    }
+    rows.first = options.is_given("--from") ? std::max(rows.first, *first) : *first;
+  }
+  const auto parse_limit = [](const std::string& text) { return parse_whole_number(text, 1); };
+  if (const auto limit = options.value("--limit", parse_limit)) {
+    rows.last = std::min<Integer>(rows.last, rows.first + *limit - 1);
+  }
+  if (rows.count() > kMaxRows && !options.is_given("--limit")) {
+    throw UsageError(fmt::format(
+        "log: {} rows are more than {}; narrow them with --from, --to or --first, or allow them "
+        "with --limit",
+        readable(rows.count()), readable(kMaxRows)));
+  }
+  return rows;
+}
+
+void write_rows(const CollisionBatch& batch, std::int64_t first, char* at) {
+  for (std::size_t i = 0; i < batch.size; ++i) {
+    at = put(at, first + static_cast<std::int64_t>(i));
+    at = put(at, batch.time_hi[i]);
+    at = put(at, batch.time_lo[i]);
+    at = put(at, batch.kind[i] == CollisionKind::wall ? kWall : kBlocks);
+    at = put(at, batch.blue_position[i]);
+    at = put(at, batch.red_position[i]);
+    at = put(at, batch.blue_velocity[i]);
+    at = put(at, batch.red_velocity[i]);
+  }
+}
+
+}  // namespace piblocks::cli

@@ -1,0 +1,40 @@
+// Options as texts, from a command line or from another program.
+// In: the name of an option, such as "--output". Out: its text, or the value that a parser makes of
+// it.
+#pragma once
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <optional>
+#include <string>
+
+namespace piblocks::cli {
+
+class OptionTexts {
+ public:
+  OptionTexts() = default;
+  OptionTexts(const OptionTexts&) = default;
+  OptionTexts& operator=(const OptionTexts&) = default;
+  virtual ~OptionTexts() = default;
+
+  /// False also if there is no such option.
+  virtual bool is_given(const std::string& option) const = 0;
+  /// Nothing if the option was not given.
+  virtual std::optional<std::string> text(const std::string& option) const = 0;
+  /// The option's value as `parse` makes it of the text; nothing if it was not given.
+  /// @throws UsageError that names option and text if `parse` throws one
+  template <typename Parse>
+  auto value(const std::string& option, const Parse& parse) const
+      -> std::optional<decltype(parse(std::string()))> {
+    const std::optional<std::string> given = text(option);
+    if (!given) return std::nullopt;
+    try {
+      return parse(*given);
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("{} {}: {}", option, *given, error.what()));
+    }
+  }
+};
+
+}  // namespace piblocks::cli

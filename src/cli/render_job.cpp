@@ -1,0 +1,105 @@
+#include "cli/render_job.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "cli/values.hpp"
+#include "core/text.hpp"
+#include "media/output/output.hpp"
+#include "render/renderings.hpp"
+
+namespace piblocks::cli {
+namespace {
+
+int parse_jobs(const std::string& text) { return parse_int(text, 1, kMaxJobs); }
+
+int parse_flashes(const std::string& text) { return parse_int(text, 1, kMaxFlashes); }
+
+/// "2/3", the second of three.
+Shard parse_part(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) throw UsageError("must be I/N, such as 2/3");
+  const int count = parse_int(text.substr(slash + 1), 1, kMaxShards);
+  return {.number = parse_int(text.substr(0, slash), 1, count), .count = count};
+}
+
+double parse_crf(const std::string& text) { return to_double(parse_rational(text)); }
+
+/// Under half the size, and many times the time (tests/benchmark/encoders.md).
+EncoderSettings smallest_file() { return {.crf = 18, .preset = "slower", .encoder = "libx264"}; }
+
+EncoderSettings settings_of(const OptionTexts& options) {
+  if (!options.is_given("--smallest")) {
+    return {.crf = options.value("--crf", parse_crf),
+            .preset = options.text("--preset"),
+            .encoder = options.text("--encoder")};
+  }
+  for (const char* option : {"--crf", "--preset", "--encoder"}) {
+    if (!options.is_given(option)) continue;
+    throw UsageError(
+        fmt::format("--smallest chooses the encoder and its settings; leave out {}", option));
+  }
+  return smallest_file();
+}
+
+std::optional<Bundle> bundle_of(const OptionTexts& options) {
+  const auto poster = options.value("--poster", parse_instant);
+  if (const auto folder = options.text("--bundle")) return Bundle{*folder, poster};
+  if (!poster) return std::nullopt;
+  throw UsageError("--poster is for a bundle; add --bundle DIR or leave it out");
+}
+
+}  // namespace
+
+const Destination* destination_of(const OptionTexts& options, const std::string& output) {
+  const auto found =
+      options.value("--for", [](const std::string& name) { return &parse_destination(name); });
+  if (!found) return nullptr;
+  check_ending(**found, output);
+  return *found;
+}
+
+RenderJob job_of(const OptionTexts& options, const std::string& output,
+                 const std::function<Script()>& make_script) {
+  const Destination* const destination = destination_of(options, output);
+  EncoderSettings settings = settings_of(options);
+  Script script = make_script();
+  if (destination != nullptr && !settings.encoder && has_ending(output, ".mov")) {
+    settings.encoder = destination->mov_encoder;
+  }
+  if (options.is_given("--no-sound") && is_sound_alone(output)) {
+    throw UsageError(
+        fmt::format("--no-sound: '{}' is the sound alone; leave one of them out", output));
+  }
+  return {.script = std::move(script),
+          .output = output,
+          .encoder = std::move(settings),
+          .jobs = options.value("--jobs", parse_jobs).value_or(processor_count()),
+          .shard = options.value("--part", parse_part),
+          .profile = options.is_given("--profile"),
+          .bundle = bundle_of(options),
+          .max_flashes = options.value("--max-flashes", parse_flashes)};
+}
+
+std::string name_of(const RenderJob& job) {
+  if (job.bundle) return std::filesystem::path(job.bundle->folder) / job.output;
+  return job.shard ? shard_name(job.output, *job.shard) : job.output;
+}
+
+void claim_outputs(OverwriteCheck& check, const RenderJob& job) {
+  if (job.bundle) {
+    for (const std::string& file : bundle_files(job)) {
+      check.writes("--bundle", std::filesystem::path(job.bundle->folder) / file);
+    }
+  } else if (job.shard) {
+    check.writes("--part", shard_name(job.output, *job.shard));
+  } else {
+    claim_output(check, "--output", job.output);
+  }
+}
+
+}  // namespace piblocks::cli

@@ -1,0 +1,67 @@
+#include "cli/script_facts.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <piblocks/render.hpp>
+
+#include "cli/values.hpp"
+
+namespace piblocks::cli {
+
+std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const OptionTexts& options) {
+  const auto parse_engine = [](const std::string& text) {
+    return parse_choice<Engine>(text, {{"unfolded", Engine::unfolded},
+                                       {"events", Engine::events},
+                                       {"velocities", Engine::velocities}});
+  };
+  return make_collision_log(system,
+                            options.value("--engine", parse_engine).value_or(Engine::unfolded));
+}
+
+PositionBounds bounds_at(const CollisionLog& log, const Rational& time) {
+  if (const auto bounds = position_bounds(log, time)) return *bounds;
+  throw UsageError(
+      "--bounds: engines that step cannot say how exact they are; use --engine unfolded");
+}
+
+std::vector<Instant> sheet_instants(const Scene& scene, const OptionTexts& options) {
+  constexpr int kUsualCount = 12;
+  for (const char* option : {"--frames", "--by"}) {
+    if (!options.is_given(option) || !options.is_given("--at")) continue;
+    throw UsageError(
+        fmt::format("{} and --at both say which instants are shown; give one of them", option));
+  }
+  if (const auto named = options.value("--at", parse_instants)) return *named;
+  const auto parse_count = [](const std::string& text) {
+    return parse_int(text, 1, kMaxSheetPictures);
+  };
+  const auto parse_spacing = [](const std::string& text) {
+    return parse_choice<Spacing>(text, {{"count", Spacing::count}, {"time", Spacing::time}});
+  };
+  const int count = options.value("--frames", parse_count).value_or(kUsualCount);
+  return spread_instants(scene, count, options.value("--by", parse_spacing));
+}
+
+void claim_logos(OverwriteCheck& check, const Script& script) {
+  for (const Scene* scene : scenes_of(script)) {
+    if (!scene->show.logo.empty()) check.reads("the logo", scene->show.logo);
+  }
+}
+
+std::vector<std::string> convention_notes(const Script& script) {
+  std::vector<std::string> notes;
+  for (const Scene* scene : scenes_of(script)) {
+    const auto corner = corner_of(scene->system);
+    if (!corner) continue;
+    notes.push_back(fmt::format(
+        "all collisions happen at once, at t = {}, when blue touches both wall and red: by "
+        "convention {}, which makes {} ({} first: {})",
+        to_text(corner->time),
+        corner->blocks_first ? "the blocks meet first" : "blue meets the wall first",
+        readable(corner->count), corner->blocks_first ? "wall" : "blocks",
+        readable(corner->other_count)));
+  }
+  return notes;
+}
+
+}  // namespace piblocks::cli

@@ -1,0 +1,150 @@
+#include <fmt/format.h>
+#include <piblocks/encode.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/instant.hpp>
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+
+#include "draw/canvas.hpp"
+#include "media/pixels/rgb24.hpp"
+#include "physics/blocks.hpp"
+#include "python/extension/canvas_pool.hpp"
+#include "python/extension/script.hpp"
+#include "python/extension/without_gil.hpp"
+#include "render/film.hpp"
+
+namespace piblocks::python {
+namespace {
+
+namespace py = pybind11;
+
+/// The pixels of a picture, for Python's buffer protocol. It may outlive everything else.
+struct Frame {
+  std::shared_ptr<const CanvasPool::Picture> picture;
+
+  ImageView view() const { return picture->view(); }
+};
+
+/// Every frame and every instant of a script. What they need is made when the first is asked for.
+class Pictures {
+ public:
+  explicit Pictures(std::shared_ptr<const BoundScript> script) : script_(std::move(script)) {
+    const View& view = view_of(script_->script);
+    pool_ = std::make_shared<CanvasPool>(view.width_px, view.height_px, view.background);
+  }
+
+  std::int64_t frame_count() {
+    const WithoutGil released;
+    return film().frame_count();
+  }
+  Frame frame(std::int64_t number) {
+    const WithoutGil released;
+    const Film& all = film();
+    if (number < 0 || number >= all.frame_count()) throw std::out_of_range("no such frame");
+    return {pool_->paint(all.frame(number))};
+  }
+  /// The picture of 'piblocks still'.
+  Frame still(const std::string& at) {
+    const WithoutGil released;
+    const Instant instant = *BoundOptions({{"--at", at}}).value("--at", parse_instant);
+    return {pool_->paint(list_at(instant))};
+  }
+  /// Simulation time of a frame of a single scene.
+  double time_of(std::int64_t number) {
+    const WithoutGil released;
+    scene_of(*script_, "time");
+    return to_double(film().segments().front().segment.schedule()->time_of(number));
+  }
+
+ private:
+  DrawList list_at(const Instant& instant) {
+    if (std::holds_alternative<Storyboard>(script_->script)) {
+      return film().frame(frame_at(film(), instant));
+    }
+    const FilmRun& one = run();
+    return one.still(piblocks::time_of(instant, one.log()));
+  }
+  const Film& film() {
+    const std::scoped_lock lock(mutex_);
+    if (!film_) film_ = std::make_unique<const Film>(script_->script);
+    return *film_;
+  }
+  /// Apart from the film, because a still may show what no film can.
+  const FilmRun& run() {
+    const std::scoped_lock lock(mutex_);
+    if (!run_) {
+      const Scene& scene = std::get<Scene>(script_->script);
+      require_valid(problems_of(scene));
+      run_ = std::make_unique<const FilmRun>(scene, make_collision_log(scene.system),
+                                             FilmUse::pictures);
+    }
+    return *run_;
+  }
+
+  std::shared_ptr<const BoundScript> script_;
+  std::shared_ptr<CanvasPool> pool_;
+  std::mutex mutex_;  // of the two below; both are thread-safe once they are made
+  std::unique_ptr<const Film> film_;
+  std::unique_ptr<const FilmRun> run_;
+};
+
+/// Bytes B, G, R and, if the picture has it, alpha, which the others have been multiplied by.
+py::buffer_info buffer_of(const Frame& frame) {
+  const ImageView view = frame.view();
+  return {const_cast<std::uint8_t*>(view.data),
+          1,
+          py::format_descriptor<std::uint8_t>::format(),
+          3,
+          {py::ssize_t(view.height_px), py::ssize_t(view.width_px), py::ssize_t(4)},
+          {py::ssize_t(view.stride_bytes), py::ssize_t(4), py::ssize_t(1)},
+          /*readonly=*/true};
+}
+
+/// Fills rows of R, G, B and straight alpha, as a PNG file has them.
+void copy_rgba(const Frame& frame, const py::buffer& buffer) {
+  const ImageView view = frame.view();
+  const py::buffer_info info = buffer.request(true);
+  const std::size_t row_bytes = std::size_t(view.width_px) * 4;
+  if (std::size_t(info.size) * std::size_t(info.itemsize) !=
+      row_bytes * std::size_t(view.height_px)) {
+    throw std::invalid_argument("the array has another size");
+  }
+  auto* const to = static_cast<std::uint8_t*>(info.ptr);
+  const WithoutGil released;
+  const PixelRect all{0, 0, view.width_px, view.height_px};
+  for (int y = 0; y < view.height_px; ++y) pack_row(view, all, y, to + std::size_t(y) * row_bytes);
+}
+
+py::bytes png_of(const Frame& frame) {
+  std::vector<std::uint8_t> png;
+  {
+    const WithoutGil released;
+    png = encode_png(frame.view());
+  }
+  return {reinterpret_cast<const char*>(png.data()), png.size()};
+}
+
+}  // namespace
+
+void bind_frames(py::module_& module) {
+  py::class_<Frame>(module, "Frame", py::buffer_protocol(),
+                    "Pixels of one picture, as a read-only buffer of height x width x 4 bytes: "
+                    "blue, green, red, and alpha, which the colours are multiplied by.")
+      .def_property_readonly("has_alpha", [](const Frame& frame) { return frame.view().has_alpha; })
+      .def("copy_rgba", &copy_rgba, py::arg("buffer"), "Fills rows of R, G, B, straight alpha.")
+      .def("png", &png_of, "The picture as a PNG file.")
+      .def_buffer(&buffer_of);
+  py::class_<Pictures, std::shared_ptr<Pictures>>(module, "Pictures",
+                                                  "Every frame and every instant of a script.")
+      .def(py::init<std::shared_ptr<BoundScript>>(), py::arg("script"))
+      .def_property_readonly("frame_count", &Pictures::frame_count)
+      .def("frame", &Pictures::frame, py::arg("number"), "A frame of the film, from 0.")
+      .def("still", &Pictures::still, py::arg("at"), "The picture at an instant.")
+      .def("time", &Pictures::time_of, py::arg("number"), "Simulation time that a frame shows.");
+}
+
+}  // namespace piblocks::python

@@ -1,0 +1,156 @@
+#include <fmt/format.h>
+#include <piblocks/encode.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/instant.hpp>
+#include <piblocks/render.hpp>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "cli/render_job.hpp"
+#include "cli/script_facts.hpp"
+#include "core/overwrite_check.hpp"
+#include "draw/canvas.hpp"
+#include "python/extension/interruptible.hpp"
+#include "python/extension/script.hpp"
+#include "render/renderings.hpp"
+
+namespace piblocks::python {
+namespace {
+
+namespace py = pybind11;
+using Options = std::map<std::string, std::string>;
+
+void refuse_standard_output(const std::string& output, const char* operation) {
+  if (output != "-") return;
+  throw UsageError(
+      fmt::format("{}: '-' is standard output only for the command line; name a file", operation));
+}
+
+RenderJob make_job(const BoundScript& bound, const std::string& output,
+                   const BoundOptions& options) {
+  refuse_standard_output(output, "render");
+  const cli::Destination* const destination = cli::destination_of(options, output);
+  RenderJob job = cli::job_of(options, output, [&] {
+    if (destination == nullptr) return bound.script;
+    return bound.recipe.script(destination->defaults, fmt::format("--for {}", destination->name));
+  });
+  OverwriteCheck check;
+  bound.recipe.claim_inputs(check, job.script);
+  cli::claim_outputs(check, job);
+  check.check();
+  return job;
+}
+
+/// A step of the rendering and the seconds that it took.
+using StepTimes = std::vector<std::pair<std::string, double>>;
+
+StepTimes times_of(const Profile& profile) {
+  StepTimes times;
+  for (std::size_t i = 0; i < kStepNames.size(); ++i) {
+    times.emplace_back(kStepNames[i], profile.steps[i]);
+  }
+  times.emplace_back("total", profile.total_s);
+  return times;
+}
+
+/// @param progress  None, or called with the frames done and the frames in all.
+/// @returns what was written, frames, notes, and the profile if it was asked for.
+py::tuple render_film(const BoundScript& bound, const std::string& output, const Options& texts,
+                      const py::object& progress) {
+  const BoundOptions options(texts);
+  std::optional<RenderJob> job;
+  Rendered rendered;
+  const bool is_told = !progress.is_none();
+  run_interruptibly([&](const std::stop_token& stop, const CallBack& call) {
+    job = make_job(bound, output, options);
+    const auto report = [&](const Progress& now) {
+      if (is_told) call([&] { progress(now.frames_done, now.frame_count); });
+      // The file appears after the last report.
+      if (stop.stop_requested()) throw Interrupted("render: interrupted");
+    };
+    rendered = render(*job, report, stop);
+    for (std::string& note : cli::convention_notes(job->script)) {
+      rendered.notes.push_back(std::move(note));
+    }
+  });
+  return py::make_tuple(py::bytes(cli::name_of(*job)), rendered.frame_count, rendered.notes,
+                        job->profile ? times_of(rendered.profile) : StepTimes());
+}
+
+void check_still(const BoundScript& bound, const std::string& output) {
+  refuse_standard_output(output, "still");
+  OverwriteCheck check;
+  bound.recipe.claim_inputs(check, bound.script);
+  check.writes("--output", output);
+  check.check();
+}
+
+Instant instant_of(const std::string& text) {
+  return *BoundOptions({{"--at", text}}).value("--at", parse_instant);
+}
+
+void still_file(const BoundScript& bound, const std::string& at, const std::string& output) {
+  run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
+    const Instant instant = instant_of(at);
+    check_still(bound, output);
+    render_still(bound.script, instant, output, stop);
+  });
+}
+
+std::vector<std::uint8_t> draw(const DrawList& list, const std::string& format) {
+  if (format == "svg") return draw_svg(list);
+  if (format == "pdf") return draw_pdf(list);
+  if (format != "png")
+    throw UsageError(fmt::format("format {}: must be png or svg or pdf", format));
+  Canvas canvas(list.width_px, list.height_px,
+                list.background ? Background::opaque : Background::transparent);
+  canvas.paint(list);
+  return encode_png(canvas.view());
+}
+
+/// The bytes of a still file of this format.
+py::bytes still_bytes(const BoundScript& bound, const std::string& at, const std::string& format) {
+  std::vector<std::uint8_t> bytes;
+  run_interruptibly([&](const std::stop_token&, const CallBack&) {
+    bytes = draw(still_picture(bound.script, instant_of(at)), format);
+  });
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void sheet_file(const BoundScript& bound, const std::string& output, const Options& texts) {
+  run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
+    const Scene& scene = scene_of(bound, "sheet");
+    refuse_standard_output(output, "sheet");
+    check_still(bound, output);
+    render_sheet(scene, cli::sheet_instants(scene, BoundOptions(texts)), output, stop);
+  });
+}
+
+std::int64_t join_files(const std::vector<std::string>& parts, const std::string& output) {
+  std::int64_t frames = 0;
+  run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
+    refuse_standard_output(output, "join");
+    frames = join(parts, output, stop);
+  });
+  return frames;
+}
+
+}  // namespace
+
+void bind_render(py::module_& module) {
+  module.def("render", &render_film, py::arg("script"), py::arg("output"), py::arg("options"),
+             py::arg("progress"), "Renders a film; options as 'piblocks render' has them.");
+  module.def("still_file", &still_file, py::arg("script"), py::arg("at"), py::arg("output"),
+             "Writes the picture at an instant.");
+  module.def("still_bytes", &still_bytes, py::arg("script"), py::arg("at"), py::arg("format"),
+             "The same as the bytes of a file: png, svg or pdf.");
+  module.def("sheet_file", &sheet_file, py::arg("script"), py::arg("output"), py::arg("options"),
+             "Writes a sheet; options as 'piblocks sheet' has them.");
+  module.def("join", &join_files, py::arg("parts"), py::arg("output"),
+             "Joins the parts of a rendering; returns the number of frames.");
+}
+
+}  // namespace piblocks::python

@@ -1,0 +1,155 @@
+#include "python/extension/script.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <piblocks/run.hpp>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "cli/nearest_name.hpp"
+#include "cli/script_facts.hpp"
+#include "cli/shipped_scenes.hpp"
+#include "python/extension/scene_toml.hpp"
+#include "python/extension/without_gil.hpp"
+#include "scene/scene_keys.hpp"
+
+namespace piblocks::python {
+namespace {
+
+namespace py = pybind11;
+
+/// Keywords of one call of which only one may be given, as the command line has it for options.
+void refuse_several(const std::vector<KeyTexts>& keys, const std::vector<std::string_view>& names,
+                    const char* what) {
+  std::vector<std::string> given;
+  for (const auto& [keyword, key, texts] : keys) {
+    if (std::ranges::count(names, key) > 0) given.push_back(keyword);
+  }
+  if (given.size() < 2) return;
+  throw UsageError(
+      fmt::format("{} and {} both set {}; give one of them", given[0], given[1], what));
+}
+
+BoundScript make(std::string origin, std::optional<std::string> text, bool is_file,
+                 std::vector<KeyTexts> keys) {
+  const WithoutGil released;
+  Recipe recipe{std::move(origin), std::move(text), is_file, std::move(keys)};
+  Script script = recipe.script();
+  return {std::move(recipe), std::move(script)};
+}
+
+void check_keys(const std::vector<KeyTexts>& keys) {
+  refuse_several(keys, {"digits", "mass-ratio", "red.mass"}, "the mass of red");
+  refuse_several(keys, {"time.speed", "time.duration"}, "the speed");
+}
+
+std::vector<std::pair<std::string, std::string>> described(const BoundScript& bound) {
+  return std::visit([](const auto& any) { return describe(any); }, bound.script);
+}
+
+/// Texts as bytes, because a title or a path may be no UTF-8.
+std::vector<std::pair<py::bytes, py::bytes>> description(const BoundScript& bound) {
+  std::vector<std::pair<py::bytes, py::bytes>> values;
+  for (const auto& [key, text] : described(bound)) values.emplace_back(key, text);
+  return values;
+}
+
+/// All keys of a scene file outside of its parts.
+std::vector<std::string> key_names() {
+  std::vector<std::string> names = {"digits", "mass-ratio"};
+  for (const SceneKey& key : scene_keys()) names.emplace_back(key.name);
+  return names;
+}
+
+std::string count_of(const BoundScript& bound) {
+  const WithoutGil released;
+  return hexadecimal(count_collisions(scene_of(bound, "count").system));
+}
+
+py::tuple size_of(const BoundScript& bound) {
+  const View& view = view_of(bound.script);
+  return py::make_tuple(view.width_px, view.height_px);
+}
+
+py::tuple rate_of(const BoundScript& bound) {
+  const Rational& rate = view_of(bound.script).frame_rate;
+  return py::make_tuple(rate.get_num().get_si(), rate.get_den().get_si());
+}
+
+}  // namespace
+
+void Recipe::fill(ScriptBuilder& builder, const std::vector<cli::SceneDefault>& defaults,
+                  const std::string& defaults_origin) const {
+  if (text) builder.read_text(origin, *text);
+  for (const auto& [key, value] : defaults) builder.set(defaults_origin, key, value);
+  for (const auto& [keyword, key, texts] : keys) builder.set(keyword, key, texts);
+}
+
+Script Recipe::script(const std::vector<cli::SceneDefault>& defaults,
+                      const std::string& defaults_origin) const {
+  ScriptBuilder builder;
+  fill(builder, defaults, defaults_origin);
+  return builder.build();
+}
+
+void Recipe::claim_inputs(OverwriteCheck& check, const Script& script) const {
+  if (is_file) check.reads("the scene file", origin);
+  cli::claim_logos(check, script);
+}
+
+const Scene& scene_of(const BoundScript& script, const char* operation) {
+  if (const auto* scene = std::get_if<Scene>(&script.script)) return *scene;
+  throw UsageError(fmt::format("'{}' is a storyboard; '{}' takes a scene without [[part]]",
+                               script.recipe.origin, operation));
+}
+
+std::string hexadecimal(const Integer& value) { return value.get_str(16); }
+
+void bind_script(py::module_& module) {
+  py::class_<BoundScript, std::shared_ptr<BoundScript>>(
+      module, "Script", "A scene or a storyboard, as the library has it.")
+      .def(py::init(&make), py::arg("origin"), py::arg("text"), py::arg("is_file"), py::arg("keys"),
+           "From the text of a scene file, named by its origin, and (keyword, key, texts).")
+      .def_property_readonly(
+          "is_storyboard",
+          [](const BoundScript& bound) { return std::holds_alternative<Storyboard>(bound.script); })
+      .def_property_readonly("is_transparent",
+                             [](const BoundScript& bound) {
+                               return view_of(bound.script).background == Background::transparent;
+                             })
+      .def_property_readonly("size", &size_of, "Width and height of a frame, in pixels.")
+      .def_property_readonly("rate", &rate_of, "Frames a second: numerator and denominator.")
+      .def_property_readonly(
+          "notes", [](const BoundScript& bound) { return cli::convention_notes(bound.script); },
+          "What a user should know of the counts.")
+      .def("describe", &description, "Keys and values as exact text; equal for equal scripts.")
+      .def(
+          "to_toml", [](const BoundScript& bound) { return py::bytes(scene_toml(bound.script)); },
+          "The text of a scene file that reads back as the same script.")
+      .def("count", &count_of, "The number of collisions, in hexadecimal digits.");
+  module.def("check_keys", &check_keys, py::arg("keys"),
+             "Raises UsageError if keywords of one call set the same value.");
+  module.def("key_names", &key_names, "All keys of a scene file, such as 'view.size'.");
+  module.def("nearest_name", &cli::nearest_name, py::arg("word"), py::arg("names"),
+             "The name that the word may have been meant to be; '' if none is near.");
+  module.def(
+      "scenes",
+      [] {
+        std::vector<std::pair<std::string, std::string>> scenes;
+        for (const cli::ShippedScene& scene : cli::shipped_scenes()) {
+          scenes.emplace_back(scene.name, scene.summary());
+        }
+        return scenes;
+      },
+      "Name and summary of each shipped scene.");
+  module.def(
+      "scene_text",
+      [](const std::string& name) { return std::string(cli::find_shipped_scene(name).text); },
+      py::arg("name"), "The scene file of a shipped scene.");
+}
+
+}  // namespace piblocks::python

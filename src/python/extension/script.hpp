@@ -1,0 +1,75 @@
+// A scene or a storyboard, and what it was made from.
+// In: the text of a scene file, if there is one, and keys with their texts. Out: the library's
+// script.
+#pragma once
+
+#include <piblocks/script.hpp>
+#include <pybind11/pybind11.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "cli/destination.hpp"
+#include "cli/option_texts.hpp"
+#include "core/overwrite_check.hpp"
+
+namespace piblocks::python {
+
+/// How a keyword is called, the key of the scene file that it sets, and the texts of its value.
+using KeyTexts = std::tuple<std::string, std::string, std::vector<std::string>>;
+
+/// Immutable, so that threads may share it.
+struct Recipe {
+  std::string origin;               ///< of the text, named in messages
+  std::optional<std::string> text;  ///< of a scene file
+  bool is_file = false;             ///< whether the origin is the path of a file
+  std::vector<KeyTexts> keys;       ///< win over the text, later ones over earlier ones
+
+  /// @throws SceneError, UsageError
+  Script script() const { return script({}, {}); }
+  /// @param defaults  win over the text, but not over keys. @param defaults_origin  as in messages
+  Script script(const std::vector<cli::SceneDefault>& defaults,
+                const std::string& defaults_origin) const;
+  /// @throws SceneError if the text is no scene file.
+  void fill(ScriptBuilder& builder, const std::vector<cli::SceneDefault>& defaults = {},
+            const std::string& defaults_origin = {}) const;
+  /// Enters the scene file, and the logos of what was made of it.
+  void claim_inputs(OverwriteCheck& check, const Script& script) const;
+};
+
+struct BoundScript {
+  Recipe recipe;
+  Script script;
+};
+
+/// Options of a command, without the command line.
+class BoundOptions final : public cli::OptionTexts {
+ public:
+  explicit BoundOptions(std::map<std::string, std::string> texts) : texts_(std::move(texts)) {}
+  bool is_given(const std::string& option) const override { return texts_.contains(option); }
+  std::optional<std::string> text(const std::string& option) const override {
+    const auto found = texts_.find(option);
+    return found == texts_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+ private:
+  std::map<std::string, std::string> texts_;
+};
+
+/// The one scene of a script.
+/// @param operation  named in messages. @throws UsageError if the script is a storyboard.
+const Scene& scene_of(const BoundScript& script, const char* operation);
+
+/// Hexadecimal, because Python limits the length of decimal numbers.
+std::string hexadecimal(const Integer& value);
+
+void bind_script(pybind11::module_& module);
+void bind_run(pybind11::module_& module);
+void bind_frames(pybind11::module_& module);
+void bind_render(pybind11::module_& module);
+void bind_golden(pybind11::module_& module);
+
+}  // namespace piblocks::python

@@ -1,0 +1,46 @@
+"""Two sliding blocks and a wall, whose collisions count the digits of pi.
+
+>>> from piblocks import Scene
+>>> Scene(digits=3).count
+314
+"""
+
+from __future__ import annotations
+
+from . import _errors  # the extension raises what is defined there
+from . import _piblocks
+from ._errors import (
+    DrawError,
+    Error,
+    IoError,
+    MediaError,
+    SceneError,
+    SimulationError,
+    UsageError,
+)
+from ._film import Frames
+from ._keys import keys
+from ._notebook import Player
+from ._render import Rendered, join
+from ._run import State
+from ._scene import Scene, scenes
+
+__version__: str = _piblocks.VERSION
+
+__all__ = [
+    "DrawError",
+    "Error",
+    "Frames",
+    "IoError",
+    "MediaError",
+    "Player",
+    "Rendered",
+    "Scene",
+    "SceneError",
+    "SimulationError",
+    "State",
+    "UsageError",
+    "join",
+    "keys",
+    "scenes",
+]

@@ -1,0 +1,122 @@
+"""Files: films, stills, sheets."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import Any, Union
+
+from . import _piblocks
+from ._notebook import file_html
+from ._values import flag, instant, options, path, texts
+
+Progress = Callable[[int, int], object]
+
+
+@dataclass(frozen=True)
+class Rendered:
+    """What a rendering wrote. In a notebook it shows the film."""
+
+    path: str
+    #: Frames that were rendered.
+    frames: int
+    #: What you should know of the file, a line each: players that may not show it, for example.
+    notes: tuple[str, ...] = ()
+    #: Seconds of processor time by step; empty unless a profile was asked for.
+    profile: dict[str, float] = field(default_factory=dict)
+
+    def _repr_html_(self) -> str | None:
+        return file_html(self.path)
+
+
+class _Bar:
+    """Progress on standard error, in one line that is written anew."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __call__(self, done: int, total: int) -> None:
+        end = "\n" if done == total else ""
+        print(f"\r{self._name}: {done} of {total} frames", end=end, file=sys.stderr, flush=True)
+
+
+def _progress(progress: Union[Progress, bool, None], name: str) -> Progress | None:
+    if progress is None or progress is False:
+        return None
+    if progress is True:
+        return _Bar(name)
+    if not callable(progress):
+        raise TypeError(
+            f"progress: must be callable, True or None, not {type(progress).__name__}"
+        )
+    return progress
+
+
+def _part(part: Any) -> bytes | None:
+    if part is None:
+        return None
+    return b"/".join(texts("part", part))
+
+
+def render(
+    script: _piblocks.Script,
+    output: Any,
+    progress: Union[Progress, bool, None],
+    bundle: Any,
+    poster: Any,
+    part: Any,
+    given: dict[str, Any],
+) -> Rendered:
+    name = path("output", output)
+    flags = {
+        option: flag(option[2:], value)
+        for option, value in given.items()
+        if option in ("--smallest", "--profile")
+    }
+    texts_given = options({**given, **flags})
+    if bundle is not None:
+        texts_given[b"--bundle"] = path("bundle", bundle)
+    if poster is not None:
+        texts_given[b"--poster"] = instant("poster", poster)
+    share = _part(part)
+    if share is not None:
+        texts_given[b"--part"] = share
+    written, frames, notes, profile = _piblocks.render(
+        script, name, texts_given, _progress(progress, os.fsdecode(name))
+    )
+    return Rendered(os.fsdecode(written), frames, tuple(notes), dict(profile))
+
+
+def still(script: _piblocks.Script, output: Any, at: Any, format: Any) -> None:
+    when = instant("at", at)
+    if hasattr(output, "write"):
+        form = "png" if format is None else format
+        if not isinstance(form, str):
+            raise TypeError(f"format: must be a str, not {type(form).__name__}")
+        output.write(_piblocks.still_bytes(script, when, form))
+        return
+    if format is not None:
+        raise TypeError("format: is for an open file; the ending of a name selects the format")
+    _piblocks.still_file(script, when, path("output", output))
+
+
+def sheet(script: _piblocks.Script, output: Any, frames: Any, by: Any, at: Any) -> None:
+    given = options({"--frames": frames, "--by": by})
+    if at is not None:
+        instants = list(at) if isinstance(at, (list, tuple)) or hasattr(at, "__array__") else [at]
+        given[b"--at"] = b",".join(instant("at", one) for one in instants)
+    _piblocks.sheet_file(script, path("output", output), given)
+
+
+def join(parts: Iterable[Union[str, os.PathLike[str]]], output: Union[str, os.PathLike[str]]) -> int:
+    """Joins the files of all parts of a rendering to the output that they were rendered for.
+
+    :param parts: the files, in any order.
+    :returns: the number of frames.
+    :raises UsageError: if a part is missing, given twice, or of another rendering.
+    """
+    if isinstance(parts, (str, bytes, os.PathLike)) or not isinstance(parts, Iterable):
+        raise TypeError(f"parts: must be a list of paths, not {type(parts).__name__}")
+    return _piblocks.join([path("parts", part) for part in parts], path("output", output))

@@ -1,0 +1,374 @@
+"""A scene: what is simulated and shown, and all that can be asked of it."""
+
+from __future__ import annotations
+
+import os
+import re
+from fractions import Fraction
+from typing import Any, Union
+
+import numpy as np
+
+from . import _golden, _notebook, _piblocks, _render, _run
+from ._errors import SceneError
+from ._film import Frames, pixels
+from ._keys import KeyTexts, key_texts, parts_text
+from ._render import Progress, Rendered
+from ._run import State
+from ._values import bytes_of, flag, instant, path, scalar
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+def scenes() -> dict[str, str]:
+    """The names of the shipped scenes, and what each shows."""
+    return dict(_piblocks.scenes())
+
+
+def _merged(before: tuple[KeyTexts, ...], more: list[KeyTexts]) -> tuple[KeyTexts, ...]:
+    new = {key for _, key, _ in more}
+    return (*(one for one in before if one[1] not in new), *more)
+
+
+class Scene:
+    """Two blocks and a wall, what a film shows of them, and how. Immutable.
+
+    Every keyword is a key of a scene file with its dots and hyphens as underscores, and a dict
+    stands for the keys that begin with its name: ``view_size="1280x720"`` and
+    ``view={"size": (1280, 720)}`` are the key ``view.size``. ``keys()`` lists them all. The
+    keyword ``part`` takes a list of dicts and makes a storyboard.
+
+    Values are numbers, strings as in a scene file, bools, or lists of these. Numbers are exact: an
+    int, a ``Fraction`` and a ``Decimal`` stand for themselves, and a float for the decimal that
+    Python prints, so that 0.1 is one tenth. None leaves a key as it is.
+
+    :param digits: how many digits of pi the collisions count; red is 100**(digits - 1) times as
+        heavy as blue. Without keywords it is the article's scene: three digits.
+    :raises SceneError: with everything that is wrong.
+    :raises TypeError: for a value that is of none of these types; it names the keyword.
+
+    >>> Scene(digits=3).count
+    314
+    """
+
+    __slots__ = ("_script", "_recipe", "_runs", "_pictures", "__weakref__")
+
+    def __init__(self, digits: Any = None, **keys: Any) -> None:
+        if digits is not None:
+            keys = {"digits": digits, **keys}
+        parts = keys.pop("part", None)
+        text = None if parts is None else parts_text(parts)
+        self._make(b"part", text, False, tuple(key_texts(keys)))
+
+    def _make(
+        self, origin: bytes, text: bytes | None, is_file: bool, keys: tuple[KeyTexts, ...]
+    ) -> None:
+        self._script = _piblocks.Script(origin, text, is_file, list(keys))
+        self._recipe = (origin, text, is_file, keys)
+        self._runs: dict[str, _piblocks.Run] = {}
+        self._pictures: _piblocks.Pictures | None = None
+
+    @classmethod
+    def _restore(
+        cls, origin: bytes, text: bytes | None, is_file: bool, keys: tuple[KeyTexts, ...]
+    ) -> Scene:
+        scene = cls.__new__(cls)
+        scene._make(origin, text, is_file, keys)
+        return scene
+
+    @classmethod
+    def from_toml(cls, file: Path, **keys: Any) -> Scene:
+        """Reads a scene file or a storyboard. Keywords win over the file, as options do.
+
+        :raises SceneError: if it cannot be read, or is wrong; with the number of each line.
+        """
+        name = path("file", file)
+        try:
+            with open(name, "rb") as opened:
+                text = opened.read((1 << 20) + 1)
+        except OSError as error:
+            raise SceneError(
+                f"scene: cannot read '{os.fsdecode(name)}': {os.strerror(error.errno or 0)}"
+            ) from error
+        if len(text) > 1 << 20:
+            raise SceneError(f"scene: '{os.fsdecode(name)}' is longer than {1 << 20} bytes")
+        return cls._restore(name, text, True, tuple(key_texts(keys)))
+
+    @classmethod
+    def from_toml_text(cls, text: str, origin: str = "scene", **keys: Any) -> Scene:
+        """The same with the text of a scene file.
+
+        :param origin: stands for the file's name in messages.
+        """
+        if not isinstance(text, str):
+            raise TypeError(f"text: must be a str, not {type(text).__name__}")
+        return cls._restore(
+            scalar("origin", origin), bytes_of(text), False, tuple(key_texts(keys))
+        )
+
+    @classmethod
+    def shipped(cls, name: str, **keys: Any) -> Scene:
+        """A scene that comes with the package; ``scenes()`` lists them.
+
+        :raises UsageError: if there is none of this name; it names the nearest one.
+        """
+        if not isinstance(name, str):
+            raise TypeError(f"name: must be a str, not {type(name).__name__}")
+        text = _piblocks.scene_text(bytes_of(name)).encode()
+        return cls._restore(f"{name} (shipped)".encode(), text, False, tuple(key_texts(keys)))
+
+    def replace(self, **keys: Any) -> Scene:
+        """The same scene with other values for these keys."""
+        origin, text, is_file, before = self._recipe
+        return self._restore(origin, text, is_file, _merged(before, key_texts(keys)))
+
+    # What it is
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of a frame, in pixels."""
+        return self._script.size
+
+    @property
+    def fps(self) -> Fraction:
+        """Frames per second of video."""
+        return Fraction(*self._script.rate)
+
+    @property
+    def is_storyboard(self) -> bool:
+        """Whether it has parts: then it has frames, but no count, log or states."""
+        return self._script.is_storyboard
+
+    @property
+    def is_transparent(self) -> bool:
+        return self._script.is_transparent
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What you should know of the count: that it follows a convention, in rare scenes."""
+        return tuple(self._script.notes)
+
+    def to_toml(self) -> str:
+        """The text of a scene file that reads back as an equal scene.
+
+        Keys at their defaults are left out. The path of a logo becomes absolute.
+        """
+        return self._script.to_toml().decode("utf-8", "surrogateescape")
+
+    def _description(self) -> tuple[tuple[bytes, bytes], ...]:
+        return tuple(self._script.describe())
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Scene):
+            return NotImplemented
+        return self._description() == other._description()
+
+    def __hash__(self) -> int:
+        return hash(self._description())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self)._restore, self._recipe
+
+    def __copy__(self) -> Scene:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Scene:
+        return self
+
+    def __repr__(self) -> str:
+        origin, text, is_file, keys = self._recipe
+        arguments = [_argument(keyword, texts) for keyword, _, texts in keys]
+        if text is None:
+            return f"Scene({', '.join(arguments)})"
+        name = os.fsdecode(origin)
+        if is_file:
+            return f"Scene.from_toml({', '.join([repr(name), *arguments])})"
+        if name.endswith(" (shipped)"):
+            shipped = name.removesuffix(" (shipped)")
+            return f"Scene.shipped({', '.join([repr(shipped), *arguments])})"
+        return f"Scene.from_toml_text(..., {', '.join([repr(name), *arguments])})"
+
+    # Numbers
+
+    @property
+    def count(self) -> int:
+        """How often the blocks and the wall collide, from the beginning of time to its end.
+
+        :raises UsageError: for a storyboard.
+        """
+        return int(self._script.count(), 16)
+
+    def _run(self, engine: Any) -> _piblocks.Run:
+        if not isinstance(engine, str):
+            raise TypeError(f"engine: must be a str, not {type(engine).__name__}")
+        if engine not in self._runs:
+            self._runs[engine] = _run.run_of(self._script, engine)
+        return self._runs[engine]
+
+    def log(
+        self,
+        *,
+        from_: Any = None,
+        to: Any = None,
+        first: int | None = None,
+        last: int | None = None,
+        limit: int | None = None,
+        engine: str = "unfolded",
+    ) -> np.ndarray:
+        """Every collision as a row of a structured array.
+
+        The columns are those of ``piblocks log --format npy``: index, time, time_low (what a
+        double leaves out of the time), kind (b"wall" or b"blocks"), x_blue, x_red, v_blue, v_red
+        just after the collision. ``index`` is int64; if one does not fit, it is an object column of
+        Python's ints.
+
+        :param from_: leave out collisions before this instant. :param to: and after this one.
+        :param first: start with this collision (default 1). :param last: end with this one.
+        :param limit: at most so many rows; more than 100,000,000 need it.
+        :param engine: "unfolded", the closed form; "events" or "velocities", loops in doubles.
+        :raises UsageError: if there are no such collisions, or too many; for a storyboard.
+        """
+        return _run.log(self._run(engine), from_, to, first, last, limit)
+
+    def state(
+        self, t: Any, *, bounds: bool = False, engine: str = "unfolded"
+    ) -> Union[State, np.ndarray]:
+        """Positions, velocities and the count at an instant, or at each of an array of them.
+
+        :param t: a number, or "turn-0.3", "last+1", "#314": a ``State``, whose count has any size.
+            An array or a list of these: a structured array of its shape with the same fields. Its
+            ``count`` is int64; if one does not fit, it is an object column of Python's ints.
+        :param bounds: also how far each position may be from the truth.
+        :raises UsageError: if the scene has no such instant; for a storyboard.
+        """
+        return _run.state(self._run(engine), t, flag("bounds", bounds))
+
+    # Pictures
+
+    def _all_pictures(self) -> _piblocks.Pictures:
+        if self._pictures is None:
+            self._pictures = _piblocks.Pictures(self._script)
+        return self._pictures
+
+    def frame(self, t: Any = "last") -> np.ndarray:
+        """The picture at an instant: uint8, height x width x 3, red, green, blue.
+
+        It is read-only, without a copy, and keeps its pixels. With a transparent background it is
+        height x width x 4, with straight alpha.
+
+        :param t: an instant, as for ``state``; of a storyboard, a second of its video.
+        """
+        return pixels(self._all_pictures().still(instant("at", t)))
+
+    def frames(self) -> Frames:
+        """The frames of the film, as a sequence of arrays."""
+        return Frames(self._all_pictures(), self.fps)
+
+    def still(self, file: Any, at: Any = "last", *, format: str | None = None) -> None:
+        """Writes the picture at an instant.
+
+        :param file: a name that ends with .png, .svg or .pdf; or a file that is open for bytes.
+        :param format: for an open file: "png" (default), "svg" or "pdf".
+        """
+        _render.still(self._script, file, at, format)
+
+    def sheet(self, file: Path, *, frames: int | None = None, by: str | None = None,
+              at: Any = None) -> None:
+        """Writes several instants on one page, for paper: .pdf, .png or .svg.
+
+        :param frames: so many instants, spread over the run (default 12).
+        :param by: spread them evenly by "count" or by "time". :param at: or these instants.
+        """
+        _render.sheet(self._script, file, frames, by, at)
+
+    # Films
+
+    def render(
+        self,
+        file: Path,
+        *,
+        progress: Union[Progress, bool, None] = None,
+        jobs: int | None = None,
+        for_: str | None = None,
+        crf: Any = None,
+        preset: str | None = None,
+        encoder: str | None = None,
+        smallest: bool = False,
+        part: Any = None,
+        bundle: Path | None = None,
+        poster: Any = None,
+        max_flashes: int | None = None,
+        profile: bool = False,
+    ) -> Rendered:
+        """Renders the film. The file appears when it is complete, or not at all.
+
+        The bytes are those of ``piblocks render`` with the same options. Other threads run
+        meanwhile, and Ctrl-C stops it.
+
+        :param file: its ending selects the format: .mp4, .mov, .webm, .gif, .apng, .y4m, .wav,
+            .html (a page to step through), .framehash, or pictures as "frames/%06d.png".
+        :param progress: True for a line on standard error; or called with the frames done and the
+            frames in all. An exception in it stops the rendering, and is raised.
+        :param jobs: threads (default: one a processor); changes no byte.
+        :param for_: size, rate and background that suit "powerpoint", "web", ...
+        :param part: (2, 3) renders the second of three shares, for ``join``.
+        :param bundle: a folder for the video, a poster, captions, and snippets for slides.
+        :raises UsageError: DrawError, MediaError, IoError, SimulationError, KeyboardInterrupt
+        """
+        given = {
+            "--jobs": jobs,
+            "--for": for_,
+            "--crf": crf,
+            "--preset": preset,
+            "--encoder": encoder,
+            "--smallest": smallest,
+            "--max-flashes": max_flashes,
+            "--profile": profile,
+        }
+        return _render.render(self._script, file, progress, bundle, poster, part, given)
+
+    def animate(self) -> Any:
+        """A slider over the exact frames: a widget of ipywidgets, or the page's player."""
+        return _notebook.slider(self)
+
+    def _repr_html_(self) -> str:
+        return _notebook.scene_html(self)
+
+    # Golden references
+
+    def golden_record(self, name: str, dir: Path, *, frames: Any = None) -> list[str]:
+        """Keeps references: a hash of every frame, and some pictures; as ``piblocks golden``.
+
+        :param name: the beginning of the files' names. :param frames: instants kept as pictures.
+        :returns: what the command line prints.
+        :raises UsageError: if there are references of this name.
+        """
+        return _golden.act(self._script, "record", name, dir, frames, None)[1]
+
+    def golden_approve(self, name: str, dir: Path, *, frames: Any = None) -> list[str]:
+        """Replaces references, and tells what changes."""
+        return _golden.act(self._script, "approve", name, dir, frames, None)[1]
+
+    def golden_check(
+        self, name: str, dir: Path, *, frames: Any = None, diff: Path | None = None
+    ) -> tuple[bool, list[str]]:
+        """Compares with references: whether all is equal, and what the command line prints.
+
+        :param diff: a folder for expected, difference and actual of pictures that differ.
+        :raises Error: if a reference is missing.
+        """
+        return _golden.act(self._script, "check", name, dir, frames, diff)
+
+
+def _shown(text: bytes) -> Union[str, int, bool]:
+    """What stands for the text in a call: a number that reads as this text, or the text."""
+    if text in (b"true", b"false"):
+        return text == b"true"
+    is_plain = text == b"0" or re.fullmatch(rb"-?[1-9][0-9]{0,17}", text) is not None
+    return int(text) if is_plain else text.decode("utf-8", "surrogateescape")
+
+
+def _argument(keyword: bytes, texts: list[bytes]) -> str:
+    values = [_shown(text) for text in texts]
+    value = values[0] if len(values) == 1 else values
+    return f"{keyword.decode()}={value!r}"

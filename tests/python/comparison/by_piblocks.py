@@ -1,0 +1,5 @@
+import sys
+
+from piblocks import Scene
+
+Scene(digits=3).render(sys.argv[1])

@@ -1,0 +1,119 @@
+"""Notebooks: what a scene shows there, and the notebook of the project."""
+
+import base64
+import builtins
+import html
+import importlib.util
+import re
+
+import pytest
+from conftest import TREE
+
+import piblocks
+from piblocks import Scene
+
+NOTEBOOK = TREE / "assets/notebooks/pi-from-blocks.ipynb"
+SMALL = Scene(1, view_size="128x72", view_fps=5)
+
+
+def test_a_scene_shows_the_page():
+    shown = SMALL._repr_html_()
+    assert shown.startswith('<iframe srcdoc="') and 'sandbox="allow-scripts"' in shown
+    page = html.unescape(re.search(r'srcdoc="([^"]*)"', shown)[1])
+    SMALL.render("a.html")
+    assert page == open("a.html").read()
+
+
+@pytest.mark.parametrize(
+    "size, shown",
+    [("1920x1080", (960, 540)), ("1080x1920", (540, 960)), ("127x71", (128, 72)),
+     ("128x72", (128, 72)), ("16384x2", (960, 2))],
+)
+def test_of_a_size_that_a_notebook_has_room_for(size, shown):
+    from piblocks._notebook import display_size
+
+    width, height = size.split("x")
+    assert display_size(int(width), int(height)) == shown
+
+
+def test_what_no_page_shows():
+    story = Scene(part=[{"digits": 1, "time_duration": 1}], view_size="128x72")
+    shown = story._repr_html_()
+    assert shown.startswith("<video") and "video/mp4" in shown
+    transparent = SMALL.replace(view_background="transparent")
+    assert transparent._repr_html_().startswith("<iframe")
+    long = SMALL.replace(time_speed="1/200", view_fps=60)
+    assert long._repr_html_().startswith("<img")
+    wrong = SMALL.replace(time_from="#99")
+    assert "the scene has collisions" in wrong._repr_html_()
+
+
+def test_what_was_rendered_is_shown():
+    for name, start in (("a.mp4", "<video"), ("a.gif", "<img"), ("a.html", "<iframe"),
+                        ("a.wav", "<audio")):
+        rendered = SMALL.render(name)
+        assert rendered._repr_html_().startswith(start)
+    data = re.search(r"base64,([^\"]*)", SMALL.render("a.mp4")._repr_html_())[1]
+    assert base64.b64decode(data) == open("a.mp4", "rb").read()
+    assert SMALL.render("a.framehash")._repr_html_() is None
+    assert SMALL.render("null")._repr_html_() is None
+
+
+def test_a_slider_over_exact_frames():
+    ipywidgets = pytest.importorskip(
+        "ipywidgets", reason="there is no ipywidgets (python3-ipywidgets)")
+    from piblocks._notebook import widget
+
+    image, controls = widget(SMALL, ipywidgets).children
+    play, slider = controls.children
+    frames = SMALL.frames()
+    assert slider.max == play.max == len(frames) - 1 and image.value == frames.png(0)
+    for number in (3, len(frames) - 1, 1):
+        slider.value = number
+        assert image.value == frames.png(number)
+
+
+@pytest.mark.parametrize("version, is_widget", [("6.0.0", False), ("8.1.5", True)])
+def test_old_widgets_are_not_used(monkeypatch, version, is_widget):
+    ipywidgets = pytest.importorskip(
+        "ipywidgets", reason="there is no ipywidgets (python3-ipywidgets)")
+    monkeypatch.setattr(ipywidgets, "__version__", version)
+    assert isinstance(SMALL.animate(), piblocks.Player) == (not is_widget)
+
+
+def test_without_ipywidgets_it_is_the_player(monkeypatch):
+    real = builtins.__import__
+
+    def importing(name, *rest):
+        if name == "ipywidgets":
+            raise ImportError(name)
+        return real(name, *rest)
+
+    monkeypatch.setattr(builtins, "__import__", importing)
+    player = SMALL.animate()
+    assert isinstance(player, piblocks.Player)
+    assert player._repr_html_() == SMALL._repr_html_()
+
+
+def test_the_notebook_has_no_outputs():
+    import json
+
+    for cell in json.loads(NOTEBOOK.read_text())["cells"]:
+        assert not cell.get("outputs") and not cell.get("execution_count")
+
+
+def test_the_notebook_runs():
+    for module in ("nbclient", "nbformat", "ipykernel"):
+        if importlib.util.find_spec(module) is None:
+            pytest.skip(f"there is no {module} (python3-{module})")
+    import nbclient
+    import nbformat
+
+    notebook = nbformat.read(NOTEBOOK, 4)
+    nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
+    text = "".join(
+        str(output.get("text", "")) + str(output.get("data", {}))
+        for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs)
+    assert "[3, 31, 314]" in text and "31415926535897932384" in text
+    assert "<iframe srcdoc" in text and "<video" in text
+    assert "['tiny: recorded']" in text and "False tiny: different" in text

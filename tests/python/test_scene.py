@@ -1,0 +1,165 @@
+"""Scenes: their keys, values, equality, text and copies."""
+
+import copy
+import os
+import pickle
+from decimal import Decimal
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import piblocks
+from piblocks import Scene
+
+ARTICLE = Scene()
+
+
+@pytest.mark.parametrize(
+    "value, text",
+    [
+        (0.1, "1/10"), (np.float64(0.1), "1/10"), (np.float32(0.1), "1/10"), (1e-7, "1/10000000"),
+        (Fraction(1, 3), "1/3"), (Decimal("1E+3"), "1000"), (Decimal("0.30"), "3/10"),
+        (7, "7"), (np.int8(7), "7"), (np.uint64(2**63), str(2**63)), (np.array(7), "7"),
+        ("1/3", "1/3"), ("100^7", str(100**7)), (10**5000, str(Decimal(10**5000))),
+        (Fraction(1, 10**5000), "1/" + str(Decimal(10**5000))),
+    ],
+    ids=lambda value: type(value).__name__,
+)
+def test_numbers_are_exact(value, text):
+    assert dict(Scene(red_mass=value)._description())[b"red.mass"].decode() == text
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"view": {"size": (640, 360)}}, {"view": {"size": "640x360"}}, {"view_size": [640, 360]},
+        {"view_size": np.array([640, 360])}, {"view.size": "640x360"}, {"view": {"size": None,
+         "fps": 60}, "view_size": "640x360"},
+    ],
+)
+def test_a_dict_stands_for_the_keys_that_begin_with_its_name(keys):
+    assert Scene(**keys) == Scene(view_size="640x360") != ARTICLE
+
+
+def test_every_key_of_the_file_is_a_keyword():
+    keys = piblocks.keys()
+    assert {"digits", "mass_ratio", "base", "time_slow_motion", "golden_frames"} <= set(keys)
+    described = {key.decode() for key, _ in ARTICLE._description()}
+    assert {key.replace(".", "_").replace("-", "_") for key in described} <= set(keys)
+    assert len(keys) == len(set(keys)) == len(described) + 2
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"wall_face": "1/2"}, {"time_loop": True}, {"sound_on": np.True_}, {"view_x": (-1, 3)},
+        {"time_freeze": ["turn:2"]}, {"time_slow_motion": ["auto"]}, {"time_from": "turn-1"},
+        {"show_overlays": ["energy", "time"]}, {"show_panels": "velocity,time"}, {"base": 2},
+        {"red_width": "by-mass"}, {"show_title": 'a "b" \\ c'}, {"show_loupe": "auto"},
+        {"golden_frames": [0, "last"]}, {"golden_size": "64x36"}, {"time_duration": 5},
+        {"view_theme": "lecture", "view_shutter": 0}, {"view_theme": "lecture"},
+        {"show_hits": False}, {"show_caption": "α, β"}, {"show_title": "30"},
+        {"show_title": "true"}, {"show_overlays": []}, {"time_speed": 1e-300},
+    ],
+    ids=str,
+)
+def test_to_toml_reads_back_as_the_same(keys):
+    scene = Scene(**keys)
+    text = scene.to_toml()
+    assert Scene.from_toml_text(text) == scene
+    with open("a.toml", "w") as file:
+        file.write(text)
+    assert Scene.from_toml("a.toml") == scene
+    assert scene == eval(repr(scene)) == pickle.loads(pickle.dumps(scene))
+
+
+@pytest.mark.parametrize("name", piblocks.scenes())
+def test_shipped_scenes(name):
+    scene = Scene.shipped(name)
+    assert Scene.from_toml_text(scene.to_toml()) == scene
+    assert eval(repr(scene)) == scene == pickle.loads(pickle.dumps(scene))
+    assert hash(scene) == hash(Scene.shipped(name))
+    assert scene.is_storyboard == ("[[part]]" in scene.to_toml())
+    if not scene.is_storyboard:
+        assert isinstance(scene.count, int)
+    else:
+        with pytest.raises(piblocks.UsageError, match="is a storyboard; 'count' takes a scene"):
+            scene.count
+
+
+def test_a_storyboard_of_dicts():
+    parts = [
+        {"card": ["Counting π,", 'by "blocks"'], "seconds": 1},
+        {"digits": 2, "fade": Fraction(1, 2), "time": {"hold-end": 1, "slow_motion": "auto"}},
+        {"compare": [{"digits": 1}, {"digits": 2}], "split": "rows"},
+    ]
+    story = Scene(part=parts, view_size="320x180", view_fps=10)
+    assert story.is_storyboard and story.size == (320, 180)
+    assert Scene.from_toml_text(story.to_toml()) == story == pickle.loads(pickle.dumps(story))
+    assert len(story.frames()) > 100
+    with pytest.raises(piblocks.SceneError, match="^digits: 'part' is a storyboard; put digits"):
+        Scene(part=parts, digits=3)
+
+
+def test_keywords_win_over_a_file_and_over_older_ones():
+    scene = Scene.shipped("lecture", view_theme="dark").replace(view_theme="print", digits=4)
+    assert dict(scene._description())[b"view.theme"] == b"print"
+    assert scene.count == 3141
+    assert scene.replace(mass_ratio=1).count == 3
+
+
+def test_a_logo_in_a_file_is_beside_it():
+    os.mkdir("talk")
+    ARTICLE.replace(view_size="64x36").still("talk/logo.png")
+    with open("talk/a.toml", "w") as file:
+        file.write('show.logo = "logo.png"\nview.theme = "lecture"\nview.size = "1280x720"\n')
+    scene = Scene.from_toml("talk/a.toml")
+    again = Scene.from_toml_text(scene.to_toml())
+    assert (again.frame(1) == scene.frame(1)).all()
+    for write in (scene.still, scene.render):
+        with pytest.raises(piblocks.UsageError, match="would write over"):
+            write("talk/logo.png" if write == scene.still else "talk/%d.png".replace("%d", "logo"))
+    with pytest.raises(piblocks.UsageError, match="would write over the scene file"):
+        os.rename("talk/a.toml", "talk/a.png")
+        Scene.from_toml("talk/a.png").still("talk/a.png")
+
+
+def test_copies_are_the_scene_itself():
+    assert copy.copy(ARTICLE) is ARTICLE and copy.deepcopy(ARTICLE) is ARTICLE
+    assert ARTICLE != 3 and ARTICLE != Scene(4) and len({ARTICLE, Scene(3), Scene(4)}) == 2
+    assert len(pickle.dumps(ARTICLE)) < 300
+
+
+def test_a_scene_cannot_be_changed():
+    with pytest.raises(AttributeError):
+        ARTICLE.count = 3
+    with pytest.raises(AttributeError):
+        ARTICLE.view_size = "1x1"
+
+
+def test_a_file_that_is_no_scene():
+    with pytest.raises(piblocks.SceneError, match="^scene: cannot read 'none.toml': No such file"):
+        Scene.from_toml("none.toml")
+    with open("a.toml", "wb") as file:
+        file.write(b"digits = 0\nred.mas = 3\n\xff\n")
+    with pytest.raises(piblocks.SceneError):
+        Scene.from_toml("a.toml")
+    with pytest.raises(piblocks.SceneError) as raised:
+        Scene.from_toml_text("digits = 0\nred.mas = 3", "talk")
+    assert raised.value.problems == (
+        "talk:1: digits = 0: must be a whole number from 1 to 100000",
+        "talk:2: red.mas: unknown key",
+    )
+    assert pickle.loads(pickle.dumps(raised.value)).problems == raised.value.problems
+
+
+def test_names_are_suggested():
+    with pytest.raises(piblocks.UsageError, match="no scene 'lectur'; did you mean 'lecture'"):
+        Scene.shipped("lectur")
+
+
+def test_notes_tell_of_conventions():
+    corner = Scene(blue_position=0.5, red_mass=100, red_position=3)
+    assert len(corner.notes) == 1 and "by convention" in corner.notes[0]
+    assert ARTICLE.notes == ()
