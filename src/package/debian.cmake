@@ -1,4 +1,4 @@
-# The Debian packages: piblocks, to be run, and libpiblocks-dev, to be built on.
+# The Debian packages: piblocks, to be run, libpiblocks-dev, to be built on, and python3-piblocks.
 set(PIBLOCKS_MAINTAINER "The piblocks authors <piblocks@piblocks.invalid>" CACHE STRING
     "who makes the packages, with an address that takes mail")
 set(CPACK_GENERATOR DEB)
@@ -7,6 +7,9 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "renders the colliding blocks that count t
 set(CPACK_PACKAGE_VENDOR "The piblocks authors")
 set(CPACK_PACKAGE_CONTACT "${PIBLOCKS_MAINTAINER}")
 set(CPACK_COMPONENTS_ALL program development)
+if(PIBLOCKS_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_STRIP_FILES ON)
 set(CPACK_THREADS 0)
 
@@ -58,6 +61,19 @@ set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
 "The library behind the program piblocks, for development: its C++ headers, the
 static library, and what CMake and pkg-config need to find them.")
 
+# An extension is for one version of Python.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-piblocks)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+math(EXPR next_python "${Python_VERSION_MINOR} + 1")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+"python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next_python}), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-ipywidgets, python3-pytest")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION
+"The library behind the program piblocks, for Python: scenes from keywords,
+counts of any size, logs, states and frames as NumPy arrays, films, the player
+and a slider in notebooks, and a plugin of pytest for golden references.")
+
 # Policy wants the licences in one file, in the folder of each package; nobody else needs that.
 set(doc_folder ${CMAKE_INSTALL_DATAROOTDIR}/doc)
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE PIBLOCKS_LICENSE)
@@ -75,7 +91,7 @@ add_custom_command(
   DEPENDS ${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian ${PROJECT_SOURCE_DIR}/CHANGELOG.md
   VERBATIM)
 add_custom_target(piblocks_changelog ALL DEPENDS changelog.Debian.gz)
-foreach(package program:piblocks development:libpiblocks-dev)
+foreach(package program:piblocks development:libpiblocks-dev python:python3-piblocks)
   string(REPLACE ":" ";" package ${package})
   list(GET package 0 component)
   list(GET package 1 name)
