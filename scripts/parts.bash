@@ -51,7 +51,7 @@ find_program() {
     [[ -x $built ]] || fail "there is no piblocks on the PATH; name it with --program, or build it"
     program=$built
   fi
-  program=$(realpath --no-symlinks -- "$program")
+  program=$(cd -- "$(dirname -- "$program")" && pwd)/${program##*/}
 }
 
 # name_parts COUNT: sets `part_files` to the names that the program gives to the parts of `output`,

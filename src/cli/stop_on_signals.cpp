@@ -1,27 +1,20 @@
 #include "cli/stop_on_signals.hpp"
 
-#include <poll.h>
-#include <sys/eventfd.h>
-#include <sys/signalfd.h>
 #include <unistd.h>
 
-#include <array>
 #include <atomic>
-#include <cerrno>
-#include <cstdlib>
-#include <filesystem>
+#include <chrono>
 #include <string_view>
-#include <system_error>
 
 #include "cli/command.hpp"
+#include "core/waiting_thread.hpp"
 
 namespace piblocks::cli {
 namespace {
 
 /// Interrupts a system call that waits. Its handler does nothing.
 constexpr int kBreakOff = SIGURG;
-constexpr int kBreakOffInterval_ms = 50;
-constexpr int kForEver = -1;
+constexpr std::chrono::milliseconds kBreakOffInterval{50};
 
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): signals are the process's too
 std::atomic<bool> is_stop_requested = false;
@@ -55,20 +48,19 @@ sigset_t stop_signals() {
   return signals;
 }
 
-Descriptor opened(int descriptor, const char* what) {
-  if (descriptor < 0) throw std::system_error(errno, std::generic_category(), what);
-  return Descriptor(descriptor);
+/// These, and the one that wakes the waiting thread when the work is done.
+sigset_t with_break_off(sigset_t signals) {
+  sigaddset(&signals, kBreakOff);
+  return signals;
 }
 
-/// In all threads but this one.
-void break_off_calls() {
-  const pid_t process = ::getpid();
-  const pid_t self = ::gettid();
-  std::error_code ended;  // a thread may end at any time
-  for (const std::filesystem::path& task : entries_of("/proc/self/task", ended)) {
-    const int thread = std::atoi(task.filename().c_str());
-    if (thread != self) ::tgkill(process, thread, kBreakOff);
+bool is_any_pending(const sigset_t& signals) {
+  sigset_t pending;
+  sigpending(&pending);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    if (sigismember(&signals, signal) == 1 && sigismember(&pending, signal) == 1) return true;
   }
+  return false;
 }
 
 }  // namespace
@@ -82,35 +74,55 @@ void end_at_once_on_signals() {
 
 bool stop_was_requested() noexcept { return is_stop_requested; }
 
-StopOnSignals::StopOnSignals()
-    : signals_(stop_signals()),
-      pending_(opened(::signalfd(-1, &signals_, SFD_CLOEXEC), "signals: cannot wait for them")),
-      end_(opened(::eventfd(0, EFD_CLOEXEC), "signals: cannot wait for the end")) {
+StopOnSignals::StopOnSignals() : signals_(stop_signals()) {
   handle(kBreakOff, do_nothing);
-  ::pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
-  waiter_ = std::thread([this] { wait_for_signals(); });
+  // The thread is born with all of them blocked: it takes them by sigwait().
+  const sigset_t all = with_break_off(signals_);
+  ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
+  waiter_ = std::thread([this] {
+    if (wait_for_signal()) wait_for_end();
+  });
+  sigset_t none;
+  sigemptyset(&none);
+  const sigset_t break_off = with_break_off(none);
+  ::pthread_sigmask(SIG_UNBLOCK, &break_off, nullptr);
 }
 
 StopOnSignals::~StopOnSignals() {
-  while (::eventfd_write(end_.get(), 1) != 0 && errno == EINTR) continue;
+  {
+    const std::lock_guard lock(mutex_);
+    is_done_ = true;
+  }
+  done_.notify_one();
+  ::pthread_kill(waiter_.native_handle(), kBreakOff);
   waiter_.join();  // the signals stay blocked: what is done is done
 }
 
-/// Once a stop is requested, no thread is left waiting for input: it may come to a call that waits
-/// only after it was told to break off, hence again and again.
-void StopOnSignals::wait_for_signals() {
-  std::array<pollfd, 2> events{{{pending_.get(), POLLIN, 0}, {end_.get(), POLLIN, 0}}};
-  while (true) {
-    const int timeout_ms = stop_.stop_requested() ? kBreakOffInterval_ms : kForEver;
-    const int count = ::poll(events.data(), events.size(), timeout_ms);
-    if (count > 0 && events[1].revents != 0) return;
-    signalfd_siginfo signal{};
-    if (count > 0 && events[0].revents != 0 &&
-        ::read(pending_.get(), &signal, sizeof signal) == sizeof signal) {
-      is_stop_requested = true;
-      if (!stop_.request_stop()) _exit(kFailed);
-    }
-    if (stop_.stop_requested()) break_off_calls();
+bool StopOnSignals::is_done() {
+  const std::lock_guard lock(mutex_);
+  return is_done_;
+}
+
+bool StopOnSignals::wait_for_signal() {
+  const sigset_t awaited = with_break_off(signals_);
+  int signal = kBreakOff;  // which others may send, too
+  while (signal == kBreakOff) {
+    if (is_done()) return false;
+    if (::sigwait(&awaited, &signal) != 0) signal = kBreakOff;
+  }
+  is_stop_requested = true;
+  stop_.request_stop();
+  return true;
+}
+
+/// No thread is left waiting for input: it may come to a call that waits only after it was told to
+/// break off, hence again and again.
+void StopOnSignals::wait_for_end() {
+  std::unique_lock lock(mutex_);
+  while (!is_done_) {
+    if (is_any_pending(signals_)) _exit(kFailed);
+    break_off_calls(kBreakOff);
+    done_.wait_for(lock, kBreakOffInterval);
   }
 }
 

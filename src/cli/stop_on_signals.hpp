@@ -3,13 +3,13 @@
 // stop token; a second signal ends the process at once. Without work to give up the first one does.
 #pragma once
 
-#include <pthread.h>
-
+#include <condition_variable>
 #include <csignal>
+#include <mutex>
 #include <stop_token>
 #include <thread>
 
-#include "core/descriptor.hpp"
+#include "core/waiting_thread.hpp"
 
 namespace piblocks::cli {
 
@@ -32,12 +32,17 @@ class StopOnSignals {
   std::stop_token token() const { return stop_.get_token(); }
 
  private:
-  void wait_for_signals();
+  bool is_done();
+  /// @return false if the work was done before any signal came.
+  bool wait_for_signal();
+  void wait_for_end();
 
+  WaitingThread this_thread_;
   sigset_t signals_{};
-  Descriptor pending_;  // readable when one of the signals has come
-  Descriptor end_;      // readable when the work is done
   std::stop_source stop_;
+  std::mutex mutex_;
+  std::condition_variable done_;
+  bool is_done_ = false;
   std::thread waiter_;
 };
 

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <system_error>
 
+#include "core/durability.hpp"
 #include "core/output_file.hpp"
 
 namespace piblocks {
@@ -46,9 +47,8 @@ class Renaming {
   void put_back(const char* name) const noexcept { move(old_, to_, name); }
 
  private:
-  /// O_PATH needs no right to read the folder.
   static Descriptor open_folder(const fs::path& path) {
-    Descriptor folder(::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+    Descriptor folder = open_to_rename_in(path);
     if (!folder.is_open()) fail_output("open", path, errno);
     return folder;
   }
@@ -107,8 +107,9 @@ void FileSet::remove(const std::string& name) {
 void FileSet::commit() {
   if (!names_.empty() || !removed_.empty()) {
     prepare();
-    // One call for the whole file system: a sync of each of thousands of files takes far longer.
-    if (::syncfs(temporary_.descriptor()) != 0) fail_output("sync", temporary_.path(), errno);
+    if (const int error = sync_files(temporary_.path() / kNew, temporary_.descriptor())) {
+      fail_output("sync", temporary_.path(), error);
+    }
     move_into_place();
   }
   made_folders_.keep();

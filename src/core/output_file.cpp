@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "core/durability.hpp"
+
 namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
@@ -17,7 +19,7 @@ namespace {
   throw UsageError(fmt::format("output: cannot open '{}': {}", path.string(), why));
 }
 
-/// A link in /proc/self/fd may lead to a file without a name: the text of the link is then none.
+/// A link to an open file may lead to one without a name: the text of the link is then none.
 fs::path named_target(const fs::path& path) {
   fs::path target = follow_links(path);
   std::error_code error;
@@ -112,7 +114,7 @@ TemporaryFile::TemporaryFile(fs::path final_path) : final_path_(std::move(final_
 }
 
 void TemporaryFile::commit() {
-  if (::fsync(file_->descriptor()) != 0) fail_output("sync", path(), errno);
+  if (const int error = sync_file(file_->descriptor())) fail_output("sync", path(), error);
   if (::rename(path().c_str(), final_path_.c_str()) != 0)
     fail_output("rename to", final_path_, errno);
   file_->release();

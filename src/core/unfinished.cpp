@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <sys/file.h>
-#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,10 +9,12 @@
 #include <climits>
 #include <cstdint>
 #include <new>
+#include <random>
 #include <string>
 #include <string_view>
 #include <system_error>
 
+#include "core/durability.hpp"
 #include "core/output_file.hpp"
 
 namespace piblocks {
@@ -62,6 +63,18 @@ std::string_view start_of(const std::string& final_name) {
   return std::string_view(final_name).substr(0, NAME_MAX - kRest);
 }
 
+std::uint64_t random_bits() {
+  try {
+    std::random_device device;
+    const std::uint64_t high = device();
+    return high << 32 | device();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw IoError(fmt::format("output: no random numbers: {}", error.what()));
+  }
+}
+
 /// The part of the temporary name behind the random letters.
 std::string check_letters(const std::string& final_name, std::string_view random) {
   const std::uint64_t hash = hash_of(final_name + '/' + std::string(random));
@@ -69,9 +82,7 @@ std::string check_letters(const std::string& final_name, std::string_view random
 }
 
 std::string temporary_name(const std::string& final_name) {
-  std::uint64_t bits = 0;
-  if (::getrandom(&bits, sizeof bits, 0) != sizeof bits) throw IoError("output: no random numbers");
-  const std::string random = letters_of(bits, kRandom_letters);
+  const std::string random = letters_of(random_bits(), kRandom_letters);
   return fmt::format("{}{}{}{}", start_of(final_name), kMark, random,
                      check_letters(final_name, random));
 }
@@ -180,8 +191,10 @@ void sync_folder(const fs::path& folder) {
   const Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   // A folder may be writable but not readable; some file systems cannot sync folders.
   if (!descriptor.is_open() && errno == EACCES) return;
-  if (descriptor.is_open() && (::fsync(descriptor.get()) == 0 || errno == EINVAL)) return;
-  fail_output("sync folder", path, errno);
+  const int error = descriptor.is_open() ? sync_file(descriptor.get()) : errno;
+  if (error != 0 && !(descriptor.is_open() && error == EINVAL)) {
+    fail_output("sync folder", path, error);
+  }
 }
 
 }  // namespace piblocks

@@ -12,11 +12,8 @@
 
 #include "core/text.hpp"
 #include "draw/cairo_handles.hpp"
+#include "draw/embedded_fonts.hpp"
 #include FT_FREETYPE_H
-
-// Defined in font_data.S: where each font begins, in the order of Face, and where the last one
-// ends. NOLINTNEXTLINE(readability-identifier-naming): no constant, but a symbol of the assembler
-extern "C" const unsigned char* const piblocks_fonts[];
 
 namespace piblocks {
 namespace {
@@ -49,9 +46,10 @@ FT_Face load_embedded_face(Face which) {
   check_freetype(FT_Init_FreeType(&created), "start FreeType");
   FtLibraryPtr library(created);
   FT_Face face = nullptr;
-  const unsigned char* const* const begin = piblocks_fonts + static_cast<std::size_t>(which);
-  check_freetype(FT_New_Memory_Face(library.get(), begin[0], begin[1] - begin[0], 0, &face),
-                 "load an embedded font");
+  const std::span<const unsigned char> font = embedded_font(which);
+  check_freetype(
+      FT_New_Memory_Face(library.get(), font.data(), static_cast<FT_Long>(font.size()), 0, &face),
+      "load an embedded font");
   static_cast<void>(library.release());  // release_face() finds it again through the face
   return face;
 }

@@ -1,4 +1,5 @@
-/* The font files, byte for byte; the build sets their names. In the order of Face. */
+/* The font files, byte for byte; the build sets their names. In the order of Face.
+   For ELF on 64-bit processors; embed_fonts.cmake does without an assembler. */
         .section .rodata
         .balign 16
 article:
@@ -16,5 +17,8 @@ end:
         .global piblocks_fonts
         .balign 8
 piblocks_fonts:
-        .quad article, text, digits, math, end
+        .quad article, text
+        .quad text, digits
+        .quad digits, math
+        .quad math, end
         .section .note.GNU-stack, "", %progbits

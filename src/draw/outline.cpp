@@ -134,8 +134,7 @@ void for_each_dash(std::span<const Point> points, double dash_px, const Visit& v
 
 std::vector<Point> without_repeats(std::span<const Point> points, bool closed) {
   std::vector<Point> distinct(points.begin(), points.end());
-  const auto rest = std::ranges::unique(distinct);
-  distinct.erase(rest.begin(), rest.end());
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
   while (closed && distinct.size() > 1 && distinct.front() == distinct.back()) distinct.pop_back();
   return distinct;
 }

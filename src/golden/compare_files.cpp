@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "core/text.hpp"
+#include "core/waiting_thread.hpp"
 #include "golden/frame_source.hpp"
 
 namespace piblocks {
@@ -78,7 +79,10 @@ class PictureComparison {
     while (true) {
       if (stop_.stop_requested()) throw Interrupted("compare: interrupted");
       // Reading is nearly all of the work.
-      auto reading = std::async(std::launch::async, [this] { return reference_->next(); });
+      auto reading = std::async(std::launch::async, [this] {
+        const WaitingThread this_thread;
+        return reference_->next();
+      });
       const bool has_actual = actual_->next();
       const bool has_reference = reading.get();
       if (has_reference != has_actual) {

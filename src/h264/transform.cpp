@@ -1,9 +1,5 @@
 #include "h264/transform.hpp"
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
-
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -67,16 +63,6 @@ Coefficients inverse(const Coefficients& v) {
 std::array<std::int32_t, 4> transform_2x2(const std::array<std::int32_t, 4>& v) {
   return {v[0] + v[1] + v[2] + v[3], v[0] - v[1] + v[2] - v[3], v[0] + v[1] - v[2] - v[3],
           v[0] - v[1] - v[2] + v[3]};
-}
-
-/// The product of 16-bit numbers: SSE2 has no instruction for 32 bits.
-Row multiplied(Row a, Row b) {
-#ifdef __SSE2__
-  return reinterpret_cast<Row>(
-      _mm_madd_epi16(reinterpret_cast<__m128i>(a), reinterpret_cast<__m128i>(b)));
-#else
-  return a * b;
-#endif
 }
 
 Row load(const Block4x4& block, int y) {

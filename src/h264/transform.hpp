@@ -7,11 +7,10 @@
 #include <cstdint>
 
 #include "h264/picture.hpp"
+#include "h264/row.hpp"
 
 namespace piblocks::h264 {
 
-/// Four numbers that processors add and multiply at once.
-using Row = std::int32_t __attribute__((vector_size(16)));
 /// Coefficients of a 4x4 block, column by column: that saves a transposition.
 using Coefficients = std::array<Row, 4>;
 /// Transform coefficient levels in the order of the zig-zag scan (table 8-13, frames).

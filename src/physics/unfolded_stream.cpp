@@ -4,23 +4,7 @@
 
 #include "core/two_sum.hpp"
 #include "physics/unfolding.hpp"
-
-// Compiles a function twice, for every x86-64 processor and for those with AVX2; the dynamic linker
-// picks one, before a sanitizer would be ready. Both give the same bits, since nothing is
-// contracted.
-#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define PIBLOCKS_VECTOR_CLONES [[gnu::target_clones("avx2", "default")]]
-#else
-#define PIBLOCKS_VECTOR_CLONES
-#endif
-
-// Iterations of the loop that follows do not read what others write.
-#if defined(__GNUC__) && !defined(__clang__)
-#define PIBLOCKS_INDEPENDENT_ITERATIONS _Pragma("GCC ivdep")
-#else
-#define PIBLOCKS_INDEPENDENT_ITERATIONS
-#endif
+#include "physics/vector_clones.hpp"
 
 namespace piblocks {
 namespace {

@@ -1,6 +1,7 @@
 #include "scene/scene_draft.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <piblocks/error.hpp>
 
 #include <algorithm>

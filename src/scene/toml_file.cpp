@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/script.hpp>
+
+// Releases of toml++ differ: 256 up to 3.4, 128 after it. One that was compiled keeps its own.
+#define TOML_MAX_NESTED_VALUES 256
 #include <toml++/toml.h>
 
 #include <algorithm>

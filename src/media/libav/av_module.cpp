@@ -2,30 +2,18 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <link.h>
 #include <piblocks/error.hpp>
 #include <piblocks/version.hpp>
 
 #include <filesystem>
 #include <string_view>
 
+#include "media/libav/own_binary.hpp"
+
 namespace piblocks {
 namespace {
 
 constexpr const char* kFile = "libpiblocks_av.so";
-
-/// The program or shared library that this code was linked into; empty if the system does not say.
-std::filesystem::path own_binary() {
-  Dl_info info{};
-  void* extra = nullptr;
-  const void* here = reinterpret_cast<const void*>(&own_binary);
-  const bool is_known = ::dladdr1(here, &info, &extra, RTLD_DL_LINKMAP) != 0;
-  const std::string_view name = is_known ? static_cast<const link_map*>(extra)->l_name : "";
-  if (!name.empty()) return name;
-  // The main program has no name there.
-  std::error_code unreadable;
-  return std::filesystem::read_symlink("/proc/self/exe", unreadable);
-}
 
 /// Where the module may be, best first.
 std::vector<std::string> candidates() {

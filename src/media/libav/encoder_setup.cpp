@@ -1,6 +1,7 @@
 #include "media/libav/encoder_setup.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>

@@ -1,6 +1,7 @@
 #include "media/libav/video_encoder.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <piblocks/error.hpp>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "media/mp4/h264_chunk.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <piblocks/error.hpp>
 #include <spawn.h>
 #include <sys/resource.h>

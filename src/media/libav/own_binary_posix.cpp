@@ -1,0 +1,24 @@
+#include <dlfcn.h>
+
+#include <string_view>
+#include <system_error>
+
+#include "media/libav/own_binary.hpp"
+
+namespace piblocks {
+namespace fs = std::filesystem;
+
+/// Where the system gives the main program the name that it was started by, that may be relative
+/// to the working folder. A name without a folder was found along PATH, and says nothing.
+fs::path own_binary() {
+  Dl_info info{};
+  const void* here = reinterpret_cast<const void*>(&own_binary);
+  const bool is_known = ::dladdr(here, &info) != 0 && info.dli_fname != nullptr;
+  const std::string_view name = is_known ? info.dli_fname : "";
+  if (name.find('/') == std::string_view::npos) return {};
+  std::error_code error;
+  const fs::path path = fs::canonical(name, error);
+  return error ? fs::path() : path;
+}
+
+}  // namespace piblocks
