@@ -92,7 +92,9 @@ class LineOutline {
     for_each_inside(sign * from, sign * to, middle_of_joint(at, before, sign * (from + to)),
                     radius_, [&](const Point& p) { outer.push_back(centre + p); });
     outer.push_back(centre + sign * to);
-    inner.insert(inner.end(), {centre - sign * from, centre, centre - sign * to});
+    inner.push_back(centre - sign * from);
+    inner.push_back(centre);
+    inner.push_back(centre - sign * to);
   }
 
   /// Where a line turns back, the sum of the two sides is nearly nothing, and the difference of the

@@ -28,6 +28,7 @@ class BoundRun {
  public:
   BoundRun(const BoundScript& script, const std::map<std::string, std::string>& options) {
     const WithoutGil released;
+    // cppcheck-suppress useInitializationList ; only here other threads of Python can run
     log_ = cli::make_log(scene_of(script, "log").system, BoundOptions(options));
   }
   const CollisionLog& log() const { return *log_; }
