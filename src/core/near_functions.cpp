@@ -9,9 +9,9 @@
 
 #include "core/two_sum.hpp"
 
-// A table takes the argument to a small rest, a short polynomial takes it from there. The table and
-// the first terms have two doubles; only terms below 2^-19 of the value have one. So no error is
-// above a few times 2^-53 2^-19 of it.
+// A table reduces the argument to a small rest. A short polynomial gives the function of the rest.
+// The table and the first terms have two doubles; only terms below 2^-19 of the value have one. So
+// each error is at most a few times 2^-72 of the value.
 
 namespace piblocks::near {
 namespace {

@@ -72,7 +72,7 @@ double atan2(double y, double x) {
   if (!std::isnan(near.lo) || !std::isfinite(x) || !std::isfinite(y) || x == 0 || y == 0) {
     return round(near, mpfr_atan2, y, x);
   }
-  // Scaling is exact, unless the smaller one nearly vanishes, and near::atan2() takes neither then.
+  // Scaling is exact unless the smaller number underflows; near::atan2() refuses that number.
   const double scale = scale_to_1(std::max(std::fabs(x), std::fabs(y)));
   return round(near::atan2(y * scale, x * scale), mpfr_atan2, y, x);
 }

@@ -24,15 +24,15 @@ Point with_length(const Point& a, double wanted) { return (wanted / length(a)) *
 /// @param from, to  from the centre, of length `radius`, at most a half turn apart
 /// @param middle    in the direction of the arc's middle
 template <typename Visit>
-void for_each_inside(const Point& from, const Point& to, const Point& middle, double radius,
-                     const Visit& visit) {
+void for_each_arc_point(const Point& from, const Point& to, const Point& middle, double radius,
+                        const Visit& visit) {
   const Point chord = to - from;
   // The distance of an arc from its chord is chord^2 / (8 radius) or a little more.
   if (dot(chord, chord) <= 8 * radius * kTolerance_px) return;
   const Point half = with_length(middle, radius);
-  for_each_inside(from, half, from + half, radius, visit);
+  for_each_arc_point(from, half, from + half, radius, visit);
   visit(half);
-  for_each_inside(half, to, half + to, radius, visit);
+  for_each_arc_point(half, to, half + to, radius, visit);
 }
 
 void add_polygon(cairo_t& cr, std::span<const Point> points) {
@@ -41,8 +41,8 @@ void add_polygon(cairo_t& cr, std::span<const Point> points) {
   cairo_close_path(&cr);
 }
 
-/// The outline of one line without dashes. Both sides together are the sum of a rectangle for each
-/// piece and a wedge for each joint, all of one sense of rotation, so that none cancels another.
+/// The outline of one line without dashes: a rectangle for each piece and a wedge for each joint.
+/// All of them turn the same way, so none cancels another.
 class LineOutline {
  public:
   LineOutline(std::span<const Point> points, double width_px)
@@ -89,8 +89,8 @@ class LineOutline {
     std::vector<Point>& inner = bends_to_one_side ? one_side_ : other_side_;
     const Point& centre = points_[at];
     outer.push_back(centre + sign * from);
-    for_each_inside(sign * from, sign * to, middle_of_joint(at, before, sign * (from + to)),
-                    radius_, [&](const Point& p) { outer.push_back(centre + p); });
+    for_each_arc_point(sign * from, sign * to, middle_of_joint(at, before, sign * (from + to)),
+                       radius_, [&](const Point& p) { outer.push_back(centre + p); });
     outer.push_back(centre + sign * to);
     inner.push_back(centre - sign * from);
     inner.push_back(centre);
@@ -155,9 +155,9 @@ void add_line_outline(cairo_t& cr, std::span<const Point> points, bool closed, d
   });
 }
 
-void add_circle(cairo_t& cr, const Point& centre, double radius_px, Turn turn) {
+void add_circle(cairo_t& cr, const Point& centre, double radius_px, Winding winding) {
   const double r = radius_px;
-  const double down = turn == Turn::clockwise ? r : -r;
+  const double down = winding == Winding::clockwise ? r : -r;
   const std::array<Point, 5> quarters{{{r, 0}, {0, down}, {-r, 0}, {0, -down}, {r, 0}}};
   std::vector<Point> points;
   const auto add = [&](const Point& p) { points.push_back(centre + p); };
@@ -165,7 +165,7 @@ void add_circle(cairo_t& cr, const Point& centre, double radius_px, Turn turn) {
     const Point& from = quarters.at(i);
     const Point& to = quarters.at(i + 1);
     add(from);
-    for_each_inside(from, to, from + to, r, add);
+    for_each_arc_point(from, to, from + to, r, add);
   }
   add_polygon(cr, points);
 }

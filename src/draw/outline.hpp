@@ -18,8 +18,9 @@ void add_line_outline(cairo_t& cr, std::span<const Point> points, bool closed, d
                       double dash_px);
 
 /// Clockwise on the screen, or the other way round for a hole in such a circle.
-enum class Turn { clockwise, counterclockwise };
+enum class Winding { clockwise, counterclockwise };
 
-void add_circle(cairo_t& cr, const Point& centre, double radius_px, Turn turn = Turn::clockwise);
+void add_circle(cairo_t& cr, const Point& centre, double radius_px,
+                Winding winding = Winding::clockwise);
 
 }  // namespace piblocks

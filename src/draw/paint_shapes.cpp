@@ -107,7 +107,7 @@ void with_points_in_reach(const Points& all, const Use& use) {
 
 /// Eight curves, at most 5e-6 of the radius from the circle. Those of cairo_arc() take sine and
 /// cosine from the C library, which are not the same everywhere.
-void add_curves(cairo_t& cr, const Point& centre, double radius) {
+void add_circle_curves(cairo_t& cr, const Point& centre, double radius) {
   constexpr double kHandle = 0.26521648983954400;  // 4/3 tan(pi / 16)
   constexpr double kHalf = std::numbers::sqrt2 / 2;
   constexpr std::array<Point, 9> kDirections{{{1, 0},
@@ -174,7 +174,7 @@ void paint_shape(cairo_t& cr, const PathItem& item) {
 
 void paint_shape(cairo_t& cr, const DiskItem& item) {
   if (!has_pixels(cr)) {
-    add_curves(cr, item.centre, item.radius);
+    add_circle_curves(cr, item.centre, item.radius);
     return fill_and_stroke(cr, item.fill, item.stroke);
   }
   if (item.fill) {
@@ -185,7 +185,7 @@ void paint_shape(cairo_t& cr, const DiskItem& item) {
     const double half_px = item.stroke->width_px / 2;
     add_circle(cr, item.centre, item.radius + half_px);
     if (item.radius > half_px) {
-      add_circle(cr, item.centre, item.radius - half_px, Turn::counterclockwise);
+      add_circle(cr, item.centre, item.radius - half_px, Winding::counterclockwise);
     }
     fill(cr, item.stroke->color);
   }

@@ -74,6 +74,20 @@ set(CPACK_DEBIAN_PYTHON_DESCRIPTION
 counts of any size, logs, states and frames as NumPy arrays, films, the player
 and a slider in notebooks, and a plugin of pytest for golden references.")
 
+# Compiles the package's files when it is installed, and takes away what Python made of them.
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/python/postinst
+"#!/bin/sh
+set -e
+if command -v py3compile >/dev/null; then py3compile -p python3-piblocks; fi
+")
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/python/prerm
+"#!/bin/sh
+set -e
+if command -v py3clean >/dev/null; then py3clean -p python3-piblocks; fi
+")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+  ${CMAKE_CURRENT_BINARY_DIR}/python/postinst ${CMAKE_CURRENT_BINARY_DIR}/python/prerm)
+
 # Policy wants the licences in one file, in the folder of each package; nobody else needs that.
 set(doc_folder ${CMAKE_INSTALL_DATAROOTDIR}/doc)
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE PIBLOCKS_LICENSE)

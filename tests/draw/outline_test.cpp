@@ -173,7 +173,7 @@ TEST(Outline, OfACircleIsRound) {
 TEST(Outline, OfARingHasAHole) {
   const Coverage ring([](cairo_t& cr) {
     add_circle(cr, {48, 48}, 30);
-    add_circle(cr, {48, 48}, 20, Turn::counterclockwise);
+    add_circle(cr, {48, 48}, 20, Winding::counterclockwise);
   });
   EXPECT_EQ(ring.at(48, 48), 0);
   EXPECT_EQ(ring.at(48 + 25, 48), 255);

@@ -27,6 +27,7 @@ bare_debian() {
     failed "debootstrap of $2 for $3: $(tail -n 3 "$work/debootstrap.log")"
   mount -t proc proc "$work/$1/proc"
   mount --bind /dev "$work/$1/dev"
+  mount --bind /dev/pts "$work/$1/dev/pts"
 }
 
 # in_debian NAME TEXT: runs these commands there, stopping at the first that fails.

@@ -8,8 +8,8 @@
 namespace piblocks {
 namespace fs = std::filesystem;
 
-/// Where the system gives the main program the name that it was started by, that may be relative
-/// to the working folder. A name without a folder was found along PATH, and says nothing.
+/// Some systems return the name that the program was started by. It may be relative to the working
+/// folder. A name without a slash was found along PATH; the folder is unknown then.
 fs::path own_binary() {
   Dl_info info{};
   const void* here = reinterpret_cast<const void*>(&own_binary);

@@ -107,13 +107,8 @@ py::buffer_info buffer_of(const Frame& frame) {
 /// Fills rows of R, G, B and straight alpha, as a PNG file has them.
 void copy_rgba(const Frame& frame, const py::buffer& buffer) {
   const ImageView view = frame.view();
-  const py::buffer_info info = buffer.request(true);
   const std::size_t row_bytes = std::size_t(view.width_px) * 4;
-  if (std::size_t(info.size) * std::size_t(info.itemsize) !=
-      row_bytes * std::size_t(view.height_px)) {
-    throw std::invalid_argument("the array has another size");
-  }
-  auto* const to = static_cast<std::uint8_t*>(info.ptr);
+  std::uint8_t* const to = bytes_of(buffer, row_bytes * std::size_t(view.height_px)).data();
   const WithoutGil released;
   const PixelRect all{0, 0, view.width_px, view.height_px};
   for (int y = 0; y < view.height_px; ++y) pack_row(view, all, y, to + std::size_t(y) * row_bytes);

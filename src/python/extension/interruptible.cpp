@@ -53,7 +53,7 @@ class BreakOff {
   bool is_set_ = false;
 };
 
-/// The two threads' common knowledge.
+/// What the worker and the waiting thread share.
 class Conversation {
  public:
   /// By the thread that works.

@@ -37,15 +37,6 @@ class BoundRun {
   std::unique_ptr<CollisionLog> log_;
 };
 
-/// The memory of an array. @throws std::invalid_argument unless it has exactly so many bytes
-std::span<std::uint8_t> bytes_of(const py::buffer& buffer, std::size_t size_bytes) {
-  const py::buffer_info info = buffer.request(true);
-  if (std::size_t(info.size) * std::size_t(info.itemsize) != size_bytes) {
-    throw std::invalid_argument("the array has another size");
-  }
-  return {static_cast<std::uint8_t*>(info.ptr), size_bytes};
-}
-
 /// The index of the first row, and their number, both hexadecimal.
 py::tuple select(const BoundRun& run, const std::map<std::string, std::string>& options) {
   cli::Rows rows;

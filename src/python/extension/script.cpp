@@ -107,6 +107,21 @@ const Scene& scene_of(const BoundScript& script, const char* operation) {
                                script.recipe.origin, operation));
 }
 
+std::span<std::uint8_t> bytes_of(const pybind11::buffer& buffer, std::size_t size_bytes) {
+  const pybind11::buffer_info info = buffer.request(true);
+  if (std::size_t(info.size) * std::size_t(info.itemsize) != size_bytes) {
+    throw std::invalid_argument("the array has another size");
+  }
+  pybind11::ssize_t expected = info.itemsize;
+  for (std::size_t axis = info.shape.size(); axis-- > 0;) {
+    if (info.shape[axis] > 1 && info.strides[axis] != expected) {
+      throw std::invalid_argument("the array has gaps");
+    }
+    expected *= info.shape[axis];
+  }
+  return {static_cast<std::uint8_t*>(info.ptr), size_bytes};
+}
+
 std::string hexadecimal(const Integer& value) { return value.get_str(16); }
 
 void bind_script(py::module_& module) {

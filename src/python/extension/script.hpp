@@ -6,8 +6,10 @@
 #include <piblocks/script.hpp>
 #include <pybind11/pybind11.h>
 
+#include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -62,6 +64,10 @@ class BoundOptions final : public cli::OptionTexts {
 /// The one scene of a script.
 /// @param operation  named in messages. @throws UsageError if the script is a storyboard.
 const Scene& scene_of(const BoundScript& script, const char* operation);
+
+/// The memory of an array.
+/// @throws std::invalid_argument unless it is writable, without gaps, and has exactly so many bytes
+std::span<std::uint8_t> bytes_of(const pybind11::buffer& buffer, std::size_t size_bytes);
 
 /// Hexadecimal, because Python limits the length of decimal numbers.
 std::string hexadecimal(const Integer& value);

@@ -1,9 +1,9 @@
 // Work without Python's global lock, which the interpreter waits for when it ends.
 // In: a scope, entered with the lock. Out: the lock is free as long as the scope lasts.
 //
-// When the interpreter ends, it ends other threads the moment they ask for the lock, by unwinding
-// their stacks, which C++ code does not survive. So it first waits until all scopes are left, and a
-// thread that leaves one, or enters one, then waits for the end of the process.
+// An interpreter that ends kills each thread that asks for the lock, by unwinding its stack. C++
+// code does not survive that. So the interpreter waits at exit until all scopes are left. A thread
+// that enters or leaves a scope later waits for the end of the process.
 #pragma once
 
 #include <pybind11/pybind11.h>

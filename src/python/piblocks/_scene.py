@@ -186,6 +186,8 @@ class Scene:
         if name.endswith(" (shipped)"):
             shipped = name.removesuffix(" (shipped)")
             return f"Scene.shipped({', '.join([repr(shipped), *arguments])})"
+        if keys and keys[0][1] == "part" or name == "part":
+            return "Scene(part=[...])"
         return f"Scene.from_toml_text(..., {', '.join([repr(name), *arguments])})"
 
     # Numbers

@@ -5,8 +5,8 @@
         return Scene(digits=2, view_size="640x360")
 
 ``pytest`` alone runs the function. ``pytest --piblocks-golden`` compares its scene with the
-references beside the test's file; ``--piblocks-golden-record`` keeps references where there are
-none, and ``--piblocks-golden-approve`` replaces them. The files are those of ``piblocks golden``.
+references beside the test's file; ``--piblocks-golden-record`` keeps new ones, and fails where
+there are some; ``--piblocks-golden-approve`` replaces them. The files are those of ``piblocks golden``.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--piblocks-golden", action="store_true",
                     help="compare the scenes of marked tests with their references")
     group.addoption("--piblocks-golden-record", action="store_true",
-                    help="keep references of scenes that have none")
+                    help="keep new references; fail where there are some")
     group.addoption("--piblocks-golden-approve", action="store_true",
                     help="replace the references, and tell what changes")
     group.addoption("--piblocks-golden-results", metavar="DIR", default=None,
