@@ -76,6 +76,14 @@ std::vector<std::uint8_t> draw_file(const DrawList& list, MakeSurface make) {
 /// How Cairo names groups in an SVG file: "surface12" in version 1.16, "source-12" in 1.18.
 constexpr std::array<std::string_view, 2> kGroupNames = {"surface", "source-"};
 
+/// Of the name that a text begins with; 0 if it begins with none.
+std::size_t length_of_group_name(std::string_view text) {
+  for (const std::string_view name : kGroupNames) {
+    if (text.starts_with(name)) return name.size();
+  }
+  return 0;
+}
+
 /// Cairo numbers groups through the whole process, so that equal draw lists give different files.
 /// This numbers them from the beginning of the file.
 std::vector<std::uint8_t> with_fixed_ids(const std::vector<std::uint8_t>& svg) {
@@ -84,11 +92,10 @@ std::vector<std::uint8_t> with_fixed_ids(const std::vector<std::uint8_t>& svg) {
   std::string fixed;
   std::size_t copied = 0;
   for (auto at = text.find('s'); at != std::string_view::npos; at = text.find('s', at + 1)) {
-    const auto name = std::ranges::find_if(
-        kGroupNames, [&](std::string_view group) { return text.substr(at).starts_with(group); });
-    if (name == kGroupNames.end()) continue;
+    const std::size_t length = length_of_group_name(text.substr(at));
+    if (length == 0) continue;
     const bool is_name = text.substr(0, at).ends_with("id=\"") || text.substr(0, at).ends_with('#');
-    const std::size_t begin = at + name->size();
+    const std::size_t begin = at + length;
     const std::size_t end = std::min(text.find_first_not_of("0123456789", begin), text.size());
     if (!is_name || end == begin) continue;
     const std::string_view count = text.substr(begin, end - begin);

@@ -5,6 +5,7 @@
 #include <piblocks/script.hpp>
 
 // Releases of toml++ differ: 256 up to 3.4, 128 after it. One that was compiled keeps its own.
+// NOLINTNEXTLINE(cppcoreguidelines-macro-usage): the library reads it
 #define TOML_MAX_NESTED_VALUES 256
 #include <toml++/toml.h>
 
