@@ -5,6 +5,8 @@
 #include <piblocks/error.hpp>
 #include <piblocks/script.hpp>
 
+#include <utility>
+
 #include "cli/options.hpp"
 #include "cli/shipped_scenes.hpp"
 #include "cli/text_output.hpp"
@@ -28,7 +30,7 @@ std::string in_lines(std::string names) {
 
 }  // namespace
 
-SceneOptions::SceneOptions(const Command& command) : command_(command) {
+SceneOptions::SceneOptions(Command command) : command_(std::move(command)) {
   command_.add_optional_argument(kScene,
                                  "Scene file, or a name that 'piblocks scenes' lists; without it,\n"
                                  "the article's scene: three digits");

@@ -20,7 +20,7 @@ namespace piblocks::cli {
 class SceneOptions {
  public:
   /// Adds [SCENE], --digits, --base and --mass-ratio.
-  explicit SceneOptions(const Command& command);
+  explicit SceneOptions(Command command);
   void add_size();
   /// Adds --size, --transparent and --opaque.
   void add_picture();
