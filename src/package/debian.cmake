@@ -105,6 +105,10 @@ add_custom_command(
   DEPENDS ${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian ${PROJECT_SOURCE_DIR}/CHANGELOG.md
   VERBATIM)
 add_custom_target(piblocks_changelog ALL DEPENDS changelog.Debian.gz)
+if(PIBLOCKS_PYTHON)
+  # pip builds that target alone, and installs its component.
+  add_dependencies(piblocks_python piblocks_changelog)
+endif()
 foreach(package program:piblocks development:libpiblocks-dev python:python3-piblocks)
   string(REPLACE ":" ";" package ${package})
   list(GET package 0 component)
