@@ -26,7 +26,7 @@ set(python_may ${layers})
 # The layer of each header in include/piblocks.
 set(core_headers error exact image version)
 set(h264_headers)
-set(physics_headers event_simulator run)
+set(physics_headers bodies event_simulator run)
 set(scene_headers instant scene script)
 set(media_headers encode)
 set(golden_headers compare)

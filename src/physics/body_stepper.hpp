@@ -1,0 +1,55 @@
+// What steps bodies from collision to collision.
+// In: a BodySystem without problems. Out: its collisions one after the other, and up to when they
+// are certain to be the true ones.
+#pragma once
+
+#include <piblocks/bodies.hpp>
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace piblocks {
+
+/// One collision; motions are those just after it.
+struct BodyStep {
+  Time time;
+  std::optional<Rational> exact_time = {};  ///< if the engine knows it
+  std::uint32_t first = 0;                  ///< as in BodyCollision
+  std::uint32_t second = 0;
+  BodyMotion first_after = {};
+  BodyMotion second_after = {};
+};
+
+/// Until when rounding cannot have changed what collides with what. Before that time each body
+/// meets those bodies and walls that it truly meets, in the true order.
+struct Certainty {
+  static constexpr double kForEver = std::numeric_limits<double>::infinity();
+  double until = kForEver;  ///< simulation time
+};
+
+class BodyStepper {
+ public:
+  BodyStepper() = default;
+  BodyStepper(const BodyStepper&) = delete;
+  BodyStepper& operator=(const BodyStepper&) = delete;
+  virtual ~BodyStepper() = default;
+
+  /// The next collision; none if there will be no more. Times never decrease. Of several at the
+  /// same time the pair that comes first in the order (0,1), (0,2), …, (1,2), … is first.
+  /// @throws SimulationError if a number leaves the range of a double.
+  virtual std::optional<BodyStep> step() = 0;
+  /// What is known so far: that all steps before this time are certain. It falls once, from for
+  /// ever to a time not before the last certain collision.
+  virtual Certainty certainty() const = 0;
+};
+
+/// Discs in a plane, in double precision, with an error bound for every number. A step costs
+/// O(log N) for N discs of like size.
+std::unique_ptr<BodyStepper> make_disc_stepper(const BodySystem& system);
+
+/// Blocks on a line: in rational numbers while these are short, then in double precision with an
+/// error bound.
+std::unique_ptr<BodyStepper> make_line_stepper(const BodySystem& system);
+
+}  // namespace piblocks
