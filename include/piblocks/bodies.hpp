@@ -57,14 +57,14 @@ struct BodyMotion {
   bool operator==(const BodyMotion&) const = default;
 };
 
-/// What two bodies, or a body and a wall, are just after they have met.
+/// Two bodies, or a body and a wall, just after they have met.
 struct BodyCollision {
-  Integer index;       ///< as Timeline counts
-  Time time;           ///< as exact as the engine knows it
+  Integer index;  ///< as Timeline counts
+  Time time = {};
   std::uint32_t first = 0;   ///< place of a body in BodySystem::bodies
   std::uint32_t second = 0;  ///< of another, > first; or bodies.size() and the place of a wall
-  BodyMotion first_after;
-  BodyMotion second_after;  ///< of a wall: nothing but zeros
+  BodyMotion first_after = {};
+  BodyMotion second_after = {};  ///< of a wall: where it is, and no velocity
 };
 
 /// All bodies at one instant.
@@ -72,4 +72,50 @@ struct BodiesState {
   Integer count;  ///< index of the last collision until then
   std::vector<BodyMotion> bodies;
 };
+
+/// On a line, collisions are computed in rational numbers while none of these has more bits, and
+/// there are no more collisions; from then on in double precision.
+inline constexpr std::size_t kMaxExactBits = 4096;
+inline constexpr std::int64_t kMaxExactCollisions = 100'000;
+
+/// Most collisions that are stored, at 160 bytes each.
+inline constexpr std::int64_t kMaxBodyCollisions = 2'000'000;
+
+/// All collisions of bodies from time 0 on, by index. Several collisions at one instant happen in
+/// the order of their pairs: (0,1), (0,2), …, (1,2), …, walls after bodies. Const members are
+/// thread-safe.
+class BodyLog : public Timeline {
+ public:
+  const BodySystem& system() const noexcept { return system_; }
+  /// The collision with 1 <= index <= size().
+  virtual BodyCollision collision(const Integer& index) const = 0;
+  /// The bodies at a time >= 0. A collision exactly at `time` has happened.
+  /// @throws UsageError if the time is negative; SimulationError if there are more than
+  ///         kMaxBodyCollisions until then.
+  virtual BodiesState state_at(const Rational& time) const = 0;
+  /// How many collisions from the first on are computed in rational numbers; size() if all are.
+  virtual Integer exact_size() const = 0;
+  /// Until when rounding cannot have changed which bodies collide, nor in which order each of them
+  /// meets the others. Nothing if it cannot at all, as far as the log has been computed.
+  virtual std::optional<double> certain_until() const = 0;
+
+ protected:
+  explicit BodyLog(BodySystem system) : system_(std::move(system)) {}
+
+ private:
+  BodySystem system_;
+};
+
+/// Two blocks and one wall or immovable block beside them are in closed form. All others are stepped
+/// and stored.
+/// @param until  up to which time collisions count; nothing for all. States can be asked for later
+///               times, too.
+/// @throws SceneError if problems_of(system) is not empty; UsageError if collisions never end and
+///         there is no `until`; SimulationError if there are more than kMaxBodyCollisions.
+std::unique_ptr<BodyLog> make_body_log(const BodySystem& system,
+                                       const std::optional<Rational>& until);
+
+/// Whether collisions may never end: bodies that move between two walls, or in a closed box.
+bool may_never_end(const BodySystem& system);
+
 }  // namespace piblocks

@@ -115,21 +115,47 @@ class CollisionStream {
   virtual bool read(CollisionBatch& batch) = 0;
 };
 
-/// All collisions of a run, by index. The collisions from time 0 on have the indices 1, 2, …,
-/// size(), those before time 0 the indices 0, -1, … down to first_index(). Blocks that touch at
-/// time 0 and move apart, or blue that then leaves the wall, have had collision 0 at time 0. Const
-/// members are thread-safe.
-class CollisionLog {
+/// The collisions of a run by index, whatever collides. Those from time 0 on have the indices 1, 2,
+/// …, size(), those before time 0 the indices 0, -1, … down to first_index(). Const members are
+/// thread-safe.
+class Timeline {
  public:
-  virtual ~CollisionLog() = default;
-  CollisionLog(const CollisionLog&) = delete;
-  CollisionLog& operator=(const CollisionLog&) = delete;
+  Timeline() = default;
+  virtual ~Timeline() = default;
+  Timeline(const Timeline&) = delete;
+  Timeline& operator=(const Timeline&) = delete;
 
-  const BlockSystem& system() const noexcept { return system_; }
   /// Number of collisions from time 0 on, and the index of the last of all time.
   const Integer& size() const noexcept { return size_; }
   /// Index of the first collision of all time; 1 if there are none before time 0.
   const Integer& first_index() const noexcept { return first_index_; }
+  /// Index of the last collision until then. A collision exactly at `time` has happened.
+  virtual Integer count_at(const Rational& time) const = 0;
+  /// A time at which exactly the collisions up to this one have happened: that of the collision if
+  /// its exact value is short, otherwise one so little later that no picture can show the
+  /// difference. first_index() <= index <= size().
+  /// @throws UsageError if the next collision happens at the same time.
+  /// @throws SimulationError if a stepping engine cannot tell the two times apart.
+  virtual Rational time_after(const Integer& index) const = 0;
+  /// When collisions are densest, if the run has such an instant: as turn_of().
+  virtual std::optional<Rational> turn() const = 0;
+
+ protected:
+  void set_range(Integer first_index, Integer size) {
+    first_index_ = std::move(first_index);
+    size_ = std::move(size);
+  }
+
+ private:
+  Integer first_index_ = 1;
+  Integer size_ = 0;
+};
+
+/// All collisions of two blocks and a wall. Blocks that touch at time 0 and move apart, or blue that
+/// then leaves the wall, have had collision 0 at time 0.
+class CollisionLog : public Timeline {
+ public:
+  const BlockSystem& system() const noexcept { return system_; }
   /// The collision with first_index() <= index <= size().
   /// @throws SimulationError if its time or state is beyond the range of a double.
   virtual Collision collision(const Integer& index) const = 0;
@@ -140,24 +166,15 @@ class CollisionLog {
   /// Collisions first … last with first_index() <= first, last <= size(); none if last < first.
   /// @throws SimulationError as collision().
   virtual std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const;
-  /// A time at which exactly the collisions up to this one have happened: that of the collision if
-  /// its exact value is short, otherwise one so little later that no picture can show the
-  /// difference. first_index() <= index <= size().
-  /// @throws UsageError if the next collision happens at the same time.
-  /// @throws SimulationError if a stepping engine cannot tell the two times apart.
-  virtual Rational time_after(const Integer& index) const = 0;
+
+  Integer count_at(const Rational& time) const override { return state_at(time).count; }
+  std::optional<Rational> turn() const override { return turn_of(system_); }
 
  protected:
   explicit CollisionLog(BlockSystem system) : system_(std::move(system)) {}
-  void set_range(Integer first_index, Integer size) {
-    first_index_ = std::move(first_index);
-    size_ = std::move(size);
-  }
 
  private:
   BlockSystem system_;
-  Integer first_index_ = 1;
-  Integer size_ = 0;
 };
 
 enum class Engine {

@@ -50,18 +50,18 @@ class SceneProblems {
   explicit SceneProblems(std::vector<Problem> list = {}) : list_(std::move(list)) {}
   /// @param reason, args  as fmt::format() takes them.
   template <typename... Args>
-  void add(const char* key, fmt::format_string<const Args&...> reason, const Args&... args) {
+  void add(const std::string& key, fmt::format_string<const Args&...> reason, const Args&... args) {
     list_.push_back({key, fmt::format(reason, args...)});
   }
   template <typename... Args>
-  void require(bool holds, const char* key, fmt::format_string<const Args&...> reason,
+  void require(bool holds, const std::string& key, fmt::format_string<const Args&...> reason,
                const Args&... args) {
     if (!holds) add(key, reason, args...);
   }
-  void require_positive(const char* key, const Rational& value) {
+  void require_positive(const std::string& key, const Rational& value) {
     require(value > 0, key, "= {}: must be greater than 0", value);
   }
-  void require_finite(const char* key, const Rational& value) {
+  void require_finite(const std::string& key, const Rational& value) {
     require(is_finite(value), key, "is beyond the range of a double (about 1.8e308)");
   }
   bool empty() const { return list_.empty(); }

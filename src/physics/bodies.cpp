@@ -1,10 +1,164 @@
 #include <fmt/format.h>
 #include <piblocks/bodies.hpp>
-#include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "physics/blocks.hpp"
+#include "physics/exact_line.hpp"
 
 namespace piblocks {
+namespace {
+
+/// The name of a body in messages; bodies are counted from 1 there.
+std::string name_of(std::size_t body) { return fmt::format("body {}", body + 1); }
+std::string key_of(std::size_t body, const char* value) {
+  return fmt::format("body {}.{}", body + 1, value);
 }
+
+Rational dot(const ExactVector& a, const ExactVector& b) { return a[0] * b[0] + a[1] * b[1]; }
+ExactVector difference(const ExactVector& a, const ExactVector& b) {
+  return {a[0] - b[0], a[1] - b[1]};
+}
+
+/// Collects what is wrong with each body alone.
+void check_body(const BodySystem& system, std::size_t index, SceneProblems& problems) {
+  const Body& body = system.bodies[index];
+  const char* const size = system.dimensions == 1 ? "width" : "radius";
+  if (body.mass) {
+    problems.require_positive(key_of(index, "mass"), *body.mass);
+    problems.require_finite(key_of(index, "mass"), *body.mass);
+  } else {
+    problems.require(body.velocity[0] == 0 && body.velocity[1] == 0, key_of(index, "velocity"),
+                     "= [{}, {}]: a body of infinite mass must be at rest", body.velocity[0],
+                     body.velocity[1]);
+  }
+  problems.require_positive(key_of(index, size), body.size);
+  problems.require_finite(key_of(index, size), body.size);
+  for (const int axis : {0, 1}) {
+    problems.require_finite(key_of(index, "position"), body.position.at(std::size_t(axis)));
+    problems.require_finite(key_of(index, "velocity"), body.velocity.at(std::size_t(axis)));
+  }
+}
+
+void check_wall(const Wall& wall, const Body& body, std::size_t index, SceneProblems& problems) {
+  const Rational reach = body.size;
+  const Rational along = dot(difference(body.position, wall.point), wall.normal);
+  const Rational square = dot(wall.normal, wall.normal);
+  const bool is_inside = along >= 0 && along * along >= reach * reach * square;
+  problems.require(is_inside, key_of(index, "position"), "= [{}, {}]: is beyond the {} wall",
+                   body.position[0], body.position[1], wall.name);
+}
+
+/// Blocks that overlap their neighbour, or are beyond a wall.
+void check_line(const BodySystem& system, SceneProblems& problems) {
+  std::vector<std::size_t> order(system.bodies.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return system.bodies[i].position[0]; });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Body& body = system.bodies[order[i]];
+    for (const Wall& wall : system.walls) {
+      const Rational inside = sgn(wall.normal[0]) * (body.position[0] - wall.point[0]);
+      problems.require(inside >= body.size / 2, key_of(order[i], "position"),
+                       "= {}: reaches {} beyond the {} wall", body.position[0],
+                       Rational(body.size / 2 - inside), wall.name);
+    }
+    if (i == 0) continue;
+    const Body& left = system.bodies[order[i - 1]];
+    const Rational gap = body.position[0] - left.position[0] - (body.size + left.size) / 2;
+    problems.require(gap >= 0, key_of(order[i], "position"), "= {}: overlaps {} by {}",
+                     body.position[0], name_of(order[i - 1]), Rational(-gap));
+  }
+}
+
+/// Discs that overlap. Only those are compared whose extents along x overlap.
+void check_plane(const BodySystem& system, SceneProblems& problems) {
+  const std::vector<Body>& bodies = system.bodies;
+  const auto left = [&](std::size_t i) -> Rational { return bodies[i].position[0] - bodies[i].size; };
+  std::vector<std::size_t> order(bodies.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<double> lefts;
+  for (const std::size_t i : order) lefts.push_back(to_double(left(i)));
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return lefts[i]; });
+  for (std::size_t a = 0; a < order.size(); ++a) {
+    const Body& first = bodies[order[a]];
+    for (const Wall& wall : system.walls) check_wall(wall, first, order[a], problems);
+    const double right = std::nextafter(to_double(first.position[0] + first.size), INFINITY);
+    for (std::size_t b = a + 1; b < order.size() && lefts[order[b]] <= right; ++b) {
+      const Body& second = bodies[order[b]];
+      const Rational reach = first.size + second.size;
+      if (abs(second.position[1] - first.position[1]) >= reach) continue;
+      const ExactVector apart = difference(second.position, first.position);
+      const auto [one, other] = std::minmax(order[a], order[b]);
+      problems.require(dot(apart, apart) >= reach * reach, key_of(other, "position"),
+                       "= [{}, {}]: overlaps {}", bodies[other].position[0],
+                       bodies[other].position[1], name_of(one));
+    }
+  }
+}
+
+void check_dimensions(const BodySystem& system, SceneProblems& problems) {
+  problems.require(system.dimensions == 1 || system.dimensions == 2, "body",
+                   "has {} dimensions: must have 1 or 2", system.dimensions);
+  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
+    const Body& body = system.bodies[i];
+    const bool is_flat = body.position[1] == 0 && body.velocity[1] == 0;
+    problems.require(system.dimensions == 2 || is_flat, key_of(i, "position"),
+                     "has two coordinates: blocks are on a line");
+  }
+  for (const Wall& wall : system.walls) {
+    const bool is_upright = wall.normal[0] != 0 && wall.normal[1] == 0;
+    const bool is_there = wall.normal[0] != 0 || wall.normal[1] != 0;
+    problems.require(system.dimensions == 2 ? is_there : is_upright, "box",
+                     "has a {} wall that blocks on a line cannot meet", wall.name);
+  }
+}
+
+}  // namespace
+
+std::vector<Problem> problems_of(const BodySystem& system) {
+  SceneProblems problems;
+  problems.require(!system.bodies.empty(), "body", "is missing: there must be at least one");
+  problems.require(system.bodies.size() <= kMaxBodies, "body", "= {} of them: at most {} can be shown",
+                   system.bodies.size(), kMaxBodies);
+  problems.require(system.walls.size() <= kMaxWalls, "box", "has {} walls: at most {} are possible",
+                   system.walls.size(), kMaxWalls);
+  if (!problems.empty()) return problems.take();
+  check_dimensions(system, problems);
+  for (std::size_t i = 0; i < system.bodies.size(); ++i) check_body(system, i, problems);
+  const bool can_move = std::ranges::any_of(
+      system.bodies, [](const Body& body) { return body.mass.has_value(); });
+  problems.require(can_move, "body", "all have infinite mass: nothing can move");
+  if (!problems.empty()) return problems.take();  // what follows would only repeat them
+  if (system.dimensions == 1) {
+    check_line(system, problems);
+  } else {
+    check_plane(system, problems);
+  }
+  return problems.take();
+}
+
+bool may_never_end(const BodySystem& system) {
+  if (system.dimensions == 1) {
+    const std::vector<LineElement> elements = elements_of(system);
+    const auto is_fixed = [](const LineElement& element) { return !element.mass; };
+    const auto first = std::ranges::find_if(elements, is_fixed);
+    const auto last = std::ranges::find_if(elements.rbegin(), elements.rend(), is_fixed);
+    return first != elements.end() && !std::all_of(first, last.base(), is_fixed);
+  }
+  // Discs get away from all walls if these face one open half-plane: if seen from one of their
+  // normals all others are less than half a turn to its left.
+  const auto cross = [](const ExactVector& a, const ExactVector& b) -> Rational {
+    return a[0] * b[1] - a[1] * b[0];
+  };
+  const auto is_rightmost = [&](const Wall& wall) {
+    return std::ranges::all_of(system.walls, [&](const Wall& other) {
+      const int side = sgn(cross(wall.normal, other.normal));
+      return side > 0 || (side == 0 && dot(wall.normal, other.normal) > 0);
+    });
+  };
+  return !system.walls.empty() && std::ranges::none_of(system.walls, is_rightmost);
+}
+
+}  // namespace piblocks

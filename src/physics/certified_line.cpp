@@ -1,0 +1,230 @@
+#include "physics/certified_line.hpp"
+
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "core/two_sum.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr double kUnitRoundoff = 0x1p-53;
+/// Roundings of an advanced position, and of a velocity after a collision, with some to spare.
+constexpr double kPositionRoundings = 6 * kUnitRoundoff;
+constexpr double kVelocityRoundings = 12 * kUnitRoundoff;
+/// Makes up for the rounding of the bounds themselves.
+constexpr double kSpare = 1 + 0x1p-40;
+/// Doubts are predicted for errors so many times larger than those so far.
+constexpr double kBudget = 8;
+
+double root_of(const std::optional<Rational>& mass) {
+  return mass ? std::sqrt(to_double(*mass)) : 0;
+}
+
+double share_of_change(const LineElement& own, const LineElement& other) {
+  if (!own.mass) return 0;
+  if (!other.mass) return 2;
+  return to_double(2 * *other.mass / (*own.mass + *other.mass));
+}
+
+double inverse_mass(const LineElement& element) {
+  return element.mass ? to_double(1 / *element.mass) : 0;
+}
+
+}  // namespace
+
+CertifiedLine::CertifiedLine(std::span<const LineElement> elements, const Rational& begin)
+    : pairs_(elements.size() - 1),
+      next_(std::max<std::size_t>(pairs_.size(), 1), Earlier{*this}),
+      begin_(to_time(begin)) {
+  for (const LineElement& exact : elements) {
+    Element& element = elements_.emplace_back();
+    element.id = exact.id;
+    element.half_width = to_double(exact.half_width);
+    element.position = to_double(exact.position_at(begin));
+    element.velocity = to_double(exact.velocity);
+    element.root_mass = root_of(exact.mass);
+    position_error_ += element.root_mass * kUnitRoundoff * std::fabs(element.position);
+    velocity_error_ += element.root_mass * kUnitRoundoff * std::fabs(element.velocity);
+  }
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const LineElement& left = elements[i];
+    const LineElement& right = elements[i + 1];
+    Pair& pair = pairs_[i];
+    pair.left_share = share_of_change(left, right);
+    pair.right_share = share_of_change(right, left);
+    pair.gap_per_norm = kSpare * std::sqrt(inverse_mass(left) + inverse_mass(right));
+    // Exact numbers tell that they have just met, or are at rest beside each other.
+    pair.has_met = left.position_at(begin) + left.half_width ==
+                       right.position_at(begin) - right.half_width &&
+                   left.velocity <= right.velocity;
+  }
+  position_budget_ = kBudget * position_error_;
+  velocity_budget_ = kBudget * velocity_error_;
+  if (!pairs_.empty()) predict_all();
+}
+
+bool CertifiedLine::Earlier::operator()(std::size_t a, std::size_t b) const {
+  if (line.pairs_.empty()) return false;
+  const Pair& first = line.pairs_[a];
+  const Pair& second = line.pairs_[b];
+  if (first.due != second.due) return first.due < second.due;
+  const auto ids = [this](std::size_t pair) {
+    return std::minmax(line.elements_[pair].id, line.elements_[pair + 1].id);
+  };
+  return first.due < kNever && ids(a) < ids(b);
+}
+
+CertifiedLine::Approach CertifiedLine::approach(std::size_t pair) const {
+  const Element& left = elements_[pair];
+  const Element& right = elements_[pair + 1];
+  const double clock = std::max(left.since, right.since);
+  const double left_way = left.velocity * (clock - left.since);
+  const double right_way = right.velocity * (clock - right.since);
+  const double widths = left.half_width + right.half_width;
+  const double largest = std::fabs(left.position) + std::fabs(left_way) +
+                         std::fabs(right.position) + std::fabs(right_way) + widths;
+  const double gap = ((right.position - left.position) + (right_way - left_way)) - widths;
+  return {clock, gap, kPositionRoundings * largest, left.velocity - right.velocity};
+}
+
+double CertifiedLine::earliest(std::size_t pair, const Approach& approach) const {
+  const Pair& p = pairs_[pair];
+  if (p.has_met) return kNever;
+  const double speed_error = velocity_budget_ * p.gap_per_norm +
+                             kVelocityRoundings * std::fabs(approach.closing);
+  const double closing = approach.closing + speed_error;
+  if (!(closing > 0)) return kNever;
+  const double gap = approach.gap - approach.rounding - position_budget_ * p.gap_per_norm;
+  return approach.clock + std::max(0.0, gap) / (closing * kSpare);
+}
+
+void CertifiedLine::predict(std::size_t pair) {
+  Pair& p = pairs_[pair];
+  const Approach now = approach(pair);
+  p.is_doubt = false;
+  p.due = kNever;
+  if (!p.has_met && now.closing > 0) {
+    p.due = now.clock + std::max(0.0, now.gap) / now.closing;
+  } else if (is_certain()) {
+    p.due = earliest(pair, now);
+    p.is_doubt = p.due < kNever;
+  }
+  if (std::isnan(p.due)) {
+    throw SimulationError("bodies: the time of a collision is out of the range of a double");
+  }
+}
+
+void CertifiedLine::predict_all() {
+  for (std::size_t pair = 0; pair < pairs_.size(); ++pair) predict(pair);
+  next_.replay_all();
+}
+
+void CertifiedLine::end_certainty(double clock) {
+  certain_until_ = std::min(certain_until_, std::max(0.0, clock));
+  predict_all();
+}
+
+/// Errors grow with the time of flight. Doubts have to be predicted anew once they have outgrown
+/// what these were predicted with.
+bool CertifiedLine::move_bounds_to(double clock) {
+  const double elapsed = std::max(0.0, clock - clock_);
+  position_error_ = (position_error_ + velocity_error_ * elapsed) * kSpare;
+  clock_ = std::max(clock_, clock);
+  if (position_error_ <= position_budget_ && velocity_error_ <= velocity_budget_) return true;
+  position_budget_ = kBudget * position_error_;
+  velocity_budget_ = kBudget * velocity_error_;
+  return false;
+}
+
+/// Ends certainty unless these two truly meet now, before either can meet another.
+void CertifiedLine::check_order(std::size_t pair, double clock) {
+  const Pair& p = pairs_[pair];
+  const Approach now = approach(pair);
+  const double rest = std::fabs(now.gap - now.closing * (clock - now.clock)) + now.rounding +
+                      kVelocityRoundings * std::fabs(now.gap);
+  const double gap_error = position_error_ * p.gap_per_norm + rest;
+  const double slowest = now.closing - velocity_error_ * p.gap_per_norm -
+                         kVelocityRoundings * now.closing;
+  if (!(slowest > 0)) return end_certainty(earliest(pair, now));
+  const double tolerance = gap_error / slowest * kSpare + kPositionRoundings * clock;
+  double other = kNever;
+  if (pair > 0) other = std::min(other, earliest(pair - 1, approach(pair - 1)));
+  if (pair + 1 < pairs_.size()) other = std::min(other, earliest(pair + 1, approach(pair + 1)));
+  if (other <= clock + tolerance) return end_certainty(std::min(clock - tolerance, other));
+  // Reflected while a rest of the gap is left, they are off by twice this rest.
+  position_error_ += 2 * rest / p.gap_per_norm * kSpare;
+}
+
+void CertifiedLine::advance(Element& element, double clock) {
+  const double way = element.velocity * (clock - element.since);
+  position_error_ += element.root_mass * kPositionRoundings *
+                     (std::fabs(element.position) + std::fabs(way)) * kSpare;
+  element.position += way;
+  element.since = clock;
+}
+
+void CertifiedLine::collide(std::size_t pair) {
+  Element& left = elements_[pair];
+  Element& right = elements_[pair + 1];
+  const double closing = left.velocity - right.velocity;
+  velocity_error_ += (left.root_mass + right.root_mass) * kVelocityRoundings *
+                     (std::fabs(left.velocity) + std::fabs(right.velocity)) * kSpare;
+  left.velocity -= pairs_[pair].left_share * closing;
+  right.velocity += pairs_[pair].right_share * closing;
+  if (!std::isfinite(left.velocity) || !std::isfinite(right.velocity) ||
+      !std::isfinite(left.position) || !std::isfinite(right.position)) {
+    throw SimulationError("bodies: a position or velocity is out of the range of a double");
+  }
+}
+
+void CertifiedLine::replay_around(std::size_t pair) {
+  for (std::size_t other = pair > 0 ? pair - 1 : 0;
+       other <= std::min(pair + 1, pairs_.size() - 1); ++other) {
+    if (other != pair) pairs_[other].has_met = false;
+    predict(other);
+    next_.replay(other);
+  }
+}
+
+std::optional<BodyStep> CertifiedLine::step() {
+  if (pairs_.empty()) return std::nullopt;
+  for (;;) {
+    const std::size_t pair = next_.winner();
+    const double due = pairs_[pair].due;
+    if (due == kNever) return std::nullopt;
+    if (is_certain() && !move_bounds_to(due)) {
+      predict_all();
+      continue;
+    }
+    if (pairs_[pair].is_doubt) {
+      end_certainty(due);
+      continue;
+    }
+    if (is_certain()) check_order(pair, due);
+    advance(elements_[pair], due);
+    advance(elements_[pair + 1], due);
+    collide(pair);
+    pairs_[pair].has_met = true;
+    replay_around(pair);
+    const auto motion = [](const Element& e) {
+      return BodyMotion{{e.position, 0}, {e.velocity, 0}};
+    };
+    const Time sum = two_sum(begin_.hi, due);
+    const Element& left = elements_[pair];
+    const Element& right = elements_[pair + 1];
+    return step_of(two_sum(sum.hi, sum.lo + begin_.lo), left.id, motion(left), right.id,
+                   motion(right));
+  }
+}
+
+Certainty CertifiedLine::certainty() const {
+  if (is_certain()) return {};
+  return {std::nextafter(begin_.hi, 0.0) + certain_until_ * (1 - 0x1p-50)};
+}
+
+}  // namespace piblocks

@@ -1,0 +1,93 @@
+// Blocks on a line, from collision to collision in double precision, with a bound of the error.
+// In: the exact state at one instant. Out: collisions, and up to when rounding cannot have changed
+// their order.
+#pragma once
+
+#include <piblocks/bodies.hpp>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "physics/body_stepper.hpp"
+#include "physics/exact_line.hpp"
+#include "physics/tournament.hpp"
+
+namespace piblocks {
+
+/// README.md, "Blocks on a line", derives the bound. Each element has its own clock; clocks count
+/// from the instant at which the line begins.
+class CertifiedLine {
+ public:
+  /// @param elements  as ExactLine has them just after the collision at `begin`.
+  CertifiedLine(std::span<const LineElement> elements, const Rational& begin);
+  CertifiedLine(const CertifiedLine&) = delete;
+  CertifiedLine& operator=(const CertifiedLine&) = delete;
+  ~CertifiedLine() = default;
+
+  /// The next collision; none if there will be no more.
+  /// @throws SimulationError if a number leaves the range of a double.
+  std::optional<BodyStep> step();
+  Certainty certainty() const;
+
+ private:
+  struct Element {
+    std::uint32_t id = 0;
+    double half_width = 0;
+    double position = 0;
+    double velocity = 0;
+    double since = 0;      ///< clock of position
+    double root_mass = 0;  ///< square root of the mass; 0 if no collision moves it
+  };
+  /// Two neighbours.
+  struct Pair {
+    double left_share = 0;   ///< of the closing speed, by how much the left one's velocity falls
+    double right_share = 0;  ///< and the right one's rises
+    /// sqrt(1/m_left + 1/m_right): an error of norm E changes their gap by E times this at most.
+    double gap_per_norm = 0;
+    bool has_met = false;  ///< and neither has met another since
+    double due = kNever;   ///< clock of what comes next
+    bool is_doubt = false;  ///< not a collision, but the earliest that there might be one
+  };
+  /// A gap, and how fast it closes.
+  struct Approach {
+    double clock = 0;
+    double gap = 0;
+    double rounding = 0;  ///< of the gap
+    double closing = 0;
+  };
+  struct Earlier {
+    const CertifiedLine& line;
+    bool operator()(std::size_t a, std::size_t b) const;
+  };
+  static constexpr double kNever = Certainty::kForEver;
+
+  bool is_certain() const noexcept { return certain_until_ == kNever; }
+  Approach approach(std::size_t pair) const;
+  /// The earliest clock at which the two may meet.
+  double earliest(std::size_t pair, const Approach& approach) const;
+  void predict(std::size_t pair);
+  void replay_around(std::size_t pair);
+  void predict_all();
+  void end_certainty(double clock);
+  /// @return whether what doubts were predicted with still holds.
+  bool move_bounds_to(double clock);
+  void check_order(std::size_t pair, double clock);
+  void advance(Element& element, double clock);
+  void collide(std::size_t pair);
+
+  std::vector<Element> elements_;
+  std::vector<Pair> pairs_;
+  Tournament<Earlier> next_;
+  Time begin_;
+  double clock_ = 0;
+  double certain_until_ = kNever;  // on the clock
+  // Norms of the errors of all positions and of all velocities, each weighted by the root of its
+  // mass; and the larger ones that doubts have been predicted with.
+  double position_error_ = 0;
+  double velocity_error_ = 0;
+  double position_budget_ = 0;
+  double velocity_budget_ = 0;
+};
+
+}  // namespace piblocks

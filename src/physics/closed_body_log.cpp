@@ -1,0 +1,95 @@
+#include <algorithm>
+#include <utility>
+
+#include "physics/body_logs.hpp"
+#include "physics/exact_line.hpp"
+
+namespace piblocks {
+namespace {
+
+/// Which bodies the two blocks and the wall are.
+struct Parts {
+  LineElement wall;
+  LineElement blue;  ///< next to the wall
+  LineElement red;
+  int sign = 1;  ///< -1 if the wall is on the right
+};
+
+std::optional<Parts> parts_of(const BodySystem& system) {
+  if (system.dimensions != 1) return std::nullopt;
+  const std::vector<LineElement> elements = elements_of(system);
+  if (elements.size() != 3 || !elements[1].mass) return std::nullopt;
+  const bool is_left = !elements[0].mass && elements[2].mass;
+  const bool is_right = !elements[2].mass && elements[0].mass;
+  if (is_left) return Parts{elements[0], elements[1], elements[2], 1};
+  if (is_right) return Parts{elements[2], elements[1], elements[0], -1};
+  return std::nullopt;
+}
+
+Block block_of(const LineElement& element, int sign) {
+  return {*element.mass, sign * element.position, sign * element.velocity,
+          2 * element.half_width};
+}
+
+class ClosedBodyLog final : public BodyLog {
+ public:
+  ClosedBodyLog(const BodySystem& system, Parts parts)
+      : BodyLog(system), parts_(std::move(parts)), start_(motions_at_start(system)) {
+    BlockSystem blocks;
+    blocks.wall_face = parts_.sign * parts_.wall.position + parts_.wall.half_width;
+    blocks.blue = block_of(parts_.blue, parts_.sign);
+    blocks.red = block_of(parts_.red, parts_.sign);
+    blocks_ = make_collision_log(blocks);
+    set_range(1, blocks_->size());
+  }
+
+  BodyCollision collision(const Integer& index) const override {
+    const Collision found = blocks_->collision(index);
+    const bool is_at_wall = found.kind == CollisionKind::wall;
+    const LineElement& other = is_at_wall ? parts_.wall : parts_.red;
+    const BodyMotion blue = motion_of(found.blue);
+    const BodyMotion second =
+        is_at_wall ? BodyMotion{{to_double(parts_.wall.position), 0}, {}} : motion_of(found.red);
+    BodyCollision collision{.index = index, .time = found.time};
+    const bool is_blue_first = parts_.blue.id < other.id;
+    collision.first = is_blue_first ? parts_.blue.id : other.id;
+    collision.second = is_blue_first ? other.id : parts_.blue.id;
+    collision.first_after = is_blue_first ? blue : second;
+    collision.second_after = is_blue_first ? second : blue;
+    return collision;
+  }
+
+  BodiesState state_at(const Rational& time) const override {
+    require_not_negative(time);
+    const BlockState now = blocks_->state_at(time);
+    BodiesState state{now.count, start_};
+    state.bodies[parts_.blue.id] = motion_of(now.blue);
+    state.bodies[parts_.red.id] = motion_of(now.red);
+    return state;
+  }
+
+  Integer count_at(const Rational& time) const override { return blocks_->count_at(time); }
+  Rational time_after(const Integer& index) const override { return blocks_->time_after(index); }
+  std::optional<Rational> turn() const override { return blocks_->turn(); }
+  Integer exact_size() const override { return size(); }
+  std::optional<double> certain_until() const override { return std::nullopt; }
+
+ private:
+  BodyMotion motion_of(const Motion& motion) const {
+    return {{parts_.sign * motion.position, 0}, {parts_.sign * motion.velocity, 0}};
+  }
+
+  Parts parts_;
+  std::vector<BodyMotion> start_;
+  std::unique_ptr<CollisionLog> blocks_;
+};
+
+}  // namespace
+
+std::unique_ptr<BodyLog> make_closed_body_log(const BodySystem& system) {
+  std::optional<Parts> parts = parts_of(system);
+  if (!parts) return nullptr;
+  return std::make_unique<ClosedBodyLog>(system, std::move(*parts));
+}
+
+}  // namespace piblocks

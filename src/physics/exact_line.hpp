@@ -1,0 +1,68 @@
+// Blocks on a line, from collision to collision in rational numbers.
+// In: a BodySystem of one dimension, without problems. Out: its collisions, without rounding; the
+// state from which another engine goes on.
+#pragma once
+
+#include <piblocks/bodies.hpp>
+
+#include <optional>
+#include <vector>
+
+#include "physics/body_stepper.hpp"
+#include "physics/tournament.hpp"
+
+namespace piblocks {
+
+/// A block or a wall, at one instant.
+struct LineElement {
+  std::uint32_t id = 0;          ///< as in BodyCollision
+  std::optional<Rational> mass;  ///< nothing: no collision moves it
+  Rational half_width;           ///< 0 for a wall
+  Rational position;             ///< of the centre, at the time `since`
+  Rational velocity;
+  Rational since = 0;
+
+  Rational position_at(const Rational& time) const { return position + velocity * (time - since); }
+};
+
+/// The blocks, and the walls next to them, from left to right.
+std::vector<LineElement> elements_of(const BodySystem& system);
+
+/// Of two neighbours on the line whose motions come from an engine: the step, with the lower id
+/// first.
+BodyStep step_of(const Time& time, std::uint32_t left_id, const BodyMotion& left,
+                 std::uint32_t right_id, const BodyMotion& right);
+
+class ExactLine {
+ public:
+  explicit ExactLine(const BodySystem& system);
+  // The tournament's comparison refers to this.
+  ExactLine(const ExactLine&) = delete;
+  ExactLine& operator=(const ExactLine&) = delete;
+  ~ExactLine() = default;
+
+  /// The next collision; none if there will be no more.
+  std::optional<BodyStep> step();
+  /// The longest number of the last step, numerator and denominator together.
+  std::size_t bits() const noexcept { return bits_; }
+  const std::vector<LineElement>& elements() const noexcept { return elements_; }
+  /// Of the last step; 0 before the first.
+  const Rational& time() const noexcept { return time_; }
+
+ private:
+  struct Earlier {
+    const ExactLine& line;
+    bool operator()(std::size_t a, std::size_t b) const;
+  };
+
+  void predict(std::size_t pair);
+  void collide(LineElement& left, LineElement& right) const;
+
+  std::vector<LineElement> elements_;
+  std::vector<std::optional<Rational>> meetings_;  // of elements n and n + 1: when they meet
+  Tournament<Earlier> next_;
+  Rational time_ = 0;
+  std::size_t bits_ = 0;
+};
+
+}  // namespace piblocks

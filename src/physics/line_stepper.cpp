@@ -1,0 +1,44 @@
+#include <piblocks/bodies.hpp>
+
+#include <memory>
+#include <optional>
+
+#include "physics/body_stepper.hpp"
+#include "physics/certified_line.hpp"
+#include "physics/exact_line.hpp"
+
+namespace piblocks {
+namespace {
+
+/// Exact as long as its numbers are short and its steps not too many.
+class LineStepper final : public BodyStepper {
+ public:
+  explicit LineStepper(const BodySystem& system) : exact_(std::in_place, system) {}
+
+  std::optional<BodyStep> step() override {
+    if (certified_) return certified_->step();
+    std::optional<BodyStep> step = exact_->step();
+    if (++steps_ >= kMaxExactCollisions || exact_->bits() > kMaxExactBits) {
+      certified_.emplace(exact_->elements(), exact_->time());
+      exact_.reset();
+    }
+    return step;
+  }
+
+  Certainty certainty() const override {
+    return certified_ ? certified_->certainty() : Certainty();
+  }
+
+ private:
+  std::optional<ExactLine> exact_;  // one of the two
+  std::optional<CertifiedLine> certified_;
+  std::int64_t steps_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<BodyStepper> make_line_stepper(const BodySystem& system) {
+  return std::make_unique<LineStepper>(system);
+}
+
+}  // namespace piblocks

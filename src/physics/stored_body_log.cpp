@@ -1,0 +1,180 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <mutex>
+#include <shared_mutex>
+#include <utility>
+
+#include "physics/blocks.hpp"
+#include "physics/body_logs.hpp"
+#include "physics/body_stepper.hpp"
+
+namespace piblocks {
+namespace {
+
+struct StoredStep {
+  Time time;
+  std::uint32_t first = 0;
+  std::uint32_t second = 0;
+  BodyMotion first_after;
+  BodyMotion second_after;
+};
+
+/// A binary fraction from `time` on and before `next`, of as few digits as there may be.
+Rational short_time(const Rational& time, const std::optional<Rational>& next) {
+  constexpr std::size_t kShort_bits = 256;
+  if (mpz_sizeinbase(time.get_den_mpz_t(), 2) <= kShort_bits) return time;
+  for (unsigned long bits = 64;; bits *= 2) {
+    const Rational unit = power(2, bits);
+    const Rational later = Rational(ceil(time * unit)) / unit;
+    if (!next || later < *next) return later;
+  }
+}
+
+/// Steps are computed when they are first asked for.
+class StoredBodyLog final : public BodyLog {
+ public:
+  StoredBodyLog(const BodySystem& system, const std::optional<Rational>& until)
+      : BodyLog(system),
+        stepper_(system.dimensions == 1 ? make_line_stepper(system) : make_disc_stepper(system)),
+        start_(motions_at_start(system)),
+        of_body_(system.bodies.size()) {
+    if (until) {
+      set_range(1, count_at(*until));
+    } else {
+      while (add_step()) {
+      }
+      set_range(1, Integer(steps_.size()));
+    }
+  }
+
+  BodyCollision collision(const Integer& index) const override {
+    const std::shared_lock lock(mutex_);
+    const StoredStep& step = steps_.at(index.get_ui() - 1);
+    return {index, step.time, step.first, step.second, step.first_after, step.second_after};
+  }
+
+  BodiesState state_at(const Rational& time) const override {
+    compute_until(time);
+    const std::shared_lock lock(mutex_);
+    const std::size_t count = steps_until(time);
+    const Time now = to_time(time);
+    BodiesState state{Integer(count), start_};
+    for (std::size_t body = 0; body < state.bodies.size(); ++body) {
+      BodyMotion& motion = state.bodies[body];
+      const auto& own = of_body_[body];
+      const auto after = std::ranges::lower_bound(own, count);
+      Time since;
+      if (after != own.begin()) {
+        const StoredStep& last = steps_[*std::prev(after)];
+        motion = last.first == body ? last.first_after : last.second_after;
+        since = last.time;
+      }
+      const double flight = (now.hi - since.hi) + (now.lo - since.lo);
+      for (const std::size_t axis : {0U, 1U}) {
+        motion.position.at(axis) += motion.velocity.at(axis) * flight;
+      }
+    }
+    return state;
+  }
+
+  Integer count_at(const Rational& time) const override {
+    compute_until(time);
+    const std::shared_lock lock(mutex_);
+    return Integer(steps_until(time));
+  }
+
+  Rational time_after(const Integer& index) const override {
+    const std::shared_lock lock(mutex_);
+    std::size_t last = index.get_ui() - 1;
+    const Rational time = time_of(last);
+    while (last + 1 < steps_.size() && time_of(last + 1) <= time) ++last;
+    require_last(index, Integer(last + 1));
+    const bool has_next = last + 1 < steps_.size();
+    return short_time(time, has_next ? std::optional(time_of(last + 1)) : std::nullopt);
+  }
+
+  std::optional<Rational> turn() const override { return std::nullopt; }
+  Integer exact_size() const override {
+    const std::shared_lock lock(mutex_);
+    return std::min(Integer(exact_times_.size()), size());
+  }
+  std::optional<double> certain_until() const override {
+    const std::shared_lock lock(mutex_);
+    const double until = stepper_->certainty().until;
+    return until == Certainty::kForEver ? std::nullopt : std::optional(until);
+  }
+
+ private:
+  /// Unless the last step is later than that, or there are no more.
+  void compute_until(const Rational& time) const {
+    require_not_negative(time);
+    {
+      const std::shared_lock lock(mutex_);
+      if (is_computed_until(time)) return;
+    }
+    const std::unique_lock lock(mutex_);
+    while (!is_computed_until(time)) add_step();
+  }
+
+  bool is_computed_until(const Rational& time) const {
+    return is_complete_ || (!steps_.empty() && time_of(steps_.size() - 1) > time);
+  }
+
+  /// @return false if there are no more
+  bool add_step() const {
+    const std::optional<BodyStep> step = stepper_->step();
+    is_complete_ = !step;
+    if (is_complete_) return false;
+    if (steps_.size() == static_cast<std::size_t>(kMaxBodyCollisions)) {
+      throw SimulationError(fmt::format(
+          "bodies: more than {} collisions until time {:.6g}; show less time, or fewer bodies",
+          readable(kMaxBodyCollisions), step->time.hi));
+    }
+    const auto number = static_cast<std::uint32_t>(steps_.size());
+    for (const std::uint32_t body : {step->first, step->second}) {
+      if (body < of_body_.size()) of_body_[body].push_back(number);
+    }
+    if (step->exact_time) exact_times_.push_back(*step->exact_time);
+    steps_.push_back({step->time, step->first, step->second, step->first_after,
+                      step->second_after});
+    return true;
+  }
+
+  /// The steps up to this time, which have been computed.
+  std::size_t steps_until(const Rational& time) const {
+    std::size_t low = 0;
+    std::size_t high = steps_.size();
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      if (time_of(middle) <= time) {
+        low = middle + 1;
+      } else {
+        high = middle;
+      }
+    }
+    return low;
+  }
+
+  Rational time_of(std::size_t step) const {
+    return step < exact_times_.size() ? exact_times_[step] : to_rational(steps_[step].time);
+  }
+
+  mutable std::shared_mutex mutex_;
+  std::unique_ptr<BodyStepper> stepper_;
+  std::vector<BodyMotion> start_;
+  mutable bool is_complete_ = false;
+  mutable std::vector<StoredStep> steps_;
+  mutable std::vector<Rational> exact_times_;                // of the first steps
+  mutable std::vector<std::vector<std::uint32_t>> of_body_;  // numbers of its steps
+};
+
+}  // namespace
+
+std::unique_ptr<BodyLog> make_stored_body_log(const BodySystem& system,
+                                              const std::optional<Rational>& until) {
+  return std::make_unique<StoredBodyLog>(system, until);
+}
+
+}  // namespace piblocks
