@@ -1,0 +1,300 @@
+// Blocks on a line: against an exact program that shares nothing with them but the masses.
+#include <gtest/gtest.h>
+#include <piblocks/bodies.hpp>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "physics/body_stepper.hpp"
+#include "physics/certified_line.hpp"
+#include "physics/exact_line.hpp"
+#include "support/property.hpp"
+
+namespace piblocks {
+namespace {
+
+/// A collision as the exact program finds it.
+struct ExactCollision {
+  Rational time;
+  std::size_t first;
+  std::size_t second;
+};
+
+/// Walks through all collisions of blocks on a line, comparing all pairs at each step. It knows no
+/// neighbours: pairs that cannot meet are found by their gap alone.
+class ExactWalk {
+ public:
+  explicit ExactWalk(const BodySystem& system) : walls_(system.walls), bodies_(system.bodies) {}
+
+  std::optional<ExactCollision> next() {
+    std::optional<ExactCollision> found;
+    const auto consider = [&](const std::optional<Rational>& wait, std::size_t i, std::size_t j) {
+      if (wait && (!found || time_ + *wait < found->time)) found = {time_ + *wait, i, j};
+    };
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      for (std::size_t j = i + 1; j < bodies_.size(); ++j) consider(wait(i, j), i, j);
+      for (std::size_t w = 0; w < walls_.size(); ++w) {
+        consider(wait_for_wall(i, w), i, bodies_.size() + w);
+      }
+    }
+    if (!found) return found;
+    for (Body& body : bodies_) body.position[0] += body.velocity[0] * (found->time - time_);
+    time_ = found->time;
+    collide(found->first, found->second);
+    return found;
+  }
+
+  const std::vector<Body>& bodies() const { return bodies_; }
+
+ private:
+  std::optional<Rational> wait(std::size_t i, std::size_t j) const {
+    const bool is_ordered = bodies_[i].position[0] < bodies_[j].position[0];
+    const Body& left = bodies_[is_ordered ? i : j];
+    const Body& right = bodies_[is_ordered ? j : i];
+    const Rational speed = left.velocity[0] - right.velocity[0];
+    if (speed <= 0) return std::nullopt;
+    return (right.position[0] - left.position[0] - (left.size + right.size) / 2) / speed;
+  }
+  std::optional<Rational> wait_for_wall(std::size_t i, std::size_t w) const {
+    const Body& body = bodies_[i];
+    const Wall& wall = walls_[w];
+    const int side = sgn(wall.normal[0]);
+    const Rational speed = -side * body.velocity[0];
+    if (speed <= 0) return std::nullopt;
+    return (side * (body.position[0] - wall.point[0]) - body.size / 2) / speed;
+  }
+  void collide(std::size_t i, std::size_t j) {
+    Rational& u = bodies_[i].velocity[0];
+    if (j >= bodies_.size()) {
+      u = -u;
+      return;
+    }
+    Rational& v = bodies_[j].velocity[0];
+    const auto& m = bodies_[i].mass;
+    const auto& n = bodies_[j].mass;
+    if (!m) {
+      v = -v;
+    } else if (!n) {
+      u = -u;
+    } else {
+      const Rational centre = (*m * u + *n * v) / (*m + *n);
+      u = 2 * centre - u;
+      v = 2 * centre - v;
+    }
+  }
+
+  std::vector<Wall> walls_;
+  std::vector<Body> bodies_;
+  Rational time_ = 0;
+};
+
+struct Limits {
+  long most_bodies = 6;
+  bool walls = true;
+};
+
+BodySystem random_line(Random& random, const Limits& limits) {
+  BodySystem system;
+  const long count = random.integer(2, limits.most_bodies);
+  Rational x = random.rational(-4, 4, 3);
+  const Rational left = x - random.rational(0, 3, 5);
+  for (long i = 0; i < count; ++i) {
+    Body body;
+    body.size = random.rational(1, 4, 5);
+    x += random.rational(0, 3, 7) + body.size / 2;
+    body.position[0] = x;
+    x += body.size / 2;
+    body.velocity[0] = random.rational(-3, 3, 7);
+    body.mass = random.rational(1, 60, 7);
+    if (random.integer(0, 3) == 0) *body.mass *= 100;
+    if (random.integer(0, 9) == 0) {
+      body.mass.reset();
+      body.velocity[0] = 0;
+    }
+    system.bodies.push_back(body);
+  }
+  // In any order, and perhaps all of them immovable.
+  for (std::size_t i = system.bodies.size(); i > 1; --i) {
+    std::swap(system.bodies[i - 1],
+              system.bodies[std::size_t(random.integer(0, long(i) - 1))]);
+  }
+  if (!system.bodies.front().mass) system.bodies.front().mass = 3;
+  if (limits.walls && random.integer(0, 1) == 0) system.walls.push_back({"left", {left}, {1}});
+  if (limits.walls && random.integer(0, 2) == 0) {
+    system.walls.push_back({"right", {x + random.rational(0, 3, 5)}, {-1}});
+  }
+  return system;
+}
+
+constexpr int kMostSteps = 150;
+
+TEST(LineTest, EveryCollisionIsThatOfAnExactProgram) {
+  for (std::uint64_t i = 0; i < std::uint64_t(many(120)); ++i) {
+    Random random(i);
+    const BodySystem system = random_line(random, {});
+    ASSERT_TRUE(problems_of(system).empty()) << problems_of(system).front().reason;
+    ExactWalk walk(system);
+    const auto stepper = make_line_stepper(system);
+    for (int k = 0; k < kMostSteps; ++k) {
+      const std::optional<ExactCollision> expected = walk.next();
+      const std::optional<BodyStep> step = stepper->step();
+      ASSERT_EQ(step.has_value(), expected.has_value()) << "system " << i << ", step " << k;
+      if (!step) break;
+      ASSERT_TRUE(step->exact_time.has_value());
+      ASSERT_EQ(*step->exact_time, expected->time) << "system " << i << ", step " << k;
+      ASSERT_EQ(step->first, expected->first);
+      ASSERT_EQ(step->second, expected->second);
+      const Body& first = walk.bodies()[expected->first];
+      ASSERT_EQ(step->first_after.velocity[0], to_double(first.velocity[0]));
+      ASSERT_EQ(step->first_after.position[0], to_double(first.position[0]));
+    }
+  }
+}
+
+/// What each body meets, in order; and when.
+using Partners = std::map<std::size_t, std::vector<std::pair<std::size_t, double>>>;
+
+void add(Partners& partners, std::size_t first, std::size_t second, double time) {
+  partners[first].emplace_back(second, time);
+  partners[second].emplace_back(first, time);
+}
+
+TEST(LineTest, DoublesAreRightForAsLongAsTheySay) {
+  double certain_steps = 0;
+  int uncertain = 0;
+  const auto count = std::uint64_t(many(200));
+  for (std::uint64_t i = 0; i < count; ++i) {
+    Random random(1'000'000 + i);
+    const BodySystem system = random_line(random, {.most_bodies = 5});
+    ExactWalk walk(system);
+    CertifiedLine line(elements_of(system), 0);
+    Partners expected;
+    Partners found;
+    for (int k = 0; k < kMostSteps; ++k) {
+      if (const auto collision = walk.next()) {
+        add(expected, collision->first, collision->second, to_double(collision->time));
+      }
+      if (const auto step = line.step()) add(found, step->first, step->second, step->time.hi);
+    }
+    const double until = line.certainty().until;
+    if (until < Certainty::kForEver) ++uncertain;
+    for (const auto& [body, meetings] : found) {
+      for (std::size_t k = 0; k < meetings.size(); ++k) {
+        const auto& [partner, time] = meetings[k];
+        if (time >= until) break;
+        ASSERT_LT(k, expected[body].size()) << "system " << i;
+        ASSERT_EQ(partner, expected[body][k].first) << "system " << i << ", body " << body;
+        ASSERT_NEAR(time, expected[body][k].second, 1e-7 * (1 + time)) << "system " << i;
+        certain_steps += 0.5;
+      }
+    }
+  }
+  RecordProperty("certain_steps", std::to_string(certain_steps / double(count)));
+  std::printf("certain: %.1f steps a system; %d of %d end\n", certain_steps / double(count), uncertain, int(count));
+  EXPECT_GT(certain_steps / double(count), 20);
+}
+
+/// Two systems whose only difference is the order of their bodies.
+TEST(LineTest, TheOrderOfBodiesDoesNotMatter) {
+  Random random(7);
+  BodySystem system = random_line(random, {});
+  BodySystem reversed = system;
+  std::ranges::reverse(reversed.bodies);
+  const auto a = make_line_stepper(system);
+  const auto b = make_line_stepper(reversed);
+  while (const auto step = a->step()) {
+    const auto other = b->step();
+    ASSERT_TRUE(other);
+    EXPECT_EQ(step->exact_time, other->exact_time);
+    if (step->time.hi > 50) break;
+  }
+}
+
+BodySystem cradle() {
+  BodySystem system;
+  for (int i = 0; i < 5; ++i) {
+    system.bodies.push_back({1, {Rational(i == 0 ? -3 : i)}, {Rational(i == 0 ? 2 : 0)}, 1});
+  }
+  return system;
+}
+
+TEST(LineTest, CollisionsAtOneInstantAreInPairOrder) {
+  const auto log = make_body_log(cradle(), std::nullopt);
+  EXPECT_EQ(log->size(), 4);
+  for (int k = 1; k <= 4; ++k) {
+    const BodyCollision c = log->collision(k);
+    EXPECT_EQ(c.time.hi, 1.5);
+    EXPECT_EQ(int(c.first), k - 1);
+    EXPECT_EQ(int(c.second), k);
+  }
+  EXPECT_EQ(log->state_at(2).bodies[4].velocity[0], 2);
+  EXPECT_EQ(log->state_at(2).bodies[4].position[0], 5);
+  EXPECT_EQ(log->state_at(Rational(3, 2)).count, 4);
+  EXPECT_EQ(log->time_after(4), Rational(3, 2));
+  EXPECT_THROW(log->time_after(2), UsageError);
+}
+
+TEST(LineTest, TheClosedFormTakesBlocksByOtherNames) {
+  for (const int sign : {1, -1}) {
+    BodySystem system;
+    system.bodies = {{power(100, 19), {Rational(sign * 5)}, {Rational(-sign)}, 1},
+                     {1, {Rational(sign * 2)}, {}, 1}};
+    system.walls = {{"wall", {Rational(-sign, 2)}, {Rational(sign)}}};
+    const auto log = make_body_log(system, std::nullopt);
+    EXPECT_EQ(log->size(), Integer("31415926535897932384"));
+    EXPECT_EQ(log->exact_size(), log->size());
+    const BodyCollision second = log->collision(2);
+    EXPECT_EQ(second.first, 1U);  // blue
+    EXPECT_EQ(second.second, 2U);  // the wall
+    EXPECT_EQ(log->state_at(0).bodies[0].position[0], sign * 5);
+    EXPECT_FALSE(may_never_end(system));
+  }
+}
+
+TEST(LineTest, SwitchingToDoublesKeepsWhatHappens) {
+  BodySystem system;
+  system.bodies = {{1, {1}, {1}, 1}, {Rational(17, 3), {3}, {Rational(-1, 7)}, 1},
+                   {Rational(5, 11), {5}, {0}, 1}};
+  system.walls = {{"left", {0}, {1}}, {"right", {7}, {-1}}};
+  EXPECT_TRUE(may_never_end(system));
+  EXPECT_THROW(make_body_log(system, std::nullopt), UsageError);
+  const auto log = make_body_log(system, Rational(2000));
+  EXPECT_GT(log->exact_size(), 100);
+  EXPECT_LT(log->exact_size(), log->size());
+  ExactWalk walk(system);
+  const double until = log->certain_until().value_or(2000);
+  std::printf("exact %s of %s, certain until %g\n", log->exact_size().get_str().c_str(), log->size().get_str().c_str(), until);
+  EXPECT_GT(until, 100);
+  for (Integer k = 1; k <= log->size() && k < 1500; ++k) {
+    const auto expected = walk.next();
+    const BodyCollision found = log->collision(k);
+    if (found.time.hi >= until) break;
+    ASSERT_EQ(found.first, expected->first) << k;
+    ASSERT_EQ(found.second, expected->second) << k;
+    ASSERT_NEAR(found.time.hi, to_double(expected->time), 1e-9);
+  }
+}
+
+TEST(LineTest, RejectsWhatIsNoSystem) {
+  const auto problem = [](BodySystem system) {
+    const auto problems = problems_of(system);
+    return problems.empty() ? std::string() : problems.front().key + " " + problems.front().reason;
+  };
+  BodySystem system = cradle();
+  system.bodies[1].mass = -1;
+  EXPECT_EQ(problem(system), "body 2.mass = -1: must be greater than 0");
+  system = cradle();
+  system.bodies[2].position[0] = Rational(3, 2);
+  EXPECT_EQ(problem(system), "body 3.position = 3/2: overlaps body 2 by 1/2");
+  system = cradle();
+  system.walls = {{"left", {-3}, {1}}};
+  EXPECT_EQ(problem(system), "body 1.position = -3: reaches 1/2 beyond the left wall");
+  for (Body& body : system.bodies) body = {std::nullopt, {}, {}, 1};
+  EXPECT_EQ(problem(system), "body all have infinite mass: nothing can move");
+  EXPECT_EQ(problem({}), "body is missing: there must be at least one");
+}
+
+}  // namespace
+}  // namespace piblocks
