@@ -106,8 +106,8 @@ class BodyLog : public Timeline {
   BodySystem system_;
 };
 
-/// Two blocks and one wall or immovable block beside them are in closed form. All others are stepped
-/// and stored.
+/// Two blocks and one wall or immovable block beside them are in closed form. All others are
+/// stepped and stored.
 /// @param until  up to which time collisions count; nothing for all. States can be asked for later
 ///               times, too.
 /// @throws SceneError if problems_of(system) is not empty; UsageError if collisions never end and

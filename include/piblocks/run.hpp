@@ -129,7 +129,8 @@ class Timeline {
   const Integer& size() const noexcept { return size_; }
   /// Index of the first collision of all time; 1 if there are none before time 0.
   const Integer& first_index() const noexcept { return first_index_; }
-  /// Index of the last collision until then. A collision exactly at `time` has happened.
+  /// Index of the last collision until then. A collision exactly at `time` has happened. The logs
+  /// of bodies, which begin at time 0, say 0 for earlier times.
   virtual Integer count_at(const Rational& time) const = 0;
   /// A time at which exactly the collisions up to this one have happened: that of the collision if
   /// its exact value is short, otherwise one so little later that no picture can show the
@@ -151,8 +152,8 @@ class Timeline {
   Integer size_ = 0;
 };
 
-/// All collisions of two blocks and a wall. Blocks that touch at time 0 and move apart, or blue that
-/// then leaves the wall, have had collision 0 at time 0.
+/// All collisions of two blocks and a wall. Blocks that touch at time 0 and move apart, or blue
+/// that then leaves the wall, have had collision 0 at time 0.
 class CollisionLog : public Timeline {
  public:
   const BlockSystem& system() const noexcept { return system_; }

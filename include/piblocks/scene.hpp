@@ -3,10 +3,13 @@
 // wrong with them, and their exact text.
 #pragma once
 
+#include <piblocks/bodies.hpp>
 #include <piblocks/exact.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/run.hpp>
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -187,6 +190,9 @@ struct TimeSpan {
   /// second. An end at a turn or a collision is shown, by the first frame at it or past it.
   Instant to = Instant::last(Rational(3, 2));
   Rational speed = 1;  ///< simulation time per second of video, > 0
+  /// Whether bodies are also shown where double precision cannot tell any more which of them
+  /// collide next. The picture says so then.
+  bool allow_uncertain = false;
 };
 
 struct FrameSize {
@@ -206,8 +212,21 @@ struct Sound {
   bool on = false;  ///< whether a video has a soundtrack
 };
 
+/// How a body is drawn.
+struct BodyStyle {
+  std::optional<std::array<std::uint8_t, 3>> color = {};  ///< red, green, blue; else the theme's
+  std::string label = {};                                 ///< one line of UTF-8, on it or above it
+};
+
+/// What is simulated instead of blue, red and the wall.
+struct Bodies {
+  BodySystem system;
+  std::vector<BodyStyle> styles;  ///< one for each body
+};
+
 struct Scene {
   BlockSystem system;
+  std::optional<Bodies> bodies = {};  ///< if there are any, `system` is not used
   View view;
   TimeSpan time;
   Pacing pacing = {};

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string_view>
 
+#include "cli/body_output.hpp"
 #include "cli/command.hpp"
 #include "cli/log_rows.hpp"
 #include "cli/options.hpp"
@@ -12,6 +13,7 @@
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "core/output_file.hpp"
+#include "scene/run_log.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -25,24 +27,14 @@ struct LogFormat {
   void (*append)(const CollisionBatch& batch, fmt::memory_buffer& out);
 };
 
-/// https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html, version 1.0
 /// @throws UsageError if an index does not fit.
-std::string npy_header(const Rows& rows) {
+std::string header_of_npy(const Rows& rows) {
   for (const Integer& index : {rows.first, rows.last}) {
     if (rows.count() == 0 || abs(index) <= std::numeric_limits<std::int64_t>::max()) continue;
     throw UsageError(fmt::format("--format npy: index {} does not fit in 64 bits; use csv or jsonl",
                                  readable(index)));
   }
-  constexpr std::size_t kAlignment_bytes = 64;  // of the first row
-  std::string text = fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': ({},), }}",
-                                 kRowType, rows.count().get_str());
-  std::string header("\x93NUMPY\x01\x00", 8);
-  const std::size_t length = header.size() + 2 + text.size() + 1;  // with its own length, and '\n'
-  text.append((kAlignment_bytes - length % kAlignment_bytes) % kAlignment_bytes, ' ');
-  text += '\n';
-  header += static_cast<char>(text.size() % 256);
-  header += static_cast<char>(text.size() / 256);
-  return header + text;
+  return npy_header(kRowType, rows.count());
 }
 
 void append_npy(const CollisionBatch& batch, fmt::memory_buffer& out) {
@@ -87,7 +79,7 @@ LogFormat parse_log_format(const std::string& text) {
   const auto no_header = [](const Rows&) { return std::string(); };
   return parse_choice<LogFormat>(text, {{"csv", {Contents::text, csv_header, append_csv}},
                                         {"jsonl", {Contents::text, no_header, append_jsonl}},
-                                        {"npy", {Contents::bytes, npy_header, append_npy}}});
+                                        {"npy", {Contents::bytes, header_of_npy, append_npy}}});
 }
 
 /// @throws Interrupted soon after the token asks for it.
@@ -101,11 +93,35 @@ void write(CollisionStream& collisions, const LogFormat& format, OutputFile& fil
   }
 }
 
+void log_bodies(const Scene& scene, const Command& options) {
+  refuse_engine(options);
+  const BodyLogFormat format =
+      options.value("--format", parse_body_log_format).value_or(parse_body_log_format("csv"));
+  if (format.is_binary) refuse_terminal(options);
+  const RunLog run(scene);
+  const BodyLog& log = *run.bodies();
+  const Rows rows = select_rows(options, log);
+  const StopOnSignals signals;
+  OutputFile file(output_of(options), format.is_binary ? Contents::bytes : Contents::text);
+  file.write(format.header(log.system(), rows.count()));
+  fmt::memory_buffer text;
+  constexpr std::size_t kPiece_bytes = 1 << 16;
+  for (Integer index = rows.first; index <= rows.last; ++index) {
+    format.append(log.system(), log.collision(index), text);
+    if (text.size() < kPiece_bytes && index != rows.last) continue;
+    if (signals.token().stop_requested()) throw Interrupted("log: interrupted");
+    file.write(std::string_view(text.data(), text.size()));
+    text.clear();
+  }
+  file.finish();
+}
+
 void run_log(const Command& options, const SceneOptions& scene_options) {
+  scene_options.check_output();
+  if (const Scene scene = scene_options.scene(); scene.bodies) return log_bodies(scene, options);
   const LogFormat format =
       options.value("--format", parse_log_format).value_or(parse_log_format("csv"));
   if (format.contents == Contents::bytes) refuse_terminal(options);
-  scene_options.check_output();
   const Scene scene = scene_options.scene();
   const auto log = make_log(scene.system, options);
   const Rows rows = select_rows(options, *log);

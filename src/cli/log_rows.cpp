@@ -45,8 +45,7 @@ struct Bound {
 };
 
 /// Nothing if the option was not given.
-std::optional<Bound> bound_of(const OptionTexts& options, const char* option,
-                              const CollisionLog& log) {
+std::optional<Bound> bound_of(const OptionTexts& options, const char* option, const Timeline& log) {
   return options.value(option, [&](const std::string& text) {
     Instant instant = parse_instant(text);
     Rational time = time_of(instant, log);
@@ -67,7 +66,16 @@ Integer first_since(const CollisionLog& log, const Bound& bound) {
   return log.collision(last).time == to_time(time) ? last : Integer(last + 1);
 }
 
-Rows rows_within_times(const OptionTexts& options, const CollisionLog& log) {
+Integer first_since(const BodyLog& log, const Bound& bound) {
+  const auto& [instant, time] = bound;
+  if (instant.offset == 0 && instant.anchor == Instant::Anchor::collision) return instant.index;
+  Integer last = log.count_at(time);
+  while (last > log.size() || (last > 0 && log.collision(last).time == to_time(time))) --last;
+  return last + 1;
+}
+
+template <typename Log>
+Rows rows_within_times(const OptionTexts& options, const Log& log) {
   const auto from = bound_of(options, "--from", log);
   const auto to = bound_of(options, "--to", log);
   if (from && to && to->time < from->time) {
@@ -76,14 +84,11 @@ Rows rows_within_times(const OptionTexts& options, const CollisionLog& log) {
   }
   Rows rows{1, log.size()};
   if (from) rows.first = first_since(log, *from);
-  if (to) rows.last = log.state_at(to->time).count;
+  if (to) rows.last = std::min(log.count_at(to->time), log.size());
   return rows;
 }
 
-}  // namespace
-
-Rows select_rows(const OptionTexts& options, const CollisionLog& log) {
-  Rows rows = rows_within_times(options, log);
+Rows limited(const OptionTexts& options, const Timeline& log, Rows rows) {
   if (const auto first = options.value("--first", parse_index)) {
     if (*first > log.size() || *first < log.first_index()) {
       throw UsageError(
@@ -106,6 +111,29 @@ Rows select_rows(const OptionTexts& options, const CollisionLog& log) {
         readable(rows.count()), readable(kMaxRows)));
   }
   return rows;
+}
+
+}  // namespace
+
+Rows select_rows(const OptionTexts& options, const CollisionLog& log) {
+  return limited(options, log, rows_within_times(options, log));
+}
+
+Rows select_rows(const OptionTexts& options, const BodyLog& log) {
+  return limited(options, log, rows_within_times(options, log));
+}
+
+std::string npy_header(std::string_view row_type, const Integer& rows) {
+  constexpr std::size_t kAlignment_bytes = 64;  // of the first row
+  std::string text = fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': ({},), }}",
+                                 row_type, rows.get_str());
+  std::string header("\x93NUMPY\x01\x00", 8);
+  const std::size_t length = header.size() + 2 + text.size() + 1;  // with its own length, and '\n'
+  text.append((kAlignment_bytes - length % kAlignment_bytes) % kAlignment_bytes, ' ');
+  text += '\n';
+  header += static_cast<char>(text.size() % 256);
+  header += static_cast<char>(text.size() / 256);
+  return header + text;
 }
 
 void write_rows(const CollisionBatch& batch, std::int64_t first, char* at) {

@@ -3,12 +3,14 @@
 // has them.
 #pragma once
 
+#include <piblocks/bodies.hpp>
 #include <piblocks/exact.hpp>
 #include <piblocks/run.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "cli/option_texts.hpp"
@@ -26,6 +28,11 @@ struct Rows {
 /// What --from, --to, --first and --limit select.
 /// @throws UsageError if they make no sense, or select more than kMaxRows without --limit.
 Rows select_rows(const OptionTexts& options, const CollisionLog& log);
+Rows select_rows(const OptionTexts& options, const BodyLog& log);
+
+/// What a file of NumPy begins with
+/// (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html, version 1.0).
+std::string npy_header(std::string_view row_type, const Integer& rows);
 
 /// A row as NumPy describes it: no gaps, numbers in little-endian order.
 inline constexpr std::string_view kRowType =

@@ -8,11 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "cli/body_output.hpp"
 #include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
+#include "scene/run_log.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -33,9 +35,37 @@ void write(const Rational& time, const BlockState& state,
                   described(state.red, red_bound));
 }
 
+void write_bodies(const Scene& scene, const std::vector<Instant>& instants,
+                  const Command& options) {
+  refuse_engine(options);
+  if (options.is_given("--bounds")) {
+    throw UsageError("--bounds: is for two blocks and a wall, and this scene has [[body]]");
+  }
+  const RunLog run(scene);
+  const BodyLog& log = *run.bodies();
+  TextOutput out("-");
+  for (const Instant& instant : instants) {
+    const Rational time = time_of(instant, log);
+    require_certain(scene, log, time);
+    out.line(state_line(log.system(), time, log.state_at(time)));
+  }
+  out.finish();
+}
+
+void run_count(const SceneOptions& scene_options) {
+  TextOutput out("-");
+  const Scene scene = scene_options.scene();
+  const Integer count =
+      scene.bodies ? RunLog(scene).timeline().size() : count_collisions(scene.system);
+  out.line(count.get_str(scene.show.base));
+  out.finish();
+  note_convention(scene);
+}
+
 void run_state(const Command& options, const SceneOptions& scene_options) {
   const std::vector<Instant> instants = *options.value("--at", parse_instants);
   const Scene scene = scene_options.scene();
+  if (scene.bodies) return write_bodies(scene, instants, options);
   const auto log = make_log(scene.system, options);
   TextOutput out("-");
   for (const Instant& instant : instants) {
@@ -77,13 +107,7 @@ void add_count(Command& app) {
       "  piblocks count --digits 12\n"
       "  piblocks count --digits 12 --base 2\n"
       "  piblocks count --mass-ratio 1/3");
-  command.on_run([options] {
-    TextOutput out("-");
-    const Scene scene = options.scene();
-    out.line(count_collisions(scene.system).get_str(scene.show.base));
-    out.finish();
-    note_convention(scene);
-  });
+  command.on_run([options] { run_count(options); });
 }
 
 void add_state(Command& app) {

@@ -170,6 +170,11 @@ void add_engine(Command& command) {
                     "velocities: a loop over velocities alone, in double precision");
 }
 
+void refuse_engine(const Command& command) {
+  if (!command.is_given("--engine")) return;
+  throw UsageError("--engine: is for two blocks and a wall, and this scene has [[body]]");
+}
+
 void note_convention(const Script& script) {
   for (const std::string& note : convention_notes(script)) say("piblocks: note: {}\n", note);
 }

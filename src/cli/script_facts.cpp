@@ -51,6 +51,7 @@ void claim_logos(OverwriteCheck& check, const Script& script) {
 std::vector<std::string> convention_notes(const Script& script) {
   std::vector<std::string> notes;
   for (const Scene* scene : scenes_of(script)) {
+    if (scene->bodies) continue;
     const auto corner = corner_of(scene->system);
     if (!corner) continue;
     notes.push_back(fmt::format(

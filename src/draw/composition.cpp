@@ -25,10 +25,6 @@
 namespace piblocks {
 namespace {
 
-/// A smaller logo is a speck.
-constexpr double kLeastLogo_px = 1;
-constexpr double kLeastLogoLength_px = 3;
-
 void check(bool is_finite, const Rational& time) {
   if (is_finite) return;
   throw UsageError(
@@ -38,24 +34,14 @@ void check(bool is_finite, const Rational& time) {
                   short_text(time)));
 }
 
-bool is_finite(const Motion& motion) {
-  return std::isfinite(motion.position) && std::isfinite(motion.velocity);
+bool is_finite(const BodyMotion& motion) {
+  const auto is_number = [](double value) { return std::isfinite(value); };
+  return std::ranges::all_of(motion.position, is_number) &&
+         std::ranges::all_of(motion.velocity, is_number);
 }
 
-/// The logo as large as fits, in the lower right corner of its place. @throws UsageError
-ImageItem place_logo(const Rectangle& place, std::shared_ptr<const Image> logo) {
-  const double scale = std::min(place.width / logo->width_px, place.height / logo->height_px);
-  const double width = scale * logo->width_px;
-  const double height = scale * logo->height_px;
-  if (std::min(width, height) < kLeastLogo_px || std::max(width, height) < kLeastLogoLength_px) {
-    throw UsageError(fmt::format(
-        "show.logo: a picture of {}x{} would be {:.1f}x{:.1f} pixels here; leave it out, make the "
-        "frame larger, or use a picture of another shape",
-        logo->width_px, logo->height_px, width, height));
-  }
-  return {ItemId::logo,
-          {place.x + place.width - width, place.y + place.height - height, width, height},
-          std::move(logo)};
+bool is_finite(const Motion& motion) {
+  return std::isfinite(motion.position) && std::isfinite(motion.velocity);
 }
 
 /// Places all that a scene shows, and makes its drawables in the order of their ids.
@@ -67,7 +53,8 @@ class Composer {
         palette_(palette_of(scene.view.theme, scene.system)),
         sizes_(scene.view),
         context_{.scene = scene,
-                 .log = log,
+                 .timeline = log,
+                 .blocks = &log,
                  .palette = palette_,
                  .fonts = fonts_,
                  .font = fonts_.of(text_face_of(scene.view.theme)),
@@ -102,7 +89,8 @@ class Composer {
     if (!is_article_) {
       return lay_out_stage(scene_, plan_.stage, context_.font, plan_.is_floor_at_bottom);
     }
-    return lay_out_article(scene_, longest_count(scene_, context_.log), plan_.stage, context_.font);
+    return lay_out_article(scene_, longest_count(scene_, context_.log()), plan_.stage,
+                           context_.font);
   }
 
   /// Wall, floor, blocks and count.
@@ -190,6 +178,7 @@ Composition::Composition(const Scene& scene, const CollisionLog& log,
 
 DrawList Composition::frame(const FrameState& shown) const {
   check(is_finite(shown.state.blue) && is_finite(shown.state.red), shown.time);
+  for (const BodyMotion& body : shown.bodies) check(is_finite(body), shown.time);
   DrawList list = empty_;
   for (const Drawable& drawable : drawables_) drawable(shown, list.items);
   check(are_finite(list.items), shown.time);

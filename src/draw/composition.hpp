@@ -2,6 +2,7 @@
 // In: a scene and its collision log, once; a state, for every frame. Out: a draw list.
 #pragma once
 
+#include <piblocks/bodies.hpp>
 #include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
@@ -36,12 +37,13 @@ struct Hit {
 
 /// What a frame is drawn from. It depends on nothing but the frame.
 struct FrameState {
-  BlockState state;
+  BlockState state;       ///< of bodies the count alone
   Rational time = 0;      ///< simulation time of the state
   Rational slowdown = 1;  ///< as in Stretch
   /// Where the blocks are while the frame is exposed; if empty, as all else, at the instant.
   std::vector<WeightedExposure> exposure = {};
-  Gaps gaps = {};  ///< of the state; filled in if FrameNeeds asks for them
+  Gaps gaps = {};                       ///< of the state; filled in if FrameNeeds asks for them
+  std::vector<BodyMotion> bodies = {};  ///< if the scene has any
 
   // Left alone in a still that is not in its video, or if no drawable reads them.
   double video_s = 0;          ///< of the frame, since its scene began
@@ -68,6 +70,8 @@ class Composition {
   ///         a line too long, a panel too small to be read; DrawError if the font cannot be loaded.
   Composition(const Scene& scene, const CollisionLog& log,
               std::shared_ptr<const Image> logo = nullptr);
+  /// The same of a scene with bodies.
+  Composition(const Scene& scene, const BodyLog& log, std::shared_ptr<const Image> logo = nullptr);
 
   DrawList frame(const FrameState& shown) const;
   /// What frame() reads of a FrameState beside what is always there.

@@ -218,7 +218,8 @@ class FramePlanner {
     place.slow_motion = {left, place.pi_baseline_px};
     if (counter_->slow_motion_px > 0) left -= counter_->slow_motion_px + sizes_.gap;
     // Blocks that stay left of this line may be beside it.
-    const bool is_above = left < right_ && reach_px(context_.scene, context_.log) > left;
+    const bool is_above = left < right_ && (context_.blocks == nullptr ||
+                                            reach_px(context_.scene, context_.log()) > left);
     top_ = is_above ? place.pi_baseline_px : place.baseline_px;
     top_ += kBelowBaseline * sizes_.text;
     place.pi_row_left_px = std::min(right_, left + sizes_.gap);
@@ -279,7 +280,8 @@ class FramePlanner {
     // In upright frames the loupe is below the digits of pi. It takes what diagrams do not need.
     const double spare =
         room_px - height - kDiagramsBesideLoupe * double(show_.panels.size()) * sizes_.short_side;
-    if (view_.height_px > view_.width_px && spare > 0 && may_show_loupe(context_)) {
+    if (view_.height_px > view_.width_px && spare > 0 && context_.blocks != nullptr &&
+        may_show_loupe(context_)) {
       height += std::min(kLoupeRoom * sizes_.short_side, spare);
       plan_.is_floor_at_bottom = true;
     }

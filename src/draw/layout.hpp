@@ -75,14 +75,18 @@ struct Layout {
 /// What overlays and panels are drawn from. It does not outlive their making.
 struct DrawingContext {
   const Scene& scene;
-  const CollisionLog& log;
+  const Timeline& timeline;
+  const CollisionLog* blocks;  ///< the same, of two blocks and a wall; else nullptr
   const Palette& palette;
   const Fonts& fonts;
   const Font& font;  ///< of plain text
   const Layout& layout;
   const Sizes& sizes;
-  FrameNeeds& needs;  ///< a drawable says here what it reads of a FrameState
+  FrameNeeds& needs;                         ///< a drawable says here what it reads of a FrameState
+  std::optional<double> certain_until = {};  ///< as BodyLog has it
 
+  /// Of two blocks and a wall, for what is drawn for them alone.
+  const CollisionLog& log() const { return *blocks; }
   FormulaSetter setter() const { return {fonts, font.face()}; }
 };
 

@@ -75,7 +75,9 @@ void check_line(const BodySystem& system, SceneProblems& problems) {
 /// Discs that overlap. Only those are compared whose extents along x overlap.
 void check_plane(const BodySystem& system, SceneProblems& problems) {
   const std::vector<Body>& bodies = system.bodies;
-  const auto left = [&](std::size_t i) -> Rational { return bodies[i].position[0] - bodies[i].size; };
+  const auto left = [&](std::size_t i) -> Rational {
+    return bodies[i].position[0] - bodies[i].size;
+  };
   std::vector<std::size_t> order(bodies.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::vector<double> lefts;
@@ -120,15 +122,15 @@ void check_dimensions(const BodySystem& system, SceneProblems& problems) {
 std::vector<Problem> problems_of(const BodySystem& system) {
   SceneProblems problems;
   problems.require(!system.bodies.empty(), "body", "is missing: there must be at least one");
-  problems.require(system.bodies.size() <= kMaxBodies, "body", "= {} of them: at most {} can be shown",
-                   system.bodies.size(), kMaxBodies);
+  problems.require(system.bodies.size() <= kMaxBodies, "body",
+                   "= {} of them: at most {} can be shown", system.bodies.size(), kMaxBodies);
   problems.require(system.walls.size() <= kMaxWalls, "box", "has {} walls: at most {} are possible",
                    system.walls.size(), kMaxWalls);
   if (!problems.empty()) return problems.take();
   check_dimensions(system, problems);
   for (std::size_t i = 0; i < system.bodies.size(); ++i) check_body(system, i, problems);
-  const bool can_move = std::ranges::any_of(
-      system.bodies, [](const Body& body) { return body.mass.has_value(); });
+  const bool can_move =
+      std::ranges::any_of(system.bodies, [](const Body& body) { return body.mass.has_value(); });
   problems.require(can_move, "body", "all have infinite mass: nothing can move");
   if (!problems.empty()) return problems.take();  // what follows would only repeat them
   if (system.dimensions == 1) {

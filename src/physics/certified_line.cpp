@@ -59,9 +59,9 @@ CertifiedLine::CertifiedLine(std::span<const LineElement> elements, const Ration
     pair.right_share = share_of_change(right, left);
     pair.gap_per_norm = kSpare * std::sqrt(inverse_mass(left) + inverse_mass(right));
     // Exact numbers tell that they have just met, or are at rest beside each other.
-    pair.has_met = left.position_at(begin) + left.half_width ==
-                       right.position_at(begin) - right.half_width &&
-                   left.velocity <= right.velocity;
+    pair.has_met =
+        left.position_at(begin) + left.half_width == right.position_at(begin) - right.half_width &&
+        left.velocity <= right.velocity;
   }
   position_budget_ = kBudget * position_error_;
   velocity_budget_ = kBudget * velocity_error_;
@@ -95,8 +95,8 @@ CertifiedLine::Approach CertifiedLine::approach(std::size_t pair) const {
 double CertifiedLine::earliest(std::size_t pair, const Approach& approach) const {
   const Pair& p = pairs_[pair];
   if (p.has_met) return kNever;
-  const double speed_error = velocity_budget_ * p.gap_per_norm +
-                             kVelocityRoundings * std::fabs(approach.closing);
+  const double speed_error =
+      velocity_budget_ * p.gap_per_norm + kVelocityRoundings * std::fabs(approach.closing);
   const double closing = approach.closing + speed_error;
   if (!(closing > 0)) return kNever;
   const double gap = approach.gap - approach.rounding - position_budget_ * p.gap_per_norm;
@@ -148,8 +148,8 @@ void CertifiedLine::check_order(std::size_t pair, double clock) {
   const double rest = std::fabs(now.gap - now.closing * (clock - now.clock)) + now.rounding +
                       kVelocityRoundings * std::fabs(now.gap);
   const double gap_error = position_error_ * p.gap_per_norm + rest;
-  const double slowest = now.closing - velocity_error_ * p.gap_per_norm -
-                         kVelocityRoundings * now.closing;
+  const double slowest =
+      now.closing - velocity_error_ * p.gap_per_norm - kVelocityRoundings * now.closing;
   if (!(slowest > 0)) return end_certainty(earliest(pair, now));
   const double tolerance = gap_error / slowest * kSpare + kPositionRoundings * clock;
   double other = kNever;
@@ -183,8 +183,8 @@ void CertifiedLine::collide(std::size_t pair) {
 }
 
 void CertifiedLine::replay_around(std::size_t pair) {
-  for (std::size_t other = pair > 0 ? pair - 1 : 0;
-       other <= std::min(pair + 1, pairs_.size() - 1); ++other) {
+  for (std::size_t other = pair > 0 ? pair - 1 : 0; other <= std::min(pair + 1, pairs_.size() - 1);
+       ++other) {
     if (other != pair) pairs_[other].has_met = false;
     predict(other);
     next_.replay(other);

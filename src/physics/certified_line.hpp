@@ -45,8 +45,8 @@ class CertifiedLine {
     double right_share = 0;  ///< and the right one's rises
     /// sqrt(1/m_left + 1/m_right): an error of norm E changes their gap by E times this at most.
     double gap_per_norm = 0;
-    bool has_met = false;  ///< and neither has met another since
-    double due = kNever;   ///< clock of what comes next
+    bool has_met = false;   ///< and neither has met another since
+    double due = kNever;    ///< clock of what comes next
     bool is_doubt = false;  ///< not a collision, but the earliest that there might be one
   };
   /// A gap, and how fast it closes.

@@ -27,8 +27,7 @@ std::optional<Parts> parts_of(const BodySystem& system) {
 }
 
 Block block_of(const LineElement& element, int sign) {
-  return {*element.mass, sign * element.position, sign * element.velocity,
-          2 * element.half_width};
+  return {*element.mass, sign * element.position, sign * element.velocity, 2 * element.half_width};
 }
 
 class ClosedBodyLog final : public BodyLog {
@@ -68,7 +67,9 @@ class ClosedBodyLog final : public BodyLog {
     return state;
   }
 
-  Integer count_at(const Rational& time) const override { return blocks_->count_at(time); }
+  Integer count_at(const Rational& time) const override {
+    return time < 0 ? Integer(0) : blocks_->count_at(time);
+  }
   Rational time_after(const Integer& index) const override { return blocks_->time_after(index); }
   std::optional<Rational> turn() const override { return blocks_->turn(); }
   Integer exact_size() const override { return size(); }

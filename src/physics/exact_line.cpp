@@ -83,8 +83,8 @@ void ExactLine::predict(std::size_t pair) {
   const Rational closing = left.velocity - right.velocity;
   meetings_[pair].reset();
   if (closing <= 0) return;
-  const Rational gap = (right.position_at(time_) - right.half_width) -
-                       (left.position_at(time_) + left.half_width);
+  const Rational gap =
+      (right.position_at(time_) - right.half_width) - (left.position_at(time_) + left.half_width);
   meetings_[pair] = time_ + gap / closing;
 }
 

@@ -61,18 +61,18 @@ std::optional<Impact> impact(const CollisionLog& log, CollisionKind kind, const 
     if (collision.kind != kind) continue;
     const double impulse = impulse_of(mass_ratio, collision);
     if (!sum) {
-      sum = Impact{.kind = kind, .time = collision.time, .blue_position = collision.blue.position};
+      sum = Impact{.kind = kind, .time = collision.time, .position = collision.blue.position};
     }
     sum->impulse += impulse;
     const double share = sum->impulse > 0 ? impulse / sum->impulse : 0;
     const Time& time = collision.time;
     delay += share * ((time.hi - sum->time.hi) + (time.lo - sum->time.lo) - delay);
-    shift += share * (collision.blue.position - sum->blue_position - shift);
+    shift += share * (collision.blue.position - sum->position - shift);
   }
   if (sum) {
     const Time time = two_sum(sum->time.hi, delay);
     sum->time = two_sum(time.hi, time.lo + sum->time.lo);
-    sum->blue_position += shift;
+    sum->position += shift;
   }
   return sum;
 }

@@ -15,7 +15,8 @@ struct Impact {
   /// Sum of the impulses. The unit is the impulse that red, had it all the energy of the run, would
   /// give to blue at rest: 2 m_blue m_red / (m_blue + m_red) times its velocity.
   double impulse = 0;
-  double blue_position = 0;  ///< of one collision; of several, a position between theirs
+  /// Of blue, or of one of the bodies, along x: at one collision; of several, a place between.
+  double position = 0;
 };
 
 /// The collisions of this kind among first … last, which are indices of the log; nothing if there
@@ -26,5 +27,11 @@ std::optional<Impact> impact(const CollisionLog& log, CollisionKind kind, const 
 /// The count of state_at(), except that collisions within the rounding of `time` and of the engine
 /// may count as earlier or later. The cost does not depend on the number of collisions.
 Integer count_near(const CollisionLog& log, const Time& time);
+
+/// The same of any log. Bodies have another unit of impulse: what a body of mean mass gets from a
+/// wall that it meets at the mean speed. What meets an immovable body has met a wall.
+std::optional<Impact> impact(const Timeline& log, CollisionKind kind, const Integer& first,
+                             const Integer& last);
+Integer count_near(const Timeline& log, const Time& time);
 
 }  // namespace piblocks

@@ -56,6 +56,7 @@ class StoredBodyLog final : public BodyLog {
   }
 
   BodiesState state_at(const Rational& time) const override {
+    require_not_negative(time);
     compute_until(time);
     const std::shared_lock lock(mutex_);
     const std::size_t count = steps_until(time);
@@ -80,6 +81,7 @@ class StoredBodyLog final : public BodyLog {
   }
 
   Integer count_at(const Rational& time) const override {
+    if (time < 0) return 0;
     compute_until(time);
     const std::shared_lock lock(mutex_);
     return Integer(steps_until(time));
@@ -109,7 +111,6 @@ class StoredBodyLog final : public BodyLog {
  private:
   /// Unless the last step is later than that, or there are no more.
   void compute_until(const Rational& time) const {
-    require_not_negative(time);
     {
       const std::shared_lock lock(mutex_);
       if (is_computed_until(time)) return;
@@ -137,8 +138,8 @@ class StoredBodyLog final : public BodyLog {
       if (body < of_body_.size()) of_body_[body].push_back(number);
     }
     if (step->exact_time) exact_times_.push_back(*step->exact_time);
-    steps_.push_back({step->time, step->first, step->second, step->first_after,
-                      step->second_after});
+    steps_.push_back(
+        {step->time, step->first, step->second, step->first_after, step->second_after});
     return true;
   }
 

@@ -12,6 +12,7 @@
 #include "core/text.hpp"
 #include "render/renderings.hpp"
 #include "render/video_facts.hpp"
+#include "scene/run_log.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -116,6 +117,7 @@ Rendered render_bundle(const RenderJob& job,
   check_bundle(job);
   FileSet files(job.bundle->folder, "bundle");
   const auto& scene = std::get<Scene>(job.script);
+  require_blocks(scene, "render: a bundle");
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   const PageFacts facts(scene, *log, schedule);

@@ -17,11 +17,11 @@ namespace piblocks {
 namespace {
 
 /// The place of the run whose last collision comes last; the first of several.
-std::size_t longest(const std::vector<std::unique_ptr<CollisionLog>>& logs) {
+std::size_t longest(const std::vector<RunLog>& logs) {
   std::size_t found = 0;
   std::optional<Rational> latest;
   for (std::size_t i = 0; i < logs.size(); ++i) {
-    const CollisionLog& log = *logs[i];
+    const Timeline& log = logs[i].timeline();
     if (log.size() == 0) continue;
     Rational last = time_of(Instant::last(), log);
     if (latest && last <= *latest) continue;
@@ -68,7 +68,7 @@ std::vector<Voice> voices_of(const Film& film) {
       const auto stretches = segment.schedule()->stretches();
       Voice& voice = voices.emplace_back(
           Voice{.scene = run.scene(),
-                .log = run.log(),
+                .log = run.timeline(),
                 .stretches = {stretches.begin(), stretches.end()},
                 .begin_s = Rational(placed.first_frame) / rate,
                 .end_s = Rational(placed.first_frame + segment.frame_count()) / rate});
@@ -84,31 +84,44 @@ std::vector<Voice> voices_of(const Film& film) {
 
 }  // namespace
 
-FilmRun::FilmRun(Scene scene, std::unique_ptr<CollisionLog> log, FilmUse use)
+FilmRun::FilmRun(Scene scene, RunLog log, FilmUse use)
     : scene_(std::move(scene)), log_(std::move(log)) {
-  if (use == FilmUse::pictures) composition_.emplace(scene_, *log_, read_logo(scene_));
+  if (use == FilmUse::audio_only) return;
+  if (const BodyLog* const bodies = log_.bodies()) {
+    composition_.emplace(scene_, *bodies, read_logo(scene_));
+  } else {
+    composition_.emplace(scene_, *log_.blocks(), read_logo(scene_));
+  }
 }
 
-DrawList FilmRun::picture(const FrameTime& shown) const {
-  return composition_->frame(frame_state(*log_, shown, composition_->needs()));
-}
+DrawList FilmRun::picture(const FrameTime& shown) const { return picture(shown, nullptr); }
 
-DrawList FilmRun::picture(const FrameTime& shown, const VideoTime& video_time) const {
-  return composition_->frame(frame_state(*log_, shown, composition_->needs(), video_time));
+DrawList FilmRun::picture(const FrameTime& shown, const VideoTime* video_time) const {
+  if (const BodyLog* const bodies = log_.bodies()) {
+    require_certain(scene_, *bodies, shown.time);
+    return composition_->frame(frame_state(*bodies, shown));
+  }
+  const CollisionLog& blocks = *log_.blocks();
+  const FrameNeeds& needs = composition_->needs();
+  return composition_->frame(video_time == nullptr
+                                 ? frame_state(blocks, shown, needs)
+                                 : frame_state(blocks, shown, needs, *video_time));
 }
 
 DrawList FilmRun::frame(const Schedule& schedule, std::int64_t number) const {
-  const Rational video_s = Rational(number) / scene_.view.frame_rate;
-  return picture(schedule.at(video_s, open_s(scene_.view)), {schedule, video_s});
+  const VideoTime video_time{schedule, Rational(number) / scene_.view.frame_rate};
+  return picture(schedule.at(video_time.video_s, open_s(scene_.view)), &video_time);
 }
 
 DrawList FilmRun::still(const Rational& time) const {
-  const FrameTime shown = still_time(scene_, *log_, time);
+  const FrameTime shown = still_time(scene_, timeline(), time);
   const FrameNeeds& needs = composition_->needs();
-  if (!(needs.hits || needs.video_s) || !has_span(scene_, *log_)) return picture(shown);
-  const Schedule schedule = make_schedule(scene_, *log_);
+  if (!(needs.hits || needs.video_s) || !has_span(scene_, timeline())) return picture(shown);
+  const Schedule schedule = make_schedule(scene_, timeline());
   const std::optional<Rational> video_s = schedule.first_shown_s(time);
-  return video_s ? picture(shown, {schedule, *video_s}) : picture(shown);
+  if (!video_s) return picture(shown);
+  const VideoTime video_time{schedule, *video_s};
+  return picture(shown, &video_time);
 }
 
 std::shared_ptr<const Image> read_logo(const Scene& scene) {
@@ -137,21 +150,21 @@ FilmSegment::FilmSegment(const Card& card, const View& film, FilmUse use) {
 }
 
 void FilmSegment::show_one(Scene scene, FilmUse use) {
-  auto log = make_collision_log(scene.system);
-  schedule_ = make_schedule(scene, *log);
+  RunLog log(scene);
+  schedule_ = make_schedule(scene, log.timeline());
   frame_count_ = film_frames(*schedule_);
   runs_.emplace_back(std::move(scene), std::move(log), use);
 }
 
 void FilmSegment::compare(const Scenes& scenes, Split split, const View& film, FilmUse use) {
   split_.emplace(film, scenes.size(), split);
-  std::vector<std::unique_ptr<CollisionLog>> logs;
-  for (const Scene& scene : scenes) logs.push_back(make_collision_log(scene.system));
+  std::vector<RunLog> logs;
+  for (const Scene& scene : scenes) logs.emplace_back(scene);
   const std::size_t leader = longest(logs);
   const Scene leading = with_film_view(scenes[leader], film);
-  schedule_ = make_schedule(leading, *logs[leader]);
+  schedule_ = make_schedule(leading, logs[leader].timeline());
   frame_count_ = film_frames(*schedule_);
-  const Span span = span_of(leading, *logs[leader]);
+  const Span span = span_of(leading, logs[leader].timeline());
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     Scene scene = with_film_view(scenes[i], film);
     scene.view.width_px = split_->cells()[i].width_px;

@@ -21,6 +21,7 @@
 #include "draw/montage.hpp"
 #include "media/output/output.hpp"
 #include "render/frame_state.hpp"
+#include "scene/run_log.hpp"
 #include "scene/schedule.hpp"
 #include "sound/soundtrack.hpp"
 
@@ -33,12 +34,13 @@ enum class FilmUse : std::uint8_t { pictures, audio_only };
 /// A scene, its collisions, and what its frames are composed by. Const members are thread-safe.
 class FilmRun {
  public:
-  /// @param log  of the scene's system.
+  /// @param log  of the scene.
   /// @throws UsageError, DrawError, MediaError as Composition and read_logo().
-  FilmRun(Scene scene, std::unique_ptr<CollisionLog> log, FilmUse use);
+  FilmRun(Scene scene, RunLog log, FilmUse use);
 
   const Scene& scene() const noexcept { return scene_; }
-  const CollisionLog& log() const noexcept { return *log_; }
+  const RunLog& log() const noexcept { return log_; }
+  const Timeline& timeline() const { return log_.timeline(); }
   /// A frame by a schedule, which may be another run's. @param number  >= 0
   DrawList frame(const Schedule& schedule, std::int64_t number) const;
   /// What a still of this time shows. @throws UsageError as still_time(), or if the picture shows
@@ -48,10 +50,10 @@ class FilmRun {
   DrawList picture(const FrameTime& shown) const;
 
  private:
-  DrawList picture(const FrameTime& shown, const VideoTime& video_time) const;
+  DrawList picture(const FrameTime& shown, const VideoTime* video_time) const;
 
   Scene scene_;
-  std::unique_ptr<CollisionLog> log_;
+  RunLog log_;
   std::optional<Composition> composition_;  ///< unless FilmUse::audio_only
 };
 

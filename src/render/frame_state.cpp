@@ -116,6 +116,14 @@ bool is_moving(const VideoTime& video_time) {
 
 }  // namespace
 
+FrameState frame_state(const BodyLog& log, const FrameTime& shown) {
+  BodiesState now = log.state_at(shown.time);
+  FrameState state{
+      .state = {std::move(now.count), {}, {}}, .time = shown.time, .slowdown = shown.slowdown};
+  state.bodies = std::move(now.bodies);
+  return state;
+}
+
 FrameState frame_state(const CollisionLog& log, const FrameTime& shown, const FrameNeeds& needs) {
   FrameState state{log.state_at(shown.time), shown.time, shown.slowdown};
   state.exposure.reserve(shown.exposure.size());

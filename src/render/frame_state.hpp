@@ -2,6 +2,7 @@
 // In: a log, and what a frame shows of time. Out: the FrameState of that frame.
 #pragma once
 
+#include <piblocks/bodies.hpp>
 #include <piblocks/run.hpp>
 
 #include "draw/composition.hpp"
@@ -14,6 +15,9 @@ struct VideoTime {
   const Schedule& schedule;
   Rational video_s;  ///< >= 0
 };
+
+/// The bodies at a time.
+FrameState frame_state(const BodyLog& log, const FrameTime& shown);
 
 /// State, time and exposure; gaps if they are needed; no hits.
 FrameState frame_state(const CollisionLog& log, const FrameTime& shown, const FrameNeeds& needs);

@@ -18,6 +18,7 @@
 #include "render/renderings.hpp"
 #include "render/step_clock.hpp"
 #include "render/video_facts.hpp"
+#include "scene/run_log.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -128,6 +129,7 @@ Rendered render_page(const RenderJob& job, const std::function<void(const Progre
                      const std::stop_token& stop) {
   check_page(job);
   const auto& scene = std::get<Scene>(job.script);
+  require_blocks(scene, "render: an HTML page");
   const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
   const Schedule schedule = make_schedule(scene, *log);
   const PageFacts facts(scene, *log, schedule);

@@ -55,12 +55,12 @@ void write_picture(const std::string& output, const char* command, const std::st
 
 FilmRun run_of(const Scene& scene) {
   require_valid(problems_of(scene));
-  return {scene, make_collision_log(scene.system), FilmUse::pictures};
+  return {scene, RunLog(scene), FilmUse::pictures};
 }
 
 DrawList picture_of(const Scene& scene, const Instant& instant) {
   const FilmRun run = run_of(scene);
-  return run.still(time_of(instant, run.log()));
+  return run.still(time_of(instant, run.timeline()));
 }
 
 DrawList picture_of(const Storyboard& story, const Instant& instant) {
@@ -95,8 +95,8 @@ struct ShownCollisions {
   Integer size() const { return last > before ? Integer(last - before) : 0; }
 };
 
-ShownCollisions collisions_of(const Span& span, const CollisionLog& log) {
-  return {log.state_at(span.from).count, log.state_at(span.to).count};
+ShownCollisions collisions_of(const Span& span, const Timeline& log) {
+  return {log.count_at(span.from), log.count_at(span.to)};
 }
 
 std::vector<Instant> spread_over_count(const Span& span, const ShownCollisions& shown,
@@ -112,7 +112,7 @@ std::vector<Instant> spread_over_count(const Span& span, const ShownCollisions& 
 
 /// @throws UsageError if the run has not as many different counts.
 void check_spread_over_count(const Scene& scene, const ShownCollisions& shown, int pictures) {
-  if (corner_of(scene.system)) {
+  if (!scene.bodies && corner_of(scene.system)) {
     throw UsageError(
         "sheet: cannot space pictures by count, since all collisions happen at once; use --by "
         "time");
@@ -127,6 +127,7 @@ void check_spread_over_count(const Scene& scene, const ShownCollisions& shown, i
 /// By count if pictures at equal times would miss the turn, where collisions are densest.
 Spacing usual_spacing(const Scene& scene, const Span& span, const ShownCollisions& shown,
                       int pictures) {
+  if (scene.bodies) return Spacing::time;
   const std::optional<Rational> turn = turn_of(scene.system);
   const bool shows_turn = turn && span.from <= *turn && *turn <= span.to;
   const bool is_enough = shown.size() + 1 >= pictures && !corner_of(scene.system);
@@ -149,10 +150,11 @@ void render_still(const Script& script, const Instant& instant, const std::strin
 std::vector<Instant> spread_instants(const Scene& scene, int pictures, std::optional<Spacing> by) {
   check_count(pictures < 0 ? 0 : static_cast<std::size_t>(pictures));
   require_valid(problems_of(scene));
-  const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
-  const Span span = span_of(scene, *log);
+  const RunLog run(scene);
+  const Timeline& log = run.timeline();
+  const Span span = span_of(scene, log);
   if (by == Spacing::time) return spread_over_time(span, pictures);
-  const ShownCollisions shown = collisions_of(span, *log);
+  const ShownCollisions shown = collisions_of(span, log);
   if (by == Spacing::count) check_spread_over_count(scene, shown, pictures);
   return by.value_or(usual_spacing(scene, span, shown, pictures)) == Spacing::count
              ? spread_over_count(span, shown, pictures)
@@ -164,7 +166,7 @@ std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
   const FilmRun run = run_of(scene);
   std::vector<Rational> times;
   times.reserve(instants.size());
-  for (const Instant& instant : instants) times.push_back(time_of(instant, run.log()));
+  for (const Instant& instant : instants) times.push_back(time_of(instant, run.timeline()));
   const std::vector<std::string> captions = sheet_captions(scene, instants, times);
   std::vector<CaptionedPicture> pictures;
   for (std::size_t i = 0; i < times.size(); ++i) {

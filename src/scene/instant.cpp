@@ -58,16 +58,18 @@ Rational parse_offset(std::string_view text) {
 
 /// The index of the collision that the anchor names. Nothing if it names none, or the run has no
 /// such collision.
-std::optional<Integer> anchoring_collision(const Instant& instant, const CollisionLog& log) {
+std::optional<Integer> anchoring_collision(const Instant& instant, const Timeline& log) {
   if (instant.anchor == Anchor::last && log.size() > 0) return log.size();
   const bool is_there = instant.index >= log.first_index() && instant.index <= log.size();
   if (instant.anchor == Anchor::collision && is_there) return instant.index;
   return std::nullopt;
 }
 
-[[noreturn]] void fail_missing(const Instant& instant, const CollisionLog& log) {
+[[noreturn]] void fail_missing(const Instant& instant, const Timeline& log) {
   if (instant.anchor == Anchor::turn) {
-    throw UsageError("'turn': there is no turn, since no block moves; give a time");
+    throw UsageError(
+        "'turn': there is no turn; only two blocks beside a wall have one, if they move; give a "
+        "time");
   }
   if (instant.anchor == Anchor::last) {
     throw UsageError("'last': no collision happens from time 0 on; give a time");
@@ -99,16 +101,16 @@ std::string exact_text(const Instant& instant) {
   return text + (instant.offset > 0 ? "+" : "") + offset;
 }
 
-bool exists(const Instant& instant, const CollisionLog& log) {
+bool exists(const Instant& instant, const Timeline& log) {
   if (instant.is_time()) return true;
-  if (instant.anchor == Anchor::turn) return turn_of(log.system()).has_value();
+  if (instant.anchor == Anchor::turn) return log.turn().has_value();
   return anchoring_collision(instant, log).has_value();
 }
 
-Rational time_of(const Instant& instant, const CollisionLog& log) {
+Rational time_of(const Instant& instant, const Timeline& log) {
   if (instant.is_time()) return instant.offset;
   if (instant.anchor == Anchor::turn) {
-    const std::optional<Rational> turn = turn_of(log.system());
+    const std::optional<Rational> turn = log.turn();
     if (!turn) fail_missing(instant, log);
     return *turn + instant.offset;
   }

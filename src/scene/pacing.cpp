@@ -38,7 +38,7 @@ Rational nominal_speed(const Scene& scene) {
   return scene.pacing.duration_s ? Rational(1) : scene.time.speed;
 }
 
-std::vector<Move> automatic_windows(const Scene& scene, const CollisionLog& log) {
+std::vector<Move> automatic_windows(const Scene& scene, const Timeline& log) {
   const std::optional<Rational> turn = turn_of(scene.system);
   if (!turn || log.size() < log.first_index()) return {};
   const Rational speed = nominal_speed(scene);
@@ -75,7 +75,7 @@ void check(const Move& window, const Span& span) {
 }
 
 /// In order, apart, inside the span. A window is half-open: from <= time < to.
-std::vector<Move> slow_windows(const Scene& scene, const CollisionLog& log, const Span& span) {
+std::vector<Move> slow_windows(const Scene& scene, const Timeline& log, const Span& span) {
   std::vector<Move> windows;
   if (scene.pacing.automatic_slow_motion) windows = automatic_windows(scene, log);
   for (const SlowMotion& slow : scene.pacing.slow_motion) {
@@ -98,7 +98,7 @@ std::vector<Move> slow_windows(const Scene& scene, const CollisionLog& log, cons
 }
 
 /// In order, inside the span.
-std::vector<Move> freezes_of(const Scene& scene, const CollisionLog& log, const Span& span) {
+std::vector<Move> freezes_of(const Scene& scene, const Timeline& log, const Span& span) {
   std::vector<Move> freezes;
   for (const Freeze& freeze : scene.pacing.freezes) {
     const Rational time = time_of(freeze.at, "time.freeze", log);
@@ -114,7 +114,7 @@ std::vector<Move> freezes_of(const Scene& scene, const CollisionLog& log, const 
 
 }  // namespace
 
-Rational time_of(const Instant& instant, const char* key, const CollisionLog& log) {
+Rational time_of(const Instant& instant, const char* key, const Timeline& log) {
   try {
     return time_of(instant, log);
   } catch (const UsageError& error) {
@@ -126,7 +126,7 @@ Rational whole_frames(const Rational& length_s, const Rational& frame_rate) {
   return Rational(ceil(length_s * frame_rate)) / frame_rate;
 }
 
-std::vector<Move> moves_of(const Scene& scene, const CollisionLog& log, const Span& span) {
+std::vector<Move> moves_of(const Scene& scene, const Timeline& log, const Span& span) {
   const std::vector<Move> windows = slow_windows(scene, log, span);
   const std::vector<Move> freezes = freezes_of(scene, log, span);
   std::vector<Move> moves;

@@ -143,6 +143,26 @@ void check_show(const Show& show, SceneProblems& problems) {
   if (show.loupe) check_loupe(*show.loupe, problems);
 }
 
+/// What is there for two blocks and a wall alone.
+void check_bodies(const Scene& scene, SceneProblems& problems) {
+  constexpr const char* kReason = "{} is for two blocks and a wall, and this scene has [[body]]";
+  const auto reject = [&](bool is_there, const char* key, const std::string& what) {
+    if (is_there) problems.add(key, kReason, what);
+  };
+  problems.require(scene.bodies->styles.size() == scene.bodies->system.bodies.size(), "body",
+                   "must have one style for each body");
+  reject(scene.pacing.automatic_slow_motion, "time.slow-motion", "'auto'");
+  reject(scene.view.shutter > 0, "view.shutter", "motion blur");
+  reject(scene.show.has(Overlay::digits), "show.overlays", "'digits'");
+  reject(scene.show.loupe && scene.show.loupe->is_on, "show.loupe", "the loupe");
+  for (const Panel panel : scene.show.panels) {
+    reject(true, "show.panels", fmt::format("'{}'", exact_text(panel)));
+  }
+  const bool is_early = scene.time.from.is_time() && scene.time.from.offset < 0;
+  problems.require(!is_early, "time.from", "= {}: the motion of bodies begins at time 0",
+                   scene.time.from.offset);
+}
+
 void check_golden(const Golden& golden, SceneProblems& problems) {
   constexpr const char* kKey = "golden.frames";
   if (golden.size) check_size("golden.size", *golden.size, problems);
@@ -183,7 +203,9 @@ Rational width_by_mass(const BlockSystem& system) {
 }
 
 std::vector<Problem> problems_of(const Scene& scene) {
-  SceneProblems problems(problems_of(scene.system));
+  SceneProblems problems(scene.bodies ? problems_of(scene.bodies->system)
+                                      : problems_of(scene.system));
+  if (scene.bodies) check_bodies(scene, problems);
   check_view(scene.view, problems);
   check_time(scene.time, problems);
   check_pacing(scene, problems);

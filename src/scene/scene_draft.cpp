@@ -49,20 +49,46 @@ void SceneDraft::read(const std::string& path, const TomlTable& table) {
     if (problem.empty()) continue;
     add_problem(table.line > 0 ? fmt::format("{}:{}", path, table.line) : path, problem);
   }
-  for (const TomlEntry& entry : table.entries) {
-    const std::string origin = fmt::format("{}:{}", path, entry.line);
-    if (entry.key == "part" && !entry.tables.empty()) {
-      add_problem(origin, "part: a single scene has no parts; this is a storyboard");
-    } else if (entry.problem.empty()) {
-      set(origin, entry.key, entry.values);
-      // Relative to the folder of the scene file.
-      if (entry.key == "show.logo" && !scene_.show.logo.empty()) {
-        scene_.show.logo = std::filesystem::path(path).parent_path() / scene_.show.logo;
-      }
-    } else {
-      add_problem(origin, fmt::format("{}: {}", entry.key, entry.problem));
+  for (const TomlEntry& entry : table.entries) set_entry(path, entry);
+}
+
+void SceneDraft::set_entry(const std::string& path, const TomlEntry& entry) {
+  const std::string origin = fmt::format("{}:{}", path, entry.line);
+  if (entry.key == "body") {
+    read_bodies(path, entry);
+  } else if (entry.key == "part" && !entry.tables.empty()) {
+    add_problem(origin, "part: a single scene has no parts; this is a storyboard");
+  } else if (entry.problem.empty()) {
+    set(origin, entry.key, entry.values);
+    // Relative to the folder of the scene file.
+    if (entry.key == "show.logo" && !scene_.show.logo.empty()) {
+      scene_.show.logo = std::filesystem::path(path).parent_path() / scene_.show.logo;
     }
+  } else {
+    add_problem(origin, fmt::format("{}: {}", entry.key, entry.problem));
   }
+}
+
+void SceneDraft::read_bodies(const std::string& path, const TomlEntry& entry) {
+  const auto on_problem = [&](std::size_t line, const std::string& text) {
+    add_problem(fmt::format("{}:{}", path, line), text);
+  };
+  if (entry.tables.empty())
+    return on_problem(entry.line, "body: is written [[body]], once for each");
+  bodies_path_ = path;
+  bodies_.read(entry.tables, on_problem);
+}
+
+/// @return whether it is a key of the box
+bool SceneDraft::set_box(const std::string& key, const Values& values) {
+  if (key == "box.x") {
+    bodies_.set_box_x(parse_box_side(values));
+  } else if (key == "box.y") {
+    bodies_.set_box_y(parse_box_side(values));
+  } else {
+    return false;
+  }
+  return true;
 }
 
 void SceneDraft::set(const std::string& origin, const std::string& key, const Values& values) {
@@ -77,6 +103,10 @@ void SceneDraft::set_key(const std::string& origin, const std::string& key, cons
   if (key == "digits") return set_mass_ratio(origin, parse_digits(values), std::nullopt);
   if (key == "mass-ratio") {
     return set_mass_ratio(origin, std::nullopt, parse_rational(single(values)));
+  }
+  if (set_box(key, values)) {
+    origins_[key] = origin;
+    return;
   }
   const std::span<const SceneKey> keys = scene_keys();
   const auto found = std::ranges::find(keys, std::string_view(key), &SceneKey::name);
@@ -113,6 +143,14 @@ SceneDraft SceneDraft::next(const std::string& origin) const {
 
 Scene SceneDraft::scene() const {
   Scene scene = scene_;
+  if (!bodies_.empty()) {
+    scene.bodies = bodies_.bodies();
+    View seen = scene.view;
+    show_all(scene.bodies->system, seen);
+    if (!origins_.contains("view.x")) scene.view.x = seen.x;
+    if (!origins_.contains("view.y")) scene.view.y = seen.y;
+    return scene;
+  }
   const std::optional<Rational> ratio =
       digits_ ? std::optional(mass_ratio_of(*digits_, scene.show.base)) : mass_ratio_;
   if (ratio) scene.system.red.mass = scene.system.blue.mass * *ratio;
@@ -125,13 +163,45 @@ Scene SceneDraft::scene() const {
   return scene;
 }
 
+std::string SceneDraft::origin_of(const std::string& key) const {
+  const auto origin = origins_.find(key);
+  if (origin != origins_.end()) return origin->second;
+  // "body 3.mass": the table of the third body.
+  std::size_t number = 0;
+  const char* const digits = key.data() + std::min<std::size_t>(key.size(), 5);
+  const bool is_of_body =
+      key.starts_with("body ") &&
+      std::from_chars(digits, key.data() + key.size(), number).ec == std::errc{};
+  const std::size_t line = is_of_body ? bodies_.line(number - 1) : 0;
+  return line > 0 ? fmt::format("{}:{}", bodies_path_, line) : default_origin_;
+}
+
+/// Keys of blue, red and the wall, where there are bodies instead; and a box without bodies.
+std::vector<std::string> SceneDraft::problems_of_bodies(const Scene& scene) const {
+  std::vector<std::string> problems;
+  for (const auto& [key, origin] : origins_) {
+    const bool is_of_blocks =
+        key.starts_with("blue.") || key.starts_with("red.") || key.starts_with("wall.");
+    if (scene.bodies && is_of_blocks) {
+      problems.push_back(fmt::format(
+          "{}: {}: this scene has [[body]] instead of blue, red and the wall", origin,
+          key == "red.mass" && (digits_ || mass_ratio_) ? (digits_ ? "digits" : "mass-ratio")
+                                                        : key));
+    } else if (!scene.bodies && key.starts_with("box.")) {
+      problems.push_back(
+          fmt::format("{}: {}: is the box of bodies, and there is no [[body]]", origin, key));
+    }
+  }
+  return problems;
+}
+
 std::vector<std::string> SceneDraft::problems(bool of_film) const {
   std::vector<std::string> problems = problems_;
-  for (const auto& [key, reason] : problems_of(scene())) {
+  const Scene made = scene();
+  for (std::string& problem : problems_of_bodies(made)) problems.push_back(std::move(problem));
+  for (const auto& [key, reason] : problems_of(made)) {
     if (of_film && !is_film_key(key)) continue;
-    const auto origin = origins_.find(key);
-    problems.push_back(fmt::format(
-        "{}: {} {}", origin == origins_.end() ? default_origin_ : origin->second, key, reason));
+    problems.push_back(fmt::format("{}: {} {}", origin_of(key), key, reason));
   }
   return problems;
 }

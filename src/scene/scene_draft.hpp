@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/body_keys.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/toml_file.hpp"
 
@@ -32,6 +33,11 @@ class SceneDraft {
   std::vector<std::string> problems(bool of_film = false) const;
 
  private:
+  void set_entry(const std::string& path, const TomlEntry& entry);
+  void read_bodies(const std::string& path, const TomlEntry& entry);
+  bool set_box(const std::string& key, const Values& values);
+  std::vector<std::string> problems_of_bodies(const Scene& scene) const;
+  std::string origin_of(const std::string& key) const;
   void set_key(const std::string& origin, const std::string& key, const Values& values);
   /// What red's mass follows from: one of the two, or neither.
   void set_mass_ratio(const std::string& origin, std::optional<int> digits,
@@ -39,6 +45,8 @@ class SceneDraft {
   void add_problem(const std::string& origin, const std::string& text);
 
   Scene scene_;
+  BodyDraft bodies_;
+  std::string bodies_path_;
   std::optional<Rational> mass_ratio_;
   std::optional<int> digits_;  // their mass ratio depends on the base, which may be set later
   bool width_by_mass_ = false;

@@ -8,9 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <iterator>
 #include <optional>
 #include <sstream>
 #include <utility>
+
+#include "scene/body_keys.hpp"
 
 namespace piblocks {
 namespace {
@@ -188,6 +191,7 @@ constexpr auto kKeys = std::to_array<SceneKey>({
     key<&Scene::time, &TimeSpan::to>("time.to"),
     SceneKey{"time.speed", set_speed, speed_of},
     SceneKey{"time.duration", set_duration, duration_of},
+    key<&Scene::time, &TimeSpan::allow_uncertain>("time.allow-uncertain"),
     SceneKey{"time.slow-motion", set_slow_motion, slow_motion_of},
     key<&Scene::pacing, &Pacing::ease_s>("time.ease"),
     key<&Scene::pacing, &Pacing::freezes>("time.freeze"),
@@ -230,6 +234,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Scene& scene) {
   for (const SceneKey& key : scene_keys()) {
     values.emplace_back(key.name, fmt::format("{}", fmt::join(key.get(scene), ", ")));
   }
+  if (scene.bodies) std::ranges::move(describe(*scene.bodies), std::back_inserter(values));
   return values;
 }
 

@@ -73,11 +73,11 @@ std::vector<Stretch> played_back(std::vector<Stretch> stretches, const Rational&
 
 }  // namespace
 
-bool has_span(const Scene& scene, const CollisionLog& log) {
+bool has_span(const Scene& scene, const Timeline& log) {
   return exists(scene.time.from, log) && exists(scene.time.to, log);
 }
 
-Span span_of(const Scene& scene, const CollisionLog& log) {
+Span span_of(const Scene& scene, const Timeline& log) {
   if (scene.time.to.anchor == Instant::Anchor::last && log.size() == 0) {
     throw UsageError(
         "time.to: no collision happens from time 0 on, so the video cannot end with the last one; "
@@ -86,7 +86,7 @@ Span span_of(const Scene& scene, const CollisionLog& log) {
   return {time_of(scene.time.from, "time.from", log), time_of(scene.time.to, "time.to", log)};
 }
 
-Schedule make_schedule(const Scene& scene, const CollisionLog& log) {
+Schedule make_schedule(const Scene& scene, const Timeline& log) {
   const Span span = span_of(scene, log);
   if (span.to <= span.from) {
     throw UsageError(
@@ -135,7 +135,7 @@ std::int64_t film_frames(const Schedule& schedule) {
                   readable(frames), readable(kMaxFrames)));
 }
 
-FrameTime still_time(const Scene& scene, const CollisionLog& log, const Rational& time) {
+FrameTime still_time(const Scene& scene, const Timeline& log, const Rational& time) {
   const Pacing& pacing = scene.pacing;
   const bool is_even = !pacing.automatic_slow_motion && pacing.slow_motion.empty();
   if (is_even && scene.view.shutter == 0) return {time};

@@ -48,11 +48,11 @@ struct Span {
 };
 
 /// Whether the run has the instants between which the scene is shown.
-bool has_span(const Scene& scene, const CollisionLog& log);
+bool has_span(const Scene& scene, const Timeline& log);
 
 /// The times between which the scene is shown.
 /// @throws UsageError unless has_span().
-Span span_of(const Scene& scene, const CollisionLog& log);
+Span span_of(const Scene& scene, const Timeline& log);
 
 /// Frame k shows what the video shows at k / frame_rate seconds. Nothing is accumulated, so no
 /// frame depends on another.
@@ -93,7 +93,7 @@ class Schedule {
 /// @throws UsageError as span_of(); if the span is empty; if windows of slow motion overlap; if a
 ///         window or a freeze is outside of the span; if the duration leaves no time for the
 ///         motion.
-Schedule make_schedule(const Scene& scene, const CollisionLog& log);
+Schedule make_schedule(const Scene& scene, const Timeline& log);
 
 /// The number of frames of a film.
 /// @throws UsageError if they are more than kMaxFrames.
@@ -106,6 +106,6 @@ inline Rational open_s(const View& view) { return view.shutter / view.frame_rate
 /// does, a frame that begins where the video first passes it. If the video never passes it, time
 /// runs at scene.time.speed.
 /// @throws UsageError as make_schedule(), if slow motion or the shutter ask for a schedule.
-FrameTime still_time(const Scene& scene, const CollisionLog& log, const Rational& time);
+FrameTime still_time(const Scene& scene, const Timeline& log, const Rational& time);
 
 }  // namespace piblocks

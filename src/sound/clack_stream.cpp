@@ -31,7 +31,7 @@ double ClackStream::SampleStretch::sample_at(const Time& t) const {
   return begin + ((t.hi - time.hi) + (t.lo - time.lo)) / time_per_sample;
 }
 
-ClackStream::ClackStream(const CollisionLog& log, std::span<const Stretch> stretches,
+ClackStream::ClackStream(const Timeline& log, std::span<const Stretch> stretches,
                          const Rational& duration_s, int rate_hz)
     : log_(log) {
   add_first_instant(stretches, rate_hz);
@@ -73,7 +73,7 @@ void ClackStream::enter_stretch() {
   // Exact, as for the pictures: a collision just there may have to wait until the film moves on.
   const bool is_early = sample_ < stretch().begin && stretch().time_per_sample > 0;
   const Rational time = is_early ? to_rational(stretch().time_at(sample_)) : stretch().begin_time;
-  count_ = log_.state_at(time).count;
+  count_ = log_.count_at(time);
 }
 
 void ClackStream::read_until(std::int64_t sample, std::vector<Clack>& clacks) {
@@ -92,13 +92,13 @@ Integer ClackStream::count_at(double sample) const {
   const Time time = stretch().time_at(sample);
   // In such slow motion the rounding of count_near() would be audible.
   const bool is_slow = std::fabs(stretch().time_per_sample) < 0x1p-45 * std::fabs(time.hi);
-  return is_slow ? log_.state_at(to_rational(time)).count : count_near(log_, time);
+  return is_slow ? log_.count_at(to_rational(time)) : count_near(log_, time);
 }
 
 /// Within a stretch it does not matter in which piece a collision is found, if none is found twice.
 Integer ClackStream::count_at_end(double end, bool is_last) const {
   if (stretch().time_per_sample == 0) return count_;
-  const Integer count = is_last ? log_.state_at(stretch().end_time).count : count_at(end);
+  const Integer count = is_last ? log_.count_at(stretch().end_time) : count_at(end);
   return stretch().time_per_sample > 0 ? std::max(count, count_) : std::min(count, count_);
 }
 
@@ -135,7 +135,7 @@ void ClackStream::add_impacts(const Integer& first, const Integer& last, const P
     // If a count was rounded, the time may be just outside of the piece.
     const double sample =
         std::max(piece.begin, std::min(piece.end, stretch().sample_at(together->time)));
-    clacks.push_back({sample, kind, together->impulse, together->blue_position});
+    clacks.push_back({sample, kind, together->impulse, together->position});
   }
 }
 

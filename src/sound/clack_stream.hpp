@@ -17,15 +17,15 @@ namespace piblocks {
 struct Clack {
   double sample = 0;  ///< samples since the film began, with a fraction
   CollisionKind kind = CollisionKind::blocks;
-  double impulse = 0;  ///< as Impact has it
-  double blue_position = 0;
+  double impulse = 0;   ///< as Impact has it
+  double position = 0;  ///< as Impact has it
 };
 
 /// Takes the same memory for a film of any length. Used by one thread at a time.
 class ClackStream {
  public:
-  ClackStream(const CollisionLog& log, std::span<const Stretch> stretches,
-              const Rational& duration_s, int rate_hz);
+  ClackStream(const Timeline& log, std::span<const Stretch> stretches, const Rational& duration_s,
+              int rate_hz);
 
   /// Appends the clacks before this sample that were not read yet. None is more than an eighth of a
   /// sample earlier than the one before it. @throws SimulationError as CollisionLog::state_at().
@@ -63,7 +63,7 @@ class ClackStream {
   void add_impacts(const Integer& first, const Integer& last, const Piece& piece,
                    std::vector<Clack>& clacks) const;
 
-  const CollisionLog& log_;
+  const Timeline& log_;
   std::vector<SampleStretch> stretches_;
   std::size_t current_ = 0;
   double sample_ = 0;

@@ -71,7 +71,7 @@ TEST(SplitScreen, ARowHasThePlaceOfItsCounter) {
   const Layout layout;
   const Sizes sizes(scene.view);
   FrameNeeds needs;
-  const DrawingContext context{scene,  *log,  palette, fonts, fonts.of(Face::text),
+  const DrawingContext context{scene,  *log,  log.get(), palette, fonts, fonts.of(Face::text),
                                layout, sizes, needs};
   for (const double pi_px : {0.0, 100.0, 700.0}) {
     for (const double slow_px : {0.0, 120.0, 800.0}) {

@@ -13,7 +13,7 @@ set(physics_may core physics)
 set(scene_may core physics scene)
 set(sound_may core physics scene sound)
 # Drawing sees states and collisions, not the engines that make them.
-set(draw_may core physics/run physics/exposure scene draw)
+set(draw_may core physics/bodies physics/run physics/exposure scene draw)
 # Sinks know pixels and packets, nothing of blocks.
 set(media_may core h264 media)
 set(golden_may core media golden)

@@ -97,7 +97,7 @@ TEST(Impact, OfOneCollisionIsWhereAndWhenThatIs) {
     const auto together = impact(*log, c.kind, index, index);
     ASSERT_TRUE(together.has_value());
     EXPECT_EQ(together->time, c.time);
-    EXPECT_NEAR(together->blue_position, c.blue.position, 1e-13);
+    EXPECT_NEAR(together->position, c.blue.position, 1e-13);
   }
   // The first blow is red's, with nearly all the energy, to resting blue.
   EXPECT_NEAR(impact(*log, CollisionKind::blocks, 1, 1)->impulse, 1, 1e-12);

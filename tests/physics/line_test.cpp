@@ -117,8 +117,7 @@ BodySystem random_line(Random& random, const Limits& limits) {
   }
   // In any order, and perhaps all of them immovable.
   for (std::size_t i = system.bodies.size(); i > 1; --i) {
-    std::swap(system.bodies[i - 1],
-              system.bodies[std::size_t(random.integer(0, long(i) - 1))]);
+    std::swap(system.bodies[i - 1], system.bodies[std::size_t(random.integer(0, long(i) - 1))]);
   }
   if (!system.bodies.front().mass) system.bodies.front().mass = 3;
   if (limits.walls && random.integer(0, 1) == 0) system.walls.push_back({"left", {left}, {1}});
@@ -192,7 +191,8 @@ TEST(LineTest, DoublesAreRightForAsLongAsTheySay) {
     }
   }
   RecordProperty("certain_steps", std::to_string(certain_steps / double(count)));
-  std::printf("certain: %.1f steps a system; %d of %d end\n", certain_steps / double(count), uncertain, int(count));
+  std::printf("certain: %.1f steps a system; %d of %d end\n", certain_steps / double(count),
+              uncertain, int(count));
   EXPECT_GT(certain_steps / double(count), 20);
 }
 
@@ -246,7 +246,7 @@ TEST(LineTest, TheClosedFormTakesBlocksByOtherNames) {
     EXPECT_EQ(log->size(), Integer("31415926535897932384"));
     EXPECT_EQ(log->exact_size(), log->size());
     const BodyCollision second = log->collision(2);
-    EXPECT_EQ(second.first, 1U);  // blue
+    EXPECT_EQ(second.first, 1U);   // blue
     EXPECT_EQ(second.second, 2U);  // the wall
     EXPECT_EQ(log->state_at(0).bodies[0].position[0], sign * 5);
     EXPECT_FALSE(may_never_end(system));
@@ -255,7 +255,8 @@ TEST(LineTest, TheClosedFormTakesBlocksByOtherNames) {
 
 TEST(LineTest, SwitchingToDoublesKeepsWhatHappens) {
   BodySystem system;
-  system.bodies = {{1, {1}, {1}, 1}, {Rational(17, 3), {3}, {Rational(-1, 7)}, 1},
+  system.bodies = {{1, {1}, {1}, 1},
+                   {Rational(17, 3), {3}, {Rational(-1, 7)}, 1},
                    {Rational(5, 11), {5}, {0}, 1}};
   system.walls = {{"left", {0}, {1}}, {"right", {7}, {-1}}};
   EXPECT_TRUE(may_never_end(system));
@@ -265,7 +266,8 @@ TEST(LineTest, SwitchingToDoublesKeepsWhatHappens) {
   EXPECT_LT(log->exact_size(), log->size());
   ExactWalk walk(system);
   const double until = log->certain_until().value_or(2000);
-  std::printf("exact %s of %s, certain until %g\n", log->exact_size().get_str().c_str(), log->size().get_str().c_str(), until);
+  std::printf("exact %s of %s, certain until %g\n", log->exact_size().get_str().c_str(),
+              log->size().get_str().c_str(), until);
   EXPECT_GT(until, 100);
   for (Integer k = 1; k <= log->size() && k < 1500; ++k) {
     const auto expected = walk.next();

@@ -163,7 +163,8 @@ TEST(Instant, SaysWhatTheSceneHas) {
   BlockSystem resting;
   resting.red.velocity = 0;
   EXPECT_EQ(problem(resting, "turn"),
-            "'turn': there is no turn, since no block moves; give a time");
+            "'turn': there is no turn; only two blocks beside a wall have one, if they move; give "
+            "a time");
   EXPECT_EQ(problem(resting, "last"), "'last': no collision happens from time 0 on; give a time");
   BlockSystem receding = article_system(2);
   receding.red.velocity = 1;

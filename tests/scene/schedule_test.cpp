@@ -332,7 +332,8 @@ TEST(Schedule, RefusesWhatCannotBe) {
   EXPECT_EQ(problem({{"time.slow-motion", "auto,3:4:2"}}),
             "time.slow-motion: windows overlap at 16/5; let one begin where the other ends");
   EXPECT_EQ(problem({{"time.freeze", "turn:1"}, {"time.to", "3"}}, 0),
-            "time.freeze: 'turn': there is no turn, since no block moves; give a time");
+            "time.freeze: 'turn': there is no turn; only two blocks beside a wall have one, if "
+            "they move; give a time");
   EXPECT_EQ(problem({{"time.freeze", "last:1"}, {"time.to", "3"}}, 1),
             "time.freeze: 'last': no collision happens from time 0 on; give a time");
   EXPECT_EQ(problem({{"time.freeze", "#315:1"}, {"time.to", "3"}}),

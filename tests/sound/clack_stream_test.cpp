@@ -41,7 +41,7 @@ TEST(ClackStream, HasEachCollisionAtItsSample) {
         const Collision c = log->collision(Integer(i + 1));
         EXPECT_EQ(clacks[i].kind, c.kind);
         EXPECT_NEAR(clacks[i].sample, (c.time.hi - 1) / to_double(s) * kRate_hz, 1e-6);
-        EXPECT_NEAR(clacks[i].blue_position, c.blue.position, 1e-12);
+        EXPECT_NEAR(clacks[i].position, c.blue.position, 1e-12);
       }
     }
   }

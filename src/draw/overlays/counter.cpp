@@ -58,7 +58,7 @@ class Counter {
         palette_(context.palette),
         face_(context.font.face()),
         base_(context.scene.show.base),
-        last_(context.log.size()),
+        last_(context.timeline.size()),
         pi_count_(std::move(pi_count)),
         pi_(pi_count_.empty() ? "" : pi_line(context, digits_in(pi_count_))),
         count_widths_(context.fonts.of(Face::digits), count_characters(base_)),
@@ -174,10 +174,10 @@ std::size_t lit_length(std::string_view count, std::string_view expected) {
   return length;
 }
 
-Integer longest_count(const Scene& scene, const CollisionLog& log) {
+Integer longest_count(const Scene& scene, const Timeline& log) {
   const Integer& last = log.size();
   if (log.first_index() > 0 || !has_span(scene, log)) return last;
-  const Integer first = log.state_at(span_of(scene, log).from).count;
+  const Integer first = log.count_at(span_of(scene, log).from);
   const auto length = [&](const Integer& count) {
     return count_text(count, scene.show.base).size();
   };
@@ -185,7 +185,7 @@ Integer longest_count(const Scene& scene, const CollisionLog& log) {
 }
 
 CounterRoom counter_room(const DrawingContext& context, const std::string& pi_count) {
-  const Integer longest = longest_count(context.scene, context.log);
+  const Integer longest = longest_count(context.scene, context.timeline);
   CounterRoom room;
   room.count_em = count_width_em(longest, context.scene.show.base, context.fonts.of(Face::digits));
   room.label_px = (context.font.width_em(kOverLabel) + kLabelGap_em) * context.sizes.text;

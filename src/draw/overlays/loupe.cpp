@@ -36,7 +36,7 @@ std::optional<Loupe> loupe_of(const Scene& scene) {
 /// The gap between wall and red when it is about least; infinite if that cannot be told.
 /// @param within  the times of interest; if empty, all
 double least_gap(const DrawingContext& context, const std::optional<Span>& within = {}) {
-  const CollisionLog& log = context.log;
+  const CollisionLog& log = context.log();
   const auto is_within = [&](const Rational& time) {
     return !within || (time >= within->from && time <= within->to);
   };
@@ -69,8 +69,8 @@ Span span_of_window(const LoupeWindow& window, const CollisionLog& log) {
 /// @throws UsageError if the loupe would not be seen in its window.
 void check_is_seen(const DrawingContext& context, const Span& window) {
   Span shown = window;
-  if (has_span(context.scene, context.log)) {
-    const Span span = span_of(context.scene, context.log);
+  if (has_span(context.scene, context.log())) {
+    const Span span = span_of(context.scene, context.log());
     shown = {std::max(window.from, span.from), std::min(window.to, span.to)};
     if (shown.from >= shown.to) {
       throw UsageError(fmt::format(
@@ -115,7 +115,7 @@ std::shared_ptr<const LoupeInset> LoupeInset::make(const DrawingContext& context
   }
   const bool is_small = gap_px < style::kMaxLoupeGap * context.sizes.short_side;
   if (!is_asked_for && !is_small) return nullptr;
-  if (is_asked_for) check_is_seen(context, span_of_window(*loupe->window, context.log));
+  if (is_asked_for) check_is_seen(context, span_of_window(*loupe->window, context.log()));
   auto inset = std::shared_ptr<LoupeInset>(new LoupeInset(context, *loupe, gap_px));
   const std::optional<LoupePlace> place = find_loupe_place(context, plan, inset->texts());
   if (place) {
@@ -146,7 +146,7 @@ LoupeInset::LoupeInset(const DrawingContext& context, const Loupe& loupe, double
       widths_(context.font, "0123456789,.×·") {
   context.needs.gaps = true;
   if (loupe.window) {
-    window_ = Window{span_of_window(*loupe.window, context.log), to_double(loupe.window->zoom)};
+    window_ = Window{span_of_window(*loupe.window, context.log()), to_double(loupe.window->zoom)};
   }
   const FormulaSetter setter = context.setter();
   const long most = zoom_.most_exponent() + 1;

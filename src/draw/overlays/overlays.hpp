@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,6 +53,10 @@ Drawable velocity_arrows(const DrawingContext& context);
 
 /// A scale of positions below the blocks. @throws UsageError if the view has no room there.
 Drawable ruler(const DrawingContext& context);
+
+/// The logo as large as fits, in the lower right corner of its place.
+/// @throws UsageError if it would be a speck.
+ImageItem place_logo(const Rectangle& place, std::shared_ptr<const Image> logo);
 
 /// Whether there is a label that says "10× slower".
 bool has_slow_motion(const Pacing& pacing);

@@ -30,7 +30,7 @@ struct ReadOut {
 };
 
 /// Slow motion has more decimals, since less time passes from frame to frame.
-int time_decimals(const Scene& scene, const CollisionLog& log) {
+int time_decimals(const Scene& scene, const Timeline& log) {
   double least_speed = 1;  // simulation time per second of video
   if (has_span(scene, log)) {
     const Schedule schedule = make_schedule(scene, log);
@@ -48,12 +48,13 @@ int time_decimals(const Scene& scene, const CollisionLog& log) {
 }
 
 ReadOut time_read_out(const DrawingContext& context) {
-  const auto text = [decimals = time_decimals(context.scene, context.log)](const Rational& time) {
+  const auto text = [decimals =
+                         time_decimals(context.scene, context.timeline)](const Rational& time) {
     return fmt::format("t = {}", fixed_text(time, decimals));
   };
   Rational end = 0;
-  if (has_span(context.scene, context.log)) {
-    const Span span = span_of(context.scene, context.log);
+  if (has_span(context.scene, context.timeline)) {
+    const Span span = span_of(context.scene, context.timeline);
     end = std::max(Rational(abs(span.from)), Rational(abs(span.to)));
   }
   return {"time", text(-end), [=](const FrameState& shown) { return text(shown.time); },
@@ -208,7 +209,59 @@ ReadOut fitted(const DrawingContext& context,
   }
 }
 
+/// Sums over all bodies. Elastic collisions keep the energy; walls take momentum.
+ReadOut sums_read_out(const DrawingContext& context, Overlay overlay) {
+  const Bodies& bodies = *context.scene.bodies;
+  std::vector<double> masses;
+  for (const Body& body : bodies.system.bodies) {
+    masses.push_back(body.mass ? to_double(*body.mass) : 0);
+  }
+  const bool is_plane = bodies.system.dimensions == 2;
+  const auto text = [=](const std::vector<BodyMotion>& motions) {
+    double energy = 0;
+    std::array<double, 2> momentum = {};
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      const auto& [x, y] = motions[i].velocity;
+      energy += masses[i] * (x * x + y * y) / 2;
+      momentum[0] += masses[i] * x;
+      momentum[1] += masses[i] * y;
+    }
+    const auto number = [](double value) { return short_text(value); };
+    if (overlay == Overlay::energy) return fmt::format("Energy {}", number(energy));
+    if (!is_plane) return fmt::format("Momentum {}", number(momentum[0]));
+    return fmt::format("Momentum ({}, {})", number(momentum[0]), number(momentum[1]));
+  };
+  return {"energy",
+          overlay == Overlay::energy ? "Energy −8.8888e+88" : "Momentum (−8.8888e+88, −8.8888e+88)",
+          [=](const FrameState& shown) { return text(shown.bodies); }, context.palette.text};
+}
+
+/// From which time on the picture may be wrong.
+ReadOut certainty_read_out(const DrawingContext& context, double until) {
+  const std::string text = fmt::format("not certain from t = {:.4g} on", until);
+  return {"certainty", text,
+          [=](const FrameState& shown) {
+            return to_double(shown.time) >= until ? text : std::string();
+          },
+          context.palette.accent};
+}
+
+std::vector<ReadOut> read_outs_of_bodies(const DrawingContext& context) {
+  const Show& show = context.scene.show;
+  std::vector<ReadOut> read_outs;
+  if (show.has(Overlay::time)) read_outs.push_back(time_read_out(context));
+  if (has_slow_motion(context.scene.pacing)) read_outs.push_back(slow_motion_read_out(context));
+  for (const Overlay overlay : {Overlay::energy, Overlay::momentum}) {
+    if (show.has(overlay)) read_outs.push_back(sums_read_out(context, overlay));
+  }
+  if (context.certain_until) {
+    read_outs.push_back(certainty_read_out(context, *context.certain_until));
+  }
+  return read_outs;
+}
+
 std::vector<ReadOut> read_outs_of(const DrawingContext& context) {
+  if (context.scene.bodies) return read_outs_of_bodies(context);
   const Show& show = context.scene.show;
   std::vector<ReadOut> read_outs;
   if (show.has(Overlay::time)) read_outs.push_back(time_read_out(context));

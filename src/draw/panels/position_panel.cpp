@@ -54,7 +54,7 @@ class PositionPanel {
  public:
   PositionPanel(const DrawingContext& context, const PanelPlace& place)
       : diagram_(context, place, titles_of_positions(context)),
-        path_(context.log, span_of(context.scene, context.log),
+        path_(context.log(), span_of(context.scene, context.log()),
               std::max(1, static_cast<int>(diagram_.inside().width))),
         most_(path_.greatest_y2() > 0 ? path_.greatest_y2() : 1),
         least_share_(path_.least_y2() > 0 ? path_.least_y2() / most_ : kLeastShare),

@@ -145,7 +145,7 @@ class TimePanel {
         wedge_(context.scene.system),
         axis_(context, diagram_, 0) {
     const int columns = std::max(1, static_cast<int>(std::ceil(axis_.plot().width)));
-    const auto pieces = trajectory_of(context.log, wedge_, axis_.span(), columns);
+    const auto pieces = trajectory_of(context.log(), wedge_, axis_.span(), columns);
     top_ = greatest_y2(pieces);
     const Palette& palette = diagram_.palette();
     const auto to_place = [this](double time, double gap) { return at(time, gap); };

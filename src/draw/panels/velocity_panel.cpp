@@ -53,7 +53,7 @@ class VelocityPanel {
   VelocityPanel(const DrawingContext& context, const PanelPlace& place,
                 const std::vector<Formula>& titles, bool is_ellipse_first)
       : diagram_(context, place, titles),
-        points_(context.scene, context.log),
+        points_(context.scene, context.log()),
         figure_(context, diagram_, points_),
         is_ellipse_first_(is_ellipse_first) {
     if (is_ellipse_first) context.needs.video_s = true;

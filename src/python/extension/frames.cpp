@@ -16,6 +16,7 @@
 #include "python/extension/script.hpp"
 #include "python/extension/without_gil.hpp"
 #include "render/film.hpp"
+#include "scene/run_log.hpp"
 
 namespace piblocks::python {
 namespace {
@@ -66,7 +67,7 @@ class Pictures {
       return film().frame(frame_at(film(), instant));
     }
     const FilmRun& one = run();
-    return one.still(piblocks::time_of(instant, one.log()));
+    return one.still(piblocks::time_of(instant, one.timeline()));
   }
   const Film& film() {
     const std::scoped_lock lock(mutex_);
@@ -79,8 +80,7 @@ class Pictures {
     if (!run_) {
       const Scene& scene = std::get<Scene>(script_->script);
       require_valid(problems_of(scene));
-      run_ = std::make_unique<const FilmRun>(scene, make_collision_log(scene.system),
-                                             FilmUse::pictures);
+      run_ = std::make_unique<const FilmRun>(scene, RunLog(scene), FilmUse::pictures);
     }
     return *run_;
   }

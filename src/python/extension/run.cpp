@@ -16,6 +16,7 @@
 #include "python/extension/interruptible.hpp"
 #include "python/extension/script.hpp"
 #include "python/extension/without_gil.hpp"
+#include "scene/run_log.hpp"
 
 namespace piblocks::python {
 namespace {
@@ -29,7 +30,9 @@ class BoundRun {
   BoundRun(const BoundScript& script, const std::map<std::string, std::string>& options) {
     const WithoutGil released;
     // cppcheck-suppress useInitializationList ; only here other threads of Python can run
-    log_ = cli::make_log(scene_of(script, "log").system, BoundOptions(options));
+    const Scene& scene = scene_of(script, "log");
+    require_blocks(scene, "log");
+    log_ = cli::make_log(scene.system, BoundOptions(options));
   }
   const CollisionLog& log() const { return *log_; }
 

@@ -15,6 +15,7 @@
 #include "cli/shipped_scenes.hpp"
 #include "python/extension/scene_toml.hpp"
 #include "python/extension/without_gil.hpp"
+#include "scene/run_log.hpp"
 #include "scene/scene_keys.hpp"
 
 namespace piblocks::python {
@@ -67,7 +68,9 @@ std::vector<std::string> key_names() {
 
 std::string count_of(const BoundScript& bound) {
   const WithoutGil released;
-  return hexadecimal(count_collisions(scene_of(bound, "count").system));
+  const Scene& scene = scene_of(bound, "count");
+  return hexadecimal(scene.bodies ? RunLog(scene).timeline().size()
+                                  : count_collisions(scene.system));
 }
 
 py::tuple size_of(const BoundScript& bound) {

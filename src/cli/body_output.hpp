@@ -1,0 +1,26 @@
+// Collisions and states of bodies, as commands print them.
+// In: a log of bodies. Out: rows of CSV, JSON or NumPy, and JSON objects. Bodies are numbered from
+// 1, as their tables stand in the scene file; walls have their names.
+#pragma once
+
+#include <fmt/format.h>
+#include <piblocks/bodies.hpp>
+
+#include <string>
+
+namespace piblocks::cli {
+
+/// How a log of bodies is written.
+struct BodyLogFormat {
+  bool is_binary;
+  std::string (*header)(const BodySystem& system, const Integer& rows);
+  void (*append)(const BodySystem& system, const BodyCollision& collision, fmt::memory_buffer& out);
+};
+
+/// @throws UsageError unless the name is csv, jsonl or npy.
+BodyLogFormat parse_body_log_format(const std::string& name);
+
+/// {"time":…,"collisions":"…","bodies":[{"position":…,"velocity":…},…]}
+std::string state_line(const BodySystem& system, const Rational& time, const BodiesState& state);
+
+}  // namespace piblocks::cli

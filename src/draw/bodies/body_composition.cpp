@@ -1,0 +1,68 @@
+#include <piblocks/bodies.hpp>
+#include <piblocks/error.hpp>
+
+#include <utility>
+
+#include "draw/bodies/body_stage.hpp"
+#include "draw/composition.hpp"
+#include "draw/look.hpp"
+#include "draw/overlays/counter.hpp"
+#include "draw/overlays/overlays.hpp"
+
+namespace piblocks {
+namespace {
+
+/// Places all that a scene with bodies shows, and makes its drawables in the order of their ids.
+class BodyComposer {
+ public:
+  BodyComposer(const Scene& scene, const BodyLog& log, FrameNeeds& needs)
+      : palette_(palette_of(scene.view.theme)),
+        sizes_(scene.view),
+        context_{.scene = scene,
+                 .timeline = log,
+                 .blocks = nullptr,
+                 .palette = palette_,
+                 .fonts = fonts_,
+                 .font = fonts_.of(text_face_of(scene.view.theme)),
+                 .layout = layout_,
+                 .sizes = sizes_,
+                 .needs = needs,
+                 .certain_until = log.certain_until()},
+        read_outs_(context_),
+        plan_(plan_frame(context_, room(), read_outs_.height())) {}
+
+  std::vector<Drawable> run(std::shared_ptr<const Image> logo) {
+    std::vector<Drawable> drawables;
+    drawables.push_back(body_stage(context_, plan_.stage));
+    drawables.push_back(counter(context_, plan_.counter, {}));
+    read_outs_.move(plan_.read_outs_top_px, plan_.counter.slow_motion);
+    drawables.emplace_back(std::move(read_outs_));
+    std::vector<DrawItem> lines(plan_.lines.begin(), plan_.lines.end());
+    if (logo) lines.emplace_back(place_logo(plan_.logo, std::move(logo)));
+    drawables.push_back(unchanging(std::move(lines)));
+    return drawables;
+  }
+
+ private:
+  CounterRoom room() const {
+    CounterRoom room = counter_room(context_, {});
+    room.slow_motion_px = read_outs_.lone_slow_motion_px();
+    return room;
+  }
+
+  Fonts fonts_;
+  Palette palette_;
+  Sizes sizes_;
+  Layout layout_;  ///< of two blocks; not used
+  DrawingContext context_;
+  ReadOutRows read_outs_;
+  FramePlan plan_;
+};
+
+}  // namespace
+
+Composition::Composition(const Scene& scene, const BodyLog& log, std::shared_ptr<const Image> logo)
+    : empty_{scene.view.width_px, scene.view.height_px, background_of(scene.view), {}},
+      drawables_(BodyComposer(scene, log, needs_).run(std::move(logo))) {}
+
+}  // namespace piblocks

@@ -1,0 +1,92 @@
+#include <piblocks/bodies.hpp>
+
+#include <cmath>
+
+#include "physics/impact.hpp"
+
+namespace piblocks {
+namespace {
+
+/// The impulse that a body of mean mass would get if it met a wall at the mean speed.
+double usual_impulse(const BodySystem& system) {
+  Rational mass = 0;
+  Rational twice_energy = 0;
+  unsigned long movable = 0;
+  for (const Body& body : system.bodies) {
+    if (!body.mass) continue;
+    const auto& [x, y] = body.velocity;
+    mass += *body.mass;
+    twice_energy += *body.mass * (x * x + y * y);
+    ++movable;
+  }
+  return 2 * std::sqrt(to_double(mass * twice_energy)) / double(movable);
+}
+
+/// Where a body or a wall touches the first body of a collision, seen from that body's centre.
+std::array<double, 2> way_to(const BodySystem& system, const BodyCollision& collision) {
+  const auto& from = collision.first_after.position;
+  const auto& to = collision.second_after.position;
+  if (collision.second < system.bodies.size()) return {to[0] - from[0], to[1] - from[1]};
+  const ExactVector& normal = system.walls[collision.second - system.bodies.size()].normal;
+  return {-to_double(normal[0]), -to_double(normal[1])};
+}
+
+/// Both velocities along the line between them are reversed as seen from their common centre of
+/// mass, so that what they are afterwards says how large the impulse was.
+double impulse_of(const BodySystem& system, const BodyCollision& collision) {
+  const auto mass = [&](std::uint32_t id) -> std::optional<double> {
+    if (id >= system.bodies.size() || !system.bodies[id].mass) return std::nullopt;
+    return to_double(*system.bodies[id].mass);
+  };
+  const std::array<double, 2> way = way_to(system, collision);
+  const double length = std::sqrt(way[0] * way[0] + way[1] * way[1]);
+  const auto& u = collision.first_after.velocity;
+  const auto& v = collision.second_after.velocity;
+  const double speed =
+      std::fabs((v[0] - u[0]) * way[0] + (v[1] - u[1]) * way[1]) / (length > 0 ? length : 1);
+  const std::optional<double> m = mass(collision.first);
+  const std::optional<double> n = mass(collision.second);
+  if (!m) return 2 * *n * speed;
+  return 2 * (n ? *m / (*m + *n) * *n : *m) * speed;
+}
+
+bool is_at_wall(const BodySystem& system, const BodyCollision& collision) {
+  const auto is_fixed = [&](std::uint32_t id) {
+    return id >= system.bodies.size() || !system.bodies[id].mass;
+  };
+  return is_fixed(collision.first) || is_fixed(collision.second);
+}
+
+std::optional<Impact> impact_of_bodies(const BodyLog& log, CollisionKind kind, const Integer& first,
+                                       const Integer& last) {
+  const BodySystem& system = log.system();
+  std::optional<Impact> sum;
+  for (Integer index = first; index <= last; ++index) {
+    const BodyCollision collision = log.collision(index);
+    if ((kind == CollisionKind::wall) != is_at_wall(system, collision)) continue;
+    const bool is_first_fixed = !system.bodies[collision.first].mass;
+    const BodyMotion& seen = is_first_fixed ? collision.second_after : collision.first_after;
+    if (!sum) sum = Impact{kind, collision.time, 0, seen.position[0]};
+    sum->impulse += impulse_of(system, collision);
+  }
+  const double usual = usual_impulse(system);
+  if (sum && usual > 0) sum->impulse /= usual;
+  return sum;
+}
+
+}  // namespace
+
+std::optional<Impact> impact(const Timeline& log, CollisionKind kind, const Integer& first,
+                             const Integer& last) {
+  if (const auto* const bodies = dynamic_cast<const BodyLog*>(&log)) {
+    return impact_of_bodies(*bodies, kind, first, last);
+  }
+  return impact(dynamic_cast<const CollisionLog&>(log), kind, first, last);
+}
+
+Integer count_near(const Timeline& log, const Time& time) {
+  const auto* const blocks = dynamic_cast<const CollisionLog*>(&log);
+  return blocks != nullptr ? count_near(*blocks, time) : log.count_at(to_rational(time));
+}
+
+}  // namespace piblocks

@@ -1,0 +1,230 @@
+#include "scene/body_keys.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace piblocks {
+namespace {
+
+/// A body as it is read: what it has, besides its values.
+struct ReadBody {
+  Body body;
+  BodyStyle style;
+  bool is_block = false;
+  bool is_disc = false;
+  bool has_position = false;
+  bool is_plane = false;  ///< some vector has two coordinates
+};
+
+ExactVector parse_vector(const Values& values, ReadBody& body) {
+  if (values.size() == 2) {
+    body.is_plane = true;
+    return {parse_rational(values[0]), parse_rational(values[1])};
+  }
+  if (values.size() != 1) throw UsageError("must be a number, or two as [x, y]");
+  return {parse_rational(values[0]), 0};
+}
+
+std::uint8_t hexadecimal(std::string_view two) {
+  const auto digit = [](char c) -> int {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    throw UsageError("must be a colour as \"#1f77b4\"");
+  };
+  return static_cast<std::uint8_t>(16 * digit(two[0]) + digit(two[1]));
+}
+
+std::array<std::uint8_t, 3> parse_color(const std::string& text) {
+  if (text.size() != 7 || text[0] != '#') throw UsageError("must be a colour as \"#1f77b4\"");
+  const std::string_view digits = std::string_view(text).substr(1);
+  return {hexadecimal(digits.substr(0, 2)), hexadecimal(digits.substr(2, 2)),
+          hexadecimal(digits.substr(4, 2))};
+}
+
+std::string parse_label(const std::string& text) {
+  SceneProblems problems;
+  check_line("label", text, problems);
+  if (!problems.empty()) throw UsageError(problems.take().front().reason);
+  return text;
+}
+
+struct BodyKey {
+  const char* name;
+  void (*set)(ReadBody& body, const Values& values);
+};
+
+constexpr auto kBodyKeys = std::to_array<BodyKey>({
+    {"mass",
+     [](ReadBody& body, const Values& values) {
+       const std::string& text = single(values);
+       body.body.mass.reset();
+       if (text != "inf") body.body.mass = parse_rational(text);
+     }},
+    {"position",
+     [](ReadBody& body, const Values& values) {
+       body.body.position = parse_vector(values, body);
+       body.has_position = true;
+     }},
+    {"velocity",
+     [](ReadBody& body, const Values& values) { body.body.velocity = parse_vector(values, body); }},
+    {"width",
+     [](ReadBody& body, const Values& values) {
+       body.body.size = parse_rational(single(values));
+       body.is_block = true;
+     }},
+    {"radius",
+     [](ReadBody& body, const Values& values) {
+       body.body.size = parse_rational(single(values));
+       body.is_disc = true;
+     }},
+    {"color",
+     [](ReadBody& body, const Values& values) { body.style.color = parse_color(single(values)); }},
+    {"label",
+     [](ReadBody& body, const Values& values) { body.style.label = parse_label(single(values)); }},
+});
+
+std::optional<Rational> parse_end(const std::string& text, const char* none) {
+  if (text == none || (text == "+inf" && none == std::string_view("inf"))) return std::nullopt;
+  return parse_rational(text);
+}
+
+/// @param axis  0 for x, 1 for y
+void add_walls(const std::optional<BoxSide>& side, std::size_t axis,
+               const std::array<const char*, 2>& names, std::vector<Wall>& walls) {
+  if (!side) return;
+  const std::array ends = {side->low, side->high};
+  for (const std::size_t end : {0U, 1U}) {
+    if (!ends.at(end)) continue;
+    Wall wall{names.at(end), {}, {}};
+    wall.point.at(axis) = *ends.at(end);
+    wall.normal.at(axis) = end == 0 ? 1 : -1;
+    walls.push_back(std::move(wall));
+  }
+}
+
+std::string text_of(const ExactVector& vector) {
+  return fmt::format("[{}, {}]", vector[0].get_str(), vector[1].get_str());
+}
+
+}  // namespace
+
+BoxSide parse_box_side(const Values& values) {
+  if (values.size() != 2) throw UsageError("must be two numbers, as [0, 10]; \"inf\" is no wall");
+  BoxSide side{parse_end(values[0], "-inf"), parse_end(values[1], "inf")};
+  if (side.low && side.high && *side.low >= *side.high) {
+    throw UsageError("must go from the lower to the higher end");
+  }
+  return side;
+}
+
+void BodyDraft::read(const std::vector<TomlTable>& tables, const OnProblem& on_problem) {
+  bodies_ = {};
+  lines_.clear();
+  if (tables.size() > kMaxBodies) {
+    on_problem(tables[kMaxBodies].line,
+               fmt::format("there must be at most {} of them", kMaxBodies));
+    return;
+  }
+  for (const TomlTable& table : tables) read_body(table, on_problem);
+}
+
+void BodyDraft::read_body(const TomlTable& table, const OnProblem& on_problem) {
+  const std::size_t number = bodies_.bodies.size() + 1;
+  const auto problem = [&](std::size_t line, const std::string& text) {
+    on_problem(line, fmt::format("body {}{}", number, text));
+  };
+  ReadBody read;
+  for (const TomlEntry& entry : table.entries) {
+    const auto key = std::ranges::find(kBodyKeys, std::string_view(entry.key), &BodyKey::name);
+    if (key == kBodyKeys.end()) {
+      problem(entry.line, fmt::format(".{}: unknown key", entry.key));
+    } else if (!entry.problem.empty()) {
+      problem(entry.line, fmt::format(".{}: {}", entry.key, entry.problem));
+    } else {
+      try {
+        key->set(read, entry.values);
+      } catch (const UsageError& error) {
+        problem(entry.line,
+                fmt::format(".{} = {}: {}", entry.key, joined(entry.values), error.what()));
+      }
+    }
+  }
+  if (!read.has_position) problem(table.line, ".position: is missing");
+  if (read.is_block && read.is_disc) {
+    problem(table.line, ": has a width and a radius; blocks have widths, discs have radii");
+  }
+  if (read.is_block && read.is_plane) {
+    problem(table.line,
+            ": is a block, and blocks move along x alone; give one number for "
+            "position and velocity, or a radius instead of the width");
+  }
+  const int dimensions = read.is_disc || read.is_plane ? 2 : 1;
+  if (bodies_.bodies.empty()) {
+    bodies_.dimensions = dimensions;
+  } else if (bodies_.dimensions != dimensions) {
+    problem(table.line, fmt::format(": is a {}, and body 1 is a {}; all must be of one kind",
+                                    dimensions == 1 ? "block" : "disc",
+                                    bodies_.dimensions == 1 ? "block" : "disc"));
+  }
+  bodies_.bodies.push_back(std::move(read.body));
+  bodies_.styles.push_back(std::move(read.style));
+  lines_.push_back(table.line);
+}
+
+Bodies BodyDraft::bodies() const {
+  Bodies made{{bodies_.dimensions, bodies_.bodies, {}}, bodies_.styles};
+  add_walls(x_, 0, {"left", "right"}, made.system.walls);
+  add_walls(y_, 1, {"lower", "upper"}, made.system.walls);
+  return made;
+}
+
+void show_all(const BodySystem& system, View& view) {
+  for (const std::size_t axis : {0U, 1U}) {
+    std::optional<Rational> low;
+    std::optional<Rational> high;
+    const auto include = [&](const Rational& from, const Rational& to) {
+      if (!low || from < *low) low = from;
+      if (!high || to > *high) high = to;
+    };
+    for (const Body& body : system.bodies) {
+      const Rational reach = system.dimensions == 1 ? Rational(body.size / 2) : body.size;
+      include(body.position.at(axis) - reach, body.position.at(axis) + reach);
+    }
+    for (const Wall& wall : system.walls) {
+      if (wall.normal.at(axis) != 0) include(wall.point.at(axis), wall.point.at(axis));
+    }
+    if (axis == 1 && system.dimensions == 1) return;
+    const Rational margin = (*high - *low) / 20;
+    (axis == 0 ? view.x : view.y) = {*low - margin, *high + margin};
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> describe(const Bodies& bodies) {
+  std::vector<std::pair<std::string, std::string>> lines;
+  for (std::size_t i = 0; i < bodies.system.bodies.size(); ++i) {
+    const Body& body = bodies.system.bodies[i];
+    const BodyStyle& style = bodies.styles[i];
+    std::string color;
+    if (style.color) {
+      const auto& [r, g, b] = *style.color;
+      color = fmt::format("#{:02x}{:02x}{:02x}", r, g, b);
+    }
+    lines.emplace_back(
+        fmt::format("body {}", i + 1),
+        fmt::format("{} {} at {} with {}, size {}, color '{}', label '{}'",
+                    bodies.system.dimensions == 1 ? "block" : "disc",
+                    body.mass ? body.mass->get_str() : "inf", text_of(body.position),
+                    text_of(body.velocity), body.size.get_str(), color, style.label));
+  }
+  for (const Wall& wall : bodies.system.walls) {
+    lines.emplace_back(fmt::format("{} wall", wall.name),
+                       fmt::format("{} facing {}", text_of(wall.point), text_of(wall.normal)));
+  }
+  return lines;
+}
+
+}  // namespace piblocks
