@@ -102,12 +102,14 @@ enum class Panel {
   velocity,      ///< circle of (sqrt(m_red) v_red, sqrt(m_blue) v_blue) with each collision's chord
   position,      ///< path in the plane of both gaps, in the wedge between wall and contact
   unfolded,      ///< the wedge reflected again and again, and the straight line through it
-  time,          ///< both gaps against time
+  time,          ///< both gaps, or the positions of all blocks, against time
   count,         ///< collisions so far against time
   ellipse,       ///< ellipse of (v_red, v_blue), which becomes the circle of `velocity`
   mirrors,       ///< as unfolded, with wedges that unfold one by one
   conservation,  ///< bars of energy and momentum, the wall's share included
-  certainty      ///< how near the count comes to a wrong digit of pi
+  certainty,     ///< how near the count comes to a wrong digit of pi
+  speeds,        ///< of many bodies, beside Maxwell's distribution
+  separation     ///< squared distance of two discs against time, with its roots
 };
 
 /// A window of simulation time in which the loupe enlarges by a given factor.

@@ -55,6 +55,7 @@ class Composer {
         context_{.scene = scene,
                  .timeline = log,
                  .blocks = &log,
+                 .bodies = nullptr,
                  .palette = palette_,
                  .fonts = fonts_,
                  .font = fonts_.of(text_face_of(scene.view.theme)),

@@ -143,6 +143,13 @@ void check_show(const Show& show, SceneProblems& problems) {
   if (show.loupe) check_loupe(*show.loupe, problems);
 }
 
+void check_panels_of_blocks(const Show& show, SceneProblems& problems) {
+  for (const Panel panel : {Panel::speeds, Panel::separation}) {
+    problems.require(std::ranges::count(show.panels, panel) == 0, "show.panels",
+                     "'{}' is for a scene with [[body]]", exact_text(panel));
+  }
+}
+
 /// What is there for two blocks and a wall alone.
 void check_bodies(const Scene& scene, SceneProblems& problems) {
   constexpr const char* kReason = "{} is for two blocks and a wall, and this scene has [[body]]";
@@ -155,8 +162,13 @@ void check_bodies(const Scene& scene, SceneProblems& problems) {
   reject(scene.view.shutter > 0, "view.shutter", "motion blur");
   reject(scene.show.has(Overlay::digits), "show.overlays", "'digits'");
   reject(scene.show.loupe && scene.show.loupe->is_on, "show.loupe", "the loupe");
+  const bool is_plane = scene.bodies->system.dimensions == 2;
   for (const Panel panel : scene.show.panels) {
-    reject(true, "show.panels", fmt::format("'{}'", exact_text(panel)));
+    const bool is_there = panel == Panel::count || panel == Panel::speeds ||
+                          panel == (is_plane ? Panel::separation : Panel::time);
+    const char* const others = is_plane ? "count, speeds and separation" : "time, count and speeds";
+    problems.require(is_there, "show.panels", "'{}' is not for {}, which have {}",
+                     exact_text(panel), is_plane ? "discs" : "bodies on a line", others);
   }
   const bool is_early = scene.time.from.is_time() && scene.time.from.offset < 0;
   problems.require(!is_early, "time.from", "= {}: the motion of bodies begins at time 0",
@@ -205,7 +217,11 @@ Rational width_by_mass(const BlockSystem& system) {
 std::vector<Problem> problems_of(const Scene& scene) {
   SceneProblems problems(scene.bodies ? problems_of(scene.bodies->system)
                                       : problems_of(scene.system));
-  if (scene.bodies) check_bodies(scene, problems);
+  if (scene.bodies) {
+    check_bodies(scene, problems);
+  } else {
+    check_panels_of_blocks(scene.show, problems);
+  }
   check_view(scene.view, problems);
   check_time(scene.time, problems);
   check_pacing(scene, problems);

@@ -38,7 +38,9 @@ constexpr auto kPanels = std::to_array<Name<Panel>>({{"velocity", Panel::velocit
                                                      {"ellipse", Panel::ellipse},
                                                      {"mirrors", Panel::mirrors},
                                                      {"conservation", Panel::conservation},
-                                                     {"certainty", Panel::certainty}});
+                                                     {"certainty", Panel::certainty},
+                                                     {"speeds", Panel::speeds},
+                                                     {"separation", Panel::separation}});
 
 constexpr auto kSplits = std::to_array<Name<Split>>(
     {{"auto", Split::automatic}, {"columns", Split::columns}, {"rows", Split::rows}});

@@ -71,8 +71,8 @@ TEST(SplitScreen, ARowHasThePlaceOfItsCounter) {
   const Layout layout;
   const Sizes sizes(scene.view);
   FrameNeeds needs;
-  const DrawingContext context{scene,  *log,  log.get(), palette, fonts, fonts.of(Face::text),
-                               layout, sizes, needs};
+  const DrawingContext context{
+      scene, *log, log.get(), nullptr, palette, fonts, fonts.of(Face::text), layout, sizes, needs};
   for (const double pi_px : {0.0, 100.0, 700.0}) {
     for (const double slow_px : {0.0, 120.0, 800.0}) {
       const CounterRoom room{

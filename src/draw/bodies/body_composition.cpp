@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "draw/bodies/body_panels.hpp"
 #include "draw/bodies/body_stage.hpp"
 #include "draw/composition.hpp"
 #include "draw/look.hpp"
@@ -11,6 +12,16 @@
 
 namespace piblocks {
 namespace {
+
+using MakePanel = Drawable (*)(const DrawingContext& context, const PanelPlace& place);
+
+/// problems_of() a scene has rejected all others.
+MakePanel panel_of(Panel panel) {
+  if (panel == Panel::time) return positions_panel;
+  if (panel == Panel::speeds) return speeds_panel;
+  if (panel == Panel::separation) return separation_panel;
+  return count_panel;
+}
 
 /// Places all that a scene with bodies shows, and makes its drawables in the order of their ids.
 class BodyComposer {
@@ -21,6 +32,7 @@ class BodyComposer {
         context_{.scene = scene,
                  .timeline = log,
                  .blocks = nullptr,
+                 .bodies = &log,
                  .palette = palette_,
                  .fonts = fonts_,
                  .font = fonts_.of(text_face_of(scene.view.theme)),
@@ -40,10 +52,20 @@ class BodyComposer {
     std::vector<DrawItem> lines(plan_.lines.begin(), plan_.lines.end());
     if (logo) lines.emplace_back(place_logo(plan_.logo, std::move(logo)));
     drawables.push_back(unchanging(std::move(lines)));
+    add_panels(drawables);
     return drawables;
   }
 
  private:
+  void add_panels(std::vector<Drawable>& drawables) const {
+    const std::vector<Panel>& panels = context_.scene.show.panels;
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      const auto first_id = ItemId{static_cast<std::uint32_t>(ItemId::panels) +
+                                   ids_from(static_cast<std::uint32_t>(i))};
+      drawables.push_back(panel_of(panels[i])(context_, {plan_.panels[i], first_id, panels[i]}));
+    }
+  }
+
   CounterRoom room() const {
     CounterRoom room = counter_room(context_, {});
     room.slow_motion_px = read_outs_.lone_slow_motion_px();

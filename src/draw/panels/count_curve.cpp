@@ -18,27 +18,27 @@ constexpr long kNegligible = 1'000'000'000'000;
 constexpr long kMostExponent = 640;
 
 /// When the count reaches k, to 1/64 of the column. @param from, to  the column
-Rational time_of_step(const CollisionLog& log, const Integer& k, Rational from, Rational to) {
+Rational time_of_step(const Timeline& log, const Integer& k, Rational from, Rational to) {
   for (int i = 0; i < kHalvings; ++i) {
     const Rational middle = (from + to) / 2;
-    (log.state_at(middle).count >= k ? to : from) = middle;
+    (log.count_at(middle) >= k ? to : from) = middle;
   }
   return (from + to) / 2;
 }
 
 }  // namespace
 
-std::vector<CountPoint> count_curve(const CollisionLog& log, const Span& span, int columns) {
+std::vector<CountPoint> count_curve(const Timeline& log, const Span& span, int columns) {
   const Rational length = span.to - span.from;
   std::vector<CountPoint> points;
-  Integer count = log.state_at(span.from - length / kNegligible).count;
+  Integer count = log.count_at(span.from - length / kNegligible);
   points.push_back({0, count});
-  const Integer first = log.state_at(span.from).count;
+  const Integer first = log.count_at(span.from);
   if (first != count) points.push_back({0, first});
   count = first;
   for (int i = 1; i <= columns; ++i) {
     const Rational to = span.from + length * i / columns;
-    const Integer next = log.state_at(to).count;
+    const Integer next = log.count_at(to);
     if (next - count <= kMostSteps) {
       const Rational from = span.from + length * (i - 1) / columns;
       for (Integer k = count + 1; k <= next; k += 1) {
@@ -75,17 +75,17 @@ RoundFactor round_factor_below(const Rational& value) {
   return factor;
 }
 
-std::optional<EnlargedTurn> enlarged_turn(const CollisionLog& log, const InsetLimits& limits) {
+std::optional<EnlargedTurn> enlarged_turn(const Timeline& log, const InsetLimits& limits) {
   const Span& span = limits.span;
-  const std::optional<Rational> turn = turn_of(log.system());
+  const std::optional<Rational> turn = log.turn();
   if (!turn || *turn <= span.from || *turn >= span.to) return std::nullopt;
   const Rational half = (span.to - span.from) * limits.width_share / 2;
   EnlargedTurn part;
   const auto fits = [&](const RoundFactor& factor) {
     part.time_factor = factor;
     part.span = {*turn - half / factor.value(), *turn + half / factor.value()};
-    part.low = log.state_at(part.span.from).count;
-    part.high = log.state_at(part.span.to).count;
+    part.low = log.count_at(part.span.from);
+    part.high = log.count_at(part.span.to);
     const Integer steps = part.high - part.low;
     return steps <= limits.most_steps && steps <= limits.counts_in_height;
   };

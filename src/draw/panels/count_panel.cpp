@@ -41,10 +41,10 @@ Formula title_of_counts(const FormulaSetter& set, bool is_half) {
 
 /// Whether the turn is shown and parts the collisions, and as many come before it as after.
 struct TurnFacts {
-  TurnFacts(const CollisionLog& log, const Span& span) {
-    const std::optional<Rational> turn = turn_of(log.system());
+  TurnFacts(const Timeline& log, const Span& span) {
+    const std::optional<Rational> turn = log.turn();
     if (!turn || log.size() < 2 || *turn <= span.from || *turn >= span.to) return;
-    const Integer before = log.state_at(*turn).count;
+    const Integer before = log.count_at(*turn);
     is_shown = true;
     is_half = abs(Integer(2 * before - log.size())) <= 1;
   }
@@ -68,14 +68,14 @@ std::vector<Formula> titles_of_count(const DrawingContext& context, const TurnFa
 class CountPanel {
  public:
   CountPanel(const DrawingContext& context, const PanelPlace& place)
-      : span_(span_of(context.scene, context.log())),
-        turn_(context.log(), span_),
+      : span_(span_of(context.scene, context.timeline)),
+        turn_(context.timeline, span_),
         diagram_(context, place, titles_of_count(context, turn_)),
-        scale_(context.log(), span_, context.scene.show.base),
+        scale_(context.timeline, span_, context.scene.show.base),
         axis_(context, diagram_, indent_em(context)) {
     const Rectangle& plot = axis_.plot();
     const int columns = std::max(1, static_cast<int>(std::ceil(plot.width)));
-    for (const auto& [share, count] : count_curve(context.log(), span_, columns)) {
+    for (const auto& [share, count] : count_curve(context.timeline, span_, columns)) {
       curve_.push_back({plot.x + share * plot.width, y_of(count)});
     }
     axis_.add_base(diagram_);
@@ -217,8 +217,8 @@ class CountPanel {
   }
 
   void add_inset(const DrawingContext& context, std::vector<DrawItem>& items) {
-    if (!turn_.is_shown) return;
-    const double turn_x = axis_.x_of(to_double(*turn_of(context.log().system())));
+    if (!turn_.is_shown || context.blocks == nullptr) return;
+    const double turn_x = axis_.x_of(to_double(*context.timeline.turn()));
     const Rectangle frame = inset_frame(turn_x);
     if (frame.width == 0) return;
     const Rectangle& plot = axis_.plot();

@@ -15,10 +15,10 @@ namespace piblocks {
 
 /// The axis of counts, beside that of time.
 struct CountScale {
-  CountScale(const CollisionLog& log, const Span& span, int count_base)
+  CountScale(const Timeline& log, const Span& span, int count_base)
       : base(count_base),
-        low(std::min(Integer(0), log.state_at(span.from).count)),
-        high(std::max(Integer(low + 1), log.state_at(span.to).count)) {}
+        low(std::min(Integer(0), log.count_at(span.from))),
+        high(std::max(Integer(low + 1), log.count_at(span.to))) {}
 
   /// @param least  counts between figures
   void place_figures(const Rational& least) {

@@ -105,7 +105,7 @@ void Diagram::formula(const Formula& formula, const Point& at, double anchor, co
 }
 
 TimeAxis::TimeAxis(const DrawingContext& context, const Diagram& diagram, double indent_em)
-    : span_(span_of(context.scene, context.log())),
+    : span_(span_of(context.scene, context.timeline)),
       from_(to_double(span_.from)),
       length_(to_double(span_.to - span_.from)),
       plot_(diagram.inside()) {

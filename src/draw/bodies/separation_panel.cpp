@@ -1,0 +1,196 @@
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "draw/bodies/body_look.hpp"
+#include "draw/bodies/body_panels.hpp"
+
+namespace piblocks {
+namespace {
+
+using Vector2 = std::array<double, 2>;
+
+double dot(const Vector2& a, const Vector2& b) { return a[0] * b[0] + a[1] * b[1]; }
+
+/// The squared distance of two discs in free flight: |d|^2 + 2 d.w s + |w|^2 s^2, s since they
+/// touched.
+struct Parabola {
+  double touch = 0;  ///< time
+  Vector2 apart{};   ///< d: from one centre to the other, then
+  Vector2 speed{};   ///< w: its rate
+
+  double at(double time) const {
+    const double s = time - touch;
+    return dot(apart, apart) + s * (2 * dot(apart, speed) + s * dot(speed, speed));
+  }
+  /// The other time of the same distance. They would be that far apart again, had they passed
+  /// through each other.
+  double part() const { return touch - 2 * dot(apart, speed) / dot(speed, speed); }
+};
+
+/// The two discs that meet first.
+struct Meeting {
+  std::size_t first = 0;
+  std::size_t second = 0;
+  Parabola before;
+  double after_from = 0;
+};
+
+Meeting first_meeting(const BodyLog& log, const Span& span) {
+  const std::size_t bodies = log.system().bodies.size();
+  for (Integer k = log.count_at(span.from) + 1; k <= log.size(); ++k) {
+    const BodyCollision c = log.collision(k);
+    if (c.second >= bodies) continue;
+    const Rational time = to_rational(c.time);
+    // All that happened before it: both fly freely from then on.
+    const Rational since =
+        k > 1 ? std::max(to_rational(log.collision(k - 1).time), span.from) : span.from;
+    const BodiesState flying = log.state_at(std::min(since, time));
+    const BodyMotion& one = flying.bodies[c.first];
+    const BodyMotion& other = flying.bodies[c.second];
+    const double flight = to_double(time - std::min(since, time));
+    Meeting meeting{c.first, c.second, {c.time.hi, {}, {}}};
+    for (const std::size_t axis : {0U, 1U}) {
+      meeting.before.speed.at(axis) = other.velocity.at(axis) - one.velocity.at(axis);
+      meeting.before.apart.at(axis) =
+          other.position.at(axis) - one.position.at(axis) + meeting.before.speed.at(axis) * flight;
+    }
+    return meeting;
+  }
+  throw UsageError(
+      "show.panels: 'separation' shows how two discs meet, and no two meet in this scene");
+}
+
+class SeparationPanel {
+ public:
+  SeparationPanel(const DrawingContext& context, const PanelPlace& place)
+      : meeting_(first_meeting(*context.bodies, span_of(context.scene, *context.bodies))),
+        diagram_(context, place, titles(context)),
+        axis_(context, diagram_, 0) {
+    const BodySystem& system = context.bodies->system();
+    const double reach =
+        to_double(system.bodies[meeting_.first].size + system.bodies[meeting_.second].size);
+    contact_ = reach * reach;
+    const double begin = meeting_.before.at(to_double(axis_.span().from));
+    top_ = std::clamp(1.15 * begin, 2.5 * contact_, 12 * contact_);
+    add_level();
+    add_parabola();
+    add_path(*context.bodies);
+    add_roots();
+    axis_.add_base(diagram_);
+    diagram_.finish();
+  }
+
+  void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
+    items.emplace_back(diagram_.item());
+    const double time = to_double(shown.time);
+    if (!axis_.shows(time)) return;
+    const double square = square_of(shown.bodies);
+    const Point at = place_of(time, std::min(square, top_));
+    items.emplace_back(axis_.cursor(diagram_, 0, at));
+    if (square <= top_) items.emplace_back(diagram_.present_dot(1, at));
+  }
+
+ private:
+  static constexpr int kPoints = 240;
+
+  static std::vector<Formula> titles(const DrawingContext& context) {
+    const FormulaSetter set = context.setter();
+    return {set.text("The squared distance of the centres: its first root is the touch"),
+            set.text("Squared distance: its first root is the touch"),
+            set.text("Squared distance")};
+  }
+
+  double square_of(const std::vector<BodyMotion>& bodies) const {
+    const auto& a = bodies[meeting_.first].position;
+    const auto& b = bodies[meeting_.second].position;
+    const Vector2 apart{b[0] - a[0], b[1] - a[1]};
+    return dot(apart, apart);
+  }
+
+  Point place_of(double time, double square) const {
+    return {axis_.x_of(time), axis_.bottom() - square / top_ * axis_.plot().height};
+  }
+
+  /// The line at the square of the sum of the radii.
+  void add_level() {
+    const double y = place_of(0, contact_).y;
+    const double em = diagram_.text_px();
+    diagram_.line({{axis_.plot().x, y}, {axis_.right(), y}}, diagram_.palette().grid, 1, 4);
+    diagram_.text("touching: (r₁ + r₂)²", {axis_.right(), y - 0.4 * em}, 1,
+                  diagram_.palette().muted);
+  }
+
+  /// Calls `add` with lines through the places of a function that are in the diagram.
+  void add_lines(double from, double to, const auto& square, const auto& add) const {
+    std::vector<Point> points;
+    for (int i = 0; i <= kPoints; ++i) {
+      const double time = from + (to - from) * i / kPoints;
+      const double value = square(time);
+      if (value <= top_) points.push_back(place_of(time, value));
+      if ((value > top_ || i == kPoints) && points.size() > 1) add(std::move(points));
+      if (value > top_) points.clear();
+    }
+  }
+
+  /// The flight on, as if nothing were in the way.
+  void add_parabola() {
+    const double end =
+        std::min(to_double(axis_.span().to),
+                 meeting_.before.part() + (meeting_.before.part() - meeting_.before.touch));
+    add_lines(
+        meeting_.before.touch, end, [&](double t) { return meeting_.before.at(t); },
+        [&](std::vector<Point> points) {
+          diagram_.line(std::move(points), diagram_.palette().muted, 1, 3);
+        });
+  }
+
+  /// The distance as it is.
+  void add_path(const BodyLog& log) {
+    const double from = to_double(axis_.span().from);
+    const double to = to_double(axis_.span().to);
+    const auto add = [&](std::vector<Point> points) {
+      diagram_.line(std::move(points), diagram_.palette().text, diagram_.data_width());
+    };
+    const auto square = [&](double time) {
+      return square_of(log.state_at(Rational(std::clamp(time, from, to))).bodies);
+    };
+    add_lines(
+        from, meeting_.before.touch, [&](double t) { return meeting_.before.at(t); }, add);
+    add_lines(meeting_.before.touch, to, square, add);
+  }
+
+  void add_roots() {
+    const double em = diagram_.text_px();
+    const Palette& palette = diagram_.palette();
+    const double part = meeting_.before.part();
+    const auto root = [&](double time, const char* name, const Color& color, double anchor) {
+      if (!axis_.shows(time)) return;
+      const Point at = place_of(time, contact_);
+      std::vector<Point> outline =
+          Circle{at, style::kHitDot * diagram_.sizes().short_side}.arc(0, 2 * 3.14159265358979);
+      diagram_.shape(std::move(outline), color);
+      diagram_.text(name, {at.x + (anchor > 0.5 ? -0.5 : 0.5) * em, at.y + 1.1 * em}, anchor,
+                    color);
+    };
+    root(meeting_.before.touch, "touch", palette.accent, 1);
+    root(part, "would part", palette.muted, 0);
+  }
+
+  Meeting meeting_;
+  Diagram diagram_;
+  TimeAxis axis_;
+  double contact_ = 1;  ///< squared distance of the centres when they touch
+  double top_ = 1;      ///< of the diagram
+};
+
+}  // namespace
+
+Drawable separation_panel(const DrawingContext& context, const PanelPlace& place) {
+  return SeparationPanel(context, place);
+}
+
+}  // namespace piblocks
