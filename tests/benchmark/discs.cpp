@@ -33,7 +33,8 @@ BodySystem gas(std::uint32_t number) {
   BodySystem system{.dimensions = 2};
   for (std::uint32_t i = 0; i < number; ++i) {
     Body body;
-    body.position = {Rational((i % columns + 0.5) * spacing), Rational((i / columns + 0.5) * spacing)};
+    body.position = {Rational((i % columns + 0.5) * spacing),
+                     Rational((i / columns + 0.5) * spacing)};
     body.velocity = {Rational(uniform()), Rational(uniform())};
     system.bodies.push_back(body);
   }
@@ -51,7 +52,9 @@ BodySystem gas(std::uint32_t number) {
 EventSimulator<double, 2> general(const BodySystem& system) {
   std::vector<Particle<double, 2>> balls;
   for (const Body& body : system.bodies) {
-    balls.push_back({1, 1, {body.position[0].get_d(), body.position[1].get_d()},
+    balls.push_back({1,
+                     1,
+                     {body.position[0].get_d(), body.position[1].get_d()},
                      {body.velocity[0].get_d(), body.velocity[1].get_d()}});
   }
   constexpr double kRadius = 1e9;
@@ -112,6 +115,8 @@ void measure(std::uint32_t number) {
 
 int main() {
   using namespace piblocks::benchmark;
-  fmt::print("| Discs | set-up, ms | certain collisions | while certain, 1/s | then, 1/s | EventSimulator, 1/s |\n");
+  fmt::print(
+      "| Discs | set-up, ms | certain collisions | while certain, 1/s | then, 1/s | "
+      "EventSimulator, 1/s |\n");
   for (const std::uint32_t number : {1u, 2u, 10u, 100u, 1000u, 10'000u, 100'000u}) measure(number);
 }

@@ -142,19 +142,18 @@ std::optional<Contact> contact_of(const Disc& a, const Bound& bound_a, const Dis
   contact.drift_b = drift(b, bound_b, time);
   contact.speed = speed;
   const double e = (contact.drift_a + contact.drift_b + 2 * kUnit * distance) * kUp;
-  const double miss = (e + std::abs(distance - reach) + 8 * kUnit * (distance + reach)) * kUp;  // E
+  const double gap = (std::abs(distance - reach) + 8 * kUnit * (distance + reach)) * kUp;
   const double velocity_error = (bound_a.velocity + bound_b.velocity + 2 * kUnit * speed) * kUp;
-  const double closing = -dot(w, d) / distance;
-  const double surely = closing - 8 * kUnit * speed - velocity_error;
+  const double surely = -dot(w, d) / distance - 8 * kUnit * speed - velocity_error;
   if (!(surely > 0)) return std::nullopt;
-  const double root2 = surely * surely - 2 * miss * speed * speed / distance * kUp;
+  const double root2 = surely * surely - 2 * (e + gap) * speed * speed / distance * kUp;
   if (!(root2 > 0)) return std::nullopt;
-  contact.window = 2 * miss / (surely + std::sqrt(root2)) * kUp;
+  contact.window = 2 * (e + gap) / (surely + std::sqrt(root2)) * kUp;
   const double shift = (e + (velocity_error + speed) * contact.window) * kUp;
   if (!(shift < distance / 2)) return std::nullopt;
   const double sideways = std::abs(cross(w, d)) / distance + 8 * kUnit * speed;
   contact.turn = (e + (velocity_error + sideways) * contact.window) / reach * kUp;
-  contact.closing = (closing + 8 * kUnit * speed + speed * contact.turn + velocity_error) * kUp;
+  contact.residual = (gap + distance * contact.turn * contact.turn) * kUp;
   if (!(contact.turn < 0.5)) return std::nullopt;
   return contact;
 }
@@ -165,35 +164,26 @@ std::optional<Contact> contact_of(const Disc& disc, const Bound& bound, const Wa
   Contact contact;
   contact.drift_a = drift(disc, bound, time);
   contact.speed = speed_above(disc.velocity);
-  const double miss =
-      (contact.drift_a + std::abs(gap_to(wall, disc, time)) + size_of(there) * wall.normal_error +
-       wall.offset_error + 8 * kUnit * (size_of(there) + std::abs(wall.offset) + disc.radius)) *
+  contact.turn = wall.normal_error;
+  contact.residual =
+      (std::abs(gap_to(wall, disc, time)) + size_of(there) * wall.normal_error + wall.offset_error +
+       8 * kUnit * (size_of(there) + std::abs(wall.offset) + disc.radius)) *
       kUp;
   const double error = (bound.velocity + contact.speed * (wall.normal_error + 4 * kUnit)) * kUp;
-  const double closing = -dot(wall.normal, disc.velocity);
-  if (!(closing - error > 0)) return std::nullopt;
-  contact.window = miss / (closing - error) * kUp;
-  contact.turn = wall.normal_error;
-  contact.closing = (closing + error) * kUp;
+  const double surely = -dot(wall.normal, disc.velocity) - error;
+  if (!(surely > 0)) return std::nullopt;
+  contact.window = (contact.drift_a + contact.residual) / surely * kUp;
   return contact;
 }
 
 namespace {
 
-/// @param own, other  bounds before the meeting; own becomes that after it
-/// @param share, other_share  of the velocity change
-void widen_one(const Contact& contact, double own_drift, double share, double other_share,
-               const Bound& other, const Disc& after, Bound& own) {
-  double carried = own.velocity;
-  if (other.velocity > 0) {
-    const double by_norm = std::sqrt(own.velocity * own.velocity +
-                                     share / other_share * other.velocity * other.velocity);
-    carried = std::min(own.velocity + 2 * share * other.velocity, by_norm);
-  }
-  const double turned = 2 * share * contact.speed * (contact.turn + 32 * kUnit);
-  own.velocity = (carried + turned + 2 * kUnit * size_of(after.velocity)) * kUp + kTiny;
-  own.position = (own_drift + 2 * share * contact.closing * contact.window) * kUp + kTiny;
-  own.window = contact.window;
+/// What a reflection leaves of two error vectors: of the own one and 2 share times a projection of
+/// their difference. It keeps the sum of the squares, each times the mass.
+double reflected(double own, double other, double share, double other_share) {
+  if (other == 0) return own;
+  const double by_mass = std::sqrt(own * own + share / other_share * other * other);
+  return std::min(own + 2 * share * other, by_mass);
 }
 
 }  // namespace
@@ -202,14 +192,19 @@ void widen(const Contact& contact, const Disc& a, double mass_a, Bound& bound_a,
            double mass_b, Bound& bound_b) {
   const double share_a = share_of_change(mass_a, mass_b);
   const double share_b = share_of_change(mass_b, mass_a);
-  const Bound before_a = bound_a;
-  const Bound before_b = bound_b;
-  if (mass_a != kNever) {
-    widen_one(contact, contact.drift_a, share_a, share_b, before_b, a, bound_a);
-  }
-  if (mass_b != kNever) {
-    widen_one(contact, contact.drift_b, share_b, share_a, before_a, b, bound_b);
-  }
+  const double turned = contact.speed * (contact.turn + 32 * kUnit);
+  const auto after = [&](const Bound& own, const Bound& other, double share, double other_share,
+                         const Disc& disc) {
+    const double position =
+        reflected(own.position, other.position, share, other_share) + 2 * share * contact.residual;
+    const double velocity = reflected(own.velocity, other.velocity, share, other_share) +
+                            2 * share * turned + 2 * kUnit * size_of(disc.velocity);
+    return Bound{position * kUp + kTiny, velocity * kUp + kTiny, contact.window};
+  };
+  const Bound before_a = {contact.drift_a, bound_a.velocity, 0};
+  const Bound before_b = {contact.drift_b, bound_b.velocity, 0};
+  if (mass_a != kNever) bound_a = after(before_a, before_b, share_a, share_b, a);
+  if (mass_b != kNever) bound_b = after(before_b, before_a, share_b, share_a, b);
 }
 
 void widen(const Contact& contact, const WallLine& wall, Bound& bound) {
@@ -218,7 +213,7 @@ void widen(const Contact& contact, const WallLine& wall, Bound& bound) {
     const double turned = contact.speed * (5 * wall.normal_error + 16 * kUnit);
     bound.velocity = (bound.velocity + turned) * kUp + kTiny;
   }
-  bound.position = (contact.drift_a + 2 * contact.closing * contact.window) * kUp + kTiny;
+  bound.position = (contact.drift_a + 2 * contact.residual) * kUp + kTiny;
   bound.window = contact.window;
 }
 

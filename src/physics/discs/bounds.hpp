@@ -23,14 +23,14 @@ double earliest_meeting(const Disc& a, const Bound& bound_a, const Disc& b, cons
 double earliest_meeting(const Disc& disc, const Bound& bound, const WallLine& wall,
                         double top_speed);
 
-/// A meeting that truly happens, and how wrong its computed time and direction may be.
+/// A meeting that truly happens, with bounds of what is wrong with the computed one.
 struct Contact {
-  double window = 0;   ///< tau: of its time
-  double turn = 0;     ///< the sine of the angle between the true normal and the computed one
-  double drift_a = 0;  ///< of the first disc at the computed time
-  double drift_b = 0;  ///< of the second
-  double closing = 0;  ///< the true closing speed, at most
-  double speed = 0;    ///< |w|: the computed relative speed, at most
+  double window = 0;    ///< tau: how wrong the time may be
+  double turn = 0;      ///< the sine of the angle between the true normal and the computed one
+  double residual = 0;  ///< of |D| - R at the computed time, along the true normal
+  double drift_a = 0;   ///< of the first disc at the computed time
+  double drift_b = 0;   ///< of the second
+  double speed = 0;     ///< |w|: the computed relative speed, at most
 };
 
 /// Nothing if it is in doubt that there is a meeting: a graze.

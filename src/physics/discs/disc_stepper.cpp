@@ -31,9 +31,9 @@ struct Plan {
 /// the queue until it is due: no sooner can the disc meet anybody else, so it is planned anew then.
 /// (One event a disc: Lubachevsky, "How to simulate billiards and similar systems", J. Comput.
 /// Phys. 94, 1991.)
-class DiscStepper final : public BodyStepper {
+class Stepper final : public DiscStepper {
  public:
-  DiscStepper(const BodySystem& system, Search search)
+  Stepper(const BodySystem& system, Search search)
       : system_(disc_system_of(system)),
         discs_(system_.discs),
         number_(static_cast<std::uint32_t>(discs_.size())),
@@ -46,6 +46,11 @@ class DiscStepper final : public BodyStepper {
 
   std::optional<BodyStep> step() override;
   Certainty certainty() const override { return {until_ * system_.units.time}; }
+  Bound bound_of(std::uint32_t body) const override {
+    const Bound& bound = system_.bounds[body];
+    const Units& units = system_.units;
+    return {bound.position * units.length, bound.velocity * units.speed, bound.window * units.time};
+  }
 
  private:
   bool is_certain() const { return until_ == kNever; }
@@ -91,14 +96,14 @@ class DiscStepper final : public BodyStepper {
 
 // What is planned.
 
-void DiscStepper::plan_all() {
+void Stepper::plan_all() {
   for (Plan& plan : plans_) plan = Plan{};
   for (std::uint32_t disc = 0; disc < number_; ++disc) {
     if (system_.is_movable(disc)) plan(disc);
   }
 }
 
-void DiscStepper::plan(std::uint32_t disc) {
+void Stepper::plan(std::uint32_t disc) {
   plans_[disc] = Plan{};
   plans_[disc].crossing = cells_.crossing_time(disc);
   for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) plan_meeting(disc, wall);
@@ -108,7 +113,7 @@ void DiscStepper::plan(std::uint32_t disc) {
 }
 
 /// Plans for both: the other disc may not have known this one when it was planned.
-void DiscStepper::plan_meeting(std::uint32_t disc, std::uint32_t partner) {
+void Stepper::plan_meeting(std::uint32_t disc, std::uint32_t partner) {
   if (disc == partner || have_just_met(disc, partner)) return;
   const Disc& own = discs_[disc];
   Plan proposal;
@@ -135,7 +140,7 @@ void DiscStepper::plan_meeting(std::uint32_t disc, std::uint32_t partner) {
 }
 
 /// Beyond its margin a disc could truly be next to discs that its cell does not know.
-void DiscStepper::plan_end_of_margin(std::uint32_t disc) {
+void Stepper::plan_end_of_margin(std::uint32_t disc) {
   const Bound& bound = system_.bounds[disc];
   if (bound.velocity == 0 || cells_.margin() == kNever) return;
   Plan proposal;
@@ -145,14 +150,14 @@ void DiscStepper::plan_end_of_margin(std::uint32_t disc) {
 }
 
 /// Two free bodies separate for ever. An immovable one is as if it had met nobody else.
-bool DiscStepper::have_just_met(std::uint32_t disc, std::uint32_t partner) const {
+bool Stepper::have_just_met(std::uint32_t disc, std::uint32_t partner) const {
   if (!is_disc(partner)) return discs_[disc].last == partner;
   return (discs_[disc].last == partner || !system_.is_movable(disc)) &&
          (discs_[partner].last == disc || !system_.is_movable(partner));
 }
 
 /// Whether the proposal is sooner than the disc's plan and has become its plan.
-bool DiscStepper::propose(std::uint32_t disc, const Plan& proposal) {
+bool Stepper::propose(std::uint32_t disc, const Plan& proposal) {
   Plan& plan = plans_[disc];
   if (proposal.time > plan.time) return false;
   if (proposal.time == plan.time && rank_of(disc, proposal) >= rank_of(disc, plan)) return false;
@@ -163,23 +168,23 @@ bool DiscStepper::propose(std::uint32_t disc, const Plan& proposal) {
 }
 
 /// The order of simultaneous events: doubts, then pairs in their order.
-std::uint64_t DiscStepper::rank_of(std::uint32_t disc, const Plan& plan) const {
+std::uint64_t Stepper::rank_of(std::uint32_t disc, const Plan& plan) const {
   if (plan.is_doubt) return 0;
   const auto [first, second] = std::minmax(disc, plan.partner);
   return (std::uint64_t{first} << 32) | second;
 }
 
-bool DiscStepper::is_stale(const Plan& plan) const {
+bool Stepper::is_stale(const Plan& plan) const {
   return is_disc(plan.partner) && discs_[plan.partner].meetings != plan.meetings;
 }
 
-void DiscStepper::enqueue(std::uint32_t disc) {
+void Stepper::enqueue(std::uint32_t disc) {
   const Plan& plan = plans_[disc];
   queue_.set(disc, plan.crossing <= plan.time ? EventKey{plan.crossing, 0}
                                               : EventKey{plan.time, rank_of(disc, plan)});
 }
 
-void DiscStepper::cross(std::uint32_t disc) {
+void Stepper::cross(std::uint32_t disc) {
   cells_.cross(disc, [&](std::uint32_t other) { plan_meeting(disc, other); });
   plans_[disc].crossing = cells_.crossing_time(disc);
   enqueue(disc);
@@ -187,7 +192,7 @@ void DiscStepper::cross(std::uint32_t disc) {
 
 // What happens.
 
-std::optional<BodyStep> DiscStepper::step() {
+std::optional<BodyStep> Stepper::step() {
   if (number_ == 0) return std::nullopt;
   while (true) {
     const std::uint32_t disc = queue_.first();
@@ -206,7 +211,7 @@ std::optional<BodyStep> DiscStepper::step() {
   }
 }
 
-BodyStep DiscStepper::meet(std::uint32_t disc, std::uint32_t partner, double time) {
+BodyStep Stepper::meet(std::uint32_t disc, std::uint32_t partner, double time) {
   BodyStep step;
   step.time = {time * system_.units.time, 0};
   if (is_disc(partner)) {
@@ -230,7 +235,7 @@ BodyStep DiscStepper::meet(std::uint32_t disc, std::uint32_t partner, double tim
   return step;
 }
 
-void DiscStepper::collide_discs(std::uint32_t first, std::uint32_t second, double time) {
+void Stepper::collide_discs(std::uint32_t first, std::uint32_t second, double time) {
   const auto contact = is_certain() ? certify(first, second, time) : std::nullopt;
   count_meeting(first, second, time);
   count_meeting(second, first, time);
@@ -244,7 +249,7 @@ void DiscStepper::collide_discs(std::uint32_t first, std::uint32_t second, doubl
   raise_top_speed(second);
 }
 
-void DiscStepper::reflect_disc(std::uint32_t disc, std::uint32_t wall, double time) {
+void Stepper::reflect_disc(std::uint32_t disc, std::uint32_t wall, double time) {
   const auto contact = is_certain() ? certify(disc, wall, time) : std::nullopt;
   count_meeting(disc, wall, time);
   reflect(discs_[disc], wall_of(wall));
@@ -253,7 +258,7 @@ void DiscStepper::reflect_disc(std::uint32_t disc, std::uint32_t wall, double ti
   raise_top_speed(disc);
 }
 
-void DiscStepper::count_meeting(std::uint32_t disc, std::uint32_t partner, double time) {
+void Stepper::count_meeting(std::uint32_t disc, std::uint32_t partner, double time) {
   if (!system_.is_movable(disc)) return;
   Disc& moved = discs_[disc];
   moved.position = position_at(moved, time);
@@ -263,7 +268,7 @@ void DiscStepper::count_meeting(std::uint32_t disc, std::uint32_t partner, doubl
 }
 
 /// Only when discs have met: discs that fly apart for ever need no cells.
-void DiscStepper::renew_cells(double time) {
+void Stepper::renew_cells(double time) {
   if (++since_build_ < std::max(number_, 1000u)) return;
   since_build_ = 0;
   if (!cells_.is_outgrown(time)) return;
@@ -271,7 +276,7 @@ void DiscStepper::renew_cells(double time) {
   plan_all();
 }
 
-BodyMotion DiscStepper::motion_of(std::uint32_t disc) const {
+BodyMotion Stepper::motion_of(std::uint32_t disc) const {
   constexpr double kMost = 0x1p450;  // squares of the engine's numbers remain finite
   const Disc& moved = discs_[disc];
   const Units& units = system_.units;
@@ -292,7 +297,7 @@ BodyMotion DiscStepper::motion_of(std::uint32_t disc) const {
 
 // What is certain.
 
-double DiscStepper::earliest(std::uint32_t disc, std::uint32_t partner) const {
+double Stepper::earliest(std::uint32_t disc, std::uint32_t partner) const {
   const std::vector<Bound>& bounds = system_.bounds;
   if (is_disc(partner)) {
     return earliest_meeting(discs_[disc], bounds[disc], discs_[partner], bounds[partner],
@@ -302,7 +307,7 @@ double DiscStepper::earliest(std::uint32_t disc, std::uint32_t partner) const {
 }
 
 /// Before which time the disc meets nobody but this partner.
-double DiscStepper::earliest_other(std::uint32_t disc, std::uint32_t partner) const {
+double Stepper::earliest_other(std::uint32_t disc, std::uint32_t partner) const {
   double soonest = kNever;
   const auto look_at = [&](std::uint32_t other) {
     if (other == disc || other == partner || have_just_met(disc, other)) return;
@@ -314,8 +319,7 @@ double DiscStepper::earliest_other(std::uint32_t disc, std::uint32_t partner) co
 }
 
 /// Ends certainty unless this meeting truly is the next one of both. @return nothing then
-std::optional<Contact> DiscStepper::certify(std::uint32_t disc, std::uint32_t partner,
-                                            double time) {
+std::optional<Contact> Stepper::certify(std::uint32_t disc, std::uint32_t partner, double time) {
   const std::vector<Bound>& bounds = system_.bounds;
   const std::optional<Contact> contact =
       is_disc(partner)
@@ -338,7 +342,7 @@ std::optional<Contact> DiscStepper::certify(std::uint32_t disc, std::uint32_t pa
   return std::nullopt;
 }
 
-void DiscStepper::raise_top_speed(std::uint32_t disc) {
+void Stepper::raise_top_speed(std::uint32_t disc) {
   const double speed = length(discs_[disc].velocity) + system_.bounds[disc].velocity;
   top_speed_ = std::max(top_speed_, speed * (1 + 0x1p-40) + 0x1p-440);
 }
@@ -348,8 +352,8 @@ void DiscStepper::raise_top_speed(std::uint32_t disc) {
 
 namespace piblocks {
 
-std::unique_ptr<BodyStepper> make_disc_stepper(const BodySystem& system, discs::Search search) {
-  return std::make_unique<discs::DiscStepper>(system, search);
+std::unique_ptr<DiscStepper> make_disc_stepper(const BodySystem& system, discs::Search search) {
+  return std::make_unique<discs::Stepper>(system, search);
 }
 
 std::unique_ptr<BodyStepper> make_disc_stepper(const BodySystem& system) {
