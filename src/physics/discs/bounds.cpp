@@ -1,0 +1,220 @@
+#include "physics/discs/bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/discs/meeting.hpp"
+
+namespace piblocks::discs {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+/// Covers the rounding of the few operations that compute a bound, and of those that are said to be
+/// right to a few u where second powers of u are left out.
+constexpr double kUp = 1 + 0x1p-30;
+constexpr double kDown = 1 - 0x1p-30;
+/// More than what underflow takes from any product here.
+constexpr double kTiny = 0x1p-900;
+
+double size_of(Vector a) { return std::abs(a.x) + std::abs(a.y); }
+
+/// At least |w|, even if its square underflows.
+double speed_above(Vector w) { return length(w) * kUp + 0x1p-440; }
+
+/// What is known of two discs at the time of the later one's last meeting.
+struct Sight {
+  Encounter seen;
+  double distance;  ///< |d|
+  double speed;     ///< |w|, at least
+  double e;         ///< |D - d|, the radii's errors and the rounding of |d| - R, at most
+  double b;         ///< |W - w|, at most
+
+  Sight(const Disc& a, const Bound& bound_a, const Disc& b_disc, const Bound& bound_b)
+      : seen(a, b_disc), distance(length(seen.distance)), speed(speed_above(seen.velocity)) {
+    e = (drift(a, bound_a, seen.start) + drift(b_disc, bound_b, seen.start) +
+         8 * kUnit * (distance + seen.reach)) *
+        kUp;
+    b = (bound_a.velocity + bound_b.velocity + 2 * kUnit * length(seen.velocity)) * kUp;
+  }
+};
+
+/// Whether the flights before and after each other's last meeting cannot be confused.
+bool are_in_order(const Disc& a, const Bound& bound_a, const Disc& b, const Bound& bound_b) {
+  const auto ends_before = [](const Disc& first, double first_window, const Disc& second,
+                              double second_window) {
+    const double end = first.time + first_window * kUp + 2 * kUnit * first.time;
+    const double begin = second.time - second_window * kUp - 2 * kUnit * second.time;
+    return (first.time == 0 && first_window == 0) || end <= begin;
+  };
+  return ends_before(a, bound_a.window, b, bound_b.window) ||
+         ends_before(b, bound_b.window, a, bound_a.window);
+}
+
+/// Whether D.W > 0 since the flights began: the discs were apart then and move away.
+bool surely_recede(const Sight& sight, double window) {
+  const double product = dot(sight.seen.distance, sight.seen.velocity);
+  const double speed = sight.speed + sight.b;
+  const double doubt = sight.e * speed + sight.b * sight.distance + speed * speed * window +
+                       8 * kUnit * sight.distance * speed + kTiny;
+  return product > doubt * kUp;
+}
+
+/// For b <= |w| / 2: the root of |d + w s| = R + b s, at most, or less.
+double earliest_approach(const Sight& sight, double reach) {
+  const Vector d = sight.seen.distance;
+  const Vector w = sight.seen.velocity;
+  const double w2 = dot(w, w);
+  const double approach = -dot(d, w);
+  const double b_over_w = sight.b / std::sqrt(w2);
+  // The bound is taken where the centres are nearest; behind that point it grows more slowly than
+  // the distance if the miss is this much larger.
+  const double nearest = std::max(approach / w2, 0.0);
+  const double wide =
+      (reach + sight.b * nearest) * (1 + b_over_w * b_over_w) * kUp + 64 * kUnit * sight.distance;
+  if (approach <= 0) return sight.distance > wide ? kNever : 0;
+  const double moment = cross(d, w);
+  if (std::abs(moment) > wide * std::sqrt(w2)) return kNever;
+  if (sight.distance <= wide) return 0;
+  const double chord2 = std::max(wide * wide * w2 - moment * moment, 0.0);
+  return (sight.distance - wide) * (sight.distance + wide) / (approach + std::sqrt(chord2)) * kDown;
+}
+
+/// start + wait, rounded down
+double time_after(double start, double wait) {
+  const double time = start + wait;
+  return time == kNever ? kNever : time - 2 * kUnit * time;
+}
+
+}  // namespace
+
+double drift(const Disc& disc, const Bound& bound, double time) {
+  const double flight = std::abs(time - disc.time);
+  if (flight == 0) return bound.position;
+  const Vector there = position_at(disc, time);
+  const double rounding = 4 * kUnit * (size_of(there) + size_of(disc.velocity) * flight);
+  return (bound.position + bound.velocity * flight + rounding) * kUp + kTiny;
+}
+
+double earliest_meeting(const Disc& a, const Bound& bound_a, const Disc& b, const Bound& bound_b,
+                        double top_speed) {
+  const Sight sight(a, bound_a, b, bound_b);
+  const Vector w = sight.seen.velocity;
+  const double window = bound_a.window + bound_b.window;
+  // Exactly at rest to each other.
+  if (w.x == 0 && w.y == 0 && sight.b == 0 && window == 0) return kNever;
+  if (are_in_order(a, bound_a, b, bound_b) && surely_recede(sight, window)) return kNever;
+  const double reach = sight.seen.reach + sight.e;
+  const double gap = sight.distance - reach;
+  if (!(gap > 8 * top_speed * window)) return sight.seen.start - window * kUp;
+  if (sight.b > sight.speed / 2 || dot(w, w) < kTiny) {
+    return time_after(sight.seen.start, gap / (sight.speed + sight.b) * kDown);
+  }
+  return time_after(sight.seen.start, earliest_approach(sight, reach));
+}
+
+double earliest_meeting(const Disc& disc, const Bound& bound, const WallLine& wall,
+                        double top_speed) {
+  const Vector p = disc.position;
+  const Vector v = disc.velocity;
+  const double e = (bound.position + size_of(p) * wall.normal_error + wall.offset_error +
+                    8 * kUnit * (size_of(p) + std::abs(wall.offset) + disc.radius)) *
+                   kUp;
+  // A product with 0 is exact, so a disc that flies along a horizontal wall has no error here.
+  const double rounding =
+      4 * kUnit * (std::abs(wall.normal.x * v.x) + std::abs(wall.normal.y * v.y));
+  const double b = (bound.velocity + size_of(v) * wall.normal_error + rounding) * kUp;
+  const double fastest = b - dot(wall.normal, v);
+  if (fastest < 0 || (fastest == 0 && b == 0)) return kNever;
+  const double gap = gap_to(wall, disc, disc.time) - e;
+  if (!(gap > 8 * top_speed * bound.window)) return disc.time - bound.window * kUp;
+  return fastest == 0 ? kNever : time_after(disc.time, gap / fastest * kDown);
+}
+
+std::optional<Contact> contact_of(const Disc& a, const Bound& bound_a, const Disc& b,
+                                  const Bound& bound_b, double time) {
+  const Vector d = position_at(b, time) - position_at(a, time);
+  const Vector w = b.velocity - a.velocity;
+  const double distance = length(d);
+  const double reach = a.radius + b.radius;
+  const double speed = speed_above(w);
+  Contact contact;
+  contact.drift_a = drift(a, bound_a, time);
+  contact.drift_b = drift(b, bound_b, time);
+  contact.speed = speed;
+  const double e = (contact.drift_a + contact.drift_b + 2 * kUnit * distance) * kUp;
+  const double gap = (std::abs(distance - reach) + 8 * kUnit * (distance + reach)) * kUp;
+  const double velocity_error = (bound_a.velocity + bound_b.velocity + 2 * kUnit * speed) * kUp;
+  const double surely = -dot(w, d) / distance - 8 * kUnit * speed - velocity_error;
+  if (!(surely > 0)) return std::nullopt;
+  const double root2 = surely * surely - 2 * (e + gap) * speed * speed / distance * kUp;
+  if (!(root2 > 0)) return std::nullopt;
+  contact.window = 2 * (e + gap) / (surely + std::sqrt(root2)) * kUp;
+  const double shift = (e + (velocity_error + speed) * contact.window) * kUp;
+  if (!(shift < distance / 2)) return std::nullopt;
+  const double sideways = std::abs(cross(w, d)) / distance + 8 * kUnit * speed;
+  contact.turn = (e + (velocity_error + sideways) * contact.window) / reach * kUp;
+  contact.residual = (gap + distance * contact.turn * contact.turn) * kUp;
+  if (!(contact.turn < 0.5)) return std::nullopt;
+  return contact;
+}
+
+std::optional<Contact> contact_of(const Disc& disc, const Bound& bound, const WallLine& wall,
+                                  double time) {
+  const Vector there = position_at(disc, time);
+  Contact contact;
+  contact.drift_a = drift(disc, bound, time);
+  contact.speed = speed_above(disc.velocity);
+  contact.turn = wall.normal_error;
+  contact.residual =
+      (std::abs(gap_to(wall, disc, time)) + size_of(there) * wall.normal_error + wall.offset_error +
+       8 * kUnit * (size_of(there) + std::abs(wall.offset) + disc.radius)) *
+      kUp;
+  const double error = (bound.velocity + contact.speed * (wall.normal_error + 4 * kUnit)) * kUp;
+  const double surely = -dot(wall.normal, disc.velocity) - error;
+  if (!(surely > 0)) return std::nullopt;
+  contact.window = (contact.drift_a + contact.residual) / surely * kUp;
+  return contact;
+}
+
+namespace {
+
+/// What a reflection leaves of two error vectors: of the own one and 2 share times a projection of
+/// their difference. It keeps the sum of the squares, each times the mass.
+double reflected(double own, double other, double share, double other_share) {
+  if (other == 0) return own;
+  const double by_mass = std::sqrt(own * own + share / other_share * other * other);
+  return std::min(own + 2 * share * other, by_mass);
+}
+
+}  // namespace
+
+void widen(const Contact& contact, const Disc& a, double mass_a, Bound& bound_a, const Disc& b,
+           double mass_b, Bound& bound_b) {
+  const double share_a = share_of_change(mass_a, mass_b);
+  const double share_b = share_of_change(mass_b, mass_a);
+  const double turned = contact.speed * (contact.turn + 32 * kUnit);
+  const auto after = [&](const Bound& own, const Bound& other, double share, double other_share,
+                         const Disc& disc) {
+    const double position =
+        reflected(own.position, other.position, share, other_share) + 2 * share * contact.residual;
+    const double velocity = reflected(own.velocity, other.velocity, share, other_share) +
+                            2 * share * turned + 2 * kUnit * size_of(disc.velocity);
+    return Bound{position * kUp + kTiny, velocity * kUp + kTiny, contact.window};
+  };
+  const Bound before_a = {contact.drift_a, bound_a.velocity, 0};
+  const Bound before_b = {contact.drift_b, bound_b.velocity, 0};
+  if (mass_a != kNever) bound_a = after(before_a, before_b, share_a, share_b, a);
+  if (mass_b != kNever) bound_b = after(before_b, before_a, share_b, share_a, b);
+}
+
+void widen(const Contact& contact, const WallLine& wall, Bound& bound) {
+  // Upright and level walls negate one part of the velocity, which rounds nothing.
+  if (wall.normal_error > 0) {
+    const double turned = contact.speed * (5 * wall.normal_error + 16 * kUnit);
+    bound.velocity = (bound.velocity + turned) * kUp + kTiny;
+  }
+  bound.position = (contact.drift_a + 2 * contact.residual) * kUp + kTiny;
+  bound.window = contact.window;
+}
+
+}  // namespace piblocks::discs

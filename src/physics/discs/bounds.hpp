@@ -1,0 +1,49 @@
+// What rounding may have done to discs: how their error bounds grow, and which meetings these leave
+// possible.
+// In: computed flights and their bounds. Out: bounds and times, rounded to the safe side.
+// src/physics/README.md, "Discs", derives the formulas under the names that are used here.
+#pragma once
+
+#include <optional>
+
+#include "physics/discs/disc.hpp"
+#include "physics/discs/disc_system.hpp"
+
+namespace piblocks::discs {
+
+/// How far the true centre may be from position_at(disc, time), as computed.
+double drift(const Disc& disc, const Bound& bound, double time);
+
+/// The time before which two discs truly do not meet, whatever rounding has done; kNever if they do
+/// not meet before one of them has met another. It is before the last meeting of one of them if the
+/// order of that and of this one is in doubt.
+/// @param top_speed  of all discs, at least
+double earliest_meeting(const Disc& a, const Bound& bound_a, const Disc& b, const Bound& bound_b,
+                        double top_speed);
+double earliest_meeting(const Disc& disc, const Bound& bound, const WallLine& wall,
+                        double top_speed);
+
+/// A meeting that truly happens, with bounds of what is wrong with the computed one.
+struct Contact {
+  double window = 0;    ///< tau: how wrong the time may be
+  double turn = 0;      ///< the sine of the angle between the true normal and the computed one
+  double residual = 0;  ///< of |D| - R at the computed time, along the true normal
+  double drift_a = 0;   ///< of the first disc at the computed time
+  double drift_b = 0;   ///< of the second
+  double speed = 0;     ///< |w|: the computed relative speed, at most
+};
+
+/// Nothing if it is in doubt that there is a meeting: a graze.
+/// @param time  as meeting_time() has it
+std::optional<Contact> contact_of(const Disc& a, const Bound& bound_a, const Disc& b,
+                                  const Bound& bound_b, double time);
+std::optional<Contact> contact_of(const Disc& disc, const Bound& bound, const WallLine& wall,
+                                  double time);
+
+/// The bounds of two discs after they have met. Those of an immovable disc stay.
+/// @param a, b  after the meeting
+void widen(const Contact& contact, const Disc& a, double mass_a, Bound& bound_a, const Disc& b,
+           double mass_b, Bound& bound_b);
+void widen(const Contact& contact, const WallLine& wall, Bound& bound);
+
+}  // namespace piblocks::discs

@@ -1,0 +1,363 @@
+#include "physics/discs/disc_stepper.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "physics/discs/bounds.hpp"
+#include "physics/discs/disc_system.hpp"
+#include "physics/discs/meeting.hpp"
+#include "physics/discs/tournament.hpp"
+
+namespace piblocks::discs {
+namespace {
+
+/// The next meeting of a disc as far as is known, and when it leaves its cell.
+struct Plan {
+  double time = kNever;
+  double crossing = kNever;
+  std::uint32_t partner = kNobody;  ///< a disc, or the number of discs + a wall
+  std::uint32_t meetings = 0;       ///< of the partner when this was planned
+  bool is_doubt = false;            ///< not a meeting, but from then on one cannot be ruled out
+};
+
+/// Each disc has one plan, its soonest. If the partner meets another disc first, the plan stays in
+/// the queue until it is due: no sooner can the disc meet anybody else, so it is planned anew then.
+/// (One event a disc: Lubachevsky, "How to simulate billiards and similar systems", J. Comput.
+/// Phys. 94, 1991.)
+class Stepper final : public DiscStepper {
+ public:
+  Stepper(const BodySystem& system, Search search)
+      : system_(disc_system_of(system)),
+        discs_(system_.discs),
+        number_(static_cast<std::uint32_t>(discs_.size())),
+        cells_(discs_, search),
+        plans_(number_),
+        queue_(number_) {
+    for (std::uint32_t disc = 0; disc < number_; ++disc) raise_top_speed(disc);
+    plan_all();
+  }
+
+  std::optional<BodyStep> step() override;
+  Certainty certainty() const override { return {until_ * system_.units.time}; }
+  Bound bound_of(std::uint32_t body) const override {
+    const Bound& bound = system_.bounds[body];
+    const Units& units = system_.units;
+    return {bound.position * units.length, bound.velocity * units.speed, bound.window * units.time};
+  }
+
+ private:
+  bool is_certain() const { return until_ == kNever; }
+  bool is_disc(std::uint32_t partner) const { return partner < number_; }
+  const WallLine& wall_of(std::uint32_t partner) const { return system_.walls[partner - number_]; }
+  std::uint32_t end_of_walls() const {
+    return number_ + static_cast<std::uint32_t>(system_.walls.size());
+  }
+
+  void plan_all();
+  void plan(std::uint32_t disc);
+  void plan_meeting(std::uint32_t disc, std::uint32_t partner);
+  void plan_end_of_margin(std::uint32_t disc);
+  bool have_just_met(std::uint32_t disc, std::uint32_t partner) const;
+  bool propose(std::uint32_t disc, const Plan& proposal);
+  std::uint64_t rank_of(std::uint32_t disc, const Plan& plan) const;
+  bool is_stale(const Plan& plan) const;
+  void enqueue(std::uint32_t disc);
+  void cross(std::uint32_t disc);
+
+  BodyStep meet(std::uint32_t disc, std::uint32_t partner, double time);
+  void collide_discs(std::uint32_t first, std::uint32_t second, double time);
+  void reflect_disc(std::uint32_t disc, std::uint32_t wall, double time);
+  void count_meeting(std::uint32_t disc, std::uint32_t partner, double time);
+  void renew_cells(double time);
+  BodyMotion motion_of(std::uint32_t disc) const;
+
+  double earliest(std::uint32_t disc, std::uint32_t partner) const;
+  double earliest_other(std::uint32_t disc, std::uint32_t partner) const;
+  std::optional<Contact> certify(std::uint32_t disc, std::uint32_t partner, double time);
+  void raise_top_speed(std::uint32_t disc);
+
+  DiscSystem system_;
+  std::vector<Disc>& discs_;
+  std::uint32_t number_;
+  Cells cells_;
+  std::vector<Plan> plans_;
+  Tournament queue_;
+  double until_ = kNever;
+  double top_speed_ = 0;  ///< while all is certain: of all discs so far, at least
+  std::uint32_t since_build_ = 0;
+};
+
+// What is planned.
+
+void Stepper::plan_all() {
+  for (Plan& plan : plans_) plan = Plan{};
+  for (std::uint32_t disc = 0; disc < number_; ++disc) {
+    if (system_.is_movable(disc)) plan(disc);
+  }
+}
+
+void Stepper::plan(std::uint32_t disc) {
+  plans_[disc] = Plan{};
+  plans_[disc].crossing = cells_.crossing_time(disc);
+  for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) plan_meeting(disc, wall);
+  cells_.visit_near(disc, [&](std::uint32_t other) { plan_meeting(disc, other); });
+  if (is_certain()) plan_end_of_margin(disc);
+  enqueue(disc);
+}
+
+/// Plans for both: the other disc may not have known this one when it was planned.
+void Stepper::plan_meeting(std::uint32_t disc, std::uint32_t partner) {
+  if (disc == partner || have_just_met(disc, partner)) return;
+  const Disc& own = discs_[disc];
+  Plan proposal;
+  proposal.partner = partner;
+  proposal.time =
+      is_disc(partner) ? meeting_time(own, discs_[partner]) : meeting_time(own, wall_of(partner));
+  if (is_certain()) {
+    const double start = is_disc(partner) ? std::max(own.time, discs_[partner].time) : own.time;
+    const double possible = earliest(disc, partner);
+    proposal.is_doubt = proposal.time == kNever || possible < start;
+    if (proposal.is_doubt) proposal.time = possible;
+  }
+  if (proposal.time == kNever) return;
+  if (!is_disc(partner)) {
+    propose(disc, proposal);
+    return;
+  }
+  proposal.meetings = discs_[partner].meetings;
+  propose(disc, proposal);
+  if (!system_.is_movable(partner)) return;
+  proposal.partner = disc;
+  proposal.meetings = own.meetings;
+  if (propose(partner, proposal)) enqueue(partner);
+}
+
+/// Beyond its margin a disc could truly be next to discs that its cell does not know.
+void Stepper::plan_end_of_margin(std::uint32_t disc) {
+  const Bound& bound = system_.bounds[disc];
+  if (bound.velocity == 0 || cells_.margin() == kNever) return;
+  Plan proposal;
+  proposal.time = discs_[disc].time + (cells_.margin() / 4 - bound.position) / bound.velocity;
+  proposal.is_doubt = true;
+  propose(disc, proposal);
+}
+
+/// Two free bodies separate for ever. An immovable one is as if it had met nobody else.
+bool Stepper::have_just_met(std::uint32_t disc, std::uint32_t partner) const {
+  if (!is_disc(partner)) return discs_[disc].last == partner;
+  return (discs_[disc].last == partner || !system_.is_movable(disc)) &&
+         (discs_[partner].last == disc || !system_.is_movable(partner));
+}
+
+/// Whether the proposal is sooner than the disc's plan and has become its plan.
+bool Stepper::propose(std::uint32_t disc, const Plan& proposal) {
+  Plan& plan = plans_[disc];
+  if (proposal.time > plan.time) return false;
+  if (proposal.time == plan.time && rank_of(disc, proposal) >= rank_of(disc, plan)) return false;
+  const double crossing = plan.crossing;
+  plan = proposal;
+  plan.crossing = crossing;
+  return true;
+}
+
+/// The order of simultaneous events: doubts, then pairs in their order.
+std::uint64_t Stepper::rank_of(std::uint32_t disc, const Plan& plan) const {
+  if (plan.is_doubt) return 0;
+  const auto [first, second] = std::minmax(disc, plan.partner);
+  return (std::uint64_t{first} << 32) | second;
+}
+
+bool Stepper::is_stale(const Plan& plan) const {
+  return is_disc(plan.partner) && discs_[plan.partner].meetings != plan.meetings;
+}
+
+void Stepper::enqueue(std::uint32_t disc) {
+  const Plan& plan = plans_[disc];
+  queue_.set(disc, plan.crossing <= plan.time ? EventKey{plan.crossing, 0}
+                                              : EventKey{plan.time, rank_of(disc, plan)});
+}
+
+void Stepper::cross(std::uint32_t disc) {
+  cells_.cross(disc, [&](std::uint32_t other) { plan_meeting(disc, other); });
+  plans_[disc].crossing = cells_.crossing_time(disc);
+  enqueue(disc);
+}
+
+// What happens.
+
+std::optional<BodyStep> Stepper::step() {
+  if (number_ == 0) return std::nullopt;
+  while (true) {
+    const std::uint32_t disc = queue_.first();
+    if (queue_.key(disc).time == kNever) return std::nullopt;
+    const Plan& next = plans_[disc];
+    if (next.crossing <= next.time) {
+      cross(disc);
+    } else if (is_stale(next)) {
+      plan(disc);
+    } else if (next.is_doubt) {
+      if (is_certain()) until_ = std::max(next.time, 0.0);
+      plan(disc);
+    } else {
+      return meet(disc, next.partner, next.time);
+    }
+  }
+}
+
+BodyStep Stepper::meet(std::uint32_t disc, std::uint32_t partner, double time) {
+  BodyStep step;
+  step.time = {time * system_.units.time, 0};
+  if (is_disc(partner)) {
+    std::tie(step.first, step.second) = std::minmax(disc, partner);
+    collide_discs(step.first, step.second, time);
+    step.second_after = motion_of(step.second);
+  } else {
+    step.first = disc;
+    step.second = partner;
+    reflect_disc(disc, partner, time);
+  }
+  step.first_after = motion_of(step.first);
+  if (!std::isfinite(step.time.hi)) {
+    throw SimulationError(fmt::format(
+        "simulation: bodies {} and {}: the time of a collision is out of the range of a double",
+        step.first + 1, step.second + 1));
+  }
+  if (system_.is_movable(step.first)) plan(step.first);
+  if (is_disc(partner) && system_.is_movable(step.second)) plan(step.second);
+  renew_cells(time);
+  return step;
+}
+
+void Stepper::collide_discs(std::uint32_t first, std::uint32_t second, double time) {
+  const auto contact = is_certain() ? certify(first, second, time) : std::nullopt;
+  count_meeting(first, second, time);
+  count_meeting(second, first, time);
+  Disc& a = discs_[first];
+  Disc& b = discs_[second];
+  collide(a, system_.masses[first], b, system_.masses[second]);
+  if (!contact) return;
+  widen(*contact, a, system_.masses[first], system_.bounds[first], b, system_.masses[second],
+        system_.bounds[second]);
+  raise_top_speed(first);
+  raise_top_speed(second);
+}
+
+void Stepper::reflect_disc(std::uint32_t disc, std::uint32_t wall, double time) {
+  const auto contact = is_certain() ? certify(disc, wall, time) : std::nullopt;
+  count_meeting(disc, wall, time);
+  reflect(discs_[disc], wall_of(wall));
+  if (!contact) return;
+  widen(*contact, wall_of(wall), system_.bounds[disc]);
+  raise_top_speed(disc);
+}
+
+void Stepper::count_meeting(std::uint32_t disc, std::uint32_t partner, double time) {
+  if (!system_.is_movable(disc)) return;
+  Disc& moved = discs_[disc];
+  moved.position = position_at(moved, time);
+  moved.time = time;
+  ++moved.meetings;
+  moved.last = partner;
+}
+
+/// Only when discs have met: discs that fly apart for ever need no cells.
+void Stepper::renew_cells(double time) {
+  if (++since_build_ < std::max(number_, 1000u)) return;
+  since_build_ = 0;
+  if (!cells_.is_outgrown(time)) return;
+  cells_.build(time);
+  plan_all();
+}
+
+BodyMotion Stepper::motion_of(std::uint32_t disc) const {
+  constexpr double kMost = 0x1p450;  // squares of the engine's numbers remain finite
+  const Disc& moved = discs_[disc];
+  const Units& units = system_.units;
+  const BodyMotion motion = {{moved.position.x * units.length, moved.position.y * units.length},
+                             {moved.velocity.x * units.speed, moved.velocity.y * units.speed}};
+  const auto is_in_range = [](double own, double outside) {
+    return std::abs(own) < kMost && std::isfinite(outside);
+  };
+  if (!is_in_range(moved.position.x, motion.position[0]) ||
+      !is_in_range(moved.position.y, motion.position[1]) ||
+      !is_in_range(moved.velocity.x, motion.velocity[0]) ||
+      !is_in_range(moved.velocity.y, motion.velocity[1])) {
+    throw SimulationError(fmt::format(
+        "simulation: body {}: its position or velocity is out of the range of a double", disc + 1));
+  }
+  return motion;
+}
+
+// What is certain.
+
+double Stepper::earliest(std::uint32_t disc, std::uint32_t partner) const {
+  const std::vector<Bound>& bounds = system_.bounds;
+  if (is_disc(partner)) {
+    return earliest_meeting(discs_[disc], bounds[disc], discs_[partner], bounds[partner],
+                            top_speed_);
+  }
+  return earliest_meeting(discs_[disc], bounds[disc], wall_of(partner), top_speed_);
+}
+
+/// Before which time the disc meets nobody but this partner.
+double Stepper::earliest_other(std::uint32_t disc, std::uint32_t partner) const {
+  double soonest = kNever;
+  const auto look_at = [&](std::uint32_t other) {
+    if (other == disc || other == partner || have_just_met(disc, other)) return;
+    soonest = std::min(soonest, earliest(disc, other));
+  };
+  for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) look_at(wall);
+  cells_.visit_near(disc, look_at);
+  return soonest;
+}
+
+/// Ends certainty unless this meeting truly is the next one of both. @return nothing then
+std::optional<Contact> Stepper::certify(std::uint32_t disc, std::uint32_t partner, double time) {
+  const std::vector<Bound>& bounds = system_.bounds;
+  const std::optional<Contact> contact =
+      is_disc(partner)
+          ? contact_of(discs_[disc], bounds[disc], discs_[partner], bounds[partner], time)
+          : contact_of(discs_[disc], bounds[disc], wall_of(partner), time);
+  double doubt = kNever;
+  if (!contact || 8 * top_speed_ * contact->window > cells_.margin() / 4) {
+    doubt = std::min(earliest(disc, partner), time);
+  } else {
+    double other = kNever;
+    if (system_.is_movable(disc)) other = earliest_other(disc, partner);
+    if (is_disc(partner) && system_.is_movable(partner)) {
+      other = std::min(other, earliest_other(partner, disc));
+    }
+    const double last = (time + contact->window) * (1 + 0x1p-51);
+    if (other <= last) doubt = std::min(other, time - contact->window);
+  }
+  if (doubt == kNever) return contact;
+  until_ = std::max(doubt, 0.0);
+  return std::nullopt;
+}
+
+void Stepper::raise_top_speed(std::uint32_t disc) {
+  const double speed = length(discs_[disc].velocity) + system_.bounds[disc].velocity;
+  top_speed_ = std::max(top_speed_, speed * (1 + 0x1p-40) + 0x1p-440);
+}
+
+}  // namespace
+}  // namespace piblocks::discs
+
+namespace piblocks {
+
+std::unique_ptr<DiscStepper> make_disc_stepper(const BodySystem& system, discs::Search search) {
+  return std::make_unique<discs::Stepper>(system, search);
+}
+
+std::unique_ptr<BodyStepper> make_disc_stepper(const BodySystem& system) {
+  return make_disc_stepper(system, discs::Search::cells);
+}
+
+}  // namespace piblocks

@@ -1,0 +1,141 @@
+#include "physics/discs/disc_system.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "core/real.hpp"
+
+namespace piblocks::discs {
+namespace {
+
+/// Squares and products of numbers within these limits neither overflow nor underflow.
+constexpr double kMostLength = 0x1p400;
+constexpr double kLeastRadius = 0x1p-400;
+constexpr double kLeastMass = 0x1p-600;
+constexpr long kMostExponent = 1000;
+
+/// The power of two below |value| or the one below that; nothing for 0.
+std::optional<long> exponent_of(const Rational& value) {
+  if (value == 0) return std::nullopt;
+  return static_cast<long>(mpz_sizeinbase(value.get_num_mpz_t(), 2)) -
+         static_cast<long>(mpz_sizeinbase(value.get_den_mpz_t(), 2));
+}
+
+/// value / 2^exponent
+Rational scaled_down(const Rational& value, long exponent) {
+  return exponent >= 0 ? Rational(value >> static_cast<mp_bitcnt_t>(exponent))
+                       : Rational(value << static_cast<mp_bitcnt_t>(-exponent));
+}
+
+/// A number as a double, and a bound of its rounding error.
+struct Rounded {
+  double value;
+  double error;
+
+  Rounded(const Rational& exact, long exponent) {
+    const Rational scaled = scaled_down(exact, exponent);
+    value = to_double(scaled);
+    const bool is_exact = std::isfinite(value) && Rational(value) == scaled;
+    error = is_exact ? 0 : 0x1p-52 * std::abs(value) + 0x1p-1000;
+  }
+};
+
+struct Exponents {
+  long length = 0;
+  long speed = 0;
+  long mass = 0;
+};
+
+Exponents exponents_of(const BodySystem& system) {
+  std::optional<long> length;
+  std::optional<long> speed;
+  std::optional<long> mass;
+  for (const Body& body : system.bodies) {
+    length = std::max(length, exponent_of(body.size));
+    for (const Rational& part : body.velocity) speed = std::max(speed, exponent_of(part));
+    if (body.mass) mass = std::max(mass, exponent_of(*body.mass));
+  }
+  return {length.value_or(0), speed.value_or(0), mass.value_or(0)};
+}
+
+[[noreturn]] void fail_range(std::size_t body, const std::string& what) {
+  throw SimulationError(
+      fmt::format("simulation: body {}: {} is out of the range of a double beside the others; use "
+                  "numbers that are less far apart",
+                  body + 1, what));
+}
+
+void add_disc(DiscSystem& result, const Body& body, const Exponents& exponents) {
+  const std::size_t number = result.discs.size();
+  const Rounded x(body.position[0], exponents.length);
+  const Rounded y(body.position[1], exponents.length);
+  const Rounded radius(body.size, exponents.length);
+  const Rounded vx(body.velocity[0], exponents.speed);
+  const Rounded vy(body.velocity[1], exponents.speed);
+  // Written so that NaN fails, too.
+  if (!(std::abs(x.value) < kMostLength && std::abs(y.value) < kMostLength)) {
+    fail_range(number, "its position");
+  }
+  if (!(radius.value > kLeastRadius)) fail_range(number, "its radius");
+  const double mass = body.mass ? Rounded(*body.mass, exponents.mass).value : kNever;
+  if (!(mass > kLeastMass)) fail_range(number, "its mass");
+  Disc disc;
+  disc.position = {x.value, y.value};
+  disc.velocity = {vx.value, vy.value};
+  disc.radius = radius.value;
+  result.discs.push_back(disc);
+  result.masses.push_back(mass);
+  result.bounds.push_back({x.error + y.error, vx.error + vy.error, 0});
+}
+
+/// The normal's length is a root, so this is computed with 256 bits and then rounded.
+WallLine wall_line(const Wall& wall, const Exponents& exponents) {
+  constexpr mpfr_prec_t kBits = 256;
+  const Rational square = wall.normal[0] * wall.normal[0] + wall.normal[1] * wall.normal[1];
+  const Rational along = wall.normal[0] * wall.point[0] + wall.normal[1] * wall.point[1];
+  const Real norm = sqrt(Real(kBits, square));
+  WallLine line;
+  line.normal = {(Real(kBits, wall.normal[0]) / norm).to_double(),
+                 (Real(kBits, wall.normal[1]) / norm).to_double()};
+  const Real offset = Real(kBits, scaled_down(along, exponents.length)) / norm;
+  line.offset = offset.to_double();
+  if (!(std::abs(line.offset) < kMostLength)) {
+    throw SimulationError(fmt::format(
+        "simulation: wall {}: its distance is out of the range of a double beside the discs; use "
+        "numbers that are less far apart",
+        wall.name));
+  }
+  const bool is_axis = wall.normal[0] == 0 || wall.normal[1] == 0;
+  const bool is_exact = is_axis && offset.to_rational() == Rational(line.offset);
+  line.normal_error = is_axis ? 0 : 0x1p-52;
+  line.offset_error = is_exact ? 0 : 0x1p-52 * std::abs(line.offset) + 0x1p-1000;
+  return line;
+}
+
+}  // namespace
+
+DiscSystem disc_system_of(const BodySystem& system) {
+  const Exponents exponents = exponents_of(system);
+  const long time = exponents.length - exponents.speed;
+  for (const long exponent : {exponents.length, exponents.speed, time}) {
+    if (std::abs(exponent) < kMostExponent) continue;
+    throw SimulationError(
+        "simulation: the discs' radii, speeds or their quotients are out of the range of a double; "
+        "use other units");
+  }
+  DiscSystem result;
+  result.units = {std::ldexp(1.0, static_cast<int>(exponents.length)),
+                  std::ldexp(1.0, static_cast<int>(exponents.speed)),
+                  std::ldexp(1.0, static_cast<int>(time))};
+  for (const Body& body : system.bodies) add_disc(result, body, exponents);
+  for (const Wall& wall : system.walls) result.walls.push_back(wall_line(wall, exponents));
+  return result;
+}
+
+}  // namespace piblocks::discs

@@ -1,0 +1,42 @@
+// The discs and walls of a system in units of the engine.
+// In: a BodySystem, exact. Out: doubles, and how far each may be from what was given.
+#pragma once
+
+#include <piblocks/bodies.hpp>
+
+#include <vector>
+
+#include "physics/discs/disc.hpp"
+
+namespace piblocks::discs {
+
+/// The engine's units in those of the caller: powers of two, so that changing units rounds nothing.
+struct Units {
+  double length = 1;
+  double speed = 1;
+  double time = 1;
+};
+
+/// How far the true flight of a disc may be from the computed one, position + (t - time) velocity.
+/// src/physics/README.md, "Discs", derives how the bounds grow.
+struct Bound {
+  double position = 0;  ///< at Disc::time
+  double velocity = 0;
+  double window = 0;  ///< the true last meeting is at most this far from Disc::time
+};
+
+struct DiscSystem {
+  std::vector<Disc> discs = {};
+  std::vector<double> masses = {};  ///< relative to the heaviest; kNever: immovable
+  std::vector<Bound> bounds = {};
+  std::vector<WallLine> walls = {};
+  Units units = {};
+
+  bool is_movable(std::uint32_t disc) const { return masses[disc] != kNever; }
+};
+
+/// @param system  has no problems.
+/// @throws SimulationError if doubles cannot hold all of its lengths, speeds or masses together.
+DiscSystem disc_system_of(const BodySystem& system);
+
+}  // namespace piblocks::discs

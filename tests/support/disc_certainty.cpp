@@ -1,0 +1,173 @@
+#include "support/disc_certainty.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "physics/discs/disc_stepper.hpp"
+#include "support/precise_discs.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr mpfr_prec_t kBits = 400;
+
+/// A collision of the engine with the bounds of both bodies after it.
+struct BoundedStep {
+  BodyStep step;
+  std::array<discs::Bound, 2> bounds;
+};
+
+Real difference(double computed, const Real& truth) {
+  return Real(kBits, Rational(computed)) - truth;
+}
+
+double distance(const std::array<double, 2>& computed, const std::array<Real, 2>& truth) {
+  const Real x = difference(computed[0], truth[0]);
+  const Real y = difference(computed[1], truth[1]);
+  return sqrt(x * x + y * y).to_double();
+}
+
+class Comparison {
+ public:
+  Comparison(const BodySystem& system, std::size_t limit)
+      : system_(system), engine_(make_disc_stepper(system, discs::Search::cells)), truth_(system) {
+    take_certain_steps(limit);
+  }
+
+  CertaintyCheck result() {
+    for (const BoundedStep& bounded : steps_) {
+      const BodyStep& step = bounded.step;
+      queue_of(step.first).push_back(&bounded);
+      if (step.second < system_.bodies.size()) queue_of(step.second).push_back(&bounded);
+    }
+    check_.certain = steps_.size();
+    std::size_t left = 2 * steps_.size() + 1;
+    while (met_ < steps_.size() && left-- > 0) {
+      if (!compare_next()) break;
+    }
+    if (met_ < steps_.size()) complain("collisions are certain that do not happen");
+    look_for_missed();
+    return std::move(check_);
+  }
+
+ private:
+  void take_certain_steps(std::size_t limit) {
+    while (steps_.size() < limit) {
+      const std::optional<BodyStep> step = engine_->step();
+      if (!step) {
+        check_.is_complete = engine_->certainty().until == Certainty::kForEver;
+        break;
+      }
+      const bool is_pair = step->second < system_.bodies.size();
+      if (engine_->certainty().until != Certainty::kForEver) break;
+      steps_.push_back({*step,
+                        {engine_->bound_of(step->first),
+                         is_pair ? engine_->bound_of(step->second) : discs::Bound{}}});
+    }
+    until_ = engine_->certainty().until;
+    std::erase_if(steps_, [&](const BoundedStep& s) { return s.step.time.hi >= until_; });
+    queues_.resize(system_.bodies.size());
+  }
+
+  std::vector<const BoundedStep*>& queue_of(std::uint32_t body) { return queues_[body]; }
+
+  /// The next true collision has to be the next of both bodies, if they have one.
+  bool compare_next() {
+    const std::optional<PreciseDiscs::Step> next = truth_.step();
+    if (!next) return false;
+    const bool is_pair = next->second < system_.bodies.size();
+    const BoundedStep* of_first = take_from(next->first);
+    const BoundedStep* of_second = is_pair ? take_from(next->second) : of_first;
+    if (of_first == nullptr && of_second == nullptr) {
+      note_uncertain(next->time);
+      return true;
+    }
+    if (of_first != of_second || of_first->step.first != next->first ||
+        of_first->step.second != next->second) {
+      complain(fmt::format("bodies {} and {} meet at {}, not those of the engine", next->first,
+                           next->second, next->time.to_double()));
+      return false;
+    }
+    ++met_;
+    compare_numbers(*of_first, next->time);
+    return true;
+  }
+
+  /// The body's next certain collision; none if there is none any more.
+  const BoundedStep* take_from(std::uint32_t body) {
+    std::vector<const BoundedStep*>& queue = queue_of(body);
+    if (queue.empty()) return nullptr;
+    const BoundedStep* next = queue.front();
+    queue.erase(queue.begin());
+    return next;
+  }
+
+  void compare_numbers(const BoundedStep& bounded, const Real& time) {
+    const BodyStep& step = bounded.step;
+    widest_window_ = std::max({widest_window_, bounded.bounds[0].window, bounded.bounds[1].window});
+    compare_motion(step, step.first, step.first_after, bounded.bounds[0], time);
+    if (step.second < system_.bodies.size()) {
+      compare_motion(step, step.second, step.second_after, bounded.bounds[1], time);
+    }
+  }
+
+  void compare_motion(const BodyStep& step, std::uint32_t body, const BodyMotion& motion,
+                      const discs::Bound& bound, const Real& time) {
+    if (!system_.bodies[body].mass) return;
+    const PreciseDiscs::Flight& flight = truth_.flight(body);
+    const Real late = difference(step.time.hi, time);
+    const std::array<Real, 2> there = {flight.position[0] + late * flight.velocity[0],
+                                       flight.position[1] + late * flight.velocity[1]};
+    hold(step, "time", std::abs(late.to_double()), bound.window);
+    hold(step, "position", distance(motion.position, there), bound.position);
+    hold(step, "velocity", distance(motion.velocity, flight.velocity), bound.velocity);
+  }
+
+  void hold(const BodyStep& step, const char* what, double error, double bound) {
+    if (error > 0) check_.widest = std::max(check_.widest, error / bound);
+    if (error <= bound) return;
+    complain(fmt::format("{} of {} and {} at {}: off by {}, bound {}", what, step.first,
+                         step.second, step.time.hi, error, bound));
+  }
+
+  /// A true collision of bodies that have no more certain ones must not be before the end.
+  void note_uncertain(const Real& time) { uncertain_.push_back(time.to_double()); }
+
+  void look_for_missed() {
+    for (std::size_t k = 0; k < 1 + system_.bodies.size(); ++k) {
+      const std::optional<PreciseDiscs::Step> next = truth_.step();
+      if (!next) break;
+      note_uncertain(next->time);
+    }
+    for (const double time : uncertain_) {
+      if (time >= until_ - 2 * widest_window_) continue;
+      if (until_ == Certainty::kForEver && !check_.is_complete) continue;
+      complain(fmt::format("a collision at {} is missing before {}", time, until_));
+    }
+  }
+
+  void complain(const std::string& what) { check_.wrong.push_back(what); }
+
+  const BodySystem& system_;
+  std::unique_ptr<DiscStepper> engine_;
+  PreciseDiscs truth_;
+  double until_ = Certainty::kForEver;
+  std::vector<BoundedStep> steps_ = {};
+  std::vector<std::vector<const BoundedStep*>> queues_ = {};
+  std::vector<double> uncertain_ = {};
+  std::size_t met_ = 0;
+  double widest_window_ = 0;
+  CertaintyCheck check_ = {};
+};
+
+}  // namespace
+
+CertaintyCheck check_certainty(const BodySystem& system, std::size_t limit) {
+  return Comparison(system, limit).result();
+}
+
+}  // namespace piblocks

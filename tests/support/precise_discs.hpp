@@ -1,0 +1,63 @@
+// Discs in numbers of many bits, every pair in turn: what the engine for discs is compared with.
+// In: a BodySystem. Out: its collisions, true to far more digits than a double has.
+#pragma once
+
+#include <piblocks/bodies.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/real.hpp"
+
+namespace piblocks {
+
+class PreciseDiscs {
+ public:
+  struct Flight {
+    std::array<Real, 2> position;  ///< at `time`
+    std::array<Real, 2> velocity;
+    Real time;  ///< of the last collision
+  };
+  struct Step {
+    Real time;
+    std::uint32_t first;
+    std::uint32_t second;  ///< as in BodyCollision
+  };
+
+  explicit PreciseDiscs(const BodySystem& system, mpfr_prec_t bits = 400);
+
+  std::optional<Step> step();
+  const Flight& flight(std::uint32_t body) const { return bodies_[body].flight; }
+
+ private:
+  using Vector = std::array<Real, 2>;
+  struct Disc {
+    Flight flight;
+    Real radius;
+    std::optional<Real> mass;
+    std::size_t last;
+  };
+  struct Line {
+    Vector normal;
+    Vector point;
+  };
+
+  Vector position_at(const Disc& disc, const Real& time) const;
+  std::optional<Real> pair_time(const Disc& a, const Disc& b) const;
+  std::optional<Real> wall_time(const Disc& disc, const Line& wall) const;
+  void predict(std::size_t body);
+  void move(std::size_t body, const Real& time, std::size_t partner);
+  void collide(std::size_t first, std::size_t second);
+  void reflect(std::size_t body, const Line& wall);
+  bool have_just_met(std::size_t first, std::size_t second) const;
+
+  mpfr_prec_t bits_;
+  std::vector<Disc> bodies_ = {};
+  std::vector<Line> walls_ = {};
+  std::vector<std::vector<std::optional<Real>>> times_ = {};  ///< [first][second], walls last
+};
+
+}  // namespace piblocks
