@@ -38,6 +38,8 @@ constexpr double kMostCounter = 0.6;
 constexpr double kRowCounter = 0.35;
 /// Height of the stage where there are diagrams: without overlays, and at most.
 constexpr double kPlainStage = 0.24;
+/// Part of the frame's longer side that discs have where there are diagrams.
+constexpr double kPlaneStage = 0.56;
 /// What the loupe adds to it in upright frames, and what each diagram has at least beside it.
 constexpr double kLoupeRoom = 0.1;
 constexpr double kDiagramsBesideLoupe = 0.5;
@@ -89,6 +91,7 @@ class FramePlanner {
     if (read_outs_height_px > 0 && has_edge) {
       bottom_ -= std::max(0.0, sizes_.margin - kBelowBaseline * sizes_.text);
     }
+    if (is_plane() && !show_.panels.empty()) return beside(read_outs_height_px);
     double height = bottom_ - top_ - read_outs_height_px;
     if (!show_.panels.empty()) height = stage_height(height);
     if (height < kLeastStage * sizes_.short_side) throw_no_room();
@@ -99,6 +102,32 @@ class FramePlanner {
   }
 
  private:
+  bool is_plane() const {
+    return context_.scene.bodies && context_.scene.bodies->system.dimensions == 2;
+  }
+
+  /// Discs need height: diagrams are beside them, or below them in upright frames.
+  FramePlan beside(double read_outs_height_px) {
+    const double bottom = bottom_ == view_.height_px ? bottom_ - sizes_.margin : bottom_;
+    const double below = read_outs_height_px > 0 ? read_outs_height_px + sizes_.gap / 2 : 0;
+    const double height = bottom - top_ - below;
+    if (height < kLeastStage * sizes_.short_side) throw_no_room();
+    Rectangle diagrams{left_, top_, right_ - left_, height};
+    if (view_.width_px >= view_.height_px) {
+      const double stage = kPlaneStage * view_.width_px;
+      plan_.stage = {0, top_, stage, height};
+      diagrams.x = stage + sizes_.gap / 2;
+      diagrams.width = right_ - diagrams.x;
+    } else {
+      plan_.stage = {0, top_, double(view_.width_px), kPlaneStage * height};
+      diagrams.y += plan_.stage.height;
+      diagrams.height -= plan_.stage.height;
+    }
+    plan_.read_outs_top_px = bottom - read_outs_height_px;
+    fill_panels(diagrams);
+    return std::move(plan_);
+  }
+
   /// A row of a split screen: the counter is beside the stage.
   FramePlan row(double read_outs_height_px) {
     if (view_.background == Background::transparent) {
@@ -292,9 +321,12 @@ class FramePlanner {
   void place_panels(double top_px) {
     const double top = top_px + kBelowStage * sizes_.short_side;
     const double bottom = bottom_ == view_.height_px ? bottom_ - sizes_.margin : bottom_;
+    fill_panels({left_, top, right_ - left_, bottom - top});
+  }
+
+  void fill_panels(const Rectangle& area) {
     const double least = kLeastPanel_em * sizes_.text;
-    plan_.panels = panel_grid(show_.panels.size(), {left_, top, right_ - left_, bottom - top},
-                              sizes_.gap, sizes_.text);
+    plan_.panels = panel_grid(show_.panels.size(), area, sizes_.gap, sizes_.text);
     const Rectangle& panel = plan_.panels.front();
     if (std::min(panel.width, panel.height) >= least) return;
     const std::size_t count = show_.panels.size();

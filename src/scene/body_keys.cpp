@@ -199,7 +199,9 @@ void show_all(const BodySystem& system, View& view) {
     }
     if (axis == 1 && system.dimensions == 1) return;
     const Rational margin = (*high - *low) / 20;
-    (axis == 0 ? view.x : view.y) = {*low - margin, *high + margin};
+    Range& shown = axis == 0 ? view.x : view.y;
+    shown.low = *low - margin;
+    shown.high = *high + margin;
   }
 }
 

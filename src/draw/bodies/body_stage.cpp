@@ -31,6 +31,8 @@ constexpr double kLabelRoom = 0.86;
 /// Above a capital letter's half height, in ems.
 constexpr double kHalfFigure_em = 0.36;
 constexpr double kMostStep_px = 0.25;
+/// A disc whose radius is less than so many widths of its rim has none.
+constexpr double kLeastRim = 4;
 
 /// Where scene coordinates are in the frame.
 struct BodyMap {
@@ -75,8 +77,8 @@ std::vector<DrawItem> hatched(const Point& from, const Point& to, const DrawingC
   }
   const double half = sizes.wall_line / 2;
   items.emplace_back(PathItem{nth(ItemId::wall, items.size()),
-                              std::vector<Point>{place(0, half), place(length, half)}, false,
-                              std::nullopt, Stroke{context.palette.wall, sizes.wall_line}});
+                              std::vector<Point>{place(-half, half), place(length + half, half)},
+                              false, std::nullopt, Stroke{context.palette.wall, sizes.wall_line}});
   return items;
 }
 
@@ -259,7 +261,6 @@ class BodyStage {
   }
 
   void add_plate(std::vector<DrawItem> wall, std::vector<DrawItem>& items) const {
-    const double around = wall_px() + 2;
     Rectangle bounds;
     bool is_first = true;
     for (const DrawItem& item : wall) {
@@ -273,7 +274,6 @@ class BodyStage {
       bounds.width = right - bounds.x;
       bounds.height = bottom - bounds.y;
     }
-    static_cast<void>(around);
     const double line = context_.sizes.wall_line;
     items.emplace_back(PlateItem{nth(ItemId::wall, 1000 + items.size()), whole_pixels(bounds, line),
                                  std::make_shared<const Plate>(Plate{std::move(wall)})});
@@ -332,7 +332,7 @@ class BodyStage {
       if (!(to > from)) continue;
       const Point begin = map_.at({point[0] + from * way[0], point[1] + from * way[1]});
       const Point end = map_.at({point[0] + to * way[0], point[1] + to * way[1]});
-      add_plate(hatched(end, begin, context_), items);
+      add_plate(hatched(begin, end, context_), items);
     }
   }
 

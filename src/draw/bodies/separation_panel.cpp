@@ -75,7 +75,7 @@ class SeparationPanel {
         to_double(system.bodies[meeting_.first].size + system.bodies[meeting_.second].size);
     contact_ = reach * reach;
     const double begin = meeting_.before.at(to_double(axis_.span().from));
-    top_ = std::clamp(1.15 * begin, 2.5 * contact_, 12 * contact_);
+    top_ = std::clamp(1.15 * begin, 2.5 * contact_, 5 * contact_);
     add_level();
     add_parabola();
     add_path(*context.bodies);
@@ -120,8 +120,7 @@ class SeparationPanel {
     const double y = place_of(0, contact_).y;
     const double em = diagram_.text_px();
     diagram_.line({{axis_.plot().x, y}, {axis_.right(), y}}, diagram_.palette().grid, 1, 4);
-    diagram_.text("touching: (r₁ + r₂)²", {axis_.right(), y - 0.4 * em}, 1,
-                  diagram_.palette().muted);
+    diagram_.text("(r₁ + r₂)²", {axis_.plot().x, y - 0.4 * em}, 0, diagram_.palette().muted);
   }
 
   /// Calls `add` with lines through the places of a function that are in the diagram.

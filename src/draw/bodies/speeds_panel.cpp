@@ -126,7 +126,7 @@ class SpeedsPanel {
           kLeastBodies));
     }
     const FormulaSetter set = context.setter();
-    return {set.text("Speeds come near to Maxwell's curve"), set.text("Speeds and Maxwell's curve"),
+    return {set.text("The speeds approach Maxwell's curve"), set.text("Speeds and Maxwell's curve"),
             set.text("Speeds")};
   }
 
