@@ -118,7 +118,7 @@ class BodyStage {
         } else {
           const double inside = shape.half_width_px - line_px / 2;
           items.emplace_back(
-              inside > line_px
+              inside > kLeastRim * line_px
                   ? DiskItem{id, centre, inside, shape.colors.fill, edge}
                   : DiskItem{id, centre, shape.half_width_px, shape.colors.fill, std::nullopt});
         }
