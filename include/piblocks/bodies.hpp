@@ -93,6 +93,11 @@ class BodyLog : public Timeline {
   /// @throws UsageError if the time is negative; SimulationError if there are more than
   ///         kMaxBodyCollisions until then.
   virtual BodiesState state_at(const Rational& time) const = 0;
+  /// A body's way between two times, 0 <= from <= to: its centre at both, and at each of its
+  /// collisions between; or at so many times, evenly spaced, if there are more collisions.
+  /// @throws as state_at().
+  virtual std::vector<std::array<double, 2>> path(std::size_t body, const Rational& from,
+                                                  const Rational& to, std::size_t most) const = 0;
   /// How many collisions from the first on are computed in rational numbers; size() if all are.
   virtual Integer exact_size() const = 0;
   /// Until when rounding cannot have changed which bodies collide, nor in which order each of them

@@ -94,7 +94,8 @@ enum class Overlay {
   energy,      ///< kinetic energy of each block, and their sum
   momentum,    ///< momentum of each block, and their sum
   time,        ///< simulation time
-  ruler        ///< a scale of positions below the blocks
+  ruler,       ///< a scale of positions below the blocks
+  trails       ///< where discs have been lately
 };
 
 /// Diagrams below the blocks, in step with them.

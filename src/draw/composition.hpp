@@ -6,6 +6,7 @@
 #include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -44,6 +45,8 @@ struct FrameState {
   std::vector<WeightedExposure> exposure = {};
   Gaps gaps = {};                       ///< of the state; filled in if FrameNeeds asks for them
   std::vector<BodyMotion> bodies = {};  ///< if the scene has any
+  /// Where each body has been lately, in the order of time; filled in if FrameNeeds asks for it.
+  std::vector<std::vector<std::array<double, 2>>> trails = {};
 
   // Left alone in a still that is not in its video, or if no drawable reads them.
   double video_s = 0;          ///< of the frame, since its scene began
@@ -54,7 +57,8 @@ struct FrameState {
 /// The costly parts of a FrameState. They are computed only for drawables that read them.
 struct FrameNeeds {
   bool gaps = false;
-  bool hits = false;     ///< and hits_per_s
+  bool hits = false;  ///< and hits_per_s
+  bool trails = false;
   bool video_s = false;  ///< in stills too, which have to look it up
 };
 

@@ -118,6 +118,8 @@ class FramePlanner {
       plan_.stage = {0, top_, stage, height};
       diagrams.x = stage + sizes_.gap / 2;
       diagrams.width = right_ - diagrams.x;
+      diagrams.y += sizes_.gap / 2;
+      diagrams.height -= sizes_.gap / 2;
     } else {
       plan_.stage = {0, top_, double(view_.width_px), kPlaneStage * height};
       diagrams.y += plan_.stage.height;

@@ -4,8 +4,11 @@
 
 #include <piblocks/bodies.hpp>
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace piblocks {
 
@@ -20,6 +23,11 @@ std::unique_ptr<BodyLog> make_stored_body_log(const BodySystem& system,
 
 /// The bodies at time 0.
 std::vector<BodyMotion> motions_at_start(const BodySystem& system);
+
+/// A body's places at so many times from the first to the second, evenly spaced.
+std::vector<std::array<double, 2>> sampled_path(const BodyLog& log, std::size_t body,
+                                                const std::array<Rational, 2>& times,
+                                                std::size_t count);
 
 /// @throws UsageError if the time is negative.
 void require_not_negative(const Rational& time);

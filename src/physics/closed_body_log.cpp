@@ -67,6 +67,21 @@ class ClosedBodyLog final : public BodyLog {
     return state;
   }
 
+  std::vector<std::array<double, 2>> path(std::size_t body, const Rational& from,
+                                          const Rational& to, std::size_t most) const override {
+    const Integer first = count_at(from) + 1;
+    const Integer last = count_at(to);
+    if (last - first >= Integer(most)) return sampled_path(*this, body, {from, to}, most);
+    std::vector<std::array<double, 2>> points = {state_at(from).bodies.at(body).position};
+    for (Integer index = first; index <= last; ++index) {
+      const BodyCollision found = collision(index);
+      if (found.first == body) points.push_back(found.first_after.position);
+      if (found.second == body) points.push_back(found.second_after.position);
+    }
+    points.push_back(state_at(to).bodies.at(body).position);
+    return points;
+  }
+
   Integer count_at(const Rational& time) const override {
     return time < 0 ? Integer(0) : blocks_->count_at(time);
   }

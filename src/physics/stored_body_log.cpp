@@ -63,19 +63,8 @@ class StoredBodyLog final : public BodyLog {
     const Time now = to_time(time);
     BodiesState state{Integer(count), start_};
     for (std::size_t body = 0; body < state.bodies.size(); ++body) {
-      BodyMotion& motion = state.bodies[body];
-      const auto& own = of_body_[body];
-      const auto after = std::ranges::lower_bound(own, count);
-      Time since;
-      if (after != own.begin()) {
-        const StoredStep& last = steps_[*std::prev(after)];
-        motion = last.first == body ? last.first_after : last.second_after;
-        since = last.time;
-      }
-      const double flight = (now.hi - since.hi) + (now.lo - since.lo);
-      for (const std::size_t axis : {0U, 1U}) {
-        motion.position.at(axis) += motion.velocity.at(axis) * flight;
-      }
+      const auto next = std::ranges::lower_bound(of_body_[body], count);
+      state.bodies[body] = motion_at(body, now, next);
     }
     return state;
   }
@@ -97,6 +86,25 @@ class StoredBodyLog final : public BodyLog {
     return short_time(time, has_next ? std::optional(time_of(last + 1)) : std::nullopt);
   }
 
+  std::vector<std::array<double, 2>> path(std::size_t body, const Rational& from,
+                                          const Rational& to, std::size_t most) const override {
+    compute_until(to);
+    std::shared_lock lock(mutex_);
+    const auto& own = of_body_.at(body);
+    const auto begin = std::ranges::lower_bound(own, steps_until(from));
+    const auto end = std::ranges::lower_bound(own, steps_until(to));
+    if (static_cast<std::size_t>(end - begin) > most) {
+      lock.unlock();
+      return sampled_path(*this, body, {from, to}, most);
+    }
+    std::vector<std::array<double, 2>> points = {motion_at(body, to_time(from), begin).position};
+    for (auto number = begin; number != end; ++number) {
+      points.push_back(after(steps_[*number], body).position);
+    }
+    points.push_back(motion_at(body, to_time(to), end).position);
+    return points;
+  }
+
   std::optional<Rational> turn() const override { return std::nullopt; }
   Integer exact_size() const override {
     const std::shared_lock lock(mutex_);
@@ -109,6 +117,27 @@ class StoredBodyLog final : public BodyLog {
   }
 
  private:
+  using Numbers = std::vector<std::uint32_t>;
+
+  static const BodyMotion& after(const StoredStep& step, std::size_t body) {
+    return step.first == body ? step.first_after : step.second_after;
+  }
+  /// @param next  the body's first step after that time
+  BodyMotion motion_at(std::size_t body, const Time& time, Numbers::const_iterator next) const {
+    BodyMotion motion = start_[body];
+    Time since;
+    if (next != of_body_[body].begin()) {
+      const StoredStep& last = steps_[*std::prev(next)];
+      motion = after(last, body);
+      since = last.time;
+    }
+    const double flight = (time.hi - since.hi) + (time.lo - since.lo);
+    for (const std::size_t axis : {0U, 1U}) {
+      motion.position.at(axis) += motion.velocity.at(axis) * flight;
+    }
+    return motion;
+  }
+
   /// Unless the last step is later than that, or there are no more.
   void compute_until(const Rational& time) const {
     {
@@ -167,8 +196,8 @@ class StoredBodyLog final : public BodyLog {
   std::vector<BodyMotion> start_;
   mutable bool is_complete_ = false;
   mutable std::vector<StoredStep> steps_;
-  mutable std::vector<Rational> exact_times_;                // of the first steps
-  mutable std::vector<std::vector<std::uint32_t>> of_body_;  // numbers of its steps
+  mutable std::vector<Rational> exact_times_;  // of the first steps
+  mutable std::vector<Numbers> of_body_;       // numbers of its steps
 };
 
 }  // namespace

@@ -99,7 +99,9 @@ DrawList FilmRun::picture(const FrameTime& shown) const { return picture(shown, 
 DrawList FilmRun::picture(const FrameTime& shown, const VideoTime* video_time) const {
   if (const BodyLog* const bodies = log_.bodies()) {
     require_certain(scene_, *bodies, shown.time);
-    return composition_->frame(frame_state(*bodies, shown));
+    constexpr int kTrail_s = 2;  // of video at the scene's own speed
+    return composition_->frame(
+        frame_state(*bodies, shown, composition_->needs(), scene_.time.speed * kTrail_s));
   }
   const CollisionLog& blocks = *log_.blocks();
   const FrameNeeds& needs = composition_->needs();

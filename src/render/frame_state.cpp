@@ -116,11 +116,17 @@ bool is_moving(const VideoTime& video_time) {
 
 }  // namespace
 
-FrameState frame_state(const BodyLog& log, const FrameTime& shown) {
+FrameState frame_state(const BodyLog& log, const FrameTime& shown, const FrameNeeds& needs,
+                       const Rational& trail) {
+  constexpr std::size_t kMostCorners = 100;
   BodiesState now = log.state_at(shown.time);
   FrameState state{
       .state = {std::move(now.count), {}, {}}, .time = shown.time, .slowdown = shown.slowdown};
   state.bodies = std::move(now.bodies);
+  for (std::size_t i = 0; needs.trails && i < state.bodies.size(); ++i) {
+    const Rational from = std::max<Rational>(0, shown.time - trail);
+    state.trails.push_back(log.path(i, from, shown.time, kMostCorners));
+  }
   return state;
 }
 

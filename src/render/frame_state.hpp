@@ -16,8 +16,9 @@ struct VideoTime {
   Rational video_s;  ///< >= 0
 };
 
-/// The bodies at a time.
-FrameState frame_state(const BodyLog& log, const FrameTime& shown);
+/// The bodies at a time. @param trail  simulation time that trails go back
+FrameState frame_state(const BodyLog& log, const FrameTime& shown, const FrameNeeds& needs,
+                       const Rational& trail);
 
 /// State, time and exposure; gaps if they are needed; no hits.
 FrameState frame_state(const CollisionLog& log, const FrameTime& shown, const FrameNeeds& needs);

@@ -175,10 +175,36 @@ void BodyDraft::read_body(const TomlTable& table, const OnProblem& on_problem) {
   lines_.push_back(table.line);
 }
 
+void BodyDraft::read_walls(const std::vector<TomlTable>& tables, const OnProblem& on_problem) {
+  slanted_.clear();
+  for (const TomlTable& table : tables) {
+    Wall wall{fmt::format("slanted-{}", slanted_.size() + 1), {}, {}};
+    std::size_t found = 0;
+    for (const TomlEntry& entry : table.entries) {
+      const bool is_point = entry.key == "point";
+      if (!is_point && entry.key != "normal") {
+        on_problem(entry.line, fmt::format("wall.{}: unknown key", entry.key));
+        continue;
+      }
+      try {
+        if (entry.values.size() != 2) throw UsageError("must be two numbers, as [0, 1]");
+        (is_point ? wall.point : wall.normal) =
+            ExactVector{parse_rational(entry.values[0]), parse_rational(entry.values[1])};
+        ++found;
+      } catch (const UsageError& error) {
+        on_problem(entry.line, fmt::format("wall.{}: {}", entry.key, error.what()));
+      }
+    }
+    if (found != 2) on_problem(table.line, "wall: needs a point on it and its normal");
+    slanted_.push_back(std::move(wall));
+  }
+}
+
 Bodies BodyDraft::bodies() const {
   Bodies made{{bodies_.dimensions, bodies_.bodies, {}}, bodies_.styles};
   add_walls(x_, 0, {"left", "right"}, made.system.walls);
   add_walls(y_, 1, {"lower", "upper"}, made.system.walls);
+  made.system.walls.insert(made.system.walls.end(), slanted_.begin(), slanted_.end());
   return made;
 }
 
@@ -195,7 +221,9 @@ void show_all(const BodySystem& system, View& view) {
       include(body.position.at(axis) - reach, body.position.at(axis) + reach);
     }
     for (const Wall& wall : system.walls) {
-      if (wall.normal.at(axis) != 0) include(wall.point.at(axis), wall.point.at(axis));
+      // Nothing tells where a slanted wall ends.
+      if (wall.normal.at(axis) == 0 || wall.normal.at(1 - axis) != 0) continue;
+      include(wall.point.at(axis), wall.point.at(axis));
     }
     if (axis == 1 && system.dimensions == 1) return;
     const Rational margin = (*high - *low) / 20;

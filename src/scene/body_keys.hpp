@@ -30,6 +30,8 @@ class BodyDraft {
 
   /// Replaces the bodies by those of the tables.
   void read(const std::vector<TomlTable>& tables, const OnProblem& on_problem);
+  /// Replaces the slanted walls by those of the tables.
+  void read_walls(const std::vector<TomlTable>& tables, const OnProblem& on_problem);
   void set_box_x(BoxSide side) { x_ = std::move(side); }
   void set_box_y(BoxSide side) { y_ = std::move(side); }
 
@@ -51,6 +53,7 @@ class BodyDraft {
   std::vector<std::size_t> lines_;
   std::optional<BoxSide> x_;
   std::optional<BoxSide> y_;
+  std::vector<Wall> slanted_;
 };
 
 /// The least range of both axes that shows the box, or the bodies at time 0, with a margin.

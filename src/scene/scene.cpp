@@ -144,6 +144,8 @@ void check_show(const Show& show, SceneProblems& problems) {
 }
 
 void check_panels_of_blocks(const Show& show, SceneProblems& problems) {
+  problems.require(!show.has(Overlay::trails), "show.overlays",
+                   "'trails' is for a scene with [[body]]");
   for (const Panel panel : {Panel::speeds, Panel::separation}) {
     problems.require(std::ranges::count(show.panels, panel) == 0, "show.panels",
                      "'{}' is for a scene with [[body]]", exact_text(panel));
@@ -163,6 +165,10 @@ void check_bodies(const Scene& scene, SceneProblems& problems) {
   reject(scene.show.has(Overlay::digits), "show.overlays", "'digits'");
   reject(scene.show.loupe && scene.show.loupe->is_on, "show.loupe", "the loupe");
   const bool is_plane = scene.bodies->system.dimensions == 2;
+  problems.require(is_plane || !scene.show.has(Overlay::trails), "show.overlays",
+                   "'trails' is for discs; blocks have the diagram 'time'");
+  problems.require(!is_plane || !scene.show.has(Overlay::ruler), "show.overlays",
+                   "'ruler' is for blocks on a line");
   for (const Panel panel : scene.show.panels) {
     const bool is_there = panel == Panel::count || panel == Panel::speeds ||
                           panel == (is_plane ? Panel::separation : Panel::time);

@@ -54,7 +54,7 @@ void SceneDraft::read(const std::string& path, const TomlTable& table) {
 
 void SceneDraft::set_entry(const std::string& path, const TomlEntry& entry) {
   const std::string origin = fmt::format("{}:{}", path, entry.line);
-  if (entry.key == "body") {
+  if (entry.key == "body" || (entry.key == "wall" && !entry.tables.empty())) {
     read_bodies(path, entry);
   } else if (entry.key == "part" && !entry.tables.empty()) {
     add_problem(origin, "part: a single scene has no parts; this is a storyboard");
@@ -76,15 +76,19 @@ void SceneDraft::read_bodies(const std::string& path, const TomlEntry& entry) {
   if (entry.tables.empty())
     return on_problem(entry.line, "body: is written [[body]], once for each");
   bodies_path_ = path;
+  if (entry.key == "wall") return bodies_.read_walls(entry.tables, on_problem);
   bodies_.read(entry.tables, on_problem);
 }
 
-/// @return whether it is a key of the box
+/// @return whether it is a key of the box, or of a wall that recoils
 bool SceneDraft::set_box(const std::string& key, const Values& values) {
   if (key == "box.x") {
     bodies_.set_box_x(parse_box_side(values));
   } else if (key == "box.y") {
     bodies_.set_box_y(parse_box_side(values));
+  } else if (key == "wall.mass") {
+    wall_mass_.reset();
+    if (single(values) != "inf") wall_mass_ = parse_rational(single(values));
   } else {
     return false;
   }
@@ -155,12 +159,28 @@ Scene SceneDraft::scene() const {
       digits_ ? std::optional(mass_ratio_of(*digits_, scene.show.base)) : mass_ratio_;
   if (ratio) scene.system.red.mass = scene.system.blue.mass * *ratio;
   if (width_by_mass_) scene.system.red.width = width_by_mass(scene.system);
+  if (wall_mass_) {
+    set_recoiling_wall(scene);
+    return scene;
+  }
   // A blurred frame cannot be transparent.
   const bool is_opaque = scene.view.background == Background::opaque;
   if (is_lecture(scene.view.theme) && is_opaque && !origins_.contains("view.shutter")) {
     scene.view.shutter = kLectureShutter;
   }
   return scene;
+}
+
+/// A wall of finite mass is a block: the three collide as bodies.
+void SceneDraft::set_recoiling_wall(Scene& scene) const {
+  constexpr int kColor = 140;  // between light and dark
+  const auto& [face, blue, red] = scene.system;
+  const auto body = [](const Block& block) {
+    return Body{block.mass, {block.position}, {block.velocity}, block.width};
+  };
+  const Block wall{*wall_mass_, face - Rational(1, 2), 0, 1};
+  scene.bodies = Bodies{{1, {body(blue), body(red), body(wall)}, {}},
+                        {{}, {}, {{{kColor, kColor, kColor}}, "wall"}}};
 }
 
 std::string SceneDraft::origin_of(const std::string& key) const {
@@ -182,7 +202,7 @@ std::vector<std::string> SceneDraft::problems_of_bodies(const Scene& scene) cons
   for (const auto& [key, origin] : origins_) {
     const bool is_of_blocks =
         key.starts_with("blue.") || key.starts_with("red.") || key.starts_with("wall.");
-    if (scene.bodies && is_of_blocks) {
+    if (!bodies_.empty() && is_of_blocks) {
       problems.push_back(fmt::format(
           "{}: {}: this scene has [[body]] instead of blue, red and the wall", origin,
           key == "red.mass" && (digits_ || mass_ratio_) ? (digits_ ? "digits" : "mass-ratio")

@@ -35,6 +35,7 @@ class SceneDraft {
  private:
   void set_entry(const std::string& path, const TomlEntry& entry);
   void read_bodies(const std::string& path, const TomlEntry& entry);
+  void set_recoiling_wall(Scene& scene) const;
   bool set_box(const std::string& key, const Values& values);
   std::vector<std::string> problems_of_bodies(const Scene& scene) const;
   std::string origin_of(const std::string& key) const;
@@ -47,6 +48,7 @@ class SceneDraft {
   Scene scene_;
   BodyDraft bodies_;
   std::string bodies_path_;
+  std::optional<Rational> wall_mass_;  ///< nothing: the wall does not move
   std::optional<Rational> mass_ratio_;
   std::optional<int> digits_;  // their mass ratio depends on the base, which may be set later
   bool width_by_mass_ = false;

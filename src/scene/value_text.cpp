@@ -29,7 +29,8 @@ constexpr auto kOverlays = std::to_array<Name<Overlay>>({{"digits", Overlay::dig
                                                          {"energy", Overlay::energy},
                                                          {"momentum", Overlay::momentum},
                                                          {"time", Overlay::time},
-                                                         {"ruler", Overlay::ruler}});
+                                                         {"ruler", Overlay::ruler},
+                                                         {"trails", Overlay::trails}});
 constexpr auto kPanels = std::to_array<Name<Panel>>({{"velocity", Panel::velocity},
                                                      {"position", Panel::position},
                                                      {"unfolded", Panel::unfolded},

@@ -43,6 +43,7 @@ const std::map<std::string, Values> kOther = {
     {"time.freeze", {"last+0:2"}},
     {"time.hold-start", {"1/2"}},
     {"time.hold-end", {"1/3"}},
+    {"time.allow-uncertain", {"true"}},
     {"time.loop", {"true"}},
     {"sound.on", {"true"}},
     {"show.overlays", {"ruler", "digits"}},

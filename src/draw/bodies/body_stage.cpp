@@ -31,6 +31,9 @@ constexpr double kLabelRoom = 0.86;
 /// Above a capital letter's half height, in ems.
 constexpr double kHalfFigure_em = 0.36;
 constexpr double kMostStep_px = 0.25;
+/// Above the ids of walls.
+constexpr std::size_t kTrails = 2000;
+constexpr double kTrailOpacity = 0.45;
 /// A disc whose radius is less than so many widths of its rim has none.
 constexpr double kLeastRim = 4;
 
@@ -86,6 +89,7 @@ class BodyStage {
  public:
   BodyStage(const DrawingContext& context, const Rectangle& area)
       : context_(context), system_(context.scene.bodies->system), area_(area) {
+    context.needs.trails = context.scene.show.has(Overlay::trails);
     if (system_.dimensions == 1) {
       lay_out_line();
     } else {
@@ -105,6 +109,7 @@ class BodyStage {
             above_px = kAboveBlock * sizes.short_side, text = context_.palette.text,
             face = context_.font.face()](const FrameState& shown, std::vector<DrawItem>& items) {
       items.insert(items.end(), stays.begin(), stays.end());
+      add_trails(shown.trails, shapes, map, items);
       std::vector<DrawItem> labels;
       for (std::size_t i = 0; i < shown.bodies.size(); ++i) {
         const BodyShape& shape = shapes[i];
@@ -137,6 +142,20 @@ class BodyStage {
       }
       items.insert(items.end(), labels.begin(), labels.end());
     };
+  }
+
+  /// Lines behind discs, fainter the longer ago. They end where the disc is.
+  static void add_trails(const std::vector<std::vector<std::array<double, 2>>>& trails,
+                         const std::vector<BodyShape>& shapes, const BodyMap& map,
+                         std::vector<DrawItem>& items) {
+    std::size_t n = kTrails;
+    for (std::size_t i = 0; i < trails.size(); ++i) {
+      std::vector<Point> points;
+      for (const auto& position : trails[i]) points.push_back(map.at(position));
+      const double width_px = std::clamp(shapes[i].half_width_px / 2, 1.0, 6.0);
+      items.emplace_back(PathItem{nth(ItemId::wall, n++), std::move(points), false, std::nullopt,
+                                  Stroke{faded(shapes[i].colors.fill, kTrailOpacity), width_px}});
+    }
   }
 
  private:

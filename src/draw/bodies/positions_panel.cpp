@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -99,14 +100,32 @@ class PositionsPanel {
   }
 
   void add_band(const std::vector<Corner>& path, double half_width, const Color& color) {
-    std::vector<Point> outline;
-    for (const auto& [time, position] : path) {
-      outline.push_back({axis_.x_of(time), y_of(position + half_width)});
-    }
-    for (auto corner = path.rbegin(); corner != path.rend(); ++corner) {
-      outline.push_back({axis_.x_of(corner->time), y_of(corner->position - half_width)});
-    }
+    std::vector<Point> outline = edge(path, half_width);
+    const std::vector<Point> lower = edge(path, -half_width);
+    outline.insert(outline.end(), lower.rbegin(), lower.rend());
     diagram_.shape(std::move(outline), color);
+  }
+
+  /// An edge of a band, with a corner wherever it leaves the diagram.
+  std::vector<Point> edge(const std::vector<Corner>& path, double shift) const {
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const auto& [time, centre] = path[i];
+      const double position = centre + shift;
+      if (i > 0) {
+        const double before = path[i - 1].position + shift;
+        std::array ends = {low_, high_};
+        if (before > position) std::swap(ends[0], ends[1]);
+        for (const double end : ends) {
+          if ((before < end) == (position < end)) continue;
+          const double share = (end - before) / (position - before);
+          const double then = path[i - 1].time + share * (time - path[i - 1].time);
+          points.push_back({axis_.x_of(then), y_of(end)});
+        }
+      }
+      points.push_back({axis_.x_of(time), y_of(position)});
+    }
+    return points;
   }
 
   Diagram diagram_;
