@@ -29,6 +29,10 @@ struct BlockSystem {
   Rational wall_face = 0;  ///< where the wall ends; blue never passes it
   Block blue = {1, 2, 0, 1};
   Block red = {10000, 5, -1, 1};
+  /// Coefficients of restitution: what share of the speed at which two bodies approach each other
+  /// they have when they part; 0 (they stay together) … 1 (elastic).
+  Rational blocks_restitution = 1;
+  Rational wall_restitution = 1;  ///< of blue and the wall
 
   /// The gaps at time 0, between the wall and blue and between blue and red.
   Rational blue_gap() const { return blue.position - blue.width / 2 - wall_face; }
@@ -36,6 +40,12 @@ struct BlockSystem {
     return red.position - red.width / 2 - (blue.position + blue.width / 2);
   }
 };
+
+/// Whether collisions keep the energy, so that the motion unfolds to a straight line and its past
+/// is known.
+inline bool is_elastic(const BlockSystem& system) {
+  return system.blocks_restitution == 1 && system.wall_restitution == 1;
+}
 
 /// When the blocks are nearest to the corner of wall and blocks, as the plane with axes
 /// (sqrt(m) x gap) measures it: the middle of all collisions. It may be before time 0. Nothing if
