@@ -137,6 +137,7 @@ std::optional<unsigned long> places_of_pi(const BlockSystem& system, int base) {
   const Rational ratio = system.red.mass / system.blue.mass;
   const bool begins_apart = system.blue_gap() > 0;
   if (system.blue.velocity != 0 || system.red.velocity >= 0 || !begins_apart) return std::nullopt;
+  if (!is_elastic(system)) return std::nullopt;
   Integer rest;
   const unsigned long places =
       mpz_remove(rest.get_mpz_t(), ratio.get_num_mpz_t(), Integer(base * base).get_mpz_t());
