@@ -57,12 +57,12 @@ BlockState DampedLog::state_at(const Rational& time) const {
 }
 
 Collision DampedLog::collision(const Integer& index) const {
-  const DampedNumbers now = motion_.numbers(index, kTime_bits);
+  const DampedNumbers now = motion_.numbers(index, velocity_bits_ + 8);
   Collision collision{
       index, (now.reach / now.speed).to_double_double(), motion_.kind(index), {}, {}};
   const Real zero(velocity_bits_, 0);
   const DampedGaps after = is_end(index) ? DampedGaps{zero, zero, zero, zero}
-                                         : motion_.gaps_after(index, velocity_bits_);
+                                         : motion_.gaps_after(index, now, velocity_bits_);
   collision.blue = blue(after.y1, after.u1);
   collision.red = red(after.y2, after.u2);
   require_finite(collision.time, collision.blue, collision.red, kName);

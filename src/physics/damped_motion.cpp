@@ -209,8 +209,8 @@ Integer DampedMotion::count_at(const Rational& time) const {
 DampedNumbers DampedMotion::numbers(const Integer& n, mpfr_prec_t good_bits) const {
   const std::size_t i = sequence_of(n);
   std::vector<Real> terms =
-      powers.terms({speeds[i], reaches[i], speeds[i + 1], reaches[i + 1]}, round_of(n), good_bits);
-  return {std::move(terms[0]), std::move(terms[1]), std::move(terms[2]), std::move(terms[3])};
+      powers.terms({speeds[i], reaches[i], speeds[i + 1]}, round_of(n), good_bits);
+  return {std::move(terms[0]), std::move(terms[1]), std::move(terms[2])};
 }
 
 DampedGaps DampedMotion::folded(const Integer& n, const Real& opened, const Real& to_close,
@@ -234,22 +234,14 @@ DampedGaps DampedMotion::gaps_at(const Rational& time, const Integer& n,
 }
 
 Real DampedMotion::areal_velocity_before(const Integer& n, mpfr_prec_t good_bits) const {
-  const Integer k = round_of(n);
   const Rational at_first = abs(areal_velocity) * (sequence_of(n) == 1 ? restitution(kind(1)) : 1);
-  const mpfr_prec_t bits = good_bits + 32 + long(mpz_sizeinbase(k.get_mpz_t(), 2));
-  const Real start(bits, at_first);
-  if (k == 0) return start;
-  if (powers.determinant() == 0) return Real(bits, 0);
-  return start * exp(Real(bits, Rational(k)) * log(Real(bits, powers.determinant())));
+  return Real(good_bits + 2, at_first) * powers.determinant_power(round_of(n), good_bits + 2);
 }
 
-DampedGaps DampedMotion::gaps_after(const Integer& n, mpfr_prec_t good_bits) const {
-  const std::size_t i = sequence_of(n);
-  const std::vector<Real> terms =
-      powers.terms({speeds[i], speeds[i + 1]}, round_of(n), good_bits + 8);
-  const Real zero(good_bits, 0);
-  return folded(n, zero, areal_velocity_before(n, good_bits + 8) / terms[0], terms[0], terms[1],
-                good_bits);
+DampedGaps DampedMotion::gaps_after(const Integer& n, const DampedNumbers& now,
+                                    mpfr_prec_t good_bits) const {
+  const Real to_close = areal_velocity_before(n, good_bits + 8) / now.speed;
+  return folded(n, Real(good_bits, 0), to_close, now.speed, now.next_speed, good_bits);
 }
 
 Real DampedMotion::sum(const RoundSequence& z, const Integer& first, const Integer& last,

@@ -18,7 +18,6 @@ struct DampedNumbers {
   Real speed;       ///< s_n > 0: with which the bodies approach each other
   Real reach;       ///< r_n = s_n t_n
   Real next_speed;  ///< s_{n+1}; not positive if there is no further collision
-  Real next_reach;  ///< r_{n+1}
 };
 
 /// Sums over every other collision of a range.
@@ -77,13 +76,17 @@ struct DampedMotion {
   std::optional<Real> collapse_time(mpfr_prec_t bits) const;
   /// The index of the last collision until then, those at it included.
   Integer count_at(const Rational& time) const;
-  /// For 1 <= n. Each with a relative error below 2^-good_bits, unless it is 0.
+  /// Of collision n >= 1, each with a relative error below 2^-good_bits, unless it is 0.
   DampedNumbers numbers(const Integer& n, mpfr_prec_t good_bits) const;
   /// After collision n >= 1 and before the next one. The gaps have a relative error below
   /// 2^-good_bits.
   DampedGaps gaps_at(const Rational& time, const Integer& n, mpfr_prec_t good_bits) const;
-  /// Speeds just after collision n as in gaps_at(); the gaps are those at it.
-  DampedGaps gaps_after(const Integer& n, mpfr_prec_t good_bits) const;
+  /// As gaps_at(), just after collision n.
+  DampedGaps gaps_after(const Integer& n, mpfr_prec_t good_bits) const {
+    return gaps_after(n, numbers(n, good_bits + 8), good_bits);
+  }
+  /// @param now  numbers(n, good_bits + 8)
+  DampedGaps gaps_after(const Integer& n, const DampedNumbers& now, mpfr_prec_t good_bits) const;
   /// Over the collisions first, first + 2, … last, which are of one kind; relative errors as above.
   DampedSums sums(const Integer& first, const Integer& last, mpfr_prec_t good_bits) const;
   /// A time at which collision n has happened and the next has not: the collision's if that is a

@@ -46,7 +46,7 @@ RoundPowers::RoundPowers(Rational trace, Rational determinant)
       kind_(kind_of(trace_, determinant_, discriminant_)),
       size_bits_(size_of(trace_) + size_of(determinant_)),
       // Rounds are about 1/w; their number, and what a sign change cancels, are w's bits each.
-      cached_bits_(320 + 3 * std::labs(Real(64, discriminant_).exponent())),
+      cached_bits_(224 + 2 * std::labs(Real(64, discriminant_).exponent())),
       cached_(make_rates(cached_bits_)) {}
 
 Real RoundPowers::doubled_artanh(const Rational& a, const Rational& b, const Real& root) const {
@@ -60,22 +60,29 @@ Real RoundPowers::doubled_artanh(const Rational& a, const Rational& b, const Rea
 }
 
 RoundPowers::Rates RoundPowers::make_rates(mpfr_prec_t bits) const {
-  const Real zero(bits, 0);
   const Real root = sqrt(Real(bits, abs(discriminant_)));
   const Real trace(bits, trace_);
+  Rates made{root, Real(bits, 0), Real(bits, 0), Real(bits, 0)};
+  if (determinant_ != 0) made.loss = log(Real(bits, determinant_));
   switch (kind_) {
     case Kind::circular:
-      return {root, atan2(root, trace), scaled(log(Real(bits, determinant_)), -1)};
+      made.angle = atan2(root, trace);
+      made.growth = scaled(made.loss, -1);
+      break;
     case Kind::parabolic:
-      return {root, zero, log(scaled(trace, -1))};
+      made.growth = log(scaled(trace, -1));
+      break;
     case Kind::hyperbolic:
-      return {root, doubled_artanh(1, -trace_, root), log(scaled(trace + root, -1))};
+      made.angle = doubled_artanh(1, -trace_, root);
+      made.growth = log(scaled(trace + root, -1));
+      break;
     case Kind::singular:
-      return {root, zero, log(trace)};
+      made.growth = log(trace);
+      break;
     case Kind::alternating:
       break;
   }
-  return {root, zero, zero};
+  return made;
 }
 
 RoundPowers::Rates RoundPowers::rates(mpfr_prec_t bits) const {
@@ -203,6 +210,13 @@ RoundPowers::Powers RoundPowers::powers(const Integer& k, mpfr_prec_t bits) cons
   const Real c = modulus * (Real(used, 1) - scaled(lost, -1));
   const Real s = scaled(modulus * lost, -1) / now.root;
   return {c, s, c.exponent() + error, s.exponent() + error};
+}
+
+Real RoundPowers::determinant_power(const Integer& k, mpfr_prec_t good_bits) const {
+  if (k == 0) return {good_bits, 1};
+  if (determinant_ == 0) return {good_bits, 0};
+  const Real loss = rates(good_bits + 16 + bits_of(k)).loss;
+  return exp(Real(loss.bits(), Rational(k)) * loss);
 }
 
 std::vector<Real> RoundPowers::terms(const std::vector<RoundSequence>& sequences, const Integer& k,

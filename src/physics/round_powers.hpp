@@ -44,6 +44,8 @@ class RoundPowers {
   /// part in z.
   Real limit_of_ratio(const RoundSequence& y, const RoundSequence& z, mpfr_prec_t bits) const;
 
+  /// D^k, with a relative error below 2^-good_bits.
+  Real determinant_power(const Integer& k, mpfr_prec_t good_bits) const;
   /// The terms number k, each with a relative error below 2^-good_bits.
   /// @throws SimulationError if kMaxDecisionBits do not suffice.
   std::vector<Real> terms(const std::vector<RoundSequence>& sequences, const Integer& k,
@@ -66,6 +68,7 @@ class RoundPowers {
     Real root;    // w = sqrt(|T^2 - 4D|)
     Real angle;   // circular: of a round; hyperbolic: ln(greater/lesser eigenvalue)
     Real growth;  // ln of the greater eigenvalue's modulus
+    Real loss;    // ln D, if D > 0
   };
   /// C_k and S_k with errors below 2^c_error and 2^s_error.
   struct Powers {
