@@ -36,21 +36,25 @@ Motion DampedLog::red(const Real& gap, const Real& rate) const {
   return {(Real(gap.bits(), red_offset_) + gap).to_double(), rate.to_double()};
 }
 
-DampedGaps DampedLog::moved(const Rational& time, const Integer& count) const {
-  if (is_end(count)) {
-    const Real zero(velocity_bits_, 0);
-    return {zero, zero, zero, zero};
+std::pair<Integer, DampedGaps> DampedLog::moved(const Rational& time) const {
+  if (motion_.collides && time >= motion_.first_time) {
+    auto state = motion_.state_at(time, velocity_bits_);
+    if (motion_.is_end(state.first)) state.second = at_rest();
+    return state;
   }
-  if (count > 0) return motion_.gaps_at(time, count, velocity_bits_);
   const auto& [y1, y2] = motion_.gaps;
   const auto& [u1, u2] = motion_.rates;
   const auto real = [this](const Rational& value) { return Real(velocity_bits_, value); };
-  return {real(y1 + u1 * time), real(y2 + u2 * time), real(u1), real(u2)};
+  return {0, {real(y1 + u1 * time), real(y2 + u2 * time), real(u1), real(u2)}};
+}
+
+DampedGaps DampedLog::at_rest() const {
+  const Real zero(velocity_bits_, 0);
+  return {zero, zero, zero, zero};
 }
 
 BlockState DampedLog::state_at(const Rational& time) const {
-  const Integer count = motion_.count_at(time);
-  const DampedGaps now = moved(time, count);
+  const auto [count, now] = moved(time);
   BlockState state{count, blue(now.y1, now.u1), red(now.y2, now.u2)};
   require_finite(to_time(time), state.blue, state.red, kName);
   return state;
@@ -60,9 +64,8 @@ Collision DampedLog::collision(const Integer& index) const {
   const DampedNumbers now = motion_.numbers(index, velocity_bits_ + 8);
   Collision collision{
       index, (now.reach / now.speed).to_double_double(), motion_.kind(index), {}, {}};
-  const Real zero(velocity_bits_, 0);
-  const DampedGaps after = is_end(index) ? DampedGaps{zero, zero, zero, zero}
-                                         : motion_.gaps_after(index, now, velocity_bits_);
+  const DampedGaps after =
+      motion_.is_end(index) ? at_rest() : motion_.gaps_after(index, now, velocity_bits_);
   collision.blue = blue(after.y1, after.u1);
   collision.red = red(after.y2, after.u2);
   require_finite(collision.time, collision.blue, collision.red, kName);
@@ -103,12 +106,12 @@ PositionBounds DampedLog::bounds_at(const Rational& time) const {
 }
 
 Gaps DampedLog::gaps_at(const Rational& time) const {
-  const DampedGaps now = moved(time, motion_.count_at(time));
+  const DampedGaps now = moved(time).second;
   return {now.y1.to_double(), now.y2.to_double()};
 }
 
 Gaps DampedLog::gaps_at_collision(const Integer& index) const {
-  if (is_end(index)) return {};
+  if (motion_.is_end(index)) return {};
   const DampedGaps now = motion_.gaps_after(index, kTime_bits);
   return {now.y1.to_double(), now.y2.to_double()};
 }

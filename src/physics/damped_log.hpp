@@ -6,6 +6,7 @@
 #include <piblocks/run.hpp>
 
 #include <optional>
+#include <utility>
 
 #include "physics/damped_motion.hpp"
 #include "physics/impact.hpp"
@@ -23,17 +24,17 @@ class DampedLog final : public CollisionLog {
   BlockState state_at(const Rational& time) const override;
   Rational time_after(const Integer& index) const override;
 
-  const DampedMotion& motion() const noexcept { return motion_; }
-  /// As the functions of these names elsewhere.
+  /// As the functions of these names in impact.hpp and run.hpp.
+  Integer count_at(const Rational& time) const { return motion_.count_at(time); }
   std::optional<Impact> impact(CollisionKind kind, const Integer& first, const Integer& last) const;
   PositionBounds bounds_at(const Rational& time) const;
   Gaps gaps_at(const Rational& time) const;
   Gaps gaps_at_collision(const Integer& index) const;
 
  private:
-  /// After this collision the blocks rest.
-  bool is_end(const Integer& index) const { return !motion_.total && index == size(); }
-  DampedGaps moved(const Rational& time, const Integer& count) const;
+  /// Count and gaps at a time.
+  std::pair<Integer, DampedGaps> moved(const Rational& time) const;
+  DampedGaps at_rest() const;
   Motion blue(const Real& gap, const Real& rate) const;
   Motion red(const Real& gap, const Real& rate) const;
 

@@ -18,6 +18,9 @@ constexpr long kTimeLeft_bits = 100;
 /// down everything that is computed with that time.
 constexpr double kShortTime_bits = 256;
 
+/// A term of so many bits has the right sign.
+constexpr mpfr_prec_t kSign_bits = 8;
+
 /// A time is rounded up by less than 2^-100 of the flight.
 constexpr long kTimeGrid_bits = 104;
 
@@ -89,8 +92,13 @@ std::optional<Rational> DampedMotion::turn() const {
     const Integer n = 2 * *round + 1 + Integer(long(i));
     if (n <= listed) return time_past(n);
   }
-  const std::optional<Real> end = collapse_time(256);
-  return end ? std::optional(end->to_rational()) : std::nullopt;
+  if (total) return std::nullopt;
+  if (coincides_from(listed)) return time_past(listed);
+  // Rounded up, so that the blocks rest by then.
+  constexpr mpfr_prec_t kBits = 256;
+  const std::optional<Real> end = collapse_time(kBits);
+  if (!end) return std::nullopt;
+  return (*end + scaled(*end, 16 - kBits)).to_rational();
 }
 
 Rational DampedMotion::closing(CollisionKind kind, const Pair& rates) {
@@ -196,14 +204,28 @@ RoundSequence DampedMotion::gap_at(std::size_t sequence, const Rational& time) c
 Integer DampedMotion::count_at(const Rational& time) const {
   if (!collides || time < first_time) return 0;
   if (areal_velocity == 0) return listed;
-  // The first gap that is open, among those that collisions close in turn.
+  // The first gap that is open, of those that collisions 1, 3, 5 … close.
   const std::optional<Integer> odd = powers.first_positive(gap_at(0, time));
-  Integer count = odd ? Integer(2 * *odd) : listed;
-  const RoundSequence second = gap_at(1, time);
-  const std::optional<Integer> even =
-      second.a > 0 ? std::optional<Integer>(0) : powers.first_positive(second);
-  if (even && 2 * *even + 1 < count) count = 2 * *even + 1;
-  return std::min(count, listed);
+  if (!odd || 2 * *odd > listed) return listed;
+  const Real gap = powers.terms({gap_at(1, time)}, *odd - 1, kSign_bits).front();
+  return gap.sign() > 0 ? Integer(2 * *odd - 1) : Integer(2 * *odd);
+}
+
+std::pair<Integer, DampedGaps> DampedMotion::state_at(const Rational& time,
+                                                      mpfr_prec_t good_bits) const {
+  const std::optional<Integer> odd =
+      areal_velocity == 0 ? std::nullopt : powers.first_positive(gap_at(0, time));
+  if (!odd || 2 * *odd > listed) return {listed, gaps_at(time, listed, good_bits)};
+  // As in count_at(), with the numbers of both cases from the same powers.
+  const mpfr_prec_t bits = good_bits + 8;
+  const std::vector<Real> terms = powers.terms(
+      {gap_at(0, time), gap_at(1, time), gap_at(2, time), speeds[0], speeds[1], speeds[2]},
+      *odd - 1, bits);
+  const bool after_even = terms[1].sign() <= 0;
+  const std::size_t i = after_even ? 1 : 0;
+  Integer count = 2 * *odd - (after_even ? 0 : 1);
+  DampedGaps now = folded(count, -terms[i], terms[i + 1], terms[i + 3], terms[i + 4], good_bits);
+  return {std::move(count), std::move(now)};
 }
 
 DampedNumbers DampedMotion::numbers(const Integer& n, mpfr_prec_t good_bits) const {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "physics/round_powers.hpp"
 
@@ -76,12 +77,14 @@ struct DampedMotion {
   std::optional<Real> collapse_time(mpfr_prec_t bits) const;
   /// The index of the last collision until then, those at it included.
   Integer count_at(const Rational& time) const;
+  /// Whether the blocks rest from this collision on.
+  bool is_end(const Integer& n) const { return !total && n == listed; }
   /// Of collision n >= 1, each with a relative error below 2^-good_bits, unless it is 0.
   DampedNumbers numbers(const Integer& n, mpfr_prec_t good_bits) const;
-  /// After collision n >= 1 and before the next one. The gaps have a relative error below
-  /// 2^-good_bits.
-  DampedGaps gaps_at(const Rational& time, const Integer& n, mpfr_prec_t good_bits) const;
-  /// As gaps_at(), just after collision n.
+  /// At a time that is not before the first collision, with count_at(time). The gaps have relative
+  /// errors below 2^-good_bits. The rates are meaningless if the blocks rest.
+  std::pair<Integer, DampedGaps> state_at(const Rational& time, mpfr_prec_t good_bits) const;
+  /// As in state_at(), just after collision n.
   DampedGaps gaps_after(const Integer& n, mpfr_prec_t good_bits) const {
     return gaps_after(n, numbers(n, good_bits + 8), good_bits);
   }
@@ -109,12 +112,14 @@ struct DampedMotion {
   /// @param to_close  the gap that n + 1 closes
   DampedGaps folded(const Integer& n, const Real& opened, const Real& to_close, const Real& speed,
                     const Real& next_speed, mpfr_prec_t good_bits) const;
+  DampedGaps gaps_at(const Rational& time, const Integer& n, mpfr_prec_t good_bits) const;
   /// |L| just before collision n, relative error below 2^-good_bits.
   Real areal_velocity_before(const Integer& n, mpfr_prec_t good_bits) const;
   /// Whether the log lists this one of infinitely many collisions: see Collapse::listed.
   bool is_listed(const Integer& n) const;
   void find_first_collision();
   void find_sequences();
+  /// The gap that collisions of a sequence close, as it would be at this time without them.
   RoundSequence gap_at(std::size_t sequence, const Rational& time) const;
   std::optional<Integer> find_total() const;
   Integer find_listed() const;

@@ -81,6 +81,7 @@ std::optional<Impact> impact(const CollisionLog& log, CollisionKind kind, const 
 
 Integer count_near(const CollisionLog& log, const Time& time) {
   if (const UnfoldedLog* const form = closed_form(log)) return form->count_near(time);
+  if (const DampedLog* const damped = damped_log(log)) return damped->count_at(to_rational(time));
   return log.state_at(to_rational(time)).count;
 }
 

@@ -45,9 +45,11 @@ RoundPowers::RoundPowers(Rational trace, Rational determinant)
       discriminant_(trace_ * trace_ - 4 * determinant_),
       kind_(kind_of(trace_, determinant_, discriminant_)),
       size_bits_(size_of(trace_) + size_of(determinant_)),
-      // Rounds are about 1/w; their number, and what a sign change cancels, are w's bits each.
-      cached_bits_(224 + 2 * std::labs(Real(64, discriminant_).exponent())),
-      cached_(make_rates(cached_bits_)) {}
+      // Rounds are about 1/w; their number, and what a term cancels, have as many bits.
+      decision_bits_(96 + std::labs(Real(64, discriminant_).exponent())),
+      term_bits_(224 + 2 * (decision_bits_ - 96)),
+      decision_rates_(make_rates(decision_bits_)),
+      term_rates_(make_rates(term_bits_)) {}
 
 Real RoundPowers::doubled_artanh(const Rational& a, const Rational& b, const Real& root) const {
   const mpfr_prec_t bits = root.bits();
@@ -86,7 +88,8 @@ RoundPowers::Rates RoundPowers::make_rates(mpfr_prec_t bits) const {
 }
 
 RoundPowers::Rates RoundPowers::rates(mpfr_prec_t bits) const {
-  return bits <= cached_bits_ ? cached_ : make_rates(bits);
+  if (bits <= decision_bits_) return decision_rates_;
+  return bits <= term_bits_ ? term_rates_ : make_rates(bits);
 }
 
 bool RoundPowers::lacks_greater(const RoundSequence& z) const {
@@ -118,7 +121,7 @@ RoundPowers::SignChange RoundPowers::sign_change(const RoundSequence& z) const {
     const Rational at = z.a * trace_ / -z.b;
     return {floor(at), at.get_den() == 1};
   }
-  for (mpfr_prec_t bits = cached_bits_; bits <= kMaxDecisionBits; bits *= 2) {
+  for (mpfr_prec_t bits = decision_bits_; bits <= kMaxDecisionBits; bits *= 2) {
     const Rates now = rates(bits);
     const Real swept = kind_ == Kind::circular ? atan2(Real(now.root.bits(), z.a) * now.root,
                                                        Real(now.root.bits(), Rational(-z.b)))
@@ -231,7 +234,7 @@ std::vector<Real> RoundPowers::terms(const std::vector<RoundSequence>& sequences
   };
   const double quick_bits = kind_ == Kind::alternating ? HUGE_VAL : kQuickPower_bits;
   if (const auto exact = exact_powers(k, quick_bits)) return exactly(*exact);
-  mpfr_prec_t bits = std::max<mpfr_prec_t>(cached_bits_, good_bits + 32);
+  mpfr_prec_t bits = std::max<mpfr_prec_t>(term_bits_, good_bits + 32);
   for (; bits <= kMaxDecisionBits; bits *= 2) {
     const Powers power = powers(k, bits);
     std::vector<Real> values;

@@ -107,8 +107,11 @@ class RoundPowers {
   Rational discriminant_;  // T^2 - 4D
   Kind kind_;
   double size_bits_;  // of the numbers of one round
-  mpfr_prec_t cached_bits_;
-  Rates cached_;
+  /// Precisions with which answers begin: a decision, and a term with what its sum cancels.
+  mpfr_prec_t decision_bits_;
+  mpfr_prec_t term_bits_;
+  Rates decision_rates_;
+  Rates term_rates_;
 };
 
 }  // namespace piblocks

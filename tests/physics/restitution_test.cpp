@@ -5,6 +5,7 @@
 #include <piblocks/run.hpp>
 
 #include "physics/damped_log.hpp"
+#include "physics/exposure.hpp"
 #include "support/damped_checks.hpp"
 
 namespace piblocks {
@@ -232,6 +233,110 @@ TEST(Restitution, StateBeforeTimeZeroIsFree) {
   EXPECT_EQ(state.count, 0);
   EXPECT_EQ(state.red.position, 12);
   EXPECT_EQ(state.red.velocity, -1);
+}
+
+/// Sums of many collisions of both kinds against all of them one by one.
+TEST(Restitution, ImpactsAreSums) {
+  const BlockSystem system = with_restitution(article_system(4), Rational(999999, 1000000));
+  const auto log = make_collision_log(system);
+  const double r = to_double(system.blue.mass / system.red.mass);
+  for (const auto& [first, last] :
+       {std::pair(1, 3000), std::pair(1500, 1501), std::pair(7, 7), std::pair(1400, 1700)}) {
+    for (const CollisionKind kind : {CollisionKind::wall, CollisionKind::blocks}) {
+      double sum = 0;
+      double moment = 0;
+      for (int n = first; n <= last; ++n) {
+        const Collision now = log->collision(n);
+        if (now.kind != kind) continue;
+        const double e = to_double(system.wall_restitution);
+        // The speed of approach, from that of parting. Red had all the energy, at a speed of 1.
+        const double parting = kind == CollisionKind::wall ? now.blue.velocity * (1 + r)
+                                                           : now.red.velocity - now.blue.velocity;
+        sum += (1 + e) / 2 * parting / e;
+        moment += (1 + e) / 2 * parting / e * now.time.hi;
+      }
+      const auto all = impact(*log, kind, first, last);
+      ASSERT_EQ(all.has_value(), sum > 0) << first;
+      if (!all) continue;
+      EXPECT_NEAR(all->impulse, sum, 1e-12 * sum);
+      EXPECT_NEAR(all->time.hi, moment / sum, 1e-12);
+    }
+  }
+}
+
+/// Where blue is on average, from its position at many times.
+void expect_mean(const CollisionLog& log, const Rational& begin, const Rational& end,
+                 double tolerance) {
+  const Exposure exposure = expose(log, begin, end);
+  double share = 0;
+  double mean = 0;
+  for (const UniformPiece& piece : exposure.pieces) {
+    share += piece.share;
+    mean += piece.share * (piece.blue.from + piece.blue.to) / 2;
+    EXPECT_GE(piece.share, 0);
+  }
+  EXPECT_NEAR(share, 1, 1e-12);
+  constexpr int kTimes = 5000;
+  double wanted = 0;
+  for (int i = 0; i < kTimes; ++i) {
+    const Rational time = begin + (end - begin) * (2 * i + 1) / (2 * kTimes);
+    wanted += log.state_at(time).blue.position / kTimes;
+  }
+  EXPECT_NEAR(mean, wanted, tolerance);
+}
+
+TEST(Restitution, ExposuresListOrSliceTheFlights) {
+  const auto few = make_collision_log(with_restitution(article_system(3), Rational(99, 100)));
+  expect_mean(*few, 3, 4, 1e-4);
+  const auto many = make_collision_log(with_restitution(article_system(6), Rational(999, 1000)));
+  ASSERT_GT(many->state_at(Rational(36, 10)).count - many->state_at(Rational(34, 10)).count, 10000);
+  expect_mean(*many, Rational(34, 10), Rational(36, 10), 1e-3);
+}
+
+TEST(Restitution, RedTurnsAtTheTurn) {
+  for (const char* const e : {"0.9", "0.99", "1/2", "0"}) {
+    const BlockSystem system = with_restitution(article_system(2), parse_rational(e));
+    const auto log = make_collision_log(system);
+    const auto turn = turn_of(system);
+    ASSERT_TRUE(turn);
+    const double nearest = log->state_at(*turn).red.position;
+    EXPECT_GE(log->state_at(*turn).red.velocity, 0);
+    for (int i = -100; i <= 100; ++i) {
+      const Rational time = *turn + Rational(i * i * i) / 1000000;
+      EXPECT_GE(log->state_at(time).red.position, nearest) << e << " " << i;
+    }
+  }
+  BlockSystem rest = with_restitution(article_system(2), Rational(1, 2));
+  rest.red.velocity = 0;
+  EXPECT_FALSE(turn_of(rest));
+  EXPECT_EQ(count_collisions(rest), 0);
+}
+
+/// Blue rests at the wall: steps with each order of the first two collisions.
+TEST(Restitution, CornersHaveTwoCounts) {
+  BlockSystem system = with_restitution(article_system(2), Rational(99, 100));
+  system.blue.position = Rational(1, 2);
+  const auto corner = corner_of(system);
+  ASSERT_TRUE(corner);
+  EXPECT_EQ(corner->time, Rational(7, 2));
+  EXPECT_TRUE(corner->blocks_first);
+  EXPECT_EQ(corner->count, Integer(oracle::damped_run(system, 100).events.size()));
+  EXPECT_EQ(corner->other_count, corner->count + 1);
+  const auto log = make_collision_log(system);
+  EXPECT_EQ(log->state_at(Rational(7, 2)).count, corner->count);
+  EXPECT_EQ(log->state_at(Rational(6, 2)).count, 0);
+  // Both come into the corner on a slant: a later red block meets blue first.
+  system.blue.position = Rational(3, 2);
+  system.red.position = Rational(7, 2);
+  system.blue.velocity = -1;
+  system.red.velocity = -2;
+  const auto slant = corner_of(system);
+  ASSERT_TRUE(slant);
+  BlockSystem sooner = system;
+  sooner.blue.position += Rational(1, 1000);
+  EXPECT_EQ(slant->count, Integer(oracle::damped_run(sooner, 100).events.size()));
+  sooner.blue.position -= Rational(2, 1000);
+  EXPECT_EQ(slant->other_count, Integer(oracle::damped_run(sooner, 100).events.size()));
 }
 
 TEST(Restitution, EnginesThatStepRefuseIt) {
