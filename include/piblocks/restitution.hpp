@@ -25,6 +25,9 @@ struct Collapse {
 /// @throws SceneError if problems_of(system) is not empty.
 std::optional<Collapse> collapse_of(const BlockSystem& system);
 
+/// Whether collision log.size() stands for infinitely many: see Collapse.
+bool is_endless(const CollisionLog& log);
+
 /// How elastic the article's blocks have to be. With less restitution the blocks meet more often,
 /// not less: see src/physics/README.md.
 struct LeastRestitution {

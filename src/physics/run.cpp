@@ -178,6 +178,11 @@ std::optional<Collapse> collapse_of(const BlockSystem& system) {
   return Collapse{end ? std::optional(end->to_double_double()) : std::nullopt, motion.listed};
 }
 
+bool is_endless(const CollisionLog& log) {
+  const DampedLog* const damped = damped_log(log);
+  return damped != nullptr && damped->is_endless();
+}
+
 std::optional<Corner> corner_of(const BlockSystem& system) {
   require_valid(problems_of(system));
   if (!is_elastic(system)) return DampedMotion(system).corner();

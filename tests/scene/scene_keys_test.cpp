@@ -110,7 +110,7 @@ TEST(SceneKeys, SayWhatIsShownAndHeard) {
   EXPECT_EQ(scene.view.theme, Theme::chalkboard);
   EXPECT_EQ(scene.view.background, Background::transparent);
   EXPECT_TRUE(scene.sound.on);
-  EXPECT_EQ(scene.show.overlays, (std::vector{Overlay::ruler, Overlay::digits}));
+  EXPECT_EQ(scene.show.overlays, (std::vector{Overlay::ruler, Overlay::energy}));
   EXPECT_EQ(scene.show.panels, (std::vector{Panel::count, Panel::time}));
   EXPECT_EQ(scene.show.title, "One, two");
   EXPECT_EQ(scene.show.caption, "Three");
