@@ -201,21 +201,30 @@ RoundSequence DampedMotion::gap_at(std::size_t sequence, const Rational& time) c
   return {reach.a - speed.a * time, reach.b - speed.b * time};
 }
 
+std::optional<Integer> DampedMotion::odd_until(const Rational& time) const {
+  if (areal_velocity == 0) return std::nullopt;
+  // The first gap that is open, of those that collisions 1, 3, 5 … close.
+  std::optional<Integer> odd = powers.first_positive(gap_at(0, time));
+  if (total) {
+    const Integer most = (*total + 1) / 2;
+    if (!odd || *odd > most) odd = most;
+  }
+  if (!odd || 2 * *odd > listed) return std::nullopt;
+  return odd;
+}
+
 Integer DampedMotion::count_at(const Rational& time) const {
   if (!collides || time < first_time) return 0;
-  if (areal_velocity == 0) return listed;
-  // The first gap that is open, of those that collisions 1, 3, 5 … close.
-  const std::optional<Integer> odd = powers.first_positive(gap_at(0, time));
-  if (!odd || 2 * *odd > listed) return listed;
+  const std::optional<Integer> odd = odd_until(time);
+  if (!odd) return listed;
   const Real gap = powers.terms({gap_at(1, time)}, *odd - 1, kSign_bits).front();
   return gap.sign() > 0 ? Integer(2 * *odd - 1) : Integer(2 * *odd);
 }
 
 std::pair<Integer, DampedGaps> DampedMotion::state_at(const Rational& time,
                                                       mpfr_prec_t good_bits) const {
-  const std::optional<Integer> odd =
-      areal_velocity == 0 ? std::nullopt : powers.first_positive(gap_at(0, time));
-  if (!odd || 2 * *odd > listed) return {listed, gaps_at(time, listed, good_bits)};
+  const std::optional<Integer> odd = odd_until(time);
+  if (!odd) return {listed, gaps_at(time, listed, good_bits)};
   // As in count_at(), with the numbers of both cases from the same powers.
   const mpfr_prec_t bits = good_bits + 8;
   const std::vector<Real> terms = powers.terms(

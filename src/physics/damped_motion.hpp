@@ -113,6 +113,9 @@ struct DampedMotion {
   DampedGaps folded(const Integer& n, const Real& opened, const Real& to_close, const Real& speed,
                     const Real& next_speed, mpfr_prec_t good_bits) const;
   DampedGaps gaps_at(const Rational& time, const Integer& n, mpfr_prec_t good_bits) const;
+  /// How many of the collisions 1, 3, 5 … have happened; nothing if all that are listed have, and
+  /// no other is.
+  std::optional<Integer> odd_until(const Rational& time) const;
   /// |L| just before collision n, relative error below 2^-good_bits.
   Real areal_velocity_before(const Integer& n, mpfr_prec_t good_bits) const;
   /// Whether the log lists this one of infinitely many collisions: see Collapse::listed.
