@@ -4,6 +4,7 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 #include "physics/exact_motion.hpp"
 
@@ -317,11 +318,15 @@ Rational DampedMotion::rounded_time(const Integer& n, mpfr_prec_t bits) const {
 }
 
 Rational DampedMotion::time_past(const Integer& n) const {
-  if (n > 3 && coincides_from(n)) return time_past(3);  // a short number
-  const std::size_t i = sequence_of(n);
-  const Integer k = round_of(n);
-  const auto reach = powers.exact_term(reaches[i], k, kShortTime_bits);
-  if (reach) return *reach / *powers.exact_term(speeds[i], k, kShortTime_bits);
+  const bool coincides = coincides_from(n);
+  // In the corner that comes after collision 2 at the latest.
+  const Integer first = coincides && n > 3 ? Integer(3) : n;
+  const std::size_t i = sequence_of(first);
+  const Integer k = round_of(first);
+  const double max_bits = coincides ? HUGE_VAL : kShortTime_bits;
+  if (const auto reach = powers.exact_term(reaches[i], k, max_bits)) {
+    return *reach / *powers.exact_term(speeds[i], k, max_bits);
+  }
   constexpr mpfr_prec_t kFirst_bits = 256;
   for (mpfr_prec_t bits = kFirst_bits; bits <= kMaxDecisionBits; bits *= 2) {
     Rational time = rounded_time(n, bits);

@@ -79,8 +79,6 @@ RoundPowers::Rates RoundPowers::make_rates(mpfr_prec_t bits) const {
       made.growth = log(scaled(trace + root, -1));
       break;
     case Kind::singular:
-      made.growth = log(trace);
-      break;
     case Kind::alternating:
       break;
   }
@@ -203,11 +201,6 @@ RoundPowers::Powers RoundPowers::powers(const Integer& k, mpfr_prec_t bits) cons
     const Real s = modulus * number / Real(used, trace_);
     return {modulus, s, modulus.exponent() + error, s.exponent() + error};
   }
-  if (kind_ == Kind::singular) {
-    const Real c = scaled(modulus, -1);
-    const Real s = c / Real(used, trace_);
-    return {c, s, c.exponent() + error, s.exponent() + error};
-  }
   const Real share = number * now.angle;
   const Real lost = -expm1(-share);  // 1 - (lesser/greater)^k
   const Real c = modulus * (Real(used, 1) - scaled(lost, -1));
@@ -232,6 +225,16 @@ std::vector<Real> RoundPowers::terms(const std::vector<RoundSequence>& sequences
     }
     return values;
   };
+  if (kind_ == Kind::singular && k > 0) {  // T^(k-1) z_1, in which nothing cancels
+    const mpfr_prec_t bits = good_bits + 16 + bits_of(k);
+    const Real power = exp(Real(bits, Rational(k - 1)) * log(Real(bits, trace_)));
+    std::vector<Real> values;
+    values.reserve(sequences.size());
+    for (const auto& [a, b] : sequences) {
+      values.push_back(power * Real(bits, (a * trace_ + b) / 2));
+    }
+    return values;
+  }
   const double quick_bits = kind_ == Kind::alternating ? HUGE_VAL : kQuickPower_bits;
   if (const auto exact = exact_powers(k, quick_bits)) return exactly(*exact);
   mpfr_prec_t bits = std::max<mpfr_prec_t>(term_bits_, good_bits + 32);
