@@ -49,7 +49,7 @@ inline bool is_elastic(const BlockSystem& system) {
 
 /// When the blocks are nearest to the corner of wall and blocks, as the plane with axes
 /// (sqrt(m) x gap) measures it: the middle of all collisions. It may be before time 0. Nothing if
-/// neither block moves.
+/// neither block moves. With restitution below 1: when red is nearest to the wall, from time 0 on.
 std::optional<Rational> turn_of(const BlockSystem& system);
 
 inline constexpr int kMaxDigits = 100'000;
@@ -128,7 +128,8 @@ class CollisionStream {
 /// All collisions of a run, by index. The collisions from time 0 on have the indices 1, 2, …,
 /// size(), those before time 0 the indices 0, -1, … down to first_index(). Blocks that touch at
 /// time 0 and move apart, or blue that then leaves the wall, have had collision 0 at time 0. Const
-/// members are thread-safe.
+/// members are thread-safe. With restitution below 1 a log begins at time 0, before which the
+/// blocks move evenly; of infinitely many collisions it has a finite number, after which they rest.
 class CollisionLog {
  public:
   virtual ~CollisionLog() = default;
@@ -181,14 +182,16 @@ enum class Engine {
 inline constexpr std::int64_t kMaxStoredCollisions = 5'000'000;
 
 /// @throws SceneError if problems_of(system) is not empty.
-/// @throws UsageError if an engine would have to store more than kMaxStoredCollisions, or the
-///         closed form is asked for a mass ratio beyond 2^2000.
+/// @throws UsageError if an engine would have to store more than kMaxStoredCollisions, or is not
+///         the closed form and collisions are not elastic, or the closed form is asked for a mass
+///         ratio beyond 2^2000 of elastic blocks.
 /// @throws SimulationError if a number of an event loop leaves the range of a double.
 std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system,
                                                  Engine engine = Engine::unfolded);
 
 /// Number of collisions of the whole run, decided beyond doubt at any mass ratio, without a log.
 /// @throws SceneError if problems_of(system) is not empty.
+/// @throws UsageError if they are infinitely many: collapse_of() in restitution.hpp.
 Integer count_collisions(const BlockSystem& system);
 
 /// A run whose collisions all happen at once, in the corner of wall and blocks. Their number
@@ -200,7 +203,7 @@ struct Corner {
   Integer other_count;  ///< collisions if the others had met first
 };
 
-/// The corner of a system that has collisions and has them all at once.
+/// The corner of a system that has collisions, finitely many, and has them all at once.
 /// @throws SceneError if problems_of(system) is not empty.
 std::optional<Corner> corner_of(const BlockSystem& system);
 
