@@ -17,6 +17,15 @@ constexpr const char* kName = "restitution";
 constexpr mpfr_prec_t kTime_bits = 120;
 constexpr mpfr_prec_t kPosition_bits = 160;
 
+/// The sum, or 0 if it is only the rounding of the gap.
+double position(const Real& gap, const Rational& offset) {
+  if (offset == 0) return gap.to_double();
+  constexpr long kNoise_bits = kPosition_bits - 6;
+  const Real start(gap.bits(), offset);
+  const Real sum = start + gap;
+  return start.exponent() - sum.exponent() > kNoise_bits ? 0 : sum.to_double();
+}
+
 }  // namespace
 
 DampedLog::DampedLog(const BlockSystem& system)
@@ -30,10 +39,10 @@ DampedLog::DampedLog(const BlockSystem& system)
 }
 
 Motion DampedLog::blue(const Real& gap, const Real& rate) const {
-  return {(Real(gap.bits(), blue_offset_) + gap).to_double(), rate.to_double()};
+  return {position(gap, blue_offset_), rate.to_double()};
 }
 Motion DampedLog::red(const Real& gap, const Real& rate) const {
-  return {(Real(gap.bits(), red_offset_) + gap).to_double(), rate.to_double()};
+  return {position(gap, red_offset_), rate.to_double()};
 }
 
 std::pair<Integer, DampedGaps> DampedLog::moved(const Rational& time) const {

@@ -225,6 +225,18 @@ TEST(Restitution, AnEndlessRunMayTakeForever) {
   EXPECT_FALSE(collapse_of(system));
 }
 
+/// Found by the stress test: the wall's place and the gap add up to nothing.
+TEST(Restitution, APositionOfZeroIsZero) {
+  BlockSystem system;
+  system.wall_face = -2;
+  system.blue = {Rational(7, 3), Rational(13, 18), Rational(-3, 4), 1};
+  system.red = {Rational(7, 9), Rational(103, 18), Rational(-3, 4), 1};
+  const BlockSystem damped = with_restitution(system, Rational(3, 5));
+  EXPECT_EQ(make_collision_log(damped)->collision(2).blue.position, 0);
+  Random random(3);
+  expect_like_steps(damped, random, 40);
+}
+
 TEST(Restitution, StateBeforeTimeZeroIsFree) {
   const BlockSystem system = with_restitution(article_system(2), Rational(1, 2));
   const auto log = make_collision_log(system);
