@@ -10,6 +10,7 @@
 #include <piblocks/image.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/render.hpp>
+#include <piblocks/restitution.hpp>
 #include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 #include <piblocks/script.hpp>

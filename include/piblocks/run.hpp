@@ -29,6 +29,10 @@ struct BlockSystem {
   Rational wall_face = 0;  ///< where the wall ends; blue never passes it
   Block blue = {1, 2, 0, 1};
   Block red = {10000, 5, -1, 1};
+  /// Coefficients of restitution: what share of the speed at which two bodies approach each other
+  /// they have when they part; 0 (they stay together) … 1 (elastic).
+  Rational blocks_restitution = 1;
+  Rational wall_restitution = 1;  ///< of blue and the wall
 
   /// The gaps at time 0, between the wall and blue and between blue and red.
   Rational blue_gap() const { return blue.position - blue.width / 2 - wall_face; }
@@ -37,9 +41,15 @@ struct BlockSystem {
   }
 };
 
+/// Whether collisions keep the energy, so that the motion unfolds to a straight line and its past
+/// is known.
+inline bool is_elastic(const BlockSystem& system) {
+  return system.blocks_restitution == 1 && system.wall_restitution == 1;
+}
+
 /// When the blocks are nearest to the corner of wall and blocks, as the plane with axes
 /// (sqrt(m) x gap) measures it: the middle of all collisions. It may be before time 0. Nothing if
-/// neither block moves.
+/// neither block moves. With restitution below 1: when red is nearest to the wall, from time 0 on.
 std::optional<Rational> turn_of(const BlockSystem& system);
 
 inline constexpr int kMaxDigits = 100'000;
@@ -189,14 +199,16 @@ enum class Engine {
 inline constexpr std::int64_t kMaxStoredCollisions = 5'000'000;
 
 /// @throws SceneError if problems_of(system) is not empty.
-/// @throws UsageError if an engine would have to store more than kMaxStoredCollisions, or the
-///         closed form is asked for a mass ratio beyond 2^2000.
+/// @throws UsageError if an engine would have to store more than kMaxStoredCollisions, or is not
+///         the closed form and collisions are not elastic, or the closed form is asked for a mass
+///         ratio beyond 2^2000 of elastic blocks.
 /// @throws SimulationError if a number of an event loop leaves the range of a double.
 std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system,
                                                  Engine engine = Engine::unfolded);
 
 /// Number of collisions of the whole run, decided beyond doubt at any mass ratio, without a log.
 /// @throws SceneError if problems_of(system) is not empty.
+/// @throws UsageError if they are infinitely many: collapse_of() in restitution.hpp.
 Integer count_collisions(const BlockSystem& system);
 
 /// A run whose collisions all happen at once, in the corner of wall and blocks. Their number
@@ -208,7 +220,7 @@ struct Corner {
   Integer other_count;  ///< collisions if the others had met first
 };
 
-/// The corner of a system that has collisions and has them all at once.
+/// The corner of a system that has collisions, finitely many, and has them all at once.
 /// @throws SceneError if problems_of(system) is not empty.
 std::optional<Corner> corner_of(const BlockSystem& system);
 

@@ -83,6 +83,13 @@ class Real {
   friend Real sqrt(const Real& a) { return unary(mpfr_sqrt, a); }
   friend Real atan(const Real& a) { return unary(mpfr_atan, a); }
   friend Real cot(const Real& a) { return unary(mpfr_cot, a); }
+  friend Real sin(const Real& a) { return unary(mpfr_sin, a); }
+  friend Real cos(const Real& a) { return unary(mpfr_cos, a); }
+  friend Real exp(const Real& a) { return unary(mpfr_exp, a); }
+  friend Real expm1(const Real& a) { return unary(mpfr_expm1, a); }
+  friend Real log(const Real& a) { return unary(mpfr_log, a); }
+  friend Real log1p(const Real& a) { return unary(mpfr_log1p, a); }
+  friend Real operator-(const Real& a) { return unary(mpfr_neg, a); }
   /// a * 2^exponent, exactly.
   friend Real scaled(const Real& a, long exponent) {
     Real result(a.bits());

@@ -15,6 +15,9 @@ class Font;
 /// All that numbers are written with in pictures.
 inline constexpr std::string_view kNumberCharacters = "0123456789,.−×⁰¹²³⁴⁵⁶⁷⁸⁹";
 
+/// Stands for the count of a run that has had infinitely many collisions.
+inline constexpr std::string_view kEndlessCount = "∞";
+
 /// All that counts in this base are written with.
 std::string count_characters(int base);
 

@@ -1,30 +1,83 @@
 #include "physics/exposure.hpp"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "core/rounded.hpp"
+#include "physics/damped_log.hpp"
 #include "physics/unfolded_log.hpp"
 
 namespace piblocks {
 namespace {
 
-/// From collision to collision.
-Exposure listed(const CollisionLog& log, const Rational& begin, const Rational& end) {
-  const BlockState start = log.state_at(begin);
-  const BlockState stop = log.state_at(end);
-  PieceList pieces(start.blue.position, start.red.position);
-  Time now = to_time(begin);
+/// Slices of an interval with more collisions than are listed, and how many collisions of a slice
+/// are.
+constexpr long kSlices = 256;
+constexpr long kListedOfSlice = 8;
+
+/// From an instant and its state to a later one, from collision to collision.
+void add_flights(const CollisionLog& log, Time now, const Integer& count, const Rational& end,
+                 const BlockState& stop, PieceList& pieces) {
   const auto go_to = [&](const Time& time, const Motion& blue, const Motion& red) {
     // The times of an event loop can be out of order by their rounding.
     pieces.add(std::max(0.0, (time.hi - now.hi) + (time.lo - now.lo)), blue.position, red.position);
     now = time;
   };
-  for (Integer index = start.count + 1; index <= stop.count; ++index) {
+  for (Integer index = count + 1; index <= stop.count; ++index) {
     const Collision collision = log.collision(index);
     go_to(collision.time, collision.blue, collision.red);
   }
   go_to(to_time(end), stop.blue, stop.red);
+}
+
+/// Many bounces, by two there and back: between wall and red blue is everywhere for the same time.
+void add_bounces(const BlockSystem& system, double duration, const BlockState& start,
+                 const BlockState& stop, PieceList& pieces) {
+  const double wall = to_double(system.wall_face + system.blue.width / 2);
+  const double to_red = to_double((system.blue.width + system.red.width) / 2);
+  const std::array<double, 6> stops = {start.blue.position,         wall,
+                                       start.red.position - to_red, wall,
+                                       stop.red.position - to_red,  stop.blue.position};
+  double path = 0;
+  for (std::size_t i = 1; i < stops.size(); ++i) path += std::fabs(stops[i] - stops[i - 1]);
+  double gone = 0;
+  for (std::size_t i = 1; i < stops.size(); ++i) {
+    const double leg = std::fabs(stops[i] - stops[i - 1]);
+    gone += leg;
+    const double share = path > 0 ? gone / path : 1;
+    pieces.add(path > 0 ? duration * (leg / path) : duration / 5, stops[i],
+               start.red.position + share * (stop.red.position - start.red.position));
+  }
+}
+
+Exposure sliced(const CollisionLog& log, const Rational& begin, const Rational& end,
+                BlockState state) {
+  PieceList pieces(state.blue.position, state.red.position);
+  const Rational length = (end - begin) / kSlices;
+  for (long slice = 0; slice < kSlices; ++slice) {
+    const Rational from = begin + length * slice;
+    const Rational to = from + length;
+    BlockState stop = log.state_at(to);
+    if (stop.count - state.count <= kListedOfSlice) {
+      add_flights(log, to_time(from), state.count, to, stop, pieces);
+    } else {
+      add_bounces(log.system(), to_double(length), state, stop, pieces);
+    }
+    state = std::move(stop);
+  }
+  return pieces.exposure();
+}
+
+/// From collision to collision, or in slices of time if these are too many to be listed.
+Exposure listed(const CollisionLog& log, const Rational& begin, const Rational& end) {
+  const BlockState start = log.state_at(begin);
+  const BlockState stop = log.state_at(end);
+  if (damped_log(log) != nullptr && stop.count - start.count > long(kMaxListedCollisions)) {
+    return sliced(log, begin, end, start);
+  }
+  PieceList pieces(start.blue.position, start.red.position);
+  add_flights(log, to_time(begin), start.count, end, stop, pieces);
   return pieces.exposure();
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/blocks.hpp"
+#include "physics/damped_log.hpp"
 #include "physics/exact_motion.hpp"
 #include "physics/unfolded_log.hpp"
 
@@ -44,6 +45,20 @@ Gaps exact_gaps(const BlockSystem& blocks) {
   return {to_double(y1), to_double(y1 + blocks.blocks_gap())};
 }
 
+/// Precision of a time before it is rounded to two doubles.
+constexpr mpfr_prec_t kCollapseBits = 160;
+
+std::string endless_message(const DampedMotion& motion) {
+  const auto end = motion.collapse_time(kCollapseBits);
+  return end ? fmt::format(
+                   "count: there are infinitely many collisions until the blocks come to "
+                   "rest at t = {}; ask for the state at a time before",
+                   end->to_double())
+             : std::string(
+                   "count: there are infinitely many collisions, which never end; ask for "
+                   "the state at a time");
+}
+
 /// Rounding may have carried a stepping engine past a contact.
 Gaps gaps_between(const BlockSystem& system, const Motion& blue, const Motion& red) {
   const Rational blue_width = system.blue.width;
@@ -55,6 +70,7 @@ Gaps gaps_between(const BlockSystem& system, const Motion& blue, const Motion& r
 }  // namespace
 
 std::optional<Rational> turn_of(const BlockSystem& system) {
+  if (!is_elastic(system)) return DampedMotion(system).turn();
   const ExactMotion motion(system);
   return motion.at_rest() ? std::nullopt : std::optional(motion.closest_approach);
 }
@@ -76,7 +92,7 @@ BlockSystem article_system(int digits, int base) {
 }
 
 std::vector<Problem> problems_of(const BlockSystem& system) {
-  const auto& [wall_face, blue, red] = system;
+  const auto& [wall_face, blue, red, blocks_restitution, wall_restitution] = system;
   SceneProblems problems;
   problems.require_positive("blue.mass", blue.mass);
   problems.require_positive("red.mass", red.mass);
@@ -89,6 +105,11 @@ std::vector<Problem> problems_of(const BlockSystem& system) {
   problems.require_finite("red.velocity", red.velocity);
   problems.require_finite("blue.width", blue.width);
   problems.require_finite("red.width", red.width);
+  for (const auto& [key, value] : {std::pair("blocks.restitution", blocks_restitution),
+                                   std::pair("wall.restitution", wall_restitution)}) {
+    problems.require(value >= 0 && value <= 1, key,
+                     "= {}: must be from 0 (no rebound) to 1 (elastic)", value);
+  }
   if (!problems.empty()) return problems.take();  // the gaps would only repeat them
 
   problems.require(system.blue_gap() >= 0, "blue.position",
@@ -132,6 +153,7 @@ std::unique_ptr<CollisionStream> CollisionLog::stream(const Integer& first,
 std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system, Engine engine) {
   require_valid(problems_of(system));
   if (engine != Engine::unfolded) return make_stored_log(system, engine);
+  if (!is_elastic(system)) return std::make_unique<DampedLog>(system);
   // At theta >= pi/4 the closed form has nothing to skip, and would lose a very light red block
   // in the rounding of its phase.
   const bool is_at_rest = system.blue.velocity == 0 && system.red.velocity == 0;
@@ -141,11 +163,29 @@ std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system, Engi
 
 Integer count_collisions(const BlockSystem& system) {
   require_valid(problems_of(system));
-  return ExactMotion(system).total();
+  if (is_elastic(system)) return ExactMotion(system).total();
+  const DampedMotion motion(system);
+  if (motion.total) return *motion.total;
+  throw UsageError(endless_message(motion));
+}
+
+std::optional<Collapse> collapse_of(const BlockSystem& system) {
+  require_valid(problems_of(system));
+  if (is_elastic(system)) return std::nullopt;
+  const DampedMotion motion(system);
+  if (motion.total) return std::nullopt;
+  const auto end = motion.collapse_time(kCollapseBits);
+  return Collapse{end ? std::optional(end->to_double_double()) : std::nullopt, motion.listed};
+}
+
+bool is_endless(const CollisionLog& log) {
+  const DampedLog* const damped = damped_log(log);
+  return damped != nullptr && damped->is_endless();
 }
 
 std::optional<Corner> corner_of(const BlockSystem& system) {
   require_valid(problems_of(system));
+  if (!is_elastic(system)) return DampedMotion(system).corner();
   ExactMotion motion(system);
   // The line comes into the corner between the rays of wall and blocks; otherwise, starting in it,
   // only one of the two can be first.
@@ -161,6 +201,7 @@ std::optional<Corner> corner_of(const BlockSystem& system) {
 
 std::optional<PositionBounds> position_bounds(const CollisionLog& log, const Rational& time) {
   if (const UnfoldedLog* const form = closed_form(log)) return form->bounds_at(time);
+  if (const DampedLog* const damped = damped_log(log)) return damped->bounds_at(time);
   if (!is_exact(log)) return std::nullopt;
   constexpr double kUnitRoundoff = 0x1p-53;
   const BlockState now = log.state_at(time);
@@ -170,6 +211,7 @@ std::optional<PositionBounds> position_bounds(const CollisionLog& log, const Rat
 
 Gaps gaps_at(const CollisionLog& log, const Rational& time) {
   if (const UnfoldedLog* const form = closed_form(log)) return form->gaps_at(time);
+  if (const DampedLog* const damped = damped_log(log)) return damped->gaps_at(time);
   if (const auto blocks = exact_blocks_at(log, time)) return exact_gaps(*blocks);
   const BlockState now = log.state_at(time);
   return gaps_between(log.system(), now.blue, now.red);
@@ -177,6 +219,7 @@ Gaps gaps_at(const CollisionLog& log, const Rational& time) {
 
 Gaps gaps_at_collision(const CollisionLog& log, const Integer& index) {
   if (const UnfoldedLog* const form = closed_form(log)) return form->gaps_at_collision(index);
+  if (const DampedLog* const damped = damped_log(log)) return damped->gaps_at_collision(index);
   if (const auto blocks = exact_blocks_after(log, index)) return exact_gaps(*blocks);
   const Collision now = log.collision(index);
   const Gaps gaps = gaps_between(log.system(), now.blue, now.red);

@@ -197,14 +197,20 @@ class StoredLog final : public CollisionLog {
 }  // namespace
 
 std::unique_ptr<CollisionLog> make_stored_log(const BlockSystem& system, Engine engine) {
+  const char* const name = engine == Engine::events ? "event" : "velocity";
+  if (!is_elastic(system)) {
+    throw UsageError(fmt::format(
+        "{} loop: its collisions are elastic; for blocks.restitution and wall.restitution use the "
+        "closed form (--engine unfolded)",
+        name));
+  }
   const Integer count =
       std::max(ExactMotion(system).total(), ExactMotion(reversed(system)).total());
   if (count > kMaxStoredCollisions) {
     throw UsageError(fmt::format(
         "{} loop: {} collisions are more than the limit of {}; use the closed form (--engine "
         "unfolded)",
-        engine == Engine::events ? "event" : "velocity", readable(count),
-        readable(kMaxStoredCollisions)));
+        name, readable(count), readable(kMaxStoredCollisions)));
   }
   const auto simulate = engine == Engine::events ? event_loop : velocity_loop;
   return std::make_unique<StoredLog>(system, simulate(system), simulate(reversed(system)));

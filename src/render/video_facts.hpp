@@ -5,6 +5,7 @@
 #pragma once
 
 #include <piblocks/exact.hpp>
+#include <piblocks/restitution.hpp>
 #include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
@@ -34,6 +35,7 @@ std::vector<CollisionRange> listed_collisions(const Integer& before, const Integ
 struct VideoCount {
   Integer at_end;  ///< when the video has come furthest
   Integer total;
+  bool is_endless = false;  ///< whether `total` stands for infinitely many
 };
 
 class PageFacts {
@@ -45,7 +47,7 @@ class PageFacts {
   void check_range() const;
   /// Collisions that the frames count, at most.
   const Integer& most() const noexcept { return most_; }
-  VideoCount count() const { return {most_, log_.size()}; }
+  VideoCount count() const { return {most_, log_.size(), is_endless(log_)}; }
   /// Number of frames until a loop turns back; of all frames without a loop.
   std::int64_t frames_before_reversal() const noexcept { return frames_before_reversal_; }
   /// Writes the object in pieces. Times are given in units of 10^-scale; of sequences, what each

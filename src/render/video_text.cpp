@@ -21,6 +21,11 @@ std::string collisions(const Integer& count) {
                      count == 1 ? "collision" : "collisions");
 }
 
+/// All of a run.
+std::string all_collisions(const Integer& total, bool is_endless) {
+  return is_endless ? "infinitely many collisions" : collisions(total);
+}
+
 std::string reached(const VideoCount& count) {
   const std::string number = with_thousands_separators(count.at_end);
   if (count.at_end < 0) {
@@ -29,8 +34,18 @@ std::string reached(const VideoCount& count) {
                        left == 1 ? "is" : "are");
   }
   if (count.total == 0) return number + ": there are no collisions from time 0 on";
-  if (count.at_end == count.total) return collisions(count.total) + ", which is all there are";
-  return fmt::format("{} of {}", number, collisions(count.total));
+  if (count.at_end == count.total) {
+    return all_collisions(count.total, count.is_endless) +
+           (count.is_endless ? ", after which both blocks rest" : ", which is all there are");
+  }
+  return fmt::format("{} of {}", number, all_collisions(count.total, count.is_endless));
+}
+
+std::string collision_words(const BlockSystem& system) {
+  if (is_elastic(system)) return "All collisions are elastic";
+  return fmt::format(
+      "The blocks part with {} of the speed at which they meet, the inner one and the wall with {}",
+      short_text(system.blocks_restitution), short_text(system.wall_restitution));
 }
 
 struct Cue {
@@ -52,6 +67,7 @@ struct Extremes {
   Integer least;  ///< count
   Integer most;   ///< count
   Integer total;  ///< of the run
+  bool is_endless = false;
 };
 
 std::string text_of(const Integer& milestone, const Extremes& counts) {
@@ -61,6 +77,7 @@ std::string text_of(const Integer& milestone, const Extremes& counts) {
   const std::string number = collisions(abs(milestone));
   if (milestone < 0) return number + " or more to go until time 0";
   if (milestone < counts.most) return number + " or more";
+  if (counts.most == counts.total && counts.is_endless) return "Infinitely many collisions";
   return counts.most == counts.total ? number + ", which is all there are" : number;
 }
 
@@ -75,7 +92,8 @@ std::string time_text(std::int64_t frame, const Rational& frame_rate) {
 std::string title_of(const Scene& scene, const VideoCount& count) {
   if (std::string title = with_single_blanks(scene.show.title); !title.empty()) return title;
   return fmt::format("Masses {} and {}: {}", short_text(scene.system.blue.mass),
-                     short_text(scene.system.red.mass), collisions(count.total));
+                     short_text(scene.system.red.mass),
+                     all_collisions(count.total, count.is_endless));
 }
 
 std::string describe_video(const Scene& scene, const VideoCount& count) {
@@ -87,10 +105,11 @@ std::string describe_video(const Scene& scene, const VideoCount& count) {
           : fmt::format(" It is written in base {}: {}.", base, count_text(count.at_end, base));
   return fmt::format(
       "Two blocks slide along a line without friction: the inner one, beside a wall on the left, "
-      "has mass {}, the outer one mass {}. At time 0 the inner one {} and the outer one {}. All "
-      "collisions are elastic, and a counter reaches {}.{}",
+      "has mass {}, the outer one mass {}. At time 0 the inner one {} and the outer one {}. {}, "
+      "and "
+      "a counter reaches {}.{}",
       short_text(system.blue.mass), short_text(system.red.mass), motion_words(system.blue),
-      motion_words(system.red), reached(count), written);
+      motion_words(system.red), collision_words(system), reached(count), written);
 }
 
 std::string captions(const CollisionLog& log, const Schedule& schedule,
@@ -101,7 +120,7 @@ std::string captions(const CollisionLog& log, const Schedule& schedule,
     shown.push_back(log.state_at(schedule.time_of(frame)).count);
   }
   const Extremes counts{*std::ranges::min_element(shown), *std::ranges::max_element(shown),
-                        log.size()};
+                        log.size(), is_endless(log)};
   std::vector<Cue> cues;
   for (std::int64_t frame = 0; frame < frames; ++frame) {
     Integer milestone = milestone_of(shown[static_cast<std::size_t>(frame)], counts.most);

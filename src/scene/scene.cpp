@@ -181,6 +181,21 @@ void check_bodies(const Scene& scene, SceneProblems& problems) {
                    scene.time.from.offset);
 }
 
+/// What pictures say of elastic collisions alone.
+void check_elastic(const Scene& scene, SceneProblems& problems) {
+  if (is_elastic(scene.system)) return;
+  constexpr const char* kReason =
+      "has '{}', which is for elastic collisions; leave it out, or leave out blocks.restitution "
+      "and "
+      "wall.restitution";
+  for (const Panel panel : scene.show.panels) {
+    if (panel == Panel::time || panel == Panel::count) continue;
+    problems.add("show.panels", kReason, exact_text(panel));
+  }
+  problems.require(!scene.show.has(Overlay::digits), "show.overlays", kReason,
+                   exact_text(Overlay::digits));
+}
+
 void check_golden(const Golden& golden, SceneProblems& problems) {
   constexpr const char* kKey = "golden.frames";
   if (golden.size) check_size("golden.size", *golden.size, problems);
@@ -232,6 +247,7 @@ std::vector<Problem> problems_of(const Scene& scene) {
   check_time(scene.time, problems);
   check_pacing(scene, problems);
   check_show(scene.show, problems);
+  check_elastic(scene, problems);
   check_golden(scene.golden, problems);
   return problems.take();
 }

@@ -174,12 +174,12 @@ Scene SceneDraft::scene() const {
 /// A wall of finite mass is a block: the three collide as bodies.
 void SceneDraft::set_recoiling_wall(Scene& scene) const {
   constexpr int kColor = 140;  // between light and dark
-  const auto& [face, blue, red] = scene.system;
   const auto body = [](const Block& block) {
     return Body{block.mass, {block.position}, {block.velocity}, block.width};
   };
-  const Block wall{*wall_mass_, face - Rational(1, 2), 0, 1};
-  scene.bodies = Bodies{{1, {body(blue), body(red), body(wall)}, {}},
+  const auto& system = scene.system;
+  const Block wall{*wall_mass_, system.wall_face - Rational(1, 2), 0, 1};
+  scene.bodies = Bodies{{1, {body(system.blue), body(system.red), body(wall)}, {}},
                         {{}, {}, {{{kColor, kColor, kColor}}, "wall"}}};
 }
 
@@ -199,9 +199,15 @@ std::string SceneDraft::origin_of(const std::string& key) const {
 /// Keys of blue, red and the wall, where there are bodies instead; and a box without bodies.
 std::vector<std::string> SceneDraft::problems_of_bodies(const Scene& scene) const {
   std::vector<std::string> problems;
+  if (wall_mass_ && !is_elastic(scene.system)) {
+    problems.push_back(fmt::format(
+        "{}: wall.mass: a wall that recoils is elastic; leave out the restitution, or the mass",
+        origin_of("wall.mass")));
+  }
   for (const auto& [key, origin] : origins_) {
     const bool is_of_blocks =
-        key.starts_with("blue.") || key.starts_with("red.") || key.starts_with("wall.");
+        key.starts_with("blue.") || key.starts_with("blocks.") || key.starts_with("red.") ||
+        key.starts_with("wall.");
     if (!bodies_.empty() && is_of_blocks) {
       problems.push_back(fmt::format(
           "{}: {}: this scene has [[body]] instead of blue, red and the wall", origin,

@@ -180,6 +180,8 @@ constexpr auto kKeys = std::to_array<SceneKey>({
     key<&Scene::system, &BlockSystem::red, &Block::position>("red.position"),
     key<&Scene::system, &BlockSystem::red, &Block::velocity>("red.velocity"),
     key<&Scene::system, &BlockSystem::red, &Block::width>("red.width"),
+    key<&Scene::system, &BlockSystem::blocks_restitution>("blocks.restitution"),
+    key<&Scene::system, &BlockSystem::wall_restitution>("wall.restitution"),
     key<&Scene::view, &View::x>("view.x"),
     key<&Scene::view, &View::y>("view.y"),
     SceneKey{"view.size", set_size, size_of},

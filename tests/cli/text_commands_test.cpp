@@ -41,6 +41,23 @@ TEST_F(TextCommandsTest, OptionsWinOverTheSceneFile) {
   EXPECT_NE(output_of({"count", "scene.toml"}), "3141\n");
 }
 
+TEST_F(TextCommandsTest, BlocksMayLoseEnergy) {
+  const std::string loss = "blocks.restitution = 0.5\nwall.restitution = 0.5\n";
+  write("four.toml", "digits = 1\n" + loss);
+  EXPECT_EQ(output_of({"count", "four.toml"}), "4\n");
+  const auto rows = lines(output_of({"log", "four.toml"}));
+  ASSERT_EQ(rows.size(), 5u);
+  EXPECT_TRUE(rows.back().ends_with(",0.046875,0.21875")) << rows.back();
+  const std::string state = output_of({"state", "four.toml", "--at", "last", "--bounds"});
+  EXPECT_EQ(json_number(state, {"blue", "velocity"}), 0.046875);
+  EXPECT_LT(json_number(state, {"blue", "position_bound"}), 1e-15);
+
+  write("endless.toml", "digits = 2\n" + loss);
+  expect_refusal({"count", "endless.toml"},
+                 "infinitely many collisions until the blocks come to rest at t = ");
+  expect_refusal({"log", "four.toml", "--engine", "events"}, "its collisions are elastic");
+}
+
 TEST_F(TextCommandsTest, StatePrintsOneObjectALine) {
   const auto objects = lines(output_of({"state", "--at", "0,2,7/2,last,#314"}));
   ASSERT_EQ(objects.size(), 5u);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/film.hpp"
@@ -14,6 +15,10 @@
 
 namespace piblocks {
 namespace {
+
+bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
 
 /// What the counter of a picture says, without its separators.
 std::string count_of(const DrawList& list) {
@@ -195,6 +200,32 @@ TEST(CountsShown, AreRightInWords) {
             "13a.");
   scene.show.base = 10;
   EXPECT_EQ(sentence(-1, 314), "a counter reaches -1: 1 collision is to go until time 0.");
+}
+
+/// Blocks that lose so much that they never part.
+TEST(CountsShown, InfinitelyManyAreSaidToBe) {
+  BlockSystem system = article_system(2);
+  system.blocks_restitution = system.wall_restitution = Rational(1, 2);
+  for (const Theme theme : {Theme::article, Theme::lecture}) {
+    Scene scene = scene_of(system);
+    scene.view.theme = theme;
+    scene.view.width_px = 640;
+    scene.view.height_px = 360;
+    const auto log = make_collision_log(system);
+    EXPECT_EQ(count_of(still_picture(scene, Instant::last())), "∞");
+    EXPECT_EQ(count_of(still_picture(scene, Instant(Rational(9)))), "∞");
+    EXPECT_EQ(count_of(still_picture(scene, Instant::collision(7))), "7");
+    const Integer before = log->size() - 1;
+    EXPECT_EQ(count_of(still_picture(scene, Instant::collision(before))), before.get_str());
+    const std::string text = describe_video(scene, {log->size(), log->size(), true});
+    EXPECT_EQ(text.find("elastic"), std::string::npos) << text;
+    EXPECT_TRUE(contains(text, "part with 0.5 of the speed at which they meet")) << text;
+    EXPECT_TRUE(contains(text, "reaches infinitely many collisions, after which both")) << text;
+    EXPECT_TRUE(contains(title_of(scene, {7, log->size(), true}), "infinitely many")) << text;
+    scene.time.to = Rational(9);
+    const std::string said = captions(*log, make_schedule(scene, *log), scene.view.frame_rate);
+    EXPECT_TRUE(said.ends_with("\nInfinitely many collisions\n")) << said;
+  }
 }
 
 TEST(CountsShown, AreRightInTheSecondsOfAStoryboard) {

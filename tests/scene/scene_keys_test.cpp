@@ -27,6 +27,8 @@ const std::map<std::string, Values> kOther = {
     {"red.position", {"7"}},
     {"red.velocity", {"-3/2"}},
     {"red.width", {"5/4"}},
+    {"blocks.restitution", {"4/5"}},
+    {"wall.restitution", {"1/2"}},
     {"view.x", {"-2", "15/2"}},
     {"view.y", {"-3/2", "2"}},
     {"view.size", {"640x360"}},
@@ -46,7 +48,7 @@ const std::map<std::string, Values> kOther = {
     {"time.allow-uncertain", {"true"}},
     {"time.loop", {"true"}},
     {"sound.on", {"true"}},
-    {"show.overlays", {"ruler", "digits"}},
+    {"show.overlays", {"ruler", "energy"}},
     {"show.panels", {"count", "time"}},
     {"show.title", {"One, two"}},
     {"show.caption", {"Three"}},
@@ -109,7 +111,7 @@ TEST(SceneKeys, SayWhatIsShownAndHeard) {
   EXPECT_EQ(scene.view.theme, Theme::chalkboard);
   EXPECT_EQ(scene.view.background, Background::transparent);
   EXPECT_TRUE(scene.sound.on);
-  EXPECT_EQ(scene.show.overlays, (std::vector{Overlay::ruler, Overlay::digits}));
+  EXPECT_EQ(scene.show.overlays, (std::vector{Overlay::ruler, Overlay::energy}));
   EXPECT_EQ(scene.show.panels, (std::vector{Panel::count, Panel::time}));
   EXPECT_EQ(scene.show.title, "One, two");
   EXPECT_EQ(scene.show.caption, "Three");

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
+#include <piblocks/restitution.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -46,7 +48,9 @@ class ArticleStage {
         behind_(std::move(behind)),
         lit_digits_(std::move(lit_digits)),
         base_(context.scene.show.base),
-        widths_(context.font, count_characters(base_)) {}
+        endless_(is_endless(context.log()) ? std::optional(context.log().size()) : std::nullopt),
+        widths_(context.font,
+                count_characters(base_) + (endless_ ? std::string(kEndlessCount) : "")) {}
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     items.emplace_back(wall_);
@@ -70,7 +74,8 @@ class ArticleStage {
 
   /// Label and count, smaller if an instant outside of the film has a longer count than any in it.
   void add_line(const Integer& count, std::vector<DrawItem>& items) const {
-    const std::string text = count_text(count, base_);
+    const std::string text =
+        endless_ && count >= *endless_ ? std::string(kEndlessCount) : count_text(count, base_);
     const std::size_t lit = lit_length(text, lit_digits_);
     const CountLine& line = layout_.count_line;
     Point label = line.label;
@@ -100,7 +105,8 @@ class ArticleStage {
   RectangleItem wall_;
   Drawable behind_;
   std::string lit_digits_;
-  int base_;  ///< of counts
+  int base_;                        ///< of counts
+  std::optional<Integer> endless_;  ///< the count that stands for infinitely many
   TextWidths widths_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
+#include <piblocks/restitution.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -59,9 +60,11 @@ class Counter {
         face_(context.font.face()),
         base_(context.scene.show.base),
         last_(context.timeline.size()),
+        is_endless_(context.blocks != nullptr && is_endless(*context.blocks)),
         pi_count_(std::move(pi_count)),
         pi_(pi_count_.empty() ? "" : pi_line(context, digits_in(pi_count_))),
-        count_widths_(context.fonts.of(Face::digits), count_characters(base_)),
+        count_widths_(context.fonts.of(Face::digits),
+                      count_characters(base_) + (is_endless_ ? std::string(kEndlessCount) : "")),
         pi_widths_(context.font, std::string(kPiLabel) + "…" + pi_),
         label_px_(context.font.width_em(kCountLabel) * sizes_.text),
         over_px_(context.font.width_em(kOverLabel) * sizes_.text) {}
@@ -69,7 +72,8 @@ class Counter {
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     const Integer& count = shown.state.count;
     const bool is_over = count >= last_;
-    const std::string text = count_text(count, base_);
+    const bool is_infinite = is_over && is_endless_;
+    const std::string text = is_infinite ? std::string(kEndlessCount) : count_text(count, base_);
     // An instant outside of the film may have a longer count than any in it.
     const double count_em = count_widths_.width_em(text);
     const double size_px = std::min(place_.size_px, (place_.room_px + kNegligible_px) / count_em);
@@ -77,10 +81,11 @@ class Counter {
     const bool is_beside = place_.label_baseline_px == place_.baseline_px;
     const double label_right = is_beside ? left - kLabelGap_em * sizes_.text : place_.right_px;
     if (place_.has_label) {
+      const bool says_over = is_over && !is_infinite;
       items.emplace_back(
           TextItem{ItemId::label,
-                   {label_right - (is_over ? over_px_ : label_px_), place_.label_baseline_px},
-                   std::string(is_over ? kOverLabel : kCountLabel),
+                   {label_right - (says_over ? over_px_ : label_px_), place_.label_baseline_px},
+                   std::string(says_over ? kOverLabel : kCountLabel),
                    sizes_.text,
                    is_over ? palette_.done : palette_.muted,
                    face_});
@@ -123,6 +128,7 @@ class Counter {
   Face face_;
   int base_;
   Integer last_;
+  bool is_endless_;
   std::string pi_count_;
   std::string pi_;
   TextWidths count_widths_;
@@ -137,6 +143,7 @@ std::optional<unsigned long> places_of_pi(const BlockSystem& system, int base) {
   const Rational ratio = system.red.mass / system.blue.mass;
   const bool begins_apart = system.blue_gap() > 0;
   if (system.blue.velocity != 0 || system.red.velocity >= 0 || !begins_apart) return std::nullopt;
+  if (!is_elastic(system)) return std::nullopt;
   Integer rest;
   const unsigned long places =
       mpz_remove(rest.get_mpz_t(), ratio.get_num_mpz_t(), Integer(base * base).get_mpz_t());

@@ -155,18 +155,24 @@ ReadOut energy_read_out(const DrawingContext& context, int digits) {
   const Scale scale(magnitude_of(exact_sum), digits);
   const double sum = scale.is_plain ? to_double(exact_sum) : scale.largest.mantissa;
   const auto text = [=, red_name = context.palette.red.name, blue_name = context.palette.blue.name](
-                        double red, double blue) {
+                        double red, double blue, double both) {
     return fmt::format("Energy{}: {} {} + {} {} = {}", scale.unit, red_name, scale.text(red),
-                       blue_name, scale.text(blue), scale.text(sum));
+                       blue_name, scale.text(blue), scale.text(both));
   };
-  // Red's velocity if it had all the energy. It may be beyond the range of a double.
-  const mpf_class fastest = root_of(2 * exact_sum / system.red.mass);
-  const auto shown_text = [=](const FrameState& shown) {
-    const double share = fastest > 0 ? mpf_class(shown.state.red.velocity / fastest).get_d() : 0;
-    const double red = sum * std::min(1.0, share * share);
-    return text(red, sum - red);
+  // A block's velocity if it had all the energy. It may be beyond the range of a double.
+  const auto fastest = [&](const Block& block) { return root_of(2 * exact_sum / block.mass); };
+  const auto energy = [sum](const Motion& block, const mpf_class& most) {
+    const double share = most > 0 ? mpf_class(block.velocity / most).get_d() : 0;
+    return sum * std::min(1.0, share * share);
   };
-  return {"energy", text(sum, sum), shown_text, context.palette.text};
+  const auto shown_text = [=, most_of_red = fastest(system.red),
+                           most_of_blue = fastest(system.blue),
+                           is_kept = is_elastic(system)](const FrameState& shown) {
+    const double red = energy(shown.state.red, most_of_red);
+    const double blue = is_kept ? sum - red : energy(shown.state.blue, most_of_blue);
+    return text(red, blue, is_kept ? sum : red + blue);
+  };
+  return {"energy", text(sum, sum, sum), shown_text, context.palette.text};
 }
 
 ReadOut momentum_read_out(const DrawingContext& context, int digits) {

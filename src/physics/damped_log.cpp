@@ -1,0 +1,128 @@
+#include "physics/damped_log.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "physics/blocks.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr const char* kName = "restitution";
+/// A Time has 106 bits, a double 53.
+constexpr mpfr_prec_t kTime_bits = 120;
+constexpr mpfr_prec_t kPosition_bits = 160;
+
+/// The sum, or 0 if it is only the rounding of the gap.
+double position(const Real& gap, const Rational& offset) {
+  if (offset == 0) return gap.to_double();
+  constexpr long kNoise_bits = kPosition_bits - 6;
+  const Real start(gap.bits(), offset);
+  const Real sum = start + gap;
+  return start.exponent() - sum.exponent() > kNoise_bits ? 0 : sum.to_double();
+}
+
+}  // namespace
+
+DampedLog::DampedLog(const BlockSystem& system)
+    : CollisionLog(system),
+      motion_(system),
+      // Beside the velocity of blue that of red is as small as their mass ratio.
+      velocity_bits_(kPosition_bits + std::labs(Real(64, motion_.ratio).exponent())),
+      blue_offset_(system.wall_face + system.blue.width / 2),
+      red_offset_(system.wall_face + system.blue.width + system.red.width / 2) {
+  set_range(1, motion_.listed);
+}
+
+Motion DampedLog::blue(const Real& gap, const Real& rate) const {
+  return {position(gap, blue_offset_), rate.to_double()};
+}
+Motion DampedLog::red(const Real& gap, const Real& rate) const {
+  return {position(gap, red_offset_), rate.to_double()};
+}
+
+std::pair<Integer, DampedGaps> DampedLog::moved(const Rational& time) const {
+  if (motion_.collides && time >= motion_.first_time) {
+    auto state = motion_.state_at(time, velocity_bits_);
+    if (motion_.is_end(state.first)) state.second = at_rest();
+    return state;
+  }
+  const auto& [y1, y2] = motion_.gaps;
+  const auto& [u1, u2] = motion_.rates;
+  const auto real = [this](const Rational& value) { return Real(velocity_bits_, value); };
+  return {0, {real(y1 + u1 * time), real(y2 + u2 * time), real(u1), real(u2)}};
+}
+
+DampedGaps DampedLog::at_rest() const {
+  const Real zero(velocity_bits_, 0);
+  return {zero, zero, zero, zero};
+}
+
+BlockState DampedLog::state_at(const Rational& time) const {
+  const auto [count, now] = moved(time);
+  BlockState state{count, blue(now.y1, now.u1), red(now.y2, now.u2)};
+  require_finite(to_time(time), state.blue, state.red, kName);
+  return state;
+}
+
+Collision DampedLog::collision(const Integer& index) const {
+  const DampedNumbers now = motion_.numbers(index, velocity_bits_ + 8);
+  Collision collision{
+      index, (now.reach / now.speed).to_double_double(), motion_.kind(index), {}, {}};
+  const DampedGaps after =
+      motion_.is_end(index) ? at_rest() : motion_.gaps_after(index, now, velocity_bits_);
+  collision.blue = blue(after.y1, after.u1);
+  collision.red = red(after.y2, after.u2);
+  require_finite(collision.time, collision.blue, collision.red, kName);
+  return collision;
+}
+
+Rational DampedLog::time_after(const Integer& index) const {
+  if (motion_.coincides_from(index)) require_last(index, size());
+  return motion_.time_past(index);
+}
+
+std::optional<Impact> DampedLog::impact(CollisionKind kind, const Integer& first,
+                                        const Integer& last) const {
+  Integer from = motion_.kind(first) == kind ? first : Integer(first + 1);
+  const Integer to = motion_.kind(last) == kind ? last : Integer(last - 1);
+  if (from > to) return std::nullopt;
+  const DampedSums sums = motion_.sums(from, to, kTime_bits);
+  // In the unit of Impact, with the energy at time 0.
+  const Rational speed_squared = motion_.ratio * motion_.rates.first * motion_.rates.first +
+                                 motion_.rates.second * motion_.rates.second;
+  Rational factor = (1 + motion_.restitution(kind)) / 2;
+  if (kind == CollisionKind::wall) factor *= 1 + motion_.ratio;
+  const Real impulse =
+      Real(kTime_bits, factor) * sums.speeds / sqrt(Real(kTime_bits, speed_squared));
+  const Integer middle = from + (to - from) / 4 * 2;
+  return Impact{kind, (sums.reaches / sums.speeds).to_double_double(), impulse.to_double(),
+                collision(middle).blue.position};
+}
+
+PositionBounds DampedLog::bounds_at(const Rational& time) const {
+  // Rounded once, from numbers of kPosition_bits and more.
+  constexpr double kUnitRoundoff = 0x1p-53 * (1 + 0x1p-40);
+  const auto bound = [](const Motion& block, const Rational& offset) {
+    return kUnitRoundoff * std::fabs(block.position) + 0x1p-150 * std::fabs(to_double(offset));
+  };
+  const BlockState now = state_at(time);
+  return {bound(now.blue, blue_offset_), bound(now.red, red_offset_)};
+}
+
+Gaps DampedLog::gaps_at(const Rational& time) const {
+  const DampedGaps now = moved(time).second;
+  return {now.y1.to_double(), now.y2.to_double()};
+}
+
+Gaps DampedLog::gaps_at_collision(const Integer& index) const {
+  if (motion_.is_end(index)) return {};
+  const DampedGaps now = motion_.gaps_after(index, kTime_bits);
+  return {now.y1.to_double(), now.y2.to_double()};
+}
+
+}  // namespace piblocks

@@ -1,0 +1,53 @@
+// Blocks that lose energy where they collide, as a collision log: each question costs the same,
+// however many collisions there are.
+// In: a BlockSystem with restitutions below 1. Out: any collision, any state.
+#pragma once
+
+#include <piblocks/run.hpp>
+
+#include <optional>
+#include <utility>
+
+#include "physics/damped_motion.hpp"
+#include "physics/impact.hpp"
+
+namespace piblocks {
+
+/// Before time 0 the blocks move as they do at time 0: what they lost in earlier collisions is not
+/// known. In a run of infinitely many collisions they rest at the wall from the last listed one on.
+class DampedLog final : public CollisionLog {
+ public:
+  /// @throws SimulationError as RoundPowers.
+  explicit DampedLog(const BlockSystem& system);
+
+  Collision collision(const Integer& index) const override;
+  BlockState state_at(const Rational& time) const override;
+  Rational time_after(const Integer& index) const override;
+
+  bool is_endless() const { return !motion_.total; }
+  /// As the functions of these names in impact.hpp and run.hpp.
+  Integer count_at(const Rational& time) const { return motion_.count_at(time); }
+  std::optional<Impact> impact(CollisionKind kind, const Integer& first, const Integer& last) const;
+  PositionBounds bounds_at(const Rational& time) const;
+  Gaps gaps_at(const Rational& time) const;
+  Gaps gaps_at_collision(const Integer& index) const;
+
+ private:
+  /// Count and gaps at a time.
+  std::pair<Integer, DampedGaps> moved(const Rational& time) const;
+  DampedGaps at_rest() const;
+  Motion blue(const Real& gap, const Real& rate) const;
+  Motion red(const Real& gap, const Real& rate) const;
+
+  DampedMotion motion_;
+  mpfr_prec_t velocity_bits_;  // what a velocity's difference may cancel, and a double's
+  Rational blue_offset_;       // x_blue - y1
+  Rational red_offset_;        // x_red - y2
+};
+
+/// The log as this class, if it is one.
+inline const DampedLog* damped_log(const CollisionLog& log) {
+  return dynamic_cast<const DampedLog*>(&log);
+}
+
+}  // namespace piblocks

@@ -1,0 +1,77 @@
+// Systems that lose energy: ten thousand against steps in rational numbers, and others of any size.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "stress/random_system.hpp"
+#include "support/damped_checks.hpp"
+
+namespace piblocks {
+namespace {
+
+TEST(RestitutionStress, RandomSystemsMoveAsStepByStep) {
+  Random random(11);
+  SCOPED_TRACE(random.trace());
+  for (std::int64_t i = 0; i < many(500) && !testing::Test::HasFailure(); ++i) {
+    expect_like_steps(random_damped_system(random), random, i % 20 == 0 ? 300 : 60);
+  }
+}
+
+/// From nothing at all to all.
+Rational wild_restitution(Random& random) {
+  switch (random.integer(0, 4)) {
+    case 0:
+      return 0;
+    case 1:
+      return 1;
+    case 2:
+      return Rational(std::pow(10, -random.uniform(0, 300)));
+    case 3:
+      return 1 - Rational(std::pow(10, -random.uniform(0, 60)));
+    default:
+      return random.rational(0, 1, 100);
+  }
+}
+
+/// The last collision, the first and those between, at the times that they are said to have.
+void expect_own_times(const CollisionLog& log) {
+  if (log.size() == 0) return;
+  for (int quarter = 0; quarter <= 4; ++quarter) {
+    const Integer index = 1 + (log.size() - 1) * quarter / 4;
+    try {
+      const Rational time = log.time_after(index);
+      EXPECT_EQ(log.state_at(time).count, index);
+      const Gaps gaps = gaps_at(log, time);
+      EXPECT_LE(0, gaps.y1);
+      EXPECT_LE(gaps.y1, gaps.y2);
+      EXPECT_EQ(log.collision(index).index, index);
+    } catch (const UsageError& error) {  // all at the same time
+      EXPECT_NE(std::string(error.what()).find("at the same time"), std::string::npos);
+    } catch (const SimulationError& error) {
+      EXPECT_NE(std::string(error.what()).find("beyond the range"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST(RestitutionStress, NumbersOfAnySize) {
+  Random random(5);
+  SCOPED_TRACE(random.trace());
+  for (std::int64_t i = 0; i < many(200) && !testing::Test::HasFailure(); ++i) {
+    BlockSystem system =
+        i % 2 == 0 ? stress::random_system(random) : stress::random_system_of_any_size(random);
+    system.blocks_restitution = wild_restitution(random);
+    system.wall_restitution = wild_restitution(random);
+    if (is_elastic(system) || !problems_of(system).empty()) continue;
+    SCOPED_TRACE(describe_damped(system));
+    const auto log = make_collision_log(system);
+    expect_own_times(*log);
+    EXPECT_EQ(is_endless(*log), collapse_of(system).has_value());
+    if (is_endless(*log)) continue;
+    EXPECT_EQ(count_collisions(system), log->size());
+  }
+}
+
+}  // namespace
+}  // namespace piblocks
