@@ -11,8 +11,8 @@ namespace {
 constexpr double kUnit = 0x1p-53;
 /// Covers the rounding of the few operations that compute a bound, and of those that are said to be
 /// right to a few u where second powers of u are left out.
-constexpr double kUp = 1 + 0x1p-30;
-constexpr double kDown = 1 - 0x1p-30;
+constexpr double kUp = 1 + 0x1p-45;
+constexpr double kDown = 1 - 0x1p-45;
 /// More than what underflow takes from any product here.
 constexpr double kTiny = 0x1p-900;
 
@@ -76,7 +76,10 @@ double earliest_approach(const Sight& sight, double reach) {
   if (std::abs(moment) > wide * std::sqrt(w2)) return kNever;
   if (sight.distance <= wide) return 0;
   const double chord2 = std::max(wide * wide * w2 - moment * moment, 0.0);
-  return (sight.distance - wide) * (sight.distance + wide) / (approach + std::sqrt(chord2)) * kDown;
+  // What is added to `wide` covers the rounding of all but d.w.
+  const double rounding = 8 * kUnit * sight.distance * sight.speed;
+  return (sight.distance - wide) * (sight.distance + wide) /
+         (approach + std::sqrt(chord2) + rounding) * kDown;
 }
 
 /// start + wait, rounded down
