@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <piblocks/event_simulator.hpp>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <random>
 
 #include "median.hpp"
@@ -17,11 +17,14 @@ constexpr double kPacking = 0.3;
 constexpr double kSeconds = 1;
 constexpr int kRuns = 5;
 
-using Clock = std::chrono::steady_clock;
+/// Processor time: other programs may be using the machine.
+class Stopwatch {
+ public:
+  double seconds() const { return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+ private:
+  std::clock_t start_ = std::clock();
+};
 
 /// Discs of radius 1 on a square lattice, with random velocities, between four walls.
 BodySystem gas(std::uint32_t number) {
@@ -71,13 +74,13 @@ EventSimulator<double, 2> general(const BodySystem& system) {
 template <typename Step>
 double rate_of(Step step, std::int64_t skip) {
   for (std::int64_t k = 0; k < skip; ++k) step();
-  const Clock::time_point start = Clock::now();
+  const Stopwatch stopwatch;
   std::int64_t collisions = 0;
   double seconds = 0;
   while (seconds < kSeconds / kRuns) {
     for (int k = 0; k < 1000; ++k) step();
     collisions += 1000;
-    seconds = seconds_since(start);
+    seconds = stopwatch.seconds();
   }
   return static_cast<double>(collisions) / seconds;
 }
@@ -90,16 +93,16 @@ void measure(std::uint32_t number) {
   std::vector<double> general_rates;
   std::int64_t certain = 0;
   for (int run = 0; run < kRuns; ++run) {
-    Clock::time_point start = Clock::now();
+    const Stopwatch setup;
     const auto stepper = make_disc_stepper(system);
-    setups.push_back(seconds_since(start) * 1e3);
-    start = Clock::now();
+    setups.push_back(setup.seconds() * 1e3);
+    const Stopwatch stopwatch;
     certain = 0;
     while (stepper->certainty().until == Certainty::kForEver && certain < 3'000'000) {
       stepper->step();
       ++certain;
     }
-    certain_rates.push_back(static_cast<double>(certain) / seconds_since(start));
+    certain_rates.push_back(static_cast<double>(certain) / stopwatch.seconds());
     rates.push_back(rate_of([&] { stepper->step(); }, 5 * number));
     if (number > 1000) continue;
     EventSimulator<double, 2> simulator = general(system);

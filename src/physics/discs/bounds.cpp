@@ -82,6 +82,9 @@ double earliest_approach(const Sight& sight, double reach) {
          (approach + std::sqrt(chord2) + rounding) * kDown;
 }
 
+/// start - window, rounded down: less than start, if only by rounding, unless both are 0.
+double time_before(double start, double window) { return start - window * kUp - 2 * kUnit * start; }
+
 /// start + wait, rounded down
 double time_after(double start, double wait) {
   const double time = start + wait;
@@ -108,7 +111,7 @@ double earliest_meeting(const Disc& a, const Bound& bound_a, const Disc& b, cons
   if (are_in_order(a, bound_a, b, bound_b) && surely_recede(sight, window)) return kNever;
   const double reach = sight.seen.reach + sight.e;
   const double gap = sight.distance - reach;
-  if (!(gap > 8 * top_speed * window)) return sight.seen.start - window * kUp;
+  if (!(gap > 8 * top_speed * window)) return time_before(sight.seen.start, window);
   if (sight.b > sight.speed / 2 || dot(w, w) < kTiny) {
     return time_after(sight.seen.start, gap / (sight.speed + sight.b) * kDown);
   }
@@ -129,7 +132,7 @@ double earliest_meeting(const Disc& disc, const Bound& bound, const WallLine& wa
   const double fastest = b - dot(wall.normal, v);
   if (fastest < 0 || (fastest == 0 && b == 0)) return kNever;
   const double gap = gap_to(wall, disc, disc.time) - e;
-  if (!(gap > 8 * top_speed * bound.window)) return disc.time - bound.window * kUp;
+  if (!(gap > 8 * top_speed * bound.window)) return time_before(disc.time, bound.window);
   return fastest == 0 ? kNever : time_after(disc.time, gap / fastest * kDown);
 }
 

@@ -133,7 +133,7 @@ void Stepper::plan_meeting(std::uint32_t disc, std::uint32_t partner) {
   }
   proposal.meetings = discs_[partner].meetings;
   propose(disc, proposal);
-  if (!system_.is_movable(partner)) return;
+  if (proposal.time > plans_[partner].time || !system_.is_movable(partner)) return;
   proposal.partner = disc;
   proposal.meetings = own.meetings;
   if (propose(partner, proposal)) enqueue(partner);
@@ -142,18 +142,19 @@ void Stepper::plan_meeting(std::uint32_t disc, std::uint32_t partner) {
 /// Beyond its margin a disc could truly be next to discs that its cell does not know.
 void Stepper::plan_end_of_margin(std::uint32_t disc) {
   const Bound& bound = system_.bounds[disc];
-  if (bound.velocity == 0 || cells_.margin() == kNever) return;
+  const double room = cells_.margin() / 4 - bound.position;
+  if (room > 0 && bound.velocity == 0) return;
   Plan proposal;
-  proposal.time = discs_[disc].time + (cells_.margin() / 4 - bound.position) / bound.velocity;
+  proposal.time = discs_[disc].time + (room > 0 ? room / bound.velocity : 0);
   proposal.is_doubt = true;
-  propose(disc, proposal);
+  if (proposal.time != kNever) propose(disc, proposal);
 }
 
 /// Two free bodies separate for ever. An immovable one is as if it had met nobody else.
+/// @param disc  movable
 bool Stepper::have_just_met(std::uint32_t disc, std::uint32_t partner) const {
-  if (!is_disc(partner)) return discs_[disc].last == partner;
-  return (discs_[disc].last == partner || !system_.is_movable(disc)) &&
-         (discs_[partner].last == disc || !system_.is_movable(partner));
+  if (discs_[disc].last != partner) return false;
+  return !is_disc(partner) || discs_[partner].last == disc || !system_.is_movable(partner);
 }
 
 /// Whether the proposal is sooner than the disc's plan and has become its plan.

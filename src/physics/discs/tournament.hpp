@@ -18,7 +18,10 @@ struct EventKey {
   std::uint64_t rank = 0;
 
   bool before(const EventKey& other) const {
-    return time < other.time || (time == other.time && rank < other.rank);
+    // Without branches: which of two discs is sooner cannot be guessed.
+    const int sooner = static_cast<int>(time < other.time);
+    const int tied = static_cast<int>(time == other.time) & static_cast<int>(rank < other.rank);
+    return (sooner | tied) != 0;
   }
 };
 
