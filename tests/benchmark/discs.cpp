@@ -6,6 +6,8 @@
 #include <cmath>
 #include <ctime>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "median.hpp"
 #include "physics/discs/disc_stepper.hpp"
@@ -26,8 +28,21 @@ class Stopwatch {
   std::clock_t start_ = std::clock();
 };
 
+/// Makes room in the middle for a disc that is as dense as the others.
+void put_into(BodySystem& system, double radius, const Rational& width, const Rational& height) {
+  const Body large = {Rational(radius * radius), {width / 2, height / 2}, {0, 0}, Rational(radius)};
+  std::erase_if(system.bodies, [&](const Body& body) {
+    const Rational x = body.position[0] - large.position[0];
+    const Rational y = body.position[1] - large.position[1];
+    const Rational reach = body.size + large.size;
+    return x * x + y * y <= reach * reach;
+  });
+  system.bodies.push_back(large);
+}
+
 /// Discs of radius 1 on a square lattice, with random velocities, between four walls.
-BodySystem gas(std::uint32_t number) {
+/// @param large_radius  of one more disc; 0 for none
+BodySystem gas(std::uint32_t number, double large_radius) {
   std::mt19937_64 engine(number);
   const auto uniform = [&] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1; };
   const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(number)));
@@ -47,6 +62,7 @@ BodySystem gas(std::uint32_t number) {
                   {"right", {width, 0}, {-1, 0}},
                   {"bottom", {0, 0}, {0, 1}},
                   {"top", {0, height}, {0, -1}}};
+  if (large_radius > 0) put_into(system, large_radius, width, height);
   return system;
 }
 
@@ -85,8 +101,8 @@ double rate_of(Step step, std::int64_t skip) {
   return static_cast<double>(collisions) / seconds;
 }
 
-void measure(std::uint32_t number) {
-  const BodySystem system = gas(number);
+void measure(std::uint32_t number, double large_radius = 0) {
+  const BodySystem system = gas(number, large_radius);
   std::vector<double> setups;
   std::vector<double> certain_rates;
   std::vector<double> rates;
@@ -108,7 +124,10 @@ void measure(std::uint32_t number) {
     EventSimulator<double, 2> simulator = general(system);
     general_rates.push_back(rate_of([&] { simulator.step(); }, 5));
   }
-  fmt::print("| {} | {:.2f} | {} | {:.0f} | {:.0f} | {} |\n", number, *median(setups), certain,
+  const std::string name = large_radius > 0 ? fmt::format("{}, one of them {} times as large",
+                                                          system.bodies.size(), large_radius)
+                                            : std::to_string(number);
+  fmt::print("| {} | {:.2f} | {} | {:.0f} | {:.0f} | {} |\n", name, *median(setups), certain,
              *median(certain_rates), *median(rates),
              general_rates.empty() ? "–" : fmt::format("{:.0f}", *median(general_rates)));
 }
@@ -122,4 +141,5 @@ int main() {
       "| Discs | set-up, ms | certain collisions | while certain, 1/s | then, 1/s | "
       "EventSimulator, 1/s |\n");
   for (const std::uint32_t number : {1u, 2u, 10u, 100u, 1000u, 10'000u, 100'000u}) measure(number);
+  measure(10'000, 50);
 }

@@ -30,11 +30,17 @@ struct Sight {
   double b;         ///< |W - w|, at most
 
   Sight(const Disc& a, const Bound& bound_a, const Disc& b_disc, const Bound& bound_b)
-      : seen(a, b_disc), distance(length(seen.distance)), speed(speed_above(seen.velocity)) {
-    e = (drift(a, bound_a, seen.start) + drift(b_disc, bound_b, seen.start) +
-         8 * kUnit * (distance + seen.reach)) *
-        kUp;
-    b = (bound_a.velocity + bound_b.velocity + 2 * kUnit * length(seen.velocity)) * kUp;
+      : seen(a, b_disc),
+        distance(length(seen.distance)),
+        speed(speed_above(seen.velocity)),
+        e((drift(a, bound_a, seen.start) + drift(b_disc, bound_b, seen.start) +
+           8 * kUnit * (distance + seen.reach)) *
+          kUp),
+        b((bound_a.velocity + bound_b.velocity + 2 * kUnit * speed) * kUp) {
+    // Equal velocities are subtracted without rounding.
+    if (seen.velocity.x == 0 && seen.velocity.y == 0) {
+      b = (bound_a.velocity + bound_b.velocity) * kUp;
+    }
   }
 };
 

@@ -66,7 +66,7 @@ class Stepper final : public DiscStepper {
   void plan_end_of_margin(std::uint32_t disc);
   bool have_just_met(std::uint32_t disc, std::uint32_t partner) const;
   bool propose(std::uint32_t disc, const Plan& proposal);
-  std::uint64_t rank_of(std::uint32_t disc, const Plan& plan) const;
+  static std::uint64_t rank_of(std::uint32_t disc, const Plan& plan);
   bool is_stale(const Plan& plan) const;
   void enqueue(std::uint32_t disc);
   void cross(std::uint32_t disc);
@@ -79,7 +79,7 @@ class Stepper final : public DiscStepper {
   BodyMotion motion_of(std::uint32_t disc) const;
 
   double earliest(std::uint32_t disc, std::uint32_t partner) const;
-  double earliest_other(std::uint32_t disc, std::uint32_t partner) const;
+  double earliest_but(std::uint32_t excepted, std::uint32_t disc) const;
   std::optional<Contact> certify(std::uint32_t disc, std::uint32_t partner, double time);
   void raise_top_speed(std::uint32_t disc);
 
@@ -169,7 +169,7 @@ bool Stepper::propose(std::uint32_t disc, const Plan& proposal) {
 }
 
 /// The order of simultaneous events: doubts, then pairs in their order.
-std::uint64_t Stepper::rank_of(std::uint32_t disc, const Plan& plan) const {
+std::uint64_t Stepper::rank_of(std::uint32_t disc, const Plan& plan) {
   if (plan.is_doubt) return 0;
   const auto [first, second] = std::minmax(disc, plan.partner);
   return (std::uint64_t{first} << 32) | second;
@@ -307,11 +307,11 @@ double Stepper::earliest(std::uint32_t disc, std::uint32_t partner) const {
   return earliest_meeting(discs_[disc], bounds[disc], wall_of(partner), top_speed_);
 }
 
-/// Before which time the disc meets nobody but this partner.
-double Stepper::earliest_other(std::uint32_t disc, std::uint32_t partner) const {
+/// Before which time the disc meets nobody, except one.
+double Stepper::earliest_but(std::uint32_t excepted, std::uint32_t disc) const {
   double soonest = kNever;
   const auto look_at = [&](std::uint32_t other) {
-    if (other == disc || other == partner || have_just_met(disc, other)) return;
+    if (other == disc || other == excepted || have_just_met(disc, other)) return;
     soonest = std::min(soonest, earliest(disc, other));
   };
   for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) look_at(wall);
@@ -331,9 +331,9 @@ std::optional<Contact> Stepper::certify(std::uint32_t disc, std::uint32_t partne
     doubt = std::min(earliest(disc, partner), time);
   } else {
     double other = kNever;
-    if (system_.is_movable(disc)) other = earliest_other(disc, partner);
+    if (system_.is_movable(disc)) other = earliest_but(partner, disc);
     if (is_disc(partner) && system_.is_movable(partner)) {
-      other = std::min(other, earliest_other(partner, disc));
+      other = std::min(other, earliest_but(disc, partner));
     }
     const double last = (time + contact->window) * (1 + 0x1p-51);
     if (other <= last) doubt = std::min(other, time - contact->window);
