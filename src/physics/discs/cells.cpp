@@ -13,6 +13,8 @@ constexpr std::size_t kFew = 16;
 /// A disc is large if its radius is that many times the radius of the sqrt(N)-th largest.
 constexpr double kLarge = 3;
 
+/// The side of a cell, in mean distances of discs, where these are not dense.
+constexpr double kSpacing = 0.75;
 /// Half the diagonal of a zone's square, in cells, and a bit more.
 constexpr double kStray = 1.5;
 
@@ -86,9 +88,9 @@ void Cells::choose_grid(double time) {
   // The last two keep the number of cells below a few times that of discs, and rounding errors of
   // positions far below a cell.
   const double contact = 2 * largest_small_radius_;
-  side_ =
-      std::max({contact * (1 + 0x1p-8), std::sqrt(across.size()) * std::sqrt(up.size() / number),
-                std::max(across.size(), up.size()) / number, farthest * 0x1p-30});
+  side_ = std::max({contact * (1 + 0x1p-8),
+                    kSpacing * std::sqrt(across.size()) * std::sqrt(up.size() / number),
+                    std::max(across.size(), up.size()) / number, farthest * 0x1p-30});
   margin_ = side_ - contact;
   corner_ = {across.low, up.low};
   columns_ = 1 + static_cast<std::int32_t>(across.size() / side_);

@@ -197,7 +197,7 @@ std::optional<BodyStep> Stepper::step() {
   if (number_ == 0) return std::nullopt;
   while (true) {
     const std::uint32_t disc = queue_.first();
-    if (queue_.key(disc).time == kNever) return std::nullopt;
+    if (queue_.first_time() == kNever) return std::nullopt;
     const Plan& next = plans_[disc];
     if (next.crossing <= next.time) {
       cross(disc);
