@@ -15,6 +15,8 @@ constexpr double kLarge = 3;
 
 /// The side of a cell, in mean distances of discs, where these are not dense.
 constexpr double kSpacing = 0.75;
+/// Of contact: certainty ends when errors reach a quarter of the margin.
+constexpr double kLeastMargin = 0x1p-4;
 /// Half the diagonal of a zone's square, in cells, and a bit more.
 constexpr double kStray = 1.5;
 
@@ -88,7 +90,7 @@ void Cells::choose_grid(double time) {
   // The last two keep the number of cells below a few times that of discs, and rounding errors of
   // positions far below a cell.
   const double contact = 2 * largest_small_radius_;
-  side_ = std::max({contact * (1 + 0x1p-8),
+  side_ = std::max({contact * (1 + kLeastMargin),
                     kSpacing * std::sqrt(across.size()) * std::sqrt(up.size() / number),
                     std::max(across.size(), up.size()) / number, farthest * 0x1p-30});
   margin_ = side_ - contact;
