@@ -79,7 +79,7 @@ class Stepper final : public DiscStepper {
   BodyMotion motion_of(std::uint32_t disc) const;
 
   double earliest(std::uint32_t disc, std::uint32_t partner) const;
-  double earliest_but(std::uint32_t excepted, std::uint32_t disc) const;
+  double earliest_but(std::uint32_t excepted, std::uint32_t body) const;
   std::optional<Contact> certify(std::uint32_t disc, std::uint32_t partner, double time);
   void raise_top_speed(std::uint32_t disc);
 
@@ -307,15 +307,15 @@ double Stepper::earliest(std::uint32_t disc, std::uint32_t partner) const {
   return earliest_meeting(discs_[disc], bounds[disc], wall_of(partner), top_speed_);
 }
 
-/// Before which time the disc meets nobody, except one.
-double Stepper::earliest_but(std::uint32_t excepted, std::uint32_t disc) const {
+/// Before which time a disc meets nobody, except one.
+double Stepper::earliest_but(std::uint32_t excepted, std::uint32_t body) const {
   double soonest = kNever;
   const auto look_at = [&](std::uint32_t other) {
-    if (other == disc || other == excepted || have_just_met(disc, other)) return;
-    soonest = std::min(soonest, earliest(disc, other));
+    if (other == body || other == excepted || have_just_met(body, other)) return;
+    soonest = std::min(soonest, earliest(body, other));
   };
   for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) look_at(wall);
-  cells_.visit_near(disc, look_at);
+  cells_.visit_near(body, look_at);
   return soonest;
 }
 
