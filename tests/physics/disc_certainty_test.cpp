@@ -22,5 +22,18 @@ TEST(DiscCertainty, WhatIsCertainOfRandomSystemsIsTrue) {
   EXPECT_GT(certain, static_cast<std::size_t>(20 * systems));
 }
 
+/// Enough discs for cells, and one that has a zone.
+TEST(DiscCertainty, WhatIsCertainInCellsIsTrue) {
+  Random random(8);
+  SCOPED_TRACE(random.trace());
+  BodySystem system = random_gas(random, 25);
+  system.walls = box(46, 16);
+  system.bodies.push_back({Rational(100), {20, 7}, {Rational(-1, 9), 0}, 6});
+  system.bodies.push_back({std::nullopt, {40, 5}, {0, 0}, 2});
+  const CertaintyCheck check = check_certainty(system, 250);
+  for (const std::string& wrong : check.wrong) ADD_FAILURE() << wrong;
+  EXPECT_GT(check.certain, 60u);
+}
+
 }  // namespace
 }  // namespace piblocks

@@ -1,1 +1,337 @@
+#include "physics/discs/disc_stepper.hpp"
 
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "support/property.hpp"
+#include "support/random_discs.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+constexpr double kForEver = Certainty::kForEver;
+
+using Pair = std::pair<std::uint32_t, std::uint32_t>;
+
+Pair pair_of(const BodyStep& step) { return {step.first, step.second}; }
+
+/// All bodies as last reported.
+class Motions {
+ public:
+  explicit Motions(const BodySystem& system) : system_(system) {
+    for (const Body& body : system.bodies) {
+      motions_.push_back({{body.position[0].get_d(), body.position[1].get_d()},
+                          {body.velocity[0].get_d(), body.velocity[1].get_d()}});
+      times_.push_back(0);
+    }
+  }
+
+  void take(const BodyStep& step) {
+    take(step.first, step.first_after, step.time.hi);
+    if (step.second < motions_.size()) take(step.second, step.second_after, step.time.hi);
+  }
+
+  const BodyMotion& operator[](std::size_t body) const { return motions_[body]; }
+
+  std::array<double, 2> position_at(std::size_t body, double time) const {
+    const BodyMotion& motion = motions_[body];
+    const double flight = time - times_[body];
+    return {motion.position[0] + flight * motion.velocity[0],
+            motion.position[1] + flight * motion.velocity[1]};
+  }
+
+  /// The least distance of any two bodies' edges.
+  double least_gap(double time) const {
+    double least = kForEver;
+    for (std::size_t i = 0; i < motions_.size(); ++i) {
+      const auto a = position_at(i, time);
+      for (std::size_t j = i + 1; j < motions_.size(); ++j) {
+        const auto b = position_at(j, time);
+        const double reach = system_.bodies[i].size.get_d() + system_.bodies[j].size.get_d();
+        least = std::min(least, std::hypot(b[0] - a[0], b[1] - a[1]) - reach);
+      }
+    }
+    return least;
+  }
+
+ private:
+  void take(std::size_t body, const BodyMotion& motion, double time) {
+    motions_[body] = motion;
+    times_[body] = time;
+  }
+
+  const BodySystem& system_;
+  std::vector<BodyMotion> motions_ = {};
+  std::vector<double> times_ = {};
+};
+
+double square(const std::array<double, 2>& v) { return v[0] * v[0] + v[1] * v[1]; }
+
+TEST(DiscStepper, CollisionsKeepMomentumAndEnergy) {
+  Random random(41);
+  SCOPED_TRACE(random.trace());
+  const BodySystem system = random_gas(random, 50);
+  const auto stepper = make_disc_stepper(system);
+  Motions motions(system);
+  for (int k = 0; k < 5000; ++k) {
+    const BodyStep step = *stepper->step();
+    if (step.second >= system.bodies.size()) {
+      ASSERT_EQ(square(step.first_after.velocity), square(motions[step.first].velocity));
+      motions.take(step);
+      continue;
+    }
+    const double m = system.bodies[step.first].mass->get_d();
+    const double n = system.bodies[step.second].mass->get_d();
+    const auto& u = motions[step.first].velocity;
+    const auto& v = motions[step.second].velocity;
+    const double energy = m * square(u) + n * square(v);
+    const double after =
+        m * square(step.first_after.velocity) + n * square(step.second_after.velocity);
+    ASSERT_NEAR(after / energy, 1, 24 * kUnit);
+    const double most = m * std::sqrt(square(u)) + n * std::sqrt(square(v));
+    for (std::size_t axis : {0u, 1u}) {
+      ASSERT_NEAR(m * step.first_after.velocity[axis] + n * step.second_after.velocity[axis],
+                  m * u[axis] + n * v[axis], 24 * kUnit * most);
+    }
+    motions.take(step);
+  }
+}
+
+TEST(DiscStepper, DiscsOverlapAtNoTime) {
+  Random random(42);
+  SCOPED_TRACE(random.trace());
+  for (const std::uint32_t number : {5u, 40u}) {
+    const BodySystem system = random_gas(random, number, 4);
+    const auto stepper = make_disc_stepper(system);
+    Motions motions(system);
+    double last = 0;
+    double least = kForEver;
+    for (int k = 0; k < 1200; ++k) {
+      const BodyStep step = *stepper->step();
+      for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+        least = std::min(least, motions.least_gap(last + share * (step.time.hi - last)));
+      }
+      last = step.time.hi;
+      motions.take(step);
+    }
+    EXPECT_GT(least, -1e-12);
+    EXPECT_LT(least, 1e-12);
+  }
+}
+
+TEST(DiscStepper, HeadOnEqualDiscsExchangeTheirVelocities) {
+  const BodySystem system{.dimensions = 2, .bodies = {{1, {0, 0}, {1, 0}}, {1, {5, 0}, {0, 0}}}};
+  const auto stepper = make_disc_stepper(system);
+  const auto step = stepper->step();
+  ASSERT_TRUE(step);
+  EXPECT_EQ(pair_of(*step), Pair(0, 1));
+  EXPECT_EQ(step->time.hi, 3);
+  EXPECT_EQ(step->first_after, (BodyMotion{{3, 0}, {0, 0}}));
+  EXPECT_EQ(step->second_after, (BodyMotion{{5, 0}, {1, 0}}));
+  EXPECT_FALSE(stepper->step());
+  EXPECT_EQ(stepper->certainty().until, kForEver);
+}
+
+/// Centres at a 3-4-5 triangle: at contact the line of centres is (0.8, 0.6).
+TEST(DiscStepper, ObliqueCollisionChangesVelocitiesAlongTheLineOfCentres) {
+  const BodySystem system{.dimensions = 2,
+                          .bodies = {{3, {-4, 0}, {1, 0}, 3}, {1, {4, 3}, {0, 0}, 2}}};
+  const auto stepper = make_disc_stepper(system);
+  const auto step = stepper->step();
+  ASSERT_TRUE(step);
+  EXPECT_NEAR(step->time.hi, 4, 8 * kUnit);
+  EXPECT_NEAR(step->first_after.velocity[0], 1 - 0.5 * 0.64, 4 * kUnit);
+  EXPECT_NEAR(step->first_after.velocity[1], -0.5 * 0.48, 4 * kUnit);
+  EXPECT_NEAR(step->second_after.velocity[0], 1.5 * 0.64, 4 * kUnit);
+  EXPECT_NEAR(step->second_after.velocity[1], 1.5 * 0.48, 4 * kUnit);
+}
+
+TEST(DiscStepper, SlantedWallReflects) {
+  const BodySystem system{.dimensions = 2,
+                          .bodies = {{1, {0, 3}, {0, -1}}},
+                          .walls = {{"slope", {7, -7}, {Rational(1, 9), Rational(1, 9)}}}};
+  const auto stepper = make_disc_stepper(system);
+  const auto step = stepper->step();
+  ASSERT_TRUE(step);
+  EXPECT_EQ(pair_of(*step), Pair(0, 1));
+  EXPECT_NEAR(step->time.hi, 3 - std::sqrt(2), 8 * kUnit);
+  EXPECT_NEAR(step->first_after.velocity[0], 1, 4 * kUnit);
+  EXPECT_NEAR(step->first_after.velocity[1], 0, 4 * kUnit);
+  EXPECT_FALSE(stepper->step());
+}
+
+TEST(DiscStepper, ImmovableDiscStays) {
+  const BodySystem system{
+      .dimensions = 2,
+      .bodies = {{std::nullopt, {0, 0}}, {1, {5, 0}, {-1, 0}}, {std::nullopt, {9, 0}}}};
+  const auto stepper = make_disc_stepper(system);
+  for (int k = 0; k < 10; ++k) {
+    const auto step = stepper->step();
+    ASSERT_TRUE(step);
+    EXPECT_EQ(pair_of(*step), k % 2 == 0 ? Pair(0, 1) : Pair(1, 2));
+    EXPECT_EQ(step->time.hi, 3 + 5 * k);
+    const BodyMotion& still = k % 2 == 0 ? step->first_after : step->second_after;
+    EXPECT_EQ(still, (BodyMotion{{k % 2 == 0 ? 0.0 : 9.0, 0}, {0, 0}}));
+  }
+}
+
+TEST(DiscStepper, OneDiscInABoxIsCertainForLong) {
+  const BodySystem system{.dimensions = 2,
+                          .bodies = {{1, {Rational(3, 2), 2}, {1, Rational(1, 3)}}},
+                          .walls = box(4, 5)};
+  const auto stepper = make_disc_stepper(system);
+  int across = 0;
+  int up = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const auto step = stepper->step();
+    ASSERT_TRUE(step);
+    const double expected = step->second <= 2 ? 1.5 + 2 * across++ : 6.0 + 9 * up++;
+    ASSERT_NEAR(step->time.hi, expected, 1e-9);
+    if (stepper->certainty().until != kForEver) {
+      // Only where it meets both walls at once can anything be in doubt.
+      EXPECT_NEAR(std::abs(std::remainder(step->time.hi - 1.5, 2)), 0, 1e-9);
+      return;
+    }
+  }
+}
+
+TEST(DiscStepper, NothingHappensToDiscsAtRest) {
+  BodySystem system{.dimensions = 2, .bodies = {{1, {0, 0}}, {2, {2, 0}}, {1, {7, 1}}}};
+  system.walls = {{"touching", {0, -1}, {0, 1}}};
+  const auto stepper = make_disc_stepper(system);
+  EXPECT_FALSE(stepper->step());
+  EXPECT_FALSE(stepper->step());
+  EXPECT_EQ(stepper->certainty().until, kForEver);
+  EXPECT_FALSE(make_disc_stepper(BodySystem{.dimensions = 2})->step());
+}
+
+TEST(DiscStepper, TouchingDiscsThatApproachCollideAtOnce) {
+  const BodySystem system{.dimensions = 2, .bodies = {{1, {0, 0}, {1, 0}}, {1, {2, 0}, {-1, 0}}}};
+  const auto stepper = make_disc_stepper(system);
+  const auto step = stepper->step();
+  ASSERT_TRUE(step);
+  EXPECT_EQ(step->time.hi, 0);
+  EXPECT_EQ(step->first_after.velocity[0], -1);
+  EXPECT_FALSE(stepper->step());
+}
+
+TEST(DiscStepper, TouchingDiscsThatPartDoNotCollide) {
+  const BodySystem system{.dimensions = 2, .bodies = {{1, {0, 0}, {-1, 0}}, {1, {2, 0}, {1, 0}}}};
+  const auto stepper = make_disc_stepper(system);
+  EXPECT_FALSE(stepper->step());
+  EXPECT_EQ(stepper->certainty().until, kForEver);
+}
+
+/// A billiard rack is certain until it is struck: then what happens is a matter of order.
+TEST(DiscStepper, TouchingDiscsAtRestAreCertainUntilStruck) {
+  const BodySystem system{.dimensions = 2,
+                          .bodies = {{1, {0, 0}, {2, 0}}, {1, {5, 0}}, {1, {7, 0}}, {1, {9, 0}}}};
+  const auto stepper = make_disc_stepper(system);
+  EXPECT_EQ(stepper->certainty().until, kForEver);
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const auto step = stepper->step();
+    ASSERT_TRUE(step);
+    EXPECT_EQ(pair_of(*step), Pair(k, k + 1));
+    EXPECT_EQ(step->time.hi, 1.5);
+  }
+  EXPECT_FALSE(stepper->step());
+  EXPECT_NEAR(stepper->certainty().until, 1.5, 1e-12);
+}
+
+TEST(DiscStepper, SimultaneousCollisionsAreInTheOrderOfPairs) {
+  const BodySystem system{.dimensions = 2,
+                          .bodies = {{1, {20, 0}, {1, 0}},
+                                     {1, {0, 0}, {1, 0}},
+                                     {1, {10, 0}, {-1, 0}},
+                                     {1, {26, 0}, {-1, 0}},
+                                     {1, {5, 0}}},
+                          .walls = {{"right", {30, 0}, {-1, 0}}}};
+  const auto stepper = make_disc_stepper(system);
+  std::vector<Pair> pairs;
+  for (int k = 0; k < 3; ++k) pairs.push_back(pair_of(*stepper->step()));
+  EXPECT_EQ(pairs[0], Pair(0, 3));  // at 2
+  EXPECT_EQ(pairs[1], Pair(1, 4));  // at 3, before (2, 4)
+  EXPECT_EQ(pairs[2], Pair(2, 4));
+  // Separate pairs at one time do not disturb each other; these share a disc.
+  EXPECT_NEAR(stepper->certainty().until, 3, 1e-12);
+}
+
+TEST(DiscStepper, WallsComeAfterDiscs) {
+  const BodySystem system{.dimensions = 2,
+                          .bodies = {{1, {0, 0}, {0, 0}}, {1, {5, 0}, {-1, -1}}},
+                          .walls = {{"bottom", {0, -4}, {0, 1}}, {"left", {1, 0}, {1, 0}}}};
+  BodySystem corner = system;
+  corner.bodies[0].position = {20, 20};
+  const auto stepper = make_disc_stepper(corner);
+  EXPECT_EQ(pair_of(*stepper->step()), Pair(1, 2));
+  EXPECT_EQ(pair_of(*stepper->step()), Pair(1, 3));
+}
+
+TEST(DiscStepper, PowersOfTwoScaleEverythingExactly) {
+  Random random(43);
+  SCOPED_TRACE(random.trace());
+  const BodySystem system = random_gas(random, 30);
+  BodySystem scaled = system;
+  const Rational length = Rational(1) << 300;
+  const Rational speed = Rational(1) >> 200;
+  for (Body& body : scaled.bodies) {
+    body.size *= length;
+    *body.mass *= speed;
+    for (Rational& part : body.position) part *= length;
+    for (Rational& part : body.velocity) part *= speed;
+  }
+  for (Wall& wall : scaled.walls) {
+    for (Rational& part : wall.point) part *= length;
+  }
+  const auto plain = make_disc_stepper(system);
+  const auto large = make_disc_stepper(scaled);
+  for (int k = 0; k < 1000; ++k) {
+    const BodyStep a = *plain->step();
+    const BodyStep b = *large->step();
+    ASSERT_EQ(pair_of(a), pair_of(b));
+    ASSERT_EQ(std::ldexp(a.time.hi, 500), b.time.hi);
+    ASSERT_EQ(std::ldexp(a.first_after.position[0], 300), b.first_after.position[0]);
+    ASSERT_EQ(std::ldexp(a.first_after.velocity[1], -200), b.first_after.velocity[1]);
+  }
+  EXPECT_EQ(std::ldexp(plain->certainty().until, 500), large->certainty().until);
+}
+
+TEST(DiscStepper, HugeAndTinyNumbersAreAsGoodAsOthers) {
+  for (const Rational& scale : {power(10, 150), Rational(1 / power(10, 150))}) {
+    BodySystem system{.dimensions = 2,
+                      .bodies = {{scale, {-4, 0}, {1, 0}, 3}, {3 * scale, {4, 3}, {-1, 0}, 2}}};
+    for (Body& body : system.bodies) {
+      body.size *= scale;
+      for (Rational& part : body.position) part *= scale;
+      for (Rational& part : body.velocity) part *= scale;
+    }
+    const auto stepper = make_disc_stepper(system);
+    const auto step = stepper->step();
+    ASSERT_TRUE(step);
+    EXPECT_NEAR(step->time.hi, 2, 1e-14);
+    const double unit = scale.get_d();
+    EXPECT_NEAR(step->first_after.velocity[0] / unit, 1 - 2 * 0.75 * 2 * 0.64, 1e-14);
+    EXPECT_FALSE(stepper->step());
+    EXPECT_EQ(stepper->certainty().until, kForEver);
+  }
+}
+
+TEST(DiscStepper, NumbersTooFarApartAreRejected) {
+  BodySystem system{.dimensions = 2, .bodies = {{1, {0, 0}, {1, 0}}, {1, {5, 0}}}};
+  system.bodies[1].mass = 1 / power(10, 300);
+  EXPECT_THROW(make_disc_stepper(system), SimulationError);
+  system.bodies[1].mass = 1;
+  system.bodies[1].size = 1 / power(10, 200);
+  EXPECT_THROW(make_disc_stepper(system), SimulationError);
+  system.bodies[1].size = 1;
+  system.bodies[1].position[0] = power(10, 200);
+  EXPECT_THROW(make_disc_stepper(system), SimulationError);
+}
+
+}  // namespace
+}  // namespace piblocks

@@ -12,10 +12,11 @@
 namespace piblocks::stress {
 namespace {
 
-void check_systems(const std::function<BodySystem(Random&)>& draw, double expected) {
+void check_systems(const std::function<BodySystem(Random&)>& draw, double expected,
+                   std::int64_t number = 2000) {
   Random random(71);
   SCOPED_TRACE(random.trace());
-  const std::int64_t systems = many(2000);
+  const std::int64_t systems = many(number);
   std::size_t certain = 0;
   std::int64_t complete = 0;
   double widest = 0;
@@ -38,6 +39,20 @@ void check_systems(const std::function<BodySystem(Random&)>& draw, double expect
 TEST(DiscCertaintyStress, OfRandomDiscs) { check_systems(random_discs, 30); }
 
 TEST(DiscCertaintyStress, OfDiscsThatMeetByCoincidence) { check_systems(random_coincidences, 3); }
+
+TEST(DiscCertaintyStress, OfDiscsInCells) {
+  const auto draw = [](Random& random) {
+    BodySystem system = random_gas(random, static_cast<std::uint32_t>(random.integer(20, 30)), 3);
+    if (random.integer(0, 1) == 0) system.walls.clear();
+    system.bodies.push_back({Rational(50), {-9, 5}, {Rational(1), 0}, 8});
+    for (Wall& wall : system.walls) {
+      if (wall.name == "left") wall.point[0] = -18;
+      if (wall.name == "bottom") wall.point[1] = -4;
+    }
+    return system;
+  };
+  check_systems(draw, 30, 10);
+}
 
 }  // namespace
 }  // namespace piblocks::stress

@@ -11,8 +11,8 @@ namespace {
 constexpr double kUnit = 0x1p-53;
 /// Covers the rounding of the few operations that compute a bound, and of those that are said to be
 /// right to a few u where second powers of u are left out.
-constexpr double kUp = 1 + 0x1p-30;
-constexpr double kDown = 1 - 0x1p-30;
+constexpr double kUp = 1 + 0x1p-45;
+constexpr double kDown = 1 - 0x1p-45;
 /// More than what underflow takes from any product here.
 constexpr double kTiny = 0x1p-900;
 
@@ -30,11 +30,17 @@ struct Sight {
   double b;         ///< |W - w|, at most
 
   Sight(const Disc& a, const Bound& bound_a, const Disc& b_disc, const Bound& bound_b)
-      : seen(a, b_disc), distance(length(seen.distance)), speed(speed_above(seen.velocity)) {
-    e = (drift(a, bound_a, seen.start) + drift(b_disc, bound_b, seen.start) +
-         8 * kUnit * (distance + seen.reach)) *
-        kUp;
-    b = (bound_a.velocity + bound_b.velocity + 2 * kUnit * length(seen.velocity)) * kUp;
+      : seen(a, b_disc),
+        distance(length(seen.distance)),
+        speed(speed_above(seen.velocity)),
+        e((drift(a, bound_a, seen.start) + drift(b_disc, bound_b, seen.start) +
+           8 * kUnit * (distance + seen.reach)) *
+          kUp),
+        b((bound_a.velocity + bound_b.velocity + 2 * kUnit * speed) * kUp) {
+    // Equal velocities are subtracted without rounding.
+    if (seen.velocity.x == 0 && seen.velocity.y == 0) {
+      b = (bound_a.velocity + bound_b.velocity) * kUp;
+    }
   }
 };
 
@@ -76,8 +82,14 @@ double earliest_approach(const Sight& sight, double reach) {
   if (std::abs(moment) > wide * std::sqrt(w2)) return kNever;
   if (sight.distance <= wide) return 0;
   const double chord2 = std::max(wide * wide * w2 - moment * moment, 0.0);
-  return (sight.distance - wide) * (sight.distance + wide) / (approach + std::sqrt(chord2)) * kDown;
+  // What is added to `wide` covers the rounding of all but d.w.
+  const double rounding = 8 * kUnit * sight.distance * sight.speed;
+  return (sight.distance - wide) * (sight.distance + wide) /
+         (approach + std::sqrt(chord2) + rounding) * kDown;
 }
+
+/// start - window, rounded down: less than start, if only by rounding, unless both are 0.
+double time_before(double start, double window) { return start - window * kUp - 2 * kUnit * start; }
 
 /// start + wait, rounded down
 double time_after(double start, double wait) {
@@ -105,7 +117,7 @@ double earliest_meeting(const Disc& a, const Bound& bound_a, const Disc& b, cons
   if (are_in_order(a, bound_a, b, bound_b) && surely_recede(sight, window)) return kNever;
   const double reach = sight.seen.reach + sight.e;
   const double gap = sight.distance - reach;
-  if (!(gap > 8 * top_speed * window)) return sight.seen.start - window * kUp;
+  if (!(gap > 8 * top_speed * window)) return time_before(sight.seen.start, window);
   if (sight.b > sight.speed / 2 || dot(w, w) < kTiny) {
     return time_after(sight.seen.start, gap / (sight.speed + sight.b) * kDown);
   }
@@ -126,7 +138,7 @@ double earliest_meeting(const Disc& disc, const Bound& bound, const WallLine& wa
   const double fastest = b - dot(wall.normal, v);
   if (fastest < 0 || (fastest == 0 && b == 0)) return kNever;
   const double gap = gap_to(wall, disc, disc.time) - e;
-  if (!(gap > 8 * top_speed * bound.window)) return disc.time - bound.window * kUp;
+  if (!(gap > 8 * top_speed * bound.window)) return time_before(disc.time, bound.window);
   return fastest == 0 ? kNever : time_after(disc.time, gap / fastest * kDown);
 }
 

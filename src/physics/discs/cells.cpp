@@ -13,6 +13,13 @@ constexpr std::size_t kFew = 16;
 /// A disc is large if its radius is that many times the radius of the sqrt(N)-th largest.
 constexpr double kLarge = 3;
 
+/// The side of a cell, in mean distances of discs, where these are not dense.
+constexpr double kSpacing = 0.75;
+/// Of contact: certainty ends when errors reach a quarter of the margin.
+constexpr double kLeastMargin = 0x1p-4;
+/// Half the diagonal of a zone's square, in cells, and a bit more.
+constexpr double kStray = 1.5;
+
 /// Where most of some numbers are: from the first fiftieth to the last, and a sixteenth more on
 /// each side, as far as there are numbers.
 struct Extent {
@@ -83,9 +90,9 @@ void Cells::choose_grid(double time) {
   // The last two keep the number of cells below a few times that of discs, and rounding errors of
   // positions far below a cell.
   const double contact = 2 * largest_small_radius_;
-  side_ =
-      std::max({contact * (1 + 0x1p-8), std::sqrt(across.size()) * std::sqrt(up.size() / number),
-                std::max(across.size(), up.size()) / number, farthest * 0x1p-30});
+  side_ = std::max({contact * (1 + kLeastMargin),
+                    kSpacing * std::sqrt(across.size()) * std::sqrt(up.size() / number),
+                    std::max(across.size(), up.size()) / number, farthest * 0x1p-30});
   margin_ = side_ - contact;
   corner_ = {across.low, up.low};
   columns_ = 1 + static_cast<std::int32_t>(across.size() / side_);
@@ -165,25 +172,30 @@ Cells::Step Cells::next_step(std::uint32_t disc) const {
   return across.time <= up.time ? across : up;
 }
 
+/// Beyond the grid a zone consists of cells that reach to infinity and stays the same, so a disc
+/// that flies away for ever leaves its last square for nothing.
 double Cells::zone_exit(std::uint32_t disc) const {
-  if (columns_ == 1 && rows_ == 1) return kNever;
   const Disc& flying = discs_[disc];
   const Vector centre = zones_[zone_of_[disc]].centre;
-  const Vector v = flying.velocity;
-  double exit = kNever;
-  if (v.x != 0) {
-    const double border = centre.x + (v.x > 0 ? side_ : -side_);
-    exit = std::min(exit, flying.time + (border - flying.position.x) / v.x);
-  }
-  if (v.y != 0) {
-    const double border = centre.y + (v.y > 0 ? side_ : -side_);
-    exit = std::min(exit, flying.time + (border - flying.position.y) / v.y);
-  }
-  return exit;
+  const double reach = zone_reach(disc);
+  const auto exit = [&](double position, double velocity, double middle, double low, double high) {
+    if (velocity == 0) return kNever;
+    if (velocity > 0 ? middle > high + reach : middle < low - reach) return kNever;
+    const double border = middle + (velocity > 0 ? side_ : -side_);
+    return flying.time + (border - position) / velocity;
+  };
+  const Vector end = {corner_.x + side_ * columns_, corner_.y + side_ * rows_};
+  return std::min(exit(flying.position.x, flying.velocity.x, centre.x, corner_.x, end.x),
+                  exit(flying.position.y, flying.velocity.y, centre.y, corner_.y, end.y));
 }
 
 double Cells::crossing_time(std::uint32_t disc) const {
   return is_large(disc) ? zone_exit(disc) : next_step(disc).time;
+}
+
+/// How far from the middle of a large disc's square the centre of a small one is that matters.
+double Cells::zone_reach(std::uint32_t disc) const {
+  return discs_[disc].radius + largest_small_radius_ + margin_ + kStray * side_;
 }
 
 void Cells::clear_zone(Zone& zone) {
@@ -196,8 +208,8 @@ void Cells::place_zone(Zone& zone, Vector centre) {
   clear_zone(zone);
   zone.centre = centre;
   const double radius = discs_[zone.disc].radius;
-  const double stray = side_ * 1.5;  // a bit more than the square's half diagonal
-  const double reach = radius + largest_small_radius_ + margin_ + stray;
+  const double stray = kStray * side_;
+  const double reach = zone_reach(zone.disc);
   const Place first = place_of(centre - Vector{reach, reach});
   const Place last = place_of(centre + Vector{reach, reach});
   for (std::int32_t row = first.row; row <= last.row; ++row) {

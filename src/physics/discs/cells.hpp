@@ -70,6 +70,7 @@ class Cells {
   void leave(std::uint32_t disc);
   Step next_step(std::uint32_t disc) const;
   double zone_exit(std::uint32_t disc) const;
+  double zone_reach(std::uint32_t disc) const;
   void place_zone(Zone& zone, Vector centre);
   void clear_zone(Zone& zone);
 

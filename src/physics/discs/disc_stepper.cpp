@@ -66,7 +66,7 @@ class Stepper final : public DiscStepper {
   void plan_end_of_margin(std::uint32_t disc);
   bool have_just_met(std::uint32_t disc, std::uint32_t partner) const;
   bool propose(std::uint32_t disc, const Plan& proposal);
-  std::uint64_t rank_of(std::uint32_t disc, const Plan& plan) const;
+  static std::uint64_t rank_of(std::uint32_t disc, const Plan& plan);
   bool is_stale(const Plan& plan) const;
   void enqueue(std::uint32_t disc);
   void cross(std::uint32_t disc);
@@ -79,7 +79,7 @@ class Stepper final : public DiscStepper {
   BodyMotion motion_of(std::uint32_t disc) const;
 
   double earliest(std::uint32_t disc, std::uint32_t partner) const;
-  double earliest_other(std::uint32_t disc, std::uint32_t partner) const;
+  double earliest_but(std::uint32_t excepted, std::uint32_t body) const;
   std::optional<Contact> certify(std::uint32_t disc, std::uint32_t partner, double time);
   void raise_top_speed(std::uint32_t disc);
 
@@ -133,7 +133,7 @@ void Stepper::plan_meeting(std::uint32_t disc, std::uint32_t partner) {
   }
   proposal.meetings = discs_[partner].meetings;
   propose(disc, proposal);
-  if (!system_.is_movable(partner)) return;
+  if (proposal.time > plans_[partner].time || !system_.is_movable(partner)) return;
   proposal.partner = disc;
   proposal.meetings = own.meetings;
   if (propose(partner, proposal)) enqueue(partner);
@@ -142,18 +142,19 @@ void Stepper::plan_meeting(std::uint32_t disc, std::uint32_t partner) {
 /// Beyond its margin a disc could truly be next to discs that its cell does not know.
 void Stepper::plan_end_of_margin(std::uint32_t disc) {
   const Bound& bound = system_.bounds[disc];
-  if (bound.velocity == 0 || cells_.margin() == kNever) return;
+  const double room = cells_.margin() / 4 - bound.position;
+  if (room > 0 && bound.velocity == 0) return;
   Plan proposal;
-  proposal.time = discs_[disc].time + (cells_.margin() / 4 - bound.position) / bound.velocity;
+  proposal.time = discs_[disc].time + (room > 0 ? room / bound.velocity : 0);
   proposal.is_doubt = true;
-  propose(disc, proposal);
+  if (proposal.time != kNever) propose(disc, proposal);
 }
 
 /// Two free bodies separate for ever. An immovable one is as if it had met nobody else.
+/// @param disc  movable
 bool Stepper::have_just_met(std::uint32_t disc, std::uint32_t partner) const {
-  if (!is_disc(partner)) return discs_[disc].last == partner;
-  return (discs_[disc].last == partner || !system_.is_movable(disc)) &&
-         (discs_[partner].last == disc || !system_.is_movable(partner));
+  if (discs_[disc].last != partner) return false;
+  return !is_disc(partner) || discs_[partner].last == disc || !system_.is_movable(partner);
 }
 
 /// Whether the proposal is sooner than the disc's plan and has become its plan.
@@ -168,7 +169,7 @@ bool Stepper::propose(std::uint32_t disc, const Plan& proposal) {
 }
 
 /// The order of simultaneous events: doubts, then pairs in their order.
-std::uint64_t Stepper::rank_of(std::uint32_t disc, const Plan& plan) const {
+std::uint64_t Stepper::rank_of(std::uint32_t disc, const Plan& plan) {
   if (plan.is_doubt) return 0;
   const auto [first, second] = std::minmax(disc, plan.partner);
   return (std::uint64_t{first} << 32) | second;
@@ -196,7 +197,7 @@ std::optional<BodyStep> Stepper::step() {
   if (number_ == 0) return std::nullopt;
   while (true) {
     const std::uint32_t disc = queue_.first();
-    if (queue_.key(disc).time == kNever) return std::nullopt;
+    if (queue_.first_time() == kNever) return std::nullopt;
     const Plan& next = plans_[disc];
     if (next.crossing <= next.time) {
       cross(disc);
@@ -306,15 +307,15 @@ double Stepper::earliest(std::uint32_t disc, std::uint32_t partner) const {
   return earliest_meeting(discs_[disc], bounds[disc], wall_of(partner), top_speed_);
 }
 
-/// Before which time the disc meets nobody but this partner.
-double Stepper::earliest_other(std::uint32_t disc, std::uint32_t partner) const {
+/// Before which time a disc meets nobody, except one.
+double Stepper::earliest_but(std::uint32_t excepted, std::uint32_t body) const {
   double soonest = kNever;
   const auto look_at = [&](std::uint32_t other) {
-    if (other == disc || other == partner || have_just_met(disc, other)) return;
-    soonest = std::min(soonest, earliest(disc, other));
+    if (other == body || other == excepted || have_just_met(body, other)) return;
+    soonest = std::min(soonest, earliest(body, other));
   };
   for (std::uint32_t wall = number_; wall < end_of_walls(); ++wall) look_at(wall);
-  cells_.visit_near(disc, look_at);
+  cells_.visit_near(body, look_at);
   return soonest;
 }
 
@@ -330,9 +331,9 @@ std::optional<Contact> Stepper::certify(std::uint32_t disc, std::uint32_t partne
     doubt = std::min(earliest(disc, partner), time);
   } else {
     double other = kNever;
-    if (system_.is_movable(disc)) other = earliest_other(disc, partner);
+    if (system_.is_movable(disc)) other = earliest_but(partner, disc);
     if (is_disc(partner) && system_.is_movable(partner)) {
-      other = std::min(other, earliest_other(partner, disc));
+      other = std::min(other, earliest_but(disc, partner));
     }
     const double last = (time + contact->window) * (1 + 0x1p-51);
     if (other <= last) doubt = std::min(other, time - contact->window);

@@ -16,10 +16,6 @@ namespace piblocks::discs {
 struct EventKey {
   double time = kNever;
   std::uint64_t rank = 0;
-
-  bool before(const EventKey& other) const {
-    return time < other.time || (time == other.time && rank < other.rank);
-  }
 };
 
 /// A binary tree whose leaves are discs. Each inner node names the disc of its subtree whose key is
@@ -28,37 +24,45 @@ class Tournament {
  public:
   explicit Tournament(std::size_t size)
       : leaves_(std::bit_ceil(std::max<std::size_t>(size, 1))),
-        keys_(leaves_),
+        ranks_(leaves_),
         nodes_(2 * leaves_) {
     for (std::size_t leaf = 0; leaf < leaves_; ++leaf) {
-      nodes_[leaves_ + leaf] = static_cast<std::uint32_t>(leaf);
+      nodes_[leaves_ + leaf] = {kNever, static_cast<std::uint32_t>(leaf)};
     }
     for (std::size_t node = leaves_; --node > 0;) nodes_[node] = winner_below(node);
   }
 
-  std::uint32_t first() const { return nodes_[1]; }
-  const EventKey& key(std::uint32_t disc) const { return keys_[disc]; }
+  std::uint32_t first() const { return nodes_[1].disc; }
+  double first_time() const { return nodes_[1].time; }
 
   void set(std::uint32_t disc, const EventKey& key) {
-    keys_[disc] = key;
+    ranks_[disc] = key.rank;
+    nodes_[leaves_ + disc].time = key.time;
     for (std::size_t node = (leaves_ + disc) / 2; node > 0; node /= 2) {
-      const std::uint32_t winner = winner_below(node);
+      const Node winner = winner_below(node);
       // Neither the old key nor the new one has a say further up.
-      if (winner != disc && winner == nodes_[node]) return;
+      if (winner.disc != disc && winner.disc == nodes_[node].disc) return;
       nodes_[node] = winner;
     }
   }
 
  private:
-  std::uint32_t winner_below(std::size_t node) const {
-    const std::uint32_t left = nodes_[2 * node];
-    const std::uint32_t right = nodes_[2 * node + 1];
-    return keys_[right].before(keys_[left]) ? right : left;
+  /// With its time, so that two rivals lie side by side in memory.
+  struct Node {
+    double time;
+    std::uint32_t disc;
+  };
+
+  Node winner_below(std::size_t node) const {
+    const Node& left = nodes_[2 * node];
+    const Node& right = nodes_[2 * node + 1];
+    if (left.time == right.time) return ranks_[right.disc] < ranks_[left.disc] ? right : left;
+    return right.time < left.time ? right : left;
   }
 
   std::size_t leaves_;
-  std::vector<EventKey> keys_;
-  std::vector<std::uint32_t> nodes_;
+  std::vector<std::uint64_t> ranks_;
+  std::vector<Node> nodes_;
 };
 
 }  // namespace piblocks::discs
