@@ -60,6 +60,7 @@ std::unique_ptr<CLI::App> make_app() {
   add_log(program);
   add_state(program);
   add_count(program);
+  add_need(program);
   add_scenes(program);
   add_compare(program);
   add_golden(program);

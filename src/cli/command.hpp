@@ -90,6 +90,7 @@ void add_sheet(Command& app);
 void add_log(Command& app);
 void add_state(Command& app);
 void add_count(Command& app);
+void add_need(Command& app);
 void add_scenes(Command& app);
 void add_compare(Command& app);
 void add_golden(Command& app);

@@ -101,7 +101,8 @@ void run_sheet(const Command& options, const SceneOptions& scene_options) {
 
 void add_count(Command& app) {
   Command command = app.add_command("count", "Print the total number of collisions");
-  const SceneOptions options(command);
+  SceneOptions options(command);
+  options.add_end();
   command.set_footer(
       "Examples:\n"
       "  piblocks count --digits 12\n"

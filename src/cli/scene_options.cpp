@@ -39,6 +39,8 @@ SceneOptions::SceneOptions(Command command) : command_(std::move(command)) {
           "Write counts in this base, 2 to 36 (default 10); then D digits\n"
           "are those of m_red = B^(2(D-1)) m_blue");
   add_key("mass-ratio", "--mass-ratio", "R", "m_red / m_blue, exactly: 16, 2.5, 1/3, 100^7");
+  add_flag({"time.allow-uncertain", "--allow-uncertain", "true"},
+           "Go on where double precision cannot tell which bodies\ncollide next");
 }
 
 void SceneOptions::add_key(const std::string& key, const std::string& option,
@@ -61,6 +63,10 @@ void SceneOptions::add_picture() {
   add_flag({"view.background", "--transparent", "transparent"},
            "No background: another picture can be put behind");
   add_flag({"view.background", "--opaque", "opaque"}, "Force a background");
+}
+
+void SceneOptions::add_end() {
+  add_key("time.to", "--to", "T", "Until when bodies are counted whose collisions never end");
 }
 
 void SceneOptions::add_span() {

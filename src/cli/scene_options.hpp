@@ -28,6 +28,8 @@ class SceneOptions {
   void add_show();
   /// Adds --shutter, and --fps and --speed, which it depends on.
   void add_exposure();
+  /// Adds --to alone, for counts.
+  void add_end();
   /// Adds --from and --to.
   void add_span();
   /// Adds --from, --to and what else says how time runs in the video.

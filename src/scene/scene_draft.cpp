@@ -205,9 +205,8 @@ std::vector<std::string> SceneDraft::problems_of_bodies(const Scene& scene) cons
         origin_of("wall.mass")));
   }
   for (const auto& [key, origin] : origins_) {
-    const bool is_of_blocks =
-        key.starts_with("blue.") || key.starts_with("blocks.") || key.starts_with("red.") ||
-        key.starts_with("wall.");
+    const bool is_of_blocks = key.starts_with("blue.") || key.starts_with("blocks.") ||
+                              key.starts_with("red.") || key.starts_with("wall.");
     if (!bodies_.empty() && is_of_blocks) {
       problems.push_back(fmt::format(
           "{}: {}: this scene has [[body]] instead of blue, red and the wall", origin,
