@@ -194,8 +194,8 @@ RoundPowers::Powers RoundPowers::powers(const Integer& k, mpfr_prec_t bits) cons
     // A sine is right to the angle's error, which is relative.
     const long sine = modulus.exponent() + angle.exponent() + 6 - used;
     const Real s = modulus * sin(angle) / now.root;
-    return {modulus * cos(angle), s, std::max(size, turned),
-            std::max(sine - root, s.exponent() + error)};
+    const long sine_error = std::max(sine - root, s.exponent() + error);
+    return {modulus * cos(angle), s, std::max(size, turned), sine_error};
   }
   if (kind_ == Kind::parabolic) {
     const Real s = modulus * number / Real(used, trace_);

@@ -167,8 +167,7 @@ void check_bodies(const Scene& scene, SceneProblems& problems) {
   const bool is_plane = scene.bodies->system.dimensions == 2;
   problems.require(is_plane || !scene.show.has(Overlay::trails), "show.overlays",
                    "'trails' is for discs; blocks have the diagram 'time'");
-  problems.require(!is_plane || !scene.show.has(Overlay::ruler), "show.overlays",
-                   "'ruler' is for blocks on a line");
+  reject(scene.show.has(Overlay::ruler), "show.overlays", "'ruler'");
   for (const Panel panel : scene.show.panels) {
     const bool is_there = panel == Panel::count || panel == Panel::speeds ||
                           panel == (is_plane ? Panel::separation : Panel::time);

@@ -31,6 +31,15 @@ constexpr double kLabelRoom = 0.86;
 /// Above a capital letter's half height, in ems.
 constexpr double kHalfFigure_em = 0.36;
 constexpr double kMostStep_px = 0.25;
+/// Length of the arrow of the usual speed, of an arrow's head, and from a block to its arrow.
+constexpr double kArrow = 0.08;
+constexpr double kArrowHead = 0.014;
+constexpr double kArrowAbove = 0.03;
+/// Above the ids of labels, two for each body.
+constexpr std::size_t kArrows = 32768;
+/// More bodies have no labels, masses or arrows, nor are more drawn at all.
+constexpr std::size_t kMostMarked = 10'000;
+constexpr std::size_t kMostDrawn = 50'000;
 /// Above the ids of walls.
 constexpr std::size_t kTrails = 2000;
 constexpr double kTrailOpacity = 0.45;
@@ -85,10 +94,21 @@ std::vector<DrawItem> hatched(const Point& from, const Point& to, const DrawingC
   return items;
 }
 
+/// How velocities are drawn.
+struct ArrowLook {
+  bool are_shown = false;
+  Color color;
+  double px_per_speed = 0;
+  double line_px = 1;
+  double head_px = 1;
+  double above_px = 0;  ///< from a block to its arrow
+};
+
 class BodyStage {
  public:
   BodyStage(const DrawingContext& context, const Rectangle& area)
       : context_(context), system_(context.scene.bodies->system), area_(area) {
+    check_number();
     context.needs.trails = context.scene.show.has(Overlay::trails);
     if (system_.dimensions == 1) {
       lay_out_line();
@@ -104,9 +124,10 @@ class BodyStage {
     add_walls(stays);
     const bool are_blocks = system_.dimensions == 1;
     const Sizes& sizes = context_.sizes;
+    const ArrowLook arrows = arrow_look();
     return [stays = std::move(stays), shapes = std::move(shapes_), map = map_, are_blocks,
             line_px = std::max(1.0, std::round(sizes.data_line)), type_px = sizes.mass,
-            above_px = kAboveBlock * sizes.short_side, text = context_.palette.text,
+            above_px = kAboveBlock * sizes.short_side, text = context_.palette.text, arrows,
             face = context_.font.face()](const FrameState& shown, std::vector<DrawItem>& items) {
       items.insert(items.end(), stays.begin(), stays.end());
       add_trails(shown.trails, shapes, map, items);
@@ -141,7 +162,52 @@ class BodyStage {
                      face});
       }
       items.insert(items.end(), labels.begin(), labels.end());
+      if (!arrows.are_shown) return;
+      for (std::size_t i = 0; i < shown.bodies.size(); ++i) {
+        Point from = map.at(shown.bodies[i].position);
+        if (are_blocks) from.y -= shapes[i].height_px + arrows.above_px;
+        add_arrow(arrows, nth(ItemId::blue_block, kArrows + 2 * i), from, shown.bodies[i].velocity,
+                  items);
+      }
     };
+  }
+
+  ArrowLook arrow_look() const {
+    double energy = 0;
+    double mass = 0;
+    for (const Body& body : system_.bodies) {
+      if (!body.mass) continue;
+      const auto& [x, y] = body.velocity;
+      energy += to_double(*body.mass * (x * x + y * y));
+      mass += to_double(*body.mass);
+    }
+    const double usual_speed = std::sqrt(energy / mass);
+    return {.are_shown = context_.scene.show.has(Overlay::velocities) && usual_speed > 0,
+            .color = context_.palette.text,
+            .px_per_speed = kArrow * context_.sizes.short_side / usual_speed,
+            .line_px = context_.sizes.data_line,
+            .head_px = kArrowHead * context_.sizes.short_side,
+            .above_px = kArrowAbove * context_.sizes.short_side};
+  }
+
+  /// A line and a triangle; nothing where the arrow would be shorter than its head.
+  static void add_arrow(const ArrowLook& look, ItemId id, const Point& from,
+                        const std::array<double, 2>& velocity, std::vector<DrawItem>& items) {
+    const Point way{velocity[0] * look.px_per_speed, -velocity[1] * look.px_per_speed};
+    const double length = std::sqrt(way.x * way.x + way.y * way.y);
+    if (length < look.head_px) return;
+    const Point along{way.x / length, way.y / length};
+    const Point tip{from.x + way.x, from.y + way.y};
+    const Point neck{tip.x - look.head_px * along.x, tip.y - look.head_px * along.y};
+    const double half = look.head_px / 2;
+    items.emplace_back(PathItem{id, std::vector<Point>{from, neck}, false, std::nullopt,
+                                Stroke{look.color, look.line_px}});
+    items.emplace_back(
+        PathItem{nth(id, 1),
+                 std::vector<Point>{tip,
+                                    {neck.x - half * along.y, neck.y + half * along.x},
+                                    {neck.x + half * along.y, neck.y - half * along.x}},
+                 true, look.color, std::nullopt});
   }
 
   /// Lines behind discs, fainter the longer ago. They end where the disc is.
@@ -159,6 +225,16 @@ class BodyStage {
   }
 
  private:
+  void check_number() const {
+    const Show& show = context_.scene.show;
+    const bool is_marked = show.has(Overlay::velocities) || has_labels();
+    const std::size_t most = is_marked ? kMostMarked : kMostDrawn;
+    if (system_.bodies.size() <= most) return;
+    throw UsageError(fmt::format("body: {} of them cannot be drawn{}; use at most {}",
+                                 system_.bodies.size(),
+                                 is_marked ? " with labels, masses or velocities" : "", most));
+  }
+
   bool has_labels() const {
     return context_.scene.show.has(Overlay::masses) ||
            std::ranges::any_of(context_.scene.bodies->styles,
@@ -176,7 +252,8 @@ class BodyStage {
     const double width = area_.width - 2 * (left - area_.x);
     map_.scale = width / to_double(view.x.high - view.x.low);
     map_.origin.x = left - to_double(view.x.low) * map_.scale;
-    const double labels = has_labels() ? sizes.mass + kAboveBlock * sizes.short_side : 0;
+    double labels = has_labels() ? sizes.mass + kAboveBlock * sizes.short_side : 0;
+    if (context_.scene.show.has(Overlay::velocities)) labels += kArrowAbove * sizes.short_side;
     const double room = area_.height - 2 * sizes.wall_line - labels - kWallAbove * sizes.short_side;
     if (room < kLeastHeight * sizes.short_side) throw_too_small();
     set_heights(std::min(room, kTallest * sizes.short_side));

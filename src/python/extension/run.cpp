@@ -29,9 +29,9 @@ class BoundRun {
  public:
   BoundRun(const BoundScript& script, const std::map<std::string, std::string>& options) {
     const WithoutGil released;
-    // cppcheck-suppress useInitializationList ; only here other threads of Python can run
     const Scene& scene = scene_of(script, "log");
     require_blocks(scene, "log");
+    // cppcheck-suppress useInitializationList ; only here other threads of Python can run
     log_ = cli::make_log(scene.system, BoundOptions(options));
   }
   const CollisionLog& log() const { return *log_; }
