@@ -31,7 +31,6 @@ class BoundRun {
     const WithoutGil released;
     const Scene& scene = scene_of(script, "log");
     require_blocks(scene, "log");
-    // cppcheck-suppress useInitializationList ; only here other threads of Python can run
     log_ = cli::make_log(scene.system, BoundOptions(options));
   }
   const CollisionLog& log() const { return *log_; }
