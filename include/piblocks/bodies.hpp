@@ -89,6 +89,7 @@ class BodyLog : public Timeline {
   const BodySystem& system() const noexcept { return system_; }
   /// The collision with 1 <= index <= size().
   virtual BodyCollision collision(const Integer& index) const = 0;
+  Time collision_time(const Integer& index) const override { return collision(index).time; }
   /// The bodies at a time >= 0. A collision exactly at `time` has happened.
   /// @throws UsageError if the time is negative; SimulationError if there are more than
   ///         kMaxBodyCollisions until then.

@@ -142,6 +142,11 @@ class Timeline {
   /// Index of the last collision until then. A collision exactly at `time` has happened. The logs
   /// of bodies, which begin at time 0, say 0 for earlier times.
   virtual Integer count_at(const Rational& time) const = 0;
+  /// When the collision happens, first_index() <= index <= size(), to two doubles.
+  /// @throws SimulationError if that is beyond the range of a double.
+  virtual Time collision_time(const Integer& index) const = 0;
+  /// Whether collisions may go on for ever, size() being those until some time.
+  virtual bool may_go_on() const { return false; }
   /// A time at which exactly the collisions up to this one have happened: that of the collision if
   /// its exact value is short, otherwise one so little later that no picture can show the
   /// difference. first_index() <= index <= size().
@@ -179,6 +184,7 @@ class CollisionLog : public Timeline {
   virtual std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const;
 
   Integer count_at(const Rational& time) const override { return state_at(time).count; }
+  Time collision_time(const Integer& index) const override { return collision(index).time; }
   std::optional<Rational> turn() const override { return turn_of(system_); }
 
  protected:

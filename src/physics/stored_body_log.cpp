@@ -42,6 +42,7 @@ class StoredBodyLog final : public BodyLog {
         of_body_(system.bodies.size()) {
     if (until) {
       set_range(1, count_at(*until));
+      is_cut_ = !is_complete_;
     } else {
       while (add_step()) {
       }
@@ -106,6 +107,7 @@ class StoredBodyLog final : public BodyLog {
   }
 
   std::optional<Rational> turn() const override { return std::nullopt; }
+  bool may_go_on() const override { return is_cut_; }
   Integer exact_size() const override {
     const std::shared_lock lock(mutex_);
     return std::min(Integer(exact_times_.size()), size());
@@ -194,6 +196,7 @@ class StoredBodyLog final : public BodyLog {
   mutable std::shared_mutex mutex_;
   std::unique_ptr<BodyStepper> stepper_;
   std::vector<BodyMotion> start_;
+  bool is_cut_ = false;
   mutable bool is_complete_ = false;
   mutable std::vector<StoredStep> steps_;
   mutable std::vector<Rational> exact_times_;  // of the first steps

@@ -117,13 +117,12 @@ Rendered render_bundle(const RenderJob& job,
   check_bundle(job);
   FileSet files(job.bundle->folder, "bundle");
   const auto& scene = std::get<Scene>(job.script);
-  require_blocks(scene, "render: a bundle");
-  const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
-  const Schedule schedule = make_schedule(scene, *log);
-  const PageFacts facts(scene, *log, schedule);
+  const RunLog run(scene);
+  const Schedule schedule = make_schedule(scene, run.timeline());
+  const PageFacts facts(scene, run, schedule);
   write_poster(job, facts.frames_before_reversal() - 1, files);
   write_texts(job, describe_video(scene, facts.count()),
-              captions(*log, schedule, scene.view.frame_rate), files);
+              captions(run, schedule, scene.view.frame_rate), files);
   RenderJob video = job;
   video.bundle.reset();
   video.output = files.add(job.output);

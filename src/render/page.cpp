@@ -129,10 +129,9 @@ Rendered render_page(const RenderJob& job, const std::function<void(const Progre
                      const std::stop_token& stop) {
   check_page(job);
   const auto& scene = std::get<Scene>(job.script);
-  require_blocks(scene, "render: an HTML page");
-  const std::unique_ptr<CollisionLog> log = make_collision_log(scene.system);
-  const Schedule schedule = make_schedule(scene, *log);
-  const PageFacts facts(scene, *log, schedule);
+  const RunLog run(scene);
+  const Schedule schedule = make_schedule(scene, run.timeline());
+  const PageFacts facts(scene, run, schedule);
   facts.check_range();
   const fs::path path = follow_links(job.output);
   FileSet files(path.parent_path(), path.filename(), Unfinished::Sharing::shared);

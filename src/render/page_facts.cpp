@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
+#include <piblocks/restitution.hpp>
 #include <piblocks/run.hpp>
 
 #include <algorithm>
@@ -59,10 +60,10 @@ class Differences {
   std::int64_t times_ = 0;
 };
 
-std::vector<Rational> times_of(const CollisionLog& log, const CollisionRange& range) {
+std::vector<Rational> times_of(const Timeline& log, const CollisionRange& range) {
   std::vector<Rational> times;
   for (Integer index = range.first; index <= range.last; ++index) {
-    times.push_back(to_rational(log.collision(index).time));
+    times.push_back(to_rational(log.collision_time(index)));
   }
   return times;
 }
@@ -101,16 +102,19 @@ std::vector<CollisionRange> listed_collisions(const Integer& before, const Integ
   return {{first, first + (kListedAtEachEnd - 1)}, {after - (kListedAtEachEnd - 1), after}};
 }
 
-PageFacts::PageFacts(const Scene& scene, const CollisionLog& log, const Schedule& schedule)
+PageFacts::PageFacts(const Scene& scene, const RunLog& run, const Schedule& schedule)
     : scene_(scene),
-      log_(log),
+      log_(run.timeline()),
+      is_endless_(run.blocks() != nullptr && is_endless(*run.blocks())),
       schedule_(schedule),
       frames_(film_frames(schedule)),
       frames_before_reversal_(
           std::min(count_before_reversal(schedule, scene.view.frame_rate), frames_)),
       from_(schedule.time_of(0)),
-      first_(log.state_at(from_).count),
-      most_(log.state_at(schedule.time_of(frames_before_reversal_ - 1)).count) {}
+      first_(log_.count_at(from_)),
+      most_(log_.count_at(schedule.time_of(frames_before_reversal_ - 1))) {}
+
+VideoCount PageFacts::count() const { return {most_, log_.size(), is_endless_, log_.may_go_on()}; }
 
 void PageFacts::check_range() const {
   if (to_double(schedule_.time_of(frames_before_reversal_ - 1) - from_) <= kLargest) return;
@@ -122,7 +126,7 @@ void PageFacts::check_range() const {
 void PageFacts::write_counts(const Sink& sink) const {
   Differences counts;
   for (std::int64_t frame = 0; frame < frames_; ++frame) {
-    const std::string text = counts.add(log_.state_at(schedule_.time_of(frame)).count);
+    const std::string text = counts.add(log_.count_at(schedule_.time_of(frame)));
     if (!text.empty()) sink(text);
   }
   sink(counts.end());

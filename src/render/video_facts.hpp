@@ -5,7 +5,6 @@
 #pragma once
 
 #include <piblocks/exact.hpp>
-#include <piblocks/restitution.hpp>
 #include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
@@ -14,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/run_log.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -36,18 +36,19 @@ struct VideoCount {
   Integer at_end;  ///< when the video has come furthest
   Integer total;
   bool is_endless = false;  ///< whether `total` stands for infinitely many
+  bool may_go_on = false;   ///< whether `total` is only the count until some time
 };
 
 class PageFacts {
  public:
   /// @throws UsageError as film_frames().
-  PageFacts(const Scene& scene, const CollisionLog& log, const Schedule& schedule);
+  PageFacts(const Scene& scene, const RunLog& run, const Schedule& schedule);
 
   /// @throws UsageError if the times exceed a browser's numbers. Other outputs can have them.
   void check_range() const;
   /// Collisions that the frames count, at most.
   const Integer& most() const noexcept { return most_; }
-  VideoCount count() const { return {most_, log_.size(), is_endless(log_)}; }
+  VideoCount count() const;
   /// Number of frames until a loop turns back; of all frames without a loop.
   std::int64_t frames_before_reversal() const noexcept { return frames_before_reversal_; }
   /// Writes the object in pieces. Times are given in units of 10^-scale; of sequences, what each
@@ -58,7 +59,8 @@ class PageFacts {
   void write_counts(const std::function<void(std::string_view)>& sink) const;
 
   const Scene& scene_;
-  const CollisionLog& log_;
+  const Timeline& log_;
+  bool is_endless_;  ///< as VideoCount
   const Schedule& schedule_;
   std::int64_t frames_;
   std::int64_t frames_before_reversal_;
@@ -78,6 +80,6 @@ std::string describe_video(const Scene& scene, const VideoCount& count);
 /// of frames, rounded up to milliseconds. Before time 0 counts are negative, and captions say how
 /// many collisions are to go until then.
 /// @throws UsageError as film_frames().
-std::string captions(const CollisionLog& log, const Schedule& schedule, const Rational& frame_rate);
+std::string captions(const RunLog& run, const Schedule& schedule, const Rational& frame_rate);
 
 }  // namespace piblocks

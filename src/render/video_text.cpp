@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <piblocks/restitution.hpp>
 #include <piblocks/run.hpp>
 
 #include <algorithm>
@@ -34,6 +35,7 @@ std::string reached(const VideoCount& count) {
                        left == 1 ? "is" : "are");
   }
   if (count.total == 0) return number + ": there are no collisions from time 0 on";
+  if (count.may_go_on) return collisions(count.at_end);
   if (count.at_end == count.total) {
     return all_collisions(count.total, count.is_endless) +
            (count.is_endless ? ", after which both blocks rest" : ", which is all there are");
@@ -46,6 +48,24 @@ std::string collision_words(const BlockSystem& system) {
   return fmt::format(
       "The blocks part with {} of the speed at which they meet, the inner one and the wall with {}",
       short_text(system.blocks_restitution), short_text(system.wall_restitution));
+}
+
+/// "3 blocks", "200 discs"
+std::string bodies_of(const Bodies& bodies) {
+  const std::size_t count = bodies.system.bodies.size();
+  const char* const name = bodies.system.dimensions == 1 ? "block" : "disc";
+  return fmt::format("{} {}{}", count, name, count == 1 ? "" : "s");
+}
+
+std::string describe_bodies(const Bodies& bodies, const VideoCount& count) {
+  const bool is_line = bodies.system.dimensions == 1;
+  const std::size_t walls = bodies.system.walls.size();
+  const std::string place =
+      walls == 0 ? std::string() : fmt::format(", with {} wall{}", walls, walls == 1 ? "" : "s");
+  return fmt::format(
+      "{} move {} without friction{}. All collisions are elastic, and a counter "
+      "reaches {}.",
+      bodies_of(bodies), is_line ? "along a line" : "in a plane", place, reached(count));
 }
 
 struct Cue {
@@ -91,12 +111,16 @@ std::string time_text(std::int64_t frame, const Rational& frame_rate) {
 
 std::string title_of(const Scene& scene, const VideoCount& count) {
   if (std::string title = with_single_blanks(scene.show.title); !title.empty()) return title;
+  if (scene.bodies) {
+    return fmt::format("{}: {}", bodies_of(*scene.bodies), collisions(count.at_end));
+  }
   return fmt::format("Masses {} and {}: {}", short_text(scene.system.blue.mass),
                      short_text(scene.system.red.mass),
                      all_collisions(count.total, count.is_endless));
 }
 
 std::string describe_video(const Scene& scene, const VideoCount& count) {
+  if (scene.bodies) return describe_bodies(*scene.bodies, count);
   const BlockSystem& system = scene.system;
   const int base = scene.show.base;
   const std::string written =
@@ -112,15 +136,15 @@ std::string describe_video(const Scene& scene, const VideoCount& count) {
       motion_words(system.red), collision_words(system), reached(count), written);
 }
 
-std::string captions(const CollisionLog& log, const Schedule& schedule,
-                     const Rational& frame_rate) {
+std::string captions(const RunLog& run, const Schedule& schedule, const Rational& frame_rate) {
   const std::int64_t frames = film_frames(schedule);
+  const Timeline& log = run.timeline();
   std::vector<Integer> shown;
   for (std::int64_t frame = 0; frame < frames; ++frame) {
-    shown.push_back(log.state_at(schedule.time_of(frame)).count);
+    shown.push_back(log.count_at(schedule.time_of(frame)));
   }
   const Extremes counts{*std::ranges::min_element(shown), *std::ranges::max_element(shown),
-                        log.size(), is_endless(log)};
+                        log.size(), run.blocks() != nullptr && is_endless(*run.blocks())};
   std::vector<Cue> cues;
   for (std::int64_t frame = 0; frame < frames; ++frame) {
     Integer milestone = milestone_of(shown[static_cast<std::size_t>(frame)], counts.most);

@@ -110,11 +110,11 @@ void expect_in_texts(const Scene& scene, const Anchored& at) {
   film.time.from = Rational(0);
   film.time.to = at.instant;
   film.pacing.duration_s = 4;
-  const auto log = make_collision_log(film.system);
-  const Schedule schedule = make_schedule(film, *log);
-  const PageFacts facts(film, *log, schedule);
+  const RunLog log(film);
+  const Schedule schedule = make_schedule(film, log.timeline());
+  const PageFacts facts(film, log, schedule);
   EXPECT_EQ(facts.most(), at.count) << "page";
-  std::string text = captions(*log, schedule, film.view.frame_rate);
+  std::string text = captions(log, schedule, film.view.frame_rate);
   std::erase(text, ',');
   const std::string last = "\n" + at.count.get_str() + " collision";
   EXPECT_NE(text.find(last), std::string::npos) << "captions: " << text;
@@ -176,7 +176,7 @@ TEST(CountsShown, AreRightInTimesBeforeZero) {
   film.time.from = Rational(-20);
   film.time.to = Rational(1);
   const auto log = make_collision_log(system);
-  const std::string text = captions(*log, make_schedule(film, *log), film.view.frame_rate);
+  const std::string text = captions(RunLog(film), make_schedule(film, *log), film.view.frame_rate);
   EXPECT_NE(text.find("100 collisions or more to go until time 0"), std::string::npos) << text;
   // Count 0 is reached before time 0, and kept after it.
   EXPECT_TRUE(text.ends_with("\nNo collision between now and time 0\n")) << text;
@@ -217,13 +217,15 @@ TEST(CountsShown, InfinitelyManyAreSaidToBe) {
     EXPECT_EQ(count_of(still_picture(scene, Instant::collision(7))), "7");
     const Integer before = log->size() - 1;
     EXPECT_EQ(count_of(still_picture(scene, Instant::collision(before))), before.get_str());
-    const std::string text = describe_video(scene, {log->size(), log->size(), true});
+    const std::string text = describe_video(scene, {log->size(), log->size(), true, false});
     EXPECT_EQ(text.find("elastic"), std::string::npos) << text;
     EXPECT_TRUE(contains(text, "part with 0.5 of the speed at which they meet")) << text;
     EXPECT_TRUE(contains(text, "reaches infinitely many collisions, after which both")) << text;
-    EXPECT_TRUE(contains(title_of(scene, {7, log->size(), true}), "infinitely many")) << text;
+    EXPECT_TRUE(contains(title_of(scene, {7, log->size(), true, false}), "infinitely many"))
+        << text;
     scene.time.to = Rational(9);
-    const std::string said = captions(*log, make_schedule(scene, *log), scene.view.frame_rate);
+    const std::string said =
+        captions(RunLog(scene), make_schedule(scene, *log), scene.view.frame_rate);
     EXPECT_TRUE(said.ends_with("\nInfinitely many collisions\n")) << said;
   }
 }

@@ -38,15 +38,15 @@ std::vector<Integer> numbers_of(const std::string& text) {
 
 struct Told {
   explicit Told(const Scene& wanted)
-      : scene(wanted), log(make_collision_log(scene.system)), schedule(make_schedule(scene, *log)) {
-    const PageFacts facts(scene, *log, schedule);
+      : scene(wanted), log(scene), schedule(make_schedule(scene, log.timeline())) {
+    const PageFacts facts(scene, log, schedule);
     facts.write([this](std::string_view text) { json += text; });
     most = facts.most();
     counts = numbers_of(value_of(json, "counts"));
   }
 
   Scene scene;
-  std::unique_ptr<CollisionLog> log;
+  RunLog log;
   Schedule schedule;
   std::string json;
   Integer most;
@@ -63,7 +63,7 @@ void expect_counts_of_frames(const Told& told) {
   ASSERT_EQ(static_cast<std::int64_t>(told.counts.size()), film_frames(told.schedule));
   for (std::size_t frame = 0; frame < told.counts.size(); ++frame) {
     const Rational time = told.schedule.time_of(static_cast<std::int64_t>(frame));
-    ASSERT_EQ(told.counts[frame], told.log->state_at(time).count) << frame;
+    ASSERT_EQ(told.counts[frame], told.log.timeline().count_at(time)) << frame;
   }
 }
 
@@ -78,7 +78,7 @@ void expect_listed(const Told& told, const std::vector<CollisionRange>& ranges) 
     const std::vector<Integer> times = numbers_of(value_of(told.json, "times", at));
     ASSERT_EQ(Integer(times.size()), range.last - range.first + 1);
     for (std::size_t i = 0; i < times.size(); ++i) {
-      const Rational time = to_rational(told.log->collision(range.first + i).time);
+      const Rational time = to_rational(told.log.timeline().collision_time(range.first + i));
       ASSERT_LE(abs(times[i] * unit - time), unit / 2) << i;
     }
   }
@@ -89,7 +89,7 @@ TEST(PageFacts, HoldsTheCountOfEveryFrameAtAnySize) {
   for (const int digits : {1, 3, 20, 60}) {
     const Told told(scene_of(digits));
     expect_counts_of_frames(told);
-    EXPECT_EQ(told.most, told.log->size());
+    EXPECT_EQ(told.most, told.log.timeline().size());
     EXPECT_LT(told.json.size(), 500'000U) << digits;
   }
 }

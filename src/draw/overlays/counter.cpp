@@ -60,6 +60,7 @@ class Counter {
         face_(context.font.face()),
         base_(context.scene.show.base),
         last_(context.timeline.size()),
+        may_go_on_(context.timeline.may_go_on()),
         is_endless_(context.blocks != nullptr && is_endless(*context.blocks)),
         pi_count_(std::move(pi_count)),
         pi_(pi_count_.empty() ? "" : pi_line(context, digits_in(pi_count_))),
@@ -71,7 +72,7 @@ class Counter {
 
   void operator()(const FrameState& shown, std::vector<DrawItem>& items) const {
     const Integer& count = shown.state.count;
-    const bool is_over = count >= last_;
+    const bool is_over = count >= last_ && !may_go_on_;
     const bool is_infinite = is_over && is_endless_;
     const std::string text = is_infinite ? std::string(kEndlessCount) : count_text(count, base_);
     // An instant outside of the film may have a longer count than any in it.
@@ -128,6 +129,7 @@ class Counter {
   Face face_;
   int base_;
   Integer last_;
+  bool may_go_on_;
   bool is_endless_;
   std::string pi_count_;
   std::string pi_;
