@@ -207,6 +207,42 @@ TEST(BodyPictures, BodiesAreWhereTheyAre) {
   }
 }
 
+/// From which time on the picture may be wrong is said in it, from that time on.
+TEST(BodyPictures, SayWhatIsNotCertain) {
+  const Film film(read(R"(
+    box.x = [0, 4]
+    box.y = [0, 3]
+    view.theme = "lecture"
+    view.fps = 1
+    time.to = 100
+    time.allow-uncertain = true
+    [[body]]
+    position = [1, 1]
+    velocity = [1, 0.7]
+    radius = 0.5
+    [[body]]
+    position = [3, 1.2]
+    velocity = [-1, 0.3]
+    radius = 0.6
+    [[body]]
+    position = [2, 2.4]
+    velocity = [0.2, -0.9]
+    radius = 0.4
+  )"));
+  std::optional<double> said;
+  for (std::int64_t k = 0; k < film.frame_count(); ++k) {
+    for (const Box& box : texts_of(film.frame(k))) {
+      const std::string begin = "not certain from t = ";
+      if (box.what.starts_with(begin)) said = std::stod(box.what.substr(begin.size()));
+    }
+    if (!said) continue;
+    EXPECT_GE(double(k), *said) << "too early";
+    EXPECT_LT(double(k), *said + 1) << "too late";
+    break;
+  }
+  EXPECT_TRUE(said);
+}
+
 /// A film of parts, compared runs among them.
 TEST(BodyPictures, OfAStoryboardAreThoseOfAFullPaint) {
   const Script script = read(R"(

@@ -390,6 +390,8 @@ TEST_F(BodiesFile, WhatIsForTwoBlocksIsNotForBodies) {
   EXPECT_TRUE(problems(body + "[show]\nloupe = 'off'\n").empty());
   expect_problem(body + "[time]\nslow-motion = 'auto'\n", "4: time.slow-motion 'auto'" + why);
   expect_problem(body + "[show]\noverlays = ['digits']\n", "4: show.overlays 'digits'" + why);
+  expect_problem(body + "[show]\noverlays = ['velocities']\n",
+                 "4: show.overlays 'velocities'" + why);
   expect_problem(body + "[time]\nfrom = -1\n",
                  "4: time.from = -1: the motion of bodies begins at time 0");
   expect_problem(body + "[show]\noverlays = ['trails']\n",
