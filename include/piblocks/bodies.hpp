@@ -47,7 +47,7 @@ inline constexpr std::size_t kMaxBodies = 100'000;
 inline constexpr std::size_t kMaxWalls = 16;
 
 /// Everything that is wrong with a system; empty if nothing is. Keys are "body 3.mass", counted
-/// from 1, "wall 1.normal" and "body".
+/// from 1, "wall 1.normal", "body" and "wall".
 std::vector<Problem> problems_of(const BodySystem& system);
 
 /// The centre and the velocity of a body at one instant.

@@ -109,11 +109,15 @@ void check_dimensions(const BodySystem& system, SceneProblems& problems) {
     problems.require(system.dimensions == 2 || is_flat, key_of(i, "position"),
                      "has two coordinates: blocks are on a line");
   }
-  for (const Wall& wall : system.walls) {
-    const bool is_upright = wall.normal[0] != 0 && wall.normal[1] == 0;
-    const bool is_there = wall.normal[0] != 0 || wall.normal[1] != 0;
-    problems.require(system.dimensions == 2 ? is_there : is_upright, "box",
-                     "has a {} wall that blocks on a line cannot meet", wall.name);
+  for (std::size_t i = 0; i < system.walls.size(); ++i) {
+    const ExactVector& normal = system.walls[i].normal;
+    const std::string key = fmt::format("wall {}.normal", i + 1);
+    if (normal[0] == 0 && normal[1] == 0) {
+      problems.add(key, "= [0, 0]: must not be 0");
+    } else if (system.dimensions == 1 && normal[1] != 0) {
+      problems.add(key, "= [{}, {}]: blocks on a line cannot meet the {} wall", normal[0],
+                   normal[1], system.walls[i].name);
+    }
   }
 }
 
@@ -124,8 +128,8 @@ std::vector<Problem> problems_of(const BodySystem& system) {
   problems.require(!system.bodies.empty(), "body", "is missing: there must be at least one");
   problems.require(system.bodies.size() <= kMaxBodies, "body",
                    "= {} of them: at most {} can be shown", system.bodies.size(), kMaxBodies);
-  problems.require(system.walls.size() <= kMaxWalls, "box", "has {} walls: at most {} are possible",
-                   system.walls.size(), kMaxWalls);
+  problems.require(system.walls.size() <= kMaxWalls, "wall",
+                   "= {} of them: at most {} are possible", system.walls.size(), kMaxWalls);
   if (!problems.empty()) return problems.take();
   check_dimensions(system, problems);
   for (std::size_t i = 0; i < system.bodies.size(); ++i) check_body(system, i, problems);

@@ -169,8 +169,12 @@ class StoredBodyLog final : public BodyLog {
       if (body < of_body_.size()) of_body_[body].push_back(number);
     }
     if (step->exact_time) exact_times_.push_back(*step->exact_time);
-    steps_.push_back(
-        {step->time, step->first, step->second, step->first_after, step->second_after});
+    BodyMotion second_after = step->second_after;
+    if (step->second >= of_body_.size()) {
+      const Wall& wall = system().walls[step->second - of_body_.size()];
+      second_after = {{to_double(wall.point[0]), to_double(wall.point[1])}, {}};
+    }
+    steps_.push_back({step->time, step->first, step->second, step->first_after, second_after});
     return true;
   }
 

@@ -52,23 +52,21 @@ std::string parse_label(const std::string& text) {
   return text;
 }
 
+std::optional<Rational> parse_end(const std::string& text, const char* none) {
+  if (text == none || (text == "+inf" && none == std::string_view("inf"))) return std::nullopt;
+  return parse_rational(text);
+}
+
 struct BodyKey {
   const char* name;
   void (*set)(ReadBody& body, const Values& values);
 };
 
 constexpr auto kBodyKeys = std::to_array<BodyKey>({
-    {"mass",
-     [](ReadBody& body, const Values& values) {
-       const std::string& text = single(values);
-       body.body.mass.reset();
-       if (text != "inf") body.body.mass = parse_rational(text);
-     }},
+    {"mass", [](ReadBody& body,
+                const Values& values) { body.body.mass = parse_end(single(values), "inf"); }},
     {"position",
-     [](ReadBody& body, const Values& values) {
-       body.body.position = parse_vector(values, body);
-       body.has_position = true;
-     }},
+     [](ReadBody& body, const Values& values) { body.body.position = parse_vector(values, body); }},
     {"velocity",
      [](ReadBody& body, const Values& values) { body.body.velocity = parse_vector(values, body); }},
     {"width",
@@ -86,11 +84,6 @@ constexpr auto kBodyKeys = std::to_array<BodyKey>({
     {"label",
      [](ReadBody& body, const Values& values) { body.style.label = parse_label(single(values)); }},
 });
-
-std::optional<Rational> parse_end(const std::string& text, const char* none) {
-  if (text == none || (text == "+inf" && none == std::string_view("inf"))) return std::nullopt;
-  return parse_rational(text);
-}
 
 /// @param axis  0 for x, 1 for y
 void add_walls(const std::optional<BoxSide>& side, std::size_t axis,
@@ -139,6 +132,7 @@ void BodyDraft::read_body(const TomlTable& table, const OnProblem& on_problem) {
   };
   ReadBody read;
   for (const TomlEntry& entry : table.entries) {
+    if (entry.key.starts_with("position")) read.has_position = true;  // perhaps one with a problem
     const auto key = std::ranges::find(kBodyKeys, std::string_view(entry.key), &BodyKey::name);
     if (key == kBodyKeys.end()) {
       problem(entry.line, fmt::format(".{}: unknown key", entry.key));
@@ -177,26 +171,32 @@ void BodyDraft::read_body(const TomlTable& table, const OnProblem& on_problem) {
 
 void BodyDraft::read_walls(const std::vector<TomlTable>& tables, const OnProblem& on_problem) {
   slanted_.clear();
+  slanted_lines_.clear();
   for (const TomlTable& table : tables) {
     Wall wall{fmt::format("slanted-{}", slanted_.size() + 1), {}, {}};
     std::size_t found = 0;
+    bool is_read = true;
     for (const TomlEntry& entry : table.entries) {
       const bool is_point = entry.key == "point";
       if (!is_point && entry.key != "normal") {
         on_problem(entry.line, fmt::format("wall.{}: unknown key", entry.key));
         continue;
       }
+      ++found;
       try {
         if (entry.values.size() != 2) throw UsageError("must be two numbers, as [0, 1]");
         (is_point ? wall.point : wall.normal) =
             ExactVector{parse_rational(entry.values[0]), parse_rational(entry.values[1])};
-        ++found;
       } catch (const UsageError& error) {
-        on_problem(entry.line, fmt::format("wall.{}: {}", entry.key, error.what()));
+        is_read = false;
+        on_problem(entry.line,
+                   fmt::format("wall.{} = {}: {}", entry.key, joined(entry.values), error.what()));
       }
     }
     if (found != 2) on_problem(table.line, "wall: needs a point on it and its normal");
+    if (!is_read || found != 2) continue;  // what follows would only repeat it
     slanted_.push_back(std::move(wall));
+    slanted_lines_.push_back(table.line);
   }
 }
 

@@ -39,6 +39,11 @@ class BodyDraft {
   Bodies bodies() const;
   /// The line on which this body begins; 0 for one that is not there.
   std::size_t line(std::size_t body) const { return body < lines_.size() ? lines_[body] : 0; }
+  bool has_slanted_walls() const noexcept { return !slanted_.empty(); }
+  /// The line on which this [[wall]] begins; 0 for one that is not there.
+  std::size_t slanted_line(std::size_t wall) const {
+    return wall < slanted_lines_.size() ? slanted_lines_[wall] : 0;
+  }
 
  private:
   struct Read {
@@ -54,6 +59,7 @@ class BodyDraft {
   std::optional<BoxSide> x_;
   std::optional<BoxSide> y_;
   std::vector<Wall> slanted_;
+  std::vector<std::size_t> slanted_lines_;
 };
 
 /// The least range of both axes that shows the box, or the bodies at time 0, with a margin.

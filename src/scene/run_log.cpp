@@ -38,7 +38,8 @@ void require_certain(const Scene& scene, const BodyLog& log, const Rational& tim
   if (!until || *until > to_double(time)) return;
   throw UsageError(fmt::format(
       "bodies: what happens is certain until time {:.6g} only, since double precision cannot tell "
-      "which of them collide next; end before it, as --to {:.4g}, or show what may be wrong with "
+      "which of them collide next; end before it, as time.to = {:.4g}, or show what may be wrong "
+      "with "
       "--allow-uncertain",
       *until, *until * 0.999));
 }

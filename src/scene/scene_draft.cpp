@@ -37,6 +37,15 @@ int parse_digits(const Values& values) {
   return digits;
 }
 
+/// The 3 of "body 3.mass" after "body "; 0 if the text does not begin so.
+std::size_t number_in(std::string_view text, std::string_view beginning) {
+  if (!text.starts_with(beginning)) return 0;
+  const std::string_view rest = text.substr(beginning.size());
+  std::size_t number = 0;
+  std::from_chars(rest.data(), rest.data() + rest.size(), number);
+  return number;
+}
+
 /// Of the lecture themes, unless a scene says otherwise.
 const Rational kLectureShutter(1, 2);
 
@@ -87,8 +96,12 @@ bool SceneDraft::set_box(const std::string& key, const Values& values) {
   } else if (key == "box.y") {
     bodies_.set_box_y(parse_box_side(values));
   } else if (key == "wall.mass") {
-    wall_mass_.reset();
-    if (single(values) != "inf") wall_mass_ = parse_rational(single(values));
+    std::optional<Rational> mass;
+    if (single(values) != "inf") mass = parse_rational(single(values));
+    if (mass && (*mass <= 0 || !is_finite(*mass))) {
+      throw UsageError("must be greater than 0, and within the range of a double or \"inf\"");
+    }
+    wall_mass_ = std::move(mass);
   } else {
     return false;
   }
@@ -183,22 +196,44 @@ void SceneDraft::set_recoiling_wall(Scene& scene) const {
                         {{}, {}, {{{kColor, kColor, kColor}}, "wall"}}};
 }
 
+/// The key of the file that sets what problems_of() calls so.
+std::string SceneDraft::key_of(const Scene& scene, const std::string& key) const {
+  const std::size_t wall = number_in(key, "wall ");
+  if (wall == 0) return key;
+  const std::vector<Wall>& walls = scene.bodies->system.walls;
+  const std::string& name = walls.at(wall - 1).name;
+  if (name == "left" || name == "right") return "box.x";
+  if (name == "lower" || name == "upper") return "box.y";
+  const std::size_t slanted = number_in(name, "slanted-");
+  return fmt::format("wall {}.normal", slanted);
+}
+
 std::string SceneDraft::origin_of(const std::string& key) const {
   const auto origin = origins_.find(key);
   if (origin != origins_.end()) return origin->second;
-  // "body 3.mass": the table of the third body.
-  std::size_t number = 0;
-  const char* const digits = key.data() + std::min<std::size_t>(key.size(), 5);
-  const bool is_of_body =
-      key.starts_with("body ") &&
-      std::from_chars(digits, key.data() + key.size(), number).ec == std::errc{};
-  const std::size_t line = is_of_body ? bodies_.line(number - 1) : 0;
+  std::size_t line = 0;
+  if (const std::size_t body = number_in(key, "body ")) line = bodies_.line(body - 1);
+  if (const std::size_t wall = number_in(key, "wall ")) line = bodies_.slanted_line(wall - 1);
+  if (key == "body") line = bodies_.line(0);
+  if (key == "wall") line = bodies_.slanted_line(0);
   return line > 0 ? fmt::format("{}:{}", bodies_path_, line) : default_origin_;
+}
+
+/// Whether other problems, which are reported, are the cause of this one.
+bool SceneDraft::is_repeated(const std::string& key) const {
+  if (has_recoiling_wall()) return key.starts_with("body ");
+  return !bodies_.empty() && key.starts_with("view.") && !origins_.contains(key);
 }
 
 /// Keys of blue, red and the wall, where there are bodies instead; and a box without bodies.
 std::vector<std::string> SceneDraft::problems_of_bodies(const Scene& scene) const {
   std::vector<std::string> problems;
+  if (has_recoiling_wall()) {
+    // In the words of the file, which has no bodies.
+    for (const auto& [key, reason] : problems_of(scene.system)) {
+      problems.push_back(fmt::format("{}: {} {}", origin_of(key), key, reason));
+    }
+  }
   if (wall_mass_ && !is_elastic(scene.system)) {
     problems.push_back(fmt::format(
         "{}: wall.mass: a wall that recoils is elastic; leave out the restitution, or the mass",
@@ -212,10 +247,14 @@ std::vector<std::string> SceneDraft::problems_of_bodies(const Scene& scene) cons
           "{}: {}: this scene has [[body]] instead of blue, red and the wall", origin,
           key == "red.mass" && (digits_ || mass_ratio_) ? (digits_ ? "digits" : "mass-ratio")
                                                         : key));
-    } else if (!scene.bodies && key.starts_with("box.")) {
+    } else if (bodies_.empty() && key.starts_with("box.")) {
       problems.push_back(
           fmt::format("{}: {}: is the box of bodies, and there is no [[body]]", origin, key));
     }
+  }
+  if (bodies_.empty() && bodies_.has_slanted_walls()) {
+    problems.push_back(fmt::format(
+        "{}: wall: [[wall]] is a wall of bodies, and there is no [[body]]", origin_of("wall")));
   }
   return problems;
 }
@@ -226,7 +265,9 @@ std::vector<std::string> SceneDraft::problems(bool of_film) const {
   for (std::string& problem : problems_of_bodies(made)) problems.push_back(std::move(problem));
   for (const auto& [key, reason] : problems_of(made)) {
     if (of_film && !is_film_key(key)) continue;
-    problems.push_back(fmt::format("{}: {} {}", origin_of(key), key, reason));
+    if (!problems.empty() && is_repeated(key)) continue;
+    const std::string named = key_of(made, key);
+    problems.push_back(fmt::format("{}: {} {}", origin_of(named), named, reason));
   }
   return problems;
 }

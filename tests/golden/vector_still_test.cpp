@@ -133,10 +133,34 @@ std::vector<VectorCase> each_thing() {
   return cases;
 }
 
+/// Shipped scenes with bodies, and one of each kind in every theme.
+std::vector<VectorCase> bodies() {
+  const auto named = [](const std::string& scene, std::string name, const Arguments& options) {
+    std::ranges::replace(name, '-', '_');
+    return VectorCase{name, Arguments{scene, "--size", "960x720"} + options};
+  };
+  std::vector<VectorCase> cases;
+  for (const std::string scene : {"three-blocks", "two-walls", "row", "cradle", "superball",
+                                  "recoil", "gas", "billiard", "brownian", "wedge", "touch"}) {
+    cases.push_back(named(scene, scene, {"--at", "#1+0.3"}));
+  }
+  for (const char* theme :
+       {"article", "lecture", "lecture-light", "chalkboard", "dark", "print", "colorblind"}) {
+    const Arguments common{"--at",          "3",         "--theme",        theme, "--title",
+                           "Où sont-ils ?", "--caption", "Zwischen Wänden"};
+    cases.push_back(named("three-blocks", std::string("blocks_") + theme,
+                          common + Arguments{"--show", "masses,energy,momentum,time,ruler"}));
+    cases.push_back(named("billiard", std::string("discs_") + theme,
+                          common + Arguments{"--show", "masses,energy,momentum,time,trails"}));
+  }
+  return cases;
+}
+
 std::string case_name(const testing::TestParamInfo<VectorCase>& info) { return info.param.name; }
 
 INSTANTIATE_TEST_SUITE_P(Themes, VectorStills, testing::ValuesIn(themes()), case_name);
 INSTANTIATE_TEST_SUITE_P(Each, VectorStills, testing::ValuesIn(each_thing()), case_name);
+INSTANTIATE_TEST_SUITE_P(Bodies, VectorStills, testing::ValuesIn(bodies()), case_name);
 
 using OpaqueVectorStills = VectorStills;
 

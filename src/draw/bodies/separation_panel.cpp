@@ -79,7 +79,7 @@ class SeparationPanel {
     add_level();
     add_parabola();
     add_path(*context.bodies);
-    add_roots();
+    add_roots(context.font);
     axis_.add_base(diagram_);
     diagram_.finish();
   }
@@ -162,7 +162,7 @@ class SeparationPanel {
     add_lines(meeting_.before.touch, to, square, add);
   }
 
-  void add_roots() {
+  void add_roots(const Font& font) {
     const double em = diagram_.text_px();
     const Palette& palette = diagram_.palette();
     const double part = meeting_.before.part();
@@ -172,8 +172,12 @@ class SeparationPanel {
       std::vector<Point> outline =
           Circle{at, style::kHitDot * diagram_.sizes().short_side}.arc(0, 2 * 3.14159265358979);
       diagram_.shape(std::move(outline), color);
-      diagram_.text(name, {at.x + (anchor > 0.5 ? -0.5 : 0.5) * em, at.y + 1.1 * em}, anchor,
-                    color);
+      const double side = anchor > 0.5 ? -0.5 * em : 0.5 * em;
+      const double left = at.x + side - anchor * font.width_em(name) * em;
+      const Rectangle& inside = diagram_.inside();
+      const bool has_room =
+          left >= inside.x && left + font.width_em(name) * em <= inside.x + inside.width;
+      if (has_room) diagram_.text(name, {at.x + side, at.y + 1.1 * em}, anchor, color);
     };
     root(meeting_.before.touch, "touch", palette.accent, 1);
     root(part, "would part", palette.muted, 0);

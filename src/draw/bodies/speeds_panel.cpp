@@ -100,6 +100,7 @@ class SpeedsPanel {
       const auto bin = static_cast<std::size_t>(std::sqrt(x * x + y * y) / fastest_ * bins_);
       if (bin < counts.size()) ++counts[bin];
     }
+    items.emplace_back(diagram_.item());
     const double width = plot_.width / bins_;
     const double bin_speed = fastest_ / bins_;
     for (std::size_t bin = 0; bin < counts.size(); ++bin) {
@@ -114,7 +115,6 @@ class SpeedsPanel {
                                        std::nullopt});
     }
     items.emplace_back(above_);
-    items.emplace_back(diagram_.item());
   }
 
  private:
@@ -139,7 +139,6 @@ class SpeedsPanel {
     const double em = diagram_.text_px();
     const double bottom = plot_.y + plot_.height;
     const Color& muted = diagram_.palette().muted;
-    diagram_.line({{plot_.x, bottom}, {plot_.x + plot_.width, bottom}}, muted);
     const Ticks ticks = ticks_of(0, fastest_, kBetweenTicks_em * em * fastest_ / plot_.width);
     for (const double value : ticks.values) {
       const double x = plot_.x + value / fastest_ * plot_.width;
@@ -162,10 +161,14 @@ class SpeedsPanel {
     for (int i = 0; i <= kCurvePoints; ++i) {
       points.push_back({plot_.x + plot_.width * i / kCurvePoints, y_of(densities[std::size_t(i)])});
     }
-    std::vector<DrawItem> curve;
-    curve.emplace_back(diagram_.moving_line(kCurve, std::move(points), diagram_.palette().accent,
-                                            diagram_.data_width()));
-    above_ = diagram_.plate(kCurve, std::move(curve));
+    // The bars stand on the axis, and end behind its line.
+    const double bottom = plot_.y + plot_.height;
+    std::vector<DrawItem> lines;
+    lines.emplace_back(diagram_.moving_line(
+        kCurve, {{plot_.x, bottom}, {plot_.x + plot_.width, bottom}}, diagram_.palette().muted));
+    lines.emplace_back(diagram_.moving_line(kCurve + 1, std::move(points),
+                                            diagram_.palette().accent, diagram_.data_width()));
+    above_ = diagram_.plate(kCurve, std::move(lines));
   }
 
   static constexpr std::size_t kCurve = 1000;  ///< after all bars

@@ -21,9 +21,10 @@ constexpr std::uint8_t kSoundRecord = 'S';
 constexpr std::uint8_t kEndRecord = 'E';
 /// Packets in a record of sound.
 constexpr std::size_t kSoundPackets = 64;
-/// Limits of the header. Numbers of a scene may have 100,000 digits each.
+/// Limits of the header. Numbers of a scene may have 100,000 digits each, and each of its bodies,
+/// of which there may be 100,000, has a line.
 constexpr std::size_t kMaxLine_bytes = 4 * 1024 * 1024;
-constexpr std::size_t kMaxHeaderLines = 200;
+constexpr std::size_t kMaxHeaderLines = 200'000;
 
 // pts, dts, key frame, size.
 constexpr std::size_t kPacketHeader_bytes = 8 + 8 + 1 + 4;

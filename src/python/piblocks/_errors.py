@@ -6,6 +6,7 @@ import re
 
 # Options of the command line that messages name, and what they are called here.
 _KEYWORDS = {
+    "allow-uncertain": "time_allow_uncertain=True",
     "at": "at",
     "bounds": "bounds",
     "bundle": "bundle",

@@ -1,0 +1,283 @@
+// Scenes with bodies: what is painted in pieces is what is painted whole; every theme and size
+// shows or refuses them.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+#include <piblocks/render.hpp>
+#include <piblocks/script.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "draw/canvas.hpp"
+#include "draw/composed_pictures.hpp"
+#include "render/film.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr std::array kShipped{"three-blocks", "two-walls", "row",  "cradle",
+                              "superball",    "recoil",    "gas",  "billiard",
+                              "brownian",     "wedge",     "touch"};
+constexpr std::array kThemeNames{"article", "lecture", "lecture-light", "chalkboard",
+                                 "dark",    "print",   "colorblind"};
+
+Scene shipped(const std::string& name, const std::vector<Setting>& settings) {
+  ScriptBuilder builder;
+  builder.read_file(std::string(PIBLOCKS_SCENES) + "/" + name + ".toml");
+  for (const auto& [key, text] : settings) builder.set("test", key, text);
+  return builder.build_scene();
+}
+
+std::vector<std::uint32_t> words_of(const ImageView& image) {
+  std::vector<std::uint32_t> words;
+  for (int y = 0; y < image.height_px; ++y) {
+    const auto* row = reinterpret_cast<const std::uint32_t*>(image.row(y));
+    words.insert(words.end(), row, row + image.width_px);
+  }
+  return words;
+}
+
+std::vector<std::uint32_t> painted(const DrawList& list) {
+  Canvas canvas(list.width_px, list.height_px);
+  canvas.paint(list);
+  return words_of(canvas.view());
+}
+
+class ShippedBodies : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedBodies, EveryFrameIsThatOfAFullPaintInAnyOrder) {
+  const Scene scene = shipped(GetParam(), {{"view.size", "480x270"}, {"view.fps", "6"}});
+  const Film film(scene);
+  FrameRenderer renderer(scene);
+  ASSERT_EQ(renderer.frame_count(), film.frame_count());
+  ASSERT_GT(film.frame_count(), 20);
+  for (std::int64_t k = 0; k < film.frame_count(); ++k) {
+    ASSERT_TRUE(words_of(renderer.frame(k)) == painted(film.frame(k))) << k;
+    const std::int64_t other = k * 37 % film.frame_count();
+    ASSERT_TRUE(words_of(renderer.frame(other)) == painted(film.frame(other))) << other;
+    ASSERT_TRUE(words_of(renderer.frame(k)) == painted(film.frame(k))) << k << " again";
+  }
+}
+
+TEST_P(ShippedBodies, IdsRiseFromBackToFront) {
+  const Film film(shipped(GetParam(), {{"view.fps", "2"}}));
+  for (std::int64_t k = 0; k < film.frame_count(); ++k) {
+    const DrawList list = film.frame(k);
+    const auto id_of = [](const DrawItem& item) {
+      return std::visit([](const auto& any) { return any.id; }, item);
+    };
+    ASSERT_EQ(std::ranges::adjacent_find(list.items, std::ranges::greater_equal(), id_of),
+              list.items.end())
+        << "frame " << k;
+  }
+}
+
+/// What is wrong with the texts of a picture.
+std::string problem_of(const DrawList& list) {
+  const std::vector<Box> boxes = texts_of(list);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Box& box = boxes[i];
+    if (box.left < 0 || box.top < 0 || box.right > list.width_px || box.bottom > list.height_px) {
+      return "'" + box.what + "' leaves the frame";
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (overlap(box, boxes[k])) return "'" + box.what + "' meets '" + boxes[k].what + "'";
+    }
+  }
+  return {};
+}
+
+/// Of type, in fractions of the shorter side; all texts but digits of scales are at least so large.
+double smallest_type(const DrawList& list) {
+  double smallest_px = 1e9;
+  for (const DrawItem& item : list.items) {
+    if (const auto* text = std::get_if<TextItem>(&item)) {
+      smallest_px = std::min(smallest_px, text->size_px);
+    }
+  }
+  return smallest_px / std::min(list.width_px, list.height_px);
+}
+
+/// Frames at the beginning, in the middle and at the end are legible, or the scene is refused by a
+/// line. @return whether it is drawn
+bool is_drawn(const Scene& scene, const std::string& what) {
+  std::optional<Film> film;
+  try {
+    film.emplace(scene);
+  } catch (const UsageError& error) {
+    const std::string text = error.what();
+    EXPECT_GT(text.size(), 20U) << what;
+    EXPECT_EQ(text.find('\n'), std::string::npos) << what << ": " << text;
+    return false;
+  }
+  for (const std::int64_t k : {std::int64_t{0}, film->frame_count() / 2, film->frame_count() - 1}) {
+    const DrawList list = film->frame(k);
+    EXPECT_EQ(problem_of(list), "") << what << ", frame " << k;
+    EXPECT_GE(smallest_type(list), 0.0329) << what << ", frame " << k;
+  }
+  return true;
+}
+
+TEST_P(ShippedBodies, AreLegibleInEveryTheme) {
+  for (const std::string theme : kThemeNames) {
+    EXPECT_TRUE(is_drawn(shipped(GetParam(), {{"view.theme", theme}}), theme)) << theme;
+  }
+}
+
+TEST_P(ShippedBodies, AreLegibleOrRefusedAtEverySize) {
+  for (const std::string size :
+       {"160x90", "320x180", "640x360", "1280x720", "1920x1080", "3840x2160", "1080x1920",
+        "1080x1080", "720x1280", "1440x1080", "2560x1080", "90x160", "64x64", "16x16", "1x1"}) {
+    const bool shows = is_drawn(shipped(GetParam(), {{"view.size", size}}), size);
+    const bool is_usual = size == "640x360" || size == "1280x720" || size == "1920x1080" ||
+                          size == "3840x2160" || size == "1440x1080";
+    EXPECT_TRUE(shows || !is_usual) << size;
+  }
+}
+
+/// Everything that there is for this kind of scene.
+TEST_P(ShippedBodies, ShowAllThereIs) {
+  const Scene plain = shipped(GetParam(), {});
+  const bool is_plane = plain.bodies->system.dimensions == 2;
+  const bool are_two = plain.bodies->system.bodies.size() == 2;
+  const std::string panels = !is_plane ? "time,count,speeds"
+                             : are_two ? "separation,count,speeds"
+                                       : "count,speeds";
+  for (const std::string theme : kThemeNames) {
+    const std::vector<Setting> all{{"view.theme", theme},
+                                   {"show.overlays", std::string("masses,energy,momentum,time,") +
+                                                         (is_plane ? "trails" : "ruler")},
+                                   {"show.panels", panels},
+                                   {"show.title", "Many bodies"},
+                                   {"show.caption", "and their walls"}};
+    try {
+      const Film film(shipped(GetParam(), all));
+      const std::int64_t last = film.frame_count() - 1;
+      EXPECT_FALSE(painted(film.frame(0)) == painted(film.frame(last))) << theme;
+    } catch (const UsageError& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ShippedBodies, testing::ValuesIn(kShipped),
+                         [](const testing::TestParamInfo<const char*>& one) {
+                           std::string name = one.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+Script read(const std::string& text) {
+  ScriptBuilder builder;
+  builder.read_text("scene.toml", text);
+  return builder.build();
+}
+
+/// Bodies are seen where they are: the colour at the centre of each is its own.
+TEST(BodyPictures, BodiesAreWhereTheyAre) {
+  const std::string colors[] = {"#ff0000", "#00ff00", "#0000ff"};
+  std::string text =
+      "[view]\nx = [0, 16]\ny = [0, 9]\nsize = '1600x900'\ntheme = 'lecture'\nfps = 1\n"
+      "[time]\nto = 4\n";
+  const double starts[][2] = {{2, 2}, {8, 4}, {13, 6}};
+  for (int i = 0; i < 3; ++i) {
+    text += fmt::format(
+        "[[body]]\nposition = [{}, {}]\nvelocity = [{}, 0]\nradius = 0.9\ncolor = '{}'\n",
+        starts[i][0], starts[i][1], i == 1 ? -1 : 0, colors[i]);
+  }
+  const Film film(read(text));
+  for (std::int64_t k = 0; k < film.frame_count(); ++k) {
+    std::vector<DiskItem> discs;
+    for (const DrawItem& item : film.frame(k).items) {
+      if (const auto* disc = std::get_if<DiskItem>(&item)) discs.push_back(*disc);
+    }
+    ASSERT_EQ(discs.size(), 3U);
+    const double scale = (discs[2].centre.x - discs[0].centre.x) / 11;
+    EXPECT_NEAR(discs[1].centre.x, discs[0].centre.x + (6 - double(k)) * scale, 1e-6);
+    EXPECT_NEAR(discs[0].centre.y - discs[1].centre.y, 2 * scale, 1e-6);
+    EXPECT_NEAR(discs[0].centre.y - discs[2].centre.y, 4 * scale, 1e-6);
+    EXPECT_EQ(discs[0].fill, (Color{255, 0, 0}));
+    EXPECT_EQ(discs[1].fill, (Color{0, 255, 0}));
+    EXPECT_EQ(discs[2].fill, (Color{0, 0, 255}));
+  }
+}
+
+/// From which time on the picture may be wrong is said in it, from that time on.
+TEST(BodyPictures, SayWhatIsNotCertain) {
+  const Film film(read(R"(
+    box.x = [0, 4]
+    box.y = [0, 3]
+    view.theme = "lecture"
+    view.fps = 1
+    time.to = 100
+    time.allow-uncertain = true
+    [[body]]
+    position = [1, 1]
+    velocity = [1, 0.7]
+    radius = 0.5
+    [[body]]
+    position = [3, 1.2]
+    velocity = [-1, 0.3]
+    radius = 0.6
+    [[body]]
+    position = [2, 2.4]
+    velocity = [0.2, -0.9]
+    radius = 0.4
+  )"));
+  std::optional<double> said;
+  for (std::int64_t k = 0; k < film.frame_count(); ++k) {
+    for (const Box& box : texts_of(film.frame(k))) {
+      const std::string begin = "not certain from t = ";
+      if (box.what.starts_with(begin)) said = std::stod(box.what.substr(begin.size()));
+    }
+    if (!said) continue;
+    EXPECT_GE(double(k), *said) << "too early";
+    EXPECT_LT(double(k), *said + 1) << "too late";
+    break;
+  }
+  EXPECT_TRUE(said);
+}
+
+/// A film of parts, compared runs among them.
+TEST(BodyPictures, OfAStoryboardAreThoseOfAFullPaint) {
+  const Script script = read(R"(
+    view.size = [640, 360]
+    view.fps = 10
+    view.theme = "lecture"
+    [[part]]
+    time.to = 4
+    show.panels = ["time"]
+    [[part.body]]
+    position = 0
+    velocity = 1
+    [[part.body]]
+    position = 3
+    mass = 2
+    [[part]]
+    fade = 0.5
+    time.to = 3
+    box.x = [0, 9]
+    box.y = [0, 3]
+    show.overlays = ["trails"]
+    compare = [
+      { body = [{ position = [1.1, 1.1], velocity = [1, 0] }, { position = [5, 1.5] }] },
+      { body = [{ position = [1.1, 1.1], velocity = [3, 0] }, { position = [5, 1.5] }] },
+    ]
+  )");
+  const Film film(script);
+  FrameRenderer renderer(script);
+  ASSERT_EQ(film.frame_count(), 65);
+  for (std::int64_t k = 0; k < film.frame_count(); ++k) {
+    ASSERT_TRUE(words_of(renderer.frame(k)) == painted(film.frame(k))) << k;
+    const std::int64_t other = k * 37 % film.frame_count();
+    ASSERT_TRUE(words_of(renderer.frame(other)) == painted(film.frame(other))) << other;
+  }
+}
+
+}  // namespace
+}  // namespace piblocks
