@@ -163,7 +163,6 @@ void check_bodies(const Scene& scene, SceneProblems& problems) {
   reject(scene.pacing.automatic_slow_motion, "time.slow-motion", "'auto'");
   reject(scene.view.shutter > 0, "view.shutter", "motion blur");
   reject(scene.show.has(Overlay::digits), "show.overlays", "'digits'");
-  reject(scene.show.has(Overlay::velocities), "show.overlays", "'velocities'");
   reject(scene.show.loupe && scene.show.loupe->is_on, "show.loupe", "the loupe");
   const bool is_plane = scene.bodies->system.dimensions == 2;
   problems.require(is_plane || !scene.show.has(Overlay::trails), "show.overlays",

@@ -300,20 +300,27 @@ TEST_F(BodiesCli, WhatIsForTwoBlocksIsRefused) {
   expect_line({"log", "meeting.toml", "--engine", "events"}, "--engine" + why);
   expect_line({"state", "meeting.toml", "--at", "1", "--engine", "velocities"}, "--engine" + why);
   expect_line({"state", "meeting.toml", "--at", "1", "--bounds"}, "--bounds" + why);
-  expect_line({"render", "meeting.toml", "-o", "new/a.html"}, "render: an HTML page" + why);
   expect_line({"count", "meeting.toml", "--digits", "3"},
               "--digits: digits: this scene has [[body]] instead of blue, red and the wall");
   expect_line(
       {"still", "meeting.toml", "--at", "1", "--shutter", "1/2", "-o", "a.png"},
       "--shutter: view.shutter motion blur is for two blocks and a wall, and this scene has "
       "[[body]]");
-  const CommandResult bundle =
-      piblocks({"render", "meeting.toml", "-o", "a.mp4", "--bundle", "new/talk"});
-  EXPECT_EQ(bundle.exit_code, 2);
-  EXPECT_EQ(lines(bundle.err).size(), 1U) << bundle.err;
-  EXPECT_NE(bundle.err.find(why), std::string::npos) << bundle.err;
   EXPECT_EQ(entries(),
             (std::vector<std::string>{"endless.toml", "meeting.toml", "uncertain.toml"}));
+}
+
+TEST_F(BodiesCli, PagesAndBundlesSayWhatMovesAndHowOftenItMeets) {
+  output_of({"render", "endless.toml", "--size", "64x64", "--fps", "5", "--quiet", "--to", "3",
+             "-o", "a.html"});
+  const std::string page = contents("a.html");
+  EXPECT_NE(page.find("without friction"), std::string::npos);
+  EXPECT_EQ(page.find("which is all there are"), std::string::npos);
+  output_of({"render", "meeting.toml", "--size", "64x64", "--fps", "5", "--quiet", "-o", "a.mp4",
+             "--bundle", "talk"});
+  const std::string captions = contents("talk/captions.vtt");
+  EXPECT_TRUE(captions.starts_with("WEBVTT")) << captions;
+  EXPECT_NE(captions.find("which is all there are"), std::string::npos) << captions;
 }
 
 TEST_F(BodiesCli, WhatIsNotCertainIsRefusedWithItsTime) {

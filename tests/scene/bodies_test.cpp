@@ -390,15 +390,11 @@ TEST_F(BodiesFile, WhatIsForTwoBlocksIsNotForBodies) {
   EXPECT_TRUE(problems(body + "[show]\nloupe = 'off'\n").empty());
   expect_problem(body + "[time]\nslow-motion = 'auto'\n", "4: time.slow-motion 'auto'" + why);
   expect_problem(body + "[show]\noverlays = ['digits']\n", "4: show.overlays 'digits'" + why);
-  expect_problem(body + "[show]\noverlays = ['velocities']\n",
-                 "4: show.overlays 'velocities'" + why);
+  expect_problem(body + "[show]\noverlays = ['ruler']\n", "4: show.overlays 'ruler'" + why);
   expect_problem(body + "[time]\nfrom = -1\n",
                  "4: time.from = -1: the motion of bodies begins at time 0");
   expect_problem(body + "[show]\noverlays = ['trails']\n",
                  "4: show.overlays 'trails' is for discs; blocks have the diagram 'time'");
-  const std::string disc = "[[body]]\nposition = [1, 2]\n";
-  expect_problem(disc + "[show]\noverlays = ['ruler']\n",
-                 "4: show.overlays 'ruler' is for blocks on a line");
   expect_problem("[show]\noverlays = ['trails']\n",
                  "2: show.overlays 'trails' is for a scene with [[body]]");
 }
