@@ -12,6 +12,7 @@
 
 #include "core/rounded.hpp"
 #include "draw/bodies/body_look.hpp"
+#include "draw/look.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
 
@@ -90,6 +91,11 @@ class BodyStage {
   BodyStage(const DrawingContext& context, const Rectangle& area)
       : context_(context), system_(context.scene.bodies->system), area_(area) {
     context.needs.trails = context.scene.show.has(Overlay::trails);
+    if (system_.dimensions == 2) {
+      window_ = {std::ceil(area.x), std::ceil(area.y), std::floor(area.width - 1),
+                 std::floor(area.height - 1)};
+      area_ = {0, 0, window_.width, window_.height};
+    }
     if (system_.dimensions == 1) {
       lay_out_line();
     } else {
@@ -99,7 +105,20 @@ class BodyStage {
     add_labels();
   }
 
+  /// Discs that leave what is shown are cut off at its edge, so that they hide no text.
   Drawable drawable() && {
+    if (system_.dimensions == 1) return bodies();
+    return [inside = bodies(), window = window_, background = background_of(context_.scene.view)](
+               const FrameState& shown, std::vector<DrawItem>& items) {
+      DrawList list{int(window.width), int(window.height), background, {}};
+      inside(shown, list.items);
+      items.emplace_back(
+          GroupItem{ItemId::wall, window, std::make_shared<const DrawList>(std::move(list))});
+    };
+  }
+
+ private:
+  Drawable bodies() {
     std::vector<DrawItem> stays;
     add_walls(stays);
     const bool are_blocks = system_.dimensions == 1;
@@ -158,7 +177,6 @@ class BodyStage {
     }
   }
 
- private:
   bool has_labels() const {
     return context_.scene.show.has(Overlay::masses) ||
            std::ranges::any_of(context_.scene.bodies->styles,
@@ -357,7 +375,8 @@ class BodyStage {
 
   const DrawingContext& context_;
   const BodySystem& system_;
-  Rectangle area_;
+  Rectangle window_;  ///< in the frame, whole pixels; of discs
+  Rectangle area_;    ///< in the frame; of discs, in the window
   BodyMap map_;
   std::vector<BodyShape> shapes_;
 };
