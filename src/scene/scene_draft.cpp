@@ -174,6 +174,8 @@ Scene SceneDraft::scene() const {
   if (width_by_mass_) scene.system.red.width = width_by_mass(scene.system);
   if (wall_mass_) {
     set_recoiling_wall(scene);
+    // So that two scenes of the same bodies have one description. What is wrong is told first.
+    if (is_elastic(scene.system) && problems_of(scene.system).empty()) scene.system = {};
     return scene;
   }
   // A blurred frame cannot be transparent.

@@ -79,7 +79,17 @@ TEST_P(ShippedBodies, IdsRiseFromBackToFront) {
 
 /// What is wrong with the texts of a picture.
 std::string problem_of(const DrawList& list) {
-  const std::vector<Box> boxes = texts_of(list);
+  std::vector<Box> boxes = texts_of(list);
+  // Labels of discs are in a picture of their own.
+  if (const auto* group = std::get_if<GroupItem>(&list.items.front())) {
+    for (Box box : texts_of(*group->list)) {
+      box.left += group->bounds.x;
+      box.right += group->bounds.x;
+      box.top += group->bounds.y;
+      box.bottom += group->bounds.y;
+      boxes.push_back(box);
+    }
+  }
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Box& box = boxes[i];
     if (box.left < 0 || box.top < 0 || box.right > list.width_px || box.bottom > list.height_px) {
@@ -193,7 +203,9 @@ TEST(BodyPictures, BodiesAreWhereTheyAre) {
   const Film film(read(text));
   for (std::int64_t k = 0; k < film.frame_count(); ++k) {
     std::vector<DiskItem> discs;
-    for (const DrawItem& item : film.frame(k).items) {
+    const DrawList frame = film.frame(k);
+    const auto& group = std::get<GroupItem>(frame.items.front());
+    for (const DrawItem& item : group.list->items) {
       if (const auto* disc = std::get_if<DiskItem>(&item)) discs.push_back(*disc);
     }
     ASSERT_EQ(discs.size(), 3U);
@@ -241,6 +253,42 @@ TEST(BodyPictures, SayWhatIsNotCertain) {
     break;
   }
   EXPECT_TRUE(said);
+}
+
+/// A disc that leaves what is shown hides nothing of what is beside.
+TEST(BodyPictures, DiscsAreCutOffWhereTheyLeave) {
+  const std::string common =
+      "view.size = '640x360'\nview.theme = 'lecture'\nview.fps = 4\n"
+      "view.x = [0, 8]\nview.y = [0, 4]\ntime.to = 8\n"
+      "show.title = 'A disc leaves'\nshow.panels = ['count']\n";
+  std::string moving = common;
+  for (int i = 0; i < 10; ++i) {
+    const std::string body =
+        fmt::format("[[body]]\nposition = [{}, 2]\nradius = 0.3\n", 0.4 + 0.7 * i);
+    moving += body + fmt::format("velocity = [0, {}]\n", i % 2 == 0 ? 1 : -1);
+  }
+  const Film film(read(moving));
+  const DrawList first = film.frame(0);
+  const Rectangle window = std::get<GroupItem>(first.items.front()).bounds;
+  const auto outside = [&](const DrawList& list) {
+    DrawList rest = list;
+    rest.items.erase(rest.items.begin());
+    return painted(rest);
+  };
+  for (std::int64_t k = 0; k < film.frame_count(); k += 4) {
+    const DrawList list = film.frame(k);
+    const std::vector<std::uint32_t> all = painted(list);
+    const std::vector<std::uint32_t> beside = outside(list);
+    for (int y = 0; y < list.height_px; ++y) {
+      for (int x = 0; x < list.width_px; ++x) {
+        const bool is_in_window = x >= window.x && x < window.x + window.width && y >= window.y &&
+                                  y < window.y + window.height;
+        const auto at = std::size_t(y) * std::size_t(list.width_px) + std::size_t(x);
+        if (is_in_window) continue;
+        ASSERT_EQ(all[at], beside[at]) << k << ": " << x << ", " << y;
+      }
+    }
+  }
 }
 
 /// A film of parts, compared runs among them.

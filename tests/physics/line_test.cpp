@@ -47,8 +47,19 @@ class ExactWalk {
   }
 
   const std::vector<Body>& bodies() const { return bodies_; }
+  /// Of the longest number, numerator and denominator together.
+  std::size_t bits() const {
+    std::size_t most = bits_of(time_);
+    for (const Body& body : bodies_) {
+      most = std::max({most, bits_of(body.position[0]), bits_of(body.velocity[0])});
+    }
+    return most;
+  }
 
  private:
+  static std::size_t bits_of(const Rational& value) {
+    return mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
+  }
   std::optional<Rational> wait(std::size_t i, std::size_t j) const {
     const bool is_ordered = bodies_[i].position[0] < bodies_[j].position[0];
     const Body& left = bodies_[is_ordered ? i : j];
@@ -137,11 +148,15 @@ TEST(LineTest, EveryCollisionIsThatOfAnExactProgram) {
     ExactWalk walk(system);
     const auto stepper = make_line_stepper(system);
     for (int k = 0; k < kMostSteps; ++k) {
+      const std::size_t bits = walk.bits();
       const std::optional<ExactCollision> expected = walk.next();
       const std::optional<BodyStep> step = stepper->step();
       ASSERT_EQ(step.has_value(), expected.has_value()) << "system " << i << ", step " << k;
       if (!step) break;
-      ASSERT_TRUE(step->exact_time.has_value());
+      if (!step->exact_time) {
+        ASSERT_GT(bits, kMaxExactBits) << "system " << i << ", step " << k;
+        break;
+      }
       ASSERT_EQ(*step->exact_time, expected->time) << "system " << i << ", step " << k;
       ASSERT_EQ(step->first, expected->first);
       ASSERT_EQ(step->second, expected->second);
@@ -176,6 +191,12 @@ TEST(LineTest, DoublesAreRightForAsLongAsTheySay) {
         add(expected, collision->first, collision->second, to_double(collision->time));
       }
       if (const auto step = line.step()) add(found, step->first, step->second, step->time.hi);
+    }
+    // Doubles may take collisions of different bodies in another order, also around the last step.
+    for (int k = 0; k < 10; ++k) {
+      const auto collision = walk.next();
+      if (!collision) break;
+      add(expected, collision->first, collision->second, to_double(collision->time));
     }
     const double until = line.certainty().until;
     if (until < Certainty::kForEver) ++uncertain;

@@ -12,6 +12,7 @@
 
 #include "core/rounded.hpp"
 #include "draw/bodies/body_look.hpp"
+#include "draw/look.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
 
@@ -104,12 +105,62 @@ struct ArrowLook {
   double above_px = 0;  ///< from a block to its arrow
 };
 
+/// Draws one body after the other.
+struct BodyPainter {
+  std::vector<BodyShape> shapes;
+  BodyMap map;
+  bool are_blocks = true;
+  double line_px = 1;
+  double type_px = 16;  ///< of labels
+  double above_px = 0;  ///< from a body to the label above it
+  Color text;           ///< of labels that are above
+  Face face = Face::text;
+
+  void add(std::size_t body, const BodyMotion& motion, std::vector<DrawItem>& items,
+           std::vector<DrawItem>& labels) const {
+    const BodyShape& shape = shapes[body];
+    const Point centre = map.at(motion.position);
+    const ItemId id = nth(ItemId::red_block, body);
+    const Stroke edge{shape.colors.edge, line_px};
+    const double inside = shape.half_width_px - line_px / 2;
+    if (are_blocks) {
+      const Rectangle bounds{centre.x - shape.half_width_px, centre.y - shape.height_px,
+                             2 * shape.half_width_px, shape.height_px};
+      items.emplace_back(RectangleItem{id, bounds, shape.colors.fill, edge});
+    } else if (inside > kLeastRim * line_px) {
+      items.emplace_back(DiskItem{id, centre, inside, shape.colors.fill, edge});
+    } else {
+      items.emplace_back(
+          DiskItem{id, centre, shape.half_width_px, shape.colors.fill, std::nullopt});
+    }
+    if (!shape.label.empty()) labels.emplace_back(label_of(body, centre));
+  }
+
+  TextItem label_of(std::size_t body, const Point& centre) const {
+    const BodyShape& shape = shapes[body];
+    const double middle = are_blocks ? centre.y - shape.height_px / 2 : centre.y;
+    const double top = centre.y - (are_blocks ? shape.height_px : shape.half_width_px);
+    const double baseline = shape.is_label_on ? middle + kHalfFigure_em * type_px : top - above_px;
+    return {nth(ItemId::blue_block, body),
+            {std::round(centre.x - shape.label_px / 2), std::round(baseline)},
+            shape.label,
+            type_px,
+            shape.is_label_on ? shape.colors.text : text,
+            face};
+  }
+};
+
 class BodyStage {
  public:
   BodyStage(const DrawingContext& context, const Rectangle& area)
       : context_(context), system_(context.scene.bodies->system), area_(area) {
     check_number();
     context.needs.trails = context.scene.show.has(Overlay::trails);
+    if (system_.dimensions == 2) {
+      window_ = {std::ceil(area.x), std::ceil(area.y), std::floor(area.width - 1),
+                 std::floor(area.height - 1)};
+      area_ = {0, 0, window_.width, window_.height};
+    }
     if (system_.dimensions == 1) {
       lay_out_line();
     } else {
@@ -119,53 +170,45 @@ class BodyStage {
     add_labels();
   }
 
+  /// Discs that leave what is shown are cut off at its edge, so that they hide no text.
   Drawable drawable() && {
+    if (system_.dimensions == 1) return bodies();
+    return [inside = bodies(), window = window_, background = background_of(context_.scene.view)](
+               const FrameState& shown, std::vector<DrawItem>& items) {
+      DrawList list{int(window.width), int(window.height), background, {}};
+      inside(shown, list.items);
+      items.emplace_back(
+          GroupItem{ItemId::wall, window, std::make_shared<const DrawList>(std::move(list))});
+    };
+  }
+
+ private:
+  Drawable bodies() {
     std::vector<DrawItem> stays;
     add_walls(stays);
-    const bool are_blocks = system_.dimensions == 1;
     const Sizes& sizes = context_.sizes;
-    const ArrowLook arrows = arrow_look();
-    return [stays = std::move(stays), shapes = std::move(shapes_), map = map_, are_blocks,
-            line_px = std::max(1.0, std::round(sizes.data_line)), type_px = sizes.mass,
-            above_px = kAboveBlock * sizes.short_side, text = context_.palette.text, arrows,
-            face = context_.font.face()](const FrameState& shown, std::vector<DrawItem>& items) {
+    const bool are_blocks = system_.dimensions == 1;
+    const BodyPainter painter{.shapes = std::move(shapes_),
+                              .map = map_,
+                              .are_blocks = are_blocks,
+                              .line_px = std::max(1.0, std::round(sizes.data_line)),
+                              .type_px = sizes.mass,
+                              .above_px = kAboveBlock * sizes.short_side,
+                              .text = context_.palette.text,
+                              .face = context_.font.face()};
+    return [stays = std::move(stays), painter, arrows = arrow_look()](
+               const FrameState& shown, std::vector<DrawItem>& items) {
       items.insert(items.end(), stays.begin(), stays.end());
-      add_trails(shown.trails, shapes, map, items);
+      add_trails(shown.trails, painter.shapes, painter.map, items);
       std::vector<DrawItem> labels;
       for (std::size_t i = 0; i < shown.bodies.size(); ++i) {
-        const BodyShape& shape = shapes[i];
-        const Point centre = map.at(shown.bodies[i].position);
-        const ItemId id = nth(ItemId::red_block, i);
-        const Stroke edge{shape.colors.edge, line_px};
-        if (are_blocks) {
-          const Rectangle bounds{centre.x - shape.half_width_px, centre.y - shape.height_px,
-                                 2 * shape.half_width_px, shape.height_px};
-          items.emplace_back(RectangleItem{id, bounds, shape.colors.fill, edge});
-        } else {
-          const double inside = shape.half_width_px - line_px / 2;
-          items.emplace_back(
-              inside > kLeastRim * line_px
-                  ? DiskItem{id, centre, inside, shape.colors.fill, edge}
-                  : DiskItem{id, centre, shape.half_width_px, shape.colors.fill, std::nullopt});
-        }
-        if (shape.label.empty()) continue;
-        const double middle = are_blocks ? centre.y - shape.height_px / 2 : centre.y;
-        const double top = are_blocks ? centre.y - shape.height_px : centre.y - shape.half_width_px;
-        const double baseline =
-            shape.is_label_on ? middle + kHalfFigure_em * type_px : top - above_px;
-        labels.emplace_back(
-            TextItem{nth(ItemId::blue_block, i),
-                     {std::round(centre.x - shape.label_px / 2), std::round(baseline)},
-                     shape.label,
-                     type_px,
-                     shape.is_label_on ? shape.colors.text : text,
-                     face});
+        painter.add(i, shown.bodies[i], items, labels);
       }
       items.insert(items.end(), labels.begin(), labels.end());
       if (!arrows.are_shown) return;
       for (std::size_t i = 0; i < shown.bodies.size(); ++i) {
-        Point from = map.at(shown.bodies[i].position);
-        if (are_blocks) from.y -= shapes[i].height_px + arrows.above_px;
+        Point from = painter.map.at(shown.bodies[i].position);
+        if (painter.are_blocks) from.y -= painter.shapes[i].height_px + arrows.above_px;
         add_arrow(arrows, nth(ItemId::blue_block, kArrows + 2 * i), from, shown.bodies[i].velocity,
                   items);
       }
@@ -224,7 +267,6 @@ class BodyStage {
     }
   }
 
- private:
   void check_number() const {
     const Show& show = context_.scene.show;
     const bool is_marked = show.has(Overlay::velocities) || has_labels();
@@ -434,7 +476,8 @@ class BodyStage {
 
   const DrawingContext& context_;
   const BodySystem& system_;
-  Rectangle area_;
+  Rectangle window_;  ///< in the frame, whole pixels; of discs
+  Rectangle area_;    ///< in the frame; of discs, in the window
   BodyMap map_;
   std::vector<BodyShape> shapes_;
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <string_view>
@@ -57,6 +58,60 @@ Values values_of(const SceneKey& key, const Scene& scene) {
   return values;
 }
 
+std::string vector_of(const ExactVector& vector, int dimensions) {
+  if (dimensions == 1) return scalar(vector[0].get_str());
+  return value_of({vector[0].get_str(), vector[1].get_str()});
+}
+
+std::string body_text(const Bodies& bodies, std::size_t number) {
+  const int dimensions = bodies.system.dimensions;
+  const Body& body = bodies.system.bodies[number];
+  const BodyStyle& style = bodies.styles[number];
+  std::string text =
+      fmt::format("{{ mass = {}, position = {}, velocity = {}, {} = {}",
+                  scalar(body.mass ? body.mass->get_str() : "inf"),
+                  vector_of(body.position, dimensions), vector_of(body.velocity, dimensions),
+                  dimensions == 1 ? "width" : "radius", scalar(body.size.get_str()));
+  if (style.color) {
+    const auto& [red, green, blue] = *style.color;
+    text += fmt::format(", color = \"#{:02x}{:02x}{:02x}\"", red, green, blue);
+  }
+  if (!style.label.empty()) text += ", label = " + toml_string(style.label);
+  return text + " }";
+}
+
+/// The bodies, the sides of their box, and the walls that are not of it.
+void add_bodies(const Bodies& bodies, std::vector<std::string>& entries) {
+  std::array<Values, 2> box = {Values{"-inf", "inf"}, Values{"-inf", "inf"}};
+  std::vector<std::string> slanted;
+  for (const Wall& wall : bodies.system.walls) {
+    const bool is_of_x = wall.name == "left" || wall.name == "right";
+    if (is_of_x || wall.name == "lower" || wall.name == "upper") {
+      const std::size_t axis = is_of_x ? 0 : 1;
+      const std::size_t end = wall.name == "left" || wall.name == "lower" ? 0 : 1;
+      box.at(axis).at(end) = wall.point.at(axis).get_str();
+    } else {
+      slanted.push_back(fmt::format("{{ point = {}, normal = {} }}", vector_of(wall.point, 2),
+                                    vector_of(wall.normal, 2)));
+    }
+  }
+  for (const std::size_t axis : {0U, 1U}) {
+    if (box.at(axis) == Values{"-inf", "inf"}) continue;
+    entries.push_back(fmt::format("box.{} = {}", axis == 0 ? 'x' : 'y', value_of(box.at(axis))));
+  }
+  if (!slanted.empty()) entries.push_back(fmt::format("wall = [{}]", fmt::join(slanted, ", ")));
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < bodies.system.bodies.size(); ++i) {
+    texts.push_back(body_text(bodies, i));
+  }
+  entries.push_back(fmt::format("body = [{}]", fmt::join(texts, ", ")));
+}
+
+bool is_of_blocks(std::string_view key) {
+  return key.starts_with("blue.") || key.starts_with("red.") || key.starts_with("blocks.") ||
+         key.starts_with("wall.");
+}
+
 /// A list of scene keys that differ from the default, one "key = value" each.
 std::vector<std::string> entries_of(const Scene& scene, const KeyFilter& is_wanted) {
   const Scene usual;
@@ -66,11 +121,15 @@ std::vector<std::string> entries_of(const Scene& scene, const KeyFilter& is_want
   for (const SceneKey& key : scene_keys()) {
     const std::string_view name = key.name;
     if (!is_wanted(name)) continue;
-    const bool is_usual = key.get(scene) == key.get(usual);
+    if (scene.bodies && is_of_blocks(name)) continue;
+    // By default the view shows all bodies.
+    const bool is_view = scene.bodies && (name == "view.x" || name == "view.y");
+    const bool is_usual = !is_view && key.get(scene) == key.get(usual);
     if (is_usual && !(has_other_shutter && name == "view.shutter")) continue;
     if (name == "time.speed" && scene.pacing.duration_s) continue;
     entries.push_back(fmt::format("{} = {}", name, value_of(values_of(key, scene))));
   }
+  if (scene.bodies && is_wanted("body")) add_bodies(*scene.bodies, entries);
   return entries;
 }
 
