@@ -76,8 +76,8 @@ struct Layout {
 struct DrawingContext {
   const Scene& scene;
   const Timeline& timeline;
-  const CollisionLog* blocks;  ///< the same, of two blocks and a wall; else nullptr
-  const BodyLog* bodies;       ///< the same, of bodies; else nullptr
+  const CollisionLog* blocks = nullptr;  ///< the same, of two blocks and a wall; else nullptr
+  const BodyLog* bodies = nullptr;       ///< the same, of bodies; else nullptr
   const Palette& palette;
   const Fonts& fonts;
   const Font& font;  ///< of plain text

@@ -81,6 +81,7 @@ void check_plane(const BodySystem& system, SceneProblems& problems) {
   std::vector<std::size_t> order(bodies.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::vector<double> lefts;
+  lefts.reserve(order.size());
   for (const std::size_t i : order) lefts.push_back(to_double(left(i)));
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return lefts[i]; });
   for (std::size_t a = 0; a < order.size(); ++a) {

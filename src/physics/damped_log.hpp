@@ -24,9 +24,10 @@ class DampedLog final : public CollisionLog {
   BlockState state_at(const Rational& time) const override;
   Rational time_after(const Integer& index) const override;
 
+  Integer count_at(const Rational& time) const override { return motion_.count_at(time); }
+
   bool is_endless() const { return !motion_.total; }
   /// As the functions of these names in impact.hpp and run.hpp.
-  Integer count_at(const Rational& time) const { return motion_.count_at(time); }
   std::optional<Impact> impact(CollisionKind kind, const Integer& first, const Integer& last) const;
   PositionBounds bounds_at(const Rational& time) const;
   Gaps gaps_at(const Rational& time) const;

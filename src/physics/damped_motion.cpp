@@ -240,9 +240,9 @@ std::pair<Integer, DampedGaps> DampedMotion::state_at(const Rational& time,
 
 DampedNumbers DampedMotion::numbers(const Integer& n, mpfr_prec_t good_bits) const {
   const std::size_t i = sequence_of(n);
-  std::vector<Real> terms =
+  const std::vector<Real> terms =
       powers.terms({speeds[i], reaches[i], speeds[i + 1]}, round_of(n), good_bits);
-  return {std::move(terms[0]), std::move(terms[1]), std::move(terms[2])};
+  return {terms[0], terms[1], terms[2]};
 }
 
 DampedGaps DampedMotion::folded(const Integer& n, const Real& opened, const Real& to_close,

@@ -15,6 +15,19 @@ BodyMotion motion_of(const LineElement& element) {
   return {{to_double(element.position), 0}, {to_double(element.velocity), 0}};
 }
 
+void collide(LineElement& left, LineElement& right) {
+  const Rational closing = left.velocity - right.velocity;
+  if (!left.mass) {
+    right.velocity += 2 * closing;
+  } else if (!right.mass) {
+    left.velocity -= 2 * closing;
+  } else {
+    const Rational change = 2 * closing / (*left.mass + *right.mass);
+    left.velocity -= *right.mass * change;
+    right.velocity += *left.mass * change;
+  }
+}
+
 /// The ids of two neighbours, the lower one first: the order of pairs that meet at one instant.
 std::pair<std::uint32_t, std::uint32_t> ids_of(const LineElement& a, const LineElement& b) {
   return std::minmax(a.id, b.id);
@@ -86,19 +99,6 @@ void ExactLine::predict(std::size_t pair) {
   const Rational gap =
       (right.position_at(time_) - right.half_width) - (left.position_at(time_) + left.half_width);
   meetings_[pair] = time_ + gap / closing;
-}
-
-void ExactLine::collide(LineElement& left, LineElement& right) const {
-  const Rational closing = left.velocity - right.velocity;
-  if (!left.mass) {
-    right.velocity += 2 * closing;
-  } else if (!right.mass) {
-    left.velocity -= 2 * closing;
-  } else {
-    const Rational change = 2 * closing / (*left.mass + *right.mass);
-    left.velocity -= *right.mass * change;
-    right.velocity += *left.mass * change;
-  }
 }
 
 std::optional<BodyStep> ExactLine::step() {

@@ -56,7 +56,6 @@ class ExactLine {
   };
 
   void predict(std::size_t pair);
-  void collide(LineElement& left, LineElement& right) const;
 
   std::vector<LineElement> elements_;
   std::vector<std::optional<Rational>> meetings_;  // of elements n and n + 1: when they meet

@@ -29,6 +29,12 @@ double size_of(const Rational& value) {
       "restitution: {} bits do not decide how many collisions have happened", kMaxDecisionBits));
 }
 
+/// The exponent of the error of a product whose first factor is exact. @param error  of the second
+long error_of(const Real& factor, long error) {
+  constexpr long kNone = std::numeric_limits<long>::min() / 4;
+  return factor.sign() == 0 ? kNone : factor.exponent() + error;
+}
+
 }  // namespace
 
 RoundPowers::Kind RoundPowers::kind_of(const Rational& trace, const Rational& determinant,
@@ -247,9 +253,8 @@ std::vector<Real> RoundPowers::terms(const std::vector<RoundSequence>& sequences
       const Real second(power.c.bits(), b);
       const Real& value = values.emplace_back(first * power.c + second * power.s);
       if (a == 0 && b == 0) continue;
-      constexpr long kNone = std::numeric_limits<long>::min() / 4;
-      const long error = 2 + std::max(a == 0 ? kNone : first.exponent() + power.c_error,
-                                      b == 0 ? kNone : second.exponent() + power.s_error);
+      const long error =
+          2 + std::max(error_of(first, power.c_error), error_of(second, power.s_error));
       are_good = are_good && value.sign() != 0 && value.exponent() - error >= good_bits;
     }
     if (are_good) return values;

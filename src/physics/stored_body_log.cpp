@@ -27,7 +27,7 @@ Rational short_time(const Rational& time, const std::optional<Rational>& next) {
   if (mpz_sizeinbase(time.get_den_mpz_t(), 2) <= kShort_bits) return time;
   for (unsigned long bits = 64;; bits *= 2) {
     const Rational unit = power(2, bits);
-    const Rational later = Rational(ceil(time * unit)) / unit;
+    Rational later = Rational(ceil(time * unit)) / unit;
     if (!next || later < *next) return later;
   }
 }
@@ -74,7 +74,7 @@ class StoredBodyLog final : public BodyLog {
     if (time < 0) return 0;
     compute_until(time);
     const std::shared_lock lock(mutex_);
-    return Integer(steps_until(time));
+    return {steps_until(time)};
   }
 
   Rational time_after(const Integer& index) const override {

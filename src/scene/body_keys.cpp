@@ -133,7 +133,8 @@ void BodyDraft::read_body(const TomlTable& table, const OnProblem& on_problem) {
   ReadBody read;
   for (const TomlEntry& entry : table.entries) {
     if (entry.key.starts_with("position")) read.has_position = true;  // perhaps one with a problem
-    const auto key = std::ranges::find(kBodyKeys, std::string_view(entry.key), &BodyKey::name);
+    const auto* const key =
+        std::ranges::find(kBodyKeys, std::string_view(entry.key), &BodyKey::name);
     if (key == kBodyKeys.end()) {
       problem(entry.line, fmt::format(".{}: unknown key", entry.key));
     } else if (!entry.problem.empty()) {

@@ -49,6 +49,18 @@ std::size_t number_in(std::string_view text, std::string_view beginning) {
 /// Of the lecture themes, unless a scene says otherwise.
 const Rational kLectureShutter(1, 2);
 
+/// The key of the file that sets what problems_of() calls so.
+std::string key_of(const Scene& scene, const std::string& key) {
+  const std::size_t wall = number_in(key, "wall ");
+  if (wall == 0) return key;
+  const std::vector<Wall>& walls = scene.bodies->system.walls;
+  const std::string& name = walls.at(wall - 1).name;
+  if (name == "left" || name == "right") return "box.x";
+  if (name == "lower" || name == "upper") return "box.y";
+  const std::size_t slanted = number_in(name, "slanted-");
+  return fmt::format("wall {}.normal", slanted);
+}
+
 }  // namespace
 
 void SceneDraft::read(const std::string& path, const TomlTable& table) {
@@ -196,18 +208,6 @@ void SceneDraft::set_recoiling_wall(Scene& scene) const {
   const Block wall{*wall_mass_, system.wall_face - Rational(1, 2), 0, 1};
   scene.bodies = Bodies{{1, {body(system.blue), body(system.red), body(wall)}, {}},
                         {{}, {}, {{{kColor, kColor, kColor}}, "wall"}}};
-}
-
-/// The key of the file that sets what problems_of() calls so.
-std::string SceneDraft::key_of(const Scene& scene, const std::string& key) const {
-  const std::size_t wall = number_in(key, "wall ");
-  if (wall == 0) return key;
-  const std::vector<Wall>& walls = scene.bodies->system.walls;
-  const std::string& name = walls.at(wall - 1).name;
-  if (name == "left" || name == "right") return "box.x";
-  if (name == "lower" || name == "upper") return "box.y";
-  const std::size_t slanted = number_in(name, "slanted-");
-  return fmt::format("wall {}.normal", slanted);
 }
 
 std::string SceneDraft::origin_of(const std::string& key) const {

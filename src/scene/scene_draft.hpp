@@ -39,7 +39,6 @@ class SceneDraft {
   bool set_box(const std::string& key, const Values& values);
   std::vector<std::string> problems_of_bodies(const Scene& scene) const;
   std::string origin_of(const std::string& key) const;
-  std::string key_of(const Scene& scene, const std::string& key) const;
   bool is_repeated(const std::string& key) const;
   bool has_recoiling_wall() const { return wall_mass_ && bodies_.empty(); }
   void set_key(const std::string& origin, const std::string& key, const Values& values);

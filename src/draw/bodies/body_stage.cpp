@@ -15,6 +15,7 @@
 #include "draw/look.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
+#include "draw/text_lines.hpp"
 
 namespace piblocks {
 namespace {

@@ -130,8 +130,9 @@ class SeparationPanel {
       const double time = from + (to - from) * i / kPoints;
       const double value = square(time);
       if (value <= top_) points.push_back(place_of(time, value));
-      if ((value > top_ || i == kPoints) && points.size() > 1) add(std::move(points));
-      if (value > top_) points.clear();
+      if (value <= top_ && i < kPoints) continue;
+      if (points.size() > 1) add(points);
+      points.clear();
     }
   }
 

@@ -27,17 +27,23 @@ constexpr double kBetweenTicks_em = 4;
 constexpr double kCurveHeight = 0.62;
 constexpr int kCurvePoints = 160;
 
+std::vector<double> masses_of(const BodySystem& system) {
+  std::vector<double> masses;
+  for (const Body& body : system.bodies) {
+    if (body.mass) masses.push_back(to_double(*body.mass));
+  }
+  return masses;
+}
+
 /// The speeds' distribution in equilibrium. In a plane a body of mass m has the speed v with the
 /// density (m v/kT) exp(-m v^2/2kT), on a line with sqrt(2m/(pi kT)) exp(-m v^2/2kT) (Landau and
 /// Lifshitz, Statistical Physics, section 29). kT is the mean energy, or twice this on a line.
 class Maxwell {
  public:
-  Maxwell(const BodySystem& system, double energy) : is_plane_(system.dimensions == 2) {
-    for (const Body& body : system.bodies) {
-      if (body.mass) masses_.push_back(to_double(*body.mass));
-    }
-    temperature_ = energy / double(masses_.size()) * (is_plane_ ? 1 : 2);
-  }
+  Maxwell(const BodySystem& system, double energy)
+      : is_plane_(system.dimensions == 2),
+        masses_(masses_of(system)),
+        temperature_(energy / double(masses_.size()) * (is_plane_ ? 1 : 2)) {}
 
   /// The mean of all bodies' densities.
   double density(double speed) const {
@@ -60,7 +66,7 @@ class Maxwell {
  private:
   bool is_plane_;
   std::vector<double> masses_;
-  double temperature_ = 1;
+  double temperature_;  ///< times Boltzmann's constant
 };
 
 double energy_of(const BodySystem& system) {
