@@ -44,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadInput{{"frobnicate"},
                  "unknown command 'frobnicate': use one of render, join, still, sheet, log, state, "
-                 "count, scenes, compare, golden, info, manual; see 'piblocks --help'"},
+                 "count, need, scenes, compare, golden, info, manual; see 'piblocks --help'"},
         BadInput{{"redner"}, "unknown command 'redner'; did you mean 'render'? use one of"},
         BadInput{{"help", "cuont"}, "unknown command 'cuont'; did you mean 'count'?"},
         BadInput{{"golden", "chek"}, "golden: unknown command 'chek'; did you mean 'check'?"},
