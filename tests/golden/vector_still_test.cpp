@@ -149,7 +149,7 @@ std::vector<VectorCase> bodies() {
     const Arguments common{"--at",          "3",         "--theme",        theme, "--title",
                            "Où sont-ils ?", "--caption", "Zwischen Wänden"};
     cases.push_back(named("three-blocks", std::string("blocks_") + theme,
-                          common + Arguments{"--show", "masses,energy,momentum,time,ruler"}));
+                          common + Arguments{"--show", "masses,energy,momentum,time,velocities"}));
     cases.push_back(named("billiard", std::string("discs_") + theme,
                           common + Arguments{"--show", "masses,energy,momentum,time,trails"}));
   }
