@@ -141,9 +141,10 @@ def test_videos_have_the_bytes_of_the_program(program):
         assert one.read() == other.read()
 
 
-def test_pages_are_refused():
-    with pytest.raises(piblocks.UsageError, match="is for two blocks and a wall"):
-        scene_of(BLOCKS).render("page.html")
+def test_pages_say_what_moves():
+    scene_of(BLOCKS).render("page.html")
+    with open("page.html", encoding="utf-8") as page:
+        assert "without friction" in page.read()
 
 
 def test_scenes_differ_by_their_bodies():
