@@ -67,6 +67,12 @@ struct BodyCollision {
   BodyMotion second_after = {};  ///< of a wall: where it is, and no velocity
 };
 
+/// A place on a body's way.
+struct PathPoint {
+  double after = 0;  ///< simulation time since the way began
+  std::array<double, 2> position = {};
+};
+
 /// All bodies at one instant.
 struct BodiesState {
   Integer count;  ///< index of the last collision until then
@@ -97,8 +103,8 @@ class BodyLog : public Timeline {
   /// A body's way between two times, 0 <= from <= to: its centre at both, and at each of its
   /// collisions between; or at so many times, evenly spaced, if there are more collisions.
   /// @throws as state_at().
-  virtual std::vector<std::array<double, 2>> path(std::size_t body, const Rational& from,
-                                                  const Rational& to, std::size_t most) const = 0;
+  virtual std::vector<PathPoint> path(std::size_t body, const Rational& from, const Rational& to,
+                                      std::size_t most) const = 0;
   /// How many collisions from the first on are computed in rational numbers; size() if all are.
   virtual Integer exact_size() const = 0;
   /// Until when rounding cannot have changed which bodies collide, nor in which order each of them

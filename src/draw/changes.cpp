@@ -1,7 +1,6 @@
 #include "draw/changes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <variant>
@@ -107,8 +106,10 @@ class Comparison {
         return compare(*a, std::get<PathItem>(after));
       if (const auto* a = std::get_if<GroupItem>(&before))
         return compare(*a, std::get<GroupItem>(after));
-      if (const auto* a = std::get_if<ExposedItem>(&before))
-        return compare(*a, std::get<ExposedItem>(after));
+      if (const auto* a = std::get_if<ExposedBlocksItem>(&before))
+        return compare(*a, std::get<ExposedBlocksItem>(after));
+      if (const auto* a = std::get_if<ExposedDisksItem>(&before))
+        return compare(*a, std::get<ExposedDisksItem>(after));
     }
     add(before);
     add(after);
@@ -164,18 +165,24 @@ class Comparison {
     }
   }
 
-  /// Where one block passes, the other is painted with it: all rows of both change.
-  void compare(const ExposedItem& before, const ExposedItem& after) {
-    const std::array extents = {extent_of(before.behind), extent_of(before.front),
-                                extent_of(after.behind), extent_of(after.front)};
-    const double top = std::ranges::min(extents, {}, &Extent::top).top;
-    const double bottom = std::ranges::max(extents, {}, &Extent::bottom).bottom;
-    compare(before.behind, after.behind, top, bottom);
-    compare(before.front, after.front, top, bottom);
+  /// Where one block passes, the others are painted with it: all rows of all change.
+  void compare(const ExposedBlocksItem& before, const ExposedBlocksItem& after) {
+    const Extent a = extent_of(before, width_em_);
+    const Extent b = extent_of(after, width_em_);
+    if (before.blocks.size() != after.blocks.size()) {
+      add(a);
+      add(b);
+      return;
+    }
+    const double top = std::min(a.top, b.top);
+    const double bottom = std::max(a.bottom, b.bottom);
+    for (std::size_t i = 0; i < after.blocks.size(); ++i) {
+      compare(before.blocks[i], after.blocks[i], top, bottom);
+    }
     if (before.contacts == after.contacts) return;
-    for (const ExposedItem* item : {&before, &after}) {
+    for (const ExposedBlocksItem* item : {&before, &after}) {
       if (item->contacts.empty()) continue;
-      add({item->contacts.front().behind_x, top, item->contacts.back().behind_x + 1, bottom});
+      add({item->contacts.front().right_x, top, item->contacts.back().right_x + 1, bottom});
     }
   }
 
@@ -195,6 +202,15 @@ class Comparison {
     const double line = before.stroke.width_px;
     add({from, top, to - width + line, bottom});
     add({from + width - line, top, to, bottom});
+  }
+
+  void compare(const ExposedDisksItem& before, const ExposedDisksItem& after) {
+    for (std::size_t i = 0; i < std::max(before.disks.size(), after.disks.size()); ++i) {
+      const bool is_in_both = i < before.disks.size() && i < after.disks.size();
+      if (is_in_both && before.disks[i] == after.disks[i]) continue;
+      if (i < before.disks.size()) add(extent_of(before.disks[i]));
+      if (i < after.disks.size()) add(extent_of(after.disks[i]));
+    }
   }
 
   void add(const DrawItem& item) { add(extent_of(item, width_em_)); }

@@ -6,7 +6,6 @@
 #include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -20,6 +19,12 @@ namespace piblocks {
 struct WeightedExposure {
   double share = 1;  ///< the shares of a frame add up to 1
   Exposure exposure;
+};
+
+/// The same of a scene with bodies.
+struct WeightedBodyExposure {
+  double share = 1;
+  BodyExposure exposure;
 };
 
 /// How long a hit is seen, in seconds of video.
@@ -45,8 +50,10 @@ struct FrameState {
   std::vector<WeightedExposure> exposure = {};
   Gaps gaps = {};                       ///< of the state; filled in if FrameNeeds asks for them
   std::vector<BodyMotion> bodies = {};  ///< if the scene has any
+  /// Where the bodies are while the frame is exposed; if empty, at the instant.
+  std::vector<WeightedBodyExposure> body_exposure = {};
   /// Where each body has been lately, in the order of time; filled in if FrameNeeds asks for it.
-  std::vector<std::vector<std::array<double, 2>>> trails = {};
+  std::vector<std::vector<PathPoint>> trails = {};
 
   // Left alone in a still that is not in its video, or if no drawable reads them.
   double video_s = 0;          ///< of the frame, since its scene began

@@ -16,80 +16,10 @@
 #include <variant>
 #include <vector>
 
+#include "draw/exposed_items.hpp"
+#include "draw/item_parts.hpp"
+
 namespace piblocks {
-
-/// The first of 65,536 ids for what shows one thing.
-constexpr std::uint32_t ids_from(std::uint32_t thing) { return thing << 16; }
-
-/// What an item shows, the same from frame to frame. Where several items show one thing, nth()
-/// tells them apart. Where ids rise from back to front, a frame may have more or fewer items than
-/// the one before, and only these are painted.
-enum class ItemId : std::uint32_t {
-  wall = ids_from(0),
-  red_block = ids_from(1),
-  blue_block = ids_from(2),
-  label = ids_from(3),
-  lit_count = ids_from(4),
-  count = ids_from(5),
-  pi = ids_from(6),
-  masses = ids_from(7),
-  velocities = ids_from(8),
-  hits = ids_from(9),
-  ruler = ids_from(10),
-  read_outs = ids_from(11),
-  loupe = ids_from(12),
-  title = ids_from(13),
-  caption = ids_from(14),
-  logo = ids_from(15),
-  panels = ids_from(16),  ///< and one for each panel after it
-  card = ids_from(100),
-  compared = ids_from(101),
-  fade = ids_from(102)
-};
-
-/// The n-th of the items that show one thing, n < 65,536.
-constexpr ItemId nth(ItemId thing, std::size_t n) {
-  return ItemId{static_cast<std::uint32_t>(thing) + static_cast<std::uint32_t>(n)};
-}
-
-/// sRGB, with straight alpha.
-struct Color {
-  std::uint8_t red = 0;
-  std::uint8_t green = 0;
-  std::uint8_t blue = 0;
-  std::uint8_t alpha = 255;  ///< 255 is opaque
-  bool operator==(const Color&) const = default;
-};
-
-/// From the frame's upper left corner, y down. Whole numbers are the lines between pixels.
-struct Point {
-  double x = 0;
-  double y = 0;
-  bool operator==(const Point&) const = default;
-};
-
-/// From its upper left corner.
-struct Rectangle {
-  double x = 0;
-  double y = 0;
-  double width = 0;
-  double height = 0;
-  bool operator==(const Rectangle&) const = default;
-};
-
-inline Rectangle to_rectangle(const PixelRect& r) {
-  return {double(r.x_px), double(r.y_px), double(r.width_px), double(r.height_px)};
-}
-
-/// A line. On a rectangle it is drawn inside the outline, so that the shape is exactly as large as
-/// it says; on a path and on a disk it is centred on the outline.
-struct Stroke {
-  Color color;
-  double width_px = 1;
-  /// Length of dashes and of the gaps between them; 0 for a solid line, as that of every disk.
-  double dash_px = 0;
-  bool operator==(const Stroke&) const = default;
-};
 
 struct RectangleItem {
   ItemId id = ItemId::wall;
@@ -200,52 +130,8 @@ struct GroupItem {
   friend bool operator==(const GroupItem& a, const GroupItem& b);
 };
 
-/// A place of a block's left edge, and for which share of the exposure it is there.
-struct Dwell {
-  double x = 0;
-  double share = 0;
-  bool operator==(const Dwell&) const = default;
-};
-
-/// Rows across a block.
-struct Bar {
-  double y = 0;
-  double height = 0;
-  bool operator==(const Bar&) const = default;
-};
-
-/// A filled rectangle that moves sideways while the picture is exposed.
-struct ExposedBlock {
-  Rectangle bounds;  ///< at the picture's instant
-  Color fill;
-  Stroke stroke;          ///< solid
-  std::vector<Bar> bars;  ///< in the stroke's colour, inside the bounds
-  /// From left to right; none if the block stays. Shares add up to 1 less those outside the frame.
-  std::vector<Dwell> dwells;
-  bool operator==(const ExposedBlock&) const = default;
-};
-
-/// A share of an exposure during which the left edge of the block behind and the right edge of the
-/// one in front are less than a pixel apart. Both places are left edges.
-struct Contact {
-  double behind_x = 0;
-  double front_x = 0;
-  double share = 0;
-  bool operator==(const Contact&) const = default;
-};
-
-/// Two blocks, exposed: the mean, in linear light, of the pictures that rectangles would make at
-/// each instant. A vector file has moving blocks as pixels, and others as rectangles.
-struct ExposedItem {
-  ItemId id = ItemId::red_block;
-  ExposedBlock behind;  ///< on the right
-  ExposedBlock front;
-  std::vector<Contact> contacts;  ///< from left to right
-  bool operator==(const ExposedItem&) const = default;
-};
-
 using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, PlateItem,
-                              GroupItem, ExposedItem>;
+                              GroupItem, ExposedBlocksItem, ExposedDisksItem>;
 
 struct Plate {
   std::vector<DrawItem> items;  ///< from back to front; none that is exposed

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "draw/layout.hpp"
@@ -27,14 +28,14 @@ double spacing_px(double range_px) {
 struct ToPixels {
   double zero_px;
   double scale;
-  double block_px;       ///< width of the block
-  int visible_right_px;  ///< blocks are seen up to here
+  double block_px;          ///< width of the block
+  double visible_right_px;  ///< blocks are seen up to here
 
-  ToPixels(const Layout& layout, const ExposedBlock& block)
-      : zero_px(layout.origin.x - block.bounds.width / 2),
-        scale(layout.scale),
+  ToPixels(const AxisPlace& axis, const ExposedBlock& block)
+      : zero_px(axis.origin_px - block.bounds.width / 2),
+        scale(axis.scale),
         block_px(block.bounds.width),
-        visible_right_px(layout.visible_right_px) {}
+        visible_right_px(axis.visible_right_px) {}
   double operator()(double position) const { return zero_px + position * scale; }
   Travel operator()(const Travel& way) const { return {(*this)(way.from), (*this)(way.to)}; }
   double back(double x_px) const { return (x_px - zero_px) / scale; }
@@ -85,86 +86,165 @@ class DwellTable {
   std::vector<double> shares_;
 };
 
-std::vector<Dwell> dwells_of(BlockName block, const ToPixels& to_px,
-                             std::span<const WeightedExposure> exposures) {
+const Travel& range_of(const Exposure& exposure, BlockName block) { return exposure.range(block); }
+const Travel& range_of(const BodyExposure& exposure, std::size_t body) {
+  return exposure.ranges.at(body);
+}
+
+/// Calls visit(share, way) for each piece of a block's motion.
+template <typename Visit>
+void each_way(const Exposure& exposure, BlockName block, const Visit& visit) {
+  for (const UniformPiece& piece : exposure.pieces) visit(piece.share, piece.of(block));
+}
+template <typename Visit>
+void each_way(const BodyExposure& exposure, std::size_t body, const Visit& visit) {
+  for (const BodyPiece& piece : exposure.pieces.at(body)) {
+    visit(piece.share(), Travel{piece.from[0], piece.to[0]});
+  }
+}
+
+/// @tparam Block  what names a block in the exposures
+template <typename Block, typename Exposures>
+std::vector<Dwell> dwells_of(Block block, const ToPixels& to_px, const Exposures& exposures) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Travel range{kInfinity, -kInfinity};  // of the block's left edge
-  for (const auto& [share, exposure] : exposures) range.include(to_px(exposure.range(block)));
+  for (const auto& [share, exposure] : exposures) range.include(to_px(range_of(exposure, block)));
   if (!(range.to - range.from > kStill_px)) return {};
   range.from = std::max(range.from, -to_px.block_px - kMargin_px);
   range.to = std::min(range.to, to_px.visible_right_px + kMargin_px);
   if (!(range.to > range.from)) return {};
   DwellTable table(range, spacing_px(range.to - range.from));
-  for (const WeightedExposure& weighted : exposures) {
-    if (weighted.exposure.area_below) {
-      table.add(weighted.share, to_px(weighted.exposure.range(block)), [&](double x) {
-        return weighted.exposure.area_below(block, to_px.back(x)) * to_px.scale;
-      });
+  for (const auto& [weight, exposure] : exposures) {
+    if (const auto& area_below = exposure.area_below) {
+      table.add(weight, to_px(range_of(exposure, block)),
+                [&](double x) { return area_below(block, to_px.back(x)) * to_px.scale; });
       continue;
     }
-    for (const UniformPiece& piece : weighted.exposure.pieces) {
-      const Travel way = to_px(piece.of(block));
+    each_way(exposure, block, [&, weight = weight](double share, const Travel& of_centre) {
+      const Travel way = to_px(of_centre);
       const Travel rising{std::min(way.from, way.to), std::max(way.from, way.to)};
-      table.add(weighted.share * piece.share, rising,
-                [&](double x) { return rising.area_below(x); });
-    }
+      table.add(weight * share, rising, [&](double x) { return rising.area_below(x); });
+    });
   }
   return table.dwells();
 }
 
-/// Ways of the blocks' left edges, which both pass evenly.
+/// Ways of two blocks' left edges, which both pass evenly.
 struct EvenMotion {
-  Travel behind;
-  Travel front;
-  double front_width{};
+  Travel right;
+  Travel left;
+  double left_width{};
   double share{};  ///< of the exposure
+  std::size_t right_block = 0;
+  std::size_t left_block = 1;
 };
 
 /// Adds contacts where the blocks are less than a pixel apart.
 void add_contacts(const EvenMotion& motion, std::vector<Contact>& contacts) {
   constexpr double kPerPixel = 16;
   constexpr double kMost = 4096;
-  const auto& [behind, front, front_width, share] = motion;
-  const Travel gap{behind.from - front.from - front_width, behind.to - front.to - front_width};
+  const auto& [right, left, left_width, share, right_block, left_block] = motion;
+  const Travel gap{right.from - left.from - left_width, right.to - left.to - left_width};
   double begin = 0;
   double end = 1;
   if (gap.from >= 1 && gap.to >= 1) return;
   if (gap.from > 1) begin = (gap.from - 1) / (gap.from - gap.to);
   if (gap.to > 1) end = (gap.from - 1) / (gap.from - gap.to);
   const double way_px =
-      std::max(std::fabs(behind.to - behind.from), std::fabs(front.to - front.from)) *
-      (end - begin);
+      std::max(std::fabs(right.to - right.from), std::fabs(left.to - left.from)) * (end - begin);
   if (!std::isfinite(way_px)) return;  // far outside of any frame
   const int count = static_cast<int>(std::clamp(std::ceil(way_px * kPerPixel), 1.0, kMost));
   for (int i = 0; i < count; ++i) {
     const double at = begin + (end - begin) * (i + 0.5) / count;
-    const Contact contact{behind.from + (behind.to - behind.from) * at,
-                          front.from + (front.to - front.from) * at, share * (end - begin) / count};
+    const Contact contact{right.from + (right.to - right.from) * at,
+                          left.from + (left.to - left.from) * at, share * (end - begin) / count,
+                          static_cast<std::uint32_t>(right_block),
+                          static_cast<std::uint32_t>(left_block)};
     // Only if both reach into one pixel.
-    if (contact.front_x + front_width > std::floor(contact.behind_x)) contacts.push_back(contact);
+    if (contact.left_x + left_width > std::floor(contact.right_x)) contacts.push_back(contact);
+  }
+}
+
+bool is_still(const ExposedBlock& block) { return block.dwells.empty(); }
+
+/// The part of a piece between two shares of the exposure's time.
+Travel part_of(const BodyPiece& piece, double begin, double end) {
+  const double share = piece.share();
+  const auto at = [&](double time) {
+    const double passed = share > 0 ? (time - piece.begin) / share : 0;
+    return piece.from[0] + passed * (piece.to[0] - piece.from[0]);
+  };
+  return {at(begin), at(end)};
+}
+
+/// Two neighbours in one slice of the exposure, whose pieces end at different times.
+void add_contacts(const ExposedBlocksItem& item, const AxisPlace& axis,
+                  const WeightedBodyExposure& weighted, const EvenMotion& pair,
+                  std::vector<Contact>& contacts) {
+  const ToPixels right_px(axis, item.blocks[pair.right_block]);
+  const ToPixels left_px(axis, item.blocks[pair.left_block]);
+  const std::vector<BodyPiece>& right = weighted.exposure.pieces[pair.right_block];
+  const std::vector<BodyPiece>& left = weighted.exposure.pieces[pair.left_block];
+  double begin = 0;
+  for (std::size_t i = 0, j = 0; i < right.size() && j < left.size();) {
+    const double end = std::min(right[i].end, left[j].end);
+    EvenMotion motion = pair;
+    motion.right = right_px(part_of(right[i], begin, end));
+    motion.left = left_px(part_of(left[j], begin, end));
+    motion.share = weighted.share * (end - begin);
+    if (motion.share > 0) add_contacts(motion, contacts);
+    begin = end;
+    if (right[i].end <= end) ++i;
+    if (j < left.size() && left[j].end <= end) ++j;
   }
 }
 
 }  // namespace
 
-ExposedItem exposed_item(ExposedBlock red, ExposedBlock blue, const Layout& layout,
-                         std::span<const WeightedExposure> exposures) {
-  const ToPixels red_px(layout, red);
-  const ToPixels blue_px(layout, blue);
-  ExposedItem item{ItemId::red_block, std::move(red), std::move(blue), {}};
-  item.behind.dwells = dwells_of(BlockName::red, red_px, exposures);
-  item.front.dwells = dwells_of(BlockName::blue, blue_px, exposures);
-  if (item.behind.dwells.empty() && item.front.dwells.empty()) return item;
+ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const AxisPlace& axis,
+                                 std::span<const WeightedExposure> exposures) {
+  const ToPixels red_px(axis, red);
+  const ToPixels blue_px(axis, blue);
+  red.dwells = dwells_of(BlockName::red, red_px, exposures);
+  blue.dwells = dwells_of(BlockName::blue, blue_px, exposures);
+  const double blue_width = blue.bounds.width;
+  ExposedBlocksItem item{ItemId::red_block, {std::move(red), std::move(blue)}, {}};
+  if (std::ranges::all_of(item.blocks, is_still)) return item;
   for (const WeightedExposure& weighted : exposures) {
     for (const UniformPiece& piece : weighted.exposure.pieces) {
-      add_contacts({.behind = red_px(piece.red),
-                    .front = blue_px(piece.blue),
-                    .front_width = item.front.bounds.width,
+      add_contacts({.right = red_px(piece.red),
+                    .left = blue_px(piece.blue),
+                    .left_width = blue_width,
                     .share = weighted.share * piece.share},
                    item.contacts);
     }
   }
-  std::ranges::sort(item.contacts, {}, &Contact::behind_x);
+  std::ranges::sort(item.contacts, {}, &Contact::right_x);
+  return item;
+}
+
+ExposedBlocksItem exposed_blocks(std::vector<ExposedBlock> blocks, const AxisPlace& axis,
+                                 std::span<const WeightedBodyExposure> exposures) {
+  std::vector<std::size_t> from_left(blocks.size());
+  std::iota(from_left.begin(), from_left.end(), 0U);
+  std::ranges::stable_sort(from_left, {}, [&](std::size_t i) { return blocks[i].bounds.x; });
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    blocks[i].dwells = dwells_of(i, ToPixels(axis, blocks[i]), exposures);
+  }
+  ExposedBlocksItem item{ItemId::red_block, std::move(blocks), {}};
+  if (std::ranges::all_of(item.blocks, is_still)) return item;
+  for (std::size_t i = 1; i < from_left.size(); ++i) {
+    const EvenMotion pair{.right = {},
+                          .left = {},
+                          .left_width = item.blocks[from_left[i - 1]].bounds.width,
+                          .share = 0,
+                          .right_block = from_left[i],
+                          .left_block = from_left[i - 1]};
+    for (const WeightedBodyExposure& weighted : exposures) {
+      add_contacts(item, axis, weighted, pair, item.contacts);
+    }
+  }
+  std::ranges::sort(item.contacts, {}, &Contact::right_x);
   return item;
 }
 

@@ -19,6 +19,18 @@ constexpr double kOverhang = 0.22;
 /// How far a centred line reaches beyond the outline it is drawn on.
 double reach_of(const std::optional<Stroke>& stroke) { return stroke ? stroke->width_px / 2 : 0; }
 
+/// Of at least one.
+template <typename Exposed>
+Extent around(const std::vector<Exposed>& all) {
+  Extent extent = extent_of(all.front());
+  for (const Exposed& one : all) {
+    const auto [left, top, right, bottom] = extent_of(one);
+    extent = {std::min(extent.left, left), std::min(extent.top, top), std::max(extent.right, right),
+              std::max(extent.bottom, bottom)};
+  }
+  return extent;
+}
+
 struct ExtentOf {
   const MeasureText& width_em;
 
@@ -32,12 +44,8 @@ struct ExtentOf {
     return Extent{disk.centre.x, disk.centre.y, disk.centre.x, disk.centre.y}.grown(
         disk.radius + reach_of(disk.stroke) + kDiskStep_px / 2);
   }
-  Extent operator()(const ExposedItem& item) const {
-    const Extent a = extent_of(item.behind);
-    const Extent b = extent_of(item.front);
-    return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right),
-            std::max(a.bottom, b.bottom)};
-  }
+  Extent operator()(const ExposedBlocksItem& item) const { return around(item.blocks); }
+  Extent operator()(const ExposedDisksItem& item) const { return around(item.disks); }
   /// The line of a rectangle is inside its bounds.
   Extent operator()(const auto& item) const { return extent_of(item.bounds); }
 };
@@ -90,6 +98,17 @@ Extent extent_of(const ExposedBlock& block) {
   return extent;
 }
 
+Extent extent_of(const ExposedDisk& disk) {
+  const Point& first = disk.ways.front().from;
+  Extent extent{first.x, first.y, first.x, first.y};
+  for (const DiskWay& way : disk.ways) {
+    const auto [left, right] = std::minmax({extent.left, way.from.x, way.to.x, extent.right});
+    const auto [top, bottom] = std::minmax({extent.top, way.from.y, way.to.y, extent.bottom});
+    extent = {left, top, right, bottom};
+  }
+  return extent.grown(disk.radius + kSoftEdge_px);
+}
+
 Extent extent_of(const TextItem& text, double left_em, double right_em) {
   const double em = text.size_px;
   return {text.origin.x + (left_em - kOverhang) * em, text.origin.y - kAscent * em,
@@ -135,20 +154,25 @@ PixelRect pixels_of(const Extent& extent, const PixelRect& area) {
           pixel(std::ceil(extent.bottom), area.y_px, area.height_px) - y};
 }
 
-PixelRect moving_area(const ExposedItem& item, const PixelRect& area) {
-  const PixelRect behind = pixels_of(extent_of(item.behind), area);
-  const PixelRect front = pixels_of(extent_of(item.front), area);
+PixelRect moving_area(const ExposedBlocksItem& item, const PixelRect& area) {
   int left = area.x_px + area.width_px;
   int right = area.x_px;
-  for (const auto& [block, pixels] : {std::pair(&item.behind, behind), {&item.front, front}}) {
-    if (block->dwells.empty() || pixels.width_px <= 0) continue;
+  int top = area.y_px + area.height_px;
+  int bottom = area.y_px;
+  for (const ExposedBlock& block : item.blocks) {
+    const PixelRect pixels = pixels_of(extent_of(block), area);
+    // Where one block moves, the others are painted with it.
+    top = std::min(top, pixels.y_px);
+    bottom = std::max(bottom, pixels.y_px + pixels.height_px);
+    if (block.dwells.empty() || pixels.width_px <= 0) continue;
     left = std::min(left, pixels.x_px);
     right = std::max(right, pixels.x_px + pixels.width_px);
   }
-  // Where one block moves, the other is painted with it.
-  const int top = std::min(behind.y_px, front.y_px);
-  const int bottom = std::max(behind.y_px + behind.height_px, front.y_px + front.height_px);
   return {left, top, std::max(0, right - left), bottom - top};
+}
+
+PixelRect moving_area(const ExposedDisksItem& item, const PixelRect& area) {
+  return pixels_of(around(item.disks), area);
 }
 
 bool reaches(const DrawItem& item, const PixelRect& rect) {

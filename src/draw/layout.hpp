@@ -146,9 +146,19 @@ Layout lay_out_article(const Scene& scene, const Integer& longest_count, const R
 /// @throws UsageError if positions, which are doubles, would be drawn in wrong places.
 void check_resolution(const View& view, double scale);
 
+/// Where positions on the axis are in the frame.
+struct AxisPlace {
+  double origin_px = 0;  ///< of position 0
+  double scale = 1;      ///< pixels per unit
+  double visible_right_px = 0;
+};
+
 /// The blocks while the picture is exposed. @param red, blue  at its instant, without dwells
-ExposedItem exposed_item(ExposedBlock red, ExposedBlock blue, const Layout& layout,
-                         std::span<const WeightedExposure> exposures);
+ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const AxisPlace& axis,
+                                 std::span<const WeightedExposure> exposures);
+/// The same of bodies on a line. @param blocks  in the order of the exposures' bodies
+ExposedBlocksItem exposed_blocks(std::vector<ExposedBlock> blocks, const AxisPlace& axis,
+                                 std::span<const WeightedBodyExposure> exposures);
 
 /// Adds both blocks as they are at the frame's instant, or exposed.
 void add_blocks(const FrameState& shown, const Layout& layout, const Palette& palette,

@@ -73,12 +73,10 @@ void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& area) {
     if (!reaches(item, area)) continue;
     if (const auto* group = std::get_if<GroupItem>(&item)) {
       paint_group(cr, *group, area);
-    } else if (const auto* exposed = std::get_if<ExposedItem>(&item)) {
-      if (has_pixels_of_picture(cr)) {
-        paint_exposed(cr, *exposed, area);
-      } else {
-        embed_exposed(cr, *exposed, list);
-      }
+    } else if (const auto* blocks = std::get_if<ExposedBlocksItem>(&item)) {
+      paint_or_embed(cr, *blocks, list, area);
+    } else if (const auto* disks = std::get_if<ExposedDisksItem>(&item)) {
+      paint_or_embed(cr, *disks, list, area);
     } else {
       paint_item(cr, item);
     }
@@ -243,27 +241,38 @@ void Painter::paint_group_pixels(cairo_t& cr, const GroupItem& item, const Pixel
   cairo_set_source_rgb(&cr, 0, 0, 0);
 }
 
-void Painter::paint_still_blocks(cairo_t& cr, const ExposedItem& item) {
+void Painter::paint_still(cairo_t& cr, const ExposedBlocksItem& item) {
   std::vector<DrawItem> still;
-  for (const ExposedBlock* block : {&item.behind, &item.front}) {
-    if (block->dwells.empty()) add_rectangles(item.id, *block, still);
+  for (const ExposedBlock& block : item.blocks) {
+    if (block.dwells.empty()) add_rectangles(item.id, block, still);
   }
   for (const DrawItem& rectangle : still) paint_item(cr, rectangle);
 }
 
-/// Moving blocks have no outline: they are embedded as pixels, with what is behind them.
-void Painter::embed_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list) {
-  paint_still_blocks(cr, item);
+template <typename Item>
+void Painter::paint_or_embed(cairo_t& cr, const Item& item, const DrawList& list,
+                             const PixelRect& area) {
+  if (has_pixels_of_picture(cr)) {
+    paint_exposed(cr, item, area);
+  } else {
+    embed_exposed(cr, item, list);
+  }
+}
+
+/// What moves has no outline: it is embedded as pixels, with what is behind it.
+template <typename Item>
+void Painter::embed_exposed(cairo_t& cr, const Item& item, const DrawList& list) {
+  paint_still(cr, item);
   const PixelRect area = moving_area(item, {0, 0, list.width_px, list.height_px});
   if (area.width_px <= 0 || area.height_px <= 0) return;
   DrawList until = list;
   const auto is_item = [&](const DrawItem& other) {
-    const auto* exposed = std::get_if<ExposedItem>(&other);
+    const auto* exposed = std::get_if<Item>(&other);
     return exposed != nullptr && *exposed == item;
   };
   until.items.erase(std::ranges::find_if(until.items, is_item) + 1, until.items.end());
   const CairoSurfacePtr pixels =
-      image_surface(CAIRO_FORMAT_RGB24, area.width_px, area.height_px, "paint blocks that move");
+      image_surface(CAIRO_FORMAT_RGB24, area.width_px, area.height_px, "paint what moves");
   cairo_surface_set_device_offset(pixels.get(), -area.x_px, -area.y_px);
   paint(*CairoPtr(cairo_create(pixels.get())), until, area);
   cairo_surface_set_device_offset(pixels.get(), 0, 0);

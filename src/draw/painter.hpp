@@ -58,9 +58,14 @@ class Painter {
   CairoSurfacePtr pixels_of(const PlateItem& item);
   void paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& area);
   void paint_group_pixels(cairo_t& cr, const GroupItem& item, const PixelRect& area);
-  void paint_exposed(cairo_t& cr, const ExposedItem& item, const PixelRect& area);
-  void embed_exposed(cairo_t& cr, const ExposedItem& item, const DrawList& list);
-  void paint_still_blocks(cairo_t& cr, const ExposedItem& item);
+  void paint_exposed(cairo_t& cr, const ExposedBlocksItem& item, const PixelRect& area);
+  void paint_exposed(cairo_t& cr, const ExposedDisksItem& item, const PixelRect& area);
+  template <typename Item>
+  void paint_or_embed(cairo_t& cr, const Item& item, const DrawList& list, const PixelRect& area);
+  template <typename Item>
+  void embed_exposed(cairo_t& cr, const Item& item, const DrawList& list);
+  void paint_still(cairo_t& cr, const ExposedBlocksItem& item);
+  void paint_still(cairo_t& /*cr*/, const ExposedDisksItem& /*item*/) {}
   /// The pixels of this plate or image, made when it is painted first.
   cairo_surface_t& kept_pixels(std::shared_ptr<const void> source,
                                const std::function<CairoSurfacePtr()>& make);

@@ -23,14 +23,13 @@ void require_not_negative(const Rational& time) {
       fmt::format("time {}: the motion of bodies begins at time 0; give a later time", time));
 }
 
-std::vector<std::array<double, 2>> sampled_path(const BodyLog& log, std::size_t body,
-                                                const std::array<Rational, 2>& times,
-                                                std::size_t count) {
+std::vector<PathPoint> sampled_path(const BodyLog& log, std::size_t body,
+                                    const std::array<Rational, 2>& times, std::size_t count) {
   const auto& [from, to] = times;
-  std::vector<std::array<double, 2>> points;
+  std::vector<PathPoint> points;
   for (std::size_t i = 0; i < count; ++i) {
-    const Rational share(Integer(i), Integer(count - 1));
-    points.push_back(log.state_at(from + (to - from) * share).bodies.at(body).position);
+    const Rational after = (to - from) * Rational(Integer(i), Integer(count - 1));
+    points.push_back({to_double(after), log.state_at(from + after).bodies.at(body).position});
   }
   return points;
 }

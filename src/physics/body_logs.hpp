@@ -25,9 +25,20 @@ std::unique_ptr<BodyLog> make_stored_body_log(const BodySystem& system,
 std::vector<BodyMotion> motions_at_start(const BodySystem& system);
 
 /// A body's places at so many times from the first to the second, evenly spaced.
-std::vector<std::array<double, 2>> sampled_path(const BodyLog& log, std::size_t body,
-                                                const std::array<Rational, 2>& times,
-                                                std::size_t count);
+std::vector<PathPoint> sampled_path(const BodyLog& log, std::size_t body,
+                                    const std::array<Rational, 2>& times, std::size_t count);
+
+/// Bodies that are two blocks and a wall by other names.
+struct ClosedBlocks {
+  const CollisionLog& log;
+  std::size_t blue = 0;  ///< place of the body that stands for it
+  std::size_t red = 0;
+  int sign =
+      1;  ///< -1 if the bodies are mirrored: their positions are those of the blocks times -1
+};
+
+/// Nothing if the log is no other's closed form. Valid while the log is.
+std::optional<ClosedBlocks> closed_blocks(const BodyLog& log);
 
 /// @throws UsageError if the time is negative.
 void require_not_negative(const Rational& time);

@@ -67,18 +67,19 @@ class ClosedBodyLog final : public BodyLog {
     return state;
   }
 
-  std::vector<std::array<double, 2>> path(std::size_t body, const Rational& from,
-                                          const Rational& to, std::size_t most) const override {
+  std::vector<PathPoint> path(std::size_t body, const Rational& from, const Rational& to,
+                              std::size_t most) const override {
     const Integer first = count_at(from) + 1;
     const Integer last = count_at(to);
     if (last - first >= Integer(most)) return sampled_path(*this, body, {from, to}, most);
-    std::vector<std::array<double, 2>> points = {state_at(from).bodies.at(body).position};
+    std::vector<PathPoint> points = {{0, state_at(from).bodies.at(body).position}};
     for (Integer index = first; index <= last; ++index) {
       const BodyCollision found = collision(index);
-      if (found.first == body) points.push_back(found.first_after.position);
-      if (found.second == body) points.push_back(found.second_after.position);
+      const double after = to_double(to_rational(found.time) - from);
+      if (found.first == body) points.push_back({after, found.first_after.position});
+      if (found.second == body) points.push_back({after, found.second_after.position});
     }
-    points.push_back(state_at(to).bodies.at(body).position);
+    points.push_back({to_double(to - from), state_at(to).bodies.at(body).position});
     return points;
   }
 
@@ -87,6 +88,9 @@ class ClosedBodyLog final : public BodyLog {
   }
   Rational time_after(const Integer& index) const override { return blocks_->time_after(index); }
   std::optional<Rational> turn() const override { return blocks_->turn(); }
+  ClosedBlocks closed_blocks() const {
+    return {*blocks_, parts_.blue.id, parts_.red.id, parts_.sign};
+  }
   Integer exact_size() const override { return size(); }
   std::optional<double> certain_until() const override { return std::nullopt; }
 
@@ -106,6 +110,12 @@ std::unique_ptr<BodyLog> make_closed_body_log(const BodySystem& system) {
   std::optional<Parts> parts = parts_of(system);
   if (!parts) return nullptr;
   return std::make_unique<ClosedBodyLog>(system, std::move(*parts));
+}
+
+std::optional<ClosedBlocks> closed_blocks(const BodyLog& log) {
+  const auto* const closed = dynamic_cast<const ClosedBodyLog*>(&log);
+  if (closed == nullptr) return std::nullopt;
+  return closed->closed_blocks();
 }
 
 }  // namespace piblocks

@@ -2,9 +2,12 @@
 // In: a collision log and two times. Out: an Exposure, exact over any number of collisions.
 #pragma once
 
+#include <piblocks/bodies.hpp>
 #include <piblocks/run.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -58,6 +61,32 @@ struct Exposure {
     return block == BlockName::blue ? blue_range : red_range;
   }
 };
+
+/// The part of a body's motion from one collision to the next.
+struct BodyPiece {
+  double begin = 0;  ///< share of the interval's time that has passed, 0 … 1
+  double end = 0;
+  std::array<double, 2> from = {};
+  std::array<double, 2> to = {};
+
+  double share() const { return end - begin; }
+};
+
+/// Any bodies in an interval of time.
+struct BodyExposure {
+  /// Of each body, in the order of time.
+  std::vector<std::vector<BodyPiece>> pieces = {};
+  /// As Exposure has it; for the two bodies that move in closed form.
+  std::function<double(std::size_t body, double position)> area_below = {};
+
+  std::vector<Travel> ranges = {};  ///< of all positions of each body, along x
+};
+
+/// The interval between two times, in either order, none of them negative. A body that collides
+/// more than kMaxListedCollisions times is taken at as many evenly spaced times, unless the closed
+/// form knows better. Valid after its log is gone.
+/// @throws as BodyLog::state_at().
+BodyExposure expose(const BodyLog& log, const Rational& begin, const Rational& end);
 
 /// The interval between two times, in either order, and also before time 0. Valid after its log is
 /// gone.

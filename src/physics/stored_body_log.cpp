@@ -87,8 +87,8 @@ class StoredBodyLog final : public BodyLog {
     return short_time(time, has_next ? std::optional(time_of(last + 1)) : std::nullopt);
   }
 
-  std::vector<std::array<double, 2>> path(std::size_t body, const Rational& from,
-                                          const Rational& to, std::size_t most) const override {
+  std::vector<PathPoint> path(std::size_t body, const Rational& from, const Rational& to,
+                              std::size_t most) const override {
     compute_until(to);
     std::shared_lock lock(mutex_);
     const auto& own = of_body_.at(body);
@@ -98,11 +98,13 @@ class StoredBodyLog final : public BodyLog {
       lock.unlock();
       return sampled_path(*this, body, {from, to}, most);
     }
-    std::vector<std::array<double, 2>> points = {motion_at(body, to_time(from), begin).position};
+    const Time start = to_time(from);
+    std::vector<PathPoint> points = {{0, motion_at(body, start, begin).position}};
     for (auto number = begin; number != end; ++number) {
-      points.push_back(after(steps_[*number], body).position);
+      const StoredStep& step = steps_[*number];
+      points.push_back({flight(start, step.time), after(step, body).position});
     }
-    points.push_back(motion_at(body, to_time(to), end).position);
+    points.push_back({to_double(to - from), motion_at(body, to_time(to), end).position});
     return points;
   }
 
@@ -124,6 +126,9 @@ class StoredBodyLog final : public BodyLog {
   static const BodyMotion& after(const StoredStep& step, std::size_t body) {
     return step.first == body ? step.first_after : step.second_after;
   }
+  static double flight(const Time& from, const Time& to) {
+    return (to.hi - from.hi) + (to.lo - from.lo);
+  }
   /// @param next  the body's first step after that time
   BodyMotion motion_at(std::size_t body, const Time& time, Numbers::const_iterator next) const {
     BodyMotion motion = start_[body];
@@ -133,9 +138,9 @@ class StoredBodyLog final : public BodyLog {
       motion = after(last, body);
       since = last.time;
     }
-    const double flight = (time.hi - since.hi) + (time.lo - since.lo);
+    const double duration = flight(since, time);
     for (const std::size_t axis : {0U, 1U}) {
-      motion.position.at(axis) += motion.velocity.at(axis) * flight;
+      motion.position.at(axis) += motion.velocity.at(axis) * duration;
     }
     return motion;
   }

@@ -172,6 +172,7 @@ SceneDraft SceneDraft::next(const std::string& origin) const {
 
 Scene SceneDraft::scene() const {
   Scene scene = scene_;
+  set_shutter(scene.view);
   if (!bodies_.empty()) {
     scene.bodies = bodies_.bodies();
     View seen = scene.view;
@@ -188,14 +189,16 @@ Scene SceneDraft::scene() const {
     set_recoiling_wall(scene);
     // So that two scenes of the same bodies have one description. What is wrong is told first.
     if (is_elastic(scene.system) && problems_of(scene.system).empty()) scene.system = {};
-    return scene;
-  }
-  // A blurred frame cannot be transparent.
-  const bool is_opaque = scene.view.background == Background::opaque;
-  if (is_lecture(scene.view.theme) && is_opaque && !origins_.contains("view.shutter")) {
-    scene.view.shutter = kLectureShutter;
   }
   return scene;
+}
+
+void SceneDraft::set_shutter(View& view) const {
+  // A blurred frame cannot be transparent.
+  const bool is_opaque = view.background == Background::opaque;
+  if (is_lecture(view.theme) && is_opaque && !origins_.contains("view.shutter")) {
+    view.shutter = kLectureShutter;
+  }
 }
 
 /// A wall of finite mass is a block: the three collide as bodies.

@@ -36,6 +36,7 @@ class SceneDraft {
   void set_entry(const std::string& path, const TomlEntry& entry);
   void read_bodies(const std::string& path, const TomlEntry& entry);
   void set_recoiling_wall(Scene& scene) const;
+  void set_shutter(View& view) const;
   bool set_box(const std::string& key, const Values& values);
   std::vector<std::string> problems_of_bodies(const Scene& scene) const;
   std::string origin_of(const std::string& key) const;

@@ -123,13 +123,34 @@ inline ExposedBlock any_exposed_block(Random& random, int width, int height) {
   return block;
 }
 
-inline ExposedItem any_exposed(Random& random, ItemId id, int width, int height) {
-  ExposedItem item{
-      id, any_exposed_block(random, width, height), any_exposed_block(random, width, height), {}};
+inline ExposedBlocksItem any_exposed(Random& random, ItemId id, int width, int height) {
+  ExposedBlocksItem item{
+      id, {any_exposed_block(random, width, height), any_exposed_block(random, width, height)}, {}};
   for (std::int64_t i = random.integer(-3, 5); i > 0; --i) {
     item.contacts.push_back({anywhere(random, width), anywhere(random, width), 0.1});
   }
-  std::ranges::sort(item.contacts, {}, &Contact::behind_x);
+  std::ranges::sort(item.contacts, {}, &Contact::right_x);
+  return item;
+}
+
+/// Disks of all sizes, with and without a rim, which may overlap.
+inline ExposedDisksItem any_exposed_disks(Random& random, ItemId id, int width, int height) {
+  const auto place = [&] { return Point{anywhere(random, width), anywhere(random, height)}; };
+  ExposedDisksItem item{id, {}};
+  for (std::int64_t i = random.integer(1, 4); i > 0; --i) {
+    ExposedDisk disk{std::exp(random.uniform(-3, 3)),
+                     random.integer(0, 1) == 0 ? 0 : 1.5,
+                     any_color(random),
+                     any_color(random),
+                     {}};
+    Point from = place();
+    for (std::int64_t ways = random.integer(1, 3); ways > 0; --ways) {
+      const Point to = random.integer(0, 4) == 0 ? from : place();
+      disk.ways.push_back({from, to, 1.0 / double(3)});
+      from = to;
+    }
+    item.disks.push_back(std::move(disk));
+  }
   return item;
 }
 
@@ -148,7 +169,7 @@ inline PlateItem any_plate(Random& random, ItemId id, int width, int height) {
 }
 
 inline DrawItem any_item(Random& random, ItemId id, int width, int height) {
-  switch (random.integer(0, 7)) {
+  switch (random.integer(0, 8)) {
     case 0:
       return any_line(random, id, width, height);
     case 1:
@@ -163,6 +184,8 @@ inline DrawItem any_item(Random& random, ItemId id, int width, int height) {
       return any_group(random, id, width, height);
     case 6:
       return any_plate(random, id, width, height);
+    case 7:
+      return any_exposed_disks(random, id, width, height);
     default:
       return any_rectangle(random, id, width, height);
   }

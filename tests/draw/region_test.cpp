@@ -181,9 +181,12 @@ void change(Random& random, DrawList& list) {
       grow(random, *path, list.width_px);
     } else if (auto* group = std::get_if<GroupItem>(&item); group && kind < 3) {
       change_group(random, *group);
-    } else if (auto* exposed = std::get_if<ExposedItem>(&item); exposed && kind < 3) {
-      move(random, random.integer(0, 1) == 0 ? exposed->behind : exposed->front);
+    } else if (auto* exposed = std::get_if<ExposedBlocksItem>(&item); exposed && kind < 3) {
+      move(random, exposed->blocks.at(static_cast<std::size_t>(random.integer(0, 1))));
       if (random.integer(0, 1) == 0) exposed->contacts.clear();
+    } else if (auto* disks = std::get_if<ExposedDisksItem>(&item); disks && kind < 3) {
+      disks->disks.back().ways.back().to.x += random.uniform(-5, 5);
+      if (random.integer(0, 3) == 0) disks->disks.push_back(disks->disks.front());
     }
   }
 }

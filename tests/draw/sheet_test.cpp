@@ -145,7 +145,10 @@ DrawList exposed(int width_px, int height_px) {
   ExposedBlock moving{{5 * unit, unit, 2 * unit, 2 * unit}, kGreen, {kGreen, 1, 0}, {}, {}};
   for (int i = 0; i <= 10; ++i) moving.dwells.push_back({(5 + i / 10.0) * unit, 1 / 11.0});
   const ExposedBlock still{{unit, unit, 2 * unit, 2 * unit}, kGreen, {kGreen, 1, 0}, {}, {}};
-  return {width_px, height_px, Color{0, 0, 0}, {ExposedItem{ItemId::red_block, moving, still, {}}}};
+  return {width_px,
+          height_px,
+          Color{0, 0, 0},
+          {ExposedBlocksItem{ItemId::red_block, {moving, still}, {}}}};
 }
 
 TEST(Sheet, ShowsExposedBlocksInTheirPlaceAtAnyScale) {

@@ -94,7 +94,8 @@ class Checker {
   }
   void check_item(const PlateItem& item) { check(item.plate->items); }
   void check_item(const GroupItem& /*item*/) {}
-  void check_item(const ExposedItem& /*item*/) {}
+  void check_item(const ExposedBlocksItem& /*item*/) {}
+  void check_item(const ExposedDisksItem& /*item*/) {}
 
   const DrawList& list_;
   Fonts fonts_;

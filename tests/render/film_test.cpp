@@ -112,8 +112,9 @@ TEST_F(FilmTest, APartShowsWhatItsSceneWouldShowAlone) {
 }
 
 bool is_exposed(const DrawList& list) {
-  return std::ranges::any_of(
-      list.items, [](const DrawItem& item) { return std::holds_alternative<ExposedItem>(item); });
+  return std::ranges::any_of(list.items, [](const DrawItem& item) {
+    return std::holds_alternative<ExposedBlocksItem>(item);
+  });
 }
 
 TEST_F(FilmTest, EachRunHasItsOwnShutter) {

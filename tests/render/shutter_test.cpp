@@ -13,6 +13,7 @@
 
 #include "draw/canvas.hpp"
 #include "draw/composition.hpp"
+#include "mean_light.hpp"
 #include "render/film.hpp"
 #include "scene/schedule.hpp"
 #include "support/temporary_folder.hpp"
@@ -27,15 +28,6 @@ Scene scene_of(int digits, FrameSize size, const Rational& shutter) {
   scene.view.height_px = size.height_px;
   scene.view.shutter = shutter;
   return scene;
-}
-
-double to_light(int sample) {
-  const double v = sample / 255.0;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
-double to_sample(double light) {
-  return 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
 }
 
 /// The bounds of a block at an instant.
@@ -81,9 +73,7 @@ std::vector<double> mean_of_instants(const Scene& scene, std::int64_t frame) {
   const Composition composition(scene, *log);
   const Integer count = log->state_at(schedule.time_of(frame)).count;
   const std::vector<int> rows = rows_of(scene);
-  std::array<double, 256> light{};
-  for (int i = 0; i < 256; ++i) light[static_cast<std::size_t>(i)] = to_light(i);
-  std::vector<double> sums(rows.size() * static_cast<std::size_t>(3 * scene.view.width_px));
+  MeanLight mean;
   Canvas canvas(scene.view.width_px, scene.view.height_px);
   for (int i = 0; i < kInstants; ++i) {
     const Rational video_s =
@@ -91,13 +81,9 @@ std::vector<double> mean_of_instants(const Scene& scene, std::int64_t frame) {
     BlockState state = log->state_at(schedule.at(video_s).time);
     state.count = count;
     canvas.update(composition.frame({state}));
-    const std::vector<int> samples = samples_of(canvas.view(), rows);
-    for (std::size_t at = 0; at < sums.size(); ++at) {
-      sums[at] += light[static_cast<std::size_t>(samples[at])];
-    }
+    mean.add(samples_of(canvas.view(), rows));
   }
-  for (double& sum : sums) sum = to_sample(sum / kInstants);
-  return sums;
+  return mean.samples();
 }
 
 /// @param most  steps of 255; half of one is the rounding of the sample.
@@ -181,7 +167,7 @@ TEST(Shutter, ClosedShowsTheInstant) {
   const Film film(scene);
   for (const std::int64_t frame : {0, 90, 210}) {
     for (const DrawItem& item : film.frame(frame).items) {
-      EXPECT_FALSE(std::holds_alternative<ExposedItem>(item));
+      EXPECT_FALSE(std::holds_alternative<ExposedBlocksItem>(item));
     }
   }
 }

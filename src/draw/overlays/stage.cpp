@@ -161,7 +161,8 @@ void add_blocks(const FrameState& shown, const Layout& layout, const Palette& pa
     add_rectangles(ItemId::red_block, red, items);
     add_rectangles(ItemId::blue_block, blue, items);
   } else {
-    items.emplace_back(exposed_item(std::move(red), std::move(blue), layout, shown.exposure));
+    const AxisPlace axis{layout.origin.x, layout.scale, double(layout.visible_right_px)};
+    items.emplace_back(exposed_blocks(std::move(red), std::move(blue), axis, shown.exposure));
   }
 }
 

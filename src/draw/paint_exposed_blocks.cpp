@@ -26,12 +26,8 @@ struct CoverShare {
   bool operator==(const CoverShare&) const = default;
 };
 
-/// What both blocks cover of a row.
-struct RowCover {
-  Cover behind;
-  Cover front;
-  bool operator==(const RowCover&) const = default;
-};
+/// What each block covers of a row.
+using RowCover = std::vector<Cover>;
 
 /// How much of the pixel from `pixel` to `pixel` + 1 is between two places.
 double overlap(double pixel, double begin, double end) {
@@ -139,15 +135,19 @@ class BlockCover {
 /// One column after another.
 class ExposedColumn {
  public:
-  ExposedColumn(const ExposedItem& item, const Light& light)
-      : item_(item), light_(light), behind_(item.behind), front_(item.front) {}
+  ExposedColumn(const ExposedBlocksItem& item, const Light& light)
+      : item_(item),
+        light_(light),
+        blocks_(item.blocks.begin(), item.blocks.end()),
+        shares_(item.blocks.size()) {}
 
   /// Tells rows apart by how the blocks cover them: of a picture there are few kinds.
   std::size_t kind_of_row(int y) {
-    const RowCover cover{behind_.of_row(y), front_.of_row(y)};
+    RowCover cover;
+    for (const BlockCover& block : blocks_) cover.push_back(block.of_row(y));
     const auto found = std::ranges::find(rows_, cover);
     if (found != rows_.end()) return static_cast<std::size_t>(found - rows_.begin());
-    rows_.push_back(cover);
+    rows_.push_back(std::move(cover));
     return rows_.size() - 1;
   }
 
@@ -155,16 +155,19 @@ class ExposedColumn {
   bool enter(int x) {
     x_ = x;
     const auto at = [&](double place) {
-      return std::ranges::lower_bound(item_.contacts, place, {}, &Contact::behind_x);
+      return std::ranges::lower_bound(item_.contacts, place, {}, &Contact::right_x);
     };
     const bool had_contacts = !contacts_.empty();
     contacts_ = {at(x), at(x + 1.0)};
     // Within a block, one column is like the next.
     bool is_new = had_contacts || !contacts_.empty();
-    is_new |= replace(behind_shares_, behind_.shares_of_column(x));
-    is_new |= replace(front_shares_, front_.shares_of_column(x));
+    present_.clear();
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      is_new |= replace(shares_[i], blocks_[i].shares_of_column(x));
+      if (!shares_[i].empty()) present_.push_back(i);
+    }
     if (is_new) known_.clear();
-    return !behind_shares_.empty() || !front_shares_.empty();
+    return !present_.empty();
   }
 
   /// The pixel of a row over a background; both 0x00RRGGBB.
@@ -191,41 +194,51 @@ class ExposedColumn {
     return true;
   }
 
+  /// Two blocks that touch, by which is painted first.
+  struct Pair {
+    std::size_t behind = 0;
+    double behind_x = 0;
+    std::size_t front = 0;
+    double front_x = 0;
+  };
+  static Pair in_order(const Contact& contact) {
+    const auto& [right_x, left_x, share, right, left] = contact;
+    if (right < left) return {right, right_x, left, left_x};
+    return {left, left_x, right, right_x};
+  }
+
   /// Each block changes the light behind it by its share of time. Where both are in one pixel at
   /// the same time, these changes do not add up: contacts correct that.
   double light_of(const RowCover& row, double background, std::uint8_t Color::*channel) const {
     const double plain = light_.of(background);
     double sum = plain;
-    const auto add = [&](const ExposedBlock& block, const Cover& of_row,
-                         const std::vector<CoverShare>& shares) {
-      for (const auto& [cover, share] : shares) {
-        const PixelCover pixel{block, cover, of_row};
+    for (const std::size_t i : present_) {
+      for (const auto& [cover, share] : shares_[i]) {
+        const PixelCover pixel{item_.blocks[i], cover, row[i]};
         sum += share * (light_.of(pixel.over(background, channel)) - plain);
       }
-    };
-    add(item_.behind, row.behind, behind_shares_);
-    add(item_.front, row.front, front_shares_);
+    }
     for (const Contact& contact : contacts_) {
-      const Cover behind_column = behind_.of_column(x_, contact.behind_x);
-      const Cover front_column = front_.of_column(x_, contact.front_x);
-      const PixelCover front{item_.front, front_column, row.front};
+      const auto [behind, behind_x, front, front_x] = in_order(contact);
+      const Cover behind_column = blocks_[behind].of_column(x_, behind_x);
+      const Cover front_column = blocks_[front].of_column(x_, front_x);
+      const PixelCover over{item_.blocks[front], front_column, row[front]};
       const double only_behind =
-          PixelCover{item_.behind, behind_column, row.behind}.over(background, channel);
-      const double only_front = front.over(background, channel);
-      const double both = front.over(only_behind, channel);
+          PixelCover{item_.blocks[behind], behind_column, row[behind]}.over(background, channel);
+      const double only_front = over.over(background, channel);
+      const double both = over.over(only_behind, channel);
       sum += contact.share *
              (light_.of(both) - light_.of(only_behind) - light_.of(only_front) + plain);
     }
     return sum;
   }
 
-  const ExposedItem& item_;
+  const ExposedBlocksItem& item_;
   const Light& light_;
-  BlockCover behind_;
-  BlockCover front_;
+  std::vector<BlockCover> blocks_;
   std::vector<RowCover> rows_;  // of each kind
-  std::vector<CoverShare> behind_shares_;
-  std::vector<CoverShare> front_shares_;
+  std::vector<std::vector<CoverShare>> shares_;
+  std::vector<std::size_t> present_;  // the blocks with shares
   std::span<const Contact> contacts_;
   int x_ = 0;
   struct Known {
@@ -312,9 +325,9 @@ class ExposedArea {
 
 /// A pixel depends on its column and its background alone, so that a part of the picture has the
 /// pixels of the whole. Cairo paints a block that stays, except where the other one passes.
-void Painter::paint_exposed(cairo_t& cr, const ExposedItem& item, const PixelRect& area) {
+void Painter::paint_exposed(cairo_t& cr, const ExposedBlocksItem& item, const PixelRect& area) {
   const PixelRect moving = moving_area(item, area);
-  if (moving.width_px <= 0 || moving.height_px <= 0) return paint_still_blocks(cr, item);
+  if (moving.width_px <= 0 || moving.height_px <= 0) return paint_still(cr, item);
   cairo_surface_t* const surface = cairo_get_target(&cr);
   cairo_surface_flush(surface);
   unsigned char* const data = cairo_image_surface_get_data(surface);
@@ -323,7 +336,7 @@ void Painter::paint_exposed(cairo_t& cr, const ExposedItem& item, const PixelRec
     unsigned char* const row = data + (y - area.y_px) * stride_bytes;
     return reinterpret_cast<std::uint32_t*>(row) + (moving.x_px - area.x_px);
   });
-  paint_still_blocks(cr, item);
+  paint_still(cr, item);
   cairo_surface_flush(surface);
   if (!light_) light_ = std::make_unique<Light>();
   ExposedColumn column(item, *light_);

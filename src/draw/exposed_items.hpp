@@ -1,0 +1,83 @@
+// What moves while a picture is exposed.
+// In: composition. Out: draw items that say for how long each thing is where.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "draw/item_parts.hpp"
+
+namespace piblocks {
+
+/// A place of a block's left edge, and for which share of the exposure it is there.
+struct Dwell {
+  double x = 0;
+  double share = 0;
+  bool operator==(const Dwell&) const = default;
+};
+
+/// Rows across a block.
+struct Bar {
+  double y = 0;
+  double height = 0;
+  bool operator==(const Bar&) const = default;
+};
+
+/// A filled rectangle that moves sideways while the picture is exposed.
+struct ExposedBlock {
+  Rectangle bounds;  ///< at the picture's instant
+  Color fill;
+  Stroke stroke;          ///< solid
+  std::vector<Bar> bars;  ///< in the stroke's colour, inside the bounds
+  /// From left to right; none if the block stays. Shares add up to 1 less those outside the frame.
+  std::vector<Dwell> dwells;
+  bool operator==(const ExposedBlock&) const = default;
+};
+
+/// A share of an exposure during which a block and the one on its right are less than a pixel
+/// apart. Both places are left edges.
+struct Contact {
+  double right_x = 0;
+  double left_x = 0;
+  double share = 0;
+  std::uint32_t right = 0;  ///< place of the block in ExposedBlocksItem::blocks
+  std::uint32_t left = 1;
+  bool operator==(const Contact&) const = default;
+};
+
+/// Blocks, exposed: the mean, in linear light, of the pictures that rectangles would make at each
+/// instant. A vector file has moving blocks as pixels, and others as rectangles.
+struct ExposedBlocksItem {
+  ItemId id = ItemId::red_block;
+  std::vector<ExposedBlock> blocks;  ///< from back to front; they never overlap
+  std::vector<Contact> contacts;     ///< in the order of right_x
+  bool operator==(const ExposedBlocksItem&) const = default;
+};
+
+/// A straight way of a disc's centre, which it goes evenly.
+struct DiskWay {
+  Point from;
+  Point to;
+  double share = 0;  ///< of the exposure
+  bool operator==(const DiskWay&) const = default;
+};
+
+/// A disk that moves while the picture is exposed.
+struct ExposedDisk {
+  double radius = 0;  ///< of its outside
+  double rim_px = 0;  ///< width of the line, which is inside; 0 if there is none
+  Color fill;
+  Color rim;
+  std::vector<DiskWay> ways;
+  bool operator==(const ExposedDisk&) const = default;
+};
+
+/// Disks, exposed: the mean, in linear light, of the pictures that they would make at each instant.
+/// A vector file has them as pixels.
+struct ExposedDisksItem {
+  ItemId id = ItemId::red_block;
+  std::vector<ExposedDisk> disks;  ///< they never overlap
+  bool operator==(const ExposedDisksItem&) const = default;
+};
+
+}  // namespace piblocks
