@@ -43,6 +43,7 @@ struct BodySystem {
   std::vector<Wall> walls = {};
 };
 
+/// Most bodies of a system. A scene file has room for fewer: kMaxSceneFile_bytes in script.hpp.
 inline constexpr std::size_t kMaxBodies = 100'000;
 inline constexpr std::size_t kMaxWalls = 16;
 

@@ -1,8 +1,10 @@
-// A run: the blocks, all their collisions, their state at any time, and the exact count.
+// A run: all collisions of blocks and wall, their state at any time, and the exact count.
 // In: a BlockSystem. Out: numbers; stored and computed logs look alike.
 #pragma once
 
+#include <piblocks/block_system.hpp>
 #include <piblocks/exact.hpp>
+#include <piblocks/timeline.hpp>
 
 #include <array>
 #include <cstddef>
@@ -14,64 +16,6 @@
 #include <vector>
 
 namespace piblocks {
-
-/// A block that slides without friction along the x axis. Lengths, times and masses are in the
-/// scene's own units.
-struct Block {
-  Rational mass;      ///< > 0
-  Rational position;  ///< of the block's centre at time 0
-  Rational velocity;  ///< at time 0; positive away from the wall
-  Rational width;     ///< > 0
-};
-
-/// Order along the x axis: wall face, blue block, red block. Touching is allowed.
-struct BlockSystem {
-  Rational wall_face = 0;  ///< where the wall ends; blue never passes it
-  Block blue = {1, 2, 0, 1};
-  Block red = {10000, 5, -1, 1};
-  /// Coefficients of restitution: what share of the speed at which two bodies approach each other
-  /// they have when they part; 0 (they stay together) … 1 (elastic).
-  Rational blocks_restitution = 1;
-  Rational wall_restitution = 1;  ///< of blue and the wall
-
-  /// The gaps at time 0, between the wall and blue and between blue and red.
-  Rational blue_gap() const { return blue.position - blue.width / 2 - wall_face; }
-  Rational blocks_gap() const {
-    return red.position - red.width / 2 - (blue.position + blue.width / 2);
-  }
-};
-
-/// Whether collisions keep the energy, so that the motion unfolds to a straight line and its past
-/// is known.
-inline bool is_elastic(const BlockSystem& system) {
-  return system.blocks_restitution == 1 && system.wall_restitution == 1;
-}
-
-/// When the blocks are nearest to the corner of wall and blocks, as the plane with axes
-/// (sqrt(m) x gap) measures it: the middle of all collisions. It may be before time 0. Nothing if
-/// neither block moves. With restitution below 1: when red is nearest to the wall, from time 0 on.
-std::optional<Rational> turn_of(const BlockSystem& system);
-
-inline constexpr int kMaxDigits = 100'000;
-
-/// The mass ratio at which the collisions count pi to digits - 1 places after the point:
-/// base^(2 (digits - 1)). In base 10 these are its first `digits` digits; in base 2 and 3, where
-/// pi's whole part has two digits, there is one more.
-/// @throws UsageError unless 1 <= digits <= kMaxDigits and kMinBase <= base <= kMaxBase.
-Rational mass_ratio_of(int digits, int base = kUsualBase);
-
-/// The article's system with red that many times as heavy as blue.
-/// @throws UsageError as mass_ratio_of()
-BlockSystem article_system(int digits, int base = kUsualBase);
-
-/// What is wrong with one value of a scene.
-struct Problem {
-  std::string key;     ///< as in a scene file: "red.mass"
-  std::string reason;  ///< with the value: "= -1: must be greater than 0"
-};
-
-/// Everything that is wrong with a system; empty if nothing is.
-std::vector<Problem> problems_of(const BlockSystem& system);
 
 enum class CollisionKind : std::uint8_t {
   wall,   ///< blue meets the wall
@@ -123,48 +67,6 @@ class CollisionStream {
   virtual ~CollisionStream() = default;
   /// Fills `batch` with the next collisions; false, and no rows, if there are no more.
   virtual bool read(CollisionBatch& batch) = 0;
-};
-
-/// The collisions of a run by index, whatever collides. Those from time 0 on have the indices 1, 2,
-/// …, size(), those before time 0 the indices 0, -1, … down to first_index(). Const members are
-/// thread-safe.
-class Timeline {
- public:
-  Timeline() = default;
-  virtual ~Timeline() = default;
-  Timeline(const Timeline&) = delete;
-  Timeline& operator=(const Timeline&) = delete;
-
-  /// Number of collisions from time 0 on, and the index of the last of all time.
-  const Integer& size() const noexcept { return size_; }
-  /// Index of the first collision of all time; 1 if there are none before time 0.
-  const Integer& first_index() const noexcept { return first_index_; }
-  /// Index of the last collision until then. A collision exactly at `time` has happened. The logs
-  /// of bodies, which begin at time 0, say 0 for earlier times.
-  virtual Integer count_at(const Rational& time) const = 0;
-  /// When the collision happens, first_index() <= index <= size(), to two doubles.
-  /// @throws SimulationError if that is beyond the range of a double.
-  virtual Time collision_time(const Integer& index) const = 0;
-  /// Whether collisions may go on for ever, size() being those until some time.
-  virtual bool may_go_on() const { return false; }
-  /// A time at which exactly the collisions up to this one have happened: that of the collision if
-  /// its exact value is short, otherwise one so little later that no picture can show the
-  /// difference. first_index() <= index <= size().
-  /// @throws UsageError if the next collision happens at the same time.
-  /// @throws SimulationError if a stepping engine cannot tell the two times apart.
-  virtual Rational time_after(const Integer& index) const = 0;
-  /// When collisions are densest, if the run has such an instant: as turn_of().
-  virtual std::optional<Rational> turn() const = 0;
-
- protected:
-  void set_range(Integer first_index, Integer size) {
-    first_index_ = std::move(first_index);
-    size_ = std::move(size);
-  }
-
- private:
-  Integer first_index_ = 1;
-  Integer size_ = 0;
 };
 
 /// All collisions of two blocks and a wall. Blocks that touch at time 0 and move apart, or blue

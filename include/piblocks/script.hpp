@@ -82,6 +82,8 @@ std::vector<std::string> problems_of(const Storyboard& story);
 /// segment. Two storyboards with equal descriptions are the same film.
 std::vector<std::pair<std::string, std::string>> describe(const Storyboard& story);
 
+/// Of a file; text that read_text() takes may be longer. It is room for about 40,000 bodies, fewer
+/// than kMaxBodies.
 inline constexpr std::size_t kMaxSceneFile_bytes = 1 << 20;
 inline constexpr int kMaxSceneNesting = 256;  ///< of lists and tables in a scene file
 

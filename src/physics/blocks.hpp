@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -86,10 +85,6 @@ void require_last(const Integer& index, const Integer& last_at_its_time);
 /// answer is rounded once.
 /// @param system  with m_red <= m_blue, or at rest.
 std::unique_ptr<CollisionLog> make_exact_log(const BlockSystem& system);
-bool is_exact(const CollisionLog& log);
-/// The blocks at a time, and just after a collision; nothing for other logs.
-std::optional<BlockSystem> exact_blocks_at(const CollisionLog& log, const Rational& time);
-std::optional<BlockSystem> exact_blocks_after(const CollisionLog& log, const Integer& index);
 
 /// Engine::events, which advances positions to the next collision of any pair, or
 /// Engine::velocities, a VelocityLoop, in double precision.

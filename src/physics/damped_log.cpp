@@ -29,7 +29,7 @@ double position(const Real& gap, const Rational& offset) {
 }  // namespace
 
 DampedLog::DampedLog(const BlockSystem& system)
-    : CollisionLog(system),
+    : PreciseLog(system),
       motion_(system),
       // Beside the velocity of blue that of red is as small as their mass ratio.
       velocity_bits_(kPosition_bits + std::labs(Real(64, motion_.ratio).exponent())),

@@ -3,19 +3,18 @@
 // In: a BlockSystem with restitutions below 1. Out: any collision, any state.
 #pragma once
 
-#include <piblocks/run.hpp>
-
 #include <optional>
 #include <utility>
 
 #include "physics/damped_motion.hpp"
 #include "physics/impact.hpp"
+#include "physics/precise_log.hpp"
 
 namespace piblocks {
 
 /// Before time 0 the blocks move as they do at time 0: what they lost in earlier collisions is not
 /// known. In a run of infinitely many collisions they rest at the wall from the last listed one on.
-class DampedLog final : public CollisionLog {
+class DampedLog final : public PreciseLog {
  public:
   /// @throws SimulationError as RoundPowers.
   explicit DampedLog(const BlockSystem& system);
@@ -23,15 +22,15 @@ class DampedLog final : public CollisionLog {
   Collision collision(const Integer& index) const override;
   BlockState state_at(const Rational& time) const override;
   Rational time_after(const Integer& index) const override;
+  PositionBounds bounds_at(const Rational& time) const override;
+  Gaps gaps_at(const Rational& time) const override;
+  Gaps gaps_at_collision(const Integer& index) const override;
 
   Integer count_at(const Rational& time) const override { return motion_.count_at(time); }
 
   bool is_endless() const { return !motion_.total; }
-  /// As the functions of these names in impact.hpp and run.hpp.
+  /// As the function of this name in impact.hpp.
   std::optional<Impact> impact(CollisionKind kind, const Integer& first, const Integer& last) const;
-  PositionBounds bounds_at(const Rational& time) const;
-  Gaps gaps_at(const Rational& time) const;
-  Gaps gaps_at_collision(const Integer& index) const;
 
  private:
   /// Count and gaps at a time.

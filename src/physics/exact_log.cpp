@@ -1,8 +1,10 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 #include "physics/blocks.hpp"
+#include "physics/precise_log.hpp"
 
 namespace piblocks {
 namespace {
@@ -75,10 +77,15 @@ Collision rounded_collision(const Integer& index, const ExactCollision& exact) {
   return result;
 }
 
-class ExactLog final : public CollisionLog {
+Gaps gaps_of(const BlockSystem& blocks) {
+  const Rational y1 = blocks.blue_gap();
+  return {to_double(y1), to_double(y1 + blocks.blocks_gap())};
+}
+
+class ExactLog final : public PreciseLog {
  public:
   explicit ExactLog(const BlockSystem& system)
-      : CollisionLog(system), start_{0, CollisionKind::wall, system} {
+      : PreciseLog(system), start_{0, CollisionKind::wall, system} {
     // Before time 0 the velocities just after a collision are the opposite of those just before it
     // in the reversed run.
     for (ExactCollision& event : run(reversed(system))) {
@@ -103,6 +110,24 @@ class ExactLog final : public CollisionLog {
     return {at.index, at.blue, at.red};
   }
 
+  Rational time_after(const Integer& index) const override {
+    require_last(index, state_at(event(index).time).count);
+    return event(index).time;
+  }
+
+  PositionBounds bounds_at(const Rational& time) const override {
+    constexpr double kRounding = 0x1p-53;
+    const BlockState now = state_at(time);
+    return {kRounding * std::fabs(now.blue.position), kRounding * std::fabs(now.red.position)};
+  }
+  Gaps gaps_at(const Rational& time) const override { return gaps_of(blocks_at(time)); }
+  Gaps gaps_at_collision(const Integer& index) const override {
+    return gaps_of(event(index).blocks);
+  }
+
+ private:
+  using Events = std::vector<ExactCollision>;
+
   BlockSystem blocks_at(const Rational& time) const {
     const auto next = happened(time);
     const ExactCollision& since = next == events_.begin() ? start_ : *std::prev(next);
@@ -110,16 +135,6 @@ class ExactLog final : public CollisionLog {
     advance(blocks, time - since.time);
     return blocks;
   }
-  const BlockSystem& blocks_after(const Integer& index) const { return event(index).blocks; }
-
-  Rational time_after(const Integer& index) const override {
-    require_last(index, state_at(event(index).time).count);
-    return event(index).time;
-  }
-
- private:
-  using Events = std::vector<ExactCollision>;
-
   /// The end of those that have happened.
   Events::const_iterator happened(const Rational& time) const {
     return std::ranges::upper_bound(events_, time, {}, &ExactCollision::time);
@@ -136,18 +151,6 @@ class ExactLog final : public CollisionLog {
 
 std::unique_ptr<CollisionLog> make_exact_log(const BlockSystem& system) {
   return std::make_unique<ExactLog>(system);
-}
-
-bool is_exact(const CollisionLog& log) { return dynamic_cast<const ExactLog*>(&log) != nullptr; }
-
-std::optional<BlockSystem> exact_blocks_at(const CollisionLog& log, const Rational& time) {
-  const auto* const exact = dynamic_cast<const ExactLog*>(&log);
-  return exact == nullptr ? std::nullopt : std::optional(exact->blocks_at(time));
-}
-
-std::optional<BlockSystem> exact_blocks_after(const CollisionLog& log, const Integer& index) {
-  const auto* const exact = dynamic_cast<const ExactLog*>(&log);
-  return exact == nullptr ? std::nullopt : std::optional(exact->blocks_after(index));
 }
 
 }  // namespace piblocks

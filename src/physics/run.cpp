@@ -7,6 +7,7 @@
 #include "physics/blocks.hpp"
 #include "physics/damped_log.hpp"
 #include "physics/exact_motion.hpp"
+#include "physics/precise_log.hpp"
 #include "physics/unfolded_log.hpp"
 
 namespace piblocks {
@@ -40,9 +41,8 @@ class IndexedStream final : public CollisionStream {
   Integer last_;
 };
 
-Gaps exact_gaps(const BlockSystem& blocks) {
-  const Rational y1 = blocks.blue_gap();
-  return {to_double(y1), to_double(y1 + blocks.blocks_gap())};
+const PreciseLog* precise_log(const CollisionLog& log) {
+  return dynamic_cast<const PreciseLog*>(&log);
 }
 
 /// Precision of a time before it is rounded to two doubles.
@@ -200,27 +200,18 @@ std::optional<Corner> corner_of(const BlockSystem& system) {
 }
 
 std::optional<PositionBounds> position_bounds(const CollisionLog& log, const Rational& time) {
-  if (const UnfoldedLog* const form = closed_form(log)) return form->bounds_at(time);
-  if (const DampedLog* const damped = damped_log(log)) return damped->bounds_at(time);
-  if (!is_exact(log)) return std::nullopt;
-  constexpr double kUnitRoundoff = 0x1p-53;
-  const BlockState now = log.state_at(time);
-  return PositionBounds{kUnitRoundoff * std::fabs(now.blue.position),
-                        kUnitRoundoff * std::fabs(now.red.position)};
+  if (const PreciseLog* const precise = precise_log(log)) return precise->bounds_at(time);
+  return std::nullopt;
 }
 
 Gaps gaps_at(const CollisionLog& log, const Rational& time) {
-  if (const UnfoldedLog* const form = closed_form(log)) return form->gaps_at(time);
-  if (const DampedLog* const damped = damped_log(log)) return damped->gaps_at(time);
-  if (const auto blocks = exact_blocks_at(log, time)) return exact_gaps(*blocks);
+  if (const PreciseLog* const precise = precise_log(log)) return precise->gaps_at(time);
   const BlockState now = log.state_at(time);
   return gaps_between(log.system(), now.blue, now.red);
 }
 
 Gaps gaps_at_collision(const CollisionLog& log, const Integer& index) {
-  if (const UnfoldedLog* const form = closed_form(log)) return form->gaps_at_collision(index);
-  if (const DampedLog* const damped = damped_log(log)) return damped->gaps_at_collision(index);
-  if (const auto blocks = exact_blocks_after(log, index)) return exact_gaps(*blocks);
+  if (const PreciseLog* const precise = precise_log(log)) return precise->gaps_at_collision(index);
   const Collision now = log.collision(index);
   const Gaps gaps = gaps_between(log.system(), now.blue, now.red);
   return now.kind == CollisionKind::wall ? Gaps{0, gaps.y2} : Gaps{gaps.y2, gaps.y2};

@@ -43,7 +43,7 @@ ExactMotion checked(const BlockSystem& system) {
 }  // namespace
 
 UnfoldedLog::UnfoldedLog(const BlockSystem& system)
-    : CollisionLog(system), exact_(checked(system)), form_(system, exact_) {
+    : PreciseLog(system), exact_(checked(system)), form_(system, exact_) {
   set_range(form_.first_index, form_.size);
   const bool touches = exact_.y1 == 0 || exact_.y1 == exact_.y2;
   if (touches && !exact_.through_corner()) contact_ = state_at(0).count;

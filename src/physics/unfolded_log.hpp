@@ -2,20 +2,19 @@
 // In: a BlockSystem whose red block is heavier than the blue one. Out: any collision, any state.
 #pragma once
 
-#include <piblocks/run.hpp>
-
 #include <memory>
 #include <optional>
 
 #include "physics/exact_motion.hpp"
 #include "physics/impact.hpp"
+#include "physics/precise_log.hpp"
 #include "physics/unfolded_exposure.hpp"
 #include "physics/unfolding.hpp"
 
 namespace piblocks {
 
 /// Doubles are enough for positions at any number of digits (README.md, "Why doubles are enough").
-class UnfoldedLog final : public CollisionLog {
+class UnfoldedLog final : public PreciseLog {
  public:
   /// @throws UsageError if the mass ratio is beyond 2^2000.
   /// @throws SimulationError if the blocks pass the corner closer than a double can tell.
@@ -25,16 +24,15 @@ class UnfoldedLog final : public CollisionLog {
   BlockState state_at(const Rational& time) const override;
   Rational time_after(const Integer& index) const override;
   std::unique_ptr<CollisionStream> stream(const Integer& first, const Integer& last) const override;
+  PositionBounds bounds_at(const Rational& time) const override;
+  Gaps gaps_at(const Rational& time) const override;
+  Gaps gaps_at_collision(const Integer& index) const override;
 
   /// As the functions of these names in impact.hpp.
   std::optional<Impact> impact(CollisionKind kind, const Integer& first, const Integer& last) const;
   Integer count_near(const Time& time) const;
   /// As in exposure.hpp, for first <= last.
   Exposure expose(const Rational& first, const Rational& last) const;
-  PositionBounds bounds_at(const Rational& time) const;
-  /// As the functions of these names in run.hpp.
-  Gaps gaps_at(const Rational& time) const;
-  Gaps gaps_at_collision(const Integer& index) const;
 
  private:
   /// A point on the line, seen from the nearer end of time.

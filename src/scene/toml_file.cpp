@@ -32,7 +32,10 @@ std::string read_text(const std::string& path) {
   }
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > kMaxSceneFile_bytes) {
-    throw SceneError(fmt::format("scene: '{}' is longer than {} bytes", path, kMaxSceneFile_bytes));
+    throw SceneError(
+        fmt::format("scene: '{}' is longer than {} bytes, the most that a scene file may have; "
+                    "leave out bodies, parts or comments",
+                    path, kMaxSceneFile_bytes));
   }
   return text;
 }

@@ -16,6 +16,7 @@
 #include "draw/canvas.hpp"
 #include "draw/composed_pictures.hpp"
 #include "render/film.hpp"
+#include "support/uncertain_discs.hpp"
 
 namespace piblocks {
 namespace {
@@ -221,26 +222,8 @@ TEST(BodyPictures, BodiesAreWhereTheyAre) {
 
 /// From which time on the picture may be wrong is said in it, from that time on.
 TEST(BodyPictures, SayWhatIsNotCertain) {
-  const Film film(read(R"(
-    box.x = [0, 4]
-    box.y = [0, 3]
-    view.theme = "lecture"
-    view.fps = 1
-    time.to = 100
-    time.allow-uncertain = true
-    [[body]]
-    position = [1, 1]
-    velocity = [1, 0.7]
-    radius = 0.5
-    [[body]]
-    position = [3, 1.2]
-    velocity = [-1, 0.3]
-    radius = 0.6
-    [[body]]
-    position = [2, 2.4]
-    velocity = [0.2, -0.9]
-    radius = 0.4
-  )"));
+  const Film film(read("view.theme = 'lecture'\nview.fps = 1\ntime.allow-uncertain = true\n" +
+                       testing_support::uncertain_discs()));
   std::optional<double> said;
   for (std::int64_t k = 0; k < film.frame_count(); ++k) {
     for (const Box& box : texts_of(film.frame(k))) {

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from conftest import TREE
 
 import piblocks
 from piblocks import Scene
@@ -25,25 +26,7 @@ size = [128, 72]
 fps = 5
 """
 # Double precision knows for a while only which of them collide next.
-UNCERTAIN = """
-[box]
-x = [0, 4]
-y = [0, 3]
-[[body]]
-position = [1, 1]
-velocity = [1, 0.7]
-radius = 0.5
-[[body]]
-position = [3, 1.2]
-velocity = [-1, 0.3]
-radius = 0.6
-[[body]]
-position = [2, 2.4]
-velocity = [0.2, -0.9]
-radius = 0.4
-[time]
-to = 200
-"""
+UNCERTAIN = (TREE / "tests/support/uncertain_discs.toml").read_text()
 
 
 def scene_of(text, **keys):

@@ -12,8 +12,8 @@
 
 #include "physics/discs/bounds.hpp"
 #include "physics/discs/disc_system.hpp"
+#include "physics/discs/event_tree.hpp"
 #include "physics/discs/meeting.hpp"
-#include "physics/discs/tournament.hpp"
 
 namespace piblocks::discs {
 namespace {
@@ -88,7 +88,7 @@ class Stepper final : public DiscStepper {
   std::uint32_t number_;
   Cells cells_;
   std::vector<Plan> plans_;
-  Tournament queue_;
+  EventTree queue_;
   double until_ = kNever;
   double top_speed_ = 0;  ///< while all is certain: of all discs so far, at least
   std::uint32_t since_build_ = 0;

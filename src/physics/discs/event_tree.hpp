@@ -20,9 +20,12 @@ struct EventKey {
 
 /// A binary tree whose leaves are discs. Each inner node names the disc of its subtree whose key is
 /// least, so a new key changes at most the nodes above it.
-class Tournament {
+///
+/// It is not physics/tournament.hpp because that one compares entries by number and has to look up
+/// their times elsewhere in memory, which costs up to a sixth of the speed.
+class EventTree {
  public:
-  explicit Tournament(std::size_t size)
+  explicit EventTree(std::size_t size)
       : leaves_(std::bit_ceil(std::max<std::size_t>(size, 1))),
         ranks_(leaves_),
         nodes_(2 * leaves_) {
@@ -47,7 +50,7 @@ class Tournament {
   }
 
  private:
-  /// With its time, so that two rivals lie side by side in memory.
+  /// Has its time with it, so that those of two rivals lie side by side in memory.
   struct Node {
     double time;
     std::uint32_t disc;

@@ -1,0 +1,82 @@
+// What tests of scenes with bodies share.
+// In: nothing. Out: a folder with three scenes, the names of those of the program, a Python.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "cli/cli_fixture.hpp"
+#include "support/uncertain_discs.hpp"
+
+namespace piblocks {
+
+/// Two blocks meet at time 3; at 47 the first meets the third, and all is over.
+inline constexpr const char* kMeeting = R"(
+[[body]]
+position = 0
+velocity = 1
+[[body]]
+mass = 3
+position = 4
+[[body]]
+position = -20
+)";
+
+inline constexpr const char* kEndless = R"(
+[box]
+x = [0, 10]
+[[body]]
+position = 1
+velocity = 1
+[[body]]
+mass = 2
+position = 3
+[[body]]
+mass = 3
+position = 5
+)";
+
+/// Scenes of the program whose collisions end, or whose film does.
+inline constexpr std::array kBodyScenes{"three-blocks", "two-walls", "row",  "cradle",
+                                        "superball",    "recoil",    "gas",  "billiard",
+                                        "brownian",     "wedge",     "touch"};
+
+class BodiesCli : public CliFixture {
+ protected:
+  void SetUp() override {
+    write("meeting.toml", kMeeting);
+    write("endless.toml", kEndless);
+    write("uncertain.toml", testing_support::uncertain_discs());
+  }
+  /// One line, and nothing written.
+  void expect_line(const Arguments& arguments, const std::string& line) const {
+    const std::vector<std::string> before = entries();
+    const CommandResult result = piblocks(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err, "piblocks: " + line + "\n");
+    EXPECT_EQ(entries(), before);
+  }
+  bool python(const std::string& interpreter, const std::string& program) const {
+    write("program.py", program);
+    const std::string command = fmt::format("cd '{}' && {} program.py >python.txt 2>&1",
+                                            folder_.path().string(), interpreter);
+    return std::system(command.c_str()) == 0;
+  }
+  /// A Python that has this module; empty if there is none.
+  std::string python_with(const std::string& module) const {
+    for (const char* interpreter : {"python3", "/usr/bin/python3"}) {
+      if (python(interpreter, "import " + module)) return interpreter;
+    }
+    return {};
+  }
+  std::string first_line_of(const Arguments& arguments) const {
+    return lines(output_of(arguments)).front();
+  }
+};
+
+}  // namespace piblocks

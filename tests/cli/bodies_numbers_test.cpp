@@ -1,0 +1,209 @@
+// Counts, logs and states of bodies, as the program prints them.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/bodies_fixture.hpp"
+
+namespace piblocks {
+namespace {
+
+TEST_F(BodiesCli, LogsOfBlocksAreExact) {
+  EXPECT_EQ(output_of({"log", "meeting.toml"}),
+            "index,time,first,second,x_first,x_second,v_first,v_second\n"
+            "1,3,1,2,3,4,-0.5,0.5\n"
+            "2,47,1,3,-19,-20,0,-0.5\n");
+}
+
+TEST_F(BodiesCli, LogsOfDiscsHaveTwoCoordinates) {
+  write("discs.toml",
+        "[box]\nx = ['-inf', 8]\ny = [-3, 'inf']\n"
+        "[[body]]\nposition = [0, 0]\nvelocity = [1, 0]\n"
+        "[[body]]\nmass = 3\nposition = [4, 0]\n"
+        "[[body]]\nposition = [-4, -1]\nvelocity = [0, -1]\n[time]\nto = 7\n");
+  EXPECT_EQ(output_of({"log", "discs.toml"}),
+            "index,time,first,second,x_first,y_first,x_second,y_second,vx_first,vy_first,"
+            "vx_second,vy_second\n"
+            "1,1,3,lower,-4,-2,0,-3,0,1,0,0\n"
+            "2,2,1,2,2,0,4,0,-0.5,0,0.5,0\n"
+            "3,8,2,right,7,0,8,0,-0.5,0,0,0\n");
+}
+
+TEST_F(BodiesCli, CountsAreThoseOfTheLog) {
+  for (const char* scene : kBodyScenes) {
+    const auto rows = lines(output_of({"log", scene}));
+    EXPECT_EQ(first_line_of({"count", scene}), std::to_string(rows.size() - 1)) << scene;
+    ASSERT_GT(rows.size(), 1U) << scene;
+    double before = 0;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      const auto fields = split(rows[i], ',');
+      ASSERT_EQ(fields[0], std::to_string(i)) << scene;
+      ASSERT_GE(std::stod(fields[1]), before) << scene;
+      before = std::stod(fields[1]);
+    }
+  }
+}
+
+TEST_F(BodiesCli, CountsOfEndlessRunsNeedATime) {
+  expect_line(
+      {"count", "endless.toml"},
+      "time.to: bodies between walls may collide for ever; say until when, as time.to = 10");
+  for (const char* to : {"1", "5", "50", "1/3"}) {
+    const auto rows = lines(output_of({"log", "endless.toml", "--to", to}));
+    EXPECT_EQ(first_line_of({"count", "endless.toml", "--to", to}),
+              std::to_string(rows.size() - 1));
+  }
+  expect_line({"count", "endless.toml", "--to=-3"},
+              "--to: time.to = -3: must be after time.from = 0");
+}
+
+/// Equal blocks exchange velocities: each line is met by one that runs through them.
+TEST_F(BodiesCli, CountsOfEqualBlocksAreKnown) {
+  write("equal.toml",
+        "[box]\nx = [0, 10]\n[[body]]\nposition = 0.5\nvelocity = 1\n[[body]]\nposition = 4.5\n"
+        "[[body]]\nposition = 7.5\n[[body]]\nposition = 9.5\n");
+  // Without their widths they are points at 0, 3, 5 and 6 of 6; in 12 the moving one runs there and
+  // back, and at 6 meets the last, the wall, and the last again.
+  for (const std::string to : {"2.99", "3", "5", "6", "6.99", "7", "9", "12", "119.5", "1200"}) {
+    const std::string found = first_line_of({"count", "equal.toml", "--to", to});
+    const double rounds = std::floor(std::stod(to) / 12);
+    const double rest = std::stod(to) - 12 * rounds;
+    int expected = static_cast<int>(8 * rounds);
+    for (const double hit : {3.0, 5.0, 6.0, 6.0, 6.0, 7.0, 9.0}) expected += hit <= rest ? 1 : 0;
+    EXPECT_EQ(found, std::to_string(expected)) << to;
+  }
+}
+
+TEST_F(BodiesCli, StatesAreExactAndInOrder) {
+  EXPECT_EQ(output_of({"state", "meeting.toml", "--at", "0,3,5,last"}),
+            R"({"time":0,"collisions":"0","bodies":[{"position":0,"velocity":1},)"
+            R"({"position":4,"velocity":0},{"position":-20,"velocity":0}]})"
+            "\n"
+            R"({"time":3,"collisions":"1","bodies":[{"position":3,"velocity":-0.5},)"
+            R"({"position":4,"velocity":0.5},{"position":-20,"velocity":0}]})"
+            "\n"
+            R"({"time":5,"collisions":"1","bodies":[{"position":2,"velocity":-0.5},)"
+            R"({"position":5,"velocity":0.5},{"position":-20,"velocity":0}]})"
+            "\n"
+            R"({"time":47,"collisions":"2","bodies":[{"position":-19,"velocity":0},)"
+            R"({"position":26,"velocity":0.5},{"position":-20,"velocity":-0.5}]})"
+            "\n");
+  expect_line({"state", "meeting.toml", "--at=-1"},
+              "time -1: the motion of bodies begins at time 0; give a later time");
+  expect_line(
+      {"state", "meeting.toml", "--at", "turn"},
+      "'turn': there is no turn; only two blocks beside a wall have one, if they move; give "
+      "a time");
+  expect_line({"state", "meeting.toml", "--at", "#3"},
+              "collision #3: the scene has collisions #1 to #2");
+}
+
+TEST_F(BodiesCli, StatesAreJson) {
+  const std::string interpreter = python_with("json");
+  if (interpreter.empty()) GTEST_SKIP() << "no python3 here";
+  for (const char* scene : kBodyScenes) {
+    output_of({"log", scene, "--format", "jsonl", "-o", "log.jsonl"});
+    output_of({"log", scene, "-o", "log.csv"});
+    write("state.json", output_of({"state", scene, "--at", "0,1,last"}));
+    EXPECT_TRUE(python(interpreter, R"(
+import csv, json
+log = [json.loads(line) for line in open('log.jsonl')]
+rows = list(csv.DictReader(open('log.csv')))
+states = [json.loads(line) for line in open('state.json')]
+assert len(log) == len(rows) and len(states) == 3
+assert len({len(state['bodies']) for state in states}) == 1
+def flat(value):
+    return value if isinstance(value, list) else [value]
+for row, line in zip(rows, log):
+    assert row['index'] == line['index'] and float(row['time']) == line['time'], row
+    assert row['first'] == str(line['first']) and row['second'] == str(line['second']), row
+    for side in ('first', 'second'):
+        motion = line[side + '_after']
+        names = ['x_', 'y_'] if 'y_first' in row else ['x_']
+        assert [float(row[name + side]) for name in names] == flat(motion['position']), row
+        names = ['vx_', 'vy_'] if 'y_first' in row else ['v_']
+        assert [float(row[name + side]) for name in names] == flat(motion['velocity']), row
+last = states[-1]
+assert last['collisions'] == log[-1]['index'] and last['time'] == log[-1]['time']
+def near(a, b):
+    return all(abs(x - y) < 1e-9 for x, y in zip(flat(a), flat(b), strict=True))
+# The bodies are in the order of the file: the last collision is found by its numbers.
+for side in ('first', 'second'):
+    if isinstance(log[-1][side], int):
+        body = last['bodies'][log[-1][side] - 1]
+        for name in ('position', 'velocity'):
+            assert near(body[name], log[-1][side + '_after'][name]), (body, log[-1])
+)")) << scene
+     << ": " << contents("python.txt");
+  }
+}
+
+TEST_F(BodiesCli, NumpyLoadsWhatCsvSays) {
+  const std::string interpreter = python_with("numpy");
+  if (interpreter.empty()) GTEST_SKIP() << "no python3 with numpy here";
+  for (const char* scene : {"three-blocks", "recoil", "billiard", "wedge"}) {
+    output_of({"log", scene, "--format", "npy", "-o", "log.npy"});
+    output_of({"log", scene, "-o", "log.csv"});
+    EXPECT_TRUE(python(interpreter, R"(
+import csv, numpy
+log = numpy.load('log.npy')
+rows = list(csv.DictReader(open('log.csv')))
+assert log.shape == (len(rows),) and len(rows) > 20
+walls = {}
+for row, line in zip(rows, log):
+    assert int(row['index']) == line['index'] and float(row['time']) == line['time'], row
+    assert abs(line['time_low']) <= numpy.spacing(line['time']), row
+    assert int(row['first']) == line['first'], row
+    if row['second'].isdigit():
+        assert int(row['second']) == line['second'], row
+    else:
+        assert line['second'] < 0 and walls.setdefault(row['second'], line['second']) == line['second']
+    for side in ('first', 'second'):
+        if 'y_first' in row:
+            assert (line['x_' + side] == [float(row['x_' + side]), float(row['y_' + side])]).all()
+            assert (line['v_' + side] == [float(row['vx_' + side]), float(row['vy_' + side])]).all()
+        else:
+            assert line['x_' + side] == float(row['x_' + side])
+            assert line['v_' + side] == float(row['v_' + side])
+order = [name for name in ('left', 'right', 'lower', 'upper', 'slanted-1', 'slanted-2') if name in walls]
+assert [walls[name] for name in order] == [-1 - k for k in range(len(order))], walls
+)")) << scene
+     << ": " << contents("python.txt");
+  }
+  output_of({"log", "billiard", "--to=-1", "--format", "npy", "-o", "log.npy"});
+  EXPECT_TRUE(python(interpreter, "import numpy\nassert numpy.load('log.npy').shape == (0,)"));
+}
+
+TEST_F(BodiesCli, RowsAreSelected) {
+  using Rows = std::vector<std::string>;
+  const auto rows = [&](const Arguments& selection) {
+    Rows found;
+    for (const std::string& line : lines(output_of(Arguments{"log"} + selection))) {
+      found.push_back(split(line, ',').front());
+    }
+    found.erase(found.begin());
+    return found;
+  };
+  EXPECT_EQ(rows({"meeting.toml", "--from", "3"}), (Rows{"1", "2"}));
+  EXPECT_EQ(rows({"meeting.toml", "--from", "3.0000001"}), (Rows{"2"}));
+  EXPECT_EQ(rows({"meeting.toml", "--to", "47"}), (Rows{"1", "2"}));
+  EXPECT_EQ(rows({"meeting.toml", "--to", "#1"}), (Rows{"1"}));
+  EXPECT_EQ(rows({"meeting.toml", "--to", "2"}), Rows());
+  EXPECT_EQ(rows({"meeting.toml", "--first", "2"}), (Rows{"2"}));
+  EXPECT_EQ(rows({"three-blocks", "--first", "3", "--limit", "2"}), (Rows{"3", "4"}));
+  EXPECT_EQ(rows({"three-blocks", "--limit", "1"}), (Rows{"1"}));
+  EXPECT_EQ(rows({"three-blocks", "--from", "last"}), (Rows{"47"}));
+  EXPECT_EQ(rows({"billiard", "--from", "#7", "--to", "#9"}), (Rows{"7", "8", "9"}));
+  EXPECT_EQ(rows({"three-blocks", "--to", "2.1973684210526"}), (Rows{"1"}));
+}
+
+TEST_F(BodiesCli, ComputesFurtherThanTheFilmIfAskedTo) {
+  const auto rows = lines(output_of({"log", "two-walls", "--to", "60"}));
+  EXPECT_GT(std::stod(split(rows.back(), ',')[1]), 59);
+  EXPECT_NE(output_of({"state", "two-walls", "--at", "60"})
+                .find(fmt::format("\"collisions\":\"{}\"", rows.size() - 1)),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace piblocks

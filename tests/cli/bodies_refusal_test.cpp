@@ -1,0 +1,79 @@
+// What the program refuses to do with bodies, and why.
+#include <fmt/format.h>
+
+#include "cli/bodies_fixture.hpp"
+
+namespace piblocks {
+namespace {
+
+TEST_F(BodiesCli, WhatIsForTwoBlocksIsRefused) {
+  const std::string why = ": is for two blocks and a wall, and this scene has [[body]]";
+  expect_line({"log", "meeting.toml", "--engine", "events"}, "--engine" + why);
+  expect_line({"state", "meeting.toml", "--at", "1", "--engine", "velocities"}, "--engine" + why);
+  expect_line({"state", "meeting.toml", "--at", "1", "--bounds"}, "--bounds" + why);
+  expect_line({"count", "meeting.toml", "--digits", "3"},
+              "--digits: digits: this scene has [[body]] instead of blue, red and the wall");
+  expect_line(
+      {"still", "meeting.toml", "--at", "1", "--shutter", "1/2", "-o", "a.png"},
+      "--shutter: view.shutter motion blur is for two blocks and a wall, and this scene has "
+      "[[body]]");
+  EXPECT_EQ(entries(),
+            (std::vector<std::string>{"endless.toml", "meeting.toml", "uncertain.toml"}));
+}
+
+TEST_F(BodiesCli, WhatIsNotCertainIsRefusedWithItsTime) {
+  const Arguments small{"--size", "320x180", "--fps", "10", "--quiet", "-o", "a.mp4"};
+  const CommandResult result = piblocks({"count", "uncertain.toml"});
+  EXPECT_EQ(result.exit_code, 2);
+  ASSERT_EQ(lines(result.err).size(), 1U) << result.err;
+  const std::string before = "certain until time ";
+  const std::size_t at = result.err.find(before);
+  ASSERT_NE(at, std::string::npos) << result.err;
+  const double until = std::stod(result.err.substr(at + before.size()));
+  EXPECT_GT(until, 1);
+  EXPECT_LT(until, 200);
+  for (const Arguments& command :
+       {Arguments{"log", "uncertain.toml"}, Arguments{"render", "uncertain.toml"} + small,
+        Arguments{"still", "uncertain.toml", "--at", "150", "-o", "a.png"},
+        Arguments{"sheet", "uncertain.toml", "-o", "a.pdf"},
+        Arguments{"state", "uncertain.toml", "--at", "150"}}) {
+    const CommandResult same = piblocks(command);
+    EXPECT_EQ(same.exit_code, 2) << command.front();
+    EXPECT_EQ(lines(same.err).size(), 1U) << same.err;
+    EXPECT_NE(same.err.find(fmt::format("{}{:.6g} only", before, until)), std::string::npos)
+        << same.err;
+    EXPECT_EQ(entries().size(), 3U) << "nothing is written";
+  }
+  // What the message advises.
+  const std::string to = "as time.to = ";
+  const std::string advised =
+      split(result.err.substr(result.err.find(to) + to.size()), ',').front();
+  const std::string count = first_line_of({"count", "uncertain.toml", "--to", advised});
+  EXPECT_GT(std::stoi(first_line_of({"count", "uncertain.toml", "--allow-uncertain"})),
+            std::stoi(count));
+  EXPECT_NE(output_of({"state", "uncertain.toml", "--at", advised}).find('"' + count + '"'),
+            std::string::npos)
+      << "before it, all is certain";
+  output_of(Arguments{"render", "uncertain.toml", "--to", "2"} + small);
+  output_of({"still", "uncertain.toml", "--at", "150", "--allow-uncertain", "--size", "320x180",
+             "-o", "a.png"});
+  output_of({"state", "uncertain.toml", "--at", "150", "--allow-uncertain"});
+}
+
+TEST_F(BodiesCli, AComparisonOfUncertainBodiesIsRefused) {
+  write("story.toml", std::string("view.size = '640x360'\n[[part]]\ntime.to = 200\nbox.x = [0, 4]\n"
+                                  "box.y = [0, 3]\ncompare = [") +
+                          R"({ body = [{ position = [1, 1], radius = 0.5 }] },
+  { body = [{ position = [1, 1], velocity = [1, 0.7], radius = 0.5 },
+            { position = [3, 1.2], velocity = [-1, 0.3], radius = 0.6 },
+            { position = [2, 2.4], velocity = [0.2, -0.9], radius = 0.4 }] }]
+)");
+  const CommandResult result = piblocks({"render", "story.toml", "-o", "a.mp4"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
+  EXPECT_NE(result.err.find("is certain until time "), std::string::npos) << result.err;
+  EXPECT_EQ(entries().size(), 4U);
+}
+
+}  // namespace
+}  // namespace piblocks

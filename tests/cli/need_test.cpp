@@ -1,0 +1,50 @@
+// `piblocks need`: how elastic blocks must be to count the digits of pi.
+#include <fmt/format.h>
+#include <piblocks/exact.hpp>
+
+#include "cli/cli_fixture.hpp"
+
+namespace piblocks {
+namespace {
+
+class NeedCli : public CliFixture {};
+
+/// The least restitution lies between numbers that differ in the last printed digit.
+TEST_F(NeedCli, IsWhatCountNeeds) {
+  const auto count_with = [&](int digits, const Rational& restitution) {
+    write("lossy.toml", fmt::format("digits = {}\n[blocks]\nrestitution = '{}'\n[wall]\n"
+                                    "restitution = '{}'\n",
+                                    digits, restitution.get_str(), restitution.get_str()));
+    return lines(output_of({"count", "lossy.toml"})).front();
+  };
+  const auto one = lines(output_of({"need", "--digits", "1"}));
+  ASSERT_GE(one.size(), 2U);
+  EXPECT_EQ(one[0], "3 collisions");
+  EXPECT_EQ(one[1], "need a restitution of 1: with any loss at all there are more");
+  EXPECT_EQ(count_with(1, 1), "3");
+  EXPECT_EQ(count_with(1, parse_rational("999999999999999999/1000000000000000000")), "4");
+  const std::vector<std::string> counts = {"31", "314", "3141"};
+  for (int digits = 2; digits <= 4; ++digits) {
+    const std::string& count = counts.at(static_cast<std::size_t>(digits - 2));
+    const auto said = lines(output_of({"need", "--digits", std::to_string(digits)}));
+    ASSERT_GE(said.size(), 4U);
+    EXPECT_EQ(said[0], count + " collisions");
+    const std::string begin = "need a restitution of ";
+    ASSERT_TRUE(said[1].starts_with(begin)) << said[1];
+    const std::string number = said[1].substr(begin.size(), said[1].find("...") - begin.size());
+    const Rational step = 1 / power(10, static_cast<unsigned long>(number.size()) - 2);
+    const Rational cut = parse_rational(number);
+    EXPECT_EQ(count_with(digits, cut + step), count) << number;
+    EXPECT_EQ(count_with(digits, cut - step), std::to_string(std::stoi(count) + 1)) << number;
+    ASSERT_TRUE(said[2].starts_with("which is 1 - ")) << said[2];
+    const Rational loss = parse_rational(said[2].substr(13));
+    EXPECT_LE(abs(Rational(1 - cut - loss)), step) << said[2];
+    EXPECT_NE(said[3].find(fmt::format("{} collisions with less, {} with more",
+                                       std::stoi(count) + 1, count)),
+              std::string::npos)
+        << said[3];
+  }
+}
+
+}  // namespace
+}  // namespace piblocks

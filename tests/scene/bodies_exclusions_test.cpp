@@ -1,0 +1,100 @@
+// Keys, overlays, diagrams and times that scenes with bodies cannot have.
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/bodies_fixture.hpp"
+#include "scene/run_log.hpp"
+
+namespace piblocks {
+namespace {
+
+TEST_F(BodiesFile, KeysOfBlocksAreNotForBodies) {
+  const std::string body = "[[body]]\nposition = 1\n";
+  for (const auto& [line, key] : std::vector<std::pair<std::string, std::string>>{
+           {"digits = 3\n", "digits"},
+           {"mass-ratio = 3\n", "mass-ratio"},
+           {"red.mass = 3\n", "red.mass"},
+           {"red.width = 'by-mass'\n", "red.width"},
+           {"blue.position = 3\n", "blue.position"},
+           {"blocks.restitution = 0.5\n", "blocks.restitution"},
+           {"wall.restitution = 0.5\n", "wall.restitution"},
+           {"wall.face = 0\n", "wall.face"},
+           {"wall.mass = 3\n", "wall.mass"}}) {
+    expect_problem(line + body,
+                   "1: " + key + ": this scene has [[body]] instead of blue, red and the wall");
+  }
+}
+
+TEST_F(BodiesFile, WhatIsForTwoBlocksIsNotForBodies) {
+  const std::string body = "[[body]]\nposition = 1\n";
+  const std::string why = " is for two blocks and a wall, and this scene has [[body]]";
+  expect_problem(body + "[view]\nshutter = 0.5\n", "4: view.shutter motion blur" + why);
+  for (const char* loupe : {"auto", "1:2:10"}) {
+    expect_problem(body + "[show]\nloupe = '" + loupe + "'\n", "4: show.loupe the loupe" + why);
+  }
+  EXPECT_TRUE(problems(body + "[show]\nloupe = 'off'\n").empty());
+  expect_problem(body + "[time]\nslow-motion = 'auto'\n", "4: time.slow-motion 'auto'" + why);
+  expect_problem(body + "[show]\noverlays = ['digits']\n", "4: show.overlays 'digits'" + why);
+  expect_problem(body + "[show]\noverlays = ['ruler']\n", "4: show.overlays 'ruler'" + why);
+  expect_problem(body + "[time]\nfrom = -1\n",
+                 "4: time.from = -1: the motion of bodies begins at time 0");
+  expect_problem(body + "[show]\noverlays = ['trails']\n",
+                 "4: show.overlays 'trails' is for discs; blocks have the diagram 'time'");
+  expect_problem("[show]\noverlays = ['trails']\n",
+                 "2: show.overlays 'trails' is for a scene with [[body]]");
+}
+
+TEST_F(BodiesFile, DiagramsAreOfOneKindOfRun) {
+  const std::vector<std::string> all = {"velocity",  "position", "unfolded",  "time",
+                                        "count",     "ellipse",  "mirrors",   "conservation",
+                                        "certainty", "speeds",   "separation"};
+  const std::string line = "[[body]]\nposition = 1\nvelocity = 1\n[[body]]\nposition = 3\n";
+  const std::string plane =
+      "[[body]]\nposition = [1, 0]\nvelocity = [1, 0]\n[[body]]\nposition = [4, 0]\n";
+  for (const std::string& panel : all) {
+    const std::string show = "[show]\npanels = ['" + panel + "']\n";
+    const bool is_general = panel == "count" || panel == "speeds";
+    if (is_general || panel == "time") {
+      EXPECT_TRUE(problems(show + line).empty()) << panel;
+    } else {
+      expect_problem(show + line, "2: show.panels '" + panel +
+                                      "' is not for bodies on a line, which have time, count and "
+                                      "speeds");
+    }
+    if (is_general || panel == "separation") {
+      EXPECT_TRUE(problems(show + plane).empty()) << panel;
+    } else {
+      expect_problem(show + plane, "2: show.panels '" + panel +
+                                       "' is not for discs, which have count, speeds and "
+                                       "separation");
+    }
+    if (panel == "speeds" || panel == "separation") {
+      expect_problem(show, "2: show.panels '" + panel + "' is for a scene with [[body]]");
+    }
+  }
+}
+
+TEST_F(BodiesFile, CollisionsWithoutEndNeedATime) {
+  const std::string box =
+      "[box]\nx = [0, 10]\n[[body]]\nposition = 1\nvelocity = 1\n[[body]]\nposition = 3\nmass = "
+      "2\n[[body]]\nposition = 5\nmass = 3\n";
+  for (const char* to : {"", "[time]\nto = 'last+1'\n", "[time]\nto = '#5'\n"}) {
+    const Scene scene = load(box + to);
+    try {
+      const RunLog run(scene);
+      FAIL() << to;
+    } catch (const UsageError& error) {
+      EXPECT_STREQ(error.what(),
+                   "time.to: bodies between walls may collide for ever; say until when, as time.to "
+                   "= 10");
+    }
+  }
+  EXPECT_GT(RunLog(load(box + "[time]\nto = 20\n")).timeline().size(), 4);
+}
+
+}  // namespace
+}  // namespace piblocks
