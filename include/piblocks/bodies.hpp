@@ -108,6 +108,9 @@ class BodyLog : public Timeline {
                                       std::size_t most) const = 0;
   /// How many collisions from the first on are computed in rational numbers; size() if all are.
   virtual Integer exact_size() const = 0;
+  /// When a body first meets two others at once, so that the order of pairs decides what comes next.
+  /// Nothing if none does, as far as the log has been computed.
+  virtual std::optional<double> first_tie() const { return std::nullopt; }
   /// Until when rounding cannot have changed which bodies collide, nor in which order each of them
   /// meets the others. Nothing if it cannot at all, as far as the log has been computed.
   virtual std::optional<double> certain_until() const = 0;

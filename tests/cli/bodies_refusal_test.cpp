@@ -14,8 +14,8 @@ TEST_F(BodiesCli, WhatIsForTwoBlocksIsRefused) {
   expect_line({"count", "meeting.toml", "--digits", "3"},
               "--digits: digits: this scene has [[body]] instead of blue, red and the wall");
   expect_line(
-      {"still", "meeting.toml", "--at", "1", "--shutter", "1/2", "-o", "a.png"},
-      "--shutter: view.shutter motion blur is for two blocks and a wall, and this scene has "
+      {"still", "meeting.toml", "--at", "1", "--slow-motion", "auto", "-o", "a.png"},
+      "--slow-motion: time.slow-motion 'auto' is for two blocks and a wall, and this scene has "
       "[[body]]");
   EXPECT_EQ(entries(),
             (std::vector<std::string>{"endless.toml", "meeting.toml", "uncertain.toml"}));

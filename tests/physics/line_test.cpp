@@ -250,11 +250,24 @@ TEST(LineTest, CollisionsAtOneInstantAreInPairOrder) {
     EXPECT_EQ(int(c.first), k - 1);
     EXPECT_EQ(int(c.second), k);
   }
+  EXPECT_EQ(log->first_tie(), 1.5);
   EXPECT_EQ(log->state_at(2).bodies[4].velocity[0], 2);
   EXPECT_EQ(log->state_at(2).bodies[4].position[0], 5);
   EXPECT_EQ(log->state_at(Rational(3, 2)).count, 4);
   EXPECT_EQ(log->time_after(4), Rational(3, 2));
   EXPECT_THROW(log->time_after(2), UsageError);
+}
+
+/// Two pairs that meet at one time have nothing to do with each other.
+TEST(LineTest, OnlyABodyThatMeetsTwoOthersAtOnceIsATie) {
+  BodySystem system;
+  for (const int x : {0, 10}) {
+    system.bodies.push_back({.position = {x, 0}, .velocity = {1, 0}});
+    system.bodies.push_back({.position = {x + 3, 0}, .velocity = {-1, 0}});
+  }
+  const auto log = make_body_log(system, std::nullopt);
+  EXPECT_EQ(log->collision(1).time.hi, log->collision(2).time.hi);
+  EXPECT_EQ(log->first_tie(), std::nullopt);
 }
 
 TEST(LineTest, TheClosedFormTakesBlocksByOtherNames) {

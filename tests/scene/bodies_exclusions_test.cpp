@@ -32,7 +32,6 @@ TEST_F(BodiesFile, KeysOfBlocksAreNotForBodies) {
 TEST_F(BodiesFile, WhatIsForTwoBlocksIsNotForBodies) {
   const std::string body = "[[body]]\nposition = 1\n";
   const std::string why = " is for two blocks and a wall, and this scene has [[body]]";
-  expect_problem(body + "[view]\nshutter = 0.5\n", "4: view.shutter motion blur" + why);
   for (const char* loupe : {"auto", "1:2:10"}) {
     expect_problem(body + "[show]\nloupe = '" + loupe + "'\n", "4: show.loupe the loupe" + why);
   }
