@@ -45,6 +45,8 @@ BoundScript make(std::string origin, std::optional<std::string> text, bool is_fi
 
 void check_keys(const std::vector<KeyTexts>& keys) {
   refuse_several(keys, {"digits", "mass-ratio", "red.mass"}, "the mass of red");
+  refuse_several(keys, {"restitution", "blocks.restitution"}, "the restitution of the blocks");
+  refuse_several(keys, {"restitution", "wall.restitution"}, "the restitution of the wall");
   refuse_several(keys, {"time.speed", "time.duration"}, "the speed");
 }
 
@@ -61,7 +63,7 @@ std::vector<std::pair<py::bytes, py::bytes>> description(const BoundScript& boun
 
 /// All keys of a scene file outside of its parts.
 std::vector<std::string> key_names() {
-  std::vector<std::string> names = {"digits", "mass-ratio"};
+  std::vector<std::string> names = {"digits", "mass-ratio", "restitution"};
   for (const SceneKey& key : scene_keys()) names.emplace_back(key.name);
   return names;
 }
