@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "physics/blocks.hpp"
 #include "physics/body_logs.hpp"
 #include "physics/exact_line.hpp"
 
@@ -87,7 +88,7 @@ class ClosedBodyLog final : public BodyLog {
   }
   Rational time_after(const Integer& index) const override { return blocks_->time_after(index); }
   std::optional<Rational> turn() const override { return blocks_->turn(); }
-  Integer exact_size() const override { return size(); }
+  Integer exact_size() const override { return is_exact(*blocks_) ? size() : Integer(0); }
   std::optional<double> certain_until() const override { return std::nullopt; }
 
  private:
