@@ -135,6 +135,7 @@ void run_log(const Command& options, const SceneOptions& scene_options) {
   file.write(header);
   write(*log->stream(rows.first, rows.last), format, file, signals.token());
   file.finish();
+  if (const auto note = endless_note(scene)) say("piblocks: note: {}\n", *note);
   note_convention(scene);
 }
 
