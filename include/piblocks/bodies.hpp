@@ -100,9 +100,9 @@ class BodyLog : public Timeline {
   virtual std::vector<std::array<double, 2>> path(std::size_t body, const Rational& from,
                                                   const Rational& to, std::size_t most) const = 0;
   /// How many collisions from the first on are computed in rational numbers, so that each number is
-  /// the nearest double to the true one; size() if all are. Those of the closed form
-  /// are if the outer block is not the heavier one; else none, each within some units in the last
-  /// place.
+  /// the nearest double to the true one; size() if all are. Those of the closed form are if the
+  /// outer block is not the heavier one; else none is, and numbers are some units in the last place
+  /// off.
   virtual Integer exact_size() const = 0;
   /// Until when rounding cannot have changed which bodies collide, nor in which order each of them
   /// meets the others. Nothing if it cannot at all, as far as the log has been computed.

@@ -19,6 +19,12 @@ std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const OptionTe
                             options.value("--engine", parse_engine).value_or(Engine::unfolded));
 }
 
+Scene scene_for_log(Scene scene, const OptionTexts& options) {
+  const auto to = options.value("--to", parse_instant);
+  if (to && to->is_time() && may_never_end(scene.bodies->system)) scene.time.to = *to;
+  return scene;
+}
+
 PositionBounds bounds_at(const CollisionLog& log, const Rational& time) {
   if (const auto bounds = position_bounds(log, time)) return *bounds;
   throw UsageError(

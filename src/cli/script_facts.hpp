@@ -21,6 +21,10 @@ namespace piblocks::cli {
 /// @throws UsageError if that engine would have to store too many collisions.
 std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const OptionTexts& options);
 
+/// The scene of bodies as a log of it is asked for: collisions that never end are computed up to
+/// --to, if that is a time.
+Scene scene_for_log(Scene scene, const OptionTexts& options);
+
 /// How exact the state at a time is. @throws UsageError if the engine cannot say.
 PositionBounds bounds_at(const CollisionLog& log, const Rational& time);
 

@@ -17,9 +17,9 @@ namespace {
 constexpr const char* kSlowMotionKey = "time.slow-motion";
 
 // Automatic windows are nested around the turn, or, where blocks lose energy, around the densest
-// collisions. Each is 10 times slower than the one around it, and
-// alone would show 3 s of video on either side of the turn. Windows are added until at most 10
-// collisions happen in a second of the innermost one.
+// collisions. Each is 10 times slower than the one around it, and alone would show 3 s of video on
+// either side. Windows are added until at most 10 collisions happen in a second of the innermost
+// one.
 constexpr int kHalfWindow_s = 3;
 constexpr int kStep = 10;
 constexpr double kTellApart_hz = 10;

@@ -75,6 +75,14 @@ std::string count_of(const BoundScript& bound) {
                                   : count_collisions(scene.system));
 }
 
+std::vector<std::string> notes_of(const BoundScript& bound) {
+  std::vector<std::string> notes = cli::convention_notes(bound.script);
+  if (const auto* const scene = std::get_if<Scene>(&bound.script)) {
+    if (auto note = cli::endless_note(*scene)) notes.push_back(std::move(*note));
+  }
+  return notes;
+}
+
 py::tuple size_of(const BoundScript& bound) {
   const View& view = view_of(bound.script);
   return py::make_tuple(view.width_px, view.height_px);
@@ -137,15 +145,18 @@ void bind_script(py::module_& module) {
       .def_property_readonly(
           "is_storyboard",
           [](const BoundScript& bound) { return std::holds_alternative<Storyboard>(bound.script); })
+      .def_property_readonly("has_bodies",
+                             [](const BoundScript& bound) {
+                               const auto* const scene = std::get_if<Scene>(&bound.script);
+                               return scene != nullptr && scene->bodies.has_value();
+                             })
       .def_property_readonly("is_transparent",
                              [](const BoundScript& bound) {
                                return view_of(bound.script).background == Background::transparent;
                              })
       .def_property_readonly("size", &size_of, "Width and height of a frame, in pixels.")
       .def_property_readonly("rate", &rate_of, "Frames a second: numerator and denominator.")
-      .def_property_readonly(
-          "notes", [](const BoundScript& bound) { return cli::convention_notes(bound.script); },
-          "What a user should know of the counts.")
+      .def_property_readonly("notes", &notes_of, "What a user should know of the counts.")
       .def("describe", &description, "Keys and values as exact text; equal for equal scripts.")
       .def(
           "to_toml", [](const BoundScript& bound) { return py::bytes(scene_toml(bound.script)); },
