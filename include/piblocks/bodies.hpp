@@ -106,7 +106,10 @@ class BodyLog : public Timeline {
   /// @throws as state_at().
   virtual std::vector<PathPoint> path(std::size_t body, const Rational& from, const Rational& to,
                                       std::size_t most) const = 0;
-  /// How many collisions from the first on are computed in rational numbers; size() if all are.
+  /// How many collisions from the first on are computed in rational numbers, so that each number is
+  /// the nearest double to the true one; size() if all are. Those of the closed form are if the
+  /// outer block is not the heavier one; else none is, and numbers are some units in the last place
+  /// off.
   virtual Integer exact_size() const = 0;
   /// When a body first meets two others at once, so that the order of pairs decides what comes next.
   /// Nothing if none does, as far as the log has been computed.

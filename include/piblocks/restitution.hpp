@@ -26,7 +26,7 @@ struct Collapse {
 std::optional<Collapse> collapse_of(const BlockSystem& system);
 
 /// Whether collision log.size() stands for infinitely many: see Collapse.
-bool is_endless(const CollisionLog& log);
+bool is_endless(const Timeline& log);
 
 /// How elastic the article's blocks have to be. With less restitution the blocks meet more often,
 /// not less: see src/physics/README.md.

@@ -90,6 +90,7 @@ inline constexpr int kMaxSceneNesting = 256;  ///< of lists and tables in a scen
 /// Collects values from a file and from options, and remembers where each came from.
 ///
 /// The keys of a scene are "digits" or "mass-ratio", which set red.mass; "base"; "wall.face";
+/// "blocks.restitution" and "wall.restitution", or "restitution", which sets both;
 /// "blue." and "red." with "mass", "position", "velocity", "width" ("by-mass" for red:
 /// width_by_mass()); "view.x", "view.y", "view.size", "view.fps", "view.shutter",
 /// "view.background", "view.theme"; "time.from", "time.to", "time.speed", "time.duration",

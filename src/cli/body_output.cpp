@@ -61,16 +61,8 @@ void append_json_row(const BodySystem& system, const BodyCollision& c, fmt::memo
                  motion(c.first_after), motion(c.second_after));
 }
 
-/// A wall is −1, −2, … in the order left, right, lower, upper of those that are there.
 std::string npy_head(const BodySystem& system, const Integer& rows) {
-  return npy_header(system.dimensions == 1
-                        ? "[('index', '<i8'), ('time', '<f8'), ('time_low', '<f8'), ('first', "
-                          "'<i4'), ('second', '<i4'), ('x_first', '<f8'), ('x_second', '<f8'), "
-                          "('v_first', '<f8'), ('v_second', '<f8')]"
-                        : "[('index', '<i8'), ('time', '<f8'), ('time_low', '<f8'), ('first', "
-                          "'<i4'), ('second', '<i4'), ('x_first', '<f8', (2,)), ('x_second', "
-                          "'<f8', (2,)), ('v_first', '<f8', (2,)), ('v_second', '<f8', (2,))]",
-                    rows);
+  return npy_header(body_row_type(system), rows);
 }
 
 template <typename Value>
@@ -81,7 +73,19 @@ void append_bytes(Value value, fmt::memory_buffer& out) {
   out.append(bytes.data(), bytes.data() + bytes.size());
 }
 
-void append_npy_row(const BodySystem& system, const BodyCollision& c, fmt::memory_buffer& out) {
+}  // namespace
+
+std::string_view body_row_type(const BodySystem& system) {
+  return system.dimensions == 1
+             ? "[('index', '<i8'), ('time', '<f8'), ('time_low', '<f8'), ('first', '<i4'), "
+               "('second', '<i4'), ('x_first', '<f8'), ('x_second', '<f8'), ('v_first', '<f8'), "
+               "('v_second', '<f8')]"
+             : "[('index', '<i8'), ('time', '<f8'), ('time_low', '<f8'), ('first', '<i4'), "
+               "('second', '<i4'), ('x_first', '<f8', (2,)), ('x_second', '<f8', (2,)), "
+               "('v_first', '<f8', (2,)), ('v_second', '<f8', (2,))]";
+}
+
+void append_body_row(const BodySystem& system, const BodyCollision& c, fmt::memory_buffer& out) {
   const auto number = [&](std::uint32_t id) {
     const auto bodies = static_cast<std::int32_t>(system.bodies.size());
     const auto place = static_cast<std::int32_t>(id);
@@ -99,12 +103,10 @@ void append_npy_row(const BodySystem& system, const BodyCollision& c, fmt::memor
   }
 }
 
-}  // namespace
-
 BodyLogFormat parse_body_log_format(const std::string& name) {
   return parse_choice<BodyLogFormat>(name, {{"csv", {false, csv_header, append_csv_row}},
                                             {"jsonl", {false, no_header, append_json_row}},
-                                            {"npy", {true, npy_head, append_npy_row}}});
+                                            {"npy", {true, npy_head, append_body_row}}});
 }
 
 std::string state_line(const BodySystem& system, const Rational& time, const BodiesState& state) {

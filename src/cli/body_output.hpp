@@ -7,6 +7,7 @@
 #include <piblocks/bodies.hpp>
 
 #include <string>
+#include <string_view>
 
 namespace piblocks::cli {
 
@@ -19,6 +20,13 @@ struct BodyLogFormat {
 
 /// @throws UsageError unless the name is csv, jsonl or npy.
 BodyLogFormat parse_body_log_format(const std::string& name);
+
+/// A row as NumPy describes it: no gaps, numbers in little-endian order. A wall is -1, -2, … in the
+/// order of BodySystem::walls.
+std::string_view body_row_type(const BodySystem& system);
+/// Appends such a row.
+void append_body_row(const BodySystem& system, const BodyCollision& collision,
+                     fmt::memory_buffer& out);
 
 /// {"time":…,"collisions":"…","bodies":[{"position":…,"velocity":…},…]}
 std::string state_line(const BodySystem& system, const Rational& time, const BodiesState& state);

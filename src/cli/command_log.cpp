@@ -93,16 +93,12 @@ void write(CollisionStream& collisions, const LogFormat& format, OutputFile& fil
   }
 }
 
-void log_bodies(Scene scene, const Command& options) {
+void log_bodies(const Scene& scene, const Command& options) {
   refuse_engine(options);
-  // Collisions that never end are computed as far as they are asked for.
-  if (const auto to = options.value("--to", parse_instant); to && to->is_time()) {
-    if (may_never_end(scene.bodies->system)) scene.time.to = *to;
-  }
   const BodyLogFormat format =
       options.value("--format", parse_body_log_format).value_or(parse_body_log_format("csv"));
   if (format.is_binary) refuse_terminal(options);
-  const RunLog run(scene);
+  const RunLog run(scene_for_log(scene, options));
   const BodyLog& log = *run.bodies();
   const Rows rows = select_rows(options, log);
   const StopOnSignals signals;
@@ -135,6 +131,7 @@ void run_log(const Command& options, const SceneOptions& scene_options) {
   file.write(header);
   write(*log->stream(rows.first, rows.last), format, file, signals.token());
   file.finish();
+  if (const auto note = endless_note(scene)) say("piblocks: note: {}\n", *note);
   note_convention(scene);
 }
 

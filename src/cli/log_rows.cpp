@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
+#include <piblocks/restitution.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -12,6 +13,7 @@
 #include <utility>
 
 #include "cli/values.hpp"
+#include "physics/damped_log.hpp"
 #include "physics/exact_motion.hpp"
 
 namespace piblocks::cli {
@@ -58,7 +60,8 @@ Integer first_since(const CollisionLog& log, const Bound& bound) {
   const auto& [instant, time] = bound;
   if (instant.offset == 0 && instant.anchor == Instant::Anchor::collision) return instant.index;
   if (instant.offset == 0 && instant.anchor == Instant::Anchor::last) return log.size();
-  const Integer last = log.state_at(time).count;
+  if (const DampedLog* const damped = damped_log(log)) return damped->first_since(time);
+  const Integer last = log.count_at(time);
   if (last < log.first_index()) return log.first_index();
   // Collisions happen together only in the corner, and there all of them do.
   const ExactMotion motion(log.system());
@@ -88,15 +91,18 @@ Rows rows_within_times(const OptionTexts& options, const Log& log) {
   return rows;
 }
 
+std::string rows_there_are(const Timeline& log) {
+  if (log.size() < log.first_index()) return "no collisions";
+  return fmt::format("{} {} to {}",
+                     is_endless(log) ? "infinitely many collisions, and lists" : "collisions",
+                     readable(log.first_index()), readable(log.size()));
+}
+
 Rows limited(const OptionTexts& options, const Timeline& log, Rows rows) {
   if (const auto first = options.value("--first", parse_index)) {
     if (*first > log.size() || *first < log.first_index()) {
       throw UsageError(
-          fmt::format("--first {}: the scene has {}", readable(*first),
-                      log.size() < log.first_index()
-                          ? "no collisions"
-                          : fmt::format("collisions {} to {}", readable(log.first_index()),
-                                        readable(log.size()))));
+          fmt::format("--first {}: the scene has {}", readable(*first), rows_there_are(log)));
     }
     rows.first = options.is_given("--from") ? std::max(rows.first, *first) : *first;
   }

@@ -26,13 +26,14 @@ std::string described(const Motion& motion, const std::optional<double>& positio
                      shown(motion.velocity));
 }
 
-void write(const Rational& time, const BlockState& state,
+/// @param infinite  the count that stands for infinitely many, if one does
+void write(const Rational& time, const BlockState& state, const std::optional<Integer>& infinite,
            const std::optional<PositionBounds>& bounds, TextOutput& out) {
   const auto blue_bound = bounds ? std::optional(bounds->blue) : std::nullopt;
   const auto red_bound = bounds ? std::optional(bounds->red) : std::nullopt;
   out.format_line(R"({{"time":{},"collisions":"{}","blue":{},"red":{}}})", shown(to_double(time)),
-                  state.count.get_str(), described(state.blue, blue_bound),
-                  described(state.red, red_bound));
+                  state.count == infinite ? "infinite" : state.count.get_str(),
+                  described(state.blue, blue_bound), described(state.red, red_bound));
 }
 
 void write_bodies(const Scene& scene, const std::vector<Instant>& instants,
@@ -54,12 +55,19 @@ void write_bodies(const Scene& scene, const std::vector<Instant>& instants,
   out.finish();
 }
 
-void run_count(const SceneOptions& scene_options) {
+/// All collisions, or those until --to.
+Integer count_of(const Scene& scene, const Command& options) {
+  const std::optional<Instant> to = options.value("--to", parse_instant);
+  if (!to) return scene.bodies ? RunLog(scene).timeline().size() : count_collisions(scene.system);
+  const RunLog run(scene);
+  const Integer count = run.timeline().count_at(time_of(*to, run.timeline()));
+  return count == infinite_count(run.timeline()) ? count_collisions(scene.system) : count;
+}
+
+void run_count(const Command& options, const SceneOptions& scene_options) {
   TextOutput out("-");
   const Scene scene = scene_options.scene();
-  const Integer count =
-      scene.bodies ? RunLog(scene).timeline().size() : count_collisions(scene.system);
-  out.line(count.get_str(scene.show.base));
+  out.line(count_of(scene, options).get_str(scene.show.base));
   out.finish();
   note_convention(scene);
 }
@@ -69,12 +77,13 @@ void run_state(const Command& options, const SceneOptions& scene_options) {
   const Scene scene = scene_options.scene();
   if (scene.bodies) return write_bodies(scene, instants, options);
   const auto log = make_log(scene.system, options);
+  const std::optional<Integer> infinite = infinite_count(*log);
   TextOutput out("-");
   for (const Instant& instant : instants) {
     const Rational time = time_of(instant, *log);
     std::optional<PositionBounds> bounds;
     if (options.is_given("--bounds")) bounds = bounds_at(*log, time);
-    write(time, log->state_at(time), bounds, out);
+    write(time, log->state_at(time), infinite, bounds, out);
   }
   out.finish();
   note_convention(scene);
@@ -110,7 +119,7 @@ void add_count(Command& app) {
       "  piblocks count --digits 12\n"
       "  piblocks count --digits 12 --base 2\n"
       "  piblocks count --mass-ratio 1/3");
-  command.on_run([options] { run_count(options); });
+  command.on_run([=] { run_count(command, options); });
 }
 
 void add_state(Command& app) {

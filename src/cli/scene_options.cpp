@@ -39,6 +39,9 @@ SceneOptions::SceneOptions(Command command) : command_(std::move(command)) {
           "Write counts in this base, 2 to 36 (default 10); then D digits\n"
           "are those of m_red = B^(2(D-1)) m_blue");
   add_key("mass-ratio", "--mass-ratio", "R", "m_red / m_blue, exactly: 16, 2.5, 1/3, 100^7");
+  add_key("restitution", "--restitution", "E",
+          "Of blocks and wall: the share of the speed at which they meet\n"
+          "with which they part, 0 to 1 (default 1: elastic)");
   add_flag({"time.allow-uncertain", "--allow-uncertain", "true"},
            "Go on where double precision cannot tell which bodies\ncollide next");
 }
@@ -66,7 +69,8 @@ void SceneOptions::add_picture() {
 }
 
 void SceneOptions::add_end() {
-  add_key("time.to", "--to", "T", "Until when bodies are counted whose collisions never end");
+  add_key("time.to", "--to", "T",
+          "Count collisions until then (default: all; needed where they\nnever end)");
 }
 
 void SceneOptions::add_span() {

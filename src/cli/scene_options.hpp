@@ -19,7 +19,7 @@ namespace piblocks::cli {
 /// Refers to options of the command it was made for, and is valid as long as they are.
 class SceneOptions {
  public:
-  /// Adds [SCENE], --digits, --base and --mass-ratio.
+  /// Adds [SCENE], --digits, --base, --mass-ratio and --restitution.
   explicit SceneOptions(Command command);
   void add_size();
   /// Adds --size, --transparent and --opaque.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
+#include <piblocks/restitution.hpp>
 
 #include "cli/values.hpp"
 
@@ -18,10 +19,33 @@ std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const OptionTe
                             options.value("--engine", parse_engine).value_or(Engine::unfolded));
 }
 
+Scene scene_for_log(Scene scene, const OptionTexts& options) {
+  const auto to = options.value("--to", parse_instant);
+  if (to && to->is_time() && may_never_end(scene.bodies->system)) scene.time.to = *to;
+  return scene;
+}
+
 PositionBounds bounds_at(const CollisionLog& log, const Rational& time) {
   if (const auto bounds = position_bounds(log, time)) return *bounds;
   throw UsageError(
       "--bounds: engines that step cannot say how exact they are; use --engine unfolded");
+}
+
+std::optional<Integer> infinite_count(const Timeline& log) {
+  return is_endless(log) ? std::optional(log.size()) : std::nullopt;
+}
+
+std::optional<std::string> endless_note(const Scene& scene) {
+  if (scene.bodies) return std::nullopt;
+  const std::optional<Collapse> collapse = collapse_of(scene.system);
+  if (!collapse) return std::nullopt;
+  const std::string end = collapse->time
+                              ? fmt::format(" until the blocks rest at t = {}", collapse->time->hi)
+                              : std::string(", which never end");
+  return fmt::format(
+      "there are infinitely many collisions{}; the log lists the first {}, and the blocks rest "
+      "from the last of these on",
+      end, readable(collapse->listed));
 }
 
 std::vector<Instant> sheet_instants(const Scene& scene, const OptionTexts& options) {

@@ -8,6 +8,7 @@
 #include <piblocks/script.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,19 @@ namespace piblocks::cli {
 /// @throws UsageError if that engine would have to store too many collisions.
 std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const OptionTexts& options);
 
+/// The scene of bodies as a log of it is asked for: collisions that never end are computed up to
+/// --to, if that is a time.
+Scene scene_for_log(Scene scene, const OptionTexts& options);
+
 /// How exact the state at a time is. @throws UsageError if the engine cannot say.
 PositionBounds bounds_at(const CollisionLog& log, const Rational& time);
+
+/// The index in this log that stands for infinitely many collisions, if one does.
+std::optional<Integer> infinite_count(const Timeline& log);
+
+/// How far the log of a run of infinitely many collisions goes; nothing for other scenes.
+/// @throws SceneError if problems_of() of the system is not empty.
+std::optional<std::string> endless_note(const Scene& scene);
 
 /// What --at, or --frames and --by, say that a sheet shows.
 /// @throws UsageError, and as spread_instants()

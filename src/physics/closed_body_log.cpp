@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "physics/blocks.hpp"
 #include "physics/body_logs.hpp"
 #include "physics/exact_line.hpp"
 
@@ -91,7 +92,7 @@ class ClosedBodyLog final : public BodyLog {
   ClosedBlocks closed_blocks() const {
     return {*blocks_, parts_.blue.id, parts_.red.id, parts_.sign};
   }
-  Integer exact_size() const override { return size(); }
+  Integer exact_size() const override { return is_exact(*blocks_) ? size() : Integer(0); }
   std::optional<double> certain_until() const override { return std::nullopt; }
 
  private:

@@ -86,6 +86,18 @@ Rational DampedLog::time_after(const Integer& index) const {
   return motion_.time_past(index);
 }
 
+Integer DampedLog::first_since(const Rational& time) const {
+  const Integer last = motion_.count_at(time);
+  if (last < 1) return 1;
+  // In the corner, in which all collisions from the third at the latest happen, times are exact.
+  for (Integer first = 1; first <= 3 && first <= last; ++first) {
+    if (!motion_.coincides_from(first)) continue;
+    return motion_.time_past(first) == time ? first : Integer(last + 1);
+  }
+  const bool is_then = collision_time(last) == to_time(time) || motion_.time_past(last) == time;
+  return is_then ? last : Integer(last + 1);
+}
+
 std::optional<Impact> DampedLog::impact(CollisionKind kind, const Integer& first,
                                         const Integer& last) const {
   Integer from = motion_.kind(first) == kind ? first : Integer(first + 1);

@@ -28,6 +28,9 @@ class DampedLog final : public PreciseLog {
 
   Integer count_at(const Rational& time) const override { return motion_.count_at(time); }
 
+  /// The first collision at this time or later; size() + 1 if there is none.
+  Integer first_since(const Rational& time) const;
+
   bool is_endless() const { return !motion_.total; }
   /// As the function of this name in impact.hpp.
   std::optional<Impact> impact(CollisionKind kind, const Integer& first, const Integer& last) const;
@@ -46,7 +49,7 @@ class DampedLog final : public PreciseLog {
 };
 
 /// The log as this class, if it is one.
-inline const DampedLog* damped_log(const CollisionLog& log) {
+inline const DampedLog* damped_log(const Timeline& log) {
   return dynamic_cast<const DampedLog*>(&log);
 }
 

@@ -107,6 +107,39 @@ Rational DampedMotion::closing(CollisionKind kind, const Pair& rates) {
                                      : Rational(rates.first - rates.second);
 }
 
+std::optional<DensestCollisions> DampedMotion::densest() const {
+  if (!collides) return std::nullopt;
+  if (!total) {
+    const std::optional<Rational> end = turn();
+    return end ? std::optional(DensestCollisions{*end, std::nullopt}) : std::nullopt;
+  }
+  if (*total < 2) return std::nullopt;
+  if (coincides_from(*total - 1)) return DensestCollisions{time_past(*total), std::nullopt};
+  const Integer middle = densest_index();
+  const Integer first = std::max(Integer(1), Integer(middle - 1));
+  const Integer last = std::min(*total, Integer(middle + 1));
+  constexpr mpfr_prec_t kBits = 64;
+  Real length(kBits, 0);
+  for (Integer n = first; n < last; ++n) length = length + flight_after(n, kBits);
+  const Real rate = Real(kBits, Rational(last - first)) / length;
+  return DensestCollisions{time_past(middle), rate.to_rational()};
+}
+
+Integer DampedMotion::densest_index() const {
+  const Rational discriminant = powers.trace() * powers.trace() - 4 * powers.determinant();
+  if (discriminant >= 0) return 1;
+  const mpfr_prec_t bits = 64 + mpfr_prec_t(mpz_sizeinbase(total->get_mpz_t(), 2));
+  const Real round_angle =
+      atan2(sqrt(Real(bits, Rational(-discriminant))), Real(bits, powers.trace()));
+  const Integer after_middle = floor((Real::pi(bits) / round_angle).to_rational());
+  return std::clamp(Integer(*total - after_middle), Integer(1), *total);
+}
+
+Real DampedMotion::flight_after(const Integer& n, mpfr_prec_t good_bits) const {
+  const DampedNumbers now = numbers(n, good_bits + 4);
+  return areal_velocity_before(n, good_bits + 4) / (now.speed * now.next_speed);
+}
+
 DampedMotion::Pair DampedMotion::after(CollisionKind kind, const Pair& before) const {
   const auto& [first, second] = before;
   if (kind == CollisionKind::wall) return {-wall_restitution * first, second};
@@ -308,9 +341,7 @@ DampedSums DampedMotion::sums(const Integer& first, const Integer& last,
 Rational DampedMotion::rounded_time(const Integer& n, mpfr_prec_t bits) const {
   const DampedNumbers now = numbers(n, bits);
   const Real time = now.reach / now.speed;
-  const Real flight = now.next_speed.sign() > 0
-                          ? areal_velocity_before(n, bits) / (now.speed * now.next_speed)
-                          : time;
+  const Real flight = now.next_speed.sign() > 0 ? flight_after(n, bits) : time;
   const long grid = flight.exponent() - kTimeGrid_bits;
   const Rational unit = scaled(Real(64, 1), grid).to_rational();
   const Rational up = time.to_rational() + scaled(time, 4 - bits).to_rational();

@@ -27,6 +27,13 @@ struct DampedSums {
   Real reaches;  ///< of r_n = s_n t_n
 };
 
+/// Where collisions follow each other fastest.
+struct DensestCollisions {
+  Rational time;
+  /// Collisions per unit of time; nothing if there is no limit to that.
+  std::optional<Rational> rate;
+};
+
 /// The gaps and their rates at one instant.
 struct DampedGaps {
   Real y1;
@@ -99,6 +106,8 @@ struct DampedMotion {
   /// When red is nearest to the wall, since time 0, as time_past(); nothing if that is never, or if
   /// nothing moves.
   std::optional<Rational> turn() const;
+  /// Nothing if fewer than two collisions happen, or if infinitely many never end.
+  std::optional<DensestCollisions> densest() const;
 
  private:
   /// All that follows from collision 1.
@@ -116,6 +125,10 @@ struct DampedMotion {
   /// How many of the collisions 1, 3, 5 … have happened; nothing if all that are listed have, and
   /// no other is.
   std::optional<Integer> odd_until(const Rational& time) const;
+  /// The collision beside which flights are shortest, of finitely many.
+  Integer densest_index() const;
+  /// The time between collision n and the next one, relative error below 2^-good_bits.
+  Real flight_after(const Integer& n, mpfr_prec_t good_bits) const;
   /// |L| just before collision n, relative error below 2^-good_bits.
   Real areal_velocity_before(const Integer& n, mpfr_prec_t good_bits) const;
   /// Whether the log lists this one of infinitely many collisions: see Collapse::listed.

@@ -178,7 +178,7 @@ std::optional<Collapse> collapse_of(const BlockSystem& system) {
   return Collapse{end ? std::optional(end->to_double_double()) : std::nullopt, motion.listed};
 }
 
-bool is_endless(const CollisionLog& log) {
+bool is_endless(const Timeline& log) {
   const DampedLog* const damped = damped_log(log);
   return damped != nullptr && damped->is_endless();
 }

@@ -168,7 +168,8 @@ void PageFacts::write(const Sink& sink) const {
   }
   sink(R"(],"counts":")");
   write_counts(sink);
-  sink(R"("})");
+  sink(fmt::format(R"(","infinite":{}}})",
+                   is_endless_ ? fmt::format("\"{}\"", log_.size().get_str()) : "null"));
 }
 
 }  // namespace piblocks

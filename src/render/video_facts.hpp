@@ -52,7 +52,8 @@ class PageFacts {
   /// Number of frames until a loop turns back; of all frames without a loop.
   std::int64_t frames_before_reversal() const noexcept { return frames_before_reversal_; }
   /// Writes the object in pieces. Times are given in units of 10^-scale; of sequences, what each
-  /// number adds to the one before, "0~7" being seven times 0. No "<" is in it.
+  /// number adds to the one before, "0~7" being seven times 0. "infinite" is the count that stands
+  /// for infinitely many, or null. No "<" is in it.
   void write(const std::function<void(std::string_view)>& sink) const;
 
  private:

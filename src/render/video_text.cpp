@@ -123,8 +123,9 @@ std::string describe_video(const Scene& scene, const VideoCount& count) {
   if (scene.bodies) return describe_bodies(*scene.bodies, count);
   const BlockSystem& system = scene.system;
   const int base = scene.show.base;
+  const bool is_infinite = count.is_endless && count.at_end == count.total;
   const std::string written =
-      base == kUsualBase
+      base == kUsualBase || is_infinite
           ? ""
           : fmt::format(" It is written in base {}: {}.", base, count_text(count.at_end, base));
   return fmt::format(

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
+#include <piblocks/restitution.hpp>
 #include <piblocks/run.hpp>
 
 #include <algorithm>
@@ -65,6 +66,13 @@ std::optional<Integer> anchoring_collision(const Instant& instant, const Timelin
   return std::nullopt;
 }
 
+std::string named_collisions(const Timeline& log) {
+  if (log.size() < log.first_index()) return "no collisions";
+  return fmt::format("{} #{} to #{}",
+                     is_endless(log) ? "infinitely many collisions, and lists" : "collisions",
+                     log.first_index().get_str(), log.size().get_str());
+}
+
 [[noreturn]] void fail_missing(const Instant& instant, const Timeline& log) {
   if (instant.anchor == Anchor::turn) {
     throw UsageError(
@@ -74,11 +82,8 @@ std::optional<Integer> anchoring_collision(const Instant& instant, const Timelin
   if (instant.anchor == Anchor::last) {
     throw UsageError("'last': no collision happens from time 0 on; give a time");
   }
-  const std::string has =
-      log.size() < log.first_index()
-          ? "no collisions"
-          : fmt::format("collisions #{} to #{}", log.first_index().get_str(), log.size().get_str());
-  throw UsageError(fmt::format("collision #{}: the scene has {}", instant.index.get_str(), has));
+  throw UsageError(fmt::format("collision #{}: the scene has {}", instant.index.get_str(),
+                               named_collisions(log)));
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "physics/damped_motion.hpp"
 #include "physics/exact_motion.hpp"
 #include "scene/easing.hpp"
 
@@ -14,9 +16,10 @@ namespace {
 
 constexpr const char* kSlowMotionKey = "time.slow-motion";
 
-// Automatic windows are nested around the turn. Each is 10 times slower than the one around it, and
-// alone would show 3 s of video on either side of the turn. Windows are added until at most 10
-// collisions happen in a second of the innermost one.
+// Automatic windows are nested around the turn, or, where blocks lose energy, around the densest
+// collisions. Each is 10 times slower than the one around it, and alone would show 3 s of video on
+// either side. Windows are added until at most 10 collisions happen in a second of the innermost
+// one.
 constexpr int kHalfWindow_s = 3;
 constexpr int kStep = 10;
 constexpr double kTellApart_hz = 10;
@@ -32,6 +35,26 @@ double rate_at_turn(const BlockSystem& system, const Rational& speed) {
   return (rate / (atan(sigma) * sigma)).to_double();
 }
 
+/// The middle of automatic windows, and collisions per second of video there. Nothing if there are
+/// no windows.
+struct Middle {
+  Rational time;
+  double rate;
+};
+
+std::optional<Middle> middle_of(const BlockSystem& system, const Timeline& log,
+                                const Rational& speed) {
+  if (!is_elastic(system)) {
+    const auto densest = DampedMotion(system).densest();
+    if (!densest) return std::nullopt;
+    const auto& [time, rate] = *densest;
+    return Middle{time, rate ? to_double(Rational(*rate * speed)) : HUGE_VAL};
+  }
+  const std::optional<Rational> turn = turn_of(system);
+  if (!turn || log.size() < log.first_index()) return std::nullopt;
+  return Middle{*turn, rate_at_turn(system, speed)};
+}
+
 /// The speed that windows and eases are measured by. A duration sets the speed once they are known,
 /// and scales them.
 Rational nominal_speed(const Scene& scene) {
@@ -39,13 +62,12 @@ Rational nominal_speed(const Scene& scene) {
 }
 
 std::vector<Move> automatic_windows(const Scene& scene, const Timeline& log) {
-  const std::optional<Rational> turn = turn_of(scene.system);
-  if (!turn || log.size() < log.first_index()) return {};
   const Rational speed = nominal_speed(scene);
-  const double rate = rate_at_turn(scene.system, speed);
+  const std::optional<Middle> middle = middle_of(scene.system, log, speed);
+  if (!middle) return {};
   std::vector<Rational> halves;
   int factor = 1;
-  while (factor < kMaxAutomaticFactor && rate > kTellApart_hz * factor) {
+  while (factor < kMaxAutomaticFactor && middle->rate > kTellApart_hz * factor) {
     factor *= kStep;
     halves.emplace_back(speed * kHalfWindow_s / factor);
   }
@@ -56,11 +78,11 @@ std::vector<Move> automatic_windows(const Scene& scene, const Timeline& log) {
   for (std::size_t i = 0; i < count; ++i) {
     slowdown *= kStep;
     if (i + 1 == count) {
-      windows.push_back({*turn - halves[i], *turn + halves[i], slowdown});
+      windows.push_back({middle->time - halves[i], middle->time + halves[i], slowdown});
       break;
     }
-    windows.push_back({*turn - halves[i], *turn - halves[i + 1], slowdown});
-    windows.push_back({*turn + halves[i + 1], *turn + halves[i], slowdown});
+    windows.push_back({middle->time - halves[i], middle->time - halves[i + 1], slowdown});
+    windows.push_back({middle->time + halves[i + 1], middle->time + halves[i], slowdown});
   }
   return windows;
 }

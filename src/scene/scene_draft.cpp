@@ -26,6 +26,15 @@ std::string conflict_of(const TomlTable& table, std::vector<std::string_view> ke
                      keys.size() == 2 ? "one" : "all but one");
 }
 
+/// Of blocks and wall alike.
+Rational parse_restitution(const Values& values) {
+  Rational share = parse_rational(single(values));
+  if (share < 0 || share > 1) {
+    throw UsageError("must be from 0 (no rebound) to 1 (elastic)");
+  }
+  return share;
+}
+
 int parse_digits(const Values& values) {
   const std::string& text = single(values);
   int digits = 0;
@@ -66,7 +75,9 @@ std::string key_of(const Scene& scene, const std::string& key) {
 void SceneDraft::read(const std::string& path, const TomlTable& table) {
   for (const std::string& problem :
        {conflict_of(table, {"time.speed", "time.duration"}, "the speed"),
-        conflict_of(table, {"digits", "mass-ratio", "red.mass"}, "the mass of red")}) {
+        conflict_of(table, {"digits", "mass-ratio", "red.mass"}, "the mass of red"),
+        conflict_of(table, {"restitution", "blocks.restitution"}, "the restitution of the blocks"),
+        conflict_of(table, {"restitution", "wall.restitution"}, "the restitution of the wall")}) {
     if (problem.empty()) continue;
     add_problem(table.line > 0 ? fmt::format("{}:{}", path, table.line) : path, problem);
   }
@@ -135,6 +146,11 @@ void SceneDraft::set_key(const std::string& origin, const std::string& key, cons
   }
   if (set_box(key, values)) {
     origins_[key] = origin;
+    return;
+  }
+  if (key == "restitution") {
+    origins_[key] = origin;
+    scene_.system.blocks_restitution = scene_.system.wall_restitution = parse_restitution(values);
     return;
   }
   const std::span<const SceneKey> keys = scene_keys();
@@ -246,7 +262,8 @@ std::vector<std::string> SceneDraft::problems_of_bodies(const Scene& scene) cons
   }
   for (const auto& [key, origin] : origins_) {
     const bool is_of_blocks = key.starts_with("blue.") || key.starts_with("blocks.") ||
-                              key.starts_with("red.") || key.starts_with("wall.");
+                              key.starts_with("red.") || key.starts_with("wall.") ||
+                              key == "restitution";
     if (!bodies_.empty() && is_of_blocks) {
       problems.push_back(fmt::format(
           "{}: {}: this scene has [[body]] instead of blue, red and the wall", origin,

@@ -1,5 +1,8 @@
 """Scenes with bodies: what the package does with them, and what it refuses in the program's words."""
 
+import json
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from conftest import TREE
@@ -25,6 +28,7 @@ to = 4
 size = [128, 72]
 fps = 5
 """
+LONGER = BLOCKS.replace("to = 4", "to = 40")
 # Double precision knows for a while only which of them collide next.
 UNCERTAIN = (TREE / "tests/support/uncertain_discs.toml").read_text()
 
@@ -58,14 +62,128 @@ def test_a_count_without_an_end_is_refused(program):
     assert str(raised.value) == said_by(program, "count", "scene.toml")
 
 
-def test_logs_and_states_are_refused():
+def npy_of(program, *arguments):
+    program("log", *arguments, "--format", "npy", "-o", "log.npy")
+    return np.load("log.npy")
+
+
+#: On a line, in a plane, in closed form, without an end.
+SCENES = ["three-blocks", "row", "superball", "recoil", "touch", "wedge", "billiard", "two-walls"]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_log_has_the_bytes_of_the_program(program, name):
+    rows = Scene.shipped(name).log()
+    expected = npy_of(program, name)
+    assert rows.dtype == expected.dtype and rows.tobytes() == expected.tobytes()
+    assert len(rows) == Scene.shipped(name).count > 0
+    csv = [line.split(",") for line in program("log", name).decode().splitlines()]
+    flat = [rows[column].reshape(len(rows), -1) for column in rows.dtype.names
+            if column not in ("index", "time_low", "first", "second", "time")]
+    numbers = np.hstack([rows["time"][:, None], *flat])
+    assert numbers.tolist() == [[float(x) for x in [line[1], *line[4:]]] for line in csv[1:]]
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"from_": 1}, {"to": 3}, {"from_": "#3", "to": "#5"}, {"first": 3}, {"limit": 2},
+        {"first": 2, "limit": 3, "to": 10}, {"to": 40}, {"from_": 3.9, "to": "last"},
+    ],
+)
+def test_rows_of_a_log_are_those_of_the_program(program, keys):
+    options = [x for key, value in keys.items() for x in (f"--{key.rstrip('_')}", str(value))]
+    rows = scene_of(LONGER).log(**keys)
+    assert rows.tobytes() == npy_of(program, "scene.toml", *options).tobytes()
+
+
+def test_a_log_ends_where_it_is_asked_to():
+    scene = scene_of(LONGER)
+    whole = scene.log()
+    assert scene.log(last=3).tobytes() == whole[:3].tobytes()
+    assert scene.log(first=2, last=3, limit=9).tobytes() == whole[1:3].tobytes()
+    assert len(scene.log(first=3, last=2)) == 0 and scene.log(limit=1).dtype == whole.dtype
+    with pytest.raises(piblocks.UsageError, match="^last 99: the scene has collisions 1 to "):
+        scene.log(last=99)
+    assert len(scene.log(to=400)) > len(whole)  # the scene's own end is 40
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_states_have_the_numbers_of_the_program(program, name):
+    times = ["0", "0.5", "#1", "last", "last-1/7", "2"]
+    lines = program("state", name, "--at", ",".join(times)).decode().splitlines()
+    told = [json.loads(line) for line in lines]
+    scene = Scene.shipped(name)
+    states = scene.state(times)
+    bodies = len(told[0]["bodies"])
+    dimensions = np.size(told[0]["bodies"][0]["position"])
+    assert states.positions.shape == states.velocities.shape == (6, bodies, dimensions)
+    assert states.time.tolist() == [one["time"] for one in told]
+    assert states.count.tolist() == [int(one["collisions"]) for one in told]
+    for vectors, what in ((states.positions, "position"), (states.velocities, "velocity")):
+        expected = [[body[what] for body in one["bodies"]] for one in told]
+        assert np.array_equal(vectors, np.reshape(expected, vectors.shape))
+    one = scene.state("last")
+    assert type(one.time) is float and type(one.count) is int
+    assert np.array_equal(one.positions, states.positions[3])
+    assert np.array_equal(one.velocities, states.velocities[3])
+
+
+@pytest.mark.parametrize(
+    "t, shape",
+    [
+        (np.linspace(0, 3, 7), (7,)), (np.ones((2, 3), np.float32), (2, 3)), ([], (0,)),
+        (np.empty((0, 4)), (0, 4)), ([0, "last"], (2,)), (np.arange(3), (3,)), (2, ()),
+        (np.array(1.5), ()), (np.float64(0.1), ()), (Fraction(1, 3), ()), ("turn-1", None),
+    ],
+)
+def test_states_have_the_shape_of_the_times(t, shape):
     scene = scene_of(BLOCKS)
-    for ask in (scene.log, lambda: scene.state(1), lambda: scene.state([1, 2])):
+    if shape is None:
+        with pytest.raises(piblocks.UsageError, match="there is no turn"):
+            scene.state(t)
+        return
+    states = scene.state(t)
+    assert np.shape(states.time) == np.shape(states.count) == shape
+    assert states.positions.shape == states.velocities.shape == (*shape, 3, 1)
+    if shape and np.size(states.time):
+        alone = scene.state(np.asarray(t, object).ravel()[-1])
+        assert np.array_equal(states.positions.reshape(-1, 3, 1)[-1], alone.positions)
+
+
+def test_energy_is_kept():
+    states = scene_of(BLOCKS).state(np.linspace(0, 4, 101))
+    energy = (np.array([1, 2, 3]) * states.velocities[..., 0] ** 2).sum(axis=1)
+    assert np.allclose(energy, 1, rtol=1e-14)
+    assert (np.diff(states.positions[..., 0], axis=1) > 1 - 1e-14).all()
+
+
+def test_refusals_of_logs_and_states(program):
+    scene = scene_of(BLOCKS)
+    for ask, keys, word in ((scene.log, {}, "engine"), (scene.state, {"t": 1}, "engine")):
         with pytest.raises(piblocks.UsageError) as raised:
-            ask()
+            ask(engine="events", **keys)
         assert str(raised.value) == (
-            "log: is for two blocks and a wall, and this scene has [[body]]"
+            f"{word}: is for two blocks and a wall, and this scene has [[body]]"
         )
+    with pytest.raises(piblocks.UsageError, match="^bounds: is for two blocks and a wall"):
+        scene.state(1, bounds=True)
+    assert scene.state(1).count == 1  # as if nothing had been asked
+    with pytest.raises(piblocks.UsageError):
+        scene.state(-1)
+    endless = scene_of(BLOCKS.replace("to = 4", ""))
+    with pytest.raises(piblocks.UsageError) as raised:
+        endless.log()
+    assert str(raised.value) == said_by(program, "log", "scene.toml")
+    assert len(endless.log(to=4)) == scene.count
+    uncertain = scene_of(UNCERTAIN)
+    for ask in (uncertain.log, lambda: uncertain.state([1, 150])):
+        with pytest.raises(piblocks.UsageError, match="is certain until time .*time_allow_unc"):
+            ask()
+    assert uncertain.state([1, 2]).positions.shape == (2, 3, 2)
+    assert len(uncertain.log(to=10)) > 5
+    allowed = uncertain.replace(time_allow_uncertain=True)
+    assert allowed.state(150).positions.shape == (3, 2) and len(allowed.log()) == allowed.count
 
 
 def test_what_is_not_certain_is_refused_in_the_same_words(program):

@@ -1,5 +1,6 @@
 """Counts, logs and states: types, shapes, sizes."""
 
+import math
 import threading
 from dataclasses import astuple, fields
 from decimal import Decimal
@@ -115,6 +116,37 @@ def test_counts_of_states_that_do_not_fit():
     assert states.dtype["count"] == object
     assert states["count"].tolist()[:2] == [scene.count, 0]
     assert scene.state([0, 1]).dtype["count"] == np.int64
+
+
+def test_restitution_is_a_keyword(program):
+    for share in (0.999, Fraction(99, 100), "1"):
+        scene = Scene(3, restitution=share)
+        assert scene.count == int(program("count", "--digits", "3", "--restitution", str(share)))
+        assert scene == Scene(3, blocks_restitution=share, wall_restitution=share)
+        assert Scene.from_toml_text(scene.to_toml()) == scene
+    with pytest.raises(piblocks.UsageError, match="restitution and wall_restitution both set"):
+        Scene(restitution=0.5, wall_restitution=1)
+    with pytest.raises(piblocks.SceneError, match="^restitution: restitution = 2: must be from 0"):
+        Scene(restitution=2)
+
+
+def test_infinitely_many_are_said_to_be(program):
+    scene = Scene(2, restitution=0.5)
+    with pytest.raises(piblocks.UsageError, match="infinitely many collisions until the blocks"):
+        scene.count
+    assert scene.state("last").count == math.inf == scene.state(9).count
+    assert scene.state("#7").count == 7 and type(scene.state("#7").count) is int
+    states = scene.state([0, "#7", 9])
+    assert states["count"].tolist() == [0, 7, math.inf]
+    assert scene.state([0, 3])["count"].dtype == np.int64
+    listed = len(scene.log())
+    (note,) = scene.notes
+    assert "there are infinitely many collisions" in note and f"the first {listed}" in note
+    assert note == program("log", "--digits", "2", "--restitution", "0.5", check=False).stderr \
+        .decode().strip().removeprefix("piblocks: note: ")
+    with pytest.raises(piblocks.UsageError, match="infinitely many collisions, and lists 1 to"):
+        scene.log(last=listed + 1)
+    assert Scene(2).notes == Scene(1, restitution=0.5).notes == ()
 
 
 def test_bounds():

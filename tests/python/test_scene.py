@@ -47,7 +47,7 @@ def test_every_key_of_the_file_is_a_keyword():
     assert {"digits", "mass_ratio", "base", "time_slow_motion", "golden_frames"} <= set(keys)
     described = {key.decode() for key, _ in ARTICLE._description()}
     assert {key.replace(".", "_").replace("-", "_") for key in described} <= set(keys)
-    assert len(keys) == len(set(keys)) == len(described) + 2
+    assert len(keys) == len(set(keys)) == len(described) + 3
 
 
 @pytest.mark.parametrize(

@@ -223,6 +223,9 @@ TEST(CountsShown, InfinitelyManyAreSaidToBe) {
     EXPECT_TRUE(contains(text, "reaches infinitely many collisions, after which both")) << text;
     EXPECT_TRUE(contains(title_of(scene, {7, log->size(), true, false}), "infinitely many"))
         << text;
+    scene.show.base = 2;
+    EXPECT_FALSE(contains(describe_video(scene, {log->size(), log->size(), true, false}), "base"));
+    scene.show.base = 10;
     scene.time.to = Rational(9);
     const std::string said =
         captions(RunLog(scene), make_schedule(scene, *log), scene.view.frame_rate);

@@ -167,6 +167,21 @@ TEST(SceneKeys, DigitsAreThoseOfTheBaseInTheEnd) {
   EXPECT_EQ(builder.build_scene().show.base, 2);
 }
 
+TEST(SceneKeys, RestitutionIsThatOfBlocksAndWall) {
+  ScriptBuilder builder;
+  const auto expect = [&](const char* key, const char* text, const Rational& blocks,
+                          const Rational& wall) {
+    builder.set("test", key, text);
+    const BlockSystem system = builder.build_scene().system;
+    EXPECT_EQ(system.blocks_restitution, blocks) << key;
+    EXPECT_EQ(system.wall_restitution, wall) << key;
+  };
+  expect("blocks.restitution", "1/3", Rational(1, 3), 1);
+  expect("restitution", "0.5", Rational(1, 2), Rational(1, 2));
+  expect("wall.restitution", "0", Rational(1, 2), 0);
+  expect("restitution", "1", 1, 1);
+}
+
 TEST(SceneKeys, AWrongBaseIsAProblemOfTheScene) {
   for (const int base : {kMinBase - 1, kMaxBase + 1}) {
     Scene scene;

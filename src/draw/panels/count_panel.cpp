@@ -1,3 +1,5 @@
+#include <piblocks/restitution.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -54,7 +56,12 @@ struct TurnFacts {
 
 std::vector<Formula> titles_of_count(const DrawingContext& context, const TurnFacts& turn) {
   const FormulaSetter set = context.setter();
+  const Timeline& log = context.timeline;
   std::vector<Formula> wordings;
+  // The curve ends at the last one of these that the log has.
+  if (is_endless(log) && log.count_at(span_of(context.scene, log).to) == log.size()) {
+    return {set.text("Infinitely many collisions"), set.text("Collisions")};
+  }
   if (turn.is_shown) wordings.push_back(title_of_counts(set, turn.is_half));
   if (turn.is_half) {
     wordings.push_back(set.text("Half come before the turn"));

@@ -16,7 +16,6 @@
 #include "python/extension/interruptible.hpp"
 #include "python/extension/script.hpp"
 #include "python/extension/without_gil.hpp"
-#include "scene/run_log.hpp"
 
 namespace piblocks::python {
 namespace {
@@ -29,9 +28,7 @@ class BoundRun {
  public:
   BoundRun(const BoundScript& script, const std::map<std::string, std::string>& options) {
     const WithoutGil released;
-    const Scene& scene = scene_of(script, "log");
-    require_blocks(scene, "log");
-    log_ = cli::make_log(scene.system, BoundOptions(options));
+    log_ = cli::make_log(scene_of(script, "log").system, BoundOptions(options));
   }
   const CollisionLog& log() const { return *log_; }
 
@@ -122,20 +119,23 @@ Rational time_of_number(double value, const CollisionLog& log) {
   }
 }
 
-/// Fills states, and returns the hexadecimal counts if one of them does not fit.
+/// Fills states, and returns the hexadecimal counts if one of them does not fit, or is "infinite".
 template <typename Times, typename TimeOf>
 std::vector<std::string> fill_states(const CollisionLog& log, const Times& times,
                                      const TimeOf& time_of_one, bool has_bounds,
                                      std::span<std::uint8_t> memory) {
   const std::size_t row_bytes = has_bounds ? sizeof(BoundedStateRow) : sizeof(StateRow);
   std::vector<std::string> counts;
+  const std::optional<Integer> infinite = cli::infinite_count(log);
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
     for (std::size_t i = 0; i < times.size(); ++i) {
       if (stop.stop_requested()) throw Interrupted("state: interrupted");
       const FoundState found = state_at(log, time_of_one(times[i], log), has_bounds);
       std::memcpy(memory.data() + i * row_bytes, &found.row, row_bytes);
-      if (!found.count.fits_slong_p() && counts.empty()) counts.resize(times.size());
-      if (!found.count.fits_slong_p()) counts[i] = hexadecimal(found.count);
+      const bool is_infinite = found.count == infinite;
+      if (found.count.fits_slong_p() && !is_infinite) continue;
+      counts.resize(times.size());
+      counts[i] = is_infinite ? "infinite" : hexadecimal(found.count);
     }
   });
   return counts;
@@ -173,6 +173,10 @@ void bind_run(py::module_& module) {
       .def_property_readonly(
           "first_index", [](const BoundRun& run) { return hexadecimal(run.log().first_index()); },
           "The first collision of all time, in hexadecimal digits.")
+      .def_property_readonly(
+          "is_endless",
+          [](const BoundRun& run) { return cli::infinite_count(run.log()).has_value(); },
+          "Whether the last collision stands for infinitely many.")
       .def("select", &select, py::arg("options"), "First index and number of rows, hexadecimal.")
       .def("fill_log", &fill_log, py::arg("first"), py::arg("rows_buffer"), py::arg("rows"),
            py::arg("has_indices"), "Fills rows as ROW_TYPE describes them.")

@@ -45,6 +45,8 @@ BoundScript make(std::string origin, std::optional<std::string> text, bool is_fi
 
 void check_keys(const std::vector<KeyTexts>& keys) {
   refuse_several(keys, {"digits", "mass-ratio", "red.mass"}, "the mass of red");
+  refuse_several(keys, {"restitution", "blocks.restitution"}, "the restitution of the blocks");
+  refuse_several(keys, {"restitution", "wall.restitution"}, "the restitution of the wall");
   refuse_several(keys, {"time.speed", "time.duration"}, "the speed");
 }
 
@@ -61,7 +63,7 @@ std::vector<std::pair<py::bytes, py::bytes>> description(const BoundScript& boun
 
 /// All keys of a scene file outside of its parts.
 std::vector<std::string> key_names() {
-  std::vector<std::string> names = {"digits", "mass-ratio"};
+  std::vector<std::string> names = {"digits", "mass-ratio", "restitution"};
   for (const SceneKey& key : scene_keys()) names.emplace_back(key.name);
   return names;
 }
@@ -71,6 +73,14 @@ std::string count_of(const BoundScript& bound) {
   const Scene& scene = scene_of(bound, "count");
   return hexadecimal(scene.bodies ? RunLog(scene).timeline().size()
                                   : count_collisions(scene.system));
+}
+
+std::vector<std::string> notes_of(const BoundScript& bound) {
+  std::vector<std::string> notes = cli::convention_notes(bound.script);
+  if (const auto* const scene = std::get_if<Scene>(&bound.script)) {
+    if (auto note = cli::endless_note(*scene)) notes.push_back(std::move(*note));
+  }
+  return notes;
 }
 
 py::tuple size_of(const BoundScript& bound) {
@@ -135,15 +145,18 @@ void bind_script(py::module_& module) {
       .def_property_readonly(
           "is_storyboard",
           [](const BoundScript& bound) { return std::holds_alternative<Storyboard>(bound.script); })
+      .def_property_readonly("has_bodies",
+                             [](const BoundScript& bound) {
+                               const auto* const scene = std::get_if<Scene>(&bound.script);
+                               return scene != nullptr && scene->bodies.has_value();
+                             })
       .def_property_readonly("is_transparent",
                              [](const BoundScript& bound) {
                                return view_of(bound.script).background == Background::transparent;
                              })
       .def_property_readonly("size", &size_of, "Width and height of a frame, in pixels.")
       .def_property_readonly("rate", &rate_of, "Frames a second: numerator and denominator.")
-      .def_property_readonly(
-          "notes", [](const BoundScript& bound) { return cli::convention_notes(bound.script); },
-          "What a user should know of the counts.")
+      .def_property_readonly("notes", &notes_of, "What a user should know of the counts.")
       .def("describe", &description, "Keys and values as exact text; equal for equal scripts.")
       .def(
           "to_toml", [](const BoundScript& bound) { return py::bytes(scene_toml(bound.script)); },

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from . import _errors  # the extension raises what is defined there
 from . import _piblocks
+from ._bodies import BodiesState
 from ._errors import (
     DrawError,
     Error,
@@ -28,6 +29,7 @@ from ._scene import Scene, scenes
 __version__: str = _piblocks.VERSION
 
 __all__ = [
+    "BodiesState",
     "DrawError",
     "Error",
     "Frames",

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import ast
+import math
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Any, Optional, Union
 
 import numpy as np
 
@@ -24,7 +25,8 @@ class State:
 
     time: float
     #: Index of the last collision until then; collisions from time 0 on are 1, 2, 3, ...
-    count: int
+    #: ``math.inf`` where infinitely many have happened.
+    count: Union[int, float]
     x_blue: float
     x_red: float
     v_blue: float
@@ -42,7 +44,7 @@ def _with_objects(dtype: np.dtype, name: str) -> np.dtype:
     return np.dtype([(n, object if n == name else dtype[n]) for n in dtype.names or ()])
 
 
-def _replace_column(rows: np.ndarray, name: str, values: list[int]) -> np.ndarray:
+def _replace_column(rows: np.ndarray, name: str, values: list[Any]) -> np.ndarray:
     """The rows with a column of Python's integers."""
     result = np.empty(rows.shape, _with_objects(rows.dtype, name))
     for other in rows.dtype.names or ():
@@ -58,30 +60,46 @@ def _index(name: str, value: Any) -> int:
     return int(value)
 
 
-def _limit_until(run: _piblocks.Run, given: dict[bytes, bytes], last: int) -> int:
+AnyRun = Union[_piblocks.Run, _piblocks.BodyRun]
+
+
+def _limit_until(run: AnyRun, given: dict[bytes, bytes], last: int) -> int:
     """How many rows there are up to this index."""
     first_index, size = int(run.first_index, 16), int(run.size, 16)
     if not first_index <= last <= size:
-        has = f"collisions {first_index:,} to {size:,}" if size >= first_index else "no collisions"
+        are = "infinitely many collisions, and lists" if run.is_endless else "collisions"
+        has = f"{are} {first_index:,} to {size:,}" if size >= first_index else "no collisions"
         raise UsageError(f"last {last:,}: the scene has {has}")
     first, _ = run.select({**given, b"--limit": b"1"})
     return last - int(first, 16) + 1
 
 
-def log(
-    run: _piblocks.Run, from_: Any, to: Any, first: Any, last: Any, limit: Any
-) -> np.ndarray:
+def options_of_log(from_: Any, to: Any, first: Any, limit: Any) -> dict[bytes, bytes]:
     given = options({"--first": first, "--limit": limit})
     for name, value in (("from", from_), ("to", to)):
         if value is not None:
             given[b"--" + name.encode()] = instant(name, value)
+    return given
+
+
+def selected(
+    run: AnyRun, given: dict[bytes, bytes], last: Any, limit: Any
+) -> tuple[int, int]:
+    """The index of the first row, and how many there are."""
     if last is not None:
         rows_until = _limit_until(run, given, _index("last", last))
         if rows_until <= 0:
-            return np.empty(0, ROW)
+            return 1, 0
         if limit is None or _index("limit", limit) > rows_until:
-            given[b"--limit"] = b"%d" % rows_until
-    begin, count = (int(text, 16) for text in run.select(given))
+            given = {**given, b"--limit": b"%d" % rows_until}
+    begin, count = run.select(given)
+    return int(begin, 16), int(count, 16)
+
+
+def log(
+    run: _piblocks.Run, from_: Any, to: Any, first: Any, last: Any, limit: Any
+) -> np.ndarray:
+    begin, count = selected(run, options_of_log(from_, to, first, limit), last, limit)
     rows = np.empty(count, ROW)
     fits = -(2**63) < begin and begin + count < 2**63
     if count > 0:
@@ -91,6 +109,10 @@ def log(
     return _replace_column(rows, "index", [begin + i for i in range(count)])
 
 
+def _whole(text: str) -> Union[int, float]:
+    return math.inf if text == "infinite" else int(text, 16)
+
+
 def _fill(run: _piblocks.Run, times: Any, bounds: bool, shape: tuple[int, ...]) -> np.ndarray:
     rows = np.empty(len(times), np.dtype(_STATE + (_BOUNDS if bounds else [])))
     if isinstance(times, np.ndarray):
@@ -98,7 +120,7 @@ def _fill(run: _piblocks.Run, times: Any, bounds: bool, shape: tuple[int, ...]) 
     else:
         counts = run.states_of_texts(times, bounds, rows.view(np.uint8))
     if counts:
-        whole = [int(text, 16) if text else int(row) for text, row in zip(counts, rows["count"])]
+        whole = [_whole(text) if text else int(row) for text, row in zip(counts, rows["count"])]
         rows = _replace_column(rows, "count", whole)
     return rows.reshape(shape)
 

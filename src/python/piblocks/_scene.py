@@ -9,7 +9,8 @@ from typing import Any, Union
 
 import numpy as np
 
-from . import _golden, _notebook, _piblocks, _render, _run
+from . import _bodies, _golden, _notebook, _piblocks, _render, _run
+from ._bodies import BodiesState
 from ._errors import SceneError
 from ._film import Frames, pixels
 from ._keys import KeyTexts, key_texts, parts_text
@@ -28,6 +29,11 @@ def scenes() -> dict[str, str]:
 def _merged(before: tuple[KeyTexts, ...], more: list[KeyTexts]) -> tuple[KeyTexts, ...]:
     new = {key for _, key, _ in more}
     return (*(one for one in before if one[1] not in new), *more)
+
+
+def _require_name(engine: Any) -> None:
+    if not isinstance(engine, str):
+        raise TypeError(f"engine: must be a str, not {type(engine).__name__}")
 
 
 class Scene:
@@ -51,7 +57,7 @@ class Scene:
     314
     """
 
-    __slots__ = ("_script", "_recipe", "_runs", "_pictures", "__weakref__")
+    __slots__ = ("_script", "_recipe", "_runs", "_body_run", "_pictures", "__weakref__")
 
     def __init__(self, digits: Any = None, **keys: Any) -> None:
         if digits is not None:
@@ -66,6 +72,7 @@ class Scene:
         self._script = _piblocks.Script(origin, text, is_file, list(keys))
         self._recipe = (origin, text, is_file, keys)
         self._runs: dict[str, _piblocks.Run] = {}
+        self._body_run: _piblocks.BodyRun | None = None
         self._pictures: _piblocks.Pictures | None = None
 
     @classmethod
@@ -145,7 +152,8 @@ class Scene:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What you should know of the count: that it follows a convention, in rare scenes."""
+        """What you should know of the count, in rare scenes: that it follows a convention, or that
+        collisions are infinitely many."""
         return tuple(self._script.notes)
 
     def to_toml(self) -> str:
@@ -196,16 +204,20 @@ class Scene:
     def count(self) -> int:
         """How often the blocks and the wall collide, from the beginning of time to its end.
 
-        :raises UsageError: for a storyboard.
+        :raises UsageError: for a storyboard; if they are infinitely many, or may never end.
         """
         return int(self._script.count(), 16)
 
-    def _run(self, engine: Any) -> _piblocks.Run:
-        if not isinstance(engine, str):
-            raise TypeError(f"engine: must be a str, not {type(engine).__name__}")
+    def _run(self, engine: str) -> _piblocks.Run:
         if engine not in self._runs:
             self._runs[engine] = _run.run_of(self._script, engine)
         return self._runs[engine]
+
+    def _run_of_bodies(self, engine: str, bounds: bool) -> _piblocks.BodyRun:
+        if self._body_run is None or bounds or engine != "unfolded":
+            given = {b"--bounds": b"true"} if bounds else {}
+            self._body_run = _bodies.run_of(self._script, engine, given, True)
+        return self._body_run
 
     def log(
         self,
@@ -224,25 +236,38 @@ class Scene:
         just after the collision. ``index`` is int64; if one does not fit, it is an object column of
         Python's ints.
 
+        Of a scene with bodies: index, time, time_low, first, second (bodies from 1 on in the order
+        of the scene; walls are -1, -2, ...), x_first, x_second, v_first, v_second, which have two
+        coordinates in a plane.
+
         :param from_: leave out collisions before this instant. :param to: and after this one.
         :param first: start with this collision (default 1). :param last: end with this one.
         :param limit: at most so many rows; more than 100,000,000 need it.
         :param engine: "unfolded", the closed form; "events" or "velocities", loops in doubles.
         :raises UsageError: if there are no such collisions, or too many; for a storyboard.
         """
+        _require_name(engine)
+        if self._script.has_bodies:
+            return _bodies.log(self._script, engine, from_, to, first, last, limit)
         return _run.log(self._run(engine), from_, to, first, last, limit)
 
     def state(
         self, t: Any, *, bounds: bool = False, engine: str = "unfolded"
-    ) -> Union[State, np.ndarray]:
+    ) -> Union[State, BodiesState, np.ndarray]:
         """Positions, velocities and the count at an instant, or at each of an array of them.
+
+        Of a scene with bodies it is a ``BodiesState``: positions and velocities of all bodies.
 
         :param t: a number, or "turn-0.3", "last+1", "#314": a ``State``, whose count has any size.
             An array or a list of these: a structured array of its shape with the same fields. Its
-            ``count`` is int64; if one does not fit, it is an object column of Python's ints.
+            ``count`` is int64; if one does not fit, it is an object column of Python's ints. Where
+            infinitely many collisions have happened, the count is ``math.inf``.
         :param bounds: also how far each position may be from the truth.
         :raises UsageError: if the scene has no such instant; for a storyboard.
         """
+        _require_name(engine)
+        if self._script.has_bodies:
+            return _bodies.state(self._run_of_bodies(engine, flag("bounds", bounds)), t)
         return _run.state(self._run(engine), t, flag("bounds", bounds))
 
     # Pictures

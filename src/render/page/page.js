@@ -85,18 +85,23 @@ let isPlaying = false;
 
 const count = () => collision ?? counts[frame];
 const grouped = number => number.toLocaleString("en");
+/** Where the blocks come to rest after infinitely many collisions, the last count stands for these. */
+const infinite = facts.infinite === null ? null : BigInt(facts.infinite);
+const countText = number => number === infinite ? "\u221E" : grouped(number);
+const collisionsText = number =>
+  `${number === infinite ? "infinitely many" : grouped(number)} collisions`;
 
 function update() {
   const time = collision === null ? frameTime(frame) : decimal(timeOf(collision), facts.scale);
-  byId("count").textContent = grouped(count());
+  byId("count").textContent = countText(count());
   byId("time").textContent = time;
   byId("frame").textContent = `${grouped(frame + 1)} of ${grouped(facts.frames)}`;
   const picture = byId("picture");
   picture.hidden = counts[frame] === count();
-  picture.textContent = `(picture: after ${grouped(counts[frame])} collisions)`;
+  picture.textContent = `(picture: after ${collisionsText(counts[frame])})`;
   slider.value = collision === null ? offsetOf(frame)
     : Number(timeOf(collision) - from) / 10 ** facts.scale;
-  slider.setAttribute("aria-valuetext", `time ${time}, ${grouped(count())} collisions`);
+  slider.setAttribute("aria-valuetext", `time ${time}, ${collisionsText(count())}`);
 }
 
 function show(newFrame, newCollision = null) {

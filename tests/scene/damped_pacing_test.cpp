@@ -1,0 +1,123 @@
+// Automatic slow motion of blocks that lose energy, held to collisions that are stepped exactly.
+#include <piblocks/restitution.hpp>
+
+#include <algorithm>
+
+#include "physics/damped_motion.hpp"
+#include "scene/pacing_fixture.hpp"
+#include "support/damped_run.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr const char* kHardlyLess = "0.9999999999999999999999999999999999999999";
+
+/// Where three collisions in a row take the shortest time, and how many a second that is.
+struct Densest {
+  Rational from;
+  Rational to;
+  Rational rate = 0;
+};
+
+Densest densest_of(const std::vector<oracle::DampedEvent>& events) {
+  Densest found;
+  for (std::size_t i = 2; i < events.size(); ++i) {
+    const Rational length = events[i].time - events[i - 2].time;
+    if (length * found.rate < 2) found = {events[i - 2].time, events[i].time, 2 / length};
+  }
+  return found;
+}
+
+Scene lossy_scene(int digits, const char* blocks, const char* wall) {
+  return paced_scene({{"time.slow-motion", "auto"},
+                      {"time.ease", "0"},
+                      {"blocks.restitution", blocks},
+                      {"wall.restitution", wall}},
+                     digits);
+}
+
+struct LossyRun {
+  int digits;
+  const char* blocks;
+  const char* wall;
+};
+
+const std::vector<LossyRun> kCases = {
+    {2, "0.999", "0.999"}, {2, "0.9", "0.95"}, {2, "0.85", "0.85"}, {3, "0.999", "0.999"},
+    {3, "0.99", "0.99"},   {3, "1", "0.98"},   {3, "0.98", "1"},    {3, "0.985", "0.984"}};
+
+TEST(DampedPacing, FindsTheDensestCollisions) {
+  for (const auto& [digits, blocks, wall] : kCases) {
+    SCOPED_TRACE(std::string(blocks) + " " + wall);
+    const Scene scene = lossy_scene(digits, blocks, wall);
+    const auto run = oracle::damped_run(scene.system, 2000);
+    ASSERT_TRUE(run.ended);
+    const Densest expected = densest_of(run.events);
+    const auto found = DampedMotion(scene.system).densest();
+    ASSERT_TRUE(found && found->rate);
+    const double rate = to_double(expected.rate);
+    EXPECT_NEAR(to_double(*found->rate), rate, 0.05 * rate);
+    // Within some collisions of it; beside the middle they are nearly as dense.
+    const Rational room = 12 / expected.rate;
+    EXPECT_GE(found->time, expected.from - room);
+    EXPECT_LE(found->time, expected.to + room);
+  }
+}
+
+TEST(DampedPacing, SlowsDownAsFarAsTheTrueRateAsksFor) {
+  for (const auto& [digits, blocks, wall] : kCases) {
+    SCOPED_TRACE(std::string(blocks) + " " + wall);
+    const Scene scene = lossy_scene(digits, blocks, wall);
+    const auto run = oracle::damped_run(scene.system, 2000);
+    const Schedule schedule = schedule_of(scene);
+    expect_no_gaps(schedule);
+    const Densest densest = densest_of(run.events);
+    const auto stretches = schedule.stretches();
+    const auto slowest = std::ranges::max_element(stretches, {}, &Stretch::slowdown);
+    const double in_a_second = to_double(Rational(densest.rate / slowest->slowdown));
+    EXPECT_TRUE(in_a_second <= 10.5 || slowest->slowdown == kMaxAutomaticFactor);
+    EXPECT_GE(in_a_second, 0.95);
+    EXPECT_LT(slowest->time, densest.to);
+    EXPECT_GT(std::next(slowest)->time, densest.from);
+  }
+}
+
+/// The limit of no loss: the windows are those of elastic blocks, whose middle is the turn.
+TEST(DampedPacing, WithHardlyAnyLossItIsThatOfElasticBlocks) {
+  for (const int digits : {2, 3, 9, 15}) {
+    const Scene scene = lossy_scene(digits, kHardlyLess, "1");
+    const auto found = DampedMotion(scene.system).densest();
+    ASSERT_TRUE(found);
+    const Scene elastic = lossy_scene(digits, "1", "1");
+    const Rational turn = *turn_of(elastic.system);
+    const auto slowest = [](const Scene& any) {
+      const Schedule schedule = schedule_of(any);
+      return std::ranges::max_element(schedule.stretches(), {}, &Stretch::slowdown)->slowdown;
+    };
+    EXPECT_EQ(slowest(scene), slowest(elastic));
+    EXPECT_LE(abs(Rational(found->time - turn)), 2 / *found->rate);
+  }
+}
+
+TEST(DampedPacing, TheEndOfInfinitelyManyIsAsSlowAsCanBe) {
+  const Scene scene = lossy_scene(2, "0.5", "0.5");
+  const auto collapse = collapse_of(scene.system);
+  ASSERT_TRUE(collapse && collapse->time);
+  const Schedule schedule = schedule_of(scene);
+  const auto stretches = schedule.stretches();
+  const auto slowest = std::ranges::max_element(stretches, {}, &Stretch::slowdown);
+  EXPECT_EQ(slowest->slowdown, kMaxAutomaticFactor);
+  EXPECT_LT(slowest->time, to_rational(*collapse->time));
+  EXPECT_GT(std::next(slowest)->time, to_rational(*collapse->time));
+}
+
+TEST(DampedPacing, NothingIsDenseWhereNothingHappensTwice) {
+  Scene scene = lossy_scene(1, "0.5", "0.5");
+  scene.system.red.velocity = 1;
+  EXPECT_FALSE(DampedMotion(scene.system).densest());
+  scene.time.to = Rational(3);
+  EXPECT_EQ(schedule_of(scene).stretches().size(), 1U);
+}
+
+}  // namespace
+}  // namespace piblocks
