@@ -114,6 +114,7 @@ void log_bodies(const Scene& scene, const Command& options) {
     text.clear();
   }
   file.finish();
+  note_ties(run);
 }
 
 void run_log(const Command& options, const SceneOptions& scene_options) {

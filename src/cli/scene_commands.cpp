@@ -53,22 +53,25 @@ void write_bodies(const Scene& scene, const std::vector<Instant>& instants,
     out.line(state_line(log.system(), time, log.state_at(time)));
   }
   out.finish();
+  note_ties(run);
 }
 
-/// All collisions, or those until --to.
-Integer count_of(const Scene& scene, const Command& options) {
-  const std::optional<Instant> to = options.value("--to", parse_instant);
-  if (!to) return scene.bodies ? RunLog(scene).timeline().size() : count_collisions(scene.system);
-  const RunLog run(scene);
-  const Integer count = run.timeline().count_at(time_of(*to, run.timeline()));
-  return count == infinite_count(run.timeline()) ? count_collisions(scene.system) : count;
-}
-
+/// All collisions, or those until --to; for two blocks and a wall all are counted without a log.
 void run_count(const Command& options, const SceneOptions& scene_options) {
   TextOutput out("-");
   const Scene scene = scene_options.scene();
-  out.line(count_of(scene, options).get_str(scene.show.base));
+  const std::optional<Instant> to = options.value("--to", parse_instant);
+  std::optional<RunLog> run;
+  if (to || scene.bodies) run.emplace(scene);
+  const auto count = [&] {
+    if (!run) return count_collisions(scene.system);
+    const Timeline& log = run->timeline();
+    const Integer until = to ? log.count_at(time_of(*to, log)) : log.size();
+    return until == infinite_count(log) ? count_collisions(scene.system) : until;
+  };
+  out.line(count().get_str(scene.show.base));
   out.finish();
+  if (run) note_ties(*run);
   note_convention(scene);
 }
 

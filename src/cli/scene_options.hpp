@@ -13,6 +13,7 @@
 #include "cli/destination.hpp"
 #include "cli/script_facts.hpp"
 #include "core/overwrite_check.hpp"
+#include "scene/run_log.hpp"
 
 namespace piblocks::cli {
 
@@ -75,5 +76,7 @@ void refuse_engine(const Command& command);
 /// happen at once: their number then depends on a convention.
 /// @throws SceneError if problems_of() of the system is not empty.
 void note_convention(const Script& script);
+/// Says on standard error that the order of pairs decided what happened, if it did.
+void note_ties(const RunLog& run);
 
 }  // namespace piblocks::cli

@@ -85,6 +85,7 @@ void require_last(const Integer& index, const Integer& last_at_its_time);
 /// answer is rounded once.
 /// @param system  with m_red <= m_blue, or at rest.
 std::unique_ptr<CollisionLog> make_exact_log(const BlockSystem& system);
+bool is_exact(const CollisionLog& log);
 
 /// Engine::events, which advances positions to the next collision of any pair, or
 /// Engine::velocities, a VelocityLoop, in double precision.

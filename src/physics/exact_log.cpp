@@ -153,4 +153,6 @@ std::unique_ptr<CollisionLog> make_exact_log(const BlockSystem& system) {
   return std::make_unique<ExactLog>(system);
 }
 
+bool is_exact(const CollisionLog& log) { return dynamic_cast<const ExactLog*>(&log) != nullptr; }
+
 }  // namespace piblocks

@@ -11,6 +11,7 @@
 #include "render/flash_meter.hpp"
 #include "render/renderings.hpp"
 #include "render/step_clock.hpp"
+#include "scene/run_log.hpp"
 
 namespace piblocks {
 namespace {
@@ -151,6 +152,18 @@ SoundWork sound_of(const Plan& plan, const std::function<void(const Progress&)>&
   return work;
 }
 
+/// Those of the output, and what each run has to say.
+std::vector<std::string> notes_of(const Plan& plan) {
+  std::vector<std::string> notes = plan.output.notes;
+  for (const PlacedSegment& placed : plan.film.segments()) {
+    for (const FilmRun& run : placed.segment.runs()) {
+      auto note = tie_note(run.log());
+      if (note && std::ranges::find(notes, *note) == notes.end()) notes.push_back(*std::move(note));
+    }
+  }
+  return notes;
+}
+
 void add(StepSeconds& sum, const StepSeconds& spent) {
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += spent[i];
 }
@@ -176,9 +189,8 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
     };
   };
 
-  Rendered rendered{plan.output.has_frames ? frames_until(range.end) : plan.film.frame_count(),
-                    {},
-                    plan.output.notes};
+  Rendered rendered{
+      plan.output.has_frames ? frames_until(range.end) : plan.film.frame_count(), {}, {}};
   on_progress({0, rendered.frame_count});
   StepClock clock(job.profile, Step::mux);
   SoundWork sound;
@@ -196,6 +208,7 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
   clock.enter(Step::write);
   sink->finish();
+  rendered.notes = notes_of(plan);  // by now the collisions of all frames are known
   if (!plan.output.has_frames) on_progress({rendered.frame_count, rendered.frame_count});
   if (job.profile) {
     add(rendered.profile.steps, clock.spent());

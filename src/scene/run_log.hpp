@@ -7,6 +7,8 @@
 #include <piblocks/scene.hpp>
 
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace piblocks {
 
@@ -34,6 +36,10 @@ class RunLog {
 
 /// @throws UsageError if bodies are not certain at this time, unless the scene allows that.
 void require_certain(const Scene& scene, const BodyLog& log, const Rational& time);
+
+/// What to tell the user if the order of pairs decides what happens, as far as the log has been
+/// computed; nothing of two blocks and a wall.
+std::optional<std::string> tie_note(const RunLog& log);
 
 /// @param what  in the message: a command or an output
 /// @throws UsageError if the scene has bodies: only two blocks and a wall can be shown that way.

@@ -29,6 +29,25 @@ TEST_F(BodiesCli, LogsOfDiscsHaveTwoCoordinates) {
             "3,8,2,right,7,0,8,0,-0.5,0,0,0\n");
 }
 
+TEST_F(BodiesCli, SayWhenTheOrderOfPairsDecides) {
+  write("tie.toml",
+        "[[body]]\nposition = 0\nvelocity = 1\n[[body]]\nposition = 3\n[[body]]\nposition = 4\n");
+  const std::string note =
+      "piblocks: note: at t = 2 a body meets two others at once: such collisions happen in the "
+      "order of the file, and another order may end otherwise\n";
+  for (const Arguments& command : {Arguments{"count", "tie.toml"}, Arguments{"log", "tie.toml"},
+                                   Arguments{"state", "tie.toml", "--at", "3"}}) {
+    const CommandResult result = piblocks(command);
+    EXPECT_EQ(result.exit_code, 0) << command[0];
+    EXPECT_EQ(result.err, note) << command[0];
+  }
+  EXPECT_TRUE(piblocks({"state", "tie.toml", "--at", "1"}).err.empty()) << "not yet";
+  const CommandResult film = piblocks(
+      {"render", "tie.toml", "--size", "160x90", "--fps", "4", "--quiet", "-o", "tie.gif"});
+  EXPECT_EQ(film.exit_code, 0);
+  EXPECT_NE(film.err.find(note), std::string::npos) << film.err;
+}
+
 TEST_F(BodiesCli, CountsAreThoseOfTheLog) {
   for (const char* scene : kBodyScenes) {
     const auto rows = lines(output_of({"log", scene}));

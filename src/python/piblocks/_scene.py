@@ -98,7 +98,10 @@ class Scene:
                 f"scene: cannot read '{os.fsdecode(name)}': {os.strerror(error.errno or 0)}"
             ) from error
         if len(text) > 1 << 20:
-            raise SceneError(f"scene: '{os.fsdecode(name)}' is longer than {1 << 20} bytes")
+            raise SceneError(
+                f"scene: '{os.fsdecode(name)}' is longer than {1 << 20} bytes, the most that a scene "
+                "file may have; leave out bodies, parts or comments"
+            )
         return cls._restore(name, text, True, tuple(key_texts(keys)))
 
     @classmethod
