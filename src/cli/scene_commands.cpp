@@ -4,6 +4,7 @@
 #include <piblocks/render.hpp>
 #include <piblocks/run.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,13 +48,15 @@ void write_bodies(const Scene& scene, const std::vector<Instant>& instants,
   const RunLog run(whole);
   const BodyLog& log = *run.bodies();
   TextOutput out("-");
+  Rational last = 0;
   for (const Instant& instant : instants) {
     const Rational time = time_of(instant, log);
+    last = std::max(last, time);
     require_certain(scene, log, time);
     out.line(state_line(log.system(), time, log.state_at(time)));
   }
   out.finish();
-  note_ties(run);
+  note_ties(run, last);
 }
 
 /// All collisions, or those until --to; for two blocks and a wall all are counted without a log.
@@ -71,7 +74,7 @@ void run_count(const Command& options, const SceneOptions& scene_options) {
   };
   out.line(count().get_str(scene.show.base));
   out.finish();
-  if (run) note_ties(*run);
+  if (run) note_ties(*run, to ? std::optional(time_of(*to, run->timeline())) : std::nullopt);
   note_convention(scene);
 }
 

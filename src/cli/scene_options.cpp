@@ -189,8 +189,8 @@ void note_convention(const Script& script) {
   for (const std::string& note : convention_notes(script)) say("piblocks: note: {}\n", note);
 }
 
-void note_ties(const RunLog& run) {
-  if (const auto note = tie_note(run)) say("piblocks: note: {}\n", *note);
+void note_ties(const RunLog& run, const std::optional<Rational>& until) {
+  if (const auto note = tie_note(run, until)) say("piblocks: note: {}\n", *note);
 }
 
 }  // namespace piblocks::cli

@@ -76,7 +76,7 @@ void refuse_engine(const Command& command);
 /// happen at once: their number then depends on a convention.
 /// @throws SceneError if problems_of() of the system is not empty.
 void note_convention(const Script& script);
-/// Says on standard error that the order of pairs decided what happened, if it did.
-void note_ties(const RunLog& run);
+/// Says on standard error that the order of pairs decided what happened until a time, if it did.
+void note_ties(const RunLog& run, const std::optional<Rational>& until = {});
 
 }  // namespace piblocks::cli

@@ -151,8 +151,11 @@ class ExposedColumn {
     return rows_.size() - 1;
   }
 
-  /// Turns to the column from `x` to `x` + 1. False if no block is ever in it.
+  /// Turns to the column from `x` to `x` + 1. False if no moving block is ever in it.
   bool enter(int x) {
+    if (std::ranges::none_of(item_.blocks, [&](const auto& block) { return passes(block, x); })) {
+      return false;
+    }
     x_ = x;
     const auto at = [&](double place) {
       return std::ranges::lower_bound(item_.contacts, place, {}, &Contact::right_x);
@@ -187,6 +190,12 @@ class ExposedColumn {
   }
 
  private:
+  static bool passes(const ExposedBlock& block, int x) {
+    if (block.dwells.empty()) return false;
+    const Extent extent = extent_of(block);
+    return std::floor(extent.left) <= x && x < std::ceil(extent.right);
+  }
+
   /// @returns whether that changes anything
   static bool replace(std::vector<CoverShare>& shares, std::span<const CoverShare> by) {
     if (std::ranges::equal(shares, by)) return false;

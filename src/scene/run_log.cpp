@@ -44,12 +44,12 @@ void require_certain(const Scene& scene, const BodyLog& log, const Rational& tim
       *until, *until * 0.999));
 }
 
-std::optional<std::string> tie_note(const RunLog& log) {
+std::optional<std::string> tie_note(const RunLog& log, const std::optional<Rational>& until) {
   const std::optional<double> time = log.bodies() ? log.bodies()->first_tie() : std::nullopt;
-  if (!time) return std::nullopt;
+  if (!time || (until && Rational(*time) > *until)) return std::nullopt;
   return fmt::format(
-      "at t = {} a body meets two others at once: such collisions happen in the order of the file, "
-      "and another order may end otherwise",
+      "at t = {} a body has several collisions at once: these happen in the order of the file, and "
+      "another order may end otherwise",
       *time);
 }
 

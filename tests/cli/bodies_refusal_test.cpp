@@ -13,10 +13,9 @@ TEST_F(BodiesCli, WhatIsForTwoBlocksIsRefused) {
   expect_line({"state", "meeting.toml", "--at", "1", "--bounds"}, "--bounds" + why);
   expect_line({"count", "meeting.toml", "--digits", "3"},
               "--digits: digits: this scene has [[body]] instead of blue, red and the wall");
-  expect_line(
-      {"still", "meeting.toml", "--at", "1", "--slow-motion", "auto", "-o", "a.png"},
-      "--slow-motion: time.slow-motion 'auto' is for two blocks and a wall, and this scene has "
-      "[[body]]");
+  expect_line({"still", "meeting.toml", "--at", "1", "--loupe", "auto", "-o", "a.png"},
+              "--loupe: show.loupe the loupe is for two blocks and a wall, and this scene has "
+              "[[body]]");
   EXPECT_EQ(entries(),
             (std::vector<std::string>{"endless.toml", "meeting.toml", "uncertain.toml"}));
 }
