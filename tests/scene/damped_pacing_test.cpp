@@ -67,8 +67,8 @@ TEST(DampedPacing, FindsTheDensestCollisions) {
   }
 }
 
-/// Any masses, gaps, velocities and losses. Three in a row may be denser by what alternates from
-/// the wall to the blocks.
+/// Any masses, gaps, velocities and losses. The middle is found to one collision, beside which
+/// others may be denser if there are only a few.
 TEST(DampedPacing, FindsTheDensestCollisionsOfAnySystem) {
   constexpr std::size_t kMost = 120;
   int compared = 0;
@@ -88,7 +88,7 @@ TEST(DampedPacing, FindsTheDensestCollisionsOfAnySystem) {
     ASSERT_TRUE(found && found->rate);
     const double expected = to_double(densest_of(run.events).rate);
     EXPECT_LE(to_double(*found->rate), expected * (1 + 1e-12));
-    EXPECT_GE(to_double(*found->rate), 0.5 * expected);
+    EXPECT_GE(to_double(*found->rate), 0.3 * expected);
     ++compared;
   }
   EXPECT_GT(compared, 20 * many(1));
