@@ -116,8 +116,8 @@ std::optional<DensestCollisions> DampedMotion::densest() const {
   if (*total < 2) return std::nullopt;
   if (coincides_from(*total - 1)) return DensestCollisions{time_past(*total), std::nullopt};
   const Integer middle = densest_index();
-  const Integer first = std::max(Integer(1), Integer(middle - 1));
-  const Integer last = std::min(*total, Integer(middle + 1));
+  const Integer first = std::max(Integer(1), std::min(Integer(middle - 1), Integer(*total - 2)));
+  const Integer last = std::min(*total, Integer(first + 2));
   constexpr mpfr_prec_t kBits = 64;
   Real length(kBits, 0);
   for (Integer n = first; n < last; ++n) length = length + flight_after(n, kBits);

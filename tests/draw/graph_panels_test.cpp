@@ -110,6 +110,19 @@ TEST(CountCurve, IsTheLogs) {
   }
 }
 
+TEST(CountPanel, SaysThatCollisionsAreInfinitelyMany) {
+  const auto says_so = [](const char* restitution, const char* to) {
+    const Pictures pictures(
+        2, {{"restitution", restitution}, {"show.panels", "count"}, {"time.to", to}});
+    return Shown(pictures.at(3)).has_text("Infinitely many collisions");
+  };
+  EXPECT_TRUE(says_so("1/2", "last+1.5"));
+  EXPECT_TRUE(says_so("1/2", "9"));
+  EXPECT_FALSE(says_so("1/2", "7/2"));
+  EXPECT_FALSE(says_so("0.95", "last+1.5"));
+  EXPECT_FALSE(says_so("1", "last+1.5"));
+}
+
 TEST(CountCurve, BeginsWithWhatHappensAtTheVeryBeginning) {
   const Pictures pictures(3, {{"blue.position", "1/2"},
                               {"red.position", "3/2"},

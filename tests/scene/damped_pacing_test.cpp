@@ -2,10 +2,13 @@
 #include <piblocks/restitution.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 #include "physics/damped_motion.hpp"
 #include "scene/pacing_fixture.hpp"
+#include "support/damped_checks.hpp"
 #include "support/damped_run.hpp"
+#include "support/random_system.hpp"
 
 namespace piblocks {
 namespace {
@@ -62,6 +65,33 @@ TEST(DampedPacing, FindsTheDensestCollisions) {
     EXPECT_GE(found->time, expected.from - room);
     EXPECT_LE(found->time, expected.to + room);
   }
+}
+
+/// Any masses, gaps, velocities and losses. The middle is found to one collision, beside which
+/// others may be denser if there are only a few.
+TEST(DampedPacing, FindsTheDensestCollisionsOfAnySystem) {
+  constexpr std::size_t kMost = 120;
+  int compared = 0;
+  for (int i = 0; i < many(100); ++i) {
+    Random random(std::uint64_t(77'000 + i));
+    BlockSystem system = random_system(random, 0, 6);
+    const auto least = 1 - 2 * std::sqrt(to_double(Rational(system.blue.mass / system.red.mass)));
+    const auto share = [&]() -> Rational {
+      return Rational(std::round(random.uniform(std::max(0.01, least), 1) * 1000)) / 1000;
+    };
+    system.blocks_restitution = share();
+    system.wall_restitution = share();
+    SCOPED_TRACE(describe_damped(system));
+    const auto run = oracle::damped_run(system, kMost);
+    if (!run.ended || run.events.size() < 3) continue;
+    const auto found = DampedMotion(system).densest();
+    ASSERT_TRUE(found && found->rate);
+    const double expected = to_double(densest_of(run.events).rate);
+    EXPECT_LE(to_double(*found->rate), expected * (1 + 1e-12));
+    EXPECT_GE(to_double(*found->rate), 0.3 * expected);
+    ++compared;
+  }
+  EXPECT_GT(compared, 20 * many(1));
 }
 
 TEST(DampedPacing, SlowsDownAsFarAsTheTrueRateAsksFor) {

@@ -16,7 +16,7 @@ from ._film import Frames, pixels
 from ._keys import KeyTexts, key_texts, parts_text
 from ._render import Progress, Rendered
 from ._run import State
-from ._values import bytes_of, flag, instant, path, scalar
+from ._values import bytes_of, flag, instant, path, require_str, scalar
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -29,11 +29,6 @@ def scenes() -> dict[str, str]:
 def _merged(before: tuple[KeyTexts, ...], more: list[KeyTexts]) -> tuple[KeyTexts, ...]:
     new = {key for _, key, _ in more}
     return (*(one for one in before if one[1] not in new), *more)
-
-
-def _require_name(engine: Any) -> None:
-    if not isinstance(engine, str):
-        raise TypeError(f"engine: must be a str, not {type(engine).__name__}")
 
 
 class Scene:
@@ -249,7 +244,7 @@ class Scene:
         :param engine: "unfolded", the closed form; "events" or "velocities", loops in doubles.
         :raises UsageError: if there are no such collisions, or too many; for a storyboard.
         """
-        _require_name(engine)
+        require_str("engine", engine)
         if self._script.has_bodies:
             return _bodies.log(self._script, engine, from_, to, first, last, limit)
         return _run.log(self._run(engine), from_, to, first, last, limit)
@@ -268,7 +263,7 @@ class Scene:
         :param bounds: also how far each position may be from the truth.
         :raises UsageError: if the scene has no such instant; for a storyboard.
         """
-        _require_name(engine)
+        require_str("engine", engine)
         if self._script.has_bodies:
             return _bodies.state(self._run_of_bodies(engine, flag("bounds", bounds)), t)
         return _run.state(self._run(engine), t, flag("bounds", bounds))

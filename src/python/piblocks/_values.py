@@ -105,6 +105,11 @@ def flag(name: str, value: Any) -> bool:
     raise TypeError(f"{name}: must be True or False, not {type(value).__name__}")
 
 
+def require_str(name: str, value: Any) -> None:
+    if not isinstance(value, str):
+        raise TypeError(f"{name}: must be a str, not {type(value).__name__}")
+
+
 def options(given: Mapping[str, Any]) -> dict[bytes, bytes]:
     """Options of a command: {"--jobs": 2} becomes {b"--jobs": b"2"}. None is not given."""
     result = {}
