@@ -152,13 +152,26 @@ std::string shaping_problem(std::string_view utf8) {
 
 }  // namespace
 
+/// Sizes of one font that are kept. A film has some twenty.
+constexpr std::size_t kMostKept = 64;
+
 struct Font::Loaded {
   explicit Loaded(Face which) : ft_face(load_embedded_face(which)) {}
+
+  /// Cairo keeps the font at the size that was used last in any thread. When another thread takes
+  /// its place, that thread lets go of it, and asserts that nobody uses it: wrongly, if nobody else
+  /// held it and its own thread asks for it again just then.
+  void keep(cairo_scaled_font_t* sized) {
+    if (std::ranges::find(kept, sized, &CairoScaledFontPtr::get) != kept.end()) return;
+    if (kept.size() == kMostKept) kept.erase(kept.begin());
+    kept.emplace_back(cairo_scaled_font_reference(sized));
+  }
 
   CairoFontOptionsPtr options = font_options();
   FT_Face ft_face;  // belongs to `face`
   CairoFontFacePtr face = make_cairo_face(ft_face);
   CairoScaledFontPtr measure = scaled_for_measuring(*face, *options);
+  std::vector<CairoScaledFontPtr> kept;
 };
 
 Font::Font(Face face) : face_(face), loaded_(std::make_unique<Loaded>(face)) {}
@@ -192,6 +205,7 @@ void Font::select(cairo_t& cr, double size_px) const {
   cairo_set_font_face(&cr, loaded_->face.get());
   cairo_set_font_options(&cr, loaded_->options.get());
   cairo_set_font_size(&cr, size_px);
+  loaded_->keep(cairo_get_scaled_font(&cr));
 }
 
 std::vector<cairo_glyph_t> Font::glyphs(cairo_t& cr, const Point& origin, std::string_view utf8) {
