@@ -103,6 +103,9 @@ std::string time_text(const Contestant& contestant);
 /// One digit, as "3e-16"; "0"; a dash if there is none.
 std::string error_text(const std::optional<double>& error);
 
+/// How many states each method is asked for.
+inline constexpr int kInstants = 200;
+
 /// Times from 0 to `end`, ascending, `end` the last. The same in each run.
 std::vector<double> random_instants(double end, int number);
 

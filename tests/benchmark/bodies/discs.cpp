@@ -18,7 +18,6 @@ namespace piblocks::benchmark {
 namespace {
 
 constexpr std::uint32_t kDiscs = 10;
-constexpr int kInstants = 200;
 /// From here on two trajectories have nothing in common.
 constexpr double kParted = 1e-3;
 constexpr mpfr_prec_t kFewBits = 400;
@@ -41,8 +40,8 @@ BodySystem between_large_discs() {
   return system;
 }
 
-std::vector<double> program_positions(const BodySystem& system,
-                                      const std::vector<Rational>& instants) {
+std::vector<double> disc_positions(const BodySystem& system,
+                                   const std::vector<Rational>& instants) {
   const std::unique_ptr<BodyLog> log = make_body_log(system, instants.back());
   std::vector<double> positions;
   for (const Rational& time : instants) {
@@ -56,8 +55,8 @@ std::vector<double> program_positions(const BodySystem& system,
 
 /// Walls are balls of a radius r at which they bulge, by about 50/r, as much as rounding does.
 template <typename Number>
-std::vector<Number> simulator_positions(const BodySystem& system,
-                                        const std::vector<double>& instants) {
+std::vector<Number> simulated_disc_positions(const BodySystem& system,
+                                             const std::vector<double>& instants) {
   using std::sqrt;
   const Number radius = sqrt(Number(50) / std::numeric_limits<Number>::epsilon());
   EventSimulator<Number, 2> simulator(
@@ -112,8 +111,9 @@ class PreciseRun {
 bool is_after(const Real& a, const Real& b) { return (a - b).sign() > 0; }
 
 /// @param counts  gets the number of collisions before each instant
-std::vector<Real> precise_positions(const BodySystem& system, const std::vector<double>& instants,
-                                    mpfr_prec_t bits, std::vector<int>* counts = nullptr) {
+std::vector<Real> precise_disc_positions(const BodySystem& system,
+                                         const std::vector<double>& instants, mpfr_prec_t bits,
+                                         std::vector<int>* counts = nullptr) {
   PreciseRun run(system, bits);
   std::vector<Real> positions;
   int collisions = 0;
@@ -151,11 +151,11 @@ Verdict verdict_on(const Answers& answers, const RightAnswers& right) {
 /// @throws SimulationError if many bits are not enough.
 RightAnswers right_answers(const BodySystem& system, const std::vector<double>& instants) {
   RightAnswers right;
-  for (const Real& number : precise_positions(system, instants, kRightBits, &right.counts)) {
+  for (const Real& number : precise_disc_positions(system, instants, kRightBits, &right.counts)) {
     right.positions.push_back(to_wide(number));
   }
   Answers more;
-  for (const Real& number : precise_positions(system, instants, 2 * kRightBits)) {
+  for (const Real& number : precise_disc_positions(system, instants, 2 * kRightBits)) {
     more.push_back(to_wide(number));
   }
   const std::optional<double> error = verdict_on(more, right).error;
@@ -169,32 +169,31 @@ std::vector<Contestant> disc_contestants(const BodySystem& system,
                                          const std::vector<double>& instants) {
   const std::vector<Rational> exact(instants.begin(), instants.end());
   std::vector<Contestant> all = {
-      contestant("piblocks::BodyLog", "double", [=] { return program_positions(system, exact); })};
+      contestant("piblocks::BodyLog", "double", [=] { return disc_positions(system, exact); })};
   all.push_back(contestant("the same without states", "double",
                            [=] { return no_positions(system, exact.back()); }));
   const auto add = [&]<typename Number>(Number) {
     all.push_back(contestant("piblocks::EventSimulator", kNumberName<Number>,
-                             [=] { return simulator_positions<Number>(system, instants); }));
+                             [=] { return simulated_disc_positions<Number>(system, instants); }));
   };
   add(0.0);
   add(0.0L);
   add(Decimal50(0));
   for (const mpfr_prec_t bits : {kFewBits, kRightBits}) {
     all.push_back(contestant("all pairs", fmt::format("MPFR {} bits", bits),
-                             [=] { return precise_positions(system, instants, bits); }));
+                             [=] { return precise_disc_positions(system, instants, bits); }));
   }
   return all;
 }
 
-/// Until when, and how many collisions then are certain.
-double certain_until(const BodySystem& system) {
+double end_of_certainty(const BodySystem& system) {
   for (Rational until = 1;; until *= 2) {
     const std::unique_ptr<BodyLog> log = make_body_log(system, until);
     if (const std::optional<double> end = log->certain_until()) return *end;
   }
 }
 
-double time_after(const BodySystem& system, int collisions) {
+double time_after_discs(const BodySystem& system, int collisions) {
   PreciseRun run(system, kRightBits);
   for (int k = 1; k < collisions; ++k) run.step();
   const double last = run.next_time().to_double();
@@ -202,33 +201,49 @@ double time_after(const BodySystem& system, int collisions) {
   return (last + run.next_time().to_double()) / 2;
 }
 
-void print_rows(const std::string& name, const BodySystem& system, double end) {
+/// Times and verdicts of all contestants, up to one instant.
+struct DiscColumn {
+  int collisions = 0;
+  std::vector<Contestant> contestants = {};
+  std::vector<Verdict> verdicts = {};
+};
+
+DiscColumn disc_column(const BodySystem& system, double end) {
   const std::vector<double> instants = random_instants(end, kInstants);
   const RightAnswers right = right_answers(system, instants);
-  std::vector<Contestant> contestants = disc_contestants(system, instants);
-  time_all(contestants);
-  for (const Contestant& contestant : contestants) {
-    const Verdict verdict = verdict_on(contestant.reply(), right);
-    fmt::print("| {} | {} | {} | {} | {} | {} | {} |\n", name, right.counts.back(),
-               contestant.method, contestant.number, time_text(contestant),
-               error_text(verdict.error),
-               verdict.parted_at ? std::to_string(*verdict.parted_at) : "–");
+  DiscColumn column{right.counts.back(), disc_contestants(system, instants)};
+  for (const Contestant& contestant : column.contestants) {
+    column.verdicts.push_back(verdict_on(contestant.reply(), right));
   }
+  time_all(column.contestants);
+  return column;
+}
+
+/// @return how many collisions are certain
+int print_disc_rows(const std::string& container, const BodySystem& system) {
+  constexpr int kMany = 2000;
+  const DiscColumn certain = disc_column(system, end_of_certainty(system));
+  const DiscColumn many = disc_column(system, time_after_discs(system, kMany));
+  for (std::size_t row = 0; row < certain.contestants.size(); ++row) {
+    const Contestant& contestant = certain.contestants[row];
+    const std::optional<int> parted_at = many.verdicts[row].parted_at;
+    fmt::print("| {} | {} | {} | {} | {} | {} | {} |\n", container, contestant.method,
+               contestant.number, time_text(contestant), error_text(certain.verdicts[row].error),
+               time_text(many.contestants[row]), parted_at ? std::to_string(*parted_at) : "–");
+  }
+  return certain.collisions;
 }
 
 }  // namespace
 
 void print_disc_table() {
-  fmt::print("| Container | Collisions | Method | Number type | time | error | parted at |\n");
-  fmt::print("|---|---:|---|---|---:|---:|---:|\n");
-  const BodySystem box = disc_gas(kDiscs);
-  const BodySystem round = between_large_discs();
-  constexpr int kMany = 2000;
-  print_rows("walls", box, certain_until(box));
-  print_rows("walls", box, time_after(box, kMany));
-  print_rows("large discs", round, certain_until(round));
-  print_rows("large discs", round, time_after(round, kMany));
-  fmt::print("\n");
+  fmt::print(
+      "| Between | Method | Number type | while certain: time | error | 2,000 collisions: time | "
+      "parted at |\n|---|---|---|---:|---:|---:|---:|\n");
+  const int in_box = print_disc_rows("walls", disc_gas(kDiscs));
+  const int between_discs = print_disc_rows("large discs", between_large_discs());
+  fmt::print("\n{} collisions between walls are certain, {} between large discs.\n\n", in_box,
+             between_discs);
 }
 
 }  // namespace piblocks::benchmark

@@ -14,8 +14,6 @@
 namespace piblocks::benchmark {
 namespace {
 
-constexpr int kInstants = 200;
-
 /// As assets/scenes/three-blocks.toml.
 BodySystem three_blocks() {
   BodySystem system;
@@ -24,8 +22,8 @@ BodySystem three_blocks() {
   return system;
 }
 
-std::vector<double> program_positions(const BodySystem& system,
-                                      const std::vector<Rational>& instants) {
+std::vector<double> line_positions(const BodySystem& system,
+                                   const std::vector<Rational>& instants) {
   const std::unique_ptr<BodyLog> log = make_body_log(system, instants.back());
   std::vector<double> positions;
   for (const Rational& time : instants) {
@@ -59,8 +57,8 @@ std::vector<Particle<Number, 1>> particles_of(const BodySystem& system) {
 }
 
 template <typename Number>
-std::vector<Number> simulator_positions(const BodySystem& system,
-                                        const std::vector<double>& instants) {
+std::vector<Number> simulated_line_positions(const BodySystem& system,
+                                             const std::vector<double>& instants) {
   EventSimulator<Number, 1> simulator(particles_of<Number>(system));
   std::vector<Number> positions;
   for (const double instant : instants) {
@@ -85,7 +83,7 @@ std::optional<double> worst_error(const Answers& answers, const Answers& right) 
 }
 
 /// A time between this collision and the next.
-double time_after(const BodySystem& system, int collisions) {
+double time_after_blocks(const BodySystem& system, int collisions) {
   LineLoop<Wide> loop(system);
   for (int k = 1; k < collisions; ++k) loop.step();
   const Wide last = loop.next_time();
@@ -95,8 +93,8 @@ double time_after(const BodySystem& system, int collisions) {
 
 /// Rational numbers grow too long for thousands of collisions. While they do not, they are what 400
 /// bits have to agree with.
-Answers right_positions(const BodySystem& system, const std::vector<double>& instants,
-                        int collisions) {
+Answers right_line_positions(const BodySystem& system, const std::vector<double>& instants,
+                             int collisions) {
   Answers right = loop_positions<Wide>(system, instants);
   constexpr int kMostExact = 500;
   if (collisions > kMostExact) return right;
@@ -117,12 +115,12 @@ std::vector<Contestant> line_contestants(const BodySystem& system,
                                          const std::vector<double>& instants) {
   const std::vector<Rational> exact(instants.begin(), instants.end());
   std::vector<Contestant> all = {contestant("piblocks::BodyLog", "rational, then double",
-                                            [=] { return program_positions(system, exact); }),
+                                            [=] { return line_positions(system, exact); }),
                                  contestant("the same without states", "rational, then double",
                                             [=] { return no_positions(system, exact.back()); })};
   const auto add = [&]<typename Number>(Number) {
     all.push_back(contestant("piblocks::EventSimulator", kNumberName<Number>,
-                             [=] { return simulator_positions<Number>(system, instants); }));
+                             [=] { return simulated_line_positions<Number>(system, instants); }));
     all.push_back(contestant("plain loop", kNumberName<Number>,
                              [=] { return loop_positions<Number>(system, instants); }));
   };
@@ -138,9 +136,10 @@ struct LineColumn {
   std::vector<std::optional<double>> errors = {};
 };
 
-LineColumn measure(const BodySystem& system, int collisions) {
-  const std::vector<double> instants = random_instants(time_after(system, collisions), kInstants);
-  const Answers right = right_positions(system, instants, collisions);
+LineColumn line_column(const BodySystem& system, int collisions) {
+  const std::vector<double> instants =
+      random_instants(time_after_blocks(system, collisions), kInstants);
+  const Answers right = right_line_positions(system, instants, collisions);
   LineColumn column{line_contestants(system, instants)};
   for (const Contestant& contestant : column.contestants) {
     column.errors.push_back(worst_error(contestant.reply(), right));
@@ -149,7 +148,7 @@ LineColumn measure(const BodySystem& system, int collisions) {
   return column;
 }
 
-void print_certainty(const BodySystem& system) {
+void print_line_certainty(const BodySystem& system) {
   constexpr std::int64_t kEnough = 500'000;
   for (Rational until = 1000;; until *= 4) {
     const std::unique_ptr<BodyLog> log = make_body_log(system, until);
@@ -173,7 +172,7 @@ void print_line_table() {
   std::string head = "| Method | Number type |";
   std::string rule = "|---|---|";
   for (const int collisions : {50, 500, 5000}) {
-    columns.push_back(measure(system, collisions));
+    columns.push_back(line_column(system, collisions));
     head += fmt::format(" {} collisions: time | error |", readable(collisions));
     rule += "---:|---:|";
   }
@@ -186,7 +185,7 @@ void print_line_table() {
     }
     fmt::print("\n");
   }
-  print_certainty(system);
+  print_line_certainty(system);
 }
 
 }  // namespace piblocks::benchmark

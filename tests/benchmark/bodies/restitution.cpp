@@ -21,7 +21,7 @@ BlockSystem damped_article(int digits) {
 
 /// The times of all collisions, by a loop over the two gaps.
 template <typename Number>
-std::vector<Number> loop_times(const BlockSystem& system) {
+std::vector<Number> damped_loop_times(const BlockSystem& system) {
   const auto number = [](const Rational& value) { return to_number<Number>(value); };
   const Number e = number(system.blocks_restitution);
   const Number e_wall = number(system.wall_restitution);
@@ -57,7 +57,7 @@ std::vector<Number> loop_times(const BlockSystem& system) {
   }
 }
 
-std::vector<Time> program_times(const BlockSystem& system) {
+std::vector<Time> damped_log_times(const BlockSystem& system) {
   const std::unique_ptr<CollisionLog> log = make_collision_log(system);
   const std::unique_ptr<CollisionStream> stream = log->stream(1, log->size());
   const auto batch = std::make_unique<CollisionBatch>();
@@ -76,8 +76,8 @@ double relative_error(const Wide& time, const Wide& right) {
 
 /// In 400 bits. The first ones have to be those of a program in rational numbers, whose numbers
 /// soon are too long.
-Answers right_times(const BlockSystem& system) {
-  Answers right = loop_times<Wide>(system);
+Answers right_damped_times(const BlockSystem& system) {
+  Answers right = damped_loop_times<Wide>(system);
   constexpr std::size_t kExact = 100;
   const auto exact = oracle::damped_run(system, kExact).events;
   for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -103,10 +103,10 @@ std::optional<double> worst_time_error(const Answers& times, const Answers& righ
 std::vector<Contestant> restitution_contestants(const BlockSystem& system) {
   std::vector<Contestant> all = {contestant("piblocks::CollisionLog",
                                             "MPFR, rounded to two doubles",
-                                            [=] { return program_times(system); })};
+                                            [=] { return damped_log_times(system); })};
   const auto add = [&]<typename Number>(Number) {
-    all.push_back(
-        contestant("gap loop", kNumberName<Number>, [=] { return loop_times<Number>(system); }));
+    all.push_back(contestant("gap loop", kNumberName<Number>,
+                             [=] { return damped_loop_times<Number>(system); }));
   };
   add(0.0);
   add(0.0L);
@@ -121,7 +121,7 @@ void print_restitution_table() {
   fmt::print("|---:|---:|---|---|---:|---:|\n");
   for (int digits = 2; digits <= 6; ++digits) {
     const BlockSystem system = damped_article(digits);
-    const Answers right = right_times(system);
+    const Answers right = right_damped_times(system);
     std::vector<Contestant> contestants = restitution_contestants(system);
     time_all(contestants);
     for (const Contestant& contestant : contestants) {
