@@ -180,7 +180,8 @@ std::vector<Contestant> disc_contestants(const BodySystem& system,
   add(0.0L);
   add(Decimal50(0));
   for (const mpfr_prec_t bits : {kFewBits, kRightBits}) {
-    all.push_back(contestant("all pairs", fmt::format("MPFR {} bits", bits),
+    const char* role = bits == kRightBits ? ", reference" : "";
+    all.push_back(contestant("all pairs", fmt::format("MPFR {} bits{}", bits, role),
                              [=] { return precise_disc_positions(system, instants, bits); }));
   }
   return all;
