@@ -1,21 +1,23 @@
 // Collisions a second of discs in a box, by the engine for discs and by the general one.
 // In: nothing. Out: a table. Build it with the preset release.
 #include <fmt/format.h>
+#include <piblocks/bodies.hpp>
 #include <piblocks/event_simulator.hpp>
 
-#include <cmath>
+#include <cstdint>
 #include <ctime>
-#include <random>
 #include <string>
 #include <vector>
 
+#include "disc_gas.hpp"
 #include "median.hpp"
 #include "physics/discs/disc_stepper.hpp"
 
 namespace piblocks::benchmark {
 namespace {
 
-constexpr double kPacking = 0.3;
+/// The balls that are walls for EventSimulator then bulge by no more than rounding.
+constexpr double kWallRadius = 1e9;
 constexpr double kSeconds = 1;
 constexpr int kRuns = 5;
 
@@ -29,7 +31,9 @@ class Stopwatch {
 };
 
 /// Makes room in the middle for a disc that is as dense as the others.
-void put_into(BodySystem& system, double radius, const Rational& width, const Rational& height) {
+void put_into(BodySystem& system, double radius) {
+  const Rational& width = system.walls[1].point[0];
+  const Rational& height = system.walls[3].point[1];
   const Body large = {Rational(radius * radius), {width / 2, height / 2}, {0, 0}, Rational(radius)};
   std::erase_if(system.bodies, [&](const Body& body) {
     const Rational x = body.position[0] - large.position[0];
@@ -40,49 +44,11 @@ void put_into(BodySystem& system, double radius, const Rational& width, const Ra
   system.bodies.push_back(large);
 }
 
-/// Discs of radius 1 on a square lattice, with random velocities, between four walls.
 /// @param large_radius  of one more disc; 0 for none
 BodySystem gas(std::uint32_t number, double large_radius) {
-  std::mt19937_64 engine(number);
-  const auto uniform = [&] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1; };
-  const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(number)));
-  const std::uint32_t rows = (number + columns - 1) / columns;
-  const double spacing = std::sqrt(3.14159265 / kPacking * number / (columns * rows));
-  BodySystem system{.dimensions = 2};
-  for (std::uint32_t i = 0; i < number; ++i) {
-    Body body;
-    body.position = {Rational((i % columns + 0.5) * spacing),
-                     Rational((i / columns + 0.5) * spacing)};
-    body.velocity = {Rational(uniform()), Rational(uniform())};
-    system.bodies.push_back(body);
-  }
-  const Rational width(columns * spacing);
-  const Rational height(rows * spacing);
-  system.walls = {{"left", {0, 0}, {1, 0}},
-                  {"right", {width, 0}, {-1, 0}},
-                  {"bottom", {0, 0}, {0, 1}},
-                  {"top", {0, height}, {0, -1}}};
-  if (large_radius > 0) put_into(system, large_radius, width, height);
+  BodySystem system = disc_gas(number);
+  if (large_radius > 0) put_into(system, large_radius);
   return system;
-}
-
-/// The same with balls instead of walls: the general engine knows no lines. Their radius is such
-/// that they bulge by no more than rounding.
-EventSimulator<double, 2> general(const BodySystem& system) {
-  std::vector<Particle<double, 2>> balls;
-  for (const Body& body : system.bodies) {
-    balls.push_back({1,
-                     1,
-                     {body.position[0].get_d(), body.position[1].get_d()},
-                     {body.velocity[0].get_d(), body.velocity[1].get_d()}});
-  }
-  constexpr double kRadius = 1e9;
-  for (const Wall& wall : system.walls) {
-    const Eigen::Vector2d point(wall.point[0].get_d(), wall.point[1].get_d());
-    const Eigen::Vector2d normal(wall.normal[0].get_d(), wall.normal[1].get_d());
-    balls.push_back({kInfiniteMass<double>, kRadius, point - kRadius * normal, {0, 0}});
-  }
-  return EventSimulator<double, 2>(balls);
 }
 
 /// @param skip  collisions before the clock starts
@@ -121,7 +87,8 @@ void measure(std::uint32_t number, double large_radius = 0) {
     certain_rates.push_back(static_cast<double>(certain) / stopwatch.seconds());
     rates.push_back(rate_of([&] { stepper->step(); }, 5 * number));
     if (number > 1000) continue;
-    EventSimulator<double, 2> simulator = general(system);
+    EventSimulator<double, 2> simulator(
+        particles_with_round_walls<double>(system, kWallRadius, to_double));
     general_rates.push_back(rate_of([&] { simulator.step(); }, 5));
   }
   const std::string name = large_radius > 0 ? fmt::format("{}, one of them {} times as large",
