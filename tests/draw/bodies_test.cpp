@@ -193,7 +193,8 @@ Script read(const std::string& text) {
 TEST(BodyPictures, BodiesAreWhereTheyAre) {
   const std::string colors[] = {"#ff0000", "#00ff00", "#0000ff"};
   std::string text =
-      "[view]\nx = [0, 16]\ny = [0, 9]\nsize = '1600x900'\ntheme = 'lecture'\nfps = 1\nshutter = 0\n"
+      "[view]\nx = [0, 16]\ny = [0, 9]\nsize = '1600x900'\ntheme = 'lecture'\nfps = 1\nshutter = "
+      "0\n"
       "[time]\nto = 4\n";
   const double starts[][2] = {{2, 2}, {8, 4}, {13, 6}};
   for (int i = 0; i < 3; ++i) {
