@@ -23,13 +23,17 @@ namespace {
 namespace py = pybind11;
 using cli::shown;
 
+std::unique_ptr<CollisionLog> make_log(const BoundScript& script,
+                                       const std::map<std::string, std::string>& options) {
+  const WithoutGil released;
+  return cli::make_log(scene_of(script, "log").system, BoundOptions(options));
+}
+
 /// A log, by one of the engines. Its log outlives its streams.
 class BoundRun {
  public:
-  BoundRun(const BoundScript& script, const std::map<std::string, std::string>& options) {
-    const WithoutGil released;
-    log_ = cli::make_log(scene_of(script, "log").system, BoundOptions(options));
-  }
+  BoundRun(const BoundScript& script, const std::map<std::string, std::string>& options)
+      : log_(make_log(script, options)) {}
   const CollisionLog& log() const { return *log_; }
 
  private:
