@@ -155,8 +155,8 @@ class ExposedPixels {
 
   /// The sum of a pixel, which begins with its background.
   Sum& sum_of(int x, int y) {
-    const std::size_t row = static_cast<std::size_t>(y - area_.y_px);
-    const std::size_t column = static_cast<std::size_t>(x - area_.x_px);
+    const auto row = static_cast<std::size_t>(y - area_.y_px);
+    const auto column = static_cast<std::size_t>(x - area_.x_px);
     std::uint32_t& place = places_[row * static_cast<std::size_t>(area_.width_px) + column];
     if (place == kNone) {
       place = static_cast<std::uint32_t>(sums_.size());
