@@ -35,10 +35,10 @@ struct Pacing {
   /// Length of the whole video with holds and freezes. It sets the speed; TimeSpan::speed is
   /// ignored.
   std::optional<Rational> duration_s = {};
-  /// Windows around the turn (with restitution below 1, around the densest collisions), each ten
-  /// times slower than the one around it, until single collisions can be told apart or
-  /// kMaxAutomaticFactor is reached. With a duration they are those of speed 1, and scale with the
-  /// rest of the video.
+  /// Windows around the turn (of bodies, and with restitution below 1, around the densest
+  /// collisions), each ten times slower than the one around it, until single collisions can be told
+  /// apart or kMaxAutomaticFactor is reached. With a duration they are those of speed 1, and scale
+  /// with the rest of the video.
   bool automatic_slow_motion = false;
   std::vector<SlowMotion> slow_motion = {};
   /// How long slow motion takes to set in and to end, 0 … kMaxEase_s; 0 is abrupt. The time is

@@ -16,13 +16,16 @@ namespace {
 
 constexpr const char* kSlowMotionKey = "time.slow-motion";
 
-// Automatic windows are nested around the turn, or, where blocks lose energy, around the densest
-// collisions. Each is 10 times slower than the one around it, and alone would show 3 s of video on
-// either side. Windows are added until at most 10 collisions happen in a second of the innermost
-// one.
+// Automatic windows are nested around the turn, or, of bodies and where blocks lose energy, around
+// the densest collisions. Each is 10 times slower than the one around it, and alone would show 3 s
+// of video on either side. Windows are added until at most 10 collisions happen in a second of the
+// innermost one.
 constexpr int kHalfWindow_s = 3;
 constexpr int kStep = 10;
 constexpr double kTellApart_hz = 10;
+
+// Collisions of bodies are densest where so many, after another one, take the shortest time.
+constexpr int kTogether = 10;
 
 /// Collisions per second of video at the turn, where each takes theta b/|V| (notation:
 /// src/physics/README.md). Infinite if all happen at once.
@@ -42,8 +45,42 @@ struct Middle {
   double rate;
 };
 
-std::optional<Middle> middle_of(const BlockSystem& system, const Timeline& log,
-                                const Rational& speed) {
+/// The collisions that are shown, by index; where there is a turn, those near it, since the closed
+/// form has more than can be looked at.
+std::pair<Integer, Integer> candidates(const Timeline& log, const Span& span) {
+  Integer first = log.count_at(span.from) + 1;
+  Integer last = log.count_at(span.to);
+  if (const std::optional<Rational> turn = log.turn()) {
+    const Integer middle = log.count_at(*turn);
+    first = std::max(first, Integer(middle - kTogether));
+    last = std::min(last, Integer(middle + kTogether));
+  }
+  return {first, last};
+}
+
+std::optional<Middle> middle_of_bodies(const Timeline& log, const Span& span,
+                                       const Rational& speed) {
+  const auto [first, last] = candidates(log, span);
+  if (last <= first) return std::nullopt;
+  const Integer steps = std::min(Integer(kTogether), Integer(last - first));
+  double shortest = HUGE_VAL;
+  Integer begin;
+  for (Integer index = first; index <= last - steps; ++index) {
+    const Time from = log.collision_time(index);
+    const Time to = log.collision_time(index + steps);
+    const double length = to.hi - from.hi + (to.lo - from.lo);
+    if (length >= shortest) continue;
+    shortest = length;
+    begin = index;
+  }
+  const Rational from = to_rational(log.collision_time(begin));
+  const Rational to = to_rational(log.collision_time(begin + steps));
+  const double rate = steps.get_d() * to_double(speed) / shortest;
+  return Middle{(from + to) / 2, shortest > 0 ? rate : HUGE_VAL};
+}
+
+std::optional<Middle> middle_of_blocks(const BlockSystem& system, const Timeline& log,
+                                       const Rational& speed) {
   if (!is_elastic(system)) {
     const auto densest = DampedMotion(system).densest();
     if (!densest) return std::nullopt;
@@ -61,9 +98,10 @@ Rational nominal_speed(const Scene& scene) {
   return scene.pacing.duration_s ? Rational(1) : scene.time.speed;
 }
 
-std::vector<Move> automatic_windows(const Scene& scene, const Timeline& log) {
+std::vector<Move> automatic_windows(const Scene& scene, const Timeline& log, const Span& span) {
   const Rational speed = nominal_speed(scene);
-  const std::optional<Middle> middle = middle_of(scene.system, log, speed);
+  const std::optional<Middle> middle = scene.bodies ? middle_of_bodies(log, span, speed)
+                                                    : middle_of_blocks(scene.system, log, speed);
   if (!middle) return {};
   std::vector<Rational> halves;
   int factor = 1;
@@ -99,7 +137,7 @@ void check(const Move& window, const Span& span) {
 /// In order, apart, inside the span. A window is half-open: from <= time < to.
 std::vector<Move> slow_windows(const Scene& scene, const Timeline& log, const Span& span) {
   std::vector<Move> windows;
-  if (scene.pacing.automatic_slow_motion) windows = automatic_windows(scene, log);
+  if (scene.pacing.automatic_slow_motion) windows = automatic_windows(scene, log, span);
   for (const SlowMotion& slow : scene.pacing.slow_motion) {
     windows.push_back({time_of(slow.from, kSlowMotionKey, log),
                        time_of(slow.to, kSlowMotionKey, log), slow.factor});

@@ -160,7 +160,6 @@ void check_bodies(const Scene& scene, SceneProblems& problems) {
   };
   problems.require(scene.bodies->styles.size() == scene.bodies->system.bodies.size(), "body",
                    "must have one style for each body");
-  reject(scene.pacing.automatic_slow_motion, "time.slow-motion", "'auto'");
   reject(scene.show.has(Overlay::digits), "show.overlays", "'digits'");
   reject(scene.show.loupe && scene.show.loupe->is_on, "show.loupe", "the loupe");
   const bool is_plane = scene.bodies->system.dimensions == 2;

@@ -36,7 +36,6 @@ TEST_F(BodiesFile, WhatIsForTwoBlocksIsNotForBodies) {
     expect_problem(body + "[show]\nloupe = '" + loupe + "'\n", "4: show.loupe the loupe" + why);
   }
   EXPECT_TRUE(problems(body + "[show]\nloupe = 'off'\n").empty());
-  expect_problem(body + "[time]\nslow-motion = 'auto'\n", "4: time.slow-motion 'auto'" + why);
   expect_problem(body + "[show]\noverlays = ['digits']\n", "4: show.overlays 'digits'" + why);
   expect_problem(body + "[show]\noverlays = ['ruler']\n", "4: show.overlays 'ruler'" + why);
   expect_problem(body + "[time]\nfrom = -1\n",
