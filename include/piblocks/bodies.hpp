@@ -101,11 +101,12 @@ class BodyLog : public Timeline {
   /// @throws UsageError if the time is negative; SimulationError if there are more than
   ///         kMaxBodyCollisions until then.
   virtual BodiesState state_at(const Rational& time) const = 0;
-  /// A body's way between two times, 0 <= from <= to: its centre at both, and at each of its
-  /// collisions between; or at so many times, evenly spaced, if there are more collisions.
+  /// The way of each body between two times, 0 <= from <= to: its centre at both, and at each of
+  /// its collisions between. Of a body with more than `most` collisions there are `most` >= 2
+  /// points: both ends, and one at an irregular time in each of equal parts of the time between.
   /// @throws as state_at().
-  virtual std::vector<PathPoint> path(std::size_t body, const Rational& from, const Rational& to,
-                                      std::size_t most) const = 0;
+  virtual std::vector<std::vector<PathPoint>> paths(const Rational& from, const Rational& to,
+                                                    std::size_t most) const = 0;
   /// How many collisions from the first on are computed in rational numbers, so that each number is
   /// the nearest double to the true one; size() if all are. Those of the closed form are if the
   /// outer block is not the heavier one; else none is, and numbers are some units in the last place

@@ -28,7 +28,7 @@ bool slides(const RectangleItem& before, const RectangleItem& after) {
 bool slides(const ExposedBlock& before, const ExposedBlock& after) {
   return before.fill == after.fill && before.stroke == after.stroke && before.bars == after.bars &&
          before.bounds.y == after.bounds.y && before.bounds.height == after.bounds.height &&
-         before.bounds.width == after.bounds.width && before.dwells.empty() == after.dwells.empty();
+         before.bounds.width == after.bounds.width && before.is_still() == after.is_still();
 }
 
 /// Whether only the second end of a level line changes. What stays of it has the same pixels.

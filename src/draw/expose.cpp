@@ -1,16 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "draw/layout.hpp"
 
 namespace piblocks {
 namespace {
-
-/// A block that moves less is taken to stay. Far below what a pixel shows, far above roundings.
-constexpr double kStill_px = 1e-6;
 
 /// Blocks beyond the frame's edge by more than this are not seen.
 constexpr double kMargin_px = 4;
@@ -66,7 +62,33 @@ class DwellTable {
     }
   }
 
-  std::vector<Dwell> dwells() const {
+  /// The same for even motion over a range, at the same cost wherever its ends are.
+  void add_even(double share, const Travel& range) {
+    const auto area = [&](double x) { return range.area_below(x); };
+    const std::size_t begin = index(std::floor(range.from / spacing_));
+    const std::size_t end = index(std::ceil(range.to / spacing_)) + 1;
+    if (end < begin + 8) return add(share, range, area);
+    if (slopes_.empty()) slopes_.resize(shares_.size());
+    // Away from its ends the second difference is the same everywhere.
+    const double even = share * spacing_ / (range.to - range.from);
+    slopes_[begin + 3] += even;
+    slopes_[end - 3] -= even;
+    for (const std::size_t first : {begin, end - 3}) {
+      for (std::size_t i = first; i < first + 3; ++i) {
+        const double here = area(place(i));
+        shares_[i] +=
+            share * ((area(place(i + 1)) - here) - (here - area(place(i - 1)))) / spacing_;
+      }
+    }
+  }
+
+  std::vector<Dwell> dwells() {
+    double slope = 0;
+    for (std::size_t i = 0; i < slopes_.size(); ++i) {
+      slope += slopes_[i];
+      shares_[i] += slope;
+    }
+    slopes_.clear();
     std::vector<Dwell> dwells;
     for (std::size_t i = 0; i < shares_.size(); ++i) {
       // Less is what rounding leaves of equal areas.
@@ -84,6 +106,7 @@ class DwellTable {
   double spacing_;
   double first_;
   std::vector<double> shares_;
+  std::vector<double> slopes_;  // differences of what even motion adds to the shares
 };
 
 const Travel& range_of(const Exposure& exposure, BlockName block) { return exposure.range(block); }
@@ -135,15 +158,13 @@ struct EvenMotion {
   Travel left;
   double left_width{};
   double share{};  ///< of the exposure
-  std::size_t right_block = 0;
-  std::size_t left_block = 1;
 };
 
 /// Adds contacts where the blocks are less than a pixel apart.
 void add_contacts(const EvenMotion& motion, std::vector<Contact>& contacts) {
   constexpr double kPerPixel = 16;
   constexpr double kMost = 4096;
-  const auto& [right, left, left_width, share, right_block, left_block] = motion;
+  const auto& [right, left, left_width, share] = motion;
   const Travel gap{right.from - left.from - left_width, right.to - left.to - left_width};
   double begin = 0;
   double end = 1;
@@ -157,46 +178,62 @@ void add_contacts(const EvenMotion& motion, std::vector<Contact>& contacts) {
   for (int i = 0; i < count; ++i) {
     const double at = begin + (end - begin) * (i + 0.5) / count;
     const Contact contact{right.from + (right.to - right.from) * at,
-                          left.from + (left.to - left.from) * at, share * (end - begin) / count,
-                          static_cast<std::uint32_t>(right_block),
-                          static_cast<std::uint32_t>(left_block)};
+                          left.from + (left.to - left.from) * at, share * (end - begin) / count};
     // Only if both reach into one pixel.
     if (contact.left_x + left_width > std::floor(contact.right_x)) contacts.push_back(contact);
   }
 }
 
-bool is_still(const ExposedBlock& block) { return block.dwells.empty(); }
-
-/// The part of a piece between two shares of the exposure's time.
-Travel part_of(const BodyPiece& piece, double begin, double end) {
-  const double share = piece.share();
-  const auto at = [&](double time) {
-    const double passed = share > 0 ? (time - piece.begin) / share : 0;
-    return piece.from[0] + passed * (piece.to[0] - piece.from[0]);
-  };
-  return {at(begin), at(end)};
+/// Left edges of a block from which it is seen, and somewhat beyond.
+Travel seen_px(const ToPixels& to_px) {
+  return {-to_px.block_px - kMargin_px, to_px.visible_right_px + kMargin_px};
 }
 
-/// Two neighbours in one slice of the exposure, whose pieces end at different times.
-void add_contacts(const ExposedBlocksItem& item, const AxisPlace& axis,
-                  const WeightedBodyExposure& weighted, const EvenMotion& pair,
-                  std::vector<Contact>& contacts) {
-  const ToPixels right_px(axis, item.blocks[pair.right_block]);
-  const ToPixels left_px(axis, item.blocks[pair.left_block]);
-  const std::vector<BodyPiece>& right = weighted.exposure.pieces[pair.right_block];
-  const std::vector<BodyPiece>& left = weighted.exposure.pieces[pair.left_block];
-  double begin = 0;
-  for (std::size_t i = 0, j = 0; i < right.size() && j < left.size();) {
-    const double end = std::min(right[i].end, left[j].end);
-    EvenMotion motion = pair;
-    motion.right = right_px(part_of(right[i], begin, end));
-    motion.left = left_px(part_of(left[j], begin, end));
-    motion.share = weighted.share * (end - begin);
-    if (motion.share > 0) add_contacts(motion, contacts);
-    begin = end;
-    if (right[i].end <= end) ++i;
-    if (j < left.size() && left[j].end <= end) ++j;
+/// The ways of a body's left edge; nothing if it stays, or is never seen. While it is out of sight
+/// it waits beside the frame.
+std::vector<BlockWay> ways_of(std::size_t body, const ToPixels& to_px,
+                              std::span<const WeightedBodyExposure> exposures) {
+  const Travel seen = seen_px(to_px);
+  std::vector<BlockWay> ways;
+  bool is_seen = false;
+  const auto add = [&](const BlockWay& way) {
+    const bool is_left = std::max(way.from, way.to) <= seen.from;
+    const bool is_right = std::min(way.from, way.to) >= seen.to;
+    if (!is_left && !is_right) {
+      is_seen = true;
+      ways.push_back(way);
+      return;
+    }
+    const double beside = is_left ? seen.from : seen.to;
+    const BlockWay waiting{beside, beside, way.share};
+    if (!ways.empty() && ways.back().from == beside && ways.back().to == beside) {
+      ways.back().share += way.share;
+    } else {
+      ways.push_back(waiting);
+    }
+  };
+  Travel range = to_px(range_of(exposures.front().exposure, body));
+  for (const auto& [weight, exposure] : exposures) {
+    range.include(to_px(range_of(exposure, body)));
+    each_way(exposure, body, [&, weight = weight](double share, const Travel& of_centre) {
+      const Travel way = to_px(of_centre);
+      add({way.from, way.to, weight * share});
+    });
   }
+  if (!is_seen || !(range.to - range.from > kStill_px)) ways.clear();
+  return ways;
+}
+
+/// The same summed up, where there are so many ways that this is less.
+std::vector<Dwell> dwells_of(const std::vector<BlockWay>& ways, const Travel& seen) {
+  Travel range{ways.front().from, ways.front().from};
+  for (const BlockWay& way : ways) range.include({way.from, way.to});
+  range = {std::max(range.from, seen.from), std::min(range.to, seen.to)};
+  DwellTable table(range, spacing_px(range.to - range.from));
+  for (const BlockWay& way : ways) {
+    table.add_even(way.share, {std::min(way.from, way.to), std::max(way.from, way.to)});
+  }
+  return table.dwells();
 }
 
 }  // namespace
@@ -209,7 +246,7 @@ ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const Axis
   blue.dwells = dwells_of(BlockName::blue, blue_px, exposures);
   const double blue_width = blue.bounds.width;
   ExposedBlocksItem item{ItemId::red_block, {std::move(red), std::move(blue)}, {}};
-  if (std::ranges::all_of(item.blocks, is_still)) return item;
+  if (std::ranges::all_of(item.blocks, &ExposedBlock::is_still)) return item;
   for (const WeightedExposure& weighted : exposures) {
     for (const UniformPiece& piece : weighted.exposure.pieces) {
       add_contacts({.right = red_px(piece.red),
@@ -225,27 +262,22 @@ ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const Axis
 
 ExposedBlocksItem exposed_blocks(std::vector<ExposedBlock> blocks, const AxisPlace& axis,
                                  std::span<const WeightedBodyExposure> exposures) {
-  std::vector<std::size_t> from_left(blocks.size());
-  std::iota(from_left.begin(), from_left.end(), 0U);
-  std::ranges::stable_sort(from_left, {}, [&](std::size_t i) { return blocks[i].bounds.x; });
+  constexpr std::size_t kMostWays = 8;
+  const bool is_summed = std::ranges::any_of(exposures, [](const WeightedBodyExposure& weighted) {
+    return bool(weighted.exposure.area_below);
+  });
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    blocks[i].dwells = dwells_of(i, ToPixels(axis, blocks[i]), exposures);
-  }
-  ExposedBlocksItem item{ItemId::red_block, std::move(blocks), {}};
-  if (std::ranges::all_of(item.blocks, is_still)) return item;
-  for (std::size_t i = 1; i < from_left.size(); ++i) {
-    const EvenMotion pair{.right = {},
-                          .left = {},
-                          .left_width = item.blocks[from_left[i - 1]].bounds.width,
-                          .share = 0,
-                          .right_block = from_left[i],
-                          .left_block = from_left[i - 1]};
-    for (const WeightedBodyExposure& weighted : exposures) {
-      add_contacts(item, axis, weighted, pair, item.contacts);
+    const ToPixels to_px(axis, blocks[i]);
+    std::vector<BlockWay> ways = ways_of(i, to_px, exposures);
+    if (ways.empty()) continue;
+    if (is_summed) {
+      blocks[i].dwells = dwells_of(i, to_px, exposures);
+    } else if (ways.size() > kMostWays) {
+      blocks[i].dwells = dwells_of(ways, seen_px(to_px));
     }
+    blocks[i].ways = std::move(ways);
   }
-  std::ranges::sort(item.contacts, {}, &Contact::right_x);
-  return item;
+  return {ItemId::red_block, std::move(blocks), {}};
 }
 
 void add_rectangles(ItemId id, const ExposedBlock& block, std::vector<DrawItem>& items) {

@@ -2,18 +2,28 @@
 // In: composition. Out: draw items that say for how long each thing is where.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "draw/item_parts.hpp"
 
 namespace piblocks {
 
+/// What moves less is taken to stay. Far below what a pixel shows, far above roundings.
+inline constexpr double kStill_px = 1e-6;
+
 /// A place of a block's left edge, and for which share of the exposure it is there.
 struct Dwell {
   double x = 0;
   double share = 0;
   bool operator==(const Dwell&) const = default;
+};
+
+/// A way of a block's left edge, which it goes evenly.
+struct BlockWay {
+  double from = 0;
+  double to = 0;
+  double share = 0;  ///< of the exposure
+  bool operator==(const BlockWay&) const = default;
 };
 
 /// Rows across a block.
@@ -29,19 +39,22 @@ struct ExposedBlock {
   Color fill;
   Stroke stroke;          ///< solid
   std::vector<Bar> bars;  ///< in the stroke's colour, inside the bounds
-  /// From left to right; none if the block stays. Shares add up to 1 less those outside the frame.
+  /// From left to right. Shares add up to 1 less those outside the frame.
   std::vector<Dwell> dwells;
+  /// In the order of time; shares add up to 1. They say when the block is where: all blocks begin
+  /// at the same time. If there are dwells, these say more exactly for how long.
+  std::vector<BlockWay> ways = {};
+
+  bool is_still() const { return dwells.empty() && ways.empty(); }
   bool operator==(const ExposedBlock&) const = default;
 };
 
-/// A share of an exposure during which a block and the one on its right are less than a pixel
-/// apart. Both places are left edges.
+/// A share of an exposure during which two blocks, the right and the left one, are less than a
+/// pixel apart. Both places are left edges.
 struct Contact {
   double right_x = 0;
   double left_x = 0;
   double share = 0;
-  std::uint32_t right = 0;  ///< place of the block in ExposedBlocksItem::blocks
-  std::uint32_t left = 1;
   bool operator==(const Contact&) const = default;
 };
 
@@ -50,7 +63,7 @@ struct Contact {
 struct ExposedBlocksItem {
   ItemId id = ItemId::red_block;
   std::vector<ExposedBlock> blocks;  ///< from back to front; they never overlap
-  std::vector<Contact> contacts;     ///< in the order of right_x
+  std::vector<Contact> contacts;     ///< of two blocks without ways, in the order of right_x
   bool operator==(const ExposedBlocksItem&) const = default;
 };
 
@@ -68,11 +81,12 @@ struct ExposedDisk {
   double rim_px = 0;  ///< width of the line, which is inside; 0 if there is none
   Color fill;
   Color rim;
-  std::vector<DiskWay> ways;
+  std::vector<DiskWay> ways;  ///< in the order of time; shares add up to 1
   bool operator==(const ExposedDisk&) const = default;
 };
 
 /// Disks, exposed: the mean, in linear light, of the pictures that they would make at each instant.
+/// All ways begin at the same time, so that it is known which disks are in a pixel together.
 /// A vector file has them as pixels.
 struct ExposedDisksItem {
   ItemId id = ItemId::red_block;

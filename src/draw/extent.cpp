@@ -94,6 +94,14 @@ Extent extent_of(const ExposedBlock& block) {
   if (!block.dwells.empty()) {
     extent.left = block.dwells.front().x;
     extent.right = block.dwells.back().x + block.bounds.width;
+  } else if (!block.ways.empty()) {
+    extent.left = extent.right = block.ways.front().from;
+    for (const BlockWay& way : block.ways) {
+      const auto [left, right] = std::minmax({extent.left, way.from, way.to, extent.right});
+      extent.left = left;
+      extent.right = right;
+    }
+    extent.right += block.bounds.width;
   }
   return extent;
 }
@@ -164,7 +172,7 @@ PixelRect moving_area(const ExposedBlocksItem& item, const PixelRect& area) {
     // Where one block moves, the others are painted with it.
     top = std::min(top, pixels.y_px);
     bottom = std::max(bottom, pixels.y_px + pixels.height_px);
-    if (block.dwells.empty() || pixels.width_px <= 0) continue;
+    if (block.is_still() || pixels.width_px <= 0) continue;
     left = std::min(left, pixels.x_px);
     right = std::max(right, pixels.x_px + pixels.width_px);
   }

@@ -5,146 +5,41 @@
 #include <span>
 #include <vector>
 
+#include "draw/block_cover.hpp"
+#include "draw/blocks_together.hpp"
 #include "draw/extent.hpp"
 #include "draw/painter.hpp"
 
 namespace piblocks {
 namespace {
 
-/// How much of a row or column of pixels a block covers: all of it, inside its line, its bars.
-struct Cover {
-  double outer = 0;
-  double inner = 0;
-  double bars = 0;
-  bool operator==(const Cover&) const = default;
-};
-
-/// In one way for a share of the time.
-struct CoverShare {
-  Cover cover;
-  double share = 0;
-  bool operator==(const CoverShare&) const = default;
-};
-
-/// What each block covers of a row.
+/// What each kind of block covers of a row.
 using RowCover = std::vector<Cover>;
 
-/// How much of the pixel from `pixel` to `pixel` + 1 is between two places.
-double overlap(double pixel, double begin, double end) {
-  return std::clamp(std::min(pixel + 1, end) - std::max(pixel, begin), 0.0, 1.0);
-}
-
-Cover cover_of(double pixel, double begin, double length, double line_px) {
-  return {overlap(pixel, begin, begin + length),
-          overlap(pixel, begin + line_px, begin + length - line_px)};
-}
-
-/// What a block covers of a pixel.
-struct PixelCover {
-  const ExposedBlock& block;
-  const Cover& column;
-  const Cover& row;
-
-  /// A sample after the block's fill, its line and its bars are painted over it, as Cairo does.
-  double over(double sample, std::uint8_t Color::*channel) const {
-    const double edge = block.stroke.color.*channel;
-    const double outer = column.outer * row.outer;
-    const double line = outer - column.inner * row.inner;
-    const double filled = sample + outer * (block.fill.*channel - sample);
-    const double edged = filled + line * (edge - filled);
-    return edged + column.outer * row.bars * (edge - edged);
-  }
-};
-
-/// How a block covers a row, and a column over the time of the exposure.
-class BlockCover {
- public:
-  explicit BlockCover(const ExposedBlock& block)
-      : block_(block),
-        // A shape thinner than its stroke is nothing but stroke.
-        line_px_(std::min({block.stroke.width_px, block.bounds.width, block.bounds.height})),
-        sums_{0} {
-    for (const Dwell& dwell : block.dwells) sums_.push_back(sums_.back() + dwell.share);
-  }
-
-  Cover of_row(int y) const {
-    Cover cover = cover_of(y, block_.bounds.y, block_.bounds.height, line_px_);
-    // Each bar covers a part of what the ones before left uncovered.
-    for (const Bar& bar : block_.bars) {
-      cover.bars += (1 - cover.bars) * overlap(y, bar.y, bar.y + bar.height);
-    }
-    return cover;
-  }
-
-  /// What a block with its left edge at `x` covers of the column from `column` to `column` + 1.
-  Cover of_column(double column, double x) const {
-    return cover_of(column, x, block_.bounds.width, line_px_);
-  }
-
-  /// All ways in which the block covers a column; valid until the next call.
-  std::span<const CoverShare> shares_of_column(double column) {
-    shares_.clear();
-    const double width = block_.bounds.width;
-    if (block_.dwells.empty()) {
-      const Cover still = of_column(column, block_.bounds.x);
-      if (still.outer > 0) shares_.push_back({still, 1});
-    } else if (block_.dwells.back().x < column - width || block_.dwells.front().x >= column + 1) {
-      // The block is never there.
-    } else if (line_px_ < 1 || width - 2 * line_px_ < 1) {
-      add_each(column, column - width, column + 1);
-    } else {
-      // The column has, in this order: the block's right edge, only its line, the line's inner
-      // edge, only its fill, and the same on the other side.
-      add_each(column, column - width, column + 1 - width);
-      add_alike(column, column + 1 - width, column - width + line_px_);
-      add_each(column, column - width + line_px_, column + 1 - width + line_px_);
-      add_alike(column, column + 1 - width + line_px_, column - line_px_);
-      add_each(column, column - line_px_, column + 1 - line_px_);
-      add_alike(column, column + 1 - line_px_, column);
-      add_each(column, column, column + 1);
-    }
-    return shares_;
-  }
-
- private:
-  std::size_t first_at(double x) const {
-    return static_cast<std::size_t>(std::ranges::lower_bound(block_.dwells, x, {}, &Dwell::x) -
-                                    block_.dwells.begin());
-  }
-
-  /// Adds up the dwells in [from, to), all of which cover the column in the same way.
-  void add_alike(double column, double from, double to) {
-    const std::size_t begin = first_at(from);
-    const std::size_t end = first_at(to);
-    if (begin >= end) return;
-    shares_.push_back({of_column(column, block_.dwells[begin].x), sums_[end] - sums_[begin]});
-  }
-
-  void add_each(double column, double from, double to) {
-    for (std::size_t i = first_at(from); i < block_.dwells.size() && block_.dwells[i].x < to; ++i) {
-      shares_.push_back({of_column(column, block_.dwells[i].x), block_.dwells[i].share});
-    }
-  }
-
-  const ExposedBlock& block_;
-  double line_px_;
-  std::vector<double> sums_;  // of the shares before each dwell
-  std::vector<CoverShare> shares_;
-};
-
-/// One column after another.
+/// One column after another, from left to right.
 class ExposedColumn {
  public:
-  ExposedColumn(const ExposedBlocksItem& item, const Light& light)
+  ExposedColumn(const ExposedBlocksItem& item, const Light& light, const PixelRect& area)
       : item_(item),
         light_(light),
         blocks_(item.blocks.begin(), item.blocks.end()),
-        shares_(item.blocks.size()) {}
+        shares_(item.blocks.size()),
+        kinds_(item.blocks.size()),
+        ends_px_(item.blocks.size()),
+        together_(item.blocks, blocks_) {
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      const PixelRect pixels = pixels_of(extent_of(item.blocks[i]), area);
+      if (pixels.width_px > 0) coming_.push_back({i, pixels});
+      if (pixels.width_px > 0 || !item.contacts.empty()) kinds_[i] = kind_of(i);
+    }
+    std::ranges::stable_sort(coming_, std::ranges::greater{},
+                             [](const Coming& block) { return block.pixels.x_px; });
+  }
 
   /// Tells rows apart by how the blocks cover them: of a picture there are few kinds.
   std::size_t kind_of_row(int y) {
     RowCover cover;
-    for (const BlockCover& block : blocks_) cover.push_back(block.of_row(y));
+    for (const std::size_t block : unlike_) cover.push_back(blocks_[block].of_row(y));
     const auto found = std::ranges::find(rows_, cover);
     if (found != rows_.end()) return static_cast<std::size_t>(found - rows_.begin());
     rows_.push_back(std::move(cover));
@@ -153,19 +48,22 @@ class ExposedColumn {
 
   /// Turns to the column from `x` to `x` + 1. False if no moving block is ever in it.
   bool enter(int x) {
-    if (std::ranges::none_of(item_.blocks, [&](const auto& block) { return passes(block, x); })) {
+    bool is_new = find_blocks(x);
+    if (is_new) known_.clear();
+    if (std::ranges::all_of(here_, [&](std::size_t i) { return item_.blocks[i].is_still(); })) {
       return false;
     }
     x_ = x;
     const auto at = [&](double place) {
       return std::ranges::lower_bound(item_.contacts, place, {}, &Contact::right_x);
     };
-    const bool had_contacts = !contacts_.empty();
-    contacts_ = {at(x), at(x + 1.0)};
     // Within a block, one column is like the next.
-    bool is_new = had_contacts || !contacts_.empty();
+    is_new |= !contacts_.empty() || !moments_.empty();
+    contacts_ = {at(x), at(x + 1.0)};
+    if (has_ways()) moments_ = together_.find(x, here_);
+    is_new |= !contacts_.empty() || !moments_.empty();
     present_.clear();
-    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    for (const std::size_t i : here_) {
       is_new |= replace(shares_[i], blocks_[i].shares_of_column(x));
       if (!shares_[i].empty()) present_.push_back(i);
     }
@@ -190,10 +88,40 @@ class ExposedColumn {
   }
 
  private:
-  static bool passes(const ExposedBlock& block, int x) {
-    if (block.dwells.empty()) return false;
-    const Extent extent = extent_of(block);
-    return std::floor(extent.left) <= x && x < std::ceil(extent.right);
+  struct Coming {
+    std::size_t block = 0;
+    PixelRect pixels = {};
+  };
+
+  /// Blocks of one kind cover rows in the same way.
+  std::size_t kind_of(std::size_t i) {
+    const auto is_alike = [&](std::size_t other) {
+      const ExposedBlock& a = item_.blocks[i];
+      const ExposedBlock& b = item_.blocks[other];
+      return a.bounds.y == b.bounds.y && a.bounds.height == b.bounds.height && a.bars == b.bars &&
+             blocks_[i].line_px() == blocks_[other].line_px();
+    };
+    const auto found = std::ranges::find_if(unlike_, is_alike);
+    if (found != unlike_.end()) return static_cast<std::size_t>(found - unlike_.begin());
+    unlike_.push_back(i);
+    return unlike_.size() - 1;
+  }
+
+  bool has_ways() const {
+    return std::ranges::any_of(here_, [&](std::size_t i) { return !item_.blocks[i].ways.empty(); });
+  }
+
+  /// @returns whether blocks have left
+  bool find_blocks(int x) {
+    const std::size_t before = here_.size();
+    std::erase_if(here_, [&](std::size_t i) { return x >= ends_px_[i]; });
+    const bool have_left = here_.size() < before;
+    for (; !coming_.empty() && coming_.back().pixels.x_px <= x; coming_.pop_back()) {
+      const auto& [block, pixels] = coming_.back();
+      here_.insert(std::ranges::upper_bound(here_, block), block);
+      ends_px_[block] = pixels.x_px + pixels.width_px;
+    }
+    return have_left;
   }
 
   /// @returns whether that changes anything
@@ -203,41 +131,38 @@ class ExposedColumn {
     return true;
   }
 
-  /// Two blocks that touch, by which is painted first.
-  struct Pair {
-    std::size_t behind = 0;
-    double behind_x = 0;
-    std::size_t front = 0;
-    double front_x = 0;
-  };
-  static Pair in_order(const Contact& contact) {
-    const auto& [right_x, left_x, share, right, left] = contact;
-    if (right < left) return {right, right_x, left, left_x};
-    return {left, left_x, right, right_x};
-  }
+  const Cover& row_of(const RowCover& row, std::size_t block) const { return row[kinds_[block]]; }
 
-  /// Each block changes the light behind it by its share of time. Where both are in one pixel at
-  /// the same time, these changes do not add up: contacts correct that.
+  /// Each block changes the light behind it by its share of time. Where several are in one pixel at
+  /// the same time, these changes do not add up: contacts and moments correct that.
   double light_of(const RowCover& row, double background, std::uint8_t Color::*channel) const {
     const double plain = light_.of(background);
     double sum = plain;
     for (const std::size_t i : present_) {
       for (const auto& [cover, share] : shares_[i]) {
-        const PixelCover pixel{item_.blocks[i], cover, row[i]};
+        const PixelCover pixel{item_.blocks[i], cover, row_of(row, i)};
         sum += share * (light_.of(pixel.over(background, channel)) - plain);
       }
     }
-    for (const Contact& contact : contacts_) {
-      const auto [behind, behind_x, front, front_x] = in_order(contact);
-      const Cover behind_column = blocks_[behind].of_column(x_, behind_x);
-      const Cover front_column = blocks_[front].of_column(x_, front_x);
-      const PixelCover over{item_.blocks[front], front_column, row[front]};
+    for (const auto& [right_x, left_x, share] : contacts_) {
+      const Cover behind_column = blocks_[0].of_column(x_, right_x);
+      const Cover front_column = blocks_[1].of_column(x_, left_x);
+      const PixelCover over{item_.blocks[1], front_column, row_of(row, 1)};
       const double only_behind =
-          PixelCover{item_.blocks[behind], behind_column, row[behind]}.over(background, channel);
+          PixelCover{item_.blocks[0], behind_column, row_of(row, 0)}.over(background, channel);
       const double only_front = over.over(background, channel);
       const double both = over.over(only_behind, channel);
-      sum += contact.share *
-             (light_.of(both) - light_.of(only_behind) - light_.of(only_front) + plain);
+      sum += share * (light_.of(both) - light_.of(only_behind) - light_.of(only_front) + plain);
+    }
+    for (const TogetherMoment& moment : moments_) {
+      double all = background;
+      double apart = 0;
+      for (const auto& [block, column] : moment.blocks) {
+        const PixelCover pixel{item_.blocks[block], column, row_of(row, block)};
+        all = pixel.over(all, channel);
+        apart += light_.of(pixel.over(background, channel)) - plain;
+      }
+      sum += moment.share * (light_.of(all) - plain - apart);
     }
     return sum;
   }
@@ -247,8 +172,15 @@ class ExposedColumn {
   std::vector<BlockCover> blocks_;
   std::vector<RowCover> rows_;  // of each kind
   std::vector<std::vector<CoverShare>> shares_;
+  std::vector<std::size_t> kinds_;  // of each block: a place in unlike_
+  std::vector<int> ends_px_;        // of each block: the first column that it is never in
+  BlocksTogether together_;
+  std::vector<std::size_t> unlike_;   // a block of each kind
+  std::vector<Coming> coming_;        // the next one is the last
+  std::vector<std::size_t> here_;     // blocks that are ever in the column, from back to front
   std::vector<std::size_t> present_;  // the blocks with shares
   std::span<const Contact> contacts_;
+  std::span<const TogetherMoment> moments_;
   int x_ = 0;
   struct Known {
     std::size_t row = 0;  // its kind
@@ -348,7 +280,7 @@ void Painter::paint_exposed(cairo_t& cr, const ExposedBlocksItem& item, const Pi
   paint_still(cr, item);
   cairo_surface_flush(surface);
   if (!light_) light_ = std::make_unique<Light>();
-  ExposedColumn column(item, *light_);
+  ExposedColumn column(item, *light_, moving);
   exposed.paint(column);
   cairo_surface_mark_dirty(surface);
 }

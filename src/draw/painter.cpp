@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "draw/disk_exposure.hpp"
 #include "draw/extent.hpp"
 
 namespace piblocks {
@@ -59,6 +60,10 @@ void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rectangle& bounds) 
   cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);
   cairo_fill(&cr);
 }
+
+Painter::Painter(TextSetting setting) : setting_(setting) {}
+
+Painter::~Painter() = default;
 
 void Painter::paint(cairo_t& cr, const DrawList& list) {
   paint(cr, list, {0, 0, list.width_px, list.height_px});
@@ -244,7 +249,7 @@ void Painter::paint_group_pixels(cairo_t& cr, const GroupItem& item, const Pixel
 void Painter::paint_still(cairo_t& cr, const ExposedBlocksItem& item) {
   std::vector<DrawItem> still;
   for (const ExposedBlock& block : item.blocks) {
-    if (block.dwells.empty()) add_rectangles(item.id, block, still);
+    if (block.is_still()) add_rectangles(item.id, block, still);
   }
   for (const DrawItem& rectangle : still) paint_item(cr, rectangle);
 }

@@ -37,10 +37,15 @@ enum class TextSetting {
   glyphs  ///< each glyph by itself, so that its pixels depend on nothing else
 };
 
+class DiskExposure;
+
 /// Keeps fonts, pixels of plates and images, and a table of light, once they were needed.
 class Painter {
  public:
-  explicit Painter(TextSetting setting) : setting_(setting) {}
+  explicit Painter(TextSetting setting);
+  ~Painter();
+  Painter(const Painter&) = delete;
+  Painter& operator=(const Painter&) = delete;
 
   /// Paints the background, if there is one, and every item. @throws DrawError
   void paint(cairo_t& cr, const DrawList& list);
@@ -74,6 +79,7 @@ class Painter {
   Fonts fonts_;
   std::unique_ptr<Light> light_;
   std::vector<std::uint32_t> background_;  ///< of exposed blocks; kept for its memory
+  std::unique_ptr<DiskExposure> disk_exposure_;
   struct KeptPixels {
     std::shared_ptr<const void> source;  ///< held, so that its address stays its own
     CairoSurfacePtr pixels;

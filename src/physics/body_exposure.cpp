@@ -11,6 +11,7 @@ std::vector<BodyPiece> pieces_of(const std::vector<PathPoint>& path) {
   const double length = path.back().after;
   if (!(length > 0)) return {{0, 1, path.front().position, path.back().position}};
   std::vector<BodyPiece> pieces;
+  pieces.reserve(path.size() - 1);
   double begin = 0;
   for (std::size_t i = 1; i < path.size(); ++i) {
     // Rounding may put the times of two collisions in the wrong order.
@@ -72,16 +73,21 @@ Travel range_of(const std::vector<BodyPiece>& pieces) {
 
 BodyExposure expose(const BodyLog& log, const Rational& begin, const Rational& end) {
   if (end < begin) return expose(log, end, begin);
-  const std::size_t bodies = log.system().bodies.size();
   BodyExposure exposure;
-  exposure.pieces.resize(bodies);
-  exposure.ranges.resize(bodies);
-  const std::optional<ClosedBlocks> closed = closed_blocks(log);
-  if (closed) use_closed_form(*closed, begin, end, exposure);
-  for (std::size_t body = 0; body < bodies; ++body) {
-    if (!exposure.pieces[body].empty()) continue;
-    exposure.pieces[body] = pieces_of(log.path(body, begin, end, kMaxListedCollisions));
-    exposure.ranges[body] = range_of(exposure.pieces[body]);
+  if (const std::optional<ClosedBlocks> closed = closed_blocks(log)) {
+    // A third body, if there is one, is the wall.
+    for (const BodyMotion& at_rest : motions_at_start(log.system())) {
+      exposure.pieces.push_back({{0, 1, at_rest.position, at_rest.position}});
+      exposure.ranges.push_back(range_of(exposure.pieces.back()));
+    }
+    use_closed_form(*closed, begin, end, exposure);
+    return exposure;
+  }
+  // What is stepped can be listed: a log has no more than kMaxBodyCollisions.
+  constexpr auto kAll = static_cast<std::size_t>(kMaxBodyCollisions);
+  for (const std::vector<PathPoint>& path : log.paths(begin, end, kAll)) {
+    exposure.pieces.push_back(pieces_of(path));
+    exposure.ranges.push_back(range_of(exposure.pieces.back()));
   }
   return exposure;
 }

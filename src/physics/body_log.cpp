@@ -2,6 +2,8 @@
 #include <piblocks/bodies.hpp>
 #include <piblocks/error.hpp>
 
+#include <cmath>
+
 #include "physics/blocks.hpp"
 #include "physics/body_logs.hpp"
 
@@ -23,15 +25,15 @@ void require_not_negative(const Rational& time) {
       fmt::format("time {}: the motion of bodies begins at time 0; give a later time", time));
 }
 
-std::vector<PathPoint> sampled_path(const BodyLog& log, std::size_t body,
-                                    const std::array<Rational, 2>& times, std::size_t count) {
-  const auto& [from, to] = times;
-  std::vector<PathPoint> points;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Rational after = (to - from) * Rational(Integer(i), Integer(count - 1));
-    points.push_back({to_double(after), log.state_at(from + after).bodies.at(body).position});
+std::vector<double> sample_times(std::size_t count) {
+  constexpr double kGoldenRatio = 0.6180339887498949;
+  std::vector<double> times = {0};
+  for (std::size_t part = 0; part + 2 < count; ++part) {
+    const double turns = double(part + 1) * kGoldenRatio;
+    times.push_back((double(part) + turns - std::floor(turns)) / double(count - 2));
   }
-  return points;
+  times.push_back(1);
+  return times;
 }
 
 std::unique_ptr<BodyLog> make_body_log(const BodySystem& system,

@@ -24,9 +24,9 @@ std::unique_ptr<BodyLog> make_stored_body_log(const BodySystem& system,
 /// The bodies at time 0.
 std::vector<BodyMotion> motions_at_start(const BodySystem& system);
 
-/// A body's places at so many times from the first to the second, evenly spaced.
-std::vector<PathPoint> sampled_path(const BodyLog& log, std::size_t body,
-                                    const std::array<Rational, 2>& times, std::size_t count);
+/// `count` >= 2 shares of an interval of time, 0 … 1, in order: both ends, and one in each of equal
+/// parts between. They follow no rhythm, so that they do not fall in step with a body that bounces.
+std::vector<double> sample_times(std::size_t count);
 
 /// Bodies that are two blocks and a wall by other names.
 struct ClosedBlocks {

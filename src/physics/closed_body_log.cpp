@@ -68,20 +68,33 @@ class ClosedBodyLog final : public BodyLog {
     return state;
   }
 
-  std::vector<PathPoint> path(std::size_t body, const Rational& from, const Rational& to,
-                              std::size_t most) const override {
+  std::vector<std::vector<PathPoint>> paths(const Rational& from, const Rational& to,
+                                            std::size_t most) const override {
+    require_not_negative(from);
     const Integer first = count_at(from) + 1;
     const Integer last = count_at(to);
-    if (last - first >= Integer(most)) return sampled_path(*this, body, {from, to}, most);
-    std::vector<PathPoint> points = {{0, state_at(from).bodies.at(body).position}};
-    for (Integer index = first; index <= last; ++index) {
-      const BodyCollision found = collision(index);
-      const double after = to_double(to_rational(found.time) - from);
-      if (found.first == body) points.push_back({after, found.first_after.position});
-      if (found.second == body) points.push_back({after, found.second_after.position});
+    std::vector<std::vector<PathPoint>> paths(start_.size());
+    const auto add = [&](double after, const BodiesState& state) {
+      for (const std::size_t body : {parts_.blue.id, parts_.red.id}) {
+        paths[body].push_back({after, state.bodies[body].position});
+      }
+    };
+    const double length = to_double(to - from);
+    if (last - first >= Integer(most)) {
+      for (const double share : sample_times(most)) {
+        const Rational after = (to - from) * Rational(share);
+        add(to_double(after), state_at(from + after));
+      }
+    } else {
+      add(0, state_at(from));
+      for (Integer index = first; index <= last; ++index) add_collision(index, from, paths);
+      add(length, state_at(to));
     }
-    points.push_back({to_double(to - from), state_at(to).bodies.at(body).position});
-    return points;
+    for (std::size_t body = 0; body < paths.size(); ++body) {
+      if (body == parts_.blue.id || body == parts_.red.id) continue;
+      paths[body] = {{0, start_[body].position}, {length, start_[body].position}};
+    }
+    return paths;
   }
 
   Integer count_at(const Rational& time) const override {
@@ -96,6 +109,16 @@ class ClosedBodyLog final : public BodyLog {
   std::optional<double> certain_until() const override { return std::nullopt; }
 
  private:
+  /// Adds where the blocks are that meet.
+  void add_collision(const Integer& index, const Rational& from,
+                     std::vector<std::vector<PathPoint>>& paths) const {
+    const BodyCollision found = collision(index);
+    const double after = to_double(to_rational(found.time) - from);
+    for (const std::size_t body : {parts_.blue.id, parts_.red.id}) {
+      if (found.first == body) paths[body].push_back({after, found.first_after.position});
+      if (found.second == body) paths[body].push_back({after, found.second_after.position});
+    }
+  }
   BodyMotion motion_of(const Motion& motion) const {
     return {{parts_.sign * motion.position, 0}, {parts_.sign * motion.velocity, 0}};
   }

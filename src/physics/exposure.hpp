@@ -82,9 +82,8 @@ struct BodyExposure {
   std::vector<Travel> ranges = {};  ///< of all positions of each body, along x
 };
 
-/// The interval between two times, in either order, none of them negative. A body that collides
-/// more than kMaxListedCollisions times is taken at as many evenly spaced times, unless the closed
-/// form knows better. Valid after its log is gone.
+/// The interval between two times, in either order, none of them negative. Every collision is
+/// listed, but for those that the closed form sums up. Valid after its log is gone.
 /// @throws as BodyLog::state_at().
 BodyExposure expose(const BodyLog& log, const Rational& begin, const Rational& end);
 

@@ -87,25 +87,19 @@ class StoredBodyLog final : public BodyLog {
     return short_time(time, has_next ? std::optional(time_of(last + 1)) : std::nullopt);
   }
 
-  std::vector<PathPoint> path(std::size_t body, const Rational& from, const Rational& to,
-                              std::size_t most) const override {
+  std::vector<std::vector<PathPoint>> paths(const Rational& from, const Rational& to,
+                                            std::size_t most) const override {
+    require_not_negative(from);
     compute_until(to);
-    std::shared_lock lock(mutex_);
-    const auto& own = of_body_.at(body);
-    const auto begin = std::ranges::lower_bound(own, steps_until(from));
-    const auto end = std::ranges::lower_bound(own, steps_until(to));
-    if (static_cast<std::size_t>(end - begin) > most) {
-      lock.unlock();
-      return sampled_path(*this, body, {from, to}, most);
+    const std::shared_lock lock(mutex_);
+    const Interval interval{to_time(from), to_time(to), to_double(to - from), steps_until(from),
+                            steps_until(to)};
+    std::vector<std::vector<PathPoint>> paths;
+    paths.reserve(of_body_.size());
+    for (std::size_t body = 0; body < of_body_.size(); ++body) {
+      paths.push_back(path(body, interval, most));
     }
-    const Time start = to_time(from);
-    std::vector<PathPoint> points = {{0, motion_at(body, start, begin).position}};
-    for (auto number = begin; number != end; ++number) {
-      const StoredStep& step = steps_[*number];
-      points.push_back({flight(start, step.time), after(step, body).position});
-    }
-    points.push_back({to_double(to - from), motion_at(body, to_time(to), end).position});
-    return points;
+    return paths;
   }
 
   std::optional<Rational> turn() const override { return std::nullopt; }
@@ -147,6 +141,40 @@ class StoredBodyLog final : public BodyLog {
       motion.position.at(axis) += motion.velocity.at(axis) * duration;
     }
     return motion;
+  }
+
+  struct Interval {
+    Time from;
+    Time to;
+    double length = 0;
+    std::size_t first = 0;  ///< the first step after `from`
+    std::size_t last = 0;   ///< the first step after `to`
+  };
+
+  std::vector<PathPoint> path(std::size_t body, const Interval& interval, std::size_t most) const {
+    const Numbers& own = of_body_[body];
+    const auto begin = std::ranges::lower_bound(own, interval.first);
+    const auto end = std::lower_bound(begin, own.end(), interval.last);
+    const auto collisions = static_cast<std::size_t>(end - begin);
+    std::vector<PathPoint> points;
+    if (collisions > most) {
+      auto next = begin;
+      for (const double share : sample_times(most)) {
+        const double after = share * interval.length;
+        while (next != end && flight(interval.from, steps_[*next].time) <= after) ++next;
+        const Time now{interval.from.hi, interval.from.lo + after};
+        points.push_back({after, motion_at(body, now, next).position});
+      }
+      return points;
+    }
+    points.reserve(collisions + 2);
+    points.push_back({0, motion_at(body, interval.from, begin).position});
+    for (auto number = begin; number != end; ++number) {
+      const StoredStep& step = steps_[*number];
+      points.push_back({flight(interval.from, step.time), after(step, body).position});
+    }
+    points.push_back({interval.length, motion_at(body, interval.to, end).position});
+    return points;
   }
 
   /// Unless the last step is later than that, or there are no more.

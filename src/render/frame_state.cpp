@@ -126,9 +126,9 @@ FrameState frame_state(const BodyLog& log, const FrameTime& shown, const FrameNe
   for (const TimeSlice& slice : shown.exposure) {
     state.body_exposure.push_back({to_double(slice.share), expose(log, slice.from, slice.to)});
   }
-  for (std::size_t i = 0; needs.trails && i < state.bodies.size(); ++i) {
+  if (needs.trails) {
     const Rational from = std::max<Rational>(0, shown.time - trail);
-    state.trails.push_back(log.path(i, from, shown.time, kMostCorners));
+    state.trails = log.paths(from, shown.time, kMostCorners);
   }
   return state;
 }

@@ -185,14 +185,18 @@ class BodyPainter {
   std::vector<DiskWay> ways_of(std::size_t body,
                                const std::vector<WeightedBodyExposure>& exposures) const {
     std::vector<DiskWay> ways;
-    bool is_still = true;
     for (const auto& [share, exposure] : exposures) {
       for (const BodyPiece& piece : exposure.pieces[body]) {
-        is_still = is_still && piece.from == piece.to;
         ways.push_back(
             {bodies_.map.at(piece.from), bodies_.map.at(piece.to), share * piece.share()});
       }
     }
+    const auto is_near = [](const Point& a, const Point& b) {
+      return std::fabs(a.x - b.x) <= kStill_px && std::fabs(a.y - b.y) <= kStill_px;
+    };
+    const bool is_still = std::ranges::all_of(ways, [&](const DiskWay& way) {
+      return is_near(way.from, ways.front().from) && is_near(way.to, ways.front().from);
+    });
     if (is_still) ways.clear();
     return ways;
   }

@@ -67,9 +67,9 @@ class BodyStage {
 
  private:
   Drawable bodies() {
-    return [stays = body_walls(context_, bodies_, area_),
-            moves = body_painter(context_, std::move(bodies_))](const FrameState& shown,
-                                                                std::vector<DrawItem>& items) {
+    std::vector<DrawItem> stays = body_walls(context_, bodies_, area_);
+    return [stays = std::move(stays), moves = body_painter(context_, std::move(bodies_))](
+               const FrameState& shown, std::vector<DrawItem>& items) {
       items.insert(items.end(), stays.begin(), stays.end());
       moves(shown, items);
     };

@@ -1,0 +1,176 @@
+// What blocks cover of columns and rows of pixels.
+// In: an exposed block. Out: covers, and for which shares of the exposure's time.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "draw/exposed_items.hpp"
+
+namespace piblocks {
+
+/// How much of a row or column of pixels a block covers: all of it, inside its line, its bars.
+struct Cover {
+  double outer = 0;
+  double inner = 0;
+  double bars = 0;
+  bool operator==(const Cover&) const = default;
+};
+
+/// In one way for a share of the time.
+struct CoverShare {
+  Cover cover;
+  double share = 0;
+  bool operator==(const CoverShare&) const = default;
+};
+
+/// How much of the pixel from `pixel` to `pixel` + 1 is between two places.
+inline double overlap(double pixel, double begin, double end) {
+  return std::clamp(std::min(pixel + 1, end) - std::max(pixel, begin), 0.0, 1.0);
+}
+
+inline Cover cover_of(double pixel, double begin, double length, double line_px) {
+  return {overlap(pixel, begin, begin + length),
+          overlap(pixel, begin + line_px, begin + length - line_px)};
+}
+
+/// Places at which a block is looked at while it moves by a pixel. The error falls with the square
+/// of their number, and matters less if the block is in each pixel for less time.
+inline double samples_per_px(double way_px) { return way_px <= 64 ? 16 : way_px <= 512 ? 8 : 4; }
+
+/// What a block covers of a pixel.
+struct PixelCover {
+  const ExposedBlock& block;
+  const Cover& column;
+  const Cover& row;
+
+  /// A sample after the block's fill, its line and its bars are painted over it, as Cairo does.
+  double over(double sample, std::uint8_t Color::*channel) const {
+    const double edge = block.stroke.color.*channel;
+    const double outer = column.outer * row.outer;
+    const double line = outer - column.inner * row.inner;
+    const double filled = sample + outer * (block.fill.*channel - sample);
+    const double edged = filled + line * (edge - filled);
+    return edged + column.outer * row.bars * (edge - edged);
+  }
+};
+
+/// How a block covers a row, and a column over the time of the exposure.
+class BlockCover {
+ public:
+  explicit BlockCover(const ExposedBlock& block)
+      : block_(block),
+        // A shape thinner than its stroke is nothing but stroke.
+        line_px_(std::min({block.stroke.width_px, block.bounds.width, block.bounds.height})),
+        sums_{0} {
+    for (const Dwell& dwell : block.dwells) sums_.push_back(sums_.back() + dwell.share);
+  }
+
+  double line_px() const { return line_px_; }
+
+  Cover of_row(int y) const {
+    Cover cover = cover_of(y, block_.bounds.y, block_.bounds.height, line_px_);
+    // Each bar covers a part of what the ones before left uncovered.
+    for (const Bar& bar : block_.bars) {
+      cover.bars += (1 - cover.bars) * overlap(y, bar.y, bar.y + bar.height);
+    }
+    return cover;
+  }
+
+  /// What a block with its left edge at `x` covers of the column from `column` to `column` + 1.
+  Cover of_column(double column, double x) const {
+    return cover_of(column, x, block_.bounds.width, line_px_);
+  }
+
+  /// All ways in which the block covers a column; valid until the next call.
+  std::span<const CoverShare> shares_of_column(double column) {
+    shares_.clear();
+    if (block_.is_still()) {
+      const Cover still = of_column(column, block_.bounds.x);
+      if (still.outer > 0) shares_.push_back({still, 1});
+    } else if (block_.dwells.empty()) {
+      for (const BlockWay& way : block_.ways) {
+        each_part(column, [&](Part part) { add_way(column, way, part); });
+      }
+    } else if (block_.dwells.back().x >= column - block_.bounds.width &&
+               block_.dwells.front().x < column + 1) {
+      each_part(column, [&](Part part) { add_dwells(column, part); });
+    }
+    return shares_;
+  }
+
+ private:
+  /// Places of the left edge, [from, to).
+  struct Part {
+    double from = 0;
+    double to = 0;
+    bool is_alike = false;  ///< from all of them the block covers the column in the same way
+  };
+
+  template <typename Visit>
+  void each_part(double column, const Visit& visit) const {
+    const double width = block_.bounds.width;
+    if (line_px_ < 1 || width - 2 * line_px_ < 1) {
+      visit(Part{column - width, column + 1, false});
+      return;
+    }
+    // The column has, in this order: the block's right edge, only its line, the line's inner
+    // edge, only its fill, and the same on the other side.
+    visit(Part{column - width, column + 1 - width, false});
+    visit(Part{column + 1 - width, column - width + line_px_, true});
+    visit(Part{column - width + line_px_, column + 1 - width + line_px_, false});
+    visit(Part{column + 1 - width + line_px_, column - line_px_, true});
+    visit(Part{column - line_px_, column + 1 - line_px_, false});
+    visit(Part{column + 1 - line_px_, column, true});
+    visit(Part{column, column + 1, false});
+  }
+
+  std::size_t first_at(double x) const {
+    return static_cast<std::size_t>(std::ranges::lower_bound(block_.dwells, x, {}, &Dwell::x) -
+                                    block_.dwells.begin());
+  }
+
+  void add_dwells(double column, const Part& part) {
+    const std::size_t begin = first_at(part.from);
+    if (part.is_alike) {
+      const std::size_t end = first_at(part.to);
+      if (begin >= end) return;
+      shares_.push_back({of_column(column, block_.dwells[begin].x), sums_[end] - sums_[begin]});
+      return;
+    }
+    for (std::size_t i = begin; i < block_.dwells.size() && block_.dwells[i].x < part.to; ++i) {
+      shares_.push_back({of_column(column, block_.dwells[i].x), block_.dwells[i].share});
+    }
+  }
+
+  void add_way(double column, const BlockWay& way, const Part& part) {
+    const double low = std::min(way.from, way.to);
+    const double high = std::max(way.from, way.to);
+    if (low == high) {
+      if (part.from <= low && low < part.to) {
+        shares_.push_back({of_column(column, low), way.share});
+      }
+      return;
+    }
+    const double from = std::max(part.from, low);
+    const double to = std::min(part.to, high);
+    if (!(from < to)) return;
+    const double share = way.share * ((to - from) / (high - low));
+    const double count = part.is_alike ? 1 : std::ceil((to - from) * samples_per_px(high - low));
+    for (double i = 0; i < count; ++i) {
+      const double x = from + (to - from) * (i + 0.5) / count;
+      shares_.push_back({of_column(column, x), share / count});
+    }
+  }
+
+  const ExposedBlock& block_;
+  double line_px_;
+  std::vector<double> sums_;  // of the shares before each dwell
+  std::vector<CoverShare> shares_;
+};
+
+}  // namespace piblocks

@@ -1,0 +1,243 @@
+#include "draw/disk_exposure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/extent.hpp"
+
+namespace piblocks {
+
+std::optional<DiskExposure::Moments> DiskExposure::Pass::within(const Point& place,
+                                                                double distance) const {
+  const Point at{place.x - from.x, place.y - from.y};
+  const double length2 = step.x * step.x + step.y * step.y;
+  const double out2 = at.x * at.x + at.y * at.y - distance * distance;
+  if (length2 == 0) {
+    if (out2 >= 0) return std::nullopt;
+    return Moments{begin, begin + share};
+  }
+  // |at - t step|² = distance²
+  const double middle = at.x * step.x + at.y * step.y;
+  const double discriminant = middle * middle - length2 * out2;
+  if (discriminant <= 0) return std::nullopt;
+  const double root = std::sqrt(discriminant);
+  const double enters = std::clamp((middle - root) / length2, 0.0, 1.0);
+  const double leaves = std::clamp((middle + root) / length2, 0.0, 1.0);
+  if (enters >= leaves) return std::nullopt;
+  return Moments{begin + enters * share, begin + leaves * share};
+}
+
+bool DiskExposure::Pass::is_all_within(const Point& place, double distance) const {
+  const Point at{place.x - from.x, place.y - from.y};
+  const Point end{at.x - step.x, at.y - step.y};
+  return std::max(at.x * at.x + at.y * at.y, end.x * end.x + end.y * end.y) < distance * distance;
+}
+
+Extent DiskExposure::Pass::beside(double y, double distance) const {
+  double enters = 0;
+  double leaves = 1;
+  if (step.y != 0) {
+    const double below = (y - distance - from.y) / step.y;
+    const double above = (y + distance - from.y) / step.y;
+    enters = std::clamp(std::min(below, above), 0.0, 1.0);
+    leaves = std::clamp(std::max(below, above), 0.0, 1.0);
+  }
+  const double one = from.x + enters * step.x;
+  const double other = from.x + leaves * step.x;
+  return {std::min(one, other) - distance, y, std::max(one, other) + distance, y};
+}
+
+void DiskExposure::begin(const ExposedDisksItem& item, const PixelRect& area) {
+  area_ = area;
+  looks_.clear();
+  passes_.clear();
+  for (std::size_t i = 0; i < item.disks.size(); ++i) add(item.disks[i], i);
+  starts_.assign(passes_.size(), 0);
+  for (std::size_t i = 0; i < starts_.size(); ++i) starts_[i] = static_cast<std::uint32_t>(i);
+  std::ranges::stable_sort(starts_, {}, [&](std::uint32_t i) { return passes_[i].pixels.y_px; });
+  next_start_ = 0;
+  active_.clear();
+  first_.assign(static_cast<std::size_t>(area.width_px), kNone);
+}
+
+void DiskExposure::paint_row(int y, std::uint32_t* pixels, const Light& light) {
+  light_ = &light;
+  std::erase_if(active_, [&](std::uint32_t i) {
+    return y >= passes_[i].pixels.y_px + passes_[i].pixels.height_px;
+  });
+  for (; next_start_ < starts_.size(); ++next_start_) {
+    const std::uint32_t i = starts_[next_start_];
+    if (passes_[i].pixels.y_px > y) break;
+    active_.push_back(i);
+  }
+  visits_.clear();
+  for (const std::uint32_t pass : active_) visit_row(pass, y);
+  for (std::size_t x = 0; x < first_.size(); ++x) {
+    if (first_[x] == kNone) continue;
+    const Point at{area_.x_px + double(x) + 0.5, y + 0.5};
+    pixels[x] = (pixels[x] & 0xFF000000U) | mean_of(first_[x], at, pixels[x]);
+    first_[x] = kNone;
+  }
+}
+
+void DiskExposure::add(const ExposedDisk& disk, std::size_t place) {
+  const PixelRect reached = pixels_of(extent_of(disk), area_);
+  if (reached.width_px <= 0 || reached.height_px <= 0) return;
+  const auto look = static_cast<std::uint32_t>(looks_.size());
+  looks_.emplace_back(disk, place);
+  const double reach = looks_.back().rings().front().radius;
+  double begin = 0;
+  for (const DiskWay& way : disk.ways) {
+    const auto [left, right] = std::minmax(way.from.x, way.to.x);
+    const auto [top, bottom] = std::minmax(way.from.y, way.to.y);
+    const PixelRect pixels = pixels_of(Extent{left, top, right, bottom}.grown(reach), area_);
+    if (pixels.width_px > 0 && pixels.height_px > 0 && way.share > 0) {
+      passes_.push_back({look,
+                         way.from,
+                         {way.to.x - way.from.x, way.to.y - way.from.y},
+                         begin,
+                         way.share,
+                         pixels});
+    }
+    begin += way.share;
+  }
+}
+
+void DiskExposure::visit_row(std::uint32_t number, int y) {
+  const Pass& pass = passes_[number];
+  const std::span<const Ring> rings = looks_[pass.look].rings();
+  Extent beside = pass.beside(y + 0.5, rings.front().radius);
+  beside.bottom = y + 1;
+  const PixelRect row = pixels_of(beside.grown(kRounding_px), {area_.x_px, y, area_.width_px, 1});
+  for (int x = row.x_px; x < row.x_px + row.width_px; ++x) {
+    const Point pixel{x + 0.5, y + 0.5};
+    Visit visit{number,
+                kNone,
+                pass.is_all_within(pixel, rings.back().radius),
+                {pass.begin, pass.begin + pass.share}};
+    if (!visit.is_inside) {
+      const std::optional<Moments> moments = pass.within(pixel, rings.front().radius);
+      if (!moments) continue;
+      visit.moments = *moments;
+    }
+    std::uint32_t& first = first_[static_cast<std::size_t>(x - area_.x_px)];
+    visit.next = first;
+    first = static_cast<std::uint32_t>(visits_.size());
+    visits_.push_back(visit);
+  }
+}
+
+std::uint32_t DiskExposure::mean_of(std::uint32_t first, const Point& at, std::uint32_t pixel) {
+  const std::uint32_t background = pixel & 0xFFFFFFU;
+  const Rgb samples = samples_of(background);
+  for (std::size_t i = 0; i < 3; ++i) sum_[i] = plain_[i] = light_->of(samples[i]);
+  together_.clear();
+  for (std::uint32_t i = first; i != kNone; i = visits_[i].next) together_.push_back(visits_[i]);
+  // By time, and by disk where the time is the same: whatever the area is.
+  std::ranges::sort(together_, [&](const Visit& a, const Visit& b) {
+    if (a.moments.begin != b.moments.begin) return a.moments.begin < b.moments.begin;
+    return a.pass < b.pass;
+  });
+  for (std::size_t begin = 0; begin < together_.size();) {
+    double until = together_[begin].moments.end;
+    std::size_t end = begin + 1;
+    for (; end < together_.size() && together_[end].moments.begin < until; ++end) {
+      until = std::max(until, together_[end].moments.end);
+    }
+    const std::span<const Visit> visits(together_.data() + begin, end - begin);
+    if (visits.size() == 1) {
+      add_alone(visits.front(), at, background);
+    } else {
+      add_together(visits, at, samples);
+    }
+    begin = end;
+  }
+  return std::uint32_t{light_->sample(sum_[0])} << 16 |
+         std::uint32_t{light_->sample(sum_[1])} << 8 | light_->sample(sum_[2]);
+}
+
+void DiskExposure::add_light(double share, const Rgb& light) {
+  for (std::size_t i = 0; i < 3; ++i) sum_[i] += share * (light[i] - plain_[i]);
+}
+
+void DiskExposure::add_alone(const Visit& visit, const Point& at, std::uint32_t background) {
+  const Pass& pass = passes_[visit.pass];
+  DiskLook& look = looks_[pass.look];
+  const std::span<const Ring> rings = look.rings();
+  const std::span<const Rgb> lights = look.lights(background, *light_);
+  if (visit.is_inside) return add_light(pass.share, lights.back());
+  double share = visit.moments.end - visit.moments.begin;
+  for (std::size_t ring = 0; ring < rings.size() && share > 0; ++ring) {
+    const std::optional<Moments> inner =
+        ring + 1 < rings.size() ? pass.within(at, rings[ring + 1].radius) : std::nullopt;
+    const double next = inner ? inner->end - inner->begin : 0;
+    add_light(share - next, lights[ring]);
+    share = next;
+  }
+}
+
+void DiskExposure::add_crossings(std::uint32_t number, const Visit& visit, const Point& at) {
+  const Pass& pass = passes_[visit.pass];
+  const std::span<const Ring> rings = looks_[pass.look].rings();
+  const auto last = static_cast<std::int32_t>(rings.size()) - 1;
+  if (visit.is_inside) {
+    crossings_.push_back({visit.moments.begin, number, false, last});
+    crossings_.push_back({visit.moments.end, number, true, -1});
+    return;
+  }
+  for (std::int32_t ring = 0; ring <= last; ++ring) {
+    const auto within = pass.within(at, rings[static_cast<std::size_t>(ring)].radius);
+    if (!within) break;
+    crossings_.push_back({within->begin, number, false, ring});
+    crossings_.push_back({within->end, number, true, ring - 1});
+  }
+}
+
+void DiskExposure::add_together(std::span<const Visit> visits, const Point& at,
+                                const Rgb& background) {
+  crossings_.clear();
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    add_crossings(static_cast<std::uint32_t>(i), visits[i], at);
+  }
+  // At one time a disk first enters from ring to ring, then leaves the other way.
+  std::ranges::sort(crossings_, [](const Crossing& a, const Crossing& b) {
+    if (a.time != b.time) return a.time < b.time;
+    if (a.visit != b.visit) return a.visit < b.visit;
+    if (a.leaves != b.leaves) return b.leaves;
+    return a.leaves ? a.ring > b.ring : a.ring < b.ring;
+  });
+  present_.clear();
+  for (std::size_t i = 0; i < crossings_.size(); ++i) {
+    const Crossing& crossing = crossings_[i];
+    move(visits, crossing);
+    const double until = i + 1 < crossings_.size() ? crossings_[i + 1].time : crossing.time;
+    if (until > crossing.time) add_present(until - crossing.time, visits, background);
+  }
+}
+
+void DiskExposure::move(std::span<const Visit> visits, const Crossing& crossing) {
+  const auto place = [&](const Crossing& of) {
+    return looks_[passes_[visits[of.visit].pass].look].place();
+  };
+  const auto found = std::ranges::find(present_, crossing.visit, &Crossing::visit);
+  if (found != present_.end()) {
+    if (crossing.ring < 0) {
+      present_.erase(found);
+    } else {
+      *found = crossing;
+    }
+  } else if (crossing.ring >= 0) {
+    present_.insert(std::ranges::upper_bound(present_, place(crossing), {}, place), crossing);
+  }
+}
+
+void DiskExposure::add_present(double share, std::span<const Visit> visits, const Rgb& background) {
+  Rgb samples = background;
+  for (const Crossing& present : present_) {
+    const DiskLook& look = looks_[passes_[visits[present.visit].pass].look];
+    samples = look.over(samples, static_cast<std::size_t>(present.ring));
+  }
+  add_light(share, {light_->of(samples[0]), light_->of(samples[1]), light_->of(samples[2])});
+}
+
+}  // namespace piblocks
