@@ -33,6 +33,12 @@ bool DiskExposure::Pass::is_all_within(const Point& place, double distance) cons
   return std::max(at.x * at.x + at.y * at.y, end.x * end.x + end.y * end.y) < distance * distance;
 }
 
+double DiskExposure::Pass::distance_to(const Point& place, int part) const {
+  const double at = (part + 0.5) / places;
+  const Point to{place.x - from.x - at * step.x, place.y - from.y - at * step.y};
+  return std::sqrt(to.x * to.x + to.y * to.y);
+}
+
 Extent DiskExposure::Pass::beside(double y, double distance) const {
   double enters = 0;
   double leaves = 1;
@@ -81,23 +87,26 @@ void DiskExposure::paint_row(int y, std::uint32_t* pixels, const Light& light) {
 }
 
 void DiskExposure::add(const ExposedDisk& disk, std::size_t place) {
+  // Steps of an edge are seen in a disk that hardly moves. Places on a short way have none.
+  constexpr double kShort_px = 1;
+  constexpr double kPlacesPerPixel = 8;
   const PixelRect reached = pixels_of(extent_of(disk), area_);
   if (reached.width_px <= 0 || reached.height_px <= 0) return;
   const auto look = static_cast<std::uint32_t>(looks_.size());
   looks_.emplace_back(disk, place);
-  const double reach = looks_.back().rings().front().radius;
+  const double reach = looks_.back().rings().front().radius + kSoftEdge_px;
   double begin = 0;
   for (const DiskWay& way : disk.ways) {
+    const Point step{way.to.x - way.from.x, way.to.y - way.from.y};
     const auto [left, right] = std::minmax(way.from.x, way.to.x);
     const auto [top, bottom] = std::minmax(way.from.y, way.to.y);
     const PixelRect pixels = pixels_of(Extent{left, top, right, bottom}.grown(reach), area_);
     if (pixels.width_px > 0 && pixels.height_px > 0 && way.share > 0) {
-      passes_.push_back({look,
-                         way.from,
-                         {way.to.x - way.from.x, way.to.y - way.from.y},
-                         begin,
-                         way.share,
-                         pixels});
+      const double way_px = std::sqrt(step.x * step.x + step.y * step.y);
+      const bool is_short = way_px <= kShort_px;
+      const int places =
+          is_short ? std::max(1, static_cast<int>(std::ceil(kPlacesPerPixel * way_px))) : 0;
+      passes_.push_back({look, way.from, step, begin, way.share, places, pixels});
     }
     begin += way.share;
   }
@@ -106,19 +115,23 @@ void DiskExposure::add(const ExposedDisk& disk, std::size_t place) {
 void DiskExposure::visit_row(std::uint32_t number, int y) {
   const Pass& pass = passes_[number];
   const std::span<const Ring> rings = looks_[pass.look].rings();
-  Extent beside = pass.beside(y + 0.5, rings.front().radius);
+  // A short way is looked at without steps: its edge reaches half a step farther, on both sides.
+  const double step = pass.places > 0 ? kSoftEdge_px / kEdgeSteps : 0;
+  const double outside = rings.front().radius + step;
+  const double inside = rings.back().radius - step;
+  Extent beside = pass.beside(y + 0.5, outside);
   beside.bottom = y + 1;
   const PixelRect row = pixels_of(beside.grown(kRounding_px), {area_.x_px, y, area_.width_px, 1});
   for (int x = row.x_px; x < row.x_px + row.width_px; ++x) {
     const Point pixel{x + 0.5, y + 0.5};
     Visit visit{number,
                 kNone,
-                pass.is_all_within(pixel, rings.back().radius),
+                inside > 0 && pass.is_all_within(pixel, inside),
                 {pass.begin, pass.begin + pass.share}};
     if (!visit.is_inside) {
-      const std::optional<Moments> moments = pass.within(pixel, rings.front().radius);
+      const std::optional<Moments> moments = pass.within(pixel, outside);
       if (!moments) continue;
-      visit.moments = *moments;
+      if (pass.places == 0) visit.moments = *moments;
     }
     std::uint32_t& first = first_[static_cast<std::size_t>(x - area_.x_px)];
     visit.next = first;
@@ -130,7 +143,7 @@ void DiskExposure::visit_row(std::uint32_t number, int y) {
 std::uint32_t DiskExposure::mean_of(std::uint32_t first, const Point& at, std::uint32_t pixel) {
   const std::uint32_t background = pixel & 0xFFFFFFU;
   const Rgb samples = samples_of(background);
-  for (std::size_t i = 0; i < 3; ++i) sum_[i] = plain_[i] = light_->of(samples[i]);
+  sum_ = plain_ = light_of(samples, *light_);
   together_.clear();
   for (std::uint32_t i = first; i != kNone; i = visits_[i].next) together_.push_back(visits_[i]);
   // By time, and by disk where the time is the same: whatever the area is.
@@ -166,6 +179,12 @@ void DiskExposure::add_alone(const Visit& visit, const Point& at, std::uint32_t 
   const std::span<const Ring> rings = look.rings();
   const std::span<const Rgb> lights = look.lights(background, *light_);
   if (visit.is_inside) return add_light(pass.share, lights.back());
+  for (int part = 0; part < pass.places; ++part) {
+    const DiskCover cover = look.cover_at(pass.distance_to(at, part));
+    add_light(pass.share / pass.places,
+              light_of(look.over(samples_of(background), cover), *light_));
+  }
+  if (pass.places > 0) return;
   double share = visit.moments.end - visit.moments.begin;
   for (std::size_t ring = 0; ring < rings.size() && share > 0; ++ring) {
     const std::optional<Moments> inner =
@@ -178,18 +197,28 @@ void DiskExposure::add_alone(const Visit& visit, const Point& at, std::uint32_t 
 
 void DiskExposure::add_crossings(std::uint32_t number, const Visit& visit, const Point& at) {
   const Pass& pass = passes_[visit.pass];
-  const std::span<const Ring> rings = looks_[pass.look].rings();
-  const auto last = static_cast<std::int32_t>(rings.size()) - 1;
-  if (visit.is_inside) {
-    crossings_.push_back({visit.moments.begin, number, false, last});
-    crossings_.push_back({visit.moments.end, number, true, -1});
+  const DiskLook& look = looks_[pass.look];
+  const std::span<const Ring> rings = look.rings();
+  if (visit.is_inside || pass.places > 0) {
+    const double length = visit.moments.end - visit.moments.begin;
+    const int parts = visit.is_inside ? 1 : pass.places;
+    for (int part = 0; part < parts; ++part) {
+      const DiskCover cover =
+          visit.is_inside ? rings.back().cover : look.cover_at(pass.distance_to(at, part));
+      const double time = visit.moments.begin + length * part / parts;
+      crossings_.push_back({time, number, false, part, cover});
+    }
+    crossings_.push_back({visit.moments.end, number, true, -1, {}});
     return;
   }
-  for (std::int32_t ring = 0; ring <= last; ++ring) {
-    const auto within = pass.within(at, rings[static_cast<std::size_t>(ring)].radius);
+  DiskCover outside;
+  for (std::int32_t ring = 0; ring < static_cast<std::int32_t>(rings.size()); ++ring) {
+    const auto& [radius, cover] = rings[static_cast<std::size_t>(ring)];
+    const std::optional<Moments> within = pass.within(at, radius);
     if (!within) break;
-    crossings_.push_back({within->begin, number, false, ring});
-    crossings_.push_back({within->end, number, true, ring - 1});
+    crossings_.push_back({within->begin, number, false, ring, cover});
+    crossings_.push_back({within->end, number, true, ring - 1, outside});
+    outside = cover;
   }
 }
 
@@ -204,7 +233,7 @@ void DiskExposure::add_together(std::span<const Visit> visits, const Point& at,
     if (a.time != b.time) return a.time < b.time;
     if (a.visit != b.visit) return a.visit < b.visit;
     if (a.leaves != b.leaves) return b.leaves;
-    return a.leaves ? a.ring > b.ring : a.ring < b.ring;
+    return a.leaves ? a.to > b.to : a.to < b.to;
   });
   present_.clear();
   for (std::size_t i = 0; i < crossings_.size(); ++i) {
@@ -221,12 +250,12 @@ void DiskExposure::move(std::span<const Visit> visits, const Crossing& crossing)
   };
   const auto found = std::ranges::find(present_, crossing.visit, &Crossing::visit);
   if (found != present_.end()) {
-    if (crossing.ring < 0) {
+    if (crossing.to < 0) {
       present_.erase(found);
     } else {
       *found = crossing;
     }
-  } else if (crossing.ring >= 0) {
+  } else if (crossing.to >= 0) {
     present_.insert(std::ranges::upper_bound(present_, place(crossing), {}, place), crossing);
   }
 }
@@ -235,9 +264,9 @@ void DiskExposure::add_present(double share, std::span<const Visit> visits, cons
   Rgb samples = background;
   for (const Crossing& present : present_) {
     const DiskLook& look = looks_[passes_[visits[present.visit].pass].look];
-    samples = look.over(samples, static_cast<std::size_t>(present.ring));
+    samples = look.over(samples, present.cover);
   }
-  add_light(share, {light_->of(samples[0]), light_->of(samples[1]), light_->of(samples[2])});
+  add_light(share, light_of(samples, *light_));
 }
 
 }  // namespace piblocks

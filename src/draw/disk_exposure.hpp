@@ -42,12 +42,16 @@ class DiskExposure {
     Point step;  ///< to the end of the way
     double begin = 0;
     double share = 0;
+    /// So many places stand for a short way; 0 if rings are looked for.
+    int places = 0;
     PixelRect pixels = {};
 
     /// When the centre is within a distance of a place.
     std::optional<Moments> within(const Point& place, double distance) const;
     /// Whether both ends of the way, so all of it, are within a distance of a place.
     bool is_all_within(const Point& place, double distance) const;
+    /// How far the centre is from a place, on average over one of the parts of a short way.
+    double distance_to(const Point& place, int part) const;
     /// Columns, outside of which the centre is farther than that from any place of this height.
     Extent beside(double y, double distance) const;
   };
@@ -60,12 +64,13 @@ class DiskExposure {
     Moments moments;
   };
 
-  /// In a pixel a disk comes to its next ring.
+  /// In a pixel a disk comes to its next ring, or part of a short way.
   struct Crossing {
     double time = 0;
     std::uint32_t visit = 0;
-    bool leaves = false;    ///< the ring before, which is farther inside
-    std::int32_t ring = 0;  ///< from then on; -1 outside
+    bool leaves = false;   ///< a ring that is farther inside
+    std::int32_t to = 0;   ///< the ring or part from then on; -1 outside
+    DiskCover cover = {};  ///< from then on
   };
 
   void add(const ExposedDisk& disk, std::size_t place);

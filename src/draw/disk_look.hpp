@@ -28,36 +28,52 @@ inline Rgb samples_of(const Color& color) {
   return {double(color.red), double(color.green), double(color.blue)};
 }
 
+inline Rgb light_of(const Rgb& samples, const Light& light) {
+  return {light.of(samples[0]), light.of(samples[1]), light.of(samples[2])};
+}
+
+/// How much of a pixel a disk covers.
+struct DiskCover {
+  double fill = 0;
+  double rim = 0;
+};
+
 /// A circle: what is nearer to the disk's centre looks like this, up to the next smaller circle.
 struct Ring {
   double radius = 0;
-  double fill = 0;  ///< share of the pixel
-  double rim = 0;
+  DiskCover cover;
 };
 
 /// How a disk looks, and what light it leaves of the background that was asked for last.
 class DiskLook {
  public:
   DiskLook(const ExposedDisk& disk, std::size_t place)
-      : place_(place), fill_(samples_of(disk.fill)), rim_(samples_of(disk.rim)) {
-    constexpr double kLeast_px = 0.5;
-    // A disk thinner than a pixel is as wide as one, and fainter.
-    const double radius = std::max(disk.radius, kLeast_px);
-    const double opacity = std::min(1.0, disk.radius * disk.radius / (kLeast_px * kLeast_px));
-    if (disk.rim_px > 0) add_edge(radius, 0, opacity, 0);
-    add_edge(disk.rim_px > 0 ? radius - disk.rim_px : radius, opacity, 0,
-             disk.rim_px > 0 ? opacity : 0);
+      : place_(place),
+        fill_(samples_of(disk.fill)),
+        rim_(samples_of(disk.rim)),
+        // A disk thinner than a pixel is as wide as one, and fainter.
+        opacity_(std::min(1.0, disk.radius * disk.radius / (kLeast_px * kLeast_px))),
+        outer_(radius_of_edge(std::max(disk.radius, kLeast_px))),
+        inner_(disk.rim_px > 0 ? radius_of_edge(std::max(disk.radius, kLeast_px) - disk.rim_px)
+                               : outer_) {
+    if (inner_ < outer_) add_rings(outer_);
+    add_rings(inner_);
   }
 
   std::size_t place() const { return place_; }  ///< in the item
   /// From the outside to the middle.
   std::span<const Ring> rings() const { return {rings_.data(), ring_count_}; }
 
-  Rgb over(const Rgb& behind, std::size_t ring) const {
+  /// What it covers of a pixel so far from its centre: its edges fade evenly.
+  DiskCover cover_at(double distance) const {
+    const double outer = inside(outer_, distance);
+    const double inner = inside(inner_, distance);
+    return {opacity_ * inner, opacity_ * (outer - inner)};
+  }
+  Rgb over(const Rgb& behind, const DiskCover& cover) const {
     Rgb samples = behind;
     for (std::size_t i = 0; i < 3; ++i) {
-      samples[i] +=
-          rings_[ring].fill * (fill_[i] - behind[i]) + rings_[ring].rim * (rim_[i] - behind[i]);
+      samples[i] += cover.fill * (fill_[i] - behind[i]) + cover.rim * (rim_[i] - behind[i]);
     }
     return samples;
   }
@@ -66,31 +82,40 @@ class DiskLook {
     if (background != background_) {
       background_ = background;
       for (std::size_t ring = 0; ring < ring_count_; ++ring) {
-        const Rgb samples = over(samples_of(background), ring);
-        for (std::size_t i = 0; i < 3; ++i) lights_[ring][i] = light.of(samples[i]);
+        lights_[ring] = light_of(over(samples_of(background), rings_[ring].cover), light);
       }
     }
     return {lights_.data(), ring_count_};
   }
 
  private:
-  void add_edge(double at, double fill, double rim, double share_before) {
-    // An edge that fades on both sides of a circle covers more than the circle does:
-    // pi (r^2 + the mean square of the steps' distances from it).
-    constexpr double kSpread_px2 =
-        4 * kSoftEdge_px * kSoftEdge_px * (1 - 1.0 / (kEdgeSteps * kEdgeSteps)) / 12;
-    const double middle = std::sqrt(std::max(0.0, at * at - kSpread_px2));
+  static constexpr double kLeast_px = 0.5;
+
+  /// An edge that fades on both sides of a circle covers pi (r^2 + 1/3 of the square of how far it
+  /// reaches): this is the middle of one that covers as much as the circle.
+  static double radius_of_edge(double radius) {
+    if (radius <= 0) return -2 * kSoftEdge_px;  // nothing is inside
+    return std::sqrt(std::max(0.0, radius * radius - kSoftEdge_px * kSoftEdge_px / 3));
+  }
+  static double inside(double radius, double distance) {
+    return std::clamp((radius + kSoftEdge_px - distance) / (2 * kSoftEdge_px), 0.0, 1.0);
+  }
+
+  void add_rings(double edge) {
     for (int step = 0; step < kEdgeSteps; ++step) {
-      const double in = (step + 1.0) / kEdgeSteps;
-      const double ring = middle + kSoftEdge_px - 2 * kSoftEdge_px * (step + 0.5) / kEdgeSteps;
-      if (ring <= 0) return;
-      rings_[ring_count_++] = {ring, fill * in, rim * in + share_before * (1 - in)};
+      const double radius = edge + kSoftEdge_px - 2 * kSoftEdge_px * (step + 0.5) / kEdgeSteps;
+      if (radius <= 0) return;
+      // Seen as it is half a step farther inside.
+      rings_[ring_count_++] = {radius, cover_at(radius - kSoftEdge_px / kEdgeSteps)};
     }
   }
 
   std::size_t place_;
   Rgb fill_;
   Rgb rim_;
+  double opacity_;
+  double outer_;  // the middle of the outer edge
+  double inner_;  // of the rim's inner edge
   std::size_t ring_count_ = 0;
   std::array<Ring, 2 * kEdgeSteps> rings_{};
   std::uint32_t background_ = std::numeric_limits<std::uint32_t>::max();  // none yet

@@ -11,12 +11,19 @@ std::vector<BodyPiece> pieces_of(const std::vector<PathPoint>& path) {
   const double length = path.back().after;
   if (!(length > 0)) return {{0, 1, path.front().position, path.back().position}};
   std::vector<BodyPiece> pieces;
-  pieces.reserve(path.size() - 1);
   double begin = 0;
   for (std::size_t i = 1; i < path.size(); ++i) {
     // Rounding may put the times of two collisions in the wrong order.
     const double end = std::clamp(path[i].after / length, begin, 1.0);
-    pieces.push_back({begin, end, path[i - 1].position, path[i].position});
+    const auto stays = [&](const BodyPiece& piece) {
+      return piece.from == path[i].position && piece.to == path[i].position;
+    };
+    // One that never moves may be met by others very often.
+    if (!pieces.empty() && stays(pieces.back()) && path[i - 1].position == path[i].position) {
+      pieces.back().end = end;
+    } else {
+      pieces.push_back({begin, end, path[i - 1].position, path[i].position});
+    }
     begin = end;
   }
   return pieces;

@@ -120,6 +120,15 @@ inline ExposedBlock any_exposed_block(Random& random, int width, int height) {
     block.dwells.push_back({x, 1.0 / double(count)});
     x += random.uniform(0.01, 1);
   }
+  // Ways are where the dwells are, if there are any.
+  double begin = block.bounds.x;
+  constexpr int kWays = 3;
+  for (int i = random.integer(0, 1) == 0 ? 0 : kWays; i > 0; --i) {
+    double end = random.integer(0, 3) == 0 ? begin : anywhere(random, width);
+    if (count > 0) end = random.uniform(block.bounds.x, block.dwells.back().x);
+    block.ways.push_back({begin, end, 1.0 / kWays});
+    begin = end;
+  }
   return block;
 }
 

@@ -139,7 +139,14 @@ void move(Random& random, ExposedBlock& block) {
   const double step = random.uniform(-5, 5);
   block.bounds.x += step;
   for (Dwell& dwell : block.dwells) dwell.x += step;
-  if (random.integer(0, 4) == 0) block.dwells.clear();
+  for (BlockWay& way : block.ways) {
+    way.from += step;
+    way.to += step;
+  }
+  if (random.integer(0, 4) == 0) {
+    block.dwells.clear();
+    block.ways.clear();
+  }
 }
 
 void change(Random& random, DrawList& list);

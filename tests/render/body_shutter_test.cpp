@@ -4,6 +4,7 @@
 #include <piblocks/render.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <numeric>
@@ -120,6 +121,121 @@ TEST(BodyShutter, FramesOfTouchingBlocksAreMeansOfInstants) {
   }
 }
 
+/// A row of blocks, touching, which goes back and forth by some pixels.
+struct MovingRow {
+  double block_px = 1;
+  double line_px = 0;
+  double way_px = 1;
+  int blocks = 100;
+
+  double left_at(double time) const {  // of the first block
+    return 20.3 + way_px * (time < 0.25 ? time / 0.25 : 1 - (time - 0.25) / 0.75);
+  }
+  ExposedBlock block(int i, double time) const {
+    const std::array<Color, 3> fills = {Color{200, 30, 60}, {20, 160, 90}, {240, 220, 40}};
+    return {{left_at(time) + i * block_px, 5.5, block_px, 20},
+            fills[static_cast<std::size_t>(i % 3)],
+            {Color{10, 10, 40}, line_px},
+            {},
+            {}};
+  }
+  /// From left to right, but painted in another order.
+  ExposedBlocksItem item() const {
+    ExposedBlocksItem item{ItemId::red_block, {}, {}};
+    for (const int i : order()) {
+      item.blocks.push_back(block(i, 0));
+      for (const double turn : {0.25, 1.0}) {
+        const double before = turn == 1 ? 0.25 : 0;
+        item.blocks.back().ways.push_back(
+            {block(i, before).bounds.x, block(i, turn).bounds.x, turn - before});
+      }
+    }
+    return item;
+  }
+  std::vector<DrawItem> at(double time) const {
+    std::vector<DrawItem> items;
+    for (const int i : order()) add_rectangles(ItemId::red_block, block(i, time), items);
+    return items;
+  }
+  std::vector<int> order() const {
+    std::vector<int> order;
+    for (int i = 0; i < blocks; ++i) order.push_back(i * 7 % blocks);
+    return order;
+  }
+};
+
+double worst_difference(const MovingRow& row) {
+  constexpr int kInstants = 2000;
+  const Color background{250, 250, 250};
+  Canvas canvas(160, 40);
+  MeanLight mean;
+  for (int i = 0; i < kInstants; ++i) {
+    canvas.update({160, 40, background, row.at((i + 0.5) / kInstants)});
+    mean.add(samples_of(canvas.view()));
+  }
+  const std::vector<double> wanted = mean.samples();
+  canvas.paint({160, 40, background, {row.item()}});
+  const std::vector<int> samples = samples_of(canvas.view());
+  double worst = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    worst = std::max(worst, std::fabs(samples[i] - wanted[i]));
+  }
+  return worst;
+}
+
+/// Up to six blocks are in one pixel at the same time.
+TEST(BodyShutter, NarrowBlocksAreMeansOfInstants) {
+  for (const double block_px : {0.21, 0.5, 0.93, 1.7}) {
+    for (const double way_px : {0.3, 5.0, 61.0}) {
+      EXPECT_LE(worst_difference({.block_px = block_px, .way_px = way_px}), 3)
+          << block_px << ", " << way_px;
+    }
+  }
+  for (const double way_px : {0.3, 5.0, 61.0}) {
+    const MovingRow row{.block_px = 2.3, .line_px = 1, .way_px = way_px, .blocks = 40};
+    EXPECT_LE(worst_difference(row), 3) << way_px;
+  }
+}
+
+/// A body that bounces exactly once, or twice, between samples at even times would seem to stay.
+TEST(BodyShutter, FramesOfManyCollisionsAreMeansOfInstants) {
+  for (const int bounces : {511, 1022, 2044}) {
+    BodySystem system{1, {}, {}};
+    system.bodies.push_back({.mass = std::nullopt, .position = {1, 0}});
+    system.bodies.push_back({.mass = 1,
+                             .position = {3, 0},
+                             .velocity = {2 * Rational(9, 2) * bounces * 20, 0},
+                             .size = Rational(1, 2)});
+    system.bodies.push_back({.mass = std::nullopt, .position = {7, 0}});
+    Scene scene = scene_of(std::move(system), Rational(1, 10));
+    scene.time.allow_uncertain = true;
+    EXPECT_LE(difference_of(scene, 0).worst, 2.5) << bounces;
+  }
+}
+
+/// A train that passes by: what a frame holds of it does not depend on how fast it is.
+TEST(BodyShutter, BlocksTakeNoMoreMemoryTheFasterTheyAre) {
+  constexpr int kBlocks = 2000;
+  std::vector<Body> bodies;
+  for (int i = 0; i < kBlocks; ++i) {
+    bodies.push_back({.position = {Rational(101, 1000) * i, 0},
+                      .velocity = {-1000, 0},
+                      .size = Rational(1, 10)});
+  }
+  const Film film(scene_of({1, std::move(bodies), {}}, 1));
+  std::size_t parts = 0;
+  for (const DrawItem& item : film.frame(0).items) {
+    const auto* const exposed = std::get_if<ExposedBlocksItem>(&item);
+    if (exposed == nullptr) continue;
+    parts += exposed->contacts.size();
+    for (const ExposedBlock& block : exposed->blocks) {
+      parts += block.dwells.size() + block.ways.size();
+    }
+  }
+  EXPECT_GT(parts, 0U);
+  EXPECT_LE(parts, std::size_t{2 * kBlocks});
+}
+
 /// Two blocks and a wall by other names, in both directions: thousands of collisions a frame.
 TEST(BodyShutter, FramesOfTheClosedFormAreMeansOfInstants) {
   for (const int sign : {1, -1}) {
@@ -182,16 +298,74 @@ TEST(BodyShutter, DiscsThatStayAreDisks) {
   }
 }
 
+/// Each pixel between them has a part of two or three discs all the time.
+TEST(BodyShutter, FramesOfTouchingDiscsAreMeansOfInstants) {
+  std::vector<Body> bodies;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      bodies.push_back({.mass = 1 + i + 3 * j,
+                        .position = {2 + i, 1 + j},
+                        .velocity = {Rational(3, 10), Rational(1, 7)},
+                        .size = Rational(1, 2)});
+    }
+  }
+  Scene scene = scene_of({2, std::move(bodies), {}}, 2);
+  scene.time.allow_uncertain = true;  // they touch from the beginning
+  for (const std::int64_t frame : {0, 3}) {
+    const Difference difference = difference_of(scene, frame);
+    EXPECT_LE(difference.worst, 24) << frame;
+    EXPECT_LE(difference.mean, 0.1) << frame;
+  }
+}
+
+/// No disc is wider than two pixels, and each pixel has parts of four.
+TEST(BodyShutter, FramesOfTinyDiscsAreMeansOfInstants) {
+  for (const Rational& radius : {Rational(1, 40), Rational(1, 80), Rational(1, 200)}) {
+    std::vector<Body> bodies;
+    for (int i = 0; i < 20; ++i) {
+      for (int j = 0; j < 20; ++j) {
+        bodies.push_back({.position = {2 + Rational(2001, 1000) * i * radius,
+                                       1 + Rational(2001, 1000) * j * radius},
+                          .velocity = {3, 2},
+                          .size = radius});
+      }
+    }
+    const Scene scene = scene_of({2, std::move(bodies), {}}, 2);
+    const Difference difference = difference_of(scene, 1);
+    EXPECT_LE(difference.worst, 16) << radius;
+    EXPECT_LE(difference.mean, 0.1) << radius;
+  }
+}
+
+TEST(BodyShutter, DiscsThatMoveByLessThanCanBeSeenAreDisks) {
+  const Scene scene =
+      scene_of(box({{.position = {1, 1},
+                     .velocity = {Rational(1, 1'000'000'000), 0},
+                     .size = Rational(1, 4)},
+                    {.position = {4, 3}, .velocity = {1, 0}, .size = Rational(1, 4)}},
+                   2),
+               2);
+  const Film film(scene);
+  std::size_t disks = 0;
+  for (const DrawItem& item : film.frame(3).items) {
+    const auto* const group = std::get_if<GroupItem>(&item);
+    if (group == nullptr) continue;
+    for (const DrawItem& part : group->list->items) disks += std::holds_alternative<DiskItem>(part);
+  }
+  EXPECT_EQ(disks, 1U);
+}
+
 /// Light is neither lost nor made: far from its edges a disc's mean is its time there.
 TEST(BodyShutter, ManyDisksThatPassOnePlaceAddUp) {
   ExposedDisksItem item{ItemId::red_block, {}};
   constexpr int kDisks = 4;
   for (int i = 0; i < kDisks; ++i) {
     const double away = 1000;
-    // Each is over the middle for a quarter of the time, and away for the rest.
+    // Each is over the middle for a quarter of the time, and away before and after.
     ExposedDisk disk{30, 0, Color{255, 255, 255}, {}, {}};
-    disk.ways = {{{50, 50}, {50, 50}, 1.0 / kDisks},
-                 {{away, away}, {away, away}, 1 - 1.0 / kDisks}};
+    disk.ways = {{{away, away}, {away, away}, double(i) / kDisks},
+                 {{50, 50}, {50, 50}, 1.0 / kDisks},
+                 {{away, away}, {away, away}, double(kDisks - 1 - i) / kDisks}};
     item.disks.push_back(disk);
   }
   DrawList list{100, 100, Color{0, 0, 0}, {item}};

@@ -1,0 +1,119 @@
+// Where bodies spend an interval of time: every collision is in it, at its time.
+#include <gtest/gtest.h>
+#include <piblocks/bodies.hpp>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/body_logs.hpp"
+#include "physics/exposure.hpp"
+
+namespace piblocks {
+namespace {
+
+constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+
+/// A body of mass 1 between two that never move, 9/2 apart for its centre.
+BodySystem between_two(const Rational& velocity) {
+  BodySystem system{1, {}, {}};
+  system.bodies.push_back({.mass = std::nullopt, .position = {-3, 0}});
+  system.bodies.push_back(
+      {.mass = 1, .position = {0, 0}, .velocity = {velocity, 0}, .size = Rational(1, 2)});
+  system.bodies.push_back({.mass = std::nullopt, .position = {3, 0}});
+  return system;
+}
+
+/// The position of the body in the middle, which bounces between -9/4 and 9/4, by folding its way.
+double folded(double way) {
+  const double length = 4.5;
+  const double from_left = std::fmod(way + length / 2, 2 * length);
+  return (from_left > length ? 2 * length - from_left : from_left) - length / 2;
+}
+
+/// The share of an exposure that a body is below a position.
+double share_below(const std::vector<BodyPiece>& pieces, double position) {
+  double share = 0;
+  for (const BodyPiece& piece : pieces) {
+    const auto [low, high] = std::minmax(piece.from[0], piece.to[0]);
+    share += piece.share() * std::clamp((position - low) / std::max(high - low, 1e-300), 0.0, 1.0);
+  }
+  return share;
+}
+
+TEST(BodyExposure, ListsEveryCollision) {
+  // 2000 bounces in 1/10, exactly two of them a 1/1000 of it.
+  const auto log = make_body_log(between_two(90'000), Rational(1));
+  const BodyExposure exposure = expose(*log, Rational(1, 7), Rational(1, 7) + Rational(1, 10));
+  ASSERT_EQ(exposure.pieces.size(), 3U);
+  EXPECT_EQ(exposure.pieces[1].size(), 2001U);
+  for (const BodyPiece& piece : exposure.pieces[1]) {
+    EXPECT_NEAR(piece.from[0], folded(90'000 * (1.0 / 7 + piece.begin / 10)), 1e-6);
+  }
+  for (const double position : {-2.0, -1.0, 0.0, 0.5, 2.25}) {
+    EXPECT_NEAR(share_below(exposure.pieces[1], position), (position + 2.25) / 4.5, 1e-9);
+  }
+  EXPECT_EQ(exposure.pieces[0].size(), 1U);
+  EXPECT_EQ(exposure.ranges[1].from, -2.25);
+  EXPECT_EQ(exposure.ranges[1].to, 2.25);
+}
+
+/// At even times it would always be at one place.
+TEST(BodyExposure, FewPointsOfAWayFollowNoRhythm) {
+  constexpr std::size_t kPoints = 100;
+  const auto log = make_body_log(between_two(9 * 99), Rational(2));
+  const auto paths = log->paths(0, 1, kPoints);
+  ASSERT_EQ(paths.size(), 3U);
+  ASSERT_EQ(paths[1].size(), kPoints);
+  std::vector<double> places;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const PathPoint& point = paths[1][i];
+    EXPECT_NEAR(point.position[0], folded(9 * 99 * point.after), 1e-9);
+    EXPECT_TRUE(i == 0 || point.after > paths[1][i - 1].after);
+    places.push_back(point.position[0]);
+  }
+  EXPECT_EQ(paths[1].front().after, 0);
+  EXPECT_EQ(paths[1].back().after, 1);
+  EXPECT_LT(std::ranges::min(places), -2);
+  EXPECT_GT(std::ranges::max(places), 2);
+}
+
+TEST(BodyExposure, PathsAreThoseOfStates) {
+  const auto log = make_body_log(between_two(Rational(17, 3)), Rational(10));
+  const Rational from(1, 3);
+  for (const Rational& to : {Rational(1, 3), Rational(1, 2), Rational(19, 3), Rational(10)}) {
+    const auto paths = log->paths(from, to, kAll);
+    const BodiesState before = log->state_at(from);
+    const BodiesState after = log->state_at(to);
+    for (std::size_t body = 0; body < 3; ++body) {
+      EXPECT_EQ(paths[body].front().position, before.bodies[body].position);
+      EXPECT_EQ(paths[body].back().position, after.bodies[body].position);
+      EXPECT_EQ(paths[body].back().after, to_double(to - from));
+    }
+    EXPECT_EQ(Integer(paths[1].size() - 2), after.count - before.count);
+  }
+  EXPECT_THROW(log->paths(-1, 1, kAll), UsageError);
+}
+
+/// In closed form, too, the wall needs no more than a place.
+TEST(BodyExposure, TheWallOfTheClosedFormStays) {
+  BodySystem system{1, {}, {}};
+  system.bodies.push_back({.mass = std::nullopt, .position = {Rational(-1, 2), 0}});
+  system.bodies.push_back({.mass = 1, .position = {2, 0}});
+  system.bodies.push_back({.mass = 100'000'000, .position = {5, 0}, .velocity = {-1, 0}});
+  const auto log = make_body_log(system, std::nullopt);
+  ASSERT_TRUE(closed_blocks(*log));
+  const BodyExposure exposure = expose(*log, 3, 5);
+  ASSERT_TRUE(exposure.area_below);
+  ASSERT_EQ(exposure.pieces[0].size(), 1U);
+  EXPECT_EQ(exposure.pieces[0][0].from, (std::array{-0.5, 0.0}));
+  EXPECT_EQ(exposure.pieces[0][0].to, (std::array{-0.5, 0.0}));
+  EXPECT_EQ(exposure.pieces[0][0].share(), 1);
+  const auto paths = log->paths(3, 5, 10);
+  EXPECT_EQ(paths[0].size(), 2U);
+  EXPECT_EQ(paths[1].size(), 10U);
+}
+
+}  // namespace
+}  // namespace piblocks
