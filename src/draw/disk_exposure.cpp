@@ -90,8 +90,11 @@ void DiskExposure::add(const ExposedDisk& disk, std::size_t place) {
   // Steps of an edge are seen in a disk that hardly moves. Places on a short way have none.
   constexpr double kShort_px = 1;
   constexpr double kPlacesPerPixel = 8;
-  const PixelRect reached = pixels_of(extent_of(disk), area_);
-  if (reached.width_px <= 0 || reached.height_px <= 0) return;
+  const Extent extent = extent_of(disk);
+  if (extent.left >= area_.x_px + area_.width_px || extent.right <= area_.x_px ||
+      extent.top >= area_.y_px + area_.height_px || extent.bottom <= area_.y_px) {
+    return;
+  }
   const auto look = static_cast<std::uint32_t>(looks_.size());
   looks_.emplace_back(disk, place);
   const double reach = looks_.back().rings().front().radius + kSoftEdge_px;

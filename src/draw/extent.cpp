@@ -110,9 +110,12 @@ Extent extent_of(const ExposedDisk& disk) {
   const Point& first = disk.ways.front().from;
   Extent extent{first.x, first.y, first.x, first.y};
   for (const DiskWay& way : disk.ways) {
-    const auto [left, right] = std::minmax({extent.left, way.from.x, way.to.x, extent.right});
-    const auto [top, bottom] = std::minmax({extent.top, way.from.y, way.to.y, extent.bottom});
-    extent = {left, top, right, bottom};
+    for (const Point& end : {way.from, way.to}) {
+      extent.left = std::min(extent.left, end.x);
+      extent.top = std::min(extent.top, end.y);
+      extent.right = std::max(extent.right, end.x);
+      extent.bottom = std::max(extent.bottom, end.y);
+    }
   }
   return extent.grown(disk.radius + kSoftEdge_px);
 }
