@@ -28,16 +28,22 @@ void stroke_side(cairo_t& cr, const Point& from, const Point& to, double dash_px
 }
 
 void stroke_inside(cairo_t& cr, const Rectangle& bounds, const Stroke& stroke) {
-  // A shape thinner than its stroke is nothing but stroke.
+  set_color(cr, stroke.color);
   const double width_px = std::min({stroke.width_px, bounds.width, bounds.height});
+  if (width_px < stroke.width_px) {
+    // A shape thinner than its stroke is nothing but stroke. Cairo paints half of a line around a
+    // rectangle of no width, and nothing of one around a point.
+    cairo_rectangle(&cr, bounds.x, bounds.y, bounds.width, bounds.height);
+    cairo_fill(&cr);
+    return;
+  }
   const double inset = width_px / 2;
   const double left = bounds.x + inset;
   const double top = bounds.y + inset;
   const double right = bounds.x + bounds.width - inset;
   const double bottom = bounds.y + bounds.height - inset;
-  set_color(cr, stroke.color);
   cairo_set_line_width(&cr, width_px);
-  if (stroke.dash_px <= 0 || width_px < stroke.width_px) {
+  if (stroke.dash_px <= 0) {
     cairo_set_dash(&cr, nullptr, 0, 0);
     cairo_rectangle(&cr, left, top, right - left, bottom - top);
     cairo_stroke(&cr);
