@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "draw/extent.hpp"
 
@@ -58,12 +59,11 @@ void DiskExposure::begin(const ExposedDisksItem& item, const PixelRect& area) {
   looks_.clear();
   passes_.clear();
   for (std::size_t i = 0; i < item.disks.size(); ++i) add(item.disks[i], i);
-  starts_.assign(passes_.size(), 0);
-  for (std::size_t i = 0; i < starts_.size(); ++i) starts_[i] = static_cast<std::uint32_t>(i);
+  starts_.resize(passes_.size());
+  std::iota(starts_.begin(), starts_.end(), 0U);
   std::ranges::stable_sort(starts_, {}, [&](std::uint32_t i) { return passes_[i].pixels.y_px; });
   next_start_ = 0;
   active_.clear();
-  first_.assign(static_cast<std::size_t>(area.width_px), kNone);
 }
 
 void DiskExposure::paint_row(int y, std::uint32_t* pixels, const Light& light) {
@@ -76,13 +76,22 @@ void DiskExposure::paint_row(int y, std::uint32_t* pixels, const Light& light) {
     if (passes_[i].pixels.y_px > y) break;
     active_.push_back(i);
   }
+  const int end = area_.x_px + area_.width_px;
+  for (int x = area_.x_px; x < end; x += kColumns) {
+    paint_columns({x, y, std::min(kColumns, end - x), 1}, pixels + (x - area_.x_px));
+  }
+}
+
+void DiskExposure::paint_columns(const PixelRect& columns, std::uint32_t* pixels) {
   visits_.clear();
-  for (const std::uint32_t pass : active_) visit_row(pass, y);
-  for (std::size_t x = 0; x < first_.size(); ++x) {
-    if (first_[x] == kNone) continue;
-    const Point at{area_.x_px + double(x) + 0.5, y + 0.5};
-    pixels[x] = (pixels[x] & 0xFF000000U) | mean_of(first_[x], at, pixels[x]);
-    first_[x] = kNone;
+  first_.fill(kNone);
+  for (const std::uint32_t pass : active_) visit(pass, columns);
+  if (visits_.empty()) return;
+  for (int x = 0; x < columns.width_px; ++x) {
+    const std::uint32_t first = first_.at(static_cast<std::size_t>(x));
+    if (first == kNone) continue;
+    const Point at{columns.x_px + x + 0.5, columns.y_px + 0.5};
+    pixels[x] = (pixels[x] & 0xFF000000U) | mean_of(first, at, pixels[x]);
   }
 }
 
@@ -115,8 +124,13 @@ void DiskExposure::add(const ExposedDisk& disk, std::size_t place) {
   }
 }
 
-void DiskExposure::visit_row(std::uint32_t number, int y) {
+void DiskExposure::visit(std::uint32_t number, const PixelRect& columns) {
   const Pass& pass = passes_[number];
+  if (pass.pixels.x_px >= columns.x_px + columns.width_px ||
+      pass.pixels.x_px + pass.pixels.width_px <= columns.x_px) {
+    return;
+  }
+  const int y = columns.y_px;
   const std::span<const Ring> rings = looks_[pass.look].rings();
   // A short way is looked at without steps: its edge reaches half a step farther, on both sides.
   const double step = pass.places > 0 ? kSoftEdge_px / kEdgeSteps : 0;
@@ -124,7 +138,7 @@ void DiskExposure::visit_row(std::uint32_t number, int y) {
   const double inside = rings.back().radius - step;
   Extent beside = pass.beside(y + 0.5, outside);
   beside.bottom = y + 1;
-  const PixelRect row = pixels_of(beside.grown(kRounding_px), {area_.x_px, y, area_.width_px, 1});
+  const PixelRect row = pixels_of(beside.grown(kRounding_px), columns);
   for (int x = row.x_px; x < row.x_px + row.width_px; ++x) {
     const Point pixel{x + 0.5, y + 0.5};
     Visit visit{number,
@@ -136,7 +150,7 @@ void DiskExposure::visit_row(std::uint32_t number, int y) {
       if (!moments) continue;
       if (pass.places == 0) visit.moments = *moments;
     }
-    std::uint32_t& first = first_[static_cast<std::size_t>(x - area_.x_px)];
+    std::uint32_t& first = first_.at(static_cast<std::size_t>(x - columns.x_px));
     visit.next = first;
     first = static_cast<std::uint32_t>(visits_.size());
     visits_.push_back(visit);

@@ -4,6 +4,7 @@
 
 #include <piblocks/image.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -28,6 +29,8 @@ class DiskExposure {
 
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  /// So many pixels are painted at once: there may be thousands of visits to each.
+  static constexpr int kColumns = 128;
 
   /// A part of the exposure's time, 0 … 1.
   struct Moments {
@@ -50,7 +53,7 @@ class DiskExposure {
     std::optional<Moments> within(const Point& place, double distance) const;
     /// Whether both ends of the way, so all of it, are within a distance of a place.
     bool is_all_within(const Point& place, double distance) const;
-    /// How far the centre is from a place, on average over one of the parts of a short way.
+    /// How far the centre is from a place, in the middle of a part of a short way.
     double distance_to(const Point& place, int part) const;
     /// Columns, outside of which the centre is farther than that from any place of this height.
     Extent beside(double y, double distance) const;
@@ -74,7 +77,8 @@ class DiskExposure {
   };
 
   void add(const ExposedDisk& disk, std::size_t place);
-  void visit_row(std::uint32_t number, int y);
+  void paint_columns(const PixelRect& columns, std::uint32_t* pixels);
+  void visit(std::uint32_t number, const PixelRect& columns);
   std::uint32_t mean_of(std::uint32_t first, const Point& at, std::uint32_t pixel);
   void add_light(double share, const Rgb& light);
   void add_alone(const Visit& visit, const Point& at, std::uint32_t background);
@@ -89,9 +93,9 @@ class DiskExposure {
   std::vector<Pass> passes_;           // by disk, and by time
   std::vector<std::uint32_t> starts_;  // passes by their highest row
   std::size_t next_start_ = 0;
-  std::vector<std::uint32_t> active_;  // passes in this row
-  std::vector<std::uint32_t> first_;   // visit of each pixel of the row
-  std::vector<Visit> visits_;          // of the row
+  std::vector<std::uint32_t> active_;            // passes in this row
+  std::array<std::uint32_t, kColumns> first_{};  // visit of each pixel of some columns
+  std::vector<Visit> visits_;                    // of these pixels
   // Of one pixel.
   std::vector<Visit> together_;
   std::vector<Crossing> crossings_;
