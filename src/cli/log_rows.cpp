@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -129,10 +130,15 @@ Rows select_rows(const OptionTexts& options, const BodyLog& log) {
   return limited(options, log, rows_within_times(options, log));
 }
 
-std::string npy_header(std::string_view row_type, const Integer& rows) {
+std::string npy_header(std::string_view row_type, const Rows& rows) {
+  for (const Integer& index : {rows.first, rows.last}) {
+    if (rows.count() == 0 || abs(index) <= std::numeric_limits<std::int64_t>::max()) continue;
+    throw UsageError(fmt::format("--format npy: index {} does not fit in 64 bits; use csv or jsonl",
+                                 readable(index)));
+  }
   constexpr std::size_t kAlignment_bytes = 64;  // of the first row
   std::string text = fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': ({},), }}",
-                                 row_type, rows.get_str());
+                                 row_type, rows.count().get_str());
   std::string header("\x93NUMPY\x01\x00", 8);
   const std::size_t length = header.size() + 2 + text.size() + 1;  // with its own length, and '\n'
   text.append((kAlignment_bytes - length % kAlignment_bytes) % kAlignment_bytes, ' ');

@@ -68,11 +68,6 @@ void SceneOptions::add_picture() {
   add_flag({"view.background", "--opaque", "opaque"}, "Force a background");
 }
 
-void SceneOptions::add_end() {
-  add_key("time.to", "--to", "T",
-          "Count collisions until then (default: all; needed where they\nnever end)");
-}
-
 void SceneOptions::add_span() {
   add_key("time.from", "--from", "T",
           "First instant shown: 3.5, turn-0.3, last+1, #314\n(default 0)");
@@ -189,8 +184,8 @@ void note_convention(const Script& script) {
   for (const std::string& note : convention_notes(script)) say("piblocks: note: {}\n", note);
 }
 
-void note_ties(const RunLog& run, const std::optional<Rational>& until) {
-  if (const auto note = tie_note(run, until)) say("piblocks: note: {}\n", *note);
+void note_ties(const RunLog& run, const Integer& last) {
+  if (const auto note = tie_note(run, last)) say("piblocks: note: {}\n", *note);
 }
 
 }  // namespace piblocks::cli

@@ -162,7 +162,11 @@ struct Font::Loaded {
   /// its place, that thread lets go of it, and asserts that nobody uses it: wrongly, if nobody else
   /// held it and its own thread asks for it again just then.
   void keep(cairo_scaled_font_t* sized) {
-    if (std::ranges::find(kept, sized, &CairoScaledFontPtr::get) != kept.end()) return;
+    const auto found = std::ranges::find(kept, sized, &CairoScaledFontPtr::get);
+    if (found != kept.end()) {
+      std::rotate(found, std::next(found), kept.end());  // the oldest is the first
+      return;
+    }
     if (kept.size() == kMostKept) kept.erase(kept.begin());
     kept.emplace_back(cairo_scaled_font_reference(sized));
   }

@@ -44,13 +44,13 @@ void require_certain(const Scene& scene, const BodyLog& log, const Rational& tim
       *until, *until * 0.999));
 }
 
-std::optional<std::string> tie_note(const RunLog& log, const std::optional<Rational>& until) {
-  const std::optional<double> time = log.bodies() ? log.bodies()->first_tie() : std::nullopt;
-  if (!time || (until && Rational(*time) > *until)) return std::nullopt;
+std::optional<std::string> tie_note(const RunLog& log, const Integer& last) {
+  const std::optional<Integer> tie = log.bodies() ? log.bodies()->first_tie() : std::nullopt;
+  if (!tie || *tie > last) return std::nullopt;
   return fmt::format(
       "at t = {} a body has several collisions at once: these happen in the order of the file, and "
       "another order may end otherwise",
-      *time);
+      log.bodies()->collision_time(*tie).hi);
 }
 
 void require_blocks(const Scene& scene, const char* what) {

@@ -55,6 +55,20 @@ def test_counts_are_those_of_the_program(program):
         assert scene_of(text).count == int(program("count", name)), name
 
 
+def test_counts_and_indices_of_any_size():
+    scene = scene_of(
+        "[[body]]\nmass = 'inf'\nposition = -1\n[[body]]\nposition = 2\n"
+        "[[body]]\nmass = '1e58'\nposition = 5\nvelocity = -1\n"
+    )
+    assert scene.count == 314159265358979323846264338327
+    assert scene.state(10).count == scene.count
+    assert scene.state([0, 10]).count.tolist() == [0, scene.count]
+    assert scene.state(np.array([[0, 10]])).count.tolist() == [[0, scene.count]]
+    rows = scene.log(first=10**28, limit=2)
+    assert rows["index"].tolist() == [10**28, 10**28 + 1]
+    assert scene.log(limit=1)["index"].dtype == np.int64
+
+
 def test_a_count_without_an_end_is_refused(program):
     scene = scene_of(BLOCKS.replace("to = 4", ""))
     with pytest.raises(piblocks.UsageError) as raised:

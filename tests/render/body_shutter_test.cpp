@@ -120,6 +120,27 @@ TEST(BodyShutter, FramesOfTouchingBlocksAreMeansOfInstants) {
   }
 }
 
+/// What happens after it may not be certain, or too much to compute.
+TEST(BodyShutter, AnExposureStopsAtTheEndOfTheFilm) {
+  const std::vector<Body> bodies{{.position = {1, 0}, .velocity = {3, 0}},
+                                 {.mass = 4, .position = {6, 0}, .velocity = {-1, 0}}};
+  Scene scene = scene_of(box(bodies, 1), 1);
+  scene.time.speed = 10'000'000;
+  FrameRenderer film(scene);
+  ASSERT_EQ(film.frame_count(), 1);
+  const std::vector<int> exposed = samples_of(film.frame(0));
+  // Almost all of the exposure is after the end, when all stand still.
+  scene.view.shutter = 0;
+  scene.time = {.from = Rational(999'999, 1'000'000), .to = Rational(1)};
+  FrameRenderer end(scene);
+  const std::vector<int> still = samples_of(end.frame(0));
+  int worst = 0;
+  for (std::size_t i = 0; i < still.size(); ++i) {
+    worst = std::max(worst, std::abs(still[i] - exposed[i]));
+  }
+  EXPECT_LE(worst, 2);
+}
+
 /// Two blocks and a wall by other names, in both directions: thousands of collisions a frame.
 TEST(BodyShutter, FramesOfTheClosedFormAreMeansOfInstants) {
   for (const int sign : {1, -1}) {
