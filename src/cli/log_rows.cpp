@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "cli/values.hpp"
-#include "physics/damped_log.hpp"
 #include "physics/exact_motion.hpp"
+#include "physics/inelastic_log.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -60,7 +60,7 @@ Integer first_since(const CollisionLog& log, const Bound& bound) {
   const auto& [instant, time] = bound;
   if (instant.offset == 0 && instant.anchor == Instant::Anchor::collision) return instant.index;
   if (instant.offset == 0 && instant.anchor == Instant::Anchor::last) return log.size();
-  if (const DampedLog* const damped = damped_log(log)) return damped->first_since(time);
+  if (const InelasticLog* const inelastic = inelastic_log(log)) return inelastic->first_since(time);
   const Integer last = log.count_at(time);
   if (last < log.first_index()) return log.first_index();
   // Collisions happen together only in the corner, and there all of them do.
