@@ -93,9 +93,10 @@ Rows rows_within_times(const OptionTexts& options, const Log& log) {
 
 std::string rows_there_are(const Timeline& log) {
   if (log.size() < log.first_index()) return "no collisions";
-  return fmt::format("{} {} to {}",
-                     is_endless(log) ? "infinitely many collisions, and lists" : "collisions",
-                     readable(log.first_index()), readable(log.size()));
+  return fmt::format(
+      "{} {} to {}",
+      is_endless(log) ? "infinitely many collisions, of which the log lists" : "collisions",
+      readable(log.first_index()), readable(log.size()));
 }
 
 Rows limited(const OptionTexts& options, const Timeline& log, Rows rows) {

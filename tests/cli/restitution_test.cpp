@@ -64,7 +64,7 @@ TEST_F(RestitutionTest, WrongValuesAreNamed) {
                  "--restitution: restitution: this scene has [[body]]");
   expect_refusal({"count", "recoil", "--restitution", "0.9"}, "a wall that recoils is elastic");
   expect_refusal({"still", "--restitution", "0.9", "--show", "digits", "--at", "0", "-o", "a.png"},
-                 "show.overlays has 'digits', which is for elastic collisions");
+                 "show.overlays has 'digits', which needs elastic collisions");
 }
 
 TEST_F(RestitutionTest, StatesSayThatCollisionsAreInfinitelyMany) {
@@ -92,7 +92,7 @@ TEST_F(RestitutionTest, ALogSaysThatItIsNotAll) {
   EXPECT_NE(log.err.find("lists the first " + listed.get_str()), std::string::npos) << log.err;
   output_of({"log", "--digits", "1", "--restitution", "0.5"});  // says nothing
   const std::string beyond = Integer(listed + 1).get_str();
-  const std::string lists = "infinitely many collisions, and lists ";
+  const std::string lists = "infinitely many collisions, of which the log lists ";
   expect_refusal(Arguments{"log", "--first", beyond} + kEndless, lists + "1 to ");
   expect_refusal(Arguments{"state", "--at", "#" + beyond} + kEndless, lists + "#1 to #");
 }
