@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <piblocks/exact.hpp>
 
+#include <cmath>
+
 #include "cli/cli_fixture.hpp"
 
 namespace piblocks {
@@ -45,6 +47,36 @@ TEST_F(NeedCli, IsWhatCountNeeds) {
                   fmt::format("{} collisions below, {} from it on.", std::stoi(count) + 1, count)),
               std::string::npos)
         << said[3];
+  }
+}
+
+/// From 217 digits on the loss is smaller than any double.
+TEST_F(NeedCli, TellsLossesThatNoDoubleHolds) {
+  const auto count_of = [&](int digits) {
+    return lines(output_of({"count", "--digits", std::to_string(digits)})).front();
+  };
+  for (const int digits : {215, 216, 217, 300, 1000}) {
+    SCOPED_TRACE(digits);
+    const auto said = lines(output_of({"need", "--digits", std::to_string(digits)}));
+    ASSERT_GE(said.size(), 4U);
+    const std::string count = count_of(digits);
+    EXPECT_EQ(said[0], "Elastic blocks collide " + count + " times.");
+    // 1 - 2 sqrt(2 (1 - f)/pi) M^(-3/2), with f the part of pi M after the point: the digits of pi
+    // that follow those of the count begin the count of 40 digits more.
+    const std::string more = count_of(digits + 40);
+    const double after = std::stod("0." + more.substr(static_cast<std::size_t>(digits)));
+    const int root = digits % 2 == 0 ? 1 : 0;  // 10^(-3/2 (digits - 1)) is not a power of ten
+    const int exponent = (3 * (digits - 1) + root) / 2;
+    const double mantissa = 2 * std::sqrt(2 * (1 - after) / M_PI) * (root != 0 ? std::sqrt(10) : 1);
+    ASSERT_TRUE(said[2].starts_with("which is 1 - ")) << said[2];
+    const std::string loss = said[2].substr(13, said[2].size() - 14);
+    const Rational scaled = parse_rational(loss) * power(10, static_cast<unsigned long>(exponent));
+    EXPECT_NEAR(to_double(scaled), mantissa, 1e-11 * mantissa) << loss;
+    const std::size_t point = said[1].find("0.") + 2;
+    const std::string places = said[1].substr(point, said[1].find("...") - point);
+    const Rational cut = Rational(Integer(places, 10)) / power(10, places.size());
+    EXPECT_NEAR(to_double((1 - cut) * power(10, static_cast<unsigned long>(exponent))), mantissa,
+                1e-10 * mantissa);
   }
 }
 

@@ -100,7 +100,7 @@ class SeparationPanel {
   static std::vector<Formula> titles(const DrawingContext& context) {
     const FormulaSetter set = context.setter();
     return {set.text("Squared distance of the centres: the discs touch at (r₁ + r₂)²"),
-            set.text("The discs touch at (r₁ + r₂)²"), set.text("Squared distance")};
+            set.text("Squared distance: touch at (r₁ + r₂)²"), set.text("Squared distance")};
   }
 
   double square_of(const std::vector<BodyMotion>& bodies) const {
