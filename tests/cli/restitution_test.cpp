@@ -61,7 +61,7 @@ TEST_F(RestitutionTest, WrongValuesAreNamed) {
     expect_refusal({"count", "--restitution", share}, "piblocks: --restitution: restitution = ");
   }
   expect_refusal({"count", "gas", "--restitution", "0.9"},
-                 "--restitution: restitution: this scene has [[body]]");
+                 "--restitution: restitution: bodies collide elastically; leave it out");
   expect_refusal({"count", "recoil", "--restitution", "0.9"}, "a wall that recoils is elastic");
   expect_refusal({"still", "--restitution", "0.9", "--show", "digits", "--at", "0", "-o", "a.png"},
                  "show.overlays has 'digits', which needs elastic collisions");
