@@ -85,7 +85,7 @@ void write(CollisionStream& collisions, const LogFormat& format, OutputFile& fil
 }
 
 void log_bodies(const Scene& scene, const Command& options) {
-  refuse_engine(options);
+  if (options.is_given("--engine")) require_blocks(scene, "--engine");
   const BodyLogFormat format =
       options.value("--format", parse_body_log_format).value_or(parse_body_log_format("csv"));
   if (format.is_binary) refuse_terminal(options);

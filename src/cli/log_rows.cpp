@@ -14,8 +14,8 @@
 #include <utility>
 
 #include "cli/values.hpp"
-#include "physics/damped_log.hpp"
 #include "physics/exact_motion.hpp"
+#include "physics/inelastic_log.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -61,7 +61,7 @@ Integer first_since(const CollisionLog& log, const Bound& bound) {
   const auto& [instant, time] = bound;
   if (instant.offset == 0 && instant.anchor == Instant::Anchor::collision) return instant.index;
   if (instant.offset == 0 && instant.anchor == Instant::Anchor::last) return log.size();
-  if (const DampedLog* const damped = damped_log(log)) return damped->first_since(time);
+  if (const InelasticLog* const inelastic = inelastic_log(log)) return inelastic->first_since(time);
   const Integer last = log.count_at(time);
   if (last < log.first_index()) return log.first_index();
   // Collisions happen together only in the corner, and there all of them do.
@@ -94,9 +94,10 @@ Rows rows_within_times(const OptionTexts& options, const Log& log) {
 
 std::string rows_there_are(const Timeline& log) {
   if (log.size() < log.first_index()) return "no collisions";
-  return fmt::format("{} {} to {}",
-                     is_endless(log) ? "infinitely many collisions, and lists" : "collisions",
-                     readable(log.first_index()), readable(log.size()));
+  return fmt::format(
+      "{} {} to {}",
+      is_endless(log) ? "infinitely many collisions, of which the log lists" : "collisions",
+      readable(log.first_index()), readable(log.size()));
 }
 
 Rows limited(const OptionTexts& options, const Timeline& log, Rows rows) {

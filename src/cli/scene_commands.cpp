@@ -39,9 +39,8 @@ void write(const Rational& time, const BlockState& state, const std::optional<In
 
 void write_bodies(const Scene& scene, const std::vector<Instant>& instants,
                   const Command& options) {
-  refuse_engine(options);
-  if (options.is_given("--bounds")) {
-    throw UsageError("--bounds: is for two blocks and a wall, and this scene has [[body]]");
+  for (const char* const option : {"--engine", "--bounds"}) {
+    if (options.is_given(option)) require_blocks(scene, option);
   }
   Scene whole = scene;
   whole.time.allow_uncertain = true;  // each instant is checked below

@@ -40,10 +40,10 @@ SceneOptions::SceneOptions(Command command) : command_(std::move(command)) {
           "are those of m_red = B^(2(D-1)) m_blue");
   add_key("mass-ratio", "--mass-ratio", "R", "m_red / m_blue, exactly: 16, 2.5, 1/3, 100^7");
   add_key("restitution", "--restitution", "E",
-          "Of blocks and wall: the share of the speed at which they meet\n"
-          "with which they part, 0 to 1 (default 1: elastic)");
+          "Coefficient of restitution of blocks and wall, 0 to 1:\n"
+          "speed after a collision / speed before it (default 1: elastic)");
   add_flag({"time.allow-uncertain", "--allow-uncertain", "true"},
-           "Go on where double precision cannot tell which bodies\ncollide next");
+           "Show bodies also after the time from which rounding may\nchange which of them collide");
 }
 
 void SceneOptions::add_key(const std::string& key, const std::string& option,
@@ -173,11 +173,6 @@ void add_engine(Command& command) {
                     "unfolded: closed form (default);\n"
                     "events: the event loop, in double precision;\n"
                     "velocities: a loop over velocities alone, in double precision");
-}
-
-void refuse_engine(const Command& command) {
-  if (!command.is_given("--engine")) return;
-  throw UsageError("--engine: is for two blocks and a wall, and this scene has [[body]]");
 }
 
 void note_convention(const Script& script) {

@@ -67,8 +67,6 @@ class SceneOptions {
 
 /// Adds --engine.
 void add_engine(Command& command);
-/// @throws UsageError if an engine is named, for a scene whose bodies have their own.
-void refuse_engine(const Command& command);
 
 /// Says on standard error which of two equally good counts is shown, if all collisions of a run
 /// happen at once: their number then depends on a convention.

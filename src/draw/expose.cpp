@@ -140,7 +140,7 @@ struct EvenMotion {
 };
 
 /// Adds contacts where the blocks are less than a pixel apart.
-void add_contacts(const EvenMotion& motion, std::vector<Contact>& contacts) {
+void add_contacts(const EvenMotion& motion, std::vector<TouchingBlocks>& contacts) {
   constexpr double kPerPixel = 16;
   constexpr double kMost = 4096;
   const auto& [right, left, left_width, share, right_block, left_block] = motion;
@@ -156,10 +156,10 @@ void add_contacts(const EvenMotion& motion, std::vector<Contact>& contacts) {
   const int count = static_cast<int>(std::clamp(std::ceil(way_px * kPerPixel), 1.0, kMost));
   for (int i = 0; i < count; ++i) {
     const double at = begin + (end - begin) * (i + 0.5) / count;
-    const Contact contact{right.from + (right.to - right.from) * at,
-                          left.from + (left.to - left.from) * at, share * (end - begin) / count,
-                          static_cast<std::uint32_t>(right_block),
-                          static_cast<std::uint32_t>(left_block)};
+    const TouchingBlocks contact{
+        right.from + (right.to - right.from) * at, left.from + (left.to - left.from) * at,
+        share * (end - begin) / count, static_cast<std::uint32_t>(right_block),
+        static_cast<std::uint32_t>(left_block)};
     // Only if both reach into one pixel.
     if (contact.left_x + left_width > std::floor(contact.right_x)) contacts.push_back(contact);
   }
@@ -180,7 +180,7 @@ Travel part_of(const BodyPiece& piece, double begin, double end) {
 /// Two neighbours in one slice of the exposure, whose pieces end at different times.
 void add_contacts(const ExposedBlocksItem& item, const AxisPlace& axis,
                   const WeightedBodyExposure& weighted, const EvenMotion& pair,
-                  std::vector<Contact>& contacts) {
+                  std::vector<TouchingBlocks>& contacts) {
   const ToPixels right_px(axis, item.blocks[pair.right_block]);
   const ToPixels left_px(axis, item.blocks[pair.left_block]);
   const std::vector<BodyPiece>& right = weighted.exposure.pieces[pair.right_block];
@@ -219,7 +219,7 @@ ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const Axis
                    item.contacts);
     }
   }
-  std::ranges::sort(item.contacts, {}, &Contact::right_x);
+  std::ranges::sort(item.contacts, {}, &TouchingBlocks::right_x);
   return item;
 }
 
@@ -244,7 +244,7 @@ ExposedBlocksItem exposed_blocks(std::vector<ExposedBlock> blocks, const AxisPla
       add_contacts(item, axis, weighted, pair, item.contacts);
     }
   }
-  std::ranges::sort(item.contacts, {}, &Contact::right_x);
+  std::ranges::sort(item.contacts, {}, &TouchingBlocks::right_x);
   return item;
 }
 

@@ -36,48 +36,48 @@ struct ExposedBlock {
 
 /// A share of an exposure during which a block and the one on its right are less than a pixel
 /// apart. Both places are left edges.
-struct Contact {
+struct TouchingBlocks {
   double right_x = 0;
   double left_x = 0;
   double share = 0;
   std::uint32_t right = 0;  ///< place of the block in ExposedBlocksItem::blocks
   std::uint32_t left = 1;
-  bool operator==(const Contact&) const = default;
+  bool operator==(const TouchingBlocks&) const = default;
 };
 
 /// Blocks, exposed: the mean, in linear light, of the pictures that rectangles would make at each
 /// instant. A vector file has moving blocks as pixels, and others as rectangles.
 struct ExposedBlocksItem {
   ItemId id = ItemId::red_block;
-  std::vector<ExposedBlock> blocks;  ///< from back to front; they never overlap
-  std::vector<Contact> contacts;     ///< in the order of right_x
+  std::vector<ExposedBlock> blocks;      ///< from back to front; they never overlap
+  std::vector<TouchingBlocks> contacts;  ///< in the order of right_x
   bool operator==(const ExposedBlocksItem&) const = default;
 };
 
-/// A straight way of a disc's centre, which it goes evenly.
-struct DiskWay {
+/// A straight path of the centre of a disc, at constant speed.
+struct DiscPath {
   Point from;
   Point to;
   double share = 0;  ///< of the exposure
-  bool operator==(const DiskWay&) const = default;
+  bool operator==(const DiscPath&) const = default;
 };
 
-/// A disk that moves while the picture is exposed.
-struct ExposedDisk {
+/// A disc that moves while the picture is exposed.
+struct ExposedDisc {
   double radius = 0;  ///< of its outside
   double rim_px = 0;  ///< width of the line, which is inside; 0 if there is none
   Color fill;
   Color rim;
-  std::vector<DiskWay> ways;
-  bool operator==(const ExposedDisk&) const = default;
+  std::vector<DiscPath> paths;
+  bool operator==(const ExposedDisc&) const = default;
 };
 
-/// Disks, exposed: the mean, in linear light, of the pictures that they would make at each instant.
+/// Discs, exposed: the mean, in linear light, of the pictures that they would make at each instant.
 /// A vector file has them as pixels.
-struct ExposedDisksItem {
+struct ExposedDiscsItem {
   ItemId id = ItemId::red_block;
-  std::vector<ExposedDisk> disks;  ///< they never overlap
-  bool operator==(const ExposedDisksItem&) const = default;
+  std::vector<ExposedDisc> discs;  ///< they never overlap
+  bool operator==(const ExposedDiscsItem&) const = default;
 };
 
 }  // namespace piblocks

@@ -40,12 +40,12 @@ struct ExtentOf {
   Extent operator()(const PathItem& path) const {
     return extent_of(path.points.bounds()).grown(reach_of(path.stroke));
   }
-  Extent operator()(const DiskItem& disk) const {
-    return Extent{disk.centre.x, disk.centre.y, disk.centre.x, disk.centre.y}.grown(
-        disk.radius + reach_of(disk.stroke) + kDiskStep_px / 2);
+  Extent operator()(const DiscItem& disc) const {
+    return Extent{disc.centre.x, disc.centre.y, disc.centre.x, disc.centre.y}.grown(
+        disc.radius + reach_of(disc.stroke) + kDiscStep_px / 2);
   }
   Extent operator()(const ExposedBlocksItem& item) const { return around(item.blocks); }
-  Extent operator()(const ExposedDisksItem& item) const { return around(item.disks); }
+  Extent operator()(const ExposedDiscsItem& item) const { return around(item.discs); }
   /// The line of a rectangle is inside its bounds.
   Extent operator()(const auto& item) const { return extent_of(item.bounds); }
 };
@@ -98,15 +98,15 @@ Extent extent_of(const ExposedBlock& block) {
   return extent;
 }
 
-Extent extent_of(const ExposedDisk& disk) {
-  const Point& first = disk.ways.front().from;
+Extent extent_of(const ExposedDisc& disc) {
+  const Point& first = disc.paths.front().from;
   Extent extent{first.x, first.y, first.x, first.y};
-  for (const DiskWay& way : disk.ways) {
-    const auto [left, right] = std::minmax({extent.left, way.from.x, way.to.x, extent.right});
-    const auto [top, bottom] = std::minmax({extent.top, way.from.y, way.to.y, extent.bottom});
+  for (const DiscPath& path : disc.paths) {
+    const auto [left, right] = std::minmax({extent.left, path.from.x, path.to.x, extent.right});
+    const auto [top, bottom] = std::minmax({extent.top, path.from.y, path.to.y, extent.bottom});
     extent = {left, top, right, bottom};
   }
-  return extent.grown(disk.radius + kSoftEdge_px);
+  return extent.grown(disc.radius + kSoftEdge_px);
 }
 
 Extent extent_of(const TextItem& text, double left_em, double right_em) {
@@ -171,8 +171,8 @@ PixelRect moving_area(const ExposedBlocksItem& item, const PixelRect& area) {
   return {left, top, std::max(0, right - left), bottom - top};
 }
 
-PixelRect moving_area(const ExposedDisksItem& item, const PixelRect& area) {
-  return pixels_of(around(item.disks), area);
+PixelRect moving_area(const ExposedDiscsItem& item, const PixelRect& area) {
+  return pixels_of(around(item.discs), area);
 }
 
 bool reaches(const DrawItem& item, const PixelRect& rect) {

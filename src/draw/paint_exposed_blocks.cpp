@@ -158,7 +158,7 @@ class ExposedColumn {
     }
     x_ = x;
     const auto at = [&](double place) {
-      return std::ranges::lower_bound(item_.contacts, place, {}, &Contact::right_x);
+      return std::ranges::lower_bound(item_.contacts, place, {}, &TouchingBlocks::right_x);
     };
     const bool had_contacts = !contacts_.empty();
     contacts_ = {at(x), at(x + 1.0)};
@@ -210,7 +210,7 @@ class ExposedColumn {
     std::size_t front = 0;
     double front_x = 0;
   };
-  static Pair in_order(const Contact& contact) {
+  static Pair in_order(const TouchingBlocks& contact) {
     const auto& [right_x, left_x, share, right, left] = contact;
     if (right < left) return {right, right_x, left, left_x};
     return {left, left_x, right, right_x};
@@ -227,7 +227,7 @@ class ExposedColumn {
         sum += share * (light_.of(pixel.over(background, channel)) - plain);
       }
     }
-    for (const Contact& contact : contacts_) {
+    for (const TouchingBlocks& contact : contacts_) {
       const auto [behind, behind_x, front, front_x] = in_order(contact);
       const Cover behind_column = blocks_[behind].of_column(x_, behind_x);
       const Cover front_column = blocks_[front].of_column(x_, front_x);
@@ -248,7 +248,7 @@ class ExposedColumn {
   std::vector<RowCover> rows_;  // of each kind
   std::vector<std::vector<CoverShare>> shares_;
   std::vector<std::size_t> present_;  // the blocks with shares
-  std::span<const Contact> contacts_;
+  std::span<const TouchingBlocks> contacts_;
   int x_ = 0;
   struct Known {
     std::size_t row = 0;  // its kind

@@ -41,7 +41,7 @@ void require_certain(const Scene& scene, const BodyLog& log, const Rational& tim
 /// the log has been computed; nothing of two blocks and a wall.
 std::optional<std::string> tie_note(const RunLog& log, const Integer& last);
 
-/// @param what  in the message: a command or an output
+/// @param what  in the message: an option
 /// @throws UsageError if the scene has bodies: only two blocks and a wall can be shown that way.
 void require_blocks(const Scene& scene, const char* what);
 

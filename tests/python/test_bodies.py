@@ -178,9 +178,10 @@ def test_refusals_of_logs_and_states(program):
         with pytest.raises(piblocks.UsageError) as raised:
             ask(engine="events", **keys)
         assert str(raised.value) == (
-            f"{word}: is for two blocks and a wall, and this scene has [[body]]"
+            f"{word}: needs two blocks and a fixed wall; "
+            "leave it out, or leave out [[body]] and wall.mass"
         )
-    with pytest.raises(piblocks.UsageError, match="^bounds: is for two blocks and a wall"):
+    with pytest.raises(piblocks.UsageError, match="^bounds: needs two blocks and a fixed wall"):
         scene.state(1, bounds=True)
     assert scene.state(1).count == 1  # as if nothing had been asked
     with pytest.raises(piblocks.UsageError):
@@ -192,7 +193,7 @@ def test_refusals_of_logs_and_states(program):
     assert len(endless.log(to=4)) == scene.count
     uncertain = scene_of(UNCERTAIN)
     for ask in (uncertain.log, lambda: uncertain.state([1, 150])):
-        with pytest.raises(piblocks.UsageError, match="is certain until time .*time_allow_unc"):
+        with pytest.raises(piblocks.UsageError, match="is certain only until time .*time_allow_unc"):
             ask()
     assert uncertain.state([1, 2]).positions.shape == (2, 3, 2)
     assert len(uncertain.log(to=10)) > 5
@@ -203,7 +204,7 @@ def test_refusals_of_logs_and_states(program):
 def test_what_is_not_certain_is_refused_in_the_same_words(program):
     scene = scene_of(UNCERTAIN)
     words = said_by(program, "count", "scene.toml")
-    assert "is certain until time " in words and "--allow-uncertain" in words
+    assert "is certain only until time " in words and "--allow-uncertain" in words
     for ask in (lambda: scene.count, lambda: scene.frame(150), lambda: scene.render("a.mp4")):
         with pytest.raises(piblocks.UsageError) as raised:
             ask()

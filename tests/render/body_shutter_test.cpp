@@ -171,7 +171,7 @@ TEST(BodyShutter, FramesOfDiscsAreMeansOfInstants) {
                2);
   for (const std::int64_t frame : {0, 1, 2, 3, 5, 9, 14}) {
     const Difference difference = difference_of(scene, frame);
-    // At an instant Cairo paints small disks at multiples of 1/8 pixel.
+    // At an instant Cairo paints small discs at multiples of 1/8 pixel.
     EXPECT_LE(difference.worst, 20) << frame;
     EXPECT_LE(difference.mean, 0.1) << frame;
   }
@@ -183,7 +183,7 @@ TEST(BodyShutter, FramesOfDiscsAreMeansOfInstants) {
   }
 }
 
-TEST(BodyShutter, DiscsThatStayAreDisks) {
+TEST(BodyShutter, DiscsThatStayAreDiscItems) {
   Scene scene = scene_of(box({{.position = {1, 1}, .velocity = {1, 0}, .size = Rational(1, 4)},
                               {.position = {4, 3}, .size = Rational(1, 4)}},
                              2),
@@ -195,25 +195,25 @@ TEST(BodyShutter, DiscsThatStayAreDisks) {
     const auto count = [&](const auto& is_kind) {
       return std::ranges::count_if(group->list->items, is_kind);
     };
-    EXPECT_EQ(count([](const DrawItem& part) { return std::holds_alternative<DiskItem>(part); }),
+    EXPECT_EQ(count([](const DrawItem& part) { return std::holds_alternative<DiscItem>(part); }),
               1);
     EXPECT_EQ(
-        count([](const DrawItem& part) { return std::holds_alternative<ExposedDisksItem>(part); }),
+        count([](const DrawItem& part) { return std::holds_alternative<ExposedDiscsItem>(part); }),
         1);
   }
 }
 
 /// Light is neither lost nor made: far from its edges a disc's mean is its time there.
-TEST(BodyShutter, ManyDisksThatPassOnePlaceAddUp) {
-  ExposedDisksItem item{ItemId::red_block, {}};
-  constexpr int kDisks = 4;
-  for (int i = 0; i < kDisks; ++i) {
+TEST(BodyShutter, ManyDiscsThatPassOnePlaceAddUp) {
+  ExposedDiscsItem item{ItemId::red_block, {}};
+  constexpr int kDiscs = 4;
+  for (int i = 0; i < kDiscs; ++i) {
     const double away = 1000;
     // Each is over the middle for a quarter of the time, and away for the rest.
-    ExposedDisk disk{30, 0, Color{255, 255, 255}, {}, {}};
-    disk.ways = {{{50, 50}, {50, 50}, 1.0 / kDisks},
-                 {{away, away}, {away, away}, 1 - 1.0 / kDisks}};
-    item.disks.push_back(disk);
+    ExposedDisc disc{30, 0, Color{255, 255, 255}, {}, {}};
+    disc.paths = {{{50, 50}, {50, 50}, 1.0 / kDiscs},
+                  {{away, away}, {away, away}, 1 - 1.0 / kDiscs}};
+    item.discs.push_back(disc);
   }
   DrawList list{100, 100, Color{0, 0, 0}, {item}};
   Canvas canvas(100, 100);

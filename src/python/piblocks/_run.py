@@ -67,7 +67,9 @@ def _limit_until(run: AnyRun, given: dict[bytes, bytes], last: int) -> int:
     """How many rows there are up to this index."""
     first_index, size = int(run.first_index, 16), int(run.size, 16)
     if not first_index <= last <= size:
-        are = "infinitely many collisions, and lists" if run.is_endless else "collisions"
+        are = "collisions"
+        if run.is_endless:
+            are = "infinitely many collisions, of which the log lists"
         has = f"{are} {first_index:,} to {size:,}" if size >= first_index else "no collisions"
         raise UsageError(f"last {last:,}: the scene has {has}")
     first, _ = run.select({**given, b"--limit": b"1"})

@@ -18,19 +18,19 @@ constexpr int kEdgeSteps = 4;
 /// Red, green and blue.
 using Rgb = std::array<double, 3>;
 
-/// A circle: what is nearer to the disk's centre looks like this, up to the next smaller circle.
+/// A circle: what is nearer to the disc's centre looks like this, up to the next smaller circle.
 struct Ring {
   double radius = 0;
   double fill = 0;  ///< share of the pixel
   double rim = 0;
 };
 
-/// From the outside to the middle. A disk thinner than a pixel is as wide as one, and fainter.
-std::vector<Ring> rings_of(const ExposedDisk& disk) {
+/// From the outside to the middle. A disc thinner than a pixel is as wide as one, and fainter.
+std::vector<Ring> rings_of(const ExposedDisc& disc) {
   constexpr double kLeast_px = 0.5;
-  const double radius = std::max(disk.radius, kLeast_px);
-  const double opacity = std::min(1.0, disk.radius * disk.radius / (kLeast_px * kLeast_px));
-  const double inner = disk.rim_px > 0 ? radius - disk.rim_px : radius;
+  const double radius = std::max(disc.radius, kLeast_px);
+  const double opacity = std::min(1.0, disc.radius * disc.radius / (kLeast_px * kLeast_px));
+  const double inner = disc.rim_px > 0 ? radius - disc.rim_px : radius;
   std::vector<Ring> rings;
   const auto add_edge = [&](double at, double fill, double rim, double share_before) {
     for (int step = 0; step < kEdgeSteps; ++step) {
@@ -40,15 +40,15 @@ std::vector<Ring> rings_of(const ExposedDisk& disk) {
       rings.push_back({ring, fill * in, rim * in + share_before * (1 - in)});
     }
   };
-  if (disk.rim_px > 0) add_edge(radius, 0, opacity, 0);
-  add_edge(inner, opacity, 0, disk.rim_px > 0 ? opacity : 0);
+  if (disc.rim_px > 0) add_edge(radius, 0, opacity, 0);
+  add_edge(inner, opacity, 0, disc.rim_px > 0 ? opacity : 0);
   return rings;
 }
 
-/// For which part of its way, 0 … 1, the centre is within a distance of a place.
-/// @param at  the place, from the begin of the way
-double share_within(const DiskWay& way, const Point& at, double distance) {
-  const Point step{way.to.x - way.from.x, way.to.y - way.from.y};
+/// For which part of its path, 0 … 1, the centre is within a distance of a place.
+/// @param at  the place, from the begin of the path
+double share_within(const DiscPath& path, const Point& at, double distance) {
+  const Point step{path.to.x - path.from.x, path.to.y - path.from.y};
   const double length2 = step.x * step.x + step.y * step.y;
   const double out2 = at.x * at.x + at.y * at.y - distance * distance;
   if (length2 == 0) return out2 < 0 ? 1 : 0;
@@ -62,11 +62,11 @@ double share_within(const DiskWay& way, const Point& at, double distance) {
   return leaves - enters;
 }
 
-/// The light of each ring of a disk over a background, less that of the background.
+/// The light of each ring of a disc over a background, less that of the background.
 class RingLights {
  public:
-  RingLights(const ExposedDisk& disk, const std::vector<Ring>& rings, const Light& light)
-      : disk_(disk), rings_(rings), light_(light), lights_(rings.size()) {}
+  RingLights(const ExposedDisc& disc, const std::vector<Ring>& rings, const Light& light)
+      : disc_(disc), rings_(rings), light_(light), lights_(rings.size()) {}
 
   const std::vector<Rgb>& over(std::uint32_t background) {
     if (background == background_) return lights_;
@@ -81,19 +81,19 @@ class RingLights {
  private:
   double light(const Ring& ring, int shift, std::uint8_t Color::*channel) const {
     const double behind = background_ >> shift & 0xFF;
-    const double sample = behind + ring.fill * (disk_.fill.*channel - behind) +
-                          ring.rim * (disk_.rim.*channel - behind);
+    const double sample = behind + ring.fill * (disc_.fill.*channel - behind) +
+                          ring.rim * (disc_.rim.*channel - behind);
     return light_.of(sample) - light_.of(behind);
   }
 
-  const ExposedDisk& disk_;
+  const ExposedDisc& disc_;
   const std::vector<Ring>& rings_;
   const Light& light_;
   std::uint32_t background_ = std::numeric_limits<std::uint32_t>::max();  // none yet
   std::vector<Rgb> lights_;
 };
 
-/// Adds up the light of pixels that disks pass.
+/// Adds up the light of pixels that discs pass.
 class ExposedPixels {
  public:
   ExposedPixels(const PixelRect& area, unsigned char* data, std::ptrdiff_t stride_bytes,
@@ -105,15 +105,15 @@ class ExposedPixels {
         places_(static_cast<std::size_t>(area.width_px) * static_cast<std::size_t>(area.height_px),
                 kNone) {}
 
-  void add(const ExposedDisk& disk) {
-    const std::vector<Ring> rings = rings_of(disk);
-    RingLights lights(disk, rings, light_);
-    for (const DiskWay& way : disk.ways) {
-      ExposedDisk alone{disk.radius, disk.rim_px, disk.fill, disk.rim, {way}};
+  void add(const ExposedDisc& disc) {
+    const std::vector<Ring> rings = rings_of(disc);
+    RingLights lights(disc, rings, light_);
+    for (const DiscPath& path : disc.paths) {
+      ExposedDisc alone{disc.radius, disc.rim_px, disc.fill, disc.rim, {path}};
       const PixelRect pixels = pixels_of(extent_of(alone), area_);
       for (int y = pixels.y_px; y < pixels.y_px + pixels.height_px; ++y) {
         for (int x = pixels.x_px; x < pixels.x_px + pixels.width_px; ++x) {
-          add_way(way, rings, {x + 0.5 - way.from.x, y + 0.5 - way.from.y}, x, y, lights);
+          add_path(path, rings, {x + 0.5 - path.from.x, y + 0.5 - path.from.y}, x, y, lights);
         }
       }
     }
@@ -134,20 +134,20 @@ class ExposedPixels {
   };
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-  void add_way(const DiskWay& way, const std::vector<Ring>& rings, const Point& at, int x, int y,
-               RingLights& lights) {
-    double share = share_within(way, at, rings.front().radius);
+  void add_path(const DiscPath& path, const std::vector<Ring>& rings, const Point& at, int x, int y,
+                RingLights& lights) {
+    double share = share_within(path, at, rings.front().radius);
     if (share == 0) return;
     Sum& sum = sum_of(x, y);
     const std::vector<Rgb>& light = lights.over(*sum.pixel & 0xFFFFFFU);
-    // All of a pixel in the middle of a slow disk is in the innermost ring all the time.
-    const double within = share_within(way, at, rings.back().radius);
+    // All of a pixel in the middle of a slow disc is in the innermost ring all the time.
+    const double within = share_within(path, at, rings.back().radius);
     for (std::size_t ring = 0; ring < rings.size() && share > 0; ++ring) {
       const bool is_last = ring + 1 == rings.size() || share == within;
-      const double next = is_last ? 0 : share_within(way, at, rings[ring + 1].radius);
+      const double next = is_last ? 0 : share_within(path, at, rings[ring + 1].radius);
       const std::size_t seen = is_last ? rings.size() - 1 : ring;
       for (std::size_t i = 0; i < 3; ++i) {
-        sum.light[i] += way.share * (share - next) * light[seen][i];
+        sum.light[i] += path.share * (share - next) * light[seen][i];
       }
       share = next;
     }
@@ -180,9 +180,9 @@ class ExposedPixels {
 
 }  // namespace
 
-/// A pixel depends on the disks that pass it and its background alone, and adds them up in their
+/// A pixel depends on the discs that pass it and its background alone, and adds them up in their
 /// order, so that a part of the picture has the pixels of the whole.
-void Painter::paint_exposed(cairo_t& cr, const ExposedDisksItem& item, const PixelRect& area) {
+void Painter::paint_exposed(cairo_t& cr, const ExposedDiscsItem& item, const PixelRect& area) {
   const PixelRect moving = moving_area(item, area);
   if (moving.width_px <= 0 || moving.height_px <= 0) return;
   cairo_surface_t* const surface = cairo_get_target(&cr);
@@ -193,7 +193,7 @@ void Painter::paint_exposed(cairo_t& cr, const ExposedDisksItem& item, const Pix
                                std::ptrdiff_t{4} * (moving.x_px - area.x_px);
   if (!light_) light_ = std::make_unique<Light>();
   ExposedPixels pixels(moving, first, stride_bytes, *light_);
-  for (const ExposedDisk& disk : item.disks) pixels.add(disk);
+  for (const ExposedDisc& disc : item.discs) pixels.add(disc);
   pixels.write();
   cairo_surface_mark_dirty(surface);
 }
