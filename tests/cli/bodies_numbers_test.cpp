@@ -90,7 +90,7 @@ TEST_F(BodiesCli, CountsOfEndlessRunsNeedATime) {
   for (const char* to : {"--to=-3", "--to=0"}) {
     EXPECT_EQ(output_of({"count", "endless.toml", to}), "0\n");
   }
-  write("late.toml", kEndless + std::string("[time]\nfrom = 20\nto = 30\n"));
+  write("late.toml", kClosedBox + std::string("[time]\nfrom = 20\nto = 30\n"));
   EXPECT_EQ(output_of({"count", "late.toml", "--to", "5"}),
             output_of({"count", "endless.toml", "--to", "5"}));
 }
