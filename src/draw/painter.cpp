@@ -276,7 +276,10 @@ void Painter::embed_exposed(cairo_t& cr, const Item& item, const DrawList& list)
   cairo_surface_set_device_offset(pixels.get(), -area.x_px, -area.y_px);
   paint(*CairoPtr(cairo_create(pixels.get())), until, area);
   cairo_surface_set_device_offset(pixels.get(), 0, 0);
-  copy_pixels(cr, *pixels, to_rectangle(area));
+  // Not cairo_fill(): SVG would take the picture for a tile, whose edges shine through at the
+  // opposite ones.
+  cairo_set_source_surface(&cr, pixels.get(), area.x_px, area.y_px);
+  cairo_paint(&cr);
 }
 
 }  // namespace piblocks
