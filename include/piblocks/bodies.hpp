@@ -112,9 +112,10 @@ class BodyLog : public Timeline {
   /// outer block is not the heavier one; else none is, and numbers are some units in the last place
   /// off.
   virtual Integer exact_size() const = 0;
-  /// When a body first meets two others at once, so that the order of pairs decides what comes
-  /// next. Nothing if none does, as far as the log has been computed.
-  virtual std::optional<double> first_tie() const { return std::nullopt; }
+  /// The first collision of a body that is about to meet another one at the same time, so that the
+  /// order of pairs decides what comes next. Nothing if there is none, as far as the log has been
+  /// computed, and computed in rational numbers.
+  virtual std::optional<Integer> first_tie() const = 0;
   /// Until when rounding cannot have changed which bodies collide, nor in which order each of them
   /// meets the others. Nothing if it cannot at all, as far as the log has been computed.
   virtual std::optional<double> certain_until() const = 0;

@@ -60,7 +60,7 @@ enum class Panel {
   conservation,  ///< bars of energy and momentum, the wall's share included
   certainty,     ///< how near the count comes to a wrong digit of pi
   speeds,        ///< of many bodies, beside Maxwell's distribution
-  separation     ///< squared distance of two discs against time, with its roots
+  separation     ///< squared distance of two discs against time
 };
 
 /// A window of simulation time in which the loupe enlarges by a given factor.

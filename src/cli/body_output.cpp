@@ -22,7 +22,7 @@ std::string vector_text(const BodySystem& system, const std::array<double, 2>& v
   return fmt::format("[{},{}]", shown(vector[0]), shown(vector[1]));
 }
 
-std::string csv_header(const BodySystem& system, const Integer& /*rows*/) {
+std::string csv_header(const BodySystem& system, const Rows& /*rows*/) {
   return system.dimensions == 1
              ? "index,time,first,second,x_first,x_second,v_first,v_second\n"
              : "index,time,first,second,x_first,y_first,x_second,y_second,vx_first,vy_first,"
@@ -43,7 +43,7 @@ void append_csv_row(const BodySystem& system, const BodyCollision& c, fmt::memor
   out.push_back('\n');
 }
 
-std::string no_header(const BodySystem& /*system*/, const Integer& /*rows*/) { return {}; }
+std::string no_header(const BodySystem& /*system*/, const Rows& /*rows*/) { return {}; }
 
 void append_json_row(const BodySystem& system, const BodyCollision& c, fmt::memory_buffer& out) {
   const auto name = [&](std::uint32_t id) {
@@ -61,7 +61,7 @@ void append_json_row(const BodySystem& system, const BodyCollision& c, fmt::memo
                  motion(c.first_after), motion(c.second_after));
 }
 
-std::string npy_head(const BodySystem& system, const Integer& rows) {
+std::string npy_head(const BodySystem& system, const Rows& rows) {
   return npy_header(body_row_type(system), rows);
 }
 

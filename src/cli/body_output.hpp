@@ -9,12 +9,14 @@
 #include <string>
 #include <string_view>
 
+#include "cli/log_rows.hpp"
+
 namespace piblocks::cli {
 
 /// How a log of bodies is written.
 struct BodyLogFormat {
   bool is_binary;
-  std::string (*header)(const BodySystem& system, const Integer& rows);
+  std::string (*header)(const BodySystem& system, const Rows& rows);
   void (*append)(const BodySystem& system, const BodyCollision& collision, fmt::memory_buffer& out);
 };
 

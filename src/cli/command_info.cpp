@@ -42,8 +42,9 @@ void print_limits(TextOutput& out) {
   out.format_line("  rows of a log: {}, more with --limit", kMaxRows);
   out.format_line("  collisions stored by --engine events: {}", kMaxStoredCollisions);
   out.format_line("  bodies: {}, walls: {}", kMaxBodies, kMaxWalls);
-  out.format_line("  collisions of bodies: {}, in rational numbers while these have {} bits",
-                  kMaxBodyCollisions, kMaxExactBits);
+  out.format_line(
+      "  collisions of bodies: {}; of blocks on a line in rational numbers of at most {} bits",
+      kMaxBodyCollisions, kMaxExactBits);
   out.format_line("  lines of a framehash file: {}", kMaxHashes);
 }
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
-#include <limits>
 #include <string_view>
 
 #include "cli/body_output.hpp"
@@ -27,15 +26,7 @@ struct LogFormat {
   void (*append)(const CollisionBatch& batch, fmt::memory_buffer& out);
 };
 
-/// @throws UsageError if an index does not fit.
-std::string header_of_npy(const Rows& rows) {
-  for (const Integer& index : {rows.first, rows.last}) {
-    if (rows.count() == 0 || abs(index) <= std::numeric_limits<std::int64_t>::max()) continue;
-    throw UsageError(fmt::format("--format npy: index {} does not fit in 64 bits; use csv or jsonl",
-                                 readable(index)));
-  }
-  return npy_header(kRowType, rows.count());
-}
+std::string header_of_npy(const Rows& rows) { return npy_header(kRowType, rows); }
 
 void append_npy(const CollisionBatch& batch, fmt::memory_buffer& out) {
   const std::size_t begin = out.size();
@@ -94,7 +85,7 @@ void write(CollisionStream& collisions, const LogFormat& format, OutputFile& fil
 }
 
 void log_bodies(const Scene& scene, const Command& options) {
-  refuse_engine(options);
+  if (options.is_given("--engine")) require_blocks(scene, "--engine");
   const BodyLogFormat format =
       options.value("--format", parse_body_log_format).value_or(parse_body_log_format("csv"));
   if (format.is_binary) refuse_terminal(options);
@@ -103,7 +94,7 @@ void log_bodies(const Scene& scene, const Command& options) {
   const Rows rows = select_rows(options, log);
   const StopOnSignals signals;
   OutputFile file(output_of(options), format.is_binary ? Contents::bytes : Contents::text);
-  file.write(format.header(log.system(), rows.count()));
+  file.write(format.header(log.system(), rows));
   fmt::memory_buffer text;
   constexpr std::size_t kPiece_bytes = 1 << 16;
   for (Integer index = rows.first; index <= rows.last; ++index) {
@@ -114,7 +105,7 @@ void log_bodies(const Scene& scene, const Command& options) {
     text.clear();
   }
   file.finish();
-  note_ties(run);
+  note_ties(run, rows.last);
 }
 
 void run_log(const Command& options, const SceneOptions& scene_options) {

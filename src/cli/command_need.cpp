@@ -1,14 +1,14 @@
+#include <fmt/format.h>
 #include <piblocks/restitution.hpp>
 #include <piblocks/run.hpp>
 
-#include <cmath>
+#include <algorithm>
 #include <string>
 
 #include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "cli/text_output.hpp"
 #include "cli/values.hpp"
-#include "core/rounded.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -25,26 +25,47 @@ std::string decimals(const Rational& value, int places) {
   return digits.insert(1, ".");
 }
 
+/// How many places after the point the first digit of a number of ]0, 1] is that is not 0.
+int place_of_first_digit(const Rational& value) {
+  const auto length = [](const Integer& number) {
+    return static_cast<int>(mpz_sizeinbase(number.get_mpz_t(), 10));  // perhaps one too many
+  };
+  int places = std::max(0, length(value.get_den()) - length(value.get_num()) - 1);
+  while (value * power(10, static_cast<unsigned long>(places)) < 1) ++places;
+  return places;
+}
+
+/// As "{:g}" writes it, also if no double is so small.
+std::string loss_text(const Rational& loss) {
+  const int places = place_of_first_digit(loss);
+  constexpr int kMostDecimalPlaces = 4;
+  if (places <= kMostDecimalPlaces) return fmt::format("{:.{}g}", to_double(loss), kLossDigits);
+  const double mantissa = to_double(loss * power(10, static_cast<unsigned long>(places)));
+  const std::string digits = fmt::format("{:.{}g}", mantissa, kLossDigits);
+  if (digits == "10") return fmt::format("1e-{:02}", places - 1);
+  return fmt::format("{}e-{:02}", digits, places);
+}
+
 void print_need(int digits, int base, TextOutput& out) {
   const LeastRestitution need = least_restitution(digits, base);
   const Rational loss = 1 - need.above;
-  out.format_line("{} collisions", need.count_above.get_str(base));
+  const std::string below = need.count_below.get_str(base);
+  const std::string above = need.count_above.get_str(base);
+  out.format_line("Elastic blocks collide {} times.", above);
   if (loss == 0) {
-    out.line("need a restitution of 1: with any loss at all there are more");
+    out.line("Only restitution 1 gives this count: any loss adds a collision.");
+    out.format_line("Exact counts prove it: {} collisions with 1 - 2^-64, {} with 1.", below,
+                    above);
   } else {
-    const double loss_rounded = to_double(loss);
-    const int zeros = static_cast<int>(-std::floor(rounded::log10(loss_rounded)));
-    out.format_line("need a restitution of {}... or more, of blocks and wall alike",
-                    decimals(need.above, zeros + kLossDigits - 1));
-    out.format_line("which is 1 - {:.{}g}", loss_rounded, kLossDigits);
+    out.format_line("The count stays the same with restitution {}... or more, of blocks and wall,",
+                    decimals(need.above, place_of_first_digit(loss) + kLossDigits - 1));
+    out.format_line("which is 1 - {}.", loss_text(loss));
+    out.format_line(
+        "Exact counts on both sides of this value prove it: {} collisions below, {} from it on.",
+        below, above);
+    out.line("The two sides differ by 2^-64 of 1 - restitution.");
   }
-  out.format_line(
-      "Certain, by exact counting at both ends of an interval in which 1 - restitution differs by "
-      "2^-64 of itself: {} collisions with less, {} with more.",
-      need.count_below.get_str(base), need.count_above.get_str(base));
-  out.line(
-      "Why: loss makes the blocks meet more often, not less. Each collision leaves them closer, so "
-      "that a last one comes that elastic blocks would just miss.");
+  out.line("Blocks that lose energy stay closer together, so they meet more often, not less.");
 }
 
 }  // namespace

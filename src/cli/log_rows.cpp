@@ -8,13 +8,14 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "cli/values.hpp"
-#include "physics/damped_log.hpp"
 #include "physics/exact_motion.hpp"
+#include "physics/inelastic_log.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -60,7 +61,7 @@ Integer first_since(const CollisionLog& log, const Bound& bound) {
   const auto& [instant, time] = bound;
   if (instant.offset == 0 && instant.anchor == Instant::Anchor::collision) return instant.index;
   if (instant.offset == 0 && instant.anchor == Instant::Anchor::last) return log.size();
-  if (const DampedLog* const damped = damped_log(log)) return damped->first_since(time);
+  if (const InelasticLog* const inelastic = inelastic_log(log)) return inelastic->first_since(time);
   const Integer last = log.count_at(time);
   if (last < log.first_index()) return log.first_index();
   // Collisions happen together only in the corner, and there all of them do.
@@ -93,9 +94,10 @@ Rows rows_within_times(const OptionTexts& options, const Log& log) {
 
 std::string rows_there_are(const Timeline& log) {
   if (log.size() < log.first_index()) return "no collisions";
-  return fmt::format("{} {} to {}",
-                     is_endless(log) ? "infinitely many collisions, and lists" : "collisions",
-                     readable(log.first_index()), readable(log.size()));
+  return fmt::format(
+      "{} {} to {}",
+      is_endless(log) ? "infinitely many collisions, of which the log lists" : "collisions",
+      readable(log.first_index()), readable(log.size()));
 }
 
 Rows limited(const OptionTexts& options, const Timeline& log, Rows rows) {
@@ -129,10 +131,15 @@ Rows select_rows(const OptionTexts& options, const BodyLog& log) {
   return limited(options, log, rows_within_times(options, log));
 }
 
-std::string npy_header(std::string_view row_type, const Integer& rows) {
+std::string npy_header(std::string_view row_type, const Rows& rows) {
+  for (const Integer& index : {rows.first, rows.last}) {
+    if (rows.count() == 0 || abs(index) <= std::numeric_limits<std::int64_t>::max()) continue;
+    throw UsageError(fmt::format("--format npy: index {} does not fit in 64 bits; use csv or jsonl",
+                                 readable(index)));
+  }
   constexpr std::size_t kAlignment_bytes = 64;  // of the first row
   std::string text = fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': ({},), }}",
-                                 row_type, rows.get_str());
+                                 row_type, rows.count().get_str());
   std::string header("\x93NUMPY\x01\x00", 8);
   const std::size_t length = header.size() + 2 + text.size() + 1;  // with its own length, and '\n'
   text.append((kAlignment_bytes - length % kAlignment_bytes) % kAlignment_bytes, ' ');

@@ -32,7 +32,8 @@ Rows select_rows(const OptionTexts& options, const BodyLog& log);
 
 /// What a file of NumPy begins with
 /// (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html, version 1.0).
-std::string npy_header(std::string_view row_type, const Integer& rows);
+/// @throws UsageError if an index does not fit into a row.
+std::string npy_header(std::string_view row_type, const Rows& rows);
 
 /// A row as NumPy describes it: no gaps, numbers in little-endian order.
 inline constexpr std::string_view kRowType =

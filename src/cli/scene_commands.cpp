@@ -39,21 +39,21 @@ void write(const Rational& time, const BlockState& state, const std::optional<In
 
 void write_bodies(const Scene& scene, const std::vector<Instant>& instants,
                   const Command& options) {
-  refuse_engine(options);
-  if (options.is_given("--bounds")) {
-    throw UsageError("--bounds: is for two blocks and a wall, and this scene has [[body]]");
+  for (const char* const option : {"--engine", "--bounds"}) {
+    if (options.is_given(option)) require_blocks(scene, option);
   }
   Scene whole = scene;
   whole.time.allow_uncertain = true;  // each instant is checked below
   const RunLog run(whole);
   const BodyLog& log = *run.bodies();
   TextOutput out("-");
-  Rational last = 0;
+  Integer last = 0;
   for (const Instant& instant : instants) {
     const Rational time = time_of(instant, log);
-    last = std::max(last, time);
     require_certain(scene, log, time);
-    out.line(state_line(log.system(), time, log.state_at(time)));
+    const BodiesState state = log.state_at(time);
+    last = std::max(last, state.count);
+    out.line(state_line(log.system(), time, state));
   }
   out.finish();
   note_ties(run, last);
@@ -65,16 +65,17 @@ void run_count(const Command& options, const SceneOptions& scene_options) {
   const Scene scene = scene_options.scene();
   const std::optional<Instant> to = options.value("--to", parse_instant);
   std::optional<RunLog> run;
-  if (to || scene.bodies) run.emplace(scene);
-  const auto count = [&] {
-    if (!run) return count_collisions(scene.system);
+  if (to || scene.bodies) run.emplace(scene_for_log(scene, options));
+  Integer last;
+  if (run) {
     const Timeline& log = run->timeline();
-    const Integer until = to ? log.count_at(time_of(*to, log)) : log.size();
-    return until == infinite_count(log) ? count_collisions(scene.system) : until;
-  };
-  out.line(count().get_str(scene.show.base));
+    last = to ? log.count_at(time_of(*to, log)) : log.size();
+  }
+  const bool is_counted = run && last != infinite_count(run->timeline());
+  const Integer count = is_counted ? last : count_collisions(scene.system);
+  out.line(count.get_str(scene.show.base));
   out.finish();
-  if (run) note_ties(*run, to ? std::optional(time_of(*to, run->timeline())) : std::nullopt);
+  if (run) note_ties(*run, last);
   note_convention(scene);
 }
 
@@ -119,7 +120,8 @@ void run_sheet(const Command& options, const SceneOptions& scene_options) {
 void add_count(Command& app) {
   Command command = app.add_command("count", "Print the total number of collisions");
   SceneOptions options(command);
-  options.add_end();
+  command.add_value("--to", "T",
+                    "Count collisions until then (default: all; needed where they\nnever end)");
   command.set_footer(
       "Examples:\n"
       "  piblocks count --digits 12\n"

@@ -40,10 +40,10 @@ SceneOptions::SceneOptions(Command command) : command_(std::move(command)) {
           "are those of m_red = B^(2(D-1)) m_blue");
   add_key("mass-ratio", "--mass-ratio", "R", "m_red / m_blue, exactly: 16, 2.5, 1/3, 100^7");
   add_key("restitution", "--restitution", "E",
-          "Of blocks and wall: the share of the speed at which they meet\n"
-          "with which they part, 0 to 1 (default 1: elastic)");
+          "Coefficient of restitution of blocks and wall, 0 to 1:\n"
+          "speed after a collision / speed before it (default 1: elastic)");
   add_flag({"time.allow-uncertain", "--allow-uncertain", "true"},
-           "Go on where double precision cannot tell which bodies\ncollide next");
+           "Show bodies also after the time from which rounding may\nchange which of them collide");
 }
 
 void SceneOptions::add_key(const std::string& key, const std::string& option,
@@ -66,11 +66,6 @@ void SceneOptions::add_picture() {
   add_flag({"view.background", "--transparent", "transparent"},
            "No background: another picture can be put behind");
   add_flag({"view.background", "--opaque", "opaque"}, "Force a background");
-}
-
-void SceneOptions::add_end() {
-  add_key("time.to", "--to", "T",
-          "Count collisions until then (default: all; needed where they\nnever end)");
 }
 
 void SceneOptions::add_span() {
@@ -180,17 +175,12 @@ void add_engine(Command& command) {
                     "velocities: a loop over velocities alone, in double precision");
 }
 
-void refuse_engine(const Command& command) {
-  if (!command.is_given("--engine")) return;
-  throw UsageError("--engine: is for two blocks and a wall, and this scene has [[body]]");
-}
-
 void note_convention(const Script& script) {
   for (const std::string& note : convention_notes(script)) say("piblocks: note: {}\n", note);
 }
 
-void note_ties(const RunLog& run, const std::optional<Rational>& until) {
-  if (const auto note = tie_note(run, until)) say("piblocks: note: {}\n", *note);
+void note_ties(const RunLog& run, const Integer& last) {
+  if (const auto note = tie_note(run, last)) say("piblocks: note: {}\n", *note);
 }
 
 }  // namespace piblocks::cli

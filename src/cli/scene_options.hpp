@@ -29,8 +29,6 @@ class SceneOptions {
   void add_show();
   /// Adds --shutter, and --fps and --speed, which it depends on.
   void add_exposure();
-  /// Adds --to alone, for counts.
-  void add_end();
   /// Adds --from and --to.
   void add_span();
   /// Adds --from, --to and what else says how time runs in the video.
@@ -69,14 +67,13 @@ class SceneOptions {
 
 /// Adds --engine.
 void add_engine(Command& command);
-/// @throws UsageError if an engine is named, for a scene whose bodies have their own.
-void refuse_engine(const Command& command);
 
 /// Says on standard error which of two equally good counts is shown, if all collisions of a run
 /// happen at once: their number then depends on a convention.
 /// @throws SceneError if problems_of() of the system is not empty.
 void note_convention(const Script& script);
-/// Says on standard error that the order of pairs decided what happened until a time, if it did.
-void note_ties(const RunLog& run, const std::optional<Rational>& until = {});
+/// Says on standard error that the order of pairs decided what happened up to this collision, if it
+/// did.
+void note_ties(const RunLog& run, const Integer& last);
 
 }  // namespace piblocks::cli

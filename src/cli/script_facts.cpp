@@ -21,7 +21,7 @@ std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const OptionTe
 
 Scene scene_for_log(Scene scene, const OptionTexts& options) {
   const auto to = options.value("--to", parse_instant);
-  if (to && to->is_time() && may_never_end(scene.bodies->system)) scene.time.to = *to;
+  if (to && to->is_time()) scene.time.to = *to;
   return scene;
 }
 

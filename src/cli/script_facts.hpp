@@ -21,8 +21,8 @@ namespace piblocks::cli {
 /// @throws UsageError if that engine would have to store too many collisions.
 std::unique_ptr<CollisionLog> make_log(const BlockSystem& system, const OptionTexts& options);
 
-/// The scene of bodies as a log of it is asked for: collisions that never end are computed up to
-/// --to, if that is a time.
+/// The scene as a log of it is asked for: bodies that collide for ever are computed up to --to, if
+/// that is a time, and have to be certain up to then.
 Scene scene_for_log(Scene scene, const OptionTexts& options);
 
 /// How exact the state at a time is. @throws UsageError if the engine cannot say.

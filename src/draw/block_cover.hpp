@@ -93,8 +93,8 @@ class BlockCover {
       const Cover still = of_column(column, block_.bounds.x);
       if (still.outer > 0) shares_.push_back({still, 1});
     } else if (block_.dwells.empty()) {
-      for (const BlockWay& way : block_.ways) {
-        each_part(column, [&](Part part) { add_way(column, way, part); });
+      for (const BlockPath& path : block_.paths) {
+        each_part(column, [&](Part part) { add_path(column, path, part); });
       }
     } else if (block_.dwells.back().x >= column - block_.bounds.width &&
                block_.dwells.front().x < column + 1) {
@@ -147,19 +147,19 @@ class BlockCover {
     }
   }
 
-  void add_way(double column, const BlockWay& way, const Part& part) {
-    const double low = std::min(way.from, way.to);
-    const double high = std::max(way.from, way.to);
+  void add_path(double column, const BlockPath& path, const Part& part) {
+    const double low = std::min(path.from, path.to);
+    const double high = std::max(path.from, path.to);
     if (low == high) {
       if (part.from <= low && low < part.to) {
-        shares_.push_back({of_column(column, low), way.share});
+        shares_.push_back({of_column(column, low), path.share});
       }
       return;
     }
     const double from = std::max(part.from, low);
     const double to = std::min(part.to, high);
     if (!(from < to)) return;
-    const double share = way.share * ((to - from) / (high - low));
+    const double share = path.share * ((to - from) / (high - low));
     const double count = part.is_alike ? 1 : std::ceil((to - from) * samples_per_px(high - low));
     for (double i = 0; i < count; ++i) {
       const double x = from + (to - from) * (i + 0.5) / count;

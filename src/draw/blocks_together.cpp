@@ -55,23 +55,23 @@ void BlocksTogether::add_stays(int column, std::size_t block) {
     return;
   }
   double begin = 0;
-  for (const BlockWay& way : exposed.ways) {
-    const double step = way.to - way.from;
+  for (const BlockPath& path : exposed.paths) {
+    const double step = path.to - path.from;
     double enters = 0;
     double leaves = 1;
     if (step != 0) {
-      const double low = (first - way.from) / step;
-      const double high = (last - way.from) / step;
+      const double low = (first - path.from) / step;
+      const double high = (last - path.from) / step;
       enters = std::clamp(std::min(low, high), 0.0, 1.0);
       leaves = std::clamp(std::max(low, high), 0.0, 1.0);
-    } else if (way.from <= first || way.from >= last) {
+    } else if (path.from <= first || path.from >= last) {
       leaves = 0;
     }
     if (enters < leaves) {
-      stays_.push_back({begin + enters * way.share, begin + leaves * way.share, block,
-                        way.from + enters * step, way.from + leaves * step});
+      stays_.push_back({begin + enters * path.share, begin + leaves * path.share, block,
+                        path.from + enters * step, path.from + leaves * step});
     }
-    begin += way.share;
+    begin += path.share;
   }
 }
 

@@ -27,12 +27,12 @@ namespace piblocks {
 namespace {
 
 /// How Cairo rounds a slanted edge depends on where the surface ends. The pixels of rectangles,
-/// text, small disks, plates and exposed blocks do not depend on it.
+/// text, small discs, plates and exposed blocks do not depend on it.
 bool depends_on_surface(const DrawItem& item) {
   if (const auto* group = std::get_if<GroupItem>(&item)) {
     return !is_on_pixels(*group) || std::ranges::any_of(group->list->items, depends_on_surface);
   }
-  if (const auto* disk = std::get_if<DiskItem>(&item)) return !is_small(*disk);
+  if (const auto* disc = std::get_if<DiscItem>(&item)) return !is_small(*disc);
   return std::holds_alternative<PathItem>(item) || std::holds_alternative<ImageItem>(item);
 }
 

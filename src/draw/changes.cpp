@@ -108,8 +108,8 @@ class Comparison {
         return compare(*a, std::get<GroupItem>(after));
       if (const auto* a = std::get_if<ExposedBlocksItem>(&before))
         return compare(*a, std::get<ExposedBlocksItem>(after));
-      if (const auto* a = std::get_if<ExposedDisksItem>(&before))
-        return compare(*a, std::get<ExposedDisksItem>(after));
+      if (const auto* a = std::get_if<ExposedDiscsItem>(&before))
+        return compare(*a, std::get<ExposedDiscsItem>(after));
     }
     add(before);
     add(after);
@@ -204,12 +204,12 @@ class Comparison {
     add({from + width - line, top, to, bottom});
   }
 
-  void compare(const ExposedDisksItem& before, const ExposedDisksItem& after) {
-    for (std::size_t i = 0; i < std::max(before.disks.size(), after.disks.size()); ++i) {
-      const bool is_in_both = i < before.disks.size() && i < after.disks.size();
-      if (is_in_both && before.disks[i] == after.disks[i]) continue;
-      if (i < before.disks.size()) add(extent_of(before.disks[i]));
-      if (i < after.disks.size()) add(extent_of(after.disks[i]));
+  void compare(const ExposedDiscsItem& before, const ExposedDiscsItem& after) {
+    for (std::size_t i = 0; i < std::max(before.discs.size(), after.discs.size()); ++i) {
+      const bool is_in_both = i < before.discs.size() && i < after.discs.size();
+      if (is_in_both && before.discs[i] == after.discs[i]) continue;
+      if (i < before.discs.size()) add(extent_of(before.discs[i]));
+      if (i < after.discs.size()) add(extent_of(after.discs[i]));
     }
   }
 

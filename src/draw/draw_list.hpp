@@ -88,13 +88,13 @@ struct PathItem {
   bool operator==(const PathItem&) const = default;
 };
 
-struct DiskItem {
+struct DiscItem {
   ItemId id = ItemId::wall;
   Point centre;
   double radius = 0;
   std::optional<Color> fill;
   std::optional<Stroke> stroke;
-  bool operator==(const DiskItem&) const = default;
+  bool operator==(const DiscItem&) const = default;
 };
 
 /// An image, scaled to its bounds. Equal if the image is the same object.
@@ -130,8 +130,8 @@ struct GroupItem {
   friend bool operator==(const GroupItem& a, const GroupItem& b);
 };
 
-using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiskItem, ImageItem, PlateItem,
-                              GroupItem, ExposedBlocksItem, ExposedDisksItem>;
+using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiscItem, ImageItem, PlateItem,
+                              GroupItem, ExposedBlocksItem, ExposedDiscsItem>;
 
 struct Plate {
   std::vector<DrawItem> items;  ///< from back to front; none that is exposed

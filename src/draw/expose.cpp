@@ -33,7 +33,7 @@ struct ToPixels {
         block_px(block.bounds.width),
         visible_right_px(axis.visible_right_px) {}
   double operator()(double position) const { return zero_px + position * scale; }
-  Travel operator()(const Travel& way) const { return {(*this)(way.from), (*this)(way.to)}; }
+  Travel operator()(const Travel& path) const { return {(*this)(path.from), (*this)(path.to)}; }
   double back(double x_px) const { return (x_px - zero_px) / scale; }
 };
 
@@ -114,7 +114,7 @@ const Travel& range_of(const BodyExposure& exposure, std::size_t body) {
   return exposure.ranges.at(body);
 }
 
-/// Calls visit(share, way) for each piece of a block's motion.
+/// Calls visit(share, path) for each piece of a block's motion.
 template <typename Visit>
 void each_way(const Exposure& exposure, BlockName block, const Visit& visit) {
   for (const UniformPiece& piece : exposure.pieces) visit(piece.share, piece.of(block));
@@ -144,8 +144,8 @@ std::vector<Dwell> dwells_of(Block block, const ToPixels& to_px, const Exposures
       continue;
     }
     each_way(exposure, block, [&, weight = weight](double share, const Travel& of_centre) {
-      const Travel way = to_px(of_centre);
-      const Travel rising{std::min(way.from, way.to), std::max(way.from, way.to)};
+      const Travel path = to_px(of_centre);
+      const Travel rising{std::min(path.from, path.to), std::max(path.from, path.to)};
       table.add(weight * share, rising, [&](double x) { return rising.area_below(x); });
     });
   }
@@ -161,7 +161,7 @@ struct EvenMotion {
 };
 
 /// Adds contacts where the blocks are less than a pixel apart.
-void add_contacts(const EvenMotion& motion, std::vector<Contact>& contacts) {
+void add_contacts(const EvenMotion& motion, std::vector<TouchingBlocks>& contacts) {
   constexpr double kPerPixel = 16;
   constexpr double kMost = 4096;
   const auto& [right, left, left_width, share] = motion;
@@ -177,8 +177,9 @@ void add_contacts(const EvenMotion& motion, std::vector<Contact>& contacts) {
   const int count = static_cast<int>(std::clamp(std::ceil(way_px * kPerPixel), 1.0, kMost));
   for (int i = 0; i < count; ++i) {
     const double at = begin + (end - begin) * (i + 0.5) / count;
-    const Contact contact{right.from + (right.to - right.from) * at,
-                          left.from + (left.to - left.from) * at, share * (end - begin) / count};
+    const TouchingBlocks contact{right.from + (right.to - right.from) * at,
+                                 left.from + (left.to - left.from) * at,
+                                 share * (end - begin) / count};
     // Only if both reach into one pixel.
     if (contact.left_x + left_width > std::floor(contact.right_x)) contacts.push_back(contact);
   }
@@ -189,49 +190,49 @@ Travel seen_px(const ToPixels& to_px) {
   return {-to_px.block_px - kMargin_px, to_px.visible_right_px + kMargin_px};
 }
 
-/// The ways of a body's left edge; nothing if it stays, or is never seen. While it is out of sight
+/// The paths of a body's left edge; nothing if it stays, or is never seen. While it is out of sight
 /// it waits beside the frame.
-std::vector<BlockWay> ways_of(std::size_t body, const ToPixels& to_px,
-                              std::span<const WeightedBodyExposure> exposures) {
+std::vector<BlockPath> paths_of(std::size_t body, const ToPixels& to_px,
+                                std::span<const WeightedBodyExposure> exposures) {
   const Travel seen = seen_px(to_px);
-  std::vector<BlockWay> ways;
+  std::vector<BlockPath> paths;
   bool is_seen = false;
-  const auto add = [&](const BlockWay& way) {
-    const bool is_left = std::max(way.from, way.to) <= seen.from;
-    const bool is_right = std::min(way.from, way.to) >= seen.to;
+  const auto add = [&](const BlockPath& path) {
+    const bool is_left = std::max(path.from, path.to) <= seen.from;
+    const bool is_right = std::min(path.from, path.to) >= seen.to;
     if (!is_left && !is_right) {
       is_seen = true;
-      ways.push_back(way);
+      paths.push_back(path);
       return;
     }
     const double beside = is_left ? seen.from : seen.to;
-    const BlockWay waiting{beside, beside, way.share};
-    if (!ways.empty() && ways.back().from == beside && ways.back().to == beside) {
-      ways.back().share += way.share;
+    const BlockPath waiting{beside, beside, path.share};
+    if (!paths.empty() && paths.back().from == beside && paths.back().to == beside) {
+      paths.back().share += path.share;
     } else {
-      ways.push_back(waiting);
+      paths.push_back(waiting);
     }
   };
   Travel range = to_px(range_of(exposures.front().exposure, body));
   for (const auto& [weight, exposure] : exposures) {
     range.include(to_px(range_of(exposure, body)));
     each_way(exposure, body, [&, weight = weight](double share, const Travel& of_centre) {
-      const Travel way = to_px(of_centre);
-      add({way.from, way.to, weight * share});
+      const Travel path = to_px(of_centre);
+      add({path.from, path.to, weight * share});
     });
   }
-  if (!is_seen || !(range.to - range.from > kStill_px)) ways.clear();
-  return ways;
+  if (!is_seen || !(range.to - range.from > kStill_px)) paths.clear();
+  return paths;
 }
 
-/// The same summed up, where there are so many ways that this is less.
-std::vector<Dwell> dwells_of(const std::vector<BlockWay>& ways, const Travel& seen) {
-  Travel range{ways.front().from, ways.front().from};
-  for (const BlockWay& way : ways) range.include({way.from, way.to});
+/// The same summed up, where there are so many paths that this is less.
+std::vector<Dwell> dwells_of(const std::vector<BlockPath>& paths, const Travel& seen) {
+  Travel range{paths.front().from, paths.front().from};
+  for (const BlockPath& path : paths) range.include({path.from, path.to});
   range = {std::max(range.from, seen.from), std::min(range.to, seen.to)};
   DwellTable table(range, spacing_px(range.to - range.from));
-  for (const BlockWay& way : ways) {
-    table.add_even(way.share, {std::min(way.from, way.to), std::max(way.from, way.to)});
+  for (const BlockPath& path : paths) {
+    table.add_even(path.share, {std::min(path.from, path.to), std::max(path.from, path.to)});
   }
   return table.dwells();
 }
@@ -256,7 +257,7 @@ ExposedBlocksItem exposed_blocks(ExposedBlock red, ExposedBlock blue, const Axis
                    item.contacts);
     }
   }
-  std::ranges::sort(item.contacts, {}, &Contact::right_x);
+  std::ranges::sort(item.contacts, {}, &TouchingBlocks::right_x);
   return item;
 }
 
@@ -268,14 +269,14 @@ ExposedBlocksItem exposed_blocks(std::vector<ExposedBlock> blocks, const AxisPla
   });
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const ToPixels to_px(axis, blocks[i]);
-    std::vector<BlockWay> ways = ways_of(i, to_px, exposures);
-    if (ways.empty()) continue;
+    std::vector<BlockPath> paths = paths_of(i, to_px, exposures);
+    if (paths.empty()) continue;
     if (is_summed) {
       blocks[i].dwells = dwells_of(i, to_px, exposures);
-    } else if (ways.size() > kMostWays) {
-      blocks[i].dwells = dwells_of(ways, seen_px(to_px));
+    } else if (paths.size() > kMostWays) {
+      blocks[i].dwells = dwells_of(paths, seen_px(to_px));
     }
-    blocks[i].ways = std::move(ways);
+    blocks[i].paths = std::move(paths);
   }
   return {ItemId::red_block, std::move(blocks), {}};
 }

@@ -18,12 +18,12 @@ struct Dwell {
   bool operator==(const Dwell&) const = default;
 };
 
-/// A way of a block's left edge, which it goes evenly.
-struct BlockWay {
+/// A path of a block's left edge, at constant speed.
+struct BlockPath {
   double from = 0;
   double to = 0;
   double share = 0;  ///< of the exposure
-  bool operator==(const BlockWay&) const = default;
+  bool operator==(const BlockPath&) const = default;
 };
 
 /// Rows across a block.
@@ -43,55 +43,55 @@ struct ExposedBlock {
   std::vector<Dwell> dwells;
   /// In the order of time; shares add up to 1. They say when the block is where: all blocks begin
   /// at the same time. If there are dwells, these say more exactly for how long.
-  std::vector<BlockWay> ways = {};
+  std::vector<BlockPath> paths = {};
 
-  bool is_still() const { return dwells.empty() && ways.empty(); }
+  bool is_still() const { return dwells.empty() && paths.empty(); }
   bool operator==(const ExposedBlock&) const = default;
 };
 
 /// A share of an exposure during which two blocks, the right and the left one, are less than a
 /// pixel apart. Both places are left edges.
-struct Contact {
+struct TouchingBlocks {
   double right_x = 0;
   double left_x = 0;
   double share = 0;
-  bool operator==(const Contact&) const = default;
+  bool operator==(const TouchingBlocks&) const = default;
 };
 
 /// Blocks, exposed: the mean, in linear light, of the pictures that rectangles would make at each
 /// instant. A vector file has moving blocks as pixels, and others as rectangles.
 struct ExposedBlocksItem {
   ItemId id = ItemId::red_block;
-  std::vector<ExposedBlock> blocks;  ///< from back to front; they never overlap
-  std::vector<Contact> contacts;     ///< of two blocks without ways, in the order of right_x
+  std::vector<ExposedBlock> blocks;      ///< from back to front; they never overlap
+  std::vector<TouchingBlocks> contacts;  ///< of two blocks without paths, in the order of right_x
   bool operator==(const ExposedBlocksItem&) const = default;
 };
 
-/// A straight way of a disc's centre, which it goes evenly.
-struct DiskWay {
+/// A straight path of the centre of a disc, at constant speed.
+struct DiscPath {
   Point from;
   Point to;
   double share = 0;  ///< of the exposure
-  bool operator==(const DiskWay&) const = default;
+  bool operator==(const DiscPath&) const = default;
 };
 
-/// A disk that moves while the picture is exposed.
-struct ExposedDisk {
+/// A disc that moves while the picture is exposed.
+struct ExposedDisc {
   double radius = 0;  ///< of its outside
   double rim_px = 0;  ///< width of the line, which is inside; 0 if there is none
   Color fill;
   Color rim;
-  std::vector<DiskWay> ways;  ///< in the order of time; shares add up to 1
-  bool operator==(const ExposedDisk&) const = default;
+  std::vector<DiscPath> paths;  ///< in the order of time; shares add up to 1
+  bool operator==(const ExposedDisc&) const = default;
 };
 
-/// Disks, exposed: the mean, in linear light, of the pictures that they would make at each instant.
-/// All ways begin at the same time, so that it is known which disks are in a pixel together.
+/// Discs, exposed: the mean, in linear light, of the pictures that they would make at each instant.
+/// All paths begin at the same time, so that it is known which discs are in a pixel together.
 /// A vector file has them as pixels.
-struct ExposedDisksItem {
+struct ExposedDiscsItem {
   ItemId id = ItemId::red_block;
-  std::vector<ExposedDisk> disks;  ///< they never overlap
-  bool operator==(const ExposedDisksItem&) const = default;
+  std::vector<ExposedDisc> discs;  ///< they never overlap
+  bool operator==(const ExposedDiscsItem&) const = default;
 };
 
 }  // namespace piblocks

@@ -40,12 +40,12 @@ struct ExtentOf {
   Extent operator()(const PathItem& path) const {
     return extent_of(path.points.bounds()).grown(reach_of(path.stroke));
   }
-  Extent operator()(const DiskItem& disk) const {
-    return Extent{disk.centre.x, disk.centre.y, disk.centre.x, disk.centre.y}.grown(
-        disk.radius + reach_of(disk.stroke) + kDiskStep_px / 2);
+  Extent operator()(const DiscItem& disc) const {
+    return Extent{disc.centre.x, disc.centre.y, disc.centre.x, disc.centre.y}.grown(
+        disc.radius + reach_of(disc.stroke) + kDiscStep_px / 2);
   }
   Extent operator()(const ExposedBlocksItem& item) const { return around(item.blocks); }
-  Extent operator()(const ExposedDisksItem& item) const { return around(item.disks); }
+  Extent operator()(const ExposedDiscsItem& item) const { return around(item.discs); }
   /// The line of a rectangle is inside its bounds.
   Extent operator()(const auto& item) const { return extent_of(item.bounds); }
 };
@@ -94,10 +94,10 @@ Extent extent_of(const ExposedBlock& block) {
   if (!block.dwells.empty()) {
     extent.left = block.dwells.front().x;
     extent.right = block.dwells.back().x + block.bounds.width;
-  } else if (!block.ways.empty()) {
-    extent.left = extent.right = block.ways.front().from;
-    for (const BlockWay& way : block.ways) {
-      const auto [left, right] = std::minmax({extent.left, way.from, way.to, extent.right});
+  } else if (!block.paths.empty()) {
+    extent.left = extent.right = block.paths.front().from;
+    for (const BlockPath& path : block.paths) {
+      const auto [left, right] = std::minmax({extent.left, path.from, path.to, extent.right});
       extent.left = left;
       extent.right = right;
     }
@@ -106,18 +106,18 @@ Extent extent_of(const ExposedBlock& block) {
   return extent;
 }
 
-Extent extent_of(const ExposedDisk& disk) {
-  const Point& first = disk.ways.front().from;
+Extent extent_of(const ExposedDisc& disc) {
+  const Point& first = disc.paths.front().from;
   Extent extent{first.x, first.y, first.x, first.y};
-  for (const DiskWay& way : disk.ways) {
-    for (const Point& end : {way.from, way.to}) {
+  for (const DiscPath& path : disc.paths) {
+    for (const Point& end : {path.from, path.to}) {
       extent.left = std::min(extent.left, end.x);
       extent.top = std::min(extent.top, end.y);
       extent.right = std::max(extent.right, end.x);
       extent.bottom = std::max(extent.bottom, end.y);
     }
   }
-  return extent.grown(disk.radius + kSoftEdge_px);
+  return extent.grown(disc.radius + kSoftEdge_px);
 }
 
 Extent extent_of(const TextItem& text, double left_em, double right_em) {
@@ -182,8 +182,8 @@ PixelRect moving_area(const ExposedBlocksItem& item, const PixelRect& area) {
   return {left, top, std::max(0, right - left), bottom - top};
 }
 
-PixelRect moving_area(const ExposedDisksItem& item, const PixelRect& area) {
-  return pixels_of(around(item.disks), area);
+PixelRect moving_area(const ExposedDiscsItem& item, const PixelRect& area) {
+  return pixels_of(around(item.discs), area);
 }
 
 bool reaches(const DrawItem& item, const PixelRect& rect) {

@@ -5,9 +5,11 @@
 #include <ft2build.h>
 #include <piblocks/error.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <span>
 
 #include "core/text.hpp"
@@ -160,9 +162,13 @@ struct Font::Loaded {
 
   /// Cairo keeps the font at the size that was used last in any thread. When another thread takes
   /// its place, that thread lets go of it, and asserts that nobody uses it: wrongly, if nobody else
-  /// held it and its own thread asks for it again just then.
+  /// held it and its own thread asks for it again just then. Those used last are kept.
   void keep(cairo_scaled_font_t* sized) {
-    if (std::ranges::find(kept, sized, &CairoScaledFontPtr::get) != kept.end()) return;
+    const auto found = std::ranges::find(kept, sized, &CairoScaledFontPtr::get);
+    if (found != kept.end()) {
+      std::rotate(found, std::next(found), kept.end());  // the oldest is the first
+      return;
+    }
     if (kept.size() == kMostKept) kept.erase(kept.begin());
     kept.emplace_back(cairo_scaled_font_reference(sized));
   }

@@ -73,11 +73,11 @@ inline Rectangle to_rectangle(const PixelRect& r) {
 }
 
 /// A line. On a rectangle it is drawn inside the outline, so that the shape is exactly as large as
-/// it says; on a path and on a disk it is centred on the outline.
+/// it says; on a path and on a disc it is centred on the outline.
 struct Stroke {
   Color color;
   double width_px = 1;
-  /// Length of dashes and of the gaps between them; 0 for a solid line, as that of every disk.
+  /// Length of dashes and of the gaps between them; 0 for a solid line, as that of every disc.
   double dash_px = 0;
   bool operator==(const Stroke&) const = default;
 };

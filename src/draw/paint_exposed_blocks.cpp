@@ -55,12 +55,12 @@ class ExposedColumn {
     }
     x_ = x;
     const auto at = [&](double place) {
-      return std::ranges::lower_bound(item_.contacts, place, {}, &Contact::right_x);
+      return std::ranges::lower_bound(item_.contacts, place, {}, &TouchingBlocks::right_x);
     };
     // Within a block, one column is like the next.
     is_new |= !contacts_.empty() || !moments_.empty();
     contacts_ = {at(x), at(x + 1.0)};
-    if (has_ways()) moments_ = together_.find(x, here_);
+    if (has_paths()) moments_ = together_.find(x, here_);
     is_new |= !contacts_.empty() || !moments_.empty();
     present_.clear();
     for (const std::size_t i : here_) {
@@ -107,8 +107,9 @@ class ExposedColumn {
     return unlike_.size() - 1;
   }
 
-  bool has_ways() const {
-    return std::ranges::any_of(here_, [&](std::size_t i) { return !item_.blocks[i].ways.empty(); });
+  bool has_paths() const {
+    return std::ranges::any_of(here_,
+                               [&](std::size_t i) { return !item_.blocks[i].paths.empty(); });
   }
 
   /// @returns whether blocks have left
@@ -179,7 +180,7 @@ class ExposedColumn {
   std::vector<Coming> coming_;        // the next one is the last
   std::vector<std::size_t> here_;     // blocks that are ever in the column, from back to front
   std::vector<std::size_t> present_;  // the blocks with shares
-  std::span<const Contact> contacts_;
+  std::span<const TouchingBlocks> contacts_;
   std::span<const TogetherMoment> moments_;
   int x_ = 0;
   struct Known {

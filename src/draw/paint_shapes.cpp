@@ -178,7 +178,7 @@ void paint_shape(cairo_t& cr, const PathItem& item) {
   });
 }
 
-void paint_shape(cairo_t& cr, const DiskItem& item) {
+void paint_shape(cairo_t& cr, const DiscItem& item) {
   if (!has_pixels(cr)) {
     add_circle_curves(cr, item.centre, item.radius);
     return fill_and_stroke(cr, item.fill, item.stroke);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "draw/disk_exposure.hpp"
+#include "draw/disc_exposure.hpp"
 #include "draw/extent.hpp"
 
 namespace piblocks {
@@ -41,18 +41,18 @@ CairoSurfacePtr premultiplied(const Image& image) {
   return surface;
 }
 
-/// From a disk's centre to the outside of its line.
-double reach_of(const DiskItem& disk) {
-  return disk.radius + (disk.stroke ? disk.stroke->width_px / 2 : 0);
+/// From a disc's centre to the outside of its line.
+double reach_of(const DiscItem& disc) {
+  return disc.radius + (disc.stroke ? disc.stroke->width_px / 2 : 0);
 }
 
-double nearest_place(double px) { return std::round(px / kDiskStep_px) * kDiskStep_px; }
+double nearest_place(double px) { return std::round(px / kDiscStep_px) * kDiscStep_px; }
 
 }  // namespace
 
-bool is_small(const DiskItem& disk) {
+bool is_small(const DiscItem& disc) {
   constexpr double kSmall_px = 32;
-  return reach_of(disk) <= kSmall_px;
+  return reach_of(disc) <= kSmall_px;
 }
 
 void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rectangle& bounds) {
@@ -80,8 +80,8 @@ void Painter::paint(cairo_t& cr, const DrawList& list, const PixelRect& area) {
       paint_group(cr, *group, area);
     } else if (const auto* blocks = std::get_if<ExposedBlocksItem>(&item)) {
       paint_or_embed(cr, *blocks, list, area);
-    } else if (const auto* disks = std::get_if<ExposedDisksItem>(&item)) {
-      paint_or_embed(cr, *disks, list, area);
+    } else if (const auto* discs = std::get_if<ExposedDiscsItem>(&item)) {
+      paint_or_embed(cr, *discs, list, area);
     } else {
       paint_item(cr, item);
     }
@@ -95,7 +95,7 @@ void Painter::paint_item(cairo_t& cr, const DrawItem& item) {
   if (const auto* rectangle = std::get_if<RectangleItem>(&item)) paint_shape(cr, *rectangle);
   if (const auto* text = std::get_if<TextItem>(&item)) paint_text(cr, *text);
   if (const auto* path = std::get_if<PathItem>(&item)) paint_shape(cr, *path);
-  if (const auto* disk = std::get_if<DiskItem>(&item)) paint_disk(cr, *disk);
+  if (const auto* disc = std::get_if<DiscItem>(&item)) paint_disc(cr, *disc);
   if (const auto* image = std::get_if<ImageItem>(&item)) paint_image(cr, *image);
   if (const auto* plate = std::get_if<PlateItem>(&item)) paint_plate(cr, *plate);
 }
@@ -117,25 +117,25 @@ void Painter::paint_text(cairo_t& cr, const TextItem& item) {
   }
 }
 
-void Painter::paint_disk(cairo_t& cr, const DiskItem& item) {
+void Painter::paint_disc(cairo_t& cr, const DiscItem& item) {
   if (!is_small(item) || !has_pixels_of_picture(cr)) return paint_shape(cr, item);
   const Point place{nearest_place(item.centre.x), nearest_place(item.centre.y)};
   const Point pixel{std::floor(place.x), std::floor(place.y)};
   const int reach_px = static_cast<int>(std::ceil(reach_of(item))) + 1;
-  const DiskItem disk{ItemId{},
+  const DiscItem disc{ItemId{},
                       {reach_px + place.x - pixel.x, reach_px + place.y - pixel.y},
                       item.radius,
                       item.fill,
                       item.stroke};
   const int side_px = 2 * reach_px + 1;
-  auto kept = std::ranges::find(disks_, disk, &KeptDisk::disk);
-  if (kept == disks_.end()) {
+  auto kept = std::ranges::find(discs_, disc, &KeptDisc::disc);
+  if (kept == discs_.end()) {
     constexpr std::size_t kMostKept = 256;
-    if (disks_.size() == kMostKept) disks_.clear();
-    CairoSurfacePtr pixels = image_surface(CAIRO_FORMAT_ARGB32, side_px, side_px, "paint a disk");
-    paint_shape(*CairoPtr(cairo_create(pixels.get())), disk);
-    disks_.push_back({disk, std::move(pixels)});
-    kept = disks_.end() - 1;
+    if (discs_.size() == kMostKept) discs_.clear();
+    CairoSurfacePtr pixels = image_surface(CAIRO_FORMAT_ARGB32, side_px, side_px, "paint a disc");
+    paint_shape(*CairoPtr(cairo_create(pixels.get())), disc);
+    discs_.push_back({disc, std::move(pixels)});
+    kept = discs_.end() - 1;
   }
   copy_pixels(cr, *kept->pixels,
               {pixel.x - reach_px, pixel.y - reach_px, double(side_px), double(side_px)});
@@ -281,7 +281,10 @@ void Painter::embed_exposed(cairo_t& cr, const Item& item, const DrawList& list)
   cairo_surface_set_device_offset(pixels.get(), -area.x_px, -area.y_px);
   paint(*CairoPtr(cairo_create(pixels.get())), until, area);
   cairo_surface_set_device_offset(pixels.get(), 0, 0);
-  copy_pixels(cr, *pixels, to_rectangle(area));
+  // Not cairo_fill(): SVG would take the picture for a tile, whose edges shine through at the
+  // opposite ones.
+  cairo_set_source_surface(&cr, pixels.get(), area.x_px, area.y_px);
+  cairo_paint(&cr);
 }
 
 }  // namespace piblocks

@@ -22,13 +22,13 @@ void set_color(cairo_t& cr, const Color& color);
 // The context has no current path, neither before nor after.
 void paint_shape(cairo_t& cr, const RectangleItem& item);
 void paint_shape(cairo_t& cr, const PathItem& item);
-void paint_shape(cairo_t& cr, const DiskItem& item);
+void paint_shape(cairo_t& cr, const DiscItem& item);
 
 /// Fills a rectangle with a surface whose upper left corner is there.
 void copy_pixels(cairo_t& cr, cairo_surface_t& pixels, const Rectangle& bounds);
 
-/// Whether a disk has few pixels: they are painted once for each place within a pixel, and kept.
-bool is_small(const DiskItem& disk);
+/// Whether a disc has few pixels: they are painted once for each place within a pixel, and kept.
+bool is_small(const DiscItem& disc);
 
 /// How text is set. Cairo blends overlapping glyphs of a line differently, if both are visible: a
 /// part of a picture would differ from the whole by a step of grey.
@@ -37,7 +37,7 @@ enum class TextSetting {
   glyphs  ///< each glyph by itself, so that its pixels depend on nothing else
 };
 
-class DiskExposure;
+class DiscExposure;
 
 /// Keeps fonts, pixels of plates and images, and a table of light, once they were needed.
 class Painter {
@@ -57,20 +57,20 @@ class Painter {
   /// Any item but groups and exposed ones.
   void paint_item(cairo_t& cr, const DrawItem& item);
   void paint_text(cairo_t& cr, const TextItem& item);
-  void paint_disk(cairo_t& cr, const DiskItem& item);
+  void paint_disc(cairo_t& cr, const DiscItem& item);
   void paint_image(cairo_t& cr, const ImageItem& item);
   void paint_plate(cairo_t& cr, const PlateItem& item);
   CairoSurfacePtr pixels_of(const PlateItem& item);
   void paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& area);
   void paint_group_pixels(cairo_t& cr, const GroupItem& item, const PixelRect& area);
   void paint_exposed(cairo_t& cr, const ExposedBlocksItem& item, const PixelRect& area);
-  void paint_exposed(cairo_t& cr, const ExposedDisksItem& item, const PixelRect& area);
+  void paint_exposed(cairo_t& cr, const ExposedDiscsItem& item, const PixelRect& area);
   template <typename Item>
   void paint_or_embed(cairo_t& cr, const Item& item, const DrawList& list, const PixelRect& area);
   template <typename Item>
   void embed_exposed(cairo_t& cr, const Item& item, const DrawList& list);
   void paint_still(cairo_t& cr, const ExposedBlocksItem& item);
-  void paint_still(cairo_t& /*cr*/, const ExposedDisksItem& /*item*/) {}
+  void paint_still(cairo_t& /*cr*/, const ExposedDiscsItem& /*item*/) {}
   /// The pixels of this plate or image, made when it is painted first.
   cairo_surface_t& kept_pixels(std::shared_ptr<const void> source,
                                const std::function<CairoSurfacePtr()>& make);
@@ -79,17 +79,17 @@ class Painter {
   Fonts fonts_;
   std::unique_ptr<Light> light_;
   std::vector<std::uint32_t> background_;  ///< of exposed blocks; kept for its memory
-  std::unique_ptr<DiskExposure> disk_exposure_;
+  std::unique_ptr<DiscExposure> disc_exposure_;
   struct KeptPixels {
     std::shared_ptr<const void> source;  ///< held, so that its address stays its own
     CairoSurfacePtr pixels;
   };
   std::vector<KeptPixels> kept_;
-  struct KeptDisk {
-    DiskItem disk;  ///< in the surface, without an id
+  struct KeptDisc {
+    DiscItem disc;  ///< in the surface, without an id
     CairoSurfacePtr pixels;
   };
-  std::vector<KeptDisk> disks_;
+  std::vector<KeptDisc> discs_;
 };
 
 }  // namespace piblocks

@@ -116,8 +116,11 @@ void check_dimensions(const BodySystem& system, SceneProblems& problems) {
     if (normal[0] == 0 && normal[1] == 0) {
       problems.add(key, "= [0, 0]: must not be 0");
     } else if (system.dimensions == 1 && normal[1] != 0) {
-      problems.add(key, "= [{}, {}]: blocks on a line cannot meet the {} wall", normal[0],
-                   normal[1], system.walls[i].name);
+      problems.add(
+          key,
+          "makes the {} wall, but blocks move along x alone; leave it out, or give the bodies "
+          "a radius",
+          system.walls[i].name);
     }
   }
 }

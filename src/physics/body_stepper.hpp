@@ -15,7 +15,9 @@ namespace piblocks {
 struct BodyStep {
   Time time;
   std::optional<Rational> exact_time = {};  ///< if the engine knows it
-  std::uint32_t first = 0;                  ///< as in BodyCollision
+  /// Whether one of the two is about to meet another at the same time; false if not known exactly.
+  bool is_tied = false;
+  std::uint32_t first = 0;  ///< as in BodyCollision
   std::uint32_t second = 0;
   BodyMotion first_after = {};
   BodyMotion second_after = {};

@@ -106,6 +106,9 @@ class ClosedBodyLog final : public BodyLog {
     return {*blocks_, parts_.blue.id, parts_.red.id, parts_.sign};
   }
   Integer exact_size() const override { return is_exact(*blocks_) ? size() : Integer(0); }
+  std::optional<Integer> first_tie() const override {
+    return corner_of(blocks_->system()) ? std::optional(Integer(1)) : std::nullopt;
+  }
   std::optional<double> certain_until() const override { return std::nullopt; }
 
  private:

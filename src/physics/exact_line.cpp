@@ -117,6 +117,7 @@ std::optional<BodyStep> ExactLine::step() {
   for (const LineElement* const element : {&left, &right}) {
     bits_ = std::max({bits_, bits_of(element->position), bits_of(element->velocity)});
   }
+  const bool is_tied = is_due(pair + 1) || (pair > 0 && is_due(pair - 1));
   meetings_[pair].reset();
   next_.replay(pair);
   if (pair > 0) {
@@ -129,6 +130,7 @@ std::optional<BodyStep> ExactLine::step() {
   }
   BodyStep step = step_of(to_time(time_), left.id, motion_of(left), right.id, motion_of(right));
   step.exact_time = time_;
+  step.is_tied = is_tied;
   return step;
 }
 

@@ -56,6 +56,10 @@ class ExactLine {
   };
 
   void predict(std::size_t pair);
+  /// Whether there is this pair and it meets now.
+  bool is_due(std::size_t pair) const {
+    return pair < meetings_.size() && meetings_[pair] && *meetings_[pair] == time_;
+  }
 
   std::vector<LineElement> elements_;
   std::vector<std::optional<Rational>> meetings_;  // of elements n and n + 1: when they meet

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/rounded.hpp"
-#include "physics/damped_log.hpp"
+#include "physics/inelastic_log.hpp"
 #include "physics/unfolded_log.hpp"
 
 namespace piblocks {
@@ -73,7 +73,7 @@ Exposure sliced(const CollisionLog& log, const Rational& begin, const Rational& 
 Exposure listed(const CollisionLog& log, const Rational& begin, const Rational& end) {
   const BlockState start = log.state_at(begin);
   const BlockState stop = log.state_at(end);
-  if (damped_log(log) != nullptr && stop.count - start.count > long(kMaxListedCollisions)) {
+  if (inelastic_log(log) != nullptr && stop.count - start.count > long(kMaxListedCollisions)) {
     return sliced(log, begin, end, start);
   }
   PieceList pieces(start.blue.position, start.red.position);

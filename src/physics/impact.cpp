@@ -2,7 +2,7 @@
 
 #include "core/real.hpp"
 #include "core/two_sum.hpp"
-#include "physics/damped_log.hpp"
+#include "physics/inelastic_log.hpp"
 #include "physics/unfolded_log.hpp"
 
 namespace piblocks {
@@ -52,7 +52,8 @@ Integer UnfoldedLog::count_near(const Time& time) const {
 std::optional<Impact> impact(const CollisionLog& log, CollisionKind kind, const Integer& first,
                              const Integer& last) {
   if (const UnfoldedLog* const form = closed_form(log)) return form->impact(kind, first, last);
-  if (const DampedLog* const damped = damped_log(log)) return damped->impact(kind, first, last);
+  if (const InelasticLog* const inelastic = inelastic_log(log))
+    return inelastic->impact(kind, first, last);
   const Rational mass_ratio = log.system().blue.mass / log.system().red.mass;
   std::optional<Impact> sum;
   // Means are taken relative to the first collision: a product would lose the second double.
@@ -81,7 +82,8 @@ std::optional<Impact> impact(const CollisionLog& log, CollisionKind kind, const 
 
 Integer count_near(const CollisionLog& log, const Time& time) {
   if (const UnfoldedLog* const form = closed_form(log)) return form->count_near(time);
-  if (const DampedLog* const damped = damped_log(log)) return damped->count_at(to_rational(time));
+  if (const InelasticLog* const inelastic = inelastic_log(log))
+    return inelastic->count_at(to_rational(time));
   return log.state_at(to_rational(time)).count;
 }
 

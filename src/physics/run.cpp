@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "physics/blocks.hpp"
-#include "physics/damped_log.hpp"
 #include "physics/exact_motion.hpp"
+#include "physics/inelastic_log.hpp"
 #include "physics/precise_log.hpp"
 #include "physics/unfolded_log.hpp"
 
@@ -48,7 +48,7 @@ const PreciseLog* precise_log(const CollisionLog& log) {
 /// Precision of a time before it is rounded to two doubles.
 constexpr mpfr_prec_t kCollapseBits = 160;
 
-std::string endless_message(const DampedMotion& motion) {
+std::string endless_message(const InelasticMotion& motion) {
   const auto end = motion.collapse_time(kCollapseBits);
   return end ? fmt::format(
                    "count: there are infinitely many collisions until the blocks come to "
@@ -70,7 +70,7 @@ Gaps gaps_between(const BlockSystem& system, const Motion& blue, const Motion& r
 }  // namespace
 
 std::optional<Rational> turn_of(const BlockSystem& system) {
-  if (!is_elastic(system)) return DampedMotion(system).turn();
+  if (!is_elastic(system)) return InelasticMotion(system).turn();
   const ExactMotion motion(system);
   return motion.at_rest() ? std::nullopt : std::optional(motion.closest_approach);
 }
@@ -153,7 +153,7 @@ std::unique_ptr<CollisionStream> CollisionLog::stream(const Integer& first,
 std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system, Engine engine) {
   require_valid(problems_of(system));
   if (engine != Engine::unfolded) return make_stored_log(system, engine);
-  if (!is_elastic(system)) return std::make_unique<DampedLog>(system);
+  if (!is_elastic(system)) return std::make_unique<InelasticLog>(system);
   // At theta >= pi/4 the closed form has nothing to skip, and would lose a very light red block
   // in the rounding of its phase.
   const bool is_at_rest = system.blue.velocity == 0 && system.red.velocity == 0;
@@ -164,7 +164,7 @@ std::unique_ptr<CollisionLog> make_collision_log(const BlockSystem& system, Engi
 Integer count_collisions(const BlockSystem& system) {
   require_valid(problems_of(system));
   if (is_elastic(system)) return ExactMotion(system).total();
-  const DampedMotion motion(system);
+  const InelasticMotion motion(system);
   if (motion.total) return *motion.total;
   throw UsageError(endless_message(motion));
 }
@@ -172,20 +172,20 @@ Integer count_collisions(const BlockSystem& system) {
 std::optional<Collapse> collapse_of(const BlockSystem& system) {
   require_valid(problems_of(system));
   if (is_elastic(system)) return std::nullopt;
-  const DampedMotion motion(system);
+  const InelasticMotion motion(system);
   if (motion.total) return std::nullopt;
   const auto end = motion.collapse_time(kCollapseBits);
   return Collapse{end ? std::optional(end->to_double_double()) : std::nullopt, motion.listed};
 }
 
 bool is_endless(const Timeline& log) {
-  const DampedLog* const damped = damped_log(log);
-  return damped != nullptr && damped->is_endless();
+  const InelasticLog* const inelastic = inelastic_log(log);
+  return inelastic != nullptr && inelastic->is_endless();
 }
 
 std::optional<Corner> corner_of(const BlockSystem& system) {
   require_valid(problems_of(system));
-  if (!is_elastic(system)) return DampedMotion(system).corner();
+  if (!is_elastic(system)) return InelasticMotion(system).corner();
   ExactMotion motion(system);
   // The line comes into the corner between the rays of wall and blocks; otherwise, starting in it,
   // only one of the two can be first.

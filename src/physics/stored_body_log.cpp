@@ -108,7 +108,7 @@ class StoredBodyLog final : public BodyLog {
     const std::shared_lock lock(mutex_);
     return std::min(Integer(exact_times_.size()), size());
   }
-  std::optional<double> first_tie() const override {
+  std::optional<Integer> first_tie() const override {
     const std::shared_lock lock(mutex_);
     return first_tie_;
   }
@@ -203,14 +203,10 @@ class StoredBodyLog final : public BodyLog {
     }
     const auto number = static_cast<std::uint32_t>(steps_.size());
     if (step->exact_time) exact_times_.push_back(*step->exact_time);
+    if (step->is_tied && !first_tie_) first_tie_ = Integer(number + 1);
     for (const std::uint32_t body : {step->first, step->second}) {
       if (body >= of_body_.size()) continue;
       Numbers& own = of_body_[body];
-      // Equal times are known as such while they are exact; later they end certainty.
-      if (!first_tie_ && step->exact_time && !own.empty() &&
-          exact_times_[own.back()] == *step->exact_time) {
-        first_tie_ = step->time.hi;
-      }
       own.push_back(number);
     }
     BodyMotion second_after = step->second_after;
@@ -249,7 +245,7 @@ class StoredBodyLog final : public BodyLog {
   mutable std::vector<StoredStep> steps_;
   mutable std::vector<Rational> exact_times_;  // of the first steps
   mutable std::vector<Numbers> of_body_;       // numbers of its steps
-  mutable std::optional<double> first_tie_;
+  mutable std::optional<Integer> first_tie_;
 };
 
 }  // namespace

@@ -82,12 +82,28 @@ std::vector<Voice> voices_of(const Film& film) {
   return voices;
 }
 
+/// Time stands still from `end` on, where a shutter is open longer.
+void stop_at(const Rational& end, std::vector<TimeSlice>& exposure) {
+  std::vector<TimeSlice> stopped;
+  for (const TimeSlice& slice : exposure) {
+    const auto [first, last] = std::minmax(slice.from, slice.to);
+    const Rational beyond =
+        last <= end ? Rational(0) : Rational((last - std::max(first, end)) / (last - first));
+    const Rational from = std::min(slice.from, end);
+    const Rational to = std::min(slice.to, end);
+    if (beyond < 1) stopped.push_back({from, to, slice.share * (1 - beyond)});
+    if (beyond > 0) stopped.push_back({end, end, slice.share * beyond});
+  }
+  exposure = std::move(stopped);
+}
+
 }  // namespace
 
 FilmRun::FilmRun(Scene scene, RunLog log, FilmUse use)
     : scene_(std::move(scene)), log_(std::move(log)) {
   if (use == FilmUse::audio_only) return;
   if (const BodyLog* const bodies = log_.bodies()) {
+    if (has_span(scene_, *bodies)) end_ = span_of(scene_, *bodies).to;
     composition_.emplace(scene_, *bodies, read_logo(scene_));
   } else {
     composition_.emplace(scene_, *log_.blocks(), read_logo(scene_));
@@ -97,17 +113,24 @@ FilmRun::FilmRun(Scene scene, RunLog log, FilmUse use)
 DrawList FilmRun::picture(const FrameTime& shown) const { return picture(shown, nullptr); }
 
 DrawList FilmRun::picture(const FrameTime& shown, const VideoTime* video_time) const {
-  if (const BodyLog* const bodies = log_.bodies()) {
-    require_certain(scene_, *bodies, shown.time);
-    constexpr int kTrail_s = 2;  // of video at the scene's own speed
-    return composition_->frame(
-        frame_state(*bodies, shown, composition_->needs(), scene_.time.speed * kTrail_s));
-  }
+  if (log_.bodies() != nullptr) return picture_of_bodies(shown);
   const CollisionLog& blocks = *log_.blocks();
   const FrameNeeds& needs = composition_->needs();
   return composition_->frame(video_time == nullptr
                                  ? frame_state(blocks, shown, needs)
                                  : frame_state(blocks, shown, needs, *video_time));
+}
+
+DrawList FilmRun::picture_of_bodies(FrameTime shown) const {
+  // What comes after the end may not be certain, or may be more than can be computed.
+  if (end_ && shown.time < *end_) stop_at(*end_, shown.exposure);
+  Rational last = shown.time;
+  for (const TimeSlice& slice : shown.exposure) last = std::max({last, slice.from, slice.to});
+  const BodyLog& bodies = *log_.bodies();
+  require_certain(scene_, bodies, last);
+  constexpr int kTrail_s = 2;  // of video at the scene's own speed
+  return composition_->frame(
+      frame_state(bodies, shown, composition_->needs(), scene_.time.speed * kTrail_s));
 }
 
 DrawList FilmRun::frame(const Schedule& schedule, std::int64_t number) const {

@@ -51,9 +51,11 @@ class FilmRun {
 
  private:
   DrawList picture(const FrameTime& shown, const VideoTime* video_time) const;
+  DrawList picture_of_bodies(FrameTime shown) const;
 
   Scene scene_;
   RunLog log_;
+  std::optional<Rational> end_;             ///< of what the scene shows of bodies, if it has one
   std::optional<Composition> composition_;  ///< unless FilmUse::audio_only
 };
 

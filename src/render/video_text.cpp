@@ -38,7 +38,8 @@ std::string reached(const VideoCount& count) {
   if (count.may_go_on) return collisions(count.at_end);
   if (count.at_end == count.total) {
     return all_collisions(count.total, count.is_endless) +
-           (count.is_endless ? ", after which both blocks rest" : ", which is all there are");
+           (count.is_endless ? ", after which both blocks rest"
+                             : ", after which there are no more");
   }
   return fmt::format("{} of {}", number, all_collisions(count.total, count.is_endless));
 }
@@ -46,7 +47,8 @@ std::string reached(const VideoCount& count) {
 std::string collision_words(const BlockSystem& system) {
   if (is_elastic(system)) return "All collisions are elastic";
   return fmt::format(
-      "The blocks part with {} of the speed at which they meet, the inner one and the wall with {}",
+      "The coefficient of restitution is {} between the blocks and {} between the inner block and "
+      "the wall",
       short_text(system.blocks_restitution), short_text(system.wall_restitution));
 }
 
@@ -63,7 +65,7 @@ std::string describe_bodies(const Bodies& bodies, const VideoCount& count) {
   const std::string place =
       walls == 0 ? std::string() : fmt::format(", with {} wall{}", walls, walls == 1 ? "" : "s");
   return fmt::format(
-      "{} move {} without friction{}. All collisions are elastic, and a counter "
+      "{} moving {} without friction{}. All collisions are elastic, and a counter "
       "reaches {}.",
       bodies_of(bodies), is_line ? "along a line" : "in a plane", place, reached(count));
 }
@@ -98,7 +100,7 @@ std::string text_of(const Integer& milestone, const Extremes& counts) {
   if (milestone < 0) return number + " or more to go until time 0";
   if (milestone < counts.most) return number + " or more";
   if (counts.most == counts.total && counts.is_endless) return "Infinitely many collisions";
-  return counts.most == counts.total ? number + ", which is all there are" : number;
+  return counts.most == counts.total ? number + ", after which there are no more" : number;
 }
 
 std::string time_text(std::int64_t frame, const Rational& frame_rate) {

@@ -68,9 +68,10 @@ std::optional<Integer> anchoring_collision(const Instant& instant, const Timelin
 
 std::string named_collisions(const Timeline& log) {
   if (log.size() < log.first_index()) return "no collisions";
-  return fmt::format("{} #{} to #{}",
-                     is_endless(log) ? "infinitely many collisions, and lists" : "collisions",
-                     log.first_index().get_str(), log.size().get_str());
+  return fmt::format(
+      "{} #{} to #{}",
+      is_endless(log) ? "infinitely many collisions, of which the log lists" : "collisions",
+      log.first_index().get_str(), log.size().get_str());
 }
 
 [[noreturn]] void fail_missing(const Instant& instant, const Timeline& log) {

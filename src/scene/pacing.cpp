@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/damped_motion.hpp"
 #include "physics/exact_motion.hpp"
+#include "physics/inelastic_motion.hpp"
 #include "scene/easing.hpp"
 
 namespace piblocks {
@@ -82,7 +82,7 @@ std::optional<Middle> middle_of_bodies(const Timeline& log, const Span& span,
 std::optional<Middle> middle_of_blocks(const BlockSystem& system, const Timeline& log,
                                        const Rational& speed) {
   if (!is_elastic(system)) {
-    const auto densest = DampedMotion(system).densest();
+    const auto densest = InelasticMotion(system).densest();
     if (!densest) return std::nullopt;
     const auto& [time, rate] = *densest;
     return Middle{time, rate ? to_double(Rational(*rate * speed)) : HUGE_VAL};

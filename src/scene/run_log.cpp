@@ -37,26 +37,25 @@ void require_certain(const Scene& scene, const BodyLog& log, const Rational& tim
   const std::optional<double> until = log.certain_until();
   if (!until || *until > to_double(time)) return;
   throw UsageError(fmt::format(
-      "bodies: what happens is certain until time {:.6g} only, since double precision cannot tell "
-      "which of them collide next; end before it, as time.to = {:.4g}, or show what may be wrong "
-      "with "
-      "--allow-uncertain",
+      "bodies: the result is certain only until time {:.6g}; after that, rounding may change which "
+      "bodies collide; end earlier, as with time.to = {:.4g}, or accept this by --allow-uncertain",
       *until, *until * 0.999));
 }
 
-std::optional<std::string> tie_note(const RunLog& log, const std::optional<Rational>& until) {
-  const std::optional<double> time = log.bodies() ? log.bodies()->first_tie() : std::nullopt;
-  if (!time || (until && Rational(*time) > *until)) return std::nullopt;
+std::optional<std::string> tie_note(const RunLog& log, const Integer& last) {
+  const std::optional<Integer> tie = log.bodies() ? log.bodies()->first_tie() : std::nullopt;
+  if (!tie || *tie > last) return std::nullopt;
   return fmt::format(
       "at t = {} a body has several collisions at once: these happen in the order of the file, and "
       "another order may end otherwise",
-      *time);
+      log.bodies()->collision_time(*tie).hi);
 }
 
 void require_blocks(const Scene& scene, const char* what) {
   if (!scene.bodies) return;
-  throw UsageError(
-      fmt::format("{}: is for two blocks and a wall, and this scene has [[body]]", what));
+  throw UsageError(fmt::format(
+      "{}: needs two blocks and a fixed wall; leave it out, or leave out [[body]] and wall.mass",
+      what));
 }
 
 }  // namespace piblocks

@@ -37,11 +37,11 @@ class RunLog {
 /// @throws UsageError if bodies are not certain at this time, unless the scene allows that.
 void require_certain(const Scene& scene, const BodyLog& log, const Rational& time);
 
-/// What to tell the user if the order of pairs decides what happens until a time, as far as the log
-/// has been computed; nothing of two blocks and a wall.
-std::optional<std::string> tie_note(const RunLog& log, const std::optional<Rational>& until = {});
+/// What to tell the user if the order of pairs decides what happens up to this collision, as far as
+/// the log has been computed; nothing of two blocks and a wall.
+std::optional<std::string> tie_note(const RunLog& log, const Integer& last);
 
-/// @param what  in the message: a command or an output
+/// @param what  in the message: an option
 /// @throws UsageError if the scene has bodies: only two blocks and a wall can be shown that way.
 void require_blocks(const Scene& scene, const char* what);
 

@@ -154,14 +154,16 @@ void check_panels_of_blocks(const Show& show, SceneProblems& problems) {
 
 /// What is there for two blocks and a wall alone.
 void check_bodies(const Scene& scene, SceneProblems& problems) {
-  constexpr const char* kReason = "{} is for two blocks and a wall, and this scene has [[body]]";
+  constexpr const char* kReason =
+      "has {}, which needs two blocks and a fixed wall; leave it out, or leave out [[body]] and "
+      "wall.mass";
   const auto reject = [&](bool is_there, const char* key, const std::string& what) {
     if (is_there) problems.add(key, kReason, what);
   };
   problems.require(scene.bodies->styles.size() == scene.bodies->system.bodies.size(), "body",
                    "must have one style for each body");
   reject(scene.show.has(Overlay::digits), "show.overlays", "'digits'");
-  reject(scene.show.loupe && scene.show.loupe->is_on, "show.loupe", "the loupe");
+  reject(scene.show.loupe && scene.show.loupe->is_on, "show.loupe", "a loupe");
   const bool is_plane = scene.bodies->system.dimensions == 2;
   problems.require(is_plane || !scene.show.has(Overlay::trails), "show.overlays",
                    "'trails' is for discs; blocks have the diagram 'time'");
@@ -182,9 +184,7 @@ void check_bodies(const Scene& scene, SceneProblems& problems) {
 void check_elastic(const Scene& scene, SceneProblems& problems) {
   if (is_elastic(scene.system)) return;
   constexpr const char* kReason =
-      "has '{}', which is for elastic collisions; leave it out, or leave out blocks.restitution "
-      "and "
-      "wall.restitution";
+      "has '{}', which needs elastic collisions; leave it out, or leave out the restitution";
   for (const Panel panel : scene.show.panels) {
     if (panel == Panel::time || panel == Panel::count) continue;
     problems.add("show.panels", kReason, exact_text(panel));
@@ -239,12 +239,12 @@ std::vector<Problem> problems_of(const Scene& scene) {
     check_bodies(scene, problems);
   } else {
     check_panels_of_blocks(scene.show, problems);
+    check_elastic(scene, problems);
   }
   check_view(scene.view, problems);
   check_time(scene.time, problems);
   check_pacing(scene, problems);
   check_show(scene.show, problems);
-  check_elastic(scene, problems);
   check_golden(scene.golden, problems);
   return problems.take();
 }

@@ -262,9 +262,11 @@ std::vector<std::string> SceneDraft::problems_of_bodies(const Scene& scene) cons
   }
   for (const auto& [key, origin] : origins_) {
     const bool is_of_blocks = key.starts_with("blue.") || key.starts_with("blocks.") ||
-                              key.starts_with("red.") || key.starts_with("wall.") ||
-                              key == "restitution";
-    if (!bodies_.empty() && is_of_blocks) {
+                              key.starts_with("red.") || key.starts_with("wall.");
+    if (!bodies_.empty() && key.ends_with("restitution")) {
+      problems.push_back(
+          fmt::format("{}: {}: bodies collide elastically; leave it out", origin, key));
+    } else if (!bodies_.empty() && is_of_blocks) {
       problems.push_back(fmt::format(
           "{}: {}: this scene has [[body]] instead of blue, red and the wall", origin,
           key == "red.mass" && (digits_ || mass_ratio_) ? (digits_ ? "digits" : "mass-ratio")

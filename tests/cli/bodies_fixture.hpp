@@ -26,7 +26,7 @@ position = 4
 position = -20
 )";
 
-inline constexpr const char* kEndless = R"(
+inline constexpr const char* kClosedBox = R"(
 [box]
 x = [0, 10]
 [[body]]
@@ -49,7 +49,7 @@ class BodiesCli : public CliFixture {
  protected:
   void SetUp() override {
     write("meeting.toml", kMeeting);
-    write("endless.toml", kEndless);
+    write("endless.toml", kClosedBox);
     write("uncertain.toml", testing_support::uncertain_discs());
   }
   /// One line, and nothing written.

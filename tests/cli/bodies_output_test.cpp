@@ -12,13 +12,14 @@ TEST_F(BodiesCli, PagesAndBundlesSayWhatMovesAndHowOftenItMeets) {
   output_of({"render", "endless.toml", "--size", "64x64", "--fps", "5", "--quiet", "--to", "3",
              "-o", "a.html"});
   const std::string page = contents("a.html");
-  EXPECT_NE(page.find("without friction"), std::string::npos);
-  EXPECT_EQ(page.find("which is all there are"), std::string::npos);
+  EXPECT_NE(page.find("3 blocks moving along a line without friction, with 2 walls. All"),
+            std::string::npos);
+  EXPECT_EQ(page.find("after which there are no more"), std::string::npos);
   output_of({"render", "meeting.toml", "--size", "64x64", "--fps", "5", "--quiet", "-o", "a.mp4",
              "--bundle", "talk"});
   const std::string captions = contents("talk/captions.vtt");
   EXPECT_TRUE(captions.starts_with("WEBVTT")) << captions;
-  EXPECT_NE(captions.find("which is all there are"), std::string::npos) << captions;
+  EXPECT_NE(captions.find("after which there are no more"), std::string::npos) << captions;
 }
 
 class BodiesRender : public BodiesCli, public testing::WithParamInterface<const char*> {};

@@ -7,15 +7,15 @@ namespace piblocks {
 namespace {
 
 TEST_F(BodiesCli, WhatIsForTwoBlocksIsRefused) {
-  const std::string why = ": is for two blocks and a wall, and this scene has [[body]]";
-  expect_line({"log", "meeting.toml", "--engine", "events"}, "--engine" + why);
-  expect_line({"state", "meeting.toml", "--at", "1", "--engine", "velocities"}, "--engine" + why);
-  expect_line({"state", "meeting.toml", "--at", "1", "--bounds"}, "--bounds" + why);
+  const std::string why =
+      " needs two blocks and a fixed wall; leave it out, or leave out [[body]] and wall.mass";
+  expect_line({"log", "meeting.toml", "--engine", "events"}, "--engine:" + why);
+  expect_line({"state", "meeting.toml", "--at", "1", "--engine", "velocities"}, "--engine:" + why);
+  expect_line({"state", "meeting.toml", "--at", "1", "--bounds"}, "--bounds:" + why);
   expect_line({"count", "meeting.toml", "--digits", "3"},
               "--digits: digits: this scene has [[body]] instead of blue, red and the wall");
   expect_line({"still", "meeting.toml", "--at", "1", "--loupe", "auto", "-o", "a.png"},
-              "--loupe: show.loupe the loupe is for two blocks and a wall, and this scene has "
-              "[[body]]");
+              "--loupe: show.loupe has a loupe, which" + why);
   EXPECT_EQ(entries(),
             (std::vector<std::string>{"endless.toml", "meeting.toml", "uncertain.toml"}));
 }
@@ -25,7 +25,7 @@ TEST_F(BodiesCli, WhatIsNotCertainIsRefusedWithItsTime) {
   const CommandResult result = piblocks({"count", "uncertain.toml"});
   EXPECT_EQ(result.exit_code, 2);
   ASSERT_EQ(lines(result.err).size(), 1U) << result.err;
-  const std::string before = "certain until time ";
+  const std::string before = "certain only until time ";
   const std::size_t at = result.err.find(before);
   ASSERT_NE(at, std::string::npos) << result.err;
   const double until = std::stod(result.err.substr(at + before.size()));
@@ -39,12 +39,12 @@ TEST_F(BodiesCli, WhatIsNotCertainIsRefusedWithItsTime) {
     const CommandResult same = piblocks(command);
     EXPECT_EQ(same.exit_code, 2) << command.front();
     EXPECT_EQ(lines(same.err).size(), 1U) << same.err;
-    EXPECT_NE(same.err.find(fmt::format("{}{:.6g} only", before, until)), std::string::npos)
+    EXPECT_NE(same.err.find(fmt::format("{}{:.6g};", before, until)), std::string::npos)
         << same.err;
     EXPECT_EQ(entries().size(), 3U) << "nothing is written";
   }
   // What the message advises.
-  const std::string to = "as time.to = ";
+  const std::string to = "as with time.to = ";
   const std::string advised =
       split(result.err.substr(result.err.find(to) + to.size()), ',').front();
   const std::string count = first_line_of({"count", "uncertain.toml", "--to", advised});
@@ -70,7 +70,7 @@ TEST_F(BodiesCli, AComparisonOfUncertainBodiesIsRefused) {
   const CommandResult result = piblocks({"render", "story.toml", "-o", "a.mp4"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
-  EXPECT_NE(result.err.find("is certain until time "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("is certain only until time "), std::string::npos) << result.err;
   EXPECT_EQ(entries().size(), 4U);
 }
 

@@ -56,11 +56,12 @@ TEST_F(BundleTest, HoldsTheVideoAndAllThatGoesWithIt) {
             "Two blocks slide along a line without friction: the inner one, beside a wall on the "
             "left, has mass 1, the outer one mass 10,000. At time 0 the inner one rests and the "
             "outer one slides towards the wall. All collisions are elastic, and a counter reaches "
-            "314 collisions, which is all there are.\n");
+            "314 collisions, after which there are no more.\n");
   output_of(kRender + Arguments{"--base", "2", "--bundle", "binary"});
-  EXPECT_TRUE(contents("binary/alt.txt")
-                  .ends_with("314 collisions, which is all there are. It is written in base 2: "
-                             "100111010.\n"));
+  EXPECT_TRUE(
+      contents("binary/alt.txt")
+          .ends_with("314 collisions, after which there are no more. It is written in base 2: "
+                     "100111010.\n"));
 }
 
 TEST_F(BundleTest, ThePosterIsTheLastFrameOrTheOneAskedFor) {
@@ -84,7 +85,7 @@ TEST_F(BundleTest, CaptionsSayWhatTheFramesCount) {
   EXPECT_EQ(cues.front().begin_s, 0);
   EXPECT_EQ(cues.front().text, "No collision yet");
   EXPECT_EQ(cues.at(1).text, "1 collision or more");
-  EXPECT_EQ(cues.back().text, "31,415 collisions, which is all there are");
+  EXPECT_EQ(cues.back().text, "31,415 collisions, after which there are no more");
   for (std::size_t i = 1; i < cues.size(); ++i) {
     EXPECT_EQ(cues[i - 1].end_s, cues[i].begin_s);
     EXPECT_GT(cues[i].begin_s, cues[i - 1].begin_s);
@@ -116,7 +117,7 @@ TEST_F(BundleTest, CaptionsOfALoopGoBack) {
   std::vector<std::string> texts;
   for (const Cue& cue : cues_of(contents("talk/captions.vtt"))) texts.push_back(cue.text);
   const Names expected{"No collision yet", "1 collision or more",
-                       "3 collisions, which is all there are", "1 collision or more",
+                       "3 collisions, after which there are no more", "1 collision or more",
                        "No collision yet"};
   EXPECT_EQ(texts, expected);
 }

@@ -5,7 +5,7 @@
 #include <piblocks/run.hpp>
 
 #include "cli/cli_fixture.hpp"
-#include "support/damped_run.hpp"
+#include "support/inelastic_run.hpp"
 
 namespace piblocks {
 namespace {
@@ -38,7 +38,7 @@ const Arguments kEndless{"--digits", "2", "--restitution", "0.5"};
 TEST_F(RestitutionTest, TheOptionSetsThatOfBlocksAndWall) {
   for (const char* share : {"0.99", "0.999", "1", "19999/20000"}) {
     const Rational exact = parse_rational(share);
-    const auto run = oracle::damped_run(lossy(3, exact, exact), 500);
+    const auto run = oracle::inelastic_run(lossy(3, exact, exact), 500);
     ASSERT_TRUE(run.ended) << share;
     EXPECT_EQ(output_of({"count", "--digits", "3", "--restitution", share}),
               fmt::format("{}\n", run.events.size()));
@@ -61,10 +61,10 @@ TEST_F(RestitutionTest, WrongValuesAreNamed) {
     expect_refusal({"count", "--restitution", share}, "piblocks: --restitution: restitution = ");
   }
   expect_refusal({"count", "gas", "--restitution", "0.9"},
-                 "--restitution: restitution: this scene has [[body]]");
+                 "--restitution: restitution: bodies collide elastically; leave it out");
   expect_refusal({"count", "recoil", "--restitution", "0.9"}, "a wall that recoils is elastic");
   expect_refusal({"still", "--restitution", "0.9", "--show", "digits", "--at", "0", "-o", "a.png"},
-                 "show.overlays has 'digits', which is for elastic collisions");
+                 "show.overlays has 'digits', which needs elastic collisions");
 }
 
 TEST_F(RestitutionTest, StatesSayThatCollisionsAreInfinitelyMany) {
@@ -92,7 +92,7 @@ TEST_F(RestitutionTest, ALogSaysThatItIsNotAll) {
   EXPECT_NE(log.err.find("lists the first " + listed.get_str()), std::string::npos) << log.err;
   output_of({"log", "--digits", "1", "--restitution", "0.5"});  // says nothing
   const std::string beyond = Integer(listed + 1).get_str();
-  const std::string lists = "infinitely many collisions, and lists ";
+  const std::string lists = "infinitely many collisions, of which the log lists ";
   expect_refusal(Arguments{"log", "--first", beyond} + kEndless, lists + "1 to ");
   expect_refusal(Arguments{"state", "--at", "#" + beyond} + kEndless, lists + "#1 to #");
 }
@@ -111,7 +111,7 @@ TEST_F(RestitutionTest, APageShowsInfinity) {
 }
 
 TEST_F(RestitutionTest, CountsUntilAnInstant) {
-  const auto run = oracle::damped_run(lossy(2, Rational(1, 2), Rational(1, 2)), 40);
+  const auto run = oracle::inelastic_run(lossy(2, Rational(1, 2), Rational(1, 2)), 40);
   for (const char* to : {"1.9", "2", "3", "3.2", "3.5"}) {
     EXPECT_EQ(output_of(Arguments{"count", "--to", to} + kEndless),
               fmt::format("{}\n", run.count_at(parse_rational(to))));
@@ -152,7 +152,7 @@ TEST_F(RestitutionTest, ALogFromTheCornerHasAllThatHappensInIt) {
   // The wall takes all of blue's speed at t = 7/2; collision 3 is the first in the corner.
   write("dead-wall.toml",
         "digits = 1\nwall.restitution = 0\nblue.velocity = -1\nred.velocity = -1\n");
-  const auto run = oracle::damped_run(
+  const auto run = oracle::inelastic_run(
       [] {
         BlockSystem system = lossy(1, 1, 0);
         system.blue.velocity = system.red.velocity = -1;

@@ -60,7 +60,9 @@ TEST_F(StillTest, ExposedBlocksAreAPictureInAVectorFile) {
     return svg.find("<image") != std::string::npos;
   };
   EXPECT_FALSE(has_image(svg_of({"--at", "4"})));
-  EXPECT_TRUE(has_image(svg_of({"--at", "4", "--shutter", "1"})));
+  const std::string exposed = svg_of({"--at", "4", "--shutter", "1"});
+  EXPECT_TRUE(has_image(exposed));
+  EXPECT_EQ(exposed.find("<pattern"), std::string::npos) << "edges of a tile shine through";
   // At 5 time stands, and so do the blocks.
   write("scene.toml", "[time]\nfreeze = ['5:1']\n[view]\nshutter = 1\n");
   const std::string frozen = svg_of({"scene.toml", "--at", "5"});

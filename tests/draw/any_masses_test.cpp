@@ -74,7 +74,7 @@ TEST(Overlays, MomentumAndArrowsHoldAnyMasses) {
 /// The point that marks the present in a diagram, from the middle of its sheet, in pixels.
 std::optional<Point> present_of(const DrawList& list) {
   for (const DrawItem& item : list.items) {
-    if (const auto* disk = std::get_if<DiskItem>(&item)) return disk->centre;
+    if (const auto* disc = std::get_if<DiscItem>(&item)) return disc->centre;
   }
   return std::nullopt;
 }

@@ -204,11 +204,11 @@ TEST(BodyPictures, BodiesAreWhereTheyAre) {
   }
   const Film film(read(text));
   for (std::int64_t k = 0; k < film.frame_count(); ++k) {
-    std::vector<DiskItem> discs;
+    std::vector<DiscItem> discs;
     const DrawList frame = film.frame(k);
     const auto& group = std::get<GroupItem>(frame.items.front());
     for (const DrawItem& item : group.list->items) {
-      if (const auto* disc = std::get_if<DiskItem>(&item)) discs.push_back(*disc);
+      if (const auto* disc = std::get_if<DiscItem>(&item)) discs.push_back(*disc);
     }
     ASSERT_EQ(discs.size(), 3U);
     const double scale = (discs[2].centre.x - discs[0].centre.x) / 11;

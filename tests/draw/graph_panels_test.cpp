@@ -65,7 +65,7 @@ struct Shown {
       if (!is_inside && (id < ItemId::panels || id >= ItemId::card)) continue;
       if (const auto* plate = std::get_if<PlateItem>(&item)) add(plate->plate->items, true);
       if (const auto* path = std::get_if<PathItem>(&item)) paths.push_back(*path);
-      if (const auto* disk = std::get_if<DiskItem>(&item)) disks.push_back(*disk);
+      if (const auto* disc = std::get_if<DiscItem>(&item)) discs.push_back(*disc);
       if (const auto* text = std::get_if<TextItem>(&item)) texts.push_back(*text);
       if (const auto* bar = std::get_if<RectangleItem>(&item); bar != nullptr && !is_inside) {
         bars.push_back(*bar);
@@ -77,7 +77,7 @@ struct Shown {
   }
 
   std::vector<PathItem> paths;
-  std::vector<DiskItem> disks;
+  std::vector<DiscItem> discs;
   std::vector<TextItem> texts;
   std::vector<RectangleItem> bars;  ///< that may move
 };
@@ -203,7 +203,7 @@ TEST(CountPanel, SaysThatHalfComesBeforeTheTurnIfItDoes) {
 TEST(CountPanel, EnlargesTimeAsOftenAsItSays) {
   const Pictures pictures(3, {{"show.panels", "count"}, {"view.size", "1280x720"}});
   const Rational turn = *turn_of(pictures.scene.system);
-  const auto dots_at = [&](const Rational& time) { return Shown(pictures.at(time)).disks; };
+  const auto dots_at = [&](const Rational& time) { return Shown(pictures.at(time)).discs; };
   EXPECT_EQ(dots_at(1).size(), 1U) << "far from the turn";
   const double scale = (dots_at(2).front().centre.x - dots_at(0).front().centre.x) / 2;
   const Rational step(1, 100'000);
@@ -221,7 +221,7 @@ TEST(CountPanel, IsFilledUpToThePresent) {
   for (int time = 1; time <= 6; ++time) {
     const DrawList list = pictures.at(time);
     const Shown shown(list);
-    const Point present = shown.disks.front().centre;
+    const Point present = shown.discs.front().centre;
     std::vector<PathItem> strips;
     for (const PathItem& path : shown.paths) {
       if (path.fill == kPalette.shade) strips.push_back(path);
@@ -331,10 +331,10 @@ TEST(PositionPanel, ZoomsWithThePoint) {
       return shown.paths.front().points.view().front().x;
     };
     const double scale =
-        (far.disks.front().centre.x - corner_of(far)) / gaps_at(*pictures.log, 0).y2;
+        (far.discs.front().centre.x - corner_of(far)) / gaps_at(*pictures.log, 0).y2;
     const Shown near(pictures.at(turn));
     const double zoom =
-        (near.disks.front().centre.x - corner_of(near)) / scale / gaps_at(*pictures.log, turn).y2;
+        (near.discs.front().centre.x - corner_of(near)) / scale / gaps_at(*pictures.log, turn).y2;
     EXPECT_NEAR(zoom, std::pow(10, digits - 1), 1e-9 * zoom) << digits;
     EXPECT_TRUE(near.has_text("×10")) << "with an exponent beside it from five digits on";
   }

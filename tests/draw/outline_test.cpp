@@ -154,16 +154,16 @@ TEST(Outline, HasDashesAroundCorners) {
 
 TEST(Outline, OfACircleIsRound) {
   for (const double radius : {0.5, 3.0, 12.5, 40.0}) {
-    const Coverage disk([&](cairo_t& cr) { add_circle(cr, {48, 48}, radius); });
-    EXPECT_NEAR(disk.area(), M_PI * radius * radius, 0.02 * (1 + 2 * M_PI * radius)) << radius;
+    const Coverage disc([&](cairo_t& cr) { add_circle(cr, {48, 48}, radius); });
+    EXPECT_NEAR(disc.area(), M_PI * radius * radius, 0.02 * (1 + 2 * M_PI * radius)) << radius;
     for (int y = 0; y < kSide_px; ++y) {
       for (int x = 0; x < kSide_px; ++x) {
         const double distance = std::hypot(x + 0.5 - 48, y + 0.5 - 48);
         if (distance < radius - 0.75) {
-          EXPECT_EQ(disk.at(x, y), 255) << radius;
+          EXPECT_EQ(disc.at(x, y), 255) << radius;
         }
         if (distance > radius + 0.75) {
-          EXPECT_EQ(disk.at(x, y), 0) << radius;
+          EXPECT_EQ(disc.at(x, y), 0) << radius;
         }
       }
     }

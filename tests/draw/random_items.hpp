@@ -67,7 +67,7 @@ inline PathItem any_path(Random& random, ItemId id, int width, int height) {
   return {id, points, random.integer(0, 1) == 0, any_fill(random), any_stroke(random)};
 }
 
-inline DiskItem any_disk(Random& random, ItemId id, int width, int height) {
+inline DiscItem any_disc(Random& random, ItemId id, int width, int height) {
   return {id, any_point(random, width, height), random.uniform(0.5, 60), any_fill(random),
           any_stroke(random)};
 }
@@ -126,7 +126,7 @@ inline ExposedBlock any_exposed_block(Random& random, int width, int height) {
   for (int i = random.integer(0, 1) == 0 ? 0 : kWays; i > 0; --i) {
     double end = random.integer(0, 3) == 0 ? begin : anywhere(random, width);
     if (count > 0) end = random.uniform(block.bounds.x, block.dwells.back().x);
-    block.ways.push_back({begin, end, 1.0 / kWays});
+    block.paths.push_back({begin, end, 1.0 / kWays});
     begin = end;
   }
   return block;
@@ -138,27 +138,27 @@ inline ExposedBlocksItem any_exposed(Random& random, ItemId id, int width, int h
   for (std::int64_t i = random.integer(-3, 5); i > 0; --i) {
     item.contacts.push_back({anywhere(random, width), anywhere(random, width), 0.1});
   }
-  std::ranges::sort(item.contacts, {}, &Contact::right_x);
+  std::ranges::sort(item.contacts, {}, &TouchingBlocks::right_x);
   return item;
 }
 
-/// Disks of all sizes, with and without a rim, which may overlap.
-inline ExposedDisksItem any_exposed_disks(Random& random, ItemId id, int width, int height) {
+/// Discs of all sizes, with and without a rim, which may overlap.
+inline ExposedDiscsItem any_exposed_discs(Random& random, ItemId id, int width, int height) {
   const auto place = [&] { return Point{anywhere(random, width), anywhere(random, height)}; };
-  ExposedDisksItem item{id, {}};
+  ExposedDiscsItem item{id, {}};
   for (std::int64_t i = random.integer(1, 4); i > 0; --i) {
-    ExposedDisk disk{std::exp(random.uniform(-3, 3)),
+    ExposedDisc disc{std::exp(random.uniform(-3, 3)),
                      random.integer(0, 1) == 0 ? 0 : 1.5,
                      any_color(random),
                      any_color(random),
                      {}};
     Point from = place();
-    for (std::int64_t ways = random.integer(1, 3); ways > 0; --ways) {
+    for (std::int64_t paths = random.integer(1, 3); paths > 0; --paths) {
       const Point to = random.integer(0, 4) == 0 ? from : place();
-      disk.ways.push_back({from, to, 1.0 / double(3)});
+      disc.paths.push_back({from, to, 1.0 / double(3)});
       from = to;
     }
-    item.disks.push_back(std::move(disk));
+    item.discs.push_back(std::move(disc));
   }
   return item;
 }
@@ -167,7 +167,7 @@ inline PlateItem any_plate(Random& random, ItemId id, int width, int height) {
   Plate plate;
   for (std::int64_t i = random.integer(0, 3); i > 0; --i) {
     plate.items.emplace_back(any_path(random, id, width, height));
-    plate.items.emplace_back(any_disk(random, id, width, height));
+    plate.items.emplace_back(any_disc(random, id, width, height));
     plate.items.emplace_back(any_line(random, id, width, height));
   }
   return {id,
@@ -184,7 +184,7 @@ inline DrawItem any_item(Random& random, ItemId id, int width, int height) {
     case 1:
       return any_path(random, id, width, height);
     case 2:
-      return any_disk(random, id, width, height);
+      return any_disc(random, id, width, height);
     case 3:
       return any_image(random, id, width, height);
     case 4:
@@ -194,7 +194,7 @@ inline DrawItem any_item(Random& random, ItemId id, int width, int height) {
     case 6:
       return any_plate(random, id, width, height);
     case 7:
-      return any_exposed_disks(random, id, width, height);
+      return any_exposed_discs(random, id, width, height);
     default:
       return any_rectangle(random, id, width, height);
   }

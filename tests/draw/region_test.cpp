@@ -134,18 +134,18 @@ TEST(Region, OfPicturesWithAllThatCanBeShownIsExact) {
   }
 }
 
-/// As from frame to frame: all of its way, or where it stays.
+/// As from frame to frame: all of its path, or where it stays.
 void move(Random& random, ExposedBlock& block) {
   const double step = random.uniform(-5, 5);
   block.bounds.x += step;
   for (Dwell& dwell : block.dwells) dwell.x += step;
-  for (BlockWay& way : block.ways) {
-    way.from += step;
-    way.to += step;
+  for (BlockPath& path : block.paths) {
+    path.from += step;
+    path.to += step;
   }
   if (random.integer(0, 4) == 0) {
     block.dwells.clear();
-    block.ways.clear();
+    block.paths.clear();
   }
 }
 
@@ -182,8 +182,8 @@ void change(Random& random, DrawList& list) {
       rectangle->bounds.x += random.uniform(-5, 5);
     } else if (auto* text = std::get_if<TextItem>(&item); text && kind < 3) {
       text->text = any_text(random);
-    } else if (auto* disk = std::get_if<DiskItem>(&item); disk && kind < 3) {
-      disk->centre.x += random.uniform(-5, 5);
+    } else if (auto* disc = std::get_if<DiscItem>(&item); disc && kind < 3) {
+      disc->centre.x += random.uniform(-5, 5);
     } else if (auto* path = std::get_if<PathItem>(&item); path && kind < 3) {
       grow(random, *path, list.width_px);
     } else if (auto* group = std::get_if<GroupItem>(&item); group && kind < 3) {
@@ -191,9 +191,9 @@ void change(Random& random, DrawList& list) {
     } else if (auto* exposed = std::get_if<ExposedBlocksItem>(&item); exposed && kind < 3) {
       move(random, exposed->blocks.at(static_cast<std::size_t>(random.integer(0, 1))));
       if (random.integer(0, 1) == 0) exposed->contacts.clear();
-    } else if (auto* disks = std::get_if<ExposedDisksItem>(&item); disks && kind < 3) {
-      disks->disks.back().ways.back().to.x += random.uniform(-5, 5);
-      if (random.integer(0, 3) == 0) disks->disks.push_back(disks->disks.front());
+    } else if (auto* discs = std::get_if<ExposedDiscsItem>(&item); discs && kind < 3) {
+      discs->discs.back().paths.back().to.x += random.uniform(-5, 5);
+      if (random.integer(0, 3) == 0) discs->discs.push_back(discs->discs.front());
     }
   }
 }
@@ -257,7 +257,7 @@ TEST(Region, OfItemsThatComeAndGoIsExact) {
 TEST(Region, OfAnItemThatComesIsItsOwn) {
   DrawList list{200, 100, kWhite, {}};
   const auto dot = [](std::size_t n) {
-    return DiskItem{nth(ItemId::count, n), {10.0 * double(n), 50}, 4, kGreen, std::nullopt};
+    return DiscItem{nth(ItemId::count, n), {10.0 * double(n), 50}, 4, kGreen, std::nullopt};
   };
   for (std::size_t n = 1; n < 10; ++n) list.items.push_back(dot(n));
   Canvas canvas(200, 100);

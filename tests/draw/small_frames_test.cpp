@@ -83,7 +83,7 @@ class Checker {
     const Rectangle& r = item.points.bounds();
     check_inside(r.x, r.y, r.x + r.width, r.y + r.height, "a path");
   }
-  void check_item(const DiskItem& item) {
+  void check_item(const DiscItem& item) {
     if (!(item.radius > 0)) problem += "a dot without a radius; ";
     check_inside(item.centre.x, item.centre.y, item.centre.x, item.centre.y, "a dot");
   }
@@ -95,7 +95,7 @@ class Checker {
   void check_item(const PlateItem& item) { check(item.plate->items); }
   void check_item(const GroupItem& /*item*/) {}
   void check_item(const ExposedBlocksItem& /*item*/) {}
-  void check_item(const ExposedDisksItem& /*item*/) {}
+  void check_item(const ExposedDiscsItem& /*item*/) {}
 
   const DrawList& list_;
   Fonts fonts_;

@@ -116,7 +116,7 @@ TEST(SplitScreen, ACellShowsWhatItsPictureWouldBeAlone) {
   const SplitScreen split(view_of_size(200, 60), 2);
   DrawList list{split.cells()[0].width_px, 60, kWhite, {}};
   list.items.emplace_back(TextItem{ItemId::count, {10.3, 40.7}, "314", 21.3, kGreen});
-  list.items.emplace_back(DiskItem{ItemId::panels, {70.3, 30.2}, 17.7, kGreen, Stroke{}});
+  list.items.emplace_back(DiscItem{ItemId::panels, {70.3, 30.2}, 17.7, kGreen, Stroke{}});
   Canvas alone(list.width_px, 60);
   alone.paint(list);
   Canvas both(200, 60);

@@ -69,18 +69,18 @@ std::vector<Item> all_of(const DrawList& list) {
 }
 
 /// Of the crossings.
-std::vector<DiskItem> dots_of(const DrawList& list) {
-  std::vector<DiskItem> disks = all_of<DiskItem>(list);
+std::vector<DiscItem> dots_of(const DrawList& list) {
+  std::vector<DiscItem> discs = all_of<DiscItem>(list);
   const Color present = palette_of(Theme::lecture).accent;
-  std::erase_if(disks, [&](const DiskItem& disk) { return disk.fill == present; });
-  return disks;
+  std::erase_if(discs, [&](const DiscItem& disc) { return disc.fill == present; });
+  return discs;
 }
 
-std::optional<DiskItem> present_of(const DrawList& list) {
-  const std::vector<DiskItem> disks = all_of<DiskItem>(list);
+std::optional<DiscItem> present_of(const DrawList& list) {
+  const std::vector<DiscItem> discs = all_of<DiscItem>(list);
   const Color present = palette_of(Theme::lecture).accent;
-  if (disks.empty() || disks.back().fill != present) return std::nullopt;
-  return disks.back();
+  if (discs.empty() || discs.back().fill != present) return std::nullopt;
+  return discs.back();
 }
 
 /// Lines of two points that begin in one place: the corner.
@@ -157,7 +157,7 @@ TEST(Unfolded, ADotIsWhereTheLineMeetsEachMirror) {
   for (const Settings& settings : systems()) {
     const Pictures pictures(scene_with(2, settings));
     const Plane plane(pictures);
-    const std::vector<DiskItem> dots = dots_of(pictures.at(pictures.end()));
+    const std::vector<DiscItem> dots = dots_of(pictures.at(pictures.end()));
     ASSERT_EQ(Integer(static_cast<unsigned long>(dots.size())),
               pictures.log->state_at(pictures.end()).count);
     ASSERT_GT(dots.size(), 1U);
@@ -187,7 +187,7 @@ TEST(Unfolded, TheMirrorOfCollisionKIsAtKTimesTheta) {
     const Pictures pictures(scene_with(2, {{"red.mass", mass}}));
     const Plane plane(pictures);
     const DrawList list = pictures.at(pictures.end());
-    const std::vector<DiskItem> dots = dots_of(list);
+    const std::vector<DiscItem> dots = dots_of(list);
     const std::vector<PathItem> rays = rays_of(list);
     ASSERT_EQ(rays.size(), dots.size());
     const bool is_thinned = pictures.log->size() > 128;
@@ -208,9 +208,9 @@ TEST(Unfolded, TheMirrorOfCollisionKIsAtKTimesTheta) {
 
 TEST(Unfolded, DotsComeWithTheirCollisionsAndStay) {
   const Pictures pictures(scene_with(2, {}));
-  std::vector<DiskItem> before;
+  std::vector<DiscItem> before;
   for (int count = 1; count <= 31; ++count) {
-    const std::vector<DiskItem> dots = dots_of(pictures.after(count));
+    const std::vector<DiscItem> dots = dots_of(pictures.after(count));
     ASSERT_EQ(dots.size(), static_cast<std::size_t>(count));
     EXPECT_TRUE(std::ranges::equal(before, std::span(dots).first(before.size())));
     before = dots;
@@ -221,7 +221,7 @@ TEST(Unfolded, ManyMirrorsAreThinnedButTrue) {
   for (const int digits : {3, 6, 12, 20, 40}) {
     const Pictures pictures(scene_with(digits, {}));
     const Plane plane(pictures);
-    const std::vector<DiskItem> dots = dots_of(pictures.at(pictures.end()));
+    const std::vector<DiscItem> dots = dots_of(pictures.at(pictures.end()));
     ASSERT_GT(dots.size(), 20U) << digits;
     ASSERT_LT(dots.size(), 600U) << digits;
     const Integer& last = pictures.log->size();
@@ -332,8 +332,8 @@ void expect_inside(const DrawList& list, const Rectangle& place) {
   for (const PathItem& path : all_of<PathItem>(list)) {
     for (const Point& point : path.points.view()) EXPECT_TRUE(is_inside(point.x, point.y, 0));
   }
-  for (const DiskItem& disk : all_of<DiskItem>(list)) {
-    EXPECT_TRUE(is_inside(disk.centre.x, disk.centre.y, disk.radius));
+  for (const DiscItem& disc : all_of<DiscItem>(list)) {
+    EXPECT_TRUE(is_inside(disc.centre.x, disc.centre.y, disc.radius));
   }
 }
 
@@ -385,10 +385,10 @@ TEST(Unfolded, IsTheSameFromAnyDistance) {
                                              {"time.to", "turn+3"}}));
       return dots_of(pictures.at(pictures.end()));
     };
-    const std::vector<DiskItem> near = dots_from("8");
+    const std::vector<DiscItem> near = dots_from("8");
     EXPECT_GT(near.size(), 20U);
     for (const char* position : {"1e20", "1e40", "1e300"}) {
-      const std::vector<DiskItem> far = dots_from(position);
+      const std::vector<DiscItem> far = dots_from(position);
       ASSERT_EQ(far.size(), near.size()) << position;
       for (std::size_t i = 0; i < far.size(); ++i) {
         EXPECT_NEAR(far[i].centre.x, near[i].centre.x, 0.1) << position;

@@ -80,7 +80,7 @@ struct Figure {
         add(plate->plate->items);
       }
       if (const auto* path = std::get_if<PathItem>(&item)) paths.push_back(*path);
-      if (const auto* disk = std::get_if<DiskItem>(&item)) disks.push_back(*disk);
+      if (const auto* disc = std::get_if<DiscItem>(&item)) discs.push_back(*disc);
       if (const auto* text = std::get_if<TextItem>(&item)) texts.push_back(*text);
     }
   }
@@ -91,11 +91,11 @@ struct Figure {
     }
     return found;
   }
-  const Point& present() const { return disks.back().centre; }
+  const Point& present() const { return discs.back().centre; }
 
   Rectangle bounds;
   std::vector<PathItem> paths;
-  std::vector<DiskItem> disks;
+  std::vector<DiscItem> discs;
   std::vector<TextItem> texts;
 };
 
@@ -138,7 +138,7 @@ TEST_P(Starts, EachCollisionIsAChordOfItsKind) {
     const BlockState start = log.state_at(0);
     Point before = pictures.unit({0, to_double(pictures.scene.system.blue.velocity)},
                                  {0, to_double(pictures.scene.system.red.velocity)});
-    expect_near(figure.disks.front().centre, circle.at(before), "start", start.count);
+    expect_near(figure.discs.front().centre, circle.at(before), "start", start.count);
     for (Integer k = 1; k <= count; ++k) {
       const Collision collision = log.collision(k);
       const Point after = pictures.unit(collision.blue, collision.red);
@@ -147,7 +147,7 @@ TEST_P(Starts, EachCollisionIsAChordOfItsKind) {
       ASSERT_LT(n, chords.size()) << k;
       expect_near(chords[n].points.view()[0], circle.at(before), "chord from", k);
       expect_near(chords[n].points.view()[1], circle.at(after), "chord to", k);
-      expect_near(figure.disks.at(k.get_ui()).centre, circle.at(after), "dot", k);
+      expect_near(figure.discs.at(k.get_ui()).centre, circle.at(after), "dot", k);
       before = after;
     }
     expect_near(figure.present(), circle.at(before), "present", count);
@@ -225,7 +225,7 @@ TEST(VelocityPanel, CountsFromTheScenesBeginning) {
         figure.lines_of(kPalette.red.line).size() + figure.lines_of(kPalette.blue.line).size();
     EXPECT_EQ(Integer(static_cast<unsigned long>(chords)), count - before);
     expect_near(figure.present(), circle.at(pictures.unit(state.blue, state.red)), "now", count);
-    expect_near(figure.disks.at(chords).centre, figure.present(), "dot", count);
+    expect_near(figure.discs.at(chords).centre, figure.present(), "dot", count);
   }
 }
 
@@ -257,7 +257,7 @@ TEST(VelocityPanel, TheWedgeStandsOutInEveryTheme) {
 TEST(VelocityPanel, ShowsThatNothingMoves) {
   const Figure figure(
       Pictures({{"digits", "2"}, {"red.velocity", "0"}, {"time.to", "1"}}).after(0));
-  ASSERT_EQ(figure.disks.size(), 1U);
+  ASSERT_EQ(figure.discs.size(), 1U);
   const auto axes = figure.lines_of(kPalette.grid);
   ASSERT_EQ(axes.size(), 2U);
   EXPECT_EQ(figure.present(), (Point{axes[1].points.view()[0].x, axes[0].points.view()[0].y}));
@@ -333,10 +333,10 @@ TEST(EllipsePanel, FollowsOneMapToTheCircle) {
       EXPECT_EQ(ellipse.centre.y, circle.centre.y);
       EXPECT_NEAR(ellipse.red, circle.red * std::pow(10, share - 1), 1e-9);
       ellipse.blue = circle.red;
-      ASSERT_EQ(figure.disks.size(), static_cast<std::size_t>(count) + 2);
+      ASSERT_EQ(figure.discs.size(), static_cast<std::size_t>(count) + 2);
       for (int k = 1; k <= count; ++k) {
         const Collision collision = pictures.log->collision(k);
-        expect_near(figure.disks[static_cast<std::size_t>(k)].centre,
+        expect_near(figure.discs[static_cast<std::size_t>(k)].centre,
                     ellipse.at(pictures.unit(collision.blue, collision.red)), "dot", k);
       }
       EXPECT_EQ(figure.lines_of(kPalette.red.line).size(), static_cast<std::size_t>(count + 1) / 2);
@@ -375,7 +375,7 @@ TEST(EllipsePanel, SaysWhyItIsAnEllipse) {
 TEST(EllipsePanel, IsTheCircleInTheEnd) {
   const Figure circle(Pictures(Settings{{"digits", "2"}}).after(17));
   const Figure ellipse(Pictures(Settings{{"digits", "2"}}, "ellipse").after(17));
-  EXPECT_TRUE(std::ranges::equal(circle.disks, ellipse.disks));
+  EXPECT_TRUE(std::ranges::equal(circle.discs, ellipse.discs));
   EXPECT_EQ(circle.lines_of(kPalette.red.line), ellipse.lines_of(kPalette.red.line));
   EXPECT_EQ(circle.lines_of(kPalette.blue.line), ellipse.lines_of(kPalette.blue.line));
 }

@@ -250,7 +250,7 @@ TEST(LineTest, CollisionsAtOneInstantAreInPairOrder) {
     EXPECT_EQ(int(c.first), k - 1);
     EXPECT_EQ(int(c.second), k);
   }
-  EXPECT_EQ(log->first_tie(), 1.5);
+  EXPECT_EQ(log->first_tie(), std::nullopt) << "one meets the next, which touches the one after it";
   EXPECT_EQ(log->state_at(2).bodies[4].velocity[0], 2);
   EXPECT_EQ(log->state_at(2).bodies[4].position[0], 5);
   EXPECT_EQ(log->state_at(Rational(3, 2)).count, 4);
@@ -260,6 +260,14 @@ TEST(LineTest, CollisionsAtOneInstantAreInPairOrder) {
 
 /// Two pairs that meet at one time have nothing to do with each other.
 TEST(LineTest, OnlyABodyThatMeetsTwoOthersAtOnceIsATie) {
+  BodySystem tied;
+  for (const int x : {-3, 0, 3}) tied.bodies.push_back({1, {x}, {Rational(-x, 3)}, 1});
+  EXPECT_EQ(make_body_log(tied, std::nullopt)->first_tie(), 1);
+  // Two more meet before that, far away.
+  tied.bodies.push_back({1, {-20}, {}, 1});
+  tied.bodies.push_back({1, {-22}, {1}, 1});
+  EXPECT_EQ(make_body_log(tied, std::nullopt)->first_tie(), 2);
+
   BodySystem system;
   for (const int x : {0, 10}) {
     system.bodies.push_back({.position = {x, 0}, .velocity = {1, 0}});
@@ -268,6 +276,14 @@ TEST(LineTest, OnlyABodyThatMeetsTwoOthersAtOnceIsATie) {
   const auto log = make_body_log(system, std::nullopt);
   EXPECT_EQ(log->collision(1).time.hi, log->collision(2).time.hi);
   EXPECT_EQ(log->first_tie(), std::nullopt);
+}
+
+TEST(LineTest, ABlockBetweenAnotherAndTheWallAtOnceIsATie) {
+  BodySystem corner;
+  corner.bodies = {{std::nullopt, {-1}, {}, 2}, {1, {Rational(1, 2)}, {}, 1}, {3, {3}, {-1}, 1}};
+  EXPECT_EQ(make_body_log(corner, std::nullopt)->first_tie(), 1);
+  corner.bodies[1].position = {1};
+  EXPECT_EQ(make_body_log(corner, std::nullopt)->first_tie(), std::nullopt);
 }
 
 TEST(LineTest, TheClosedFormTakesBlocksByOtherNames) {

@@ -4,9 +4,9 @@
 #include <piblocks/restitution.hpp>
 #include <piblocks/run.hpp>
 
-#include "physics/damped_log.hpp"
 #include "physics/exposure.hpp"
-#include "support/damped_checks.hpp"
+#include "physics/inelastic_log.hpp"
+#include "support/inelastic_checks.hpp"
 
 namespace piblocks {
 namespace {
@@ -21,7 +21,7 @@ TEST(Restitution, RandomSystemsMoveAsStepByStep) {
   Random random(20261123);
   SCOPED_TRACE(random.trace());
   for (std::int64_t i = 0; i < many(300) && !testing::Test::HasFailure(); ++i) {
-    expect_like_steps(random_damped_system(random), random, 40);
+    expect_like_steps(random_inelastic_system(random), random, 40);
   }
 }
 
@@ -95,21 +95,21 @@ TEST(LeastRestitution, FollowsTheFormula) {
 }
 
 /// With nothing lost the general form is compared with the elastic one.
-void expect_like_elastic(const BlockSystem& system, const CollisionLog& damped, double tolerance,
+void expect_like_elastic(const BlockSystem& system, const CollisionLog& inelastic, double tolerance,
                          Random& random) {
   BlockSystem elastic_system = system;
   elastic_system.blocks_restitution = elastic_system.wall_restitution = 1;
   const auto elastic = make_collision_log(elastic_system);
-  ASSERT_EQ(damped.size(), elastic->size());
+  ASSERT_EQ(inelastic.size(), elastic->size());
   const Rational y1 = system.blue_gap();
   const bool in_corner =
       (y1 + system.blocks_gap()) * system.blue.velocity == y1 * system.red.velocity;
-  if (damped.size() == 0 || in_corner) return;
+  if (inelastic.size() == 0 || in_corner) return;
   for (int i = 0; i < 8; ++i) {
     const Integer index =
-        1 + (damped.size() - 1) * Integer(long(random.integer(0, 1000000))) / 1000000;
+        1 + (inelastic.size() - 1) * Integer(long(random.integer(0, 1000000))) / 1000000;
     SCOPED_TRACE(index.get_str());
-    const Collision a = damped.collision(index);
+    const Collision a = inelastic.collision(index);
     const Collision b = elastic->collision(index);
     EXPECT_EQ(a.kind, b.kind);
     EXPECT_NEAR(a.time.hi, b.time.hi, tolerance * (1 + std::fabs(b.time.hi)));
@@ -119,7 +119,7 @@ void expect_like_elastic(const BlockSystem& system, const CollisionLog& damped, 
     EXPECT_NEAR(a.blue.velocity, b.blue.velocity, tolerance * speed);
     EXPECT_NEAR(a.red.velocity, b.red.velocity, tolerance * speed);
     const Rational time = elastic->time_after(index) + 1;
-    EXPECT_NEAR(damped.state_at(time).blue.position, elastic->state_at(time).blue.position,
+    EXPECT_NEAR(inelastic.state_at(time).blue.position, elastic->state_at(time).blue.position,
                 position_bounds(*elastic, time)->blue);
   }
 }
@@ -128,10 +128,10 @@ TEST(Restitution, OfOneIsTheClosedForm) {
   Random random(7);
   SCOPED_TRACE(random.trace());
   for (std::int64_t i = 0; i < many(60) && !testing::Test::HasFailure(); ++i) {
-    BlockSystem system = random_damped_system(random);
+    BlockSystem system = random_inelastic_system(random);
     system.blocks_restitution = system.wall_restitution = 1;
-    SCOPED_TRACE(describe_damped(system));
-    expect_like_elastic(system, DampedLog(system), 1e-13, random);
+    SCOPED_TRACE(describe_inelastic(system));
+    expect_like_elastic(system, InelasticLog(system), 1e-13, random);
   }
 }
 
@@ -231,10 +231,10 @@ TEST(Restitution, APositionOfZeroIsZero) {
   system.wall_face = -2;
   system.blue = {Rational(7, 3), Rational(13, 18), Rational(-3, 4), 1};
   system.red = {Rational(7, 9), Rational(103, 18), Rational(-3, 4), 1};
-  const BlockSystem damped = with_restitution(system, Rational(3, 5));
-  EXPECT_EQ(make_collision_log(damped)->collision(2).blue.position, 0);
+  const BlockSystem inelastic = with_restitution(system, Rational(3, 5));
+  EXPECT_EQ(make_collision_log(inelastic)->collision(2).blue.position, 0);
   Random random(3);
-  expect_like_steps(damped, random, 40);
+  expect_like_steps(inelastic, random, 40);
 }
 
 TEST(Restitution, StateBeforeTimeZeroIsFree) {
@@ -332,7 +332,7 @@ TEST(Restitution, CornersHaveTwoCounts) {
   ASSERT_TRUE(corner);
   EXPECT_EQ(corner->time, Rational(7, 2));
   EXPECT_TRUE(corner->blocks_first);
-  EXPECT_EQ(corner->count, Integer(oracle::damped_run(system, 100).events.size()));
+  EXPECT_EQ(corner->count, Integer(oracle::inelastic_run(system, 100).events.size()));
   EXPECT_EQ(corner->other_count, corner->count + 1);
   const auto log = make_collision_log(system);
   EXPECT_EQ(log->state_at(Rational(7, 2)).count, corner->count);
@@ -346,9 +346,9 @@ TEST(Restitution, CornersHaveTwoCounts) {
   ASSERT_TRUE(slant);
   BlockSystem sooner = system;
   sooner.blue.position += Rational(1, 1000);
-  EXPECT_EQ(slant->count, Integer(oracle::damped_run(sooner, 100).events.size()));
+  EXPECT_EQ(slant->count, Integer(oracle::inelastic_run(sooner, 100).events.size()));
   sooner.blue.position -= Rational(2, 1000);
-  EXPECT_EQ(slant->other_count, Integer(oracle::damped_run(sooner, 100).events.size()));
+  EXPECT_EQ(slant->other_count, Integer(oracle::inelastic_run(sooner, 100).events.size()));
 }
 
 TEST(Restitution, EnginesThatStepRefuseIt) {

@@ -55,6 +55,20 @@ def test_counts_are_those_of_the_program(program):
         assert scene_of(text).count == int(program("count", name)), name
 
 
+def test_counts_and_indices_of_any_size():
+    scene = scene_of(
+        "[[body]]\nmass = 'inf'\nposition = -1\n[[body]]\nposition = 2\n"
+        "[[body]]\nmass = '1e58'\nposition = 5\nvelocity = -1\n"
+    )
+    assert scene.count == 314159265358979323846264338327
+    assert scene.state(10).count == scene.count
+    assert scene.state([0, 10]).count.tolist() == [0, scene.count]
+    assert scene.state(np.array([[0, 10]])).count.tolist() == [[0, scene.count]]
+    rows = scene.log(first=10**28, limit=2)
+    assert rows["index"].tolist() == [10**28, 10**28 + 1]
+    assert scene.log(limit=1)["index"].dtype == np.int64
+
+
 def test_a_count_without_an_end_is_refused(program):
     scene = scene_of(BLOCKS.replace("to = 4", ""))
     with pytest.raises(piblocks.UsageError) as raised:
@@ -164,9 +178,10 @@ def test_refusals_of_logs_and_states(program):
         with pytest.raises(piblocks.UsageError) as raised:
             ask(engine="events", **keys)
         assert str(raised.value) == (
-            f"{word}: is for two blocks and a wall, and this scene has [[body]]"
+            f"{word}: needs two blocks and a fixed wall; "
+            "leave it out, or leave out [[body]] and wall.mass"
         )
-    with pytest.raises(piblocks.UsageError, match="^bounds: is for two blocks and a wall"):
+    with pytest.raises(piblocks.UsageError, match="^bounds: needs two blocks and a fixed wall"):
         scene.state(1, bounds=True)
     assert scene.state(1).count == 1  # as if nothing had been asked
     with pytest.raises(piblocks.UsageError):
@@ -178,7 +193,7 @@ def test_refusals_of_logs_and_states(program):
     assert len(endless.log(to=4)) == scene.count
     uncertain = scene_of(UNCERTAIN)
     for ask in (uncertain.log, lambda: uncertain.state([1, 150])):
-        with pytest.raises(piblocks.UsageError, match="is certain until time .*time_allow_unc"):
+        with pytest.raises(piblocks.UsageError, match="is certain only until time .*time_allow_unc"):
             ask()
     assert uncertain.state([1, 2]).positions.shape == (2, 3, 2)
     assert len(uncertain.log(to=10)) > 5
@@ -189,7 +204,7 @@ def test_refusals_of_logs_and_states(program):
 def test_what_is_not_certain_is_refused_in_the_same_words(program):
     scene = scene_of(UNCERTAIN)
     words = said_by(program, "count", "scene.toml")
-    assert "is certain until time " in words and "--allow-uncertain" in words
+    assert "is certain only until time " in words and "--allow-uncertain" in words
     for ask in (lambda: scene.count, lambda: scene.frame(150), lambda: scene.render("a.mp4")):
         with pytest.raises(piblocks.UsageError) as raised:
             ask()

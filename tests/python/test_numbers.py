@@ -144,7 +144,7 @@ def test_infinitely_many_are_said_to_be(program):
     assert "there are infinitely many collisions" in note and f"the first {listed}" in note
     assert note == program("log", "--digits", "2", "--restitution", "0.5", check=False).stderr \
         .decode().strip().removeprefix("piblocks: note: ")
-    with pytest.raises(piblocks.UsageError, match="infinitely many collisions, and lists 1 to"):
+    with pytest.raises(piblocks.UsageError, match="infinitely many collisions, of which the log lists 1 to"):
         scene.log(last=listed + 1)
     assert Scene(2).notes == Scene(1, restitution=0.5).notes == ()
 

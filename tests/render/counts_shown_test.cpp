@@ -188,16 +188,17 @@ TEST(CountsShown, AreRightInWords) {
     const std::string text = describe_video(scene, {at_end, total});
     return text.substr(text.find("a counter"));
   };
-  EXPECT_EQ(sentence(314, 314), "a counter reaches 314 collisions, which is all there are.");
+  EXPECT_EQ(sentence(314, 314), "a counter reaches 314 collisions, after which there are no more.");
   EXPECT_EQ(sentence(7, 1000), "a counter reaches 7 of 1,000 collisions.");
   EXPECT_EQ(sentence(0, 314), "a counter reaches 0 of 314 collisions.");
   EXPECT_EQ(sentence(0, 0), "a counter reaches 0: there are no collisions from time 0 on.");
   EXPECT_EQ(sentence(-1000, 0),
             "a counter reaches -1,000: 1,000 collisions are to go until time 0.");
   scene.show.base = 16;
-  EXPECT_EQ(sentence(314, 314),
-            "a counter reaches 314 collisions, which is all there are. It is written in base 16: "
-            "13a.");
+  EXPECT_EQ(
+      sentence(314, 314),
+      "a counter reaches 314 collisions, after which there are no more. It is written in base 16: "
+      "13a.");
   scene.show.base = 10;
   EXPECT_EQ(sentence(-1, 314), "a counter reaches -1: 1 collision is to go until time 0.");
 }
@@ -219,7 +220,7 @@ TEST(CountsShown, InfinitelyManyAreSaidToBe) {
     EXPECT_EQ(count_of(still_picture(scene, Instant::collision(before))), before.get_str());
     const std::string text = describe_video(scene, {log->size(), log->size(), true, false});
     EXPECT_EQ(text.find("elastic"), std::string::npos) << text;
-    EXPECT_TRUE(contains(text, "part with 0.5 of the speed at which they meet")) << text;
+    EXPECT_TRUE(contains(text, "The coefficient of restitution is 0.5 between the blocks")) << text;
     EXPECT_TRUE(contains(text, "reaches infinitely many collisions, after which both")) << text;
     EXPECT_TRUE(contains(title_of(scene, {7, log->size(), true, false}), "infinitely many"))
         << text;

@@ -14,30 +14,36 @@ namespace {
 
 TEST_F(BodiesFile, KeysOfBlocksAreNotForBodies) {
   const std::string body = "[[body]]\nposition = 1\n";
-  for (const auto& [line, key] : std::vector<std::pair<std::string, std::string>>{
-           {"digits = 3\n", "digits"},
-           {"mass-ratio = 3\n", "mass-ratio"},
-           {"red.mass = 3\n", "red.mass"},
-           {"red.width = 'by-mass'\n", "red.width"},
-           {"blue.position = 3\n", "blue.position"},
-           {"blocks.restitution = 0.5\n", "blocks.restitution"},
-           {"wall.restitution = 0.5\n", "wall.restitution"},
-           {"wall.face = 0\n", "wall.face"},
-           {"wall.mass = 3\n", "wall.mass"}}) {
+  for (const auto& [line, key] :
+       std::vector<std::pair<std::string, std::string>>{{"digits = 3\n", "digits"},
+                                                        {"mass-ratio = 3\n", "mass-ratio"},
+                                                        {"red.mass = 3\n", "red.mass"},
+                                                        {"red.width = 'by-mass'\n", "red.width"},
+                                                        {"blue.position = 3\n", "blue.position"},
+                                                        {"wall.face = 0\n", "wall.face"},
+                                                        {"wall.mass = 3\n", "wall.mass"}}) {
     expect_problem(line + body,
                    "1: " + key + ": this scene has [[body]] instead of blue, red and the wall");
+  }
+  // A diagram that needs elastic collisions is not what is wrong here.
+  const std::string bodies = body + "velocity = 1\n[[body]]\nposition = 3\n";
+  for (const std::string key : {"restitution", "blocks.restitution", "wall.restitution"}) {
+    expect_problem(key + " = 0.5\nshow.panels = ['speeds']\n" + bodies,
+                   "1: " + key + ": bodies collide elastically; leave it out");
   }
 }
 
 TEST_F(BodiesFile, WhatIsForTwoBlocksIsNotForBodies) {
   const std::string body = "[[body]]\nposition = 1\n";
-  const std::string why = " is for two blocks and a wall, and this scene has [[body]]";
+  const std::string why =
+      ", which needs two blocks and a fixed wall; leave it out, or leave out [[body]] and "
+      "wall.mass";
   for (const char* loupe : {"auto", "1:2:10"}) {
-    expect_problem(body + "[show]\nloupe = '" + loupe + "'\n", "4: show.loupe the loupe" + why);
+    expect_problem(body + "[show]\nloupe = '" + loupe + "'\n", "4: show.loupe has a loupe" + why);
   }
   EXPECT_TRUE(problems(body + "[show]\nloupe = 'off'\n").empty());
-  expect_problem(body + "[show]\noverlays = ['digits']\n", "4: show.overlays 'digits'" + why);
-  expect_problem(body + "[show]\noverlays = ['ruler']\n", "4: show.overlays 'ruler'" + why);
+  expect_problem(body + "[show]\noverlays = ['digits']\n", "4: show.overlays has 'digits'" + why);
+  expect_problem(body + "[show]\noverlays = ['ruler']\n", "4: show.overlays has 'ruler'" + why);
   expect_problem(body + "[time]\nfrom = -1\n",
                  "4: time.from = -1: the motion of bodies begins at time 0");
   expect_problem(body + "[show]\noverlays = ['trails']\n",

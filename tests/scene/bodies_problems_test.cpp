@@ -100,8 +100,10 @@ TEST_F(BodiesFile, BoxesAreChecked) {
                  "6: box.x = [3, 0]: must go from the lower to the higher end");
   expect_problem(body + "x = ['inf', 3]\n", "6: box.x = [inf, 3]: not a number");
   expect_problem(body + "z = [0, 3]\n", "6: box.z: unknown key");
-  expect_problem(body + "y = [-1, 'inf']\n",
-                 "6: box.y = [0, 1]: blocks on a line cannot meet the lower wall");
+  expect_problem(
+      body + "y = [-1, 'inf']\n",
+      "6: box.y makes the lower wall, but blocks move along x alone; leave it out, or give the "
+      "bodies a radius");
   expect_problem("box = 3\n[[body]]\nposition = 1\n", "1: box: unknown key");
   expect_problem("[box]\nx = [0, 3]\n", "2: box.x: is the box of bodies, and there is no [[body]]");
   expect_problem("[wall]\nmass = 3\n[box]\nx = [0, 30]\n",
@@ -121,8 +123,10 @@ TEST_F(BodiesFile, WallsAreChecked) {
   const std::string good = "[[wall]]\npoint = [0, 0]\nnormal = [1, 0]\n";
   expect_problem(disc + good + "[[wall]]\npoint = [0, 0]\nnormal = [0, 0]\n",
                  "6: wall 2.normal = [0, 0]: must not be 0");
-  expect_problem("[[body]]\nposition = 5\n[[wall]]\npoint = [0, 0]\nnormal = [1, 1]\n",
-                 "3: wall 1.normal = [1, 1]: blocks on a line cannot meet the slanted-1 wall");
+  expect_problem(
+      "[[body]]\nposition = 5\n[[wall]]\npoint = [0, 0]\nnormal = [1, 1]\n",
+      "3: wall 1.normal makes the slanted-1 wall, but blocks move along x alone; leave it out, "
+      "or give the bodies a radius");
   expect_problem(good, "1: wall: [[wall]] is a wall of bodies, and there is no [[body]]");
   std::string many = disc;
   for (int i = 0; i < 17; ++i) many += good;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "stress/random_system.hpp"
-#include "support/damped_checks.hpp"
+#include "support/inelastic_checks.hpp"
 
 namespace piblocks {
 namespace {
@@ -14,7 +14,7 @@ TEST(RestitutionStress, RandomSystemsMoveAsStepByStep) {
   Random random(11);
   SCOPED_TRACE(random.trace());
   for (std::int64_t i = 0; i < many(500) && !testing::Test::HasFailure(); ++i) {
-    expect_like_steps(random_damped_system(random), random, i % 20 == 0 ? 300 : 60);
+    expect_like_steps(random_inelastic_system(random), random, i % 20 == 0 ? 300 : 60);
   }
 }
 
@@ -64,7 +64,7 @@ TEST(RestitutionStress, NumbersOfAnySize) {
     system.blocks_restitution = wild_restitution(random);
     system.wall_restitution = wild_restitution(random);
     if (is_elastic(system) || !problems_of(system).empty()) continue;
-    SCOPED_TRACE(describe_damped(system));
+    SCOPED_TRACE(describe_inelastic(system));
     const auto log = make_collision_log(system);
     expect_own_times(*log);
     EXPECT_EQ(is_endless(*log), collapse_of(system).has_value());

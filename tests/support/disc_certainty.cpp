@@ -108,7 +108,8 @@ class Comparison {
 
   void compare_numbers(const BoundedStep& bounded, const Real& time) {
     const BodyStep& step = bounded.step;
-    widest_window_ = std::max({widest_window_, bounded.bounds[0].window, bounded.bounds[1].window});
+    largest_time_error_ =
+        std::max({largest_time_error_, bounded.bounds[0].time_error, bounded.bounds[1].time_error});
     compare_motion(step, step.first, step.first_after, bounded.bounds[0], time);
     if (step.second < system_.bodies.size()) {
       compare_motion(step, step.second, step.second_after, bounded.bounds[1], time);
@@ -122,7 +123,7 @@ class Comparison {
     const Real late = difference(step.time.hi, time);
     const std::array<Real, 2> there = {flight.position[0] + late * flight.velocity[0],
                                        flight.position[1] + late * flight.velocity[1]};
-    hold(step, "time", std::abs(late.to_double()), bound.window);
+    hold(step, "time", std::abs(late.to_double()), bound.time_error);
     hold(step, "position", distance(motion.position, there), bound.position);
     hold(step, "velocity", distance(motion.velocity, flight.velocity), bound.velocity);
   }
@@ -144,7 +145,7 @@ class Comparison {
       note_uncertain(next->time);
     }
     for (const double time : uncertain_) {
-      if (time >= until_ - 2 * widest_window_) continue;
+      if (time >= until_ - 2 * largest_time_error_) continue;
       if (until_ == Certainty::kForEver && !check_.is_complete) continue;
       complain(fmt::format("a collision at {} is missing before {}", time, until_));
     }
@@ -160,7 +161,7 @@ class Comparison {
   std::vector<std::vector<const BoundedStep*>> queues_ = {};
   std::vector<double> uncertain_ = {};
   std::size_t met_ = 0;
-  double widest_window_ = 0;
+  double largest_time_error_ = 0;
   CertaintyCheck check_ = {};
 };
 

@@ -17,7 +17,7 @@ constexpr double kArrowHead = 0.014;
 constexpr std::size_t kArrows = 32768;
 /// Above the ids of walls.
 constexpr std::size_t kTrails = 2000;
-/// Above the ids of disks.
+/// Above the ids of discs.
 constexpr std::size_t kExposed = 65535;
 constexpr double kTrailOpacity = 0.45;
 /// A disc whose radius is less than so many widths of its rim has none.
@@ -149,23 +149,23 @@ class BodyPainter {
   }
 
   void add_discs(const FrameState& shown, std::vector<DrawItem>& items) const {
-    ExposedDisksItem exposed{nth(ItemId::red_block, kExposed), {}};
+    ExposedDiscsItem exposed{nth(ItemId::red_block, kExposed), {}};
     for (std::size_t i = 0; i < shown.bodies.size(); ++i) {
-      std::vector<DiskWay> ways = ways_of(i, shown.body_exposure);
-      if (ways.empty()) {
+      std::vector<DiscPath> paths = paths_of(i, shown.body_exposure);
+      if (paths.empty()) {
         items.emplace_back(disc_of(i, centre_of(shown, i)));
       } else {
-        exposed.disks.push_back(exposed_disc(i, std::move(ways)));
+        exposed.discs.push_back(exposed_disc(i, std::move(paths)));
       }
     }
-    if (!exposed.disks.empty()) items.emplace_back(std::move(exposed));
+    if (!exposed.discs.empty()) items.emplace_back(std::move(exposed));
   }
 
   bool has_rim(const BodyShape& shape) const {
     return shape.half_width_px - line_px_ / 2 > kLeastRim * line_px_;
   }
 
-  DiskItem disc_of(std::size_t body, const Point& centre) const {
+  DiscItem disc_of(std::size_t body, const Point& centre) const {
     const BodyShape& shape = bodies_.shapes[body];
     const ItemId id = nth(ItemId::red_block, body);
     if (!has_rim(shape)) {
@@ -175,30 +175,30 @@ class BodyPainter {
             Stroke{shape.colors.edge, line_px_}};
   }
 
-  ExposedDisk exposed_disc(std::size_t body, std::vector<DiskWay> ways) const {
+  ExposedDisc exposed_disc(std::size_t body, std::vector<DiscPath> paths) const {
     const BodyShape& shape = bodies_.shapes[body];
     return {shape.half_width_px, has_rim(shape) ? line_px_ : 0, shape.colors.fill,
-            shape.colors.edge, std::move(ways)};
+            shape.colors.edge, std::move(paths)};
   }
 
   /// Nothing if the disc stays where it is.
-  std::vector<DiskWay> ways_of(std::size_t body,
-                               const std::vector<WeightedBodyExposure>& exposures) const {
-    std::vector<DiskWay> ways;
+  std::vector<DiscPath> paths_of(std::size_t body,
+                                 const std::vector<WeightedBodyExposure>& exposures) const {
+    std::vector<DiscPath> paths;
     for (const auto& [share, exposure] : exposures) {
       for (const BodyPiece& piece : exposure.pieces[body]) {
-        ways.push_back(
+        paths.push_back(
             {bodies_.map.at(piece.from), bodies_.map.at(piece.to), share * piece.share()});
       }
     }
     const auto is_near = [](const Point& a, const Point& b) {
       return std::fabs(a.x - b.x) <= kStill_px && std::fabs(a.y - b.y) <= kStill_px;
     };
-    const bool is_still = std::ranges::all_of(ways, [&](const DiskWay& way) {
-      return is_near(way.from, ways.front().from) && is_near(way.to, ways.front().from);
+    const bool is_still = std::ranges::all_of(paths, [&](const DiscPath& way) {
+      return is_near(way.from, paths.front().from) && is_near(way.to, paths.front().from);
     });
-    if (is_still) ways.clear();
-    return ways;
+    if (is_still) paths.clear();
+    return paths;
   }
 
   TextItem label_of(std::size_t body, const Point& centre) const {

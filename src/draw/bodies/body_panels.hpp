@@ -11,8 +11,8 @@ Drawable positions_panel(const DrawingContext& context, const PanelPlace& place)
 /// How many discs or blocks have which speed, and the distribution that Maxwell found.
 /// @throws UsageError if there are too few.
 Drawable speeds_panel(const DrawingContext& context, const PanelPlace& place);
-/// The squared distance of the two discs that meet first, against time, and both of its roots:
-/// where they touch, and where they would part if they passed through each other.
+/// The squared distance of the centres of the two discs that meet first, against time. It is
+/// (r₁ + r₂)² twice: when they touch, and when they would part if they passed through each other.
 /// @throws UsageError if no two discs meet.
 Drawable separation_panel(const DrawingContext& context, const PanelPlace& place);
 

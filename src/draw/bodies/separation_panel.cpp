@@ -79,7 +79,7 @@ class SeparationPanel {
     add_level();
     add_parabola();
     add_path(*context.bodies);
-    add_roots(context.font);
+    add_touches(context.font);
     axis_.add_base(diagram_);
     diagram_.finish();
   }
@@ -99,9 +99,8 @@ class SeparationPanel {
 
   static std::vector<Formula> titles(const DrawingContext& context) {
     const FormulaSetter set = context.setter();
-    return {set.text("The squared distance of the centres: its first root is the touch"),
-            set.text("Squared distance: its first root is the touch"),
-            set.text("Squared distance")};
+    return {set.text("Squared distance of the centres: the discs touch at (r₁ + r₂)²"),
+            set.text("Squared distance: touch at (r₁ + r₂)²"), set.text("Squared distance")};
   }
 
   double square_of(const std::vector<BodyMotion>& bodies) const {
@@ -163,11 +162,11 @@ class SeparationPanel {
     add_lines(meeting_.before.touch, to, square, add);
   }
 
-  void add_roots(const Font& font) {
+  void add_touches(const Font& font) {
     const double em = diagram_.text_px();
     const Palette& palette = diagram_.palette();
     const double part = meeting_.before.part();
-    const auto root = [&](double time, const char* name, const Color& color, double anchor) {
+    const auto touch = [&](double time, const char* name, const Color& color, double anchor) {
       if (!axis_.shows(time)) return;
       const Point at = place_of(time, contact_);
       std::vector<Point> outline =
@@ -180,8 +179,8 @@ class SeparationPanel {
           left >= inside.x && left + font.width_em(name) * em <= inside.x + inside.width;
       if (has_room) diagram_.text(name, {at.x + side, at.y + 1.1 * em}, anchor, color);
     };
-    root(meeting_.before.touch, "touch", palette.accent, 1);
-    root(part, "would part", palette.muted, 0);
+    touch(meeting_.before.touch, "touch", palette.accent, 1);
+    touch(part, "would part", palette.muted, 0);
   }
 
   Meeting meeting_;

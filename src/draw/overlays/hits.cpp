@@ -20,9 +20,9 @@ constexpr double kFirstRadius = 0.3;
 constexpr std::size_t kDirections = 13;
 /// Width of an arc's line, in widths of the wall's line.
 constexpr double kMarkLine = 1.2;
-/// Of concentric disks that make a glow: their number, the greatest opacity of each, and the radius
+/// Of concentric discs that make a glow: their number, the greatest opacity of each, and the radius
 /// of the largest in parts of an arc's final radius.
-constexpr int kGlowDisks = 7;
+constexpr int kGlowDiscs = 7;
 constexpr double kGlowAlpha = 0.24;
 constexpr double kGlowReach = 0.8;
 /// The strength of a glow goes from the least one at kMaxHitsPerSecond towards 1. It is half-way
@@ -91,8 +91,8 @@ void HitMarks::add_arc(ItemId id, const Hit& hit, double x_px, std::vector<DrawI
 
 void HitMarks::set_glows(MarkSector& sector) const {
   std::vector<Points> outlines;
-  for (int disk = 1; disk <= kGlowDisks; ++disk) {
-    const double radius_px = glow_px_ * disk / kGlowDisks;
+  for (int disc = 1; disc <= kGlowDiscs; ++disc) {
+    const double radius_px = glow_px_ * disc / kGlowDiscs;
     std::vector<Point> outline = {{0, sector.y_px}};
     for (const Point& direction : sector.directions) {
       outline.push_back({radius_px * direction.x, sector.y_px + radius_px * direction.y});

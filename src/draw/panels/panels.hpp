@@ -113,14 +113,14 @@ class Diagram {
   /// @throws UsageError as finish()
   PlateItem plate(std::size_t n, std::vector<DrawItem> items) const;
   /// Marks the present.
-  DiskItem dot(std::size_t n, const Point& at, const Color& color) const {
+  DiscItem dot(std::size_t n, const Point& at, const Color& color) const {
     return {moving(n), at, kDotRadius * sizes_.grid_line, color,
             Stroke{palette_.background, sizes_.grid_line}};
   }
 
   /// The same, larger, where it is the only one.
-  DiskItem present_dot(std::size_t n, const Point& at) const {
-    DiskItem item = dot(n, at, palette_.accent);
+  DiscItem present_dot(std::size_t n, const Point& at) const {
+    DiscItem item = dot(n, at, palette_.accent);
     item.radius = style::kPresentDot * sizes_.short_side;
     return item;
   }

@@ -84,14 +84,14 @@ class UnfoldedPanel {
     if (!is_seen) return;
     const double x = map_.x_at(shown.time);
     add_line(x, items);
-    for (const DiskItem& dot : dots_) {
+    for (const DiscItem& dot : dots_) {
       const auto k = static_cast<std::size_t>(dot.id) - static_cast<std::size_t>(dots_.front().id);
       if (first_dot_ + k >= next) break;
       items.emplace_back(dot);
     }
     if (x < least_x_ || x > most_x_) return;
     const Palette& palette = diagram_.palette();
-    items.emplace_back(DiskItem{diagram_.moving(kPresent),
+    items.emplace_back(DiscItem{diagram_.moving(kPresent),
                                 {x, level()},
                                 kPresentRadius * grid_px_,
                                 palette.accent,
@@ -202,7 +202,7 @@ class UnfoldedPanel {
       const double radius =
           std::clamp(kDotShare * mirror->apart_px, kBandRadius * grid_px_, largest);
       const bool is_wall = mirror->kind == CollisionKind::wall;
-      DiskItem dot{diagram_.moving(kDots + dots_.size()),
+      DiscItem dot{diagram_.moving(kDots + dots_.size()),
                    {mirror->x, map_.line_y()},
                    radius,
                    is_wall ? palette.blue.line : palette.red.line,
@@ -277,7 +277,7 @@ class UnfoldedPanel {
   double from_x_;                   ///< where the line that is shown begins
   PlateItem static_items_;          ///< all that stays, over the wedge
   std::vector<PathItem> unfolded_;  ///< the mirrors, if they unfold one by one
-  std::vector<DiskItem> dots_;      ///< of the mirrors that are met, from `first_dot_` on
+  std::vector<DiscItem> dots_;      ///< of the mirrors that are met, from `first_dot_` on
   std::size_t first_dot_ = 0;
 };
 

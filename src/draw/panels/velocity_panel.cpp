@@ -81,7 +81,7 @@ class VelocityPanel {
   struct FigureItems {
     std::vector<DrawItem> static_items;
     std::vector<PathItem> chords;  ///< of each collision
-    std::vector<DiskItem> dots;    ///< of each velocity
+    std::vector<DiscItem> dots;    ///< of each velocity
   };
 
   FigureItems figure_items(double share) const {

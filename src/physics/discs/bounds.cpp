@@ -46,21 +46,21 @@ struct Sight {
 
 /// Whether the flights before and after each other's last meeting cannot be confused.
 bool are_in_order(const Disc& a, const Bound& bound_a, const Disc& b, const Bound& bound_b) {
-  const auto ends_before = [](const Disc& first, double first_window, const Disc& second,
-                              double second_window) {
-    const double end = first.time + first_window * kUp + 2 * kUnit * first.time;
-    const double begin = second.time - second_window * kUp - 2 * kUnit * second.time;
-    return (first.time == 0 && first_window == 0) || end <= begin;
+  const auto ends_before = [](const Disc& first, double first_time_error, const Disc& second,
+                              double second_time_error) {
+    const double end = first.time + first_time_error * kUp + 2 * kUnit * first.time;
+    const double begin = second.time - second_time_error * kUp - 2 * kUnit * second.time;
+    return (first.time == 0 && first_time_error == 0) || end <= begin;
   };
-  return ends_before(a, bound_a.window, b, bound_b.window) ||
-         ends_before(b, bound_b.window, a, bound_a.window);
+  return ends_before(a, bound_a.time_error, b, bound_b.time_error) ||
+         ends_before(b, bound_b.time_error, a, bound_a.time_error);
 }
 
 /// Whether D.W > 0 since the flights began: the discs were apart then and move away.
-bool surely_recede(const Sight& sight, double window) {
+bool surely_recede(const Sight& sight, double time_error) {
   const double product = dot(sight.seen.distance, sight.seen.velocity);
   const double speed = sight.speed + sight.b;
-  const double doubt = sight.e * speed + sight.b * sight.distance + speed * speed * window +
+  const double doubt = sight.e * speed + sight.b * sight.distance + speed * speed * time_error +
                        8 * kUnit * sight.distance * speed + kTiny;
   return product > doubt * kUp;
 }
@@ -88,8 +88,10 @@ double earliest_approach(const Sight& sight, double reach) {
          (approach + std::sqrt(chord2) + rounding) * kDown;
 }
 
-/// start - window, rounded down: less than start, if only by rounding, unless both are 0.
-double time_before(double start, double window) { return start - window * kUp - 2 * kUnit * start; }
+/// start - time_error, rounded down: less than start, if only by rounding, unless both are 0.
+double time_before(double start, double time_error) {
+  return start - time_error * kUp - 2 * kUnit * start;
+}
 
 /// start + wait, rounded down
 double time_after(double start, double wait) {
@@ -111,13 +113,13 @@ double earliest_meeting(const Disc& a, const Bound& bound_a, const Disc& b, cons
                         double top_speed) {
   const Sight sight(a, bound_a, b, bound_b);
   const Vector w = sight.seen.velocity;
-  const double window = bound_a.window + bound_b.window;
+  const double time_error = bound_a.time_error + bound_b.time_error;
   // Exactly at rest to each other.
-  if (w.x == 0 && w.y == 0 && sight.b == 0 && window == 0) return kNever;
-  if (are_in_order(a, bound_a, b, bound_b) && surely_recede(sight, window)) return kNever;
+  if (w.x == 0 && w.y == 0 && sight.b == 0 && time_error == 0) return kNever;
+  if (are_in_order(a, bound_a, b, bound_b) && surely_recede(sight, time_error)) return kNever;
   const double reach = sight.seen.reach + sight.e;
   const double gap = sight.distance - reach;
-  if (!(gap > 8 * top_speed * window)) return time_before(sight.seen.start, window);
+  if (!(gap > 8 * top_speed * time_error)) return time_before(sight.seen.start, time_error);
   if (sight.b > sight.speed / 2 || dot(w, w) < kTiny) {
     return time_after(sight.seen.start, gap / (sight.speed + sight.b) * kDown);
   }
@@ -138,54 +140,54 @@ double earliest_meeting(const Disc& disc, const Bound& bound, const WallLine& wa
   const double fastest = b - dot(wall.normal, v);
   if (fastest < 0 || (fastest == 0 && b == 0)) return kNever;
   const double gap = gap_to(wall, disc, disc.time) - e;
-  if (!(gap > 8 * top_speed * bound.window)) return time_before(disc.time, bound.window);
+  if (!(gap > 8 * top_speed * bound.time_error)) return time_before(disc.time, bound.time_error);
   return fastest == 0 ? kNever : time_after(disc.time, gap / fastest * kDown);
 }
 
-std::optional<Contact> contact_of(const Disc& a, const Bound& bound_a, const Disc& b,
-                                  const Bound& bound_b, double time) {
+std::optional<MeetingError> error_of_meeting(const Disc& a, const Bound& bound_a, const Disc& b,
+                                             const Bound& bound_b, double time) {
   const Vector d = position_at(b, time) - position_at(a, time);
   const Vector w = b.velocity - a.velocity;
   const double distance = length(d);
   const double reach = a.radius + b.radius;
   const double speed = speed_above(w);
-  Contact contact;
-  contact.drift_a = drift(a, bound_a, time);
-  contact.drift_b = drift(b, bound_b, time);
-  contact.speed = speed;
-  const double e = (contact.drift_a + contact.drift_b + 2 * kUnit * distance) * kUp;
+  MeetingError meeting;
+  meeting.drift_a = drift(a, bound_a, time);
+  meeting.drift_b = drift(b, bound_b, time);
+  meeting.speed = speed;
+  const double e = (meeting.drift_a + meeting.drift_b + 2 * kUnit * distance) * kUp;
   const double gap = (std::abs(distance - reach) + 8 * kUnit * (distance + reach)) * kUp;
   const double velocity_error = (bound_a.velocity + bound_b.velocity + 2 * kUnit * speed) * kUp;
   const double surely = -dot(w, d) / distance - 8 * kUnit * speed - velocity_error;
   if (!(surely > 0)) return std::nullopt;
   const double root2 = surely * surely - 2 * (e + gap) * speed * speed / distance * kUp;
   if (!(root2 > 0)) return std::nullopt;
-  contact.window = 2 * (e + gap) / (surely + std::sqrt(root2)) * kUp;
-  const double shift = (e + (velocity_error + speed) * contact.window) * kUp;
+  meeting.time_error = 2 * (e + gap) / (surely + std::sqrt(root2)) * kUp;
+  const double shift = (e + (velocity_error + speed) * meeting.time_error) * kUp;
   if (!(shift < distance / 2)) return std::nullopt;
   const double sideways = std::abs(cross(w, d)) / distance + 8 * kUnit * speed;
-  contact.turn = (e + (velocity_error + sideways) * contact.window) / reach * kUp;
-  contact.residual = (gap + distance * contact.turn * contact.turn) * kUp;
-  if (!(contact.turn < 0.5)) return std::nullopt;
-  return contact;
+  meeting.normal_error = (e + (velocity_error + sideways) * meeting.time_error) / reach * kUp;
+  meeting.residual = (gap + distance * meeting.normal_error * meeting.normal_error) * kUp;
+  if (!(meeting.normal_error < 0.5)) return std::nullopt;
+  return meeting;
 }
 
-std::optional<Contact> contact_of(const Disc& disc, const Bound& bound, const WallLine& wall,
-                                  double time) {
+std::optional<MeetingError> error_of_meeting(const Disc& disc, const Bound& bound,
+                                             const WallLine& wall, double time) {
   const Vector there = position_at(disc, time);
-  Contact contact;
-  contact.drift_a = drift(disc, bound, time);
-  contact.speed = speed_above(disc.velocity);
-  contact.turn = wall.normal_error;
-  contact.residual =
+  MeetingError meeting;
+  meeting.drift_a = drift(disc, bound, time);
+  meeting.speed = speed_above(disc.velocity);
+  meeting.normal_error = wall.normal_error;
+  meeting.residual =
       (std::abs(gap_to(wall, disc, time)) + size_of(there) * wall.normal_error + wall.offset_error +
        8 * kUnit * (size_of(there) + std::abs(wall.offset) + disc.radius)) *
       kUp;
-  const double error = (bound.velocity + contact.speed * (wall.normal_error + 4 * kUnit)) * kUp;
+  const double error = (bound.velocity + meeting.speed * (wall.normal_error + 4 * kUnit)) * kUp;
   const double surely = -dot(wall.normal, disc.velocity) - error;
   if (!(surely > 0)) return std::nullopt;
-  contact.window = (contact.drift_a + contact.residual) / surely * kUp;
-  return contact;
+  meeting.time_error = (meeting.drift_a + meeting.residual) / surely * kUp;
+  return meeting;
 }
 
 namespace {
@@ -200,33 +202,33 @@ double reflected(double own, double other, double share, double other_share) {
 
 }  // namespace
 
-void widen(const Contact& contact, const Disc& a, double mass_a, Bound& bound_a, const Disc& b,
+void widen(const MeetingError& meeting, const Disc& a, double mass_a, Bound& bound_a, const Disc& b,
            double mass_b, Bound& bound_b) {
   const double share_a = share_of_change(mass_a, mass_b);
   const double share_b = share_of_change(mass_b, mass_a);
-  const double turned = contact.speed * (contact.turn + 32 * kUnit);
+  const double turned = meeting.speed * (meeting.normal_error + 32 * kUnit);
   const auto after = [&](const Bound& own, const Bound& other, double share, double other_share,
                          const Disc& disc) {
     const double position =
-        reflected(own.position, other.position, share, other_share) + 2 * share * contact.residual;
+        reflected(own.position, other.position, share, other_share) + 2 * share * meeting.residual;
     const double velocity = reflected(own.velocity, other.velocity, share, other_share) +
                             2 * share * turned + 2 * kUnit * size_of(disc.velocity);
-    return Bound{position * kUp + kTiny, velocity * kUp + kTiny, contact.window};
+    return Bound{position * kUp + kTiny, velocity * kUp + kTiny, meeting.time_error};
   };
-  const Bound before_a = {contact.drift_a, bound_a.velocity, 0};
-  const Bound before_b = {contact.drift_b, bound_b.velocity, 0};
+  const Bound before_a = {meeting.drift_a, bound_a.velocity, 0};
+  const Bound before_b = {meeting.drift_b, bound_b.velocity, 0};
   if (mass_a != kNever) bound_a = after(before_a, before_b, share_a, share_b, a);
   if (mass_b != kNever) bound_b = after(before_b, before_a, share_b, share_a, b);
 }
 
-void widen(const Contact& contact, const WallLine& wall, Bound& bound) {
+void widen(const MeetingError& meeting, const WallLine& wall, Bound& bound) {
   // Upright and level walls negate one part of the velocity, which rounds nothing.
   if (wall.normal_error > 0) {
-    const double turned = contact.speed * (5 * wall.normal_error + 16 * kUnit);
+    const double turned = meeting.speed * (5 * wall.normal_error + 16 * kUnit);
     bound.velocity = (bound.velocity + turned) * kUp + kTiny;
   }
-  bound.position = (contact.drift_a + 2 * contact.residual) * kUp + kTiny;
-  bound.window = contact.window;
+  bound.position = (meeting.drift_a + 2 * meeting.residual) * kUp + kTiny;
+  bound.time_error = meeting.time_error;
 }
 
 }  // namespace piblocks::discs

@@ -24,26 +24,26 @@ double earliest_meeting(const Disc& disc, const Bound& bound, const WallLine& wa
                         double top_speed);
 
 /// A meeting that truly happens, with bounds of what is wrong with the computed one.
-struct Contact {
-  double window = 0;    ///< tau: how wrong the time may be
-  double turn = 0;      ///< the sine of the angle between the true normal and the computed one
-  double residual = 0;  ///< of |D| - R at the computed time, along the true normal
-  double drift_a = 0;   ///< of the first disc at the computed time
-  double drift_b = 0;   ///< of the second
-  double speed = 0;     ///< |w|: the computed relative speed, at most
+struct MeetingError {
+  double time_error = 0;    ///< tau: how wrong the time may be
+  double normal_error = 0;  ///< the sine of the angle between the true normal and the computed one
+  double residual = 0;      ///< of |D| - R at the computed time, along the true normal
+  double drift_a = 0;       ///< of the first disc at the computed time
+  double drift_b = 0;       ///< of the second
+  double speed = 0;         ///< |w|: the computed relative speed, at most
 };
 
 /// Nothing if it is in doubt that there is a meeting: a graze.
 /// @param time  as meeting_time() has it
-std::optional<Contact> contact_of(const Disc& a, const Bound& bound_a, const Disc& b,
-                                  const Bound& bound_b, double time);
-std::optional<Contact> contact_of(const Disc& disc, const Bound& bound, const WallLine& wall,
-                                  double time);
+std::optional<MeetingError> error_of_meeting(const Disc& a, const Bound& bound_a, const Disc& b,
+                                             const Bound& bound_b, double time);
+std::optional<MeetingError> error_of_meeting(const Disc& disc, const Bound& bound,
+                                             const WallLine& wall, double time);
 
 /// The bounds of two discs after they have met. Those of an immovable disc stay.
 /// @param a, b  after the meeting
-void widen(const Contact& contact, const Disc& a, double mass_a, Bound& bound_a, const Disc& b,
+void widen(const MeetingError& meeting, const Disc& a, double mass_a, Bound& bound_a, const Disc& b,
            double mass_b, Bound& bound_b);
-void widen(const Contact& contact, const WallLine& wall, Bound& bound);
+void widen(const MeetingError& meeting, const WallLine& wall, Bound& bound);
 
 }  // namespace piblocks::discs

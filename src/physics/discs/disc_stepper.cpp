@@ -49,7 +49,8 @@ class Stepper final : public DiscStepper {
   Bound bound_of(std::uint32_t body) const override {
     const Bound& bound = system_.bounds[body];
     const Units& units = system_.units;
-    return {bound.position * units.length, bound.velocity * units.speed, bound.window * units.time};
+    return {bound.position * units.length, bound.velocity * units.speed,
+            bound.time_error * units.time};
   }
 
  private:
@@ -80,7 +81,7 @@ class Stepper final : public DiscStepper {
 
   double earliest(std::uint32_t disc, std::uint32_t partner) const;
   double earliest_but(std::uint32_t excepted, std::uint32_t body) const;
-  std::optional<Contact> certify(std::uint32_t disc, std::uint32_t partner, double time);
+  std::optional<MeetingError> certify(std::uint32_t disc, std::uint32_t partner, double time);
   void raise_top_speed(std::uint32_t disc);
 
   DiscSystem system_;
@@ -237,25 +238,25 @@ BodyStep Stepper::meet(std::uint32_t disc, std::uint32_t partner, double time) {
 }
 
 void Stepper::collide_discs(std::uint32_t first, std::uint32_t second, double time) {
-  const auto contact = is_certain() ? certify(first, second, time) : std::nullopt;
+  const auto meeting = is_certain() ? certify(first, second, time) : std::nullopt;
   count_meeting(first, second, time);
   count_meeting(second, first, time);
   Disc& a = discs_[first];
   Disc& b = discs_[second];
   collide(a, system_.masses[first], b, system_.masses[second]);
-  if (!contact) return;
-  widen(*contact, a, system_.masses[first], system_.bounds[first], b, system_.masses[second],
+  if (!meeting) return;
+  widen(*meeting, a, system_.masses[first], system_.bounds[first], b, system_.masses[second],
         system_.bounds[second]);
   raise_top_speed(first);
   raise_top_speed(second);
 }
 
 void Stepper::reflect_disc(std::uint32_t disc, std::uint32_t wall, double time) {
-  const auto contact = is_certain() ? certify(disc, wall, time) : std::nullopt;
+  const auto meeting = is_certain() ? certify(disc, wall, time) : std::nullopt;
   count_meeting(disc, wall, time);
   reflect(discs_[disc], wall_of(wall));
-  if (!contact) return;
-  widen(*contact, wall_of(wall), system_.bounds[disc]);
+  if (!meeting) return;
+  widen(*meeting, wall_of(wall), system_.bounds[disc]);
   raise_top_speed(disc);
 }
 
@@ -320,14 +321,15 @@ double Stepper::earliest_but(std::uint32_t excepted, std::uint32_t body) const {
 }
 
 /// Ends certainty unless this meeting truly is the next one of both. @return nothing then
-std::optional<Contact> Stepper::certify(std::uint32_t disc, std::uint32_t partner, double time) {
+std::optional<MeetingError> Stepper::certify(std::uint32_t disc, std::uint32_t partner,
+                                             double time) {
   const std::vector<Bound>& bounds = system_.bounds;
-  const std::optional<Contact> contact =
+  const std::optional<MeetingError> meeting =
       is_disc(partner)
-          ? contact_of(discs_[disc], bounds[disc], discs_[partner], bounds[partner], time)
-          : contact_of(discs_[disc], bounds[disc], wall_of(partner), time);
+          ? error_of_meeting(discs_[disc], bounds[disc], discs_[partner], bounds[partner], time)
+          : error_of_meeting(discs_[disc], bounds[disc], wall_of(partner), time);
   double doubt = kNever;
-  if (!contact || 8 * top_speed_ * contact->window > cells_.margin() / 4) {
+  if (!meeting || 8 * top_speed_ * meeting->time_error > cells_.margin() / 4) {
     doubt = std::min(earliest(disc, partner), time);
   } else {
     double other = kNever;
@@ -335,10 +337,10 @@ std::optional<Contact> Stepper::certify(std::uint32_t disc, std::uint32_t partne
     if (is_disc(partner) && system_.is_movable(partner)) {
       other = std::min(other, earliest_but(disc, partner));
     }
-    const double last = (time + contact->window) * (1 + 0x1p-51);
-    if (other <= last) doubt = std::min(other, time - contact->window);
+    const double last = (time + meeting->time_error) * (1 + 0x1p-51);
+    if (other <= last) doubt = std::min(other, time - meeting->time_error);
   }
-  if (doubt == kNever) return contact;
+  if (doubt == kNever) return meeting;
   until_ = std::max(doubt, 0.0);
   return std::nullopt;
 }

@@ -22,7 +22,7 @@ struct Units {
 struct Bound {
   double position = 0;  ///< at Disc::time
   double velocity = 0;
-  double window = 0;  ///< the true last meeting is at most this far from Disc::time
+  double time_error = 0;  ///< the true last meeting is at most this far from Disc::time
 };
 
 struct DiscSystem {

@@ -87,14 +87,18 @@ Rational time_of_text(const BoundBodyRun& run, const std::string& text) {
 }
 
 /// Fills an array of times, one of counts, and two with the vectors of all bodies at each time.
-void fill_states(const BoundBodyRun& run, const std::vector<std::string>& texts,
-                 const py::buffer& times_buffer, const py::buffer& counts_buffer,
-                 const py::buffer& positions_buffer, const py::buffer& velocities_buffer) {
+/// Returns the hexadecimal counts if one of them does not fit.
+std::vector<std::string> fill_states(const BoundBodyRun& run, const std::vector<std::string>& texts,
+                                     const py::buffer& times_buffer,
+                                     const py::buffer& counts_buffer,
+                                     const py::buffer& positions_buffer,
+                                     const py::buffer& velocities_buffer) {
   const std::size_t vectors = texts.size() * run.bodies() * run.dimensions();
   const auto times = array_of<double>(times_buffer, texts.size());
   const auto counts = array_of<std::int64_t>(counts_buffer, texts.size());
   double* position = array_of<double>(positions_buffer, vectors).data();
   double* velocity = array_of<double>(velocities_buffer, vectors).data();
+  std::vector<std::string> long_counts;
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
     for (std::size_t i = 0; i < texts.size(); ++i) {
       if (stop.stop_requested()) throw Interrupted("state: interrupted");
@@ -102,6 +106,10 @@ void fill_states(const BoundBodyRun& run, const std::vector<std::string>& texts,
       const BodiesState state = run.log().state_at(time);
       times[i] = shown(to_double(time));
       counts[i] = state.count.get_si();
+      if (!state.count.fits_slong_p()) {
+        long_counts.resize(texts.size());
+        long_counts[i] = hexadecimal(state.count);
+      }
       for (const BodyMotion& body : state.bodies) {
         for (std::size_t axis = 0; axis < run.dimensions(); ++axis) {
           *position++ = shown(body.position.at(axis));
@@ -110,6 +118,7 @@ void fill_states(const BoundBodyRun& run, const std::vector<std::string>& texts,
       }
     }
   });
+  return long_counts;
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _piblocks
-from ._run import options_of_log, selected
+from ._run import options_of_log, selected, with_index
 from ._values import instant, scalar
 
 
@@ -23,7 +23,8 @@ class BodiesState:
 
     #: A float; an array of the shape of the times if these were one.
     time: Any
-    #: Index of the last collision until then: an int, or an array of int64 like ``time``.
+    #: Index of the last collision until then: an int, or an array like ``time``, of int64, or of
+    #: ints if these do not fit.
     count: Any
     #: Of the centres, in the scene's units: (bodies, dimensions), after the shape of the times.
     positions: np.ndarray
@@ -49,7 +50,7 @@ def log(
     if count > 0:
         memory = rows.view(np.uint8)
         run.fill_log(format(begin, "x"), memory, count, rows.dtype.itemsize)
-    return rows
+    return with_index(rows, begin)
 
 
 def state(run: _piblocks.BodyRun, t: Any) -> BodiesState:
@@ -63,7 +64,11 @@ def state(run: _piblocks.BodyRun, t: Any) -> BodiesState:
     count = np.empty(times.shape, np.int64)
     positions = np.empty((*times.shape, *run.shape))
     velocities = np.empty_like(positions)
-    run.fill_states(texts, time, count, positions, velocities)
+    long_counts = run.fill_states(texts, time, count, positions, velocities)
+    if long_counts:
+        pairs = zip(long_counts, count.ravel().tolist())
+        whole = [int(text, 16) if text else fitting for text, fitting in pairs]
+        count = np.array(whole, object).reshape(times.shape)
     if times.ndim:
         return BodiesState(time, count, positions, velocities)
     return BodiesState(time.item(), count.item(), positions, velocities)

@@ -78,7 +78,7 @@ class BodyRun:
         counts_buffer: np.ndarray[Any, Any],
         positions_buffer: np.ndarray[Any, Any],
         velocities_buffer: np.ndarray[Any, Any],
-    ) -> None: ...
+    ) -> list[str]: ...
 
 class Frame:
     @property

@@ -67,7 +67,9 @@ def _limit_until(run: AnyRun, given: dict[bytes, bytes], last: int) -> int:
     """How many rows there are up to this index."""
     first_index, size = int(run.first_index, 16), int(run.size, 16)
     if not first_index <= last <= size:
-        are = "infinitely many collisions, and lists" if run.is_endless else "collisions"
+        are = "collisions"
+        if run.is_endless:
+            are = "infinitely many collisions, of which the log lists"
         has = f"{are} {first_index:,} to {size:,}" if size >= first_index else "no collisions"
         raise UsageError(f"last {last:,}: the scene has {has}")
     first, _ = run.select({**given, b"--limit": b"1"})
@@ -96,17 +98,26 @@ def selected(
     return int(begin, 16), int(count, 16)
 
 
+def _fit(begin: int, count: int) -> bool:
+    return -(2**63) < begin and begin + count < 2**63
+
+
+def with_index(rows: np.ndarray, begin: int) -> np.ndarray:
+    """The rows, with their indices as ints if these do not fit into int64."""
+    if _fit(begin, len(rows)):
+        return rows
+    return _replace_column(rows, "index", [begin + i for i in range(len(rows))])
+
+
 def log(
     run: _piblocks.Run, from_: Any, to: Any, first: Any, last: Any, limit: Any
 ) -> np.ndarray:
     begin, count = selected(run, options_of_log(from_, to, first, limit), last, limit)
     rows = np.empty(count, ROW)
-    fits = -(2**63) < begin and begin + count < 2**63
     if count > 0:
+        fits = _fit(begin, count)
         run.fill_log(format(begin, "x"), rows.view(np.uint8), count, fits)
-    if fits:
-        return rows
-    return _replace_column(rows, "index", [begin + i for i in range(count)])
+    return with_index(rows, begin)
 
 
 def _whole(text: str) -> Union[int, float]:

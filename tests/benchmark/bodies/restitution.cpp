@@ -7,12 +7,12 @@
 
 #include "bodies/contest.hpp"
 #include "bodies/tables.hpp"
-#include "support/damped_run.hpp"
+#include "support/inelastic_run.hpp"
 
 namespace piblocks::benchmark {
 namespace {
 
-BlockSystem damped_article(int digits) {
+BlockSystem inelastic_article(int digits) {
   BlockSystem system = article_system(digits);
   system.blocks_restitution = Rational(999'999, 1'000'000);
   system.wall_restitution = system.blocks_restitution;
@@ -21,7 +21,7 @@ BlockSystem damped_article(int digits) {
 
 /// The times of all collisions, by a loop over the two gaps.
 template <typename Number>
-std::vector<Number> damped_loop_times(const BlockSystem& system) {
+std::vector<Number> inelastic_loop_times(const BlockSystem& system) {
   const auto number = [](const Rational& value) { return to_number<Number>(value); };
   const Number e = number(system.blocks_restitution);
   const Number e_wall = number(system.wall_restitution);
@@ -57,7 +57,7 @@ std::vector<Number> damped_loop_times(const BlockSystem& system) {
   }
 }
 
-std::vector<Time> damped_log_times(const BlockSystem& system) {
+std::vector<Time> inelastic_log_times(const BlockSystem& system) {
   const std::unique_ptr<CollisionLog> log = make_collision_log(system);
   const std::unique_ptr<CollisionStream> stream = log->stream(1, log->size());
   const auto batch = std::make_unique<CollisionBatch>();
@@ -76,10 +76,10 @@ double relative_error(const Wide& time, const Wide& right) {
 
 /// In 400 bits. The first ones have to be those of a program in rational numbers, whose numbers
 /// soon are too long.
-Answers right_damped_times(const BlockSystem& system) {
-  Answers right = damped_loop_times<Wide>(system);
+Answers right_inelastic_times(const BlockSystem& system) {
+  Answers right = inelastic_loop_times<Wide>(system);
   constexpr std::size_t kExact = 100;
-  const auto exact = oracle::damped_run(system, kExact).events;
+  const auto exact = oracle::inelastic_run(system, kExact).events;
   for (std::size_t i = 0; i < exact.size(); ++i) {
     if (i < right.size() && relative_error(right[i], to_wide(exact[i].time)) < 1e-100) continue;
     throw SimulationError(
@@ -103,10 +103,10 @@ std::optional<double> worst_time_error(const Answers& times, const Answers& righ
 std::vector<Contestant> restitution_contestants(const BlockSystem& system) {
   std::vector<Contestant> all = {contestant("piblocks::CollisionLog",
                                             "MPFR, rounded to two doubles",
-                                            [=] { return damped_log_times(system); })};
+                                            [=] { return inelastic_log_times(system); })};
   const auto add = [&]<typename Number>(Number) {
     all.push_back(contestant("gap loop", kNumberName<Number>,
-                             [=] { return damped_loop_times<Number>(system); }));
+                             [=] { return inelastic_loop_times<Number>(system); }));
   };
   add(0.0);
   add(0.0L);
@@ -120,8 +120,8 @@ void print_restitution_table() {
   fmt::print("| Digits | Collisions | Method | Number type | time | time error |\n");
   fmt::print("|---:|---:|---|---|---:|---:|\n");
   for (int digits = 2; digits <= 6; ++digits) {
-    const BlockSystem system = damped_article(digits);
-    const Answers right = right_damped_times(system);
+    const BlockSystem system = inelastic_article(digits);
+    const Answers right = right_inelastic_times(system);
     std::vector<Contestant> contestants = restitution_contestants(system);
     time_all(contestants);
     for (const Contestant& contestant : contestants) {

@@ -6,18 +6,18 @@
 #include <optional>
 #include <utility>
 
-#include "physics/damped_motion.hpp"
 #include "physics/impact.hpp"
+#include "physics/inelastic_motion.hpp"
 #include "physics/precise_log.hpp"
 
 namespace piblocks {
 
 /// Before time 0 the blocks move as they do at time 0: what they lost in earlier collisions is not
 /// known. In a run of infinitely many collisions they rest at the wall from the last listed one on.
-class DampedLog final : public PreciseLog {
+class InelasticLog final : public PreciseLog {
  public:
   /// @throws SimulationError as RoundPowers.
-  explicit DampedLog(const BlockSystem& system);
+  explicit InelasticLog(const BlockSystem& system);
 
   Collision collision(const Integer& index) const override;
   BlockState state_at(const Rational& time) const override;
@@ -37,20 +37,20 @@ class DampedLog final : public PreciseLog {
 
  private:
   /// Count and gaps at a time.
-  std::pair<Integer, DampedGaps> moved(const Rational& time) const;
-  DampedGaps at_rest() const;
+  std::pair<Integer, InelasticGaps> moved(const Rational& time) const;
+  InelasticGaps at_rest() const;
   Motion blue(const Real& gap, const Real& rate) const;
   Motion red(const Real& gap, const Real& rate) const;
 
-  DampedMotion motion_;
+  InelasticMotion motion_;
   mpfr_prec_t velocity_bits_;  // what a velocity's difference may cancel, and a double's
   Rational blue_offset_;       // x_blue - y1
   Rational red_offset_;        // x_red - y2
 };
 
 /// The log as this class, if it is one.
-inline const DampedLog* damped_log(const Timeline& log) {
-  return dynamic_cast<const DampedLog*>(&log);
+inline const InelasticLog* inelastic_log(const Timeline& log) {
+  return dynamic_cast<const InelasticLog*>(&log);
 }
 
 }  // namespace piblocks

@@ -15,14 +15,14 @@
 namespace piblocks {
 
 /// Collision n and the one after it. The gap that collision n closes is r_n - s_n t at time t.
-struct DampedNumbers {
+struct InelasticNumbers {
   Real speed;       ///< s_n > 0: with which the bodies approach each other
   Real reach;       ///< r_n = s_n t_n
   Real next_speed;  ///< s_{n+1}; not positive if there is no further collision
 };
 
 /// Sums over every other collision of a range.
-struct DampedSums {
+struct InelasticSums {
   Real speeds;   ///< of s_n
   Real reaches;  ///< of r_n = s_n t_n
 };
@@ -35,17 +35,17 @@ struct DensestCollisions {
 };
 
 /// The gaps and their rates at one instant.
-struct DampedGaps {
+struct InelasticGaps {
   Real y1;
   Real y2;
   Real u1;
   Real u2;
 };
 
-struct DampedMotion {
+struct InelasticMotion {
   /// Of two collisions that are due at once the blocks' is first.
   /// @throws SimulationError as RoundPowers.
-  explicit DampedMotion(const BlockSystem& system);
+  explicit InelasticMotion(const BlockSystem& system);
   /// What happens if of collisions that are all due at once the others come first; nothing if they
   /// are infinitely many, or do not happen together from the first one on.
   std::optional<Corner> corner() const;
@@ -87,18 +87,19 @@ struct DampedMotion {
   /// Whether the blocks rest from this collision on.
   bool is_end(const Integer& n) const { return !total && n == listed; }
   /// Of collision n >= 1, each with a relative error below 2^-good_bits, unless it is 0.
-  DampedNumbers numbers(const Integer& n, mpfr_prec_t good_bits) const;
+  InelasticNumbers numbers(const Integer& n, mpfr_prec_t good_bits) const;
   /// At a time that is not before the first collision, with count_at(time). The gaps have relative
   /// errors below 2^-good_bits. The rates are meaningless if the blocks rest.
-  std::pair<Integer, DampedGaps> state_at(const Rational& time, mpfr_prec_t good_bits) const;
+  std::pair<Integer, InelasticGaps> state_at(const Rational& time, mpfr_prec_t good_bits) const;
   /// As in state_at(), just after collision n.
-  DampedGaps gaps_after(const Integer& n, mpfr_prec_t good_bits) const {
+  InelasticGaps gaps_after(const Integer& n, mpfr_prec_t good_bits) const {
     return gaps_after(n, numbers(n, good_bits + 8), good_bits);
   }
   /// @param now  numbers(n, good_bits + 8)
-  DampedGaps gaps_after(const Integer& n, const DampedNumbers& now, mpfr_prec_t good_bits) const;
+  InelasticGaps gaps_after(const Integer& n, const InelasticNumbers& now,
+                           mpfr_prec_t good_bits) const;
   /// Over the collisions first, first + 2, … last, which are of one kind; relative errors as above.
-  DampedSums sums(const Integer& first, const Integer& last, mpfr_prec_t good_bits) const;
+  InelasticSums sums(const Integer& first, const Integer& last, mpfr_prec_t good_bits) const;
   /// A time at which collision n has happened and the next has not: the collision's if that is a
   /// short number, otherwise one later by at most 2^-100 of the time between the two.
   Rational time_past(const Integer& n) const;
@@ -119,9 +120,9 @@ struct DampedMotion {
   static Rational closing(CollisionKind kind, const Pair& rates);
   /// @param opened  minus the gap that n closed, before it is enlarged by the restitution
   /// @param to_close  the gap that n + 1 closes
-  DampedGaps folded(const Integer& n, const Real& opened, const Real& to_close, const Real& speed,
-                    const Real& next_speed, mpfr_prec_t good_bits) const;
-  DampedGaps gaps_at(const Rational& time, const Integer& n, mpfr_prec_t good_bits) const;
+  InelasticGaps folded(const Integer& n, const Real& opened, const Real& to_close,
+                       const Real& speed, const Real& next_speed, mpfr_prec_t good_bits) const;
+  InelasticGaps gaps_at(const Rational& time, const Integer& n, mpfr_prec_t good_bits) const;
   /// How many of the collisions 1, 3, 5 … have happened; nothing if all that are listed have, and
   /// no other is.
   std::optional<Integer> odd_until(const Rational& time) const;

@@ -1,4 +1,4 @@
-#include "physics/damped_motion.hpp"
+#include "physics/inelastic_motion.hpp"
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
@@ -44,7 +44,7 @@ Integer doubled_while(const auto& holds) {
 
 }  // namespace
 
-DampedMotion::DampedMotion(const BlockSystem& system)
+InelasticMotion::InelasticMotion(const BlockSystem& system)
     : ratio(system.blue.mass / system.red.mass),
       wall_restitution(system.wall_restitution),
       blocks_restitution(system.blocks_restitution),
@@ -59,20 +59,20 @@ DampedMotion::DampedMotion(const BlockSystem& system)
   if (collides) unroll();
 }
 
-void DampedMotion::unroll() {
+void InelasticMotion::unroll() {
   find_sequences();
   total = find_total();
   listed = total ? *total : find_listed();
 }
 
-std::optional<Corner> DampedMotion::corner() const {
+std::optional<Corner> InelasticMotion::corner() const {
   const auto& [u1, u2] = rates;
   const bool comes_in = u2 < 0 && u1 <= 0 && u2 <= u1;
   if (!collides || areal_velocity != 0 || !comes_in || !total) return std::nullopt;
   Corner corner{first_time, blocks_first, *total, *total + 1};
   // If only one pair approaches, the other has had a collision without effect.
   if (u1 == 0 || u1 == u2) return corner;
-  DampedMotion other = *this;
+  InelasticMotion other = *this;
   other.blocks_first = !blocks_first;
   other.unroll();
   if (!other.total) return std::nullopt;
@@ -80,7 +80,7 @@ std::optional<Corner> DampedMotion::corner() const {
   return corner;
 }
 
-std::optional<Rational> DampedMotion::turn() const {
+std::optional<Rational> InelasticMotion::turn() const {
   if (rates.first == 0 && rates.second == 0) return std::nullopt;
   if (rates.second >= 0 || !collides) return 0;
   // u2 after collisions of the blocks is e s_n - s_{n+1}.
@@ -102,12 +102,12 @@ std::optional<Rational> DampedMotion::turn() const {
   return (*end + scaled(*end, 16 - kBits)).to_rational();
 }
 
-Rational DampedMotion::closing(CollisionKind kind, const Pair& rates) {
+Rational InelasticMotion::closing(CollisionKind kind, const Pair& rates) {
   return kind == CollisionKind::wall ? Rational(-rates.first)
                                      : Rational(rates.first - rates.second);
 }
 
-std::optional<DensestCollisions> DampedMotion::densest() const {
+std::optional<DensestCollisions> InelasticMotion::densest() const {
   if (!collides) return std::nullopt;
   if (!total) {
     const std::optional<Rational> end = turn();
@@ -125,7 +125,7 @@ std::optional<DensestCollisions> DampedMotion::densest() const {
   return DensestCollisions{time_past(middle), rate.to_rational()};
 }
 
-Integer DampedMotion::densest_index() const {
+Integer InelasticMotion::densest_index() const {
   const Rational discriminant = powers.trace() * powers.trace() - 4 * powers.determinant();
   if (discriminant >= 0) return 1;
   const mpfr_prec_t bits = 64 + mpfr_prec_t(mpz_sizeinbase(total->get_mpz_t(), 2));
@@ -135,19 +135,19 @@ Integer DampedMotion::densest_index() const {
   return std::clamp(Integer(*total - after_middle), Integer(1), *total);
 }
 
-Real DampedMotion::flight_after(const Integer& n, mpfr_prec_t good_bits) const {
-  const DampedNumbers now = numbers(n, good_bits + 4);
+Real InelasticMotion::flight_after(const Integer& n, mpfr_prec_t good_bits) const {
+  const InelasticNumbers now = numbers(n, good_bits + 4);
   return areal_velocity_before(n, good_bits + 4) / (now.speed * now.next_speed);
 }
 
-DampedMotion::Pair DampedMotion::after(CollisionKind kind, const Pair& before) const {
+InelasticMotion::Pair InelasticMotion::after(CollisionKind kind, const Pair& before) const {
   const auto& [first, second] = before;
   if (kind == CollisionKind::wall) return {-wall_restitution * first, second};
   const Rational impulse = (1 + blocks_restitution) * (first - second) / (1 + ratio);
   return {first - impulse, second + ratio * impulse};
 }
 
-void DampedMotion::find_first_collision() {
+void InelasticMotion::find_first_collision() {
   const Rational to_wall = closing(CollisionKind::wall, rates);
   const Rational to_blocks = closing(CollisionKind::blocks, rates);
   if (to_wall <= 0 && to_blocks <= 0) return;
@@ -158,7 +158,7 @@ void DampedMotion::find_first_collision() {
   first_time = blocks_first ? Rational(between / to_blocks) : Rational(gaps.first / to_wall);
 }
 
-void DampedMotion::find_sequences() {
+void InelasticMotion::find_sequences() {
   std::array<Rational, 5> speed;
   std::array<Rational, 5> reach;
   Pair velocity = rates;
@@ -177,7 +177,7 @@ void DampedMotion::find_sequences() {
   }
 }
 
-std::optional<Integer> DampedMotion::find_total() const {
+std::optional<Integer> InelasticMotion::find_total() const {
   if (speeds[1].a <= 0) return 1;
   const std::optional<Integer> odd = powers.first_not_positive(speeds[0]);
   const std::optional<Integer> even = powers.first_not_positive(speeds[1]);
@@ -187,39 +187,39 @@ std::optional<Integer> DampedMotion::find_total() const {
   return count;
 }
 
-bool DampedMotion::coincides_from(const Integer& n) const {
+bool InelasticMotion::coincides_from(const Integer& n) const {
   if (areal_velocity == 0) return true;
   if (n == 1) return false;
   return restitution(kind(1)) == 0 || (n > 2 && powers.determinant() == 0);
 }
 
-std::optional<Real> DampedMotion::collapse_time(mpfr_prec_t bits) const {
+std::optional<Real> InelasticMotion::collapse_time(mpfr_prec_t bits) const {
   if (total) return std::nullopt;
   if (areal_velocity == 0) return Real(bits, first_time);
   if (powers.lacks_greater(speeds[0])) return std::nullopt;
   return powers.limit_of_ratio(reaches[0], speeds[0], bits);
 }
 
-bool DampedMotion::is_listed(const Integer& n) const {
+bool InelasticMotion::is_listed(const Integer& n) const {
   if (n == 1) return true;
   constexpr mpfr_prec_t kBits = 300;
   const auto energy = [&](const Real& u1, const Real& u2) {
     return Real(kBits, ratio) * u1 * u1 + u2 * u2;
   };
-  const DampedGaps before = gaps_after(n - 1, kBits);
+  const InelasticGaps before = gaps_after(n - 1, kBits);
   const Real least =
       scaled(energy(Real(kBits, rates.first), Real(kBits, rates.second)), -kEnergyLeft_bits);
   if ((energy(before.u1, before.u2) - least).sign() < 0) return false;
   if (coincides_from(n)) return true;
   const std::optional<Real> end = collapse_time(kBits);
   if (!end) return true;
-  const DampedNumbers now = numbers(n, kBits);
+  const InelasticNumbers now = numbers(n, kBits);
   const Real left = *end - now.reach / now.speed;
   const Real first_left = *end - Real(kBits, first_time);
   return (left - scaled(first_left, -kTimeLeft_bits)).sign() >= 0;
 }
 
-Integer DampedMotion::find_listed() const {
+Integer InelasticMotion::find_listed() const {
   Integer not_listed = doubled_while([this](const Integer& n) { return is_listed(n); });
   Integer last = not_listed / 2;
   while (last + 1 < not_listed) {
@@ -229,13 +229,13 @@ Integer DampedMotion::find_listed() const {
   return last;
 }
 
-RoundSequence DampedMotion::gap_at(std::size_t sequence, const Rational& time) const {
+RoundSequence InelasticMotion::gap_at(std::size_t sequence, const Rational& time) const {
   const RoundSequence& speed = speeds[sequence];
   const RoundSequence& reach = reaches[sequence];
   return {reach.a - speed.a * time, reach.b - speed.b * time};
 }
 
-std::optional<Integer> DampedMotion::odd_until(const Rational& time) const {
+std::optional<Integer> InelasticMotion::odd_until(const Rational& time) const {
   if (areal_velocity == 0) return std::nullopt;
   // The first gap that is open, of those that collisions 1, 3, 5 … close.
   std::optional<Integer> odd = powers.first_positive(gap_at(0, time));
@@ -247,7 +247,7 @@ std::optional<Integer> DampedMotion::odd_until(const Rational& time) const {
   return odd;
 }
 
-Integer DampedMotion::count_at(const Rational& time) const {
+Integer InelasticMotion::count_at(const Rational& time) const {
   if (!collides || time < first_time) return 0;
   const std::optional<Integer> odd = odd_until(time);
   if (!odd) return listed;
@@ -255,8 +255,8 @@ Integer DampedMotion::count_at(const Rational& time) const {
   return gap.sign() > 0 ? Integer(2 * *odd - 1) : Integer(2 * *odd);
 }
 
-std::pair<Integer, DampedGaps> DampedMotion::state_at(const Rational& time,
-                                                      mpfr_prec_t good_bits) const {
+std::pair<Integer, InelasticGaps> InelasticMotion::state_at(const Rational& time,
+                                                            mpfr_prec_t good_bits) const {
   const std::optional<Integer> odd = odd_until(time);
   if (!odd) return {listed, gaps_at(time, listed, good_bits)};
   // As in count_at(), with the numbers of both cases from the same powers.
@@ -267,20 +267,20 @@ std::pair<Integer, DampedGaps> DampedMotion::state_at(const Rational& time,
   const bool after_even = terms[1].sign() <= 0;
   const std::size_t i = after_even ? 1 : 0;
   Integer count = 2 * *odd - (after_even ? 0 : 1);
-  DampedGaps now = folded(count, -terms[i], terms[i + 1], terms[i + 3], terms[i + 4], good_bits);
+  InelasticGaps now = folded(count, -terms[i], terms[i + 1], terms[i + 3], terms[i + 4], good_bits);
   return {std::move(count), std::move(now)};
 }
 
-DampedNumbers DampedMotion::numbers(const Integer& n, mpfr_prec_t good_bits) const {
+InelasticNumbers InelasticMotion::numbers(const Integer& n, mpfr_prec_t good_bits) const {
   const std::size_t i = sequence_of(n);
   const std::vector<Real> terms =
       powers.terms({speeds[i], reaches[i], speeds[i + 1]}, round_of(n), good_bits);
   return {terms[0], terms[1], terms[2]};
 }
 
-DampedGaps DampedMotion::folded(const Integer& n, const Real& opened, const Real& to_close,
-                                const Real& speed, const Real& next_speed,
-                                mpfr_prec_t good_bits) const {
+InelasticGaps InelasticMotion::folded(const Integer& n, const Real& opened, const Real& to_close,
+                                      const Real& speed, const Real& next_speed,
+                                      mpfr_prec_t good_bits) const {
   const CollisionKind met = kind(n);
   const Real share(speed.bits(), restitution(met));
   const Real apart = share * opened;
@@ -290,27 +290,27 @@ DampedGaps DampedMotion::folded(const Integer& n, const Real& opened, const Real
   return {to_close, to_close + apart, -next_speed, u2};
 }
 
-DampedGaps DampedMotion::gaps_at(const Rational& time, const Integer& n,
-                                 mpfr_prec_t good_bits) const {
+InelasticGaps InelasticMotion::gaps_at(const Rational& time, const Integer& n,
+                                       mpfr_prec_t good_bits) const {
   const std::size_t i = sequence_of(n);
   const std::vector<Real> terms = powers.terms(
       {gap_at(i, time), gap_at(i + 1, time), speeds[i], speeds[i + 1]}, round_of(n), good_bits + 8);
   return folded(n, -terms[0], terms[1], terms[2], terms[3], good_bits);
 }
 
-Real DampedMotion::areal_velocity_before(const Integer& n, mpfr_prec_t good_bits) const {
+Real InelasticMotion::areal_velocity_before(const Integer& n, mpfr_prec_t good_bits) const {
   const Rational at_first = abs(areal_velocity) * (sequence_of(n) == 1 ? restitution(kind(1)) : 1);
   return Real(good_bits + 2, at_first) * powers.determinant_power(round_of(n), good_bits + 2);
 }
 
-DampedGaps DampedMotion::gaps_after(const Integer& n, const DampedNumbers& now,
-                                    mpfr_prec_t good_bits) const {
+InelasticGaps InelasticMotion::gaps_after(const Integer& n, const InelasticNumbers& now,
+                                          mpfr_prec_t good_bits) const {
   const Real to_close = areal_velocity_before(n, good_bits + 8) / now.speed;
   return folded(n, Real(good_bits, 0), to_close, now.speed, now.next_speed, good_bits);
 }
 
-Real DampedMotion::sum(const RoundSequence& z, const Integer& first, const Integer& last,
-                       mpfr_prec_t good_bits) const {
+Real InelasticMotion::sum(const RoundSequence& z, const Integer& first, const Integer& last,
+                          mpfr_prec_t good_bits) const {
   if (first == last) return powers.terms({z}, first, good_bits).front();
   // With x_k = (T - 1) z_k - z_{k+1} the sum is (x_{last+1} - x_first)/(1 - T + D).
   const Rational& trace = powers.trace();
@@ -331,15 +331,15 @@ Real DampedMotion::sum(const RoundSequence& z, const Integer& first, const Integ
   throw SimulationError(fmt::format("impulse: {} bits do not give the sum", kMaxDecisionBits));
 }
 
-DampedSums DampedMotion::sums(const Integer& first, const Integer& last,
-                              mpfr_prec_t good_bits) const {
+InelasticSums InelasticMotion::sums(const Integer& first, const Integer& last,
+                                    mpfr_prec_t good_bits) const {
   const std::size_t i = sequence_of(first);
   return {sum(speeds[i], round_of(first), round_of(last), good_bits),
           sum(reaches[i], round_of(first), round_of(last), good_bits)};
 }
 
-Rational DampedMotion::rounded_time(const Integer& n, mpfr_prec_t bits) const {
-  const DampedNumbers now = numbers(n, bits);
+Rational InelasticMotion::rounded_time(const Integer& n, mpfr_prec_t bits) const {
+  const InelasticNumbers now = numbers(n, bits);
   const Real time = now.reach / now.speed;
   const Real flight = now.next_speed.sign() > 0 ? flight_after(n, bits) : time;
   const long grid = flight.exponent() - kTimeGrid_bits;
@@ -348,7 +348,7 @@ Rational DampedMotion::rounded_time(const Integer& n, mpfr_prec_t bits) const {
   return Rational(ceil(up / unit)) * unit;
 }
 
-Rational DampedMotion::time_past(const Integer& n) const {
+Rational InelasticMotion::time_past(const Integer& n) const {
   const bool coincides = coincides_from(n);
   // In the corner that comes after collision 2 at the latest.
   const Integer first = coincides && n > 3 ? Integer(3) : n;

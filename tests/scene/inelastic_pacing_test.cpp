@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/damped_motion.hpp"
+#include "physics/inelastic_motion.hpp"
 #include "scene/pacing_fixture.hpp"
-#include "support/damped_checks.hpp"
-#include "support/damped_run.hpp"
+#include "support/inelastic_checks.hpp"
+#include "support/inelastic_run.hpp"
 #include "support/random_system.hpp"
 
 namespace piblocks {
@@ -22,7 +22,7 @@ struct Densest {
   Rational rate = 0;
 };
 
-Densest densest_of(const std::vector<oracle::DampedEvent>& events) {
+Densest densest_of(const std::vector<oracle::InelasticEvent>& events) {
   Densest found;
   for (std::size_t i = 2; i < events.size(); ++i) {
     const Rational length = events[i].time - events[i - 2].time;
@@ -49,14 +49,14 @@ const std::vector<LossyRun> kCases = {
     {2, "0.999", "0.999"}, {2, "0.9", "0.95"}, {2, "0.85", "0.85"}, {3, "0.999", "0.999"},
     {3, "0.99", "0.99"},   {3, "1", "0.98"},   {3, "0.98", "1"},    {3, "0.985", "0.984"}};
 
-TEST(DampedPacing, FindsTheDensestCollisions) {
+TEST(InelasticPacing, FindsTheDensestCollisions) {
   for (const auto& [digits, blocks, wall] : kCases) {
     SCOPED_TRACE(std::string(blocks) + " " + wall);
     const Scene scene = lossy_scene(digits, blocks, wall);
-    const auto run = oracle::damped_run(scene.system, 2000);
+    const auto run = oracle::inelastic_run(scene.system, 2000);
     ASSERT_TRUE(run.ended);
     const Densest expected = densest_of(run.events);
-    const auto found = DampedMotion(scene.system).densest();
+    const auto found = InelasticMotion(scene.system).densest();
     ASSERT_TRUE(found && found->rate);
     const double rate = to_double(expected.rate);
     EXPECT_NEAR(to_double(*found->rate), rate, 0.05 * rate);
@@ -69,7 +69,7 @@ TEST(DampedPacing, FindsTheDensestCollisions) {
 
 /// Any masses, gaps, velocities and losses. The middle is found to one collision, beside which
 /// others may be denser if there are only a few.
-TEST(DampedPacing, FindsTheDensestCollisionsOfAnySystem) {
+TEST(InelasticPacing, FindsTheDensestCollisionsOfAnySystem) {
   constexpr std::size_t kMost = 120;
   int compared = 0;
   for (int i = 0; i < many(100); ++i) {
@@ -81,10 +81,10 @@ TEST(DampedPacing, FindsTheDensestCollisionsOfAnySystem) {
     };
     system.blocks_restitution = share();
     system.wall_restitution = share();
-    SCOPED_TRACE(describe_damped(system));
-    const auto run = oracle::damped_run(system, kMost);
+    SCOPED_TRACE(describe_inelastic(system));
+    const auto run = oracle::inelastic_run(system, kMost);
     if (!run.ended || run.events.size() < 3) continue;
-    const auto found = DampedMotion(system).densest();
+    const auto found = InelasticMotion(system).densest();
     ASSERT_TRUE(found && found->rate);
     const double expected = to_double(densest_of(run.events).rate);
     EXPECT_LE(to_double(*found->rate), expected * (1 + 1e-12));
@@ -94,11 +94,11 @@ TEST(DampedPacing, FindsTheDensestCollisionsOfAnySystem) {
   EXPECT_GT(compared, 20 * many(1));
 }
 
-TEST(DampedPacing, SlowsDownAsFarAsTheTrueRateAsksFor) {
+TEST(InelasticPacing, SlowsDownAsFarAsTheTrueRateAsksFor) {
   for (const auto& [digits, blocks, wall] : kCases) {
     SCOPED_TRACE(std::string(blocks) + " " + wall);
     const Scene scene = lossy_scene(digits, blocks, wall);
-    const auto run = oracle::damped_run(scene.system, 2000);
+    const auto run = oracle::inelastic_run(scene.system, 2000);
     const Schedule schedule = schedule_of(scene);
     expect_no_gaps(schedule);
     const Densest densest = densest_of(run.events);
@@ -113,10 +113,10 @@ TEST(DampedPacing, SlowsDownAsFarAsTheTrueRateAsksFor) {
 }
 
 /// The limit of no loss: the windows are those of elastic blocks, whose middle is the turn.
-TEST(DampedPacing, WithHardlyAnyLossItIsThatOfElasticBlocks) {
+TEST(InelasticPacing, WithHardlyAnyLossItIsThatOfElasticBlocks) {
   for (const int digits : {2, 3, 9, 15}) {
     const Scene scene = lossy_scene(digits, kHardlyLess, "1");
-    const auto found = DampedMotion(scene.system).densest();
+    const auto found = InelasticMotion(scene.system).densest();
     ASSERT_TRUE(found);
     const Scene elastic = lossy_scene(digits, "1", "1");
     const Rational turn = *turn_of(elastic.system);
@@ -129,7 +129,7 @@ TEST(DampedPacing, WithHardlyAnyLossItIsThatOfElasticBlocks) {
   }
 }
 
-TEST(DampedPacing, TheEndOfInfinitelyManyIsAsSlowAsCanBe) {
+TEST(InelasticPacing, TheEndOfInfinitelyManyIsAsSlowAsCanBe) {
   const Scene scene = lossy_scene(2, "0.5", "0.5");
   const auto collapse = collapse_of(scene.system);
   ASSERT_TRUE(collapse && collapse->time);
@@ -141,10 +141,10 @@ TEST(DampedPacing, TheEndOfInfinitelyManyIsAsSlowAsCanBe) {
   EXPECT_GT(std::next(slowest)->time, to_rational(*collapse->time));
 }
 
-TEST(DampedPacing, NothingIsDenseWhereNothingHappensTwice) {
+TEST(InelasticPacing, NothingIsDenseWhereNothingHappensTwice) {
   Scene scene = lossy_scene(1, "0.5", "0.5");
   scene.system.red.velocity = 1;
-  EXPECT_FALSE(DampedMotion(scene.system).densest());
+  EXPECT_FALSE(InelasticMotion(scene.system).densest());
   scene.time.to = Rational(3);
   EXPECT_EQ(schedule_of(scene).stretches().size(), 1U);
 }

@@ -12,12 +12,12 @@
 #include <string>
 
 #include "physics/impact.hpp"
-#include "support/damped_run.hpp"
+#include "support/inelastic_run.hpp"
 #include "support/property.hpp"
 
 namespace piblocks {
 
-inline std::string describe_damped(const BlockSystem& s) {
+inline std::string describe_inelastic(const BlockSystem& s) {
   std::string text;
   for (const Rational& value :
        {s.wall_face, s.blue.mass, s.blue.position, s.blue.velocity, s.blue.width, s.red.mass,
@@ -67,7 +67,7 @@ inline Rational random_mass_ratio(Random& random) {
   }
 }
 
-inline BlockSystem random_damped_system(Random& random) {
+inline BlockSystem random_inelastic_system(Random& random) {
   BlockSystem system;
   const Rational ratio = random_mass_ratio(random);
   system.blue.mass = random.rational(1, 5, 3);
@@ -101,7 +101,7 @@ inline void expect_rounded(double given, const Rational& exact, const char* what
 }
 
 inline void expect_state(const CollisionLog& log, const Rational& time,
-                         const oracle::DampedRun& run) {
+                         const oracle::InelasticRun& run) {
   SCOPED_TRACE("t = " + time.get_str().substr(0, 80));
   const std::size_t count = run.count_at(time);
   const BlockSystem& system = log.system();
@@ -126,9 +126,9 @@ inline void expect_state(const CollisionLog& log, const Rational& time,
   EXPECT_LE(abs(Rational(state.red.position) - red.position), Rational(bounds->red));
 }
 
-inline void expect_collision(const CollisionLog& log, const oracle::DampedRun& run,
+inline void expect_collision(const CollisionLog& log, const oracle::InelasticRun& run,
                              std::size_t place) {
-  const oracle::DampedEvent& event = run.events[place];
+  const oracle::InelasticEvent& event = run.events[place];
   const Integer index = place + 1;
   SCOPED_TRACE("collision " + index.get_str());
   const Collision collision = log.collision(index);
@@ -159,7 +159,7 @@ inline void expect_collision(const CollisionLog& log, const oracle::DampedRun& r
 }
 
 /// Impulses of all listed collisions of `run`, of both kinds, against their exact sums.
-inline void expect_impulses(const CollisionLog& log, const oracle::DampedRun& run) {
+inline void expect_impulses(const CollisionLog& log, const oracle::InelasticRun& run) {
   const BlockSystem& s = log.system();
   const Rational& m = s.blue.mass;
   const Rational unit = 2 * m * s.red.mass / (m + s.red.mass);
@@ -168,7 +168,7 @@ inline void expect_impulses(const CollisionLog& log, const oracle::DampedRun& ru
   for (const CollisionKind kind : {CollisionKind::wall, CollisionKind::blocks}) {
     Rational sum = 0;
     Rational moment = 0;
-    for (const oracle::DampedEvent& event : run.events) {
+    for (const oracle::InelasticEvent& event : run.events) {
       if (event.kind != kind) continue;
       sum += event.impulse;
       moment += event.impulse * event.time;
@@ -189,7 +189,7 @@ inline Rational extrapolated(const Rational& a, const Rational& b, const Rationa
 }
 
 /// Times of collisions since they follow each other in even proportions.
-inline void expect_collapse(const BlockSystem& system, const oracle::DampedRun& run) {
+inline void expect_collapse(const BlockSystem& system, const oracle::InelasticRun& run) {
   const auto collapse = collapse_of(system);
   ASSERT_TRUE(collapse);
   EXPECT_GT(collapse->listed, 0);
@@ -211,8 +211,8 @@ inline void expect_collapse(const BlockSystem& system, const oracle::DampedRun& 
 
 /// Everything about a system whose first collisions, up to `max_events`, can be stepped through.
 inline void expect_like_steps(const BlockSystem& system, Random& random, std::size_t max_events) {
-  SCOPED_TRACE(describe_damped(system));
-  oracle::DampedRun run = oracle::damped_run(system, max_events);
+  SCOPED_TRACE(describe_inelastic(system));
+  oracle::InelasticRun run = oracle::inelastic_run(system, max_events);
   const auto log = make_collision_log(system);
   EXPECT_EQ(log->first_index(), 1);
   const auto collapse = collapse_of(system);

@@ -11,7 +11,7 @@
 
 namespace piblocks::oracle {
 
-struct DampedEvent {
+struct InelasticEvent {
   CollisionKind kind = CollisionKind::blocks;
   Rational time;
   Rational impulse;
@@ -19,24 +19,24 @@ struct DampedEvent {
   Block red;
 };
 
-struct DampedRun {
-  std::vector<DampedEvent> events;
+struct InelasticRun {
+  std::vector<InelasticEvent> events;
   bool ended = false;  ///< whether there are no more
 
   /// Events until then, those at it included.
   std::size_t count_at(const Rational& time) const {
     return std::size_t(std::ranges::count_if(
-        events, [&](const DampedEvent& event) { return event.time <= time; }));
+        events, [&](const InelasticEvent& event) { return event.time <= time; }));
   }
 };
 
 /// Approaching bodies that touch collide at once; of two such pairs the blocks are first.
-inline DampedRun damped_run(const BlockSystem& system, std::size_t max_events) {
+inline InelasticRun inelastic_run(const BlockSystem& system, std::size_t max_events) {
   const Rational at_wall = system.wall_face + system.blue.width / 2;
   const Rational contact = (system.blue.width + system.red.width) / 2;
   Block blue = system.blue;
   Block red = system.red;
-  DampedRun run;
+  InelasticRun run;
   Rational now = 0;
   while (run.events.size() < max_events) {
     std::optional<Rational> wait;

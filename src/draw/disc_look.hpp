@@ -1,5 +1,5 @@
-// How a disk that moves looks in a pixel, by the distance of the pixel from its centre.
-// In: an exposed disk. Out: rings, and what they make of a background.
+// How a disc that moves looks in a pixel, by the distance of the pixel from its centre.
+// In: an exposed disc. Out: rings, and what they make of a background.
 #pragma once
 
 #include <algorithm>
@@ -32,29 +32,29 @@ inline Rgb light_of(const Rgb& samples, const Light& light) {
   return {light.of(samples[0]), light.of(samples[1]), light.of(samples[2])};
 }
 
-/// How much of a pixel a disk covers.
-struct DiskCover {
+/// How much of a pixel a disc covers.
+struct DiscCover {
   double fill = 0;
   double rim = 0;
 };
 
-/// A circle: what is nearer to the disk's centre looks like this, up to the next smaller circle.
+/// A circle: what is nearer to the disc's centre looks like this, up to the next smaller circle.
 struct Ring {
   double radius = 0;
-  DiskCover cover;
+  DiscCover cover;
 };
 
-/// How a disk looks, and what light it leaves of the background that was asked for last.
-class DiskLook {
+/// How a disc looks, and what light it leaves of the background that was asked for last.
+class DiscLook {
  public:
-  DiskLook(const ExposedDisk& disk, std::size_t place)
+  DiscLook(const ExposedDisc& disc, std::size_t place)
       : place_(place),
-        fill_(samples_of(disk.fill)),
-        rim_(samples_of(disk.rim)),
-        // A disk thinner than a pixel is as wide as one, and fainter.
-        opacity_(std::min(1.0, disk.radius * disk.radius / (kLeast_px * kLeast_px))),
-        outer_(radius_of_edge(std::max(disk.radius, kLeast_px))),
-        inner_(disk.rim_px > 0 ? radius_of_edge(std::max(disk.radius, kLeast_px) - disk.rim_px)
+        fill_(samples_of(disc.fill)),
+        rim_(samples_of(disc.rim)),
+        // A disc thinner than a pixel is as wide as one, and fainter.
+        opacity_(std::min(1.0, disc.radius * disc.radius / (kLeast_px * kLeast_px))),
+        outer_(radius_of_edge(std::max(disc.radius, kLeast_px))),
+        inner_(disc.rim_px > 0 ? radius_of_edge(std::max(disc.radius, kLeast_px) - disc.rim_px)
                                : outer_) {
     if (inner_ < outer_) add_rings(outer_);
     add_rings(inner_);
@@ -65,12 +65,12 @@ class DiskLook {
   std::span<const Ring> rings() const { return {rings_.data(), ring_count_}; }
 
   /// What it covers of a pixel so far from its centre: its edges fade evenly.
-  DiskCover cover_at(double distance) const {
+  DiscCover cover_at(double distance) const {
     const double outer = inside(outer_, distance);
     const double inner = inside(inner_, distance);
     return {opacity_ * inner, opacity_ * (outer - inner)};
   }
-  Rgb over(const Rgb& behind, const DiskCover& cover) const {
+  Rgb over(const Rgb& behind, const DiscCover& cover) const {
     Rgb samples = behind;
     for (std::size_t i = 0; i < 3; ++i) {
       samples[i] += cover.fill * (fill_[i] - behind[i]) + cover.rim * (rim_[i] - behind[i]);

@@ -1,4 +1,4 @@
-#include "physics/damped_log.hpp"
+#include "physics/inelastic_log.hpp"
 
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
@@ -28,7 +28,7 @@ double position(const Real& gap, const Rational& offset) {
 
 }  // namespace
 
-DampedLog::DampedLog(const BlockSystem& system)
+InelasticLog::InelasticLog(const BlockSystem& system)
     : PreciseLog(system),
       motion_(system),
       // Beside the velocity of blue that of red is as small as their mass ratio.
@@ -38,14 +38,14 @@ DampedLog::DampedLog(const BlockSystem& system)
   set_range(1, motion_.listed);
 }
 
-Motion DampedLog::blue(const Real& gap, const Real& rate) const {
+Motion InelasticLog::blue(const Real& gap, const Real& rate) const {
   return {position(gap, blue_offset_), rate.to_double()};
 }
-Motion DampedLog::red(const Real& gap, const Real& rate) const {
+Motion InelasticLog::red(const Real& gap, const Real& rate) const {
   return {position(gap, red_offset_), rate.to_double()};
 }
 
-std::pair<Integer, DampedGaps> DampedLog::moved(const Rational& time) const {
+std::pair<Integer, InelasticGaps> InelasticLog::moved(const Rational& time) const {
   if (motion_.collides && time >= motion_.first_time) {
     auto state = motion_.state_at(time, velocity_bits_);
     if (motion_.is_end(state.first)) state.second = at_rest();
@@ -57,23 +57,23 @@ std::pair<Integer, DampedGaps> DampedLog::moved(const Rational& time) const {
   return {0, {real(y1 + u1 * time), real(y2 + u2 * time), real(u1), real(u2)}};
 }
 
-DampedGaps DampedLog::at_rest() const {
+InelasticGaps InelasticLog::at_rest() const {
   const Real zero(velocity_bits_, 0);
   return {zero, zero, zero, zero};
 }
 
-BlockState DampedLog::state_at(const Rational& time) const {
+BlockState InelasticLog::state_at(const Rational& time) const {
   const auto [count, now] = moved(time);
   BlockState state{count, blue(now.y1, now.u1), red(now.y2, now.u2)};
   require_finite(to_time(time), state.blue, state.red, kName);
   return state;
 }
 
-Collision DampedLog::collision(const Integer& index) const {
-  const DampedNumbers now = motion_.numbers(index, velocity_bits_ + 8);
+Collision InelasticLog::collision(const Integer& index) const {
+  const InelasticNumbers now = motion_.numbers(index, velocity_bits_ + 8);
   Collision collision{
       index, (now.reach / now.speed).to_double_double(), motion_.kind(index), {}, {}};
-  const DampedGaps after =
+  const InelasticGaps after =
       motion_.is_end(index) ? at_rest() : motion_.gaps_after(index, now, velocity_bits_);
   collision.blue = blue(after.y1, after.u1);
   collision.red = red(after.y2, after.u2);
@@ -81,12 +81,12 @@ Collision DampedLog::collision(const Integer& index) const {
   return collision;
 }
 
-Rational DampedLog::time_after(const Integer& index) const {
+Rational InelasticLog::time_after(const Integer& index) const {
   if (motion_.coincides_from(index)) require_last(index, size());
   return motion_.time_past(index);
 }
 
-Integer DampedLog::first_since(const Rational& time) const {
+Integer InelasticLog::first_since(const Rational& time) const {
   const Integer last = motion_.count_at(time);
   if (last < 1) return 1;
   // In the corner, in which all collisions from the third at the latest happen, times are exact.
@@ -98,12 +98,12 @@ Integer DampedLog::first_since(const Rational& time) const {
   return is_then ? last : Integer(last + 1);
 }
 
-std::optional<Impact> DampedLog::impact(CollisionKind kind, const Integer& first,
-                                        const Integer& last) const {
+std::optional<Impact> InelasticLog::impact(CollisionKind kind, const Integer& first,
+                                           const Integer& last) const {
   Integer from = motion_.kind(first) == kind ? first : Integer(first + 1);
   const Integer to = motion_.kind(last) == kind ? last : Integer(last - 1);
   if (from > to) return std::nullopt;
-  const DampedSums sums = motion_.sums(from, to, kTime_bits);
+  const InelasticSums sums = motion_.sums(from, to, kTime_bits);
   // In the unit of Impact, with the energy at time 0.
   const Rational speed_squared = motion_.ratio * motion_.rates.first * motion_.rates.first +
                                  motion_.rates.second * motion_.rates.second;
@@ -116,7 +116,7 @@ std::optional<Impact> DampedLog::impact(CollisionKind kind, const Integer& first
                 collision(middle).blue.position};
 }
 
-PositionBounds DampedLog::bounds_at(const Rational& time) const {
+PositionBounds InelasticLog::bounds_at(const Rational& time) const {
   // Rounded once, from numbers of kPosition_bits and more.
   constexpr double kUnitRoundoff = 0x1p-53 * (1 + 0x1p-40);
   const auto bound = [](const Motion& block, const Rational& offset) {
@@ -126,14 +126,14 @@ PositionBounds DampedLog::bounds_at(const Rational& time) const {
   return {bound(now.blue, blue_offset_), bound(now.red, red_offset_)};
 }
 
-Gaps DampedLog::gaps_at(const Rational& time) const {
-  const DampedGaps now = moved(time).second;
+Gaps InelasticLog::gaps_at(const Rational& time) const {
+  const InelasticGaps now = moved(time).second;
   return {now.y1.to_double(), now.y2.to_double()};
 }
 
-Gaps DampedLog::gaps_at_collision(const Integer& index) const {
+Gaps InelasticLog::gaps_at_collision(const Integer& index) const {
   if (motion_.is_end(index)) return {};
-  const DampedGaps now = motion_.gaps_after(index, kTime_bits);
+  const InelasticGaps now = motion_.gaps_after(index, kTime_bits);
   return {now.y1.to_double(), now.y2.to_double()};
 }
 

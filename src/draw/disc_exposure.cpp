@@ -1,4 +1,4 @@
-#include "draw/disk_exposure.hpp"
+#include "draw/disc_exposure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace piblocks {
 
-std::optional<DiskExposure::Moments> DiskExposure::Pass::within(const Point& place,
+std::optional<DiscExposure::Moments> DiscExposure::Pass::within(const Point& place,
                                                                 double distance) const {
   const Point at{place.x - from.x, place.y - from.y};
   const double length2 = step.x * step.x + step.y * step.y;
@@ -28,19 +28,19 @@ std::optional<DiskExposure::Moments> DiskExposure::Pass::within(const Point& pla
   return Moments{begin + enters * share, begin + leaves * share};
 }
 
-bool DiskExposure::Pass::is_all_within(const Point& place, double distance) const {
+bool DiscExposure::Pass::is_all_within(const Point& place, double distance) const {
   const Point at{place.x - from.x, place.y - from.y};
   const Point end{at.x - step.x, at.y - step.y};
   return std::max(at.x * at.x + at.y * at.y, end.x * end.x + end.y * end.y) < distance * distance;
 }
 
-double DiskExposure::Pass::distance_to(const Point& place, int part) const {
+double DiscExposure::Pass::distance_to(const Point& place, int part) const {
   const double at = (part + 0.5) / places;
   const Point to{place.x - from.x - at * step.x, place.y - from.y - at * step.y};
   return std::sqrt(to.x * to.x + to.y * to.y);
 }
 
-Extent DiskExposure::Pass::beside(double y, double distance) const {
+Extent DiscExposure::Pass::beside(double y, double distance) const {
   double enters = 0;
   double leaves = 1;
   if (step.y != 0) {
@@ -54,11 +54,11 @@ Extent DiskExposure::Pass::beside(double y, double distance) const {
   return {std::min(one, other) - distance, y, std::max(one, other) + distance, y};
 }
 
-void DiskExposure::begin(const ExposedDisksItem& item, const PixelRect& area) {
+void DiscExposure::begin(const ExposedDiscsItem& item, const PixelRect& area) {
   area_ = area;
   looks_.clear();
   passes_.clear();
-  for (std::size_t i = 0; i < item.disks.size(); ++i) add(item.disks[i], i);
+  for (std::size_t i = 0; i < item.discs.size(); ++i) add(item.discs[i], i);
   starts_.resize(passes_.size());
   std::iota(starts_.begin(), starts_.end(), 0U);
   std::ranges::stable_sort(starts_, {}, [&](std::uint32_t i) { return passes_[i].pixels.y_px; });
@@ -66,7 +66,7 @@ void DiskExposure::begin(const ExposedDisksItem& item, const PixelRect& area) {
   active_.clear();
 }
 
-void DiskExposure::paint_row(int y, std::uint32_t* pixels, const Light& light) {
+void DiscExposure::paint_row(int y, std::uint32_t* pixels, const Light& light) {
   light_ = &light;
   std::erase_if(active_, [&](std::uint32_t i) {
     return y >= passes_[i].pixels.y_px + passes_[i].pixels.height_px;
@@ -82,7 +82,7 @@ void DiskExposure::paint_row(int y, std::uint32_t* pixels, const Light& light) {
   }
 }
 
-void DiskExposure::paint_columns(const PixelRect& columns, std::uint32_t* pixels) {
+void DiscExposure::paint_columns(const PixelRect& columns, std::uint32_t* pixels) {
   visits_.clear();
   first_.fill(kNone);
   for (const std::uint32_t pass : active_) visit(pass, columns);
@@ -95,36 +95,36 @@ void DiskExposure::paint_columns(const PixelRect& columns, std::uint32_t* pixels
   }
 }
 
-void DiskExposure::add(const ExposedDisk& disk, std::size_t place) {
-  // Steps of an edge are seen in a disk that hardly moves. Places on a short way have none.
+void DiscExposure::add(const ExposedDisc& disc, std::size_t place) {
+  // Steps of an edge are seen in a disc that hardly moves. Places on a short path have none.
   constexpr double kShort_px = 1;
   constexpr double kPlacesPerPixel = 8;
-  const Extent extent = extent_of(disk);
+  const Extent extent = extent_of(disc);
   if (extent.left >= area_.x_px + area_.width_px || extent.right <= area_.x_px ||
       extent.top >= area_.y_px + area_.height_px || extent.bottom <= area_.y_px) {
     return;
   }
   const auto look = static_cast<std::uint32_t>(looks_.size());
-  looks_.emplace_back(disk, place);
+  looks_.emplace_back(disc, place);
   const double reach = looks_.back().rings().front().radius + kSoftEdge_px;
   double begin = 0;
-  for (const DiskWay& way : disk.ways) {
-    const Point step{way.to.x - way.from.x, way.to.y - way.from.y};
-    const auto [left, right] = std::minmax(way.from.x, way.to.x);
-    const auto [top, bottom] = std::minmax(way.from.y, way.to.y);
+  for (const DiscPath& path : disc.paths) {
+    const Point step{path.to.x - path.from.x, path.to.y - path.from.y};
+    const auto [left, right] = std::minmax(path.from.x, path.to.x);
+    const auto [top, bottom] = std::minmax(path.from.y, path.to.y);
     const PixelRect pixels = pixels_of(Extent{left, top, right, bottom}.grown(reach), area_);
-    if (pixels.width_px > 0 && pixels.height_px > 0 && way.share > 0) {
+    if (pixels.width_px > 0 && pixels.height_px > 0 && path.share > 0) {
       const double way_px = std::sqrt(step.x * step.x + step.y * step.y);
       const bool is_short = way_px <= kShort_px;
       const int places =
           is_short ? std::max(1, static_cast<int>(std::ceil(kPlacesPerPixel * way_px))) : 0;
-      passes_.push_back({look, way.from, step, begin, way.share, places, pixels});
+      passes_.push_back({look, path.from, step, begin, path.share, places, pixels});
     }
-    begin += way.share;
+    begin += path.share;
   }
 }
 
-void DiskExposure::visit(std::uint32_t number, const PixelRect& columns) {
+void DiscExposure::visit(std::uint32_t number, const PixelRect& columns) {
   const Pass& pass = passes_[number];
   if (pass.pixels.x_px >= columns.x_px + columns.width_px ||
       pass.pixels.x_px + pass.pixels.width_px <= columns.x_px) {
@@ -132,7 +132,7 @@ void DiskExposure::visit(std::uint32_t number, const PixelRect& columns) {
   }
   const int y = columns.y_px;
   const std::span<const Ring> rings = looks_[pass.look].rings();
-  // A short way is looked at without steps: its edge reaches half a step farther, on both sides.
+  // A short path is looked at without steps: its edge reaches half a step farther, on both sides.
   const double step = pass.places > 0 ? kSoftEdge_px / kEdgeSteps : 0;
   const double outside = rings.front().radius + step;
   const double inside = rings.back().radius - step;
@@ -157,13 +157,13 @@ void DiskExposure::visit(std::uint32_t number, const PixelRect& columns) {
   }
 }
 
-std::uint32_t DiskExposure::mean_of(std::uint32_t first, const Point& at, std::uint32_t pixel) {
+std::uint32_t DiscExposure::mean_of(std::uint32_t first, const Point& at, std::uint32_t pixel) {
   const std::uint32_t background = pixel & 0xFFFFFFU;
   const Rgb samples = samples_of(background);
   sum_ = plain_ = light_of(samples, *light_);
   together_.clear();
   for (std::uint32_t i = first; i != kNone; i = visits_[i].next) together_.push_back(visits_[i]);
-  // By time, and by disk where the time is the same: whatever the area is.
+  // By time, and by disc where the time is the same: whatever the area is.
   std::ranges::sort(together_, [&](const Visit& a, const Visit& b) {
     if (a.moments.begin != b.moments.begin) return a.moments.begin < b.moments.begin;
     return a.pass < b.pass;
@@ -186,18 +186,18 @@ std::uint32_t DiskExposure::mean_of(std::uint32_t first, const Point& at, std::u
          std::uint32_t{light_->sample(sum_[1])} << 8 | light_->sample(sum_[2]);
 }
 
-void DiskExposure::add_light(double share, const Rgb& light) {
+void DiscExposure::add_light(double share, const Rgb& light) {
   for (std::size_t i = 0; i < 3; ++i) sum_[i] += share * (light[i] - plain_[i]);
 }
 
-void DiskExposure::add_alone(const Visit& visit, const Point& at, std::uint32_t background) {
+void DiscExposure::add_alone(const Visit& visit, const Point& at, std::uint32_t background) {
   const Pass& pass = passes_[visit.pass];
-  DiskLook& look = looks_[pass.look];
+  DiscLook& look = looks_[pass.look];
   const std::span<const Ring> rings = look.rings();
   const std::span<const Rgb> lights = look.lights(background, *light_);
   if (visit.is_inside) return add_light(pass.share, lights.back());
   for (int part = 0; part < pass.places; ++part) {
-    const DiskCover cover = look.cover_at(pass.distance_to(at, part));
+    const DiscCover cover = look.cover_at(pass.distance_to(at, part));
     add_light(pass.share / pass.places,
               light_of(look.over(samples_of(background), cover), *light_));
   }
@@ -212,15 +212,15 @@ void DiskExposure::add_alone(const Visit& visit, const Point& at, std::uint32_t 
   }
 }
 
-void DiskExposure::add_crossings(std::uint32_t number, const Visit& visit, const Point& at) {
+void DiscExposure::add_crossings(std::uint32_t number, const Visit& visit, const Point& at) {
   const Pass& pass = passes_[visit.pass];
-  const DiskLook& look = looks_[pass.look];
+  const DiscLook& look = looks_[pass.look];
   const std::span<const Ring> rings = look.rings();
   if (visit.is_inside || pass.places > 0) {
     const double length = visit.moments.end - visit.moments.begin;
     const int parts = visit.is_inside ? 1 : pass.places;
     for (int part = 0; part < parts; ++part) {
-      const DiskCover cover =
+      const DiscCover cover =
           visit.is_inside ? rings.back().cover : look.cover_at(pass.distance_to(at, part));
       const double time = visit.moments.begin + length * part / parts;
       crossings_.push_back({time, number, false, part, cover});
@@ -228,7 +228,7 @@ void DiskExposure::add_crossings(std::uint32_t number, const Visit& visit, const
     crossings_.push_back({visit.moments.end, number, true, -1, {}});
     return;
   }
-  DiskCover outside;
+  DiscCover outside;
   for (std::int32_t ring = 0; ring < static_cast<std::int32_t>(rings.size()); ++ring) {
     const auto& [radius, cover] = rings[static_cast<std::size_t>(ring)];
     const std::optional<Moments> within = pass.within(at, radius);
@@ -239,13 +239,13 @@ void DiskExposure::add_crossings(std::uint32_t number, const Visit& visit, const
   }
 }
 
-void DiskExposure::add_together(std::span<const Visit> visits, const Point& at,
+void DiscExposure::add_together(std::span<const Visit> visits, const Point& at,
                                 const Rgb& background) {
   crossings_.clear();
   for (std::size_t i = 0; i < visits.size(); ++i) {
     add_crossings(static_cast<std::uint32_t>(i), visits[i], at);
   }
-  // At one time a disk first enters from ring to ring, then leaves the other way.
+  // At one time a disc first enters from ring to ring, then leaves the other way.
   std::ranges::sort(crossings_, [](const Crossing& a, const Crossing& b) {
     if (a.time != b.time) return a.time < b.time;
     if (a.visit != b.visit) return a.visit < b.visit;
@@ -261,7 +261,7 @@ void DiskExposure::add_together(std::span<const Visit> visits, const Point& at,
   }
 }
 
-void DiskExposure::move(std::span<const Visit> visits, const Crossing& crossing) {
+void DiscExposure::move(std::span<const Visit> visits, const Crossing& crossing) {
   const auto place = [&](const Crossing& of) {
     return looks_[passes_[visits[of.visit].pass].look].place();
   };
@@ -277,10 +277,10 @@ void DiskExposure::move(std::span<const Visit> visits, const Crossing& crossing)
   }
 }
 
-void DiskExposure::add_present(double share, std::span<const Visit> visits, const Rgb& background) {
+void DiscExposure::add_present(double share, std::span<const Visit> visits, const Rgb& background) {
   Rgb samples = background;
   for (const Crossing& present : present_) {
-    const DiskLook& look = looks_[passes_[visits[present.visit].pass].look];
+    const DiscLook& look = looks_[passes_[visits[present.visit].pass].look];
     samples = look.over(samples, present.cover);
   }
   add_light(share, light_of(samples, *light_));
