@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "draw/number_text.hpp"
+
 namespace piblocks {
 namespace {
 
-/// Above a capital letter's half height, in ems.
-constexpr double kHalfFigure_em = 0.36;
 /// Length of the arrow of the usual speed, and of an arrow's head, in fractions of the frame's
 /// shorter side.
 constexpr double kArrow = 0.08;

@@ -17,19 +17,16 @@
 #include "draw/look.hpp"
 #include "draw/number_text.hpp"
 #include "draw/overlays/overlays.hpp"
+#include "draw/overlays/stage_parts.hpp"
 #include "draw/text_lines.hpp"
 
 namespace piblocks {
 namespace {
 
-// In fractions of the frame's shorter side.
-constexpr double kLeastHeight = 0.05;
+/// In fractions of the frame's shorter side.
 constexpr double kTallest = 0.5;
-/// A block is higher by this for every factor of ten in mass, in heights of the lightest.
-constexpr double kHeightByMass = 0.25;
 /// Part of a body's width or diameter that its label may take.
 constexpr double kLabelRoom = 0.86;
-constexpr double kMostStep_px = 0.25;
 /// More bodies have no labels, masses or arrows, nor are more drawn at all.
 constexpr std::size_t kMostMarked = 10'000;
 constexpr std::size_t kMostDrawn = 50'000;

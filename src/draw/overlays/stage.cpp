@@ -16,12 +16,6 @@
 namespace piblocks {
 namespace {
 
-/// Greatest distance of neighbouring doubles on the axis.
-constexpr double kMostStep_px = 0.25;
-/// The heavier block is higher by this for every factor of ten in mass, in heights of the other.
-constexpr double kHeightByMass = 0.25;
-/// In fractions of the frame's shorter side.
-constexpr double kLeastHeight = 0.05;
 /// Above the ids of a block's bars.
 constexpr std::size_t kCover = 1000;
 constexpr double kWallAbove = 0.03;  ///< of the taller block

@@ -8,6 +8,13 @@
 
 namespace piblocks {
 
+/// Greatest distance of neighbouring doubles on the axis.
+inline constexpr double kMostStep_px = 0.25;
+/// A block is higher by this for every factor of ten in mass, in heights of the lightest.
+inline constexpr double kHeightByMass = 0.25;
+/// Of the stage, in fractions of the frame's shorter side.
+inline constexpr double kLeastHeight = 0.05;
+
 /// Whether the view has the wall's face in it.
 bool shows_wall(const Scene& scene);
 
