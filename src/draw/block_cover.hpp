@@ -94,11 +94,11 @@ class BlockCover {
       if (still.outer > 0) shares_.push_back({still, 1});
     } else if (block_.dwells.empty()) {
       for (const BlockPath& path : block_.paths) {
-        each_part(column, [&](Part part) { add_path(column, path, part); });
+        each_part(column, [&](const Part& part) { add_path(column, path, part); });
       }
     } else if (block_.dwells.back().x >= column - block_.bounds.width &&
                block_.dwells.front().x < column + 1) {
-      each_part(column, [&](Part part) { add_dwells(column, part); });
+      each_part(column, [&](const Part& part) { add_dwells(column, part); });
     }
     return shares_;
   }

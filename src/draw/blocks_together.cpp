@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace piblocks {
 
@@ -83,8 +84,7 @@ void BlocksTogether::sort_changes() {
     changes_.push_back({stays_[i].end, stay, true});
   }
   std::ranges::sort(changes_, [](const Change& a, const Change& b) {
-    if (a.time != b.time) return a.time < b.time;
-    return a.stay != b.stay ? a.stay < b.stay : a.is_end < b.is_end;
+    return std::tie(a.time, a.stay, a.is_end) < std::tie(b.time, b.stay, b.is_end);
   });
 }
 
