@@ -18,6 +18,12 @@ using Rational = mpq_class;  ///< a mass, length, velocity or time, in lowest te
 /// Longest numerator or denominator that parse_rational() accepts, in bits.
 inline constexpr std::int64_t kMaxRationalBits = 4'000'000;
 
+/// GMP takes a long, which is another type than std::int64_t on some systems.
+inline Integer to_integer(std::int64_t value) {
+  static_assert(sizeof(long) == sizeof value);
+  return {static_cast<long>(value)};
+}
+
 /// Reads VALUE, VALUE/VALUE or VALUE^EXPONENT where VALUE is a decimal number with optional sign,
 /// fraction and power of ten, and EXPONENT an integer; the two forms combine: "100^7/3". A power
 /// binds more closely than a sign: "-2^2" is -4.

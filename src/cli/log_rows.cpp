@@ -133,7 +133,8 @@ Rows select_rows(const OptionTexts& options, const BodyLog& log) {
 
 std::string npy_header(std::string_view row_type, const Rows& rows) {
   for (const Integer& index : {rows.first, rows.last}) {
-    if (rows.count() == 0 || abs(index) <= std::numeric_limits<std::int64_t>::max()) continue;
+    if (rows.count() == 0 || abs(index) <= to_integer(std::numeric_limits<std::int64_t>::max()))
+      continue;
     throw UsageError(fmt::format("--format npy: index {} does not fit in 64 bits; use csv or jsonl",
                                  readable(index)));
   }

@@ -199,7 +199,7 @@ class StoredBodyLog final : public BodyLog {
     if (steps_.size() == static_cast<std::size_t>(kMaxBodyCollisions)) {
       throw SimulationError(fmt::format(
           "bodies: more than {} collisions until time {:.6g}; show less time, or fewer bodies",
-          readable(kMaxBodyCollisions), step->time.hi));
+          readable(to_integer(kMaxBodyCollisions)), step->time.hi));
     }
     const auto number = static_cast<std::uint32_t>(steps_.size());
     if (step->exact_time) exact_times_.push_back(*step->exact_time);

@@ -206,11 +206,11 @@ std::unique_ptr<CollisionLog> make_stored_log(const BlockSystem& system, Engine 
   }
   const Integer count =
       std::max(ExactMotion(system).total(), ExactMotion(reversed(system)).total());
-  if (count > kMaxStoredCollisions) {
+  if (count > to_integer(kMaxStoredCollisions)) {
     throw UsageError(fmt::format(
         "{} loop: {} collisions are more than the limit of {}; use the closed form (--engine "
         "unfolded)",
-        name, readable(count), readable(kMaxStoredCollisions)));
+        name, readable(count), readable(to_integer(kMaxStoredCollisions))));
   }
   const auto simulate = engine == Engine::events ? event_loop : velocity_loop;
   return std::make_unique<StoredLog>(system, simulate(system), simulate(reversed(system)));

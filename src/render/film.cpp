@@ -51,8 +51,9 @@ struct FadeRamps {
 /// it, where only the new one is. Half-way both are silent.
 FadeRamps ramps_of(const PlacedSegment& segment, const Rational& frame_rate) {
   if (segment.fade_frames == 0) return {};
-  const Rational begin_s = Rational(segment.first_frame - 1) / frame_rate;
-  const Rational end_s = Rational(segment.first_frame + segment.fade_frames) / frame_rate;
+  const Rational begin_s = Rational(to_integer(segment.first_frame - 1)) / frame_rate;
+  const Rational end_s =
+      Rational(to_integer(segment.first_frame + segment.fade_frames)) / frame_rate;
   const Rational middle_s = (begin_s + end_s) / 2;
   return {Ramp{begin_s, middle_s}, Ramp{middle_s, end_s}};
 }
@@ -70,8 +71,8 @@ std::vector<Voice> voices_of(const Film& film) {
           Voice{.scene = run.scene(),
                 .log = run.timeline(),
                 .stretches = {stretches.begin(), stretches.end()},
-                .begin_s = Rational(placed.first_frame) / rate,
-                .end_s = Rational(placed.first_frame + segment.frame_count()) / rate});
+                .begin_s = Rational(to_integer(placed.first_frame)) / rate,
+                .end_s = Rational(to_integer(placed.first_frame + segment.frame_count())) / rate});
       voice.rise = ramps_of(placed, rate).rise;
       if (i + 1 < film.segments().size()) voice.fall = ramps_of(film.segments()[i + 1], rate).fall;
       const PixelRect cell = segment.cell(k);
@@ -134,7 +135,7 @@ DrawList FilmRun::picture_of_bodies(FrameTime shown) const {
 }
 
 DrawList FilmRun::frame(const Schedule& schedule, std::int64_t number) const {
-  const VideoTime video_time{schedule, Rational(number) / scene_.view.frame_rate};
+  const VideoTime video_time{schedule, Rational(to_integer(number)) / scene_.view.frame_rate};
   return picture(schedule.at(video_time.video_s, open_s(scene_.view)), &video_time);
 }
 
@@ -167,9 +168,9 @@ FilmSegment::FilmSegment(const Scenes& scenes, Split split, const View& film, Fi
 FilmSegment::FilmSegment(const Card& card, const View& film, FilmUse use) {
   if (use == FilmUse::pictures) card_ = compose_card(card.lines, film);
   const Integer frames = ceil(card.length_s * film.frame_rate);
-  if (frames > kMaxFrames) {
+  if (frames > to_integer(kMaxFrames)) {
     throw UsageError(fmt::format("seconds = {}: {} frames are more than {}", to_text(card.length_s),
-                                 readable(frames), readable(kMaxFrames)));
+                                 readable(frames), readable(to_integer(kMaxFrames))));
   }
   frame_count_ = frames.get_si();
 }
@@ -253,7 +254,7 @@ void Film::place_segments(const Storyboard& story) {
     const Rational& fade_s = story.segments[i].fade_s;
     const Integer fade = floor(fade_s * view_.frame_rate + Rational(1, 2));
     const std::int64_t room = i == 0 ? 0 : std::min(before, own - 1);
-    if (fade > room) {
+    if (fade > to_integer(room)) {
       problems.push_back(fmt::format(
           "{}: fade = {}: must take at most {} frames, not {}: a fade must be shorter than "
           "its own part and the part before, and must not overlap the fade of the part before",
@@ -268,7 +269,8 @@ void Film::place_segments(const Storyboard& story) {
   if (!problems.empty()) throw UsageError(std::move(problems));
   if (frame_count_ <= kMaxFrames) return;
   throw UsageError(fmt::format("storyboard: {} frames are more than {}; make its parts shorter",
-                               readable(frame_count_), readable(kMaxFrames)));
+                               readable(to_integer(frame_count_)),
+                               readable(to_integer(kMaxFrames))));
 }
 
 DrawList Film::frame(std::int64_t number) const {
@@ -295,16 +297,18 @@ std::int64_t frame_at(const Film& film, const Instant& instant) {
   }
   const Rational& rate = film.view().frame_rate;
   const Rational anchor_s =
-      instant.is_time() ? Rational(0) : Rational(film.frame_count() - 1) / rate;
+      instant.is_time() ? Rational(0) : Rational(to_integer(film.frame_count() - 1)) / rate;
   const Integer frame = floor((anchor_s + instant.offset) * rate);
-  if (frame >= 0 && frame < film.frame_count()) return frame.get_si();
+  if (frame >= 0 && frame < to_integer(film.frame_count())) return frame.get_si();
   throw UsageError(fmt::format("{}: the storyboard's video lasts from 0 to {} s",
-                               exact_text(instant), to_text(Rational(film.frame_count()) / rate)));
+                               exact_text(instant),
+                               to_text(Rational(to_integer(film.frame_count())) / rate)));
 }
 
 FilmSound::FilmSound(const Film& film, std::stop_token stop,
                      std::function<void(std::int64_t)> on_samples)
-    : soundtrack_(voices_of(film), Rational(film.frame_count()) / film.view().frame_rate),
+    : soundtrack_(voices_of(film),
+                  Rational(to_integer(film.frame_count())) / film.view().frame_rate),
       stop_(std::move(stop)),
       on_samples_(std::move(on_samples)) {}
 

@@ -136,7 +136,7 @@ std::int64_t frame_at(const Film& film, const Instant& instant);
 
 /// Of a film with so many frames: as long as these, to the nearest sample.
 inline SoundFormat sound_format(std::int64_t frame_count, const Rational& frame_rate) {
-  const Rational size = Rational(frame_count) / frame_rate * Soundtrack::kRate_hz;
+  const Rational size = Rational(to_integer(frame_count)) / frame_rate * Soundtrack::kRate_hz;
   return {.rate_hz = Soundtrack::kRate_hz, .size = floor(size + Rational(1, 2)).get_si()};
 }
 

@@ -81,7 +81,8 @@ std::optional<std::string> setting(const ShardFile& part, std::string_view name)
 /// @throws UsageError unless the value is a whole number from 1 to `high`.
 std::int64_t number(const ShardFile& part, const std::string& name, std::int64_t high) {
   const Rational value = parse_rational(value_of(part, name));
-  if (value.get_den() == 1 && value >= 1 && value <= high) return value.get_num().get_si();
+  if (value.get_den() == 1 && value >= 1 && value <= to_integer(high))
+    return value.get_num().get_si();
   throw UsageError(
       fmt::format("join: '{}' has the invalid {} {}", part.path, name, to_text(value)));
 }

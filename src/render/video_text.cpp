@@ -104,7 +104,7 @@ std::string text_of(const Integer& milestone, const Extremes& counts) {
 }
 
 std::string time_text(std::int64_t frame, const Rational& frame_rate) {
-  const std::int64_t ms = ceil(Rational(frame) * 1000 / frame_rate).get_si();
+  const std::int64_t ms = ceil(Rational(to_integer(frame)) * 1000 / frame_rate).get_si();
   return fmt::format("{:02}:{:02}:{:02}.{:03}", ms / 3'600'000, ms / 60'000 % 60, ms / 1000 % 60,
                      ms % 1000);
 }

@@ -128,11 +128,11 @@ Schedule make_schedule(const Scene& scene, const Timeline& log) {
 
 std::int64_t film_frames(const Schedule& schedule) {
   const Integer& frames = schedule.frame_count();
-  if (frames <= kMaxFrames) return frames.get_si();
+  if (frames <= to_integer(kMaxFrames)) return frames.get_si();
   throw UsageError(
       fmt::format("time: {} frames are more than {}; narrow them with --from and --to, or "
                   "raise --speed",
-                  readable(frames), readable(kMaxFrames)));
+                  readable(frames), readable(to_integer(kMaxFrames))));
 }
 
 FrameTime still_time(const Scene& scene, const Timeline& log, const Rational& time) {

@@ -70,7 +70,7 @@ class Schedule {
   FrameTime at(const Rational& video_s, const Rational& open_s = 0) const;
   /// What a frame shows. @param number  >= 0
   FrameTime frame(std::int64_t number, const Rational& open_s = 0) const {
-    return at(Rational(number) / frame_rate_, open_s);
+    return at(Rational(to_integer(number)) / frame_rate_, open_s);
   }
   /// Simulation time of a frame.
   Rational time_of(std::int64_t number) const { return frame(number).time; }

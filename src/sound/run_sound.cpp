@@ -16,7 +16,7 @@ constexpr double kVolume = 0.28;
 
 /// How much later a voice begins than its first whole sample of the film.
 Rational to_first_sample_s(const Voice& voice, int rate_hz) {
-  return voice.begin_s - Rational(RunSound::first_sample(voice, rate_hz)) / rate_hz;
+  return voice.begin_s - Rational(to_integer(RunSound::first_sample(voice, rate_hz))) / rate_hz;
 }
 
 ClackStream stream_of(const Voice& voice, int rate_hz) {

@@ -68,7 +68,7 @@ std::int64_t units_per_second(const Rational& frame_rate) {
 void check_duration_of_frame(const Rational& frame_rate) {
   // A frame's duration has 31 bits in libavformat 59 (movenc.c), and in our own files.
   const Integer longest = std::numeric_limits<std::int32_t>::max() - 1;
-  const Integer units_per_s = units_per_second(frame_rate);
+  const Integer units_per_s = to_integer(units_per_second(frame_rate));
   if (units_per_s / frame_rate <= longest) return;
   const Integer longest_s = longest / units_per_s;
   throw UsageError(
