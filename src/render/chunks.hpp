@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/threads.hpp"
+
 namespace piblocks {
 
 /// Consecutive frames that are encoded together. Chunk k begins at frame k * frames_per_chunk; the
@@ -36,7 +38,8 @@ struct Chunks {
   std::int64_t end(std::int64_t chunk) const { return begin(chunk + 1); }
 };
 
-/// Runs `count` tasks on `workers` threads. At most 2 * workers tasks are begun beyond the last
+/// Runs `count` tasks on `workers` threads; one by one, when their results are taken, where there
+/// are no threads. At most 2 * workers tasks are begun beyond the last
 /// one whose result was taken, which bounds the memory that results hold.
 template <typename Result>
 class OrderedPool {
@@ -48,6 +51,10 @@ class OrderedPool {
 
   OrderedPool(std::int64_t count, int workers, const MakeTask& make_task)
       : count_(count), window_(2 * std::int64_t{workers}) {
+    if constexpr (!kHasThreads) {
+      task_ = make_task();
+      return;
+    }
     for (std::int64_t i = 0; i < std::min<std::int64_t>(workers, count); ++i) {
       threads_.emplace_back(
           [this, make_task](const std::stop_token& stop) { work(make_task, stop); });
@@ -57,6 +64,7 @@ class OrderedPool {
   /// The result of the next task in order; nothing after the last or when told to stop.
   /// Rethrows the first exception of any task.
   std::optional<Result> take(const std::stop_token& stop) {
+    if (task_) return take_here(stop);
     std::unique_lock lock(mutex_);
     if (next_to_take_ == count_) return std::nullopt;
     const bool ready = changed_.wait(
@@ -72,6 +80,11 @@ class OrderedPool {
   }
 
  private:
+  std::optional<Result> take_here(const std::stop_token& stop) {
+    if (next_to_take_ == count_ || stop.stop_requested()) return std::nullopt;
+    return task_(next_to_take_++, stop);
+  }
+
   void work(const MakeTask& make_task, const std::stop_token& stop) {
     try {
       const Task task = make_task();
@@ -106,6 +119,7 @@ class OrderedPool {
   std::int64_t next_to_begin_ = 0;
   std::int64_t next_to_take_ = 0;
   std::exception_ptr failure_;
+  Task task_;                          // without threads
   std::vector<std::jthread> threads_;  // last: joined before the rest is gone
 };
 
