@@ -5,7 +5,7 @@ cmake_minimum_required(VERSION 3.25)
 
 # Layers, which are the folders of src, and the layers whose headers each may include. An entry
 # LAYER/HEADER admits one header of a layer, public or private.
-set(layers core h264 physics scene sound draw media golden render cli python)
+set(layers core h264 physics scene sound draw media golden render cli python web)
 set(core_may core)
 # An encoder that others could use: standard library only.
 set(h264_may h264)
@@ -20,9 +20,12 @@ set(media_may core h264 media)
 set(golden_may core media golden)
 set(render_may core physics scene sound draw media golden render)
 set(cli_may ${layers})
-list(REMOVE_ITEM cli_may python)
+list(REMOVE_ITEM cli_may python web)
 # What commands do once their options are texts: option_texts.hpp says where that begins.
 set(python_may ${layers})
+list(REMOVE_ITEM python_may web)
+set(web_may ${layers})
+list(REMOVE_ITEM web_may python)
 
 # The layer of each header in include/piblocks.
 set(core_headers error exact image version)
@@ -36,7 +39,7 @@ set(render_headers render)
 set(cli_headers piblocks)
 
 # Libraries: the form of their headers and the layers that may include them.
-set(libraries GMP MPFR Eigen tomlplusplus Cairo FreeType libav libpng giflib zlib CLI11 fmt pybind11)
+set(libraries GMP MPFR Eigen tomlplusplus Cairo FreeType libav libpng giflib zlib CLI11 fmt pybind11 Emscripten)
 set(GMP_form "gmp(xx)?\\.h")
 set(GMP_users core physics)
 set(MPFR_form "mpfr\\.h")
@@ -60,9 +63,11 @@ set(zlib_users media)
 set(CLI11_form "CLI/.+")
 set(CLI11_users cli)
 set(fmt_form "fmt/.+")
-set(fmt_users core physics scene sound draw media golden render cli python)
+set(fmt_users core physics scene sound draw media golden render cli python web)
 set(pybind11_form "pybind11/.+")
 set(pybind11_users python)
+set(Emscripten_form "emscripten/.+")
+set(Emscripten_users web)
 # The libraries that a user of the public headers has to have.
 set(public_libraries GMP Eigen)
 
