@@ -8,8 +8,8 @@
 #include <piblocks/render.hpp>
 #include <piblocks/script.hpp>
 
+#include <algorithm>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,7 +30,9 @@ Script read_script(std::string_view text, std::string_view settings) {
     const std::string_view line = settings.substr(0, settings.find('\n'));
     settings.remove_prefix(std::min(line.size() + 1, settings.size()));
     const std::size_t equals = line.find('=');
-    if (equals == std::string_view::npos) continue;
+    if (equals == std::string_view::npos) {
+      throw UsageError(fmt::format("setting '{}': must be KEY=TEXT", line));
+    }
     const std::string key(line.substr(0, equals));
     builder.set(key, key, std::string(line.substr(equals + 1)));
   }
