@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "cli/log_rows.hpp"
+#include "cli/state_text.hpp"
 #include "cli/text_output.hpp"
 #include "cli/values.hpp"
 
@@ -14,12 +15,6 @@ namespace {
 std::string name_of(const BodySystem& system, std::uint32_t id) {
   if (id < system.bodies.size()) return fmt::format("{}", id + 1);
   return system.walls[id - system.bodies.size()].name;
-}
-
-/// A number, or two in brackets.
-std::string vector_text(const BodySystem& system, const std::array<double, 2>& vector) {
-  if (system.dimensions == 1) return fmt::format("{}", shown(vector[0]));
-  return fmt::format("[{},{}]", shown(vector[0]), shown(vector[1]));
 }
 
 std::string csv_header(const BodySystem& system, const Rows& /*rows*/) {
@@ -107,17 +102,6 @@ BodyLogFormat parse_body_log_format(const std::string& name) {
   return parse_choice<BodyLogFormat>(name, {{"csv", {false, csv_header, append_csv_row}},
                                             {"jsonl", {false, no_header, append_json_row}},
                                             {"npy", {true, npy_head, append_body_row}}});
-}
-
-std::string state_line(const BodySystem& system, const Rational& time, const BodiesState& state) {
-  std::string bodies;
-  for (const BodyMotion& body : state.bodies) {
-    if (!bodies.empty()) bodies += ',';
-    bodies += fmt::format(R"({{"position":{},"velocity":{}}})", vector_text(system, body.position),
-                          vector_text(system, body.velocity));
-  }
-  return fmt::format(R"({{"time":{},"collisions":"{}","bodies":[{}]}})", shown(to_double(time)),
-                     state.count.get_str(), bodies);
 }
 
 }  // namespace piblocks::cli

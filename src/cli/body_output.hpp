@@ -1,5 +1,5 @@
-// Collisions and states of bodies, as commands print them.
-// In: a log of bodies. Out: rows of CSV, JSON or NumPy, and JSON objects. Bodies are numbered from
+// Collisions of bodies, as commands print them.
+// In: a log of bodies. Out: rows of CSV, JSON or NumPy. Bodies are numbered from
 // 1, as their tables stand in the scene file; walls have their names.
 #pragma once
 
@@ -29,8 +29,5 @@ std::string_view body_row_type(const BodySystem& system);
 /// Appends such a row.
 void append_body_row(const BodySystem& system, const BodyCollision& collision,
                      fmt::memory_buffer& out);
-
-/// {"time":…,"collisions":"…","bodies":[{"position":…,"velocity":…},…]}
-std::string state_line(const BodySystem& system, const Rational& time, const BodiesState& state);
 
 }  // namespace piblocks::cli

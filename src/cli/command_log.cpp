@@ -9,6 +9,7 @@
 #include "cli/log_rows.hpp"
 #include "cli/options.hpp"
 #include "cli/scene_options.hpp"
+#include "cli/state_text.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "core/output_file.hpp"

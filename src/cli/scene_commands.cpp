@@ -9,33 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "cli/body_output.hpp"
 #include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "cli/scene_options.hpp"
+#include "cli/state_text.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "scene/run_log.hpp"
 
 namespace piblocks::cli {
 namespace {
-
-std::string described(const Motion& motion, const std::optional<double>& position_bound) {
-  const std::string bound =
-      position_bound ? fmt::format(R"(,"position_bound":{})", shown(*position_bound)) : "";
-  return fmt::format(R"({{"position":{}{},"velocity":{}}})", shown(motion.position), bound,
-                     shown(motion.velocity));
-}
-
-/// @param infinite  the count that stands for infinitely many, if one does
-void write(const Rational& time, const BlockState& state, const std::optional<Integer>& infinite,
-           const std::optional<PositionBounds>& bounds, TextOutput& out) {
-  const auto blue_bound = bounds ? std::optional(bounds->blue) : std::nullopt;
-  const auto red_bound = bounds ? std::optional(bounds->red) : std::nullopt;
-  out.format_line(R"({{"time":{},"collisions":"{}","blue":{},"red":{}}})", shown(to_double(time)),
-                  state.count == infinite ? "infinite" : state.count.get_str(),
-                  described(state.blue, blue_bound), described(state.red, red_bound));
-}
 
 void write_bodies(const Scene& scene, const std::vector<Instant>& instants,
                   const Command& options) {
@@ -53,7 +36,7 @@ void write_bodies(const Scene& scene, const std::vector<Instant>& instants,
     require_certain(scene, log, time);
     const BodiesState state = log.state_at(time);
     last = std::max(last, state.count);
-    out.line(state_line(log.system(), time, state));
+    out.line(state_text(log.system(), time, state));
   }
   out.finish();
   note_ties(run, last);
@@ -90,7 +73,7 @@ void run_state(const Command& options, const SceneOptions& scene_options) {
     const Rational time = time_of(instant, *log);
     std::optional<PositionBounds> bounds;
     if (options.is_given("--bounds")) bounds = bounds_at(*log, time);
-    write(time, log->state_at(time), infinite, bounds, out);
+    out.line(state_text(time, log->state_at(time), infinite, bounds));
   }
   out.finish();
   note_convention(scene);

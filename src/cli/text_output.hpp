@@ -9,7 +9,6 @@
 #include <piblocks/error.hpp>
 #include <piblocks/exact.hpp>
 
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -49,15 +48,6 @@ void say(fmt::format_string<const Values&...> format, const Values&... values) n
   } catch (const std::exception&) {
     return;
   }
-}
-
-/// A number as it is printed: -0 becomes 0.
-/// @throws SimulationError if it is not finite: JSON has no infinity.
-inline double shown(double value) {
-  if (!std::isfinite(value)) {
-    throw SimulationError("output: a number is beyond the range of a double (about 1.8e308)");
-  }
-  return value == 0 ? 0 : value;
 }
 
 /// A whole number of any size that counts up, as text, without a division each time.

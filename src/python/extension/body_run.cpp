@@ -10,7 +10,7 @@
 #include "cli/body_output.hpp"
 #include "cli/log_rows.hpp"
 #include "cli/script_facts.hpp"
-#include "cli/text_output.hpp"
+#include "cli/state_text.hpp"
 #include "python/extension/interruptible.hpp"
 #include "python/extension/script.hpp"
 #include "python/extension/without_gil.hpp"

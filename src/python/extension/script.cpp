@@ -13,10 +13,10 @@
 #include "cli/nearest_name.hpp"
 #include "cli/script_facts.hpp"
 #include "cli/shipped_scenes.hpp"
-#include "python/extension/scene_toml.hpp"
 #include "python/extension/without_gil.hpp"
 #include "scene/run_log.hpp"
 #include "scene/scene_keys.hpp"
+#include "scene/scene_toml.hpp"
 
 namespace piblocks::python {
 namespace {

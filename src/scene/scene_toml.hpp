@@ -6,9 +6,9 @@
 
 #include <string>
 
-namespace piblocks::python {
+namespace piblocks {
 
 /// Numbers are exact, as strings: "1/3". The path of a logo is absolute.
 std::string scene_toml(const Script& script);
 
-}  // namespace piblocks::python
+}  // namespace piblocks

@@ -1,4 +1,4 @@
-#include "python/extension/scene_toml.hpp"
+#include "scene/scene_toml.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "core/text.hpp"
 #include "scene/scene_keys.hpp"
 
-namespace piblocks::python {
+namespace piblocks {
 namespace {
 
 using KeyFilter = std::function<bool(std::string_view key)>;
@@ -184,4 +184,4 @@ std::string scene_toml(const Script& script) {
   return text;
 }
 
-}  // namespace piblocks::python
+}  // namespace piblocks
