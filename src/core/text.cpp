@@ -88,6 +88,19 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
+std::string json_text(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const bool is_special = c == '"' || c == '\\' || c == '<' || (c >= 0 && c < ' ');
+    if (is_special) {
+      result += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+    } else {
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
 std::string base64(std::span<const std::uint8_t> bytes) {
   constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

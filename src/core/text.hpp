@@ -1,5 +1,6 @@
 // Text: its characters, its endings, and how bytes become text that is safe to show.
-// In: any bytes. Out: code points, base64, and text for terminals, HTML and XML.
+// In: any bytes. Out: code points, base64, and text for terminals, HTML, XML
+// and JSON.
 #pragma once
 
 #include <algorithm>
@@ -48,6 +49,10 @@ std::string printable(std::string_view text);
 
 /// The same with the special characters of HTML and XML escaped, in attributes too.
 std::string escaped(std::string_view text);
+
+/// The text as a string of JSON (RFC 8259) in quotes, which a <script> element of HTML may hold.
+/// @param text  UTF-8.
+std::string json_text(std::string_view text);
 
 /// Base64 (RFC 4648, section 4) in one line. The texts of consecutive pieces, all but the last a
 /// multiple of three bytes long, make up the text of the whole.

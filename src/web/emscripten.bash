@@ -17,7 +17,9 @@ if [[ ! -e $EM_CONFIG ]]; then
   sed 's/^FROZEN_CACHE.*/FROZEN_CACHE = False/' /usr/share/emscripten/.emscripten >"$EM_CONFIG"
 fi
 
+# At -O3, code is a tenth larger and no faster.
 export cmake_options=(-G Ninja -DCMAKE_BUILD_TYPE=Release
+  "-DCMAKE_C_FLAGS_RELEASE=-O2 -DNDEBUG" "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG"
   "-DCMAKE_C_FLAGS=${flags[*]}" "-DCMAKE_CXX_FLAGS=${flags[*]}" "-DCMAKE_EXE_LINKER_FLAGS=${flags[*]}"
   "-DCMAKE_FIND_ROOT_PATH=$web/prefix" "-DCMAKE_PREFIX_PATH=$web/prefix"
   "-DCMAKE_INSTALL_PREFIX=$web/prefix")

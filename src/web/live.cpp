@@ -1,166 +1,185 @@
-// The program in a page: a film that is changed and looked at again and again.
-// In: the text of a scene file, keys with their texts, instants. Out: pixels, files in the memory
-// of the page, what is wrong.
-#include <emscripten/emscripten.h>
-#include <fmt/format.h>
+#include "web/live.hpp"
+
 #include <piblocks/error.hpp>
-#include <piblocks/instant.hpp>
-#include <piblocks/render.hpp>
-#include <piblocks/script.hpp>
 
 #include <algorithm>
-#include <memory>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <variant>
 
-#include "draw/canvas.hpp"
-#include "render/film.hpp"
+#include "cli/script_facts.hpp"
+#include "cli/state_text.hpp"
 #include "scene/run_log.hpp"
+#include "scene/schedule.hpp"
 
 namespace piblocks::web {
 namespace {
 
-/// Settings are lines KEY=TEXT, and win over the text of the scene file.
-Script read_script(std::string_view text, std::string_view settings) {
-  ScriptBuilder builder;
-  builder.read_text("scene", text);
-  while (!settings.empty()) {
-    const std::string_view line = settings.substr(0, settings.find('\n'));
-    settings.remove_prefix(std::min(line.size() + 1, settings.size()));
-    const std::size_t equals = line.find('=');
-    if (equals == std::string_view::npos) {
-      throw UsageError(fmt::format("setting '{}': must be KEY=TEXT", line));
-    }
-    const std::string key(line.substr(0, equals));
-    builder.set(key, key, std::string(line.substr(equals + 1)));
-  }
-  return builder.build();
-}
-
-/// A scene's run, or the film of a storyboard.
-using Shown = std::variant<FilmRun, Film>;
-
-Shown show(const Script& script) {
+std::variant<FilmRun, Film> show(const Script& script) {
   if (const auto* const scene = std::get_if<Scene>(&script)) {
     return FilmRun(*scene, RunLog(*scene), FilmUse::pictures);
   }
   return Film(script);
 }
 
-/// The film that the page shows, and its picture.
-class Live {
- public:
-  explicit Live(Script script)
-      : script_(std::move(script)),
-        shown_(show(script_)),
-        canvas_(view().width_px, view().height_px, view().background) {}
-
-  const Script& script() const { return script_; }
-  const View& view() const { return view_of(script_); }
-  const Timeline* timeline() const {
-    const auto* const run = std::get_if<FilmRun>(&shown_);
-    return run == nullptr ? nullptr : &run->timeline();
+PixelRect around(std::span<const PixelRect> rects) {
+  if (rects.empty()) return {};
+  PixelRect all = rects.front();
+  for (const PixelRect& rect : rects) {
+    const int right = std::max(all.x_px + all.width_px, rect.x_px + rect.width_px);
+    const int bottom = std::max(all.y_px + all.height_px, rect.y_px + rect.height_px);
+    all.x_px = std::min(all.x_px, rect.x_px);
+    all.y_px = std::min(all.y_px, rect.y_px);
+    all.width_px = right - all.x_px;
+    all.height_px = bottom - all.y_px;
   }
-  /// The pixels that `piblocks still` has at this instant, row by row without gaps.
-  const std::uint8_t* paint(const Instant& instant) {
-    canvas_.update(picture(instant));
-    return canvas_.view().row(0);
-  }
+  return all;
+}
 
- private:
-  DrawList picture(const Instant& instant) const {
-    if (const auto* const run = std::get_if<FilmRun>(&shown_)) {
-      return run->still(time_of(instant, run->timeline()));
+void convert_opaque(const std::uint8_t* from, std::uint8_t* to, int count) {
+  for (int i = 0; i < 4 * count; i += 4) {
+    to[i] = from[i + 2];
+    to[i + 1] = from[i + 1];
+    to[i + 2] = from[i];
+    to[i + 3] = 255;
+  }
+}
+
+/// Colours that are not multiplied by alpha, rounded to the nearest.
+void convert_transparent(const std::uint8_t* from, std::uint8_t* to, int count) {
+  for (int i = 0; i < 4 * count; i += 4) {
+    const int alpha = from[i + 3];
+    for (int k = 0; k < 3; ++k) {
+      const int color = from[i + 2 - k];
+      to[i + k] = static_cast<std::uint8_t>(alpha == 0 ? 0 : (color * 255 + alpha / 2) / alpha);
     }
-    const Film& film = std::get<Film>(shown_);
-    return film.frame(frame_at(film, instant));
-  }
-
-  Script script_;
-  Shown shown_;
-  Canvas canvas_;
-};
-
-/// One page has one film.
-std::unique_ptr<Live> live;
-/// What the last call has to say; the page reads it before the next one.
-std::string answer;
-
-/// @param work  returns the answer.
-/// @returns whether nothing was wrong; else the answer is what was, a line for each problem.
-bool answers(const auto& work) {
-  try {
-    answer = work();
-    return true;
-  } catch (const std::exception& error) {
-    answer = error.what();
-    return false;
+    to[i + 3] = from[i + 3];
   }
 }
 
-const Live& opened() {
-  if (!live) throw UsageError("no scene is open");
-  return *live;
-}
-
-std::string facts_of(const Live& film) {
-  std::string facts =
-      fmt::format("width {}\nheight {}\n", film.view().width_px, film.view().height_px);
-  if (const Timeline* const log = film.timeline()) {
-    facts += fmt::format("collisions {}\n", log->size().get_str());
+void convert(const ImageView& picture, Patch& patch) {
+  const PixelRect& rect = patch.rect;
+  patch.rgba.resize(std::size_t{4} * static_cast<std::size_t>(rect.width_px) *
+                    static_cast<std::size_t>(rect.height_px));
+  const auto convert_row = picture.has_alpha ? convert_transparent : convert_opaque;
+  std::uint8_t* to = patch.rgba.data();
+  for (int y = rect.y_px; y < rect.y_px + rect.height_px; ++y) {
+    convert_row(picture.row(y) + std::ptrdiff_t{4} * rect.x_px, to, rect.width_px);
+    to += std::ptrdiff_t{4} * rect.width_px;
   }
-  return facts;
 }
 
 }  // namespace
+
+void Screen::update(DrawList list) {
+  const bool has_background = list.background.has_value();
+  const bool fits = canvas_ && list.width_px == width_px_ && list.height_px == height_px_ &&
+                    has_background == has_background_;
+  if (!fits) {
+    canvas_.reset();  // before the next one takes memory
+    canvas_ = std::make_unique<Canvas>(
+        list.width_px, list.height_px,
+        has_background ? Background::opaque : Background::transparent);
+    width_px_ = list.width_px;
+    height_px_ = list.height_px;
+    has_background_ = has_background;
+  }
+  patch_.rect = around(canvas_->update(std::move(list)));
+  convert(canvas_->view(), patch_);
+}
+
+Live::Live(Script script) : script_(std::move(script)), shown_(show(script_)) {
+  if (const auto* const scene = std::get_if<Scene>(&script_)) plan_film(*scene);
+}
+
+/// A scene without a film still has stills.
+void Live::plan_film(const Scene& scene) {
+  try {
+    Schedule schedule = make_schedule(scene, run()->timeline());
+    film_frames(schedule);
+    schedule_ = std::move(schedule);
+  } catch (const UsageError& error) {
+    film_problem_ = error.what();
+  }
+}
+
+std::optional<std::int64_t> Live::frame_count() const {
+  if (run() == nullptr) return std::get<Film>(shown_).frame_count();
+  return schedule_ ? std::optional(film_frames(*schedule_)) : std::nullopt;
+}
+
+Live::Place Live::place_of_frame(std::int64_t number) const {
+  const std::optional<std::int64_t> count = frame_count();
+  if (!count) return place_of(Instant());
+  const std::int64_t frame = std::clamp<std::int64_t>(number, 0, *count - 1);
+  if (run() != nullptr) return {frame, Instant(schedule_->time_of(frame))};
+  return {frame, Instant(Rational(to_integer(frame)) / view_of(script_).frame_rate)};
+}
+
+Live::Place Live::place_of(const Instant& instant) const {
+  if (run() != nullptr) return {std::nullopt, Instant(time_of(instant, run()->timeline()))};
+  return place_of_frame(frame_at(std::get<Film>(shown_), instant));
+}
+
+std::optional<std::int64_t> Live::frame_near(const Place& place) const {
+  if (place.frame) return place.frame;
+  if (!schedule_) return std::nullopt;
+  const Rational time = time_of(place.instant, run()->timeline());
+  const std::int64_t last = film_frames(*schedule_) - 1;
+  const Rational& rate = view_of(script_).frame_rate;
+  if (const auto video_s = schedule_->first_shown_s(time)) {
+    return std::min(std::int64_t{ceil(*video_s * rate).get_si()}, last);
+  }
+  return time <= schedule_->time_of(0) ? 0 : last;
+}
+
+DrawList Live::picture(const Place& place) const {
+  if (run() == nullptr) return std::get<Film>(shown_).frame(*place.frame);
+  if (place.frame) return run()->frame(*schedule_, *place.frame);
+  return run()->still(time_of(place.instant, run()->timeline()));
+}
+
+std::optional<std::string> Live::state(const Place& place) const {
+  if (run() == nullptr) return std::nullopt;
+  const Rational time = time_of(place.instant, run()->timeline());
+  if (const BodyLog* const bodies = run()->log().bodies()) {
+    return cli::state_text(bodies->system(), time, bodies->state_at(time));
+  }
+  const CollisionLog& blocks = *run()->log().blocks();
+  return cli::state_text(time, blocks.state_at(time), cli::infinite_count(blocks));
+}
+
+LiveSound::LiveSound(const Script& script) : film_(script, FilmUse::audio_only) {}
+
+LiveSound::~LiveSound() = default;
+
+std::int64_t LiveSound::size() const {
+  return sound_format(film_.frame_count(), film_.view().frame_rate).size;
+}
+
+/// The next pairs, at most a tenth of a second of them.
+std::vector<float> LiveSound::read_up_to(std::int64_t end) {
+  constexpr std::int64_t kPiece = Soundtrack::kRate_hz / 10;
+  std::vector<float> piece(2 * static_cast<std::size_t>(std::min(kPiece, end - next_)));
+  const std::size_t pairs = sound_->read(piece);
+  piece.resize(2 * pairs);
+  next_ += static_cast<std::int64_t>(pairs);
+  return piece;
+}
+
+void LiveSound::read(std::int64_t first, std::int64_t count) {
+  if (!sound_ || first < next_) {
+    sound_ = std::make_unique<FilmSound>(film_, std::stop_token(), [](std::int64_t) {});
+    next_ = 0;
+  }
+  samples_.clear();
+  const std::int64_t end = std::min(first + count, size());
+  while (next_ < std::min(first, end)) {
+    if (read_up_to(first).empty()) return;
+  }
+  while (next_ < end) {
+    const std::vector<float> piece = read_up_to(end);
+    if (piece.empty()) return;
+    samples_.insert(samples_.end(), piece.begin(), piece.end());
+  }
+}
+
 }  // namespace piblocks::web
-
-using namespace piblocks;
-using namespace piblocks::web;
-
-extern "C" {
-
-/// What the last call has to say.
-EMSCRIPTEN_KEEPALIVE const char* live_answer() { return answer.c_str(); }
-
-/// Opens a scene or storyboard; if something is wrong, that before stays. Answers with lines
-/// "NAME VALUE": width, height, collisions (of a scene).
-EMSCRIPTEN_KEEPALIVE bool live_open(const char* text, const char* settings) {
-  return answers([&] {
-    auto made = std::make_unique<Live>(read_script(text, settings));
-    live = std::move(made);
-    return facts_of(*live);
-  });
-}
-
-/// The pixels of an instant, in 4 bytes each (blue, green, red, alpha); null if something is wrong.
-EMSCRIPTEN_KEEPALIVE const std::uint8_t* live_paint(const char* instant) {
-  const std::uint8_t* pixels = nullptr;
-  answers([&] {
-    opened();
-    pixels = live->paint(parse_instant(instant));
-    return std::string();
-  });
-  return pixels;
-}
-
-/// Writes the picture of an instant to a file of the page's memory, as `piblocks still` does.
-EMSCRIPTEN_KEEPALIVE bool live_still(const char* instant, const char* file) {
-  return answers([&] {
-    render_still(opened().script(), parse_instant(instant), file);
-    return std::string();
-  });
-}
-
-/// Renders the film, or a share of it, to a file of the page's memory.
-/// @param number, count  the shard; count is 1 for the whole film
-EMSCRIPTEN_KEEPALIVE bool live_render(const char* file, int number, int count) {
-  return answers([&] {
-    RenderJob job{.script = opened().script(), .output = file};
-    if (count > 1) job.shard = Shard{number, count};
-    return fmt::format("frames {}\n", render(job, [](const Progress&) {}).frame_count);
-  });
-}
-}

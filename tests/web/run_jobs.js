@@ -7,22 +7,25 @@ const path = require('path');
 const [folder, work, width, height] = process.argv.slice(2);
 
 require(path.join(folder, 'piblocks_live.js'))().then((module) => {
-  const call = (name, ...texts) => {
-    const done = module.ccall(name, 'boolean', texts.map((text) => (typeof text)), texts);
+  const call = (name, ...values) => {
+    const done = module.ccall(name, 'boolean', values.map((value) => (typeof value)), values);
     const answer = module.ccall('live_answer', 'string', [], []);
-    if (!done) throw new Error(`${name} ${texts.slice(-2).join(' ')}: ${answer}`);
+    if (!done) throw new Error(`${name} ${values.slice(-2).join(' ')}: ${answer}`);
     return answer;
   };
   JSON.parse(fs.readFileSync(path.join(work, 'jobs.json'))).forEach((job, number) => {
+    const text = fs.readFileSync(job.scene, 'utf8');
     const settings = [`view.size=${width}x${height}`];
     if (job.film) settings.push('sound.on=false');
-    else settings.push('time.allow-uncertain=true');
-    const text = fs.readFileSync(job.scene, 'utf8');
-    if (text.includes('[[part]]') && !job.film) settings.pop();
+    else if (!text.includes('[[part]]')) settings.push('time.allow-uncertain=true');
     call('live_open', text, settings.join('\n'));
     const file = job.film ? '/film.mp4' : '/still.png';
-    if (job.film) call('live_render', file, 1, 1);
-    else call('live_still', job.instant, file);
+    if (job.film) {
+      call('live_render', file, 1, 1);
+    } else {
+      call('live_show_instant', job.instant);
+      call('live_save', file);
+    }
     fs.writeFileSync(path.join(work, String(number)), module.FS.readFile(file));
   });
 }).catch((error) => {

@@ -1,0 +1,203 @@
+// The program as a page calls it: functions with texts and numbers, and files in the page's memory.
+// In: the text of a scene file, keys with their texts, places in the film. Out: answers as text,
+// pixels, samples, files.
+#include <emscripten/emscripten.h>
+#include <fmt/format.h>
+#include <piblocks/encode.hpp>
+#include <piblocks/error.hpp>
+#include <piblocks/render.hpp>
+
+#include <algorithm>
+#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/output_file.hpp"
+#include "core/text.hpp"
+#include "web/facts.hpp"
+#include "web/live.hpp"
+
+namespace piblocks::web {
+namespace {
+
+std::vector<std::string> parts_of(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  for (;;) {
+    const std::size_t end = text.find(separator);
+    parts.emplace_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+/// Settings are lines KEY=TEXT, in which the texts of a list are separated by tabs. They win over
+/// the text of the scene file.
+Script read_script(std::string_view text, std::string_view settings) {
+  ScriptBuilder builder;
+  builder.read_text("scene", text);
+  for (const std::string& line : parts_of(settings, '\n')) {
+    if (line.empty()) continue;
+    const std::size_t equals = line.find('=');
+    if (equals == std::string::npos) {
+      throw UsageError(fmt::format("setting '{}': must be KEY=TEXT", line));
+    }
+    const std::string key = line.substr(0, equals);
+    builder.set(key, key, parts_of(std::string_view(line).substr(equals + 1), '\t'));
+  }
+  return builder.build();
+}
+
+// One page has one film, one picture and one sound.
+Screen screen;
+std::unique_ptr<Live> live;
+std::unique_ptr<LiveSound> sound;
+Live::Place place;
+/// What the last call has to say; the page reads it before the next one.
+std::string answer;
+
+/// @param work  returns the answer.
+/// @returns whether nothing was wrong; else the answer is what was, a line for each problem.
+bool answers(const auto& work) {
+  try {
+    answer = work();
+    return true;
+  } catch (const std::bad_alloc&) {
+    answer = "page: there is no memory left for this scene; make the picture smaller";
+  } catch (const std::exception& error) {
+    answer = error.what();
+  }
+  return false;
+}
+
+const Live& opened() {
+  if (!live) throw UsageError("page: no scene is open");
+  return *live;
+}
+
+/// Shows this place, and says what is shown.
+std::string show(const Live::Place& wanted) {
+  screen.update(opened().picture(wanted));
+  place = wanted;
+  const PixelRect& rect = screen.patch().rect;
+  return fmt::format(R"({{"place":{},"rect":[{},{},{},{}]}})", place_json(opened(), place),
+                     rect.x_px, rect.y_px, rect.width_px, rect.height_px);
+}
+
+/// The picture that is shown, in the format that the ending names.
+std::vector<std::uint8_t> encoded(const std::string& name) {
+  const DrawList list = opened().picture(place);
+  if (has_ending(name, ".svg")) return draw_svg(list);
+  if (has_ending(name, ".pdf")) return draw_pdf(list);
+  Canvas canvas(list.width_px, list.height_px,
+                list.background ? Background::opaque : Background::transparent);
+  canvas.paint(list);
+  return encode_png(canvas.view());
+}
+
+/// Tells the page how far a rendering has come.
+EM_JS(void, report, (double done, double count), {
+  if (Module.onProgress) Module.onProgress(done, count);
+});
+
+}  // namespace
+}  // namespace piblocks::web
+
+using namespace piblocks;
+using namespace piblocks::web;
+
+extern "C" {
+
+/// What the last call has to say.
+EMSCRIPTEN_KEEPALIVE const char* live_answer() { return answer.c_str(); }
+
+/// Answers with program_json().
+EMSCRIPTEN_KEEPALIVE bool live_program() {
+  return answers([] { return program_json(); });
+}
+
+/// Opens a scene or storyboard; if something is wrong, the one before stays. Answers with
+/// facts_json().
+EMSCRIPTEN_KEEPALIVE bool live_open(const char* text, const char* settings) {
+  return answers([&] {
+    auto made = std::make_unique<Live>(read_script(text, settings));
+    std::string facts = facts_json(*made);
+    live = std::move(made);
+    sound.reset();
+    place = {};
+    return facts;
+  });
+}
+
+/// Shows a frame of the film. Answers with {"place":place_json(),"rect":[x,y,width,height]}; the
+/// pixels of this rectangle are at live_pixels(), others have not changed.
+EMSCRIPTEN_KEEPALIVE bool live_show_frame(double number) {
+  return answers([&] { return show(opened().place_of_frame(static_cast<std::int64_t>(number))); });
+}
+
+/// The same of an instant: "3.5", "turn-0.3", "#314". Of a storyboard it is a second of the film.
+EMSCRIPTEN_KEEPALIVE bool live_show_instant(const char* instant) {
+  return answers([&] { return show(opened().place_of(parse_instant(instant))); });
+}
+
+/// Red, green, blue and alpha of the rectangle that was shown last.
+EMSCRIPTEN_KEEPALIVE const std::uint8_t* live_pixels() { return screen.patch().rgba.data(); }
+
+/// Writes the picture that is shown to a file of the page's memory: `*.png`, `*.svg`, `*.pdf`.
+EMSCRIPTEN_KEEPALIVE bool live_save(const char* name) {
+  return answers([&] {
+    const std::vector<std::uint8_t> bytes = encoded(name);
+    OutputFile file(name);
+    file.write(bytes);
+    file.finish();
+    return std::string();
+  });
+}
+
+/// Renders the film, or a share of it, to a file of the page's memory.
+/// @param number, count  the shard; count is 1 for the whole film. Answers with the file's name.
+EMSCRIPTEN_KEEPALIVE bool live_render(const char* name, int number, int count) {
+  return answers([&] {
+    RenderJob job{.script = opened().script(), .output = name};
+    if (count > 1) job.shard = Shard{number, count};
+    render(job, [](const Progress& progress) {
+      report(static_cast<double>(progress.frames_done), static_cast<double>(progress.frame_count));
+    });
+    return job.shard ? shard_name(name, *job.shard) : std::string(name);
+  });
+}
+
+/// Joins the shards of a rendering, which are files of the page's memory.
+EMSCRIPTEN_KEEPALIVE bool live_join(const char* name, int count) {
+  return answers([&] {
+    std::vector<std::string> parts;
+    for (int number = 1; number <= count; ++number) {
+      parts.push_back(shard_name(name, Shard{number, count}));
+    }
+    join(parts, name);
+    return std::string(name);
+  });
+}
+
+/// Prepares the sound of the film that is open. Answers with its pairs of samples.
+EMSCRIPTEN_KEEPALIVE bool live_open_sound() {
+  return answers([] {
+    sound = std::make_unique<LiveSound>(opened().script());
+    return fmt::format("{}", sound->size());
+  });
+}
+
+/// Answers with the pairs of samples that are at live_samples(), from this one on: at most so many.
+EMSCRIPTEN_KEEPALIVE bool live_read_sound(double first, double count) {
+  return answers([&] {
+    if (!sound) throw UsageError("page: no sound is open");
+    sound->read(static_cast<std::int64_t>(first), static_cast<std::int64_t>(count));
+    return fmt::format("{}", sound->samples().size() / 2);
+  });
+}
+
+/// Left and right in turn, as live_read_sound() has read them.
+EMSCRIPTEN_KEEPALIVE const float* live_samples() {
+  return sound ? sound->samples().data() : nullptr;
+}
+}

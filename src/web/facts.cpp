@@ -1,0 +1,162 @@
+#include "web/facts.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/version.hpp>
+
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "cli/script_facts.hpp"
+#include "cli/shipped_scenes.hpp"
+#include "core/text.hpp"
+#include "scene/run_log.hpp"
+#include "scene/scene_keys.hpp"
+#include "scene/scene_toml.hpp"
+
+namespace piblocks::web {
+namespace {
+
+std::string list(const std::vector<std::string>& values) {
+  std::string text;
+  for (const std::string& value : values) text += (text.empty() ? "" : ",") + value;
+  return '[' + text + ']';
+}
+
+std::string texts(const std::vector<std::string>& values) {
+  std::vector<std::string> quoted;
+  for (const std::string& value : values) quoted.push_back(json_text(value));
+  return list(quoted);
+}
+
+/// The names in a text such as "article, dark".
+std::string names(const std::string& text) {
+  std::vector<std::string> found;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words >> std::ws, word, ',');) found.push_back(word);
+  return texts(found);
+}
+
+std::string numbers(const ExactVector& vector, int dimensions) {
+  std::vector<std::string> values = {vector[0].get_str()};
+  if (dimensions == 2) values.push_back(vector[1].get_str());
+  return texts(values);
+}
+
+/// The digits that masses of this ratio count; nothing if it is not an even power of the base.
+std::optional<int> digits_of(const Rational& ratio, int base) {
+  if (ratio.get_den() != 1 || ratio < 1) return std::nullopt;
+  Integer power = 1;
+  int digits = 1;
+  for (; power < ratio.get_num(); ++digits) power *= base * base;
+  return power == ratio.get_num() ? std::optional(digits) : std::nullopt;
+}
+
+std::string row_json(const Bodies& bodies, std::size_t i) {
+  const Body& body = bodies.system.bodies[i];
+  const BodyStyle& style = bodies.styles[i];
+  const int dimensions = bodies.system.dimensions;
+  std::string color;
+  if (style.color) {
+    const auto& [red, green, blue] = *style.color;
+    color = fmt::format("#{:02x}{:02x}{:02x}", red, green, blue);
+  }
+  return fmt::format(
+      R"({{"mass":{},"position":{},"velocity":{},"size":{},"color":{},"label":{}}})",
+      json_text(body.mass ? body.mass->get_str() : "inf"), numbers(body.position, dimensions),
+      numbers(body.velocity, dimensions), json_text(body.size.get_str()), json_text(color),
+      json_text(style.label));
+}
+
+/// Both ends of the box along an axis.
+std::string box_json(const BodySystem& system, std::string_view low, std::string_view high,
+                     std::size_t axis) {
+  std::vector<std::string> ends = {"-inf", "inf"};
+  for (const Wall& wall : system.walls) {
+    if (wall.name == low) ends[0] = wall.point.at(axis).get_str();
+    if (wall.name == high) ends[1] = wall.point.at(axis).get_str();
+  }
+  return texts(ends);
+}
+
+std::string bodies_json(const Bodies& bodies) {
+  const BodySystem& system = bodies.system;
+  std::vector<std::string> rows;
+  for (std::size_t i = 0; i < system.bodies.size() && system.bodies.size() <= kMaxBodyRows; ++i) {
+    rows.push_back(row_json(bodies, i));
+  }
+  return fmt::format(R"({{"count":{},"dimensions":{},"x":{},"y":{},"rows":{}}})",
+                     system.bodies.size(), system.dimensions,
+                     box_json(system, "left", "right", 0), box_json(system, "lower", "upper", 1),
+                     list(rows));
+}
+
+std::string keys_json(const Scene& scene) {
+  std::vector<std::string> keys;
+  for (const SceneKey& key : scene_keys()) {
+    keys.push_back(fmt::format("{}:{}", json_text(key.name), texts(key.get(scene))));
+  }
+  std::string text = list(keys);
+  text.front() = '{';
+  text.back() = '}';
+  return text;
+}
+
+std::vector<std::string> notes_of(const Scene& scene, const FilmRun& run) {
+  std::vector<std::string> notes = cli::convention_notes(scene);
+  if (auto note = tie_note(run.log(), run.timeline().size())) notes.push_back(*std::move(note));
+  return notes;
+}
+
+std::string scene_json(const Scene& scene, const FilmRun& run) {
+  const Timeline& log = run.timeline();
+  const bool is_infinite = cli::infinite_count(log) == log.size();
+  const Rational ratio = scene.system.red.mass / scene.system.blue.mass;
+  const std::optional<int> digits = digits_of(ratio, scene.show.base);
+  return fmt::format(
+      R"("collisions":{},"firstCollision":{},"hasTurn":{},"mayGoOn":{},"digits":{},"massRatio":{},)"
+      R"("keys":{},"bodies":{},"notes":{})",
+      json_text(is_infinite ? "infinite" : log.size().get_str()),
+      json_text(log.first_index().get_str()), log.turn().has_value(), log.may_go_on(),
+      digits ? fmt::format("{}", *digits) : "null", json_text(ratio.get_str()), keys_json(scene),
+      scene.bodies ? bodies_json(*scene.bodies) : "null", texts(notes_of(scene, run)));
+}
+
+}  // namespace
+
+std::string facts_json(const Live& live) {
+  const auto* const scene = std::get_if<Scene>(&live.script());
+  const View& view = view_of(live.script());
+  const std::optional<std::int64_t> frames = live.frame_count();
+  return fmt::format(
+      R"({{"kind":"{}","width":{},"height":{},"rate":[{},{}],"frames":{},"filmProblem":{},)"
+      R"("sound":{},"toml":{}{}{}}})",
+      scene == nullptr ? "storyboard" : "scene", view.width_px, view.height_px,
+      view.frame_rate.get_num().get_str(), view.frame_rate.get_den().get_str(),
+      frames ? fmt::format("{}", *frames) : "null", json_text(live.film_problem()),
+      sound_of(live.script()).on, json_text(scene_toml(live.script())), scene ? "," : "",
+      scene ? scene_json(*scene, *live.run()) : "");
+}
+
+std::string place_json(const Live& live, const Live::Place& place) {
+  const auto text_of = [](const std::optional<std::int64_t>& number) {
+    return number ? fmt::format("{}", *number) : std::string("null");
+  };
+  const std::optional<std::string> state = live.state(place);
+  return fmt::format(R"({{"frame":{},"nearFrame":{},"instant":{},"state":{}}})",
+                     text_of(place.frame), text_of(live.frame_near(place)),
+                     json_text(exact_text(place.instant)), state ? json_text(*state) : "null");
+}
+
+std::string program_json() {
+  std::vector<std::string> scenes;
+  for (const cli::ShippedScene& scene : cli::shipped_scenes()) {
+    scenes.push_back(fmt::format(R"({{"name":{},"summary":{},"text":{}}})", json_text(scene.name),
+                                 json_text(scene.summary()), json_text(scene.text)));
+  }
+  return fmt::format(R"({{"version":{},"scenes":{},"themes":{},"overlays":{},"panels":{}}})",
+                     json_text(kVersion), list(scenes), names(theme_names()),
+                     names(overlay_names()), names(panel_names()));
+}
+
+}  // namespace piblocks::web

@@ -1,0 +1,291 @@
+// The fields of a scene's keys.
+// In: what the program says of a scene. Out: edits of its keys; problems beside the fields.
+
+/** {key, label} and, of numbers with a slider, [least, most, step]. A field without `kind` is text. */
+const GROUPS = [
+  {title: "Blocks", isOpen: true, of: "blocks", fields: [
+    {key: "digits", label: "Digits of π", slider: [1, 20, 1]},
+    {key: "mass-ratio", label: "Mass ratio"},
+    {key: "base", label: "Base", slider: [2, 36, 1]},
+    {key: "blue.mass", label: "Blue: mass"},
+    {key: "red.mass", label: "Red: mass"},
+    {key: "blue.position", label: "Blue: position", slider: [0.5, 6, 0.05]},
+    {key: "red.position", label: "Red: position", slider: [1.5, 12, 0.05]},
+    {key: "blue.velocity", label: "Blue: velocity", slider: [-2, 2, 0.05]},
+    {key: "red.velocity", label: "Red: velocity", slider: [-3, 3, 0.05]},
+    {key: "blue.width", label: "Blue: width", slider: [0.1, 3, 0.05]},
+    {key: "red.width", label: "Red: width", slider: [0.1, 3, 0.05]},
+    {key: "blocks.restitution", label: "Restitution of blocks", slider: [0, 1, 0.01]},
+    {key: "wall.restitution", label: "Restitution of wall", slider: [0, 1, 0.01]},
+    {key: "wall.face", label: "Face of the wall"},
+    {key: "wall.mass", label: "Mass of the wall"}]},
+  {title: "Read-outs and diagrams", isOpen: true, fields: [
+    {key: "view.theme", label: "Theme", kind: "choice", choices: "themes"},
+    {key: "show.overlays", label: "Read-outs", kind: "names", choices: "overlays"},
+    {key: "show.panels", label: "Diagrams", kind: "names", choices: "panels"},
+    {key: "show.loupe", label: "Loupe", hints: ["auto", "off"], isOptional: true, of: "blocks"},
+    {key: "show.hits", label: "Marks of hits", kind: "flag", of: "blocks"},
+    {key: "show.title", label: "Title", isOptional: true},
+    {key: "show.caption", label: "Caption", isOptional: true}]},
+  {title: "Time", fields: [
+    {key: "time.from", label: "From", hints: ["0", "turn-0.3"]},
+    {key: "time.to", label: "To", hints: ["last+1.5", "turn+0.3", "10"]},
+    {key: "time.speed", label: "Speed", slider: [0.05, 4, 0.05]},
+    {key: "time.duration", label: "Duration", isOptional: true},
+    {key: "time.slow-motion", label: "Slow motion", hints: ["auto", "turn-0.3:turn+0.3:10"],
+     isOptional: true},
+    {key: "time.ease", label: "Ease"},
+    {key: "time.freeze", label: "Freeze", hints: ["turn:2"], isOptional: true},
+    {key: "time.hold-start", label: "Hold at start"},
+    {key: "time.hold-end", label: "Hold at end"},
+    {key: "time.loop", label: "Back and forth", kind: "flag"},
+    {key: "time.allow-uncertain", label: "Also what is uncertain", kind: "flag"}]},
+  {title: "Picture", fields: [
+    {key: "view.size", label: "Size", hints: ["1920x1080", "1280x720", "3840x2160", "1080x1920",
+      "1080x1080"]},
+    {key: "view.fps", label: "Frames a second", hints: ["60", "30", "25", "30000/1001"]},
+    {key: "view.shutter", label: "Shutter", slider: [0, 1, 0.05]},
+    {key: "view.x", label: "Seen from x to", kind: "range"},
+    {key: "view.y", label: "Seen from y to", kind: "range"},
+    {key: "view.background", label: "Background", kind: "choice",
+     choices: ["opaque", "transparent"]}]},
+];
+
+/** Makes an element: element("p", {className: "hint"}, "text", child). */
+function element(name, properties = {}, ...children) {
+  const made = document.createElement(name);
+  for (const [property, value] of Object.entries(properties)) {
+    if (property.includes("-")) made.setAttribute(property, value);
+    else made[property] = value;
+  }
+  made.append(...children);
+  return made;
+}
+
+/** "5/2" as "2.5"; what no decimal is stays. */
+function readable(number) {
+  const [, sign, numerator, denominator] = number.match(/^(-?)(\d+)\/(\d+)$/) ?? [];
+  if (denominator === undefined) return number;
+  let rest = BigInt(denominator);
+  let places = 0;
+  for (const prime of [2n, 5n]) {
+    let times = 0;
+    for (; rest % prime === 0n; rest /= prime) ++times;
+    places = Math.max(places, times);
+  }
+  if (rest !== 1n || places > 20) return number;
+  const digits = (BigInt(numerator) * 10n ** BigInt(places) / BigInt(denominator)).toString()
+    .padStart(places + 1, "0");
+  return `${sign}${digits.slice(0, -places)}.${digits.slice(-places)}`;
+}
+
+/** About, for sliders. */
+function valueOf(text) {
+  const [above, below = "1"] = text.split("/");
+  return Number(above) / Number(below);
+}
+
+/** What the program says of a key, as a field shows it; null if the scene has no such key. */
+function textOf(key, facts) {
+  const keys = facts.keys;
+  if (facts.kind === "scene" && facts.bodies === null) {
+    if (key === "digits") return facts.digits === null ? "" : String(facts.digits);
+    if (key === "wall.mass") return "inf";
+    if (key === "mass-ratio") {
+      return facts.digits > 4 ? `${Number(keys.base[0]) ** 2}^${facts.digits - 1}`
+        : readable(facts.massRatio);
+    }
+  }
+  return keys[key]?.map(readable).join(", ") ?? null;
+}
+
+class Field {
+  constructor(spec, {onEdit, onReset, onForget, lists}) {
+    Object.assign(this, {spec, onEdit, onReset, onForget});
+    this.id = `field-${spec.key.replace(".", "-")}`;
+    this.problem = element("p", {className: "problem", id: `${this.id}-problem`, hidden: true});
+    this.problem.setAttribute("role", "alert");
+    this.choices = typeof spec.choices === "string" ? lists[spec.choices] : spec.choices;
+    this.root = this[spec.kind ?? "text"]();
+    this.root.dataset.key = spec.key;
+  }
+
+  /** Inputs that a problem makes invalid. */
+  inputs = [];
+
+  input(properties) {
+    const made = element("input", {"aria-describedby": this.problem.id, ...properties});
+    this.inputs.push(made);
+    return made;
+  }
+
+  row(...values) {
+    return element("div", {className: "field"},
+      element("label", {htmlFor: this.id}, this.spec.label),
+      element("span", {className: "value"}, ...values), this.problem);
+  }
+
+  text() {
+    const main = this.input({type: "text", id: this.id, spellcheck: false, autocapitalize: "off"});
+    const {slider, hints, isOptional} = this.spec;
+    const values = [main];
+    if (isOptional) main.placeholder = "as usual";
+    if (hints) {
+      main.setAttribute("list", `${this.id}-hints`);
+      values.push(element("datalist", {id: `${this.id}-hints`},
+        ...hints.map(value => element("option", {value}))));
+    }
+    main.addEventListener("input", () => this.edited(main.value));
+    main.addEventListener("keydown", event => {
+      if (event.key === "Escape") this.onForget();
+    });
+    main.addEventListener("blur", () => this.update(this.facts));
+    if (slider) values.unshift(this.slider(main));
+    this.read = facts => {
+      const value = textOf(this.spec.key, facts);
+      if (document.activeElement !== main) main.value = value;
+      if (this.knob && document.activeElement !== this.knob) this.knob.value = valueOf(value);
+    };
+    return this.row(...values);
+  }
+
+  slider(main) {
+    const [min, max, step] = this.spec.slider;
+    const decimals = String(step).split(".")[1]?.length ?? 0;
+    this.knob = element("input", {type: "range", min, max, step,
+      "aria-label": `${this.spec.label}, slider`});
+    this.knob.addEventListener("input", () => {
+      main.value = String(Number(Number(this.knob.value).toFixed(decimals)));
+      this.edited(main.value);
+    });
+    return this.knob;
+  }
+
+  choice() {
+    const select = element("select", {id: this.id, "aria-describedby": this.problem.id},
+      ...this.choices.map(name => element("option", {}, name)));
+    this.inputs.push(select);
+    select.addEventListener("change", () => this.edited(select.value));
+    this.read = facts => select.value = textOf(this.spec.key, facts);
+    return this.row(select);
+  }
+
+  flag() {
+    const box = this.input({type: "checkbox", id: this.id});
+    box.addEventListener("change", () => this.edited(String(box.checked)));
+    this.read = facts => box.checked = textOf(this.spec.key, facts) === "true";
+    return this.row(box);
+  }
+
+  /** In the order in which they are chosen. */
+  names() {
+    const chosen = [];
+    const boxes = this.choices.map(name => {
+      const box = this.input({type: "checkbox", value: name});
+      box.addEventListener("change", () => {
+        const next = chosen.filter(other => other !== name);
+        if (box.checked) next.push(name);
+        chosen.splice(0, chosen.length, ...next);
+        this.edited(next.join(","));
+      });
+      return box;
+    });
+    this.read = facts => {
+      chosen.splice(0, chosen.length, ...facts.keys[this.spec.key]);
+      for (const box of boxes) box.checked = chosen.includes(box.value);
+    };
+    return element("fieldset", {className: "field list"},
+      element("legend", {}, this.spec.label),
+      element("span", {className: "names"},
+        ...boxes.map(box => element("label", {}, box, box.value))), this.problem);
+  }
+
+  range() {
+    const ends = ["low", "high"].map((end, i) => this.input({type: "text", id: i ? `${this.id}-high`
+      : this.id, spellcheck: false, autocapitalize: "off", "aria-label": `${this.spec.label}, ${end} end`}));
+    for (const end of ends) {
+      end.addEventListener("input", () => this.edited(ends.map(one => one.value).join("\t")));
+      end.addEventListener("blur", () => this.update(this.facts));
+    }
+    this.read = facts => ends.forEach((end, i) => {
+      if (document.activeElement !== end) end.value = readable(facts.keys[this.spec.key][i]);
+    });
+    return this.row(...ends);
+  }
+
+  edited(text) {
+    // A tab separates the texts of a list, a line the keys.
+    const value = this.spec.kind === "range" ? text : text.replace(/[\t\n\r]+/g, " ");
+    if (value === "" && this.spec.isOptional) this.onReset();
+    else this.onEdit(value);
+  }
+
+  isShown(facts) {
+    const {key, of} = this.spec;
+    if (of === "blocks" && facts.bodies) return false;
+    return textOf(key, facts) !== null;
+  }
+
+  update(facts) {
+    this.facts = facts;
+    this.root.hidden = !this.isShown(facts);
+    if (!this.root.hidden && this.problem.hidden) this.read(facts);
+  }
+
+  /** @param words  of the program; empty if the value is right */
+  say(words) {
+    this.problem.textContent = words;
+    this.problem.hidden = words === "";
+    for (const input of this.inputs) input.setAttribute("aria-invalid", String(words !== ""));
+  }
+}
+
+/** All fields, in groups before the element `before`. */
+class Fields {
+  #fields = new Map();
+  #groups = [];
+
+  constructor(scene, lists, before) {
+    for (const group of GROUPS) {
+      const fields = group.fields.map(spec => new Field({of: group.of, ...spec}, {lists,
+        onEdit: text => scene.edit(spec.key, text),
+        onReset: () => scene.reset(spec.key),
+        onForget: () => this.forget(scene, spec.key)}));
+      for (const field of fields) this.#fields.set(field.spec.key, field);
+      const root = element("details", {className: "group", open: !!group.isOpen},
+        element("summary", {}, group.title), ...fields.map(field => field.root));
+      this.#groups.push({root, fields});
+      before.before(root);
+    }
+  }
+
+  forget(scene, key) {
+    this.#fields.get(key).say("");
+    document.activeElement.blur();
+    scene.forget(key);
+  }
+
+  update(facts) {
+    for (const field of this.#fields.values()) field.update(facts);
+    for (const {root, fields} of this.#groups) {
+      root.hidden = fields.every(field => field.root.hidden);
+    }
+  }
+
+  /** @returns the problems that no field is there for. */
+  say(problems) {
+    const words = new Map();
+    const others = [];
+    for (const problem of problems) {
+      const field = this.#fields.get(problem.key);
+      if (field && !field.root.hidden) {
+        words.set(problem.key, [...(words.get(problem.key) ?? []), problem.words]);
+        field.root.closest("details").open = true;
+      } else {
+        others.push(problem);
+      }
+    }
+    for (const [key, field] of this.#fields) field.say((words.get(key) ?? []).join("\n"));
+    return others;
+  }
+}

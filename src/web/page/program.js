@@ -1,0 +1,86 @@
+// The program in workers.
+// In: tasks of worker.js. Out: promises of what they say.
+
+/** The program says that this cannot be done. */
+class Problem extends Error {}
+/** The program has broken down, or was stopped. */
+class Failure extends Error {}
+
+const byId = id => document.getElementById(id);
+
+async function compiledProgram() {
+  const packed = Uint8Array.from(atob(byId("program").textContent), c => c.charCodeAt(0));
+  byId("program").remove();
+  const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return WebAssembly.compile(await new Response(unpacked).arrayBuffer());
+}
+
+/** One worker, which does one task after the other. */
+class Program {
+  static #module = compiledProgram();
+  static #script = URL.createObjectURL(
+    new Blob([byId("worker").textContent], {type: "text/javascript"}));
+
+  #worker = new Worker(Program.#script);
+  #waiting = new Map();
+  #next = 0;
+  /** What the program has, once it has started. */
+  started;
+  onProgress = () => {};
+
+  constructor() {
+    this.#worker.onmessage = ({data}) => this.#receive(data);
+    this.#worker.onerror = event => this.stop(event.message || "the worker cannot be started");
+    this.started = Program.#module.then(module => this.call("start", {module}));
+    this.started.catch(() => {});
+  }
+
+  call(task, details = {}, transfer = []) {
+    if (this.isStopped) return Promise.reject(new Failure("stopped"));
+    const id = this.#next++;
+    this.#worker.postMessage({id, task, ...details}, transfer);
+    return new Promise((resolve, reject) => this.#waiting.set(id, {resolve, reject}));
+  }
+
+  #receive({id, progress, value, problem, failure}) {
+    if (progress !== undefined) return this.onProgress(progress);
+    const {resolve, reject} = this.#waiting.get(id);
+    this.#waiting.delete(id);
+    if (problem !== undefined) reject(new Problem(problem));
+    else if (failure === undefined) resolve(value);
+    else {
+      reject(new Failure(failure));
+      this.stop(failure);
+    }
+  }
+
+  /** Whatever it does; it can do nothing more then. */
+  stop(reason = "stopped") {
+    if (this.isStopped) return;
+    this.isStopped = true;
+    this.#worker.terminate();
+    for (const {reject} of this.#waiting.values()) reject(new Failure(reason));
+    this.#waiting.clear();
+  }
+}
+
+/** Does the newest of the jobs that come while one is being done, and leaves out those before. */
+class NewestFirst {
+  #next = null;
+  isBusy = false;
+
+  async add(job) {
+    this.#next = job;
+    if (this.isBusy) return;
+    this.isBusy = true;
+    try {
+      while (this.#next) {
+        const now = this.#next;
+        this.#next = null;
+        await now();
+      }
+    } finally {
+      this.isBusy = false;
+    }
+  }
+}

@@ -1,0 +1,109 @@
+// Files that the page makes: pictures of what is shown; the film by several workers.
+// In: the scene and an ending. Out: a download, or a problem in the program's words.
+
+const MEDIA_TYPES = {png: "image/png", svg: "image/svg+xml", pdf: "application/pdf",
+  mp4: "video/mp4", wav: "audio/wav"};
+const MOST_WORKERS = 8;
+
+/** The film in one file. The pieces that workers render are joined as those of several machines. */
+class FilmMaking {
+  #workers = [];
+
+  /** @param onProgress  is told the share that is done. */
+  async make(text, ending, {seconds, onProgress}) {
+    const name = `film.${ending}`;
+    const isSound = ending === "wav";
+    // Pieces are cut at whole seconds.
+    const most = Math.min(navigator.hardwareConcurrency || 2, MOST_WORKERS, Math.ceil(seconds));
+    const count = isSound ? 1 : Math.max(1, most);
+    const shares = new Array(count).fill(0);
+    this.#workers = shares.map(() => new Program());
+    const settings = isSound ? "" : "sound.on=false";
+    const parts = await Promise.all(this.#workers.map(async (worker, i) => {
+      worker.onProgress = share => {
+        shares[i] = share;
+        onProgress(shares.reduce((sum, one) => sum + one, 0) / count);
+      };
+      await worker.call("open", {text, settings});
+      return worker.call("render", {name, number: i + 1, count});
+    }));
+    if (count === 1) return parts[0];
+    return this.#workers[0].call("join", {name, parts}, parts.map(part => part.buffer));
+  }
+
+  stop() {
+    for (const worker of this.#workers) worker.stop();
+    this.#workers = [];
+  }
+}
+
+class Saving {
+  #scene;
+  #making = null;
+  #link = null;
+  /** What files are called, without an ending. */
+  name = "scene";
+
+  constructor(scene, pause) {
+    this.#scene = scene;
+    for (const button of document.querySelectorAll("[data-save]")) {
+      button.addEventListener("click", () => {
+        pause();
+        this.#save(button.dataset.save);
+      });
+    }
+    byId("cancel").addEventListener("click", () => this.#making?.stop());
+  }
+
+  async #save(ending) {
+    this.#say("");
+    byId("saved").hidden = true;
+    try {
+      const isFilm = ending === "mp4" || ending === "wav";
+      const bytes = isFilm ? await this.#makeFilm(ending) : await this.#scene.save(`/picture.${ending}`);
+      if (bytes) this.#download(bytes, ending);
+    } catch (error) {
+      this.#say(error.message);
+    } finally {
+      byId("saving").hidden = true;
+      this.#making?.stop();
+      this.#making = null;
+    }
+  }
+
+  async #makeFilm(ending) {
+    if (this.#making) return null;
+    const {frames, rate, filmProblem} = this.#scene.facts;
+    if (frames === null) throw new Problem(filmProblem);
+    const making = new FilmMaking();
+    this.#making = making;
+    byId("saving").hidden = false;
+    byId("saving-text").textContent = `Rendering ${frames.toLocaleString("en")} frames`;
+    const onProgress = share => byId("saving-progress").value = share;
+    onProgress(0);
+    try {
+      return await making.make(this.#scene.text, ending,
+        {seconds: frames * rate[1] / rate[0], onProgress});
+    } catch (error) {
+      if (error instanceof Failure && error.message === "stopped") return null;
+      throw error;
+    }
+  }
+
+  #download(bytes, ending) {
+    if (this.#link) URL.revokeObjectURL(this.#link.href);
+    const name = `${this.name}.${ending}`;
+    const href = URL.createObjectURL(new Blob([bytes], {type: MEDIA_TYPES[ending]}));
+    this.#link = element("a", {href, download: name}, name);
+    const size = bytes.length < 1e6 ? `${Math.ceil(bytes.length / 1e3)} kB`
+      : `${(bytes.length / 1e6).toFixed(1)} MB`;
+    byId("saved").replaceChildren("Saved as ", this.#link, `, ${size}.`);
+    byId("saved").hidden = false;
+    this.#link.click();
+  }
+
+  #say(words) {
+    byId("saving-problem").textContent = words;
+    byId("saving-problem").hidden = words === "";
+  }
+}
