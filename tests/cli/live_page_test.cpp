@@ -125,7 +125,6 @@ class LivePageTest : public CliFixture {
     EXPECT_EQ(entries(), before);
   }
 
-  // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): one copy for all tests
   static inline std::unique_ptr<TemporaryFolder> prefix_;
 };
 
