@@ -57,6 +57,7 @@ std::unique_ptr<CLI::App> make_app() {
   add_join(program);
   add_still(program);
   add_sheet(program);
+  add_page(program);
   add_log(program);
   add_state(program);
   add_count(program);

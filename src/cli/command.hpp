@@ -87,6 +87,7 @@ void add_render(Command& app);
 void add_join(Command& app);
 void add_still(Command& app);
 void add_sheet(Command& app);
+void add_page(Command& app);
 void add_log(Command& app);
 void add_state(Command& app);
 void add_count(Command& app);

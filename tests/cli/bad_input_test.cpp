@@ -43,8 +43,9 @@ INSTANTIATE_TEST_SUITE_P(
     Commands, BadInputTest,
     testing::Values(
         BadInput{{"frobnicate"},
-                 "unknown command 'frobnicate': use one of render, join, still, sheet, log, state, "
-                 "count, need, scenes, compare, golden, info, manual; see 'piblocks --help'"},
+                 "unknown command 'frobnicate': use one of render, join, still, sheet, page, "
+                 "log, state, count, need, scenes, compare, golden, info, manual; see 'piblocks "
+                 "--help'"},
         BadInput{{"redner"}, "unknown command 'redner'; did you mean 'render'? use one of"},
         BadInput{{"help", "cuont"}, "unknown command 'cuont'; did you mean 'count'?"},
         BadInput{{"golden", "chek"}, "golden: unknown command 'chek'; did you mean 'check'?"},

@@ -9,7 +9,7 @@ namespace {
 using PageTest = CliFixture;
 using Names = std::vector<std::string>;
 
-const Arguments kRender{"render", "--quiet", "--size", "64x36", "--fps", "24", "--to", "5"};
+const Arguments kRenderPage{"render", "--quiet", "--size", "64x36", "--fps", "24", "--to", "5"};
 
 /// The base64 between the quotes of the page's video.
 std::string video_of(const std::string& page) {
@@ -19,8 +19,8 @@ std::string video_of(const std::string& page) {
 }
 
 TEST_F(PageTest, HoldsTheBytesOfTheMp4) {
-  output_of(kRender + Arguments{"-o", "a.html"});
-  output_of(kRender + Arguments{"-o", "a.mp4"});
+  output_of(kRenderPage + Arguments{"-o", "a.html"});
+  output_of(kRenderPage + Arguments{"-o", "a.mp4"});
   EXPECT_EQ(entries(), (Names{"a.html", "a.mp4"}));
   const std::string video = contents("a.mp4");
   const std::string text =
@@ -29,14 +29,14 @@ TEST_F(PageTest, HoldsTheBytesOfTheMp4) {
 }
 
 TEST_F(PageTest, IsTheSameByAnyNumberOfThreads) {
-  output_of(kRender + Arguments{"--jobs", "1", "-o", "a.html"});
-  output_of(kRender + Arguments{"--jobs", "3", "-o", "b.html"});
+  output_of(kRenderPage + Arguments{"--jobs", "1", "-o", "a.html"});
+  output_of(kRenderPage + Arguments{"--jobs", "3", "-o", "b.html"});
   EXPECT_TRUE(contents("a.html") == contents("b.html"));
 }
 
 TEST_F(PageTest, TakesSettingsOfTheEncoder) {
-  output_of(kRender + Arguments{"--encoder", "libx264", "--crf", "40", "-o", "a.html"});
-  output_of(kRender + Arguments{"-o", "b.html"});
+  output_of(kRenderPage + Arguments{"--encoder", "libx264", "--crf", "40", "-o", "a.html"});
+  output_of(kRenderPage + Arguments{"-o", "b.html"});
   EXPECT_FALSE(video_of(contents("a.html")) == video_of(contents("b.html")));
 }
 
@@ -47,10 +47,10 @@ TEST_F(PageTest, RefusesWhatAPageCannotBe) {
     EXPECT_EQ(result.err, message);
     EXPECT_EQ(entries(), Names{});
   };
-  expect_refusal(kRender + Arguments{"-o", "new/a.html", "--part", "1/2"},
+  expect_refusal(kRenderPage + Arguments{"-o", "new/a.html", "--part", "1/2"},
                  "piblocks: part: there are no parts of page 'new/a.html'; render it whole, or the "
                  "parts of an MP4\n");
-  expect_refusal(kRender + Arguments{"-o", "new/a.html", "--transparent"},
+  expect_refusal(kRenderPage + Arguments{"-o", "new/a.html", "--transparent"},
                  "piblocks: output: 'new/a.html' cannot be transparent: a page shows an MP4; use "
                  "an opaque background\n");
   expect_refusal({"render", "--size", "65x37", "-o", "new/a.html"},
@@ -59,7 +59,7 @@ TEST_F(PageTest, RefusesWhatAPageCannotBe) {
 }
 
 TEST_F(PageTest, IsNotJoined) {
-  output_of(kRender + Arguments{"-o", "a.mp4", "--part", "1/1"});
+  output_of(kRenderPage + Arguments{"-o", "a.mp4", "--part", "1/1"});
   const CommandResult result = piblocks({"join", "a.mp4.part-1-of-1", "-o", "a.html"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(result.err,

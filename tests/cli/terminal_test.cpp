@@ -11,11 +11,12 @@ class TerminalTest : public CliFixture {
   }
 };
 
-const Arguments kRender{"render", "--size", "640x360", "--to", "last", "-o", "null"};
+const Arguments kRenderForTerminal{"render", "--size", "640x360", "--to", "last", "-o", "null"};
 
 TEST_F(TerminalTest, ShowsABarThatMakesWayForTheSummary) {
   const CommandResult result =
-      RunningCommand(kRender, {.folder = folder_.path(), .err_is_terminal = true}).wait();
+      RunningCommand(kRenderForTerminal, {.folder = folder_.path(), .err_is_terminal = true})
+          .wait();
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_NE(result.err.find("\r\x1b[K[                              ]   0 %"), std::string::npos);
   const std::size_t last_clear = result.err.rfind("\r\x1b[K");
@@ -44,7 +45,7 @@ TEST_F(TerminalTest, AnErrorDoesNotStandBesideTheBar) {
 }
 
 TEST_F(TerminalTest, IsLeftAloneWhenQuiet) {
-  const CommandResult result = RunningCommand(kRender + Arguments{"--quiet"},
+  const CommandResult result = RunningCommand(kRenderForTerminal + Arguments{"--quiet"},
                                               {.folder = folder_.path(), .err_is_terminal = true})
                                    .wait();
   EXPECT_EQ(result.err, "");
@@ -68,7 +69,7 @@ TEST_F(TerminalTest, GetsTextButNoBytes) {
 }
 
 TEST_F(TerminalTest, AFileGetsPlainLines) {
-  const CommandResult result = piblocks(kRender);
+  const CommandResult result = piblocks(kRenderForTerminal);
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err.find('\r'), std::string::npos);
   EXPECT_EQ(result.err.find('\x1b'), std::string::npos);

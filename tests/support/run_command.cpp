@@ -74,14 +74,15 @@ pid_t spawn(const std::vector<std::string>& arguments, const CommandOptions& opt
     posix_spawn_file_actions_addclose(&actions, descriptor);
   }
 
-  std::vector<std::string> words{PIBLOCKS_PROGRAM};
+  const std::string program = options.program.empty() ? PIBLOCKS_PROGRAM : options.program;
+  std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<std::string> environment = options.environment;
   for (char** variable = environ; *variable != nullptr; ++variable) {
     environment.emplace_back(*variable);
   }
   pid_t pid = -1;
-  const int error = posix_spawn(&pid, PIBLOCKS_PROGRAM, &actions, nullptr, pointers(words).data(),
+  const int error = posix_spawn(&pid, program.c_str(), &actions, nullptr, pointers(words).data(),
                                 pointers(environment).data());
   posix_spawn_file_actions_destroy(&actions);
   check_spawn(error, "posix_spawn");

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "media/libav/own_binary.hpp"
+#include "core/own_binary.hpp"
 
 namespace piblocks {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "media/libav/own_binary.hpp"
+#include "core/own_binary.hpp"
 
 namespace piblocks {
 

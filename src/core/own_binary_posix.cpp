@@ -3,7 +3,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "media/libav/own_binary.hpp"
+#include "core/own_binary.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;

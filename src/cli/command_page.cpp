@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+#include <piblocks/script.hpp>
+
+#include "cli/command.hpp"
+#include "cli/live_page.hpp"
+#include "cli/options.hpp"
+#include "cli/scene_options.hpp"
+#include "cli/stop_on_signals.hpp"
+#include "core/output_file.hpp"
+#include "core/overwrite_check.hpp"
+#include "core/text.hpp"
+#include "render/film.hpp"
+#include "scene/scene_toml.hpp"
+
+namespace piblocks::cli {
+namespace {
+
+void check_page_options(const Command& options) {
+  if (!options.is_given("--live")) {
+    throw UsageError(
+        "page: 'piblocks page --live' writes a page with the program in it, 'piblocks render -o "
+        "NAME.html' one with the video; use one of them");
+  }
+  const std::string output = output_of(options);
+  if (output != "-" && !has_ending(output, ".html")) {
+    throw UsageError(fmt::format(
+        "output: cannot write a page to '{}'; use NAME.html, or - for standard output", output));
+  }
+  refuse_terminal(options);
+}
+
+/// What 'piblocks render' would refuse, and files that a page cannot read.
+void check_page_scene(const Script& script) {
+  for (const Scene* scene : scenes_of(script)) {
+    if (scene->show.logo.empty()) continue;
+    throw UsageError(fmt::format("show.logo: a page cannot read the file '{}'; leave the logo out",
+                                 scene->show.logo));
+  }
+  const Film film(script);
+}
+
+void check_page_overwrites(const Command& options, const SceneOptions& scene, const Script& script,
+                           const LivePage& page) {
+  OverwriteCheck check;
+  scene.add_inputs(check, script);
+  check.reads("the page with the program", page.file);
+  const std::string output = output_of(options);
+  output == "-" ? check.writes_standard_output() : check.writes("--output", output);
+  check.check();
+}
+
+void run_page(const Command& options, const SceneOptions& scene) {
+  check_page_options(options);
+  const Script script = scene.script();
+  scene.check_output(script);
+  check_page_scene(script);
+  const LivePage page = find_live_page();
+  check_page_overwrites(options, scene, script, page);
+  const StopOnSignals signals;
+  OutputFile out(output_of(options));
+  write_page(page, scene_toml(script), out);
+  if (signals.token().stop_requested()) throw Interrupted("page: interrupted");
+  out.finish();
+  note_convention(script);
+}
+
+}  // namespace
+
+void add_page(Command& app) {
+  Command command = app.add_command("page", "Write a page with the program in it, for a browser");
+  SceneOptions scene(command);
+  command.add_flag("--live", "The page computes and draws what it shows, by the program");
+  command.add_required_value("-o,--output", "OUT", "NAME.html, or - (standard output)");
+  scene.add_picture();
+  scene.add_show();
+  scene.add_exposure();
+  scene.add_timing();
+  scene.add_sound();
+  command.set_footer(
+      "'piblocks render -o NAME.html' writes a page with the video instead.\n\n"
+      "Examples:\n"
+      "  piblocks page --live -o live.html\n"
+      "  piblocks page --live lecture --digits 4 -o lecture.html");
+  command.on_run([=] { run_page(command, scene); });
+}
+
+}  // namespace piblocks::cli
