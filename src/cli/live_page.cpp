@@ -13,6 +13,7 @@
 
 #include "core/descriptor.hpp"
 #include "core/own_binary.hpp"
+#include "core/text.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -81,23 +82,6 @@ LivePage read_live_page(const fs::path& file) {
   return page;
 }
 
-/// A string of JSON (RFC 8259, section 7) that cannot end the element it stands in.
-std::string json_string(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      result += {'\\', c};
-    } else if (c == '\n') {
-      result += "\\n";
-    } else if (c == '<' || (c >= 0 && c < ' ')) {
-      result += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
-    } else {
-      result += c;
-    }
-  }
-  return result + '"';
-}
-
 }  // namespace
 
 LivePage find_live_page() {
@@ -119,7 +103,7 @@ LivePage find_live_page() {
 void write_page(const LivePage& page, std::string_view toml, OutputFile& out) {
   const std::string_view html = page.html;
   out.write(html.substr(0, page.scene_begin));
-  out.write(fmt::format(R"({{"text":{}}})", json_string(toml)));
+  out.write(fmt::format(R"({{"text":{}}})", json_text(toml)));
   out.write(html.substr(page.scene_end));
 }
 

@@ -91,8 +91,11 @@ std::string escaped(std::string_view text) {
 std::string json_text(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
-    const bool is_special = c == '"' || c == '\\' || c == '<' || (c >= 0 && c < ' ');
-    if (is_special) {
+    if (c == '"' || c == '\\') {
+      result += {'\\', c};
+    } else if (c == '\n') {
+      result += "\\n";
+    } else if (c == '<' || (c >= 0 && c < ' ')) {
       result += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
     } else {
       result += c;

@@ -91,9 +91,11 @@ std::string bodies_json(const Bodies& bodies) {
                      list(rows));
 }
 
-std::string keys_json(const Scene& scene) {
+/// @param of_film  whether to leave out keys that are not for a whole film.
+std::string keys_json(const Scene& scene, bool of_film) {
   std::vector<std::string> keys;
   for (const SceneKey& key : scene_keys()) {
+    if (of_film && !is_film_key(key.name)) continue;
     keys.push_back(fmt::format("{}:{}", json_text(key.name), texts(key.get(scene))));
   }
   std::string text = list(keys);
@@ -115,10 +117,10 @@ std::string scene_json(const Scene& scene, const FilmRun& run) {
   const std::optional<int> digits = digits_of(ratio, scene.show.base);
   return fmt::format(
       R"("collisions":{},"firstCollision":{},"hasTurn":{},"mayGoOn":{},"digits":{},"massRatio":{},)"
-      R"("keys":{},"bodies":{},"notes":{})",
+      R"("bodies":{},"notes":{})",
       json_text(is_infinite ? "infinite" : log.size().get_str()),
       json_text(log.first_index().get_str()), log.turn().has_value(), log.may_go_on(),
-      digits ? fmt::format("{}", *digits) : "null", json_text(ratio.get_str()), keys_json(scene),
+      digits ? fmt::format("{}", *digits) : "null", json_text(ratio.get_str()),
       scene.bodies ? bodies_json(*scene.bodies) : "null", texts(notes_of(scene, run)));
 }
 
@@ -126,15 +128,19 @@ std::string scene_json(const Scene& scene, const FilmRun& run) {
 
 std::string facts_json(const Live& live) {
   const auto* const scene = std::get_if<Scene>(&live.script());
+  Scene film;
+  film.view = view_of(live.script());
+  film.sound = sound_of(live.script());
   const View& view = view_of(live.script());
   const std::optional<std::int64_t> frames = live.frame_count();
   return fmt::format(
       R"({{"kind":"{}","width":{},"height":{},"rate":[{},{}],"frames":{},"filmProblem":{},)"
-      R"("sound":{},"toml":{}{}{}}})",
+      R"("sound":{},"keys":{},"toml":{}{}{}}})",
       scene == nullptr ? "storyboard" : "scene", view.width_px, view.height_px,
       view.frame_rate.get_num().get_str(), view.frame_rate.get_den().get_str(),
       frames ? fmt::format("{}", *frames) : "null", json_text(live.film_problem()),
-      sound_of(live.script()).on, json_text(scene_toml(live.script())), scene ? "," : "",
+      film.sound.on, keys_json(scene ? *scene : film, scene == nullptr),
+      json_text(scene_toml(live.script())), scene ? "," : "",
       scene ? scene_json(*scene, *live.run()) : "");
 }
 

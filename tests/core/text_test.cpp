@@ -100,4 +100,11 @@ TEST(Base64, OfPiecesIsThatOfTheWhole) {
 }
 
 }  // namespace
+TEST(Text, JsonStringsEscapeWhatWouldEndThem) {
+  EXPECT_EQ(json_text(""), R"("")");
+  EXPECT_EQ(json_text("π \"a\" \\ b"), R"("π \"a\" \\ b")");
+  EXPECT_EQ(json_text("a\nb\t\x01"), R"("a\nb\u0009\u0001")");
+  EXPECT_EQ(json_text("</script>"), R"("\u003c/script>")");
+}
+
 }  // namespace piblocks

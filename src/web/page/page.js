@@ -97,15 +97,20 @@ scene.onOpened = (facts, sceneText) => {
 scene.onProblems = problems => {
   let others = bodies.say(fields.say(problems));
   const ofText = others.filter(problem => problem.isText);
-  others = others.filter(problem => !problem.isText);
+  const ofPlace = others.filter(problem => problem.isPlace);
+  others = others.filter(problem => !problem.isText && !problem.isPlace);
+  byId("instant-problem").textContent = ofPlace.map(problem => problem.words).join("\n");
+  byId("instant-problem").hidden = ofPlace.length === 0;
+  byId("instant").setAttribute("aria-invalid", String(ofPlace.length > 0));
   byId("text-problem").textContent = ofText.map(problem => problem.words).join("\n");
   byId("text-problem").hidden = ofText.length === 0;
   text.setAttribute("aria-invalid", String(ofText.length > 0));
   if (ofText.length > 0) byId("text-group").open = true;
-  const count = problems.length - others.length;
-  if (count > 0) {
-    others.push({words: `The picture is the one before: ${count === 1 ? "a value is" :
-      `${count} values are`} wrong, see below.`});
+  const left = problems.filter(problem => !others.includes(problem) && !ofPlace.includes(problem));
+  if (left.length > 0) {
+    const names = left.map(({key, body, property}) =>
+      key ?? (body ? `body ${body}.${property}` : "the scene file"));
+    others.push({words: `Not shown, because it is wrong: ${[...new Set(names)].join(", ")}.`});
   }
   sayProblem(others.map(problem => problem.words).join("\n"));
 };
@@ -159,6 +164,11 @@ byId("copy-link").addEventListener("click", async event => {
   const address = shipped ? `#${shipped.name}` : await addressOf(scene.text);
   copy(event.target, new URL(address, location.href).href);
 });
+byId("go-to-save").addEventListener("click", () => {
+  byId("save-group").open = true;
+  byId("save-group").scrollIntoView({block: "nearest"});
+  byId("save-group").querySelector("button").focus({preventScroll: true});
+});
 byId("settings").addEventListener("submit", event => event.preventDefault());
 
 async function openAddress() {
@@ -176,5 +186,5 @@ addEventListener("hashchange", openAddress);
 const given = JSON.parse(byId("opened-scene").textContent);
 if (!await openAddress()) {
   if (given) open({text: given.text, name: null});
-  else openShipped("article");
+  else openShipped("lecture");
 }

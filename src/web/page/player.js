@@ -97,10 +97,13 @@ class Player {
       "previous-frame": () => this.#step(-1), "next-frame": () => this.#step(1),
       "previous-collision": () => this.#stepCollision(-1),
       "next-collision": () => this.#stepCollision(1), sound: () => this.#toggleSound(),
-      "full-screen": () => this.#toggleFullScreen()};
+      "full-screen": () => this.#toggleFullScreen(), go: () => this.#goToInstant()};
     for (const [name, action] of Object.entries(actions)) {
       byId(name).addEventListener("click", action);
     }
+    byId("instant").addEventListener("keydown", event => {
+      if (event.key === "Enter") this.#goToInstant();
+    });
     this.#listenToKeys();
     this.#listenToFingers(byId("picture"));
   }
@@ -125,6 +128,10 @@ class Player {
   }
   #goTo(frame) {
     if (this.#frames > 0) this.#show({frame: Math.max(0, Math.min(this.#frames - 1, frame))});
+  }
+  #goToInstant() {
+    const instant = byId("instant").value.trim();
+    if (instant) this.#show({instant});
   }
   #step(frames) {
     this.#goTo(this.#frame + frames);
