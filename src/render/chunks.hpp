@@ -52,7 +52,7 @@ class OrderedPool {
   OrderedPool(std::int64_t count, int workers, const MakeTask& make_task)
       : count_(count), window_(2 * std::int64_t{workers}) {
     if constexpr (!kHasThreads) {
-      task_ = make_task();
+      if (count > 0) task_ = make_task();
       return;
     }
     for (std::int64_t i = 0; i < std::min<std::int64_t>(workers, count); ++i) {
@@ -64,7 +64,7 @@ class OrderedPool {
   /// The result of the next task in order; nothing after the last or when told to stop.
   /// Rethrows the first exception of any task.
   std::optional<Result> take(const std::stop_token& stop) {
-    if (task_) return take_here(stop);
+    if constexpr (!kHasThreads) return take_here(stop);
     std::unique_lock lock(mutex_);
     if (next_to_take_ == count_) return std::nullopt;
     const bool ready = changed_.wait(

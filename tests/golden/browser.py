@@ -62,7 +62,10 @@ class Browser:
             self.events.append(message)
 
     def show(self, path):
-        self._load("Page.navigate", url=path.as_uri())
+        self.show_address(path.as_uri())
+
+    def show_address(self, address):
+        self._load("Page.navigate", url=address)
 
     def reload(self):
         self._load("Page.reload")

@@ -16,31 +16,40 @@ const text = byId("text");
 /** The name of the scene of the program that is shown, and its text; null of any other. */
 let shipped = null;
 let busyTimer = null;
+/** Stays until another scene is opened. */
+let linkProblem = "";
 
 function sayProblem(words) {
   byId("problem").textContent = words;
   byId("problem").hidden = words === "";
 }
 
+/** Of more, the first ones are read out. */
+const MOST_BODIES = 6;
+
 function grouped(count) {
   return count === "infinite" ? "∞" : count.replace(/\B(?=(\d{3})+$)/g, "\u202F");
 }
 
-function readOut(name, value, className = "") {
-  return element("div", {className}, element("dt", {}, name), element("dd", {}, value));
+function readOut(name, ...values) {
+  return element("div", {}, element("dt", {}, name),
+    ...values.map(value => element("dd", {}, value)));
 }
+
+/** A position or velocity, on a line or in a plane. */
+const vectorText = numbers => [numbers].flat().join("; ");
+
+const motionReadOut = (name, {position, velocity}) =>
+  readOut(name, `x = ${vectorText(position)}`, `v = ${vectorText(velocity)}`);
 
 /** Numbers as `piblocks state` prints them. */
 function readOutsOf({state, frame}, facts) {
   const rows = [];
   if (state !== null) {
     const {collisions, time, blue, red, bodies: moving} = JSON.parse(state);
-    rows.push(readOut("Collisions", grouped(collisions), "count"), readOut("Time", String(time)));
-    for (const [name, block] of Object.entries(moving ? {} : {Blue: blue, Red: red})) {
-      rows.push(readOut(name, `x = ${block.position}, v = ${block.velocity}`));
-    }
-    moving?.slice(0, 6).forEach(({position, velocity}, i) =>
-      rows.push(readOut(`Body ${i + 1}`, `x = ${[position].flat().join("; ")}, v = ${[velocity].flat().join("; ")}`)));
+    rows.push(readOut("Collisions", grouped(collisions)), readOut("Time", String(time)));
+    if (moving) moving.slice(0, MOST_BODIES).forEach((body, i) => rows.push(motionReadOut(`Body ${i + 1}`, body)));
+    else rows.push(motionReadOut("Blue", blue), motionReadOut("Red", red));
   }
   if (frame !== null) {
     rows.push(readOut("Frame", `${frame + 1} of ${facts.frames}`));
@@ -112,7 +121,7 @@ scene.onProblems = problems => {
       key ?? (body ? `body ${body}.${property}` : "the scene file"));
     others.push({words: `Not shown, because it is wrong: ${[...new Set(names)].join(", ")}.`});
   }
-  sayProblem(others.map(problem => problem.words).join("\n"));
+  sayProblem([linkProblem, ...others.map(problem => problem.words)].filter(words => words).join("\n"));
 };
 
 scene.onBusy = isBusy => {
@@ -130,6 +139,7 @@ byId("scenes").addEventListener("change", () => openShipped(byId("scenes").value
 
 function open(found) {
   player.pause();
+  linkProblem = "";
   shipped = found.name ? found : null;
   scene.open(found.text, {frame: 0});
 }
@@ -171,13 +181,15 @@ byId("go-to-save").addEventListener("click", () => {
 });
 byId("settings").addEventListener("submit", event => event.preventDefault());
 
+/** @returns whether the address has a scene. */
 async function openAddress() {
   try {
     const found = await sceneOf(location.hash, scenes);
     if (found) open(found);
     return found !== null;
   } catch (error) {
-    sayProblem(`Link: ${error.message}`);
+    linkProblem = `Link: ${error.message}`;
+    sayProblem(linkProblem);
     return false;
   }
 }
@@ -185,6 +197,8 @@ addEventListener("hashchange", openAddress);
 
 const given = JSON.parse(byId("opened-scene").textContent);
 if (!await openAddress()) {
+  const words = linkProblem;
   if (given) open({text: given.text, name: null});
   else openShipped("lecture");
+  linkProblem = words;
 }

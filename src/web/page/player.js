@@ -20,7 +20,6 @@ class FilmSound {
     this.#context ??= new AudioContext({sampleRate: FilmSound.#rate_hz});
     await this.#context.resume();
     this.#program ??= new Program();
-    await this.#program.started;
     if (this.#text !== text) {
       await this.#program.call("open", {text, settings: ""});
       await this.#program.call("openSound");

@@ -31,11 +31,16 @@ class Program {
   constructor() {
     this.#worker.onmessage = ({data}) => this.#receive(data);
     this.#worker.onerror = event => this.stop(event.message || "the worker cannot be started");
-    this.started = Program.#module.then(module => this.call("start", {module}));
+    this.started = Program.#module.then(module => this.#send("start", {module}));
     this.started.catch(() => {});
   }
 
-  call(task, details = {}, transfer = []) {
+  async call(task, details = {}, transfer = []) {
+    await this.started;
+    return this.#send(task, details, transfer);
+  }
+
+  #send(task, details, transfer = []) {
     if (this.isStopped) return Promise.reject(new Failure("stopped"));
     const id = this.#next++;
     this.#worker.postMessage({id, task, ...details}, transfer);

@@ -35,11 +35,6 @@ class Server:
         self.page = f"http://127.0.0.1:{self.server.server_port}/page.html"
 
 
-class Chromium(Browser):
-    def go(self, address):
-        self._load("Page.navigate", url=address)
-
-
 class WebBrowser:
     """Decodes a stream by WebCodecs, and plays a file."""
 
@@ -52,7 +47,7 @@ class WebBrowser:
 
     def begin(self, work, server):
         self._page = self.browser(work / f"{self.name}-profile")
-        self._page.go(server.page)
+        self._page.show_address(server.page)
 
     def close(self):
         if self._page:
@@ -65,5 +60,5 @@ class WebBrowser:
         return self.value("decode", stream.file.name, stream.codec(), stream.units())
 
 
-BROWSERS = [WebBrowser("Chromium", "chromium", Chromium),
+BROWSERS = [WebBrowser("Chromium", "chromium", Browser),
             WebBrowser("Firefox", "firefox-esr", Firefox)]

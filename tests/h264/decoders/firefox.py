@@ -60,7 +60,7 @@ class Firefox:
             sys.exit(f"firefox: {method}: {error['message']}")
         return result
 
-    def go(self, address):
+    def show_address(self, address):
         self.call("WebDriver:Navigate", url=address)
 
     def value(self, script):
