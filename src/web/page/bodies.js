@@ -54,7 +54,8 @@ class Bodies {
     this.hint.textContent = `${count} bodies: too many for a table. The scene file has them.`;
     this.add.hidden = !this.hint.hidden;
     this.#facts = facts;
-    // What is being typed stays as it is typed.
+    // What was refused, or is being typed, stays as it is.
+    if (!this.problem.hidden) return;
     if (this.table.contains(document.activeElement) && rows.length === this.#rows.length) {
       this.#rows = rows;
       return;
@@ -96,9 +97,7 @@ class Bodies {
       this.#send();
     });
     input.addEventListener("blur", () => {
-      if (this.problem.hidden && this.#facts === this.scene.facts) {
-        setTimeout(() => this.update(this.scene.facts));
-      }
+      setTimeout(() => this.update(this.scene.facts));
     });
     return input;
   }
@@ -130,14 +129,18 @@ class Bodies {
   #send() {
     const {toml, bodies} = this.#facts;
     const head = toml.split("\n").filter(line => line && !line.startsWith("body = "));
-    this.scene.replace([...head, ...this.#rows.map(row => bodyText(row, bodies.dimensions)), ""]
-      .join("\n"));
+    const rows = this.#rows.map(row => bodyText(row, bodies.dimensions));
+    this.scene.replace([...head, ...rows, ""].join("\n"), "bodies");
+  }
+
+  has(key) {
+    return this.box.some(box => box.spec.key === key && !box.root.hidden && !this.root.hidden);
   }
 
   /** @returns the problems that are not about bodies. */
   say(problems) {
     const boxes = new Map(AXES.map((axis, i) => [`box.${axis}`, this.box[i]]));
-    const mine = problems.filter(problem => problem.body && !this.root.hidden);
+    const mine = problems.filter(problem => problem.key === "bodies");
     const ofBox = problems.filter(problem => boxes.has(problem.key));
     for (const [key, box] of boxes) {
       box.say(ofBox.filter(problem => problem.key === key).map(problem => problem.words).join("\n"));

@@ -272,15 +272,19 @@ class Fields {
     }
   }
 
+  has(key) {
+    const field = this.#fields.get(key);
+    return field !== undefined && !field.root.hidden;
+  }
+
   /** @returns the problems that no field is there for. */
   say(problems) {
     const words = new Map();
     const others = [];
     for (const problem of problems) {
-      const field = this.#fields.get(problem.key);
-      if (field && !field.root.hidden) {
+      if (this.has(problem.key)) {
         words.set(problem.key, [...(words.get(problem.key) ?? []), problem.words]);
-        field.root.closest("details").open = true;
+        this.#fields.get(problem.key).root.closest("details").open = true;
       } else {
         others.push(problem);
       }

@@ -93,7 +93,7 @@ scene.onOpened = (facts, sceneText) => {
   if (shipped && sceneText !== shipped.text) shipped = null;
   byId("scenes").value = shipped?.name ?? "";
   saving.name = shipped?.name ?? "scene";
-  if (document.activeElement !== text) text.value = sceneText;
+  if (document.activeElement !== text && byId("text-problem").hidden) text.value = sceneText;
   fields.update(facts);
   bodies.update(facts);
   player.update(facts);
@@ -104,24 +104,26 @@ scene.onOpened = (facts, sceneText) => {
 };
 
 scene.onProblems = problems => {
-  let others = bodies.say(fields.say(problems));
-  const ofText = others.filter(problem => problem.isText);
-  const ofPlace = others.filter(problem => problem.isPlace);
-  others = others.filter(problem => !problem.isText && !problem.isPlace);
-  byId("instant-problem").textContent = ofPlace.map(problem => problem.words).join("\n");
-  byId("instant-problem").hidden = ofPlace.length === 0;
-  byId("instant").setAttribute("aria-invalid", String(ofPlace.length > 0));
+  const others = bodies.say(fields.say(problems));
+  const ofText = others.filter(problem => problem.key === "text");
   byId("text-problem").textContent = ofText.map(problem => problem.words).join("\n");
   byId("text-problem").hidden = ofText.length === 0;
   text.setAttribute("aria-invalid", String(ofText.length > 0));
   if (ofText.length > 0) byId("text-group").open = true;
-  const left = problems.filter(problem => !others.includes(problem) && !ofPlace.includes(problem));
-  if (left.length > 0) {
-    const names = left.map(({key, body, property}) =>
-      key ?? (body ? `body ${body}.${property}` : "the scene file"));
-    others.push({words: `Not shown, because it is wrong: ${[...new Set(names)].join(", ")}.`});
-  }
-  sayProblem([linkProblem, ...others.map(problem => problem.words)].filter(words => words).join("\n"));
+  const elsewhere = others.filter(problem => problem.key !== "text");
+  const names = problems.filter(problem => !elsewhere.includes(problem)).map(({key, body, property}) =>
+    key === "text" ? "the scene file" : body ? `body ${body}.${property}` : key);
+  const leftOut = names.length > 0 && `Not shown, because it is wrong: ${[...new Set(names)].join(", ")}.`;
+  sayProblem([linkProblem, ...elsewhere.map(problem => problem.words), leftOut]
+    .filter(words => words).join("\n"));
+};
+
+scene.hasField = key => fields.has(key) || bodies.has(key);
+
+scene.onPlaceProblem = words => {
+  byId("instant-problem").textContent = words;
+  byId("instant-problem").hidden = words === "";
+  byId("instant").setAttribute("aria-invalid", String(words !== ""));
 };
 
 scene.onBusy = isBusy => {
@@ -140,6 +142,7 @@ byId("scenes").addEventListener("change", () => openShipped(byId("scenes").value
 function open(found) {
   player.pause();
   linkProblem = "";
+  byId("text-problem").hidden = true;
   shipped = found.name ? found : null;
   scene.open(found.text, {frame: 0});
 }
@@ -169,6 +172,10 @@ async function copy(button, words) {
   setTimeout(() => button.textContent = label, 1500);
 }
 
+byId("undo-text").addEventListener("click", () => {
+  byId("text-problem").hidden = true;
+  scene.open(scene.text);
+});
 byId("copy-text").addEventListener("click", event => copy(event.target, text.value));
 byId("copy-link").addEventListener("click", async event => {
   const address = shipped ? `#${shipped.name}` : await addressOf(scene.text);

@@ -1,6 +1,6 @@
 // The scene that the page shows.
 // In: texts of scene files, edits of single keys, places in the film. Out: calls of `onOpened`,
-// `onShown`, `onProblems`: what the program makes of them.
+// `onShown`, `onProblems`, `onPlaceProblem`: what the program makes of them.
 
 /** How long the program may work before something else is wanted. */
 const PATIENCE_ms = 1500;
@@ -8,18 +8,19 @@ const PATIENCE_ms = 1500;
 /** Keys that set the same value: an edit of one replaces those of the others. */
 const ALIKE = [["digits", "mass-ratio", "red.mass"], ["time.speed", "time.duration"]];
 
-/** Which field a line of the program's words is about, and the words for it. */
-function blame(line, edits) {
-  const body = line.match(/(?:^|: )body (\d+)\.(\w+)/);
-  if (body) return {body: Number(body[1]), property: body[2], words: line.replace(/^scene:\d+: /, "")};
-  const [, key, words] = line.match(/^([a-z][a-z.-]*): (.*)$/s) ?? [];
-  if (key === "masses") {
-    const mass = ["digits", "mass-ratio", "red.mass", "blue.mass"].find(one => edits.has(one));
-    return {key: mass ?? "mass-ratio", words: line};
-  }
-  if (key !== undefined && edits.has(key)) return {key, words};
-  if (/^scene:\d+:/.test(line)) return {isText: true, words: line.replace(/^scene:(\d+):/, "line $1:")};
-  return {words: line};
+/** What the program says of an edit, without the name of what was edited. */
+const wordsOf = (message, key) => message.split("\n")
+  .map(line => line.startsWith(`${key}: `) ? line.slice(key.length + 2) : line)
+  .map(line => line.replace(/^scene:\d+: /, ""));
+
+/** What it says of a text: of the lines of a file, or of bodies in a table. */
+function problemsOfText(message, key) {
+  return message.split("\n").map(line => {
+    if (key !== "bodies") return {key, words: line.replace(/^scene:(\d+):/, "line $1:")};
+    const words = line.replace(/^scene:\d+: /, "");
+    const [, body, property] = words.match(/^body (\d+)\.(\w+)/) ?? [];
+    return {key, words, body: Number(body), property};
+  });
 }
 
 class Scene {
@@ -29,6 +30,9 @@ class Scene {
   onOpened = () => {};
   onShown = () => {};
   onProblems = () => {};
+  onPlaceProblem = () => {};
+  /** Whether there is a field that could show what is wrong with this key. */
+  hasField = () => true;
   onBusy = () => {};
 
   #program = new Program();
@@ -37,8 +41,10 @@ class Scene {
   #isEdited = false;
   /** Edits that the program has not taken yet, or has refused; the last one comes last. */
   #edits = new Map();
-  /** A text that is to take the place of the scene. */
+  /** A text that is to take the place of the scene, and what it comes from. */
   #newText = null;
+  /** What is wrong with texts that were refused and are still to be seen, by what they come from. */
+  #textProblems = new Map();
   #since = 0;
 
   get started() {
@@ -51,12 +57,14 @@ class Scene {
   /** Shows another scene. @param place  in its film, as that of worker.js */
   open(text, place = this.place) {
     this.#edits.clear();
-    this.replace(text, place);
+    this.#textProblems.clear();
+    this.replace(text, "text", place);
   }
 
-  /** Takes this text for the scene; edits that are wrong stay. */
-  replace(text, place = this.place) {
-    this.#newText = text;
+  /** Takes this text for the scene; edits that were refused stay.
+   * @param key  what it comes from: "text", "bodies" or a key of the scene */
+  replace(text, key, place = this.place) {
+    this.#newText = {text, key};
     this.place = place;
     this.#apply();
   }
@@ -74,7 +82,7 @@ class Scene {
   reset(key) {
     this.#edits.delete(key);
     const isOther = line => !line.startsWith(`${key} = `);
-    this.replace(this.facts.toml.split("\n").filter(isOther).join("\n"));
+    this.replace(this.facts.toml.split("\n").filter(isOther).join("\n"), key);
   }
 
   /** Leaves the value as it was before. */
@@ -100,7 +108,9 @@ class Scene {
   /** Gives up what the program does, and goes on with what it has taken last. */
   stop() {
     this.#edits.clear();
+    this.#textProblems.clear();
     this.#newText = null;
+    this.onProblems([]);
     this.#replaceProgram();
     if (this.facts) this.onOpened(this.facts, this.#text);
   }
@@ -128,7 +138,7 @@ class Scene {
         if (!(error instanceof Failure)) throw error;
         if (this.#program.isStopped) this.#replaceProgram();
         if (error.message !== "stopped") {
-          this.onProblems([{words: `The program has stopped: ${error.message}`}]);
+          this.onProblems([{key: "program", words: `The program has stopped: ${error.message}`}]);
         }
       } finally {
         this.onBusy(false);
@@ -143,76 +153,62 @@ class Scene {
 
   async #show(place) {
     try {
-      this.#takeShown(await this.#program.call("show", {place}));
-      this.onProblems([]);
+      this.onShown(await this.#program.call("show", {place}));
+      this.onPlaceProblem("");
     } catch (error) {
       if (!(error instanceof Problem)) throw error;
-      this.onProblems([{isPlace: true, words: error.message}]);
+      this.onPlaceProblem(error.message);
     }
   }
 
+  /** @returns what the program says is wrong; empty if it has taken it. */
   async #try(text, edits) {
-    const settings = [...edits].map(([key, value]) => `${key}=${value}`).join("\n");
-    return this.#program.call("open", {text, settings, place: this.place});
-  }
-
-  /** Opens the scene with all edits or, if some are wrong, with the others. */
-  async #openEdited() {
-    const edits = new Map(this.#edits);
-    const text = this.#newText ?? this.#text;
-    const isNew = this.#newText !== null;
+    const settings = edits.map(([key, value]) => `${key}=${value}`).join("\n");
     try {
-      const opened = await this.#try(text, edits);
-      this.#forgetTaken(edits, text);
-      this.#take(opened, text, edits);
-      this.onProblems([]);
-    } catch (error) {
-      if (!(error instanceof Problem)) throw error;
-      const problems = error.message.split("\n").map(line => blame(line, edits));
-      const last = [...edits.keys()].at(-1);
-      for (const problem of problems) {
-        const isNamed = problem.key || problem.body || problem.isText;
-        if (!isNamed && !isNew && last !== undefined) problem.key = last;
-        if (!isNamed && (isNew || last === undefined)) problem.isText = true;
+      const {facts, shown} = await this.#program.call("open", {text, settings, place: this.place});
+      for (const [key, value] of edits) {
+        if (this.#edits.get(key) === value) this.#edits.delete(key);
       }
-      await this.#openWithout(problems, edits, text);
-      this.onProblems(problems);
-    }
-  }
-
-  /** The edits that no problem is about still hold. */
-  async #openWithout(problems, edits, text) {
-    const wrong = new Set(problems.map(problem => problem.key));
-    const right = new Map([...edits].filter(([key]) => !wrong.has(key)));
-    if (problems.some(problem => !problem.key)) {
-      this.#newText = null;
-      return;
-    }
-    if (right.size === 0 && this.#newText === null) return;
-    try {
-      const opened = await this.#try(text, right);
-      this.#forgetTaken(right, text);
-      this.#take(opened, text, right);
+      this.facts = facts;
+      this.#text = edits.length > 0 ? facts.toml : text;
+      this.onOpened(facts, this.#text);
+      this.onShown(shown);
+      // Another kind of scene has other keys.
+      for (const key of this.#edits.keys()) {
+        if (!this.hasField(key)) this.#edits.delete(key);
+      }
+      return "";
     } catch (error) {
       if (!(error instanceof Problem)) throw error;
+      return error.message;
     }
   }
 
-  #forgetTaken(edits, text) {
-    for (const [key, value] of edits) {
-      if (this.#edits.get(key) === value) this.#edits.delete(key);
+  async #openEdited() {
+    const keyOfText = await this.#openText();
+    const edits = [...this.#edits];
+    const problems = [];
+    const message = edits.length > 0 ? await this.#try(this.#text, edits) : "";
+    // One by one, the newest first: what is wrong with one does not hold up the others.
+    for (const edit of message ? edits.reverse() : []) {
+      if (!this.#edits.has(edit[0])) continue;
+      const words = edits.length > 1 ? await this.#try(this.#text, [edit]) : message;
+      if (words) problems.push(...wordsOf(words, edit[0]).map(line => ({key: edit[0], words: line})));
     }
-    if (this.#newText === text) this.#newText = null;
+    this.onProblems([...problems, ...[...this.#textProblems.values()].flat()]);
+    // A key that could not be given its default has its value again.
+    if (keyOfText) this.#textProblems.delete(keyOfText);
   }
 
-  #take({facts, shown}, text, edits = new Map()) {
-    this.facts = facts;
-    this.#text = edits.size > 0 ? facts.toml : text;
-    this.onOpened(facts, this.#text);
-    this.#takeShown(shown);
-  }
-
-  #takeShown(shown) {
-    this.onShown(shown);
+  /** @returns the key for whose sake a text was refused. */
+  async #openText() {
+    if (this.#newText === null) return null;
+    const {text, key} = this.#newText;
+    this.#newText = null;
+    this.#textProblems.delete(key);
+    const message = await this.#try(text, []);
+    if (message === "") return null;
+    this.#textProblems.set(key, problemsOfText(message, key));
+    return key === "text" || key === "bodies" ? null : key;
   }
 }
