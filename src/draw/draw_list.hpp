@@ -107,14 +107,15 @@ struct ImageItem {
 
 struct Plate;
 
-/// Items that never change, painted once and kept as pixels. Equal if the plate is the same object.
+/// Items that never change, painted once and kept as pixels.
 /// All items with the same plate have bounds of one size, and at one place from the origin.
 struct PlateItem {
   ItemId id = ItemId::wall;
   Rectangle bounds;  ///< in whole pixels; the plate is cut off at them
   std::shared_ptr<const Plate> plate;
   Point origin{};  ///< of the plate's items, in whole pixels
-  bool operator==(const PlateItem&) const = default;
+
+  friend bool operator==(const PlateItem& a, const PlateItem& b);
 };
 
 struct DrawList;
@@ -135,6 +136,7 @@ using DrawItem = std::variant<RectangleItem, TextItem, PathItem, DiscItem, Image
 
 struct Plate {
   std::vector<DrawItem> items;  ///< from back to front; none that is exposed
+  bool operator==(const Plate&) const = default;
 };
 
 struct DrawList {
@@ -152,6 +154,12 @@ void add_rectangles(ItemId id, const ExposedBlock& block, std::vector<DrawItem>&
 inline bool is_on_pixels(const GroupItem& group) {
   const Rectangle& r = group.bounds;
   return r.width == group.list->width_px && r.x == std::floor(r.x) && r.y == std::floor(r.y);
+}
+
+/// Two runs may have plates of the same items.
+inline bool operator==(const PlateItem& a, const PlateItem& b) {
+  return a.id == b.id && a.bounds == b.bounds && a.origin == b.origin &&
+         (a.plate == b.plate || (a.plate && b.plate && *a.plate == *b.plate));
 }
 
 inline bool operator==(const GroupItem& a, const GroupItem& b) {

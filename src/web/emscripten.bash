@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 
 # Code for 64 bits, so that GMP has limbs of 64 bits and a long holds a count, lowered to memory of
-# 32 bits, which every browser has.
+# 32 bits, which every browser has. That pass of Emscripten 3.1 does not know vector instructions.
 flags=(-sMEMORY64=2 -fwasm-exceptions -sSUPPORT_LONGJMP=wasm -Wno-experimental)
 compile_flags=(-O2 -ffp-contract=off "${flags[@]}")
 export CFLAGS="${compile_flags[*]}" CXXFLAGS="${compile_flags[*]}"

@@ -25,6 +25,7 @@ std::string list(const std::vector<std::string>& values) {
 
 std::string texts(const std::vector<std::string>& values) {
   std::vector<std::string> quoted;
+  quoted.reserve(values.size());
   for (const std::string& value : values) quoted.push_back(json_text(value));
   return list(quoted);
 }
@@ -61,11 +62,10 @@ std::string row_json(const Bodies& bodies, std::size_t i) {
     const auto& [red, green, blue] = *style.color;
     color = fmt::format("#{:02x}{:02x}{:02x}", red, green, blue);
   }
-  return fmt::format(
-      R"({{"mass":{},"position":{},"velocity":{},"size":{},"color":{},"label":{}}})",
-      json_text(body.mass ? body.mass->get_str() : "inf"), numbers(body.position, dimensions),
-      numbers(body.velocity, dimensions), json_text(body.size.get_str()), json_text(color),
-      json_text(style.label));
+  return fmt::format(R"({{"mass":{},"position":{},"velocity":{},"size":{},"color":{},"label":{}}})",
+                     json_text(body.mass ? body.mass->get_str() : "inf"),
+                     numbers(body.position, dimensions), numbers(body.velocity, dimensions),
+                     json_text(body.size.get_str()), json_text(color), json_text(style.label));
 }
 
 /// Both ends of the box along an axis.
@@ -86,9 +86,8 @@ std::string bodies_json(const Bodies& bodies) {
     rows.push_back(row_json(bodies, i));
   }
   return fmt::format(R"({{"count":{},"dimensions":{},"x":{},"y":{},"rows":{}}})",
-                     system.bodies.size(), system.dimensions,
-                     box_json(system, "left", "right", 0), box_json(system, "lower", "upper", 1),
-                     list(rows));
+                     system.bodies.size(), system.dimensions, box_json(system, "left", "right", 0),
+                     box_json(system, "lower", "upper", 1), list(rows));
 }
 
 /// @param of_film  whether to leave out keys that are not for a whole film.
@@ -138,10 +137,9 @@ std::string facts_json(const Live& live) {
       R"("sound":{},"keys":{},"toml":{}{}{}}})",
       scene == nullptr ? "storyboard" : "scene", view.width_px, view.height_px,
       view.frame_rate.get_num().get_str(), view.frame_rate.get_den().get_str(),
-      frames ? fmt::format("{}", *frames) : "null", json_text(live.film_problem()),
-      film.sound.on, keys_json(scene ? *scene : film, scene == nullptr),
-      json_text(scene_toml(live.script())), scene ? "," : "",
-      scene ? scene_json(*scene, *live.run()) : "");
+      frames ? fmt::format("{}", *frames) : "null", json_text(live.film_problem()), film.sound.on,
+      keys_json(scene ? *scene : film, scene == nullptr), json_text(scene_toml(live.script())),
+      scene ? "," : "", scene ? scene_json(*scene, *live.run()) : "");
 }
 
 std::string place_json(const Live& live, const Live::Place& place) {

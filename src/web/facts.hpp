@@ -10,9 +10,9 @@ namespace piblocks::web {
 
 /// {"kind":"scene" or "storyboard","width":…,"height":…,"rate":[numerator,denominator],
 ///  "frames":…,"filmProblem":"…","sound":…,"keys":{"…":["…"]},"toml":"…"}, and of a scene
-///  "collisions", "firstCollision", "hasTurn", "mayGoOn", "digits" (null unless the masses are those
-///  of digits), "massRatio", "bodies" (null of two blocks and a wall), "notes". Of a storyboard
-///  "keys" has those of the whole film.
+///  "collisions", "firstCollision", "hasTurn", "mayGoOn", "digits" (null unless the masses are
+///  those of digits), "massRatio", "bodies" (null of two blocks and a wall), "notes". Of a
+///  storyboard "keys" has those of the whole film.
 std::string facts_json(const Live& live);
 
 /// {"frame":…,"nearFrame":…,"instant":"…","state":"…"}: what of the film is shown.

@@ -64,7 +64,7 @@ function describe({state, frame}, facts) {
   return `${collisions} collisions at time ${time}${where}`;
 }
 
-scene.onShown = ({place, x, y, width, height, pixels}) => {
+scene.onPicture = ({x, y, width, height, pixels}) => {
   const {facts} = scene;
   if (picture.width !== facts.width || picture.height !== facts.height) {
     picture.width = facts.width;
@@ -73,6 +73,10 @@ scene.onShown = ({place, x, y, width, height, pixels}) => {
   if (width > 0) {
     canvas.putImageData(new ImageData(new Uint8ClampedArray(pixels), width, height), x, y);
   }
+};
+
+scene.onShown = place => {
+  const {facts} = scene;
   player.updatePlace(place);
   byId("read-outs").replaceChildren(...readOutsOf(place, facts));
   if (!player.isPlaying) picture.setAttribute("aria-label", describe(place, facts));

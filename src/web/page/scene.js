@@ -1,6 +1,6 @@
 // The scene that the page shows.
-// In: texts of scene files, edits of single keys, places in the film. Out: calls of `onOpened`,
-// `onShown`, `onProblems`, `onPlaceProblem`: what the program makes of them.
+// In: texts of scene files, edits of single keys, places in the film. Out: calls of `onPicture`,
+// `onOpened`, `onShown`, `onProblems`, `onPlaceProblem`: what the program makes of them.
 
 /** How long the program may work before something else is wanted. */
 const PATIENCE_ms = 1500;
@@ -28,6 +28,7 @@ class Scene {
   facts = null;
   place = {frame: 0};
   onOpened = () => {};
+  onPicture = () => {};
   onShown = () => {};
   onProblems = () => {};
   onPlaceProblem = () => {};
@@ -153,7 +154,9 @@ class Scene {
 
   async #show(place) {
     try {
-      this.onShown(await this.#program.call("show", {place}));
+      const shown = await this.#program.call("show", {place});
+      this.onPicture(shown);
+      this.onShown(shown.place);
       this.onPlaceProblem("");
     } catch (error) {
       if (!(error instanceof Problem)) throw error;
@@ -171,8 +174,10 @@ class Scene {
       }
       this.facts = facts;
       this.#text = edits.length > 0 ? facts.toml : text;
+      // The picture first: it is what a hand on a slider waits for.
+      this.onPicture(shown);
       this.onOpened(facts, this.#text);
-      this.onShown(shown);
+      this.onShown(shown.place);
       // Another kind of scene has other keys.
       for (const key of this.#edits.keys()) {
         if (!this.hasField(key)) this.#edits.delete(key);

@@ -1,0 +1,182 @@
+// The film of a page against the film that is rendered.
+#include "web/live.hpp"
+
+#include <gtest/gtest.h>
+#include <piblocks/error.hpp>
+#include <piblocks/render.hpp>
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "web/facts.hpp"
+
+namespace piblocks::web {
+namespace {
+
+Script script_of(const std::string& text) {
+  ScriptBuilder builder;
+  builder.read_text("scene", text);
+  return builder.build();
+}
+
+const std::string kSmall = "view.size = [320, 180]\n";
+const std::string kDiagrams = kSmall + "view.theme = \"lecture\"\nshow.panels = [\"velocity\"]\n";
+const std::string kStory = kSmall +
+                           "[[part]]\ncard = [\"One\"]\nseconds = 1\n"
+                           "[[part]]\ndigits = 1\ntime.to = 1\nfade = \"1/2\"\n";
+
+/// What a canvas of HTML shows after some patches.
+class Html {
+ public:
+  Html(int width, int height)
+      : width_(static_cast<std::size_t>(width)), pixels_(4 * width_ * std::size_t(height)) {}
+
+  void take(const Patch& patch) {
+    const auto width = static_cast<std::size_t>(patch.rect.width_px);
+    for (std::size_t y = 0; y < std::size_t(patch.rect.height_px); ++y) {
+      const std::size_t row = y + std::size_t(patch.rect.y_px);
+      std::memcpy(&pixels_[4 * (row * width_ + std::size_t(patch.rect.x_px))],
+                  &patch.rgba[4 * y * width], 4 * width);
+    }
+  }
+
+  /// Pixels that are not those of an opaque picture.
+  int differences(const ImageView& expected) const {
+    int count = 0;
+    for (int y = 0; y < expected.height_px; ++y) {
+      for (int x = 0; x < expected.width_px; ++x) {
+        const std::uint8_t* const bgra = expected.row(y) + std::ptrdiff_t{4} * x;
+        const std::uint8_t* const rgba = &pixels_[4 * (std::size_t(y) * width_ + std::size_t(x))];
+        const bool is_equal =
+            rgba[0] == bgra[2] && rgba[1] == bgra[1] && rgba[2] == bgra[0] && rgba[3] == 255;
+        if (!is_equal) ++count;
+      }
+    }
+    return count;
+  }
+
+ private:
+  std::size_t width_;
+  std::vector<std::uint8_t> pixels_;
+};
+
+TEST(Live, ShowsTheFramesOfTheFilm) {
+  Screen screen;
+  Html html(320, 180);
+  // One after the other on one screen, which paints what differs from the film before.
+  for (const std::string& text : {kSmall, kDiagrams, kSmall + "digits = 2\n", kStory}) {
+    const Live live(script_of(text));
+    FrameRenderer expected(script_of(text));
+    ASSERT_EQ(live.frame_count(), expected.frame_count());
+    for (const std::int64_t frame :
+         {std::int64_t{0}, *live.frame_count() / 2, std::int64_t{1}, *live.frame_count() - 1}) {
+      screen.update(live.picture(live.place_of_frame(frame)));
+      html.take(screen.patch());
+      EXPECT_EQ(html.differences(expected.frame(frame)), 0) << text << frame;
+    }
+  }
+}
+
+TEST(Live, ConvertsOnlyWhatChanges) {
+  Screen screen;
+  const Live live(script_of(kSmall));
+  screen.update(live.picture(live.place_of_frame(0)));
+  EXPECT_EQ(screen.patch().rect, (PixelRect{0, 0, 320, 180}));
+  screen.update(live.picture(live.place_of_frame(0)));
+  EXPECT_EQ(screen.patch().rect.width_px, 0);
+  screen.update(live.picture(live.place_of_frame(1)));
+  EXPECT_LT(screen.patch().rect.height_px, 180);
+  EXPECT_GT(screen.patch().rect.height_px, 0);
+}
+
+TEST(Live, TransparentPixelsAreNotMultiplied) {
+  Screen screen;
+  const Live live(script_of(kSmall + "view.background = \"transparent\"\n"));
+  screen.update(live.picture(live.place_of_frame(0)));
+  const Patch& patch = screen.patch();
+  const auto pixel = [&](int x, int y) {
+    const std::size_t at = 4 * (std::size_t(y) * 320 + std::size_t(x));
+    return std::vector<int>(patch.rgba.begin() + std::ptrdiff_t(at),
+                            patch.rgba.begin() + std::ptrdiff_t(at) + 4);
+  };
+  EXPECT_EQ(pixel(0, 0), (std::vector<int>{0, 0, 0, 0}));
+  // In the middle of blue, which is at 2 of -1 … 12.
+  const std::vector<int> blue = pixel(74, 106);
+  EXPECT_EQ(blue[3], 255);
+  EXPECT_GT(blue[2], blue[0]);
+}
+
+TEST(Live, PlacesStayWithinTheFilm) {
+  const Live live(script_of(kSmall));
+  const std::int64_t last = *live.frame_count() - 1;
+  EXPECT_EQ(live.place_of_frame(-5).frame, 0);
+  EXPECT_EQ(live.place_of_frame(1'000'000).frame, last);
+  EXPECT_EQ(live.place_of(parse_instant("2.5")).frame, std::nullopt);
+  EXPECT_EQ(live.frame_near(live.place_of(parse_instant("2.5"))), 150);
+  EXPECT_EQ(live.frame_near(live.place_of(parse_instant("100"))), last);
+  EXPECT_EQ(live.frame_near(live.place_of(parse_instant("-100"))), 0);
+  EXPECT_THROW(live.place_of(parse_instant("#315")), UsageError);
+}
+
+TEST(Live, StatesAreThoseOfTheCommand) {
+  const Live live(script_of(kSmall));
+  EXPECT_EQ(live.state(live.place_of(parse_instant("1"))),
+            R"({"time":1,"collisions":"0","blue":{"position":2,"velocity":0},)"
+            R"("red":{"position":4,"velocity":-1}})");
+  EXPECT_EQ(Live(script_of(kStory)).state({0, {}}), std::nullopt);
+}
+
+TEST(Live, SceneWithoutFilmHasStills) {
+  const Live live(script_of(kSmall + "red.velocity = 1\n"));
+  EXPECT_EQ(live.frame_count(), std::nullopt);
+  EXPECT_NE(live.film_problem(), "");
+  EXPECT_EQ(live.picture(live.place_of_frame(3)).width_px, 320);
+  EXPECT_EQ(live.frame_near(live.place_of(Instant())), std::nullopt);
+}
+
+/// The pairs from this one on, 9000 or as many as there are, out of all samples.
+std::vector<float> part_of(const std::vector<float>& all, std::int64_t first) {
+  const auto begin = all.begin() + 2 * first;
+  return {begin, begin + std::min<std::ptrdiff_t>(18'000, all.end() - begin)};
+}
+
+TEST(LiveSound, IsTheSameInAnyOrder) {
+  const Script script = script_of(kSmall);
+  LiveSound whole(script);
+  whole.read(0, whole.size());
+  const std::vector<float> all = whole.samples();
+  ASSERT_EQ(all.size(), 2 * std::size_t(whole.size()));
+  LiveSound parts(script);
+  for (const std::int64_t first : {150'000L, 7L, 7L, 20'000L, long(whole.size()) - 100}) {
+    parts.read(first, 9000);
+    EXPECT_TRUE(parts.samples() == part_of(all, first)) << first;
+  }
+  parts.read(whole.size(), 10);
+  EXPECT_TRUE(parts.samples().empty());
+}
+
+/// Whether the facts of this scene have this text.
+bool has(const std::string& text, const std::string& part) {
+  return facts_json(Live(script_of(text))).find(part) != std::string::npos;
+}
+
+TEST(Facts, TellDigits) {
+  EXPECT_TRUE(has("", R"("digits":3,"massRatio":"10000")"));
+  EXPECT_TRUE(has("red.mass = 17", R"("digits":null,"massRatio":"17")"));
+  EXPECT_TRUE(has("base = 2\ndigits = 5", R"("digits":5,"massRatio":"256")"));
+  EXPECT_TRUE(has("red.mass = \"1/100\"", R"("digits":null)"));
+}
+
+TEST(Facts, TellKeysAndBodies) {
+  EXPECT_TRUE(has("", R"("red.mass":["10000"])"));
+  EXPECT_TRUE(has(kStory, R"("view.size":["320x180"])"));
+  EXPECT_FALSE(has(kStory, R"("red.mass")"));
+  EXPECT_TRUE(has(
+      "box.x = [0, 9]\ntime.to = 3\n[[body]]\nposition = 2\nvelocity = \"1/3\"\n",
+      R"("bodies":{"count":1,"dimensions":1,"x":["0","9"],"y":["-inf","inf"],"rows":[)"
+      R"({"mass":"1","position":["2"],"velocity":["1/3"],"size":"1","color":"","label":""}]})"));
+}
+
+}  // namespace
+}  // namespace piblocks::web
