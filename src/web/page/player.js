@@ -241,10 +241,6 @@ class Player {
     this.#setSound(!this.#hasSound);
     if (this.#isPlaying) this.play();
   }
-  /** As the scene has it. */
-  preferSound(hasSound) {
-    this.#setSound(hasSound);
-  }
 
   #toggleFullScreen() {
     if (document.fullscreenElement) document.exitFullscreen();
