@@ -19,8 +19,9 @@ namespace {
 void check_page_options(const Command& options) {
   if (!options.is_given("--live")) {
     throw UsageError(
-        "page: 'piblocks page --live' writes a page with the program in it, 'piblocks render -o "
-        "NAME.html' one with the video; use one of them");
+        "page: use 'piblocks page --live' for a page with the program in it, or 'piblocks render "
+        "-o "
+        "NAME.html' for one with the video");
   }
   const std::string output = output_of(options);
   if (output != "-" && !has_ending(output, ".html")) {
@@ -70,7 +71,7 @@ void run_page(const Command& options, const SceneOptions& scene) {
 void add_page(Command& app) {
   Command command = app.add_command("page", "Write a page with the program in it, for a browser");
   SceneOptions scene(command);
-  command.add_flag("--live", "The page computes and draws what it shows, by the program");
+  command.add_flag("--live", "Write a page that has the program in it");
   command.add_required_value("-o,--output", "OUT", "NAME.html, or - (standard output)");
   scene.add_picture();
   scene.add_show();

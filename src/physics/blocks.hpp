@@ -3,6 +3,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <piblocks/error.hpp>
 #include <piblocks/run.hpp>
 
 #include <cmath>
@@ -77,8 +78,18 @@ void require_valid(const std::vector<Problem>& problems);
 /// @throws SimulationError if a number is not finite.
 void require_finite(const Time& time, const Motion& blue, const Motion& red, const char* engine);
 
+/// The collision is not the last one at its time.
+class TiedCollision : public UsageError {
+ public:
+  TiedCollision(const Integer& index, Integer last);
+  const Integer& last() const noexcept { return last_; }
+
+ private:
+  Integer last_;
+};
+
 /// Collisions that happen at the same time have no instant between them.
-/// @throws UsageError unless the collision is the last one at its time.
+/// @throws TiedCollision unless the collision is the last one at its time.
 void require_last(const Integer& index, const Integer& last_at_its_time);
 
 /// The event loop in exact rational arithmetic, for the few collisions of a light red block. Every

@@ -138,11 +138,14 @@ void require_finite(const Time& time, const Motion& blue, const Motion& red, con
   }
 }
 
+TiedCollision::TiedCollision(const Integer& index, Integer last)
+    : UsageError(fmt::format(
+          "collision #{}: happens at the same time as all up to #{}; name the last of them",
+          index.get_str(), last.get_str())),
+      last_(std::move(last)) {}
+
 void require_last(const Integer& index, const Integer& last_at_its_time) {
-  if (index == last_at_its_time) return;
-  throw UsageError(
-      fmt::format("collision #{}: happens at the same time as all up to #{}; name the last of them",
-                  index.get_str(), last_at_its_time.get_str()));
+  if (index != last_at_its_time) throw TiedCollision(index, last_at_its_time);
 }
 
 std::unique_ptr<CollisionStream> CollisionLog::stream(const Integer& first,

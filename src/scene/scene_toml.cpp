@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/text.hpp"
+#include "scene/body_keys.hpp"
 #include "scene/scene_keys.hpp"
 
 namespace piblocks {
@@ -114,7 +115,8 @@ bool is_of_blocks(std::string_view key) {
 
 /// A list of scene keys that differ from the default, one "key = value" each.
 std::vector<std::string> entries_of(const Scene& scene, const KeyFilter& is_wanted) {
-  const Scene usual;
+  Scene usual;
+  if (scene.bodies) show_all(scene.bodies->system, usual.view);
   // The lecture themes have another default.
   const bool has_other_shutter = is_lecture(scene.view.theme);
   std::vector<std::string> entries;
@@ -122,9 +124,7 @@ std::vector<std::string> entries_of(const Scene& scene, const KeyFilter& is_want
     const std::string_view name = key.name;
     if (!is_wanted(name)) continue;
     if (scene.bodies && is_of_blocks(name)) continue;
-    // By default the view shows all bodies.
-    const bool is_view = scene.bodies && (name == "view.x" || name == "view.y");
-    const bool is_usual = !is_view && key.get(scene) == key.get(usual);
+    const bool is_usual = key.get(scene) == key.get(usual);
     if (is_usual && !(has_other_shutter && name == "view.shutter")) continue;
     if (name == "time.speed" && scene.pacing.duration_s) continue;
     entries.push_back(fmt::format("{} = {}", name, value_of(values_of(key, scene))));

@@ -6,8 +6,10 @@
 #include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
+#include <piblocks/script.hpp>
 
 #include <algorithm>
+#include <memory>
 #include <new>
 #include <string>
 #include <string_view>
@@ -34,6 +36,10 @@ std::vector<std::string> parts_of(std::string_view text, char separator) {
 /// Settings are lines KEY=TEXT, in which the texts of a list are separated by tabs. They win over
 /// the text of the scene file.
 Script read_script(std::string_view text, std::string_view settings) {
+  if (std::max(text.size(), settings.size()) > kMaxSceneFile_bytes) {
+    throw SceneError(fmt::format("scene: longer than {} bytes, the most that a scene file may have",
+                                 kMaxSceneFile_bytes));
+  }
   ScriptBuilder builder;
   builder.read_text("scene", text);
   for (const std::string& line : parts_of(settings, '\n')) {
@@ -75,13 +81,40 @@ const Live& opened() {
   return *live;
 }
 
-/// Shows this place, and says what is shown.
-std::string show(const Live::Place& wanted) {
-  screen.update(opened().picture(wanted));
+/// "frame 12" is a frame of the film, counted from 0; "instant turn-0.3" is any instant.
+Live::Place read_place(const Live& from, std::string_view text) {
+  constexpr std::string_view kFrame = "frame ";
+  constexpr std::string_view kInstant = "instant ";
+  if (text.starts_with(kInstant)) {
+    return from.place_of(parse_instant(text.substr(kInstant.size())));
+  }
+  if (!text.starts_with(kFrame)) throw UsageError(fmt::format("page: no place is '{}'", text));
+  return from.place_of_frame(std::stoll(std::string(text.substr(kFrame.size()))));
+}
+
+/// Shows this place and says what is shown. If it cannot be shown, nothing has happened.
+std::string show(const Live& from, const Live::Place& wanted) {
+  DrawList list = from.picture(wanted);
+  const std::string what = place_json(from, wanted);
+  screen.update(std::move(list));
   place = wanted;
   const PixelRect& rect = screen.patch().rect;
-  return fmt::format(R"({{"place":{},"rect":[{},{},{},{}]}})", place_json(opened(), place),
-                     rect.x_px, rect.y_px, rect.width_px, rect.height_px);
+  return fmt::format(R"({{"place":{},"rect":[{},{},{},{}]}})", what, rect.x_px, rect.y_px,
+                     rect.width_px, rect.height_px);
+}
+
+/// Shows the first of these places that the scene has, otherwise the start.
+/// @param problem  is set to what is wrong with the first of them.
+std::string show_first(const Live& from, const std::vector<std::string>& places,
+                       std::string& problem) {
+  for (const std::string& text : places) {
+    try {
+      return show(from, read_place(from, text));
+    } catch (const Error& error) {
+      if (problem.empty()) problem = error.what();
+    }
+  }
+  return show(from, from.place_of_frame(0));
 }
 
 /// The picture that is shown, in the format that the ending names.
@@ -116,28 +149,41 @@ EMSCRIPTEN_KEEPALIVE bool live_program() {
   return answers([] { return program_json(); });
 }
 
-/// Opens a scene or storyboard; if something is wrong, the one before stays. Answers with
-/// facts_json().
-EMSCRIPTEN_KEEPALIVE bool live_open(const char* text, const char* settings) {
+/// Opens a scene or storyboard and shows it; if something is wrong, the one before stays.
+/// @param places  lines as of live_show(): the first that the scene has is shown, otherwise its
+///                start. Nothing is shown if this is empty.
+/// Answers with {"facts":facts_json(),"shown":as of live_show(),"placeProblem":…}.
+EMSCRIPTEN_KEEPALIVE bool live_open(const char* text, const char* settings, const char* places) {
   return answers([&] {
     auto made = std::make_unique<Live>(read_script(text, settings));
-    std::string facts = facts_json(*made);
+    const std::string facts = facts_json(*made);
+    const bool is_shown = std::string_view(places) != "";
+    std::string problem;
+    const std::string shown =
+        is_shown ? show_first(*made, parts_of(places, '\n'), problem) : "null";
+    if (!is_shown) place = made->place_of_frame(0);
     live = std::move(made);
     sound.reset();
-    place = {};
-    return facts;
+    return fmt::format(R"({{"facts":{},"shown":{},"placeProblem":{}}})", facts, shown,
+                       json_text(problem));
   });
 }
 
-/// Shows a frame of the film. Answers with {"place":place_json(),"rect":[x,y,width,height]}; the
-/// pixels of this rectangle are at live_pixels(), others have not changed.
-EMSCRIPTEN_KEEPALIVE bool live_show_frame(double number) {
-  return answers([&] { return show(opened().place_of_frame(static_cast<std::int64_t>(number))); });
+/// Shows "frame 12" of the film, counted from 0, or "instant X", where X is as "3.5", "turn-0.3",
+/// "#314" and, of a storyboard, a second of the film. Answers with
+/// {"place":place_json(),"rect":[x,y,width,height]}; the pixels of this rectangle are at
+/// live_pixels(), others have not changed.
+EMSCRIPTEN_KEEPALIVE bool live_show(const char* text) {
+  return answers([&] { return show(opened(), read_place(opened(), text)); });
 }
 
-/// The same of an instant: "3.5", "turn-0.3", "#314". Of a storyboard it is a second of the film.
-EMSCRIPTEN_KEEPALIVE bool live_show_instant(const char* instant) {
-  return answers([&] { return show(opened().place_of(parse_instant(instant))); });
+/// Shows the next collision (1) or the one before (-1); null if there is none. Answers as
+/// live_show().
+EMSCRIPTEN_KEEPALIVE bool live_step(int step) {
+  return answers([&] {
+    const auto beside = opened().collision_beside(place, step);
+    return beside ? show(opened(), *beside) : std::string("null");
+  });
 }
 
 /// Red, green, blue and alpha of the rectangle that was shown last.
@@ -179,11 +225,11 @@ EMSCRIPTEN_KEEPALIVE bool live_join(const char* name, int count) {
   });
 }
 
-/// Prepares the sound of the film that is open. Answers with its pairs of samples.
+/// Prepares the sound of the film that is open.
 EMSCRIPTEN_KEEPALIVE bool live_open_sound() {
   return answers([] {
     sound = std::make_unique<LiveSound>(opened().script());
-    return fmt::format("{}", sound->size());
+    return std::string();
   });
 }
 

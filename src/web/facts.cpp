@@ -1,7 +1,6 @@
 #include "web/facts.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/version.hpp>
 
 #include <sstream>
 #include <string_view>
@@ -110,17 +109,13 @@ std::vector<std::string> notes_of(const Scene& scene, const FilmRun& run) {
 }
 
 std::string scene_json(const Scene& scene, const FilmRun& run) {
-  const Timeline& log = run.timeline();
-  const bool is_infinite = cli::infinite_count(log) == log.size();
   const Rational ratio = scene.system.red.mass / scene.system.blue.mass;
   const std::optional<int> digits = digits_of(ratio, scene.show.base);
-  return fmt::format(
-      R"("collisions":{},"firstCollision":{},"hasTurn":{},"mayGoOn":{},"digits":{},"massRatio":{},)"
-      R"("bodies":{},"notes":{})",
-      json_text(is_infinite ? "infinite" : log.size().get_str()),
-      json_text(log.first_index().get_str()), log.turn().has_value(), log.may_go_on(),
-      digits ? fmt::format("{}", *digits) : "null", json_text(ratio.get_str()),
-      scene.bodies ? bodies_json(*scene.bodies) : "null", texts(notes_of(scene, run)));
+  return fmt::format(R"("hasTurn":{},"digits":{},"massRatio":{},"bodies":{},"notes":{})",
+                     run.timeline().turn().has_value(),
+                     digits ? fmt::format("{}", *digits) : "null", json_text(ratio.get_str()),
+                     scene.bodies ? bodies_json(*scene.bodies) : "null",
+                     texts(notes_of(scene, run)));
 }
 
 }  // namespace
@@ -134,10 +129,10 @@ std::string facts_json(const Live& live) {
   const std::optional<std::int64_t> frames = live.frame_count();
   return fmt::format(
       R"({{"kind":"{}","width":{},"height":{},"rate":[{},{}],"frames":{},"filmProblem":{},)"
-      R"("sound":{},"keys":{},"toml":{}{}{}}})",
+      R"("keys":{},"toml":{}{}{}}})",
       scene == nullptr ? "storyboard" : "scene", view.width_px, view.height_px,
       view.frame_rate.get_num().get_str(), view.frame_rate.get_den().get_str(),
-      frames ? fmt::format("{}", *frames) : "null", json_text(live.film_problem()), film.sound.on,
+      frames ? fmt::format("{}", *frames) : "null", json_text(live.film_problem()),
       keys_json(scene ? *scene : film, scene == nullptr), json_text(scene_toml(live.script())),
       scene ? "," : "", scene ? scene_json(*scene, *live.run()) : "");
 }
@@ -147,9 +142,8 @@ std::string place_json(const Live& live, const Live::Place& place) {
     return number ? fmt::format("{}", *number) : std::string("null");
   };
   const std::optional<std::string> state = live.state(place);
-  return fmt::format(R"({{"frame":{},"nearFrame":{},"instant":{},"state":{}}})",
-                     text_of(place.frame), text_of(live.frame_near(place)),
-                     json_text(exact_text(place.instant)), state ? json_text(*state) : "null");
+  return fmt::format(R"({{"frame":{},"nearFrame":{},"state":{}}})", text_of(place.frame),
+                     text_of(live.frame_near(place)), state ? json_text(*state) : "null");
 }
 
 std::string program_json() {
@@ -158,9 +152,8 @@ std::string program_json() {
     scenes.push_back(fmt::format(R"({{"name":{},"summary":{},"text":{}}})", json_text(scene.name),
                                  json_text(scene.summary()), json_text(scene.text)));
   }
-  return fmt::format(R"({{"version":{},"scenes":{},"themes":{},"overlays":{},"panels":{}}})",
-                     json_text(kVersion), list(scenes), names(theme_names()),
-                     names(overlay_names()), names(panel_names()));
+  return fmt::format(R"({{"scenes":{},"themes":{},"overlays":{},"panels":{}}})", list(scenes),
+                     names(theme_names()), names(overlay_names()), names(panel_names()));
 }
 
 }  // namespace piblocks::web

@@ -15,7 +15,7 @@ namespace piblocks::web {
 ///  storyboard "keys" has those of the whole film.
 std::string facts_json(const Live& live);
 
-/// {"frame":…,"nearFrame":…,"instant":"…","state":"…"}: what of the film is shown.
+/// {"frame":…,"nearFrame":…,"state":"…"}: what of the film is shown.
 std::string place_json(const Live& live, const Live::Place& place);
 
 /// {"version":"…","scenes":[{"name":"…","summary":"…","text":"…"},…],"themes":[…],"overlays":[…],

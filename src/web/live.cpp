@@ -8,6 +8,7 @@
 
 #include "cli/script_facts.hpp"
 #include "cli/state_text.hpp"
+#include "physics/blocks.hpp"
 #include "scene/run_log.hpp"
 #include "scene/schedule.hpp"
 
@@ -84,8 +85,13 @@ void Screen::update(DrawList list) {
     height_px_ = list.height_px;
     has_background_ = has_background;
   }
-  patch_.rect = around(canvas_->update(std::move(list)));
-  convert(canvas_->view(), patch_);
+  try {
+    patch_.rect = around(canvas_->update(std::move(list)));
+    convert(canvas_->view(), patch_);
+  } catch (...) {
+    canvas_.reset();  // nobody has seen what is on it, so that the next patch is all of it
+    throw;
+  }
 }
 
 Live::Live(Script script) : script_(std::move(script)), shown_(show(script_)) {
@@ -119,6 +125,30 @@ Live::Place Live::place_of_frame(std::int64_t number) const {
 Live::Place Live::place_of(const Instant& instant) const {
   if (run() != nullptr) return {std::nullopt, Instant(time_of(instant, run()->timeline()))};
   return place_of_frame(frame_at(std::get<Film>(shown_), instant));
+}
+
+std::optional<Live::Place> Live::collision_beside(const Place& place, int step) const {
+  if (run() == nullptr) return std::nullopt;
+  const Timeline& log = run()->timeline();
+  const Rational time = time_of(place.instant, log);
+  const Integer count = log.count_at(time);
+  if (cli::infinite_count(log) == count) return std::nullopt;
+  const bool is_at_collision =
+      count >= log.first_index() && time_of(Instant::collision(count), log) == time;
+  Integer index = step > 0 ? count + 1 : is_at_collision ? count - 1 : count;
+  for (;;) {
+    if (index < log.first_index()) return place_of_frame(0);
+    if (index > log.size()) return std::nullopt;
+    try {
+      return place_of(Instant::collision(index));
+    } catch (const TiedCollision& tied) {
+      if (step > 0) {
+        index = tied.last();
+      } else {
+        --index;
+      }
+    }
+  }
 }
 
 std::optional<std::int64_t> Live::frame_near(const Place& place) const {

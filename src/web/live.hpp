@@ -66,6 +66,10 @@ class Live {
   Place place_of_frame(std::int64_t number) const;
   /// @throws UsageError if the script has no such instant.
   Place place_of(const Instant& instant) const;
+  /// The next collision (step 1) or the one before (step -1) that differs in time from this place.
+  /// Before the first one is the start of the film; after the last one, and in a storyboard, is
+  /// nothing. @throws UsageError, SimulationError as time_of().
+  std::optional<Place> collision_beside(const Place& place, int step) const;
   /// The frame that shows the instant first, or is nearest to it; nothing if there is no film.
   std::optional<std::int64_t> frame_near(const Place& place) const;
   DrawList picture(const Place& place) const;

@@ -192,8 +192,8 @@ TEST_F(LivePageTest, GoesToStandardOutput) {
 
 TEST_F(LivePageTest, RefusesWrongUsage) {
   expect_failure({}, 2,
-                 "piblocks: page: 'piblocks page --live' writes a page with the program in it, "
-                 "'piblocks render -o NAME.html' one with the video; use one of them\n");
+                 "piblocks: page: use 'piblocks page --live' for a page with the program in it, or "
+                 "'piblocks render -o NAME.html' for one with the video\n");
   const CommandResult named = run({"page", "--live", "-o", "new/a.mp4"});
   EXPECT_EQ(named.exit_code, 2);
   EXPECT_EQ(

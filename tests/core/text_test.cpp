@@ -99,7 +99,6 @@ TEST(Base64, OfPiecesIsThatOfTheWhole) {
   EXPECT_NE(base64_of("piec") + base64_of("es"), base64_of("pieces"));
 }
 
-}  // namespace
 TEST(Text, JsonStringsEscapeWhatWouldEndThem) {
   EXPECT_EQ(json_text(""), R"("")");
   EXPECT_EQ(json_text("π \"a\" \\ b"), R"("π \"a\" \\ b")");
@@ -107,4 +106,5 @@ TEST(Text, JsonStringsEscapeWhatWouldEndThem) {
   EXPECT_EQ(json_text("</script>"), R"("\u003c/script>")");
 }
 
+}  // namespace
 }  // namespace piblocks

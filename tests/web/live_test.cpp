@@ -119,6 +119,45 @@ TEST(Live, PlacesStayWithinTheFilm) {
   EXPECT_THROW(live.place_of(parse_instant("#315")), UsageError);
 }
 
+/// The counts from a place on, one collision after the other.
+std::vector<std::string> counts_beside(const Live& live, Live::Place place, int step) {
+  std::vector<std::string> counts;
+  while (const auto beside = live.collision_beside(place, step)) {
+    const std::string state = *live.state(*beside);
+    const std::size_t begin = state.find(R"("collisions":")") + 14;
+    counts.push_back(state.substr(begin, state.find('"', begin) - begin));
+    place = *beside;
+    if (place.frame == 0) break;
+  }
+  return counts;
+}
+
+TEST(Live, GoesFromCollisionToCollision) {
+  const Live live(script_of(kSmall + "digits = 1\n"));
+  const Live::Place start = live.place_of_frame(0);
+  const Live::Place end = live.place_of(parse_instant("last"));
+  using Counts = std::vector<std::string>;
+  EXPECT_EQ(counts_beside(live, start, 1), (Counts{"1", "2", "3"}));
+  EXPECT_EQ(counts_beside(live, end, -1), (Counts{"2", "1", "0"}));
+  const Live::Place between = live.place_of(parse_instant("#2+1/1000"));
+  EXPECT_EQ(counts_beside(live, between, -1), (Counts{"2", "1", "0"}));
+  EXPECT_EQ(counts_beside(live, between, 1), (Counts{"3"}));
+  EXPECT_FALSE(Live(script_of(kStory)).collision_beside({0, {}}, 1));
+}
+
+TEST(Live, CollisionsAtOneInstantAreOneStep) {
+  // Both pairs meet at time 1, the walls are reached at time 2.
+  const Live live(script_of(kSmall + "box.x = [0, 10]\ntime.to = \"3/2\"\n"
+                                     "[[body]]\nposition = 1\nvelocity = 1\n"
+                                     "[[body]]\nposition = 4\nvelocity = -1\n"
+                                     "[[body]]\nposition = 6\nvelocity = 1\n"
+                                     "[[body]]\nposition = 9\nvelocity = -1\n"));
+  const auto counts = counts_beside(live, live.place_of_frame(0), 1);
+  EXPECT_EQ(counts, std::vector<std::string>{"2"});
+  EXPECT_EQ(counts_beside(live, live.place_of(parse_instant("1.2")), -1),
+            (std::vector<std::string>{"2", "0"}));
+}
+
 TEST(Live, StatesAreThoseOfTheCommand) {
   const Live live(script_of(kSmall));
   EXPECT_EQ(live.state(live.place_of(parse_instant("1"))),

@@ -18,12 +18,12 @@ require(path.join(folder, 'piblocks_live.js'))().then((module) => {
     const settings = [`view.size=${width}x${height}`];
     if (job.film) settings.push('sound.on=false');
     else if (!text.includes('[[part]]')) settings.push('time.allow-uncertain=true');
-    call('live_open', text, settings.join('\n'));
+    call('live_open', text, settings.join('\n'), '');
     const file = job.film ? '/film.mp4' : '/still.png';
     if (job.film) {
       call('live_render', file, 1, 1);
     } else {
-      call('live_show_instant', job.instant);
+      call('live_show', `instant ${job.instant}`);
       call('live_save', file);
     }
     fs.writeFileSync(path.join(work, String(number)), module.FS.readFile(file));

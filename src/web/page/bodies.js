@@ -38,22 +38,27 @@ class Bodies {
   }
 
   #makeBox(axis) {
-    const field = new Field({key: `box.${axis}`, label: `Box from ${axis} to`, kind: "range"}, {
-      onEdit: text => this.scene.edit(`box.${axis}`, text), onReset() {}, onForget() {}});
+    const key = `box.${axis}`;
+    const field = new Field({key, label: `Box: ${axis} from, to`, kind: "range"}, {
+      onEdit: text => this.scene.edit(key, text), onReset() {}, onForget: () => {
+        document.activeElement.blur();
+        field.say("");
+        this.scene.forget(key);
+      }});
     field.isShown = facts => facts.bodies !== null && (axis === "x" || facts.bodies.dimensions === 2);
     return field;
   }
 
   update(facts) {
     this.root.hidden = !facts.bodies;
+    this.#facts = facts.bodies ? facts : null;
     if (!facts.bodies) return;
     const {count, dimensions, rows, x, y} = facts.bodies;
     const boxes = {...facts, keys: {"box.x": x, "box.y": y}};
     this.box.forEach(box => box.update(boxes));
     this.hint.hidden = count === rows.length;
     this.hint.textContent = `${count} bodies: too many for a table. The scene file has them.`;
-    this.add.hidden = !this.hint.hidden;
-    this.#facts = facts;
+    this.add.hidden = this.table.hidden = !this.hint.hidden;
     // What was refused, or is being typed, stays as it is.
     if (!this.problem.hidden) return;
     if (this.table.contains(document.activeElement) && rows.length === this.#rows.length) {
@@ -80,7 +85,8 @@ class Bodies {
         ...columns.map(({name}) => element("th", {scope: "col"}, name)), element("td")),
       ...this.#cells.map((cells, number) => element("tr", {},
         element("th", {scope: "row"}, String(number + 1)),
-        ...cells.map(cell => element("td", {}, cell)), element("td", {}, this.#remover(number)))));
+        ...cells.map(cell => element("td", {}, cell)),
+        element("td", {}, ...this.#rows.length > 1 ? [this.#remover(number)] : []))));
   }
 
   #cell(row, number, {name, property, i}) {
@@ -97,7 +103,7 @@ class Bodies {
       this.#send();
     });
     input.addEventListener("blur", () => {
-      setTimeout(() => this.update(this.scene.facts));
+      setTimeout(() => this.#facts && this.update(this.#facts));
     });
     return input;
   }
@@ -106,8 +112,8 @@ class Bodies {
     const button = element("button", {type: "button", "aria-label": `Remove body ${number + 1}`}, "×");
     button.addEventListener("click", () => {
       this.#rows.splice(number, 1);
-      button.blur();
       this.#draw(this.#facts.bodies.dimensions);
+      this.add.focus();
       this.#send();
     });
     return button;
@@ -123,18 +129,24 @@ class Bodies {
     row.label = "";
     this.#rows.push(row);
     this.#draw(this.#facts.bodies.dimensions);
+    this.#cells.at(-1)[0].focus();
     this.#send();
   }
 
   #send() {
-    const {toml, bodies} = this.#facts;
-    const head = toml.split("\n").filter(line => line && !line.startsWith("body = "));
-    const rows = this.#rows.map(row => bodyText(row, bodies.dimensions));
-    this.scene.replace([...head, ...rows, ""].join("\n"), "bodies");
+    const rows = this.#rows.map(row => bodyText(row, this.#facts.bodies.dimensions));
+    this.scene.replace(({toml}) => {
+      const head = toml.split("\n").filter(line => line && !line.startsWith("body = "));
+      return [...head, ...rows, ""].join("\n");
+    }, "bodies");
   }
 
   has(key) {
     return this.box.some(box => box.spec.key === key && !box.root.hidden && !this.root.hidden);
+  }
+
+  labelOf(key) {
+    return this.box.find(box => box.spec.key === key)?.spec.label;
   }
 
   /** @returns the problems that are not about bodies. */
@@ -145,8 +157,9 @@ class Bodies {
     for (const [key, box] of boxes) {
       box.say(ofBox.filter(problem => problem.key === key).map(problem => problem.words).join("\n"));
     }
-    this.problem.textContent = mine.map(problem => problem.words).join("\n");
-    this.problem.hidden = mine.length === 0;
+    const wasWrong = !this.problem.hidden;
+    sayIn(this.problem, mine.map(problem => problem.words).join("\n"));
+    if (wasWrong && mine.length === 0 && this.#facts) this.update(this.#facts);
     this.#cells.forEach((cells, number) => cells.forEach(cell => {
       const isWrong = mine.some(({body, property}) =>
         body === number + 1 && property === cell.dataset.property);

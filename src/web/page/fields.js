@@ -39,14 +39,14 @@ const GROUPS = [
     {key: "time.hold-start", label: "Hold at start"},
     {key: "time.hold-end", label: "Hold at end"},
     {key: "time.loop", label: "Back and forth", kind: "flag"},
-    {key: "time.allow-uncertain", label: "Also what is uncertain", kind: "flag"}]},
+    {key: "time.allow-uncertain", label: "Go on when uncertain", kind: "flag"}]},
   {title: "Picture", fields: [
     {key: "view.size", label: "Size", hints: ["1920x1080", "1280x720", "3840x2160", "1080x1920",
       "1080x1080"]},
     {key: "view.fps", label: "Frames a second", hints: ["60", "30", "25", "30000/1001"]},
     {key: "view.shutter", label: "Shutter", slider: [0, 1, 0.05]},
-    {key: "view.x", label: "Seen from x to", kind: "range"},
-    {key: "view.y", label: "Seen from y to", kind: "range"},
+    {key: "view.x", label: "View: x from, to", kind: "range"},
+    {key: "view.y", label: "View: y from, to", kind: "range"},
     {key: "view.background", label: "Background", kind: "choice",
      choices: ["opaque", "transparent"]}]},
 ];
@@ -62,7 +62,13 @@ function element(name, properties = {}, ...children) {
   return made;
 }
 
-/** "5/2" as "2.5"; what no decimal is stays. */
+/** Shows words; writes them only if they differ, so that they are read out once. */
+function sayIn(place, words) {
+  if (place.textContent !== words) place.textContent = words;
+  place.hidden = words === "";
+}
+
+/** "5/2" as "2.5"; a number that is no decimal stays. */
 function readable(number) {
   const [, sign, numerator, denominator] = number.match(/^(-?)(\d+)\/(\d+)$/) ?? [];
   if (denominator === undefined) return number;
@@ -85,6 +91,9 @@ function valueOf(text) {
   return Number(above) / Number(below);
 }
 
+/** Keys whose texts are not numbers, whatever they look like. */
+const WORDS = ["show.title", "show.caption"];
+
 /** What the program says of a key, as a field shows it; null if the scene has no such key. */
 function textOf(key, facts) {
   const keys = facts.keys;
@@ -96,6 +105,7 @@ function textOf(key, facts) {
         : readable(facts.massRatio);
     }
   }
+  if (WORDS.includes(key)) return keys[key]?.[0] ?? null;
   return keys[key]?.map(readable).join(", ") ?? null;
 }
 
@@ -129,17 +139,14 @@ class Field {
     const main = this.input({type: "text", id: this.id, spellcheck: false, autocapitalize: "off"});
     const {slider, hints, isOptional} = this.spec;
     const values = [main];
-    if (isOptional) main.placeholder = "as usual";
+    if (isOptional) main.placeholder = "default";
     if (hints) {
       main.setAttribute("list", `${this.id}-hints`);
       values.push(element("datalist", {id: `${this.id}-hints`},
         ...hints.map(value => element("option", {value}))));
     }
     main.addEventListener("input", () => this.edited(main.value));
-    main.addEventListener("keydown", event => {
-      if (event.key === "Escape") this.onForget();
-    });
-    main.addEventListener("blur", () => this.update(this.facts));
+    this.listenToLeaving(main);
     if (slider) values.unshift(this.slider(main));
     this.read = facts => {
       const value = textOf(this.spec.key, facts);
@@ -147,6 +154,13 @@ class Field {
       if (this.knob && document.activeElement !== this.knob) this.knob.value = valueOf(value);
     };
     return this.row(...values);
+  }
+
+  listenToLeaving(input) {
+    input.addEventListener("keydown", event => {
+      if (event.key === "Escape") this.onForget();
+    });
+    input.addEventListener("blur", () => this.refresh());
   }
 
   slider(main) {
@@ -205,7 +219,7 @@ class Field {
       : this.id, spellcheck: false, autocapitalize: "off", "aria-label": `${this.spec.label}, ${end} end`}));
     for (const end of ends) {
       end.addEventListener("input", () => this.edited(ends.map(one => one.value).join("\t")));
-      end.addEventListener("blur", () => this.update(this.facts));
+      this.listenToLeaving(end);
     }
     this.read = facts => ends.forEach((end, i) => {
       if (document.activeElement !== end) end.value = readable(facts.keys[this.spec.key][i]);
@@ -229,14 +243,20 @@ class Field {
   update(facts) {
     this.facts = facts;
     this.root.hidden = !this.isShown(facts);
-    if (!this.root.hidden && this.problem.hidden) this.read(facts);
+    this.refresh();
+  }
+
+  /** Shows the value of the scene, unless one that was refused is still to be seen. */
+  refresh() {
+    if (this.facts && !this.root.hidden && this.problem.hidden) this.read(this.facts);
   }
 
   /** @param words  of the program; empty if the value is right */
   say(words) {
-    this.problem.textContent = words;
-    this.problem.hidden = words === "";
+    const wasWrong = !this.problem.hidden;
+    sayIn(this.problem, words);
     for (const input of this.inputs) input.setAttribute("aria-invalid", String(words !== ""));
+    if (wasWrong) this.refresh();
   }
 }
 
@@ -260,9 +280,13 @@ class Fields {
   }
 
   forget(scene, key) {
-    this.#fields.get(key).say("");
     document.activeElement.blur();
+    this.#fields.get(key).say("");
     scene.forget(key);
+  }
+
+  labelOf(key) {
+    return this.#fields.get(key)?.spec.label;
   }
 
   update(facts) {

@@ -34,16 +34,16 @@ async function unpacked(bytes) {
   }
 }
 
-/** @returns {text, name}; null if the address has no scene. @throws Error if it cannot be read. */
+/** @returns the text of a scene; null if the address has none. @throws Error if it cannot be read. */
 async function sceneOf(address, scenes) {
   if (address.length < 2) return null;
   const name = decodeURIComponent(address.slice(1));
   const shipped = scenes.find(scene => scene.name === name);
-  if (shipped) return shipped;
+  if (shipped) return shipped.text;
   const packed = name.match(/^toml=([A-Za-z0-9_-]+)$/)?.[1];
   if (!packed) throw new Error(`there is no scene '${name}'`);
   try {
-    return {text: await unpacked(fromBase64(packed)), name: null};
+    return await unpacked(fromBase64(packed));
   } catch (error) {
     throw new Error(`the scene in the link cannot be read: ${error.message}`);
   }

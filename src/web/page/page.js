@@ -4,7 +4,7 @@ const picture = byId("picture");
 const canvas = picture.getContext("2d");
 const scene = new Scene();
 const {scenes, ...lists} = await scene.started.catch(error => {
-  sayProblem(`This browser cannot run the program: ${error.message}`);
+  sayIn(byId("problem"), `This browser cannot run the program: ${error.message}`);
   throw error;
 });
 const player = new Player(scene);
@@ -13,16 +13,21 @@ const fields = new Fields(scene, lists, byId("save-group"));
 const bodies = new Bodies(scene, byId("settings").firstElementChild);
 const text = byId("text");
 
-/** The name of the scene of the program that is shown, and its text; null of any other. */
-let shipped = null;
+/** What is shown if nothing else can be. */
+const FIRST_SCENE = "lecture";
+
 let busyTimer = null;
 /** Stays until another scene is opened. */
 let linkProblem = "";
+/** What is shown, as the program says. */
+let shown = null;
 
-function sayProblem(words) {
-  byId("problem").textContent = words;
-  byId("problem").hidden = words === "";
-}
+/** The scene of the program that is shown; undefined if it is another one. */
+const shippedScene = () => scenes.find(({text: words}) => words === scene.text);
+const addressOfScene = async () => {
+  const name = shippedScene()?.name;
+  return name ? `#${name}` : await addressOf(scene.text);
+};
 
 /** Of more, the first ones are read out. */
 const MOST_BODIES = 6;
@@ -76,57 +81,59 @@ scene.onPicture = ({x, y, width, height, pixels}) => {
 };
 
 scene.onShown = place => {
-  const {facts} = scene;
+  shown = place;
   player.updatePlace(place);
-  byId("read-outs").replaceChildren(...readOutsOf(place, facts));
-  if (!player.isPlaying) picture.setAttribute("aria-label", describe(place, facts));
+  byId("read-outs").replaceChildren(...readOutsOf(place, scene.facts));
+  if (!player.isPlaying) labelPicture();
 };
+
+const labelPicture = () => picture.setAttribute("aria-label", describe(shown, scene.facts));
+player.onPause = labelPicture;
 
 let addressTimer = null;
 
 /** Once nothing has changed for a while: browsers allow few changes of the address a second. */
-function updateAddress(sceneText) {
+function updateAddress() {
   clearTimeout(addressTimer);
   addressTimer = setTimeout(async () => {
-    const address = shipped ? `#${shipped.name}` : await addressOf(sceneText);
-    history.replaceState(null, "", address);
+    history.replaceState(null, "", await addressOfScene());
   }, 400);
 }
 
-scene.onOpened = (facts, sceneText) => {
-  if (shipped && sceneText !== shipped.text) shipped = null;
-  byId("scenes").value = shipped?.name ?? "";
-  saving.name = shipped?.name ?? "scene";
-  if (document.activeElement !== text && byId("text-problem").hidden) text.value = sceneText;
+scene.onOpened = facts => {
+  const name = shippedScene()?.name;
+  byId("scenes").value = name ?? "";
+  saving.name = name ?? "scene";
+  if (document.activeElement !== text && byId("text-problem").hidden) text.value = scene.text;
   fields.update(facts);
   bodies.update(facts);
   player.update(facts);
   const notes = [facts.filmProblem && `No film: ${facts.filmProblem}`, ...(facts.notes ?? [])];
-  byId("notes").textContent = notes.filter(note => note).join("\n");
-  byId("notes").hidden = byId("notes").textContent === "";
-  updateAddress(sceneText);
+  sayIn(byId("notes"), notes.filter(note => note).join("\n"));
+  updateAddress();
 };
 
 scene.onProblems = problems => {
   const others = bodies.say(fields.say(problems));
   const ofText = others.filter(problem => problem.key === "text");
-  byId("text-problem").textContent = ofText.map(problem => problem.words).join("\n");
-  byId("text-problem").hidden = ofText.length === 0;
+  sayIn(byId("text-problem"), ofText.map(problem => problem.words).join("\n"));
   text.setAttribute("aria-invalid", String(ofText.length > 0));
   if (ofText.length > 0) byId("text-group").open = true;
   const elsewhere = others.filter(problem => problem.key !== "text");
   const names = problems.filter(problem => !elsewhere.includes(problem)).map(({key, body, property}) =>
-    key === "text" ? "the scene file" : body ? `body ${body}.${property}` : key);
-  const leftOut = names.length > 0 && `Not shown, because it is wrong: ${[...new Set(names)].join(", ")}.`;
-  sayProblem([linkProblem, ...elsewhere.map(problem => problem.words), leftOut]
+    key === "text" ? "the scene file" : key === "bodies" ? body ? `body ${body}, ${property}` : "the bodies"
+      : fields.labelOf(key) ?? bodies.labelOf(key) ?? key);
+  const leftOut = names.length > 0 && `Not applied, see the message there: ${[...new Set(names)].join("; ")}.`;
+  sayIn(byId("problem"), [linkProblem, ...elsewhere.map(problem => problem.words), leftOut]
     .filter(words => words).join("\n"));
+  // Something is to be shown, whatever a link has.
+  if (!scene.facts && ofText.length > 0) scene.replace(() => shippedText(FIRST_SCENE), "first scene");
 };
 
 scene.hasField = key => fields.has(key) || bodies.has(key);
 
 scene.onPlaceProblem = words => {
-  byId("instant-problem").textContent = words;
-  byId("instant-problem").hidden = words === "";
+  sayIn(byId("instant-problem"), words);
   byId("instant").setAttribute("aria-invalid", String(words !== ""));
 };
 
@@ -137,54 +144,64 @@ scene.onBusy = isBusy => {
   else byId("busy").hidden = true;
 };
 
-byId("stop").addEventListener("click", () => scene.stop());
+byId("stop").addEventListener("click", () => {
+  scene.stop();
+  byId("play").focus({preventScroll: true});
+  if (!scene.facts) openShipped(FIRST_SCENE);
+});
 
 byId("scenes").append(element("option", {value: "", hidden: true}, "my own"),
   ...scenes.map(({name, summary}) => element("option", {value: name}, `${name}: ${summary}`)));
 byId("scenes").addEventListener("change", () => openShipped(byId("scenes").value));
 
-function open(found) {
+let textTimer = null;
+
+/** Shows the start of another scene. */
+function open(words) {
+  clearTimeout(textTimer);
   player.pause();
   linkProblem = "";
-  byId("text-problem").hidden = true;
-  shipped = found.name ? found : null;
-  scene.open(found.text, {frame: 0});
+  sayIn(byId("text-problem"), "");
+  text.value = words;
+  scene.open(words, {frame: 0});
 }
 
-const openShipped = name => open(scenes.find(one => one.name === name));
+const shippedText = name => scenes.find(one => one.name === name).text;
+const openShipped = name => open(shippedText(name));
 
-let textTimer = null;
 text.addEventListener("input", () => {
   clearTimeout(textTimer);
-  textTimer = setTimeout(() => {
-    shipped = null;
-    scene.open(text.value);
-  }, 150);
+  textTimer = setTimeout(() => scene.open(text.value), 150);
 });
 
-async function copy(button, words) {
-  const label = button.textContent;
+/** @param field  whose text is selected where the page may not copy; it has the words then */
+async function copy(button, words, field) {
+  const {label = button.textContent} = button.dataset;
+  button.dataset.label = label;
   try {
     await navigator.clipboard.writeText(words);
     button.textContent = "Copied";
   } catch {
-    text.closest("details").open = true;
-    text.focus();
-    text.select();
+    field.value = words;
+    field.hidden = false;
+    field.focus();
+    field.select();
     button.textContent = "Press Ctrl+C";
   }
   setTimeout(() => button.textContent = label, 1500);
 }
 
-byId("undo-text").addEventListener("click", () => {
-  byId("text-problem").hidden = true;
+byId("show-text").addEventListener("click", () => {
+  clearTimeout(textTimer);
+  sayIn(byId("text-problem"), "");
+  text.value = scene.text;
   scene.open(scene.text);
 });
-byId("copy-text").addEventListener("click", event => copy(event.target, text.value));
+byId("copy-text").addEventListener("click", event => copy(event.target, text.value, text));
 byId("copy-link").addEventListener("click", async event => {
-  const address = shipped ? `#${shipped.name}` : await addressOf(scene.text);
-  copy(event.target, new URL(address, location.href).href);
+  copy(event.target, new URL(await addressOfScene(), location.href).href, byId("link"));
 });
+byId("link").addEventListener("blur", () => byId("link").hidden = true);
 byId("go-to-save").addEventListener("click", () => {
   byId("save-group").open = true;
   byId("save-group").scrollIntoView({block: "nearest"});
@@ -196,11 +213,11 @@ byId("settings").addEventListener("submit", event => event.preventDefault());
 async function openAddress() {
   try {
     const found = await sceneOf(location.hash, scenes);
-    if (found) open(found);
+    if (found !== null) open(found);
     return found !== null;
   } catch (error) {
     linkProblem = `Link: ${error.message}`;
-    sayProblem(linkProblem);
+    sayIn(byId("problem"), linkProblem);
     return false;
   }
 }
@@ -209,7 +226,6 @@ addEventListener("hashchange", openAddress);
 const given = JSON.parse(byId("opened-scene").textContent);
 if (!await openAddress()) {
   const words = linkProblem;
-  if (given) open({text: given.text, name: null});
-  else openShipped("lecture");
+  open(given?.text ?? shippedText(FIRST_SCENE));
   linkProblem = words;
 }

@@ -8,37 +8,66 @@ class FilmSound {
   static #ahead_s = 1.2;
 
   #program = null;
-  #text = null;
+  /** The film whose sound the program has. */
+  #opened = null;
   #context = null;
   #sources = new Set();
   #run = 0;
+  /** Samples came too late; all later ones are heard so much later. */
+  onDelay = delay_s => {};
+  onFailed = error => {};
 
-  /** Begins at this second of the film. @returns when the second is heard, on the clock now_s(). */
-  async play(text, second) {
+  /** Begins at this second of the film.
+   * @param source  {text, edits} of the scene
+   * @returns when the second is heard, on the clock now_s(); null if another call has ended this one */
+  async play({text, edits}, second) {
     this.stop();
     const run = this.#run;
     this.#context ??= new AudioContext({sampleRate: FilmSound.#rate_hz});
     await this.#context.resume();
-    this.#program ??= new Program();
-    if (this.#text !== text) {
-      await this.#program.call("open", {text, settings: ""});
-      await this.#program.call("openSound");
-      this.#text = text;
+    try {
+      const isOpen = run === this.#run && await this.#open(run, text, edits.lines);
+      if (!isOpen) return null;
+      const first = Math.round(second * FilmSound.#rate_hz);
+      const samples = await this.#read(first);
+      if (run !== this.#run) return null;
+      const start_s = this.#context.currentTime + 0.05;
+      this.#feed(run, first, samples, start_s).catch(error => this.#fail(run, error));
+      return start_s - first / FilmSound.#rate_hz + second;
+    } catch (error) {
+      if (error instanceof Failure) this.#program = null;
+      if (run !== this.#run) return null;
+      throw error;
     }
-    const first = Math.round(second * FilmSound.#rate_hz);
-    const samples = await this.#read(first);
-    if (run !== this.#run) return null;
-    const start_s = this.#context.currentTime + 0.05;
-    this.#feed(run, first, samples, start_s);
-    return start_s - first / FilmSound.#rate_hz + second;
+  }
+
+  #fail(run, error) {
+    if (error instanceof Failure) this.#program = null;
+    if (run === this.#run) this.onFailed(error);
+  }
+
+  /** @returns whether it is still wanted. */
+  async #open(run, text, settings) {
+    if (!this.#program) this.#opened = null;
+    this.#program ??= new Program();
+    const film = `${settings}\n${text}`;
+    if (this.#opened === film) return true;
+    this.#opened = null;
+    await this.#program.call("open", {text, settings});
+    if (run !== this.#run) return false;
+    await this.#program.call("openSound");
+    if (run !== this.#run) return false;
+    this.#opened = film;
+    return true;
   }
 
   #read(first) {
     return this.#program.call("readSound", {first, count: FilmSound.#piece});
   }
 
+  /** What is heard now began to be played a little earlier. */
   now_s() {
-    return this.#context.currentTime;
+    return this.#context.currentTime - (this.#context.outputLatency || 0);
   }
 
   async #feed(run, first, samples, at_s) {
@@ -47,11 +76,16 @@ class FilmSound {
       first += samples.length / 2;
       at_s += samples.length / 2 / FilmSound.#rate_hz;
       samples = await this.#read(first);
-      while (at_s - this.now_s() > FilmSound.#ahead_s) {
+      while (at_s - this.#context.currentTime > FilmSound.#ahead_s) {
         await new Promise(resolve => setTimeout(resolve, 100));
         if (run !== this.#run) return;
       }
       if (run !== this.#run) return;
+      const delay_s = this.#context.currentTime - at_s;
+      if (delay_s > 0) {
+        at_s += delay_s;
+        this.onDelay(delay_s);
+      }
     }
   }
 
@@ -86,16 +120,22 @@ class Player {
   /** When second 0 of the film was, on the clock in use. */
   #start_s = 0;
   #clock_s = () => performance.now() / 1000;
+  /** The run of the film that goes on; another one ends it. */
+  #run = null;
+  #restart = null;
+  onPause = () => {};
 
   constructor(scene) {
     this.#scene = scene;
+    this.#sound.onDelay = delay_s => this.#start_s += delay_s;
+    this.#sound.onFailed = error => this.#goOnSilently(error);
     this.slider = byId("time-slider");
     this.slider.addEventListener("input", () => this.#goTo(Number(this.slider.value)));
     const actions = {play: () => this.toggle(), start: () => this.#goTo(0),
       end: () => this.#goTo(this.#frames - 1), turn: () => this.#show({instant: "turn"}),
       "previous-frame": () => this.#step(-1), "next-frame": () => this.#step(1),
-      "previous-collision": () => this.#stepCollision(-1),
-      "next-collision": () => this.#stepCollision(1), sound: () => this.#toggleSound(),
+      "previous-collision": () => this.#show({step: -1}),
+      "next-collision": () => this.#show({step: 1}), sound: () => this.#toggleSound(),
       "full-screen": () => this.#toggleFullScreen(), go: () => this.#goToInstant()};
     for (const [name, action] of Object.entries(actions)) {
       byId(name).addEventListener("click", action);
@@ -103,6 +143,7 @@ class Player {
     byId("instant").addEventListener("keydown", event => {
       if (event.key === "Enter") this.#goToInstant();
     });
+    byId("full-screen").hidden = !byId("screen").requestFullscreen;
     this.#listenToKeys();
     this.#listenToFingers(byId("picture"));
   }
@@ -136,25 +177,6 @@ class Player {
     this.#goTo(this.#frame + frames);
   }
 
-  /** From what is shown to the collision before or after it. */
-  #stepCollision(step) {
-    if (!this.#place?.state || this.#facts.collisions === "infinite" && this.#count === null) return;
-    const isAtCollision = this.#at !== null && this.#at === this.#count;
-    const first = BigInt(this.#facts.firstCollision);
-    const target = step > 0 ? this.#count + 1n : isAtCollision ? this.#count - 1n : this.#count;
-    const last = this.#facts.collisions === "infinite" ? null : BigInt(this.#facts.collisions);
-    if (target < first) return this.#goTo(0);
-    if (last !== null && target > last && !this.#facts.mayGoOn) return;
-    this.#at = target;
-    this.#show({instant: `#${target}`});
-  }
-  /** The collision that was gone to. */
-  #at = null;
-  get #count() {
-    const count = JSON.parse(this.#place.state).collisions;
-    return count === "infinite" ? null : BigInt(count);
-  }
-
   update(facts) {
     this.slider.max = Math.max(0, this.#frames - 1);
     const hasFilm = facts.frames !== null;
@@ -165,12 +187,11 @@ class Player {
     const isScene = facts.kind === "scene";
     for (const name of ["previous-collision", "next-collision"]) byId(name).disabled = !isScene;
     byId("turn").disabled = !facts.hasTurn;
-    if (this.#isPlaying) this.play();
+    if (this.#isPlaying) this.#goOnInAnotherFilm();
   }
 
   updatePlace(place) {
     this.#place = place;
-    if (place.frame !== null) this.#at = null;
     if (place.nearFrame !== null) this.slider.value = place.nearFrame;
     const time = `${(this.#frame / this.#rate).toFixed(2)} s of the film`;
     this.slider.setAttribute("aria-valuetext", time);
@@ -191,31 +212,50 @@ class Player {
     const second = isAtEnd ? 0 : this.#frame / this.#rate;
     this.#setPlaying(true);
     this.#sound.stop();
-    this.#clock_s = () => performance.now() / 1000;
-    this.#start_s = this.#clock_s() - second;
-    if (this.#hasSound) {
-      try {
-        const heard_s = await this.#sound.play(this.#scene.text, second);
-        if (heard_s === null || !this.#isPlaying) return;
-        this.#start_s = heard_s - second;
-        this.#clock_s = () => this.#sound.now_s();
-      } catch (error) {
-        this.#setSound(false);
-        byId("notes").hidden = false;
-        byId("notes").textContent = `No sound: ${error.message}`;
-        this.#start_s = this.#clock_s() - second;
-      }
-    }
-    this.#run = {};
-    this.#tick(this.#run);
+    clearTimeout(this.#restart);
+    const run = {};
+    this.#run = run;
+    this.#setClock(second, () => performance.now() / 1000);
+    if (this.#hasSound) await this.#playSound(run, second);
+    this.#tick(run);
   }
-  #run = null;
+
+  async #playSound(run, second) {
+    try {
+      const heard_s = await this.#sound.play(this.#scene.source, second);
+      if (heard_s === null || run !== this.#run) return;
+      this.#clock_s = () => this.#sound.now_s();
+      this.#start_s = heard_s - second;
+    } catch (error) {
+      if (run === this.#run) this.#goOnSilently(error);
+      this.#setClock(second, () => performance.now() / 1000);
+    }
+  }
+
+  #setClock(second, clock_s) {
+    this.#clock_s = clock_s;
+    this.#start_s = clock_s() - second;
+  }
+
+  #goOnSilently(error) {
+    this.#setSound(false);
+    sayIn(byId("notes"), `No sound: ${error.message}`);
+    this.#setClock(this.#clock_s() - this.#start_s, () => performance.now() / 1000);
+  }
+
+  /** Silently while a hand still changes it; its sound begins when the hand rests. */
+  #goOnInAnotherFilm() {
+    const hasSound = this.#hasSound;
+    this.#hasSound = false;
+    this.play();
+    this.#hasSound = hasSound;
+    if (hasSound) this.#restart = setTimeout(() => this.#isPlaying && this.play(), 300);
+  }
 
   #tick(run) {
-    if (!this.#isPlaying || run !== this.#run) return;
+    if (run !== this.#run) return;
     const frame = Math.floor((this.#clock_s() - this.#start_s) * this.#rate);
-    const isOver = frame >= this.#frames - 1;
-    if (isOver) {
+    if (frame >= this.#frames) {
       this.#goTo(this.#frames - 1);
       return;
     }
@@ -225,7 +265,11 @@ class Player {
 
   pause() {
     this.#sound.stop();
+    clearTimeout(this.#restart);
+    this.#run = null;
+    const wasPlaying = this.#isPlaying;
     this.#setPlaying(false);
+    if (wasPlaying) this.onPause();
   }
 
   #setPlaying(isPlaying) {
@@ -244,7 +288,7 @@ class Player {
 
   #toggleFullScreen() {
     if (document.fullscreenElement) document.exitFullscreen();
-    else byId("screen").requestFullscreen?.();
+    else byId("screen").requestFullscreen().catch(() => {});
   }
 
   #listenToKeys() {
@@ -253,33 +297,38 @@ class Player {
       m: "sound", f: "full-screen"};
     document.addEventListener("keydown", event => {
       if (event.ctrlKey || event.altKey || event.metaKey) return;
-      // Fields and buttons have keys of their own.
-      if (event.target.closest("input, select, textarea, button, summary, a")
-          && event.target !== this.slider) return;
-      const isOfSlider = event.target === this.slider && event.key.startsWith("Arrow");
       const button = byId(keys[event.key]);
-      if (!button || isOfSlider) return;
+      if (!button || this.#isKeyOf(event.target, event.key)) return;
       event.preventDefault();
       if (!button.disabled) button.click();
     });
+  }
+
+  /** Whether an element does something of its own at this key. */
+  #isKeyOf(element, key) {
+    if (element === this.slider) return key.startsWith("Arrow");
+    if (element.closest("button, summary, a")) return key === " ";
+    return element.closest("input, select, textarea") !== null;
   }
 
   /** A drag across the picture goes through the whole film; a tap plays and pauses. */
   #listenToFingers(picture) {
     let start = null;
     picture.addEventListener("pointerdown", event => {
-      start = {x: event.clientX, frame: this.#frame, isDrag: false};
+      if (!event.isPrimary || event.button !== 0) return;
+      start = {x: event.clientX, frame: this.#frame, isDrag: false, pointer: event.pointerId};
       picture.setPointerCapture(event.pointerId);
     });
     picture.addEventListener("pointermove", event => {
-      if (start === null) return;
+      if (event.pointerId !== start?.pointer) return;
       const moved = event.clientX - start.x;
       start.isDrag ||= Math.abs(moved) > 5;
       const share = moved / picture.getBoundingClientRect().width;
       if (start.isDrag) this.#goTo(Math.round(start.frame + share * (this.#frames - 1)));
     });
-    picture.addEventListener("pointerup", () => {
-      if (start !== null && !start.isDrag) this.toggle();
+    picture.addEventListener("pointerup", event => {
+      if (event.pointerId !== start?.pointer) return;
+      if (!start.isDrag) this.toggle();
       start = null;
     });
     picture.addEventListener("pointercancel", () => start = null);

@@ -5,6 +5,8 @@
 class Problem extends Error {}
 /** The program has broken down, or was stopped. */
 class Failure extends Error {}
+/** What a Failure says of work that somebody has ended. */
+const STOPPED = "stopped";
 
 const byId = id => document.getElementById(id);
 
@@ -41,26 +43,31 @@ class Program {
   }
 
   #send(task, details, transfer = []) {
-    if (this.isStopped) return Promise.reject(new Failure("stopped"));
+    if (this.isStopped) return Promise.reject(new Failure(STOPPED));
     const id = this.#next++;
     this.#worker.postMessage({id, task, ...details}, transfer);
     return new Promise((resolve, reject) => this.#waiting.set(id, {resolve, reject}));
   }
 
   #receive({id, progress, value, problem, failure}) {
-    if (progress !== undefined) return this.onProgress(progress);
+    if (this.isStopped) return;
+    if (progress !== undefined) {
+      this.onProgress(progress);
+      return;
+    }
     const {resolve, reject} = this.#waiting.get(id);
     this.#waiting.delete(id);
     if (problem !== undefined) reject(new Problem(problem));
     else if (failure === undefined) resolve(value);
     else {
       reject(new Failure(failure));
+      // What waits would wait for a program that is broken.
       this.stop(failure);
     }
   }
 
   /** Whatever it does; it can do nothing more then. */
-  stop(reason = "stopped") {
+  stop(reason = STOPPED) {
     if (this.isStopped) return;
     this.isStopped = true;
     this.#worker.terminate();
@@ -69,8 +76,8 @@ class Program {
   }
 }
 
-/** Does the newest of the jobs that come while one is being done, and leaves out those before. */
-class NewestFirst {
+/** Does one job at a time. Of those that come meanwhile it does the newest, and drops the others. */
+class NewestOnly {
   #next = null;
   isBusy = false;
 
@@ -78,14 +85,11 @@ class NewestFirst {
     this.#next = job;
     if (this.isBusy) return;
     this.isBusy = true;
-    try {
-      while (this.#next) {
-        const now = this.#next;
-        this.#next = null;
-        await now();
-      }
-    } finally {
-      this.isBusy = false;
+    while (this.#next) {
+      const now = this.#next;
+      this.#next = null;
+      await now().catch(reportError);
     }
+    this.isBusy = false;
   }
 }

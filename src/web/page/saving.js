@@ -4,13 +4,15 @@
 const MEDIA_TYPES = {png: "image/png", svg: "image/svg+xml", pdf: "application/pdf",
   mp4: "video/mp4", wav: "audio/wav"};
 const MOST_WORKERS = 8;
+const isFilm = ending => ending === "mp4" || ending === "wav";
 
 /** The film in one file. The pieces that workers render are joined as those of several machines. */
 class FilmMaking {
   #workers = [];
 
-  /** @param onProgress  is told the share that is done. */
-  async make(text, ending, {seconds, onProgress}) {
+  /** @param source  {text, edits} of the scene
+   * @param onProgress  is told the share that is done */
+  async make({text, edits}, ending, {seconds, onProgress}) {
     const name = `film.${ending}`;
     const isSound = ending === "wav";
     // Pieces are cut at whole seconds.
@@ -18,7 +20,8 @@ class FilmMaking {
     const count = isSound ? 1 : Math.max(1, most);
     const shares = new Array(count).fill(0);
     this.#workers = shares.map(() => new Program());
-    const settings = isSound ? "" : "sound.on=false";
+    // The page has no encoder of AAC.
+    const settings = (isSound ? edits : edits.with([["sound.on", "false"]])).lines;
     const parts = await Promise.all(this.#workers.map(async (worker, i) => {
       worker.onProgress = share => {
         shares[i] = share;
@@ -41,12 +44,13 @@ class Saving {
   #scene;
   #making = null;
   #link = null;
+  #buttons = [...document.querySelectorAll("[data-save]")];
   /** What files are called, without an ending. */
   name = "scene";
 
   constructor(scene, pause) {
     this.#scene = scene;
-    for (const button of document.querySelectorAll("[data-save]")) {
+    for (const button of this.#buttons) {
       button.addEventListener("click", () => {
         pause();
         this.#save(button.dataset.save);
@@ -56,37 +60,43 @@ class Saving {
   }
 
   async #save(ending) {
-    this.#say("");
+    sayIn(byId("saving-problem"), "");
     byId("saved").hidden = true;
     try {
-      const isFilm = ending === "mp4" || ending === "wav";
-      const bytes = isFilm ? await this.#makeFilm(ending) : await this.#scene.save(`/picture.${ending}`);
-      if (bytes) this.#download(bytes, ending);
+      const bytes = isFilm(ending) ? await this.#makeFilm(ending) : await this.#scene.save(`/picture.${ending}`);
+      this.#download(bytes, ending);
     } catch (error) {
-      this.#say(error.message);
-    } finally {
-      byId("saving").hidden = true;
-      this.#making?.stop();
-      this.#making = null;
+      if (!(error instanceof Failure && error.message === STOPPED)) {
+        sayIn(byId("saving-problem"), error.message);
+      }
     }
   }
 
+  /** @throws Failure with STOPPED if it is cancelled. */
   async #makeFilm(ending) {
-    if (this.#making) return null;
     const {frames, rate, filmProblem} = this.#scene.facts;
     if (frames === null) throw new Problem(filmProblem);
     const making = new FilmMaking();
-    this.#making = making;
-    byId("saving").hidden = false;
-    byId("saving-text").textContent = `Rendering ${frames.toLocaleString("en")} frames`;
-    const onProgress = share => byId("saving-progress").value = share;
-    onProgress(0);
+    this.#showMaking(making, `Rendering ${frames.toLocaleString("en")} frames`);
     try {
-      return await making.make(this.#scene.text, ending,
+      const onProgress = share => byId("saving-progress").value = share;
+      return await making.make(this.#scene.source, ending,
         {seconds: frames * rate[1] / rate[0], onProgress});
-    } catch (error) {
-      if (error instanceof Failure && error.message === "stopped") return null;
-      throw error;
+    } finally {
+      making.stop();
+      this.#showMaking(null, "");
+      this.#buttons.find(button => button.dataset.save === ending).focus({preventScroll: true});
+    }
+  }
+
+  /** One film at a time. */
+  #showMaking(making, words) {
+    this.#making = making;
+    byId("saving-text").textContent = words;
+    byId("saving-progress").value = 0;
+    byId("saving").hidden = making === null;
+    for (const button of this.#buttons) {
+      if (isFilm(button.dataset.save)) button.disabled = making !== null;
     }
   }
 
@@ -100,10 +110,5 @@ class Saving {
     byId("saved").replaceChildren("Saved as ", this.#link, `, ${size}.`);
     byId("saved").hidden = false;
     this.#link.click();
-  }
-
-  #say(words) {
-    byId("saving-problem").textContent = words;
-    byId("saving-problem").hidden = words === "";
   }
 }

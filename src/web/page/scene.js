@@ -2,11 +2,13 @@
 // In: texts of scene files, edits of single keys, places in the film. Out: calls of `onPicture`,
 // `onOpened`, `onShown`, `onProblems`, `onPlaceProblem`: what the program makes of them.
 
-/** How long the program may work before something else is wanted. */
+/** A newer wish ends work that has lasted longer than this; longer each time, until work is done. */
 const PATIENCE_ms = 1500;
 
 /** Keys that set the same value: an edit of one replaces those of the others. */
 const ALIKE = [["digits", "mass-ratio", "red.mass"], ["time.speed", "time.duration"]];
+const isAlike = (one, other) =>
+  one === other || ALIKE.some(keys => keys.includes(one) && keys.includes(other));
 
 /** What the program says of an edit, without the name of what was edited. */
 const wordsOf = (message, key) => message.split("\n")
@@ -23,10 +25,48 @@ function problemsOfText(message, key) {
   });
 }
 
+/** Values of keys, in the order in which they were set; no two set the same. */
+class Edits {
+  #values;
+
+  constructor(values = []) {
+    this.#values = new Map(values);
+  }
+
+  get list() {
+    return [...this.#values];
+  }
+  get isEmpty() {
+    return this.#values.size === 0;
+  }
+  has([key, value]) {
+    return this.#values.get(key) === value;
+  }
+  set(key, value) {
+    for (const other of this.#values.keys()) {
+      if (isAlike(key, other)) this.#values.delete(other);
+    }
+    this.#values.set(key, value);
+  }
+  /** @returns whether it was there. */
+  delete(key) {
+    return this.#values.delete(key);
+  }
+  /** These, and then the others. */
+  with(others) {
+    const all = new Edits(this.#values);
+    for (const [key, value] of others) all.set(key, value);
+    return all;
+  }
+  /** The lines that the program reads. */
+  get lines() {
+    return this.list.map(([key, value]) => `${key}=${value}`).join("\n");
+  }
+}
+
 class Scene {
-  /** What the program has taken last. */
+  /** What the program says of the scene that it has taken last; null before the first one. */
   facts = null;
-  place = {frame: 0};
   onOpened = () => {};
   onPicture = () => {};
   onShown = () => {};
@@ -37,16 +77,29 @@ class Scene {
   onBusy = () => {};
 
   #program = new Program();
-  #jobs = new NewestFirst();
+  #jobs = new NewestOnly();
+  /** The scene that the program has taken last: a text, edits of it, and the place that is shown. */
   #text = "";
-  #isEdited = false;
+  #taken = new Edits();
+  #place = {frame: 0};
   /** Edits that the program has not taken yet, or has refused; the last one comes last. */
-  #edits = new Map();
-  /** A text that is to take the place of the scene, and what it comes from. */
-  #newText = null;
-  /** What is wrong with texts that were refused and are still to be seen, by what they come from. */
-  #textProblems = new Map();
-  #since = 0;
+  #edits = new Edits();
+  /** Texts {make(facts), place} that are to take the place of the scene, by what they come from. */
+  #texts = new Map();
+  /** A place that was asked for and not shown yet. */
+  #wantedPlace = null;
+  #wantsOpening = false;
+  /** What is wrong with texts that were refused, and with edits that took too long, by what they come
+   * from: they are tried no more, but are still to be seen. */
+  #keptProblems = new Map();
+  /** What the program is opening. */
+  #trying = {edits: [], key: null};
+  /** Done when the program has started and has the scene. */
+  #ready = this.#program.started;
+  /** When the program began with what it does; null while it does nothing that can be timed. */
+  #since = null;
+  #patience_ms = PATIENCE_ms;
+  #saves = 0;
 
   get started() {
     return this.#program.started;
@@ -54,28 +107,35 @@ class Scene {
   get isBusy() {
     return this.#jobs.isBusy;
   }
-
-  /** Shows another scene. @param place  in its film, as that of worker.js */
-  open(text, place = this.place) {
-    this.#edits.clear();
-    this.#textProblems.clear();
-    this.replace(text, "text", place);
+  /** The scene as a scene file: its own text, if no field has changed it. */
+  get text() {
+    return this.#taken.isEmpty ? this.#text : this.facts.toml;
+  }
+  /** The same for other workers. */
+  get source() {
+    return {text: this.#text, edits: this.#taken};
   }
 
-  /** Takes this text for the scene; edits that were refused stay.
-   * @param key  what it comes from: "text", "bodies" or a key of the scene */
-  replace(text, key, place = this.place) {
-    this.#newText = {text, key};
-    this.place = place;
+  /** Shows another scene. @param place  in its film, as that of worker.js; or where it is now */
+  open(text, place = null) {
+    this.#forgetWishes();
+    this.#keptProblems.clear();
+    this.#texts.set("text", {make: () => text, place});
     this.#apply();
   }
 
-  edit(key, text) {
-    for (const keys of ALIKE) {
-      if (keys.includes(key)) keys.forEach(other => this.#edits.delete(other));
-    }
-    this.#edits.delete(key);
-    this.#edits.set(key, text);
+  /** Takes another text for the scene; edits that were refused stay.
+   * @param make  the text from the scene's facts
+   * @param key  what it comes from: "bodies" or a key of the scene */
+  replace(make, key) {
+    this.#texts.delete(key);
+    this.#texts.set(key, {make, place: null});
+    this.#apply();
+  }
+
+  edit(key, value) {
+    this.#keptProblems.delete(key);
+    this.#edits.set(key, value);
     this.#apply();
   }
 
@@ -83,80 +143,135 @@ class Scene {
   reset(key) {
     this.#edits.delete(key);
     const isOther = line => !line.startsWith(`${key} = `);
-    this.replace(this.facts.toml.split("\n").filter(isOther).join("\n"), key);
+    this.replace(facts => facts.toml.split("\n").filter(isOther).join("\n"), key);
   }
 
-  /** Leaves the value as it was before. */
+  /** Drops an edit that was refused. */
   forget(key) {
-    if (this.#edits.delete(key)) this.#apply();
+    const wasKept = this.#keptProblems.delete(key);
+    if (this.#edits.delete(key) || wasKept) this.#apply();
   }
 
+  /** @param place  as that of worker.js, or {step: 1}: the next collision, {step: -1}: the one before */
   show(place) {
-    this.place = place;
+    this.#wantedPlace = place;
     this.#work();
   }
 
-  /** What the scene is, for other workers. */
-  get text() {
-    return this.facts.toml;
-  }
-
   /** A file of what is shown. */
-  save(name) {
-    return this.#program.call("save", {name});
+  async save(name) {
+    ++this.#saves;
+    try {
+      await this.#ready;
+      return await this.#program.call("save", {name});
+    } finally {
+      --this.#saves;
+    }
   }
 
   /** Gives up what the program does, and goes on with what it has taken last. */
   stop() {
-    this.#edits.clear();
-    this.#textProblems.clear();
-    this.#newText = null;
+    this.#forgetWishes();
+    this.#trying = {edits: [], key: null};
+    this.#keptProblems.clear();
     this.onProblems([]);
     this.#replaceProgram();
-    if (this.facts) this.onOpened(this.facts, this.#text);
+    if (this.facts) this.onOpened(this.facts);
+  }
+
+  #forgetWishes() {
+    this.#edits = new Edits();
+    this.#texts.clear();
+    this.#wantedPlace = null;
+  }
+
+  async #call(task, details) {
+    await this.#ready;
+    this.#since = performance.now();
+    try {
+      return await this.#program.call(task, details);
+    } finally {
+      this.#since = null;
+    }
   }
 
   #replaceProgram() {
     this.#program.stop();
     this.#program = new Program();
-    if (this.facts) {
-      this.#program.call("open", {text: this.facts.toml, settings: ""}).catch(() => {});
-    }
+    this.#since = null;
+    this.#ready = this.facts ? this.#reopen(this.#program) : this.#program.started;
+    this.#ready.catch(() => {});
+  }
+
+  async #reopen(program) {
+    const places = [this.#place];
+    const {shown} = await program.call("open", {text: this.#text, settings: this.#taken.lines, places});
+    this.onPicture(shown);
   }
 
   /** Does what is asked for, when the program has time; of several wishes the last. */
   #work() {
     // Somebody who goes on while the program still works does not want that work.
-    if (this.#jobs.isBusy && performance.now() - this.#since > PATIENCE_ms) this.#replaceProgram();
+    const isLong = this.#since !== null && performance.now() - this.#since > this.#patience_ms;
+    if (isLong && this.#saves === 0) {
+      this.#patience_ms *= 2;
+      this.#replaceProgram();
+    }
     this.#jobs.add(async () => {
-      this.#since = performance.now();
       this.onBusy(true);
       try {
-        const isEdited = this.#isEdited;
-        this.#isEdited = false;
-        await (isEdited ? this.#openEdited() : this.#show(this.place));
+        const wantsOpening = this.#wantsOpening || this.#texts.size > 0;
+        this.#wantsOpening = false;
+        await (wantsOpening ? this.#openEdited() : this.#showWanted());
+        this.#patience_ms = PATIENCE_ms;
       } catch (error) {
         if (!(error instanceof Failure)) throw error;
-        if (this.#program.isStopped) this.#replaceProgram();
-        if (error.message !== "stopped") {
-          this.onProblems([{key: "program", words: `The program has stopped: ${error.message}`}]);
-        }
+        this.#recover(error);
       } finally {
         this.onBusy(false);
       }
     });
   }
 
+  /** After work that broke down or was ended: what was worked at is not tried again. */
+  #recover({message}) {
+    if (this.#program.isStopped) this.#replaceProgram();
+    if (message === STOPPED) {
+      this.#leaveSlow();
+      return;
+    }
+    this.#forgetWishes();
+    if (this.facts) this.onOpened(this.facts);
+    this.onProblems([{key: "program", words: `The program has stopped: ${message}`}]);
+  }
+
+  #leaveSlow() {
+    const {edits, key: keyOfText} = this.#trying;
+    const keys = edits.filter(edit => this.#edits.has(edit)).map(([key]) => key);
+    for (const key of keys) this.#edits.delete(key);
+    if (keyOfText !== null && !this.#texts.has(keyOfText)) keys.push(keyOfText);
+    for (const key of keys) {
+      this.#keptProblems.set(key, [{key, words: "This took too long and was left when something else was wanted."}]);
+    }
+    if (keys.length > 0) this.onProblems(this.#allKept);
+  }
+  get #allKept() {
+    return [...this.#keptProblems.values()].flat();
+  }
+
   #apply() {
-    this.#isEdited = true;
+    this.#wantsOpening = true;
     this.#work();
   }
 
-  async #show(place) {
+  async #showWanted() {
+    const wanted = this.#wantedPlace;
+    this.#wantedPlace = null;
+    if (wanted === null || !this.facts) return;
     try {
-      const shown = await this.#program.call("show", {place});
-      this.onPicture(shown);
-      this.onShown(shown.place);
+      const shown = await this.#call("show", {place: wanted});
+      // There may be no collision to step to.
+      if (shown) this.#showPlace(shown, wanted);
       this.onPlaceProblem("");
     } catch (error) {
       if (!(error instanceof Problem)) throw error;
@@ -164,56 +279,90 @@ class Scene {
     }
   }
 
-  /** @returns what the program says is wrong; empty if it has taken it. */
-  async #try(text, edits) {
-    const settings = edits.map(([key, value]) => `${key}=${value}`).join("\n");
+  #showPlace(shown, wanted) {
+    const {frame, state} = shown.place;
+    if (!wanted.step) this.#place = wanted;
+    else this.#place = frame === null ? {instant: `#${JSON.parse(state).collisions}`} : {frame};
+    this.onPicture(shown);
+    this.onShown(shown.place);
+  }
+
+  /** Opens a text with these edits, which are kept if the program takes them.
+   * @param place  to be shown, if another one than now
+   * @returns what the program says is wrong; empty if it has taken it. */
+  async #try(text, edits, place = null) {
+    // A step is one from what is shown.
+    const wanted = place ?? (this.#wantedPlace?.step ? null : this.#wantedPlace);
+    const places = wanted ? [wanted, this.#place] : [this.#place];
+    let answer;
     try {
-      const {facts, shown} = await this.#program.call("open", {text, settings, place: this.place});
-      for (const [key, value] of edits) {
-        if (this.#edits.get(key) === value) this.#edits.delete(key);
-      }
-      this.facts = facts;
-      this.#text = edits.length > 0 ? facts.toml : text;
-      // The picture first: it is what a hand on a slider waits for.
-      this.onPicture(shown);
-      this.onOpened(facts, this.#text);
-      this.onShown(shown.place);
-      // Another kind of scene has other keys.
-      for (const key of this.#edits.keys()) {
-        if (!this.hasField(key)) this.#edits.delete(key);
-      }
-      return "";
+      answer = await this.#call("open", {text, settings: edits.lines, places});
     } catch (error) {
       if (!(error instanceof Problem)) throw error;
       return error.message;
     }
+    this.facts = answer.facts;
+    this.#text = text;
+    this.#taken = edits;
+    for (const edit of edits.list) {
+      if (this.#edits.has(edit)) this.#edits.delete(edit[0]);
+    }
+    if (wanted && wanted === this.#wantedPlace) this.#wantedPlace = null;
+    if (wanted && answer.placeProblem === "") this.#place = wanted;
+    this.#tell(answer, wanted);
+    // Another kind of scene has other keys.
+    for (const [key] of this.#edits.list) {
+      if (!this.hasField(key)) this.#edits.delete(key);
+    }
+    return "";
+  }
+
+  /** The picture first: it is what a hand on a slider waits for. */
+  #tell({facts, shown, placeProblem}, wanted) {
+    this.onPicture(shown);
+    this.onOpened(facts);
+    this.onShown(shown.place);
+    this.onPlaceProblem(wanted ? placeProblem : "");
   }
 
   async #openEdited() {
-    const keyOfText = await this.#openText();
-    const edits = [...this.#edits];
-    const problems = [];
-    const message = edits.length > 0 ? await this.#try(this.#text, edits) : "";
-    // One by one, the newest first: what is wrong with one does not hold up the others.
-    for (const edit of message ? edits.reverse() : []) {
-      if (!this.#edits.has(edit[0])) continue;
-      const words = edits.length > 1 ? await this.#try(this.#text, [edit]) : message;
-      if (words) problems.push(...wordsOf(words, edit[0]).map(line => ({key: edit[0], words: line})));
-    }
-    this.onProblems([...problems, ...[...this.#textProblems.values()].flat()]);
+    const keysOfTexts = await this.#openTexts();
+    const problems = this.facts ? await this.#tryEdits(this.#edits.list) : [];
+    this.onProblems([...problems, ...this.#allKept]);
     // A key that could not be given its default has its value again.
-    if (keyOfText) this.#textProblems.delete(keyOfText);
+    for (const key of keysOfTexts) {
+      if (key !== "text" && key !== "bodies") this.#keptProblems.delete(key);
+    }
+    await this.#showWanted();
   }
 
-  /** @returns the key for whose sake a text was refused. */
-  async #openText() {
-    if (this.#newText === null) return null;
-    const {text, key} = this.#newText;
-    this.#newText = null;
-    this.#textProblems.delete(key);
-    const message = await this.#try(text, []);
-    if (message === "") return null;
-    this.#textProblems.set(key, problemsOfText(message, key));
-    return key === "text" || key === "bodies" ? null : key;
+  /** All edits together; if something is wrong, one by one, the newest first, so that what is wrong
+   * with one does not hold up the others. */
+  async #tryEdits(edits) {
+    this.#trying = {edits, key: null};
+    const message = edits.length > 0 ? await this.#try(this.#text, this.#taken.with(edits)) : "";
+    const problems = [];
+    for (const edit of message ? edits.reverse() : []) {
+      if (!this.#edits.has(edit)) continue;
+      this.#trying = {edits: [edit], key: null};
+      const words = edits.length > 1 ? await this.#try(this.#text, this.#taken.with([edit])) : message;
+      if (words) problems.push(...wordsOf(words, edit[0]).map(line => ({key: edit[0], words: line})));
+    }
+    return problems;
+  }
+
+  /** @returns what the texts come from that were refused. */
+  async #openTexts() {
+    const refused = [];
+    for (const [key, {make, place}] of this.#texts) {
+      this.#texts.delete(key);
+      this.#keptProblems.delete(key);
+      this.#trying = {edits: [], key};
+      const message = await this.#try(make(this.facts), new Edits(), place);
+      if (message === "") continue;
+      this.#keptProblems.set(key, problemsOfText(message, key));
+      refused.push(key);
+    }
+    return refused;
   }
 }

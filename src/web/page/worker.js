@@ -6,11 +6,20 @@ let program;
 
 class Refusal extends Error {}
 
-const TYPES = {string: "string", number: "number"};
+/** Of a longer text, so much is enough for the program to refuse it. */
+const MOST_LETTERS = (1 << 20) + 1;
+
+/** What the program can be given: it sees the end of a text in a letter 0. */
+function argument(value) {
+  if (typeof value !== "string") return value;
+  if (value.includes("\0")) throw new Refusal("scene: has a character U+0000");
+  return value.slice(0, MOST_LETTERS);
+}
 
 /** Calls a function that answers in text. */
-function ask(name, ...values) {
-  const types = values.map(value => TYPES[typeof value]);
+function ask(name, ...given) {
+  const values = given.map(argument);
+  const types = values.map(value => typeof value);
   const isDone = program.ccall(name, "boolean", types, values);
   const answer = program.ccall("live_answer", "string", [], []);
   if (!isDone) throw new Refusal(answer);
@@ -28,42 +37,40 @@ function take(name) {
   return bytes;
 }
 
-/** A frame of the film {frame}, or an instant {instant}. */
-function show(place) {
-  const answer = JSON.parse(place.instant === undefined
-    ? ask("live_show_frame", place.frame) : ask("live_show_instant", place.instant));
-  const [x, y, width, height] = answer.rect;
-  return {place: answer.place, x, y, width, height,
-    pixels: bytesAt("live_pixels", 4 * width * height).buffer};
-}
+/** A place is a frame of the film {frame} or an instant {instant}. */
+const lineOf = ({frame, instant}) => instant === undefined ? `frame ${frame}` : `instant ${instant}`;
 
-/** Another scene may not have what the last one was looked at. */
-function showIfPossible(place) {
-  try {
-    return show(place);
-  } catch (error) {
-    if (!(error instanceof Refusal)) throw error;
-    return show({frame: 0});
-  }
+/** What is shown, with the pixels that differ from the picture before. */
+function shownOf({place, rect: [x, y, width, height]}) {
+  return {place, x, y, width, height, pixels: bytesAt("live_pixels", 4 * width * height).buffer};
 }
 
 const tasks = {
   async start({module}) {
-    program = await makeLive({
+    let failed;
+    const failure = new Promise((_, reject) => failed = reject);
+    const started = makeLive({
       instantiateWasm(imports, done) {
-        WebAssembly.instantiate(module, imports).then(instance => done(instance, module));
+        WebAssembly.instantiate(module, imports).then(instance => done(instance, module)).catch(failed);
         return {};
       },
       onProgress: (done, count) => postMessage({progress: count > 0 ? done / count : 0}),
     });
+    program = await Promise.race([started, failure]);
     return JSON.parse(ask("live_program"));
   },
-  /** With a place it is also shown. */
-  open({text, settings, place}) {
-    const facts = JSON.parse(ask("live_open", text, settings));
-    return {facts, shown: place && showIfPossible(place)};
+  /** Shows the first of the places that the scene has; nothing if there are none. */
+  open({text, settings, places = []}) {
+    const {facts, shown, placeProblem} =
+      JSON.parse(ask("live_open", text, settings, places.map(lineOf).join("\n")));
+    return {facts, shown: shown && shownOf(shown), placeProblem};
   },
-  show: ({place}) => show(place),
+  /** @param place  or {step}: 1 is the next collision, -1 the one before. @returns null if there is none */
+  show({place}) {
+    const answer = place.step ? ask("live_step", place.step) : ask("live_show", lineOf(place));
+    const shown = JSON.parse(answer);
+    return shown && shownOf(shown);
+  },
   save({name}) {
     ask("live_save", name);
     return take(name);
@@ -76,7 +83,7 @@ const tasks = {
     parts.forEach((_, i) => program.FS.unlink(`${name}.part-${i + 1}-of-${parts.length}`));
     return whole;
   },
-  openSound: () => Number(ask("live_open_sound")),
+  openSound: () => ask("live_open_sound"),
   readSound({first, count}) {
     const pairs = Number(ask("live_read_sound", first, count));
     return new Float32Array(bytesAt("live_samples", 8 * pairs).buffer);
