@@ -24,7 +24,7 @@ class FilmSound {
     this.stop();
     const run = this.#run;
     this.#context ??= new AudioContext({sampleRate: FilmSound.#rate_hz});
-    await this.#context.resume();
+    await Promise.race([this.#context.resume(), FilmSound.#refusal()]);
     try {
       const isOpen = run === this.#run && await this.#open(run, text, edits.lines);
       if (!isOpen) return null;
@@ -44,6 +44,12 @@ class FilmSound {
   #fail(run, error) {
     if (error instanceof Failure) this.#program = null;
     if (run === this.#run) this.onFailed(error);
+  }
+
+  /** Browsers let sound wait for ever, rather than say no. */
+  static async #refusal() {
+    await new Promise(resolve => setTimeout(resolve, 1000));
+    throw new Error("the browser lets it begin only after a click");
   }
 
   /** @returns whether it is still wanted. */
@@ -227,7 +233,8 @@ class Player {
       this.#clock_s = () => this.#sound.now_s();
       this.#start_s = heard_s - second;
     } catch (error) {
-      if (run === this.#run) this.#goOnSilently(error);
+      if (run !== this.#run) return;
+      this.#goOnSilently(error);
       this.#setClock(second, () => performance.now() / 1000);
     }
   }
