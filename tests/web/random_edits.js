@@ -13,7 +13,7 @@ const TEXTS = ["", "turn", "last", "last+1", "turn-0.3", "#10", "#-3", "#1000000
   "off", "turn-0.1:turn+0.1:8", "turn:1", "320x180", "640x360", "1x1", "20000x20000", "161x91",
   "a title", "1/2", "a very long title ".repeat(30), "x".repeat(3000), "30000/1001", "inf"];
 
-const {after, field, isThere, later, readOuts, said, set, shown} = check;
+const {after, isThere, readOuts, said, set, shown} = check;
 const byId = id => document.getElementById(id);
 
 /** Numbers below a size, the same for the same seed. */
@@ -137,19 +137,41 @@ async function forgetAll() {
   }
 }
 
-/** @returns {faults, isRefused} of one edit. */
+/** Whoever waits so long presses Stop. */
+const PATIENCE_ms = 8000;
+
+/** @returns whether the page had to be stopped. */
+async function stopIfSlow() {
+  const isIdle = () => document.body.dataset.isBusy === "false";
+  await check.until("the page is idle or slow", isIdle, PATIENCE_ms).catch(() => {});
+  if (isIdle()) return false;
+  await check.press("stop");
+  return true;
+}
+
+/** The scene before is there again. */
+function faultsOfStop(before) {
+  const faults = messages().map(one => `a message stays after Stop: ${one.textContent}`);
+  const now = look();
+  const seen = Object.fromEntries(Object.keys(before).map(name => [name, now[name]]));
+  return [...faults, ...changes(seen, before).map(words => `after Stop: ${words}`)];
+}
+
+/** @returns {faults, isRefused, isStopped} of one edit. */
 async function editOne(below, where) {
   const {input, key} = anyInput(below);
   const value = anyValue(input, below);
-  await after(() => set(input, value));
-  const faults = faultsOfMessages(input, key, value);
+  const before = messages().length === 0 ? look() : {picture: check.digest()};
+  set(input, value);
+  const isStopped = await stopIfSlow();
+  const faults = isStopped ? faultsOfStop(before) : faultsOfMessages(input, key, value);
   const isRefused = messages().length > 0;
   // Half of the people give up what is wrong, the others go on elsewhere.
   if (isWrong(input) && below(2) === 0) await forget(input);
   if (below(4) === 0) faults.push(...await faultsOfNextFrame());
   if (below(4) === 0) faults.push(...await faultsOfGoing());
   const what = `${where}: ${key} = ${JSON.stringify(value).slice(0, 60)}`;
-  return {faults: faults.map(words => `${what}: ${words}`), isRefused};
+  return {faults: faults.map(words => `${what}: ${words}`), isRefused, isStopped};
 }
 
 /** Adds what is wrong with the text of the page, if it is that of the scene. */
@@ -162,13 +184,14 @@ async function tryText(all, where) {
 /** What was wrong with the page's answers to edits of this text, and to another scene after them. */
 check.random = async (seed, count, text, next) => {
   const below = chance(seed);
-  const all = {faults: [], refused: 0, reopened: 0};
+  const all = {faults: [], refused: 0, reopened: 0, stopped: 0};
   await check.open(text);
   await check.edit("view.size", "640x360");
   for (let i = 0; i < count; ++i) {
-    const {faults, isRefused} = await editOne(below, `edit ${i} of seed ${seed}`);
+    const {faults, isRefused, isStopped} = await editOne(below, `edit ${i} of seed ${seed}`);
     all.faults.push(...faults);
     all.refused += isRefused;
+    all.stopped += isStopped;
     if (below(5) === 0) await tryText(all, `after edit ${i} of seed ${seed}`);
   }
   const where = `after ${count} edits of seed ${seed}`;
