@@ -162,3 +162,45 @@ def only_the_main_button_plays(check):
         check.expect(f"after the {button} button", check.page.text("play"), "Play")
     _click_picture(check, "left", 1)
     check.expect("after the left button", check.page.text("play"), "Pause")
+
+
+def _played_frames(check):
+    """Between now and a little later."""
+    before = check.frame()
+    check.page.value("check.later(700)")
+    return check.frame() - before
+
+
+def film_goes_on_while_it_is_edited(check):
+    check.page.choose("article")
+    check.browser.click("document.getElementById('play')")
+    check.expect("plays", _played_frames(check) > 5)
+    check.page.value("""(async () => {
+        const knob = document.querySelector("[data-key='blue.position'] input[type=range]");
+        for (let i = 0; i < 20; ++i) {
+          check.set(knob, 2 + i / 20);
+          await check.later(10);
+        } })()""")
+    check.expect("plays on", (check.page.text("play"), _played_frames(check) > 5), ("Pause", True))
+    check.page.edit("blue.mass", "-1")
+    check.expect("plays while a value is refused", (check.page.text("play"), _played_frames(check) > 5),
+                 ("Pause", True))
+    check.page.choose("circle")
+    check.expect("another scene begins still", (check.page.text("play"), check.frame()), ("Play", 1))
+
+
+def film_plays_with_sound(check):
+    """As far as a browser without loudspeakers tells."""
+    check.page.choose("lecture")
+    check.browser.click("document.getElementById('sound')")
+    check.browser.click("document.getElementById('play')")
+    check.page.value("check.later(500)")
+    check.expect("plays", _played_frames(check) > 5)
+    check.page.call("moveSlider", "red.velocity", -2)
+    check.page.value("check.later(500)")
+    check.expect("plays on", (check.page.text("play"), _played_frames(check) > 5), ("Pause", True))
+    check.browser.click("document.getElementById('sound')")
+    check.expect("plays on without", (check.page.text("play"), _played_frames(check) > 5), ("Pause", True))
+    check.browser.click("document.getElementById('play')")
+    check.page.value("check.idle()")
+    check.expect("stands still", _played_frames(check), 0)

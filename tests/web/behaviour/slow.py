@@ -3,6 +3,7 @@
 In: a Check. Out: its faults.
 """
 
+import json
 import time
 
 # 200 discs meet 1.8 million times until then, which takes seconds.
@@ -78,3 +79,22 @@ def another_scene_instead(check):
     check.page.choose("article")
     check.expect("seconds", time.monotonic() - start < NORMAL_s)
     check.expect_fields_of("article")
+
+
+def stopping_a_text(check):
+    """The text of the scene before is there again."""
+    check.page.choose("gas")
+    check.page.edit("view.size", "640x360")
+    before = check.page.value("document.getElementById('text').value")
+    slow = before.replace("time.to = 12", f"time.to = {SLOW}")
+    check.expect("another text", slow != before)
+    check.page.value("window.check.slow = " + json.dumps(slow))
+    check.page.value("""(async () => {
+        check.set(document.getElementById("text"), check.slow);
+        const busy = document.getElementById("busy");
+        await check.until("it takes long", () => !busy.hidden, 5000); })()""")
+    check.page.press("stop")
+    check.page.value("check.later(500).then(check.idle)")
+    check.expect("the text", check.page.value("document.getElementById('text').value"), before)
+    check.expect("messages", check.page.call("problems"), [])
+    _expect_usable(check, "After Stop")

@@ -122,3 +122,15 @@ def link_of_what_is_shown(check):
     check.page.load(check.path, address)
     check.expect("the picture", check.page.call("digest"), before)
     check.expect("the fields", check.page.call("shown"), fields)
+
+
+def address_that_changes(check):
+    """As by a link to the same page, or by hand."""
+    check.page.value("(location.hash = '#circle', check.later(100).then(check.idle))")
+    check.expect("the scene in the list", check.page.value("document.getElementById('scenes').value"), "circle")
+    before = check.page.call("digest")
+    check.page.value("(location.hash = '#nothing', check.later(100).then(check.idle))")
+    check.expect("a message", check.said("problem").startswith("Link: "))
+    check.expect("the picture", check.page.call("digest"), before)
+    check.page.choose("article")
+    check.expect("messages", check.page.call("problems"), [])
