@@ -128,8 +128,8 @@ async function save(ending) {
 }
 
 window.check = {
-  after, base64, differences, digest, field, files, idle, isThere, later, problems, readOuts, said, save, saver,
-  set, shown, until,
+  after, base64, differences, digest, field, files, idle, isThere, later, problems, readOuts, said, save,
+  saver, set, shown, until,
   /** Later than the page waits for more of a text. */
   async open(text) {
     set(byId("text"), text);

@@ -85,7 +85,7 @@ def stopping_a_text(check):
     """The text of the scene before is there again."""
     check.page.choose("gas")
     check.page.edit("view.size", "640x360")
-    before = check.page.value("document.getElementById('text').value")
+    before = check.value("text")
     slow = before.replace("time.to = 12", f"time.to = {SLOW}")
     check.expect("another text", slow != before)
     check.page.value("window.check.slow = " + json.dumps(slow))
@@ -95,6 +95,6 @@ def stopping_a_text(check):
         await check.until("it takes long", () => !busy.hidden, 5000); })()""")
     check.page.press("stop")
     check.page.value("check.later(500).then(check.idle)")
-    check.expect("the text", check.page.value("document.getElementById('text').value"), before)
+    check.expect("the text", check.value("text"), before)
     check.expect("messages", check.page.call("problems"), [])
     _expect_usable(check, "After Stop")

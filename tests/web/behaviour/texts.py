@@ -10,10 +10,6 @@ REFUSED = "# What is wrong is below.\nblue.mass = -1\n"
 TEXT = "document.getElementById('text')"
 
 
-def _text(check):
-    return check.page.value(f"{TEXT}.value")
-
-
 def _address(text):
     packer = zlib.compressobj(wbits=-15)
     packed = packer.compress(text.encode()) + packer.flush()
@@ -38,11 +34,11 @@ def _load_refused(check):
 
 def link_with_a_text_that_is_refused(check):
     _load_refused(check)
-    check.expect("the text", _text(check), REFUSED)
+    check.expect("the text", check.value("text"), REFUSED)
     check.expect("its message", "mass" in check.said("text-problem"))
     check.expect("something is shown", check.page.read_outs() != {})
     check.page.choose("article")
-    check.expect("the scene's text", _text(check), check.scene("article"))
+    check.expect("the scene's text", check.value("text"), check.scene("article"))
     check.expect_fields_of("article")
 
 
@@ -50,12 +46,12 @@ def page_is_usable_after_a_refused_link(check):
     _load_refused(check)
     _leave_all_fields(check)
     check.expect("exceptions of fields", check.page.take_failures(), [])
-    check.expect("the text stays", _text(check), REFUSED)
+    check.expect("the text stays", check.value("text"), REFUSED)
     check.page.press("copy-link")
     check.page.press("next-frame")
     check.page.press("show-text")
     check.expect("messages after the text was given up", check.page.call("problems"), [])
-    check.expect("a scene again", _text(check) not in ("", REFUSED))
+    check.expect("a scene again", check.value("text") not in ("", REFUSED))
     check.page.edit("blue.position", "2.5")
     check.expect("messages after an edit", check.page.call("problems"), [])
     _leave_all_fields(check)
@@ -66,8 +62,8 @@ def scene_that_is_chosen_while_a_text_waits(check):
     check.page.value(f"check.set({TEXT}, 'digits = 7')")
     check.page.choose("article")
     check.page.value("check.later(500).then(check.idle)")
-    check.expect("the scene in the list", check.page.value("document.getElementById('scenes').value"), "article")
-    check.expect("the text", _text(check), check.scene("article"))
+    check.expect("the scene in the list", check.value("scenes"), "article")
+    check.expect("the text", check.value("text"), check.scene("article"))
     check.expect_fields_of("article")
 
 
@@ -78,25 +74,25 @@ def scene_that_is_chosen_while_the_text_has_the_focus(check):
     check.page.value("check.later(300).then(check.idle)")
     check.expect("a message", check.said("text-problem") != "")
     check.page.choose("article")
-    check.expect("the text", _text(check), check.scene("article"))
+    check.expect("the text", check.value("text"), check.scene("article"))
 
 
 def back_from_a_refused_text(check):
     """With its comments."""
     check.page.choose("article")
-    text = _text(check)
+    text = check.value("text")
     check.expect("the text of a scene", text, check.scene("article"))
     for wrong in ["x = \n", "blue.mass = -1\n", text + "digits = 0\n"]:
         check.expect(f"{wrong[-12:]}: refused", check.page.open(wrong) != [])
-        check.expect(f"{wrong[-12:]}: stays", _text(check), wrong)
+        check.expect(f"{wrong[-12:]}: stays", check.value("text"), wrong)
         check.page.press("show-text")
-        check.expect(f"{wrong[-12:]}: the text before", _text(check), text)
+        check.expect(f"{wrong[-12:]}: the text before", check.value("text"), text)
         check.expect(f"{wrong[-12:]}: messages", check.page.call("problems"), [])
     # Before the page has looked at it.
     check.page.value(f"check.set({TEXT}, 'digits = 7')")
     check.page.press("show-text")
     check.page.value("check.later(300).then(check.idle)")
-    check.expect("the text before", _text(check), text)
+    check.expect("the text before", check.value("text"), text)
     check.expect("digits", check.shown("digits"), "3")
 
 
@@ -127,7 +123,7 @@ def link_of_what_is_shown(check):
 def address_that_changes(check):
     """As by a link to the same page, or by hand."""
     check.page.value("(location.hash = '#circle', check.later(100).then(check.idle))")
-    check.expect("the scene in the list", check.page.value("document.getElementById('scenes').value"), "circle")
+    check.expect("the scene in the list", check.value("scenes"), "circle")
     before = check.page.call("digest")
     check.page.value("(location.hash = '#nothing', check.later(100).then(check.idle))")
     check.expect("a message", check.said("problem").startswith("Link: "))
