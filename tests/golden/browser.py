@@ -29,6 +29,7 @@ class Browser:
         os.close(written_answers)
         self._session = {}
         self._number = 0
+        self._exceptions = []
         self.events = []
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
@@ -47,7 +48,18 @@ class Browser:
             if not byte:
                 sys.exit("browser: Chromium has ended")
             message += byte
-        return json.loads(message[:-1])
+        answer = json.loads(message[:-1])
+        if answer.get("method") == "Runtime.exceptionThrown":
+            details = answer["params"]["exceptionDetails"]
+            thrown = details.get("exception", {})
+            self._exceptions.append(f"{details['text']} {thrown.get('description', thrown.get('value', ''))}")
+        return answer
+
+    def take_exceptions(self):
+        """What escaped, promises too, in all pages since the last call, from their first script on."""
+        self.value("0")  # what comes before the answer is read
+        taken, self._exceptions = self._exceptions, []
+        return taken
 
     def call(self, method, **parameters):
         self._number += 1

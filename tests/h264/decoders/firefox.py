@@ -18,7 +18,8 @@ class Firefox:
         # Any port that is free; Firefox says which one.
         (folder / "user.js").write_text('user_pref("marionette.port", 0);\n')
         self._process = subprocess.Popen(
-            ["firefox-esr", "--headless", "--marionette", "--no-remote", "--profile", folder],
+            ["firefox-esr", "--headless", "--marionette", "--remote-allow-system-access", "--no-remote",
+             "--profile", folder],
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self._socket = socket.create_connection(("127.0.0.1", self._port(folder)))
         self._answers = self._socket.makefile("rb")
@@ -71,3 +72,21 @@ class Firefox:
         if isinstance(found, str):
             sys.exit(f"firefox: {script[:80]}: {found}")
         return found[0]
+
+    def take_exceptions(self):
+        """What escaped, promises too, in all pages and workers since the last call.
+
+        Marionette runs no script before those of a page. The browser's own console has the errors of
+        all of them.
+        """
+        self.call("Marionette:SetContext", value="chrome")
+        taken = self.value("""(() => {
+            const errors = Services.console.getMessageArray()
+              .filter(one => one instanceof Ci.nsIScriptError)
+              .filter(one => ["content javascript", "Web Worker"].includes(one.category))
+              .filter(one => !(one.flags & Ci.nsIScriptError.warningFlag))
+              .map(one => one.errorMessage);
+            Services.console.reset();
+            return errors; })()""")
+        self.call("Marionette:SetContext", value="content")
+        return taken
