@@ -52,7 +52,7 @@ function faultsOfMessages(input, key, value) {
   const words = said("problem");
   const besideFields = messages();
   const faults = [];
-  if (words && !words.startsWith("Not applied, see the message there: ")) faults.push(words);
+  if (words && !words.startsWith("Not applied: ")) faults.push(words);
   if (words && besideFields.length === 0) faults.push(`no message beside a field: ${words}`);
   if (!words && besideFields.length > 0) faults.push("a message stays");
   const isNoValue = input.type === "text" && STRICT.includes(key) && WRONG.includes(value);

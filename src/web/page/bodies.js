@@ -39,12 +39,7 @@ class Bodies {
 
   #makeBox(axis) {
     const key = `box.${axis}`;
-    const field = new Field({key, label: `Box: ${axis} from, to`, kind: "range"}, {
-      onEdit: text => this.scene.edit(key, text), onReset() {}, onForget: () => {
-        document.activeElement.blur();
-        field.say("");
-        this.scene.forget(key);
-      }});
+    const field = new Field({key, label: `Box: ${axis} from, to`, kind: "range"}, {scene: this.scene});
     field.isShown = facts => facts.bodies !== null && (axis === "x" || facts.bodies.dimensions === 2);
     return field;
   }
@@ -60,13 +55,10 @@ class Bodies {
     this.hint.textContent = `${count} bodies: too many for a table. The scene file has them.`;
     this.add.hidden = this.table.hidden = !this.hint.hidden;
     // What was refused, or is being typed, stays as it is.
-    if (!this.problem.hidden) return;
-    if (this.table.contains(document.activeElement) && rows.length === this.#rows.length) {
-      this.#rows = rows;
-      return;
-    }
+    if (!this.problem.hidden || this.scene.isWaiting("bodies")) return;
+    const isUsed = this.table.contains(document.activeElement) && rows.length === this.#rows.length;
     this.#rows = structuredClone(rows);
-    this.#draw(dimensions);
+    if (!isUsed) this.#draw(dimensions);
   }
 
   #draw(dimensions) {
@@ -103,7 +95,7 @@ class Bodies {
       this.#send();
     });
     input.addEventListener("blur", () => {
-      setTimeout(() => this.#facts && this.update(this.#facts));
+      setTimeout(() => this.#facts && this.update(this.#facts), 300);
     });
     return input;
   }

@@ -1,7 +1,8 @@
 // The fields of a scene's keys.
 // In: what the program says of a scene. Out: edits of its keys; problems beside the fields.
 
-/** {key, label} and, of numbers with a slider, [least, most, step]. A field without `kind` is text. */
+/** {key, label} and, of numbers with a slider, [least, most, step]. A field without `kind` is text.
+ * One with `empty` may be empty: this is its value then; null takes the key out of the scene. */
 const GROUPS = [
   {title: "Blocks", isOpen: true, of: "blocks", fields: [
     {key: "digits", label: "Digits of π", slider: [1, 20, 1]},
@@ -23,19 +24,19 @@ const GROUPS = [
     {key: "view.theme", label: "Theme", kind: "choice", choices: "themes"},
     {key: "show.overlays", label: "Read-outs", kind: "names", choices: "overlays"},
     {key: "show.panels", label: "Diagrams", kind: "names", choices: "panels"},
-    {key: "show.loupe", label: "Loupe", hints: ["auto", "off"], isOptional: true, of: "blocks"},
+    {key: "show.loupe", label: "Loupe", hints: ["auto", "off"], empty: null, of: "blocks"},
     {key: "show.hits", label: "Marks of hits", kind: "flag", of: "blocks"},
-    {key: "show.title", label: "Title", isOptional: true},
-    {key: "show.caption", label: "Caption", isOptional: true}]},
+    {key: "show.title", label: "Title", empty: ""},
+    {key: "show.caption", label: "Caption", empty: ""}]},
   {title: "Time", fields: [
     {key: "time.from", label: "From", hints: ["0", "turn-0.3"]},
     {key: "time.to", label: "To", hints: ["last+1.5", "turn+0.3", "10"]},
     {key: "time.speed", label: "Speed", slider: [0.05, 4, 0.05]},
-    {key: "time.duration", label: "Duration", isOptional: true},
+    {key: "time.duration", label: "Duration", empty: null},
     {key: "time.slow-motion", label: "Slow motion", hints: ["auto", "turn-0.3:turn+0.3:10"],
-     isOptional: true},
+     empty: ""},
     {key: "time.ease", label: "Ease"},
-    {key: "time.freeze", label: "Freeze", hints: ["turn:2"], isOptional: true},
+    {key: "time.freeze", label: "Freeze", hints: ["turn:2"], empty: ""},
     {key: "time.hold-start", label: "Hold at start"},
     {key: "time.hold-end", label: "Hold at end"},
     {key: "time.loop", label: "Back and forth", kind: "flag"},
@@ -110,8 +111,8 @@ function textOf(key, facts) {
 }
 
 class Field {
-  constructor(spec, {onEdit, onReset, onForget, lists}) {
-    Object.assign(this, {spec, onEdit, onReset, onForget});
+  constructor(spec, {scene, lists}) {
+    Object.assign(this, {spec, scene});
     this.id = `field-${spec.key.replace(".", "-")}`;
     this.problem = element("p", {className: "problem", id: `${this.id}-problem`, hidden: true});
     this.problem.setAttribute("role", "alert");
@@ -137,9 +138,9 @@ class Field {
 
   text() {
     const main = this.input({type: "text", id: this.id, spellcheck: false, autocapitalize: "off"});
-    const {slider, hints, isOptional} = this.spec;
+    const {slider, hints, empty} = this.spec;
     const values = [main];
-    if (isOptional) main.placeholder = "default";
+    if (empty !== undefined) main.placeholder = "default";
     if (hints) {
       main.setAttribute("list", `${this.id}-hints`);
       values.push(element("datalist", {id: `${this.id}-hints`},
@@ -158,9 +159,16 @@ class Field {
 
   listenToLeaving(input) {
     input.addEventListener("keydown", event => {
-      if (event.key === "Escape") this.onForget();
+      if (event.key === "Escape") this.forget();
     });
     input.addEventListener("blur", () => this.refresh());
+  }
+
+  /** Gives up a value that was refused. */
+  forget() {
+    document.activeElement.blur();
+    this.scene.forget(this.spec.key);
+    this.say("");
   }
 
   slider(main) {
@@ -230,8 +238,10 @@ class Field {
   edited(text) {
     // A tab separates the texts of a list, a line the keys.
     const value = this.spec.kind === "range" ? text : text.replace(/[\t\n\r]+/g, " ");
-    if (value === "" && this.spec.isOptional) this.onReset();
-    else this.onEdit(value);
+    const {key, empty} = this.spec;
+    if (value !== "" || empty === undefined) this.scene.edit(key, value);
+    else if (empty === null) this.scene.reset(key);
+    else this.scene.edit(key, empty);
   }
 
   isShown(facts) {
@@ -246,9 +256,10 @@ class Field {
     this.refresh();
   }
 
-  /** Shows the value of the scene, unless one that was refused is still to be seen. */
+  /** Shows the value of the scene, unless a newer one was refused or is still to be taken. */
   refresh() {
-    if (this.facts && !this.root.hidden && this.problem.hidden) this.read(this.facts);
+    const isNewer = !this.problem.hidden || this.scene.isWaiting(this.spec.key);
+    if (this.facts && !this.root.hidden && !isNewer) this.read(this.facts);
   }
 
   /** @param words  of the program; empty if the value is right */
@@ -267,22 +278,13 @@ class Fields {
 
   constructor(scene, lists, before) {
     for (const group of GROUPS) {
-      const fields = group.fields.map(spec => new Field({of: group.of, ...spec}, {lists,
-        onEdit: text => scene.edit(spec.key, text),
-        onReset: () => scene.reset(spec.key),
-        onForget: () => this.forget(scene, spec.key)}));
+      const fields = group.fields.map(spec => new Field({of: group.of, ...spec}, {scene, lists}));
       for (const field of fields) this.#fields.set(field.spec.key, field);
       const root = element("details", {className: "group", open: !!group.isOpen},
         element("summary", {}, group.title), ...fields.map(field => field.root));
       this.#groups.push({root, fields});
       before.before(root);
     }
-  }
-
-  forget(scene, key) {
-    document.activeElement.blur();
-    this.#fields.get(key).say("");
-    scene.forget(key);
   }
 
   labelOf(key) {

@@ -21,6 +21,25 @@ let busyTimer = null;
 let linkProblem = "";
 /** What is shown, as the program says. */
 let shown = null;
+let hasTriedFirst = false;
+let textTimer = null;
+/** Whether somebody has typed what the program has not seen, or has refused. */
+let isTextNewer = false;
+
+/** Writes the scene into the text area, if nothing newer is there. */
+function showText() {
+  const isUsed = document.activeElement === text && isTextNewer;
+  if (isUsed || textTimer !== null || scene.isWaiting("text") || !byId("text-problem").hidden) return;
+  if (text.value !== scene.text) text.value = scene.text;
+  isTextNewer = false;
+}
+
+function forgetTyping() {
+  clearTimeout(textTimer);
+  textTimer = null;
+  isTextNewer = false;
+  sayIn(byId("text-problem"), "");
+}
 
 /** The scene of the program that is shown; undefined if it is another one. */
 const shippedScene = () => scenes.find(({text: words}) => words === scene.text);
@@ -29,7 +48,7 @@ const addressOfScene = async () => {
   return name ? `#${name}` : await addressOf(scene.text);
 };
 
-/** Of more, the first ones are read out. */
+/** If there are more bodies, only the first ones are listed. */
 const MOST_BODIES = 6;
 
 function grouped(count) {
@@ -96,7 +115,12 @@ let addressTimer = null;
 function updateAddress() {
   clearTimeout(addressTimer);
   addressTimer = setTimeout(async () => {
-    history.replaceState(null, "", await addressOfScene());
+    const address = await addressOfScene();
+    try {
+      history.replaceState(null, "", address);
+    } catch {
+      // Some browsers and frames let pages change no address, or not so long ones.
+    }
   }, 400);
 }
 
@@ -104,7 +128,7 @@ scene.onOpened = facts => {
   const name = shippedScene()?.name;
   byId("scenes").value = name ?? "";
   saving.name = name ?? "scene";
-  if (document.activeElement !== text && byId("text-problem").hidden) text.value = scene.text;
+  showText();
   fields.update(facts);
   bodies.update(facts);
   player.update(facts);
@@ -123,11 +147,14 @@ scene.onProblems = problems => {
   const names = problems.filter(problem => !elsewhere.includes(problem)).map(({key, body, property}) =>
     key === "text" ? "the scene file" : key === "bodies" ? body ? `body ${body}, ${property}` : "the bodies"
       : fields.labelOf(key) ?? bodies.labelOf(key) ?? key);
-  const leftOut = names.length > 0 && `Not applied, see the message there: ${[...new Set(names)].join("; ")}.`;
+  const leftOut = names.length > 0 && `Not applied: ${[...new Set(names)].join("; ")}. A message there says why.`;
   sayIn(byId("problem"), [linkProblem, ...elsewhere.map(problem => problem.words), leftOut]
     .filter(words => words).join("\n"));
   // Something is to be shown, whatever a link has.
-  if (!scene.facts && ofText.length > 0) scene.replace(() => shippedText(FIRST_SCENE), "first scene");
+  if (!scene.facts && !hasTriedFirst) {
+    hasTriedFirst = true;
+    scene.replace(() => shippedText(FIRST_SCENE), "first scene");
+  }
 };
 
 scene.hasField = key => fields.has(key) || bodies.has(key);
@@ -154,14 +181,11 @@ byId("scenes").append(element("option", {value: "", hidden: true}, "my own"),
   ...scenes.map(({name, summary}) => element("option", {value: name}, `${name}: ${summary}`)));
 byId("scenes").addEventListener("change", () => openShipped(byId("scenes").value));
 
-let textTimer = null;
-
 /** Shows the start of another scene. */
 function open(words) {
-  clearTimeout(textTimer);
+  forgetTyping();
   player.pause();
   linkProblem = "";
-  sayIn(byId("text-problem"), "");
   text.value = words;
   scene.open(words, {frame: 0});
 }
@@ -171,8 +195,14 @@ const openShipped = name => open(shippedText(name));
 
 text.addEventListener("input", () => {
   clearTimeout(textTimer);
-  textTimer = setTimeout(() => scene.open(text.value), 150);
+  isTextNewer = true;
+  linkProblem = "";
+  textTimer = setTimeout(() => {
+    textTimer = null;
+    scene.open(text.value);
+  }, 150);
 });
+text.addEventListener("blur", showText);
 
 /** @param field  whose text is selected where the page may not copy; it has the words then */
 async function copy(button, words, field) {
@@ -192,13 +222,14 @@ async function copy(button, words, field) {
 }
 
 byId("show-text").addEventListener("click", () => {
-  clearTimeout(textTimer);
-  sayIn(byId("text-problem"), "");
+  if (!scene.facts) return;
+  forgetTyping();
   text.value = scene.text;
   scene.open(scene.text);
 });
 byId("copy-text").addEventListener("click", event => copy(event.target, text.value, text));
 byId("copy-link").addEventListener("click", async event => {
+  if (!scene.facts) return;
   copy(event.target, new URL(await addressOfScene(), location.href).href, byId("link"));
 });
 byId("link").addEventListener("blur", () => byId("link").hidden = true);
@@ -212,7 +243,9 @@ byId("settings").addEventListener("submit", event => event.preventDefault());
 /** @returns whether the address has a scene. */
 async function openAddress() {
   try {
-    const found = await sceneOf(location.hash, scenes);
+    const {hash} = location;
+    const found = await sceneOf(hash, scenes);
+    if (hash !== location.hash) return true;
     if (found !== null) open(found);
     return found !== null;
   } catch (error) {

@@ -46,10 +46,11 @@ class FilmSound {
     if (run === this.#run) this.onFailed(error);
   }
 
-  /** Browsers let sound wait for ever, rather than say no. */
+  /** A browser that refuses sound does not say so. */
   static async #refusal() {
-    await new Promise(resolve => setTimeout(resolve, 1000));
-    throw new Error("the browser lets it begin only after a click");
+    const wasUsed = navigator.userActivation?.hasBeenActive ?? true;
+    await new Promise(resolve => setTimeout(resolve, wasUsed ? 5000 : 1000));
+    throw new Error(wasUsed ? "the device does not begin" : "the browser lets it begin only after a click");
   }
 
   /** @returns whether it is still wanted. */
@@ -193,7 +194,8 @@ class Player {
     const isScene = facts.kind === "scene";
     for (const name of ["previous-collision", "next-collision"]) byId(name).disabled = !isScene;
     byId("turn").disabled = !facts.hasTurn;
-    if (this.#isPlaying) this.#goOnInAnotherFilm();
+    if (this.#isPlaying && hasFilm) this.#goOnInAnotherFilm();
+    else if (this.#isPlaying) this.pause();
   }
 
   updatePlace(place) {
@@ -246,7 +248,7 @@ class Player {
 
   #goOnSilently(error) {
     this.#setSound(false);
-    sayIn(byId("notes"), `No sound: ${error.message}`);
+    sayIn(byId("sound-problem"), `No sound: ${error.message}`);
     this.#setClock(this.#clock_s() - this.#start_s, () => performance.now() / 1000);
   }
 
@@ -286,6 +288,7 @@ class Player {
 
   #setSound(hasSound) {
     this.#hasSound = hasSound;
+    sayIn(byId("sound-problem"), "");
     byId("sound").setAttribute("aria-pressed", String(hasSound));
   }
   #toggleSound() {

@@ -60,11 +60,13 @@ class Saving {
   }
 
   async #save(ending) {
+    if (!this.#scene.facts) return;
+    const name = `${this.name}.${ending}`;
     sayIn(byId("saving-problem"), "");
     byId("saved").hidden = true;
     try {
       const bytes = isFilm(ending) ? await this.#makeFilm(ending) : await this.#scene.save(`/picture.${ending}`);
-      this.#download(bytes, ending);
+      this.#download(bytes, name, ending);
     } catch (error) {
       if (!(error instanceof Failure && error.message === STOPPED)) {
         sayIn(byId("saving-problem"), error.message);
@@ -84,8 +86,10 @@ class Saving {
         {seconds: frames * rate[1] / rate[0], onProgress});
     } finally {
       making.stop();
+      const wasOnCancel = document.activeElement === byId("cancel");
       this.#showMaking(null, "");
-      this.#buttons.find(button => button.dataset.save === ending).focus({preventScroll: true});
+      const button = this.#buttons.find(one => one.dataset.save === ending);
+      if (wasOnCancel) button.focus({preventScroll: true});
     }
   }
 
@@ -100,9 +104,8 @@ class Saving {
     }
   }
 
-  #download(bytes, ending) {
+  #download(bytes, name, ending) {
     if (this.#link) URL.revokeObjectURL(this.#link.href);
-    const name = `${this.name}.${ending}`;
     const href = URL.createObjectURL(new Blob([bytes], {type: MEDIA_TYPES[ending]}));
     this.#link = element("a", {href, download: name}, name);
     const size = bytes.length < 1e6 ? `${Math.ceil(bytes.length / 1e3)} kB`

@@ -4,6 +4,7 @@
 
 /** A newer wish ends work that has lasted longer than this; longer each time, until work is done. */
 const PATIENCE_ms = 1500;
+const TOO_LONG = "Not applied: it took too long, and something else was asked for.";
 
 /** Keys that set the same value: an edit of one replaces those of the others. */
 const ALIKE = [["digits", "mass-ratio", "red.mass"], ["time.speed", "time.duration"]];
@@ -41,6 +42,9 @@ class Edits {
   }
   has([key, value]) {
     return this.#values.get(key) === value;
+  }
+  hasKey(key) {
+    return this.#values.has(key);
   }
   set(key, value) {
     for (const other of this.#values.keys()) {
@@ -94,8 +98,8 @@ class Scene {
   #keptProblems = new Map();
   /** What the program is opening. */
   #trying = {edits: [], key: null};
-  /** Done when the program has started and has the scene. */
-  #ready = this.#program.started;
+  /** Done when the program has the scene; null if it was restarted, and nothing has needed it yet. */
+  #reopened = null;
   /** When the program began with what it does; null while it does nothing that can be timed. */
   #since = null;
   #patience_ms = PATIENCE_ms;
@@ -134,7 +138,9 @@ class Scene {
   }
 
   edit(key, value) {
-    this.#keptProblems.delete(key);
+    for (const other of this.#keptProblems.keys()) {
+      if (isAlike(key, other)) this.#keptProblems.delete(other);
+    }
     this.#edits.set(key, value);
     this.#apply();
   }
@@ -152,6 +158,11 @@ class Scene {
     if (this.#edits.delete(key) || wasKept) this.#apply();
   }
 
+  /** Whether there is a newer value than that of the facts, of "text", "bodies" or a key. */
+  isWaiting(key) {
+    return this.#edits.hasKey(key) || this.#texts.has(key) || this.#trying.key === key;
+  }
+
   /** @param place  as that of worker.js, or {step: 1}: the next collision, {step: -1}: the one before */
   show(place) {
     this.#wantedPlace = place;
@@ -162,7 +173,8 @@ class Scene {
   async save(name) {
     ++this.#saves;
     try {
-      await this.#ready;
+      this.#replaceIfBroken();
+      await this.#haveScene();
       return await this.#program.call("save", {name});
     } finally {
       --this.#saves;
@@ -172,7 +184,6 @@ class Scene {
   /** Gives up what the program does, and goes on with what it has taken last. */
   stop() {
     this.#forgetWishes();
-    this.#trying = {edits: [], key: null};
     this.#keptProblems.clear();
     this.onProblems([]);
     this.#replaceProgram();
@@ -180,33 +191,50 @@ class Scene {
   }
 
   #forgetWishes() {
+    this.#trying = {edits: [], key: null};
     this.#edits = new Edits();
     this.#texts.clear();
     this.#wantedPlace = null;
   }
 
   async #call(task, details) {
-    await this.#ready;
+    await this.#program.started;
     this.#since = performance.now();
     try {
+      if (task === "show") await this.#haveScene();
       return await this.#program.call(task, details);
     } finally {
       this.#since = null;
     }
   }
 
+  #replaceIfBroken() {
+    if (this.#program.isStopped) this.#replaceProgram();
+  }
+
   #replaceProgram() {
     this.#program.stop();
     this.#program = new Program();
+    this.#reopened = null;
     this.#since = null;
-    this.#ready = this.facts ? this.#reopen(this.#program) : this.#program.started;
-    this.#ready.catch(() => {});
   }
 
-  async #reopen(program) {
+  #haveScene() {
+    this.#reopened ??= this.#reopen();
+    return this.#reopened;
+  }
+
+  async #reopen() {
+    const program = this.#program;
     const places = [this.#place];
-    const {shown} = await program.call("open", {text: this.#text, settings: this.#taken.lines, places});
-    this.onPicture(shown);
+    try {
+      const {shown} = await program.call("open",
+        {text: this.#text, settings: this.#taken.lines, places});
+      this.onPicture(shown);
+    } catch (error) {
+      if (program === this.#program) this.#reopened = null;
+      throw error;
+    }
   }
 
   /** Does what is asked for, when the program has time; of several wishes the last. */
@@ -220,6 +248,7 @@ class Scene {
     this.#jobs.add(async () => {
       this.onBusy(true);
       try {
+        this.#replaceIfBroken();
         const wantsOpening = this.#wantsOpening || this.#texts.size > 0;
         this.#wantsOpening = false;
         await (wantsOpening ? this.#openEdited() : this.#showWanted());
@@ -235,14 +264,16 @@ class Scene {
 
   /** After work that broke down or was ended: what was worked at is not tried again. */
   #recover({message}) {
-    if (this.#program.isStopped) this.#replaceProgram();
+    this.#replaceIfBroken();
     if (message === STOPPED) {
       this.#leaveSlow();
       return;
     }
     this.#forgetWishes();
+    this.#keptProblems.clear();
     if (this.facts) this.onOpened(this.facts);
-    this.onProblems([{key: "program", words: `The program has stopped: ${message}`}]);
+    const words = `The program crashed and was restarted; the last change was dropped (${message}).`;
+    this.onProblems([{key: "program", words}]);
   }
 
   #leaveSlow() {
@@ -251,8 +282,10 @@ class Scene {
     for (const key of keys) this.#edits.delete(key);
     if (keyOfText !== null && !this.#texts.has(keyOfText)) keys.push(keyOfText);
     for (const key of keys) {
-      this.#keptProblems.set(key, [{key, words: "This took too long and was left when something else was wanted."}]);
+      this.#keptProblems.set(key, [{key, words: TOO_LONG}]);
     }
+    // What was refused before it is said again.
+    this.#wantsOpening ||= !this.#edits.isEmpty;
     if (keys.length > 0) this.onProblems(this.#allKept);
   }
   get #allKept() {
@@ -301,6 +334,7 @@ class Scene {
       if (!(error instanceof Problem)) throw error;
       return error.message;
     }
+    this.#reopened = Promise.resolve();
     this.facts = answer.facts;
     this.#text = text;
     this.#taken = edits;
@@ -333,6 +367,7 @@ class Scene {
     for (const key of keysOfTexts) {
       if (key !== "text" && key !== "bodies") this.#keptProblems.delete(key);
     }
+    this.#trying = {edits: [], key: null};
     await this.#showWanted();
   }
 

@@ -6,14 +6,14 @@ let program;
 
 class Refusal extends Error {}
 
-/** Of a longer text, so much is enough for the program to refuse it. */
-const MOST_LETTERS = (1 << 20) + 1;
+/** The program refuses texts of this length. Longer ones are cut, since it has no room for them. */
+const REFUSED_LENGTH = (1 << 20) + 1;
 
 /** What the program can be given: it sees the end of a text in a letter 0. */
 function argument(value) {
   if (typeof value !== "string") return value;
   if (value.includes("\0")) throw new Refusal("scene: has a character U+0000");
-  return value.slice(0, MOST_LETTERS);
+  return value.slice(0, REFUSED_LENGTH);
 }
 
 /** Calls a function that answers in text. */

@@ -93,3 +93,12 @@ def png_is_what_is_shown_while_a_value_is_refused(check):
     check.page.edit("blue.mass", "-1")
     after = base64.b64decode(check.page.call("save", "png")["base64"])
     check.expect("the same file", after == before)
+
+
+def emptied_title_keeps_the_text(check):
+    """To clear a field changes no more than that field."""
+    check.page.open('digits = 5\nshow.title = "A title"\n')
+    check.page.edit("show.title", "")
+    check.page.edit("base", "16")
+    check.expect("digits", check.shown("digits"), "5")
+    check.expect("messages", check.page.call("problems"), [])

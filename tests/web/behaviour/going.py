@@ -204,3 +204,13 @@ def film_plays_with_sound(check):
     check.browser.click("document.getElementById('play')")
     check.page.value("check.idle()")
     check.expect("stands still", _played_frames(check), 0)
+
+
+def film_that_vanishes_while_it_plays(check):
+    check.page.choose("article")
+    check.page.press("play")
+    check.page.edit("time.from", "100")
+    check.expect("the button", check.page.text("play"), "Play")
+    check.page.edit("time.from", "0")
+    check.expect("the button of the film that is back", check.page.text("play"), "Play")
+    check.expect("messages", check.page.call("problems"), [])

@@ -82,3 +82,15 @@ def film_of_a_scene_that_is_edited_meanwhile(check):
     check.page.edit("blue.position", "2.5")
     check.page.value("check.until('the film', () => check.files.length === 2)")
     check.expect("the same film", _bytes(check, 1) == film)
+
+
+def film_has_the_name_of_its_scene(check):
+    """And who writes meanwhile is not disturbed."""
+    check.page.choose("gas")
+    _start_film(check)
+    check.page.choose("circle")
+    check.page.value("document.getElementById('instant').focus()")
+    check.page.value("check.until('the film', () => check.files.length === 1)")
+    check.page.value(f"check.until('it is over', () => !({SEEN}))")
+    check.expect("the file", "gas.mp4" in check.page.text("saved"))
+    check.expect("the focus", check.page.value("document.activeElement.id"), "instant")

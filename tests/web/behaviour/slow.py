@@ -98,3 +98,36 @@ def stopping_a_text(check):
     check.expect("the text", check.value("text"), before)
     check.expect("messages", check.page.call("problems"), [])
     _expect_usable(check, "After Stop")
+
+
+def another_scene_instead_of_slow_bodies(check):
+    """Nothing of the bodies is said of the other scene."""
+    discs = "".join(f'[[body]]\nposition = [{2 * i + 1}, {2 * j + 1}]\nradius = "1/2"\n'
+                    f"velocity = [{(3 * i + j) % 5 - 2}, {(i + 2 * j) % 3 + 1}]\n"
+                    for i in range(5) for j in range(4))
+    check.page.open("time.to = 50000\ntime.allow-uncertain = true\nbox.x = [0, 10]\nbox.y = [0, 8]\n" + discs)
+    check.page.value("""(async () => {
+        check.set(document.querySelector(".bodies input"), "2");
+        await check.until("it takes long", () => !document.getElementById("busy").hidden, 5000);
+        await check.later(1500); })()""")
+    check.page.choose("article")
+    check.expect_fields_of("article")
+
+
+def refused_value_beside_a_slow_one(check):
+    """Both are told."""
+    check.page.choose("gas")
+    check.page.edit("view.fps", "x")
+    refused = check.said("view.fps")
+    check.page.value(f"""(async () => {{
+        check.set(check.field("{SLOW_KEY}"), "{SLOW}");
+        await check.until("it takes long", () => !document.getElementById("busy").hidden, 5000);
+        await check.later(1500); }})()""")
+    check.page.press("next-frame")
+    check.expect("a refused value", refused != "")
+    check.expect("what is said of it", check.said("view.fps") != "")
+    check.expect("what is said of the slow one", check.said(SLOW_KEY) != "")
+    check.page.edit("view.fps", "30")
+    check.expect("what is said of a right one", check.said("view.fps"), "")
+    check.page.edit(SLOW_KEY, "11")
+    check.expect("messages", check.page.call("problems"), [])
