@@ -68,6 +68,9 @@ class Edits {
   }
 }
 
+/** What the program tries: edits, and the text that comes from this key. */
+const NOTHING = {edits: [], key: null};
+
 class Scene {
   /** What the program says of the scene that it has taken last; null before the first one. */
   facts = null;
@@ -97,7 +100,7 @@ class Scene {
    * from: they are tried no more, but are still to be seen. */
   #keptProblems = new Map();
   /** What the program is opening. */
-  #trying = {edits: [], key: null};
+  #trying = NOTHING;
   /** Done when the program has the scene; null if it was restarted, and nothing has needed it yet. */
   #reopened = null;
   /** When the program began with what it does; null while it does nothing that can be timed. */
@@ -191,7 +194,7 @@ class Scene {
   }
 
   #forgetWishes() {
-    this.#trying = {edits: [], key: null};
+    this.#trying = NOTHING;
     this.#edits = new Edits();
     this.#texts.clear();
     this.#wantedPlace = null;
@@ -334,6 +337,7 @@ class Scene {
       if (!(error instanceof Problem)) throw error;
       return error.message;
     }
+    this.#trying = NOTHING;
     this.#reopened = Promise.resolve();
     this.facts = answer.facts;
     this.#text = text;
@@ -367,7 +371,7 @@ class Scene {
     for (const key of keysOfTexts) {
       if (key !== "text" && key !== "bodies") this.#keptProblems.delete(key);
     }
-    this.#trying = {edits: [], key: null};
+    this.#trying = NOTHING;
     await this.#showWanted();
   }
 

@@ -60,3 +60,12 @@ def leaving_a_cell_after_another_scene(check):
     check.page.choose("storyboard")
     check.page.value("(document.activeElement.blur(), check.later(50))")
     check.expect_fields_of("storyboard")
+
+
+def cell_shows_the_number_of_the_scene(check):
+    check.page.choose("three-blocks")
+    check.page.value("""(async () => {
+        check.set(document.querySelector(".bodies input"), "10^2");
+        await check.idle(); })()""")
+    check.expect("the cell", check.page.value("document.querySelector('.bodies input').value"), "100")
+    check.expect("messages", check.page.call("problems"), [])
