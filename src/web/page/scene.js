@@ -96,14 +96,14 @@ class Scene {
   /** A place that was asked for and not shown yet. */
   #wantedPlace = null;
   #wantsOpening = false;
-  /** What is wrong with texts that were refused, and with edits that took too long, by what they come
-   * from: they are tried no more, but are still to be seen. */
+  /** Problems of texts that were refused and of edits that took too long, by what they come from. They
+   * are not tried again, but their messages stay. */
   #keptProblems = new Map();
   /** What the program is opening. */
   #trying = NOTHING;
-  /** Done when the program has the scene; null if it was restarted, and nothing has needed it yet. */
+  /** A promise that the program has the scene; null after a restart, until something needs the scene. */
   #reopened = null;
-  /** When the program began with what it does; null while it does nothing that can be timed. */
+  /** When the program began its task; null while it has none. */
   #since = null;
   #patience_ms = PATIENCE_ms;
   #saves = 0;
@@ -265,7 +265,7 @@ class Scene {
     });
   }
 
-  /** After work that broke down or was ended: what was worked at is not tried again. */
+  /** After work that broke down or was ended. It is not tried again. */
   #recover({message}) {
     this.#replaceIfBroken();
     if (message === STOPPED) {
@@ -287,7 +287,7 @@ class Scene {
     for (const key of keys) {
       this.#keptProblems.set(key, [{key, words: TOO_LONG}]);
     }
-    // What was refused before it is said again.
+    // Edits that were refused before are tried again, so that their messages stay.
     this.#wantsOpening ||= !this.#edits.isEmpty;
     if (keys.length > 0) this.onProblems(this.#allKept);
   }
