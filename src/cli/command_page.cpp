@@ -19,9 +19,8 @@ namespace {
 void check_page_options(const Command& options) {
   if (!options.is_given("--live")) {
     throw UsageError(
-        "page: use 'piblocks page --live' for a page with the program in it, or 'piblocks render "
-        "-o "
-        "NAME.html' for one with the video");
+        "page: use 'piblocks page --live' for the live page, which has the program in it, or "
+        "'piblocks render -o NAME.html' for a page with the video");
   }
   const std::string output = output_of(options);
   if (output != "-" && !has_ending(output, ".html")) {
@@ -45,7 +44,7 @@ void check_page_overwrites(const Command& options, const SceneOptions& scene, co
                            const LivePage& page) {
   OverwriteCheck check;
   scene.add_inputs(check, script);
-  check.reads("the page with the program", page.file);
+  check.reads("the live page", page.file);
   const std::string output = output_of(options);
   output == "-" ? check.writes_standard_output() : check.writes("--output", output);
   check.check();
@@ -69,9 +68,10 @@ void run_page(const Command& options, const SceneOptions& scene) {
 }  // namespace
 
 void add_page(Command& app) {
-  Command command = app.add_command("page", "Write a page with the program in it, for a browser");
+  Command command =
+      app.add_command("page", "Write the live page, which runs this program in a browser");
   SceneOptions scene(command);
-  command.add_flag("--live", "Write a page that has the program in it");
+  command.add_flag("--live", "Write the live page; it opens the scene");
   command.add_required_value("-o,--output", "OUT", "NAME.html, or - (standard output)");
   scene.add_picture();
   scene.add_show();

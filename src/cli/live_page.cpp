@@ -95,8 +95,7 @@ LivePage find_live_page() {
     }
   }
   throw IoError(
-      "page: cannot read the page with the program; install one of this version, or build it by "
-      "scripts/web" +
+      "page: cannot read the live page; install one of this version, or build it by scripts/web" +
       reasons);
 }
 

@@ -1,4 +1,4 @@
-// The page that has the program in it, as scripts/web builds it.
+// The live page: one file with the program in it, as scripts/web builds it.
 // In: where this program lies; the text of a scene file. Out: the page, with that scene opened.
 #pragma once
 
@@ -17,8 +17,8 @@ struct LivePage {
   std::size_t scene_end = 0;    ///< bytes before what follows that JSON
 };
 
-/// The page of this version: beside the folder of the program, in the source tree if the program
-/// lies where it was built, or where the build was to install it.
+/// The live page of this version: beside the folder of the program, in the source tree if the
+/// program lies where it was built, or where the build was to install it.
 /// @throws IoError that lists these places and what is wrong in each
 LivePage find_live_page();
 

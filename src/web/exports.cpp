@@ -23,7 +23,7 @@
 namespace piblocks::web {
 namespace {
 
-std::vector<std::string> parts_of(std::string_view text, char separator) {
+std::vector<std::string> split(std::string_view text, char separator) {
   std::vector<std::string> parts;
   for (;;) {
     const std::size_t end = text.find(separator);
@@ -42,29 +42,29 @@ Script read_script(std::string_view text, std::string_view settings) {
   }
   ScriptBuilder builder;
   builder.read_text("scene", text);
-  for (const std::string& line : parts_of(settings, '\n')) {
+  for (const std::string& line : split(settings, '\n')) {
     if (line.empty()) continue;
     const std::size_t equals = line.find('=');
     if (equals == std::string::npos) {
       throw UsageError(fmt::format("setting '{}': must be KEY=TEXT", line));
     }
     const std::string key = line.substr(0, equals);
-    builder.set(key, key, parts_of(std::string_view(line).substr(equals + 1), '\t'));
+    builder.set(key, key, split(std::string_view(line).substr(equals + 1), '\t'));
   }
   return builder.build();
 }
 
 // One page has one film, one picture and one sound.
 Screen screen;
-std::unique_ptr<Live> live;
+std::unique_ptr<LiveScript> live;
 std::unique_ptr<LiveSound> sound;
-Live::Place place;
+LiveScript::Place place;
 /// What the last call has to say; the page reads it before the next one.
 std::string answer;
 
-/// @param work  returns the answer.
-/// @returns whether nothing was wrong; else the answer is what was, a line for each problem.
-bool answers(const auto& work) {
+/// Stores what `work` returns in `answer`. If it throws, stores the message instead, a line for
+/// each problem. @returns whether it did not throw.
+bool store_answer(const auto& work) {
   try {
     answer = work();
     return true;
@@ -76,36 +76,38 @@ bool answers(const auto& work) {
   return false;
 }
 
-const Live& opened() {
+const LiveScript& opened() {
   if (!live) throw UsageError("page: no scene is open");
   return *live;
 }
 
 /// "frame 12" is a frame of the film, counted from 0; "instant turn-0.3" is any instant.
-Live::Place read_place(const Live& from, std::string_view text) {
+LiveScript::Place read_place(const LiveScript& from, std::string_view text) {
   constexpr std::string_view kFrame = "frame ";
   constexpr std::string_view kInstant = "instant ";
   if (text.starts_with(kInstant)) {
     return from.place_of(parse_instant(text.substr(kInstant.size())));
   }
-  if (!text.starts_with(kFrame)) throw UsageError(fmt::format("page: no place is '{}'", text));
+  if (!text.starts_with(kFrame))
+    throw UsageError(fmt::format("page: '{}' is neither a frame nor an instant", text));
   return from.place_of_frame(std::stoll(std::string(text.substr(kFrame.size()))));
 }
 
-/// Shows this place and says what is shown. If it cannot be shown, nothing has happened.
-std::string show(const Live& from, const Live::Place& wanted) {
+/// Shows this place. If it cannot be shown, nothing has happened.
+/// @returns the answer of live_show().
+std::string show(const LiveScript& from, const LiveScript::Place& wanted) {
   DrawList list = from.picture(wanted);
-  const std::string what = place_json(from, wanted);
+  const std::string what = shown_json(from, wanted);
   screen.update(std::move(list));
   place = wanted;
   const PixelRect& rect = screen.patch().rect;
-  return fmt::format(R"({{"place":{},"rect":[{},{},{},{}]}})", what, rect.x_px, rect.y_px,
+  return fmt::format(R"({{"shown":{},"rect":[{},{},{},{}]}})", what, rect.x_px, rect.y_px,
                      rect.width_px, rect.height_px);
 }
 
 /// Shows the first of these places that the scene has, otherwise the start.
 /// @param problem  is set to what is wrong with the first of them.
-std::string show_first(const Live& from, const std::vector<std::string>& places,
+std::string show_first(const LiveScript& from, const std::vector<std::string>& places,
                        std::string& problem) {
   for (const std::string& text : places) {
     try {
@@ -117,7 +119,7 @@ std::string show_first(const Live& from, const std::vector<std::string>& places,
   return show(from, from.place_of_frame(0));
 }
 
-/// The picture that is shown, in the format that the ending names.
+/// The picture that is shown, in the format that the file's extension names.
 std::vector<std::uint8_t> encoded(const std::string& name) {
   const DrawList list = opened().picture(place);
   if (has_ending(name, ".svg")) return draw_svg(list);
@@ -146,41 +148,40 @@ EMSCRIPTEN_KEEPALIVE const char* live_answer() { return answer.c_str(); }
 
 /// Answers with program_json().
 EMSCRIPTEN_KEEPALIVE bool live_program() {
-  return answers([] { return program_json(); });
+  return store_answer([] { return program_json(); });
 }
 
 /// Opens a scene or storyboard and shows it; if something is wrong, the one before stays.
 /// @param places  lines as of live_show(): the first that the scene has is shown, otherwise its
 ///                start. Nothing is shown if this is empty.
-/// Answers with {"facts":facts_json(),"shown":as of live_show(),"placeProblem":…}.
+/// Answers with {"facts":facts_json(),"picture":as of live_show() or null,"placeProblem":…}.
 EMSCRIPTEN_KEEPALIVE bool live_open(const char* text, const char* settings, const char* places) {
-  return answers([&] {
-    auto made = std::make_unique<Live>(read_script(text, settings));
+  return store_answer([&] {
+    auto made = std::make_unique<LiveScript>(read_script(text, settings));
     const std::string facts = facts_json(*made);
     const bool is_shown = std::string_view(places) != "";
     std::string problem;
-    const std::string shown =
-        is_shown ? show_first(*made, parts_of(places, '\n'), problem) : "null";
+    const std::string picture = is_shown ? show_first(*made, split(places, '\n'), problem) : "null";
     if (!is_shown) place = made->place_of_frame(0);
     live = std::move(made);
     sound.reset();
-    return fmt::format(R"({{"facts":{},"shown":{},"placeProblem":{}}})", facts, shown,
+    return fmt::format(R"({{"facts":{},"picture":{},"placeProblem":{}}})", facts, picture,
                        json_text(problem));
   });
 }
 
 /// Shows "frame 12" of the film, counted from 0, or "instant X", where X is as "3.5", "turn-0.3",
 /// "#314" and, of a storyboard, a second of the film. Answers with
-/// {"place":place_json(),"rect":[x,y,width,height]}; the pixels of this rectangle are at
+/// {"shown":shown_json(),"rect":[x,y,width,height]}; the pixels of this rectangle are at
 /// live_pixels(), others have not changed.
 EMSCRIPTEN_KEEPALIVE bool live_show(const char* text) {
-  return answers([&] { return show(opened(), read_place(opened(), text)); });
+  return store_answer([&] { return show(opened(), read_place(opened(), text)); });
 }
 
-/// Shows the next collision (1) or the one before (-1); null if there is none. Answers as
-/// live_show().
+/// Shows the next collision (step 1), or the one before (step -1) and before the first one the
+/// start of the film. Answers as live_show(), or with null if there is no such collision.
 EMSCRIPTEN_KEEPALIVE bool live_step(int step) {
-  return answers([&] {
+  return store_answer([&] {
     const auto beside = opened().collision_beside(place, step);
     return beside ? show(opened(), *beside) : std::string("null");
   });
@@ -191,7 +192,7 @@ EMSCRIPTEN_KEEPALIVE const std::uint8_t* live_pixels() { return screen.patch().r
 
 /// Writes the picture that is shown to a file of the page's memory: `*.png`, `*.svg`, `*.pdf`.
 EMSCRIPTEN_KEEPALIVE bool live_save(const char* name) {
-  return answers([&] {
+  return store_answer([&] {
     const std::vector<std::uint8_t> bytes = encoded(name);
     OutputFile file(name);
     file.write(bytes);
@@ -200,10 +201,10 @@ EMSCRIPTEN_KEEPALIVE bool live_save(const char* name) {
   });
 }
 
-/// Renders the film, or a share of it, to a file of the page's memory.
+/// Renders the film, or a shard of it, to a file of the page's memory.
 /// @param number, count  the shard; count is 1 for the whole film. Answers with the file's name.
 EMSCRIPTEN_KEEPALIVE bool live_render(const char* name, int number, int count) {
-  return answers([&] {
+  return store_answer([&] {
     RenderJob job{.script = opened().script(), .output = name};
     if (count > 1) job.shard = Shard{number, count};
     render(job, [](const Progress& progress) {
@@ -215,27 +216,28 @@ EMSCRIPTEN_KEEPALIVE bool live_render(const char* name, int number, int count) {
 
 /// Joins the shards of a rendering, which are files of the page's memory.
 EMSCRIPTEN_KEEPALIVE bool live_join(const char* name, int count) {
-  return answers([&] {
-    std::vector<std::string> parts;
+  return store_answer([&] {
+    std::vector<std::string> shards;
     for (int number = 1; number <= count; ++number) {
-      parts.push_back(shard_name(name, Shard{number, count}));
+      shards.push_back(shard_name(name, Shard{number, count}));
     }
-    join(parts, name);
+    join(shards, name);
     return std::string(name);
   });
 }
 
 /// Prepares the sound of the film that is open.
 EMSCRIPTEN_KEEPALIVE bool live_open_sound() {
-  return answers([] {
+  return store_answer([] {
     sound = std::make_unique<LiveSound>(opened().script());
     return std::string();
   });
 }
 
-/// Answers with the pairs of samples that are at live_samples(), from this one on: at most so many.
+/// Reads up to `count` pairs of samples from pair `first` on. Answers with the number of pairs
+/// read, which are at live_samples().
 EMSCRIPTEN_KEEPALIVE bool live_read_sound(double first, double count) {
-  return answers([&] {
+  return store_answer([&] {
     if (!sound) throw UsageError("page: no sound is open");
     sound->read(static_cast<std::int64_t>(first), static_cast<std::int64_t>(count));
     return fmt::format("{}", sound->samples().size() / 2);

@@ -16,34 +16,35 @@
 namespace piblocks::web {
 namespace {
 
-std::string list(const std::vector<std::string>& values) {
+std::string json_array(const std::vector<std::string>& values) {
   std::string text;
   for (const std::string& value : values) text += (text.empty() ? "" : ",") + value;
   return '[' + text + ']';
 }
 
-std::string texts(const std::vector<std::string>& values) {
+std::string json_texts(const std::vector<std::string>& values) {
   std::vector<std::string> quoted;
   quoted.reserve(values.size());
   for (const std::string& value : values) quoted.push_back(json_text(value));
-  return list(quoted);
+  return json_array(quoted);
 }
 
 /// The names in a text such as "article, dark".
-std::string names(const std::string& text) {
+std::string json_names(const std::string& text) {
   std::vector<std::string> found;
   std::istringstream words(text);
   for (std::string word; std::getline(words >> std::ws, word, ',');) found.push_back(word);
-  return texts(found);
+  return json_texts(found);
 }
 
-std::string numbers(const ExactVector& vector, int dimensions) {
+std::string json_numbers(const ExactVector& vector, int dimensions) {
   std::vector<std::string> values = {vector[0].get_str()};
   if (dimensions == 2) values.push_back(vector[1].get_str());
-  return texts(values);
+  return json_texts(values);
 }
 
-/// The digits that masses of this ratio count; nothing if it is not an even power of the base.
+/// The number of digits that this mass ratio counts; nothing if it is not an even power of the
+/// base.
 std::optional<int> digits_of(const Rational& ratio, int base) {
   if (ratio.get_den() != 1 || ratio < 1) return std::nullopt;
   Integer power = 1;
@@ -63,8 +64,9 @@ std::string row_json(const Bodies& bodies, std::size_t i) {
   }
   return fmt::format(R"({{"mass":{},"position":{},"velocity":{},"size":{},"color":{},"label":{}}})",
                      json_text(body.mass ? body.mass->get_str() : "inf"),
-                     numbers(body.position, dimensions), numbers(body.velocity, dimensions),
-                     json_text(body.size.get_str()), json_text(color), json_text(style.label));
+                     json_numbers(body.position, dimensions),
+                     json_numbers(body.velocity, dimensions), json_text(body.size.get_str()),
+                     json_text(color), json_text(style.label));
 }
 
 /// Both ends of the box along an axis.
@@ -75,7 +77,7 @@ std::string box_json(const BodySystem& system, std::string_view low, std::string
     if (wall.name == low) ends[0] = wall.point.at(axis).get_str();
     if (wall.name == high) ends[1] = wall.point.at(axis).get_str();
   }
-  return texts(ends);
+  return json_texts(ends);
 }
 
 std::string bodies_json(const Bodies& bodies) {
@@ -86,7 +88,7 @@ std::string bodies_json(const Bodies& bodies) {
   }
   return fmt::format(R"({{"count":{},"dimensions":{},"x":{},"y":{},"rows":{}}})",
                      system.bodies.size(), system.dimensions, box_json(system, "left", "right", 0),
-                     box_json(system, "lower", "upper", 1), list(rows));
+                     box_json(system, "lower", "upper", 1), json_array(rows));
 }
 
 /// @param of_film  whether to leave out keys that are not for a whole film.
@@ -94,9 +96,9 @@ std::string keys_json(const Scene& scene, bool of_film) {
   std::vector<std::string> keys;
   for (const SceneKey& key : scene_keys()) {
     if (of_film && !is_film_key(key.name)) continue;
-    keys.push_back(fmt::format("{}:{}", json_text(key.name), texts(key.get(scene))));
+    keys.push_back(fmt::format("{}:{}", json_text(key.name), json_texts(key.get(scene))));
   }
-  std::string text = list(keys);
+  std::string text = json_array(keys);
   text.front() = '{';
   text.back() = '}';
   return text;
@@ -115,12 +117,12 @@ std::string scene_json(const Scene& scene, const FilmRun& run) {
                      run.timeline().turn().has_value(),
                      digits ? fmt::format("{}", *digits) : "null", json_text(ratio.get_str()),
                      scene.bodies ? bodies_json(*scene.bodies) : "null",
-                     texts(notes_of(scene, run)));
+                     json_texts(notes_of(scene, run)));
 }
 
 }  // namespace
 
-std::string facts_json(const Live& live) {
+std::string facts_json(const LiveScript& live) {
   const auto* const scene = std::get_if<Scene>(&live.script());
   Scene film;
   film.view = view_of(live.script());
@@ -137,7 +139,7 @@ std::string facts_json(const Live& live) {
       scene ? "," : "", scene ? scene_json(*scene, *live.run()) : "");
 }
 
-std::string place_json(const Live& live, const Live::Place& place) {
+std::string shown_json(const LiveScript& live, const LiveScript::Place& place) {
   const auto text_of = [](const std::optional<std::int64_t>& number) {
     return number ? fmt::format("{}", *number) : std::string("null");
   };
@@ -152,8 +154,9 @@ std::string program_json() {
     scenes.push_back(fmt::format(R"({{"name":{},"summary":{},"text":{}}})", json_text(scene.name),
                                  json_text(scene.summary()), json_text(scene.text)));
   }
-  return fmt::format(R"({{"scenes":{},"themes":{},"overlays":{},"panels":{}}})", list(scenes),
-                     names(theme_names()), names(overlay_names()), names(panel_names()));
+  return fmt::format(R"({{"scenes":{},"themes":{},"overlays":{},"panels":{}}})", json_array(scenes),
+                     json_names(theme_names()), json_names(overlay_names()),
+                     json_names(panel_names()));
 }
 
 }  // namespace piblocks::web

@@ -12,10 +12,10 @@ namespace piblocks::web {
 ///  "frames":…,"filmProblem":"…","keys":{"…":["…"]},"toml":"…"}, and for a scene also "hasTurn",
 ///  "digits" (null unless the mass ratio is that of some digits), "massRatio", "bodies" (null if
 ///  there are two blocks and a wall), "notes". For a storyboard "keys" has those of the whole film.
-std::string facts_json(const Live& live);
+std::string facts_json(const LiveScript& live);
 
-/// {"frame":…,"nearFrame":…,"state":"…"}: what of the film is shown.
-std::string place_json(const Live& live, const Live::Place& place);
+/// {"frame":…,"nearFrame":…,"state":"…"}: what the film shows at this place.
+std::string shown_json(const LiveScript& live, const LiveScript::Place& place);
 
 /// {"scenes":[{"name":"…","summary":"…","text":"…"},…],"themes":[…],"overlays":[…],"panels":[…]}
 std::string program_json();

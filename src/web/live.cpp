@@ -15,14 +15,14 @@
 namespace piblocks::web {
 namespace {
 
-std::variant<FilmRun, Film> show(const Script& script) {
+std::variant<FilmRun, Film> make_film(const Script& script) {
   if (const auto* const scene = std::get_if<Scene>(&script)) {
     return FilmRun(*scene, RunLog(*scene), FilmUse::pictures);
   }
   return Film(script);
 }
 
-PixelRect around(std::span<const PixelRect> rects) {
+PixelRect bounding_box(std::span<const PixelRect> rects) {
   if (rects.empty()) return {};
   PixelRect all = rects.front();
   for (const PixelRect& rect : rects) {
@@ -86,20 +86,20 @@ void Screen::update(DrawList list) {
     has_background_ = has_background;
   }
   try {
-    patch_.rect = around(canvas_->update(std::move(list)));
+    patch_.rect = bounding_box(canvas_->update(std::move(list)));
     convert(canvas_->view(), patch_);
   } catch (...) {
-    canvas_.reset();  // nobody has seen what is on it, so that the next patch is all of it
+    canvas_.reset();  // nobody has seen what is on it, so the next patch is all of it
     throw;
   }
 }
 
-Live::Live(Script script) : script_(std::move(script)), shown_(show(script_)) {
+LiveScript::LiveScript(Script script) : script_(std::move(script)), film_(make_film(script_)) {
   if (const auto* const scene = std::get_if<Scene>(&script_)) plan_film(*scene);
 }
 
 /// A scene without a film still has stills.
-void Live::plan_film(const Scene& scene) {
+void LiveScript::plan_film(const Scene& scene) {
   try {
     Schedule schedule = make_schedule(scene, run()->timeline());
     film_frames(schedule);
@@ -109,12 +109,12 @@ void Live::plan_film(const Scene& scene) {
   }
 }
 
-std::optional<std::int64_t> Live::frame_count() const {
-  if (run() == nullptr) return std::get<Film>(shown_).frame_count();
+std::optional<std::int64_t> LiveScript::frame_count() const {
+  if (run() == nullptr) return std::get<Film>(film_).frame_count();
   return schedule_ ? std::optional(film_frames(*schedule_)) : std::nullopt;
 }
 
-Live::Place Live::place_of_frame(std::int64_t number) const {
+LiveScript::Place LiveScript::place_of_frame(std::int64_t number) const {
   const std::optional<std::int64_t> count = frame_count();
   if (!count) return place_of(Instant());
   const std::int64_t frame = std::clamp<std::int64_t>(number, 0, *count - 1);
@@ -122,12 +122,12 @@ Live::Place Live::place_of_frame(std::int64_t number) const {
   return {frame, Instant(Rational(to_integer(frame)) / view_of(script_).frame_rate)};
 }
 
-Live::Place Live::place_of(const Instant& instant) const {
+LiveScript::Place LiveScript::place_of(const Instant& instant) const {
   if (run() != nullptr) return {std::nullopt, Instant(time_of(instant, run()->timeline()))};
-  return place_of_frame(frame_at(std::get<Film>(shown_), instant));
+  return place_of_frame(frame_at(std::get<Film>(film_), instant));
 }
 
-std::optional<Live::Place> Live::collision_beside(const Place& place, int step) const {
+std::optional<LiveScript::Place> LiveScript::collision_beside(const Place& place, int step) const {
   if (run() == nullptr) return std::nullopt;
   const Timeline& log = run()->timeline();
   const Rational time = time_of(place.instant, log);
@@ -151,7 +151,7 @@ std::optional<Live::Place> Live::collision_beside(const Place& place, int step) 
   }
 }
 
-std::optional<std::int64_t> Live::frame_near(const Place& place) const {
+std::optional<std::int64_t> LiveScript::frame_near(const Place& place) const {
   if (place.frame) return place.frame;
   if (!schedule_) return std::nullopt;
   const Rational time = time_of(place.instant, run()->timeline());
@@ -163,13 +163,13 @@ std::optional<std::int64_t> Live::frame_near(const Place& place) const {
   return time <= schedule_->time_of(0) ? 0 : last;
 }
 
-DrawList Live::picture(const Place& place) const {
-  if (run() == nullptr) return std::get<Film>(shown_).frame(*place.frame);
+DrawList LiveScript::picture(const Place& place) const {
+  if (run() == nullptr) return std::get<Film>(film_).frame(*place.frame);
   if (place.frame) return run()->frame(*schedule_, *place.frame);
   return run()->still(time_of(place.instant, run()->timeline()));
 }
 
-std::optional<std::string> Live::state(const Place& place) const {
+std::optional<std::string> LiveScript::state(const Place& place) const {
   if (run() == nullptr) return std::nullopt;
   const Rational time = time_of(place.instant, run()->timeline());
   if (const BodyLog* const bodies = run()->log().bodies()) {

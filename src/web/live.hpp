@@ -41,21 +41,21 @@ class Screen {
   Patch patch_;
 };
 
-/// A script, and what of it is shown.
-class Live {
+/// A script that is open: pictures and states of any place in its film.
+class LiveScript {
  public:
-  /// What is shown: a frame of the film or, of a scene, also an instant that no frame may show.
+  /// A place in the film: a frame or, of a scene, also an instant that no frame may show.
   struct Place {
     std::optional<std::int64_t> frame = {};
     Instant instant = {};  ///< of a storyboard a second of its video
   };
 
   /// @throws what commands throw; then nothing has happened.
-  explicit Live(Script script);
+  explicit LiveScript(Script script);
 
   const Script& script() const noexcept { return script_; }
   /// Nothing of a storyboard.
-  const FilmRun* run() const noexcept { return std::get_if<FilmRun>(&shown_); }
+  const FilmRun* run() const noexcept { return std::get_if<FilmRun>(&film_); }
   /// Nothing if the scene has no film: see film_problem().
   std::optional<std::int64_t> frame_count() const;
   /// Why the scene has stills alone, such as a span that ends before it begins; empty if it has a
@@ -67,8 +67,8 @@ class Live {
   /// @throws UsageError if the script has no such instant.
   Place place_of(const Instant& instant) const;
   /// The next collision (step 1) or the one before (step -1) that differs in time from this place.
-  /// Before the first one is the start of the film; after the last one, and in a storyboard, is
-  /// nothing. @throws UsageError, SimulationError as time_of().
+  /// @returns the start of the film before the first collision; nothing after the last one, and
+  ///          nothing for a storyboard. @throws UsageError, SimulationError as time_of().
   std::optional<Place> collision_beside(const Place& place, int step) const;
   /// The frame that shows the instant first, or is nearest to it; nothing if there is no film.
   std::optional<std::int64_t> frame_near(const Place& place) const;
@@ -80,7 +80,7 @@ class Live {
   void plan_film(const Scene& scene);
 
   Script script_;
-  std::variant<FilmRun, Film> shown_;
+  std::variant<FilmRun, Film> film_;
   std::optional<Schedule> schedule_;  ///< of a scene
   std::string film_problem_;
 };

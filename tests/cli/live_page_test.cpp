@@ -1,4 +1,4 @@
-// page --live: a page that has the program in it, and opens a scene. The page here is made up,
+// page --live: the live page, opened on a scene. The page here is made up,
 // beside a copy of the program; that the program in the real one works is checked by tests/web.
 #include <piblocks/version.hpp>
 
@@ -192,8 +192,8 @@ TEST_F(LivePageTest, GoesToStandardOutput) {
 
 TEST_F(LivePageTest, RefusesWrongUsage) {
   expect_failure({}, 2,
-                 "piblocks: page: use 'piblocks page --live' for a page with the program in it, or "
-                 "'piblocks render -o NAME.html' for one with the video\n");
+                 "piblocks: page: use 'piblocks page --live' for the live page, which has the "
+                 "program in it, or 'piblocks render -o NAME.html' for a page with the video\n");
   const CommandResult named = run({"page", "--live", "-o", "new/a.mp4"});
   EXPECT_EQ(named.exit_code, 2);
   EXPECT_EQ(
@@ -258,8 +258,8 @@ TEST_F(LivePageTest, SaysWhereItLookedForThePage) {
   fs::remove(page_file());
   const std::string beside = fs::canonical(bin()).parent_path() / "share/piblocks/piblocks.html";
   expect_failure({"--live"}, 1,
-                 "piblocks: page: cannot read the page with the program; install one of this "
-                 "version, or build it by scripts/web: '" +
+                 "piblocks: page: cannot read the live page; install one of this version, or build "
+                 "it by scripts/web: '" +
                      beside + "': No such file or directory; '" + PIBLOCKS_INSTALLED_PAGE +
                      "': No such file or directory\n");
   fs::create_directory(page_file());
@@ -281,7 +281,7 @@ TEST_F(LivePageTest, IsFoundFromTheBuildFolder) {
 }
 
 TEST_F(LivePageTest, IsNotWrittenOverWhatItIsMadeOf) {
-  const std::string message = "the page with the program";
+  const std::string message = "the live page";
   fs::create_hard_link(page_file(), folder_ / "hard.html");
   fs::create_symlink(page_file(), folder_ / "soft.html");
   write("scene.html", "digits = 2\n");

@@ -10,6 +10,10 @@ import subprocess
 import sys
 
 
+# Events that are kept from page to page.
+NOTED = ["Runtime.exceptionThrown", "Network.requestWillBeSent", "Log.entryAdded"]
+
+
 class Browser:
     """Chromium with one page, by the DevTools protocol over two pipes."""
 
@@ -29,13 +33,14 @@ class Browser:
         os.close(written_answers)
         self._session = {}
         self._number = 0
-        self._exceptions = []
+        self._noted = {name: [] for name in NOTED}
         self.events = []
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         self._session = {"sessionId": session}
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(domain + ".enable")
+        self.call("Target.setAutoAttach", autoAttach=True, waitForDebuggerOnStart=True, flatten=True)
 
     def close(self):
         self._process.terminate()
@@ -49,25 +54,49 @@ class Browser:
                 sys.exit("browser: Chromium has ended")
             message += byte
         answer = json.loads(message[:-1])
-        if answer.get("method") == "Runtime.exceptionThrown":
-            details = answer["params"]["exceptionDetails"]
-            thrown = details.get("exception", {})
-            self._exceptions.append(f"{details['text']} {thrown.get('description', thrown.get('value', ''))}")
+        self._note(answer.get("method"), answer.get("params"))
         return answer
 
+    def _note(self, method, parameters):
+        """Workers wait at their start until they are watched, too."""
+        if method in NOTED:
+            self._noted[method].append(parameters)
+        elif method == "Target.attachedToTarget" and "sessionId" in self._session:
+            session = {"sessionId": parameters["sessionId"]}
+            for command in ("Network.enable", "Runtime.enable", "Runtime.runIfWaitingForDebugger"):
+                self._send(command, {}, session)
+
     def take_exceptions(self):
-        """What escaped, promises too, in all pages since the last call, from their first script on."""
+        """What escaped, promises too, in all pages and workers since the last call, from their first
+        script on."""
+        thrown = [(one["exceptionDetails"]["text"], one["exceptionDetails"].get("exception", {}))
+                  for one in self._take("Runtime.exceptionThrown")]
+        return [f"{text} {value.get('description', value.get('value', ''))}" for text, value in thrown]
+
+    def take_requests(self):
+        """Addresses that all pages and workers have asked for since the last call."""
+        return [one["request"]["url"] for one in self._take("Network.requestWillBeSent")]
+
+    def take_log(self):
+        """What the browser itself has said of all pages and workers since the last call."""
+        return [one["entry"]["text"] for one in self._take("Log.entryAdded")]
+
+    def _take(self, method):
         self.value("0")  # what comes before the answer is read
-        taken, self._exceptions = self._exceptions, []
+        taken, self._noted[method] = self._noted[method], []
         return taken
 
-    def call(self, method, **parameters):
+    def _send(self, method, parameters, session):
         self._number += 1
-        command = {"id": self._number, "method": method, "params": parameters, **self._session}
+        command = {"id": self._number, "method": method, "params": parameters, **session}
         os.write(self._commands, json.dumps(command).encode() + b"\0")
+        return self._number
+
+    def call(self, method, **parameters):
+        number = self._send(method, parameters, self._session)
         while True:
             message = self._next_message()
-            if message.get("id") == self._number:
+            if message.get("id") == number:
                 if "error" in message:
                     sys.exit(f"browser: {method}: {message['error']}")
                 return message["result"]
@@ -102,7 +131,7 @@ class Browser:
             sys.exit(f"browser: {script}: {answer['exceptionDetails']}")
         return answer["result"].get("value")
 
-    def place(self, element):
+    def rect(self, element):
         """Left, top, width, height in the window, after it has been scrolled to."""
         return self.value(f"""(() => {{
             const element = {element};
@@ -115,7 +144,7 @@ class Browser:
                   clickCount=1)
 
     def click(self, element):
-        left, top, width, height = self.place(element)
+        left, top, width, height = self.rect(element)
         for kind in ("mousePressed", "mouseReleased"):
             self.mouse(kind, left + width / 2, top + height / 2)
 
@@ -146,7 +175,7 @@ class Browser:
 
     def save_picture(self, element, path):
         """What is seen where this element is."""
-        left, top, width, height = (round(x) for x in self.place(element))
+        left, top, width, height = (round(x) for x in self.rect(element))
         scrolled = self.value("scrollY")
         clip = {"x": left, "y": top + scrolled, "width": width, "height": height, "scale": 1}
         data = self.call("Page.captureScreenshot", format="png", clip=clip)["data"]

@@ -52,8 +52,8 @@ function shown() {
   for (const input of document.querySelectorAll("[data-key] :is(input, select), .bodies input")) {
     if (!isThere(input)) continue;
     const root = input.closest("[data-key]");
-    const place = root ? [...root.querySelectorAll("input, select")].indexOf(input) : "";
-    const name = `${root?.dataset.key ?? input.getAttribute("aria-label")} ${place}`;
+    const index = root ? [...root.querySelectorAll("input, select")].indexOf(input) : "";
+    const name = `${root?.dataset.key ?? input.getAttribute("aria-label")} ${index}`;
     const isWrong = input.getAttribute("aria-invalid") === "true";
     values[name] = `${input.type === "checkbox" ? input.checked : input.value}${isWrong ? ", wrong" : ""}`;
   }
@@ -61,7 +61,7 @@ function shown() {
 }
 
 /** {name: texts} of the state. */
-const readOuts = () => Object.fromEntries([...document.querySelectorAll("#read-outs dt")].map(
+const stateRows = () => Object.fromEntries([...document.querySelectorAll("#state dt")].map(
   name => [name.textContent, [...name.parentElement.querySelectorAll("dd")].map(one => one.textContent)]));
 
 function words(source, width, height) {
@@ -114,21 +114,21 @@ async function base64(blob) {
   return address.split(",")[1];
 }
 
-const saver = ending => document.querySelector(`[data-save=${ending}]`);
+const saver = extension => document.querySelector(`[data-save=${extension}]`);
 
-/** The bytes of a file that a button saves, in base64; a text of what is wrong. */
-async function save(ending) {
+/** Saves by a button. @returns {base64, seconds} of the file, or {problem} */
+async function save(extension) {
   const start = performance.now();
   const count = files.length;
-  saver(ending).click();
-  await until(`${ending} is saved`, () => files.length > count || said("saving-problem"));
+  saver(extension).click();
+  await until(`${extension} is saved`, () => files.length > count || said("saving-problem"));
   if (files.length === count) return {problem: said("saving-problem")};
   const seconds = (performance.now() - start) / 1000;
   return {base64: await base64(files.at(-1)), seconds};
 }
 
 window.check = {
-  after, base64, differences, digest, field, files, idle, isThere, later, problems, readOuts, said, save,
+  after, base64, differences, digest, field, files, idle, isThere, later, problems, stateRows, said, save,
   saver, set, shown, until,
   /** Later than the page waits for more of a text. */
   async open(text) {

@@ -1,4 +1,4 @@
-"""The page that has the program in it, opened in a browser.
+"""The live page, opened in a browser.
 
 In: a Browser or a Firefox, scenes, what a person would do. Out: what the page shows and saves.
 """
@@ -25,7 +25,7 @@ class LivePage:
         self.browser.show_address(uri)
         self.run(HELPERS)
         for _ in range(1500):
-            if self.value("document.getElementById('read-outs').children.length > 0 || "
+            if self.value("document.getElementById('state').children.length > 0 || "
                           "!document.getElementById('problem').hidden"):
                 break
             time.sleep(0.02)
@@ -60,19 +60,19 @@ class LivePage:
     def choose(self, scene):
         return self.call("choose", scene)
 
-    def read_outs(self):
+    def state_rows(self):
         """{name: texts}; digits are not grouped."""
         return {name: [text.replace("\u202f", "") for text in texts]
-                for name, texts in self.call("readOuts").items()}
+                for name, texts in self.call("stateRows").items()}
 
     def differences(self, png):
         return self.call("differences", base64.b64encode(png).decode())
 
-    def save(self, ending):
+    def save(self, extension):
         """@returns the bytes and the seconds that it took."""
-        saved = self.call("save", ending)
+        saved = self.call("save", extension)
         if "problem" in saved:
-            sys.exit(f"live_page: {ending}: {saved['problem']}")
+            sys.exit(f"live_page: {extension}: {saved['problem']}")
         return base64.b64decode(saved["base64"]), saved["seconds"]
 
     def text(self, name):

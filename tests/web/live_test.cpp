@@ -5,10 +5,13 @@
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 
+#include <cmath>
 #include <cstring>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "support/temporary_folder.hpp"
 #include "web/facts.hpp"
 
 namespace piblocks::web {
@@ -61,12 +64,12 @@ class Html {
   std::vector<std::uint8_t> pixels_;
 };
 
-TEST(Live, ShowsTheFramesOfTheFilm) {
+TEST(LiveScript, ShowsTheFramesOfTheFilm) {
   Screen screen;
   Html html(320, 180);
   // One after the other on one screen, which paints what differs from the film before.
   for (const std::string& text : {kSmall, kDiagrams, kSmall + "digits = 2\n", kStory}) {
-    const Live live(script_of(text));
+    const LiveScript live(script_of(text));
     FrameRenderer expected(script_of(text));
     ASSERT_EQ(live.frame_count(), expected.frame_count());
     for (const std::int64_t frame :
@@ -78,9 +81,9 @@ TEST(Live, ShowsTheFramesOfTheFilm) {
   }
 }
 
-TEST(Live, ConvertsOnlyWhatChanges) {
+TEST(LiveScript, ConvertsOnlyWhatChanges) {
   Screen screen;
-  const Live live(script_of(kSmall));
+  const LiveScript live(script_of(kSmall));
   screen.update(live.picture(live.place_of_frame(0)));
   EXPECT_EQ(screen.patch().rect, (PixelRect{0, 0, 320, 180}));
   screen.update(live.picture(live.place_of_frame(0)));
@@ -90,25 +93,33 @@ TEST(Live, ConvertsOnlyWhatChanges) {
   EXPECT_GT(screen.patch().rect.height_px, 0);
 }
 
-TEST(Live, TransparentPixelsAreNotMultiplied) {
+TEST(LiveScript, TransparentPixelsAreNotMultiplied) {
   Screen screen;
-  const Live live(script_of(kSmall + "view.background = \"transparent\"\n"));
+  const LiveScript live(script_of(kSmall + "view.background = \"transparent\"\n"));
+  FrameRenderer expected(live.script());
   screen.update(live.picture(live.place_of_frame(0)));
-  const Patch& patch = screen.patch();
-  const auto pixel = [&](int x, int y) {
-    const std::size_t at = 4 * (std::size_t(y) * 320 + std::size_t(x));
-    return std::vector<int>(patch.rgba.begin() + std::ptrdiff_t(at),
-                            patch.rgba.begin() + std::ptrdiff_t(at) + 4);
-  };
-  EXPECT_EQ(pixel(0, 0), (std::vector<int>{0, 0, 0, 0}));
-  // In the middle of blue, which is at 2 of -1 … 12.
-  const std::vector<int> blue = pixel(74, 106);
-  EXPECT_EQ(blue[3], 255);
-  EXPECT_GT(blue[2], blue[0]);
+  const std::uint8_t* rgba = screen.patch().rgba.data();
+  const ImageView multiplied = expected.frame(0);
+  std::map<std::string, int> counts;
+  for (int y = 0; y < multiplied.height_px; ++y) {
+    for (int x = 0; x < multiplied.width_px; ++x, rgba += 4) {
+      const std::uint8_t* const bgra = multiplied.row(y) + std::ptrdiff_t{4} * x;
+      const int alpha = bgra[3];
+      ++counts[alpha == 0 ? "none" : alpha == 255 ? "all" : "some"];
+      ASSERT_EQ(rgba[3], alpha);
+      for (int k = 0; k < 3; ++k) {
+        const double exact = alpha == 0 ? 0 : 255.0 * bgra[2 - k] / alpha;
+        ASSERT_LE(std::abs(rgba[k] - exact), 0.5) << x << ' ' << y << " alpha " << alpha;
+      }
+    }
+  }
+  EXPECT_GT(counts["none"], 0);
+  EXPECT_GT(counts["some"], 100);
+  EXPECT_GT(counts["all"], 0);
 }
 
-TEST(Live, PlacesStayWithinTheFilm) {
-  const Live live(script_of(kSmall));
+TEST(LiveScript, PlacesStayWithinTheFilm) {
+  const LiveScript live(script_of(kSmall));
   const std::int64_t last = *live.frame_count() - 1;
   EXPECT_EQ(live.place_of_frame(-5).frame, 0);
   EXPECT_EQ(live.place_of_frame(1'000'000).frame, last);
@@ -120,7 +131,7 @@ TEST(Live, PlacesStayWithinTheFilm) {
 }
 
 /// The counts from a place on, one collision after the other.
-std::vector<std::string> counts_beside(const Live& live, Live::Place place, int step) {
+std::vector<std::string> counts_beside(const LiveScript& live, LiveScript::Place place, int step) {
   std::vector<std::string> counts;
   while (const auto beside = live.collision_beside(place, step)) {
     const std::string state = *live.state(*beside);
@@ -132,46 +143,75 @@ std::vector<std::string> counts_beside(const Live& live, Live::Place place, int 
   return counts;
 }
 
-TEST(Live, GoesFromCollisionToCollision) {
-  const Live live(script_of(kSmall + "digits = 1\n"));
-  const Live::Place start = live.place_of_frame(0);
-  const Live::Place end = live.place_of(parse_instant("last"));
+TEST(LiveScript, GoesFromCollisionToCollision) {
+  const LiveScript live(script_of(kSmall + "digits = 1\n"));
+  const LiveScript::Place start = live.place_of_frame(0);
+  const LiveScript::Place end = live.place_of(parse_instant("last"));
   using Counts = std::vector<std::string>;
   EXPECT_EQ(counts_beside(live, start, 1), (Counts{"1", "2", "3"}));
   EXPECT_EQ(counts_beside(live, end, -1), (Counts{"2", "1", "0"}));
-  const Live::Place between = live.place_of(parse_instant("#2+1/1000"));
+  const LiveScript::Place between = live.place_of(parse_instant("#2+1/1000"));
   EXPECT_EQ(counts_beside(live, between, -1), (Counts{"2", "1", "0"}));
   EXPECT_EQ(counts_beside(live, between, 1), (Counts{"3"}));
-  EXPECT_FALSE(Live(script_of(kStory)).collision_beside({0, {}}, 1));
+  EXPECT_FALSE(LiveScript(script_of(kStory)).collision_beside({0, {}}, 1));
 }
 
-TEST(Live, CollisionsAtOneInstantAreOneStep) {
+TEST(LiveScript, CollisionsAtOneInstantAreOneStep) {
   // Both pairs meet at time 1, the walls are reached at time 2.
-  const Live live(script_of(kSmall + "box.x = [0, 10]\ntime.to = \"3/2\"\n"
-                                     "[[body]]\nposition = 1\nvelocity = 1\n"
-                                     "[[body]]\nposition = 4\nvelocity = -1\n"
-                                     "[[body]]\nposition = 6\nvelocity = 1\n"
-                                     "[[body]]\nposition = 9\nvelocity = -1\n"));
+  const LiveScript live(script_of(kSmall + "box.x = [0, 10]\ntime.to = \"3/2\"\n"
+                                           "[[body]]\nposition = 1\nvelocity = 1\n"
+                                           "[[body]]\nposition = 4\nvelocity = -1\n"
+                                           "[[body]]\nposition = 6\nvelocity = 1\n"
+                                           "[[body]]\nposition = 9\nvelocity = -1\n"));
   const auto counts = counts_beside(live, live.place_of_frame(0), 1);
   EXPECT_EQ(counts, std::vector<std::string>{"2"});
   EXPECT_EQ(counts_beside(live, live.place_of(parse_instant("1.2")), -1),
             (std::vector<std::string>{"2", "0"}));
 }
 
-TEST(Live, StatesAreThoseOfTheCommand) {
-  const Live live(script_of(kSmall));
+TEST(LiveScript, StatesAreThoseOfTheCommand) {
+  const LiveScript live(script_of(kSmall));
   EXPECT_EQ(live.state(live.place_of(parse_instant("1"))),
             R"({"time":1,"collisions":"0","blue":{"position":2,"velocity":0},)"
             R"("red":{"position":4,"velocity":-1}})");
-  EXPECT_EQ(Live(script_of(kStory)).state({0, {}}), std::nullopt);
+  EXPECT_EQ(LiveScript(script_of(kStory)).state({0, {}}), std::nullopt);
 }
 
-TEST(Live, SceneWithoutFilmHasStills) {
-  const Live live(script_of(kSmall + "red.velocity = 1\n"));
+TEST(LiveScript, SceneWithoutFilmHasStills) {
+  const LiveScript live(script_of(kSmall + "red.velocity = 1\n"));
   EXPECT_EQ(live.frame_count(), std::nullopt);
   EXPECT_NE(live.film_problem(), "");
   EXPECT_EQ(live.picture(live.place_of_frame(3)).width_px, 320);
   EXPECT_EQ(live.frame_near(live.place_of(Instant())), std::nullopt);
+}
+
+/// Left and right of a WAV file of 24 bits a sample.
+std::vector<float> samples_of_wav(const std::string& bytes) {
+  std::vector<float> samples;
+  for (std::size_t i = bytes.find("data") + 8; i + 3 <= bytes.size(); i += 3) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, &bytes[i], 3);
+    samples.push_back(float(static_cast<std::int32_t>(word << 8U)) / float(1U << 31U));
+  }
+  return samples;
+}
+
+TEST(LiveSound, IsThatOfTheFile) {
+  const testing_support::TemporaryFolder folder;
+  RenderJob job{.script = script_of(kSmall), .output = folder / "sound.wav"};
+  render(job);
+  const std::vector<float> expected = samples_of_wav(testing_support::file_contents(job.output));
+  LiveSound sound(job.script);
+  sound.read(0, sound.size());
+  ASSERT_EQ(sound.samples().size(), expected.size());
+  float loudest = 0;
+  float difference = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    loudest = std::max(loudest, std::abs(expected[i]));
+    difference = std::max(difference, std::abs(expected[i] - sound.samples()[i]));
+  }
+  EXPECT_GT(loudest, 0.01F);
+  EXPECT_LE(difference, 2.0F / float(1U << 23U));
 }
 
 /// The pairs from this one on, 9000 or as many as there are, out of all samples.
@@ -197,7 +237,7 @@ TEST(LiveSound, IsTheSameInAnyOrder) {
 
 /// Whether the facts of this scene have this text.
 bool has(const std::string& text, const std::string& part) {
-  return facts_json(Live(script_of(text))).find(part) != std::string::npos;
+  return facts_json(LiveScript(script_of(text))).find(part) != std::string::npos;
 }
 
 TEST(Facts, TellDigits) {

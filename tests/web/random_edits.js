@@ -1,7 +1,7 @@
 // Random edits of the fields of the page, and what has to be so after each.
 // In: live_page.js. Out: check.record(names), check.random(seed, count, text, next).
 
-/** Nothing of these is a value of a key in STRICT. */
+/** None of these is valid for a key in STRICT. */
 const WRONG = ["x", "1/0", "--1", "1e", "0x10", "nan", "\u221e", "1,,2", "{", "'", "\"", "\\", "]",
   "\u05d0\u05d1", "\ud83d\ude00", "1\u00a02", "=", "#", "3 4 5", "--", "..", "1/", "/2", "e5", "[1, 2]"];
 const STRICT = ["digits", "base", "mass-ratio", "blue.mass", "red.mass", "blue.position", "red.position",
@@ -13,7 +13,7 @@ const TEXTS = ["", "turn", "last", "last+1", "turn-0.3", "#10", "#-3", "#1000000
   "off", "turn-0.1:turn+0.1:8", "turn:1", "320x180", "640x360", "1x1", "20000x20000", "161x91",
   "a title", "1/2", "a very long title ".repeat(30), "x".repeat(3000), "30000/1001", "inf"];
 
-const {after, isThere, readOuts, said, set, shown} = check;
+const {after, isThere, stateRows, said, set, shown} = check;
 const byId = id => document.getElementById(id);
 
 /** Numbers below a size, the same for the same seed. */
@@ -64,7 +64,7 @@ function faultsOfMessages(input, key, value) {
 /** Whatever is in the fields, the scene that was taken can be shown elsewhere. */
 async function faultsOfNextFrame() {
   if (byId("next-frame").disabled) return [];
-  const frameOf = () => (readOuts().Frame?.[0].match(/^(\d+) of (\d+)$/) ?? []).slice(1).map(Number);
+  const frameOf = () => (stateRows().Frame?.[0].match(/^(\d+) of (\d+)$/) ?? []).slice(1).map(Number);
   const [before, count] = frameOf();
   await check.press("next-frame");
   const [frame] = frameOf();
@@ -76,7 +76,7 @@ async function faultsOfNextFrame() {
 async function faultsOfGoing() {
   await check.go("0");
   if (said("instant-problem")) return [`to 0: ${said("instant-problem")}`];
-  const time = readOuts().Time?.[0] ?? "0";
+  const time = stateRows().Time?.[0] ?? "0";
   return Number(time) === 0 ? [] : [`at ${time} instead of 0`];
 }
 

@@ -115,8 +115,8 @@ class Bodies {
   #addRow() {
     const last = this.#rows.at(-1);
     const row = structuredClone(last);
-    const gap = Math.ceil(2 * valueOf(last.size) + 1) + 1;
-    row.position[0] = String(Math.ceil(valueOf(last.position[0])) + gap);
+    const gap = Math.ceil(2 * approximateNumber(last.size) + 1) + 1;
+    row.position[0] = String(Math.ceil(approximateNumber(last.position[0])) + gap);
     row.velocity = row.velocity.map(() => "0");
     row.label = "";
     this.#rows.push(row);

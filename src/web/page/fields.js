@@ -1,8 +1,8 @@
 // The fields of a scene's keys.
 // In: what the program says of a scene. Out: edits of its keys; problems beside the fields.
 
-/** {key, label} and, of numbers with a slider, [least, most, step]. A field without `kind` is text.
- * One with `empty` may be empty: this is its value then; null takes the key out of the scene. */
+/** {key, label} and more: `slider` is [minimum, maximum, step]; `kind` is "text" if it is missing; an
+ * empty field sets the value `empty`, and null removes the key from the scene. */
 const GROUPS = [
   {title: "Blocks", isOpen: true, of: "blocks", fields: [
     {key: "digits", label: "Digits of π", slider: [1, 20, 1]},
@@ -20,12 +20,12 @@ const GROUPS = [
     {key: "wall.restitution", label: "Restitution of wall", slider: [0, 1, 0.01]},
     {key: "wall.face", label: "Face of the wall"},
     {key: "wall.mass", label: "Mass of the wall"}]},
-  {title: "Read-outs and diagrams", isOpen: true, fields: [
+  {title: "Overlays and diagrams", isOpen: true, fields: [
     {key: "view.theme", label: "Theme", kind: "choice", choices: "themes"},
-    {key: "show.overlays", label: "Read-outs", kind: "names", choices: "overlays"},
+    {key: "show.overlays", label: "Overlays", kind: "names", choices: "overlays"},
     {key: "show.panels", label: "Diagrams", kind: "names", choices: "panels"},
     {key: "show.loupe", label: "Loupe", hints: ["auto", "off"], empty: null, of: "blocks"},
-    {key: "show.hits", label: "Marks of hits", kind: "flag", of: "blocks"},
+    {key: "show.hits", label: "Hit marks", kind: "flag", of: "blocks"},
     {key: "show.title", label: "Title", empty: ""},
     {key: "show.caption", label: "Caption", empty: ""}]},
   {title: "Time", fields: [
@@ -64,9 +64,9 @@ function element(name, properties = {}, ...children) {
 }
 
 /** Shows words; writes them only if they differ, so that they are read out once. */
-function sayIn(place, words) {
-  if (place.textContent !== words) place.textContent = words;
-  place.hidden = words === "";
+function sayIn(target, words) {
+  if (target.textContent !== words) target.textContent = words;
+  target.hidden = words === "";
 }
 
 /** "5/2" as "2.5"; a number that is no decimal stays. */
@@ -86,8 +86,8 @@ function readable(number) {
   return `${sign}${digits.slice(0, -places)}.${digits.slice(-places)}`;
 }
 
-/** About, for sliders. */
-function valueOf(text) {
+/** Near enough for a slider. */
+function approximateNumber(text) {
   const [above, below = "1"] = text.split("/");
   return Number(above) / Number(below);
 }
@@ -117,27 +117,29 @@ class Field {
     this.problem = element("p", {className: "problem", id: `${this.id}-problem`, hidden: true});
     this.problem.setAttribute("role", "alert");
     this.choices = typeof spec.choices === "string" ? lists[spec.choices] : spec.choices;
-    this.root = this[spec.kind ?? "text"]();
+    const makers = {text: this.makeText, choice: this.makeChoice, flag: this.makeFlag,
+      names: this.makeNames, range: this.makeRange};
+    this.root = makers[spec.kind ?? "text"].call(this);
     this.root.dataset.key = spec.key;
   }
 
   /** Inputs that a problem makes invalid. */
   inputs = [];
 
-  input(properties) {
+  makeInput(properties) {
     const made = element("input", {"aria-describedby": this.problem.id, ...properties});
     this.inputs.push(made);
     return made;
   }
 
-  row(...values) {
+  makeRow(...values) {
     return element("div", {className: "field"},
       element("label", {htmlFor: this.id}, this.spec.label),
       element("span", {className: "value"}, ...values), this.problem);
   }
 
-  text() {
-    const main = this.input({type: "text", id: this.id, spellcheck: false, autocapitalize: "off"});
+  makeText() {
+    const main = this.makeInput({type: "text", id: this.id, spellcheck: false, autocapitalize: "off"});
     const {slider, hints, empty} = this.spec;
     const values = [main];
     if (empty !== undefined) main.placeholder = "default";
@@ -148,13 +150,13 @@ class Field {
     }
     main.addEventListener("input", () => this.edited(main.value));
     this.listenToLeaving(main);
-    if (slider) values.unshift(this.slider(main));
-    this.read = facts => {
+    if (slider) values.unshift(this.makeSlider(main));
+    this.showValue = facts => {
       const value = textOf(this.spec.key, facts);
       if (document.activeElement !== main) main.value = value;
-      if (this.knob && document.activeElement !== this.knob) this.knob.value = valueOf(value);
+      if (this.sliderInput && document.activeElement !== this.sliderInput) this.sliderInput.value = approximateNumber(value);
     };
-    return this.row(...values);
+    return this.makeRow(...values);
   }
 
   listenToLeaving(input) {
@@ -171,39 +173,39 @@ class Field {
     this.say("");
   }
 
-  slider(main) {
+  makeSlider(main) {
     const [min, max, step] = this.spec.slider;
     const decimals = String(step).split(".")[1]?.length ?? 0;
-    this.knob = element("input", {type: "range", min, max, step,
+    this.sliderInput = element("input", {type: "range", min, max, step,
       "aria-label": `${this.spec.label}, slider`});
-    this.knob.addEventListener("input", () => {
-      main.value = String(Number(Number(this.knob.value).toFixed(decimals)));
+    this.sliderInput.addEventListener("input", () => {
+      main.value = String(Number(Number(this.sliderInput.value).toFixed(decimals)));
       this.edited(main.value);
     });
-    return this.knob;
+    return this.sliderInput;
   }
 
-  choice() {
+  makeChoice() {
     const select = element("select", {id: this.id, "aria-describedby": this.problem.id},
       ...this.choices.map(name => element("option", {}, name)));
     this.inputs.push(select);
     select.addEventListener("change", () => this.edited(select.value));
-    this.read = facts => select.value = textOf(this.spec.key, facts);
-    return this.row(select);
+    this.showValue = facts => select.value = textOf(this.spec.key, facts);
+    return this.makeRow(select);
   }
 
-  flag() {
-    const box = this.input({type: "checkbox", id: this.id});
+  makeFlag() {
+    const box = this.makeInput({type: "checkbox", id: this.id});
     box.addEventListener("change", () => this.edited(String(box.checked)));
-    this.read = facts => box.checked = textOf(this.spec.key, facts) === "true";
-    return this.row(box);
+    this.showValue = facts => box.checked = textOf(this.spec.key, facts) === "true";
+    return this.makeRow(box);
   }
 
   /** In the order in which they are chosen. */
-  names() {
+  makeNames() {
     const chosen = [];
     const boxes = this.choices.map(name => {
-      const box = this.input({type: "checkbox", value: name});
+      const box = this.makeInput({type: "checkbox", value: name});
       box.addEventListener("change", () => {
         const next = chosen.filter(other => other !== name);
         if (box.checked) next.push(name);
@@ -212,7 +214,7 @@ class Field {
       });
       return box;
     });
-    this.read = facts => {
+    this.showValue = facts => {
       chosen.splice(0, chosen.length, ...facts.keys[this.spec.key]);
       for (const box of boxes) box.checked = chosen.includes(box.value);
     };
@@ -222,21 +224,21 @@ class Field {
         ...boxes.map(box => element("label", {}, box, box.value))), this.problem);
   }
 
-  range() {
-    const ends = ["low", "high"].map((end, i) => this.input({type: "text", id: i ? `${this.id}-high`
+  makeRange() {
+    const ends = ["low", "high"].map((end, i) => this.makeInput({type: "text", id: i ? `${this.id}-high`
       : this.id, spellcheck: false, autocapitalize: "off", "aria-label": `${this.spec.label}, ${end} end`}));
     for (const end of ends) {
       end.addEventListener("input", () => this.edited(ends.map(one => one.value).join("\t")));
       this.listenToLeaving(end);
     }
-    this.read = facts => ends.forEach((end, i) => {
+    this.showValue = facts => ends.forEach((end, i) => {
       if (document.activeElement !== end) end.value = readable(facts.keys[this.spec.key][i]);
     });
-    return this.row(...ends);
+    return this.makeRow(...ends);
   }
 
   edited(text) {
-    // A tab separates the texts of a list, a line the keys.
+    // Tabs separate the values of a list, line breaks the keys.
     const value = this.spec.kind === "range" ? text : text.replace(/[\t\n\r]+/g, " ");
     const {key, empty} = this.spec;
     if (value !== "" || empty === undefined) this.scene.edit(key, value);
@@ -259,7 +261,7 @@ class Field {
   /** Shows the value of the scene, unless a newer one was refused or is still to be taken. */
   refresh() {
     const isNewer = !this.problem.hidden || this.scene.isWaiting(this.spec.key);
-    if (this.facts && !this.root.hidden && !isNewer) this.read(this.facts);
+    if (this.facts && !this.root.hidden && !isNewer) this.showValue(this.facts);
   }
 
   /** @param words  of the program; empty if the value is right */

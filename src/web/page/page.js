@@ -55,7 +55,7 @@ function grouped(count) {
   return count === "infinite" ? "∞" : count.replace(/\B(?=(\d{3})+$)/g, "\u202F");
 }
 
-function readOut(name, ...values) {
+function stateRow(name, ...values) {
   return element("div", {}, element("dt", {}, name),
     ...values.map(value => element("dd", {}, value)));
 }
@@ -63,20 +63,20 @@ function readOut(name, ...values) {
 /** A position or velocity, on a line or in a plane. */
 const vectorText = numbers => [numbers].flat().join("; ");
 
-const motionReadOut = (name, {position, velocity}) =>
-  readOut(name, `x = ${vectorText(position)}`, `v = ${vectorText(velocity)}`);
+const motionRow = (name, {position, velocity}) =>
+  stateRow(name, `x = ${vectorText(position)}`, `v = ${vectorText(velocity)}`);
 
-/** Numbers as `piblocks state` prints them. */
-function readOutsOf({state, frame}, facts) {
+/** The numbers that `piblocks state` prints, as exact as there. */
+function stateRows({state, frame}, facts) {
   const rows = [];
   if (state !== null) {
     const {collisions, time, blue, red, bodies: moving} = JSON.parse(state);
-    rows.push(readOut("Collisions", grouped(collisions)), readOut("Time", String(time)));
-    if (moving) moving.slice(0, MOST_BODIES).forEach((body, i) => rows.push(motionReadOut(`Body ${i + 1}`, body)));
-    else rows.push(motionReadOut("Blue", blue), motionReadOut("Red", red));
+    rows.push(stateRow("Collisions", grouped(collisions)), stateRow("Time", String(time)));
+    if (moving) moving.slice(0, MOST_BODIES).forEach((body, i) => rows.push(motionRow(`Body ${i + 1}`, body)));
+    else rows.push(motionRow("Blue", blue), motionRow("Red", red));
   }
   if (frame !== null) {
-    rows.push(readOut("Frame", `${frame + 1} of ${facts.frames}`));
+    rows.push(stateRow("Frame", `${frame + 1} of ${facts.frames}`));
   }
   return rows;
 }
@@ -99,10 +99,10 @@ scene.onPicture = ({x, y, width, height, pixels}) => {
   }
 };
 
-scene.onShown = place => {
-  shown = place;
-  player.updatePlace(place);
-  byId("read-outs").replaceChildren(...readOutsOf(place, scene.facts));
+scene.onShown = now => {
+  shown = now;
+  player.updateShown(now);
+  byId("state").replaceChildren(...stateRows(now, scene.facts));
   if (!player.isPlaying) labelPicture();
 };
 
@@ -147,10 +147,10 @@ scene.onProblems = problems => {
   const names = problems.filter(problem => !elsewhere.includes(problem)).map(({key, body, property}) =>
     key === "text" ? "the scene file" : key === "bodies" ? body ? `body ${body}, ${property}` : "the bodies"
       : fields.labelOf(key) ?? bodies.labelOf(key) ?? key);
-  const leftOut = names.length > 0 && `Not applied: ${[...new Set(names)].join("; ")}. A message there says why.`;
+  const leftOut = names.length > 0 && `Not applied: ${[...new Set(names)].join("; ")}. See the message beside it.`;
   sayIn(byId("problem"), [linkProblem, ...elsewhere.map(problem => problem.words), leftOut]
     .filter(words => words).join("\n"));
-  // Something is to be shown, whatever a link has.
+  // If the scene of a link is wrong, the first scene is shown.
   if (!scene.facts && !hasTriedFirst) {
     hasTriedFirst = true;
     scene.replace(() => shippedText(FIRST_SCENE), "first scene");
@@ -165,7 +165,7 @@ scene.onPlaceProblem = words => {
 };
 
 scene.onBusy = isBusy => {
-  document.body.dataset.isBusy = String(isBusy);
+  document.body.dataset.isBusy = String(isBusy);  // for tests, which wait for it
   clearTimeout(busyTimer);
   if (isBusy) busyTimer = setTimeout(() => byId("busy").hidden = false, 400);
   else byId("busy").hidden = true;
@@ -204,7 +204,7 @@ text.addEventListener("input", () => {
 });
 text.addEventListener("blur", showText);
 
-/** @param field  whose text is selected where the page may not copy; it has the words then */
+/** @param field  gets the words, selected, if the browser forbids the page to copy */
 async function copy(button, words, field) {
   const {label = button.textContent} = button.dataset;
   button.dataset.label = label;

@@ -1,8 +1,8 @@
 // Time: the film runs, or goes from frame to frame and from collision to collision.
 // In: what is shown, buttons, keys, fingers. Out: places to show.
 
-/** Sound of the film that is open: the program's samples, a piece after the other. */
-class FilmSound {
+/** Plays the sound of the film that is open: the program's samples, a piece after the other. */
+class SoundPlayer {
   static #rate_hz = 48000;
   static #piece = 24000;
   static #ahead_s = 1.2;
@@ -12,7 +12,7 @@ class FilmSound {
   #opened = null;
   #context = null;
   #sources = new Set();
-  #run = 0;
+  #playback = 0;
   /** Samples came too late; all later ones are heard so much later. */
   onDelay = delay_s => {};
   onFailed = error => {};
@@ -22,54 +22,54 @@ class FilmSound {
    * @returns when the second is heard, on the clock now_s(); null if another call has ended this one */
   async play({text, edits}, second) {
     this.stop();
-    const run = this.#run;
-    this.#context ??= new AudioContext({sampleRate: FilmSound.#rate_hz});
-    await Promise.race([this.#context.resume(), FilmSound.#refusal()]);
+    const playback = this.#playback;
+    this.#context ??= new AudioContext({sampleRate: SoundPlayer.#rate_hz});
+    await Promise.race([this.#context.resume(), SoundPlayer.#startTimeout()]);
     try {
-      const isOpen = run === this.#run && await this.#open(run, text, edits.lines);
+      const isOpen = playback === this.#playback && await this.#open(playback, text, edits.lines);
       if (!isOpen) return null;
-      const first = Math.round(second * FilmSound.#rate_hz);
+      const first = Math.round(second * SoundPlayer.#rate_hz);
       const samples = await this.#read(first);
-      if (run !== this.#run) return null;
+      if (playback !== this.#playback) return null;
       const start_s = this.#context.currentTime + 0.05;
-      this.#feed(run, first, samples, start_s).catch(error => this.#fail(run, error));
-      return start_s - first / FilmSound.#rate_hz + second;
+      this.#feed(playback, first, samples, start_s).catch(error => this.#fail(playback, error));
+      return start_s - first / SoundPlayer.#rate_hz + second;
     } catch (error) {
       if (error instanceof Failure) this.#program = null;
-      if (run !== this.#run) return null;
+      if (playback !== this.#playback) return null;
       throw error;
     }
   }
 
-  #fail(run, error) {
+  #fail(playback, error) {
     if (error instanceof Failure) this.#program = null;
-    if (run === this.#run) this.onFailed(error);
+    if (playback === this.#playback) this.onFailed(error);
   }
 
   /** A browser that refuses sound does not say so. */
-  static async #refusal() {
+  static async #startTimeout() {
     const wasUsed = navigator.userActivation?.hasBeenActive ?? true;
     await new Promise(resolve => setTimeout(resolve, wasUsed ? 5000 : 1000));
-    throw new Error(wasUsed ? "the device does not begin" : "the browser lets it begin only after a click");
+    throw new Error(wasUsed ? "the audio device did not start" : "the browser allows it only after a click");
   }
 
   /** @returns whether it is still wanted. */
-  async #open(run, text, settings) {
+  async #open(playback, text, settings) {
     if (!this.#program) this.#opened = null;
     this.#program ??= new Program();
     const film = `${settings}\n${text}`;
     if (this.#opened === film) return true;
     this.#opened = null;
     await this.#program.call("open", {text, settings});
-    if (run !== this.#run) return false;
+    if (playback !== this.#playback) return false;
     await this.#program.call("openSound");
-    if (run !== this.#run) return false;
+    if (playback !== this.#playback) return false;
     this.#opened = film;
     return true;
   }
 
   #read(first) {
-    return this.#program.call("readSound", {first, count: FilmSound.#piece});
+    return this.#program.call("readSound", {first, count: SoundPlayer.#piece});
   }
 
   /** What is heard now began to be played a little earlier. */
@@ -77,17 +77,17 @@ class FilmSound {
     return this.#context.currentTime - (this.#context.outputLatency || 0);
   }
 
-  async #feed(run, first, samples, at_s) {
+  async #feed(playback, first, samples, at_s) {
     while (samples.length > 0) {
       this.#start(samples, at_s);
       first += samples.length / 2;
-      at_s += samples.length / 2 / FilmSound.#rate_hz;
+      at_s += samples.length / 2 / SoundPlayer.#rate_hz;
       samples = await this.#read(first);
-      while (at_s - this.#context.currentTime > FilmSound.#ahead_s) {
+      while (at_s - this.#context.currentTime > SoundPlayer.#ahead_s) {
         await new Promise(resolve => setTimeout(resolve, 100));
-        if (run !== this.#run) return;
+        if (playback !== this.#playback) return;
       }
-      if (run !== this.#run) return;
+      if (playback !== this.#playback) return;
       const delay_s = this.#context.currentTime - at_s;
       if (delay_s > 0) {
         at_s += delay_s;
@@ -98,7 +98,7 @@ class FilmSound {
 
   #start(samples, at_s) {
     const pairs = samples.length / 2;
-    const buffer = this.#context.createBuffer(2, pairs, FilmSound.#rate_hz);
+    const buffer = this.#context.createBuffer(2, pairs, SoundPlayer.#rate_hz);
     for (const side of [0, 1]) {
       const channel = buffer.getChannelData(side);
       for (let i = 0; i < pairs; ++i) channel[i] = samples[2 * i + side];
@@ -111,7 +111,7 @@ class FilmSound {
   }
 
   stop() {
-    ++this.#run;
+    ++this.#playback;
     for (const source of this.#sources) source.stop();
     this.#sources.clear();
   }
@@ -119,16 +119,16 @@ class FilmSound {
 
 class Player {
   #scene;
-  #sound = new FilmSound();
-  #hasSound = false;
+  #sound = new SoundPlayer();
+  #isSoundOn = false;
   #isPlaying = false;
   /** What is shown, as the program says. */
-  #place = null;
+  #shown = null;
   /** When second 0 of the film was, on the clock in use. */
   #start_s = 0;
   #clock_s = () => performance.now() / 1000;
-  /** The run of the film that goes on; another one ends it. */
-  #run = null;
+  /** Identifies the playback that goes on; a newer one replaces it. */
+  #playback = null;
   #restart = null;
   onPause = () => {};
 
@@ -166,7 +166,7 @@ class Player {
     return above / below;
   }
   get #frame() {
-    return this.#place?.frame ?? this.#place?.nearFrame ?? 0;
+    return this.#shown?.frame ?? this.#shown?.nearFrame ?? 0;
   }
 
   #show(place) {
@@ -198,9 +198,9 @@ class Player {
     else if (this.#isPlaying) this.pause();
   }
 
-  updatePlace(place) {
-    this.#place = place;
-    if (place.nearFrame !== null) this.slider.value = place.nearFrame;
+  updateShown(shown) {
+    this.#shown = shown;
+    if (shown.nearFrame !== null) this.slider.value = shown.nearFrame;
     const time = `${(this.#frame / this.#rate).toFixed(2)} s of the film`;
     this.slider.setAttribute("aria-valuetext", time);
   }
@@ -214,28 +214,28 @@ class Player {
     else this.play();
   }
 
-  async play() {
+  async play({isSilent = !this.#isSoundOn} = {}) {
     if (this.#frames === 0) return;
     const isAtEnd = this.#frame >= this.#frames - 1;
     const second = isAtEnd ? 0 : this.#frame / this.#rate;
     this.#setPlaying(true);
     this.#sound.stop();
     clearTimeout(this.#restart);
-    const run = {};
-    this.#run = run;
+    const playback = {};
+    this.#playback = playback;
     this.#setClock(second, () => performance.now() / 1000);
-    if (this.#hasSound) await this.#playSound(run, second);
-    this.#tick(run);
+    if (!isSilent) await this.#playSound(playback, second);
+    this.#tick(playback);
   }
 
-  async #playSound(run, second) {
+  async #playSound(playback, second) {
     try {
       const heard_s = await this.#sound.play(this.#scene.source, second);
-      if (heard_s === null || run !== this.#run) return;
+      if (heard_s === null || playback !== this.#playback) return;
       this.#clock_s = () => this.#sound.now_s();
       this.#start_s = heard_s - second;
     } catch (error) {
-      if (run !== this.#run) return;
+      if (playback !== this.#playback) return;
       this.#goOnSilently(error);
       this.#setClock(second, () => performance.now() / 1000);
     }
@@ -252,30 +252,27 @@ class Player {
     this.#setClock(this.#clock_s() - this.#start_s, () => performance.now() / 1000);
   }
 
-  /** Silently while a hand still changes it; its sound begins when the hand rests. */
+  /** Silently while somebody still changes it; its sound begins a moment after the last change. */
   #goOnInAnotherFilm() {
-    const hasSound = this.#hasSound;
-    this.#hasSound = false;
-    this.play();
-    this.#hasSound = hasSound;
-    if (hasSound) this.#restart = setTimeout(() => this.#isPlaying && this.play(), 300);
+    this.play({isSilent: true});
+    if (this.#isSoundOn) this.#restart = setTimeout(() => this.#isPlaying && this.play(), 300);
   }
 
-  #tick(run) {
-    if (run !== this.#run) return;
+  #tick(playback) {
+    if (playback !== this.#playback) return;
     const frame = Math.floor((this.#clock_s() - this.#start_s) * this.#rate);
     if (frame >= this.#frames) {
       this.#goTo(this.#frames - 1);
       return;
     }
     if (frame >= 0 && frame !== this.#frame && !this.#scene.isBusy) this.#scene.show({frame});
-    requestAnimationFrame(() => this.#tick(run));
+    requestAnimationFrame(() => this.#tick(playback));
   }
 
   pause() {
     this.#sound.stop();
     clearTimeout(this.#restart);
-    this.#run = null;
+    this.#playback = null;
     const wasPlaying = this.#isPlaying;
     this.#setPlaying(false);
     if (wasPlaying) this.onPause();
@@ -286,13 +283,13 @@ class Player {
     byId("play").textContent = isPlaying ? "Pause" : "Play";
   }
 
-  #setSound(hasSound) {
-    this.#hasSound = hasSound;
+  #setSound(isOn) {
+    this.#isSoundOn = isOn;
     sayIn(byId("sound-problem"), "");
-    byId("sound").setAttribute("aria-pressed", String(hasSound));
+    byId("sound").setAttribute("aria-pressed", String(isOn));
   }
   #toggleSound() {
-    this.#setSound(!this.#hasSound);
+    this.#setSound(!this.#isSoundOn);
     if (this.#isPlaying) this.play();
   }
 

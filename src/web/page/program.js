@@ -61,12 +61,12 @@ class Program {
     else if (failure === undefined) resolve(value);
     else {
       reject(new Failure(failure));
-      // What waits would wait for a program that is broken.
+      // Pending calls would never finish.
       this.stop(failure);
     }
   }
 
-  /** Whatever it does; it can do nothing more then. */
+  /** Ends the worker, even in the middle of a task. Pending and later calls fail. */
   stop(reason = STOPPED) {
     if (this.isStopped) return;
     this.isStopped = true;

@@ -1,37 +1,37 @@
 // Files that the page makes: pictures of what is shown; the film by several workers.
-// In: the scene and an ending. Out: a download, or a problem in the program's words.
+// In: the scene and a file extension. Out: a download, or a problem in the program's words.
 
 const MEDIA_TYPES = {png: "image/png", svg: "image/svg+xml", pdf: "application/pdf",
   mp4: "video/mp4", wav: "audio/wav"};
 const MOST_WORKERS = 8;
-const isFilm = ending => ending === "mp4" || ending === "wav";
+const isFilm = extension => extension === "mp4" || extension === "wav";
 
-/** The film in one file. The pieces that workers render are joined as those of several machines. */
+/** The film in one file. Workers render shards of it, which are joined as those of several machines. */
 class FilmMaking {
   #workers = [];
 
   /** @param source  {text, edits} of the scene
-   * @param onProgress  is told the share that is done */
-  async make({text, edits}, ending, {seconds, onProgress}) {
-    const name = `film.${ending}`;
-    const isSound = ending === "wav";
-    // Pieces are cut at whole seconds.
+   * @param onProgress  is told the fraction that is done */
+  async make({text, edits}, extension, {seconds, onProgress}) {
+    const name = `film.${extension}`;
+    const isSound = extension === "wav";
+    // Shards are cut at whole seconds.
     const most = Math.min(navigator.hardwareConcurrency || 2, MOST_WORKERS, Math.ceil(seconds));
     const count = isSound ? 1 : Math.max(1, most);
-    const shares = new Array(count).fill(0);
-    this.#workers = shares.map(() => new Program());
+    const progress = new Array(count).fill(0);
+    this.#workers = progress.map(() => new Program());
     // The page has no encoder of AAC.
     const settings = (isSound ? edits : edits.with([["sound.on", "false"]])).lines;
-    const parts = await Promise.all(this.#workers.map(async (worker, i) => {
-      worker.onProgress = share => {
-        shares[i] = share;
-        onProgress(shares.reduce((sum, one) => sum + one, 0) / count);
+    const shards = await Promise.all(this.#workers.map(async (worker, i) => {
+      worker.onProgress = done => {
+        progress[i] = done;
+        onProgress(progress.reduce((sum, one) => sum + one, 0) / count);
       };
       await worker.call("open", {text, settings});
       return worker.call("render", {name, number: i + 1, count});
     }));
-    if (count === 1) return parts[0];
-    return this.#workers[0].call("join", {name, parts}, parts.map(part => part.buffer));
+    if (count === 1) return shards[0].bytes;
+    return this.#workers[0].call("join", {name, shards}, shards.map(shard => shard.bytes.buffer));
   }
 
   stop() {
@@ -45,7 +45,7 @@ class Saving {
   #making = null;
   #link = null;
   #buttons = [...document.querySelectorAll("[data-save]")];
-  /** What files are called, without an ending. */
+  /** What files are called, without an extension. */
   name = "scene";
 
   constructor(scene, pause) {
@@ -59,14 +59,14 @@ class Saving {
     byId("cancel").addEventListener("click", () => this.#making?.stop());
   }
 
-  async #save(ending) {
+  async #save(extension) {
     if (!this.#scene.facts) return;
-    const name = `${this.name}.${ending}`;
+    const name = `${this.name}.${extension}`;
     sayIn(byId("saving-problem"), "");
     byId("saved").hidden = true;
     try {
-      const bytes = isFilm(ending) ? await this.#makeFilm(ending) : await this.#scene.save(`/picture.${ending}`);
-      this.#download(bytes, name, ending);
+      const bytes = isFilm(extension) ? await this.#makeFilm(extension) : await this.#scene.save(`/picture.${extension}`);
+      this.#download(bytes, name, extension);
     } catch (error) {
       if (!(error instanceof Failure && error.message === STOPPED)) {
         sayIn(byId("saving-problem"), error.message);
@@ -75,20 +75,20 @@ class Saving {
   }
 
   /** @throws Failure with STOPPED if it is cancelled. */
-  async #makeFilm(ending) {
+  async #makeFilm(extension) {
     const {frames, rate, filmProblem} = this.#scene.facts;
     if (frames === null) throw new Problem(filmProblem);
     const making = new FilmMaking();
     this.#showMaking(making, `Rendering ${frames.toLocaleString("en")} frames`);
     try {
-      const onProgress = share => byId("saving-progress").value = share;
-      return await making.make(this.#scene.source, ending,
+      const onProgress = done => byId("saving-progress").value = done;
+      return await making.make(this.#scene.source, extension,
         {seconds: frames * rate[1] / rate[0], onProgress});
     } finally {
       making.stop();
       const wasOnCancel = document.activeElement === byId("cancel");
       this.#showMaking(null, "");
-      const button = this.#buttons.find(one => one.dataset.save === ending);
+      const button = this.#buttons.find(one => one.dataset.save === extension);
       if (wasOnCancel) button.focus({preventScroll: true});
     }
   }
@@ -104,9 +104,9 @@ class Saving {
     }
   }
 
-  #download(bytes, name, ending) {
+  #download(bytes, name, extension) {
     if (this.#link) URL.revokeObjectURL(this.#link.href);
-    const href = URL.createObjectURL(new Blob([bytes], {type: MEDIA_TYPES[ending]}));
+    const href = URL.createObjectURL(new Blob([bytes], {type: MEDIA_TYPES[extension]}));
     this.#link = element("a", {href, download: name}, name);
     const size = bytes.length < 1e6 ? `${Math.ceil(bytes.length / 1e3)} kB`
       : `${(bytes.length / 1e6).toFixed(1)} MB`;

@@ -1,78 +1,16 @@
 // The scene that the page shows.
 // In: texts of scene files, edits of single keys, places in the film. Out: calls of `onPicture`,
-// `onOpened`, `onShown`, `onProblems`, `onPlaceProblem`: what the program makes of them.
+// `onOpened`, `onShown`, `onProblems`, `onPlaceProblem`, `onBusy`: what the program makes of them.
 
 /** A newer wish ends work that has lasted longer than this; longer each time, until work is done. */
 const PATIENCE_ms = 1500;
 const TOO_LONG = "Not applied: it took too long, and something else was asked for.";
 
-/** Keys that set the same value: an edit of one replaces those of the others. */
-const ALIKE = [["digits", "mass-ratio", "red.mass"], ["time.speed", "time.duration"]];
-const isAlike = (one, other) =>
-  one === other || ALIKE.some(keys => keys.includes(one) && keys.includes(other));
-
-/** What the program says of an edit, without the name of what was edited. */
-const wordsOf = (message, key) => message.split("\n")
-  .map(line => line.startsWith(`${key}: `) ? line.slice(key.length + 2) : line)
-  .map(line => line.replace(/^scene:\d+: /, ""));
-
-/** What it says of a text: of the lines of a file, or of bodies in a table. */
-function problemsOfText(message, key) {
-  return message.split("\n").map(line => {
-    if (key !== "bodies") return {key, words: line.replace(/^scene:(\d+):/, "line $1:")};
-    const words = line.replace(/^scene:\d+: /, "");
-    const [, body, property] = words.match(/^body (\d+)\.(\w+)/) ?? [];
-    return {key, words, body: Number(body), property};
-  });
-}
-
-/** Values of keys, in the order in which they were set; no two set the same. */
-class Edits {
-  #values;
-
-  constructor(values = []) {
-    this.#values = new Map(values);
-  }
-
-  get list() {
-    return [...this.#values];
-  }
-  get isEmpty() {
-    return this.#values.size === 0;
-  }
-  has([key, value]) {
-    return this.#values.get(key) === value;
-  }
-  hasKey(key) {
-    return this.#values.has(key);
-  }
-  set(key, value) {
-    for (const other of this.#values.keys()) {
-      if (isAlike(key, other)) this.#values.delete(other);
-    }
-    this.#values.set(key, value);
-  }
-  /** @returns whether it was there. */
-  delete(key) {
-    return this.#values.delete(key);
-  }
-  /** These, and then the others. */
-  with(others) {
-    const all = new Edits(this.#values);
-    for (const [key, value] of others) all.set(key, value);
-    return all;
-  }
-  /** The lines that the program reads. */
-  get lines() {
-    return this.list.map(([key, value]) => `${key}=${value}`).join("\n");
-  }
-}
-
-/** What the program tries: edits, and the text that comes from this key. */
-const NOTHING = {edits: [], key: null};
+/** What is being opened: the edits, and the source of the text: "text", "bodies", a key or null. */
+const NO_ATTEMPT = {edits: [], key: null};
 
 class Scene {
-  /** What the program says of the scene that it has taken last; null before the first one. */
+  /** What the program says of the scene that it accepted last; null before the first one. */
   facts = null;
   onOpened = () => {};
   onPicture = () => {};
@@ -85,22 +23,22 @@ class Scene {
 
   #program = new Program();
   #jobs = new NewestOnly();
-  /** The scene that the program has taken last: a text, edits of it, and the place that is shown. */
+  /** The scene that the program accepted last: a text, edits of it, and the place that is shown. */
   #text = "";
-  #taken = new Edits();
+  #accepted = new Edits();
   #place = {frame: 0};
-  /** Edits that the program has not taken yet, or has refused; the last one comes last. */
+  /** Edits that the program has not seen yet, or has refused; the last one comes last. */
   #edits = new Edits();
-  /** Texts {make(facts), place} that are to take the place of the scene, by what they come from. */
+  /** Scene files {make(facts), place} still to be opened, by their source: "text", "bodies" or a key. */
   #texts = new Map();
   /** A place that was asked for and not shown yet. */
   #wantedPlace = null;
   #wantsOpening = false;
-  /** Problems of texts that were refused and of edits that took too long, by what they come from. They
+  /** Problems of texts that were refused and of edits that took too long, by their source or key. They
    * are not tried again, but their messages stay. */
   #keptProblems = new Map();
   /** What the program is opening. */
-  #trying = NOTHING;
+  #attempt = NO_ATTEMPT;
   /** A promise that the program has the scene; null after a restart, until something needs the scene. */
   #reopened = null;
   /** When the program began its task; null while it has none. */
@@ -116,11 +54,11 @@ class Scene {
   }
   /** The scene as a scene file: its own text, if no field has changed it. */
   get text() {
-    return this.#taken.isEmpty ? this.#text : this.facts.toml;
+    return this.#accepted.isEmpty ? this.#text : this.facts.toml;
   }
   /** The same for other workers. */
   get source() {
-    return {text: this.#text, edits: this.#taken};
+    return {text: this.#text, edits: this.#accepted};
   }
 
   /** Shows another scene. @param place  in its film, as that of worker.js; or where it is now */
@@ -133,7 +71,7 @@ class Scene {
 
   /** Takes another text for the scene; edits that were refused stay.
    * @param make  the text from the scene's facts
-   * @param key  what it comes from: "bodies" or a key of the scene */
+   * @param key  its source: "bodies" or a key of the scene */
   replace(make, key) {
     this.#texts.delete(key);
     this.#texts.set(key, {make, place: null});
@@ -163,7 +101,7 @@ class Scene {
 
   /** Whether there is a newer value than that of the facts, of "text", "bodies" or a key. */
   isWaiting(key) {
-    return this.#edits.hasKey(key) || this.#texts.has(key) || this.#trying.key === key;
+    return this.#edits.hasKey(key) || this.#texts.has(key) || this.#attempt.key === key;
   }
 
   /** @param place  as that of worker.js, or {step: 1}: the next collision, {step: -1}: the one before */
@@ -184,7 +122,7 @@ class Scene {
     }
   }
 
-  /** Gives up what the program does, and goes on with what it has taken last. */
+  /** Ends what the program does, and goes on with the scene that it accepted last. */
   stop() {
     this.#forgetWishes();
     this.#keptProblems.clear();
@@ -194,7 +132,7 @@ class Scene {
   }
 
   #forgetWishes() {
-    this.#trying = NOTHING;
+    this.#attempt = NO_ATTEMPT;
     this.#edits = new Edits();
     this.#texts.clear();
     this.#wantedPlace = null;
@@ -231,9 +169,9 @@ class Scene {
     const program = this.#program;
     const places = [this.#place];
     try {
-      const {shown} = await program.call("open",
-        {text: this.#text, settings: this.#taken.lines, places});
-      this.onPicture(shown);
+      const {picture} = await program.call("open",
+        {text: this.#text, settings: this.#accepted.lines, places});
+      this.onPicture(picture);
     } catch (error) {
       if (program === this.#program) this.#reopened = null;
       throw error;
@@ -275,12 +213,12 @@ class Scene {
     this.#forgetWishes();
     this.#keptProblems.clear();
     if (this.facts) this.onOpened(this.facts);
-    const words = `The program crashed and was restarted; the last change was dropped (${message}).`;
+    const words = `The program crashed and was restarted; changes that it had not accepted were dropped (${message}).`;
     this.onProblems([{key: "program", words}]);
   }
 
   #leaveSlow() {
-    const {edits, key: keyOfText} = this.#trying;
+    const {edits, key: keyOfText} = this.#attempt;
     const keys = edits.filter(edit => this.#edits.has(edit)).map(([key]) => key);
     for (const key of keys) this.#edits.delete(key);
     if (keyOfText !== null && !this.#texts.has(keyOfText)) keys.push(keyOfText);
@@ -305,9 +243,9 @@ class Scene {
     this.#wantedPlace = null;
     if (wanted === null || !this.facts) return;
     try {
-      const shown = await this.#call("show", {place: wanted});
+      const picture = await this.#call("show", {place: wanted});
       // There may be no collision to step to.
-      if (shown) this.#showPlace(shown, wanted);
+      if (picture) this.#showPlace(picture, wanted);
       this.onPlaceProblem("");
     } catch (error) {
       if (!(error instanceof Problem)) throw error;
@@ -315,19 +253,19 @@ class Scene {
     }
   }
 
-  #showPlace(shown, wanted) {
-    const {frame, state} = shown.place;
+  #showPlace(picture, wanted) {
+    const {frame, state} = picture.shown;
     if (!wanted.step) this.#place = wanted;
     else this.#place = frame === null ? {instant: `#${JSON.parse(state).collisions}`} : {frame};
-    this.onPicture(shown);
-    this.onShown(shown.place);
+    this.onPicture(picture);
+    this.onShown(picture.shown);
   }
 
-  /** Opens a text with these edits, which are kept if the program takes them.
+  /** Opens a text with these edits, which are kept if the program accepts them.
    * @param place  to be shown, if another one than now
-   * @returns what the program says is wrong; empty if it has taken it. */
+   * @returns what the program says is wrong; empty if it has accepted the scene. */
   async #try(text, edits, place = null) {
-    // A step is one from what is shown.
+    // A step is relative to the picture that is shown, so it means nothing in another scene.
     const wanted = place ?? (this.#wantedPlace?.step ? null : this.#wantedPlace);
     const places = wanted ? [wanted, this.#place] : [this.#place];
     let answer;
@@ -337,11 +275,11 @@ class Scene {
       if (!(error instanceof Problem)) throw error;
       return error.message;
     }
-    this.#trying = NOTHING;
+    this.#attempt = NO_ATTEMPT;
     this.#reopened = Promise.resolve();
     this.facts = answer.facts;
     this.#text = text;
-    this.#taken = edits;
+    this.#accepted = edits;
     for (const edit of edits.list) {
       if (this.#edits.has(edit)) this.#edits.delete(edit[0]);
     }
@@ -356,10 +294,10 @@ class Scene {
   }
 
   /** The picture first: it is what a hand on a slider waits for. */
-  #tell({facts, shown, placeProblem}, wanted) {
-    this.onPicture(shown);
+  #tell({facts, picture, placeProblem}, wanted) {
+    this.onPicture(picture);
     this.onOpened(facts);
-    this.onShown(shown.place);
+    this.onShown(picture.shown);
     this.onPlaceProblem(wanted ? placeProblem : "");
   }
 
@@ -367,36 +305,36 @@ class Scene {
     const keysOfTexts = await this.#openTexts();
     const problems = this.facts ? await this.#tryEdits(this.#edits.list) : [];
     this.onProblems([...problems, ...this.#allKept]);
-    // A key that could not be given its default has its value again.
+    // The scene still has a value for this key, so the message need not stay.
     for (const key of keysOfTexts) {
       if (key !== "text" && key !== "bodies") this.#keptProblems.delete(key);
     }
-    this.#trying = NOTHING;
+    this.#attempt = NO_ATTEMPT;
     await this.#showWanted();
   }
 
   /** All edits together; if something is wrong, one by one, the newest first, so that what is wrong
    * with one does not hold up the others. */
   async #tryEdits(edits) {
-    this.#trying = {edits, key: null};
-    const message = edits.length > 0 ? await this.#try(this.#text, this.#taken.with(edits)) : "";
+    this.#attempt = {edits, key: null};
+    const message = edits.length > 0 ? await this.#try(this.#text, this.#accepted.with(edits)) : "";
     const problems = [];
     for (const edit of message ? edits.reverse() : []) {
       if (!this.#edits.has(edit)) continue;
-      this.#trying = {edits: [edit], key: null};
-      const words = edits.length > 1 ? await this.#try(this.#text, this.#taken.with([edit])) : message;
-      if (words) problems.push(...wordsOf(words, edit[0]).map(line => ({key: edit[0], words: line})));
+      this.#attempt = {edits: [edit], key: null};
+      const words = edits.length > 1 ? await this.#try(this.#text, this.#accepted.with([edit])) : message;
+      if (words) problems.push(...messageLines(words, edit[0]).map(line => ({key: edit[0], words: line})));
     }
     return problems;
   }
 
-  /** @returns what the texts come from that were refused. */
+  /** @returns the sources of the texts that were refused. */
   async #openTexts() {
     const refused = [];
     for (const [key, {make, place}] of this.#texts) {
       this.#texts.delete(key);
       this.#keptProblems.delete(key);
-      this.#trying = {edits: [], key};
+      this.#attempt = {edits: [], key};
       const message = await this.#try(make(this.facts), new Edits(), place);
       if (message === "") continue;
       this.#keptProblems.set(key, problemsOfText(message, key));

@@ -4,15 +4,15 @@
 
 let program;
 
-class Refusal extends Error {}
+class Problem extends Error {}
 
 /** The program refuses texts of this length. Longer ones are cut, since it has no room for them. */
 const REFUSED_LENGTH = (1 << 20) + 1;
 
-/** What the program can be given: it sees the end of a text in a letter 0. */
+/** Checks an argument. The program reads C strings, which end at the first NUL. */
 function argument(value) {
   if (typeof value !== "string") return value;
-  if (value.includes("\0")) throw new Refusal("scene: has a character U+0000");
+  if (value.includes("\0")) throw new Problem("scene: has a character U+0000");
   return value.slice(0, REFUSED_LENGTH);
 }
 
@@ -22,7 +22,7 @@ function ask(name, ...given) {
   const types = values.map(value => typeof value);
   const isDone = program.ccall(name, "boolean", types, values);
   const answer = program.ccall("live_answer", "string", [], []);
-  if (!isDone) throw new Refusal(answer);
+  if (!isDone) throw new Problem(answer);
   return answer;
 }
 
@@ -31,18 +31,19 @@ const bytesAt = (name, size) => {
   return program.HEAPU8.slice(start, start + size);
 };
 
-function take(name) {
+function readAndRemove(name) {
   const bytes = program.FS.readFile(name);
   program.FS.unlink(name);
   return bytes;
 }
 
-/** A place is a frame of the film {frame} or an instant {instant}. */
+/** The line that the program reads for a place: {frame} of the film, or {instant}. */
 const lineOf = ({frame, instant}) => instant === undefined ? `frame ${frame}` : `instant ${instant}`;
 
-/** What is shown, with the pixels that differ from the picture before. */
-function shownOf({place, rect: [x, y, width, height]}) {
-  return {place, x, y, width, height, pixels: bytesAt("live_pixels", 4 * width * height).buffer};
+/** The picture: the pixels of a rectangle outside of which it is the one before. `shown` is what it
+ * shows. */
+function pictureOf({shown, rect: [x, y, width, height]}) {
+  return {shown, x, y, width, height, pixels: bytesAt("live_pixels", 4 * width * height).buffer};
 }
 
 const tasks = {
@@ -59,28 +60,34 @@ const tasks = {
     program = await Promise.race([started, failure]);
     return JSON.parse(ask("live_program"));
   },
-  /** Shows the first of the places that the scene has; nothing if there are none. */
+  /** Opens a scene and shows the first of the places that it has, otherwise its start.
+   * @param places  if there are none, nothing is shown */
   open({text, settings, places = []}) {
-    const {facts, shown, placeProblem} =
+    const {facts, picture, placeProblem} =
       JSON.parse(ask("live_open", text, settings, places.map(lineOf).join("\n")));
-    return {facts, shown: shown && shownOf(shown), placeProblem};
+    return {facts, picture: picture && pictureOf(picture), placeProblem};
   },
-  /** @param place  or {step}: 1 is the next collision, -1 the one before. @returns null if there is none */
+  /** @param place  or {step}: 1 is the next collision, -1 the one before, or the start before the first
+   * @returns null if there is no such collision */
   show({place}) {
     const answer = place.step ? ask("live_step", place.step) : ask("live_show", lineOf(place));
-    const shown = JSON.parse(answer);
-    return shown && shownOf(shown);
+    const picture = JSON.parse(answer);
+    return picture && pictureOf(picture);
   },
   save({name}) {
     ask("live_save", name);
-    return take(name);
+    return readAndRemove(name);
   },
-  render: ({name, number, count}) => take(ask("live_render", name, number, count)),
-  join({name, parts}) {
-    parts.forEach((bytes, i) =>
-      program.FS.writeFile(`${name}.part-${i + 1}-of-${parts.length}`, bytes));
-    const whole = take(ask("live_join", name, parts.length));
-    parts.forEach((_, i) => program.FS.unlink(`${name}.part-${i + 1}-of-${parts.length}`));
+  /** @param number, count  the shard; count is 1 for the whole film */
+  render({name, number, count}) {
+    const file = ask("live_render", name, number, count);
+    return {file, bytes: readAndRemove(file)};
+  },
+  /** @param shards  {file, bytes} of all, as render() returns them */
+  join({name, shards}) {
+    for (const {file, bytes} of shards) program.FS.writeFile(file, bytes);
+    const whole = readAndRemove(ask("live_join", name, shards.length));
+    for (const {file} of shards) program.FS.unlink(file);
     return whole;
   },
   openSound: () => ask("live_open_sound"),
@@ -92,9 +99,10 @@ const tasks = {
 
 /** Memory that the page may have, instead of a copy. */
 function transferred(value) {
-  if (ArrayBuffer.isView(value)) return [value.buffer];
-  const shown = value?.shown ?? value;
-  return shown?.pixels ? [shown.pixels] : [];
+  const bytes = value?.bytes ?? value;
+  if (ArrayBuffer.isView(bytes)) return [bytes.buffer];
+  const picture = value?.picture ?? value;
+  return picture?.pixels ? [picture.pixels] : [];
 }
 
 self.onmessage = async ({data: {id, task, ...details}}) => {
@@ -102,7 +110,7 @@ self.onmessage = async ({data: {id, task, ...details}}) => {
     const value = await tasks[task](details);
     postMessage({id, value}, transferred(value));
   } catch (error) {
-    if (error instanceof Refusal) postMessage({id, problem: error.message});
+    if (error instanceof Problem) postMessage({id, problem: error.message});
     else postMessage({id, failure: String(error?.message ?? error)});
   }
 };

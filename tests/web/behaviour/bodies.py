@@ -54,11 +54,11 @@ def leaving_a_cell_after_another_scene(check):
     check.page.choose("three-blocks")
     check.page.value("check.cell(0, 'mass').focus()")
     check.page.choose("article")
-    check.page.value("check.later(50)")
+    check.page.value("check.later(400)")
     check.page.choose("three-blocks")
     check.page.value("check.cell(0, 'mass').focus()")
     check.page.choose("storyboard")
-    check.page.value("(document.activeElement.blur(), check.later(50))")
+    check.page.value("(document.activeElement.blur(), check.later(400))")  # the page waits 300 ms
     check.expect_fields_of("storyboard")
 
 

@@ -36,7 +36,7 @@ def link_with_a_text_that_is_refused(check):
     _load_refused(check)
     check.expect("the text", check.value("text"), REFUSED)
     check.expect("its message", "mass" in check.said("text-problem"))
-    check.expect("something is shown", check.page.read_outs() != {})
+    check.expect("something is shown", check.page.state_rows() != {})
     check.page.choose("article")
     check.expect("the scene's text", check.value("text"), check.scene("article"))
     check.expect_fields_of("article")

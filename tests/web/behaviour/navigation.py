@@ -3,6 +3,9 @@
 In: a Check. Out: its faults.
 """
 
+import io
+import wave
+
 # Two pairs meet at the same time, and then the inner ones.
 PAIRS = """view.size = "640x360"
 [[body]]
@@ -148,7 +151,7 @@ def keys_in_a_field_are_its_own(check):
 
 
 def _click_picture(check, button, buttons):
-    left, top, width, height = check.browser.place("document.getElementById('picture')")
+    left, top, width, height = check.browser.rect("document.getElementById('picture')")
     for kind in ("mousePressed", "mouseReleased"):
         check.browser.call("Input.dispatchMouseEvent", type=kind, x=left + width / 2, y=top + height / 2,
                            button=button, buttons=buttons if kind == "mousePressed" else 0, clickCount=1)
@@ -189,6 +192,49 @@ def film_goes_on_while_it_is_edited(check):
     check.expect("another scene begins still", (check.page.text("play"), check.frame()), ("Play", 1))
 
 
+# Keeps the left and right samples that are played, in turn, and when they begin.
+LISTEN = """window.heard = [];
+const start = AudioBufferSourceNode.prototype.start;
+AudioBufferSourceNode.prototype.start = function(...details) {
+  const [left, right] = [0, 1].map(side => this.buffer.getChannelData(side));
+  left.forEach((sample, i) => heard.push(sample, right[i]));
+  start.apply(this, details);
+};"""
+
+
+def _samples_of_wav(data):
+    with wave.open(io.BytesIO(data)) as file:
+        bits = 8 * file.getsampwidth()
+        words = file.readframes(file.getnframes())
+    step = bits // 8
+    return [int.from_bytes(words[i:i + step], "little", signed=True) / 2 ** (bits - 1)
+            for i in range(0, len(words), step)]
+
+
+def samples_that_are_played_are_those_of_the_wav(check):
+    check.page.choose("article")
+    check.page.run(LISTEN)
+    check.page.go("turn")
+    frame = int(check.value("time-slider"))
+    check.page.press("sound")
+    check.page.press("play")
+    check.page.value("check.until('sound', () => heard.length > 0)")
+    check.page.press("play")
+    heard = check.page.value("heard.slice(0, 20000)")
+    wav, _ = check.page.save("wav")
+    first = 2 * frame * 48000 // 60
+    expected = _samples_of_wav(wav)[first:first + len(heard)]
+    check.expect("loud enough", max(map(abs, expected)) > 0.01)
+    different = max(abs(one - other) for one, other in zip(heard, expected))
+    check.expect(f"samples that differ, by {different}", different < 2 / 2 ** 23)
+    check.expect("messages", check.said("sound-problem"), "")
+
+
+def _expect_sound(check, what):
+    is_on = check.page.value("document.getElementById('sound').getAttribute('aria-pressed')")
+    check.expect(f"{what}: sound is on", (is_on, check.said("sound-problem")), ("true", ""))
+
+
 def film_plays_with_sound(check):
     """As far as a browser without loudspeakers tells."""
     check.page.choose("lecture")
@@ -196,9 +242,11 @@ def film_plays_with_sound(check):
     check.browser.click("document.getElementById('play')")
     check.page.value("check.later(500)")
     check.expect("plays", _played_frames(check) > 5)
+    _expect_sound(check, "at first")
     check.page.call("moveSlider", "red.velocity", -2)
     check.page.value("check.later(500)")
     check.expect("plays on", (check.page.text("play"), _played_frames(check) > 5), ("Pause", True))
+    _expect_sound(check, "after an edit")
     check.browser.click("document.getElementById('sound')")
     check.expect("plays on without", (check.page.text("play"), _played_frames(check) > 5), ("Pause", True))
     check.browser.click("document.getElementById('play')")
