@@ -199,7 +199,7 @@ std::vector<float> samples_of_wav(const std::string& bytes) {
 TEST(LiveSound, IsThatOfTheFile) {
   const testing_support::TemporaryFolder folder;
   RenderJob job{.script = script_of(kSmall), .output = folder / "sound.wav"};
-  render(job);
+  render(job, [](const Progress&) {});
   const std::vector<float> expected = samples_of_wav(testing_support::file_contents(job.output));
   LiveSound sound(job.script);
   sound.read(0, sound.size());
