@@ -100,6 +100,11 @@ class Browser:
                 if "error" in message:
                     sys.exit(f"browser: {method}: {message['error']}")
                 return message["result"]
+            self._keep(message)
+
+    def _keep(self, message):
+        """Answers of workers are not asked for."""
+        if "method" in message:
             self.events.append(message)
 
     def show(self, path):
@@ -116,7 +121,7 @@ class Browser:
         self.events.clear()
         self.call(method, **parameters)
         while not any(event["method"] == "Page.loadEventFired" for event in self.events):
-            self.events.append(self._next_message())
+            self._keep(self._next_message())
 
     def resize(self, width, height, zoom=1):
         """The window, in CSS pixels, each of which is so many of the screen's."""
