@@ -46,6 +46,29 @@ double reach_of(const DiscItem& disc) {
   return disc.radius + (disc.stroke ? disc.stroke->width_px / 2 : 0);
 }
 
+/// Whether the plates have the same pixels, wherever they are.
+bool has_same_pixels(const PlateItem& a, const PlateItem& b) {
+  return a.bounds.width == b.bounds.width && a.bounds.height == b.bounds.height &&
+         a.bounds.x - a.origin.x == b.bounds.x - b.origin.x &&
+         a.bounds.y - a.origin.y == b.bounds.y - b.origin.y && *a.plate == *b.plate;
+}
+
+/// These pixels were painted last now.
+template <typename Kept>
+cairo_surface_t& use(std::vector<Kept>& all, typename std::vector<Kept>::iterator kept) {
+  std::rotate(kept, kept + 1, all.end());
+  return *all.back().pixels;
+}
+
+/// A long film does not need any more what it has not shown for the longest time.
+template <typename Kept>
+cairo_surface_t& keep(std::vector<Kept>& all, Kept added) {
+  constexpr std::size_t kMostKept = 40;
+  if (all.size() == kMostKept) all.erase(all.begin());
+  all.push_back(std::move(added));
+  return *all.back().pixels;
+}
+
 double nearest_place(double px) { return std::round(px / kDiscStep_px) * kDiscStep_px; }
 
 }  // namespace
@@ -142,7 +165,7 @@ void Painter::paint_disc(cairo_t& cr, const DiscItem& item) {
 }
 
 void Painter::paint_image(cairo_t& cr, const ImageItem& item) {
-  cairo_surface_t& pixels = kept_pixels(item.image, [&] { return premultiplied(*item.image); });
+  cairo_surface_t& pixels = kept_pixels(item.image);
   cairo_save(&cr);
   cairo_translate(&cr, item.bounds.x, item.bounds.y);
   cairo_scale(&cr, item.bounds.width / item.image->width_px,
@@ -160,7 +183,7 @@ void Painter::paint_plate(cairo_t& cr, const PlateItem& item) {
     cairo_restore(&cr);
     return;
   }
-  copy_pixels(cr, kept_pixels(item.plate, [&] { return pixels_of(item); }), item.bounds);
+  copy_pixels(cr, kept_pixels(item), item.bounds);
 }
 
 CairoSurfacePtr Painter::pixels_of(const PlateItem& item) {
@@ -175,19 +198,20 @@ CairoSurfacePtr Painter::pixels_of(const PlateItem& item) {
   return pixels;
 }
 
-cairo_surface_t& Painter::kept_pixels(std::shared_ptr<const void> source,
-                                      const std::function<CairoSurfacePtr()>& make) {
-  const auto kept = std::ranges::find(kept_, source, &KeptPixels::source);
-  if (kept != kept_.end()) {
-    std::rotate(kept, kept + 1, kept_.end());
-    return *kept_.back().pixels;
-  }
-  CairoSurfacePtr pixels = make();
-  // A long film does not need any more what it has not shown for the longest time.
-  constexpr std::size_t kMostKept = 40;
-  if (kept_.size() == kMostKept) kept_.erase(kept_.begin());
-  kept_.push_back({std::move(source), std::move(pixels)});
-  return *kept_.back().pixels;
+cairo_surface_t& Painter::kept_pixels(const PlateItem& item) {
+  const auto kept = std::ranges::find(plates_, item.plate.get(),
+                                      [](const KeptPlate& one) { return one.source.plate.get(); });
+  if (kept != plates_.end()) return use(plates_, kept);
+  // The plate of another run may have the same items, as after a change of the scene.
+  const auto equal = std::ranges::find_if(
+      plates_, [&](const KeptPlate& one) { return has_same_pixels(one.source, item); });
+  return keep(plates_, KeptPlate{item, equal != plates_.end() ? equal->pixels : pixels_of(item)});
+}
+
+cairo_surface_t& Painter::kept_pixels(const std::shared_ptr<const Image>& image) {
+  const auto kept = std::ranges::find(images_, image, &KeptImage::source);
+  if (kept != images_.end()) return use(images_, kept);
+  return keep(images_, KeptImage{image, premultiplied(*image)});
 }
 
 /// A vector file can only paint a group over what is behind it.

@@ -6,7 +6,6 @@
 #include <piblocks/image.hpp>
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -61,6 +60,10 @@ class Painter {
   void paint_image(cairo_t& cr, const ImageItem& item);
   void paint_plate(cairo_t& cr, const PlateItem& item);
   CairoSurfacePtr pixels_of(const PlateItem& item);
+  /// The pixels of this plate, made when a plate of these items is painted first.
+  cairo_surface_t& kept_pixels(const PlateItem& item);
+  /// The pixels of this image, made when it is painted first.
+  cairo_surface_t& kept_pixels(const std::shared_ptr<const Image>& image);
   void paint_group(cairo_t& cr, const GroupItem& item, const PixelRect& area);
   void paint_group_pixels(cairo_t& cr, const GroupItem& item, const PixelRect& area);
   void paint_exposed(cairo_t& cr, const ExposedBlocksItem& item, const PixelRect& area);
@@ -71,20 +74,23 @@ class Painter {
   void embed_exposed(cairo_t& cr, const Item& item, const DrawList& list);
   void paint_still(cairo_t& cr, const ExposedBlocksItem& item);
   void paint_still(cairo_t& /*cr*/, const ExposedDiscsItem& /*item*/) {}
-  /// The pixels of this plate or image, made when it is painted first.
-  cairo_surface_t& kept_pixels(std::shared_ptr<const void> source,
-                               const std::function<CairoSurfacePtr()>& make);
 
   TextSetting setting_;
   Fonts fonts_;
   std::unique_ptr<Light> light_;
   std::vector<std::uint32_t> background_;  ///< of exposed blocks; kept for its memory
   std::unique_ptr<DiscExposure> disc_exposure_;
-  struct KeptPixels {
-    std::shared_ptr<const void> source;  ///< held, so that its address stays its own
-    CairoSurfacePtr pixels;
+  /// Pixels of a source, which is held, so that its address stays its own.
+  template <typename Source>
+  struct Kept {
+    Source source;
+    std::shared_ptr<cairo_surface_t> pixels;
   };
-  std::vector<KeptPixels> kept_;
+  using KeptPlate = Kept<PlateItem>;
+  using KeptImage = Kept<std::shared_ptr<const Image>>;
+  // Those that were painted last are at the end.
+  std::vector<KeptPlate> plates_;
+  std::vector<KeptImage> images_;
   struct KeptDisc {
     DiscItem disc;  ///< in the surface, without an id
     CairoSurfacePtr pixels;

@@ -115,6 +115,32 @@ std::uint32_t word(const Canvas& canvas, int x, int y) {
   return value;
 }
 
+/// A plate of its own in each list, with the same disc in all.
+DrawList with_plate(const Rectangle& bounds, const Point& origin) {
+  const DiscItem disc{ItemId::blue_block, {20.5, 15.25}, 9, kGreen, std::nullopt};
+  const auto plate = std::make_shared<const Plate>(Plate{{disc}});
+  return {60, 40, kWhite, {PlateItem{ItemId::panels, bounds, plate, origin}}};
+}
+
+TEST(Canvas, PlatesOfEqualItemsMayHaveOtherPixels) {
+  Canvas canvas(60, 40);
+  for (const Rectangle& bounds :
+       {Rectangle{10, 5, 16, 20}, {10, 5, 20, 12}, {10, 5, 20, 20}, {14, 5, 20, 20}}) {
+    for (const Point& origin : {Point{0, 0}, Point{4, 0}, Point{0, 3}}) {
+      for (const double right : {0.0, 7.0, 7.0}) {
+        const DrawList list = with_plate({bounds.x + right, bounds.y, bounds.width, bounds.height},
+                                         {origin.x + right, origin.y});
+        Canvas fresh(60, 40);
+        fresh.paint(list);
+        canvas.paint(list);
+        const std::size_t size = std::size_t(canvas.view().stride_bytes) * 40;
+        EXPECT_EQ(std::memcmp(canvas.view().row(0), fresh.view().row(0), size), 0)
+            << bounds.width << ' ' << bounds.x << ' ' << origin.x << ' ' << origin.y;
+      }
+    }
+  }
+}
+
 TEST(Canvas, WithoutABackgroundHasAlphaAndColoursMultipliedByIt) {
   DrawList list = with_rectangle({10.25, 5, 20, 10});
   list.background.reset();
