@@ -40,6 +40,9 @@ class Browser:
         self._session = {"sessionId": session}
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(domain + ".enable")
+
+    def watch_workers(self):
+        """From now on take_exceptions(), take_requests() and take_log() tell of workers, too."""
         self.call("Target.setAutoAttach", autoAttach=True, waitForDebuggerOnStart=True, flatten=True)
 
     def close(self):
@@ -67,18 +70,17 @@ class Browser:
                 self._send(command, {}, session)
 
     def take_exceptions(self):
-        """What escaped, promises too, in all pages and workers since the last call, from their first
-        script on."""
+        """What escaped, promises too, in all pages since the last call, from their first script on."""
         thrown = [(one["exceptionDetails"]["text"], one["exceptionDetails"].get("exception", {}))
                   for one in self._take("Runtime.exceptionThrown")]
         return [f"{text} {value.get('description', value.get('value', ''))}" for text, value in thrown]
 
     def take_requests(self):
-        """Addresses that all pages and workers have asked for since the last call."""
+        """Addresses that all pages have asked for since the last call."""
         return [one["request"]["url"] for one in self._take("Network.requestWillBeSent")]
 
     def take_log(self):
-        """What the browser itself has said of all pages and workers since the last call."""
+        """What the browser itself has said of all pages since the last call."""
         return [one["entry"]["text"] for one in self._take("Log.entryAdded")]
 
     def _take(self, method):

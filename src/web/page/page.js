@@ -95,8 +95,10 @@ scene.onPicture = ({x, y, width, height, pixels}) => {
     picture.height = facts.height;
   }
   if (width > 0) {
-    canvas.putImageData(new ImageData(new Uint8ClampedArray(pixels), width, height), x, y);
+    const bytes = new Uint8ClampedArray(pixels, 0, 4 * width * height);
+    canvas.putImageData(new ImageData(bytes, width, height), x, y);
   }
+  scene.recycle(pixels);
 };
 
 scene.onShown = now => {

@@ -110,6 +110,11 @@ class Scene {
     this.#work();
   }
 
+  /** Gives back the memory of a picture that is on the canvas. */
+  recycle(pixels) {
+    this.#program.call("recycle", {pixels}, [pixels]).catch(() => {});
+  }
+
   /** A file of what is shown. */
   async save(name) {
     ++this.#saves;

@@ -26,10 +26,22 @@ function ask(name, ...given) {
   return answer;
 }
 
-const bytesAt = (name, size) => {
+/** The program's own memory, which it writes to in the next task. */
+function memoryAt(name, size) {
   const start = program.ccall(name, "pointer", [], []);
-  return program.HEAPU8.slice(start, start + size);
-};
+  return program.HEAPU8.subarray(start, start + size);
+}
+
+/** Memory of an earlier picture, for the next one: new memory takes longer than its pixels. */
+let spare = new ArrayBuffer(0);
+
+/** @returns memory that begins with these bytes. */
+function copied(bytes) {
+  const memory = spare.byteLength < bytes.length ? new ArrayBuffer(bytes.length) : spare;
+  spare = new ArrayBuffer(0);
+  new Uint8Array(memory).set(bytes);
+  return memory;
+}
 
 function readAndRemove(name) {
   const bytes = program.FS.readFile(name);
@@ -40,10 +52,10 @@ function readAndRemove(name) {
 /** The line that the program reads for a place: {frame} of the film, or {instant}. */
 const lineOf = ({frame, instant}) => instant === undefined ? `frame ${frame}` : `instant ${instant}`;
 
-/** The picture: the pixels of a rectangle outside of which it is the one before. `shown` is what it
- * shows. */
+/** The picture: `pixels` begins with those of a rectangle, outside of which it is the one before;
+ * `shown` is what it shows. */
 function pictureOf({shown, rect: [x, y, width, height]}) {
-  return {shown, x, y, width, height, pixels: bytesAt("live_pixels", 4 * width * height).buffer};
+  return {shown, x, y, width, height, pixels: copied(memoryAt("live_pixels", 4 * width * height))};
 }
 
 const tasks = {
@@ -74,6 +86,10 @@ const tasks = {
     const picture = JSON.parse(answer);
     return picture && pictureOf(picture);
   },
+  /** Takes back the memory of a picture. */
+  recycle({pixels}) {
+    spare = pixels;
+  },
   save({name}) {
     ask("live_save", name);
     return readAndRemove(name);
@@ -93,7 +109,7 @@ const tasks = {
   openSound: () => ask("live_open_sound"),
   readSound({first, count}) {
     const pairs = Number(ask("live_read_sound", first, count));
-    return new Float32Array(bytesAt("live_samples", 8 * pairs).buffer);
+    return new Float32Array(memoryAt("live_samples", 8 * pairs).slice().buffer);
   },
 };
 

@@ -28,6 +28,9 @@ class Firefox:
         self.call("WebDriver:NewSession")
         self.call("WebDriver:SetTimeouts", script=600000)
 
+    def watch_workers(self):
+        """The browser's own console tells of workers anyway."""
+
     def close(self):
         self._process.terminate()
         self._process.wait()
