@@ -205,7 +205,9 @@ cairo_surface_t& Painter::kept_pixels(const PlateItem& item) {
   // The plate of another run may have the same items, as after a change of the scene.
   const auto equal = std::ranges::find_if(
       plates_, [&](const KeptPlate& one) { return has_same_pixels(one.source, item); });
-  return keep(plates_, KeptPlate{item, equal != plates_.end() ? equal->pixels : pixels_of(item)});
+  if (equal == plates_.end()) return keep(plates_, KeptPlate{item, pixels_of(item)});
+  equal->source = item;
+  return use(plates_, equal);
 }
 
 cairo_surface_t& Painter::kept_pixels(const std::shared_ptr<const Image>& image) {

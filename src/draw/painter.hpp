@@ -84,7 +84,7 @@ class Painter {
   template <typename Source>
   struct Kept {
     Source source;
-    std::shared_ptr<cairo_surface_t> pixels;
+    CairoSurfacePtr pixels;
   };
   using KeptPlate = Kept<PlateItem>;
   using KeptImage = Kept<std::shared_ptr<const Image>>;

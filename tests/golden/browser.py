@@ -35,6 +35,8 @@ class Browser:
         self._number = 0
         self._noted = {name: [] for name in NOTED}
         self.events = []
+        self.workers = 0  # that were watched
+        self._of_workers = set()  # numbers of what they were told
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         self._session = {"sessionId": session}
@@ -42,7 +44,7 @@ class Browser:
             self.call(domain + ".enable")
 
     def watch_workers(self):
-        """From now on take_exceptions(), take_requests() and take_log() tell of workers, too."""
+        """From now on take_exceptions() and take_requests() tell of workers, too."""
         self.call("Target.setAutoAttach", autoAttach=True, waitForDebuggerOnStart=True, flatten=True)
 
     def close(self):
@@ -65,9 +67,10 @@ class Browser:
         if method in NOTED:
             self._noted[method].append(parameters)
         elif method == "Target.attachedToTarget" and "sessionId" in self._session:
+            self.workers += 1
             session = {"sessionId": parameters["sessionId"]}
             for command in ("Network.enable", "Runtime.enable", "Runtime.runIfWaitingForDebugger"):
-                self._send(command, {}, session)
+                self._of_workers.add(self._send(command, {}, session))
 
     def take_exceptions(self):
         """What escaped, promises too, in all pages since the last call, from their first script on."""
@@ -105,9 +108,12 @@ class Browser:
             self._keep(message)
 
     def _keep(self, message):
-        """Answers of workers are not asked for."""
         if "method" in message:
             self.events.append(message)
+        elif message["id"] in self._of_workers and "error" in message:
+            # A worker may have ended before it was watched.
+            if "Session with given id not found" not in message["error"]["message"]:
+                sys.exit(f"browser: a worker cannot be watched: {message['error']}")
 
     def show(self, path):
         self.show_address(path.as_uri())

@@ -98,7 +98,8 @@ scene.onPicture = ({x, y, width, height, pixels}) => {
     const bytes = new Uint8ClampedArray(pixels, 0, 4 * width * height);
     canvas.putImageData(new ImageData(bytes, width, height), x, y);
   }
-  scene.recycle(pixels);
+  // Memory that is too large for this picture goes.
+  if (pixels.byteLength <= 4 * facts.width * facts.height) scene.recycle(pixels);
 };
 
 scene.onShown = now => {
