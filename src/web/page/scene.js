@@ -330,7 +330,8 @@ class Scene {
       const words = edits.length > 1 ? await this.#try(this.#text, this.#accepted.with([edit])) : message;
       if (words) problems.push(...messageLines(words, edit[0]).map(line => ({key: edit[0], words: line})));
     }
-    return problems;
+    // What was accepted last may have made a scene that has no such field: its edit was dropped.
+    return problems.filter(({key}) => this.#edits.hasKey(key));
   }
 
   /** @returns the sources of the texts that were refused. */
