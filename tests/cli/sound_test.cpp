@@ -147,19 +147,6 @@ TEST_F(SoundTest, StaysBelowFullScaleForFfmpegToo) {
   }
 }
 
-TEST_F(SoundTest, HasTheSameBytesByAnyNumberOfThreadsAndInParts) {
-  const Arguments render = Arguments{"render", "--sound", "--to", "5", "-o"};
-  output_of(render + Arguments{"a.mp4", "--jobs", "1"} + kSmallSound);
-  output_of(render + Arguments{"b.mp4", "--jobs", "2"} + kSmallSound);
-  EXPECT_TRUE(contents("a.mp4") == contents("b.mp4"));
-  for (const char* part : {"1/3", "2/3", "3/3"}) {
-    output_of(render + Arguments{"c.mp4", "--part", part} + kSmallSound);
-  }
-  output_of({"join", "--quiet", "c.mp4.part-3-of-3", "c.mp4.part-1-of-3", "c.mp4.part-2-of-3", "-o",
-             "c.mp4"});
-  EXPECT_TRUE(contents("a.mp4") == contents("c.mp4"));
-}
-
 TEST_F(SoundTest, IsAKeyOfTheScene) {
   write("scene.toml", "[sound]\non = true\n");
   output_of(Arguments{"render", "scene.toml", "--to", "1", "-o", "on.mp4"} + kSmallSound);

@@ -217,7 +217,7 @@ void add_or_remove(Random& random, DrawList& list) {
 TEST(Region, OfRandomPicturesIsExact) {
   Random random(271);
   SCOPED_TRACE(random.trace());
-  for (int i = 0; i < many(96); ++i) {
+  for (int i = 0; i < many(100); ++i) {
     // Some are large enough for slanted lines to be cut.
     const int larger = i % 16 == 0 ? 4 : 1;
     const int width = static_cast<int>(random.integer(1, larger * 90));
@@ -240,7 +240,7 @@ TEST(Region, OfRandomPicturesIsExact) {
 TEST(Region, OfItemsThatComeAndGoIsExact) {
   Random random(828);
   SCOPED_TRACE(random.trace());
-  for (int i = 0; i < many(50); ++i) {
+  for (int i = 0; i < 200; ++i) {
     const int width = static_cast<int>(random.integer(1, 90));
     const int height = static_cast<int>(random.integer(1, 70));
     DrawList list{width, height, any_color(random), {}};
