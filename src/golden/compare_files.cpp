@@ -154,16 +154,18 @@ class FrameComparer {
   }
 
  private:
-  /// A call that was broken off has failed for no reason of its own.
   void check_stop() const {
     if (stop_.stop_requested()) throw Interrupted("compare: interrupted");
   }
-  static Fetched fetch(FrameSide& side) {
+  /// A call that was broken off has failed for no reason of its own.
+  Fetched fetch(FrameSide& side) const {
     try {
       return {side.fetch(), {}};
     } catch (const IoError& error) {
+      if (stop_.stop_requested()) throw;
       return {true, error.what()};
     } catch (const MediaError& error) {
+      if (stop_.stop_requested()) throw;
       return {true, error.what()};
     }
   }
