@@ -88,9 +88,15 @@ class Reports {
   void finish(const ComparisonJob& job, const ComparisonResult& result) {
     for (auto& report : reports_) attempt(report, [&] { report->finish(job, result); });
   }
-  /// @throws what the first that failed has thrown
-  void check() const {
-    if (failure_) std::rethrow_exception(failure_);
+  /// @throws what the first that failed has thrown; but if the exit code is another one anyhow,
+  ///         a failed write is only printed.
+  void check(int exit_code) const {
+    try {
+      if (failure_) std::rethrow_exception(failure_);
+    } catch (const IoError& error) {
+      if (exit_code <= kFailed) throw;
+      say("piblocks: {}\n", error.what());
+    }
   }
 
  private:
@@ -172,8 +178,9 @@ void run_compare(const Command& options) {
       signals.token());
   reports.finish(job, result);
   printer.finish(job, result);
-  reports.check();
-  if (const int code = exit_code_of(result); code != 0) {
+  const int code = exit_code_of(result);
+  reports.check(code);
+  if (code != 0) {
     // Only a side without a frame, or without partners for one, has a problem as a whole.
     throw ExitError(code, result.problem.empty() ? "" : "compare: " + result.problem);
   }
