@@ -291,7 +291,11 @@ void compare_lists(const ComparisonJob& job, Rows& rows, FrameComparer& comparer
   const PictureList actual = list_pictures(job.actual, job.is_recursive);
   std::vector<PlacedPicture> expected;
   std::vector<PlacedPicture> found;
-  bool has_pair = reference.pictures.empty() || actual.pictures.empty();
+  const auto is_open = [](const PictureList& list) {
+    return !list.pictures.empty() &&
+           std::ranges::all_of(list.pictures, &std::string::empty, &ListedPicture::problem);
+  };
+  bool has_pair = !is_open(reference) || !is_open(actual);
   std::int64_t step = 0;
   for (const PicturePair& pair : paired(reference, actual)) {
     if (pair.reference) expected.push_back({step, reference.pictures[*pair.reference]});
@@ -303,8 +307,8 @@ void compare_lists(const ComparisonJob& job, Rows& rows, FrameComparer& comparer
   rows.set_problem(actual.problem);
   if (!has_pair) {
     rows.set_problem(
-        fmt::format("no picture of '{}' has the name of one of '{}', and pictures are "
-                    "paired by name",
+        fmt::format("no picture of '{}' has the name of one of '{}'; patterns such as "
+                    "FOLDER/%06d.png pair pictures by number",
                     job.actual, job.reference));
   }
   comparer.run(*picture_side(std::move(expected)), *picture_side(std::move(found)));

@@ -355,7 +355,7 @@ TEST_F(CompareTest, WhatMayNotBeLookedAtCannotBeRead) {
   const std::vector<std::pair<Arguments, std::string>> cases = {
       {{"closed/1.png", "1.png"}, "cannot read 'closed/1.png': Permission denied"},
       {{"1.png", "closed/1.png"}, "cannot read 'closed/1.png': Permission denied"},
-      {{"closed/%d.png", "1.png"}, "cannot read 'closed/%d.png': Permission denied"},
+      {{"closed/%d.png", "1.png"}, "cannot read 'closed/1.png': Permission denied"},
       {{"closed/a.framehash", "closed/a.framehash"}, "'closed/a.framehash': Permission denied"},
       {{long_name, "1.png"}, "x.png': File name too long"}};
   for (const auto& [arguments, message] : cases) {
@@ -365,6 +365,19 @@ TEST_F(CompareTest, WhatMayNotBeLookedAtCannotBeRead) {
     EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
     EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
   }
+  // What is in a folder that cannot be read is neither missing nor new.
+  output_of({"still", "--size", "64x36", "--at", "1", "-o", "a/s/1.png"});
+  output_of({"still", "--size", "64x36", "--at", "1", "-o", "b/s/1.png"});
+  fs::permissions(folder_ / "b/s", fs::perms(0000));
+  for (const Arguments& sides :
+       {Arguments{"a", "b"}, {"b", "a"}, {"a/s", "b/s"}, {"a/s/%d.png", "b/s/%d.png"}}) {
+    const testing_support::OrdinaryUser user;
+    const CommandResult result = piblocks(Arguments{"compare"} + sides);
+    EXPECT_EQ(result.exit_code, 5) << result.out;
+    EXPECT_EQ(result.out, "unreadable: 1 unreadable\n");
+    EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
+  }
+  fs::permissions(folder_ / "b/s", fs::perms(0700));
   fs::permissions(folder_ / "closed", fs::perms(0700));
 }
 
