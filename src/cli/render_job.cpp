@@ -75,6 +75,9 @@ RenderJob job_of(const OptionTexts& options, const std::string& output,
     throw UsageError(
         fmt::format("--no-sound: '{}' is the sound alone; leave one of them out", output));
   }
+  if (options.is_given("--sound") && !takes_sound(output)) {
+    throw UsageError("--sound: " + no_sound_in(output));
+  }
   return {.script = std::move(script),
           .output = output,
           .encoder = std::move(settings),
