@@ -93,15 +93,17 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Parts, BadInputTest,
-    testing::Values(BadInput{render({"--part", "0/3"}), "--part 0/3: must be a whole number"},
-                    BadInput{render({"--part", "4/3"}), "--part 4/3: must be a whole number"},
-                    BadInput{render({"--part", "1/0"}), "--part 1/0: must be a whole number"},
-                    BadInput{render({"--part", "1"}), "--part 1: must be I/N, such as 2/3"},
-                    BadInput{render({"--part", "1/2/3"}), "--part 1/2/3: must be a whole number"},
-                    BadInput{render({"--part", "-1/3"}), "--part -1/3: must be a whole number"},
-                    BadInput{{"render", "--part", "1/2", "-o", "null"},
-                             "no parts of output 'null'"},
-                    BadInput{{"render", "--part", "1/2", "-o", "-"}, "no parts of output '-'"}));
+    testing::Values(
+        BadInput{render({"--part", "0/3"}), "--part 0/3: must be I/N, such as 2/3: I from 1 to N"},
+        BadInput{render({"--part", "4/3"}), "--part 4/3: must be I/N, such as 2/3: I from 1 to N"},
+        BadInput{render({"--part", "1/0"}), "--part 1/0: must be I/N, such as 2/3: I from 1 to N"},
+        BadInput{render({"--part", "1"}), "--part 1: must be I/N, such as 2/3"},
+        BadInput{render({"--part", "1/2/3"}),
+                 "--part 1/2/3: must be I/N, such as 2/3: I from 1 to N"},
+        BadInput{render({"--part", "-1/3"}),
+                 "--part -1/3: must be I/N, such as 2/3: I from 1 to N"},
+        BadInput{{"render", "--part", "1/2", "-o", "null"}, "no parts of output 'null'"},
+        BadInput{{"render", "--part", "1/2", "-o", "-"}, "no parts of output '-'"}));
 
 INSTANTIATE_TEST_SUITE_P(
     System, BadInputTest,
@@ -149,7 +151,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"count", "--mass-ratio", "2^4000001"}, "longer than"},
         BadInput{{"count", "scene.toml"}, "longer than 1048576 bytes", std::string(1048577, '#')},
         BadInput{{"count", "scene.toml"}, "scene.toml:1: ", "a = " + std::string(257, '[')},
-        BadInput{render({"--part", "1/100001"}), "--part 1/100001: must be a whole number"},
+        BadInput{render({"--part", "1/100001"}),
+                 "--part 1/100001: must be I/N, such as 2/3: I from 1 to N"},
         BadInput{render({"--jobs", "257"}), "--jobs 257: must be a whole number from 1 to 256"},
         BadInput{{"count", "scene.toml"},
                  "scene.toml:4: a key has more than 16 parts",
@@ -319,6 +322,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"render", "-o", "a.mov", "--size", "65x36"}, "H.264 in 4:2:0 needs even sides"},
         BadInput{render({"--for", "cinema"}),
                  "--for cinema: must be one of: powerpoint, keynote, web, editor, shorts, beamer"},
+        BadInput{render({"--for", "powrpoint"}), "did you mean 'powerpoint'?"},
+        BadInput{render({"--encoder", "libx246"}), "did you mean 'libx264'?"},
+        BadInput{render({"--encoder", "libx264", "--preset", "veryfst"}),
+                 "did you mean 'veryfast'?"},
+        BadInput{{"render", "-o", "a.webm", "--encoder", "libvpx"}, "did you mean 'libvpx-vp9'?"},
+        BadInput{{"log", "--engine", "unfoldd"}, "did you mean 'unfolded'?"},
         BadInput{render({"--for", "editor"}),
                  "--for editor: cannot use 'a.mp4' there; write one of: *.mov, *.png"},
         BadInput{{"sheet", "-o", "a.jpg"}, "sheet: 'a.jpg' has no known ending; use .pdf"},
