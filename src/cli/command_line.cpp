@@ -3,7 +3,6 @@
 #include <piblocks/error.hpp>
 #include <piblocks/version.hpp>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -233,24 +232,13 @@ class ArgumentReader {
   std::string problem_;  ///< the first one
 };
 
-bool names_command(const CLI::App& app, const std::vector<std::string>& words) {
-  const CLI::App* named = &app;
-  for (const std::string& word : words) {
-    const std::vector<const CLI::App*> commands = commands_of(*named);
-    const auto found = std::ranges::find(commands, word, &CLI::App::get_name);
-    if (found == commands.end()) return false;
-    named = *found;
-  }
-  return true;
-}
-
-/// "piblocks help COMMAND" is "piblocks COMMAND --help".
-std::vector<std::string> arguments_of(const CLI::App& app, int argc, char** argv) {
+/// "piblocks help COMMAND" is "piblocks COMMAND --help", whatever else is said: it runs nothing.
+std::vector<std::string> arguments_of(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (!arguments.empty() && arguments.front() == "help") {
-    arguments.erase(arguments.begin());
-    if (names_command(app, arguments)) arguments.emplace_back("--help");
-  }
+  if (arguments.front() != "help") return arguments;
+  arguments.erase(arguments.begin());
+  std::erase_if(arguments, [](const std::string& argument) { return argument.starts_with('-'); });
+  arguments.emplace_back("--help");
   return arguments;
 }
 
@@ -276,7 +264,7 @@ int run_command_line(int argc, char** argv) {
     return kWrongUsage;
   }
   ArgumentReader reader(*program);
-  reader.read(arguments_of(program->app, argc, argv));
+  reader.read(arguments_of(argc, argv));
   if (reader.has("--help")) {
     print(help_text(reader.command()));
   } else if (reader.has("--version")) {

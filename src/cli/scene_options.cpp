@@ -21,6 +21,13 @@ constexpr const char* kStandardInput = "standard input";
 
 bool is_standard_input(const std::string& scene) { return scene == "-"; }
 
+std::string text_of_standard_input() {
+  std::string text = read_toml_text(std::cin, kStandardInput);
+  if (!text.empty()) return text;
+  // The article's scene would hide that the program before the pipe has failed.
+  throw SceneError("scene: standard input is empty; leave '-' out for the article's scene");
+}
+
 /// A list of names with line breaks after commas.
 std::string in_lines(std::string names) {
   constexpr std::size_t kLongest = 72;
@@ -155,9 +162,8 @@ Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
   refuse_both("--sound", "--no-sound", "the sound");
   ScriptBuilder builder;
   if (const auto scene = command_.text(kScene)) {
-    is_standard_input(*scene)
-        ? builder.read_text(kStandardInput, read_toml_text(std::cin, kStandardInput))
-        : read_scene(builder, *scene);
+    is_standard_input(*scene) ? builder.read_text(kStandardInput, text_of_standard_input())
+                              : read_scene(builder, *scene);
   }
   for (const auto& [key, text] : defaults) builder.set(origin, key, text);
   for (const auto& [key, option, value] : keys_) {

@@ -114,8 +114,9 @@ TEST_F(ArgumentsTest, AnEmptyArgumentIsNoName) {
 TEST_F(ArgumentsTest, HelpIsPrintedWhateverElseIsSaid) {
   const std::string help = output_of({"count", "--help"});
   for (const Arguments& arguments :
-       {Arguments{"help", "count"}, Arguments{"count", "--none", "-h"},
-        Arguments{"count", "--digits", "-h"}, Arguments{"count", "a.toml", "b.toml", "--help"}}) {
+       {Arguments{"help", "count"}, Arguments{"help", "count", "--", "--digits", "1"},
+        Arguments{"count", "--none", "-h"}, Arguments{"count", "--digits", "-h"},
+        Arguments{"count", "a.toml", "b.toml", "--help"}}) {
     EXPECT_EQ(output_of(arguments), help) << arguments.back();
   }
   EXPECT_TRUE(output_of({"golden", "check", "-h"}).find("Usage: piblocks golden check SCENE") !=
@@ -182,6 +183,8 @@ TEST_F(ArgumentsTest, ASceneMayComeFromStandardInput) {
   write("scene.toml", "digits = 2\nviev.size = '64x36'\n");
   EXPECT_EQ(from_input({"count", "-"}).err,
             "piblocks: standard input:2: viev.size: unknown key; did you mean 'view.size'?\n");
+  EXPECT_EQ(refusal({"count", "-"}),
+            "piblocks: scene: standard input is empty; leave '-' out for the article's scene\n");
   write("scene.toml", std::string(1048577, '#'));
   EXPECT_NE(from_input({"count", "-"}).err.find("'standard input' is longer than 1048576 bytes"),
             std::string::npos);

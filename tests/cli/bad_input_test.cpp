@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"count", "--digits", "1e9"}, "--digits: digits = 1e9: must be a whole number"},
         BadInput{{"count", "--digits", "0x10"}, "--digits: digits = 0x10: must be a whole number"},
         BadInput{{"count", "--digits", "1_000"}, "digits = 1_000: must be a whole number"},
-        BadInput{{"count", "--digits", "٣"}, "digits = ٣: must be a whole number"},
+        BadInput{{"count", "--digits", "\xd9\xa3"}, "digits = \xd9\xa3: must be a whole number"},
         BadInput{{"count", "--mass-ratio", "1,000"}, "1,000: not a number such as 16, 2.5, 1/3"},
         BadInput{{"count", "--mass-ratio", "0"}, "--mass-ratio: red.mass = 0: must be greater"},
         BadInput{{"count", "--mass-ratio", "-2"}, "--mass-ratio: red.mass = -2: must be greater"},
