@@ -58,7 +58,7 @@ void add_run_options(Command& command) {
                     "Render nothing if the film would flash more than N times\n"
                     "within a second; 3 are held to be harmless (WCAG 2.3.1)");
   command.add_flag("--profile", "Print what each stage cost, on standard error");
-  command.add_flag("--quiet", "Print nothing but errors");
+  command.add_flag("--quiet", "Print nothing but errors, and what --profile asks for");
 }
 
 void run_join(const Command& options) {

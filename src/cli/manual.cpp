@@ -64,8 +64,6 @@ std::vector<NamedOption> named_options_of(const CLI::App& command) {
   return named;
 }
 
-bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
-
 /// Options that take words, and these words, with commas.
 constexpr auto kWordOptions = std::to_array<std::pair<const char*, std::string (*)()>>(
     {{"--theme", theme_names}, {"--show", overlay_names}, {"--panels", panel_names}});
@@ -268,7 +266,7 @@ void run_manual(const Command& command) {
                                          {"fish", fish_completion}});
   });
   OutputFile out("-", OutputFile::Contents::text);
-  out.write(make_text(*make_app()));
+  out.write(make_text(make_program()->app));
   out.finish();
 }
 
