@@ -181,6 +181,28 @@ Bytes encode_png(const ImageView& image) {
   return encoder.finish().front().bytes;
 }
 
+Bytes encode_png_samples(const Image& picture) {
+  const auto is_opaque = [](std::uint32_t word) { return word >= 0xff000000; };
+  if (std::ranges::all_of(picture.words, is_opaque)) return encode_png(picture.view());
+  Bytes rows;  // each filtered by what stands before it: none
+  rows.reserve(std::size_t(picture.height_px) * (4 * std::size_t(picture.width_px) + 1));
+  const std::size_t width = std::size_t(picture.width_px);
+  for (std::size_t i = 0; i < picture.words.size(); ++i) {
+    if (i % width == 0) rows.push_back(0);
+    const std::uint32_t word = picture.words[i];
+    for (const int shift : {16, 8, 0, 24}) rows.push_back(std::uint8_t(word >> shift));
+  }
+  Bytes png;
+  append_png_header(png, picture.width_px, picture.height_px, true);
+  append_png_srgb(png);
+  Deflater deflater(Deflater::Form::whole);
+  const std::size_t start = begin_png_chunk(png, "IDAT");
+  append(png, deflater.compress(rows));
+  end_png_chunk(png, start);
+  end_png_chunk(png, begin_png_chunk(png, "IEND"));
+  return png;
+}
+
 Output png_output(const OutputRequest& request) {
   return {
       .frames_per_chunk = 16,  // few wait to be written, and workers end nearly together
