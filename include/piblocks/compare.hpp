@@ -120,7 +120,8 @@ struct FrameComparison {
   bool is_yuv = false;  ///< whether the samples are Y, Cb and Cr
   /// Nothing where only hashes are known, and where there is nothing to compare.
   std::optional<Difference> difference;
-  /// The pictures as they are shown, with alpha; empty functions where there is none.
+  /// The pictures as they are shown, with alpha; empty functions where there is none. A picture
+  /// without pixels stands for one whose colours are not known.
   std::function<Image()> reference;
   std::function<Image()> actual;
   /// What pixel_deltas() returns for the samples that were compared; empty without a difference.

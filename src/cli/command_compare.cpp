@@ -88,9 +88,15 @@ class Reports {
   void finish(const ComparisonJob& job, const ComparisonResult& result) {
     for (auto& report : reports_) attempt(report, [&] { report->finish(job, result); });
   }
-  /// @throws what the first that failed has thrown
-  void check() const {
-    if (failure_) std::rethrow_exception(failure_);
+  /// @throws what the first that failed has thrown; but if the exit code is another one anyhow,
+  ///         a failed write is only printed.
+  void check(int exit_code) const {
+    try {
+      if (failure_) std::rethrow_exception(failure_);
+    } catch (const IoError& error) {
+      if (exit_code <= kFailed) throw;
+      say("piblocks: {}\n", error.what());
+    }
   }
 
  private:
@@ -172,8 +178,9 @@ void run_compare(const Command& options) {
       signals.token());
   reports.finish(job, result);
   printer.finish(job, result);
-  reports.check();
-  if (const int code = exit_code_of(result); code != 0) {
+  const int code = exit_code_of(result);
+  reports.check(code);
+  if (code != 0) {
     // Only a side without a frame, or without partners for one, has a problem as a whole.
     throw ExitError(code, result.problem.empty() ? "" : "compare: " + result.problem);
   }
@@ -194,11 +201,13 @@ void add_compare(Command& app) {
   command.add_value("--max-pixels", "N", "Accept up to N pixels of a frame that differ by more");
   command.add_value("--hard-delta", "D", "Accept no sample at all that differs by more than D");
   command.add_value("--max-window", "N:K", "Accept up to K such pixels in any square of NxN");
-  command.add_values("--mask", "WxH+X+Y", "Leave this rectangle out; may be given again");
+  command.add_values("--mask", "WxH+X+Y",
+                     "Leave this rectangle out; may be given again, but something must\n"
+                     "be left of every picture");
   command.add_flag("--no-recursive", "Leave out the folders in a folder");
   command.add_value("--diff", "DIR",
-                    "Write expected, difference and actual, side by side, of each\n"
-                    "frame that is different (the first 40)");
+                    "Write expected, difference and actual, side by side, of frames\n"
+                    "that are different, at most 40");
   command.add_value("--report", "FILE.html", "Write a page to look at the differences");
   command.add_value("--junit", "FILE.xml", "Write a list of tests, one a row");
   command.add_flag("--quiet", "Print only what cannot be read, and other errors");
@@ -207,13 +216,15 @@ void add_compare(Command& app) {
       "by their numbers. Beside a video they are paired by their order.\n"
       "Every sample has to be equal unless a tolerance is given; of several, all have to hold.\n"
       "Samples are compared as they are stored, alpha too, at up to 16 bits.\n"
-      "Whatever is found, the comparison goes on, and reports are written. The exit code is that\n"
-      "of the first line that holds:\n"
+      "The comparison goes on after whatever it finds, and reports are written. The first line "
+      "that\n"
+      "holds is the exit code:\n"
+      "  2  wrong usage\n"
       "  5  something cannot be read, or all of ACTUAL is missing\n"
+      "  3  all of REFERENCE is missing\n"
       "  4  a picture is missing, new, of another size, or shown another way\n"
-      "  1  a picture is different (or a report could not be written)\n"
-      "  0  all is equal or accepted\n"
-      "It is 3 instead of 4 if all of REFERENCE is missing, and 2 for wrong usage.\n\n"
+      "  1  a picture is different, or a report could not be written\n"
+      "  0  all is equal or accepted\n\n"
       "Examples:\n"
       "  piblocks compare expected.png actual.png --diff differences\n"
       "  piblocks compare golden/%06d.png frames/%06d.png --report report.html\n"

@@ -125,8 +125,8 @@ std::string man_page(const CLI::App& app) {
   for (const CLI::App* command : leaves_of(app)) text += roff_of(*command);
   return text +
          ".SH EXIT STATUS\n0 done, 1 failed, 2 wrong usage.\n.B piblocks compare\nand\n"
-         ".B piblocks golden\nreturn 1 for different, 3 for no reference, 4 for another size or "
-         "number of frames, 5 for what cannot be read.\n";
+         ".B piblocks golden\nreturn 1 for different, 3 for no reference, 4 for a picture that is "
+         "missing, new or of another size, 5 for what cannot be read.\n";
 }
 
 /// Right behind a command that takes a scene: names and files.

@@ -43,10 +43,11 @@ struct SamplePair {
 };
 
 /// Brings both to the greater depth.
-SamplePair at_one_depth(AnyImage reference, AnyImage actual) {
-  const int max_level = std::max(max_level_of(reference), max_level_of(actual));
-  if (max_level == 255) return {std::move(reference), std::move(actual)};
-  return {deepened(std::move(reference), max_level), deepened(std::move(actual), max_level)};
+SamplePair at_one_depth(SamplePair pair) {
+  const int max_level = std::max(max_level_of(pair.reference), max_level_of(pair.actual));
+  if (max_level == 255) return pair;
+  return {deepened(std::move(pair.reference), max_level),
+          deepened(std::move(pair.actual), max_level)};
 }
 
 ImageView comparable(const Image& image) { return image.view(); }
@@ -154,26 +155,33 @@ class FrameComparer {
   }
 
  private:
-  /// A call that was broken off has failed for no reason of its own.
   void check_stop() const {
     if (stop_.stop_requested()) throw Interrupted("compare: interrupted");
   }
-  static Fetched fetch(FrameSide& side) {
+  /// A call that was broken off has failed for no reason of its own.
+  Fetched fetch(FrameSide& side) const {
     try {
       return {side.fetch(), {}};
     } catch (const IoError& error) {
+      if (stop_.stop_requested()) throw;
       return {true, error.what()};
     } catch (const MediaError& error) {
+      if (stop_.stop_requested()) throw;
       return {true, error.what()};
     }
   }
 
   void add_row(FrameSide& reference, const Fetched& expected, FrameSide& actual,
                const Fetched& found) {
+    const bool is_pair = expected.is_there && found.is_there;
+    const bool is_one_broken = expected.problem.empty() != found.problem.empty();
     FrameComparison row;
-    row.name = !found.is_there      ? reference.name()
-               : !expected.is_there ? actual.name()
-                                    : both_names(reference.name(), actual.name());
+    if (is_pair && !is_one_broken) {
+      row.name = both_names(reference.name(), actual.name());
+    } else {
+      row.name =
+          (is_pair ? found.problem.empty() : expected.is_there) ? reference.name() : actual.name();
+    }
     if (expected.is_read() && found.is_read())
       return compare(row, reference.frame(), actual.frame());
     if (expected.is_read()) row.reference = picture_of(reference.frame());
@@ -185,32 +193,44 @@ class FrameComparer {
   }
   /// Converts the picture when it is first asked for.
   static std::function<Image()> picture_of(FrameReader& frame) {
-    return [&frame, picture = std::optional<AnyImage>()]() mutable {
-      if (!picture) picture = frame.rgb();
-      return flattened(*picture);
+    return [&frame, picture = std::optional<Image>()]() mutable {
+      if (!picture) picture = shown(frame);
+      return *picture;
     };
+  }
+  static Image shown(FrameReader& frame) {
+    try {
+      return flattened(frame.rgb());
+    } catch (const MediaError&) {
+      return {};
+    }
   }
 
   void compare(FrameComparison& row, FrameReader& reference, FrameReader& actual) {
     const bool is_exact = reference.layout() == actual.layout();
     row.is_yuv = is_exact && reference.layout() != kRgba;
-    AnyImage expected = is_exact ? reference.samples() : reference.rgb();
-    AnyImage found = is_exact ? actual.samples() : actual.rgb();
-    row.problem = mismatch_of(size_of(expected), size_of(found), reference, actual);
-    if (row.problem.empty()) masks_.meet(size_of(expected));
-    const SamplePair pair = at_one_depth(std::move(expected), std::move(found));
-    row.reference = [&] { return flattened(row.is_yuv ? reference.rgb() : pair.reference); };
-    row.actual = [&] { return flattened(row.is_yuv ? actual.rgb() : pair.actual); };
-    if (row.problem.empty()) {
-      compare_samples(row, pair);
-    } else {
-      row.outcome = Outcome::mismatch;
+    SamplePair pair;
+    try {
+      pair.reference = is_exact ? reference.samples() : reference.rgb();
+      pair.actual = is_exact ? actual.samples() : actual.rgb();
+    } catch (const MediaError& error) {
+      add_unreadable(row, error.what());
+      return rows_.take(row, true, true);
     }
-    row.deltas = [&]() -> std::vector<std::uint8_t> {
-      if (!row.difference) return {};
-      return pair.apply(
-          [this](const auto& a, const auto& b) { return pixel_deltas(a, b, job_.masks); });
-    };
+    const Size size = size_of(pair.reference);
+    row.problem = mismatch_of(size, size_of(pair.actual), reference, actual);
+    row.reference = [&] { return row.is_yuv ? shown(reference) : flattened(pair.reference); };
+    row.actual = [&] { return row.is_yuv ? shown(actual) : flattened(pair.actual); };
+    row.outcome = Outcome::mismatch;
+    if (row.problem.empty()) {
+      masks_.meet(size);
+      pair = at_one_depth(std::move(pair));
+      compare_samples(row, pair);
+      row.deltas = [&] {
+        return pair.apply(
+            [this](const auto& a, const auto& b) { return pixel_deltas(a, b, job_.masks); });
+      };
+    }
     rows_.take(row, true, true);
   }
 
@@ -271,7 +291,11 @@ void compare_lists(const ComparisonJob& job, Rows& rows, FrameComparer& comparer
   const PictureList actual = list_pictures(job.actual, job.is_recursive);
   std::vector<PlacedPicture> expected;
   std::vector<PlacedPicture> found;
-  bool has_pair = reference.pictures.empty() || actual.pictures.empty();
+  const auto is_open = [](const PictureList& list) {
+    return !list.pictures.empty() &&
+           std::ranges::all_of(list.pictures, &std::string::empty, &ListedPicture::problem);
+  };
+  bool has_pair = !is_open(reference) || !is_open(actual);
   std::int64_t step = 0;
   for (const PicturePair& pair : paired(reference, actual)) {
     if (pair.reference) expected.push_back({step, reference.pictures[*pair.reference]});
@@ -283,8 +307,8 @@ void compare_lists(const ComparisonJob& job, Rows& rows, FrameComparer& comparer
   rows.set_problem(actual.problem);
   if (!has_pair) {
     rows.set_problem(
-        fmt::format("no picture of '{}' has the name of one of '{}', and pictures are "
-                    "paired by name",
+        fmt::format("no picture of '{}' has the name of one of '{}'; patterns such as "
+                    "FOLDER/%06d.png pair pictures by number",
                     job.actual, job.reference));
   }
   comparer.run(*picture_side(std::move(expected)), *picture_side(std::move(found)));

@@ -62,8 +62,11 @@ class DiffFolder final : public Report {
 
   void add(const FrameComparison& frame) override {
     if (frame.is_accepted() || !frame.difference || !shown_.takes(frame.outcome)) return;
-    const Image strip = difference_strip(frame.reference(), frame.deltas(), frame.actual(),
-                                         frame.difference->densest);
+    const Image reference = frame.reference();
+    const Image actual = frame.actual();
+    if (reference.words.empty() || actual.words.empty()) return;
+    const Image strip =
+        difference_strip(reference, frame.deltas(), actual, frame.difference->densest);
     shown_.add(frame.outcome, {pattern_.name(frame.number), encode_with_mark(strip)});
   }
   void finish(const ComparisonJob& job, const ComparisonResult& result) override;

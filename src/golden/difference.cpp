@@ -119,7 +119,10 @@ std::string summary_text(const ComparisonJob& job, const ComparisonResult& resul
   const Outcome worst = result.worst();
   std::string text = name_of(worst);
   if (worst > Outcome::different && worst < Outcome::unreadable) text = name_of(Outcome::different);
-  if (result.reference_frames == 0 && worst < Outcome::unreadable) text = "no reference";
+  if (result.reference_frames == 0 && worst < Outcome::unreadable) {
+    if (result.actual_frames == 0) return "nothing to compare";
+    text = "no reference";
+  }
   const char* separator = ": ";
   const auto add = [&](const std::string& part) {
     text += separator + part;

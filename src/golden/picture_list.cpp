@@ -188,7 +188,7 @@ class ClosedFolders {
 bool is_picture_pattern(const std::string& name) {
   std::error_code unknown;
   return has_ending(name, ".png") && name.find('%') != std::string::npos &&
-         fs::status(name, unknown).type() == fs::file_type::not_found;
+         !fs::exists(fs::status(name, unknown));
 }
 
 PictureList list_pictures(const std::string& name, bool is_recursive) {

@@ -37,6 +37,7 @@ std::string picture(const Image& image, std::string_view kind) {
 std::string single_picture(const std::function<Image()>& picture_of, std::string_view kind) {
   if (!picture_of) return {};
   const Image image = picture_of();
+  if (image.words.empty()) return {};
   return fmt::format(
       "<div class=\"frame single\" style=\"--shape: {0} / {1}\"><div class=\"sides\">"
       "<span>{2}, {0}x{1}</span></div><div class=\"pictures\">{3}</div></div>\n",
@@ -51,6 +52,7 @@ std::string pictures_of(const FrameComparison& frame) {
   }
   const Image reference = frame.reference();
   const Image actual = frame.actual();
+  if (reference.words.empty() || actual.words.empty()) return {};
   return fmt::format(
       "<div class=\"frame\" style=\"--shape: {} / {}\">"
       "<div class=\"sides\"><span>expected</span><span>actual</span></div>"

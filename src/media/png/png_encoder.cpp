@@ -184,13 +184,22 @@ Bytes encode_png(const ImageView& image) {
 Bytes encode_png_samples(const Image& picture) {
   const auto is_opaque = [](std::uint32_t word) { return word >= 0xff000000; };
   if (std::ranges::all_of(picture.words, is_opaque)) return encode_png(picture.view());
-  Bytes rows;  // each filtered by what stands before it: none
-  rows.reserve(std::size_t(picture.height_px) * (4 * std::size_t(picture.width_px) + 1));
-  const std::size_t width = std::size_t(picture.width_px);
-  for (std::size_t i = 0; i < picture.words.size(); ++i) {
-    if (i % width == 0) rows.push_back(0);
-    const std::uint32_t word = picture.words[i];
-    for (const int shift : {16, 8, 0, 24}) rows.push_back(std::uint8_t(word >> shift));
+  const auto row_bytes = 4 * std::size_t(picture.width_px);
+  constexpr std::uint8_t kUp = 2;
+  Bytes rows;
+  rows.reserve(std::size_t(picture.height_px) * (row_bytes + 1));
+  Bytes above(row_bytes);
+  Bytes current;
+  auto word = picture.words.begin();
+  for (int y = 0; y < picture.height_px; ++y) {
+    current.clear();
+    for (int x = 0; x < picture.width_px; ++x, ++word) {
+      for (const int shift : {16, 8, 0, 24}) current.push_back(std::uint8_t(*word >> shift));
+    }
+    rows.push_back(kUp);
+    rows.resize(rows.size() + row_bytes);
+    subtract_bytes(current.data(), above.data(), row_bytes, &rows.back() + 1 - row_bytes);
+    current.swap(above);
   }
   Bytes png;
   append_png_header(png, picture.width_px, picture.height_px, true);
