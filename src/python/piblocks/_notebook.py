@@ -72,8 +72,8 @@ def _media(data: bytes, kind: str) -> str:
 def _require_embeddable(what: str, size: int) -> None:
     if size > _MOST_BYTES:
         raise UsageError(
-            f"player: {what} has {_megabytes(size)}, and a notebook takes {_megabytes(_MOST_BYTES)} "
-            "at most; open the file by itself, or make it smaller"
+            f"player: {what} has {_megabytes(size)}, and a notebook takes "
+            f"{_megabytes(_MOST_BYTES)} at most; open the file by itself, or make it smaller"
         )
 
 
@@ -101,8 +101,8 @@ def file_html(path: str) -> str | None:
     except OSError:
         return None
     return (
-        f"<p>{escape(path)} would add {_megabytes(size)} to the notebook. To embed it all the same, "
-        "call <code>.player()</code> of this result.</p>"
+        f"<p>{escape(path)} would add {_megabytes(size)} to the notebook. To embed it all the "
+        "same, call <code>.player()</code> of this result.</p>"
     )
 
 

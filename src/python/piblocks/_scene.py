@@ -12,6 +12,7 @@ from . import _bodies, _golden, _notebook, _piblocks, _render, _run
 from ._bodies import BodiesState
 from ._errors import SceneError, UsageError, of_system
 from ._film import Frames, pixels
+from ._golden import GoldenResult
 from ._keys import (
     KeyTexts,
     Table,
@@ -147,7 +148,9 @@ class Scene:
         origin, source, is_file, before = self._recipe
         if "part" in keys:
             if isinstance(source, bytes):
-                raise SceneError("part: these parts are those of a scene file; make a Scene(part=...)")
+                raise SceneError(
+                    "part: these parts are those of a scene file; make a Scene(part=...)"
+                )
             parts = keys.pop("part")
             source = None if parts is None else parts_of(parts)
         merged = _merged(before, key_texts(keys))
@@ -407,26 +410,27 @@ class Scene:
 
     # Golden references
 
-    def golden_record(self, name: str, dir: Path, *, frames: Any = None) -> list[str]:
-        """Keeps references: a hash of every frame, and some pictures; as ``piblocks golden``.
+    def golden_record(self, name: str, dir: Path, *, frames: Any = None) -> GoldenResult:
+        """Keeps references that are missing: a hash of every frame, and some pictures.
+
+        It replaces none. If there are some that are not what is drawn now, it keeps nothing, and
+        the result is false.
 
         :param name: the beginning of the files' names. :param frames: instants kept as pictures.
-        :returns: what the command line prints.
-        :raises UsageError: if there are references of this name.
         """
-        return _golden.act(self._script, "record", name, dir, frames, None)[1]
+        return _golden.act(self._script, "record", name, dir, frames, None)
 
-    def golden_approve(self, name: str, dir: Path, *, frames: Any = None) -> list[str]:
-        """Replaces references, and tells what changes."""
-        return _golden.act(self._script, "approve", name, dir, frames, None)[1]
+    def golden_approve(self, name: str, dir: Path, *, frames: Any = None) -> GoldenResult:
+        """Replaces references; the result tells what changes."""
+        return _golden.act(self._script, "approve", name, dir, frames, None)
 
     def golden_check(
         self, name: str, dir: Path, *, frames: Any = None, diff: Path | None = None
-    ) -> tuple[bool, list[str]]:
-        """Compares with references: whether all is equal, and what the command line prints.
+    ) -> GoldenResult:
+        """Compares with references. The result is true if all is equal: ``assert
+        scene.golden_check("turn", "golden")``.
 
-        :param diff: a folder for expected, difference and actual of pictures that differ.
-        :raises Error: if a reference is missing.
+        :param diff: a folder, in which one of this name gets pictures of what differs.
         """
         return _golden.act(self._script, "check", name, dir, frames, diff)
 
