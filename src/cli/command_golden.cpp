@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "cli/command.hpp"
+#include "cli/exit_code.hpp"
 #include "cli/golden_actions.hpp"
 #include "cli/options.hpp"
 #include "cli/scene_options.hpp"
@@ -12,6 +14,7 @@
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "core/overwrite_check.hpp"
+#include "core/text.hpp"
 #include "render/references.hpp"
 
 namespace piblocks::cli {
@@ -67,48 +70,65 @@ void check_references(const Command& options, const std::vector<References>& all
   check.check();
 }
 
+/// Does something for one scene. What fails is said, and does not keep others from being done.
+/// @param where  begins each message.
+/// @param code   becomes the more severe one of itself and that of the failure.
+template <typename Act>
+std::optional<GoldenResult> attempt(const Act& act, const References& references,
+                                    const std::string& where, const std::stop_token& stop,
+                                    int& code) {
+  try {
+    return act(references, stop);
+  } catch (const UsageError& error) {
+    for (const std::string& problem : error.problems()) say("piblocks: {}{}\n", where, problem);
+    code = worse_exit_code(code, kWrongUsage);
+  } catch (const Error& error) {
+    if (stop.stop_requested()) throw;
+    say("piblocks: {}{}\n", where, error.what());
+    code = worse_exit_code(code, kFailed);
+  }
+  return std::nullopt;
+}
+
+/// @throws ExitError with the most severe code
+template <typename Act>
+void run_each(const std::vector<References>& all, TextOutput& out, const Act& act) {
+  const StopOnSignals signals;
+  int code = 0;
+  for (const References& references : all) {
+    const std::string where = all.size() > 1 ? references.name() + ": " : "";
+    const auto result = attempt(act, references, where, signals.token(), code);
+    if (!result) continue;
+    for (const std::string& line : result->lines) out.line(printable(line));
+    out.flush();
+    code = worse_exit_code(code, result->exit_code);
+  }
+  out.finish();
+  if (code != 0) throw ExitError(code);
+}
+
 void run_check(const Command& options) {
   const std::vector<References> all = references_of(options);
   TextOutput out("-");
   check_diff(options, all);
-  const StopOnSignals signals;
-  bool is_equal = true;
-  for (const References& references : all) {
-    is_equal &= check_golden(
-        references, options.text("--diff"),
-        [&](const std::string& line) { out.format_line("{}", line); }, signals.token());
-    out.flush();
-  }
-  out.finish();
-  if (!is_equal) throw ExitError(kDifferent);
+  const fs::path scratch = temporary_folder();
+  run_each(all, out, [&](const References& references, const std::stop_token& stop) {
+    return check_golden(references, scratch, options.text("--diff"), stop);
+  });
 }
 
 void run_record(const Command& options) {
   const std::vector<References> all = references_of(options);
   TextOutput out("-");
   check_references(options, all);
-  for (const References& references : all) check_unrecorded(references);
-  const StopOnSignals signals;
-  for (const References& references : all) {
-    record_golden(
-        references, [&](const std::string& line) { out.format_line("{}", line); }, signals.token());
-    out.flush();
-  }
-  out.finish();
+  run_each(all, out, record_golden);
 }
 
 void run_approve(const Command& options) {
   const std::vector<References> all = references_of(options);
   TextOutput out("-");
   check_references(options, all);
-  for (const References& references : all) check_pictures(references);
-  const StopOnSignals signals;
-  for (const References& references : all) {
-    approve_golden(
-        references, [&](const std::string& line) { out.format_line("{}", line); }, signals.token());
-    out.flush();
-  }
-  out.finish();
+  run_each(all, out, approve_golden);
 }
 
 void add_action(Command& golden, const char* name, const char* help,
@@ -121,7 +141,10 @@ void add_action(Command& golden, const char* name, const char* help,
   command.add_value("--frames", "T,…",
                     "Instants kept as pictures, instead of the scene's: 3.5, last, #K");
   if (run == run_check) {
-    command.add_value("--diff", "DIR", "Write expected, difference and actual of pictures");
+    command.add_value("--diff", "DIR",
+                      "Write pictures of what differs to DIR/NAME of the scene (at most 40):\n"
+                      "expected, difference and actual of kept pictures, the actual\n"
+                      "picture of frames of which only the hash is kept");
   }
   command.on_run([=] { run(command); });
 }
@@ -131,11 +154,23 @@ void add_action(Command& golden, const char* name, const char* help,
 void add_golden(Command& app) {
   Command command = app.add_command("golden", "Hold scenes to references: record, check, approve");
   command.require_command();
-  add_action(command, "record", "Keep references of scenes that have none", run_record);
+  add_action(command, "record", "Add the references that scenes do not have", run_record);
   add_action(command, "check", "Compare scenes with their references; writes none", run_check);
   add_action(command, "approve", "Replace references, and tell what changes", run_approve);
   command.set_footer(
-      "Exit codes of check: 0 equal, 1 different, 2 wrong usage, 3 no references.\n\n"
+      "Every scene is reported, whatever is found about the others. The exit code of check is "
+      "that\n"
+      "of the first line that holds:\n"
+      "  5  a reference cannot be read, or a scene cannot be drawn\n"
+      "  4  a frame or a reference is missing, new, or of another size\n"
+      "  1  a frame or a picture is different (or pictures of it could not be written)\n"
+      "  3  a scene has no references\n"
+      "  0  all is equal\n"
+      "record ends with 0 if all references are there now, and with the code of check if those "
+      "that\n"
+      "are there are not what is drawn: then it adds nothing. approve ends with 0 if it has "
+      "replaced\n"
+      "them. 2 is wrong usage, and 1 a failure, as of all commands.\n\n"
       "Examples:\n"
       "  piblocks golden record scenes/*.toml --dir golden\n"
       "  piblocks golden check scenes/*.toml --dir golden --diff differences");

@@ -4,6 +4,7 @@
 
 #include <piblocks/compare.hpp>
 
+#include <algorithm>
 #include <array>
 
 #include "cli/command.hpp"
@@ -20,6 +21,13 @@ inline int exit_code_of(const ComparisonResult& result) {
   const int code = kExitCodes.at(static_cast<std::size_t>(result.worst()));
   if (code == kUnreadable || result.actual_frames == 0) return kUnreadable;
   return result.reference_frames == 0 ? kMissingReference : code;
+}
+
+/// That of the more severe finding, where several comparisons end with one code.
+inline int worse_exit_code(int one, int other) {
+  constexpr std::array kBySeverity = {kUnreadable, kMismatch,         kDifferent,
+                                      kWrongUsage, kMissingReference, 0};
+  return *std::ranges::find_if(kBySeverity, [&](int code) { return code == one || code == other; });
 }
 
 }  // namespace piblocks::cli

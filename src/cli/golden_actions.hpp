@@ -1,8 +1,8 @@
 // Golden references: record them, check against them, replace them.
-// In: the references of a scene. Out: lines of text, files, and whether everything is equal.
+// In: the references of a scene. Out: lines of text, files, and what was found.
 #pragma once
 
-#include <functional>
+#include <filesystem>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -13,31 +13,39 @@
 
 namespace piblocks::cli {
 
-/// Takes a line about a scene, without its end.
-using SayLine = std::function<void(const std::string& line)>;
+/// What a command has found or done about the references of one scene.
+struct GoldenResult {
+  /// Of check: "equal", "different", "incomplete" if some references are missing, "unreadable", or
+  /// "no references". Of record: "recorded", "kept" if all were there, or "not recorded". Of
+  /// approve: "recorded", "replaced" or "equal".
+  std::string outcome;
+  int exit_code = 0;  ///< as those of 'piblocks compare'
+  std::vector<std::string> lines = {};
+};
 
 /// Enters the folder of the references as one that is read, and the pictures of differences as
 /// files that are written. @param diff  the folder for these, if there is one.
 void claim_diff(OverwriteCheck& check, const std::vector<References>& all,
                 const std::string& folder, const std::optional<std::string>& diff);
 
-/// @throws UsageError if a picture that would be replaced belongs to no references.
-void check_pictures(const References& references);
+/// The folder for temporary files. @throws UsageError if there is none.
+std::filesystem::path temporary_folder();
 
-/// @throws UsageError if the scene has references, or as check_pictures().
-void check_unrecorded(const References& references);
-
-/// Writes the references of a scene that has none: all of them, or none.
-void record_golden(const References& references, const SayLine& say, const std::stop_token& stop);
+/// Adds the references that the scene does not have, and replaces none. If some are there, they
+/// have to be what is drawn now.
+/// @throws UsageError if a picture is there, belongs to no references, and is something else.
+GoldenResult record_golden(const References& references, const std::stop_token& stop);
 
 /// Replaces the references of a scene, and says what changes.
-void approve_golden(const References& references, const SayLine& say, const std::stop_token& stop);
+/// @throws UsageError as record_golden()
+GoldenResult approve_golden(const References& references, const std::stop_token& stop);
 
 /// Compares the scene with its references, and says what differs.
-/// @param diff  a folder for expected, difference and actual of pictures.
-/// @returns whether everything is equal.
-/// @throws ExitError if a reference is missing.
-bool check_golden(const References& references, const std::optional<std::string>& diff,
-                  const SayLine& say, const std::stop_token& stop);
+/// @param scratch  a folder for temporary files.
+/// @param diff     a folder for pictures, which are written to a folder of the scene's name in it:
+///                 expected, difference and actual of pictures that differ, and the actual picture
+///                 of frames of which only the hash is kept.
+GoldenResult check_golden(const References& references, const std::filesystem::path& scratch,
+                          const std::optional<std::string>& diff, const std::stop_token& stop);
 
 }  // namespace piblocks::cli

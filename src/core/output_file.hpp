@@ -61,6 +61,17 @@ class Unfinished {
   Descriptor lock_;
 };
 
+/// The lock (flock) of a folder that exists, as long as the object lives. On file systems without
+/// locks nobody waits.
+class FolderLock {
+ public:
+  /// Waits until no other process has it. @throws Interrupted
+  explicit FolderLock(const std::filesystem::path& folder);
+
+ private:
+  Descriptor lock_;
+};
+
 /// Syncs a folder to its device, so that not even a power failure undoes what was renamed in it.
 /// @throws IoError
 void sync_folder(const std::filesystem::path& folder);

@@ -22,7 +22,8 @@ void Rows::take(FrameComparison row, bool has_reference, bool has_actual) {
 ComparisonResult Rows::finish(const ComparisonJob& job) {
   const bool has_reference = result_.reference_frames > 0;
   const bool has_actual = result_.actual_frames > 0;
-  if (!has_reference || !has_actual) {
+  // What cannot be read may hide all frames of the other side.
+  if ((!has_reference || !has_actual) && result_.worst() != Outcome::unreadable) {
     set_problem(
         fmt::format("there is no frame in '{}'", has_reference ? job.actual : job.reference));
   }

@@ -2,8 +2,9 @@
 #
 # piblocks_add_golden_test(NAME <test> SCENE <scene.toml> DIRECTORY <folder> [FRAMES <instant>…])
 #
-# The test fails if a frame of the scene is not that of the references in the folder; pictures of
-# what differs are then in <test>-differences of the build folder. FRAMES names the instants of
+# The test fails if a frame of the scene is not that of the references in the folder, or if one of
+# these is missing; pictures of what differs are then in <test>-differences/<name of the scene> of
+# the build folder. FRAMES names the instants of
 # which pictures are kept, instead of the scene's. The references are made, once and after a
 # change that is meant, by
 #   piblocks golden record|approve <scene.toml> --dir <folder> [--frames <instant>,…]

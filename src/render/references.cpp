@@ -1,6 +1,7 @@
 #include "render/references.hpp"
 
 #include <fmt/format.h>
+#include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
 #include <piblocks/instant.hpp>
 #include <piblocks/render.hpp>
@@ -13,6 +14,7 @@
 
 #include "core/output_file.hpp"
 #include "draw/canvas.hpp"
+#include "render/film.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;
@@ -55,6 +57,9 @@ void add_fingerprint(const fs::path& hashes) {
 
 References::References(std::string name, const ScriptBuilder& scene, fs::path folder)
     : name_(std::move(name)), folder_(std::move(folder)), script_(scene.build()) {
+  if (name_.empty() || name_ == "." || name_ == "..") {
+    throw UsageError(fmt::format("golden: references cannot have the name '{}'", name_));
+  }
   std::visit(
       [](auto& any) {
         any.view = golden_view(any.view, any.golden);
@@ -94,6 +99,20 @@ std::string References::fingerprint() const {
     if (line.starts_with(kSoftware)) return line.substr(kSoftware.size());
   }
   return {};
+}
+
+void References::draw(
+    const std::vector<std::int64_t>& frames,
+    const std::function<void(std::int64_t frame, std::vector<std::uint8_t> png)>& use,
+    const std::stop_token& stop) const {
+  const Film film(script_);
+  const View& view = view_of(script_);
+  Canvas canvas(view.width_px, view.height_px, view.background);
+  for (const std::int64_t frame : frames) {
+    if (stop.stop_requested()) throw Interrupted("golden: interrupted");
+    canvas.update(film.frame(frame));
+    use(frame, encode_png(canvas.view()));
+  }
 }
 
 void References::render_into(const fs::path& folder, int jobs, const std::stop_token& stop) const {

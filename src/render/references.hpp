@@ -6,7 +6,9 @@
 #include <piblocks/compare.hpp>
 #include <piblocks/script.hpp>
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -17,7 +19,7 @@ namespace piblocks {
 class References {
  public:
   /// @param name  the beginning of its files' names.
-  /// @throws SceneError if the scene has problems.
+  /// @throws SceneError if the scene has problems; UsageError for a name such as "..".
   References(std::string name, const ScriptBuilder& scene, std::filesystem::path folder);
 
   const std::string& name() const noexcept { return name_; }
@@ -33,6 +35,10 @@ class References {
   /// What painted the references; empty if they do not say.
   std::string fingerprint() const;
 
+  /// Draws frames of the film, each as a PNG file.
+  void draw(const std::vector<std::int64_t>& frames,
+            const std::function<void(std::int64_t frame, std::vector<std::uint8_t> png)>& use,
+            const std::stop_token& stop) const;
   /// Renders all of them into another folder, which is to be empty.
   void render_into(const std::filesystem::path& folder, int jobs,
                    const std::stop_token& stop) const;

@@ -173,8 +173,9 @@ class StoryReader {
 }  // namespace
 
 struct ScriptBuilder::State {
-  SceneDraft film{"scene"};  // in a storyboard the values for all parts
-  std::string path;          // of the file, or what stands for it in messages
+  SceneDraft film{"scene"};           // in a storyboard the values for all parts
+  std::string path;                   // of the file, or what stands for it in messages
+  std::vector<std::string> left_out;  // keys of the file
   std::vector<TomlTable> parts;
   std::vector<std::string> problems;                          // of entries that are no parts
   std::vector<std::pair<std::string, std::string>> set_keys;  // origin and key, by set()
@@ -198,6 +199,7 @@ void ScriptBuilder::State::read(const std::string& origin, TomlTable root) {
   path = origin;
   TomlTable common{{}, root.line};
   for (TomlEntry& entry : root.entries) {
+    if (std::ranges::count(left_out, entry.key) > 0) continue;
     const bool is_part = entry.key == "part";
     if (is_part && !entry.tables.empty()) {
       parts = std::move(entry.tables);
@@ -214,6 +216,8 @@ void ScriptBuilder::State::read(const std::string& origin, TomlTable root) {
     parts.resize(kMaxSegments);
   }
 }
+
+void ScriptBuilder::leave_out(const std::string& key) { state_->left_out.push_back(key); }
 
 void ScriptBuilder::set(const std::string& origin, const std::string& key,
                         const std::string& text) {

@@ -355,7 +355,7 @@ TEST_F(CompareTest, WhatMayNotBeLookedAtCannotBeRead) {
   const std::vector<std::pair<Arguments, std::string>> cases = {
       {{"closed/1.png", "1.png"}, "cannot read 'closed/1.png': Permission denied"},
       {{"1.png", "closed/1.png"}, "cannot read 'closed/1.png': Permission denied"},
-      {{"closed/%d.png", "1.png"}, "cannot read 'closed/1.png': Permission denied"},
+      {{"closed/%d.png", "1.png"}, "cannot read 'closed/%d.png': Permission denied"},
       {{"closed/a.framehash", "closed/a.framehash"}, "'closed/a.framehash': Permission denied"},
       {{long_name, "1.png"}, "x.png': File name too long"}};
   for (const auto& [arguments, message] : cases) {

@@ -115,7 +115,7 @@ class Fuzzer:
         r = self.random
         if r.random() < 0.5:
             scene = self.new_scene()
-            assert pickle.loads(pickle.dumps(scene)) == scene
+            assert pickle.loads(pickle.dumps(scene)) == scene == eval(repr(scene)), repr(scene)
             # The path of a logo becomes absolute.
             text = scene.to_toml()
             if "show.logo" not in text and Scene.from_toml_text(text) != scene:
@@ -138,6 +138,7 @@ class Fuzzer:
     def frames(self, scene):
         frames = scene.frames()
         index = self.likely(0, -1, 5)
+        frames = scene.frames(rgba=self.likely(True, False))
         frames[index] if not isinstance(index, slice) else None
         frames[:: self.likely(1, -1, 7)]
         frames.png(self.likely(0))

@@ -9,6 +9,7 @@ from conftest import TREE
 
 import piblocks
 from piblocks import Scene
+from piblocks._errors import _as_keywords
 
 BLOCKS = """
 [box]
@@ -73,7 +74,7 @@ def test_a_count_without_an_end_is_refused(program):
     scene = scene_of(BLOCKS.replace("to = 4", ""))
     with pytest.raises(piblocks.UsageError) as raised:
         scene.count
-    assert str(raised.value) == said_by(program, "count", "scene.toml")
+    assert str(raised.value) == _as_keywords(said_by(program, "count", "scene.toml"))
 
 
 def npy_of(program, *arguments):
@@ -189,7 +190,7 @@ def test_refusals_of_logs_and_states(program):
     endless = scene_of(BLOCKS.replace("to = 4", ""))
     with pytest.raises(piblocks.UsageError) as raised:
         endless.log()
-    assert str(raised.value) == said_by(program, "log", "scene.toml")
+    assert str(raised.value) == _as_keywords(said_by(program, "log", "scene.toml"))
     assert len(endless.log(to=4)) == scene.count
     uncertain = scene_of(UNCERTAIN)
     for ask in (uncertain.log, lambda: uncertain.state([1, 150])):
@@ -208,9 +209,8 @@ def test_what_is_not_certain_is_refused_in_the_same_words(program):
     for ask in (lambda: scene.count, lambda: scene.frame(150), lambda: scene.render("a.mp4")):
         with pytest.raises(piblocks.UsageError) as raised:
             ask()
-        assert str(raised.value) == words.replace(
-            "--allow-uncertain", "time_allow_uncertain=True"
-        )
+        assert str(raised.value) == _as_keywords(words)
+        assert "time_allow_uncertain=True" in str(raised.value)
     allowed = scene.replace(time_allow_uncertain=True)
     assert allowed.count == int(program("count", "scene.toml", "--allow-uncertain"))
 

@@ -1,5 +1,6 @@
 """Frames as arrays: who owns the pixels, and how long they stay."""
 
+import collections.abc
 import gc
 import threading
 import weakref
@@ -36,6 +37,19 @@ def test_a_frame_is_rgb_without_a_copy():
         frame.flags.writeable = True
 
 
+@pytest.mark.parametrize("background", ["opaque", "transparent"])
+def test_rgba_is_a_contiguous_copy(background):
+    scene = SCENE.replace(view_background=background)
+    for frame in (scene.frame(1, rgba=True), scene.frames(rgba=True)[10], [*scene.frames(rgba=True)][10],
+                  scene.frames(rgba=True)[5:][5]):
+        assert frame.shape == (72, 128, 4) and frame.dtype == np.uint8
+        assert frame.flags.c_contiguous and frame.flags.writeable and frame.flags.owndata
+        assert (frame[..., :3] == scene.frame(1)[..., :3]).all()
+        assert set(np.unique(frame[..., 3])) >= ({255} if background == "opaque" else {0, 255})
+    with pytest.raises(TypeError, match="^rgba: must be True or False"):
+        scene.frame(1, rgba=1)
+
+
 def test_a_transparent_frame_has_straight_alpha():
     frame = SCENE.replace(view_background="transparent").frame(1)
     assert frame.shape == (72, 128, 4) and frame.flags.writeable
@@ -59,6 +73,13 @@ def test_frames_are_a_sequence():
             frames[wrong]
     with pytest.raises(IndexError):
         part.png(4)
+    with pytest.raises(IndexError, match="there are no frames"):
+        frames[:0][0]
+    assert isinstance(frames, collections.abc.Sequence)
+    assert everything[5] in frames and everything[5][:5] not in frames and "x" not in frames
+    assert frames.index(everything[5]) == 5 and frames.count(everything[5]) == 1
+    with pytest.raises(ValueError):
+        frames.index(everything[5], 6)
     assert frames.fps == 10 and frames.time(30) == 3.0 and "10 frames/s" in repr(frames)
 
 

@@ -6,6 +6,8 @@ import sys
 
 import pytest
 
+from piblocks import Scene
+
 TEST = '''
 import pytest
 from piblocks import Scene
@@ -42,22 +44,29 @@ def test_a_life_of_references(program):
     result = pytest_run()
     assert "4 passed" in result.stdout and not os.path.exists("golden")
     result = pytest_run("--piblocks-golden")
-    assert "3 failed, 1 passed" in result.stdout and "there is no reference" in result.stdout
+    assert "3 failed, 1 passed" in result.stdout and "no references in" in result.stdout
+    assert "--piblocks-golden-record keeps new references" in result.stdout
     assert "4 passed" in pytest_run("--piblocks-golden-record").stdout
+    turn = "test_scenes-test_turn-"
     assert sorted(os.listdir("golden")) == [
         "named-0.png", "named-last.png", "named.framehash",
-        "test_turn-128x72-0.png", "test_turn-128x72-turn.png", "test_turn-128x72.framehash",
-        "test_turn-64x36-0.png", "test_turn-64x36-turn.png", "test_turn-64x36.framehash"]
-    assert "has references; replace them" in pytest_run("--piblocks-golden-record").stdout
+        turn + "128x72-0.png", turn + "128x72-turn.png", turn + "128x72.framehash",
+        turn + "64x36-0.png", turn + "64x36-turn.png", turn + "64x36.framehash"]
     assert "4 passed" in pytest_run("--piblocks-golden").stdout
+    # Where there are references, recording compares; what is missing is added.
+    os.remove(f"golden/{turn}64x36-0.png")
+    assert "4 passed" in pytest_run("--piblocks-golden-record").stdout
+    assert os.path.exists(f"golden/{turn}64x36-0.png")
+    assert "2 failed, 2 passed" in pytest_run("--piblocks-golden-record", ratio=100).stdout
 
     result = pytest_run("--piblocks-golden", "--piblocks-golden-results", "results", ratio=100)
     assert "2 failed, 2 passed" in result.stdout
-    assert "test_turn-64x36: different" in result.stdout and "pixels differ" in result.stdout
+    assert f"{turn}64x36: different" in result.stdout and "pixels differ" in result.stdout
     assert "Traceback" not in result.stdout
-    assert os.path.exists("results/test_turn-64x36.html")
-    assert os.listdir("results/test_turn-64x36/test_turn-64x36-turn")
-    assert not os.listdir("results/test_turn-64x36/test_turn-64x36-0"), "nothing differs there"
+    assert os.path.exists(f"results/{turn}64x36.html")
+    pictures = os.listdir(f"results/{turn}64x36")
+    assert f"{turn}64x36-turn.png" in pictures and "000020.png" in pictures
+    assert f"{turn}64x36-0.png" not in pictures, "nothing differs there"
 
     assert "4 passed" in pytest_run("--piblocks-golden-approve", ratio=100).stdout
     assert "4 passed" in pytest_run("--piblocks-golden", ratio=100).stdout
@@ -65,6 +74,106 @@ def test_a_life_of_references(program):
     with open("named.toml", "w") as file:
         file.write('digits = 1\nview.size = "64x36"\nview.fps = 5\n')
     assert program("golden", "check", "named.toml", "--dir", "golden") == b"named: equal\n"
+
+
+def test_a_result_is_true_or_false_and_says_why():
+    scene = Scene(2, view_size="64x36", view_fps=5, golden_frames=[0, "last"])
+    other = scene.replace(red_mass=101, time_to=5)
+    missing = scene.golden_check("a", "golden")
+    assert not missing and missing.outcome == "no references" and "no references" in str(missing)
+    recorded = scene.golden_record("a", "golden")
+    assert recorded and recorded.outcome == "recorded" and str(recorded) == "a: recorded"
+    kept = scene.golden_record("a", "golden")
+    assert kept and kept.outcome == "kept" and kept.lines[0].startswith("a: has references")
+    equal = scene.golden_check("a", "golden")
+    assert equal and equal.ok and equal.outcome == "equal" and equal.lines == ("a: equal",)
+    with pytest.raises(AssertionError, match="GoldenResult different: a.framehash: frames"):
+        assert other.golden_check("a", "golden"), repr(other.golden_check("a", "golden"))
+    os.remove("golden/a-0.png")
+    incomplete = scene.golden_check("a", "golden")
+    assert not incomplete and incomplete.outcome == "incomplete"
+    refused = other.golden_record("a", "golden")
+    assert not refused and refused.outcome == "not recorded" and not os.path.exists("golden/a-0.png")
+    assert other.golden_approve("a", "golden").outcome == "replaced"
+    assert other.golden_check("a", "golden")
+    with open("golden/a-0.png", "w") as file:
+        file.write("damaged")
+    assert other.golden_check("a", "golden").outcome == "unreadable"
+
+
+NAMES = """
+import pytest
+from piblocks import Scene
+
+def scene(k):
+    return Scene(mass_ratio=k, view_size="64x36", view_fps=5, time_to=1)
+
+@pytest.mark.piblocks_golden
+@pytest.mark.parametrize("k, text", enumerate(
+    ["1/2", "1-2", "1_2", "1:2", "", " ", "a b", "a  b", "\\u00e9", "\\u00e8", "-", "[", "x" * 300, "x" * 301]),
+    ids=lambda value: value if isinstance(value, str) else "n")
+def test_turn(k, text):
+    return scene(k + 1)
+
+@pytest.mark.piblocks_golden
+def test_turn_n():
+    return scene(50)
+
+class Test_turn:
+    @pytest.mark.piblocks_golden
+    def test_turn(self):
+        return scene(51)
+"""
+
+
+def test_every_test_has_references_of_its_own():
+    """Also in modules and folders of the same names, and wherever pytest is started."""
+    os.makedirs("a/b")
+    for file in ("a/test_x.py", "a/test_y.py", "a/b/test_x.py", "a/test-x.py"):
+        with open(file, "w") as out:
+            out.write(NAMES.replace("piblocks_golden", "piblocks_golden(dir='ROOT/golden')").replace(
+                "ROOT", os.getcwd()))
+
+    def run(folder, *arguments):
+        result = subprocess.run(
+            [sys.executable, "-m", "pytest", "-p", "piblocks.pytest_plugin", "-p", "no:cacheprovider",
+             "--import-mode=importlib", *arguments], capture_output=True, text=True, cwd=folder)
+        assert result.returncode == 0, result.stdout
+        return len([file for file in os.listdir("golden") if file.endswith(".framehash")])
+
+    files = ["test_x.py", "test_y.py", "b/test_x.py", "test-x.py"]
+    assert run("a", "--piblocks-golden-record", *files) == 4 * 16
+    assert run(".", "--piblocks-golden", *[f"a/{file}" for file in files]) == 4 * 16
+    assert run("a/b", "--piblocks-golden", "test_x.py") == 4 * 16
+    plain = [name for name in os.listdir("golden") if "~" not in name]
+    assert "a.b.test_x-Test_turn.test_turn.framehash" in plain
+    assert "a.test_y-test_turn_n.framehash" in plain
+
+
+@pytest.mark.parametrize(
+    "first, second, path",
+    [
+        ("name='same'", "name='same'", "same"),
+        ("name='a', frames=['turn-1']", "name='a-turn', frames=['1']", "a-turn-1.png"),
+    ],
+)
+@pytest.mark.parametrize("action", ["", "-record", "-approve"])
+def test_two_tests_do_not_share_references(first, second, path, action):
+    text = f"""
+import pytest
+from piblocks import Scene
+
+@pytest.mark.piblocks_golden({first})
+def test_one():
+    return Scene(1, view_size="64x36", view_fps=5)
+
+@pytest.mark.piblocks_golden({second})
+def test_two():
+    return Scene(2, view_size="64x36", view_fps=5)
+"""
+    result = pytest_run("--piblocks-golden" + action, text=text)
+    assert f"golden/{path}' are those of test_scenes.py::test_one too" in result.stdout
+    assert result.returncode == 1 and "give test_scenes.py::test_two a name" in result.stdout
 
 
 @pytest.mark.parametrize(

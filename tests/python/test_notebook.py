@@ -43,7 +43,8 @@ def test_what_no_page_shows():
     transparent = SMALL.replace(view_background="transparent")
     assert transparent._repr_html_().startswith("<iframe")
     long = SMALL.replace(time_speed="1/200", view_fps=60)
-    assert long._repr_html_().startswith("<img")
+    asked = long._repr_html_()
+    assert "78,001 frames. To embed it all the same, call" in asked and "<img" in asked
     wrong = SMALL.replace(time_from="#99")
     assert "the scene has collisions" in wrong._repr_html_()
 
@@ -57,6 +58,24 @@ def test_what_was_rendered_is_shown():
     assert base64.b64decode(data) == open("a.mp4", "rb").read()
     assert SMALL.render("a.framehash")._repr_html_() is None
     assert SMALL.render("null")._repr_html_() is None
+
+
+def test_a_large_film_is_embedded_when_it_is_asked_for(monkeypatch):
+    story = Scene(part=[{"digits": 1, "time_duration": 1}], view_size="128x72")
+    films = [SMALL.render("a.mp4"), SMALL.render("a.gif"), SMALL, story]
+    whole = [film._repr_html_() for film in films]
+    monkeypatch.setattr("piblocks._notebook._MOST_UNASKED_BYTES", 1000)
+    for film, before in zip(films, whole):
+        asked = film._repr_html_()
+        assert re.search(r"would add \d+\.\d MB to the notebook", asked)
+        assert ".player()" in asked and "<iframe" not in asked and "<video" not in asked
+        assert film.player()._repr_html_() == before
+    monkeypatch.setattr("piblocks._notebook._MOST_BYTES", 1000)
+    for film in films:
+        with pytest.raises(piblocks.UsageError, match="and a notebook takes 0.0 MB at most"):
+            film.player()
+    with pytest.raises(piblocks.UsageError, match="a notebook cannot play 'a.framehash'"):
+        SMALL.render("a.framehash").player()
 
 
 def test_a_slider_over_exact_frames():
@@ -78,7 +97,10 @@ def test_old_widgets_are_not_used(monkeypatch, version, is_widget):
     ipywidgets = pytest.importorskip(
         "ipywidgets", reason="there is no ipywidgets (python3-ipywidgets)")
     monkeypatch.setattr(ipywidgets, "__version__", version)
-    assert isinstance(SMALL.animate(), piblocks.Player) == (not is_widget)
+    shown = SMALL.animate()
+    assert isinstance(shown, piblocks.Player) == (not is_widget)
+    if not is_widget:
+        assert f"needs ipywidgets 7 or later, and this is {version}" in shown._repr_html_()
 
 
 def test_without_ipywidgets_it_is_the_player(monkeypatch):
@@ -92,7 +114,9 @@ def test_without_ipywidgets_it_is_the_player(monkeypatch):
     monkeypatch.setattr(builtins, "__import__", importing)
     player = SMALL.animate()
     assert isinstance(player, piblocks.Player)
-    assert player._repr_html_() == SMALL._repr_html_()
+    assert player._repr_html_().endswith(SMALL._repr_html_())
+    for said in (player._repr_html_(), repr(player)):
+        assert "needs ipywidgets 7 or later, and there is none" in html.unescape(said)
 
 
 def test_the_notebook_has_no_outputs():
@@ -116,4 +140,4 @@ def test_the_notebook_runs():
         for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs)
     assert "[3, 31, 314]" in text and "31415926535897932384" in text
     assert "<iframe srcdoc" in text and "<video" in text
-    assert "['tiny: recorded']" in text and "False tiny: different" in text
+    assert "tiny: recorded" in text and "tiny: equal" in text and "tiny: different: " in text

@@ -4,7 +4,9 @@ The inputs are those of tests/cli/bad_input_test.cpp.
 """
 
 import ast
+import errno
 import os
+import pickle
 import re
 import subprocess
 
@@ -105,6 +107,19 @@ def test_the_table_was_read():
         ({"part": []}, "part: is empty; a storyboard has at least one part"),
         ({"part": [{"digits": 1}, {"digits": 0}]},
          "part:2: digits = 0: must be a whole number from 1 to 100000"),
+        ({"part": [{"time": {"to": 0}}]}, "part:1: time_to = 0: must be after time_from = 0"),
+        ({"part": [{"time_to": 1, "time": {"to": 2}}]}, "part[0]: time_to is given more than once"),
+        ({"view_siez": None}, "scene: unknown key 'view_siez'; did you mean 'view_size'? "
+                              "piblocks.keys() lists them"),
+        ({"mass_ratio": -1}, "mass_ratio: red_mass = -1: must be greater than 0"),
+        ({"mass_ratio": "x"}, "mass_ratio = x: not a number"),
+        ({"time_hold_end": -1}, "time_hold_end = -1: must be at least 0"),
+        ({"view": {"fps": 0.25, "shutter": 2}},
+         "view_shutter = 2: must be from 0 (the instant alone) to 1 (all of the time to the next "
+         "frame)"),
+        ({"wall_face": 100},
+         "scene: blue_position = 2: blue reaches 197/2 into the wall, whose face is at 100"),
+        ({"time_from": 5, "time_to": 3}, "time_to = 3: must be after time_from = 5"),
     ],
 )
 def test_keys(keys, message):
@@ -124,7 +139,7 @@ def test_a_wrong_type_is_named_with_its_key(value):
 @pytest.mark.parametrize(
     "ask, error, message",
     [
-        (lambda s: s.still(3), TypeError, "output: must be a str or a path, not int"),
+        (lambda s: s.still(3), TypeError, "^file: must be a str or a path, not int"),
         (lambda s: s.still("a\0b.png"), ValueError, "has a null character"),
         (lambda s: s.still(""), ValueError, "still: '' has no known ending"),
         (lambda s: s.still("\ud800.png"), ValueError, "is not the name of a file"),
@@ -133,10 +148,11 @@ def test_a_wrong_type_is_named_with_its_key(value):
         (lambda s: s.render("a.mp4", progress=3), TypeError, "progress: must be callable"),
         (lambda s: s.render("a.mp4", smallest=1), TypeError, "smallest: must be True or False"),
         (lambda s: s.render("a.mp4", jobs={}), TypeError, "^jobs: must be"),
-        (lambda s: s.state(None), TypeError, "^at: must be"),
-        (lambda s: s.state(True), TypeError, "^at: must be"),
-        (lambda s: s.state(float("inf")), ValueError, "^at inf: not a number"),
-        (lambda s: s.state([0, float("nan")]), ValueError, "^at nan: not a number"),
+        (lambda s: s.state(None), TypeError, "^t: must be"),
+        (lambda s: s.state(True), TypeError, "^t: must be"),
+        (lambda s: s.state(float("inf")), ValueError, "^t inf: not a number"),
+        (lambda s: s.state([0, float("nan")]), ValueError, "^t nan: not a number"),
+        (lambda s: s.frame("x"), ValueError, "^t x: not a number"),
         (lambda s: s.log(last=1.5), TypeError, "^last: must be an int"),
         (lambda s: s.log(last=999), ValueError, "last 999: the scene has collisions 1 to 314"),
         (lambda s: s.log(engine=3), TypeError, "^engine: must be a str"),
@@ -151,6 +167,49 @@ def test_other_refusals(ask, error, message):
     with pytest.raises(error, match=message):
         ask(scene)
     assert os.listdir() == []
+
+
+def test_messages_of_a_file_name_its_keys():
+    with pytest.raises(piblocks.SceneError) as raised:
+        piblocks.Scene.from_toml_text("view.fps = 0\nmass-ratio = -1\n", "talk", view_shutter=2)
+    assert [problem.split(" = ")[0] for problem in raised.value.problems] == [
+        "talk:2: red.mass", "talk:1: view.fps", "view_shutter"]
+
+
+def test_every_option_of_a_scene_has_its_keyword():
+    for option in {**KEY_OF, **FLAG_OF}:
+        assert "--" not in _as_keywords(f"use {option} or leave it out"), option
+
+
+@pytest.mark.parametrize(
+    "ask, kind, filename",
+    [
+        (lambda: piblocks.Scene.from_toml("it's.toml"), piblocks.SceneError, "it's.toml"),
+        (lambda: piblocks.Scene(show_logo="no.png").frame(), piblocks.IoError, "no.png"),
+        (lambda: piblocks.Scene(show_logo="no.png").render("a.mp4"), piblocks.IoError, "no.png"),
+        (lambda: piblocks.join(["no.mp4"], "a.mp4"), piblocks.UsageError, "no.mp4"),
+    ],
+)
+def test_a_missing_file_is_pythons_error_too(ask, kind, filename):
+    with pytest.raises(FileNotFoundError) as raised:
+        ask()
+    error = raised.value
+    assert isinstance(error, kind) and isinstance(error, piblocks.Error)
+    assert error.errno == errno.ENOENT and error.filename == filename
+    assert str(error).endswith(f"'{filename}': No such file or directory")
+    again = pickle.loads(pickle.dumps(error))
+    assert type(again) is type(error) and again.errno == errno.ENOENT and str(again) == str(error)
+
+
+def test_other_reasons_have_their_classes():
+    os.mkdir("folder")
+    with pytest.raises(IsADirectoryError):
+        piblocks.Scene.from_toml("folder")
+    with open("file", "w"):
+        pass
+    with pytest.raises(NotADirectoryError) as raised:
+        piblocks.Scene(1, view_size="64x36").still("file/a.png")
+    assert isinstance(raised.value, piblocks.UsageError)
 
 
 def test_a_closed_file():

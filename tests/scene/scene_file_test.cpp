@@ -85,6 +85,18 @@ TEST_F(SceneFileTest, SpeedAndDurationExcludeEachOther) {
   EXPECT_FALSE(builder.build_scene().pacing.duration_s);
 }
 
+TEST_F(SceneFileTest, LeavesKeysOut) {
+  ScriptBuilder builder;
+  builder.leave_out("view.fps");
+  builder.leave_out("digits");
+  builder.leave_out("time.to");  // which is not there
+  builder.read_text("text", "digits = 0\n[view]\nfps = 0\ntheme = \"dark\"\n");
+  const Scene scene = builder.build_scene();
+  EXPECT_EQ(scene.view.frame_rate, Scene().view.frame_rate);
+  EXPECT_EQ(scene.system.red.mass, Scene().system.red.mass);
+  EXPECT_EQ(scene.view.theme, Theme::dark);
+}
+
 TEST_F(SceneFileTest, ReadsEveryKey) {
   const Scene scene = load(R"(
     [wall]

@@ -80,8 +80,8 @@ std::span<Value> array_of(const py::buffer& buffer, std::size_t length) {
 
 /// An instant of the log at which what happens is certain, or may be uncertain.
 Rational time_of_text(const BoundBodyRun& run, const std::string& text) {
-  const BoundOptions options({{"--at", text}});
-  const Rational time = time_of(*options.value("--at", parse_instant), run.log());
+  const BoundOptions options({{"t", text}});
+  const Rational time = time_of(*options.value("t", parse_instant), run.log());
   require_certain(run.scene(), run.log(), time);
   return time;
 }

@@ -23,9 +23,11 @@ py::tuple texts_of(const UsageError& error) {
   return py::tuple(problems);
 }
 
-void raise(const char* name, const py::tuple& arguments) {
-  const py::object type = py::module_::import("piblocks._errors").attr(name);
-  PyErr_SetObject(type.ptr(), type(*arguments).ptr());
+/// The package adds Python's own class of the error, such as FileNotFoundError.
+void raise(const char* name, const py::tuple& problems) {
+  const py::module_ errors = py::module_::import("piblocks._errors");
+  const py::object error = errors.attr("made")(errors.attr(name), *problems);
+  PyErr_SetObject(py::type::of(error).ptr(), error.ptr());
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ class Pictures {
   /// The picture of 'piblocks still'.
   Frame still(const std::string& at) {
     const WithoutGil released;
-    const Instant instant = *BoundOptions({{"--at", at}}).value("--at", parse_instant);
+    const Instant instant = *BoundOptions({{"t", at}}).value("t", parse_instant);
     return {pool_->paint(list_at(instant))};
   }
   /// Simulation time of a frame of a single scene.
@@ -104,6 +104,17 @@ py::buffer_info buffer_of(const Frame& frame) {
           /*readonly=*/true};
 }
 
+/// A row without alpha: its fourth bytes mean nothing.
+void copy_opaque_row(const ImageView& view, int y, std::uint8_t* to) {
+  const std::uint8_t* from = view.data + y * std::ptrdiff_t(view.stride_bytes);
+  for (int x = 0; x < view.width_px; ++x, from += 4, to += 4) {
+    to[0] = from[2];
+    to[1] = from[1];
+    to[2] = from[0];
+    to[3] = 255;
+  }
+}
+
 /// Fills rows of R, G, B and straight alpha, as a PNG file has them.
 void copy_rgba(const Frame& frame, const py::buffer& buffer) {
   const ImageView view = frame.view();
@@ -111,7 +122,10 @@ void copy_rgba(const Frame& frame, const py::buffer& buffer) {
   std::uint8_t* const to = bytes_of(buffer, row_bytes * std::size_t(view.height_px)).data();
   const WithoutGil released;
   const PixelRect all{0, 0, view.width_px, view.height_px};
-  for (int y = 0; y < view.height_px; ++y) pack_row(view, all, y, to + std::size_t(y) * row_bytes);
+  for (int y = 0; y < view.height_px; ++y) {
+    std::uint8_t* const row = to + std::size_t(y) * row_bytes;
+    view.has_alpha ? pack_row(view, all, y, row) : copy_opaque_row(view, y, row);
+  }
 }
 
 py::bytes png_of(const Frame& frame) {

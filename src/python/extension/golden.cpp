@@ -2,6 +2,7 @@
 #include <piblocks/error.hpp>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -38,12 +39,6 @@ References references_of(const BoundScript& bound, const GoldenPlace& place) {
   return {place.name, builder, place.folder};
 }
 
-/// What was found, in lines as 'piblocks golden' prints them.
-struct GoldenResult {
-  std::vector<std::string> lines;
-  bool is_equal = true;
-};
-
 void check_outputs(const BoundScript& bound, const References& references) {
   OverwriteCheck check;
   bound.recipe.claim_inputs(check, references.script());
@@ -51,29 +46,35 @@ void check_outputs(const BoundScript& bound, const References& references) {
   check.check();
 }
 
-GoldenResult act(const BoundScript& bound, const GoldenPlace& place, const std::string& action,
-                 const std::optional<std::string>& diff) {
-  GoldenResult result;
-  const auto say = [&](const std::string& line) { result.lines.push_back(printable(line)); };
+cli::GoldenResult act(const BoundScript& bound, const GoldenPlace& place, const std::string& action,
+                      const std::optional<std::string>& diff) {
+  cli::GoldenResult result;
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
     const References references = references_of(bound, place);
-    if (action == "record") {
-      check_outputs(bound, references);
-      cli::check_unrecorded(references);
-      cli::record_golden(references, say, stop);
-    } else if (action == "approve") {
-      check_outputs(bound, references);
-      cli::check_pictures(references);
-      cli::approve_golden(references, say, stop);
-    } else {
+    if (action == "check") {
       OverwriteCheck check;
       bound.recipe.claim_inputs(check, references.script());
       cli::claim_diff(check, {references}, place.folder, diff);
       check.check();
-      result.is_equal = cli::check_golden(references, diff, say, stop);
+      result = cli::check_golden(references, cli::temporary_folder(), diff, stop);
+      return;
     }
+    check_outputs(bound, references);
+    result = action == "record" ? cli::record_golden(references, stop)
+                                : cli::approve_golden(references, stop);
   });
+  std::ranges::transform(result.lines, result.lines.begin(), printable);
   return result;
+}
+
+/// Their paths.
+std::vector<std::string> files_of(const BoundScript& bound, const GoldenPlace& place) {
+  const References references = references_of(bound, place);
+  std::vector<std::string> paths;
+  for (const std::string& file : references.files()) {
+    paths.push_back(printable(references.path(file).string()));
+  }
+  return paths;
 }
 
 /// Writes the page of 'piblocks compare --report' for the pictures among the references.
@@ -114,11 +115,19 @@ void bind_golden(py::module_& module) {
       [](const BoundScript& bound, const std::string& action, const std::string& name,
          const std::string& folder, const std::optional<std::string>& frames,
          const std::optional<std::string>& diff) {
-        const GoldenResult result = act(bound, {name, folder, frames}, action, diff);
-        return py::make_tuple(result.is_equal, result.lines);
+        const cli::GoldenResult result = act(bound, {name, folder, frames}, action, diff);
+        return py::make_tuple(result.exit_code == 0, result.outcome, result.lines);
       },
       py::arg("script"), py::arg("action"), py::arg("name"), py::arg("folder"), py::arg("frames"),
-      py::arg("diff"), "'piblocks golden': record, check or approve; equality, and lines.");
+      py::arg("diff"), "'piblocks golden': record, check or approve; success, outcome, lines.");
+  module.def(
+      "golden_files",
+      [](const BoundScript& bound, const std::string& name, const std::string& folder,
+         const std::optional<std::string>& frames) {
+        return files_of(bound, {name, folder, frames});
+      },
+      py::arg("script"), py::arg("name"), py::arg("folder"), py::arg("frames"),
+      "The paths of the references, whether they are there or not.");
   module.def(
       "golden_report",
       [](const BoundScript& bound, const std::string& name, const std::string& folder,

@@ -111,8 +111,8 @@ FoundState state_at(const CollisionLog& log, const Rational& time, bool has_boun
 
 /// @throws UsageError that names the text
 Rational time_of_text(const std::string& text, const CollisionLog& log) {
-  const BoundOptions options({{"--at", text}});
-  return time_of(*options.value("--at", parse_instant), log);
+  const BoundOptions options({{"t", text}});
+  return time_of(*options.value("t", parse_instant), log);
 }
 
 Rational time_of_number(double value, const CollisionLog& log) {

@@ -28,7 +28,7 @@ void refuse_several(const std::vector<KeyTexts>& keys, const std::vector<std::st
                     const char* what) {
   std::vector<std::string> given;
   for (const auto& [keyword, key, texts] : keys) {
-    if (std::ranges::count(names, key) > 0) given.push_back(keyword);
+    if (texts && std::ranges::count(names, key) > 0) given.push_back(keyword);
   }
   if (given.size() < 2) return;
   throw UsageError(
@@ -97,9 +97,14 @@ py::tuple rate_of(const BoundScript& bound) {
 
 void Recipe::fill(ScriptBuilder& builder, const std::vector<cli::SceneDefault>& defaults,
                   const std::string& defaults_origin) const {
+  for (const auto& [keyword, key, texts] : keys) {
+    if (!texts) builder.leave_out(key);
+  }
   if (text) builder.read_text(origin, *text);
   for (const auto& [key, value] : defaults) builder.set(defaults_origin, key, value);
-  for (const auto& [keyword, key, texts] : keys) builder.set(keyword, key, texts);
+  for (const auto& [keyword, key, texts] : keys) {
+    if (texts) builder.set(keyword, key, *texts);
+  }
 }
 
 Script Recipe::script(const std::vector<cli::SceneDefault>& defaults,

@@ -20,6 +20,7 @@ from ._errors import (
     UsageError,
 )
 from ._film import Frames
+from ._golden import GoldenResult
 from ._keys import keys
 from ._notebook import Player
 from ._render import Rendered, join
@@ -33,6 +34,7 @@ __all__ = [
     "DrawError",
     "Error",
     "Frames",
+    "GoldenResult",
     "IoError",
     "MediaError",
     "Player",

@@ -59,7 +59,7 @@ def state(run: _piblocks.BodyRun, t: Any) -> BodiesState:
         times[:] = t
     else:
         times = np.asarray(t)
-    texts = [instant("at", one) for one in times.ravel()] if times.ndim else [instant("at", t)]
+    texts = [instant("t", one) for one in times.ravel()] if times.ndim else [instant("t", t)]
     time = np.empty(times.shape)
     count = np.empty(times.shape, np.int64)
     positions = np.empty((*times.shape, *run.shape))

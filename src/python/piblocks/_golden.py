@@ -2,11 +2,35 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 from . import _piblocks
 from ._errors import UsageError
 from ._values import bytes_of, instant, path
+
+
+@dataclass(frozen=True)
+class GoldenResult:
+    """What a golden command has found or done. It is true if all is as it should be, so that a test
+    may say ``assert scene.golden_check(...)``; ``str()`` says why it is not."""
+
+    ok: bool
+    #: Of a check: "equal", "different", "incomplete" if some references are missing, "unreadable",
+    #: "no references". Of record: "recorded", "kept" if all were there, "not recorded". Of
+    #: approve: "recorded", "replaced", "equal".
+    outcome: str
+    #: What the command line prints.
+    lines: tuple[str, ...]
+
+    def __bool__(self) -> bool:
+        return self.ok
+
+    def __str__(self) -> str:
+        return "\n".join(self.lines)
+
+    def __repr__(self) -> str:
+        return f"<GoldenResult {self.outcome}: {'; '.join(self.lines)}>"
 
 
 def _name(name: Any) -> bytes:
@@ -27,8 +51,8 @@ def _frames(frames: Any) -> bytes | None:
 
 def act(
     script: _piblocks.Script, action: str, name: Any, folder: Any, frames: Any, diff: Any
-) -> tuple[bool, list[str]]:
-    return _piblocks.golden(
+) -> GoldenResult:
+    ok, outcome, lines = _piblocks.golden(
         script,
         action,
         _name(name),
@@ -36,6 +60,12 @@ def act(
         _frames(frames),
         None if diff is None else path("diff", diff),
     )
+    return GoldenResult(ok, outcome, tuple(lines))
+
+
+def files(script: _piblocks.Script, name: Any, folder: Any, frames: Any) -> list[str]:
+    """The paths of the references."""
+    return _piblocks.golden_files(script, _name(name), path("dir", folder), _frames(frames))
 
 
 def report(script: _piblocks.Script, name: Any, folder: Any, frames: Any, page: Any) -> bool:

@@ -7,13 +7,16 @@ keys that begin with its name.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import Any, Optional, Union
 
 from . import _piblocks
-from ._errors import SceneError
-from ._values import bytes_of, texts
+from ._errors import SceneError, UsageError
+from ._values import bytes_of, shown, texts
 
-KeyTexts = tuple[bytes, bytes, list[bytes]]
+#: Keyword, key, and the texts of the value; without them the key has its default.
+KeyTexts = tuple[bytes, bytes, Optional[list[bytes]]]
+#: The keywords of a part: the text of a value, those of a list, or the tables of ``compare``.
+Table = dict[str, Union[bytes, list[bytes], list[Any]]]
 
 
 def _keyword(key: str) -> str:
@@ -49,26 +52,45 @@ def _flat(values: Mapping[Any, Any], before: str = "") -> Iterator[tuple[str, An
         keyword = _keyword(f"{before}_{name}" if before else name)
         if isinstance(value, Mapping):
             yield from _flat(value, keyword)
-        elif value is not None:
+        elif value is None and keyword not in KEYS:
+            below = [key for key in KEYS if key.startswith(keyword + "_")]
+            yield from ((key, None) for key in below or [keyword])
+        else:
             yield keyword, value
 
 
+def _require_each_once(keywords: list[str], before: str = "") -> None:
+    for i, keyword in enumerate(keywords):
+        if keyword in keywords[:i]:
+            raise SceneError(f"{before}{keyword} is given more than once")
+
+
 def key_texts(values: Mapping[str, Any]) -> list[KeyTexts]:
-    """Keyword, key and texts of every value. Raises SceneError with all unknown keys, TypeError."""
+    """Keyword, key and texts of every value, no texts for None.
+
+    Raises SceneError with all unknown keys, TypeError."""
     flat = list(_flat(values))
+    given = {keyword for keyword, value in flat if value is not None}
     problems = [unknown(keyword) for keyword, _ in flat if keyword not in KEYS]
     if problems:
         raise SceneError(*problems)
-    seen: set[str] = set()
-    for keyword, _ in flat:
-        if keyword in seen:
-            raise SceneError(f"{keyword} is given more than once")
-        seen.add(keyword)
-    result = [
-        (keyword.encode(), KEYS[keyword].encode(), texts(keyword, value)) for keyword, value in flat
+    _require_each_once([keyword for keyword, value in flat if value is not None])
+    result: list[KeyTexts] = [
+        (keyword.encode(), KEYS[keyword].encode(), None if value is None else texts(keyword, value))
+        for keyword, value in flat
+        if value is not None or keyword not in given
     ]
     _piblocks.check_keys(result)
     return result
+
+
+def fit_into_one_call(keys: list[KeyTexts]) -> bool:
+    """Whether a call may have all of these keywords: not if two of them set one value."""
+    try:
+        _piblocks.check_keys(keys)
+    except UsageError:
+        return False
+    return True
 
 
 def _toml_string(text: bytes) -> bytes:
@@ -81,31 +103,52 @@ def _toml_string(text: bytes) -> bytes:
     return b'"' + b"".join(parts) + b'"'
 
 
-def _toml_value(name: str, value: Any) -> bytes:
+def _value_of_part(name: str, value: Any) -> Union[bytes, list[bytes], list[Table]]:
     if isinstance(value, (list, tuple)) and any(isinstance(one, Mapping) for one in value):
-        tables = [_toml_table(f"{name}[{i}]", one) for i, one in enumerate(value)]
-        return b"[" + b", ".join(tables) + b"]"
-    values = [_toml_string(text) for text in texts(name, value)]
-    is_list = isinstance(value, (list, tuple)) or len(values) != 1
-    return b"[" + b", ".join(values) + b"]" if is_list else values[0]
+        return [_table(f"{name}[{i}]", one) for i, one in enumerate(value)]
+    values = texts(name, value)
+    return values if isinstance(value, (list, tuple)) or len(values) != 1 else values[0]
 
 
-def _toml_table(name: str, table: Any) -> bytes:
-    if not isinstance(table, Mapping):
-        raise TypeError(f"{name}: must be a dict of keys, not {type(table).__name__}")
-    entries = []
-    for keyword, value in _flat(table):
-        key = KEYS.get(keyword, keyword)
-        quoted = b".".join(_toml_string(bytes_of(part)) for part in key.split("."))
-        entries.append(quoted + b" = " + _toml_value(keyword, value))
-    return b"{ " + b", ".join(entries) + b" }"
+def _table(name: str, values: Any) -> Table:
+    if not isinstance(values, Mapping):
+        raise TypeError(f"{name}: must be a dict of keys, not {type(values).__name__}")
+    flat = [(keyword, value) for keyword, value in _flat(values) if value is not None]
+    _require_each_once([keyword for keyword, _ in flat], f"{name}: ")
+    return {keyword: _value_of_part(keyword, value) for keyword, value in flat}
 
 
-def parts_text(parts: Any) -> bytes:
-    """The [[part]]s of a storyboard as text whose line N has part N."""
+def parts_of(parts: Any) -> list[Table]:
+    """The parts of a storyboard with the texts of their values. Raises SceneError, TypeError."""
     if not isinstance(parts, (list, tuple)):
         raise TypeError(f"part: must be a list of dicts, not {type(parts).__name__}")
     if not parts:
         raise SceneError("part: is empty; a storyboard has at least one part")
-    tables = [_toml_table(f"part[{i}]", one) for i, one in enumerate(parts)]
-    return b"part = [ " + b",\n".join(tables) + b" ]\n"
+    return [_table(f"part[{i}]", one) for i, one in enumerate(parts)]
+
+
+def _toml(value: Any) -> bytes:
+    if isinstance(value, bytes):
+        return _toml_string(value)
+    if isinstance(value, list):
+        return b"[" + b", ".join(map(_toml, value)) + b"]"
+    entries = []
+    for keyword, one in value.items():
+        parts = KEYS.get(keyword, keyword).split(".")
+        quoted = b".".join(_toml_string(bytes_of(part)) for part in parts)
+        entries.append(quoted + b" = " + _toml(one))
+    return b"{ " + b", ".join(entries) + b" }"
+
+
+def parts_text(parts: list[Table]) -> bytes:
+    """The [[part]]s of a storyboard as text whose line N has part N."""
+    return b"part = [ " + b",\n".join(map(_toml, parts)) + b" ]\n"
+
+
+def parts_shown(parts: Any) -> Any:
+    """What stands for the parts in a call."""
+    if isinstance(parts, bytes):
+        return shown(parts)
+    if isinstance(parts, list):
+        return [parts_shown(one) for one in parts]
+    return {keyword: parts_shown(value) for keyword, value in parts.items()}

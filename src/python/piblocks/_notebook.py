@@ -8,14 +8,15 @@ import tempfile
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from ._errors import Error
+from ._errors import Error, UsageError
 
 if TYPE_CHECKING:
     from ._scene import Scene
 
 _LONGER_SIDE = 960  # pixels: what a notebook has room for
-_MOST_FRAMES = 20_000  # five and a half minutes; longer films are shown as a picture
-_MOST_BYTES = 64 << 20  # of a file that is put into a notebook
+_MOST_FRAMES = 20_000  # five and a half minutes; longer films are not rendered unasked
+_MOST_UNASKED_BYTES = 8 << 20  # that are put into a notebook because a scene is its last line
+_MOST_BYTES = 64 << 20  # that are put into a notebook at all
 _CONTROLS_HEIGHT = 330  # pixels that the page needs beside its video
 
 _TYPES = {
@@ -31,11 +32,21 @@ _TYPES = {
 class Player:
     """A film that a notebook shows by its ``_repr_html_``."""
 
-    def __init__(self, html: str) -> None:
+    def __init__(self, html: str, note: str = "") -> None:
         self.html = html
+        #: Why it is a player and no slider, if a slider was asked for.
+        self.note = note
 
     def _repr_html_(self) -> str:
-        return self.html
+        return f"<p>{escape(self.note)}</p>\n{self.html}" if self.note else self.html
+
+    def __repr__(self) -> str:
+        note = f": {self.note}" if self.note else ""
+        return f"<piblocks.Player, {_megabytes(len(self.html))} for a notebook{note}>"
+
+
+def _megabytes(size: int) -> str:
+    return f"{size / 1e6:,.1f} MB"
 
 
 def _data_url(data: bytes, kind: str) -> str:
@@ -58,20 +69,50 @@ def _media(data: bytes, kind: str) -> str:
     return f'<{tag} {source} controls style="max-width: 100%"></{tag}>'
 
 
-def file_html(path: str) -> str | None:
-    """What a notebook shows for a file; None if it has no way to, or the file is very large."""
+def _require_embeddable(what: str, size: int) -> None:
+    if size > _MOST_BYTES:
+        raise UsageError(
+            f"player: {what} has {_megabytes(size)}, and a notebook takes "
+            f"{_megabytes(_MOST_BYTES)} at most; open the file by itself, or make it smaller"
+        )
+
+
+def _is_shown(ending: str) -> bool:
+    return ending == ".html" or ending in _TYPES
+
+
+def _embedded_file(path: str) -> str:
     ending = os.path.splitext(path)[1].lower()
-    try:
-        if os.path.getsize(path) > _MOST_BYTES:
-            return None
-        with open(path, "rb") as file:
-            data = file.read()
-    except OSError:
-        return None
+    with open(path, "rb") as file:
+        data = file.read()
     if ending == ".html":
         return _frame_of_page(data.decode(), _LONGER_SIDE, _LONGER_SIDE * 9 // 16)
-    kind = _TYPES.get(ending)
-    return None if kind is None else _media(data, kind)
+    return _media(data, _TYPES[ending])
+
+
+def file_html(path: str) -> str | None:
+    """What a notebook shows for a file: the film, or the size of a large one; None if nothing."""
+    if not _is_shown(os.path.splitext(path)[1].lower()):
+        return None
+    try:
+        size = os.path.getsize(path)
+        if size <= _MOST_UNASKED_BYTES:
+            return _embedded_file(path)
+    except OSError:
+        return None
+    return (
+        f"<p>{escape(path)} would add {_megabytes(size)} to the notebook. To embed it all the "
+        "same, call <code>.player()</code> of this result.</p>"
+    )
+
+
+def file_player(path: str) -> Player:
+    """The film of a file. Raises UsageError, OSError."""
+    ending = os.path.splitext(path)[1].lower()
+    if not _is_shown(ending):
+        raise UsageError(f"player: a notebook cannot play '{path}'; write *.mp4 or *.html")
+    _require_embeddable(f"'{path}'", os.path.getsize(path))
+    return Player(_embedded_file(path))
 
 
 def display_size(width: int, height: int) -> tuple[int, int]:
@@ -99,33 +140,66 @@ def _rendered(scene: Scene, name: str) -> bytes:
             return file.read()
 
 
-def film_html(scene: Scene) -> str:
-    """The film in the page's player; a storyboard as a video; a very long film as a picture."""
-    shown = _for_display(scene)
-    if len(shown.frames()) > _MOST_FRAMES:
-        return _media(shown.frames().png(-1), "image/png")
-    if scene.is_storyboard:
+def _film_html(shown: Scene) -> str:
+    """The film in the page's player; a storyboard as a video."""
+    if shown.is_storyboard:
         return _media(_rendered(shown, "film.mp4"), "video/mp4")
     return _frame_of_page(_rendered(shown, "film.html").decode(), *shown.size)
 
 
+def player(scene: Scene) -> Player:
+    """The film, however large. Raises UsageError."""
+    html = _film_html(_for_display(scene))
+    _require_embeddable("the film", len(html))
+    return Player(html)
+
+
+def _film_or_question(scene: Scene) -> str:
+    shown = _for_display(scene)
+    frames = shown.frames()
+    size = f"{len(frames):,} frames"
+    if len(frames) <= _MOST_FRAMES:
+        html = _film_html(shown)
+        if len(html) <= _MOST_UNASKED_BYTES:
+            return html
+        size += f", and would add {_megabytes(len(html))} to the notebook"
+    return (
+        f"<p>This film has {size}. To embed it all the same, call <code>.player()</code> of the "
+        'scene; to write a file, <code>.render("film.mp4")</code>. Its last picture:</p>\n'
+        + _media(frames.png(-1), "image/png")
+    )
+
+
 def scene_html(scene: Scene) -> str:
-    """As film_html(). A scene that cannot be shown says why."""
+    """The film of a scene; of a large one its size, and how to go on. A scene that cannot be shown
+    says why."""
     try:
-        return film_html(scene)
+        return _film_or_question(scene)
     except Error as error:
         return f"<pre>{escape(repr(scene))}\n{escape(str(error))}</pre>"
 
 
-def slider(scene: Scene) -> Any:
-    """A slider over all frames, with ipywidgets; without them the page's player."""
+def _problem_of_slider() -> str:
+    """What is missing for a slider; empty if nothing is."""
+    needs = "A slider needs ipywidgets 7 or later"
+    remedy = "pip install 'ipywidgets>=7', and restart the kernel. Until then this is the player."
     try:
         import ipywidgets
     except ImportError:
-        return Player(film_html(scene))
+        return f"{needs}, and there is none: {remedy}"
     # Older ones, such as Debian 12's, speak a protocol that Jupyter no longer understands.
     if int(ipywidgets.__version__.split(".")[0]) < 7:
-        return Player(film_html(scene))
+        return f"{needs}, and this is {ipywidgets.__version__}: {remedy}"
+    return ""
+
+
+def slider(scene: Scene) -> Any:
+    """A slider over all frames, with ipywidgets; without them a player that says what it needs."""
+    problem = _problem_of_slider()
+    if problem:
+        return Player(scene_html(scene), problem)
+    import ipywidgets
+
     return widget(scene, ipywidgets)
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any, Union
 
 from . import _piblocks
-from ._notebook import file_html
+from ._notebook import Player, file_html, file_player
 from ._values import flag, instant, options, path, texts
 
 Progress = Callable[[int, int], object]
@@ -17,7 +17,7 @@ Progress = Callable[[int, int], object]
 
 @dataclass(frozen=True)
 class Rendered:
-    """What a rendering wrote. In a notebook it shows the film."""
+    """What a rendering wrote. In a notebook it shows the film, or the size of a large one."""
 
     path: str
     #: Frames that were rendered.
@@ -29,6 +29,13 @@ class Rendered:
 
     def _repr_html_(self) -> str | None:
         return file_html(self.path)
+
+    def player(self) -> Player:
+        """The film for a notebook, also if it is large.
+
+        :raises UsageError: if a notebook cannot play the file. :raises OSError: if it is gone.
+        """
+        return file_player(self.path)
 
 
 class _Bar:
@@ -69,7 +76,7 @@ def render(
     part: Any,
     given: dict[str, Any],
 ) -> Rendered:
-    name = path("output", output)
+    name = path("file", output)
     flags = {
         option: flag(option[2:], value)
         for option, value in given.items()
@@ -99,7 +106,7 @@ def still(script: _piblocks.Script, output: Any, at: Any, format: Any) -> None:
         return
     if format is not None:
         raise TypeError("format: is for an open file; the ending of a name selects the format")
-    _piblocks.still_file(script, when, path("output", output))
+    _piblocks.still_file(script, when, path("file", output))
 
 
 def sheet(script: _piblocks.Script, output: Any, frames: Any, by: Any, at: Any) -> None:
@@ -107,7 +114,7 @@ def sheet(script: _piblocks.Script, output: Any, frames: Any, by: Any, at: Any) 
     if at is not None:
         instants = list(at) if isinstance(at, (list, tuple)) or hasattr(at, "__array__") else [at]
         given[b"--at"] = b",".join(instant("at", one) for one in instants)
-    _piblocks.sheet_file(script, path("output", output), given)
+    _piblocks.sheet_file(script, path("file", output), given)
 
 
 def join(parts: Iterable[Union[str, os.PathLike[str]]], output: Union[str, os.PathLike[str]]) -> int:

@@ -14,7 +14,10 @@ from ._errors import UsageError
 from ._values import instant, options, scalar
 
 #: A row of a log, as ``piblocks log --format npy`` writes it.
-ROW = np.dtype(ast.literal_eval(_piblocks.ROW_TYPE))
+_ROW = np.dtype(ast.literal_eval(_piblocks.ROW_TYPE))
+#: The same with the kind of the collision as a str, which compares with Python's strings.
+ROW = np.dtype([(n, "U6" if n == "kind" else _ROW[n]) for n in _ROW.names or ()])
+_CHUNK = 65_536  # rows whose kind becomes a str at a time
 _STATE = ast.literal_eval(_piblocks.STATE_TYPE)
 _BOUNDS = ast.literal_eval(_piblocks.BOUND_TYPE)
 
@@ -114,9 +117,11 @@ def log(
 ) -> np.ndarray:
     begin, count = selected(run, options_of_log(from_, to, first, limit), last, limit)
     rows = np.empty(count, ROW)
-    if count > 0:
-        fits = _fit(begin, count)
-        run.fill_log(format(begin, "x"), rows.view(np.uint8), count, fits)
+    fits = _fit(begin, count)
+    for start in range(0, count, _CHUNK):
+        part = np.empty(min(_CHUNK, count - start), _ROW)
+        run.fill_log(format(begin + start, "x"), part.view(np.uint8), len(part), fits)
+        rows[start : start + len(part)] = part
     return with_index(rows, begin)
 
 
@@ -144,8 +149,8 @@ def state(run: _piblocks.Run, t: Any, bounds: bool) -> Any:
         array[:] = t
         t = array
     if not isinstance(t, np.ndarray):
-        row = _fill(run, [instant("at", t)], bounds, (1,))[0]
+        row = _fill(run, [instant("t", t)], bounds, (1,))[0]
         return State(*(value.item() if hasattr(value, "item") else value for value in row))
     if t.dtype == np.float64 or np.issubdtype(t.dtype, np.integer) and t.dtype.itemsize <= 4:
         return _fill(run, np.ascontiguousarray(t, np.float64).ravel(), bounds, t.shape)
-    return _fill(run, [instant("at", one) for one in t.ravel()], bounds, t.shape)
+    return _fill(run, [instant("t", one) for one in t.ravel()], bounds, t.shape)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from fractions import Fraction
 from typing import Any, Union
 
@@ -11,12 +10,21 @@ import numpy as np
 
 from . import _bodies, _golden, _notebook, _piblocks, _render, _run
 from ._bodies import BodiesState
-from ._errors import SceneError
+from ._errors import SceneError, UsageError, of_system
 from ._film import Frames, pixels
-from ._keys import KeyTexts, key_texts, parts_text
+from ._golden import GoldenResult
+from ._keys import (
+    KeyTexts,
+    Table,
+    fit_into_one_call,
+    key_texts,
+    parts_of,
+    parts_shown,
+    parts_text,
+)
 from ._render import Progress, Rendered
 from ._run import State
-from ._values import bytes_of, flag, instant, path, require_str, scalar
+from ._values import bytes_of, flag, instant, path, require_str, scalar, shown
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -26,9 +34,18 @@ def scenes() -> dict[str, str]:
     return dict(_piblocks.scenes())
 
 
+#: What a scene is made of beside its keywords: the text of a file, or parts.
+Source = Union[bytes, list[Table], None]
+
+
 def _merged(before: tuple[KeyTexts, ...], more: list[KeyTexts]) -> tuple[KeyTexts, ...]:
     new = {key for _, key, _ in more}
     return (*(one for one in before if one[1] not in new), *more)
+
+
+def _given(keys: list[KeyTexts]) -> tuple[KeyTexts, ...]:
+    """Without those that are None, which leaves them as they are."""
+    return tuple(one for one in keys if one[2] is not None)
 
 
 class Scene:
@@ -41,7 +58,8 @@ class Scene:
 
     Values are numbers, strings as in a scene file, bools, or lists of these. Numbers are exact: an
     int, a ``Fraction`` and a ``Decimal`` stand for themselves, and a float for the decimal that
-    Python prints, so that 0.1 is one tenth. None leaves a key as it is.
+    Python prints, so that 0.1 is one tenth. None leaves a key as it is; in ``replace`` it stands
+    for the default.
 
     :param digits: how many digits of pi the collisions count; red is 100**(digits - 1) times as
         heavy as blue. Without keywords it is the article's scene: three digits.
@@ -58,46 +76,48 @@ class Scene:
         if digits is not None:
             keys = {"digits": digits, **keys}
         parts = keys.pop("part", None)
-        text = None if parts is None else parts_text(parts)
-        self._make(b"part", text, False, tuple(key_texts(keys)))
+        source = None if parts is None else parts_of(parts)
+        self._make(b"part", source, False, _given(key_texts(keys)))
 
     def _make(
-        self, origin: bytes, text: bytes | None, is_file: bool, keys: tuple[KeyTexts, ...]
+        self, origin: bytes, source: Source, is_file: bool, keys: tuple[KeyTexts, ...]
     ) -> None:
+        text = parts_text(source) if isinstance(source, list) else source
         self._script = _piblocks.Script(origin, text, is_file, list(keys))
-        self._recipe = (origin, text, is_file, keys)
+        self._recipe = (origin, source, is_file, keys)
         self._runs: dict[str, _piblocks.Run] = {}
         self._body_run: _piblocks.BodyRun | None = None
         self._pictures: _piblocks.Pictures | None = None
 
     @classmethod
     def _restore(
-        cls, origin: bytes, text: bytes | None, is_file: bool, keys: tuple[KeyTexts, ...]
+        cls, origin: bytes, source: Source, is_file: bool, keys: tuple[KeyTexts, ...]
     ) -> Scene:
         scene = cls.__new__(cls)
-        scene._make(origin, text, is_file, keys)
+        scene._make(origin, source, is_file, keys)
         return scene
 
     @classmethod
     def from_toml(cls, file: Path, **keys: Any) -> Scene:
         """Reads a scene file or a storyboard. Keywords win over the file, as options do.
 
-        :raises SceneError: if it cannot be read, or is wrong; with the number of each line.
+        :raises SceneError: if it is wrong, with the number of each line; or if it cannot be read:
+            then the error is a FileNotFoundError, PermissionError, ... too.
         """
         name = path("file", file)
         try:
             with open(name, "rb") as opened:
                 text = opened.read((1 << 20) + 1)
         except OSError as error:
-            raise SceneError(
-                f"scene: cannot read '{os.fsdecode(name)}': {os.strerror(error.errno or 0)}"
-            ) from error
+            number = error.errno or 0
+            problem = f"scene: cannot read '{os.fsdecode(name)}': {os.strerror(number)}"
+            raise of_system(SceneError, problem, number, file) from error
         if len(text) > 1 << 20:
             raise SceneError(
                 f"scene: '{os.fsdecode(name)}' is longer than {1 << 20} bytes, the most that a scene "
                 "file may have; leave out bodies, parts or comments"
             )
-        return cls._restore(name, text, True, tuple(key_texts(keys)))
+        return cls._restore(name, text, True, _given(key_texts(keys)))
 
     @classmethod
     def from_toml_text(cls, text: str, origin: str = "scene", **keys: Any) -> Scene:
@@ -108,7 +128,7 @@ class Scene:
         if not isinstance(text, str):
             raise TypeError(f"text: must be a str, not {type(text).__name__}")
         return cls._restore(
-            scalar("origin", origin), bytes_of(text), False, tuple(key_texts(keys))
+            scalar("origin", origin), bytes_of(text), False, _given(key_texts(keys))
         )
 
     @classmethod
@@ -120,12 +140,22 @@ class Scene:
         if not isinstance(name, str):
             raise TypeError(f"name: must be a str, not {type(name).__name__}")
         text = _piblocks.scene_text(bytes_of(name)).encode()
-        return cls._restore(f"{name} (shipped)".encode(), text, False, tuple(key_texts(keys)))
+        return cls._restore(f"{name} (shipped)".encode(), text, False, _given(key_texts(keys)))
 
     def replace(self, **keys: Any) -> Scene:
-        """The same scene with other values for these keys."""
-        origin, text, is_file, before = self._recipe
-        return self._restore(origin, text, is_file, _merged(before, key_texts(keys)))
+        """The same scene with other values for these keys; None stands for the default, also where
+        a scene file says something else."""
+        origin, source, is_file, before = self._recipe
+        if "part" in keys:
+            if isinstance(source, bytes):
+                raise SceneError(
+                    "part: these parts are those of a scene file; make a Scene(part=...)"
+                )
+            parts = keys.pop("part")
+            source = None if parts is None else parts_of(parts)
+        merged = _merged(before, key_texts(keys))
+        has_file = isinstance(source, bytes)
+        return self._restore(origin, source, is_file, merged if has_file else _given(list(merged)))
 
     # What it is
 
@@ -182,19 +212,26 @@ class Scene:
         return self
 
     def __repr__(self) -> str:
-        origin, text, is_file, keys = self._recipe
-        arguments = [_argument(keyword, texts) for keyword, _, texts in keys]
-        if text is None:
-            return f"Scene({', '.join(arguments)})"
+        first, *more = _links(self._recipe[3])
+        name, arguments = self._origin()
+        calls = [f"Scene{name}({', '.join([*arguments, *map(_argument, first)])})"]
+        calls += [f"replace({', '.join(map(_argument, link))})" for link in more]
+        return ".".join(calls)
+
+    def _origin(self) -> tuple[str, list[str]]:
+        """The constructor, and its arguments before the keywords."""
+        origin, source, is_file, _ = self._recipe
         name = os.fsdecode(origin)
+        shipped = name.removesuffix(" (shipped)")
+        if source is None:
+            return "", []
+        if isinstance(source, list):
+            return "", [f"part={parts_shown(source)!r}"]
         if is_file:
-            return f"Scene.from_toml({', '.join([repr(name), *arguments])})"
-        if name.endswith(" (shipped)"):
-            shipped = name.removesuffix(" (shipped)")
-            return f"Scene.shipped({', '.join([repr(shipped), *arguments])})"
-        if keys and keys[0][1] == "part" or name == "part":
-            return "Scene(part=[...])"
-        return f"Scene.from_toml_text(..., {', '.join([repr(name), *arguments])})"
+            return ".from_toml", [repr(name)]
+        if shipped != name and _is_shipped(shipped, source):
+            return ".shipped", [repr(shipped)]
+        return ".from_toml_text", [repr(source.decode("utf-8", "surrogateescape")), repr(name)]
 
     # Numbers
 
@@ -275,19 +312,21 @@ class Scene:
             self._pictures = _piblocks.Pictures(self._script)
         return self._pictures
 
-    def frame(self, t: Any = "last") -> np.ndarray:
+    def frame(self, t: Any = "last", *, rgba: bool = False) -> np.ndarray:
         """The picture at an instant: uint8, height x width x 3, red, green, blue.
 
-        It is read-only, without a copy, and keeps its pixels. With a transparent background it is
-        height x width x 4, with straight alpha.
+        It is a read-only view of the renderer's memory, not contiguous, and keeps its pixels. With
+        a transparent background it is as with ``rgba``.
 
         :param t: an instant, as for ``state``; of a storyboard, a second of its video.
+        :param rgba: height x width x 4, with straight alpha: a contiguous copy of your own.
         """
-        return pixels(self._all_pictures().still(instant("at", t)))
+        picture = self._all_pictures().still(instant("t", t))
+        return pixels(picture, flag("rgba", rgba))
 
-    def frames(self) -> Frames:
-        """The frames of the film, as a sequence of arrays."""
-        return Frames(self._all_pictures(), self.fps)
+    def frames(self, *, rgba: bool = False) -> Frames:
+        """The frames of the film, as a sequence of arrays like those of ``frame``."""
+        return Frames(self._all_pictures(), self.fps, flag("rgba", rgba))
 
     def still(self, file: Any, at: Any = "last", *, format: str | None = None) -> None:
         """Writes the picture at an instant.
@@ -353,47 +392,71 @@ class Scene:
         return _render.render(self._script, file, progress, bundle, poster, part, given)
 
     def animate(self) -> Any:
-        """A slider over the exact frames: a widget of ipywidgets, or the page's player."""
+        """A slider over the exact frames in a notebook: a widget of ipywidgets 7 or later.
+
+        Without it, a ``Player`` that says what is missing.
+        """
         return _notebook.slider(self)
+
+    def player(self) -> _notebook.Player:
+        """The film in a player, for a notebook, also if it is large.
+
+        :raises UsageError: if it has more than 64 MB.
+        """
+        return _notebook.player(self)
 
     def _repr_html_(self) -> str:
         return _notebook.scene_html(self)
 
     # Golden references
 
-    def golden_record(self, name: str, dir: Path, *, frames: Any = None) -> list[str]:
-        """Keeps references: a hash of every frame, and some pictures; as ``piblocks golden``.
+    def golden_record(self, name: str, dir: Path, *, frames: Any = None) -> GoldenResult:
+        """Keeps references that are missing: a hash of every frame, and some pictures.
+
+        It replaces none. If there are some that are not what is drawn now, it keeps nothing, and
+        the result is false.
 
         :param name: the beginning of the files' names. :param frames: instants kept as pictures.
-        :returns: what the command line prints.
-        :raises UsageError: if there are references of this name.
         """
-        return _golden.act(self._script, "record", name, dir, frames, None)[1]
+        return _golden.act(self._script, "record", name, dir, frames, None)
 
-    def golden_approve(self, name: str, dir: Path, *, frames: Any = None) -> list[str]:
-        """Replaces references, and tells what changes."""
-        return _golden.act(self._script, "approve", name, dir, frames, None)[1]
+    def golden_approve(self, name: str, dir: Path, *, frames: Any = None) -> GoldenResult:
+        """Replaces references; the result tells what changes."""
+        return _golden.act(self._script, "approve", name, dir, frames, None)
 
     def golden_check(
         self, name: str, dir: Path, *, frames: Any = None, diff: Path | None = None
-    ) -> tuple[bool, list[str]]:
-        """Compares with references: whether all is equal, and what the command line prints.
+    ) -> GoldenResult:
+        """Compares with references. The result is true if all is equal: ``assert
+        scene.golden_check("turn", "golden")``.
 
-        :param diff: a folder for expected, difference and actual of pictures that differ.
-        :raises Error: if a reference is missing.
+        :param diff: a folder, in which one of this name gets pictures of what differs.
         """
         return _golden.act(self._script, "check", name, dir, frames, diff)
 
 
-def _shown(text: bytes) -> Union[str, int, bool]:
-    """What stands for the text in a call: a number that reads as this text, or the text."""
-    if text in (b"true", b"false"):
-        return text == b"true"
-    is_plain = text == b"0" or re.fullmatch(rb"-?[1-9][0-9]{0,17}", text) is not None
-    return int(text) if is_plain else text.decode("utf-8", "surrogateescape")
+
+def _links(keys: tuple[KeyTexts, ...]) -> list[list[KeyTexts]]:
+    """The keywords of a constructor, and those of each replace() after it."""
+    links: list[list[KeyTexts]] = [[]]
+    for one in keys:
+        is_reset = one[2] is None
+        if (is_reset and len(links) == 1) or not fit_into_one_call([*links[-1], one]):
+            links.append([])
+        links[-1].append(one)
+    return links
 
 
-def _argument(keyword: bytes, texts: list[bytes]) -> str:
-    values = [_shown(text) for text in texts]
-    value = values[0] if len(values) == 1 else values
-    return f"{keyword.decode()}={value!r}"
+def _argument(one: KeyTexts) -> str:
+    keyword, _, texts = one
+    if texts is None:
+        return f"{keyword.decode()}=None"
+    values = [shown(text) for text in texts]
+    return f"{keyword.decode()}={values[0] if len(values) == 1 else values!r}"
+
+
+def _is_shipped(name: str, text: bytes) -> bool:
+    try:
+        return _piblocks.scene_text(bytes_of(name)).encode() == text
+    except UsageError:
+        return False

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numbers
 import os
+import re
 from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from fractions import Fraction
@@ -49,6 +50,14 @@ def text_of_number(value: Any) -> str | None:
     if isinstance(value, numbers.Rational):
         return f"{text_of_integer(int(value.numerator))}/{text_of_integer(int(value.denominator))}"
     return None
+
+
+def shown(text: bytes) -> Union[str, int, bool]:
+    """What stands for the text in a call: a number that reads as this text, or the text."""
+    if text in (b"true", b"false"):
+        return text == b"true"
+    is_plain = text == b"0" or re.fullmatch(rb"-?[1-9][0-9]{0,17}", text) is not None
+    return int(text) if is_plain else text.decode("utf-8", "surrogateescape")
 
 
 def scalar(name: str, value: Any) -> bytes:

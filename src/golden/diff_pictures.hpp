@@ -1,0 +1,49 @@
+// Pictures of differences in a folder. Several comparisons may share it: the last one wins.
+// In: PNG files with their names. Out: these files, and no longer those of earlier comparisons.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/output_file.hpp"
+#include "core/overwrite_check.hpp"
+#include "media/png/png_chunk.hpp"
+
+namespace piblocks {
+
+class DiffPictures {
+ public:
+  enum class Making { at_once, when_needed };
+
+  /// @param making  when the folder is made: a long comparison finds out at once that it cannot be;
+  ///                one that finds no difference does not need it.
+  /// @throws UsageError if the folder cannot be made.
+  DiffPictures(std::filesystem::path folder, Making making);
+
+  /// @param png  a whole file, which gets a mark.
+  void add(const std::string& name, Bytes png);
+  std::size_t count() const noexcept { return pictures_.size(); }
+  /// Writes the pictures, and removes those of earlier comparisons, which carry the mark. Waits as
+  /// long as another comparison does so.
+  /// @param may_be_old  names that an earlier comparison may have used.
+  /// @throws UsageError if a picture would replace a file that no comparison has written; IoError
+  void finish(const FileNames& may_be_old);
+
+ private:
+  struct Picture {
+    std::string name;
+    Bytes bytes;
+  };
+
+  std::vector<std::string> old_pictures(const FileNames& may_be_old) const;
+  void make_folder();
+
+  std::filesystem::path folder_;
+  std::optional<FileSet> files_;
+  std::vector<Picture> pictures_;
+};
+
+}  // namespace piblocks
