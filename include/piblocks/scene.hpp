@@ -139,8 +139,9 @@ inline constexpr int kMaxFrameRate = 1000;
 /// Which part of the run is shown, in simulation time.
 struct TimeSpan {
   Instant from = {};
-  /// An end that is a time is not shown itself, so that two seconds have 120 frames at 60 per
-  /// second. An end at a turn or a collision is shown, by the first frame at it or past it.
+  /// An end that is a time is not shown itself unless it is held, so that two seconds have 120
+  /// frames at 60 per second. An end at a turn or a collision is shown by the last frame. No frame
+  /// shows a later time.
   Instant to = Instant::last(Rational(3, 2));
   Rational speed = 1;  ///< simulation time per second of video, > 0
   /// Whether bodies are also shown where double precision cannot tell any more which of them

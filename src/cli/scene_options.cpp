@@ -112,7 +112,7 @@ void SceneOptions::add_timing() {
   add_text("time.freeze", "--freeze", "AT:S",
            "Instants, as above, at which the picture stands still for S s");
   add_key("time.hold-start", "--hold-start", "S", "Show the first picture for S s more");
-  add_key("time.hold-end", "--hold-end", "S", "Show the last picture for S s more");
+  add_key("time.hold-end", "--hold-end", "S", "Let the picture stand at its end for S s more");
   add_flag({"time.loop", "--loop", "true"},
            "Play forwards and backwards, so that the video repeats");
 }

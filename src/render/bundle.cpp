@@ -121,8 +121,7 @@ Rendered render_bundle(const RenderJob& job,
   const Schedule schedule = make_schedule(scene, run.timeline());
   const PageFacts facts(scene, run, schedule);
   write_poster(job, facts.frames_before_reversal() - 1, files);
-  write_texts(job, describe_video(scene, facts.count()),
-              captions(run, schedule, scene.view.frame_rate), files);
+  write_texts(job, describe_video(scene, facts.count()), captions(scene, run, schedule), files);
   RenderJob video = job;
   video.bundle.reset();
   video.output = files.add(job.output);

@@ -83,35 +83,17 @@ std::vector<Voice> voices_of(const Film& film) {
   return voices;
 }
 
-/// Time stands still from `end` on, where a shutter is open longer.
-void stop_at(const Rational& end, std::vector<TimeSlice>& exposure) {
-  std::vector<TimeSlice> stopped;
-  for (const TimeSlice& slice : exposure) {
-    const auto [first, last] = std::minmax(slice.from, slice.to);
-    const Rational beyond =
-        last <= end ? Rational(0) : Rational((last - std::max(first, end)) / (last - first));
-    const Rational from = std::min(slice.from, end);
-    const Rational to = std::min(slice.to, end);
-    if (beyond < 1) stopped.push_back({from, to, slice.share * (1 - beyond)});
-    if (beyond > 0) stopped.push_back({end, end, slice.share * beyond});
-  }
-  exposure = std::move(stopped);
-}
-
 }  // namespace
 
 FilmRun::FilmRun(Scene scene, RunLog log, FilmUse use)
     : scene_(std::move(scene)), log_(std::move(log)) {
   if (use == FilmUse::audio_only) return;
   if (const BodyLog* const bodies = log_.bodies()) {
-    if (has_span(scene_, *bodies)) end_ = span_of(scene_, *bodies).to;
     composition_.emplace(scene_, *bodies, read_logo(scene_));
   } else {
     composition_.emplace(scene_, *log_.blocks(), read_logo(scene_));
   }
 }
-
-DrawList FilmRun::picture(const FrameTime& shown) const { return picture(shown, nullptr); }
 
 DrawList FilmRun::picture(const FrameTime& shown, const VideoTime* video_time) const {
   if (log_.bodies() != nullptr) return picture_of_bodies(shown);
@@ -122,9 +104,7 @@ DrawList FilmRun::picture(const FrameTime& shown, const VideoTime* video_time) c
                                  : frame_state(blocks, shown, needs, *video_time));
 }
 
-DrawList FilmRun::picture_of_bodies(FrameTime shown) const {
-  // What comes after the end may not be certain, or may be more than can be computed.
-  if (end_ && shown.time < *end_) stop_at(*end_, shown.exposure);
+DrawList FilmRun::picture_of_bodies(const FrameTime& shown) const {
   Rational last = shown.time;
   for (const TimeSlice& slice : shown.exposure) last = std::max({last, slice.from, slice.to});
   const BodyLog& bodies = *log_.bodies();
@@ -139,15 +119,25 @@ DrawList FilmRun::frame(const Schedule& schedule, std::int64_t number) const {
   return picture(schedule.at(video_time.video_s, open_s(scene_.view)), &video_time);
 }
 
-DrawList FilmRun::still(const Rational& time) const {
-  const FrameTime shown = still_time(scene_, timeline(), time);
+std::vector<DrawList> FilmRun::stills(std::span<const Rational> times) const {
   const FrameNeeds& needs = composition_->needs();
-  if (!(needs.hits || needs.video_s) || !has_span(scene_, timeline())) return picture(shown);
-  const Schedule schedule = make_schedule(scene_, timeline());
-  const std::optional<Rational> video_s = schedule.first_shown_s(time);
-  if (!video_s) return picture(shown);
-  const VideoTime video_time{schedule, *video_s};
-  return picture(shown, &video_time);
+  const bool depends_on_video =
+      needs.hits || needs.video_s || scene_.view.shutter > 0 || has_slow_motion(scene_.pacing);
+  std::optional<Schedule> schedule;
+  if (depends_on_video && has_span(scene_, timeline())) {
+    schedule = make_schedule(scene_, timeline());
+  }
+  std::vector<DrawList> pictures;
+  for (const Rational& time : times) {
+    const auto video_s = schedule ? schedule->first_shown_s(time) : std::nullopt;
+    if (video_s) {
+      const VideoTime video_time{*schedule, *video_s};
+      pictures.push_back(picture(schedule->at(*video_s, open_s(scene_.view)), &video_time));
+    } else {
+      pictures.push_back(picture(frame_time_alone(scene_, timeline(), time), nullptr));
+    }
+  }
+  return pictures;
 }
 
 std::shared_ptr<const Image> read_logo(const Scene& scene) {

@@ -43,19 +43,20 @@ class FilmRun {
   const Timeline& timeline() const { return log_.timeline(); }
   /// A frame by a schedule, which may be another run's. @param number  >= 0
   DrawList frame(const Schedule& schedule, std::int64_t number) const;
-  /// What a still of this time shows. @throws UsageError as still_time(), or if the picture shows
-  /// hits and the scene has no schedule.
-  DrawList still(const Rational& time) const;
-  /// The picture of a time that no video shows: it has no hits.
-  DrawList picture(const FrameTime& shown) const;
+  /// A picture of each time: the first frame that shows the time. If no frame does, a frame that
+  /// begins where the video first passes it. If the video never passes it, as frame_time_alone(),
+  /// without hits.
+  /// @throws UsageError as make_schedule(), if slow motion, the shutter, hits or a diagram that
+  ///         follows the video ask for a schedule.
+  std::vector<DrawList> stills(std::span<const Rational> times) const;
+  DrawList still(const Rational& time) const { return std::move(stills({&time, 1}).front()); }
 
  private:
   DrawList picture(const FrameTime& shown, const VideoTime* video_time) const;
-  DrawList picture_of_bodies(FrameTime shown) const;
+  DrawList picture_of_bodies(const FrameTime& shown) const;
 
   Scene scene_;
   RunLog log_;
-  std::optional<Rational> end_;             ///< of what the scene shows of bodies, if it has one
   std::optional<Composition> composition_;  ///< unless FilmUse::audio_only
 };
 

@@ -77,13 +77,6 @@ std::optional<Rational> least_distance(const std::vector<Rational>& times) {
   return least;
 }
 
-std::int64_t count_before_reversal(const Schedule& schedule, const Rational& frame_rate) {
-  for (const Stretch& stretch : schedule.stretches()) {
-    if (stretch.speed < 0) return ceil(stretch.video_s * frame_rate).get_si() + 1;
-  }
-  return film_frames(schedule);
-}
-
 /// The slowest motion from frame to frame; the whole span where there is none.
 Rational least_step(const Schedule& schedule, const Rational& frame_rate, const Rational& span) {
   Rational least = span;
@@ -108,8 +101,8 @@ PageFacts::PageFacts(const Scene& scene, const RunLog& run, const Schedule& sche
       is_endless_(run.blocks() != nullptr && is_endless(*run.blocks())),
       schedule_(schedule),
       frames_(film_frames(schedule)),
-      frames_before_reversal_(
-          std::min(count_before_reversal(schedule, scene.view.frame_rate), frames_)),
+      // A loop shows its first frame and the one at which it turns back once.
+      frames_before_reversal_(scene.pacing.loop ? frames_ / 2 + 1 : frames_),
       from_(schedule.time_of(0)),
       first_(log_.count_at(from_)),
       most_(log_.count_at(schedule.time_of(frames_before_reversal_ - 1))) {}

@@ -45,14 +45,12 @@ bool is_page(const std::string& output);
 Rendered render_page(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
                      const std::stop_token& stop);
 
-/// What render_still() draws: the first frame of the film that shows the instant or, if no frame
-/// does, what still_time() says.
+/// What render_still() draws: of a scene as FilmRun::stills(), of a storyboard as frame_at().
 /// @throws SceneError if problems_of() the script is not empty; UsageError, DrawError, MediaError,
 ///         SimulationError
 DrawList still_picture(const Script& script, const Instant& instant);
 
-/// @throws SceneError if problems_of(scene) is not empty; UsageError, DrawError, MediaError,
-///         SimulationError
+/// Each picture is the still_picture() of its instant. Throws as that.
 std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
                                              const std::vector<Instant>& instants);
 

@@ -169,8 +169,9 @@ std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
   for (const Instant& instant : instants) times.push_back(time_of(instant, run.timeline()));
   const std::vector<std::string> captions = sheet_captions(scene, instants, times);
   std::vector<CaptionedPicture> pictures;
+  std::vector<DrawList> stills = run.stills(times);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    pictures.push_back({run.picture({times[i]}), captions[i]});
+    pictures.push_back({std::move(stills[i]), captions[i]});
   }
   return pictures;
 }

@@ -8,6 +8,7 @@
 #include "core/text.hpp"
 #include "draw/number_text.hpp"
 #include "render/video_facts.hpp"
+#include "scene/counted_pi.hpp"
 
 namespace piblocks {
 namespace {
@@ -65,43 +66,83 @@ std::string describe_bodies(const Bodies& bodies, const VideoCount& count) {
   const std::string place =
       walls == 0 ? std::string() : fmt::format(", with {} wall{}", walls, walls == 1 ? "" : "s");
   return fmt::format(
-      "{} moving {} without friction{}. All collisions are elastic, and a counter "
-      "reaches {}.",
-      bodies_of(bodies), is_line ? "along a line" : "in a plane", place, reached(count));
+      "{} {} {} without friction{}. All collisions are elastic, and a counter reaches {}.",
+      bodies_of(bodies), bodies.system.bodies.size() == 1 ? "moves" : "move",
+      is_line ? "along a line" : "in a plane", place, reached(count));
+}
+
+/// "the first 3 digits of π", "3.14"; empty if the run counts no digits of pi.
+struct PiWords {
+  std::string which;
+  std::string digits;
+};
+
+PiWords pi_words(const Scene& scene, const Integer& total) {
+  constexpr std::size_t kMostOfPi = 40;
+  if (scene.bodies) return {};
+  const int base = scene.show.base;
+  std::string digits = counted_pi(scene.system, total, base);
+  if (digits.empty()) return {};
+  const std::size_t count = total.get_str(base).size();
+  std::string which = count == 1 ? "the first digit of π"
+                                 : fmt::format("the first {} digits of π", readable(count));
+  if (base != kUsualBase) which += fmt::format(" in base {}", base);
+  if (count > kMostOfPi) digits.clear();
+  return {std::move(which), std::move(digits)};
 }
 
 struct Cue {
   std::int64_t first_frame;
-  Integer milestone;
+  std::string text;
 };
 
-/// The largest power of ten that is not larger than the count, with the count's sign. The count
-/// itself if it is 0, or the most that the film shows.
-Integer milestone_of(const Integer& count, const Integer& most) {
-  if (count == 0 || (count == most && count > 0)) return count;
+/// The largest power of ten that is not larger than the count, with the count's sign.
+Integer milestone_of(const Integer& count) {
   Integer power;
   mpz_ui_pow_ui(power.get_mpz_t(), 10, Integer(abs(count)).get_str().size() - 1);
   return count < 0 ? Integer(-power) : power;
 }
 
-/// What the captions of a film have in common.
-struct Extremes {
-  Integer least;  ///< count
-  Integer most;   ///< count
-  Integer total;  ///< of the run
-  bool is_endless = false;
-};
-
-std::string text_of(const Integer& milestone, const Extremes& counts) {
-  if (milestone == 0) {
-    return counts.least < 0 ? "No collision between now and time 0" : "No collision yet";
+/// What a film counts, and how its captions say so.
+class CountWords {
+ public:
+  CountWords(const Scene& scene, const RunLog& run, const std::vector<Integer>& shown)
+      : least_(*std::ranges::min_element(shown)), most_(*std::ranges::max_element(shown)) {
+    const Timeline& log = run.timeline();
+    if (most_ != log.size()) return;
+    is_endless_ = run.blocks() != nullptr && is_endless(*run.blocks());
+    if (log.may_go_on() || is_endless_) return;
+    ending_ = ", after which there are no more";
+    const PiWords pi = pi_words(scene, most_);
+    if (!pi.which.empty()) ending_ += ": " + pi.which;
+    if (!pi.digits.empty()) ending_ += ", " + pi.digits;
   }
-  const std::string number = collisions(abs(milestone));
-  if (milestone < 0) return number + " or more to go until time 0";
-  if (milestone < counts.most) return number + " or more";
-  if (counts.most == counts.total && counts.is_endless) return "Infinitely many collisions";
-  return counts.most == counts.total ? number + ", after which there are no more" : number;
-}
+
+  /// @param stands  whether the count stays for long; the next counts are not said one by one
+  std::string text(const Integer& count, bool stands) {
+    if (count == 0) {
+      return least_ < 0 ? "No collision between now and time 0" : "No collision yet";
+    }
+    if (count == most_ && count > 0) {
+      return is_endless_ ? "Infinitely many collisions" : collisions(count) + ending_;
+    }
+    const char* const until = count < 0 ? " to go until time 0" : "";
+    if (stands) {
+      said_ = count;
+      return collisions(abs(count)) + until;
+    }
+    Integer least = milestone_of(count);
+    if (count > 0 && said_ <= count) least = std::max(least, said_);
+    return collisions(abs(least)) + " or more" + until;
+  }
+
+ private:
+  Integer least_;
+  Integer most_;
+  bool is_endless_ = false;
+  std::string ending_;
+  Integer said_ = 0;  ///< the last count that was said as it is
+};
 
 std::string time_text(std::int64_t frame, const Rational& frame_rate) {
   const std::int64_t ms = ceil(Rational(to_integer(frame)) * 1000 / frame_rate).get_si();
@@ -126,10 +167,16 @@ std::string describe_video(const Scene& scene, const VideoCount& count) {
   const BlockSystem& system = scene.system;
   const int base = scene.show.base;
   const bool is_infinite = count.is_endless && count.at_end == count.total;
-  const std::string written =
+  std::string written =
       base == kUsualBase || is_infinite
           ? ""
           : fmt::format(" It is written in base {}: {}.", base, count_text(count.at_end, base));
+  const bool is_whole = count.at_end == count.total && !count.is_endless && !count.may_go_on;
+  const PiWords pi = is_whole ? pi_words(scene, count.total) : PiWords{};
+  if (!pi.which.empty()) {
+    written +=
+        fmt::format(" The count has {}{}{}.", pi.which, pi.digits.empty() ? "" : ": ", pi.digits);
+  }
   return fmt::format(
       "Two blocks slide along a line without friction: the inner one, beside a wall on the left, "
       "has mass {}, the outer one mass {}. At time 0 the inner one {} and the outer one {}. {}, "
@@ -139,26 +186,30 @@ std::string describe_video(const Scene& scene, const VideoCount& count) {
       motion_words(system.red), collision_words(system), reached(count), written);
 }
 
-std::string captions(const RunLog& run, const Schedule& schedule, const Rational& frame_rate) {
+std::string captions(const Scene& scene, const RunLog& run, const Schedule& schedule) {
+  constexpr int kLong_s = 1;
+  const Rational& frame_rate = scene.view.frame_rate;
   const std::int64_t frames = film_frames(schedule);
-  const Timeline& log = run.timeline();
   std::vector<Integer> shown;
   for (std::int64_t frame = 0; frame < frames; ++frame) {
-    shown.push_back(log.count_at(schedule.time_of(frame)));
+    shown.push_back(run.timeline().count_at(schedule.time_of(frame)));
   }
-  const Extremes counts{*std::ranges::min_element(shown), *std::ranges::max_element(shown),
-                        log.size(), run.blocks() != nullptr && is_endless(*run.blocks())};
+  CountWords words(scene, run, shown);
   std::vector<Cue> cues;
-  for (std::int64_t frame = 0; frame < frames; ++frame) {
-    Integer milestone = milestone_of(shown[static_cast<std::size_t>(frame)], counts.most);
-    if (!cues.empty() && cues.back().milestone == milestone) continue;
-    cues.push_back({frame, std::move(milestone)});
+  for (auto begin = shown.begin(); begin != shown.end();) {
+    const auto end =
+        std::find_if(begin, shown.end(), [&](const Integer& n) { return n != *begin; });
+    std::string text = words.text(*begin, end - begin >= kLong_s * frame_rate);
+    if (cues.empty() || cues.back().text != text) {
+      cues.push_back({begin - shown.begin(), std::move(text)});
+    }
+    begin = end;
   }
   std::string text = "WEBVTT\n";
   for (std::size_t i = 0; i < cues.size(); ++i) {
     const std::int64_t end = i + 1 < cues.size() ? cues[i + 1].first_frame : frames;
     text += fmt::format("\n{} --> {}\n{}\n", time_text(cues[i].first_frame, frame_rate),
-                        time_text(end, frame_rate), text_of(cues[i].milestone, counts));
+                        time_text(end, frame_rate), cues[i].text);
   }
   return text;
 }

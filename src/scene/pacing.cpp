@@ -208,7 +208,9 @@ std::vector<Move> moves_of(const Scene& scene, const Timeline& log, const Span& 
     pass_freezes(window.to, window.slowdown);
   }
   pass_freezes(span.to, 1);
-  moves.insert(moves.end(), freeze, freezes.end());
+  for (; freeze != freezes.end(); ++freeze) {
+    moves.push_back({now, now, moves.back().slowdown, freeze->frozen_s});
+  }
   return eased(moves, scene.pacing.ease_s, nominal_speed(scene));
 }
 

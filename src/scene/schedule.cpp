@@ -11,7 +11,7 @@
 namespace piblocks {
 namespace {
 
-/// Whether the first frame at or past the end is shown.
+/// Whether the last frame stands at the end; else the video ends before it.
 bool shows_end(const Scene& scene) { return !scene.time.to.is_time(); }
 
 /// The speed that gives the video the duration that the scene asks for.
@@ -50,6 +50,10 @@ struct StretchList {
     if (length_s == 0) return;
     stretches.push_back({end_s, time, speed, slowdown});
     end_s += length_s;
+  }
+  /// From here on.
+  void stand_still(const Rational& time, const Rational& slowdown) {
+    stretches.push_back({end_s, time, 0, slowdown});
   }
 };
 
@@ -102,23 +106,16 @@ Schedule make_schedule(const Scene& scene, const Timeline& log) {
                              : scene.time.speed;
 
   StretchList video;
-  video.add(span.from, 0, 1, hold_start_s);
+  video.add(span.from, 0, moves.front().slowdown, hold_start_s);
   for (const Move& move : moves) {
     const bool is_frozen = move.frozen_s > 0;
     video.add(move.from, is_frozen ? Rational(0) : Rational(speed / move.slowdown), move.slowdown,
               is_frozen ? move.frozen_s : Rational((move.to - move.from) * move.slowdown / speed));
   }
-  Integer frame_count = ceil(video.end_s * rate);
-  Rational end = span.to;
-  if (shows_end(scene)) {
-    // The motion goes on to the next frame.
-    frame_count += 1;
-    video.end_s = Rational(frame_count - 1) / rate;
-    const Stretch& last = video.stretches.back();
-    end = last.time + last.speed * (video.end_s - last.video_s);
-  }
-  video.add(end, 0, 1, hold_end_s);
-  frame_count += ceil(hold_end_s * rate);
+  // No picture shows more than the end, nor does a shutter that is open longer than the motion.
+  Integer frame_count = ceil(video.end_s * rate) + ceil(hold_end_s * rate);
+  if (shows_end(scene)) frame_count += 1;
+  video.stand_still(span.to, moves.back().slowdown);
   if (!scene.pacing.loop || frame_count < 2) {
     return {std::move(video.stretches), frame_count, rate};
   }
@@ -135,19 +132,15 @@ std::int64_t film_frames(const Schedule& schedule) {
                   readable(frames), readable(to_integer(kMaxFrames))));
 }
 
-FrameTime still_time(const Scene& scene, const Timeline& log, const Rational& time) {
-  const Pacing& pacing = scene.pacing;
-  const bool is_even = !pacing.automatic_slow_motion && pacing.slow_motion.empty();
-  if (is_even && scene.view.shutter == 0) return {time};
-  if (has_span(scene, log)) {
-    const Schedule schedule = make_schedule(scene, log);
-    if (const auto video_s = schedule.first_shown_s(time))
-      return schedule.at(*video_s, open_s(scene.view));
-  }
+FrameTime frame_time_alone(const Scene& scene, const Timeline& log, const Rational& time) {
   FrameTime alone{time};
-  if (scene.view.shutter > 0) {
-    alone.exposure = {{time, time + scene.time.speed * open_s(scene.view), 1}};
+  if (scene.view.shutter == 0) return alone;
+  Rational until = time + scene.time.speed * open_s(scene.view);
+  if (has_span(scene, log)) {
+    const Rational end = span_of(scene, log).to;
+    if (time <= end) until = std::min(until, end);
   }
+  alone.exposure = {{time, std::move(until), 1}};
   return alone;
 }
 

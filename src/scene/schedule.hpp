@@ -88,8 +88,9 @@ class Schedule {
   Rational frame_rate_;
 };
 
-/// If scene.time.to is a time, the video ends before it. If it is a turn or a collision, the video
-/// goes on to the first frame at or after it, so that it is seen.
+/// The picture stands at the end from then on: no frame shows a later time. If scene.time.to is a
+/// time, the video ends before it, unless the end is held. If it is named by a turn or a collision,
+/// one more frame shows it.
 /// @throws UsageError as span_of(); if the span is empty; if windows of slow motion overlap; if a
 ///         window or a freeze is outside of the span; if the duration leaves no time for the
 ///         motion.
@@ -99,13 +100,16 @@ Schedule make_schedule(const Scene& scene, const Timeline& log);
 /// @throws UsageError if they are more than kMaxFrames.
 std::int64_t film_frames(const Schedule& schedule);
 
+/// Whether some of the video may be slower than the rest, which a label then says.
+inline bool has_slow_motion(const Pacing& pacing) {
+  return pacing.automatic_slow_motion || !pacing.slow_motion.empty();
+}
+
 /// How long each frame is exposed, in seconds of video.
 inline Rational open_s(const View& view) { return view.shutter / view.frame_rate; }
 
-/// What a still of this time shows: the same as the first frame that shows the time. If no frame
-/// does, a frame that begins where the video first passes it. If the video never passes it, time
-/// runs at scene.time.speed.
-/// @throws UsageError as make_schedule(), if slow motion or the shutter ask for a schedule.
-FrameTime still_time(const Scene& scene, const Timeline& log, const Rational& time);
+/// What a picture shows of a time that no video shows: time runs at scene.time.speed, and stops at
+/// the end of what the scene shows.
+FrameTime frame_time_alone(const Scene& scene, const Timeline& log, const Rational& time);
 
 }  // namespace piblocks

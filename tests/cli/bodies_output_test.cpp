@@ -12,7 +12,7 @@ TEST_F(BodiesCli, PagesAndBundlesSayWhatMovesAndHowOftenItMeets) {
   output_of({"render", "endless.toml", "--size", "64x64", "--fps", "5", "--quiet", "--to", "3",
              "-o", "a.html"});
   const std::string page = contents("a.html");
-  EXPECT_NE(page.find("3 blocks moving along a line without friction, with 2 walls. All"),
+  EXPECT_NE(page.find("3 blocks move along a line without friction, with 2 walls. All"),
             std::string::npos);
   EXPECT_EQ(page.find("after which there are no more"), std::string::npos);
   output_of({"render", "meeting.toml", "--size", "64x64", "--fps", "5", "--quiet", "-o", "a.mp4",

@@ -1,9 +1,11 @@
 // What is written and drawn beside the blocks keeps clear of them, of the wall and of each other.
 #include <gtest/gtest.h>
+#include <piblocks/error.hpp>
 #include <piblocks/script.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -105,6 +107,72 @@ TEST(Labels, FiguresOfVelocitiesMeetNeitherEachOtherNorTheWall) {
       EXPECT_LT(blue.origin.x + font.width_em(blue.text) * blue.size_px, figures[0].origin.x);
     }
   }
+}
+
+/// From the left of the first to the right of the last figure, and around the line.
+Rectangle bounds_of(const TextItem& text, const Fonts& fonts) {
+  return {text.origin.x, text.origin.y - text.size_px,
+          fonts.of(text.face).width_em(text.text) * text.size_px, 1.2 * text.size_px};
+}
+
+/// A mass is whole in the frame: on its block, or clear of it.
+void expect_mass_of(const DrawList& list, ItemId thing, std::size_t n, const Fonts& fonts) {
+  std::optional<Rectangle> block;
+  for (const DrawItem& item : list.items) {
+    const auto* rectangle = std::get_if<RectangleItem>(&item);
+    if (rectangle != nullptr && rectangle->id == thing) block = rectangle->bounds;
+  }
+  ASSERT_TRUE(block);
+  const double seen =
+      std::min(double(list.width_px), block->x + block->width) - std::max(0.0, block->x);
+  if (seen < 1) return;
+  std::optional<TextItem> mass;
+  for (const TextItem& text : texts_of(list, ItemId::masses)) {
+    if (text.id == nth(ItemId::masses, n)) mass = text;
+  }
+  ASSERT_TRUE(mass) << "the mass is gone, and " << seen << " pixels of its block are seen";
+  const Rectangle text = bounds_of(*mass, fonts);
+  EXPECT_GE(text.x, 0);
+  EXPECT_LE(text.x + text.width, list.width_px);
+  const bool is_on =
+      text.x >= block->x && text.x + text.width <= block->x + block->width && text.y > block->y - 1;
+  const bool is_above = mass->origin.y < block->y;
+  const bool is_beside = text.x + text.width <= block->x || text.x >= block->x + block->width;
+  EXPECT_TRUE(is_on || is_above || is_beside) << text.x << " on " << block->x;
+}
+
+TEST(Labels, AMassStaysWhileItsBlockIsInSight) {
+  const Fonts fonts;
+  int pictures = 0;
+  for (const char* theme : {"lecture", "lecture-light", "article"}) {
+    for (const char* size : {"1280x720", "1080x1920", "720x720"}) {
+      for (const Settings& more : std::vector<Settings>{
+               {},
+               {{"red.width", "by-mass"}, {"show.panels", "velocity"}},
+               {{"view.x", "1.7:8"}, {"blue.position", "3"}, {"red.position", "6"}},
+               {{"red.mass", "1/100"}, {"blue.velocity", "1"}, {"red.position", "9"}},
+               {{"red.mass", "1"}, {"blue.velocity", "2"}}}) {
+        SCOPED_TRACE(std::string(theme) + " " + size + (more.empty() ? "" : more.front().second));
+        Settings all = {{"show.overlays", "masses"}, {"view.theme", theme}, {"view.size", size}};
+        all.insert(all.end(), more.begin(), more.end());
+        std::optional<Labels> labels;
+        try {
+          labels.emplace(2, all);
+        } catch (const UsageError&) {  // no room
+          continue;
+        }
+        for (Rational time = 0; time < 20; time += Rational(1, 8)) {
+          SCOPED_TRACE(time.get_str());
+          const DrawList list = labels->at(time);
+          expect_mass_of(list, ItemId::red_block, 0, fonts);
+          expect_mass_of(list, ItemId::blue_block, 1, fonts);
+          if (HasFailure()) return;
+          ++pictures;
+        }
+      }
+    }
+  }
+  EXPECT_GT(pictures, 3000);
 }
 
 /// Half a figure, at the frame's edge, is another number.

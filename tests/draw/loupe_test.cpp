@@ -361,6 +361,22 @@ TEST(Loupe, HasRoomBesideTwoDiagrams) {
   }
 }
 
+/// The lines to the inset begin at 60 % of red's width, and go away from the gap.
+void expect_lines_clear_of_the_gap(const DrawList& frame) {
+  constexpr std::size_t kFirstLine = 100;
+  const Rectangle red = items_of<RectangleItem>(frame.items, ItemId::red_block).front().bounds;
+  int lines = 0;
+  for (const PathItem& line : items_of<PathItem>(frame.items, ItemId::wall)) {
+    if (line.id < nth(ItemId::wall, kFirstLine)) continue;
+    ++lines;
+    const auto points = line.points.view();
+    EXPECT_NEAR(points[0].x, red.x + 0.6 * red.width, 1);
+    const bool is_above = std::max(points[0].y, points[1].y) < red.y;
+    EXPECT_TRUE(is_above || points[1].x > red.x + red.width);
+  }
+  EXPECT_EQ(lines, loupe_in(frame) ? 2 : 0);
+}
+
 TEST(Loupe, CoversNothingInAnyShape) {
   const Fonts fonts;
   const std::vector<Settings> contents = {
@@ -391,6 +407,7 @@ TEST(Loupe, CoversNothingInAnyShape) {
             const DrawList frame = frames->at(frames->turn() + parse_rational(distance));
             seen += loupe_in(frame) ? 1 : 0;
             expect_apart(frame, fonts);
+            expect_lines_clear_of_the_gap(frame);
           }
         }
       }

@@ -82,6 +82,28 @@ TEST(Stage, BlocksStandOnOneBase) {
   }
 }
 
+TEST(Stage, TheHatchStaysBehindTheFaceOfTheWall) {
+  for (const auto& [width, height] :
+       {std::pair{1920, 1080}, {1280, 720}, {640, 360}, {1080, 1920}, {3840, 2160}}) {
+    for (const Theme theme : {Theme::lecture, Theme::lecture_light, Theme::print}) {
+      Scene scene = scene_of(2, width, height);
+      scene.view.theme = theme;
+      const DrawList list = compose(scene, make_collision_log(scene.system)->state_at(0));
+      const std::vector<DrawItem>& wall = std::get<PlateItem>(list.items.front()).plate->items;
+      const Rectangle face = std::get<RectangleItem>(wall.back()).bounds;
+      ASSERT_GT(wall.size(), 5U);
+      for (std::size_t i = 0; i + 1 < wall.size(); ++i) {
+        const auto& line = std::get<PathItem>(wall[i]);
+        const Rectangle bounds = line.points.bounds();
+        // The corner of the end of a line of 45 degrees.
+        const double corner = right(bounds) + line.stroke->width_px / 2 * std::sqrt(0.5);
+        EXPECT_LE(corner, right(face)) << i << " in " << width << 'x' << height;
+        EXPECT_GE(right(bounds), face.x - 1e-9) << "a gap";
+      }
+    }
+  }
+}
+
 TEST(Stage, LinesOfBlocksDoNotDependOnWhatIsBesideThem) {
   for (const auto& [width, height] : {std::pair{1920, 1080}, {3840, 2160}, {1280, 720}}) {
     Scene plain = scene_of(2, width, height);

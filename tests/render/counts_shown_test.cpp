@@ -1,10 +1,15 @@
 // The count that is on the picture, at every kind of anchor, in every kind of output.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <regex>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "render/film.hpp"
@@ -114,7 +119,7 @@ void expect_in_texts(const Scene& scene, const Anchored& at) {
   const Schedule schedule = make_schedule(film, log.timeline());
   const PageFacts facts(film, log, schedule);
   EXPECT_EQ(facts.most(), at.count) << "page";
-  std::string text = captions(log, schedule, film.view.frame_rate);
+  std::string text = captions(film, log, schedule);
   std::erase(text, ',');
   const std::string last = "\n" + at.count.get_str() + " collision";
   EXPECT_NE(text.find(last), std::string::npos) << "captions: " << text;
@@ -176,7 +181,7 @@ TEST(CountsShown, AreRightInTimesBeforeZero) {
   film.time.from = Rational(-20);
   film.time.to = Rational(1);
   const auto log = make_collision_log(system);
-  const std::string text = captions(RunLog(film), make_schedule(film, *log), film.view.frame_rate);
+  const std::string text = captions(film, RunLog(film), make_schedule(film, *log));
   EXPECT_NE(text.find("100 collisions or more to go until time 0"), std::string::npos) << text;
   // Count 0 is reached before time 0, and kept after it.
   EXPECT_TRUE(text.ends_with("\nNo collision between now and time 0\n")) << text;
@@ -188,7 +193,11 @@ TEST(CountsShown, AreRightInWords) {
     const std::string text = describe_video(scene, {at_end, total});
     return text.substr(text.find("a counter"));
   };
-  EXPECT_EQ(sentence(314, 314), "a counter reaches 314 collisions, after which there are no more.");
+  EXPECT_EQ(
+      sentence(314, 314),
+      "a counter reaches 314 collisions, after which there are no more. The count has the first "
+      "3 digits of π: 3.14.");
+  EXPECT_EQ(sentence(1, 1), "a counter reaches 1 collision, after which there are no more.");
   EXPECT_EQ(sentence(7, 1000), "a counter reaches 7 of 1,000 collisions.");
   EXPECT_EQ(sentence(0, 314), "a counter reaches 0 of 314 collisions.");
   EXPECT_EQ(sentence(0, 0), "a counter reaches 0: there are no collisions from time 0 on.");
@@ -201,6 +210,78 @@ TEST(CountsShown, AreRightInWords) {
       "13a.");
   scene.show.base = 10;
   EXPECT_EQ(sentence(-1, 314), "a counter reaches -1: 1 collision is to go until time 0.");
+}
+
+/// The digits of pi, where the count is made of them.
+TEST(CountsShown, OfPiAreSaidInTexts) {
+  const auto texts = [](const BlockSystem& system, int base) {
+    Scene scene = scene_of(system);
+    scene.show.base = base;
+    const RunLog run(scene);
+    const Integer& total = run.timeline().size();
+    return std::pair(captions(scene, run, make_schedule(scene, run.timeline())),
+                     describe_video(scene, {total, total}));
+  };
+  for (const auto& [base, digits, words, pi] :
+       {std::tuple{10, 1, "the first digit of π", "3"},
+        {10, 5, "the first 5 digits of π", "3.1415"},
+        {2, 5, "the first 6 digits of π in base 2", "11.0010"},
+        {16, 3, "the first 3 digits of π in base 16", "3.24"}}) {
+    const auto [said, alt] = texts(article_system(digits, base), base);
+    EXPECT_TRUE(said.ends_with(fmt::format(": {}, {}\n", words, pi))) << said;
+    EXPECT_TRUE(alt.ends_with(fmt::format(" The count has {}: {}.", words, pi))) << alt;
+  }
+  EXPECT_TRUE(texts(article_system(100), 10).first.ends_with("the first 100 digits of π\n"));
+  BlockSystem thrown = article_system(3);
+  thrown.blue.velocity = Rational(-1, 3);
+  BlockSystem lossy = article_system(3);
+  lossy.blocks_restitution = Rational(9999, 10000);
+  for (const auto& [system, base] :
+       {std::pair{system_of_ratio(50), 10}, {article_system(3), 2}, {thrown, 10}, {lossy, 10}}) {
+    const auto [said, alt] = texts(system, base);
+    EXPECT_FALSE(contains(said + alt, "π")) << said << alt;
+  }
+  Scene cut = scene_of(article_system(3));
+  cut.time.to = Rational(7, 2);
+  const RunLog run(cut);
+  EXPECT_FALSE(contains(captions(cut, run, make_schedule(cut, run.timeline())), "π"));
+}
+
+/// "100 or more" would mislead beside a picture that says 313 for seconds.
+TEST(CountsShown, ThatStandAreSaidAsTheyAre) {
+  Random random(313);
+  SCOPED_TRACE(random.trace());
+  int stood = 0;
+  for (int i = 0; i < 60; ++i) {
+    Scene scene = scene_of(system_of_ratio(random.rational(1, 20'000, 10) + 1));
+    scene.view.frame_rate = Rational(random.integer(2, 9));
+    scene.pacing.loop = random.integer(0, 1) == 0;
+    scene.pacing.hold_end_s = random.integer(0, 1);
+    if (random.integer(0, 1) == 0) scene.pacing.freezes = {{Instant::collision(2), 2}};
+    const RunLog run(scene);
+    const Schedule schedule = make_schedule(scene, run.timeline());
+    std::string text = captions(scene, run, schedule);
+    std::erase(text, ',');
+    std::map<std::int64_t, std::string> cues;  // by their first frame
+    const std::regex cue("00:([0-9]+):([0-9.]+) --> [^\n]*\n([^\n]*)");
+    for (std::sregex_iterator found(text.begin(), text.end(), cue), end; found != end; ++found) {
+      const double begin_s = 60 * std::stod((*found)[1]) + std::stod((*found)[2]);
+      cues[std::llround(std::floor(begin_s * to_double(scene.view.frame_rate)))] = (*found)[3];
+    }
+    const std::int64_t frames = film_frames(schedule);
+    std::int64_t since = 0;
+    for (std::int64_t k = 0; k < frames; ++k) {
+      const Integer count = run.timeline().count_at(schedule.time_of(k));
+      if (k > 0 && count != run.timeline().count_at(schedule.time_of(k - 1))) since = k;
+      if (count == 0 || k - since + 1 < scene.view.frame_rate) continue;
+      ++stood;
+      const std::string& said = std::prev(cues.upper_bound(k))->second;
+      ASSERT_TRUE(said.starts_with(count.get_str() + " collision") && !contains(said, "more to") &&
+                  !contains(said, "or more"))
+          << said << " at frame " << k << " of " << frames << ": " << count;
+    }
+  }
+  EXPECT_GT(stood, 100);
 }
 
 /// Blocks that lose so much that they never part.
@@ -228,8 +309,7 @@ TEST(CountsShown, InfinitelyManyAreSaidToBe) {
     EXPECT_FALSE(contains(describe_video(scene, {log->size(), log->size(), true, false}), "base"));
     scene.show.base = 10;
     scene.time.to = Rational(9);
-    const std::string said =
-        captions(RunLog(scene), make_schedule(scene, *log), scene.view.frame_rate);
+    const std::string said = captions(scene, RunLog(scene), make_schedule(scene, *log));
     EXPECT_TRUE(said.ends_with("\nInfinitely many collisions\n")) << said;
   }
 }

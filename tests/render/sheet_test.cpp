@@ -132,6 +132,30 @@ TEST(SheetCaptions, GiveTheTime) {
             (Captions{"t = 0.000125", "t = 1.25×10⁻⁵"}));
 }
 
+/// What depends on the video, too: slow motion, blur, hits, and the ellipse that becomes a circle.
+TEST(SheetPictures, AreTheStillsOfTheirInstants) {
+  Scene scene = scene_of_digits(2);
+  scene.view.width_px = 640;
+  scene.view.height_px = 360;
+  const std::vector<Instant> instants = {Rational(1), Instant::turn(), Instant::collision(30),
+                                         Instant::last(), Instant::last(100)};
+  for (const Theme theme : {Theme::article, Theme::lecture}) {
+    for (const Panel panel : {Panel::ellipse, Panel::mirrors}) {
+      for (const bool is_slow : {false, true}) {
+        scene.view.theme = theme;
+        scene.view.shutter = is_slow ? 0 : Rational(1, 2);
+        scene.show.panels = {panel};
+        scene.pacing.automatic_slow_motion = is_slow;
+        const std::vector<CaptionedPicture> pictures = sheet_pictures(scene, instants);
+        ASSERT_EQ(pictures.size(), instants.size());
+        for (std::size_t i = 0; i < instants.size(); ++i) {
+          EXPECT_EQ(pictures[i].picture, still_picture(scene, instants[i])) << i;
+        }
+      }
+    }
+  }
+}
+
 TEST(SheetCaptions, AreAsTheInstantIsNamed) {
   EXPECT_EQ(captions_of(scene_of_digits(3), {Instant::turn(Rational(-3, 10)), Instant::turn(),
                                              Instant::turn(2), Rational(16, 5)}),

@@ -142,19 +142,20 @@ TEST(Ease, TakesItsTimeBesideTheWindow) {
 TEST(Ease, OfNothingIsAJump) {
   const Schedule schedule =
       schedule_of({{"time.to", "10"}, {"time.ease", "0"}, {"time.slow-motion", "2:4:10"}});
-  EXPECT_EQ(schedule.stretches().size(), 3U);
+  EXPECT_EQ(schedule.stretches().size(), 3 + kStand);
   EXPECT_EQ(schedule.frame_count(), 60 * (8 + 20));
 }
 
 TEST(Ease, IsNotWhereNothingMovesOrNothingIsBeside) {
   // A window from the first instant to the last, one that a freeze follows, and a freeze elsewhere.
-  EXPECT_EQ(schedule_of({{"time.to", "4"}, {"time.slow-motion", "0:4:10"}}).stretches().size(), 1U);
+  EXPECT_EQ(schedule_of({{"time.to", "4"}, {"time.slow-motion", "0:4:10"}}).stretches().size(),
+            1 + kStand);
   const Scene frozen =
       paced_scene({{"time.to", "4"}, {"time.slow-motion", "0:2:10"}, {"time.freeze", "2:1,3:1"}});
-  EXPECT_EQ(schedule_of(frozen).stretches().size(), 5U);
+  EXPECT_EQ(schedule_of(frozen).stretches().size(), 5 + kStand);
   const Scene held =
       paced_scene({{"time.to", "4"}, {"time.hold-start", "1"}, {"time.hold-end", "1"}});
-  EXPECT_EQ(schedule_of(held).stretches().size(), 3U);
+  EXPECT_EQ(schedule_of(held).stretches().size(), 2 + kStand);
 }
 
 TEST(Ease, IsMeasuredAtTheSpeedOfTheSceneAndScaledByADuration) {

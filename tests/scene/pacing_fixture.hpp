@@ -31,6 +31,9 @@ inline Schedule schedule_of(const std::vector<Setting>& settings, int digits = 3
   return schedule_of(paced_scene(settings, digits));
 }
 
+/// The last stretch of every schedule: the picture stands at the end.
+inline constexpr std::size_t kStand = 1;
+
 /// Stretches follow each other, and time does not jump between them.
 inline void expect_no_gaps(const Schedule& schedule) {
   const auto stretches = schedule.stretches();

@@ -23,7 +23,7 @@ Rational frame_time(const Schedule& schedule, const Integer& frame, int rate = 6
 
 TEST(Schedule, RunsEvenlyUnlessAskedOtherwise) {
   const Schedule schedule = schedule_of({{"time.from", "1"}, {"time.speed", "1/3"}});
-  ASSERT_EQ(schedule.stretches().size(), 1U);
+  ASSERT_EQ(schedule.stretches().size(), 1 + kStand);
   EXPECT_EQ(schedule.at(Rational(7, 2)).time, 1 + Rational(7, 6));
   EXPECT_EQ(schedule.at(Rational(7, 2)).slowdown, 1);
 }
@@ -57,7 +57,7 @@ TEST(Schedule, MomentsAreMeasuredFromTurnAndLastCollision) {
   const Schedule schedule = make_schedule(scene, *log);
   expect_no_gaps(schedule);
   const auto stretches = schedule.stretches();
-  ASSERT_EQ(stretches.size(), 5U);
+  ASSERT_EQ(stretches.size(), 5 + kStand);
   // The article's turn: red's reduced gap of 3.5 at unit speed.
   EXPECT_EQ(stretches[1].time, Rational(7, 2));
   EXPECT_EQ(stretches[1].speed, 0);
@@ -208,7 +208,7 @@ TEST(Schedule, AutomaticWindowsStopWhereNothingMovesAnyMore) {
   const Schedule schedule = schedule_of({{"time.slow-motion", "auto"}, {"time.ease", "0"}}, 20);
   const auto stretches = schedule.stretches();
   EXPECT_EQ(std::ranges::max_element(stretches, {}, &Stretch::slowdown)->slowdown, 1000);
-  EXPECT_EQ(stretches.size(), 7U);
+  EXPECT_EQ(stretches.size(), 7 + kStand);
 }
 
 TEST(Schedule, AutomaticWindowsAreAlsoAroundATurnBeforeTimeZero) {
@@ -216,12 +216,83 @@ TEST(Schedule, AutomaticWindowsAreAlsoAroundATurnBeforeTimeZero) {
       {{"time.from", "-20"}, {"time.to", "1"}, {"time.ease", "0"}, {"time.slow-motion", "auto"}});
   scene.system.red.velocity = 1;
   const Schedule schedule = schedule_of(scene);
-  EXPECT_EQ(schedule.stretches().size(), 7U);
+  EXPECT_EQ(schedule.stretches().size(), 7 + kStand);
   expect_no_gaps(schedule);
 }
 
 TEST(Schedule, FewCollisionsNeedNoSlowMotion) {
-  EXPECT_EQ(schedule_of({{"time.slow-motion", "auto"}}, 1).stretches().size(), 1U);
+  EXPECT_EQ(schedule_of({{"time.slow-motion", "auto"}}, 1).stretches().size(), 1 + kStand);
+}
+
+/// The end is the last picture, and stays where it is held. An end that is a time is seen only
+/// where it is held.
+void expect_end(const Scene& scene) {
+  const auto log = make_collision_log(scene.system);
+  const Schedule schedule = make_schedule(scene, *log);
+  const Rational end = span_of(scene, *log).to;
+  const Integer frames = schedule.frame_count();
+  const bool is_loop = scene.pacing.loop && frames > 1;
+  const Integer last = is_loop ? Integer(frames / 2) : Integer(frames - 1);
+  const Integer held = ceil(scene.pacing.hold_end_s * scene.view.frame_rate);
+  const bool is_shown = !scene.time.to.is_time();
+  for (Integer frame = 0; frame < frames; frame += 1) {
+    const FrameTime shown = schedule.frame(frame.get_si(), open_s(scene.view));
+    ASSERT_LE(shown.time, end) << frame << " of " << frames;
+    for (const TimeSlice& slice : shown.exposure) ASSERT_LE(std::max(slice.from, slice.to), end);
+  }
+  for (Integer frame = last - held + (is_shown ? 0 : 1); frame <= last; frame += 1) {
+    ASSERT_EQ(schedule.time_of(frame.get_si()), end) << frame << " of " << frames;
+  }
+  if (is_shown || held > 0) return;
+  ASSERT_LT(schedule.time_of(last.get_si()), end);
+}
+
+TEST(Schedule, EndsWithThePictureOfTheEndInAnyPacing) {
+  Random random(51);
+  SCOPED_TRACE(random.trace());
+  int accepted = 0;
+  for (int run = 0; run < 300; ++run) {
+    const auto any = [&](std::initializer_list<const char*> texts) -> std::string {
+      return std::data(texts)[random.integer(0, static_cast<std::int64_t>(texts.size()) - 1)];
+    };
+    std::vector<Setting> settings = {
+        {"time.to", any({"last", "last+1", "turn+1/7", "#3", "#31+0.01", "4", "7.123", "9"})},
+        {"time.speed", any({"1", "1/3", "2.5", "37"})},
+        {"view.fps", any({"60", "30000/1001", "7", "1000/37"})},
+        {"view.shutter", any({"0", "1/2", "1"})},
+        {"time.loop", any({"true", "false"})},
+        {"time.hold-start", any({"0", "0.3"})},
+        {"time.hold-end", any({"0", "0.3", "1"})}};
+    if (random.integer(0, 2) == 0) settings.emplace_back("time.slow-motion", "turn-0.3:last+3:9");
+    if (random.integer(0, 2) == 0) settings.emplace_back("time.freeze", "turn:0.31");
+    if (random.integer(0, 2) == 0) settings.emplace_back("time.duration", any({"5", "7.777"}));
+    const Scene scene = paced_scene(settings, 2);
+    try {
+      make_schedule(scene, *make_collision_log(scene.system));
+    } catch (const UsageError&) {  // a window or a freeze after the end
+      continue;
+    }
+    ++accepted;
+    expect_end(scene);
+    if (!HasFatalFailure()) continue;
+    for (const auto& [key, text] : settings) ADD_FAILURE() << key << " = " << text;
+    return;
+  }
+  EXPECT_GT(accepted, 150);
+}
+
+TEST(Schedule, WhatIsHeldIsAsSlowAsWhatIsBesideIt) {
+  const Schedule schedule = schedule_of({{"time.to", "4"},
+                                         {"time.slow-motion", "0:1:3,3:4:10"},
+                                         {"time.freeze", "4:1/2"},
+                                         {"time.hold-start", "1"},
+                                         {"time.hold-end", "1"}});
+  const auto stretches = schedule.stretches();
+  EXPECT_EQ(stretches.front().speed, 0);
+  EXPECT_EQ(stretches.front().slowdown, 3);
+  EXPECT_EQ(std::prev(stretches.end(), 2)->speed, 0);
+  EXPECT_EQ(std::prev(stretches.end(), 2)->slowdown, 10);
+  EXPECT_EQ(stretches.back().slowdown, 10);
 }
 
 TEST(Schedule, RandomPacingLeavesNoGaps) {

@@ -22,12 +22,14 @@ std::vector<DrawItem> hatched(const Point& from, const Point& to, const DrawingC
   const Point along{(to.x - from.x) / length, (to.y - from.y) / length};
   const Point out{-along.y, along.x};
   const double width = style::kWallWidth * sizes.short_side;
+  const double half = sizes.wall_line / 2;
   std::vector<DrawItem> items;
   const auto place = [&](double a, double b) {
     return Point{from.x + a * along.x + b * out.x, from.y + a * along.y + b * out.y};
   };
   for (double s = 0; s < length + width; s += kHatchStep * sizes.short_side) {
-    const double begin = std::max(0.0, s - length);
+    // The corners of a line's end are hidden by the face.
+    const double begin = std::max(half, s - length);
     const double end = std::min(width, s);
     if (end <= begin) continue;
     items.emplace_back(PathItem{nth(ItemId::wall, items.size()),
@@ -35,7 +37,6 @@ std::vector<DrawItem> hatched(const Point& from, const Point& to, const DrawingC
                                 false, std::nullopt,
                                 Stroke{context.palette.muted, sizes.grid_line}});
   }
-  const double half = sizes.wall_line / 2;
   items.emplace_back(PathItem{nth(ItemId::wall, items.size()),
                               std::vector<Point>{place(-half, half), place(length + half, half)},
                               false, std::nullopt, Stroke{context.palette.wall, sizes.wall_line}});

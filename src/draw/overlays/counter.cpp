@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "draw/number_text.hpp"
+#include "scene/counted_pi.hpp"
 #include "scene/schedule.hpp"
 
 namespace piblocks {
@@ -141,18 +142,6 @@ class Counter {
 
 }  // namespace
 
-std::optional<unsigned long> places_of_pi(const BlockSystem& system, int base) {
-  const Rational ratio = system.red.mass / system.blue.mass;
-  const bool begins_apart = system.blue_gap() > 0;
-  if (system.blue.velocity != 0 || system.red.velocity >= 0 || !begins_apart) return std::nullopt;
-  if (!is_elastic(system)) return std::nullopt;
-  Integer rest;
-  const unsigned long places =
-      mpz_remove(rest.get_mpz_t(), ratio.get_num_mpz_t(), Integer(base * base).get_mpz_t());
-  if (ratio.get_den() != 1 || rest != 1) return std::nullopt;
-  return places;
-}
-
 std::string pi_count(const Scene& scene, const CollisionLog& log) {
   const int base = scene.show.base;
   const bool is_asked_for = scene.show.has(Overlay::digits);
@@ -164,11 +153,11 @@ std::string pi_count(const Scene& scene, const CollisionLog& log) {
         "them; leave out 'digits', or give a mass ratio of {}^(D-1) and a blue.velocity of 0",
         base * base));
   }
+  if (!counted_pi(scene.system, log.size(), base).empty()) return count_text(log.size(), base);
+  if (!is_asked_for) return {};
   const std::string counted = log.size().get_str(base);
   std::string digits = pi_digits(base, counted.size());
   std::erase(digits, '.');
-  if (counted == digits) return count_text(log.size(), base);
-  if (!is_asked_for) return {};
   throw UsageError(fmt::format(
       "show.overlays: there are no digits of pi to light up: this scene counts {} in base {}, and "
       "pi begins with {}; leave out 'digits', or use more digits",

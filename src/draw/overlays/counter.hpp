@@ -5,18 +5,12 @@
 #include <piblocks/run.hpp>
 #include <piblocks/scene.hpp>
 
-#include <optional>
 #include <string>
 #include <string_view>
 
 #include "draw/layout.hpp"
 
 namespace piblocks {
-
-/// How many digits of pi after the point the count has in this base, save for the last digit of a
-/// few counts. Nothing unless blue is at rest, off the wall, and the mass ratio is a power of the
-/// base's square.
-std::optional<unsigned long> places_of_pi(const BlockSystem& system, int base);
 
 /// The count as the picture of its last collision shows it, if these are the digits of pi; else
 /// empty.

@@ -23,8 +23,6 @@ constexpr double kLeastRed = 0.04;     ///< what is seen of red at least
 
 constexpr const char* kLoupeKey = "show.loupe";
 constexpr long kMostPower = 300;
-/// Where the lines to the inset begin, in parts of red's width.
-constexpr double kHiddenInRed = 0.8;
 /// Heights of the blocks in the inset differ by this factor at most.
 constexpr double kMaxInsetHeightRatio = 1.6;
 
@@ -195,37 +193,17 @@ void LoupeInset::place(const DrawingContext& context, const LoupePlace& found) {
     zoom_right_ = {bounds_.x + bounds_.width - loupe_style::kInside * short_side,
                    bounds_.y + baseline + row};
   }
-  place_lines(context);
-  place_scenery(context);
-}
-
-void LoupeInset::place_lines(const DrawingContext& context) {
-  const Layout& layout = context.layout;
-  const double face = layout.at(to_double(context.scene.system.wall_face), 0).x;
-  const double blue_px = layout.blue.width * layout.scale;
+  stage_ = layout;
   const double right = bounds_.x + bounds_.width;
   const double bottom = bounds_.y + bounds_.height;
-  const bool is_above = bottom < layout.top_px();
-  const Point first = is_above ? Point{bounds_.x, bottom} : Point{bounds_.x, bounds_.y};
-  const Point second = is_above ? Point{right, bottom} : Point{bounds_.x, bottom};
-  const Point from{is_above ? face + blue_px / 2 : face,
-                   layout.floor_px - layout.blue.height_px / 2};
-  // They begin behind red, or they would be seen between the blocks.
-  const double hidden_px =
-      blue_px + std::min(style::kMaxLoupeGap * loupe_style::kFullyShown * sizes_.short_side,
-                         kHiddenInRed * layout.red.width * layout.scale);
-  const auto line_to = [&](const Point& to) {
-    const double way = is_above ? 0 : hidden_px / (to.x - from.x);
-    return Points({{from.x + way * (to.x - from.x), from.y + way * (to.y - from.y)}, to});
-  };
-  lines_ = {line_to(first), line_to(second)};
-  std::vector<DrawItem> items;
-  add_lines(1, items);
-  const double left = std::min(from.x, first.x) - 1;
-  const double top = std::min(first.y, from.y) - 1;
-  const Rectangle around{left, top, std::max(from.x, second.x) + 1 - left,
-                         std::max(second.y, from.y) + 1 - top};
-  full_lines_ = plate_of(nth(ItemId::wall, kFirstLine), around, std::move(items));
+  if (bottom < layout.top_px()) {
+    corners_ = {Point{bounds_.x, bottom}, Point{right, bottom}};
+    lines_y_ = bottom + loupe_style::kOutside * short_side;  // above all that is above red
+  } else {
+    corners_ = {Point{bounds_.x, bounds_.y}, Point{bounds_.x, bottom}};
+    lines_y_ = layout.floor_px - layout.blue.height_px / 2;
+  }
+  place_scenery(context);
 }
 
 void LoupeInset::place_scenery(const DrawingContext& context) {

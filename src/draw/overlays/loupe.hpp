@@ -56,10 +56,8 @@ class LoupeInset {
   LoupeInset(const DrawingContext& context, const Loupe& loupe, double least_gap_px);
   LoupeTexts texts() const { return {widest_zoom_px_, shows_slow_motion()}; }
   void place(const DrawingContext& context, const LoupePlace& found);
-  void place_lines(const DrawingContext& context);
   void place_scenery(const DrawingContext& context);
 
-  void add_lines(double seen, std::vector<DrawItem>& items) const;
   DrawList picture(const FrameState& shown, double zoomed) const;
   void add_blocks(const FrameState& shown, double px_per_unit, std::vector<DrawItem>& items) const;
   void add_blue(double x_px, double seen, std::vector<DrawItem>& items) const;
@@ -79,9 +77,11 @@ class LoupeInset {
   double widest_zoom_px_ = 0;
   std::function<std::string(const FrameState&)> slow_text_;  ///< may be empty
   Rectangle bounds_;                                         ///< in whole pixels of the frame
-  Point zoom_right_;             ///< right end of the zoom's baseline, in the frame
-  std::array<Points, 2> lines_;  ///< in the frame
-  PlateItem full_lines_;
+  Point zoom_right_;  ///< right end of the zoom's baseline, in the frame
+  // Lines go from a place at red to two corners of the inset; in the frame.
+  Layout stage_;
+  double lines_y_ = 0;
+  std::array<Point, 2> corners_;
   // In the inset.
   double slow_baseline_px_ = 0;
   double face_px_ = 0;        ///< of the wall

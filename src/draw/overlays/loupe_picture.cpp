@@ -13,6 +13,8 @@ namespace {
 // Of the break in blue, in fractions of the frame's shorter side.
 constexpr double kCutWidth = 0.016;
 constexpr double kCutSlant = 0.02;
+/// Where the lines to the inset begin, in parts of red's width from the gap.
+constexpr double kLinesInRed = 0.6;
 /// The share of its window in which the loupe fades in, and out.
 constexpr double kWindowFade = 0.1;
 /// At this many hits a frame or more, blue may be anywhere between wall and red, and the loupe
@@ -41,20 +43,18 @@ double LoupeInset::zoom(double gap) const {
   return window_ ? std::max(1.0, std::min(window_->zoom, room)) : zoom_.factor_for(room);
 }
 
+/// From behind red, or from above it: they would be in the way between the blocks.
 void LoupeInset::add_lines(const FrameState& shown, std::vector<DrawItem>& items) const {
   const double seen = opacity(shown);
-  if (seen >= 1) {
-    items.emplace_back(full_lines_);
-  } else if (seen > 0) {
-    add_lines(seen, items);
-  }
-}
-
-void LoupeInset::add_lines(double seen, std::vector<DrawItem>& items) const {
+  if (seen <= 0) return;
+  const Rectangle red = stage_.at(stage_.red, shown.state.red.position);
+  // By whole pixels, they stay as they are while red hardly moves.
+  const Point from{std::round(red.x + kLinesInRed * red.width), lines_y_};
   const Stroke stroke{faded(palette_.muted, seen), sizes_.grid_line};
-  for (std::size_t n = 0; n < lines_.size(); ++n) {
-    items.emplace_back(
-        PathItem{nth(ItemId::wall, kFirstLine + n), lines_.at(n), false, std::nullopt, stroke});
+  for (std::size_t n = 0; n < corners_.size(); ++n) {
+    items.emplace_back(PathItem{nth(ItemId::wall, kFirstLine + n),
+                                std::vector<Point>{from, corners_.at(n)}, false, std::nullopt,
+                                stroke});
   }
 }
 

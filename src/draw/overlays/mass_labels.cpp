@@ -64,9 +64,71 @@ MassTexts mass_texts(const Scene& scene, const Layout& layout, const Font& font)
   return has_room ? full : plain;
 }
 
-/// The label of a block whose middle is in column 0.
-TextItem mass_label(std::size_t n, std::string text, const Block& block,
-                    const DrawingContext& context) {
+/// A block's label, whose middle is in column 0.
+struct MassLabel {
+  TextItem text;
+  bool is_inside = true;  ///< on the block, else above it
+  Color beside;           ///< its colour where it is not on the block
+
+  double half_px() const { return -text.origin.x; }
+};
+
+/// Where labels can be while their blocks are in sight. Half a figure would be another number, so
+/// that no label is cut.
+class LabelRoom {
+ public:
+  explicit LabelRoom(const DrawingContext& context)
+      : left_(context.sizes.margin),
+        right_(std::min(context.scene.view.width_px - context.sizes.margin,
+                        context.layout.content_right_px)),
+        edge_(context.layout.visible_right_px),
+        pad_(kBelowMass * context.sizes.short_side) {}
+
+  void add(MassLabel label, const Rectangle& block, const Rectangle& other,
+           std::vector<DrawItem>& items) const {
+    if (block.x + block.width <= 0 || block.x >= edge_) return;
+    const double half = label.half_px();
+    double middle = block.x + block.width / 2;
+    const double pad = std::min(pad_, std::max(0.0, block.width / 2 - half - kRounded_px));
+    if (!label.is_inside) {
+      middle = std::clamp(middle, left_ + half, std::max(left_ + half, right_ - half));
+    } else {
+      const double least = std::max(left_, block.x + pad) + half;
+      const double most = std::min(right_, block.x + block.width - pad) - half;
+      middle = least <= most ? std::clamp(middle, least, most) : leave(label, block, other);
+    }
+    // By whole pixels, its figures keep their distances, and encoders find it again.
+    double& x = label.text.origin.x;
+    x = std::min(std::max(std::round(x + middle), std::ceil(left_)), std::floor(right_ - 2 * half));
+    items.emplace_back(std::move(label.text));
+  }
+
+ private:
+  /// The label of a block of which too little is seen: beside it, or above it if the other block is
+  /// there. @returns its middle
+  double leave(MassLabel& label, const Rectangle& block, const Rectangle& other) const {
+    const double half = label.half_px();
+    label.text.color = label.beside;
+    const bool goes_right = block.x + block.width > right_;
+    const double middle = goes_right ? std::min(block.x - pad_, right_) - half
+                                     : std::max(block.x + block.width + pad_, left_) + half;
+    const bool is_free =
+        other.x + other.width <= middle - half - pad_ || other.x >= middle + half + pad_;
+    if (is_free) return middle;
+    label.text.origin.y = block.y - pad_;
+    return std::clamp(block.x + block.width / 2, left_ + half,
+                      std::max(left_ + half, right_ - half));
+  }
+
+  // Between these labels are above and beside their blocks.
+  double left_;
+  double right_;
+  double edge_;  ///< blocks are seen up to here
+  double pad_;
+};
+
+MassLabel mass_label(std::size_t n, std::string text, const Block& block,
+                     const DrawingContext& context) {
   const BlockSystem& system = context.scene.system;
   const Layout& layout = context.layout;
   const bool is_red = &block == &system.red;
@@ -93,12 +155,14 @@ TextItem mass_label(std::size_t n, std::string text, const Block& block,
   const double baseline = is_inside
                               ? layout.floor_px - shape.height_px / 2 + kHalfFigure_em * size_px
                               : top - kBelowMass * context.sizes.short_side;
-  return {nth(ItemId::masses, n),
-          {left, baseline},
-          std::move(text),
-          size_px,
-          is_inside ? colors.text : colors.label,
-          context.font.face()};
+  return {{nth(ItemId::masses, n),
+           {left, baseline},
+           std::move(text),
+           size_px,
+           is_inside ? colors.text : colors.label,
+           context.font.face()},
+          is_inside,
+          colors.label};
 }
 
 }  // namespace
@@ -118,23 +182,14 @@ bool has_mass_above(const Scene& scene, const Layout& layout, const Font& font) 
 Drawable mass_labels(const DrawingContext& context) {
   const BlockSystem& system = context.scene.system;
   const MassTexts texts = mass_texts(context.scene, context.layout, context.font);
-  const TextItem red = mass_label(0, texts.red, system.red, context);
-  const TextItem blue = mass_label(1, texts.blue, system.blue, context);
-  const double least_px = context.sizes.margin;
-  const double most_px =
-      std::min(context.scene.view.width_px - least_px, context.layout.content_right_px);
-  return [=, layout = context.layout](const FrameState& shown, std::vector<DrawItem>& items) {
-    const auto add = [&](TextItem label, const Motion& motion) {
-      const double half_px = -label.origin.x;
-      const double middle = layout.at(motion.position, 0).x;
-      // Half a figure would be another number.
-      if (middle - half_px < least_px || middle + half_px > most_px) return;
-      // By whole pixels, its figures keep their distances, and encoders find it again.
-      label.origin.x = std::round(label.origin.x + middle);
-      items.emplace_back(std::move(label));
-    };
-    add(red, shown.state.red);
-    add(blue, shown.state.blue);
+  const MassLabel red = mass_label(0, texts.red, system.red, context);
+  const MassLabel blue = mass_label(1, texts.blue, system.blue, context);
+  return [=, room = LabelRoom(context), layout = context.layout](const FrameState& shown,
+                                                                 std::vector<DrawItem>& items) {
+    const Rectangle red_block = layout.at(layout.red, shown.state.red.position);
+    const Rectangle blue_block = layout.at(layout.blue, shown.state.blue.position);
+    room.add(red, red_block, blue_block, items);
+    room.add(blue, blue_block, red_block, items);
   };
 }
 

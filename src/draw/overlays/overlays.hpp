@@ -58,9 +58,6 @@ Drawable ruler(const DrawingContext& context);
 /// @throws UsageError if it would be a speck.
 ImageItem place_logo(const Rectangle& place, std::shared_ptr<const Image> logo);
 
-/// Whether there is a label that says "10× slower".
-bool has_slow_motion(const Pacing& pacing);
-
 /// What it says; empty while time runs as elsewhere.
 struct SlowMotionLabel {
   std::string widest;

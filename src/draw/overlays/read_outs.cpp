@@ -279,10 +279,6 @@ std::vector<ReadOut> read_outs_of(const DrawingContext& context) {
 
 }  // namespace
 
-bool has_slow_motion(const Pacing& pacing) {
-  return pacing.automatic_slow_motion || !pacing.slow_motion.empty();
-}
-
 ReadOutRows::ReadOutRows(const DrawingContext& context)
     : text_px_(context.sizes.text), face_(context.font.face()) {
   std::vector<ReadOut> read_outs = read_outs_of(context);

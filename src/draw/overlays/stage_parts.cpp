@@ -38,12 +38,14 @@ std::vector<DrawItem> wall_items(const WallPlace& place, const DrawingContext& c
   const auto& [face_px, top_px, bottom] = place;
   const Sizes& sizes = context.sizes;
   const double width = style::kWallWidth * sizes.short_side;
+  // The corners of a line's end are hidden by the face.
+  const double longest = std::max(width - sizes.wall_line / 2, width / 2);
   std::vector<DrawItem> items;
   const Stroke hatch{context.palette.muted, sizes.grid_line};
   for (double y = top_px; y < bottom + width; y += kHatchStep * sizes.short_side) {
     // From the face down to the left, cut off at the wall's ends.
     const double from = std::max(0.0, y - bottom);
-    const double to = std::min(width, y - top_px);
+    const double to = std::min(longest, y - top_px);
     if (to <= from) continue;
     // y is the height at the wall's left end plus its width.
     items.emplace_back(PathItem{

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "draw/overlays/counter.hpp"
 #include "draw/panels/certainty_plan.hpp"
 #include "draw/panels/panels.hpp"
+#include "scene/counted_pi.hpp"
 
 namespace piblocks {
 namespace {

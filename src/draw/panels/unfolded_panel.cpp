@@ -72,7 +72,7 @@ class UnfoldedPanel {
     const auto next = static_cast<std::size_t>(
         std::ranges::upper_bound(mirrors_, shown.state.count, {}, &Mirror::index) -
         mirrors_.begin());
-    const bool is_seen = shown.time >= span_.from && shown.time <= span_.to;
+    const bool is_seen = shown.time >= span_.from;
     const double opened = opened_part(shown);
     if (is_seen) add_wedge(shown, next, opened, items);
     items.emplace_back(static_items_);

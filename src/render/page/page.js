@@ -88,8 +88,8 @@ const grouped = number => number.toLocaleString("en");
 /** Where the blocks come to rest after infinitely many collisions, the last count stands for these. */
 const infinite = facts.infinite === null ? null : BigInt(facts.infinite);
 const countText = number => number === infinite ? "\u221E" : grouped(number);
-const collisionsText = number =>
-  `${number === infinite ? "infinitely many" : grouped(number)} collisions`;
+const collisionsText = number => number === infinite ? "infinitely many collisions"
+  : `${grouped(number)} ${number === 1n ? "collision" : "collisions"}`;
 
 function update() {
   const time = collision === null ? frameTime(frame) : decimal(timeOf(collision), facts.scale);

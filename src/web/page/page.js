@@ -85,7 +85,7 @@ function describe({state, frame}, facts) {
   if (state === null) return `Frame ${frame + 1} of a film of ${facts.frames} frames`;
   const {collisions, time, blue, red} = JSON.parse(state);
   const where = blue ? `, blue at ${blue.position}, red at ${red.position}` : "";
-  return `${collisions} collisions at time ${time}${where}`;
+  return `${collisions} ${String(collisions) === "1" ? "collision" : "collisions"} at time ${time}${where}`;
 }
 
 scene.onPicture = ({x, y, width, height, pixels}) => {

@@ -1,0 +1,159 @@
+// The films that come with the program end on what they promise.
+#include <gtest/gtest.h>
+#include <piblocks/script.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "render/film.hpp"
+
+namespace piblocks {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::map<std::string, fs::path> shipped_scenes() {
+  std::map<std::string, fs::path> scenes;
+  for (const auto& entry : fs::directory_iterator(PIBLOCKS_SCENES)) {
+    if (entry.path().extension() == ".toml") scenes[entry.path().stem()] = entry.path();
+  }
+  return scenes;
+}
+
+/// What people read about a scene: its row in the table, its comments, and its quoted texts.
+std::string words_about(const std::string& name, const fs::path& file) {
+  const std::string readme = text_of(fs::path(PIBLOCKS_SCENES) / "README.md");
+  const std::string row = "| [" + name + "](";
+  std::string words;
+  if (const std::size_t at = readme.find(row); at != std::string::npos) {
+    words = readme.substr(at, readme.find('\n', at) - at);
+  }
+  const std::string toml = text_of(file);
+  for (const std::regex& part : {std::regex("#[^\n]*"), std::regex("\"[^\"\n]*\"")}) {
+    for (std::sregex_iterator found(toml.begin(), toml.end(), part), end; found != end; ++found) {
+      words += "\n" + found->str();
+    }
+  }
+  return words;
+}
+
+/// The numbers that are said to be counted, without separators.
+std::set<std::string> named_counts(const std::string& words) {
+  const std::regex claim(
+      "([0-9][0-9, and]*) collisions|(?:counts?|collisions count|count is|which is) ([0-9][0-9,]*)|"
+      "(?:bounces|collide) ([0-9][0-9,]*) times");
+  const std::regex number("[0-9]+(?:,[0-9]{3})*");
+  std::set<std::string> counts;
+  for (std::sregex_iterator found(words.begin(), words.end(), claim), end; found != end; ++found) {
+    const std::string list = (*found)[1].str() + (*found)[2].str() + (*found)[3].str();
+    for (std::sregex_iterator one(list.begin(), list.end(), number); one != end; ++one) {
+      std::string digits = one->str();
+      std::erase(digits, ',');
+      counts.insert(std::move(digits));
+    }
+  }
+  return counts;
+}
+
+/// What all counters of a picture say, without separators.
+std::vector<std::string> counters_of(const std::vector<DrawItem>& items) {
+  std::vector<std::string> counts;
+  std::string own;  // in pieces where digits light up
+  for (const DrawItem& item : items) {
+    if (const auto* group = std::get_if<GroupItem>(&item)) {
+      std::ranges::move(counters_of(group->list->items), std::back_inserter(counts));
+    }
+    const auto* text = std::get_if<TextItem>(&item);
+    if (text != nullptr && text->id >= ItemId::lit_count && text->id < ItemId::pi)
+      own += text->text;
+  }
+  std::erase(own, ',');
+  if (!own.empty()) counts.push_back(std::move(own));
+  return counts;
+}
+
+/// A segment's last picture before it fades, and its runs.
+struct Ending {
+  std::vector<std::string> counters;
+  std::span<const FilmRun> runs;
+};
+
+std::vector<Ending> endings_of(const Film& film) {
+  std::vector<Ending> endings;
+  for (std::size_t i = 0; i < film.segments().size(); ++i) {
+    const FilmSegment& segment = film.segments()[i].segment;
+    const std::int64_t fade =
+        i + 1 < film.segments().size() ? film.segments()[i + 1].fade_frames : 0;
+    const DrawList last = segment.frame(segment.frame_count() - 1 - fade);
+    endings.push_back({counters_of(last.items), segment.runs()});
+  }
+  return endings;
+}
+
+TEST(ShippedScenes, EndOnTheirLastCollision) {
+  // The turn alone; all others have an end that is worth waiting for.
+  const std::set<std::string> excerpts = {"slow-turn"};
+  int runs = 0;
+  for (const auto& [name, file] : shipped_scenes()) {
+    if (excerpts.contains(name)) continue;
+    SCOPED_TRACE(name);
+    ScriptBuilder builder;
+    builder.read_file(file);
+    const Film film(builder.build());
+    for (const auto& [counters, all] : endings_of(film)) {
+      ASSERT_EQ(counters.size(), all.size());
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        const Timeline& log = all[k].timeline();
+        if (log.may_go_on()) continue;
+        EXPECT_EQ(counters[k], log.size().get_str(all[k].scene().show.base)) << "run " << k;
+        ++runs;
+      }
+    }
+  }
+  EXPECT_GT(runs, 30);
+}
+
+TEST(ShippedScenes, ShowTheNumbersThatTheyName) {
+  std::set<std::string> all_named;
+  for (const auto& [name, file] : shipped_scenes()) {
+    SCOPED_TRACE(name);
+    ScriptBuilder builder;
+    builder.read_file(file);
+    const Film film(builder.build());
+    std::set<std::string> shown;
+    for (const auto& [counters, runs] : endings_of(film)) {
+      shown.insert(counters.begin(), counters.end());
+      for (const FilmRun& run : runs) {
+        // What is written in another base is named in both.
+        if (run.scene().show.base != 10) shown.insert(run.timeline().size().get_str());
+        // Collisions that never end pass the number that is named.
+        if (!run.timeline().may_go_on()) continue;
+        for (std::int64_t k = 0; k < film.frame_count(); ++k) {
+          for (std::string& count : counters_of(film.frame(k).items)) shown.insert(count);
+        }
+      }
+    }
+    for (const std::string& count : named_counts(words_about(name, file))) {
+      EXPECT_TRUE(shown.contains(count)) << count;
+      all_named.insert(count);
+    }
+  }
+  for (const char* number : {"3", "30", "31", "314", "31415", "110010", "31415926535897932384"}) {
+    EXPECT_TRUE(all_named.contains(number)) << number << " is named by no scene";
+  }
+}
+
+}  // namespace
+}  // namespace piblocks
