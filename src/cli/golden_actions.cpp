@@ -9,8 +9,8 @@
 #include <system_error>
 
 #include "cli/command.hpp"
-#include "cli/values.hpp"
 #include "core/output_file.hpp"
+#include "core/processors.hpp"
 #include "core/text.hpp"
 #include "draw/canvas.hpp"
 #include "golden/reports.hpp"

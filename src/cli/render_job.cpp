@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <utility>
 
 #include "cli/values.hpp"
+#include "core/processors.hpp"
 #include "core/text.hpp"
 #include "media/output/output.hpp"
 #include "render/renderings.hpp"
@@ -75,14 +77,16 @@ RenderJob job_of(const OptionTexts& options, const std::string& output,
     throw UsageError(
         fmt::format("--no-sound: '{}' is the sound alone; leave one of them out", output));
   }
-  return {.script = std::move(script),
-          .output = output,
-          .encoder = std::move(settings),
-          .jobs = options.value("--jobs", parse_jobs).value_or(processor_count()),
-          .shard = options.value("--part", parse_part),
-          .profile = options.is_given("--profile"),
-          .bundle = bundle_of(options),
-          .max_flashes = options.value("--max-flashes", parse_flashes)};
+  return {
+      .script = std::move(script),
+      .output = output,
+      .encoder = std::move(settings),
+      .jobs = options.value("--jobs", parse_jobs).value_or(std::min(processor_count(), kMaxJobs)),
+      .shard = options.value("--part", parse_part),
+      .profile = options.is_given("--profile"),
+      .bundle = bundle_of(options),
+      .max_flashes = options.value("--max-flashes", parse_flashes),
+      .overwrite = options.is_given("--overwrite")};
 }
 
 std::string name_of(const RenderJob& job) {

@@ -46,7 +46,4 @@ Value parse_choice(const std::string& text,
   throw UsageError("must be " + names);
 }
 
-/// As many threads as run at once here.
-int processor_count();
-
 }  // namespace piblocks::cli
