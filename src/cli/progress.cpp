@@ -85,13 +85,13 @@ void ProgressReport::print_line() const {
       double(progress_.frames_done) / elapsed_s());
 }
 
-void ProgressReport::finish() {
+void ProgressReport::finish(const std::string& aftermath) {
   if (quiet_) return;
   if (std::exchange(bar_visible_, false)) say(kClearLine);
   const double duration_s = elapsed_s();
-  say("{}: {} {} in {:.2f} s ({:.0f} frames/s)\n", subject(output_), progress_.frame_count,
+  say("{}: {} {} in {:.2f} s ({:.0f} frames/s){}\n", subject(output_), progress_.frame_count,
       progress_.frame_count == 1 ? "frame" : "frames", duration_s,
-      double(progress_.frame_count) / duration_s);
+      double(progress_.frame_count) / duration_s, after_semicolon(aftermath));
 }
 
 void print_profile(const Rendered& rendered) {

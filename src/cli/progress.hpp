@@ -18,8 +18,8 @@ class ProgressReport {
   ProgressReport& operator=(const ProgressReport&) = delete;
 
   void update(const Progress& progress);
-  /// Says what has been written.
-  void finish();
+  /// Says what has been written. @param aftermath  as Rendered's
+  void finish(const std::string& aftermath);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -36,6 +36,11 @@ class ProgressReport {
   Progress progress_;
   bool bar_visible_ = false;
 };
+
+/// What follows in a closing line; nothing if there is nothing.
+inline std::string after_semicolon(const std::string& aftermath) {
+  return aftermath.empty() ? aftermath : "; " + aftermath;
+}
 
 void print_profile(const Rendered& rendered);
 

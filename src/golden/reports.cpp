@@ -5,9 +5,7 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -16,50 +14,14 @@
 #include "core/text.hpp"
 #include "golden/report_source.hpp"
 #include "media/output/frame_pattern.hpp"
-#include "media/png/png_chunk.hpp"
+#include "media/png/png_mark.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
 constexpr int kMaxDiffPictures = 100;
 constexpr const char* kPattern = "%06d.png";
-
-/// The offset of the first chunk after IHDR.
-constexpr std::size_t kMark_at = 33;
-
-/// The chunk that tells pictures of this kind from other PNG files.
-Bytes mark() {
-  constexpr std::string_view kText("Software\0piblocks compare --diff", 32);
-  Bytes chunk;
-  const std::size_t start = begin_png_chunk(chunk, "tEXt");
-  chunk.insert(chunk.end(), kText.begin(), kText.end());
-  end_png_chunk(chunk, start);
-  return chunk;
-}
-
-Bytes encode_with_mark(const Image& picture) {
-  Bytes bytes = encode_png(picture.view());
-  const Bytes chunk = mark();
-  bytes.insert(bytes.begin() + kMark_at, chunk.begin(), chunk.end());
-  return bytes;
-}
-
-/// Whether a comparison has written this file.
-bool has_mark(const fs::path& path) {
-  std::error_code none;
-  if (!fs::is_regular_file(fs::symlink_status(path, none))) return false;
-  const Bytes expected = mark();
-  std::string found(expected.size(), '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.seekg(kMark_at);
-  file.read(found.data(), static_cast<std::streamsize>(found.size()));
-  return file && std::ranges::equal(found, expected, [](char a, std::uint8_t b) {
-           return static_cast<std::uint8_t>(a) == b;
-         });
-}
 
 class DiffFolder final : public Report {
  public:
@@ -81,13 +43,13 @@ void DiffFolder::add(const FrameComparison& frame) {
   const std::string name = pattern_.name(frame.number);
   const fs::path path = folder_ / name;
   std::error_code none;
-  if (fs::exists(fs::symlink_status(path, none)) && !has_mark(path)) {
+  if (fs::exists(fs::symlink_status(path, none)) && !has_png_mark(path, PngMark::difference)) {
     throw UsageError(fmt::format("diff: '{}' is not from an earlier comparison; use another folder",
                                  path.string()));
   }
   const Image strip = difference_strip(frame.reference(), frame.deltas(), frame.actual(),
                                        frame.difference->densest);
-  files_.add(name, encode_with_mark(strip));
+  files_.add(name, with_png_mark(encode_png(strip.view()), PngMark::difference));
   names_.insert(name);
 }
 
@@ -95,7 +57,8 @@ void DiffFolder::finish(const ComparisonJob& /*job*/, const ComparisonResult& /*
   std::error_code error;
   for (const fs::path& path : entries_of(folder_, error)) {
     const std::string name = path.filename();
-    const bool is_old = pattern_.number_of(name) && !names_.contains(name) && has_mark(path);
+    const bool is_old = pattern_.number_of(name) && !names_.contains(name) &&
+                        has_png_mark(path, PngMark::difference);
     if (is_old) files_.remove(name);
   }
   files_.commit();

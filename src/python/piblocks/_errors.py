@@ -29,6 +29,7 @@ _KEYWORDS = {
     "max-flashes": "max_flashes",
     "no-sound": "sound_on=False",
     "opaque": "view_background='opaque'",
+    "overwrite": "overwrite=True",
     "part": "part",
     "poster": "poster",
     "preset": "preset",
