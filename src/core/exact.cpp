@@ -13,14 +13,34 @@ namespace {
 
 constexpr double kBitsPerDigit = 3.3219280948873626;  // log2(10)
 
-[[noreturn]] void fail_too_long() {
-  throw UsageError(fmt::format("number is longer than {} bits", kMaxRationalBits));
+[[noreturn]] void fail_too_long(std::int64_t max_bits) {
+  throw UsageError(fmt::format("is longer than {} bits, which are {:.0f} decimal digits", max_bits,
+                               std::floor(double(max_bits) / kBitsPerDigit)));
+}
+
+/// The logarithm of the larger one of numerator and denominator.
+double log2_of(const Rational& value) {
+  double largest = 0;
+  for (const mpz_class& part : {value.get_num(), value.get_den()}) {
+    long exponent = 0;
+    const double mantissa = std::fabs(mpz_get_d_2exp(&exponent, part.get_mpz_t()));
+    if (mantissa > 0) largest = std::max(largest, std::log2(mantissa) + double(exponent));
+  }
+  return largest;
+}
+
+Rational power_within(std::int64_t max_bits, const Rational& base, unsigned long exponent) {
+  if (log2_of(base) * double(exponent) > double(max_bits)) fail_too_long(max_bits);
+  Rational result;
+  mpz_pow_ui(result.get_num_mpz_t(), base.get_num_mpz_t(), exponent);
+  mpz_pow_ui(result.get_den_mpz_t(), base.get_den_mpz_t(), exponent);
+  return result;  // powers of coprime numbers are coprime: still in lowest terms
 }
 
 /// Reads `text` from the left; every step consumes what it understood.
 class NumberReader {
  public:
-  explicit NumberReader(std::string_view text) : rest_(text) {}
+  NumberReader(std::string_view text, std::int64_t max_bits) : rest_(text), max_bits_(max_bits) {}
 
   Rational quotient() {
     Rational value = factor();
@@ -30,6 +50,7 @@ class NumberReader {
       value /= divisor;
     }
     if (!rest_.empty()) throw UsageError("not a number");
+    if (log2_of(value) > double(max_bits_)) fail_too_long(max_bits_);
     return value;
   }
 
@@ -60,7 +81,7 @@ class NumberReader {
     if (text.empty()) throw UsageError("not a number");
     long value = 0;
     const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (result.ec != std::errc{} || value > kMaxRationalBits) fail_too_long();
+    if (result.ec != std::errc{} || value > max_bits_) fail_too_long(max_bits_);
     return negative ? -value : value;
   }
 
@@ -76,7 +97,7 @@ class NumberReader {
     if (!take('^')) return base;
     const long n = exponent();
     if (base == 0 && n < 0) throw UsageError("division by zero");
-    const Rational raised = power(base, static_cast<unsigned long>(std::labs(n)));
+    const Rational raised = power_within(max_bits_, base, static_cast<unsigned long>(std::labs(n)));
     return n < 0 ? Rational(1 / raised) : raised;
   }
 
@@ -91,16 +112,18 @@ class NumberReader {
     if (mantissa.empty()) throw UsageError("not a number");
     if (take('e') || take('E')) scale += exponent();
     const auto length = static_cast<double>(mantissa.size()) + std::fabs(double(scale));
-    if (length * kBitsPerDigit > double(kMaxRationalBits)) fail_too_long();
+    if (length * kBitsPerDigit > double(max_bits_)) fail_too_long(max_bits_);
 
     Rational value{Integer(mantissa, 10)};
-    const Rational ten_power = power(10, static_cast<unsigned long>(std::labs(scale)));
+    const Rational ten_power =
+        power_within(max_bits_, 10, static_cast<unsigned long>(std::labs(scale)));
     if (scale < 0) value /= ten_power;
     if (scale > 0) value *= ten_power;
     return value;
   }
 
   std::string_view rest_;
+  std::int64_t max_bits_;
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -111,7 +134,9 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
-Rational parse_rational(std::string_view text) { return NumberReader(trimmed(text)).quotient(); }
+Rational parse_rational(std::string_view text, std::int64_t max_bits) {
+  return NumberReader(trimmed(text), max_bits).quotient();
+}
 
 Rational rational_from_decimal(double value) {
   if (!std::isfinite(value)) throw UsageError("not a finite number");
@@ -151,14 +176,7 @@ Integer floor(const Rational& value) {
 Integer ceil(const Rational& value) { return -floor(-value); }
 
 Rational power(const Rational& base, unsigned long exponent) {
-  const std::size_t base_bits =
-      std::max(mpz_sizeinbase(base.get_num_mpz_t(), 2), mpz_sizeinbase(base.get_den_mpz_t(), 2));
-  const bool is_unit = base == 0 || abs(base) == 1;
-  if (!is_unit && double(base_bits) * double(exponent) > double(kMaxRationalBits)) fail_too_long();
-  Rational result;
-  mpz_pow_ui(result.get_num_mpz_t(), base.get_num_mpz_t(), exponent);
-  mpz_pow_ui(result.get_den_mpz_t(), base.get_den_mpz_t(), exponent);
-  return result;  // powers of coprime numbers are coprime: still in lowest terms
+  return power_within(kMaxMassBits, base, exponent);
 }
 
 std::string with_thousands_separators(const Integer& value) {
