@@ -1,11 +1,12 @@
 // Comparison: two images, or two pictures, sequences or videos frame by frame.
 // In: images or file names, and what may differ. Out: how many pixels differ, by how much and
-// where.
+// where; and of files, a row for every frame of either side, whatever was found about it.
 #pragma once
 
 #include <piblocks/exact.hpp>
 #include <piblocks/image.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -51,14 +52,17 @@ struct Difference {
   SamplePlace first = {};             ///< the first that differs, row by row, if one does
   PixelRect densest = {};             ///< where the window has the most pixels off, first such
   std::int64_t densest_off = 0;       ///< pixels that are off there
+  std::int64_t masked_pixels = 0;     ///< that differ inside a mask; not counted above
   bool is_accepted = true;
 
   bool is_equal() const noexcept { return different_pixels == 0; }
 };
 
-/// Compares all four samples of every pixel outside of the masks. Without a window in the
-/// tolerance, the densest 16x16 pixels are searched.
-/// @throws UsageError if the images are not of one size, or the tolerance is out of range.
+/// Compares all four samples of every pixel outside of the masks. A mask may reach out of the
+/// image. Without a window in the tolerance, the densest 16x16 pixels are searched.
+/// @throws UsageError if the images are not of one size, the tolerance is out of range, or the
+/// masks
+///         together cover the whole image.
 Difference compare(const ImageView& reference, const ImageView& actual,
                    const Tolerance& tolerance = {}, std::span<const PixelRect> masks = {});
 
@@ -78,50 +82,81 @@ std::vector<std::uint8_t> pixel_deltas(const DeepImage& reference, const DeepIma
 /// Longest file of hashes that is read, in lines.
 inline constexpr std::size_t kMaxHashes = 2'000'000;
 
+/// The reference and the actual side may each be a PNG file, a folder of them, a numbered pattern
+/// such as frames/%06d.png, a video, or a file of frame hashes.
+///
+/// Pictures are paired by name: those of two folders by their paths in these, those of a pattern
+/// by their numbers. Two files that are named themselves are a pair. With a video, pictures are
+/// paired by their order; those of a pattern by their numbers, counted from the first.
 struct ComparisonJob {
-  std::string reference;  ///< a PNG file, a folder of them, a pattern, a video, or a framehash file
-  std::string actual;     ///< the same; a video may be compared with pictures
+  std::string reference;
+  std::string actual;
   Tolerance tolerance = {};
   std::vector<PixelRect> masks = {};  ///< not compared
+  bool is_recursive = true;           ///< whether the folders in a folder belong to it
 };
 
-/// One frame of both, valid during the call.
+/// What is found about a frame, from the least severe to the most severe.
+enum class Outcome : std::uint8_t {
+  equal,
+  accepted,    ///< differs within the tolerance, or only inside a mask
+  different,   ///< beyond the tolerance
+  added,       ///< only the actual side has it
+  missing,     ///< only the reference has it
+  mismatch,    ///< of another size, or shown another way (rotation, shape of pixels)
+  unreadable,  ///< on either side
+};
+inline constexpr std::size_t kOutcomes = 7;
+
+/// "equal", "new", … for people.
+const char* name_of(Outcome outcome);
+
+/// One frame, valid during the call.
 struct FrameComparison {
-  std::int64_t number = 0;  ///< from 0
-  std::string name;         ///< of the reference's frame, for people
-  bool is_yuv = false;      ///< whether the samples are Y, Cb and Cr
-  /// Nothing where only hashes are known: is_accepted then says whether these are equal.
+  std::int64_t number = 0;  ///< of the row, from 0
+  std::string name;         ///< for people: of the reference's frame and, if other, of the actual
+  Outcome outcome = Outcome::equal;
+  std::string problem;  ///< of what is a mismatch or unreadable: why
+  bool is_yuv = false;  ///< whether the samples are Y, Cb and Cr
+  /// Nothing where only hashes are known, and where there is nothing to compare.
   std::optional<Difference> difference;
-  bool is_accepted = true;
-  /// The pictures as they are shown; empty functions where only hashes are known.
+  /// The pictures as they are shown, with alpha; empty functions where there is none. A picture
+  /// without pixels stands for one whose colours are not known.
   std::function<Image()> reference;
   std::function<Image()> actual;
-  /// What pixel_deltas() returns for the samples that were compared.
+  /// What pixel_deltas() returns for the samples that were compared; empty without a difference.
   std::function<std::vector<std::uint8_t>()> deltas;
 
-  bool is_equal() const noexcept { return difference ? difference->is_equal() : is_accepted; }
+  bool is_accepted() const noexcept { return outcome <= Outcome::accepted; }
 };
 
-enum class Verdict { equal, accepted, different, mismatch };
-
 struct ComparisonResult {
-  Verdict verdict = Verdict::equal;
-  std::string mismatch;               ///< what does not fit: sizes, numbers of frames, rotation
-  std::int64_t frames = 0;            ///< that were compared
-  std::int64_t different_frames = 0;  ///< that are not equal, accepted or not
-  std::int64_t refused_frames = 0;    ///< that are not accepted
+  std::array<std::int64_t, kOutcomes> rows = {};  ///< by outcome
+  std::int64_t different_frames = 0;  ///< that differ outside of the masks, accepted or not
+  std::int64_t masked_frames = 0;     ///< that differ inside a mask
+  std::int64_t reference_frames = 0;  ///< that the reference has, read or not
+  std::int64_t actual_frames = 0;     ///< that the actual side has, read or not
+  /// Why a side has no frame, or why no picture of one side is paired with one of the other.
+  std::string problem;
+
+  std::int64_t count(Outcome outcome) const { return rows[static_cast<std::size_t>(outcome)]; }
+  std::int64_t total() const;  ///< of rows
+  /// Of which both sides could be compared.
+  std::int64_t compared_frames() const {
+    return count(Outcome::equal) + count(Outcome::accepted) + count(Outcome::different);
+  }
+  /// The most severe one of the rows.
+  Outcome worst() const;
 };
 
 /// Compares what both have stored wherever their formats are equal, and else the RGB pictures they
-/// show. Ends early where sizes do not fit.
-/// @param on_frame  called for every frame, in order.
-/// @throws UsageError if the job makes no sense; IoError, MediaError if an input cannot be read;
-///         Interrupted
+/// show. Goes on after whatever it finds; only what follows a frame that cannot be read in a video
+/// is not compared.
+/// @param on_frame  called for every row, in the order of names, numbers or time.
+/// @throws UsageError if the job makes no sense, also if masks cover all of a picture or one lies
+///         outside of all pictures; Interrupted
 ComparisonResult compare_files(const ComparisonJob& job,
                                const std::function<void(const FrameComparison&)>& on_frame,
                                const std::stop_token& stop = {});
-
-/// Whether there is anything of that name to compare with.
-bool frames_exist(const std::string& name);
 
 }  // namespace piblocks

@@ -1,8 +1,6 @@
 #include "cli/app.hpp"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <piblocks/version.hpp>
 
 #include <utility>
 
@@ -43,16 +41,17 @@ constexpr int kAnyNumber = -1;
 
 }  // namespace
 
-std::unique_ptr<CLI::App> make_app() {
-  auto app = std::make_unique<CLI::App>(
+std::unique_ptr<Program> make_program() {
+  auto made = std::make_unique<Program>();
+  CLI::App& app = made->app;
+  app.name("piblocks");
+  app.description(
       "Renders two sliding blocks and a wall whose collisions count the digits of pi.\n\n"
-      "Example: piblocks render --digits 3 -o pi-3.mp4",
-      "piblocks");
-  const std::string version = fmt::format("piblocks {}", kVersion);
-  app->formatter(std::make_shared<HelpFormatter>());
-  app->set_help_flag("-h,--help", "Print this text and exit");
-  app->require_subcommand(1);
-  Command program(*app);
+      "Example: piblocks render --digits 3 -o pi-3.mp4");
+  app.formatter(std::make_shared<HelpFormatter>());
+  app.set_help_flag("-h,--help", "Print this text and exit");
+  app.require_subcommand(1);
+  Command program(*made, app);
   add_render(program);
   add_join(program);
   add_still(program);
@@ -67,17 +66,22 @@ std::unique_ptr<CLI::App> make_app() {
   add_golden(program);
   add_info(program);
   add_manual(program);
-  app->set_version_flag("--version", version, "Print the version and exit");
-  for (CLI::App* command : app->get_subcommands({})) {
+  const auto add_version = [](CLI::App& command) {
+    command.add_flag("--version")->description("Print the version and exit");
+  };
+  add_version(app);
+  for (CLI::App* command : app.get_subcommands({})) {
     command->group("Commands");
-    command->set_version_flag("--version", version, "Print the version and exit");
+    add_version(*command);
   }
-  app->get_formatter()->label("Positionals", "Arguments");
-  app->footer(
+  app.get_formatter()->label("Positionals", "Arguments");
+  app.footer(
       "'piblocks COMMAND --help' or 'piblocks help COMMAND' explains a command.\n"
       "Exit codes: 0 done, 1 failed, 2 wrong usage.");
-  return app;
+  return made;
 }
+
+bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
@@ -91,7 +95,7 @@ std::string full_name(const CLI::App& command) {
 }
 
 Command Command::add_command(const std::string& name, const std::string& help) {
-  return Command(*app_->add_subcommand(name, help));
+  return Command(*program_, *app_->add_subcommand(name, help));
 }
 
 void Command::add_flag(const std::string& name, const std::string& help) {
@@ -103,6 +107,12 @@ void Command::add_value(const std::string& name, const std::string& placeholder,
   app_->add_option(name, help)->option_text(placeholder);
 }
 
+void Command::add_text(const std::string& name, const std::string& placeholder,
+                       const std::string& help) {
+  add_value(name, placeholder, help);
+  program_->texts.insert(app_->get_option(name));
+}
+
 void Command::add_required_value(const std::string& name, const std::string& placeholder,
                                  const std::string& help) {
   app_->add_option(name, help)->option_text(placeholder)->required();
@@ -110,8 +120,7 @@ void Command::add_required_value(const std::string& name, const std::string& pla
 
 void Command::add_values(const std::string& name, const std::string& placeholder,
                          const std::string& help) {
-  CLI::Option* const option = app_->add_option(name, help)->option_text(placeholder);
-  option->allow_extra_args(false)->expected(1, kAnyNumber);
+  app_->add_option(name, help)->option_text(placeholder)->expected(1, kAnyNumber);
 }
 
 void Command::add_argument(const std::string& name, const std::string& help) {
@@ -123,30 +132,29 @@ void Command::add_optional_argument(const std::string& name, const std::string& 
 }
 
 void Command::add_arguments(const std::string& name, const std::string& help) {
-  CLI::Option* const option = app_->add_option(name, help)->required()->option_text("...");
-  option->expected(1, kAnyNumber)->allow_extra_args();
+  app_->add_option(name, help)->required()->option_text("...")->expected(1, kAnyNumber);
 }
 
 void Command::set_footer(const std::string& text) { app_->footer(text); }
 
 void Command::require_command() { app_->require_subcommand(1); }
 
-void Command::on_run(std::function<void()> run) { app_->callback(std::move(run)); }
+void Command::on_run(std::function<void()> run) { program_->runs[app_] = std::move(run); }
 
 std::string Command::name() const { return app_->get_name(); }
 
 bool Command::is_given(const std::string& option) const {
-  const CLI::Option* const found = app_->get_option_no_throw(option);
-  return found != nullptr && found->count() > 0;
+  return program_->values.contains(app_->get_option_no_throw(option));
 }
 
 std::optional<std::string> Command::text(const std::string& option) const {
-  if (app_->get_option(option)->count() == 0) return std::nullopt;
-  return texts(option).front();
+  const std::vector<std::string> given = texts(option);
+  return given.empty() ? std::nullopt : std::optional(given.front());
 }
 
 std::vector<std::string> Command::texts(const std::string& option) const {
-  return app_->get_option(option)->results();
+  const auto given = program_->values.find(app_->get_option(option));
+  return given == program_->values.end() ? std::vector<std::string>() : given->second;
 }
 
 }  // namespace piblocks::cli

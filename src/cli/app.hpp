@@ -1,10 +1,14 @@
-// The command line as a whole, by CLI11.
-// In: nothing. Out: all commands with their options, and a help of at most 100 columns.
+// All commands with their options, and their help of at most 100 columns. CLI11 is the table of
+// them and writes the help. It sees no argument: its releases differ in what they make of some. In:
+// nothing. Out: a program whose options have no values yet; command_line.cpp reads these.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
+#include <functional>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,7 +17,17 @@ namespace piblocks::cli {
 /// The text of an option whose name says all: an empty one would be replaced by CLI11.
 inline constexpr const char* kNoText = " ";
 
-std::unique_ptr<CLI::App> make_app();
+struct Program {
+  CLI::App app;
+  std::map<const CLI::App*, std::function<void()>> runs;  ///< what each command does
+  std::set<const CLI::Option*> texts;  ///< options whose value may be empty, as of a title
+  std::map<const CLI::Option*, std::vector<std::string>> values;  ///< of options that are given
+};
+
+/// Commands refer to the program.
+std::unique_ptr<Program> make_program();
+
+bool takes_value(const CLI::Option& option);
 
 /// The commands of the program, or of a command that has some.
 std::vector<const CLI::App*> commands_of(const CLI::App& app);

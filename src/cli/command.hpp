@@ -1,6 +1,7 @@
 // The commands of the program: their options, their values on the command line, their exit codes.
 // In: names and help texts; later the arguments of main(). Out: the command that they name has run.
-// CLI11 is behind this: it costs a compiler seconds wherever it is included.
+// CLI11 is behind this, for tables of options and for help: it costs a compiler seconds wherever it
+// is included.
 #pragma once
 
 #include <piblocks/error.hpp>
@@ -19,6 +20,8 @@ class Option;
 }  // namespace CLI
 
 namespace piblocks::cli {
+
+struct Program;
 
 // Exit codes; 0 is done. The last four are those of comparisons.
 inline constexpr int kFailed = 1;
@@ -41,10 +44,9 @@ class ExitError : public Error {
 
 /// Refers to a command, and is valid as long as the program's command line. An option is named as
 /// in messages: "--output", or "SCENE" for an argument without a name.
-/// CLI11 only collects texts: users never see its errors about conversion.
 class Command final : public OptionTexts {
  public:
-  explicit Command(CLI::App& app) : app_(&app) {}
+  Command(Program& program, CLI::App& app) : program_(&program), app_(&app) {}
 
   /// A command below this one.
   Command add_command(const std::string& name, const std::string& help);
@@ -52,6 +54,8 @@ class Command final : public OptionTexts {
   void add_flag(const std::string& name, const std::string& help);
   /// @param placeholder  stands for the value in the help, as in "--size WxH".
   void add_value(const std::string& name, const std::string& placeholder, const std::string& help);
+  /// A value that may be empty: a text, or a list of any length.
+  void add_text(const std::string& name, const std::string& placeholder, const std::string& help);
   void add_required_value(const std::string& name, const std::string& placeholder,
                           const std::string& help);
   /// A value that may be given several times.
@@ -75,6 +79,7 @@ class Command final : public OptionTexts {
   std::vector<std::string> texts(const std::string& option) const;
 
  private:
+  Program* program_;
   CLI::App* app_;
 };
 

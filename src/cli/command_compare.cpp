@@ -1,24 +1,21 @@
 #include <piblocks/compare.hpp>
 
-#include <array>
+#include <exception>
 #include <memory>
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/exit_code.hpp"
 #include "cli/options.hpp"
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "core/overwrite_check.hpp"
-#include "golden/frame_source.hpp"
+#include "golden/picture_list.hpp"
 #include "golden/reports.hpp"
+#include "golden/shown_frames.hpp"
 
 namespace piblocks::cli {
 namespace {
-
-constexpr int kMaxLines = 20;
-
-/// By Verdict.
-constexpr std::array kVerdicts = {"equal", "equal within tolerance", "different", "not comparable"};
 
 Rational parse_delta(const std::string& text) {
   Rational delta = parse_rational(text);
@@ -64,7 +61,8 @@ Tolerance tolerance_of(const Command& options) {
 }
 
 ComparisonJob job_of(const Command& options) {
-  ComparisonJob job{*options.text("REFERENCE"), *options.text("ACTUAL"), tolerance_of(options), {}};
+  ComparisonJob job{*options.text("REFERENCE"), *options.text("ACTUAL"), tolerance_of(options)};
+  job.is_recursive = !options.is_given("--no-recursive");
   for (const std::string& mask : options.texts("--mask")) {
     try {
       job.masks.push_back(parse_mask(mask));
@@ -75,52 +73,88 @@ ComparisonJob job_of(const Command& options) {
   return job;
 }
 
-std::vector<std::unique_ptr<Report>> reports_of(const Command& options) {
-  std::vector<std::unique_ptr<Report>> reports;
-  if (const auto name = options.text("--diff")) reports.push_back(diff_folder(*name));
-  if (const auto name = options.text("--report")) reports.push_back(html_report(*name));
-  if (const auto name = options.text("--junit")) reports.push_back(junit_report(*name));
-  return reports;
-}
+/// The reports that were asked for. One that fails keeps none of the others from being written.
+class Reports {
+ public:
+  explicit Reports(const Command& options) {
+    if (const auto name = options.text("--diff")) reports_.push_back(diff_folder(*name));
+    if (const auto name = options.text("--report")) reports_.push_back(html_report(*name));
+    if (const auto name = options.text("--junit")) reports_.push_back(junit_report(*name));
+  }
 
-/// Prints a line for every frame that differs, and what all of it comes to.
+  void add(const FrameComparison& frame) {
+    for (auto& report : reports_) attempt(report, [&] { report->add(frame); });
+  }
+  void finish(const ComparisonJob& job, const ComparisonResult& result) {
+    for (auto& report : reports_) attempt(report, [&] { report->finish(job, result); });
+  }
+  /// @throws what the first that failed has thrown; but if the exit code is another one anyhow,
+  ///         a failed write is only printed.
+  void check(int exit_code) const {
+    try {
+      if (failure_) std::rethrow_exception(failure_);
+    } catch (const IoError& error) {
+      if (exit_code <= kFailed) throw;
+      say("piblocks: {}\n", error.what());
+    }
+  }
+
+ private:
+  template <typename Work>
+  void attempt(std::unique_ptr<Report>& report, const Work& work) {
+    if (!report) return;
+    try {
+      work();
+    } catch (const Error&) {
+      if (!failure_) failure_ = std::current_exception();
+      report.reset();
+    }
+  }
+
+  std::vector<std::unique_ptr<Report>> reports_;  // null where one has failed
+  std::exception_ptr failure_;
+};
+
+/// Prints a line for every frame that is shown, and what all of it comes to. What cannot be read is
+/// an error, and goes to standard error.
 class Printer {
  public:
   explicit Printer(bool quiet) : quiet_(quiet) {}
 
   void add(const FrameComparison& frame) {
-    if (quiet_ || frame.is_equal() || ++lines_ > kMaxLines) return;
-    out_.format_line("{}: {}", frame.name, difference_text(frame));
-    out_.flush();
+    if (frame.outcome == Outcome::equal) return;
+    const bool takes = shown_.takes(frame.outcome);
+    const bool is_left = shown_.add(frame.outcome, takes ? row_text(frame) : "").has_value();
+    left_ += is_left ? 1 : 0;
   }
 
-  void finish(const ComparisonResult& result) {
-    if (!quiet_) print(result);
+  void finish(const ComparisonJob& job, const ComparisonResult& result) {
+    shown_.for_each([this](Outcome outcome, const std::string& line) {
+      if (outcome == Outcome::unreadable) {
+        say("piblocks: {}\n", line);
+      } else if (!quiet_) {
+        out_.line(printable(line));
+      }
+    });
+    if (!quiet_) {
+      if (left_ > 0) out_.format_line("… and {} more", left_);
+      out_.line(printable(summary_text(job, result)));
+    }
     out_.finish();
   }
 
  private:
-  void print(const ComparisonResult& result) {
-    if (lines_ > kMaxLines) out_.format_line("… and {} more", lines_ - kMaxLines);
-    if (!result.mismatch.empty()) out_.format_line("mismatch: {}", result.mismatch);
-    const std::string beyond = result.different_frames == result.refused_frames
-                                   ? ""
-                                   : fmt::format(", {} beyond tolerance", result.refused_frames);
-    out_.format_line("{}: {} of {} frames differ{}",
-                     kVerdicts.at(static_cast<std::size_t>(result.verdict)),
-                     result.different_frames, result.frames, beyond);
-  }
-
   bool quiet_;
-  int lines_ = 0;
+  ShownFrames<std::string> shown_;
+  std::int64_t left_ = 0;
   TextOutput out_{"-"};
 };
 
 /// @throws UsageError if a report would replace what is compared.
 void check_reports(const Command& options, const ComparisonJob& job) {
   OverwriteCheck check;
-  claim_frames(check, "the reference", job.reference);
-  claim_frames(check, "the actual pictures", job.actual);
+  claim_pictures(check, "the reference", job.reference, job.is_recursive);
+  claim_pictures(check, "the actual pictures", job.actual, job.is_recursive);
   if (const auto name = options.text("--diff")) claim_diff_folder(check, *name);
   if (const auto name = options.text("--report")) check.writes("--report", *name);
   if (const auto name = options.text("--junit")) check.writes("--junit", *name);
@@ -128,45 +162,28 @@ void check_reports(const Command& options, const ComparisonJob& job) {
   check.check();
 }
 
-/// Runs `work`; gives its failures this exit code.
-template <typename Work>
-auto with_exit_code(int code, const Work& work) {
-  try {
-    return work();
-  } catch (const IoError& error) {
-    throw ExitError(code, error.what());
-  } catch (const MediaError& error) {
-    throw ExitError(code, error.what());
-  }
-}
-
-ComparisonResult run_comparison(const Command& options, const ComparisonJob& job) {
-  const StopOnSignals signals;
-  const auto reports = reports_of(options);
-  Printer printer(options.is_given("--quiet"));
-  const auto on_frame = [&](const FrameComparison& frame) {
-    with_exit_code(kFailed, [&] {
-      printer.add(frame);
-      for (const auto& report : reports) report->add(frame);
-    });
-  };
-  ComparisonResult result =
-      with_exit_code(kUnreadable, [&] { return compare_files(job, on_frame, signals.token()); });
-  for (const auto& report : reports) report->finish(job, result);
-  printer.finish(result);
-  return result;
-}
-
+/// Reports are written whatever is found, and before anything is printed that may fail.
 void run_compare(const Command& options) {
   const ComparisonJob job = job_of(options);
-  if (!frames_exist(job.reference)) {
-    throw ExitError(kMissingReference,
-                    fmt::format("compare: there is no reference '{}'", job.reference));
-  }
   check_reports(options, job);
-  const Verdict verdict = run_comparison(options, job).verdict;
-  if (verdict == Verdict::different) throw ExitError(kDifferent);
-  if (verdict == Verdict::mismatch) throw ExitError(kMismatch);
+  const StopOnSignals signals;
+  Reports reports(options);
+  Printer printer(options.is_given("--quiet"));
+  const ComparisonResult result = compare_files(
+      job,
+      [&](const FrameComparison& frame) {
+        reports.add(frame);
+        printer.add(frame);
+      },
+      signals.token());
+  reports.finish(job, result);
+  printer.finish(job, result);
+  const int code = exit_code_of(result);
+  reports.check(code);
+  if (code != 0) {
+    // Only a side without a frame, or without partners for one, has a problem as a whole.
+    throw ExitError(code, result.problem.empty() ? "" : "compare: " + result.problem);
+  }
 }
 
 }  // namespace
@@ -184,18 +201,30 @@ void add_compare(Command& app) {
   command.add_value("--max-pixels", "N", "Accept up to N pixels of a frame that differ by more");
   command.add_value("--hard-delta", "D", "Accept no sample at all that differs by more than D");
   command.add_value("--max-window", "N:K", "Accept up to K such pixels in any square of NxN");
-  command.add_values("--mask", "WxH+X+Y", "Leave this rectangle out; may be given again");
+  command.add_values("--mask", "WxH+X+Y",
+                     "Leave this rectangle out; may be given again, but something must\n"
+                     "be left of every picture");
+  command.add_flag("--no-recursive", "Leave out the folders in a folder");
   command.add_value("--diff", "DIR",
-                    "Write expected, difference and actual, side by side, of each\n"
-                    "frame that is not accepted (the first hundred)");
+                    "Write expected, difference and actual, side by side, of frames\n"
+                    "that are different, at most 40");
   command.add_value("--report", "FILE.html", "Write a page to look at the differences");
-  command.add_value("--junit", "FILE.xml", "Write a list of tests, one a frame");
-  command.add_flag("--quiet", "Print nothing but errors");
+  command.add_value("--junit", "FILE.xml", "Write a list of tests, one a row");
+  command.add_flag("--quiet", "Print only what cannot be read, and other errors");
   command.set_footer(
+      "Pictures are paired by name: those of folders by their paths in these, those of a pattern\n"
+      "by their numbers. Beside a video they are paired by their order.\n"
       "Every sample has to be equal unless a tolerance is given; of several, all have to hold.\n"
       "Samples are compared as they are stored, alpha too, at up to 16 bits.\n"
-      "Exit codes: 0 equal or accepted, 1 different, 2 wrong usage, 3 no reference, 4 sizes,\n"
-      "numbers of frames or the way they are shown differ, 5 cannot be read.\n\n"
+      "The comparison goes on after whatever it finds, and reports are written. The first line "
+      "that\n"
+      "holds is the exit code:\n"
+      "  2  wrong usage\n"
+      "  5  something cannot be read, or all of ACTUAL is missing\n"
+      "  3  all of REFERENCE is missing\n"
+      "  4  a picture is missing, new, of another size, or shown another way\n"
+      "  1  a picture is different, or a report could not be written\n"
+      "  0  all is equal or accepted\n\n"
       "Examples:\n"
       "  piblocks compare expected.png actual.png --diff differences\n"
       "  piblocks compare golden/%06d.png frames/%06d.png --report report.html\n"

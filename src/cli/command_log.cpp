@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
+#include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "cli/body_output.hpp"
@@ -13,6 +15,7 @@
 #include "cli/stop_on_signals.hpp"
 #include "cli/text_output.hpp"
 #include "core/output_file.hpp"
+#include "core/text.hpp"
 #include "scene/run_log.hpp"
 
 namespace piblocks::cli {
@@ -74,6 +77,38 @@ LogFormat parse_log_format(const std::string& text) {
                                         {"npy", {Contents::bytes, header_of_npy, append_npy}}});
 }
 
+/// The format that the ending of a file names; CSV of a file without an ending.
+/// @throws UsageError for another ending.
+std::string format_of_file(const std::string& file) {
+  const std::string ending = std::filesystem::path(file).extension();
+  if (ending.empty()) return "csv";
+  for (const char* format : {"csv", "jsonl", "npy"}) {
+    if (has_ending(ending, std::string(".") + format)) return format;
+  }
+  throw UsageError(fmt::format(
+      "log: '{}' has no known ending; use .csv, .jsonl or .npy, or say the format by --format",
+      file));
+}
+
+/// What --format says, or the ending of the file.
+/// @throws UsageError if they disagree.
+std::string format_name(const Command& options) {
+  const std::string file = output_of(options);
+  const auto named = options.value("--format", [](const std::string& text) {
+    parse_log_format(text);
+    return text;
+  });
+  if (!named) return format_of_file(file);
+  for (const char* other : {"csv", "jsonl", "npy"}) {
+    if (*named == other || !has_ending(file, std::string(".") + other)) continue;
+    throw UsageError(
+        fmt::format("--format {}: '{}' is a name of {}; leave out --format, or use "
+                    "another name",
+                    *named, file, other));
+  }
+  return *named;
+}
+
 /// @throws Interrupted soon after the token asks for it.
 void write(CollisionStream& collisions, const LogFormat& format, OutputFile& file,
            const std::stop_token& stop) {
@@ -87,8 +122,7 @@ void write(CollisionStream& collisions, const LogFormat& format, OutputFile& fil
 
 void log_bodies(const Scene& scene, const Command& options) {
   if (options.is_given("--engine")) require_blocks(scene, "--engine");
-  const BodyLogFormat format =
-      options.value("--format", parse_body_log_format).value_or(parse_body_log_format("csv"));
+  const BodyLogFormat format = parse_body_log_format(format_name(options));
   if (format.is_binary) refuse_terminal(options);
   const RunLog run(scene_for_log(scene, options));
   const BodyLog& log = *run.bodies();
@@ -111,11 +145,10 @@ void log_bodies(const Scene& scene, const Command& options) {
 
 void run_log(const Command& options, const SceneOptions& scene_options) {
   scene_options.check_output();
-  if (const Scene scene = scene_options.scene(); scene.bodies) return log_bodies(scene, options);
-  const LogFormat format =
-      options.value("--format", parse_log_format).value_or(parse_log_format("csv"));
-  if (format.contents == Contents::bytes) refuse_terminal(options);
   const Scene scene = scene_options.scene();
+  if (scene.bodies) return log_bodies(scene, options);
+  const LogFormat format = parse_log_format(format_name(options));
+  if (format.contents == Contents::bytes) refuse_terminal(options);
   const auto log = make_log(scene.system, options);
   const Rows rows = select_rows(options, *log);
   const std::string header = format.header(rows);
@@ -138,12 +171,15 @@ void add_log(Command& app) {
   command.add_value("--to", "T", "Leave out collisions after this instant");
   command.add_value("--first", "K", "Start with this collision (default 1)");
   command.add_value("--limit", "N", "Print at most so many rows");
-  command.add_value("--format", "NAME", "csv (default), jsonl, or npy, which numpy.load() reads");
-  command.add_value("-o,--output", "FILE", "File to write (default: standard output)");
+  command.add_value("--format", "NAME",
+                    "csv, jsonl, or npy, which numpy.load() reads (default: by the\n"
+                    "ending of FILE; csv without one)");
+  command.add_value("-o,--output", "FILE",
+                    "NAME.csv, NAME.jsonl, NAME.npy, or - (standard output, the\ndefault)");
   command.set_footer(
       "Examples:\n"
       "  piblocks log --from 3 --to 4 --format jsonl\n"
-      "  piblocks log --digits 7 --format npy -o log.npy\n"
+      "  piblocks log --digits 7 -o log.npy\n"
       "  piblocks log --digits 20 --first 15707963267948966190 --limit 5 -o turn.csv");
   command.on_run([=] { run_log(command, scene); });
 }

@@ -16,7 +16,7 @@ namespace {
 /// Significant digits of what is lost.
 constexpr int kLossDigits = 12;
 
-/// A number of [0, 1] to so many places, cut off.
+/// A number of [0, 1] with so many places after the point.
 std::string decimals(const Rational& value, int places) {
   const Integer scaled = floor(value * power(10, static_cast<unsigned long>(places)));
   std::string digits = scaled.get_str();
@@ -46,25 +46,44 @@ std::string loss_text(const Rational& loss) {
   return fmt::format("{}e-{:02}", digits, places);
 }
 
+Integer count_with(const Rational& restitution, int digits, int base) {
+  BlockSystem system = article_system(digits, base);
+  system.blocks_restitution = restitution;
+  system.wall_restitution = restitution;
+  return count_collisions(system);
+}
+
+/// Places after the point that tell what is enough from what is not.
+int places_of(const LeastRestitution& need) {
+  constexpr int kPlaces = 20;  // where any loss is too much
+  const Rational loss = 1 - need.above;
+  return loss == 0 ? kPlaces : place_of_first_digit(loss) + kLossDigits - 1;
+}
+
 void print_need(int digits, int base, TextOutput& out) {
   const LeastRestitution need = least_restitution(digits, base);
-  const Rational loss = 1 - need.above;
-  const std::string below = need.count_below.get_str(base);
-  const std::string above = need.count_above.get_str(base);
-  out.format_line("Elastic blocks collide {} times.", above);
-  if (loss == 0) {
+  const int places = places_of(need);
+  const Rational unit = 1 / power(10, static_cast<unsigned long>(places));
+  // Rounded up: the decimal itself is enough, and the one before it is not.
+  const Rational enough = 1 - floor(Rational((1 - need.above) / unit)) * unit;
+  const Rational too_little = enough - unit;
+  const auto text = [&](const Rational& restitution) {
+    return restitution == 1 ? "1" : decimals(restitution, places);
+  };
+  const auto count = [&](const Rational& restitution) {
+    return count_with(restitution, digits, base).get_str(base);
+  };
+  const std::string in_base = base == kUsualBase ? "" : fmt::format(" (counts in base {})", base);
+  out.format_line("Elastic blocks collide {} times{}.", need.count_above.get_str(base), in_base);
+  if (enough == 1) {
     out.line("Only restitution 1 gives this count: any loss adds a collision.");
-    out.format_line("Exact counts prove it: {} collisions with 1 - 2^-64, {} with 1.", below,
-                    above);
   } else {
-    out.format_line("The count stays the same with restitution {}... or more, of blocks and wall,",
-                    decimals(need.above, place_of_first_digit(loss) + kLossDigits - 1));
-    out.format_line("which is 1 - {}.", loss_text(loss));
-    out.format_line(
-        "Exact counts on both sides of this value prove it: {} collisions below, {} from it on.",
-        below, above);
-    out.line("The two sides differ by 2^-64 of 1 - restitution.");
+    out.format_line("They collide as often with restitution {} or more, of blocks and wall,",
+                    text(enough));
+    out.format_line("which is 1 - {}.", loss_text(1 - enough));
   }
+  out.format_line("Exact counts prove it: {} collisions with {}, {} with {}.", count(too_little),
+                  text(too_little), count(enough), text(enough));
   out.line("Blocks that lose energy stay closer together, so they meet more often, not less.");
 }
 

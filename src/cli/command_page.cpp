@@ -17,11 +17,6 @@ namespace piblocks::cli {
 namespace {
 
 void check_page_options(const Command& options) {
-  if (!options.is_given("--live")) {
-    throw UsageError(
-        "page: use 'piblocks page --live' for the live page, which has the program in it, or "
-        "'piblocks render -o NAME.html' for a page with the video");
-  }
   const std::string output = output_of(options);
   if (output != "-" && !has_ending(output, ".html")) {
     throw UsageError(fmt::format(
@@ -71,7 +66,8 @@ void add_page(Command& app) {
   Command command =
       app.add_command("page", "Write the live page, which runs this program in a browser");
   SceneOptions scene(command);
-  command.add_flag("--live", "Write the live page; it opens the scene");
+  command.add_flag("--live",
+                   "The page that has the program in it: the only kind, so this\nmay be left out");
   command.add_required_value("-o,--output", "OUT", "NAME.html, or - (standard output)");
   scene.add_picture();
   scene.add_show();
@@ -81,8 +77,8 @@ void add_page(Command& app) {
   command.set_footer(
       "'piblocks render -o NAME.html' writes a page with the video instead.\n\n"
       "Examples:\n"
-      "  piblocks page --live -o live.html\n"
-      "  piblocks page --live lecture --digits 4 -o lecture.html");
+      "  piblocks page -o live.html\n"
+      "  piblocks page lecture --digits 4 -o lecture.html");
   command.on_run([=] { run_page(command, scene); });
 }
 

@@ -66,7 +66,7 @@ void add_run_options(Command& command) {
                     "within a second; 3 are held to be harmless (WCAG 2.3.1)");
   add_overwrite(command);
   command.add_flag("--profile", "Print what each stage cost, on standard error");
-  command.add_flag("--quiet", "Print nothing but errors");
+  command.add_flag("--quiet", "Print nothing but errors, and what --profile asks for");
 }
 
 void run_join(const Command& options) {

@@ -1,10 +1,12 @@
 #include "cli/destination.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
 
+#include "core/nearest_name.hpp"
 #include "core/text.hpp"
 
 namespace piblocks::cli {
@@ -27,18 +29,20 @@ const std::vector<Destination>& destinations() {
   return all;
 }
 
+std::vector<std::string> names() {
+  std::vector<std::string> names;
+  for (const Destination& destination : destinations()) names.emplace_back(destination.name);
+  return names;
+}
+
 }  // namespace
 
-std::string destination_names() {
-  std::vector<std::string_view> names;
-  for (const Destination& destination : destinations()) names.push_back(destination.name);
-  return fmt::format("{}", fmt::join(names, ", "));
-}
+std::string destination_names() { return fmt::format("{}", fmt::join(names(), ", ")); }
 
 const Destination& parse_destination(const std::string& name) {
   const auto found = std::ranges::find(destinations(), name, &Destination::name);
   if (found != destinations().end()) return *found;
-  throw UsageError("must be one of: " + destination_names());
+  throw UsageError(must_be_one_of(name, names()));
 }
 
 void check_ending(const Destination& destination, const std::string& output) {

@@ -31,17 +31,14 @@ bool compare_file(const fs::path& reference, const fs::path& actual, Report* rep
                   const SayLine& say) {
   const ComparisonJob job{reference, actual};
   const auto on_frame = [&](const FrameComparison& frame) {
-    if (frame.is_accepted) return;
-    say(fmt::format("{}: {}: {}", reference.filename().string(), frame.name,
-                    difference_text(frame)));
+    if (frame.is_accepted()) return;
+    const std::string file = reference.filename();
+    say(frame.name == file ? row_text(frame) : fmt::format("{}: {}", file, row_text(frame)));
     if (report != nullptr) report->add(frame);
   };
   const ComparisonResult result = compare_files(job, on_frame);
-  if (!result.mismatch.empty()) {
-    say(fmt::format("{}: {}", reference.filename().string(), result.mismatch));
-  }
   if (report != nullptr) report->finish(job, result);
-  return result.verdict == Verdict::equal;
+  return result.worst() == Outcome::equal;
 }
 
 /// Says so if the references were painted by something else, which is why they may differ.

@@ -36,9 +36,8 @@ char* put(char* at, const Value& value) {
 }
 
 Integer parse_index(const std::string& text) {
-  const Rational index = parse_rational(text);
-  if (index.get_den() != 1) throw UsageError("must be a whole number");
-  return index.get_num();
+  if (std::optional<Integer> index = whole_number(text)) return *std::move(index);
+  throw UsageError("must be a whole number");
 }
 
 /// An end of what is printed.
@@ -135,7 +134,7 @@ std::string npy_header(std::string_view row_type, const Rows& rows) {
   for (const Integer& index : {rows.first, rows.last}) {
     if (rows.count() == 0 || abs(index) <= to_integer(std::numeric_limits<std::int64_t>::max()))
       continue;
-    throw UsageError(fmt::format("--format npy: index {} does not fit in 64 bits; use csv or jsonl",
+    throw UsageError(fmt::format("log: index {} does not fit in 64 bits of npy; use csv or jsonl",
                                  readable(index)));
   }
   constexpr std::size_t kAlignment_bytes = 64;  // of the first row

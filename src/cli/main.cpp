@@ -15,6 +15,7 @@
 #include "cli/text_output.hpp"
 #include "core/gmp_memory.hpp"
 #include "core/output_file.hpp"
+#include "core/text.hpp"
 
 namespace {
 
@@ -22,7 +23,7 @@ using piblocks::cli::kFailed;
 using piblocks::cli::kWrongUsage;
 
 int fail(std::string_view message, int exit_code) {
-  piblocks::cli::say("piblocks: {}\n", message);
+  piblocks::cli::say("piblocks: {}\n", piblocks::with_short_words(message));
   return exit_code;
 }
 

@@ -64,8 +64,6 @@ std::vector<NamedOption> named_options_of(const CLI::App& command) {
   return named;
 }
 
-bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
-
 /// Options that take words, and these words, with commas.
 constexpr auto kWordOptions = std::to_array<std::pair<const char*, std::string (*)()>>(
     {{"--theme", theme_names}, {"--show", overlay_names}, {"--panels", panel_names}});
@@ -125,8 +123,8 @@ std::string man_page(const CLI::App& app) {
   for (const CLI::App* command : leaves_of(app)) text += roff_of(*command);
   return text +
          ".SH EXIT STATUS\n0 done, 1 failed, 2 wrong usage.\n.B piblocks compare\nand\n"
-         ".B piblocks golden\nreturn 1 for different, 3 for no reference, 4 for another size or "
-         "number of frames, 5 for what cannot be read.\n";
+         ".B piblocks golden\nreturn 1 for different, 3 for no reference, 4 for a picture that is "
+         "missing, new or of another size, 5 for what cannot be read.\n";
 }
 
 /// Right behind a command that takes a scene: names and files.
@@ -268,7 +266,7 @@ void run_manual(const Command& command) {
                                          {"fish", fish_completion}});
   });
   OutputFile out("-", OutputFile::Contents::text);
-  out.write(make_text(*make_app()));
+  out.write(make_text(make_program()->app));
   out.finish();
 }
 

@@ -32,7 +32,8 @@ class OptionTexts {
     try {
       return parse(*given);
     } catch (const UsageError& error) {
-      throw UsageError(fmt::format("{} {}: {}", option, *given, error.what()));
+      const std::string shown = given->empty() ? "''" : *given;
+      throw UsageError(fmt::format("{} {}: {}", option, shown, error.what()));
     }
   }
 };

@@ -23,10 +23,14 @@ int parse_flashes(const std::string& text) { return parse_int(text, 1, kMaxFlash
 
 /// "2/3", the second of three.
 Shard parse_part(const std::string& text) {
-  const std::size_t slash = text.find('/');
-  if (slash == std::string::npos) throw UsageError("must be I/N, such as 2/3");
-  const int count = parse_int(text.substr(slash + 1), 1, kMaxShards);
-  return {.number = parse_int(text.substr(0, slash), 1, count), .count = count};
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::optional<Integer> number = whole_number(text.substr(0, slash));
+  const std::optional<Integer> count = whole_number(text.substr(std::min(slash + 1, text.size())));
+  const bool is_shard =
+      number && count && *number >= 1 && *number <= *count && *count <= kMaxShards;
+  if (is_shard) return {int(number->get_si()), int(count->get_si())};
+  throw UsageError(
+      fmt::format("must be I/N, such as 2/3: I from 1 to N, and N at most {}", kMaxShards));
 }
 
 double parse_crf(const std::string& text) { return to_double(parse_rational(text)); }
@@ -76,6 +80,9 @@ RenderJob job_of(const OptionTexts& options, const std::string& output,
   if (options.is_given("--no-sound") && is_sound_alone(output)) {
     throw UsageError(
         fmt::format("--no-sound: '{}' is the sound alone; leave one of them out", output));
+  }
+  if (options.is_given("--sound") && !takes_sound(output)) {
+    throw UsageError("--sound: " + no_sound_in(output));
   }
   return {
       .script = std::move(script),

@@ -5,16 +5,28 @@
 #include <piblocks/error.hpp>
 #include <piblocks/script.hpp>
 
+#include <iostream>
 #include <utility>
 
 #include "cli/options.hpp"
 #include "cli/shipped_scenes.hpp"
 #include "cli/text_output.hpp"
+#include "scene/toml_file.hpp"
 
 namespace piblocks::cli {
 namespace {
 
 constexpr const char* kScene = "SCENE";
+constexpr const char* kStandardInput = "standard input";
+
+bool is_standard_input(const std::string& scene) { return scene == "-"; }
+
+std::string text_of_standard_input() {
+  std::string text = read_toml_text(std::cin, kStandardInput);
+  if (!text.empty()) return text;
+  // The article's scene would hide that the program before the pipe has failed.
+  throw SceneError("scene: standard input is empty; leave '-' out for the article's scene");
+}
 
 /// A list of names with line breaks after commas.
 std::string in_lines(std::string names) {
@@ -32,8 +44,8 @@ std::string in_lines(std::string names) {
 
 SceneOptions::SceneOptions(Command command) : command_(std::move(command)) {
   command_.add_optional_argument(kScene,
-                                 "Scene file, or a name that 'piblocks scenes' lists; without it,\n"
-                                 "the article's scene: three digits");
+                                 "Scene file, a name that 'piblocks scenes' lists, or - (standard\n"
+                                 "input); without it, the article's scene: three digits");
   add_key("digits", "--digits", "D", "Count this many digits of pi: m_red = 100^(D-1) m_blue");
   add_key("base", "--base", "B",
           "Write counts in this base, 2 to 36 (default 10); then D digits\n"
@@ -50,6 +62,12 @@ void SceneOptions::add_key(const std::string& key, const std::string& option,
                            const std::string& placeholder, const std::string& help) {
   keys_.push_back({key, option});
   command_.add_value(option, placeholder, help);
+}
+
+void SceneOptions::add_text(const std::string& key, const std::string& option,
+                            const std::string& placeholder, const std::string& help) {
+  keys_.push_back({key, option});
+  command_.add_text(option, placeholder, help);
 }
 
 void SceneOptions::add_flag(const Key& flag, const std::string& help) {
@@ -78,7 +96,7 @@ void SceneOptions::add_exposure() {
   add_key(
       "view.shutter", "--shutter", "X",
       "Motion blur: the share of the time between two frames for\nwhich each is exposed, 0 to 1 "
-      "(default 0)");
+      "(default: 1/2 in the\nlecture themes, else 0)");
   add_key("view.fps", "--fps", "N|N/D", "Frames per second (default 60)");
   add_key("time.speed", "--speed", "X", "Simulation time per second of video (default 1)");
 }
@@ -86,13 +104,13 @@ void SceneOptions::add_exposure() {
 void SceneOptions::add_timing() {
   add_span();
   add_key("time.duration", "--duration", "S", "Length of the video in seconds; sets the speed");
-  add_key("time.slow-motion", "--slow-motion", "auto|FROM:TO:N",
-          "Windows in which time runs N times slower, separated by\ncommas; FROM and TO as 3.2, "
-          "turn-0.3, last+1, #314");
+  add_text("time.slow-motion", "--slow-motion", "auto|FROM:TO:N",
+           "Windows in which time runs N times slower, separated by\ncommas; FROM and TO as 3.2, "
+           "turn-0.3, last+1, #314");
   add_key("time.ease", "--ease", "S",
           "Slow motion sets in and ends over S seconds (default 0.5,\n0 = at once)");
-  add_key("time.freeze", "--freeze", "AT:S",
-          "Instants, as above, at which the picture stands still for S s");
+  add_text("time.freeze", "--freeze", "AT:S",
+           "Instants, as above, at which the picture stands still for S s");
   add_key("time.hold-start", "--hold-start", "S", "Show the first picture for S s more");
   add_key("time.hold-end", "--hold-end", "S", "Show the last picture for S s more");
   add_flag({"time.loop", "--loop", "true"},
@@ -100,19 +118,21 @@ void SceneOptions::add_timing() {
 }
 
 void SceneOptions::add_sound() {
-  add_flag({"sound.on", "--sound", "true"}, "A clack at every collision, in MP4, MOV and WebM");
+  add_flag({"sound.on", "--sound", "true"},
+           "A clack at every collision, in MP4, MOV, WebM and HTML; other\n"
+           "outputs leave the sound of a scene out");
   add_flag({"sound.on", "--no-sound", "false"}, "Switch the sound of the scene off");
 }
 
 void SceneOptions::add_show() {
   add_key("view.theme", "--theme", "NAME", "Colours:\n" + theme_names());
-  add_key("show.overlays", "--show", "NAMES",
-          "What is drawn over the scene, with commas:\n" + overlay_names());
-  add_key("show.panels", "--panels", "NAMES",
-          "Diagrams below it, with commas:\n" + in_lines(panel_names()));
-  add_key("show.title", "--title", "TEXT", "A title line");
-  add_key("show.caption", "--caption", "TEXT", "A caption line");
-  add_key("show.logo", "--logo", "FILE.png", "Picture in the lower right corner");
+  add_text("show.overlays", "--show", "NAMES",
+           "What is drawn over the scene, with commas:\n" + overlay_names());
+  add_text("show.panels", "--panels", "NAMES",
+           "Diagrams below it, with commas:\n" + in_lines(panel_names()));
+  add_text("show.title", "--title", "TEXT", "A title line");
+  add_text("show.caption", "--caption", "TEXT", "A caption line");
+  add_text("show.logo", "--logo", "FILE.png", "Picture in the lower right corner");
   add_flag({"show.hits", "--no-hits", "false"}, "No marks where the blocks hit");
   add_key("show.loupe", "--loupe", "auto|off|FROM:TO:ZOOM",
           "An inset that enlarges the gap between wall and red: where it is\n"
@@ -141,7 +161,10 @@ Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
   refuse_both("--transparent", "--opaque", "the background");
   refuse_both("--sound", "--no-sound", "the sound");
   ScriptBuilder builder;
-  if (const auto scene = command_.text(kScene)) read_scene(builder, *scene);
+  if (const auto scene = command_.text(kScene)) {
+    is_standard_input(*scene) ? builder.read_text(kStandardInput, text_of_standard_input())
+                              : read_scene(builder, *scene);
+  }
   for (const auto& [key, text] : defaults) builder.set(origin, key, text);
   for (const auto& [key, option, value] : keys_) {
     if (command_.is_given(option))
@@ -156,7 +179,8 @@ Script SceneOptions::script(const std::vector<SceneDefault>& defaults,
 }
 
 void SceneOptions::add_inputs(OverwriteCheck& check, const Script& script) const {
-  if (const auto scene = command_.text(kScene)) claim_scene(check, *scene);
+  const auto scene = command_.text(kScene);
+  if (scene && !is_standard_input(*scene)) claim_scene(check, *scene);
   claim_logos(check, script);
 }
 

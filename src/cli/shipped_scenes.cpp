@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include "cli/nearest_name.hpp"
 #include "cli/shipped_scene_texts.hpp"
+#include "core/nearest_name.hpp"
 
 namespace piblocks::cli {
 namespace {
@@ -27,8 +27,8 @@ bool is_file(const std::string& path) {
 
 /// "; did you mean 'lecture'? 'piblocks scenes' lists them"
 std::string advice(const std::string& name) {
-  const std::string near = nearest_name(name, shipped_scene_names());
-  return fmt::format("{} 'piblocks scenes' lists them", near.empty() ? ";" : did_you_mean(near));
+  const std::string near = did_you_mean(name, shipped_scene_names());
+  return fmt::format("{} 'piblocks scenes' lists them", near.empty() ? ";" : near);
 }
 
 }  // namespace
@@ -56,6 +56,9 @@ void read_scene(ScriptBuilder& builder, const std::string& scene) {
   if (!is_name || is_file(scene)) return builder.read_file(scene);
   if (const ShippedScene* const shipped = shipped_scene(scene)) {
     return builder.read_text(fmt::format("{} (shipped)", scene), shipped->text);
+  }
+  if (scene == "-") {
+    throw SceneError("scene: cannot read '-': a file or a name is needed here, not standard input");
   }
   throw SceneError(
       fmt::format("scene: cannot read '{}': there is no such file, and no shipped scene has this "

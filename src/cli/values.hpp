@@ -3,13 +3,14 @@
 #pragma once
 
 #include <piblocks/error.hpp>
-#include <piblocks/exact.hpp>
 #include <piblocks/instant.hpp>
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "core/nearest_name.hpp"
+#include "core/whole_number.hpp"
 
 namespace piblocks::cli {
 
@@ -22,13 +23,6 @@ inline constexpr int kMaxShards = 100'000;
 /// Flashes of --max-flashes: as many as there can be at 60 frames a second.
 inline constexpr int kMaxFlashes = 30;
 
-/// @throws UsageError unless the text is a whole number >= low and, if there is a high, <= high.
-Integer parse_whole_number(const std::string& text, const Integer& low,
-                           const std::optional<Integer>& high = std::nullopt);
-
-/// The same for a number that fits into an int.
-int parse_int(const std::string& text, int low, int high);
-
 /// "0,3.5,#10,last"
 std::vector<Instant> parse_instants(const std::string& text);
 
@@ -37,13 +31,12 @@ std::vector<Instant> parse_instants(const std::string& text);
 template <typename Value>
 Value parse_choice(const std::string& text,
                    const std::vector<std::pair<std::string, Value>>& choices) {
-  std::string names;
+  std::vector<std::string> names;
   for (const auto& [name, value] : choices) {
     if (text == name) return value;
-    if (!names.empty()) names += " or ";
-    names += name;
+    names.push_back(name);
   }
-  throw UsageError("must be " + names);
+  throw UsageError(must_be_one_of(text, names));
 }
 
 }  // namespace piblocks::cli

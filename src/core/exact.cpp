@@ -7,9 +7,12 @@
 #include <optional>
 
 #include "core/real.hpp"
+#include "core/text.hpp"
 
 namespace piblocks {
 namespace {
+
+constexpr const char* kNotANumber = "not a number such as 16, 2.5, 1/3 or 1e6";
 
 constexpr double kBitsPerDigit = 3.3219280948873626;  // log2(10)
 
@@ -49,7 +52,7 @@ class NumberReader {
       if (divisor == 0) throw UsageError("division by zero");
       value /= divisor;
     }
-    if (!rest_.empty()) throw UsageError("not a number");
+    if (!rest_.empty()) throw UsageError(kNotANumber);
     if (log2_of(value) > double(max_bits_)) fail_too_long(max_bits_);
     return value;
   }
@@ -78,7 +81,7 @@ class NumberReader {
   long exponent() {
     const bool negative = take_sign();
     const std::string_view text = digits();
-    if (text.empty()) throw UsageError("not a number");
+    if (text.empty()) throw UsageError(kNotANumber);
     long value = 0;
     const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
     if (result.ec != std::errc{} || value > max_bits_) fail_too_long(max_bits_);
@@ -109,7 +112,7 @@ class NumberReader {
       mantissa += fraction;
       scale = -static_cast<long>(fraction.size());
     }
-    if (mantissa.empty()) throw UsageError("not a number");
+    if (mantissa.empty()) throw UsageError(kNotANumber);
     if (take('e') || take('E')) scale += exponent();
     const auto length = static_cast<double>(mantissa.size()) + std::fabs(double(scale));
     if (length * kBitsPerDigit > double(max_bits_)) fail_too_long(max_bits_);
@@ -125,12 +128,6 @@ class NumberReader {
   std::string_view rest_;
   std::int64_t max_bits_;
 };
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 }  // namespace
 

@@ -45,11 +45,25 @@ std::optional<FilePlace> place_of(const fs::path& folder) {
   }
 }
 
+/// The folders that exist, from the nearest one to the root.
+std::vector<FileId> folders_around(const fs::path& folder) {
+  std::vector<FileId> ids;
+  std::error_code unknown;
+  fs::path at = fs::weakly_canonical(fs::absolute(folder, unknown), unknown);
+  while (!at.empty()) {
+    if (const auto id = id_of(at, S_IFDIR)) ids.push_back(*id);
+    if (at == at.parent_path()) break;
+    at = at.parent_path();
+  }
+  return ids;
+}
+
 FileClaim file_claim(const std::string& what, const fs::path& file) {
   FileClaim claim{what, file.string()};
   if (const auto id = id_of(file, S_IFREG)) claim.files.push_back(*id);
   const fs::path target = target_of(file);
   claim.folder = place_of(target.parent_path());
+  claim.around = folders_around(target.parent_path());
   claim.name = target.filename();
   return claim;
 }
@@ -58,6 +72,7 @@ FileClaim folder_claim(const std::string& what, const fs::path& folder, FileName
   const fs::path path = folder.empty() ? "." : folder;
   FileClaim claim{what, path.string()};
   claim.folder = place_of(path);
+  claim.around = folders_around(path);
   std::error_code error;
   for (const fs::path& file : entries_of(path, error)) {
     if (names && !names(file.filename())) continue;
@@ -66,6 +81,14 @@ FileClaim folder_claim(const std::string& what, const fs::path& folder, FileName
   std::ranges::sort(claim.files);
   claim.names = std::move(names);
   return claim;
+}
+
+/// Whether an output is in one of the folders in a folder that is read with all in it.
+bool is_below(const FileClaim& output, const FileClaim& input) {
+  const bool is_inside =
+      input.names_below && input.folder && input.folder->second.empty() &&
+      std::ranges::find(output.around, input.folder->first) != output.around.end();
+  return is_inside && (!output.name || input.names_below(*output.name));
 }
 
 bool meet(const FileClaim& one, const FileClaim& other) {
@@ -90,6 +113,17 @@ void OverwriteCheck::reads_folder(const std::string& what, const fs::path& folde
   inputs_.push_back(folder_claim(what, folder, std::move(names)));
 }
 
+void OverwriteCheck::reads_tree(const std::string& what, const fs::path& folder,
+                                const std::vector<fs::path>& files, FileNames names) {
+  reads_folder(what, folder);
+  FileClaim& claim = inputs_.back();
+  for (const fs::path& file : files) {
+    if (const auto id = id_of(file, S_IFREG)) claim.files.push_back(*id);
+  }
+  std::ranges::sort(claim.files);
+  claim.names_below = std::move(names);
+}
+
 void OverwriteCheck::writes(const std::string& what, const fs::path& file) {
   outputs_.push_back(file_claim(what, file));
 }
@@ -110,7 +144,7 @@ void OverwriteCheck::check() const {
   std::vector<std::string> problems;
   for (auto output = outputs_.begin(); output != outputs_.end(); ++output) {
     for (const FileClaim& input : inputs_) {
-      if (!meet(*output, input)) continue;
+      if (!meet(*output, input) && !is_below(*output, input)) continue;
       problems.push_back(fmt::format("{}: would write {} {}; choose another name",
                                      quoted(output->what, output->path),
                                      input.name ? "over" : "into", quoted(input.what, input.path)));

@@ -31,6 +31,8 @@ struct FileClaim {
   std::optional<FilePlace> folder = {};  ///< in which the file is, or whose names are claimed
   std::optional<std::string> name = {};  ///< of the file
   FileNames names = {};                  ///< in the folder; all if empty
+  FileNames names_below = {};            ///< in the folders in that folder; none if empty
+  std::vector<FileId> around = {};       ///< the folder, if it exists, and those that it is in
 };
 
 class OverwriteCheck {
@@ -41,6 +43,11 @@ class OverwriteCheck {
   /// written into the folder.
   void reads_folder(const std::string& what, const std::filesystem::path& folder,
                     FileNames names = {});
+  /// Reads the files of a folder, so that nothing may be written into it, and those of the folders
+  /// in it that have these names.
+  /// @param files  all that are read, wherever links lead to them
+  void reads_tree(const std::string& what, const std::filesystem::path& folder,
+                  const std::vector<std::filesystem::path>& files, FileNames names);
 
   void writes(const std::string& what, const std::filesystem::path& file);
   /// Writes files of a folder, with some of these names.

@@ -51,6 +51,13 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kAround = " \t\r\n";
+  const auto first = text.find_first_not_of(kAround);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kAround) - first + 1);
+}
+
 std::string with_single_blanks(std::string_view line) {
   std::string words;
   for (const char c : line) {
@@ -60,6 +67,30 @@ std::string with_single_blanks(std::string_view line) {
   }
   if (!words.empty() && words.back() == ' ') words.pop_back();
   return words;
+}
+
+std::string with_short_words(std::string_view text) {
+  constexpr std::size_t kMaxWord = 300;
+  constexpr std::size_t kKept = 100;  // at either end
+  // Where the character that this byte is in ends, if it is UTF-8.
+  const auto end_of_character = [&](std::size_t at) {
+    for (int i = 0; i < 3 && (static_cast<unsigned char>(text[at]) & 0xc0U) == 0x80U; ++i) ++at;
+    return at;
+  };
+  std::string result;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find_first_of(" \n", begin), text.size() - 1) + 1;
+    if (end - begin <= kMaxWord) {
+      result += text.substr(begin, end - begin);
+    } else {
+      const std::size_t first = end_of_character(begin + kKept);
+      const std::size_t last = end_of_character(end - kKept);
+      result += fmt::format("{}[… {} bytes …]{}", text.substr(begin, first - begin), last - first,
+                            text.substr(last, end - last));
+    }
+    begin = end;
+  }
+  return result;
 }
 
 std::string printable(std::string_view text) {

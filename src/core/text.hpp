@@ -29,6 +29,9 @@ inline std::size_t step_bytes(std::string_view text) {
 
 bool is_utf8(std::string_view text);
 
+/// Without blanks, tabs and line ends around it.
+std::string_view trimmed(std::string_view text);
+
 /// The words of a line, with one blank between them; empty if it has none.
 std::string with_single_blanks(std::string_view line);
 
@@ -41,6 +44,9 @@ constexpr bool has_ending(std::string_view name, std::string_view ending) {
   };
   return std::ranges::equal(name.substr(name.size() - ending.size()), ending, is_same);
 }
+
+/// The text for a message: of words of more than 300 bytes, only the beginning and the end.
+std::string with_short_words(std::string_view text);
 
 /// The text in valid UTF-8, without characters that a terminal obeys, that change the direction of
 /// text, or that XML does not allow. Control characters of ASCII and bytes that are not UTF-8

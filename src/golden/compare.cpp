@@ -54,11 +54,34 @@ bool is_masked(std::span<const PixelRect> masks, int x, int y) {
   });
 }
 
+/// Whether the masks together leave no pixel. Every row is covered by the same masks as the row at
+/// the last upper or lower edge of a mask before it.
+bool cover_all(std::span<const PixelRect> masks, int width_px, int height_px) {
+  std::vector<PixelRect> from_left(masks.begin(), masks.end());
+  std::ranges::sort(from_left, {}, &PixelRect::x_px);
+  const auto is_row_covered = [&](std::int64_t y) {
+    std::int64_t end = 0;
+    for (const PixelRect& r : from_left) {
+      if (y < r.y_px || y - r.y_px >= r.height_px || r.x_px > end) continue;
+      end = std::max(end, std::int64_t{r.x_px} + r.width_px);
+    }
+    return end >= width_px;
+  };
+  if (!is_row_covered(0)) return false;
+  return std::ranges::all_of(masks, [&](const PixelRect& r) {
+    const std::int64_t bottom = std::int64_t{r.y_px} + r.height_px;
+    const auto is_inside = [&](std::int64_t y) { return y >= 0 && y < height_px; };
+    return (!is_inside(r.y_px) || is_row_covered(r.y_px)) &&
+           (!is_inside(bottom) || is_row_covered(bottom));
+  });
+}
+
 /// Calls take(deltas, x, y) for each pair of pixels that differ outside the masks, row by row.
+/// @returns the number of those that differ inside.
 /// @throws UsageError if the pictures are of different sizes or depths.
 template <typename Word, typename Take>
-void for_each_difference(const Picture<Word>& reference, const Picture<Word>& actual,
-                         std::span<const PixelRect> masks, const Take& take) {
+std::int64_t for_each_difference(const Picture<Word>& reference, const Picture<Word>& actual,
+                                 std::span<const PixelRect> masks, const Take& take) {
   if (reference.width_px != actual.width_px || reference.height_px != actual.height_px) {
     throw UsageError(fmt::format("compare: the images are of different sizes: {}x{} and {}x{}",
                                  reference.width_px, reference.height_px, actual.width_px,
@@ -70,14 +93,21 @@ void for_each_difference(const Picture<Word>& reference, const Picture<Word>& ac
                     reference.max_level, actual.max_level));
   }
   const auto row_bytes = static_cast<std::size_t>(reference.width_px) * sizeof(Word);
+  std::int64_t masked = 0;
   for (int y = 0; y < reference.height_px; ++y) {
     const Word* const a = reference.row(y);
     const Word* const b = actual.row(y);
     if (std::memcmp(a, b, row_bytes) == 0) continue;
     for (int x = 0; x < reference.width_px; ++x) {
-      if (a[x] != b[x] && !is_masked(masks, x, y)) take(deltas_of(a[x], b[x]), x, y);
+      if (a[x] == b[x]) continue;
+      if (is_masked(masks, x, y)) {
+        ++masked;
+      } else {
+        take(deltas_of(a[x], b[x]), x, y);
+      }
     }
   }
+  return masked;
 }
 
 /// The pixels that are off, and the window that has the most of them.
@@ -164,12 +194,16 @@ template <typename Word>
 Difference compare_pictures(const Picture<Word>& reference, const Picture<Word>& actual,
                             const Tolerance& tolerance, std::span<const PixelRect> masks) {
   check_tolerance(tolerance);
+  if (cover_all(masks, reference.width_px, reference.height_px)) {
+    throw UsageError(fmt::format("compare: the masks leave nothing of a picture of {}x{}",
+                                 reference.width_px, reference.height_px));
+  }
   const int max_level = reference.max_level;
   const int max_delta = levels_of(tolerance.max_delta, max_level);
   Difference result;
   result.max_level = max_level;
   std::optional<OffPixels> off;  // most frames need none
-  for_each_difference(
+  result.masked_pixels = for_each_difference(
       reference, actual, masks, [&](const std::array<int, 4>& deltas, int x, int y) {
         if (result.different_pixels++ == 0) {
           const auto channel = std::ranges::find_if(deltas, [](int delta) { return delta > 0; });

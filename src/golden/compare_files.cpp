@@ -1,25 +1,32 @@
+// The order of a comparison: two sides are lined up in steps, and every step becomes a row.
 #include <fmt/format.h>
 #include <piblocks/compare.hpp>
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <future>
 #include <memory>
-#include <tuple>
+#include <optional>
 #include <utility>
 #include <variant>
 
 #include "core/text.hpp"
 #include "core/waiting_thread.hpp"
-#include "golden/frame_source.hpp"
+#include "golden/frame_side.hpp"
+#include "golden/hash_file.hpp"
+#include "golden/picture_list.hpp"
+#include "golden/rows.hpp"
+#include "media/libav/av_module.hpp"
+#include "media/png/png_reader.hpp"
 
 namespace piblocks {
+namespace fs = std::filesystem;
 namespace {
 
-using OnFrame = std::function<void(const FrameComparison&)>;
-
-bool is_framehash(const std::string& name) {
-  return has_ending(name, ".framehash") || has_ending(name, ".framemd5");
+/// "a.png", or "a.png and b.png".
+std::string both_names(const std::string& reference, const std::string& actual) {
+  return reference == actual ? reference : fmt::format("{} and {}", reference, actual);
 }
 
 struct SamplePair {
@@ -36,168 +43,296 @@ struct SamplePair {
 };
 
 /// Brings both to the greater depth.
-SamplePair at_one_depth(AnyImage reference, AnyImage actual) {
-  const int max_level = std::max(max_level_of(reference), max_level_of(actual));
-  if (max_level == 255) return {std::move(reference), std::move(actual)};
-  return {deepened(std::move(reference), max_level), deepened(std::move(actual), max_level)};
+SamplePair at_one_depth(SamplePair pair) {
+  const int max_level = std::max(max_level_of(pair.reference), max_level_of(pair.actual));
+  if (max_level == 255) return pair;
+  return {deepened(std::move(pair.reference), max_level),
+          deepened(std::move(pair.actual), max_level)};
 }
 
 ImageView comparable(const Image& image) { return image.view(); }
 const DeepImage& comparable(const DeepImage& image) { return image; }
 
-std::string size_of(const AnyImage& samples) {
+struct Size {
+  int width_px;
+  int height_px;
+};
+
+Size size_of(const AnyImage& samples) {
   return std::visit(
-      [](const auto& image) { return fmt::format("{}x{}", image.width_px, image.height_px); },
+      [](const auto& image) {
+        return Size{image.width_px, image.height_px};
+      },
       samples);
 }
 
-void take(const FrameComparison& frame, ComparisonResult& result) {
-  ++result.frames;
-  result.different_frames += frame.is_equal() ? 0 : 1;
-  result.refused_frames += frame.is_accepted ? 0 : 1;
+/// Empty if the frames can be compared.
+std::string mismatch_of(Size expected, Size found, const FrameReader& reference,
+                        const FrameReader& actual) {
+  if (expected.width_px != found.width_px || expected.height_px != found.height_px) {
+    return fmt::format("another size: {}x{} instead of {}x{}", found.width_px, found.height_px,
+                       expected.width_px, expected.height_px);
+  }
+  const auto shown = [](const FrameReader& reader) {
+    const std::string presentation = reader.presentation();
+    return presentation.empty() ? "as it is stored" : presentation;
+  };
+  if (shown(reference) == shown(actual)) return {};
+  return fmt::format("shown another way: {} instead of {}", shown(actual), shown(reference));
 }
 
-Verdict verdict_of(const ComparisonResult& result) {
-  if (!result.mismatch.empty()) return Verdict::mismatch;
-  if (result.refused_frames > 0) return Verdict::different;
-  return result.different_frames > 0 ? Verdict::accepted : Verdict::equal;
-}
-
-std::string count_mismatch(std::int64_t reference, std::int64_t actual) {
-  return fmt::format("the reference has {} frames, the other {}", reference, actual);
-}
-
-class PictureComparison {
+/// The masks, and which of them have met a picture.
+class Masks {
  public:
-  PictureComparison(const ComparisonJob& job, std::stop_token stop)
-      : job_(job),
-        stop_(std::move(stop)),
-        reference_(open_frames(job.reference, stop_)),
-        actual_(open_frames(job.actual, stop_)) {}
+  explicit Masks(const std::vector<PixelRect>& masks) : masks_(masks), has_met_(masks.size()) {}
 
-  ComparisonResult run(const OnFrame& on_frame) {
-    while (true) {
-      if (stop_.stop_requested()) throw Interrupted("compare: interrupted");
-      // Reading is nearly all of the work.
-      auto reading = std::async(std::launch::async, [this] {
-        const WaitingThread this_thread;
-        return reference_->next();
-      });
-      const bool has_actual = actual_->next();
-      const bool has_reference = reading.get();
-      if (has_reference != has_actual) {
-        result_.mismatch = count_mismatch(result_.frames + frames_left(*reference_, has_reference),
-                                          result_.frames + frames_left(*actual_, has_actual));
-      }
-      if (!has_reference || !has_actual || !compare_frame(on_frame)) break;
+  void meet(Size size) {
+    has_picture_ = true;
+    for (std::size_t i = 0; i < masks_.size(); ++i) {
+      const PixelRect& mask = masks_[i];
+      if (mask.x_px < size.width_px && mask.y_px < size.height_px) has_met_[i] = true;
     }
-    result_.verdict = verdict_of(result_);
-    return result_;
+  }
+  /// @throws UsageError if one lies outside of all pictures that it has met.
+  void check() const {
+    if (!has_picture_) return;
+    for (std::size_t i = 0; i < masks_.size(); ++i) {
+      if (has_met_[i]) continue;
+      const PixelRect& mask = masks_[i];
+      throw UsageError(fmt::format(
+          "compare: the mask {}x{}+{}+{} lies outside of every picture that is compared",
+          mask.width_px, mask.height_px, mask.x_px, mask.y_px));
+    }
   }
 
  private:
-  static std::int64_t frames_left(FrameReader& reader, bool has_frame) {
-    std::int64_t count = has_frame ? 1 : 0;
-    while (has_frame && reader.next()) ++count;
-    return count;
-  }
+  const std::vector<PixelRect>& masks_;
+  std::vector<bool> has_met_;
+  bool has_picture_ = false;
+};
 
-  /// False if the frames do not fit.
-  bool compare_frame(const OnFrame& on_frame) {
-    const bool is_exact = reference_->layout() == actual_->layout();
-    AnyImage reference = is_exact ? reference_->samples() : reference_->rgb();
-    AnyImage actual = is_exact ? actual_->samples() : actual_->rgb();
-    result_.mismatch = mismatch_of(reference, actual);
-    if (!result_.mismatch.empty()) return false;
-    const SamplePair pair = at_one_depth(std::move(reference), std::move(actual));
-    FrameComparison frame;
-    frame.number = result_.frames;
-    frame.name = reference_->name();
-    frame.is_yuv = is_exact && reference_->layout() != kRgba;
-    frame.difference = pair.apply([this](const auto& a, const auto& b) {
-      return compare(comparable(a), comparable(b), job_.tolerance, job_.masks);
-    });
-    frame.is_accepted = frame.difference->is_accepted;
-    frame.reference = [&] { return flattened(frame.is_yuv ? reference_->rgb() : pair.reference); };
-    frame.actual = [&] { return flattened(frame.is_yuv ? actual_->rgb() : pair.actual); };
-    frame.deltas = [&] {
-      return pair.apply(
-          [this](const auto& a, const auto& b) { return pixel_deltas(a, b, job_.masks); });
-    };
-    take(frame, result_);
-    on_frame(frame);
-    return true;
-  }
+/// Whether a step had a frame on a side, or why it cannot be read.
+struct Fetched {
+  bool is_there = false;
+  std::string problem;
 
-  std::string mismatch_of(const AnyImage& reference, const AnyImage& actual) const {
-    const auto shown = [](const FrameReader& reader) {
-      const std::string presentation = reader.presentation();
-      return presentation.empty() ? "as it is stored" : presentation;
-    };
-    for (const auto& [is, expected, found] :
-         {std::tuple{"is", size_of(reference), size_of(actual)},
-          std::tuple{"is shown", shown(*reference_), shown(*actual_)}}) {
-      if (expected == found) continue;
-      return fmt::format("{} {} {} in the reference, {} in the other", reference_->name(), is,
-                         expected, found);
+  bool is_read() const { return is_there && problem.empty(); }
+};
+
+class FrameComparer {
+ public:
+  FrameComparer(const ComparisonJob& job, Rows& rows, std::stop_token stop)
+      : job_(job), rows_(rows), stop_(std::move(stop)), masks_(job.masks) {}
+
+  void run(FrameSide& reference, FrameSide& actual) {
+    while (true) {
+      check_stop();
+      const auto a = reference.next_step();
+      const auto b = actual.next_step();
+      if (!a && !b) break;
+      const bool has_a = a && (!b || *a <= *b);
+      const bool has_b = b && (!a || *b <= *a);
+      // Reading is nearly all of the work.
+      std::future<Fetched> reading;
+      if (has_a && has_b) {
+        reading = std::async(std::launch::async, [&] {
+          const WaitingThread this_thread;
+          return fetch(reference);
+        });
+      }
+      const Fetched found = has_b ? fetch(actual) : Fetched();
+      const Fetched expected = reading.valid() ? reading.get()
+                               : has_a         ? fetch(reference)
+                                               : Fetched();
+      check_stop();
+      if (expected.is_there || found.is_there) add_row(reference, expected, actual, found);
+      const auto is_broken = [](const FrameSide& side, const Fetched& fetched) {
+        return !fetched.problem.empty() && !side.goes_on_after_failure();
+      };
+      if (is_broken(reference, expected) || is_broken(actual, found)) break;
     }
-    return {};
+    masks_.check();
+  }
+
+ private:
+  void check_stop() const {
+    if (stop_.stop_requested()) throw Interrupted("compare: interrupted");
+  }
+  /// A call that was broken off has failed for no reason of its own.
+  Fetched fetch(FrameSide& side) const {
+    try {
+      return {side.fetch(), {}};
+    } catch (const IoError& error) {
+      if (stop_.stop_requested()) throw;
+      return {true, error.what()};
+    } catch (const MediaError& error) {
+      if (stop_.stop_requested()) throw;
+      return {true, error.what()};
+    }
+  }
+
+  void add_row(FrameSide& reference, const Fetched& expected, FrameSide& actual,
+               const Fetched& found) {
+    const bool is_pair = expected.is_there && found.is_there;
+    const bool is_one_broken = expected.problem.empty() != found.problem.empty();
+    FrameComparison row;
+    if (is_pair && !is_one_broken) {
+      row.name = both_names(reference.name(), actual.name());
+    } else {
+      row.name =
+          (is_pair ? found.problem.empty() : expected.is_there) ? reference.name() : actual.name();
+    }
+    if (expected.is_read() && found.is_read())
+      return compare(row, reference.frame(), actual.frame());
+    if (expected.is_read()) row.reference = picture_of(reference.frame());
+    if (found.is_read()) row.actual = picture_of(actual.frame());
+    row.outcome = expected.is_there ? Outcome::missing : Outcome::added;
+    if (!expected.problem.empty()) add_unreadable(row, expected.problem);
+    if (!found.problem.empty()) add_unreadable(row, found.problem);
+    rows_.take(row, expected.is_there, found.is_there);
+  }
+  /// Converts the picture when it is first asked for.
+  static std::function<Image()> picture_of(FrameReader& frame) {
+    return [&frame, picture = std::optional<Image>()]() mutable {
+      if (!picture) picture = shown(frame);
+      return *picture;
+    };
+  }
+  static Image shown(FrameReader& frame) {
+    try {
+      return flattened(frame.rgb());
+    } catch (const MediaError&) {
+      return {};
+    }
+  }
+
+  void compare(FrameComparison& row, FrameReader& reference, FrameReader& actual) {
+    const bool is_exact = reference.layout() == actual.layout();
+    row.is_yuv = is_exact && reference.layout() != kRgba;
+    SamplePair pair;
+    try {
+      pair.reference = is_exact ? reference.samples() : reference.rgb();
+      pair.actual = is_exact ? actual.samples() : actual.rgb();
+    } catch (const MediaError& error) {
+      add_unreadable(row, error.what());
+      return rows_.take(row, true, true);
+    }
+    const Size size = size_of(pair.reference);
+    row.problem = mismatch_of(size, size_of(pair.actual), reference, actual);
+    row.reference = [&] { return row.is_yuv ? shown(reference) : flattened(pair.reference); };
+    row.actual = [&] { return row.is_yuv ? shown(actual) : flattened(pair.actual); };
+    row.outcome = Outcome::mismatch;
+    if (row.problem.empty()) {
+      masks_.meet(size);
+      pair = at_one_depth(std::move(pair));
+      compare_samples(row, pair);
+      row.deltas = [&] {
+        return pair.apply(
+            [this](const auto& a, const auto& b) { return pixel_deltas(a, b, job_.masks); });
+      };
+    }
+    rows_.take(row, true, true);
+  }
+
+  void compare_samples(FrameComparison& row, const SamplePair& pair) const {
+    row.difference = pair.apply([this](const auto& a, const auto& b) {
+      return piblocks::compare(comparable(a), comparable(b), job_.tolerance, job_.masks);
+    });
+    const bool is_same = row.difference->is_equal() && row.difference->masked_pixels == 0;
+    row.outcome = is_same                       ? Outcome::equal
+                  : row.difference->is_accepted ? Outcome::accepted
+                                                : Outcome::different;
   }
 
   const ComparisonJob& job_;
+  Rows& rows_;
   std::stop_token stop_;
-  std::unique_ptr<FrameReader> reference_;
-  std::unique_ptr<FrameReader> actual_;
-  ComparisonResult result_;
+  Masks masks_;
 };
 
-ComparisonResult compare_hashes(const ComparisonJob& job, const OnFrame& on_frame) {
-  if (!is_framehash(job.reference) || !is_framehash(job.actual)) {
-    throw UsageError("compare: hashes of frames can be compared with hashes only");
+/// Whether a name stands for a video, which an animated PNG file is too. What cannot be read is
+/// not: the reason is found when its picture is.
+bool is_video(const std::string& name) {
+  std::error_code unknown;
+  const fs::file_status status = fs::status(name, unknown);
+  if (is_picture_pattern(name) || !fs::exists(status) || fs::is_directory(status)) return false;
+  if (!has_ending(name, ".png")) return true;
+  if (!fs::is_regular_file(status)) return false;
+  try {
+    return is_animated_png(name);
+  } catch (const Error&) {
+    return false;
   }
-  if (!job.tolerance.is_exact() || !job.masks.empty()) {
-    throw UsageError("compare: hashes of frames know no tolerance and no masks");
+}
+
+/// The pictures of a list beside a video.
+std::vector<PlacedPicture> placed_in_order(PictureList list) {
+  std::vector<PlacedPicture> placed;
+  const std::int64_t first = list.pictures.empty() ? 0 : list.pictures[0].number.value_or(0);
+  for (ListedPicture& picture : list.pictures) {
+    const auto place = static_cast<std::int64_t>(placed.size());
+    const std::int64_t step = picture.number ? *picture.number - first : place;
+    placed.push_back({step, std::move(picture)});
   }
-  const FramehashFile reference = read_framehash(job.reference);
-  const FramehashFile actual = read_framehash(job.actual);
-  ComparisonResult result;
-  const auto differs = std::ranges::mismatch(reference.header, actual.header);
-  if (differs.in1 != reference.header.end() || differs.in2 != actual.header.end()) {
-    const auto line = [](auto at, const auto& header) {
-      return at == header.end() ? std::string("nothing") : "'" + *at + "'";
-    };
-    result.mismatch =
-        fmt::format("the headers differ: {} and {}", line(differs.in1, reference.header),
-                    line(differs.in2, actual.header));
-  } else if (reference.frames.size() != actual.frames.size()) {
-    result.mismatch = count_mismatch(static_cast<std::int64_t>(reference.frames.size()),
-                                     static_cast<std::int64_t>(actual.frames.size()));
+  return placed;
+}
+
+std::unique_ptr<FrameSide> open_side(const std::string& name, const ComparisonJob& job, Rows& rows,
+                                     const std::stop_token& stop) {
+  if (is_video(name)) return video_side(name, stop);
+  PictureList list = list_pictures(name, job.is_recursive);
+  rows.set_problem(list.problem);
+  return picture_side(placed_in_order(std::move(list)));
+}
+
+/// Two lists of pictures, lined up by what they are called.
+void compare_lists(const ComparisonJob& job, Rows& rows, FrameComparer& comparer) {
+  const PictureList reference = list_pictures(job.reference, job.is_recursive);
+  const PictureList actual = list_pictures(job.actual, job.is_recursive);
+  std::vector<PlacedPicture> expected;
+  std::vector<PlacedPicture> found;
+  const auto is_open = [](const PictureList& list) {
+    return !list.pictures.empty() &&
+           std::ranges::all_of(list.pictures, &std::string::empty, &ListedPicture::problem);
+  };
+  bool has_pair = !is_open(reference) || !is_open(actual);
+  std::int64_t step = 0;
+  for (const PicturePair& pair : paired(reference, actual)) {
+    if (pair.reference) expected.push_back({step, reference.pictures[*pair.reference]});
+    if (pair.actual) found.push_back({step, actual.pictures[*pair.actual]});
+    has_pair |= pair.reference && pair.actual;
+    ++step;
   }
-  const std::size_t common = std::min(reference.frames.size(), actual.frames.size());
-  for (std::size_t i = 0; i < common; ++i) {
-    FrameComparison frame;
-    frame.number = static_cast<std::int64_t>(i);
-    frame.name = fmt::format("frame {}", i);
-    frame.is_accepted = reference.frames[i] == actual.frames[i];
-    take(frame, result);
-    on_frame(frame);
+  rows.set_problem(reference.problem);
+  rows.set_problem(actual.problem);
+  if (!has_pair) {
+    rows.set_problem(
+        fmt::format("no picture of '{}' has the name of one of '{}'; patterns such as "
+                    "FOLDER/%06d.png pair pictures by number",
+                    job.actual, job.reference));
   }
-  result.verdict = verdict_of(result);
-  return result;
+  comparer.run(*picture_side(std::move(expected)), *picture_side(std::move(found)));
+}
+
+void compare_pictures(const ComparisonJob& job, Rows& rows, const std::stop_token& stop) {
+  FrameComparer comparer(job, rows, stop);
+  if (!is_video(job.reference) && !is_video(job.actual)) return compare_lists(job, rows, comparer);
+  const auto reference = open_side(job.reference, job, rows, stop);
+  const auto actual = open_side(job.actual, job, rows, stop);
+  comparer.run(*reference, *actual);
 }
 
 }  // namespace
 
 ComparisonResult compare_files(const ComparisonJob& job, const OnFrame& on_frame,
                                const std::stop_token& stop) {
-  const bool has_hashes = is_framehash(job.reference) || is_framehash(job.actual);
-  ComparisonResult result =
-      has_hashes ? compare_hashes(job, on_frame) : PictureComparison(job, stop).run(on_frame);
-  if (result.frames == 0 && result.mismatch.empty()) {
-    throw IoError(fmt::format("compare: there is no frame in '{}' and none in '{}'", job.reference,
-                              job.actual));
+  Rows rows(on_frame);
+  if (is_framehash(job.reference) || is_framehash(job.actual)) {
+    compare_hashes(job, rows);
+  } else {
+    compare_pictures(job, rows, stop);
   }
-  return result;
+  return rows.finish(job);
 }
 
 }  // namespace piblocks

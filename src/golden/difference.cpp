@@ -15,8 +15,8 @@ const char* channel_name(const FrameComparison& frame, int channel) {
   return (frame.is_yuv ? kYuv : kRgb).at(static_cast<std::size_t>(channel));
 }
 
-std::string pixels(std::int64_t count, const char* what) {
-  return fmt::format("{} {} {}", count, count == 1 ? "pixel" : "pixels", what);
+std::string differing(std::int64_t pixels) {
+  return fmt::format("{} {}", pixels, pixels == 1 ? "pixel differs" : "pixels differ");
 }
 
 /// So many decimals that three digits are written, but at most five decimals.
@@ -37,6 +37,20 @@ std::string largest_delta(const Difference& d) {
                      decimals, d.largest_delta, d.max_level);
 }
 
+std::string differing_pixels(const FrameComparison& frame, const Difference& d) {
+  std::string text = fmt::format("{}, largest delta {}, first at x={} y={} ({})",
+                                 differing(d.different_pixels), largest_delta(d), d.first.x_px,
+                                 d.first.y_px, channel_name(frame, d.first.channel));
+  if (d.off_pixels != d.different_pixels) {
+    text += fmt::format(", {} beyond the accepted delta", d.off_pixels);
+  }
+  if (d.off_pixels > 0) {
+    text += fmt::format(", densest {}x{} window at x={} y={}: {}", d.densest.width_px,
+                        d.densest.height_px, d.densest.x_px, d.densest.y_px, d.densest_off);
+  }
+  return text;
+}
+
 constexpr std::uint32_t kOpaque = 0xff000000;
 constexpr std::uint32_t kGap = 0xff808080;
 constexpr int kGap_px = 8;
@@ -47,7 +61,7 @@ std::uint32_t grey(int value) { return kOpaque | static_cast<std::uint32_t>(valu
 
 std::uint32_t pale(std::uint32_t pixel) {
   const int mean = (level(pixel, 16) + 2 * level(pixel, 8) + level(pixel, 0)) / 4;
-  return grey(255 - (255 - mean) / 4);
+  return grey(255 - (255 - mean) * level(pixel, 24) / 255 / 4);
 }
 
 /// Red, so that even the least delta can be seen.
@@ -81,21 +95,51 @@ Image beside_each_other(const std::array<Image, 3>& images) {
 }  // namespace
 
 std::string difference_text(const FrameComparison& frame) {
-  if (!frame.difference) return frame.is_accepted ? "equal hashes" : "different hashes";
+  if (!frame.problem.empty()) return frame.problem;
+  if (!frame.difference) {
+    const bool is_compared = frame.outcome <= Outcome::different;
+    return std::string(name_of(frame.outcome)) + (is_compared ? " hashes" : "");
+  }
   const Difference& d = *frame.difference;
-  if (d.is_equal()) return "equal";
-  std::string text = fmt::format(
-      "{}, largest delta {}, first at x={} y={} ({})",
-      pixels(d.different_pixels, d.different_pixels == 1 ? "differs" : "differ"), largest_delta(d),
-      d.first.x_px, d.first.y_px, channel_name(frame, d.first.channel));
-  if (d.off_pixels != d.different_pixels) {
-    text += fmt::format(", {} beyond the accepted delta", d.off_pixels);
+  std::string text = "equal";
+  if (!d.is_equal()) text = differing_pixels(frame, d);
+  if (d.masked_pixels > 0) text += fmt::format(", {} in the masks", differing(d.masked_pixels));
+  if (d.is_accepted && !d.is_equal()) text += ", within tolerance";
+  return text;
+}
+
+std::string row_text(const FrameComparison& frame) {
+  const std::string text = difference_text(frame);
+  const bool has_name =
+      frame.outcome == Outcome::unreadable && text.find(frame.name) != std::string::npos;
+  return has_name ? text : fmt::format("{}: {}", frame.name, text);
+}
+
+std::string summary_text(const ComparisonJob& job, const ComparisonResult& result) {
+  const Outcome worst = result.worst();
+  std::string text = name_of(worst);
+  if (worst > Outcome::different && worst < Outcome::unreadable) text = name_of(Outcome::different);
+  if (result.reference_frames == 0 && worst < Outcome::unreadable) {
+    if (result.actual_frames == 0) return "nothing to compare";
+    text = "no reference";
   }
-  if (d.off_pixels > 0) {
-    text += fmt::format(", densest {}x{} window at x={} y={}: {}", d.densest.width_px,
-                        d.densest.height_px, d.densest.x_px, d.densest.y_px, d.densest_off);
+  const char* separator = ": ";
+  const auto add = [&](const std::string& part) {
+    text += separator + part;
+    separator = ", ";
+  };
+  if (const std::int64_t compared = result.compared_frames(); compared > 0) {
+    add(fmt::format("{} of {} frames differ{}", result.different_frames, compared,
+                    job.masks.empty() ? "" : " outside of the masks"));
+    if (result.masked_frames > 0) add(fmt::format("{} in them", result.masked_frames));
+    const std::int64_t beyond = result.count(Outcome::different);
+    if (beyond != result.different_frames) add(fmt::format("{} beyond tolerance", beyond));
   }
-  if (d.is_accepted) text += ", within tolerance";
+  for (const Outcome outcome :
+       {Outcome::unreadable, Outcome::mismatch, Outcome::missing, Outcome::added}) {
+    const std::int64_t count = result.count(outcome);
+    if (count > 0) add(fmt::format("{} {}", count, name_of(outcome)));
+  }
   return text;
 }
 

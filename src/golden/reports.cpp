@@ -1,70 +1,19 @@
 #include "golden/reports.hpp"
 
 #include <fmt/format.h>
-#include <piblocks/encode.hpp>
 #include <piblocks/error.hpp>
 
-#include <algorithm>
-#include <filesystem>
-#include <set>
+#include <array>
 #include <string_view>
-#include <system_error>
 
 #include "core/output_file.hpp"
 #include "core/text.hpp"
 #include "golden/report_source.hpp"
-#include "media/output/frame_pattern.hpp"
-#include "media/png/png_mark.hpp"
+#include "golden/shown_frames.hpp"
+#include "media/png/png_chunk.hpp"
 
 namespace piblocks {
-namespace fs = std::filesystem;
 namespace {
-
-constexpr int kMaxDiffPictures = 100;
-constexpr const char* kPattern = "%06d.png";
-
-class DiffFolder final : public Report {
- public:
-  explicit DiffFolder(const std::string& folder)
-      : folder_(folder), files_(folder_, "differences"), pattern_(kPattern) {}
-
-  void add(const FrameComparison& frame) override;
-  void finish(const ComparisonJob& job, const ComparisonResult& result) override;
-
- private:
-  fs::path folder_;
-  FileSet files_;
-  FramePattern pattern_;
-  std::set<std::string> names_;  // of the pictures
-};
-
-void DiffFolder::add(const FrameComparison& frame) {
-  if (frame.is_accepted || !frame.difference || names_.size() == kMaxDiffPictures) return;
-  const std::string name = pattern_.name(frame.number);
-  const fs::path path = folder_ / name;
-  std::error_code none;
-  if (fs::exists(fs::symlink_status(path, none)) && !has_png_mark(path, PngMark::difference)) {
-    throw UsageError(fmt::format("diff: '{}' is not from an earlier comparison; use another folder",
-                                 path.string()));
-  }
-  const Image strip = difference_strip(frame.reference(), frame.deltas(), frame.actual(),
-                                       frame.difference->densest);
-  files_.add(name, with_png_mark(encode_png(strip.view()), PngMark::difference));
-  names_.insert(name);
-}
-
-void DiffFolder::finish(const ComparisonJob& /*job*/, const ComparisonResult& /*result*/) {
-  std::error_code error;
-  for (const fs::path& path : entries_of(folder_, error)) {
-    const std::string name = path.filename();
-    const bool is_old = pattern_.number_of(name) && !names_.contains(name) &&
-                        has_png_mark(path, PngMark::difference);
-    if (is_old) files_.remove(name);
-  }
-  files_.commit();
-}
-
-constexpr int kMaxPictures = 40;
 
 constexpr std::string_view kHead = R"(<!DOCTYPE html>
 <html lang="en">
@@ -81,13 +30,29 @@ constexpr std::string_view kControls = R"(<div class="controls">
 
 std::string picture(const Image& image, std::string_view kind) {
   return fmt::format(R"(<img class="{0}" alt="{0}" src="data:image/png;base64,{1}">)", kind,
-                     base64(encode_png(image.view())));
+                     base64(encode_png_samples(image)));
 }
 
-/// The expected picture is left of the slider, the actual one right of it.
+/// One picture by itself, with its size.
+std::string single_picture(const std::function<Image()>& picture_of, std::string_view kind) {
+  if (!picture_of) return {};
+  const Image image = picture_of();
+  if (image.words.empty()) return {};
+  return fmt::format(
+      "<div class=\"frame single\" style=\"--shape: {0} / {1}\"><div class=\"sides\">"
+      "<span>{2}, {0}x{1}</span></div><div class=\"pictures\">{3}</div></div>\n",
+      image.width_px, image.height_px, kind, picture(image, kind));
+}
+
+/// The expected picture is left of the slider, the actual one right of it. What has no difference
+/// has two pictures, one, or none.
 std::string pictures_of(const FrameComparison& frame) {
+  if (!frame.difference) {
+    return single_picture(frame.reference, "expected") + single_picture(frame.actual, "actual");
+  }
   const Image reference = frame.reference();
   const Image actual = frame.actual();
+  if (reference.words.empty() || actual.words.empty()) return {};
   return fmt::format(
       "<div class=\"frame\" style=\"--shape: {} / {}\">"
       "<div class=\"sides\"><span>expected</span><span>actual</span></div>"
@@ -99,10 +64,8 @@ std::string pictures_of(const FrameComparison& frame) {
       picture(difference_picture(reference, frame.deltas()), "difference"));
 }
 
-std::string summary_of(const ComparisonResult& result) {
-  if (!result.mismatch.empty()) return "Not comparable: " + result.mismatch + ".";
-  return fmt::format("{} of {} frames differ, {} beyond what is accepted.", result.different_frames,
-                     result.frames, result.refused_frames);
+const char* class_of(Outcome outcome) {
+  return outcome <= Outcome::accepted ? "accepted" : "refused";
 }
 
 class HtmlReport final : public Report {
@@ -110,40 +73,55 @@ class HtmlReport final : public Report {
   explicit HtmlReport(const std::string& path) : file_(path) {}
 
   void add(const FrameComparison& frame) override {
-    if (frame.is_equal()) return;
-    sections_ += fmt::format("<section class=\"{}\">\n<h2>{}</h2>\n<p>{}</p>\n",
-                             frame.is_accepted ? "accepted" : "refused", escaped(frame.name),
-                             escaped(difference_text(frame)));
-    if (frame.difference && pictures_ < kMaxPictures) {
-      ++pictures_;
-      sections_ += pictures_of(frame);
-    }
-    sections_ += "</section>\n";
+    if (frame.outcome == Outcome::equal) return;
+    Section section{escaped(frame.name), escaped(difference_text(frame)), {}};
+    if (shown_.takes(frame.outcome)) section.pictures = pictures_of(frame);
+    const auto left = shown_.add(frame.outcome, std::move(section));
+    if (!left) return;
+    ++left_;
+    const std::string line = fmt::format("<li class=\"{}\"><b>{}</b>: {}</li>\n",
+                                         class_of(left->outcome), left->item.name, left->item.text);
+    std::string& lines = left_lines_.at(static_cast<std::size_t>(left->outcome));
+    // What had been shown comes before all that had not.
+    lines.insert(left->outcome == frame.outcome ? lines.size() : 0, line);
   }
 
   void finish(const ComparisonJob& job, const ComparisonResult& result) override {
     file_.write(kHead);
     file_.write(fmt::format("<style>\n{}</style>\n", kReportStyle));
-    file_.write(
-        fmt::format("<title>{1} against {0}</title>\n<h1>{1} against {0}</h1>\n<p>{2}</p>\n",
-                    escaped(job.reference), escaped(job.actual), escaped(summary_of(result))));
-    if (!sections_.empty()) write_sections();
+    file_.write(fmt::format(
+        "<title>{1} against {0}</title>\n<h1>{1} against {0}</h1>\n<p>{2}</p>\n",
+        escaped(job.reference), escaped(job.actual), escaped(summary_text(job, result))));
+    if (!result.problem.empty()) file_.write(fmt::format("<p>{}</p>\n", escaped(result.problem)));
+    if (result.rows[0] < result.total()) write_sections();
     file_.finish();
   }
 
  private:
+  struct Section {
+    std::string name;
+    std::string text;
+    std::string pictures;
+  };
+
   void write_sections() {
     file_.write(kControls);
-    file_.write(sections_);
-    if (pictures_ == kMaxPictures) {
-      file_.write(fmt::format("<p>Pictures are shown of the first {} frames.</p>\n", pictures_));
+    shown_.for_each([this](Outcome outcome, const Section& section) {
+      file_.write(fmt::format("<section class=\"{}\">\n<h2>{}</h2>\n<p>{}</p>\n{}</section>\n",
+                              class_of(outcome), section.name, section.text, section.pictures));
+    });
+    if (left_ > 0) {
+      file_.write(fmt::format("<p>{} more, without pictures:</p>\n<ul>\n", left_));
+      for (std::size_t i = kOutcomes; i-- > 0;) file_.write(left_lines_.at(i));
+      file_.write(std::string_view("</ul>\n"));
     }
     file_.write(fmt::format("<script>\n{}</script>\n", kReportScript));
   }
 
   OutputFile file_;
-  std::string sections_;
-  int pictures_ = 0;
+  ShownFrames<Section> shown_;
+  std::array<std::string, kOutcomes> left_lines_;  // of what is not shown
+  std::int64_t left_ = 0;
 };
 
 class JunitReport final : public Report {
@@ -151,47 +129,37 @@ class JunitReport final : public Report {
   explicit JunitReport(const std::string& path) : file_(path) {}
 
   void add(const FrameComparison& frame) override {
-    const std::string name = escaped(frame.name);
-    if (frame.is_accepted) {
-      cases_ += fmt::format("    <testcase classname=\"frames\" name=\"{}\"/>\n", name);
-    } else {
-      add_failure(name, difference_text(frame));
+    cases_ += fmt::format("    <testcase classname=\"frames\" name=\"{}\"", escaped(frame.name));
+    if (frame.is_accepted()) {
+      cases_ += "/>\n";
+      return;
     }
+    const bool is_error = frame.outcome == Outcome::unreadable;
+    cases_ += fmt::format(">\n      <{} type=\"{}\" message=\"{}\"/>\n    </testcase>\n",
+                          is_error ? "error" : "failure", name_of(frame.outcome),
+                          escaped(difference_text(frame)));
   }
 
   void finish(const ComparisonJob& job, const ComparisonResult& result) override {
-    if (!result.mismatch.empty()) add_failure("sizes and number of frames", result.mismatch);
-    const std::int64_t mismatches = result.mismatch.empty() ? 0 : 1;
-    file_.write(
-        fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n"
-                    "  <testsuite name=\"{} against {}\" tests=\"{}\" failures=\"{}\" errors=\"0\" "
-                    "skipped=\"0\">\n{}  </testsuite>\n</testsuites>\n",
-                    escaped(job.actual), escaped(job.reference), result.frames + mismatches,
-                    result.refused_frames + mismatches, cases_));
+    const std::int64_t errors = result.count(Outcome::unreadable);
+    const std::int64_t passes = result.count(Outcome::equal) + result.count(Outcome::accepted);
+    file_.write(fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n"
+        "  <testsuite name=\"{} against {}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" "
+        "skipped=\"0\">\n",
+        escaped(job.actual), escaped(job.reference), result.total(),
+        result.total() - passes - errors, errors));
+    file_.write(cases_);
+    file_.write(std::string_view("  </testsuite>\n</testsuites>\n"));
     file_.finish();
   }
 
  private:
-  void add_failure(const std::string& name, const std::string& reason) {
-    cases_ += fmt::format(
-        "    <testcase classname=\"frames\" name=\"{}\">\n"
-        "      <failure message=\"{}\"/>\n    </testcase>\n",
-        name, escaped(reason));
-  }
-
   OutputFile file_;
   std::string cases_;
 };
 
 }  // namespace
-
-std::unique_ptr<Report> diff_folder(const std::string& folder) {
-  return std::make_unique<DiffFolder>(folder);
-}
-
-void claim_diff_folder(OverwriteCheck& check, const std::string& folder) {
-  check.writes_some_of("--diff", folder, folder, names_of_pattern(kPattern));
-}
 
 std::unique_ptr<Report> html_report(const std::string& path) {
   return std::make_unique<HtmlReport>(path);

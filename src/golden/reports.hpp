@@ -13,11 +13,18 @@
 
 namespace piblocks {
 
-/// What a comparison found: "3 pixels differ, largest delta 200 of 255, first at x=10 y=20 (red)
-/// …".
+/// What is found about a frame: "3 pixels differ, largest delta 200 of 255, first at x=10 y=20
+/// (red) …", "missing", or why it cannot be read.
 std::string difference_text(const FrameComparison& frame);
 
-/// The reference in pale grey, with red where pixels differ, stronger where they differ more.
+/// The same behind the frame's name, unless the text has it already.
+std::string row_text(const FrameComparison& frame);
+
+/// What a comparison comes to: "different: 3 of 12 frames differ, 1 missing".
+std::string summary_text(const ComparisonJob& job, const ComparisonResult& result);
+
+/// The reference in pale grey, on white where it is transparent, with red where pixels differ,
+/// stronger where they differ more.
 /// @param deltas  as pixel_deltas() returns them
 Image difference_picture(const Image& reference, const std::vector<std::uint8_t>& deltas);
 
@@ -34,21 +41,24 @@ class Report {
   virtual void finish(const ComparisonJob& job, const ComparisonResult& result) = 0;
 };
 
-/// A PNG file of every frame that is not accepted, up to a hundred: expected, difference, actual.
-/// finish() makes them appear, and removes those of earlier comparisons, which carry a mark.
-/// @throws UsageError if the folder cannot be made, or by add() if a picture would replace a file
+/// A PNG file of each of the first kMaxShown frames that are different: expected, difference,
+/// actual. finish() makes them appear, and removes those of earlier comparisons, which carry a
+/// mark.
+/// @throws UsageError if the folder cannot be made, or by finish() if a picture would replace a
+/// file
 ///         that no comparison has written.
 std::unique_ptr<Report> diff_folder(const std::string& folder);
 
 /// Enters the pictures of such a folder as files that are written.
 void claim_diff_folder(OverwriteCheck& check, const std::string& folder);
 
-/// One HTML file that needs nothing else: every frame that is not equal, with the pictures of the
-/// first forty laid over each other.
+/// One HTML file that needs nothing else: every frame that is not equal, the most severe outcomes
+/// first, with pictures of the first kMaxShown.
 /// @throws UsageError if it cannot be written.
 std::unique_ptr<Report> html_report(const std::string& path);
 
-/// A test case for every frame, in the XML of JUnit.
+/// A test case for every row, in the XML of JUnit: an error if it is unreadable, a failure if it is
+/// not accepted for another reason.
 /// @throws UsageError if it cannot be written.
 std::unique_ptr<Report> junit_report(const std::string& path);
 

@@ -36,10 +36,11 @@ void check_body(const BodySystem& system, std::size_t index, SceneProblems& prob
   }
   problems.require_positive(key_of(index, size), body.size);
   problems.require_finite(key_of(index, size), body.size);
-  for (const int axis : {0, 1}) {
-    problems.require_finite(key_of(index, "position"), body.position.at(std::size_t(axis)));
-    problems.require_finite(key_of(index, "velocity"), body.velocity.at(std::size_t(axis)));
-  }
+  const auto larger = [](const ExactVector& vector) {
+    return std::max(abs(vector[0]), abs(vector[1]));
+  };
+  problems.require_finite(key_of(index, "position"), larger(body.position));
+  problems.require_finite(key_of(index, "velocity"), larger(body.velocity));
 }
 
 void check_wall(const Wall& wall, const Body& body, std::size_t index, SceneProblems& problems) {

@@ -52,11 +52,11 @@ std::string endless_message(const InelasticMotion& motion) {
   const auto end = motion.collapse_time(kCollapseBits);
   return end ? fmt::format(
                    "count: there are infinitely many collisions until the blocks come to "
-                   "rest at t = {}; ask for the state at a time before",
-                   end->to_double())
+                   "rest at t = {}; count those until an earlier time, as --to {:.4g}",
+                   end->to_double(), end->to_double() * 0.999)
              : std::string(
-                   "count: there are infinitely many collisions, which never end; ask for "
-                   "the state at a time");
+                   "count: there are infinitely many collisions, which never end; count those "
+                   "until a time, as --to 10");
 }
 
 /// Rounding may have carried a stepping engine past a contact.
@@ -91,6 +91,34 @@ BlockSystem article_system(int digits, int base) {
   return system;
 }
 
+namespace {
+
+/// From left to right: wall, blue, red.
+void check_places(const BlockSystem& system, SceneProblems& problems) {
+  const auto& [wall_face, blue, red, blocks_restitution, wall_restitution] = system;
+  const Rational least_blue = wall_face + blue.width / 2;
+  if (blue.position + blue.width / 2 <= wall_face) {
+    problems.add("blue.position",
+                 "= {}: blue is left of the wall's face at {}; must be at least {}", blue.position,
+                 wall_face, least_blue);
+  } else if (blue.position < least_blue) {
+    problems.add("blue.position",
+                 "= {}: blue reaches {} into the wall, whose face is at {}; must be at least {}",
+                 blue.position, Rational(-system.blue_gap()), wall_face, least_blue);
+  }
+  const Rational reach = (blue.width + red.width) / 2;
+  const Rational least_red = blue.position + reach;
+  if (red.position <= blue.position - reach) {
+    problems.add("red.position", "= {}: red is left of blue; must be at least {}", red.position,
+                 least_red);
+  } else if (red.position < least_red) {
+    problems.add("red.position", "= {}: red overlaps blue by {}; must be at least {}", red.position,
+                 Rational(-system.blocks_gap()), least_red);
+  }
+}
+
+}  // namespace
+
 std::vector<Problem> problems_of(const BlockSystem& system) {
   const auto& [wall_face, blue, red, blocks_restitution, wall_restitution] = system;
   SceneProblems problems;
@@ -112,11 +140,7 @@ std::vector<Problem> problems_of(const BlockSystem& system) {
   }
   if (!problems.empty()) return problems.take();  // the gaps would only repeat them
 
-  problems.require(system.blue_gap() >= 0, "blue.position",
-                   "= {}: blue reaches {} into the wall, whose face is at {}", blue.position,
-                   Rational(-system.blue_gap()), wall_face);
-  problems.require(system.blocks_gap() >= 0, "red.position", "= {}: red overlaps blue by {}",
-                   red.position, Rational(-system.blocks_gap()));
+  check_places(system, problems);
   return problems.take();
 }
 

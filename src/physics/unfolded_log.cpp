@@ -32,10 +32,11 @@ DoubleDouble steps_from(const Landmark& landmark, const Integer& from, const Int
 ExactMotion checked(const BlockSystem& system) {
   ExactMotion motion(system);
   if (std::labs(Real(64, motion.ratio).exponent()) > kMaxRatioExponent) {
-    throw UsageError(fmt::format(
-        "masses: the ratio is beyond 2^{}; positions can be computed up to it, the count alone "
-        "at any size",
-        kMaxRatioExponent));
+    throw UsageError(
+        fmt::format("masses: the ratio is beyond 1e{0} or 1e-{0}; positions can be computed up to "
+                    "it, the count "
+                    "alone at any size",
+                    kMaxRatioExponent * 30103 / 100000));  // log10(2)
   }
   return motion;
 }

@@ -220,6 +220,15 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
 
 Rendered render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
                 const std::stop_token& stop) {
+  if (sound_of(job.script).on && !takes_sound(job.output)) {
+    RenderJob silent = job;
+    std::visit([](auto& script) { script.sound.on = false; }, silent.script);
+    Rendered rendered = render(silent, on_progress, stop);
+    rendered.notes.insert(
+        rendered.notes.begin(),
+        fmt::format("'{}' has no sound; that of the scene is left out", job.output));
+    return rendered;
+  }
   if (job.bundle) return render_bundle(job, on_progress, stop);
   if (is_page(job.output)) return render_page(job, on_progress, stop);
   return render_film(job, on_progress, stop);

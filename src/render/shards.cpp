@@ -152,6 +152,19 @@ void check_all_there(const std::vector<ShardFile>& parts) {
   if (!problems.empty()) throw UsageError(std::move(problems));
 }
 
+/// The signature of an output without the headers of its encoder, which are in hexadecimal digits.
+std::string in_words(std::string_view signature) {
+  std::string words;
+  while (!signature.empty()) {
+    const std::size_t end = std::min(signature.find(", "), signature.size());
+    const std::string_view piece = signature.substr(0, end);
+    signature.remove_prefix(std::min(end + 2, signature.size()));
+    const bool is_header = piece.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+    if (!is_header) words += fmt::format("{}{}", words.empty() ? "" : ", ", piece);
+  }
+  return words;
+}
+
 void check_output(const std::vector<ShardFile>& parts, const std::string& name,
                   const Output& output, const JobDescription& job) {
   OverwriteCheck check;
@@ -159,9 +172,18 @@ void check_output(const std::vector<ShardFile>& parts, const std::string& name,
   claim_output(check, "join: output", name);
   check.check();
   if (output.signature == job.signature) return;
-  throw UsageError(
-      fmt::format("join: the parts were made for another output than '{}' is here: '{}', not '{}'",
-                  name, job.signature, output.signature));
+  const std::string made = in_words(job.signature);
+  const std::string wanted = in_words(output.signature);
+  if (made != wanted) {
+    throw UsageError(fmt::format(
+        "join: the parts are of {}, and '{}' is {} here; choose a name of the kind that they were "
+        "rendered for, on a machine with the same libraries",
+        made, name, wanted));
+  }
+  throw UsageError(fmt::format(
+      "join: the parts are of {} with other headers than the encoder writes here; join them on a "
+      "machine with the library that they were rendered with",
+      made));
 }
 
 /// The sound that the first shard of a rendering has for all of them.

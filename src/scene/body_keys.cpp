@@ -4,7 +4,10 @@
 #include <piblocks/error.hpp>
 
 #include <algorithm>
+#include <span>
 #include <utility>
+
+#include "core/nearest_name.hpp"
 
 namespace piblocks {
 namespace {
@@ -85,6 +88,12 @@ constexpr auto kBodyKeys = std::to_array<BodyKey>({
      [](ReadBody& body, const Values& values) { body.style.label = parse_label(single(values)); }},
 });
 
+std::vector<std::string> names_of(std::span<const BodyKey> keys) {
+  std::vector<std::string> names;
+  for (const BodyKey& key : keys) names.emplace_back(key.name);
+  return names;
+}
+
 /// @param axis  0 for x, 1 for y
 void add_walls(const std::optional<BoxSide>& side, std::size_t axis,
                const std::array<const char*, 2>& names, std::vector<Wall>& walls) {
@@ -136,7 +145,8 @@ void BodyDraft::read_body(const TomlTable& table, const OnProblem& on_problem) {
     const auto* const key =
         std::ranges::find(kBodyKeys, std::string_view(entry.key), &BodyKey::name);
     if (key == kBodyKeys.end()) {
-      problem(entry.line, fmt::format(".{}: unknown key", entry.key));
+      problem(entry.line, fmt::format(".{}: unknown key{}", entry.key,
+                                      did_you_mean(entry.key, names_of(kBodyKeys))));
     } else if (!entry.problem.empty()) {
       problem(entry.line, fmt::format(".{}: {}", entry.key, entry.problem));
     } else {
@@ -180,7 +190,8 @@ void BodyDraft::read_walls(const std::vector<TomlTable>& tables, const OnProblem
     for (const TomlEntry& entry : table.entries) {
       const bool is_point = entry.key == "point";
       if (!is_point && entry.key != "normal") {
-        on_problem(entry.line, fmt::format("wall.{}: unknown key", entry.key));
+        on_problem(entry.line, fmt::format("wall.{}: unknown key{}", entry.key,
+                                           did_you_mean(entry.key, {"point", "normal"})));
         continue;
       }
       ++found;

@@ -9,6 +9,9 @@
 #include <cmath>
 #include <optional>
 
+#include "core/nearest_name.hpp"
+#include "core/text.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -45,7 +48,8 @@ Rational parse_number(std::string_view text) {
   try {
     return parse_rational(text);
   } catch (const UsageError& error) {
-    throw UsageError(fmt::format("{}; {}", error.what(), kExpected));
+    throw UsageError(
+        fmt::format("{}; {}{}", error.what(), kExpected, did_you_mean(text, {"turn", "last"})));
   }
 }
 
@@ -90,6 +94,7 @@ std::string named_collisions(const Timeline& log) {
 }  // namespace
 
 Instant parse_instant(std::string_view text) {
+  text = trimmed(text);
   Instant instant = take_anchor(text);
   instant.offset = instant.is_time() ? parse_number(text) : parse_offset(text);
   if (std::isfinite(to_double(instant.offset))) return instant;

@@ -10,6 +10,9 @@
 #include <string_view>
 #include <utility>
 
+#include "core/whole_number.hpp"
+#include "scene/unknown_key.hpp"
+
 namespace piblocks {
 namespace {
 
@@ -35,16 +38,7 @@ Rational parse_restitution(const Values& values) {
   return share;
 }
 
-int parse_digits(const Values& values) {
-  const std::string& text = single(values);
-  int digits = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), digits);
-  const bool is_number = error == std::errc{} && end == text.data() + text.size();
-  if (!is_number || digits < 1 || digits > kMaxDigits) {
-    throw UsageError(fmt::format("must be a whole number from 1 to {}", kMaxDigits));
-  }
-  return digits;
-}
+int parse_digits(const Values& values) { return parse_int(single(values), 1, kMaxDigits); }
 
 /// The 3 of "body 3.mass" after "body "; 0 if the text does not begin so.
 std::size_t number_in(std::string_view text, std::string_view beginning) {
@@ -90,6 +84,8 @@ void SceneDraft::set_entry(const std::string& path, const TomlEntry& entry) {
     read_bodies(path, entry);
   } else if (entry.key == "part" && !entry.tables.empty()) {
     add_problem(origin, "part: a single scene has no parts; this is a storyboard");
+  } else if (const std::string unknown = about_unknown(entry); !unknown.empty()) {
+    add_problem(origin, fmt::format("{}: {}", entry.key, unknown));
   } else if (entry.problem.empty()) {
     set(origin, entry.key, entry.values);
     // Relative to the folder of the scene file.
@@ -156,7 +152,7 @@ void SceneDraft::set_key(const std::string& origin, const std::string& key, cons
   const std::span<const SceneKey> keys = scene_keys();
   const auto found = std::ranges::find(keys, std::string_view(key), &SceneKey::name);
   if (found == keys.end()) {
-    add_problem(origin, fmt::format("{}: unknown key", key));
+    add_problem(origin, fmt::format("{}: {}", key, about_unknown_key(key)));
     return;
   }
   origins_[key] = origin;

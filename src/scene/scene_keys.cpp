@@ -7,24 +7,22 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <iterator>
 #include <optional>
 #include <sstream>
 #include <utility>
 
+#include "core/nearest_name.hpp"
+#include "core/whole_number.hpp"
 #include "scene/body_keys.hpp"
 
 namespace piblocks {
 namespace {
 
 int parse_side(std::string_view text) {
-  int side = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
-  if (error != std::errc{} || end != text.data() + text.size()) {
-    throw UsageError("must be two whole numbers of pixels, as 1920x1080");
-  }
-  return side;
+  const std::optional<Integer> side = whole_number(text);
+  if (side && side->fits_sint_p()) return static_cast<int>(side->get_si());
+  throw UsageError("must be two whole numbers of pixels, as 1920x1080");
 }
 
 FrameSize parse_size(const Values& values) {
@@ -85,12 +83,16 @@ void read(Range& target, const Values& values) {
 }
 void read(bool& target, const Values& values) {
   const std::string& text = single(values);
-  if (text != "true" && text != "false") throw UsageError("must be true or false");
+  if (text != "true" && text != "false") {
+    throw UsageError(must_be_one_of(text, {"true", "false"}));
+  }
   target = text == "true";
 }
 void read(Background& target, const Values& values) {
   const std::string& name = single(values);
-  if (name != "opaque" && name != "transparent") throw UsageError("must be opaque or transparent");
+  if (name != "opaque" && name != "transparent") {
+    throw UsageError(must_be_one_of(name, {"opaque", "transparent"}));
+  }
   target = name == "opaque" ? Background::opaque : Background::transparent;
 }
 
@@ -171,11 +173,7 @@ Values slow_motion_of(const Scene& scene) {
 }
 
 void set_base(Scene& scene, const Values& values) {
-  const Rational base = parse_rational(single(values));
-  if (base.get_den() != 1 || base < kMinBase || base > kMaxBase) {
-    throw UsageError(fmt::format("must be a whole number from {} to {}", kMinBase, kMaxBase));
-  }
-  scene.show.base = static_cast<int>(base.get_num().get_si());
+  scene.show.base = parse_int(single(values), kMinBase, kMaxBase);
 }
 Values base_of(const Scene& scene) { return {fmt::format("{}", scene.show.base)}; }
 
@@ -238,6 +236,7 @@ const std::string& single(const Values& values) {
 }
 
 std::string joined(const Values& values) {
+  if (values == Values{""}) return "''";
   return values.size() == 1 ? values.front() : fmt::format("[{}]", fmt::join(values, ", "));
 }
 

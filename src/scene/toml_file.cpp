@@ -17,28 +17,12 @@
 #include <string_view>
 
 #include "core/descriptor.hpp"
+#include "core/text.hpp"
 
 namespace piblocks {
 namespace {
 
 static_assert(TOML_MAX_NESTED_VALUES == kMaxSceneNesting);
-
-std::string read_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text(kMaxSceneFile_bytes + 1, '\0');
-  if (file) file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!file.eof() && file.fail()) {
-    throw SceneError(fmt::format("scene: cannot read '{}': {}", path, error_text(errno)));
-  }
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > kMaxSceneFile_bytes) {
-    throw SceneError(
-        fmt::format("scene: '{}' is longer than {} bytes, the most that a scene file may have; "
-                    "leave out bodies, parts or comments",
-                    path, kMaxSceneFile_bytes));
-  }
-  return text;
-}
 
 /// The text of a file by line and column, which toml++ counts from 1, columns in code points.
 class SourceText {
@@ -73,6 +57,19 @@ class SourceText {
 
   std::vector<std::string_view> lines_;
 };
+
+/// @throws SceneError that names the first line that is not UTF-8.
+void check_encoding(const std::string& path, std::string_view text) {
+  std::size_t line = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (!is_utf8(text.substr(begin, end - begin))) {
+      throw SceneError(
+          fmt::format("{}:{}: is not valid UTF-8; save the file in that encoding", path, line));
+    }
+    begin = end + 1;
+  }
+}
 
 /// More than any key of a scene has. toml++ makes a nested table for each part and destroys them by
 /// recursion.
@@ -188,9 +185,29 @@ class Reader {
 
 }  // namespace
 
-TomlTable read_toml(const std::string& path) { return parse_toml(path, read_text(path)); }
+std::string read_toml_text(std::istream& file, const std::string& name) {
+  std::string text(kMaxSceneFile_bytes + 1, '\0');
+  if (file) file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!file.eof() && file.fail()) {
+    throw SceneError(fmt::format("scene: cannot read '{}': {}", name, error_text(errno)));
+  }
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > kMaxSceneFile_bytes) {
+    throw SceneError(
+        fmt::format("scene: '{}' is longer than {} bytes, the most that a scene file may have; "
+                    "leave out bodies, parts or comments",
+                    name, kMaxSceneFile_bytes));
+  }
+  return text;
+}
+
+TomlTable read_toml(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return parse_toml(path, read_toml_text(file, path));
+}
 
 TomlTable parse_toml(const std::string& origin, std::string_view text) {
+  check_encoding(origin, text);
   check_keys(origin, text);
   const SourceText source(text);
   try {

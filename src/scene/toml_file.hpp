@@ -2,6 +2,7 @@
 // In: a path, or a text. Out: "table.key" with its values as text and its line.
 #pragma once
 
+#include <istream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,10 @@ struct TomlTable {
   std::vector<TomlEntry> entries;  ///< by line
   std::size_t line = 0;            ///< where it begins, from 1; 0 for the file itself
 };
+
+/// The text of a file that is open. @param name  named in messages
+/// @throws SceneError if it cannot be read or is longer than kMaxSceneFile_bytes.
+std::string read_toml_text(std::istream& file, const std::string& name);
 
 /// @throws SceneError if the file cannot be read, is too long, or is no TOML.
 TomlTable read_toml(const std::string& path);

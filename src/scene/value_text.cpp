@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <piblocks/error.hpp>
 #include <piblocks/scene.hpp>
 #include <piblocks/script.hpp>
@@ -6,6 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
+
+#include "core/nearest_name.hpp"
 
 namespace piblocks {
 namespace {
@@ -46,20 +50,27 @@ constexpr auto kPanels = std::to_array<Name<Panel>>({{"velocity", Panel::velocit
 constexpr auto kSplits = std::to_array<Name<Split>>(
     {{"auto", Split::automatic}, {"columns", Split::columns}, {"rows", Split::rows}});
 
-std::string names_of(const auto& table) {
-  std::string names;
-  for (const auto& name : table) names += (names.empty() ? "" : ", ") + std::string(name.text);
+std::vector<std::string> list_of(const auto& table) {
+  std::vector<std::string> names;
+  for (const auto& name : table) names.emplace_back(name.text);
   return names;
 }
 
+std::string names_of(const auto& table) {
+  return fmt::format("{}", fmt::join(list_of(table), ", "));
+}
+
+auto find(const auto& table, std::string_view text) {
+  return std::ranges::find_if(table, [&](const auto& name) { return text == name.text; });
+}
+
 auto parse(const auto& table, std::string_view text) {
-  const auto found =
-      std::ranges::find_if(table, [&](const auto& name) { return text == name.text; });
-  if (found == table.end()) {
-    throw UsageError(fmt::format("must be one of: {}", names_of(table)));
-  }
+  const auto found = find(table, text);
+  if (found == table.end()) throw UsageError(must_be_one_of(text, list_of(table)));
   return found->value;
 }
+
+bool has(const auto& table, std::string_view text) { return find(table, text) != table.end(); }
 
 std::string text_of(const auto& table, auto value) {
   return std::ranges::find_if(table, [&](const auto& name) { return value == name.value; })->text;
@@ -87,8 +98,18 @@ bool Show::has(Overlay overlay) const noexcept {
 }
 
 Theme parse_theme(std::string_view name) { return parse(kThemes, name); }
-Overlay parse_overlay(std::string_view name) { return parse(kOverlays, name); }
-Panel parse_panel(std::string_view name) { return parse(kPanels, name); }
+Overlay parse_overlay(std::string_view name) {
+  if (!has(kOverlays, name) && has(kPanels, name)) {
+    throw UsageError("is a diagram; name it in show.panels (--panels)");
+  }
+  return parse(kOverlays, name);
+}
+Panel parse_panel(std::string_view name) {
+  if (!has(kPanels, name) && has(kOverlays, name)) {
+    throw UsageError("is drawn over the scene; name it in show.overlays (--show)");
+  }
+  return parse(kPanels, name);
+}
 Split parse_split(std::string_view name) { return parse(kSplits, name); }
 
 std::string exact_text(Theme theme) { return text_of(kThemes, theme); }

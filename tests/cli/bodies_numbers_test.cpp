@@ -104,7 +104,7 @@ TEST_F(BodiesCli, IndicesThatDoNotFitAreRefused) {
   ASSERT_EQ(printed.size(), 3U);
   EXPECT_TRUE(printed[2].starts_with("1" + std::string(27, '0') + "1,"));
   expect_line(rows + Arguments{"--format", "npy", "-o", "a.npy"},
-              "--format npy: index 10,000,000,000,000,000,000,000,000,000 does not fit in 64 bits; "
+              "log: index 10,000,000,000,000,000,000,000,000,000 does not fit in 64 bits of npy; "
               "use csv or jsonl");
 }
 

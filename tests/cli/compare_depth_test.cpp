@@ -163,9 +163,7 @@ TEST_F(CompareDepthTest, EveryFrameOfAnAnimatedPngIsCompared) {
   expect_complaint({"f", "f"}, "it is animated");
 }
 
-TEST_F(CompareDepthTest, NothingIsNotEqualToNothing) {
-  write("a.framehash", "#format: frame checksums\n");
-  expect_complaint({"a.framehash", "a.framehash"}, "there is no frame in 'a.framehash'");
+TEST_F(CompareDepthTest, AVideoWithoutFramesIsNotEqualToItself) {
   write("a.y4m", "YUV4MPEG2 W8 H8 F5:1 C420\n");
   expect_complaint({"a.y4m", "a.y4m"}, "there is no frame in 'a.y4m'");
 }
@@ -202,16 +200,6 @@ TEST_F(CompareDepthTest, FramesMayChangeTheirSizeAndFormat) {
   EXPECT_EQ(compare({"aa.mjpeg", "ac.mjpeg", "--report", "r.html"}).exit_code, 1);
 }
 
-TEST_F(CompareDepthTest, AGapInASequenceIsNotItsEnd) {
-  fs::create_directory(folder_ / "f");
-  for (const int number : {1, 2, 4}) {
-    write_png("f/" + std::to_string(number) + "x.png", 8, number);
-  }
-  expect_complaint({"f/%dx.png", "f/%dx.png"}, "there is no 'f/3x.png', but there is 'f/4x.png'");
-  fs::remove(folder_ / "f/4x.png");
-  EXPECT_EQ(compare({"f/%dx.png", "f/%dx.png"}).exit_code, 0);
-}
-
 TEST_F(CompareDepthTest, HowAVideoIsShownIsPartOfIt) {
   if (!convert("", "-c:v libx264", "a.mp4")) GTEST_SKIP() << "no ffmpeg here";
   const auto copied = [&](const std::string& options, const std::string& name,
@@ -228,7 +216,7 @@ TEST_F(CompareDepthTest, HowAVideoIsShownIsPartOfIt) {
     EXPECT_EQ(compare({other, other}).exit_code, 0);
     const CommandResult result = compare({"a.mp4", other});
     EXPECT_EQ(result.exit_code, 4) << result.out;
-    EXPECT_NE(result.out.find("is shown as it is stored in the reference, "), std::string::npos);
+    EXPECT_NE(result.out.find("shown another way: "), std::string::npos);
   }
   ASSERT_TRUE(copied("-bsf:v h264_metadata=video_full_range_flag=1", "full.mp4"));
   EXPECT_EQ(compare({"a.mp4", "full.mp4"}).exit_code, 1);

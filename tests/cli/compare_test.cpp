@@ -12,6 +12,18 @@ namespace fs = std::filesystem;
 
 class CompareTest : public CliFixture {
  protected:
+  void write_picture(const std::string& name, const std::string& size = "160x90") const {
+    output_of({"still", "--size", size, "--at", "1", "-o", name});
+  }
+  /// The names in a folder, sorted.
+  std::vector<std::string> entries_of(const std::string& folder) const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_ / folder)) {
+      names.push_back(entry.path().filename());
+    }
+    std::ranges::sort(names);
+    return names;
+  }
   /// A second of 12 frames, unless the options say otherwise.
   void render(const std::string& output, const Arguments& more = {}) const {
     Arguments arguments = Arguments{"render", "--quiet", "--size", "160x90", "-o", output} + more;
@@ -65,8 +77,9 @@ TEST_F(CompareTest, NamesTheFrameThatDiffers) {
   EXPECT_NE(result.out.find(", densest 16x16 window at x="), std::string::npos);
   EXPECT_TRUE(result.out.ends_with("different: 1 of 12 frames differ\n"));
   EXPECT_EQ(verdict({"a", "b", "--max-delta", "255"}, 0),
-            "equal within tolerance: 1 of 12 frames differ, 0 beyond tolerance");
-  EXPECT_EQ(verdict({"a", "b", "--mask", "160x90+0+0"}, 0), "equal: 0 of 12 frames differ");
+            "accepted: 1 of 12 frames differ, 0 beyond tolerance");
+  EXPECT_EQ(verdict({"a", "b", "--mask", "159x90+0+0"}, 0),
+            "accepted: 0 of 12 frames differ outside of the masks, 1 in them");
   EXPECT_EQ(compare({"a", "b", "--quiet"}).out, "");
 }
 
@@ -90,44 +103,140 @@ TEST_F(CompareTest, AVideoShowsItsPicturesWithinTolerance) {
   render("a/%04d.png");
   EXPECT_EQ(compare({"a.mp4", "a"}).exit_code, 1);
   EXPECT_EQ(verdict({"a.mp4", "a", "--max-delta", "100"}, 0),
-            "equal within tolerance: 12 of 12 frames differ, 0 beyond tolerance");
+            "accepted: 12 of 12 frames differ, 0 beyond tolerance");
   render("b/%04d.png", {"--digits", "2", "--from", "2", "--to", "3"});
   EXPECT_EQ(compare({"a.mp4", "b", "--max-delta", "100"}).exit_code, 1);
 }
 
-TEST_F(CompareTest, FilesAreInTheOrderOfTheirNumbers) {
-  render("a/%d.png");
-  render("b/%06d.png");
-  EXPECT_EQ(verdict({"a", "b"}, 0), "equal: 0 of 12 frames differ");
+TEST_F(CompareTest, ExitCodesAreInTheOrderOfSeverity) {
+  for (const char* number : {"1", "2", "3", "4"}) {
+    for (const char* folder : {"a/", "b/"}) write_picture(std::string(folder) + number + ".png");
+  }
+  const auto code = [&](const Arguments& more = {}) {
+    const Arguments all = Arguments{"a", "b", "--quiet", "--report", "r.html"} + more;
+    return compare(all + Arguments{"--junit", "r.xml", "--diff", "d"}).exit_code;
+  };
+  EXPECT_EQ(code(), 0);
+  still("b/1.png", "2");
+  EXPECT_EQ(code(), 1);
+  EXPECT_EQ(code({"--max-delta", "255"}), 0);
+  fs::remove(folder_ / "b/2.png");
+  EXPECT_EQ(code(), 4);
+  EXPECT_EQ(code({"--max-delta", "255"}), 4) << "a tolerance is for pictures";
+  write("b/3.png", "no picture");
+  EXPECT_EQ(code(), 5);
+  for (const char* name : {"1.png", "2.png", "3.png", "4.png"}) {
+    EXPECT_NE(contents("r.xml").find(std::string("name=\"") + name), std::string::npos) << name;
+  }
+  EXPECT_NE(contents("r.xml").find("tests=\"4\" failures=\"2\" errors=\"1\""), std::string::npos);
 }
 
-TEST_F(CompareTest, ASizeOrACountThatDoesNotFitHasItsOwnCode) {
+/// A report that says that all is well is never left beside a failure.
+TEST_F(CompareTest, ReportsAreWrittenWhateverIsFound) {
+  write_picture("a/1.png");
+  write_picture("small.png", "80x44");
+  write("junk.png", "no picture");
+  write("junk.mp4", "no video");
+  write("a.framehash", "#format: frame checksums\n0,0,0,1,1,aa\n");
+  write("longer.framehash", contents("a.framehash") + "0,1,1,1,1,bb\n");
+  fs::create_directory(folder_ / "empty");
+  const std::vector<std::pair<Arguments, int>> cases = {{{"none.png", "a/1.png"}, 3},
+                                                        {{"none", "a"}, 3},
+                                                        {{"empty", "a"}, 3},
+                                                        {{"none/%d.png", "a"}, 3},
+                                                        {{"none.framehash", "a.framehash"}, 3},
+                                                        {{"a/1.png", "small.png"}, 4},
+                                                        {{"a.framehash", "longer.framehash"}, 4},
+                                                        {{"a", "small.png"}, 4},
+                                                        {{"a/1.png", "none.png"}, 5},
+                                                        {{"a", "empty"}, 5},
+                                                        {{"empty", "empty"}, 5},
+                                                        {{"none", "nor"}, 5},
+                                                        {{"a/1.png", "junk.png"}, 5},
+                                                        {{"junk.mp4", "a/1.png"}, 5},
+                                                        {{"none.png", "junk.png"}, 5},
+                                                        {{"a.framehash", "none.framehash"}, 5}};
+  for (const auto& [sides, code] : cases) {
+    SCOPED_TRACE(sides[0] + " " + sides[1]);
+    const Arguments reports = {"--junit", "r.xml", "--report", "r.html", "--diff", "d"};
+    EXPECT_EQ(compare(Arguments{"a/1.png", "a/1.png"} + reports).exit_code, 0);
+    const CommandResult result = compare(sides + reports);
+    EXPECT_EQ(result.exit_code, code) << result.out << result.err;
+    EXPECT_EQ(contents("r.xml").find("failures=\"0\" errors=\"0\""), std::string::npos);
+    EXPECT_NE(contents("r.xml").find(sides[1] + " against " + sides[0]), std::string::npos);
+    EXPECT_NE(contents("r.html").find("class=\"refused\""), std::string::npos);
+  }
+}
+
+/// Neither accepted frames nor less severe ones keep a frame out of sight.
+TEST_F(CompareTest, TheMostSevereAreShownFirstEverywhere) {
+  write_picture("a/0.png");
+  still("b/0.png", "2");
+  output_of({"still", "--size", "160x90", "--at", "1", "--theme", "dark", "-o", "c.png"});
+  for (int i = 1; i <= 50; ++i) {
+    fs::copy(folder_ / "a/0.png", folder_ / ("a/" + std::to_string(i) + ".png"));
+    fs::copy(folder_ / "b/0.png", folder_ / ("b/" + std::to_string(i) + ".png"));
+  }
+  fs::copy(folder_ / "c.png", folder_ / "b/45.png", fs::copy_options::overwrite_existing);
+  const Arguments tolerant = {"a", "b", "--mask", "160x80+0+10"};
+  ASSERT_EQ(compare({"a/0.png", "b/0.png", "--mask", "160x80+0+10"}).exit_code, 0);
+  const CommandResult one = compare(tolerant + Arguments{"--report", "r.html", "--diff", "d"});
+  EXPECT_EQ(one.exit_code, 1);
+  EXPECT_TRUE(one.out.starts_with("45.png: ")) << one.out;
+  EXPECT_EQ(lines(one.out).size(), 42U) << "40 frames, how many more, and the verdict";
+  EXPECT_NE(one.out.find("\n… and 11 more\n"), std::string::npos) << one.out;
+  const std::string page = contents("r.html");
+  EXPECT_LT(page.find("<h2>45.png</h2>"), page.find("<h2>0.png</h2>"));
+  EXPECT_EQ(entries_of("d"), (std::vector<std::string>{"000045.png"}));
+  // All of them are different now.
+  EXPECT_EQ(compare({"a", "b", "--report", "r.html", "--diff", "d"}).exit_code, 1);
+  EXPECT_EQ(entries_of("d").size(), 40U);
+  const std::string all = contents("r.html");
+  std::size_t pictures = 0;
+  for (auto at = all.find("<img"); at != std::string::npos; at = all.find("<img", at + 1)) {
+    ++pictures;
+  }
+  EXPECT_EQ(pictures, 3 * 40U);
+  EXPECT_NE(all.find("<b>50.png</b>"), std::string::npos) << "the others are named";
+}
+
+TEST_F(CompareTest, NamesOfBothSidesAreSaidOnce) {
+  write_picture("mine-0.png");
+  write_picture("other/mine-0.png");
+  still("new.png", "2");
+  fs::copy(folder_ / "new.png", folder_ / "other/mine-0.png", fs::copy_options::overwrite_existing);
+  EXPECT_TRUE(compare({"mine-0.png", "other/mine-0.png"}).out.starts_with("mine-0.png: "));
+  EXPECT_TRUE(compare({"mine-0.png", "new.png"}).out.starts_with("mine-0.png and new.png: "));
+  write("junk.png", "no picture");
+  EXPECT_EQ(complaint({"junk.png", "junk.png"}, 5).find("junk.png", 40), std::string::npos);
+}
+
+TEST_F(CompareTest, AVideoAndPicturesArePairedByTheirOrder) {
+  render("a.mp4");
   render("a/%04d.png");
-  render("b/%04d.png", {"--from", "1/2"});
-  render("c/%04d.png", {"--fps", "24"});
-  EXPECT_EQ(verdict({"a", "b"}, 4), "not comparable: 6 of 6 frames differ");
-  const CommandResult result = compare({"a/0001.png", "a"});
+  fs::remove(folder_ / "a/0012.png");
+  EXPECT_EQ(verdict({"a.mp4", "a", "--max-delta", "100"}, 4),
+            "different: 11 of 11 frames differ, 0 beyond tolerance, 1 missing");
+  fs::remove(folder_ / "a/0005.png");
+  const CommandResult result = compare({"a/%04d.png", "a.mp4", "--max-delta", "100"});
   EXPECT_EQ(result.exit_code, 4);
-  EXPECT_TRUE(result.out.starts_with("mismatch: the reference has 1 frames, the other 12\n"));
-  output_of({"still", "--size", "158x90", "--at", "0", "-o", "small.png"});
-  EXPECT_TRUE(compare({"a/0001.png", "small.png"})
-                  .out.starts_with("mismatch: 0001.png is 160x90 in the reference, 158x90"));
-  EXPECT_EQ(compare({"a/0001.png", "small.png"}).exit_code, 4);
+  EXPECT_TRUE(result.out.starts_with("frame 4: new\nframe 11: new\n")) << result.out;
+  render("b.mp4", {"--to", "1/2"});
+  EXPECT_EQ(verdict({"b.mp4", "a.mp4"}, 4), "different: 0 of 6 frames differ, 6 new");
 }
 
-TEST_F(CompareTest, MissingAndUnreadableInputsHaveTheirOwnCodes) {
+TEST_F(CompareTest, MissingAndUnreadableInputsAreTold) {
   render("a/%04d.png");
   write("no.png", "no picture");
   write("no.mp4", "no video");
   write("no.framehash", "no hashes");
-  EXPECT_EQ(complaint({"none.png", "a"}, 3),
-            "piblocks: compare: there is no reference 'none.png'\n");
+  EXPECT_EQ(complaint({"none.png", "a"}, 3), "piblocks: compare: there is no 'none.png'\n");
   EXPECT_EQ(complaint({"none/%d.png", "a"}, 3),
-            "piblocks: compare: there is no reference 'none/%d.png'\n");
-  EXPECT_NE(complaint({"a", "none.png"}, 5).find("cannot read 'none.png'"), std::string::npos);
-  EXPECT_NE(complaint({"a", "none/%d.png"}, 5).find("no file of 'none/%d.png'"), std::string::npos);
+            "piblocks: compare: there is no file of 'none/%d.png'\n");
+  EXPECT_EQ(complaint({"a", "none.png"}, 5), "piblocks: compare: there is no 'none.png'\n");
   EXPECT_NE(complaint({"a/0001.png", "no.png"}, 5).find("cannot read 'no.png'"), std::string::npos);
   EXPECT_NE(complaint({"a", "no.mp4"}, 5).find("cannot read 'no.mp4'"), std::string::npos);
+  EXPECT_NE(complaint({"a", "no.mp4", "--quiet"}, 5).find("'no.mp4'"), std::string::npos);
   EXPECT_NE(complaint({"no.framehash", "no.framehash"}, 5).find("line 1 is no hash"),
             std::string::npos);
   std::string longer = "#format: frame checksums\n";
@@ -135,8 +244,6 @@ TEST_F(CompareTest, MissingAndUnreadableInputsHaveTheirOwnCodes) {
   write("long.framehash", longer);
   EXPECT_NE(complaint({"long.framehash", "long.framehash"}, 5).find("more than 2000000 lines"),
             std::string::npos);
-  fs::create_directory(folder_ / "empty");
-  EXPECT_NE(complaint({"a", "empty"}, 5).find("no PNG file in 'empty'"), std::string::npos);
 }
 
 TEST_F(CompareTest, WrongUsageIsToldFromDifference) {
@@ -147,7 +254,9 @@ TEST_F(CompareTest, WrongUsageIsToldFromDifference) {
         Arguments{"a", "a", "--max-delta", "-1"}, Arguments{"a", "a", "--max-window", "16"},
         Arguments{"a", "a", "--max-window", "0:3"}, Arguments{"a", "a", "--mask", "10x10"},
         Arguments{"a", "a", "--mask", "0x10+1+1"}, Arguments{"a", "a", "--max-pixels", "many"},
-        Arguments{"a", "a.framehash"},
+        Arguments{"a", "a", "--mask", "160x90+0+0"},
+        Arguments{"a", "a", "--mask", "80x90+0+0", "--mask", "80x90+80+0"},
+        Arguments{"a", "a", "--mask", "5x5+160+0"}, Arguments{"a", "a.framehash"},
         Arguments{"a.framehash", "a.framehash", "--max-delta", "1"}}) {
     EXPECT_TRUE(complaint(wrong, 2).starts_with("piblocks: "));
   }
@@ -170,7 +279,8 @@ TEST_F(CompareTest, LeavesPicturesAPageAndAListOfTests) {
   EXPECT_EQ(page.find("http"), std::string::npos);
   const std::string tests = contents("r.xml");
   EXPECT_NE(tests.find("tests=\"12\" failures=\"2\""), std::string::npos);
-  EXPECT_NE(tests.find("name=\"0007.png\">\n      <failure message=\""), std::string::npos);
+  EXPECT_NE(tests.find("name=\"0007.png\">\n      <failure type=\"different\" message=\""),
+            std::string::npos);
 }
 
 TEST_F(CompareTest, ReplacesPicturesOfAnEarlierComparisonAndNoOthers) {
@@ -183,19 +293,11 @@ TEST_F(CompareTest, ReplacesPicturesOfAnEarlierComparisonAndNoOthers) {
   write("d/notes.txt", "mine");
   fs::copy(folder_ / "a/0003.png", folder_ / "b/0003.png", fs::copy_options::overwrite_existing);
   EXPECT_EQ(compare({"a", "b", "--diff", "d"}).exit_code, 1);
-  const auto names_in_d = [&] {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_ / "d")) {
-      names.push_back(entry.path().filename());
-    }
-    std::ranges::sort(names);
-    return names;
-  };
-  EXPECT_EQ(names_in_d(), (std::vector<std::string>{"000006.png", "000009.png", "notes.txt"}));
+  EXPECT_EQ(entries_of("d"), (std::vector<std::string>{"000006.png", "000009.png", "notes.txt"}));
   still("b/0010.png", "0.51");  // its difference is 000009.png
   EXPECT_NE(complaint({"a", "b", "--diff", "d"}, 2).find("'d/000009.png'"), std::string::npos);
   EXPECT_EQ(contents("d/000009.png"), contents("a/0001.png"));
-  EXPECT_EQ(names_in_d(), (std::vector<std::string>{"000006.png", "000009.png", "notes.txt"}));
+  EXPECT_EQ(entries_of("d"), (std::vector<std::string>{"000006.png", "000009.png", "notes.txt"}));
 }
 
 /// Only root can mount a file system.
@@ -219,7 +321,7 @@ TEST_F(CompareTest, NamesOfAnyBytesMakeReportsThatCanBeRead) {
   const std::string bytes = "x\xff\x1b[31m\xc2\x9b\"<&>'\xef\xbf\xbf\n\xcf\x80.png";
   const std::string shown = "x\\xff\\x1b[31m\\u{9b}\"<&>'\\u{ffff}\\n\xcf\x80.png";
   still("a/" + bytes, "1");
-  still("b/y.png", "2");
+  still("b/" + bytes, "2");
   const CommandResult result = compare({"a", "b", "--report", "r.html", "--junit", "r.xml"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_TRUE(result.out.starts_with(shown + ": ")) << result.out;
@@ -253,7 +355,7 @@ TEST_F(CompareTest, WhatMayNotBeLookedAtCannotBeRead) {
   const std::vector<std::pair<Arguments, std::string>> cases = {
       {{"closed/1.png", "1.png"}, "cannot read 'closed/1.png': Permission denied"},
       {{"1.png", "closed/1.png"}, "cannot read 'closed/1.png': Permission denied"},
-      {{"closed/%d.png", "1.png"}, "cannot read 'closed/%d.png': Permission denied"},
+      {{"closed/%d.png", "1.png"}, "cannot read 'closed/1.png': Permission denied"},
       {{"closed/a.framehash", "closed/a.framehash"}, "'closed/a.framehash': Permission denied"},
       {{long_name, "1.png"}, "x.png': File name too long"}};
   for (const auto& [arguments, message] : cases) {
@@ -263,6 +365,19 @@ TEST_F(CompareTest, WhatMayNotBeLookedAtCannotBeRead) {
     EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
     EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
   }
+  // What is in a folder that cannot be read is neither missing nor new.
+  output_of({"still", "--size", "64x36", "--at", "1", "-o", "a/s/1.png"});
+  output_of({"still", "--size", "64x36", "--at", "1", "-o", "b/s/1.png"});
+  fs::permissions(folder_ / "b/s", fs::perms(0000));
+  for (const Arguments& sides :
+       {Arguments{"a", "b"}, {"b", "a"}, {"a/s", "b/s"}, {"a/s/%d.png", "b/s/%d.png"}}) {
+    const testing_support::OrdinaryUser user;
+    const CommandResult result = piblocks(Arguments{"compare"} + sides);
+    EXPECT_EQ(result.exit_code, 5) << result.out;
+    EXPECT_EQ(result.out, "unreadable: 1 unreadable\n");
+    EXPECT_EQ(lines(result.err).size(), 1U) << result.err;
+  }
+  fs::permissions(folder_ / "b/s", fs::perms(0700));
   fs::permissions(folder_ / "closed", fs::perms(0700));
 }
 

@@ -81,7 +81,7 @@ TEST_F(ManualTest, ZshAndFishReadTheirs) {
 TEST_F(ManualTest, OtherKindsAreRefused) {
   const CommandResult result = piblocks({"manual", "tcsh"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_EQ(result.err, "piblocks: KIND tcsh: must be man or bash or zsh or fish\n");
+  EXPECT_EQ(result.err, "piblocks: KIND tcsh: must be one of: man, bash, zsh, fish\n");
 }
 
 TEST_F(ManualTest, HelpIsACommandToo) {

@@ -11,43 +11,48 @@ namespace {
 
 class NeedCli : public CliFixture {};
 
-/// The least restitution lies between numbers that differ in the last printed digit.
-TEST_F(NeedCli, IsWhatCountNeeds) {
-  const auto count_with = [&](int digits, const Rational& restitution) {
-    write("lossy.toml", fmt::format("digits = {}\n[blocks]\nrestitution = '{}'\n[wall]\n"
-                                    "restitution = '{}'\n",
-                                    digits, restitution.get_str(), restitution.get_str()));
-    return lines(output_of({"count", "lossy.toml"})).front();
-  };
-  const auto one = lines(output_of({"need", "--digits", "1"}));
-  ASSERT_GE(one.size(), 3U);
-  EXPECT_EQ(one[0], "Elastic blocks collide 3 times.");
-  EXPECT_EQ(one[1], "Only restitution 1 gives this count: any loss adds a collision.");
-  EXPECT_EQ(one[2], "Exact counts prove it: 4 collisions with 1 - 2^-64, 3 with 1.");
-  EXPECT_EQ(count_with(1, 1), "3");
-  EXPECT_EQ(count_with(1, parse_rational("999999999999999999/1000000000000000000")), "4");
-  const std::vector<std::string> counts = {"31", "314", "3141"};
-  for (int digits = 2; digits <= 4; ++digits) {
-    const std::string& count = counts.at(static_cast<std::size_t>(digits - 2));
-    const auto said = lines(output_of({"need", "--digits", std::to_string(digits)}));
+/// The word behind `before` in a line, without a comma, a full stop or the like behind it.
+std::string word_behind(const std::string& line, const std::string& before) {
+  const std::size_t at = line.find(before);
+  if (at == std::string::npos) return "no '" + before + "' in '" + line + "'";
+  std::string word = line.substr(at + before.size());
+  word.resize(std::min(word.find(' '), word.size()));
+  if (word.ends_with('.') || word.ends_with(',')) word.pop_back();
+  return word;
+}
+
+/// What is printed can be given to `count`: the one restitution is enough, the other is not.
+TEST_F(NeedCli, PrintsDecimalsThatCountTakes) {
+  for (const auto& [digits, base, count, more] : {std::tuple{"1", "10", "3", "4"},
+                                                  {"2", "10", "31", "32"},
+                                                  {"3", "10", "314", "315"},
+                                                  {"4", "10", "3141", "3142"},
+                                                  {"3", "2", "1100", "1101"},
+                                                  {"2", "7", "31", "32"}}) {
+    SCOPED_TRACE(std::string(digits) + " digits in base " + base);
+    const Arguments scene{"--digits", digits, "--base", base};
+    const auto said = lines(output_of(Arguments{"need"} + scene));
     ASSERT_GE(said.size(), 4U);
-    EXPECT_EQ(said[0], "Elastic blocks collide " + count + " times.");
-    const std::string begin = "The count stays the same with restitution ";
-    ASSERT_TRUE(said[1].starts_with(begin)) << said[1];
-    const std::string number = said[1].substr(begin.size(), said[1].find("...") - begin.size());
-    const Rational step = 1 / power(10, static_cast<unsigned long>(number.size()) - 2);
-    const Rational cut = parse_rational(number);
-    EXPECT_EQ(count_with(digits, cut + step), count) << number;
-    EXPECT_EQ(count_with(digits, cut - step), std::to_string(std::stoi(count) + 1)) << number;
-    ASSERT_TRUE(said[2].starts_with("which is 1 - ")) << said[2];
-    ASSERT_TRUE(said[2].ends_with("."));
-    const Rational loss = parse_rational(said[2].substr(13, said[2].size() - 14));
-    EXPECT_LE(abs(Rational(1 - cut - loss)), step) << said[2];
-    EXPECT_NE(said[3].find(
-                  fmt::format("{} collisions below, {} from it on.", std::stoi(count) + 1, count)),
-              std::string::npos)
-        << said[3];
+    EXPECT_EQ(word_behind(said[0], "Elastic blocks collide "), count);
+    const std::string proof = said[said.size() - 2];
+    const std::string too_little = word_behind(proof, std::string(more) + " collisions with ");
+    const std::string enough = word_behind(proof, " " + std::string(count) + " with ");
+    const auto count_with = [&](const std::string& restitution) {
+      return output_of(Arguments{"count"} + scene + Arguments{"--restitution", restitution});
+    };
+    EXPECT_EQ(count_with(enough), std::string(count) + "\n");
+    EXPECT_EQ(count_with(too_little), std::string(more) + "\n");
+    // They differ by a unit of the last place.
+    const Rational unit = 1 / power(10, static_cast<unsigned long>(too_little.size()) - 2);
+    EXPECT_EQ(parse_rational(enough) - parse_rational(too_little), unit);
+    if (enough == "1") continue;
+    EXPECT_EQ(word_behind(said[1], "with restitution "), enough);
+    EXPECT_EQ(parse_rational(word_behind(said[2], "which is 1 - ")), 1 - parse_rational(enough));
+    EXPECT_EQ(said[0].ends_with("(counts in base " + std::string(base) + ")."),
+              base != std::string("10"));
   }
+  EXPECT_EQ(lines(output_of({"need", "--digits", "1"}))[1],
+            "Only restitution 1 gives this count: any loss adds a collision.");
 }
 
 /// From 217 digits on the loss is smaller than any double.
@@ -72,8 +77,7 @@ TEST_F(NeedCli, TellsLossesThatNoDoubleHolds) {
     const std::string loss = said[2].substr(13, said[2].size() - 14);
     const Rational scaled = parse_rational(loss) * power(10, static_cast<unsigned long>(exponent));
     EXPECT_NEAR(to_double(scaled), mantissa, 1e-11 * mantissa) << loss;
-    const std::size_t point = said[1].find("0.") + 2;
-    const std::string places = said[1].substr(point, said[1].find("...") - point);
+    const std::string places = word_behind(said[1], "with restitution 0.");
     const Rational cut = Rational(Integer(places, 10)) / power(10, places.size());
     EXPECT_NEAR(to_double((1 - cut) * power(10, static_cast<unsigned long>(exponent))), mantissa,
                 1e-10 * mantissa);

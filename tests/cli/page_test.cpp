@@ -28,12 +28,6 @@ TEST_F(PageTest, HoldsTheBytesOfTheMp4) {
   EXPECT_TRUE(video_of(contents("a.html")) == text);
 }
 
-TEST_F(PageTest, IsTheSameByAnyNumberOfThreads) {
-  output_of(kRenderPage + Arguments{"--jobs", "1", "-o", "a.html"});
-  output_of(kRenderPage + Arguments{"--jobs", "3", "-o", "b.html"});
-  EXPECT_TRUE(contents("a.html") == contents("b.html"));
-}
-
 TEST_F(PageTest, TakesSettingsOfTheEncoder) {
   output_of(kRenderPage + Arguments{"--encoder", "libx264", "--crf", "40", "-o", "a.html"});
   output_of(kRenderPage + Arguments{"-o", "b.html"});

@@ -69,32 +69,6 @@ TEST_F(RenderTest, StandardOutputGetsTheBytesOfTheFile) {
   EXPECT_EQ(output_of(frames(3) + Arguments{"-o", "-"}), contents("a.y4m"));
 }
 
-class RepeatedRenderTest : public CliFixture, public testing::WithParamInterface<const char*> {};
-
-TEST_P(RepeatedRenderTest, BytesDependOnNothingButTheScene) {
-  // Longer than one chunk of any kind, and no multiple of its length.
-  const Arguments many{"render", "--quiet", "--size", "320x180", "--fps",
-                       "4",      "--to",    "10",     "-o",      GetParam()};
-  const auto render = [&](const Arguments& jobs) {
-    output_of(many + jobs);
-    std::string bytes;
-    for (const std::string& name : entries()) {
-      bytes += name + contents(name);
-      std::filesystem::remove(folder_ / name);
-    }
-    return bytes;
-  };
-  const std::string first = render({});
-  EXPECT_GT(first.size(), 1000u);
-  EXPECT_TRUE(render({}) == first) << "a second time";
-  for (const char* jobs : {"1", "2", "7"}) {
-    EXPECT_TRUE(render({"--jobs", jobs}) == first) << "--jobs " << jobs;
-  }
-}
-INSTANTIATE_TEST_SUITE_P(Kinds, RepeatedRenderTest,
-                         testing::Values("a.mp4", "a.mov", "a.webm", "a.gif", "a.apng", "%04d.png",
-                                         "a.y4m", "a.framehash"));
-
 TEST_F(RenderTest, ADestinationSetsWhatIsNotSaidOtherwise) {
   const auto header = [&](const Arguments& more) {
     output_of(Arguments{"render", "--quiet", "--to", "0.1", "-o", "%d.png"} + more);

@@ -50,17 +50,6 @@ TEST_F(ScenesTest, ArePrintedAsTheirFilesAre) {
   }
 }
 
-/// At the scene's own size: its diagrams may not fit into a smaller one.
-TEST_F(ScenesTest, ShowTheirFirstAndLastInstantAsTheirFilesDo) {
-  for (const fs::path& file : files()) {
-    for (const char* instant : {"0", "last"}) {
-      const std::string by_name = output_of({"still", file.stem(), "--at", instant, "-o", "-"});
-      EXPECT_TRUE(by_name.starts_with("\x89PNG")) << file;
-      EXPECT_TRUE(by_name == output_of({"still", file, "--at", instant, "-o", "-"})) << file;
-    }
-  }
-}
-
 TEST_F(ScenesTest, AreTakenByEveryCommandThatTakesASceneFile) {
   const Arguments small{"--size", "64x36"};
   EXPECT_EQ(output_of({"count", "equal-masses"}), "3\n");

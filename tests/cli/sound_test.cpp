@@ -147,19 +147,6 @@ TEST_F(SoundTest, StaysBelowFullScaleForFfmpegToo) {
   }
 }
 
-TEST_F(SoundTest, HasTheSameBytesByAnyNumberOfThreadsAndInParts) {
-  const Arguments render = Arguments{"render", "--sound", "--to", "5", "-o"};
-  output_of(render + Arguments{"a.mp4", "--jobs", "1"} + kSmallSound);
-  output_of(render + Arguments{"b.mp4", "--jobs", "2"} + kSmallSound);
-  EXPECT_TRUE(contents("a.mp4") == contents("b.mp4"));
-  for (const char* part : {"1/3", "2/3", "3/3"}) {
-    output_of(render + Arguments{"c.mp4", "--part", part} + kSmallSound);
-  }
-  output_of({"join", "--quiet", "c.mp4.part-3-of-3", "c.mp4.part-1-of-3", "c.mp4.part-2-of-3", "-o",
-             "c.mp4"});
-  EXPECT_TRUE(contents("a.mp4") == contents("c.mp4"));
-}
-
 TEST_F(SoundTest, IsAKeyOfTheScene) {
   write("scene.toml", "[sound]\non = true\n");
   output_of(Arguments{"render", "scene.toml", "--to", "1", "-o", "on.mp4"} + kSmallSound);
@@ -175,13 +162,43 @@ TEST_F(SoundTest, IsAKeyOfTheScene) {
   EXPECT_NE(result.err.find("sound.on = 1: must be true or false"), std::string::npos);
 }
 
-TEST_F(SoundTest, IsRefusedWhereItHasNoPlace) {
-  for (const std::string output : {"a.y4m", "null", "a.framehash", "%d.png"}) {
-    const CommandResult result = piblocks({"render", "--sound", "-o", output});
-    EXPECT_EQ(result.exit_code, 2);
-    EXPECT_NE(result.err.find("has no sound; write one of: *.mp4"), std::string::npos)
-        << result.err;
+/// That of a scene is left out, so that one scene makes all outputs; --sound asks for what cannot
+/// be.
+TEST_F(SoundTest, IsLeftOutWhereItHasNoPlace) {
+  write("scene.toml", "[sound]\non = true\n[time]\nto = 1\n[view]\nfps = 5\nsize = '64x36'\n");
+  for (const std::string output :
+       {"a.y4m", "-", "null", "a.framehash", "%d.png", "a.gif", "a.apng"}) {
+    SCOPED_TRACE(output);
+    const CommandResult asked = piblocks({"render", "--sound", "-o", output});
+    EXPECT_EQ(asked.exit_code, 2);
+    EXPECT_TRUE(asked.err.starts_with("piblocks: --sound: '" + output +
+                                      "' has no sound; write one of: *.mp4"))
+        << asked.err;
+    const CommandResult loud = piblocks({"render", "scene.toml", "-o", output});
+    EXPECT_EQ(loud.exit_code, 0) << loud.err;
+    const std::string note =
+        "piblocks: note: '" + output + "' has no sound; that of the scene is left out\n";
+    const std::size_t said = loud.err.find(note);
+    EXPECT_NE(said, std::string::npos) << loud.err;
+    EXPECT_EQ(loud.err.find(note, said + 1), std::string::npos) << "once";
+    const std::string file = output == "%d.png" ? "3.png" : output;
+    const bool is_file = file.find('.') != std::string::npos;
+    const std::string written = is_file ? contents(file) : loud.out;
+    const CommandResult silent =
+        piblocks({"render", "scene.toml", "--no-sound", "--quiet", "-o", output});
+    EXPECT_EQ(silent.err, "");
+    EXPECT_TRUE(written == (is_file ? contents(file) : silent.out));
+    EXPECT_EQ(piblocks({"render", "scene.toml", "--quiet", "-o", output}).err, "");
+    if (output == "null" || output == "-") continue;
+    for (const char* part : {"1/2", "2/2"}) {
+      output_of({"render", "scene.toml", "--quiet", "--part", part, "-o", output});
+    }
+    output_of({"join", "--quiet", output + ".part-1-of-2", output + ".part-2-of-2", "-o", output});
+    EXPECT_TRUE(contents(file) == written);
   }
+}
+
+TEST_F(SoundTest, AloneIsAllThereIs) {
   const CommandResult part = piblocks({"render", "--part", "1/2", "-o", "a.wav"});
   EXPECT_EQ(part.exit_code, 2);
   const CommandResult crf = piblocks({"render", "--crf", "20", "-o", "a.wav"});

@@ -23,8 +23,8 @@ cd "$work/two words" || exit
 
 readonly scene="it's {} & \"\$HOME\" %06d.toml"
 echo 'red.mass = 100' >"$scene"
-# Twenty seconds: more chunks than parts.
-readonly rendering=("$scene" --size 320x180 --fps 30 --speed 1/4)
+# Twenty chunks: more than parts.
+readonly rendering=("$scene" --size 160x90 --fps 10 --speed 1/4)
 # Hours of work, however fast our own encoder becomes.
 readonly endless=("$scene" --smallest --speed 1/5000 --to 3)
 readonly out="out {}/%.mp4"

@@ -14,6 +14,7 @@ namespace {
 TEST(ParseRational, ReadsEveryForm) {
   EXPECT_EQ(parse_rational("42"), 42);
   EXPECT_EQ(parse_rational(" -7 "), -7);
+  EXPECT_EQ(parse_rational("1.\r\n"), 1);
   EXPECT_EQ(parse_rational("+.5"), Rational(1, 2));
   EXPECT_EQ(parse_rational("2.50e-1"), Rational(1, 4));
   EXPECT_EQ(parse_rational("1/3"), Rational(1, 3));
@@ -30,9 +31,9 @@ TEST(ParseRational, IsExactWhereADoubleIsNot) {
 }
 
 TEST(ParseRational, RefusesWhatIsNoNumber) {
-  for (const char* text :
-       {"",    " ",  "x",   "1x", "1/",   "/2",  "1/0", "1//2", "^2",  "2^",   "2^0.5",
-        "--1", "1e", "1e+", ".",  "0^-1", "nan", "inf", "0x10", "1 2", "1/2/3"}) {
+  for (const char* text : {"",    " ",   "x",     "1x",  "1/",    "/2",  "1/0",   "1//2",
+                           "^2",  "2^",  "2^0.5", "--1", "1e",    "1e+", ".",     "0^-1",
+                           "nan", "inf", "0x10",  "1 2", "1/2/3", "1,5", "1_000", "\u0663"}) {
     EXPECT_THROW(parse_rational(text), UsageError) << text;
   }
 }

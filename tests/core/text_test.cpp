@@ -22,6 +22,21 @@ TEST(Printable, EscapesWhatATerminalObeys) {
   EXPECT_EQ(printable("\u202egpj.exe \u2066 \u2028"), "\\u{202e}gpj.exe \\u{2066} \\u{2028}");
 }
 
+TEST(WithShortWords, KeepsBothEndsOfALongWord) {
+  const std::string long_path = "/a/" + std::string(295, 'b') + "'";
+  EXPECT_EQ(with_short_words("cannot open '" + long_path), "cannot open '" + long_path);
+  EXPECT_EQ(with_short_words("no " + std::string(1000, '9') + "x: what"),
+            "no " + std::string(100, '9') + "[… 803 bytes …]" + std::string(97, '9') + "x: what");
+  EXPECT_EQ(with_short_words(""), "");
+  std::string pis;
+  for (int i = 0; i < 300; ++i) pis += "\u03c0";
+  for (const std::string& text :
+       {pis, "x" + pis, std::string(5000, '\xff'), std::string(5000, '\x80'), pis + '\xcf'}) {
+    EXPECT_LT(with_short_words(text).size(), 250U);
+    EXPECT_TRUE(is_utf8(with_short_words(text)) || !is_utf8(text));
+  }
+}
+
 TEST(Utf8, IsTold) {
   for (const char* text : {"", "a", "π … 🙂", "\xef\xbf\xbd"})
     EXPECT_TRUE(is_utf8(text)) << text;

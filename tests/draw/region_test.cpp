@@ -217,7 +217,7 @@ void add_or_remove(Random& random, DrawList& list) {
 TEST(Region, OfRandomPicturesIsExact) {
   Random random(271);
   SCOPED_TRACE(random.trace());
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < many(100); ++i) {
     // Some are large enough for slanted lines to be cut.
     const int larger = i % 16 == 0 ? 4 : 1;
     const int width = static_cast<int>(random.integer(1, larger * 90));

@@ -80,7 +80,9 @@ TEST(Compare, DoesNotLookBehindMasks) {
   at(actual, 10, 12) = 0xff000001;
   EXPECT_EQ(compared(reference, actual, {}, {{4, 4, 1, 1}}).first, (SamplePlace{10, 12, 2}));
   EXPECT_TRUE(compared(reference, actual, {}, {{0, 0, 5, 5}, {10, 0, 1, 20}}).is_equal());
-  EXPECT_TRUE(compared(reference, actual, {}, {{0, 0, 16384, 16384}}).is_equal());
+  EXPECT_THROW(compared(reference, actual, {}, {{0, 0, 16384, 16384}}), UsageError);
+  EXPECT_THROW(compared(reference, actual, {}, {{0, 0, 7, 20}, {7, 0, 13, 20}}), UsageError);
+  EXPECT_EQ(compared(reference, actual, {}, {{0, 0, 5, 5}}).masked_pixels, 1);
   EXPECT_FALSE(compared(reference, actual, {}, {{5, 4, 5, 16}}).is_equal());
 }
 

@@ -27,9 +27,6 @@ constexpr Bounds kPdfBounds{45, 40};
 
 constexpr const char* kOnePixelAPoint = "-r 72";
 constexpr const char* kAllOverlays = "digits,masses,velocities,energy,momentum,time,ruler";
-constexpr const char* kAllPanels =
-    "velocity,position,unfolded,time,count,ellipse,mirrors,conservation,certainty";
-constexpr const char* kTwoPanels = "velocity,unfolded";
 
 struct VectorCase {
   std::string name;
@@ -91,76 +88,26 @@ TEST_P(VectorStills, LookLikeThePixelsOnBlack) {
   expect_alike("pdf", 255);
 }
 
-Arguments sized(const Arguments& options) { return Arguments{"--size", "640x480"} + options; }
+// ---- Every kind of item once: the ordinary run
 
-/// Overlays, and beside fewer of them diagrams.
-std::vector<VectorCase> themes() {
-  std::vector<VectorCase> cases;
-  for (const char* theme :
-       {"article", "lecture", "lecture-light", "chalkboard", "dark", "print", "colorblind"}) {
-    std::string name = theme;
-    std::ranges::replace(name, '-', '_');
-    const Arguments common{"--digits",  "2",
-                           "--at",      "4",
-                           "--size",    "960x720",
-                           "--theme",   theme,
-                           "--title",   "Où se cache π ?",
-                           "--caption", "Zwei Blöcke zählen"};
-    cases.push_back({"theme_" + name, common + Arguments{"--show", kAllOverlays}});
-    cases.push_back({"diagrams_" + name,
-                     common + Arguments{"--show", "masses,velocities", "--panels", kTwoPanels}});
-  }
-  return cases;
-}
-
-std::vector<VectorCase> each_thing() {
-  std::vector<VectorCase> cases;
-  for (const std::string& overlay : split(kAllOverlays, ',')) {
-    cases.push_back({"overlay_" + overlay, sized({"--at", "#2", "--show", overlay})});
-  }
-  for (const std::string& panel : split(kAllPanels, ',')) {
-    cases.push_back({"panel_" + panel, sized({"--at", "3.7", "--panels", panel})});
-  }
-  cases.push_back({"plain", sized({"--at", "3.7"})});
-  cases.push_back({"title", sized({"--at", "0", "--title", "Two blocks"})});
-  cases.push_back({"caption", sized({"--at", "0", "--caption", "and a wall"})});
-  cases.push_back({"logo", sized({"--at", "3.7", "--logo", "logo.png", "--caption", "beside it"})});
-  cases.push_back({"last", sized({"--at", "last", "--show", kAllOverlays})});
-  cases.push_back({"twenty_digits",
-                   {"--digits", "20", "--at", "3.6", "--show", "velocities", "--panels",
-                    "position,time", "--size", "960x720"}});
-  cases.push_back({"width_by_mass", sized({"--at", "4", "--width-by-mass", "--show", "masses"})});
-  return cases;
-}
-
-/// Shipped scenes with bodies, and one of each kind in every theme.
-std::vector<VectorCase> bodies() {
-  const auto named = [](const std::string& scene, std::string name, const Arguments& options) {
-    std::ranges::replace(name, '-', '_');
-    return VectorCase{name, Arguments{scene, "--size", "960x720"} + options};
-  };
-  std::vector<VectorCase> cases;
-  for (const std::string scene : {"three-blocks", "two-walls", "row", "cradle", "superball",
-                                  "recoil", "gas", "billiard", "brownian", "wedge", "touch"}) {
-    cases.push_back(named(scene, scene, {"--at", "#1+0.3"}));
-  }
-  for (const char* theme :
-       {"article", "lecture", "lecture-light", "chalkboard", "dark", "print", "colorblind"}) {
-    const Arguments common{"--at",          "3",         "--theme",        theme, "--title",
-                           "Où sont-ils ?", "--caption", "Zwischen Wänden"};
-    cases.push_back(named("three-blocks", std::string("blocks_") + theme,
-                          common + Arguments{"--show", "masses,energy,momentum,time,velocities"}));
-    cases.push_back(named("billiard", std::string("discs_") + theme,
-                          common + Arguments{"--show", "masses,energy,momentum,time,trails"}));
-  }
-  return cases;
-}
+const std::vector<VectorCase> kKinds{
+    {"overlays",
+     {"--digits", "2", "--at", "4", "--size", "640x480", "--theme", "lecture", "--show",
+      kAllOverlays, "--title", "Où se cache π ?", "--caption", "Zwei Blöcke zählen", "--logo",
+      "logo.png"}},
+    {"diagrams_of_gaps",
+     {"--at", "3.7", "--size", "640x480", "--panels", "position,unfolded,mirrors"}},
+    {"diagrams_of_runs", {"--at", "3.7", "--size", "640x480", "--panels", "time,count,velocity"}},
+    {"ellipse", {"--digits", "2", "--at", "4", "--size", "480x360", "--panels", "ellipse"}},
+    {"bars", {"--at", "3.7", "--size", "480x360", "--panels", "conservation"}},
+    {"certainty", {"--at", "3.7", "--size", "480x360", "--panels", "certainty"}},
+    {"discs", {"touch", "--at", "#1+0.3", "--size", "640x480"}},
+    {"row", {"three-blocks", "--at", "#1", "--size", "640x480", "--theme", "print"}},
+};
 
 std::string case_name(const testing::TestParamInfo<VectorCase>& info) { return info.param.name; }
 
-INSTANTIATE_TEST_SUITE_P(Themes, VectorStills, testing::ValuesIn(themes()), case_name);
-INSTANTIATE_TEST_SUITE_P(Each, VectorStills, testing::ValuesIn(each_thing()), case_name);
-INSTANTIATE_TEST_SUITE_P(Bodies, VectorStills, testing::ValuesIn(bodies()), case_name);
+INSTANTIATE_TEST_SUITE_P(Kinds, VectorStills, testing::ValuesIn(kKinds), case_name);
 
 using OpaqueVectorStills = VectorStills;
 
@@ -172,30 +119,57 @@ TEST_P(OpaqueVectorStills, LookLikeThePixels) {
   expect_alike("pdf", 255);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Each, OpaqueVectorStills,
-    testing::Values(VectorCase{"shutter", sized({"--at", "2.9", "--shutter", "1", "--fps", "10"})},
-                    VectorCase{"shutter_with_labels",
-                               sized({"--at", "2.9", "--shutter", "1", "--fps", "10", "--show",
-                                      kAllOverlays, "--theme", "print"})}),
-    case_name);
+INSTANTIATE_TEST_SUITE_P(Kinds, OpaqueVectorStills,
+                         testing::Values(VectorCase{
+                             "shutter",
+                             {"--at", "2.9", "--shutter", "1", "--fps", "10", "--show",
+                              kAllOverlays, "--size", "640x480", "--theme", "print"}}),
+                         case_name);
 
 using VectorSheets = VectorStills;
 
 TEST_P(VectorSheets, LookLikeThePixels) {
-  draw(Arguments{"sheet"} + GetParam().options);
+  draw(Arguments{"sheet", "--frames", "6", "--size", "960x720"} + GetParam().options);
   ASSERT_TRUE(rasterise(folder_, "a", "-w 2339 -h 1654", "-scale-to-x 2339 -scale-to-y 1654"));
   expect_alike("svg", 255);
   expect_alike("pdf", 255);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, VectorSheets,
-                         testing::Values(VectorCase{"plain", {"--frames", "4"}},
-                                         VectorCase{"full",
-                                                    {"--frames", "6", "--show", kAllOverlays,
-                                                     "--panels", kTwoPanels, "--size", "960x720",
-                                                     "--title", "Two blocks"}}),
+INSTANTIATE_TEST_SUITE_P(Kinds, VectorSheets,
+                         testing::Values(VectorCase{"full",
+                                                    {"--show", kAllOverlays, "--panels",
+                                                     "velocity,unfolded", "--title", "Two"}}),
                          case_name);
+
+// ---- Every theme and every scene with bodies: the label "long"
+
+std::vector<VectorCase> themes_and_scenes() {
+  const auto named = [](std::string name, const Arguments& options) {
+    std::ranges::replace(name, '-', '_');
+    return VectorCase{name, Arguments{"--size", "960x720"} + options};
+  };
+  std::vector<VectorCase> cases;
+  for (const std::string theme :
+       {"article", "lecture", "lecture-light", "chalkboard", "dark", "print", "colorblind"}) {
+    const Arguments common{"--theme", theme, "--at", "4", "--title", "π ?", "--caption", "Où ?"};
+    cases.push_back(
+        named(theme + "-overlays", common + Arguments{"--digits", "2", "--show", kAllOverlays}));
+    cases.push_back(named(
+        theme + "-diagrams",
+        common + Arguments{"--digits", "2", "--show", "masses", "--panels", "velocity,unfolded"}));
+    cases.push_back(
+        named(theme + "-row", Arguments{"three-blocks", "--show", "masses,energy,time"} + common));
+    cases.push_back(
+        named(theme + "-discs", Arguments{"billiard", "--show", "masses,trails"} + common));
+  }
+  for (const std::string scene : {"three-blocks", "two-walls", "row", "cradle", "superball",
+                                  "recoil", "gas", "billiard", "brownian", "wedge", "touch"}) {
+    cases.push_back(named(scene, {scene, "--at", "#1+0.3"}));
+  }
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, VectorStills, testing::ValuesIn(themes_and_scenes()), case_name);
 
 }  // namespace
 }  // namespace piblocks

@@ -13,7 +13,7 @@ _SOURCE = (TREE / "src/cli/scene_options.cpp").read_text()
 #: "--size": "view.size"
 KEY_OF = {
     option: key
-    for key, option in re.findall(r'add_key\(\s*"([^"]+)",\s*"(--[^"]+)"', _SOURCE)
+    for key, option in re.findall(r'add_(?:key|text)\(\s*"([^"]+)",\s*"(--[^"]+)"', _SOURCE)
 }
 #: "--loop": ("time.loop", "true")
 FLAG_OF = {

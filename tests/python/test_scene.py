@@ -149,7 +149,7 @@ def test_a_file_that_is_no_scene():
         Scene.from_toml_text("digits = 0\nred.mas = 3", "talk")
     assert raised.value.problems == (
         "talk:1: digits = 0: must be a whole number from 1 to 100000",
-        "talk:2: red.mas: unknown key",
+        "talk:2: red.mas: unknown key; did you mean 'red.mass'?",
     )
     assert pickle.loads(pickle.dumps(raised.value)).problems == raised.value.problems
 

@@ -71,7 +71,7 @@ std::map<std::string, std::string> files_in(const fs::path& folder) {
 TEST_F(JoinTest, GivesTheBytesOfASingleRun) {
   for (const std::string name : {"a.mp4", "a.y4m", "a.framehash", "%03d.png"}) {
     render({scene(), path("whole/" + name)}, [](const Progress&) {});
-    for (const int count : {1, 2, 3, 7, 40}) {
+    for (const int count : {1, 3, 40}) {
       RenderJob job{scene(), path("parts/" + name)};
       job.jobs = count % 3 + 1;
       std::vector<std::string> parts = rendered_parts(count, job);
@@ -148,8 +148,15 @@ TEST_F(JoinTest, TellsLogosApartByWhatIsInTheFile) {
 
 TEST_F(JoinTest, RefusesAnotherKindOfOutput) {
   const auto parts = rendered_parts(2, {scene(), path("a.y4m")});
-  EXPECT_NE(problem(parts, "a.mp4").find("another output than"), std::string::npos);
-  EXPECT_NE(problem(parts, "a.framehash").find("'y4m'"), std::string::npos);
+  EXPECT_EQ(
+      problem(parts, "a.mp4"),
+      "join: the parts are of y4m, and '" + path("a.mp4") +
+          "' is mp4 by damage here; choose a name of the kind that they were rendered for, on a "
+          "machine with the same libraries");
+  EXPECT_NE(problem(parts, "a.framehash").find("' is framehash by murmur3 here"),
+            std::string::npos);
+  const auto videos = rendered_parts(2, {scene(), path("a.mp4")});
+  EXPECT_TRUE(problem(videos, "a.y4m").starts_with("join: the parts are of mp4 by damage, and "));
 }
 
 TEST_F(JoinTest, RefusesToReplaceAPart) {

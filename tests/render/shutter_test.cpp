@@ -106,7 +106,7 @@ TEST(Shutter, FramesAreMeansOfInstants) {
   for (const int digits : {1, 3, 6, 20}) {
     SCOPED_TRACE(digits);
     // The first collision is in frame 90, the turn at 210.
-    expect_mean_of_instants(scene_of(digits, {1920, 1080}, Rational(1, 2)), {90, 150, 210});
+    expect_mean_of_instants(scene_of(digits, {960, 540}, Rational(1, 2)), {90, 150, 210});
     expect_mean_of_instants(scene_of(digits, {320, 180}, 1), {90, 208, 209, 210, 230});
   }
 }

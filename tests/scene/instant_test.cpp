@@ -14,6 +14,7 @@ namespace {
 TEST(Instant, ReadsItsForms) {
   EXPECT_EQ(parse_instant("-2.5"), Instant(Rational(-5, 2)));
   EXPECT_EQ(parse_instant("turn"), Instant::turn());
+  EXPECT_EQ(parse_instant(" turn\n"), Instant::turn());
   EXPECT_EQ(parse_instant("turn-0.3"), Instant::turn(Rational(-3, 10)));
   EXPECT_EQ(parse_instant("last+1/3"), Instant::last(Rational(1, 3)));
   EXPECT_EQ(parse_instant("#314"), Instant::collision(314));

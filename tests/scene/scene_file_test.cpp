@@ -174,6 +174,20 @@ TEST_F(SceneFileTest, DecimalsAreReadAsTheyStand) {
   EXPECT_EQ(count_collisions(scene.system), 4);
 }
 
+/// As editors of other systems write it.
+TEST_F(SceneFileTest, LineEndsAndEncodingMayBeOfAnotherSystem) {
+  const char* const text = "[red]\r\nmass = 1.00000000000000000000000000000001\r\n# x\r\n";
+  EXPECT_EQ(load(text).system.red.mass, parse_rational("1.00000000000000000000000000000001"));
+  EXPECT_EQ(load(std::string("\xef\xbb\xbf") + text).system.red.mass,
+            parse_rational("1.00000000000000000000000000000001"));
+  EXPECT_EQ(problems("[red]\r\nmas = 1\r\n").at(0),
+            path_ + ":2: red.mas: unknown key; did you mean 'red.mass'?");
+  const std::string advice = ": is not valid UTF-8; save the file in that encoding";
+  EXPECT_EQ(problems("# caf\xe9\n").at(0), path_ + ":1" + advice);
+  EXPECT_EQ(problems("\n\nshow.title = '\xff'\n").at(0), path_ + ":3" + advice);
+  EXPECT_EQ(problems("\xff\xfe[\n").at(0), path_ + ":1" + advice);
+}
+
 TEST_F(SceneFileTest, ColumnsBehindOtherScriptsAreFound) {
   const Scene scene = load(
       "show = { title = 'πü→', caption = '' }\nview = { theme = 'dark', "
@@ -192,8 +206,11 @@ TEST_F(SceneFileTest, RefusesInvalidValuesOneByOne) {
       {"[red]\nmass = nan", "red.mass"},
       {"[blue]\nmass = inf", "blue.mass"},
       {"[blue]\nwidth = 0", "blue.width"},
-      {"[blue]\nposition = 0.4", "into the wall"},
-      {"[red]\nposition = 2.9", "overlaps blue"},
+      {"[blue]\nposition = 0.4",
+       "= 2/5: blue reaches 1/10 into the wall, whose face is at 0; must be at least 1/2"},
+      {"[blue]\nposition = -5", "blue is left of the wall's face at 0; must be at least 1/2"},
+      {"[red]\nposition = 2.9", "= 29/10: red overlaps blue by 1/10; must be at least 3"},
+      {"[red]\nposition = 1", "= 1: red is left of blue; must be at least 3"},
       {"[red]\nposition = '1e400'", "range of a double"},
       {"[view]\nsize = [0, 10]", "view.size"},
       {"[view]\nsize = [-5, 10]", "view.size"},

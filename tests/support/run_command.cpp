@@ -62,7 +62,7 @@ pid_t spawn(const std::vector<std::string>& arguments, const CommandOptions& opt
   if (!options.folder.empty()) {
     posix_spawn_file_actions_addchdir_np(&actions, options.folder.c_str());
   }
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, options.in_file.c_str(), O_RDONLY, 0);
   if (options.out_file.empty()) {
     posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
   } else {

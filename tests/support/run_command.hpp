@@ -15,6 +15,7 @@ namespace piblocks::testing_support {
 
 struct CommandOptions {
   std::filesystem::path folder = {};  ///< working folder; the caller's if empty
+  std::string in_file = "/dev/null";  ///< what standard input reads
   std::string out_file = {};          ///< where standard output goes instead, such as /dev/full
   int out_flags = O_WRONLY | O_CREAT | O_TRUNC;  ///< how out_file is opened
   std::vector<std::string> environment = {};     ///< "NAME=VALUE" each, beside the caller's

@@ -1,10 +1,10 @@
 const filter = document.getElementById("filter");
 const refused = document.getElementById("refused");
 const difference = document.getElementById("difference");
-const sections = document.querySelectorAll("section");
+const sections = document.querySelectorAll("section, li");
 function update() {
   for (const section of sections) {
-    const name = section.querySelector("h2").textContent.toLowerCase();
+    const name = section.querySelector("h2, b").textContent.toLowerCase();
     const matches = name.includes(filter.value.toLowerCase());
     section.hidden = !matches || (refused.checked && !section.classList.contains("refused"));
   }

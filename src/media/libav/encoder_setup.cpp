@@ -42,11 +42,11 @@ std::vector<std::string> usable_encoders(EncoderKind kind) {
   return {};
 }
 
-std::string usable_encoders(std::span<const EncoderKind> kinds) {
+std::vector<std::string> usable_encoders(std::span<const EncoderKind> kinds) {
   std::vector<std::string> names;
   for (const EncoderKind kind : kinds)
     std::ranges::move(usable_encoders(kind), std::back_inserter(names));
-  return fmt::format("{}", fmt::join(names, ", "));
+  return names;
 }
 
 bool has_option(const AVCodec& codec, const char* name) {

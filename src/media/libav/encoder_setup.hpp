@@ -37,8 +37,8 @@ EncoderSetup prores_setup(const VideoFormat& format, const EncoderSettings& sett
 /// VP9 or AV1 in 4:2:0; VP9 with alpha if the frames have it. @throws UsageError as h264_setup().
 EncoderSetup webm_setup(const VideoFormat& format, const EncoderSettings& settings);
 
-/// The names of all these kinds, as a message lists them.
-std::string usable_encoders(std::span<const EncoderKind> kinds);
+/// The encoders of all these kinds.
+std::vector<std::string> usable_encoders(std::span<const EncoderKind> kinds);
 // The rows of usable_encoders().
 std::vector<std::string> usable_h264_encoders();
 std::vector<std::string> usable_webm_encoders();

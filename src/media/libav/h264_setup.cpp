@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 
+#include "core/nearest_name.hpp"
 #include "media/libav/av_versions.hpp"
 #include "media/libav/encoder_setup.hpp"
 #include "media/mp4/h264_chunk.hpp"
@@ -61,8 +62,9 @@ const AVCodec& find_encoder(const std::optional<std::string>& name,
     if (std::ranges::count(usable_encoders(kind), *name) == 0) continue;
     return *avcodec_find_encoder_by_name(name->c_str());
   }
-  throw UsageError(
-      fmt::format("video: cannot use encoder '{}'; use one of: {}", *name, usable_encoders(kinds)));
+  const std::vector<std::string> usable = usable_encoders(kinds);
+  throw UsageError(fmt::format("video: cannot use encoder '{}'; use one of: {}{}", *name,
+                               fmt::join(usable, ", "), did_you_mean(*name, usable)));
 }
 
 std::string crf_problem(const AVCodec& codec, double crf) {
@@ -75,14 +77,14 @@ std::string crf_problem(const AVCodec& codec, double crf) {
 }
 
 std::string preset_problem(const AVCodec& codec, const std::string& preset) {
-  constexpr std::array<std::string_view, 10> kX264Presets = {
+  static const std::vector<std::string> kX264Presets = {
       "ultrafast", "superfast", "veryfast", "faster",   "fast",
       "medium",    "slow",      "slower",   "veryslow", "placebo"};
   if (!has_option(codec, "preset")) return no_preset(codec.name);
   // When it is opened, libx264 rejects an unknown preset without naming the reason.
   if (codec.name != kX264 || std::ranges::count(kX264Presets, preset) > 0) return {};
-  return fmt::format("video: encoder '{}' has no preset '{}'; use one of: {}", codec.name, preset,
-                     fmt::join(kX264Presets, ", "));
+  return fmt::format("video: encoder '{}' has no preset '{}'; use one of: {}{}", codec.name, preset,
+                     fmt::join(kX264Presets, ", "), did_you_mean(preset, kX264Presets));
 }
 
 /// A chunk is one group of pictures: only its first picture is a key frame, however much a picture

@@ -160,8 +160,8 @@ VideoEncoder::VideoEncoder(const VideoFormat& format, EncoderSetup setup)
              "describe the stream of", name());
     if (first->codec_id == AV_CODEC_ID_AV1 && first->extradata_size == 0) take_headers(*first);
   } catch (const Error& error) {
-    throw UsageError(
-        fmt::format("{}; usable here: {}", error.what(), usable_encoders(setup_.alternatives)));
+    throw UsageError(fmt::format("{}; usable here: {}", error.what(),
+                                 fmt::join(usable_encoders(setup_.alternatives), ", ")));
   }
 }
 

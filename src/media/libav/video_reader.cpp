@@ -26,14 +26,15 @@ namespace {
       fmt::format("video: cannot read '{}': it is cut off before its last frame", path));
 }
 
-/// Rejects a file whose index leads beyond its end.
-void check_index(AVFormatContext& input, AVStream& stream, const std::string& path) {
+/// Whether a file's index leads beyond its end.
+bool index_leads_out(AVFormatContext& input, AVStream& stream) {
   const std::int64_t size = avio_size(input.pb);
   const int count = avformat_index_get_entries_count(&stream);
   for (int i = 0; size > 0 && i < count; ++i) {
     const AVIndexEntry& entry = *avformat_index_get_entry(&stream, i);
-    if (entry.pos + entry.size > size) refuse_cut_file(path);
+    if (entry.pos + entry.size > size) return true;
   }
+  return false;
 }
 
 /// The only video stream besides covers. Of several, just one would be compared.
@@ -109,25 +110,18 @@ class VideoReader final : public FrameReader {
         stream_(find_video(*input_, path)),
         decoder_(open_decoder(*input_->streams[stream_], path)),
         packet_(own_av<AvPacketPtr>(av_packet_alloc(), "packet")),
-        frame_(own_av<AvFramePtr>(av_frame_alloc(), "frame")) {
-    check_index(*input_, *input_->streams[stream_], path_);
-    if (is_cut_off(path_)) refuse_cut_file(path_);
-  }
+        frame_(own_av<AvFramePtr>(av_frame_alloc(), "frame")),
+        is_cut_off_(index_leads_out(*input_, *input_->streams[stream_]) || is_cut_off(path_)) {}
 
+  /// Of a file that is cut off, gives out the frames before that place.
   bool next() override {
-    while (true) {
-      const int code = avcodec_receive_frame(decoder_.get(), frame_.get());
-      if (code == AVERROR_EOF) return false;
-      if (code == AVERROR(EAGAIN)) {
-        feed();
-        continue;
-      }
-      check_av_read(code, "decode", path_);
-      check_damage();
-      check_pixel_format(*frame_, path_);
-      ++frames_;
-      return true;
+    try {
+      if (decode()) return true;
+    } catch (const MediaError&) {
+      if (!is_cut_off_) throw;  // else that is the reason
     }
+    if (is_cut_off_) refuse_cut_file(path_);
+    return false;
   }
   std::string layout() const override { return layout_of(*frame_); }
   std::string presentation() const override {
@@ -145,10 +139,25 @@ class VideoReader final : public FrameReader {
     return text;
   }
   AnyImage samples() override { return samples_of(*frame_); }
-  AnyImage rgb() override { return rgb_of(*frame_, sws_); }
+  AnyImage rgb() override { return rgb_of(*frame_, path_); }
   std::string name() const override { return fmt::format("frame {}", frames_ - 1); }
 
  private:
+  bool decode() {
+    while (true) {
+      const int code = avcodec_receive_frame(decoder_.get(), frame_.get());
+      if (code == AVERROR_EOF) return false;
+      if (code == AVERROR(EAGAIN)) {
+        feed();
+        continue;
+      }
+      check_av_read(code, "decode", path_);
+      check_damage();
+      check_pixel_format(*frame_, path_);
+      ++frames_;
+      return true;
+    }
+  }
   /// Gives one packet, or the end, to the decoder.
   void feed() {
     while (true) {
@@ -186,7 +195,7 @@ class VideoReader final : public FrameReader {
   AvCodecContextPtr decoder_;
   AvPacketPtr packet_;
   AvFramePtr frame_;
-  SwsPtr sws_;
+  bool is_cut_off_;
   std::int64_t frames_ = 0;
 };
 

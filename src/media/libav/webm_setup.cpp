@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/nearest_name.hpp"
 #include "media/libav/encoder_setup.hpp"
 
 namespace piblocks {
@@ -60,8 +61,10 @@ std::string crf_problem(double crf) {
 }
 
 std::string missing_encoder(const std::optional<std::string>& name) {
-  return fmt::format("video: cannot find encoder '{}' for *.webm; use one of: {}",
-                     name.value_or("vp9"), fmt::join(usable_webm_encoders(), ", "));
+  const std::vector<std::string> usable = usable_webm_encoders();
+  const std::string wanted = name.value_or("vp9");
+  return fmt::format("video: cannot find encoder '{}' for *.webm; use one of: {}{}", wanted,
+                     fmt::join(usable, ", "), did_you_mean(wanted, usable));
 }
 
 void set_up(AVCodecContext& context, const WebmEncoder& encoder, const EncoderSettings& settings) {

@@ -63,12 +63,19 @@ std::string FramePattern::name(std::int64_t number) const {
 }
 
 std::optional<std::int64_t> FramePattern::number_of(std::string_view name) const {
-  if (name.size() <= before_.size() + after_.size()) return std::nullopt;
-  const std::string_view digits =
-      name.substr(before_.size(), name.size() - before_.size() - after_.size());
+  const auto number = number_in(name);
+  return number && this->name(*number) == name ? number : std::nullopt;
+}
+
+std::optional<std::int64_t> FramePattern::number_in(std::string_view name) const {
+  const bool fits = name.size() > before_.size() + after_.size() && name.starts_with(before_) &&
+                    name.ends_with(after_);
+  if (!fits) return std::nullopt;
+  const char* const begin = name.data() + before_.size();
+  const char* const end = name.data() + name.size() - after_.size();
   std::int64_t number = 0;
-  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (read.ec != std::errc() || number < 0 || this->name(number) != name) return std::nullopt;
+  const auto read = std::from_chars(begin, end, number);
+  if (read.ec != std::errc() || read.ptr != end || *begin == '-') return std::nullopt;
   return number;
 }
 

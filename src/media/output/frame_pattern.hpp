@@ -22,6 +22,8 @@ class FramePattern {
   std::string name(std::int64_t number) const;
   /// The number of the image with this file name; nothing if no image has it.
   std::optional<std::int64_t> number_of(std::string_view name) const;
+  /// The same for a name whose number may have other leading zeros.
+  std::optional<std::int64_t> number_in(std::string_view name) const;
   /// The same for all patterns of a folder that differ only in the width of the field.
   std::string label() const { return before_ + "%d" + after_; }
   /// The folder the files go to; empty if the pattern names none.

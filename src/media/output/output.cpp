@@ -104,11 +104,7 @@ void check_kind(const OutputKind& kind, const OutputRequest& request, Problems& 
         "output: '{}' cannot be transparent; use an opaque background or write one of: {}",
         request.name, names(kPictures | kAlpha)));
   }
-  if (request.sound && !kind.has(kSound)) {
-    problems.add(fmt::format(
-        "output: '{}' has no sound; write one of: {}, or leave the sound out (--no-sound)",
-        request.name, names(kSound)));
-  }
+  if (request.sound && !kind.has(kSound)) problems.add("output: " + no_sound_in(request.name));
 }
 
 }  // namespace
@@ -187,6 +183,16 @@ Output set_up_output(const std::string& name, const VideoFormat& format,
 }
 
 bool is_sound_alone(const std::string& name) { return has_ending(name, ".wav"); }
+
+bool takes_sound(const std::string& name) {
+  const OutputKind* const kind = find_kind(name);
+  return kind == nullptr || kind->has(kSound);
+}
+
+std::string no_sound_in(const std::string& name) {
+  return fmt::format("'{}' has no sound; write one of: {}, or leave the sound out", name,
+                     names(kSound));
+}
 
 void claim_output(OverwriteCheck& check, const std::string& what, const std::string& name) {
   if (name == "null") return;

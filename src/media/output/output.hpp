@@ -161,6 +161,11 @@ Output set_up_output(const std::string& name, const VideoFormat& format,
 /// Whether an output of this name is sound without pictures: `*.wav`.
 bool is_sound_alone(const std::string& name);
 
+/// False of a name that set_up_output() takes without sound only.
+bool takes_sound(const std::string& name);
+/// What is said of such a name if it is to have sound.
+std::string no_sound_in(const std::string& name);
+
 /// Enters the files of an output into the check that no input is overwritten.
 /// @param what  the output's part in the command, for messages.
 void claim_output(OverwriteCheck& check, const std::string& what, const std::string& name);

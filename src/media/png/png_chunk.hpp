@@ -2,6 +2,7 @@
 // In: data. Out: chunks, appended to a file in memory; compressed bytes.
 #pragma once
 
+#include <piblocks/image.hpp>
 #include <zlib.h>
 
 #include <cstddef>
@@ -22,6 +23,10 @@ void end_png_chunk(Bytes& png, std::size_t start);
 void append_png_header(Bytes& png, int width_px, int height_px, bool has_alpha);
 /// The chunk that says that colours are sRGB.
 void append_png_srgb(Bytes& png);
+
+/// A picture as read_png_samples() returns it, as a PNG file: with alpha, by which the colours are
+/// not multiplied, unless all of it is opaque. @throws MediaError as encode_png()
+Bytes encode_png_samples(const Image& picture);
 
 /// Fast, and for runs of equal bytes, which filter Up leaves of flat shapes: chosen from the table
 /// in tests/benchmark/encoders.md. Used by one thread at a time.

@@ -237,6 +237,37 @@ Bytes encode_png(const ImageView& image) {
   return encoder.finish().front().bytes;
 }
 
+Bytes encode_png_samples(const Image& picture) {
+  const auto is_opaque = [](std::uint32_t word) { return word >= 0xff000000; };
+  if (std::ranges::all_of(picture.words, is_opaque)) return encode_png(picture.view());
+  const auto row_bytes = 4 * std::size_t(picture.width_px);
+  constexpr std::uint8_t kUp = 2;
+  Bytes rows;
+  rows.reserve(std::size_t(picture.height_px) * (row_bytes + 1));
+  Bytes above(row_bytes);
+  Bytes current;
+  auto word = picture.words.begin();
+  for (int y = 0; y < picture.height_px; ++y) {
+    current.clear();
+    for (int x = 0; x < picture.width_px; ++x, ++word) {
+      for (const int shift : {16, 8, 0, 24}) current.push_back(std::uint8_t(*word >> shift));
+    }
+    rows.push_back(kUp);
+    rows.resize(rows.size() + row_bytes);
+    subtract_bytes(current.data(), above.data(), row_bytes, &rows.back() + 1 - row_bytes);
+    current.swap(above);
+  }
+  Bytes png;
+  append_png_header(png, picture.width_px, picture.height_px, true);
+  append_png_srgb(png);
+  Deflater deflater(Deflater::Form::whole);
+  const std::size_t start = begin_png_chunk(png, "IDAT");
+  append(png, deflater.compress(rows));
+  end_png_chunk(png, start);
+  end_png_chunk(png, begin_png_chunk(png, "IEND"));
+  return png;
+}
+
 Output png_output(const OutputRequest& request) {
   return {
       .frames_per_chunk = 16,  // few wait to be written, and workers end nearly together

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/nearest_name.hpp"
 #include "cli/script_facts.hpp"
 #include "cli/shipped_scenes.hpp"
+#include "core/nearest_name.hpp"
 #include "python/extension/without_gil.hpp"
 #include "scene/run_log.hpp"
 #include "scene/scene_keys.hpp"
@@ -165,7 +165,7 @@ void bind_script(py::module_& module) {
   module.def("check_keys", &check_keys, py::arg("keys"),
              "Raises UsageError if keywords of one call set the same value.");
   module.def("key_names", &key_names, "All keys of a scene file, such as 'view.size'.");
-  module.def("nearest_name", &cli::nearest_name, py::arg("word"), py::arg("names"),
+  module.def("nearest_name", &nearest_name, py::arg("word"), py::arg("names"),
              "The name that the word may have been meant to be; '' if none is near.");
   module.def(
       "scenes",

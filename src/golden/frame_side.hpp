@@ -1,0 +1,46 @@
+// One side of a comparison: its frames, one step after the other.
+// In: PNG files with the steps at which they stand, or a video, which has a frame at every step.
+// Out: the frames, read when they are fetched.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "golden/picture_list.hpp"
+#include "media/pixels/frame_reader.hpp"
+
+namespace piblocks {
+
+class FrameSide {
+ public:
+  virtual ~FrameSide() = default;
+  /// The step at which the next frame stands; nothing after the last. A video may turn out to have
+  /// none there.
+  virtual std::optional<std::int64_t> next_step() const = 0;
+  /// Goes to that step and reads its frame. False if there is none after all.
+  /// @throws IoError, MediaError if it cannot be read.
+  virtual bool fetch() = 0;
+  /// Of the frame that was fetched, also in vain.
+  virtual std::string name() const = 0;
+  /// Whether frames after one that cannot be read can be fetched.
+  virtual bool goes_on_after_failure() const = 0;
+  /// Of a frame that was fetched: its samples, what they mean, and how players show them.
+  virtual FrameReader& frame() = 0;
+};
+
+struct PlacedPicture {
+  std::int64_t step;
+  ListedPicture picture;
+};
+
+/// @param pictures  in the order of their steps
+std::unique_ptr<FrameSide> picture_side(std::vector<PlacedPicture> pictures);
+
+/// @param path  of any file that libavformat reads; opened when the first frame is fetched.
+std::unique_ptr<FrameSide> video_side(const std::string& path, const std::stop_token& stop);
+
+}  // namespace piblocks

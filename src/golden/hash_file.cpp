@@ -1,0 +1,78 @@
+#include "golden/hash_file.hpp"
+
+#include <fmt/format.h>
+#include <piblocks/compare.hpp>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <string_view>
+
+#include "core/descriptor.hpp"
+#include "core/text.hpp"
+
+namespace piblocks {
+namespace {
+
+/// Longer than a line with the longest hash.
+constexpr std::size_t kMaxLine = 4096;
+
+bool is_number(std::string_view text) {
+  if (text.starts_with('-')) text.remove_prefix(1);
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// Stream, dts, pts, duration, size: numbers; and a hash, which is letters and digits.
+bool is_frame(std::string_view line) {
+  constexpr int kNumbers = 5;
+  for (int i = 0; i < kNumbers; ++i) {
+    const std::size_t comma = line.find(',');
+    if (comma == std::string_view::npos || !is_number(line.substr(0, comma))) return false;
+    line.remove_prefix(comma + 1);
+  }
+  return !line.empty() && std::ranges::all_of(line, [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  });
+}
+
+std::string without_blanks(std::string line) {
+  std::erase_if(line, [](char c) { return c == ' ' || c == '\t' || c == '\r'; });
+  return line;
+}
+
+}  // namespace
+
+bool is_framehash(const std::string& name) {
+  return has_ending(name, ".framehash") || has_ending(name, ".framemd5");
+}
+
+FramehashFile read_framehash(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) {
+    throw IoError(fmt::format("framehash: cannot read '{}': {}", path, error_text(errno)));
+  }
+  FramehashFile result;
+  std::vector<char> line(kMaxLine);
+  for (std::size_t number = 1; file.getline(line.data(), kMaxLine); ++number) {
+    // gcount() counts the line's end, except at the end of the file. A line may have a zero in
+    // it.
+    const auto length = static_cast<std::size_t>(file.gcount()) - (file.eof() ? 0 : 1);
+    const std::string text = without_blanks({line.data(), length});
+    if (text.starts_with("#software")) continue;
+    const bool is_header = text.empty() || text.front() == '#';
+    if (!is_header && !is_frame(text)) {
+      throw IoError(fmt::format("framehash: '{}': line {} is no hash of a frame", path, number));
+    }
+    if (number > kMaxHashes) {
+      throw IoError(fmt::format("framehash: '{}' has more than {} lines", path, kMaxHashes));
+    }
+    if (!text.empty()) (is_header ? result.header : result.frames).push_back(text);
+  }
+  if (!file.eof() || result.header.empty()) {
+    throw IoError(fmt::format("framehash: '{}' is no file of hashes", path));
+  }
+  return result;
+}
+
+}  // namespace piblocks

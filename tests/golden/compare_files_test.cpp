@@ -1,0 +1,272 @@
+// compare_files(): which pictures are compared with which, and what becomes of all the others.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <piblocks/compare.hpp>
+#include <piblocks/error.hpp>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "golden/shown_frames.hpp"
+#include "media/png/png_chunk.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace piblocks {
+namespace {
+namespace fs = std::filesystem;
+using testing_support::TemporaryFolder;
+
+using Lines = std::vector<std::string>;
+
+class CompareFilesTest : public testing::Test {
+ protected:
+  /// A picture of one colour. Missing folders are made.
+  void picture(const std::string& name, std::uint32_t word = 0xff204060, int width_px = 4) const {
+    const fs::path path = folder_ / name;
+    fs::create_directories(path.parent_path());
+    const Bytes bytes = encode_png_samples(
+        {width_px, 4, std::vector<std::uint32_t>(std::size_t(width_px) * 4, word)});
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+  }
+  void pictures(const std::vector<std::string>& names) const {
+    for (const std::string& name : names) picture(name);
+  }
+  void text(const std::string& name, const std::string& text) const {
+    fs::create_directories(fs::path(folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << text;
+  }
+  ComparisonJob job(const std::string& reference, const std::string& actual) const {
+    return {folder_ / reference, folder_ / actual};
+  }
+  /// "NAME OUTCOME" for each row.
+  Lines rows(const ComparisonJob& job) {
+    Lines lines;
+    result_ = compare_files(job, [&](const FrameComparison& row) {
+      EXPECT_EQ(row.number, static_cast<std::int64_t>(lines.size()));
+      lines.push_back(row.name + " " + name_of(row.outcome));
+      problems_ += row.problem + "\n";
+    });
+    EXPECT_EQ(result_.total(), static_cast<std::int64_t>(lines.size()));
+    return lines;
+  }
+  Lines rows(const std::string& reference, const std::string& actual) {
+    return rows(job(reference, actual));
+  }
+
+  TemporaryFolder folder_;
+  ComparisonResult result_;
+  std::string problems_;
+};
+
+TEST_F(CompareFilesTest, FoldersArePairedByName) {
+  picture("a/a.png", 0xffff0000);
+  picture("a/b.png", 0xff00ff00);
+  picture("b/b.png", 0xffff0000);
+  picture("b/c.png", 0xff00ff00);
+  EXPECT_EQ(rows("a", "b"), (Lines{"a.png missing", "b.png different", "c.png new"}));
+  EXPECT_EQ(result_.worst(), Outcome::missing);
+  EXPECT_EQ(result_.reference_frames, 2);
+  EXPECT_EQ(result_.actual_frames, 2);
+}
+
+TEST_F(CompareFilesTest, OneMorePictureShiftsNothing) {
+  pictures({"a/1.png", "a/2.png", "a/10.png", "b/0.png", "b/1.png", "b/2.png", "b/10.png"});
+  EXPECT_EQ(rows("a", "b"), (Lines{"0.png new", "1.png equal", "2.png equal", "10.png equal"}));
+  EXPECT_EQ(rows("b", "a")[0], "0.png missing");
+}
+
+TEST_F(CompareFilesTest, FoldersInFoldersAreCompared) {
+  pictures({"a/x.png", "a/s/x.png", "a/s/t/y.png", "b/x.png", "b/s/t/y.png", "b/u/x.png"});
+  picture("a/p.png/x.png");  // a folder may be called so
+  picture("b/p.png");
+  EXPECT_EQ(rows("a", "b"), (Lines{"p.png new", "p.png/x.png missing", "s/t/y.png equal",
+                                   "s/x.png missing", "u/x.png new", "x.png equal"}));
+  ComparisonJob flat = job("a", "b");
+  flat.is_recursive = false;
+  EXPECT_EQ(rows(flat), (Lines{"p.png new", "x.png equal"}));
+}
+
+TEST_F(CompareFilesTest, LinksAreFollowedButNotForEver) {
+  pictures({"a/x.png", "b/x.png", "c/y.png", "a/d/y.png"});
+  fs::create_directory_symlink(folder_ / "c", folder_ / "b/d");
+  EXPECT_EQ(rows("a", "b"), (Lines{"d/y.png equal", "x.png equal"}));
+  fs::create_directory_symlink("..", folder_ / "c/up");
+  fs::create_directory_symlink(".", folder_ / "b/again");
+  EXPECT_EQ(result_.count(Outcome::unreadable), 0);
+  rows("a", "b");
+  EXPECT_GT(result_.count(Outcome::unreadable), 0);
+  EXPECT_NE(problems_.find("it leads back to a folder that it is in"), std::string::npos);
+}
+
+TEST_F(CompareFilesTest, PatternsArePairedByNumber) {
+  pictures({"a/7x.png", "a/8x.png", "a/10x.png", "b/0008x.png", "b/0010x.png", "b/0011x.png",
+            "b/x.png", "b/12x.png"});
+  const Lines expected = {"7x.png missing", "8x.png and 0008x.png equal",
+                          "10x.png and 0010x.png equal", "0011x.png new"};
+  EXPECT_EQ(rows("a/%dx.png", "b/%04dx.png"), expected);
+  // A gap on both sides is none: nothing is expected there.
+  EXPECT_EQ(rows("a/%dx.png", "a/%dx.png"),
+            (Lines{"7x.png equal", "8x.png equal", "10x.png equal"}));
+  EXPECT_EQ(rows("a/%dx.png", "none/%d.png").size(), 3U);
+  EXPECT_EQ(result_.problem, fmt::format("there is no file of '{}'", folder_ / "none/%d.png"));
+}
+
+TEST_F(CompareFilesTest, APatternPairsThePicturesOfAFolderByTheirNumbers) {
+  pictures({"a/1.png", "a/2.png", "b/000001.png", "b/000002.png", "b/poster.png", "b/s/1.png"});
+  const Lines strangers = {"poster.png new", "s/1.png new"};
+  Lines expected = {"1.png and 000001.png equal", "2.png and 000002.png equal"};
+  expected.insert(expected.end(), strangers.begin(), strangers.end());
+  EXPECT_EQ(rows("a/%d.png", "b"), expected);
+  EXPECT_EQ(rows("b/%06d.png", "b"),
+            (Lines{"000001.png equal", "000002.png equal", "poster.png new", "s/1.png new"}));
+  EXPECT_EQ(rows("b", "a/%d.png")[0], "000001.png and 1.png equal");
+  // Of two names with one number, that of the pattern's shape has it.
+  pictures({"c/01.png", "c/1.png"});
+  EXPECT_EQ(rows("a/%d.png", "c"), (Lines{"1.png equal", "2.png missing", "01.png new"}));
+}
+
+TEST_F(CompareFilesTest, AFileIsPairedByItsNameUnlessBothAreNamed) {
+  pictures({"a/1.png", "b/1.png", "b/2.png", "c.png"});
+  EXPECT_EQ(rows("a/1.png", "c.png"), (Lines{"1.png and c.png equal"}));
+  EXPECT_EQ(rows("a/1.png", "b"), (Lines{"1.png equal", "2.png new"}));
+  EXPECT_EQ(rows("b/%d.png", "a/1.png"), (Lines{"1.png equal", "2.png missing"}));
+  EXPECT_EQ(rows("c.png", "b"), (Lines{"1.png new", "2.png new", "c.png missing"}));
+  EXPECT_NE(result_.problem.find("has the name of one of"), std::string::npos) << result_.problem;
+}
+
+TEST_F(CompareFilesTest, TheComparisonGoesOnAfterWhateverIsFound) {
+  pictures({"a/1.png", "a/2.png", "a/3.png", "a/4.png", "a/6.png", "b/6.png"});
+  picture("b/1.png", 0xff204060, 5);
+  text("b/2.png", "no picture");
+  picture("b/3.png", 0xff204061);
+  pictures({"b/4.png"});
+  text("a/5.png", "");
+  picture("b/5.png");
+  ASSERT_EQ(::mkfifo((folder_ / "a/7.png").c_str(), 0600), 0);
+  picture("b/7.png");
+  fs::create_symlink("nowhere", folder_ / "b/8.png");
+  EXPECT_EQ(rows("a", "b"),
+            (Lines{"1.png not comparable", "2.png unreadable", "3.png different", "4.png equal",
+                   "5.png unreadable", "6.png equal", "7.png unreadable", "8.png unreadable"}));
+  EXPECT_NE(problems_.find("another size: 5x4 instead of 4x4"), std::string::npos) << problems_;
+  EXPECT_NE(problems_.find("it is no regular file"), std::string::npos) << problems_;
+  EXPECT_EQ(result_.worst(), Outcome::unreadable);
+}
+
+TEST_F(CompareFilesTest, NothingIsNotEqualToNothing) {
+  fs::create_directories(folder_ / "a");
+  fs::create_directories(folder_ / "b");
+  for (const auto& [reference, actual] :
+       {std::pair{"a", "b"}, {"a/%d.png", "b"}, {"none.png", "nor.mp4"}}) {
+    EXPECT_EQ(rows(reference, actual), Lines{fmt::format("{} missing", folder_ / actual)});
+    EXPECT_NE(result_.problem, "");
+    EXPECT_EQ(result_.actual_frames, 0);
+  }
+}
+
+TEST_F(CompareFilesTest, AlphaAloneIsADifferenceThatItsPicturesKeep) {
+  picture("a.png", 0x00000000);
+  picture("b.png", 0xff000000);
+  Image reference;
+  Image actual;
+  compare_files(job("a.png", "b.png"), [&](const FrameComparison& row) {
+    EXPECT_EQ(row.outcome, Outcome::different);
+    reference = row.reference();
+    actual = row.actual();
+  });
+  EXPECT_EQ(reference.words.at(0), 0x00000000U);
+  EXPECT_EQ(actual.words.at(0), 0xff000000U);
+}
+
+/// So are colours behind alpha, which another encoder would round.
+TEST_F(CompareFilesTest, PicturesOfReportsKeepEverySample) {
+  Image picture{16, 256, {}};
+  for (std::uint32_t i = 0; i < 16 * 256; ++i) picture.words.push_back(i * 0x01234567U + i % 7);
+  const Bytes bytes = encode_png_samples(picture);
+  std::ofstream(folder_ / "a.png", std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+  std::vector<std::uint32_t> words;
+  compare_files(job("a.png", "a.png"),
+                [&](const FrameComparison& row) { words = row.reference().words; });
+  EXPECT_EQ(words, picture.words);
+}
+
+TEST_F(CompareFilesTest, WhatAMaskHidesIsCounted) {
+  picture("a.png", 0xff000000);
+  picture("b.png", 0xff0000ff);
+  ComparisonJob masked = job("a.png", "b.png");
+  masked.masks = {{0, 0, 3, 4}};
+  EXPECT_EQ(rows(masked), Lines{"a.png and b.png different"});
+  EXPECT_EQ(result_.masked_frames, 1);
+  masked.tolerance.max_delta = 255;
+  EXPECT_EQ(rows(masked), Lines{"a.png and b.png accepted"});
+  EXPECT_EQ(result_.different_frames, 1);
+}
+
+/// Each picture has to be looked at somewhere, and each mask has to hide something of one.
+TEST_F(CompareFilesTest, MasksAreCheckedAgainstEachSize) {
+  pictures({"a/1.png", "b/1.png"});
+  picture("a/2.png", 0xff204060, 8);
+  picture("b/2.png", 0xff204060, 8);
+  ComparisonJob masked = job("a", "b");
+  const auto is_usage = [&](std::vector<PixelRect> masks) {
+    masked.masks = std::move(masks);
+    try {
+      rows(masked);
+      return false;
+    } catch (const UsageError&) {
+      return true;
+    }
+  };
+  EXPECT_TRUE(is_usage({{0, 0, 8, 4}}));
+  EXPECT_TRUE(is_usage({{0, 0, 4, 4}})) << "all of the smaller one";
+  EXPECT_TRUE(is_usage({{0, 0, 2, 4}, {2, 0, 9, 9}})) << "together";
+  EXPECT_TRUE(is_usage({{0, 0, 4, 2}, {0, 2, 4, 1}, {0, 3, 4, 1}})) << "together";
+  EXPECT_TRUE(is_usage({{8, 0, 1, 1}}));
+  EXPECT_TRUE(is_usage({{0, 0, 1, 1}, {0, 4, 1, 1}}));
+  EXPECT_FALSE(is_usage({{7, 0, 1, 1}})) << "inside of one picture";
+  EXPECT_FALSE(is_usage({{3, 3, 99, 99}})) << "partly outside";
+  EXPECT_FALSE(is_usage({{0, 0, 4, 2}, {0, 3, 4, 1}})) << "a row is left";
+}
+
+TEST_F(CompareFilesTest, HashesOfAnyNumberAreCompared) {
+  const std::string header = "#format: frame checksums\n";
+  text("a.framehash", header + "0,0,0,1,1,aa\n0,1,1,1,1,bb\n");
+  text("b.framehash", header + "0,0,0,1,1,aa\n0,1,1,1,1,bc\n0,2,2,1,1,dd\n");
+  text("c.framehash", "#dimensions 0: 8x8\n0,0,0,1,1,aa\n");
+  EXPECT_EQ(rows("a.framehash", "b.framehash"),
+            (Lines{"frame 0 equal", "frame 1 different", "frame 2 new"}));
+  EXPECT_EQ(rows("b.framehash", "a.framehash")[2], "frame 2 missing");
+  EXPECT_EQ(rows("a.framehash", "c.framehash"),
+            (Lines{"header not comparable", "frame 0 equal", "frame 1 missing"}));
+  EXPECT_EQ(rows("none.framehash", "c.framehash"), Lines{"frame 0 new"});
+  EXPECT_EQ(result_.reference_frames, 0);
+  text("d.framehash", "junk\n");
+  EXPECT_EQ(rows("a.framehash", "d.framehash"), Lines{"d.framehash unreadable"});
+}
+
+TEST(ShownFrames, TheMostSevereComeFirstAndTheFirstOfThese) {
+  ShownFrames<int> shown;
+  std::vector<int> left;
+  const auto add = [&](Outcome outcome, int number) {
+    if (const auto item = shown.add(outcome, number)) left.push_back(item->item);
+  };
+  const int most = static_cast<int>(kMaxShown);
+  for (int i = 0; i < most + 2; ++i) add(Outcome::accepted, i);
+  EXPECT_EQ(left, (std::vector{most, most + 1}));
+  add(Outcome::different, 100);
+  add(Outcome::unreadable, 101);
+  add(Outcome::different, 102);
+  EXPECT_EQ(left, (std::vector{most, most + 1, most - 1, most - 2, most - 3}));
+  EXPECT_FALSE(shown.takes(Outcome::accepted));
+  std::vector<int> order;
+  shown.for_each([&](Outcome /*outcome*/, int number) { order.push_back(number); });
+  EXPECT_EQ(order.size(), kMaxShown);
+  EXPECT_EQ(std::vector(order.begin(), order.begin() + 4), (std::vector{101, 100, 102, 0}));
+}
+
+}  // namespace
+}  // namespace piblocks
