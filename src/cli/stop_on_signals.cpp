@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "cli/command.hpp"
+#include "core/threads.hpp"
 #include "core/waiting_thread.hpp"
 
 namespace piblocks::cli {
@@ -95,8 +96,10 @@ StopOnSignals::StopOnSignals() : signals_(stop_signals()) {
   // The thread is born with all of them blocked: it takes them by sigwait().
   const sigset_t all = with_break_off(signals_);
   ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
-  waiter_ = std::thread([this] {
-    if (wait_for_signal()) wait_for_end();
+  waiter_ = start_thread([this] {
+    return std::thread([this] {
+      if (wait_for_signal()) wait_for_end();
+    });
   });
   sigset_t none;
   sigemptyset(&none);

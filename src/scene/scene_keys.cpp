@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/nearest_name.hpp"
+#include "core/text.hpp"
 #include "core/whole_number.hpp"
 #include "scene/body_keys.hpp"
 
@@ -55,7 +56,7 @@ std::vector<Value> parse_each(const Values& values, Value (*parse)(std::string_v
     try {
       parsed.push_back(parse(value));
     } catch (const UsageError& error) {
-      throw UsageError(fmt::format("'{}' {}", value, error.what()));
+      throw UsageError(fmt::format("'{}' {}", shortened(value), error.what()));
     }
   }
   return parsed;
@@ -237,7 +238,8 @@ const std::string& single(const Values& values) {
 
 std::string joined(const Values& values) {
   if (values == Values{""}) return "''";
-  return values.size() == 1 ? values.front() : fmt::format("[{}]", fmt::join(values, ", "));
+  return shortened(values.size() == 1 ? values.front()
+                                      : fmt::format("[{}]", fmt::join(values, ", ")));
 }
 
 std::vector<std::pair<std::string, std::string>> describe(const Scene& scene) {

@@ -349,6 +349,12 @@ TEST(Schedule, RefusesWhatCannotBe) {
   EXPECT_TRUE(problem({{"time.duration", "0.01"}})
                   .starts_with("time.duration = 1/100: is shorter than two frames; "));
   EXPECT_EQ(problem({{"time.duration", "0.01"}, {"time.to", "9"}}), "accepted");
+  for (const char* to : {"last", "9"}) {
+    EXPECT_TRUE(problem({{"time.duration", "1e-9"}, {"time.loop", "true"}, {"time.to", to}})
+                    .starts_with("time.duration = 1/1000000000: is shorter than two frames, "));
+    EXPECT_EQ(problem({{"time.duration", "2/60"}, {"time.loop", "true"}, {"time.to", to}}),
+              "accepted");
+  }
 }
 
 TEST(Pacing, TextsReadBackAsTheSame) {
