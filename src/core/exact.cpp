@@ -2,6 +2,7 @@
 #include <piblocks/error.hpp>
 #include <piblocks/exact.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -21,22 +22,23 @@ constexpr double kBitsPerDigit = 3.3219280948873626;  // log2(10)
                                std::floor(double(max_bits) / kBitsPerDigit)));
 }
 
-/// The logarithm of the larger one of numerator and denominator.
-double log2_of(const Rational& value) {
-  double largest = 0;
-  for (const mpz_class& part : {value.get_num(), value.get_den()}) {
-    long exponent = 0;
-    const double mantissa = std::fabs(mpz_get_d_2exp(&exponent, part.get_mpz_t()));
-    if (mantissa > 0) largest = std::max(largest, std::log2(mantissa) + double(exponent));
-  }
-  return largest;
+/// Of the longer one of numerator and denominator.
+std::size_t bits_of(const Rational& value) {
+  return std::max(mpz_sizeinbase(value.get_num_mpz_t(), 2),
+                  mpz_sizeinbase(value.get_den_mpz_t(), 2));
+}
+
+void check_length(const Rational& value, std::int64_t max_bits) {
+  if (bits_of(value) > std::size_t(max_bits)) fail_too_long(max_bits);
 }
 
 Rational power_within(std::int64_t max_bits, const Rational& base, unsigned long exponent) {
-  if (log2_of(base) * double(exponent) > double(max_bits)) fail_too_long(max_bits);
+  // It has at least so many bits, and at most twice as many unless the base is 0 or 1.
+  if (double(bits_of(base) - 1) * double(exponent) >= double(max_bits)) fail_too_long(max_bits);
   Rational result;
   mpz_pow_ui(result.get_num_mpz_t(), base.get_num_mpz_t(), exponent);
   mpz_pow_ui(result.get_den_mpz_t(), base.get_den_mpz_t(), exponent);
+  check_length(result, max_bits);
   return result;  // powers of coprime numbers are coprime: still in lowest terms
 }
 
@@ -53,7 +55,7 @@ class NumberReader {
       value /= divisor;
     }
     if (!rest_.empty()) throw UsageError(kNotANumber);
-    if (log2_of(value) > double(max_bits_)) fail_too_long(max_bits_);
+    check_length(value, max_bits_);
     return value;
   }
 
