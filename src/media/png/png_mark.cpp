@@ -1,12 +1,16 @@
 #include "media/png/png_mark.hpp"
 
+#include <piblocks/error.hpp>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
 #include <fstream>
 #include <string>
 #include <string_view>
 #include <system_error>
 
+#include "core/descriptor.hpp"
 #include "media/png/png_chunk.hpp"
 
 namespace piblocks {
@@ -46,6 +50,9 @@ bool has_png_mark(const fs::path& path, PngMark mark) {
   std::ifstream file(path, std::ios::binary);
   file.seekg(kMark_at);
   file.read(found.data(), static_cast<std::streamsize>(found.size()));
+  if (file.bad()) {
+    throw IoError("png: cannot read '" + path.string() + "': " + error_text(errno));
+  }
   return file && std::ranges::equal(found, expected, [](char a, std::uint8_t b) {
            return static_cast<std::uint8_t>(a) == b;
          });

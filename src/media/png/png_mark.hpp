@@ -17,8 +17,8 @@ enum class PngMark {
 /// @param png  with a header as append_png_header() makes it
 Bytes with_png_mark(ByteSpan png, PngMark mark);
 
-/// Whether this is a file, not a symbolic link, that with_png_mark() made. False if it cannot be
-/// read.
+/// Whether this is a file, not a symbolic link, that with_png_mark() made. False if this user may
+/// not read it. @throws IoError if reading fails.
 bool has_png_mark(const std::filesystem::path& path, PngMark mark);
 
 }  // namespace piblocks
