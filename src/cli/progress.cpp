@@ -58,8 +58,8 @@ void print_methods(const std::vector<std::string>& methods) {
 
 }  // namespace
 
-ProgressReport::ProgressReport(std::string output, bool quiet)
-    : output_(std::move(output)), quiet_(quiet), on_terminal_(is_on_terminal()) {}
+ProgressReport::ProgressReport(std::string output, bool quiet, CountedWork work)
+    : output_(std::move(output)), quiet_(quiet), work_(work), on_terminal_(is_on_terminal()) {}
 
 ProgressReport::~ProgressReport() {
   if (bar_visible_) say(kClearLine);
@@ -74,7 +74,8 @@ void ProgressReport::update(const Progress& progress) {
   const auto now = Clock::now();
   const Clock::duration interval = on_terminal_ ? Clock::duration(kBarInterval) : kLineInterval;
   const bool is_first_bar = on_terminal_ && !bar_visible_;
-  if (quiet_ || (!is_first_bar && now - last_shown_ < interval)) return;
+  if (quiet_ || now - start_ < work_.delay || (!is_first_bar && now - last_shown_ < interval))
+    return;
   last_shown_ = now;
   if (on_terminal_) {
     draw_bar();
@@ -94,15 +95,15 @@ void ProgressReport::draw_bar() const {
   if (progress_.frames_done > 0) {  // otherwise there is no rate to judge by
     const double rate = double(progress_.frames_done) / elapsed_s();
     const double left_s = double(progress_.frame_count - progress_.frames_done) / rate;
-    line += fmt::format("  {:.0f} frames/s  {} left", rate, minutes_and_seconds(left_s));
+    line += fmt::format("  {:.0f} {}/s  {} left", rate, work_.unit, minutes_and_seconds(left_s));
   }
   say(kClearLine);
   say("{}", std::string_view(line).substr(0, columns()));
 }
 
 void ProgressReport::print_line() const {
-  say("{} of {} frames, {:.0f} frames/s\n", progress_.frames_done, progress_.frame_count,
-      double(progress_.frames_done) / elapsed_s());
+  say("{} of {} {}, {:.0f} {}/s\n", progress_.frames_done, progress_.frame_count, work_.unit,
+      double(progress_.frames_done) / elapsed_s(), work_.unit);
 }
 
 void ProgressReport::finish(const std::string& aftermath) {

@@ -7,12 +7,19 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 
 namespace piblocks::cli {
 
+/// What is counted, and after how long the bar appears: at once, or only if it takes a while.
+struct CountedWork {
+  std::string_view unit = "frames";
+  std::chrono::milliseconds delay{0};
+};
+
 class ProgressReport {
  public:
-  ProgressReport(std::string output, bool quiet);
+  ProgressReport(std::string output, bool quiet, CountedWork work = {});
   ~ProgressReport();
   ProgressReport(const ProgressReport&) = delete;
   ProgressReport& operator=(const ProgressReport&) = delete;
@@ -30,6 +37,7 @@ class ProgressReport {
 
   const std::string output_;
   const bool quiet_;
+  const CountedWork work_;
   const bool on_terminal_;
   const Clock::time_point start_ = Clock::now();
   Clock::time_point last_shown_ = start_;

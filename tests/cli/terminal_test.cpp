@@ -60,6 +60,20 @@ TEST_F(TerminalTest, ThatIsDumbGetsNoEscapeSequences) {
   EXPECT_TRUE(result.err.starts_with("null: 742 frames in ")) << result.err;
 }
 
+TEST_F(TerminalTest, ShowsHowFarALogHasComeIfItTakesAWhile) {
+  const auto said = [&](const char* rows) {
+    return RunningCommand(
+               {"log", "--digits", "8", "--limit", rows},
+               {.folder = folder_.path(), .out_file = "/dev/null", .err_is_terminal = true})
+        .wait()
+        .err;
+  };
+  EXPECT_EQ(said("1000"), "");
+  const std::string err = said("30e6");
+  EXPECT_NE(err.find(" rows/s  "), std::string::npos) << err;
+  EXPECT_TRUE(err.ends_with("\r\x1b[K")) << err;
+}
+
 TEST_F(TerminalTest, AnErrorDoesNotStandBesideTheBar) {
   std::filesystem::create_directory(folder_ / "1.png");
   const Arguments render{"render", "--size", "64x36", "--fps", "10", "--to", "1", "-o", "%d.png"};
