@@ -64,14 +64,21 @@ name_parts() {
   done
 }
 
+# Whether the program has made this file as a part.
+is_part() {
+  [[ $(head -c 14 -- "$1" | tr -d '\0') == "piblocks part " ]]
+}
+
 # choose_parts RESUME: sets `wanted` to the numbers of the parts to be rendered. A part appears
 # under its name only when it is complete, so with RESUME (true or false) those that are there are
 # done. Without it none may be left from an earlier run, or a later resumption would take it.
 choose_parts() {
   local part
   wanted=()
-  $1 || rm -f -- "${part_files[@]}"
   for part in "${!part_files[@]}"; do
+    [[ ! -e ${part_files[part]} ]] || is_part "${part_files[part]}" ||
+      fail "'${part_files[part]}' is there, and no part file; use another name, or move it away"
+    $1 || rm -f -- "${part_files[part]}"
     [[ -e ${part_files[part]} ]] || wanted+=("$part")
   done
 }

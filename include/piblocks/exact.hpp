@@ -15,8 +15,12 @@ namespace piblocks {
 using Integer = mpz_class;   ///< a count or an index of collisions
 using Rational = mpq_class;  ///< a mass, length, velocity or time, in lowest terms
 
-/// Longest numerator or denominator that parse_rational() accepts, in bits.
-inline constexpr std::int64_t kMaxRationalBits = 4'000'000;
+/// Longest numerator or denominator of a number that is given, in bits: 4932 decimal digits. Times,
+/// lengths and velocities meet in sums and products, which are to take a moment.
+inline constexpr std::int64_t kMaxRationalBits = 16'384;
+/// The same of a block's mass, which only counts collisions: 36^199998, the mass ratio of 100,000
+/// digits in base 36, has 1,033,987 bits.
+inline constexpr std::int64_t kMaxMassBits = 1'050'000;
 
 /// GMP takes a long, which is another type than std::int64_t on some systems.
 inline Integer to_integer(std::int64_t value) {
@@ -28,7 +32,7 @@ inline Integer to_integer(std::int64_t value) {
 /// fraction and power of ten, and EXPONENT an integer; the two forms combine: "100^7/3". A power
 /// binds more closely than a sign: "-2^2" is -4.
 /// @throws UsageError saying what is wrong with the text, or that it is longer than the limit.
-Rational parse_rational(std::string_view text);
+Rational parse_rational(std::string_view text, std::int64_t max_bits = kMaxRationalBits);
 
 /// The shortest decimal that reads back as `value`, so that 0.1 is 1/10.
 /// @throws UsageError if value is not finite.
@@ -43,7 +47,7 @@ double to_double(const Rational& value);
 Integer ceil(const Rational& value);
 Integer floor(const Rational& value);
 
-/// base^exponent for exponent >= 0.
+/// base^exponent for exponent >= 0. @throws UsageError if that is longer than kMaxMassBits.
 Rational power(const Rational& base, unsigned long exponent);
 
 /// The integer with a comma between groups of three digits: 3,141,592.

@@ -52,6 +52,9 @@ struct RenderJob {
   std::optional<Bundle> bundle = {};
   /// Renders nothing if more flashes than this would be seen within a second (WCAG 2.3.1: 3), >= 1.
   std::optional<int> max_flashes = {};
+  /// Files whose names the output makes (pictures of a sequence, files of a bundle, a shard)
+  /// replace those of an earlier run. Whether they may replace other files too.
+  bool overwrite = false;
 };
 
 /// What the work on a frame consists of, in this order; sound is both made and encoded in one.
@@ -74,6 +77,9 @@ struct Rendered {
   Profile profile;  ///< zero unless asked for
   /// What a user should know of the output, one line each: players that may not show it.
   std::vector<std::string> notes = {};
+  /// What became of the files of an earlier output, such as "removed 12 pictures of an earlier
+  /// run"; usually empty.
+  std::string aftermath = {};
 };
 
 struct Progress {
@@ -94,11 +100,12 @@ std::string shard_name(const std::string& output, const Shard& shard);
 /// Joins the files of all shards, in any order, to the output that one rendering would have made,
 /// byte for byte.
 /// @param output  of the same kind as the shards were rendered for; none of their files.
-/// @return the number of frames.
+/// @param overwrite  as RenderJob's.
+/// @return frames and aftermath.
 /// @throws UsageError if a part is missing, given twice or of another job; MediaError, IoError,
 ///         Interrupted
-std::int64_t join(const std::vector<std::string>& parts, const std::string& output,
-                  const std::stop_token& stop = {});
+Rendered join(const std::vector<std::string>& parts, const std::string& output,
+              const std::stop_token& stop = {}, bool overwrite = false);
 
 /// Renders one instant to a `.png`, `.svg` or `.pdf` file, or to standard output as PNG for "-".
 /// The picture is that of the film's first frame that shows the instant. In a storyboard an instant

@@ -1,15 +1,18 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
+#include <unistd.h>
 
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "cli/body_output.hpp"
 #include "cli/command.hpp"
 #include "cli/log_rows.hpp"
 #include "cli/options.hpp"
+#include "cli/progress.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/state_text.hpp"
 #include "cli/stop_on_signals.hpp"
@@ -109,14 +112,35 @@ std::string format_name(const Command& options) {
   return *named;
 }
 
+/// How many rows have been written: a bar where it takes more than a second, unless the rows
+/// themselves are on the terminal.
+class RowProgress {
+ public:
+  RowProgress(const std::string& output, const Rows& rows)
+      : report_(output, output == "-" && isatty(STDOUT_FILENO) == 1,
+                {.unit = "rows", .delay = std::chrono::seconds(1)}),
+        count_(rows.count().fits_slong_p() ? rows.count().get_si() : 0) {}
+
+  void add(std::int64_t rows) {
+    done_ += rows;
+    if (count_ > 0) report_.update({done_, count_});
+  }
+
+ private:
+  ProgressReport report_;
+  std::int64_t count_;  // 0 if there are more than can be written
+  std::int64_t done_ = 0;
+};
+
 /// @throws Interrupted soon after the token asks for it.
 void write(CollisionStream& collisions, const LogFormat& format, OutputFile& file,
-           const std::stop_token& stop) {
+           RowProgress& progress, const std::stop_token& stop) {
   fmt::memory_buffer rows;
   for (CollisionBatch batch{}; collisions.read(batch); rows.clear()) {
     if (stop.stop_requested()) throw Interrupted("log: interrupted");
     format.append(batch, rows);
     file.write(std::string_view(rows.data(), rows.size()));
+    progress.add(std::int64_t(batch.size));
   }
 }
 
@@ -130,11 +154,15 @@ void log_bodies(const Scene& scene, const Command& options) {
   const StopOnSignals signals;
   OutputFile file(output_of(options), format.is_binary ? Contents::bytes : Contents::text);
   file.write(format.header(log.system(), rows));
+  RowProgress progress(output_of(options), rows);
+  std::int64_t pending = 0;
   fmt::memory_buffer text;
   constexpr std::size_t kPiece_bytes = 1 << 16;
   for (Integer index = rows.first; index <= rows.last; ++index) {
     format.append(log.system(), log.collision(index), text);
+    ++pending;
     if (text.size() < kPiece_bytes && index != rows.last) continue;
+    progress.add(std::exchange(pending, 0));
     if (signals.token().stop_requested()) throw Interrupted("log: interrupted");
     file.write(std::string_view(text.data(), text.size()));
     text.clear();
@@ -155,7 +183,10 @@ void run_log(const Command& options, const SceneOptions& scene_options) {
   const StopOnSignals signals;
   OutputFile file(output_of(options), format.contents);
   file.write(header);
-  write(*log->stream(rows.first, rows.last), format, file, signals.token());
+  {
+    RowProgress progress(output_of(options), rows);
+    write(*log->stream(rows.first, rows.last), format, file, progress, signals.token());
+  }
   file.finish();
   if (const auto note = endless_note(scene)) say("piblocks: note: {}\n", *note);
   note_convention(scene);

@@ -30,7 +30,7 @@ void run_render(const Command& options, const SceneOptions& scene) {
   ProgressReport report(name_of(job), quiet);
   const Rendered rendered = render(
       job, [&](const Progress& progress) { report.update(progress); }, signals.token());
-  report.finish();
+  report.finish(rendered.aftermath);
   if (job.profile) print_profile(rendered);
   if (quiet) return;
   for (const std::string& note : rendered.notes) say("piblocks: note: {}\n", note);
@@ -45,9 +45,16 @@ void add_encoder_options(Command& command) {
                    "Smallest MP4, by libx264: under half the size, and many\ntimes the time");
 }
 
+void add_overwrite(Command& command) {
+  command.add_flag("--overwrite",
+                   "Let pictures of a sequence, and files of --bundle and --part,\n"
+                   "replace files that no earlier run has made");
+}
+
 void add_run_options(Command& command) {
   command.add_value("--jobs", "N",
-                    "Threads (default: one a processor); changes no byte of the output");
+                    "Threads (default: one for each processor that the process may\nuse); changes "
+                    "no byte of the output");
   command.add_value("--part", "I/N",
                     "Render the I-th of N shares to OUT.part-I-of-N,\nfor 'piblocks join'");
   command.add_value("--bundle", "DIR",
@@ -57,6 +64,7 @@ void add_run_options(Command& command) {
   command.add_value("--max-flashes", "N",
                     "Render nothing if the film would flash more than N times\n"
                     "within a second; 3 are held to be harmless (WCAG 2.3.1)");
+  add_overwrite(command);
   command.add_flag("--profile", "Print what each stage cost, on standard error");
   command.add_flag("--quiet", "Print nothing but errors, and what --profile asks for");
 }
@@ -66,10 +74,11 @@ void run_join(const Command& options) {
   refuse_terminal(options);
   const std::vector<std::string> parts = options.texts("PART");
   const std::string output = output_of(options);
-  const std::int64_t frames = join(parts, output, signals.token());
+  const Rendered joined = join(parts, output, signals.token(), options.is_given("--overwrite"));
   if (options.is_given("--quiet")) return;
-  say("{}: {} {} from {} {}\n", output == "-" ? "standard output" : output, frames,
-      frames == 1 ? "frame" : "frames", parts.size(), parts.size() == 1 ? "part" : "parts");
+  say("{}: {} {} from {} {}{}\n", output == "-" ? "standard output" : output, joined.frame_count,
+      joined.frame_count == 1 ? "frame" : "frames", parts.size(),
+      parts.size() == 1 ? "part" : "parts", after_semicolon(joined.aftermath));
 }
 
 }  // namespace
@@ -104,6 +113,7 @@ void add_join(Command& app) {
   Command command = app.add_command("join", "Join the parts of a rendering");
   command.add_arguments("PART", "Every file of 'render --part', in any order");
   command.add_required_value("-o,--output", "OUT", "The name that the parts were rendered for");
+  command.add_flag("--overwrite", "Let pictures of a sequence replace other files");
   command.add_flag("--quiet", "Print nothing but errors");
   command.set_footer(
       "Examples:\n"

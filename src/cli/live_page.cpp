@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <system_error>
 #include <vector>
 
 #include "core/descriptor.hpp"
@@ -32,9 +31,7 @@ std::vector<fs::path> candidates() {
   const fs::path binary = own_binary();
   if (binary.is_absolute()) {
     files.push_back(binary.parent_path() / ".." / folder / kPageFile);
-    // Only a folder where CMake builds has its cache.
-    std::error_code unknown;
-    if (fs::exists(binary.parent_path() / "CMakeCache.txt", unknown)) {
+    if (is_build_folder(binary.parent_path())) {
       files.push_back(binary.parent_path() / PIBLOCKS_PAGE_FROM_BUILD);
     }
   }

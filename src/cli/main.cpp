@@ -27,17 +27,22 @@ int fail(std::string_view message, int exit_code) {
   return exit_code;
 }
 
+[[noreturn]] void end_interrupted(std::string_view message) {
+  fail(message, kFailed);
+  piblocks::cli::end_by_signal();
+}
+
 int fail(const piblocks::UsageError& error) {
-  if (piblocks::cli::stop_was_requested()) return fail("interrupted", kFailed);
+  if (piblocks::cli::stop_was_requested()) end_interrupted("interrupted");
   for (const std::string& problem : error.problems()) fail(problem, kWrongUsage);
   return kWrongUsage;
 }
 
 int fail(const std::exception& error, int exit_code) {
+  if (!piblocks::cli::stop_was_requested()) return fail(error.what(), exit_code);
   // A call that was broken off fails for a reason that nobody needs to know.
-  const bool is_broken_off = piblocks::cli::stop_was_requested() &&
-                             dynamic_cast<const piblocks::Interrupted*>(&error) == nullptr;
-  return is_broken_off ? fail("interrupted", kFailed) : fail(error.what(), exit_code);
+  const bool says_so = dynamic_cast<const piblocks::Interrupted*>(&error) != nullptr;
+  end_interrupted(says_so ? error.what() : "interrupted");
 }
 
 /// GMP cannot pass an exception on: the process ends here.

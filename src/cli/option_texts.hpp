@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "core/text.hpp"
+
 namespace piblocks::cli {
 
 class OptionTexts {
@@ -32,7 +34,7 @@ class OptionTexts {
     try {
       return parse(*given);
     } catch (const UsageError& error) {
-      const std::string shown = given->empty() ? "''" : *given;
+      const std::string shown = given->empty() ? "''" : shortened(*given);
       throw UsageError(fmt::format("{} {}: {}", option, shown, error.what()));
     }
   }

@@ -1,10 +1,12 @@
 #include "cli/progress.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 #include <string_view>
 #include <utility>
@@ -17,6 +19,21 @@ namespace {
 constexpr std::chrono::milliseconds kBarInterval{100};
 constexpr std::chrono::seconds kLineInterval{5};
 constexpr fmt::string_view kClearLine = "\r\x1b[K";
+
+/// A terminal that obeys escape sequences.
+bool is_on_terminal() {
+  const char* const kind = std::getenv("TERM");  // NOLINT(concurrency-mt-unsafe): no thread sets it
+  const bool is_dumb = kind != nullptr && std::string_view(kind) == "dumb";
+  return !is_dumb && isatty(STDERR_FILENO) == 1;
+}
+
+/// The columns of the terminal, less one: a full line would wrap.
+std::size_t columns() {
+  winsize size{};
+  constexpr std::size_t kUsual = 80;
+  const bool is_known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return (is_known ? size.ws_col : kUsual) - 1;
+}
 
 std::string minutes_and_seconds(double duration_s) {
   const auto whole = static_cast<long>(std::lround(duration_s));
@@ -41,8 +58,8 @@ void print_methods(const std::vector<std::string>& methods) {
 
 }  // namespace
 
-ProgressReport::ProgressReport(std::string output, bool quiet)
-    : output_(std::move(output)), quiet_(quiet), on_terminal_(isatty(STDERR_FILENO) == 1) {}
+ProgressReport::ProgressReport(std::string output, bool quiet, CountedWork work)
+    : output_(std::move(output)), quiet_(quiet), work_(work), on_terminal_(is_on_terminal()) {}
 
 ProgressReport::~ProgressReport() {
   if (bar_visible_) say(kClearLine);
@@ -57,7 +74,8 @@ void ProgressReport::update(const Progress& progress) {
   const auto now = Clock::now();
   const Clock::duration interval = on_terminal_ ? Clock::duration(kBarInterval) : kLineInterval;
   const bool is_first_bar = on_terminal_ && !bar_visible_;
-  if (quiet_ || (!is_first_bar && now - last_shown_ < interval)) return;
+  if (quiet_ || now - start_ < work_.delay || (!is_first_bar && now - last_shown_ < interval))
+    return;
   last_shown_ = now;
   if (on_terminal_) {
     draw_bar();
@@ -72,26 +90,29 @@ void ProgressReport::draw_bar() const {
   const bool is_done = progress_.frames_done == progress_.frame_count;
   const double share = is_done ? 1 : double(progress_.frames_done) / double(progress_.frame_count);
   const int filled = static_cast<int>(share * kWidth);
+  std::string line = fmt::format("[{:=<{}}{: <{}}] {:3.0f} %", "", filled, "", kWidth - filled,
+                                 std::floor(100 * share));
+  if (progress_.frames_done > 0) {  // otherwise there is no rate to judge by
+    const double rate = double(progress_.frames_done) / elapsed_s();
+    const double left_s = double(progress_.frame_count - progress_.frames_done) / rate;
+    line += fmt::format("  {:.0f} {}/s  {} left", rate, work_.unit, minutes_and_seconds(left_s));
+  }
   say(kClearLine);
-  say("[{:=<{}}{: <{}}] {:3.0f} %", "", filled, "", kWidth - filled, std::floor(100 * share));
-  if (progress_.frames_done == 0) return;  // no rate to judge by yet
-  const double rate = double(progress_.frames_done) / elapsed_s();
-  const double left_s = double(progress_.frame_count - progress_.frames_done) / rate;
-  say("  {:.0f} frames/s  {} left", rate, minutes_and_seconds(left_s));
+  say("{}", std::string_view(line).substr(0, columns()));
 }
 
 void ProgressReport::print_line() const {
-  say("{} of {} frames, {:.0f} frames/s\n", progress_.frames_done, progress_.frame_count,
-      double(progress_.frames_done) / elapsed_s());
+  say("{} of {} {}, {:.0f} {}/s\n", progress_.frames_done, progress_.frame_count, work_.unit,
+      double(progress_.frames_done) / elapsed_s(), work_.unit);
 }
 
-void ProgressReport::finish() {
+void ProgressReport::finish(const std::string& aftermath) {
   if (quiet_) return;
   if (std::exchange(bar_visible_, false)) say(kClearLine);
   const double duration_s = elapsed_s();
-  say("{}: {} {} in {:.2f} s ({:.0f} frames/s)\n", subject(output_), progress_.frame_count,
+  say("{}: {} {} in {:.2f} s ({:.0f} frames/s){}\n", subject(output_), progress_.frame_count,
       progress_.frame_count == 1 ? "frame" : "frames", duration_s,
-      double(progress_.frame_count) / duration_s);
+      double(progress_.frame_count) / duration_s, after_semicolon(aftermath));
 }
 
 void print_profile(const Rendered& rendered) {

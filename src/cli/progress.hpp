@@ -7,19 +7,26 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 
 namespace piblocks::cli {
 
+/// What is counted, and after how long the bar appears: at once, or only if it takes a while.
+struct CountedWork {
+  std::string_view unit = "frames";
+  std::chrono::milliseconds delay{0};
+};
+
 class ProgressReport {
  public:
-  ProgressReport(std::string output, bool quiet);
+  ProgressReport(std::string output, bool quiet, CountedWork work = {});
   ~ProgressReport();
   ProgressReport(const ProgressReport&) = delete;
   ProgressReport& operator=(const ProgressReport&) = delete;
 
   void update(const Progress& progress);
-  /// Says what has been written.
-  void finish();
+  /// Says what has been written. @param aftermath  as Rendered's
+  void finish(const std::string& aftermath);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -30,12 +37,18 @@ class ProgressReport {
 
   const std::string output_;
   const bool quiet_;
+  const CountedWork work_;
   const bool on_terminal_;
   const Clock::time_point start_ = Clock::now();
   Clock::time_point last_shown_ = start_;
   Progress progress_;
   bool bar_visible_ = false;
 };
+
+/// What follows in a closing line; nothing if there is nothing.
+inline std::string after_semicolon(const std::string& aftermath) {
+  return aftermath.empty() ? aftermath : "; " + aftermath;
+}
 
 void print_profile(const Rendered& rendered);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/values.hpp"
+#include "core/processors.hpp"
 #include "core/text.hpp"
 #include "media/output/output.hpp"
 #include "render/renderings.hpp"
@@ -83,14 +84,16 @@ RenderJob job_of(const OptionTexts& options, const std::string& output,
   if (options.is_given("--sound") && !takes_sound(output)) {
     throw UsageError("--sound: " + no_sound_in(output));
   }
-  return {.script = std::move(script),
-          .output = output,
-          .encoder = std::move(settings),
-          .jobs = options.value("--jobs", parse_jobs).value_or(processor_count()),
-          .shard = options.value("--part", parse_part),
-          .profile = options.is_given("--profile"),
-          .bundle = bundle_of(options),
-          .max_flashes = options.value("--max-flashes", parse_flashes)};
+  return {
+      .script = std::move(script),
+      .output = output,
+      .encoder = std::move(settings),
+      .jobs = options.value("--jobs", parse_jobs).value_or(std::min(processor_count(), kMaxJobs)),
+      .shard = options.value("--part", parse_part),
+      .profile = options.is_given("--profile"),
+      .bundle = bundle_of(options),
+      .max_flashes = options.value("--max-flashes", parse_flashes),
+      .overwrite = options.is_given("--overwrite")};
 }
 
 std::string name_of(const RenderJob& job) {

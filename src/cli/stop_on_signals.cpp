@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "cli/command.hpp"
+#include "core/threads.hpp"
 #include "core/waiting_thread.hpp"
 
 namespace piblocks::cli {
@@ -17,12 +18,25 @@ constexpr int kBreakOff = SIGURG;
 constexpr std::chrono::milliseconds kBreakOffInterval{50};
 
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): signals are the process's too
-std::atomic<bool> is_stop_requested = false;
+std::atomic<int> stop_signal = 0;  // 0 if none has come
 
-void say_and_exit(int /*signal*/) {
+/// Calls only what a handler of a signal may call.
+[[noreturn]] void end_by(int signal) noexcept {
+  struct sigaction action {};
+  action.sa_handler = SIG_DFL;
+  ::sigaction(signal, &action, nullptr);
+  sigset_t only;
+  sigemptyset(&only);
+  sigaddset(&only, signal);
+  ::pthread_sigmask(SIG_UNBLOCK, &only, nullptr);
+  ::raise(signal);
+  _exit(kFailed);  // the first process of a container cannot be ended by a signal
+}
+
+void say_and_end(int signal) {
   constexpr std::string_view kMessage = "piblocks: interrupted\n";
   [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, kMessage.data(), kMessage.size());
-  _exit(kFailed);
+  end_by(signal);
 }
 
 void do_nothing(int /*signal*/) {}
@@ -54,13 +68,14 @@ sigset_t with_break_off(sigset_t signals) {
   return signals;
 }
 
-bool is_any_pending(const sigset_t& signals) {
+/// 0 if none is.
+int pending_of(const sigset_t& signals) {
   sigset_t pending;
   sigpending(&pending);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    if (sigismember(&signals, signal) == 1 && sigismember(&pending, signal) == 1) return true;
+    if (sigismember(&signals, signal) == 1 && sigismember(&pending, signal) == 1) return signal;
   }
-  return false;
+  return 0;
 }
 
 }  // namespace
@@ -68,19 +83,23 @@ bool is_any_pending(const sigset_t& signals) {
 void end_at_once_on_signals() {
   const sigset_t signals = stop_signals();
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    if (sigismember(&signals, signal) == 1) handle(signal, say_and_exit);
+    if (sigismember(&signals, signal) == 1) handle(signal, say_and_end);
   }
 }
 
-bool stop_was_requested() noexcept { return is_stop_requested; }
+bool stop_was_requested() noexcept { return stop_signal != 0; }
+
+void end_by_signal() noexcept { end_by(stop_signal); }
 
 StopOnSignals::StopOnSignals() : signals_(stop_signals()) {
   handle(kBreakOff, do_nothing);
   // The thread is born with all of them blocked: it takes them by sigwait().
   const sigset_t all = with_break_off(signals_);
   ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
-  waiter_ = std::thread([this] {
-    if (wait_for_signal()) wait_for_end();
+  waiter_ = start_thread([this] {
+    return std::thread([this] {
+      if (wait_for_signal()) wait_for_end();
+    });
   });
   sigset_t none;
   sigemptyset(&none);
@@ -110,7 +129,7 @@ bool StopOnSignals::wait_for_signal() {
     if (is_done()) return false;
     if (::sigwait(&awaited, &signal) != 0) signal = kBreakOff;
   }
-  is_stop_requested = true;
+  stop_signal = signal;
   stop_.request_stop();
   return true;
 }
@@ -120,7 +139,7 @@ bool StopOnSignals::wait_for_signal() {
 void StopOnSignals::wait_for_end() {
   std::unique_lock lock(mutex_);
   while (!is_done_) {
-    if (is_any_pending(signals_)) _exit(kFailed);
+    if (const int signal = pending_of(signals_)) end_by(signal);
     break_off_calls(kBreakOff);
     done_.wait_for(lock, kBreakOffInterval);
   }

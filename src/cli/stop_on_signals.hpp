@@ -1,6 +1,7 @@
 // Ctrl-C as a request to stop.
 // In: SIGINT, SIGTERM, SIGHUP, unless the process was started with them ignored (nohup). Out: a
 // stop token; a second signal ends the process at once. Without work to give up the first one does.
+// The process ends by the signal itself: that is how a shell knows that its loop has to end, too.
 #pragma once
 
 #include <condition_variable>
@@ -13,12 +14,15 @@
 
 namespace piblocks::cli {
 
-/// From now on each of the signals ends the process at once, with a message and exit code 1: while
-/// it waits for somebody to write to a pipe that it reads, for example.
+/// From now on each of the signals ends the process at once, with a message: while it waits for
+/// somebody to write to a pipe that it reads, for example.
 void end_at_once_on_signals();
 
 /// Whether a signal has asked to stop.
 bool stop_was_requested() noexcept;
+
+/// Ends the process by the signal that has asked to stop, when all has been cleaned up and said.
+[[noreturn]] void end_by_signal() noexcept;
 
 /// Turns the signals into a request as long as it lives. Make one when all scenes have been read,
 /// and before any other thread, so that every thread leaves the signals to it.

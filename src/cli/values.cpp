@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <thread>
 
 namespace piblocks::cli {
 
@@ -21,10 +20,6 @@ std::vector<Instant> parse_instants(const std::string& text) {
     begin = end + 1;
   }
   return instants;
-}
-
-int processor_count() {
-  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
 }  // namespace piblocks::cli

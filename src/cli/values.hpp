@@ -39,7 +39,4 @@ Value parse_choice(const std::string& text,
   throw UsageError(must_be_one_of(text, names));
 }
 
-/// As many threads as run at once here.
-int processor_count();
-
 }  // namespace piblocks::cli

@@ -2,6 +2,7 @@
 #include <piblocks/error.hpp>
 #include <piblocks/exact.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -16,14 +17,35 @@ constexpr const char* kNotANumber = "not a number such as 16, 2.5, 1/3 or 1e6";
 
 constexpr double kBitsPerDigit = 3.3219280948873626;  // log2(10)
 
-[[noreturn]] void fail_too_long() {
-  throw UsageError(fmt::format("number is longer than {} bits", kMaxRationalBits));
+[[noreturn]] void fail_too_long(std::int64_t max_bits) {
+  throw UsageError(fmt::format("is longer than {} bits, which are {:.0f} decimal digits", max_bits,
+                               std::floor(double(max_bits) / kBitsPerDigit)));
+}
+
+/// Of the longer one of numerator and denominator.
+std::size_t bits_of(const Rational& value) {
+  return std::max(mpz_sizeinbase(value.get_num_mpz_t(), 2),
+                  mpz_sizeinbase(value.get_den_mpz_t(), 2));
+}
+
+void check_length(const Rational& value, std::int64_t max_bits) {
+  if (bits_of(value) > std::size_t(max_bits)) fail_too_long(max_bits);
+}
+
+Rational power_within(std::int64_t max_bits, const Rational& base, unsigned long exponent) {
+  // It has at least so many bits, and at most twice as many unless the base is 0 or 1.
+  if (double(bits_of(base) - 1) * double(exponent) >= double(max_bits)) fail_too_long(max_bits);
+  Rational result;
+  mpz_pow_ui(result.get_num_mpz_t(), base.get_num_mpz_t(), exponent);
+  mpz_pow_ui(result.get_den_mpz_t(), base.get_den_mpz_t(), exponent);
+  check_length(result, max_bits);
+  return result;  // powers of coprime numbers are coprime: still in lowest terms
 }
 
 /// Reads `text` from the left; every step consumes what it understood.
 class NumberReader {
  public:
-  explicit NumberReader(std::string_view text) : rest_(text) {}
+  NumberReader(std::string_view text, std::int64_t max_bits) : rest_(text), max_bits_(max_bits) {}
 
   Rational quotient() {
     Rational value = factor();
@@ -33,6 +55,7 @@ class NumberReader {
       value /= divisor;
     }
     if (!rest_.empty()) throw UsageError(kNotANumber);
+    check_length(value, max_bits_);
     return value;
   }
 
@@ -63,7 +86,7 @@ class NumberReader {
     if (text.empty()) throw UsageError(kNotANumber);
     long value = 0;
     const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (result.ec != std::errc{} || value > kMaxRationalBits) fail_too_long();
+    if (result.ec != std::errc{} || value > max_bits_) fail_too_long(max_bits_);
     return negative ? -value : value;
   }
 
@@ -79,7 +102,7 @@ class NumberReader {
     if (!take('^')) return base;
     const long n = exponent();
     if (base == 0 && n < 0) throw UsageError("division by zero");
-    const Rational raised = power(base, static_cast<unsigned long>(std::labs(n)));
+    const Rational raised = power_within(max_bits_, base, static_cast<unsigned long>(std::labs(n)));
     return n < 0 ? Rational(1 / raised) : raised;
   }
 
@@ -94,21 +117,25 @@ class NumberReader {
     if (mantissa.empty()) throw UsageError(kNotANumber);
     if (take('e') || take('E')) scale += exponent();
     const auto length = static_cast<double>(mantissa.size()) + std::fabs(double(scale));
-    if (length * kBitsPerDigit > double(kMaxRationalBits)) fail_too_long();
+    if (length * kBitsPerDigit > double(max_bits_)) fail_too_long(max_bits_);
 
     Rational value{Integer(mantissa, 10)};
-    const Rational ten_power = power(10, static_cast<unsigned long>(std::labs(scale)));
+    const Rational ten_power =
+        power_within(max_bits_, 10, static_cast<unsigned long>(std::labs(scale)));
     if (scale < 0) value /= ten_power;
     if (scale > 0) value *= ten_power;
     return value;
   }
 
   std::string_view rest_;
+  std::int64_t max_bits_;
 };
 
 }  // namespace
 
-Rational parse_rational(std::string_view text) { return NumberReader(trimmed(text)).quotient(); }
+Rational parse_rational(std::string_view text, std::int64_t max_bits) {
+  return NumberReader(trimmed(text), max_bits).quotient();
+}
 
 Rational rational_from_decimal(double value) {
   if (!std::isfinite(value)) throw UsageError("not a finite number");
@@ -148,14 +175,7 @@ Integer floor(const Rational& value) {
 Integer ceil(const Rational& value) { return -floor(-value); }
 
 Rational power(const Rational& base, unsigned long exponent) {
-  const std::size_t base_bits =
-      std::max(mpz_sizeinbase(base.get_num_mpz_t(), 2), mpz_sizeinbase(base.get_den_mpz_t(), 2));
-  const bool is_unit = base == 0 || abs(base) == 1;
-  if (!is_unit && double(base_bits) * double(exponent) > double(kMaxRationalBits)) fail_too_long();
-  Rational result;
-  mpz_pow_ui(result.get_num_mpz_t(), base.get_num_mpz_t(), exponent);
-  mpz_pow_ui(result.get_den_mpz_t(), base.get_den_mpz_t(), exponent);
-  return result;  // powers of coprime numbers are coprime: still in lowest terms
+  return power_within(kMaxMassBits, base, exponent);
 }
 
 std::string with_thousands_separators(const Integer& value) {

@@ -58,6 +58,20 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kAround) - first + 1);
 }
 
+std::string shortened(std::string_view text) {
+  constexpr std::size_t kMost = 60;  // characters
+  constexpr std::size_t kKept = 40;
+  std::size_t kept_bytes = 0;
+  std::size_t characters = 0;
+  for (std::size_t at = 0; at < text.size(); at += step_bytes(text.substr(at))) {
+    if (characters == kKept) kept_bytes = at;
+    if (++characters > kMost) {
+      return fmt::format("{}… ({} bytes)", text.substr(0, kept_bytes), text.size());
+    }
+  }
+  return std::string(text);
+}
+
 std::string with_single_blanks(std::string_view line) {
   std::string words;
   for (const char c : line) {

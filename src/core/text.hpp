@@ -32,6 +32,10 @@ bool is_utf8(std::string_view text);
 /// Without blanks, tabs and line ends around it.
 std::string_view trimmed(std::string_view text);
 
+/// At most 60 characters, for a message that repeats what a user has written: of a longer text the
+/// beginning, and how long it is.
+std::string shortened(std::string_view text);
+
 /// The words of a line, with one blank between them; empty if it has none.
 std::string with_single_blanks(std::string_view line);
 

@@ -8,6 +8,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <system_error>
 #include <utility>
 #include <variant>
 
@@ -135,10 +136,13 @@ class FrameComparer {
       // Reading is nearly all of the work.
       std::future<Fetched> reading;
       if (has_a && has_b) {
-        reading = std::async(std::launch::async, [&] {
-          const WaitingThread this_thread;
-          return fetch(reference);
-        });
+        try {
+          reading = std::async(std::launch::async, [&] {
+            const WaitingThread this_thread;
+            return fetch(reference);
+          });
+        } catch (const std::system_error&) {  // without a thread they are read in turn
+        }
       }
       const Fetched found = has_b ? fetch(actual) : Fetched();
       const Fetched expected = reading.valid() ? reading.get()

@@ -10,7 +10,7 @@
 
 #include "core/output_file.hpp"
 #include "core/overwrite_check.hpp"
-#include "media/png/png_chunk.hpp"
+#include "media/output/bytes.hpp"
 
 namespace piblocks {
 
@@ -24,7 +24,7 @@ class DiffPictures {
   DiffPictures(std::filesystem::path folder, Making making);
 
   /// @param png  a whole file, which gets a mark.
-  void add(const std::string& name, Bytes png);
+  void add(const std::string& name, ByteSpan png);
   std::size_t count() const noexcept { return pictures_.size(); }
   /// Writes the pictures, and removes those of earlier comparisons, which carry the mark. Waits as
   /// long as another comparison does so.

@@ -4,8 +4,10 @@
 #include <piblocks/run.hpp>
 
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "core/output_file.hpp"
@@ -105,6 +107,28 @@ void write_texts(const RenderJob& job, const std::string& alt, std::string_view 
                   fmt::arg("width", view.width_px), fmt::arg("height", view.height_px)));
 }
 
+/// Whether the folder has the bundle of an earlier run.
+bool has_bundle(const fs::path& folder) {
+  const std::string_view expected = kLatex.substr(0, kLatex.find('{'));
+  std::string found(expected.size(), '\0');
+  std::ifstream(folder / kLatexFile, std::ios::binary).read(found.data(), std::ssize(found));
+  return found == expected;
+}
+
+/// The video has the user's name. @throws UsageError if the others would replace files of others.
+void check_names(const Bundle& bundle) {
+  if (has_bundle(bundle.folder)) return;
+  std::error_code unknown;
+  for (const char* name : {kPoster, kAltText, kCaptions, kLatexFile, kRevealFile}) {
+    const fs::path path = fs::path(bundle.folder) / name;
+    if (!fs::exists(path, unknown)) continue;
+    throw UsageError(fmt::format(
+        "bundle: '{}' is there, and of no earlier bundle; use another folder, or --overwrite to "
+        "replace it",
+        path.string()));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> bundle_files(const RenderJob& job) {
@@ -115,6 +139,7 @@ Rendered render_bundle(const RenderJob& job,
                        const std::function<void(const Progress&)>& on_progress,
                        const std::stop_token& stop) {
   check_bundle(job);
+  if (!job.overwrite) check_names(*job.bundle);
   FileSet files(job.bundle->folder, "bundle");
   const auto& scene = std::get<Scene>(job.script);
   const RunLog run(scene);

@@ -56,8 +56,15 @@ class OrderedPool {
       return;
     }
     for (std::int64_t i = 0; i < std::min<std::int64_t>(workers, count); ++i) {
-      threads_.emplace_back(
-          [this, make_task](const std::stop_token& stop) { work(make_task, stop); });
+      try {
+        threads_.push_back(start_thread([&] {
+          return std::jthread(
+              [this, make_task](const std::stop_token& halt) { work(make_task, halt); });
+        }));
+      } catch (const IoError&) {
+        if (threads_.empty()) throw;
+        break;  // fewer threads do the same work
+      }
     }
   }
 

@@ -24,7 +24,7 @@ struct Plan {
         output(set_up_output(job.output,
                              {film.view().width_px, film.view().height_px, film.view().frame_rate,
                               film.view().background == Background::transparent},
-                             job.encoder, sound)),
+                             job.encoder, sound, job.overwrite)),
         chunks{output.has_frames ? film.frame_count() : 0, output.frames_per_chunk} {}
 
   static std::optional<SoundFormat> soundtrack_of(const RenderJob& job, const Film& film) {
@@ -97,7 +97,7 @@ std::unique_ptr<FrameSink> open_sink(const RenderJob& job, const Plan& plan) {
   if (!job.shard) return plan.output.open(plan.chunks.frame_count);
   ShardHeader header = describe(job, plan.output, plan.chunks.frame_count);
   header.emplace_back("part", fmt::format("{}/{}", job.shard->number, job.shard->count));
-  return open_shard(shard_name(job.output, *job.shard), header);
+  return open_shard(shard_name(job.output, *job.shard), header, job.overwrite);
 }
 
 void check_shard(const RenderJob& job) {
@@ -190,8 +190,7 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
     };
   };
 
-  Rendered rendered{
-      plan.output.has_frames ? frames_until(range.end) : plan.film.frame_count(), {}, {}};
+  Rendered rendered{plan.output.has_frames ? frames_until(range.end) : plan.film.frame_count(), {}};
   on_progress({0, rendered.frame_count});
   StepClock clock(job.profile, Step::mux);
   SoundWork sound;
@@ -209,6 +208,7 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
   clock.enter(Step::write);
   sink->finish();
+  rendered.aftermath = sink->aftermath();
   rendered.notes = notes_of(plan);  // by now the collisions of all frames are known
   if (!plan.output.has_frames) on_progress({rendered.frame_count, rendered.frame_count});
   if (job.profile) {

@@ -245,8 +245,8 @@ ShardHeader describe(const RenderJob& job, const Output& output, std::int64_t fr
   return header;
 }
 
-std::int64_t join(const std::vector<std::string>& parts, const std::string& output,
-                  const std::stop_token& stop) {
+Rendered join(const std::vector<std::string>& parts, const std::string& output,
+              const std::stop_token& stop, bool overwrite) {
   if (parts.empty()) throw UsageError("join: no parts are given");
   if (is_page(output)) {
     throw UsageError(
@@ -256,7 +256,7 @@ std::int64_t join(const std::vector<std::string>& parts, const std::string& outp
   check_same_job(in_order);
   check_all_there(in_order);
   const JobDescription job = read_description(in_order.front());
-  const Output joined = set_up_output(output, job.format, job.encoder, job.sound);
+  const Output joined = set_up_output(output, job.format, job.encoder, job.sound, overwrite);
   check_output(in_order, output, joined, job);
 
   const auto sink = joined.open(job.frame_count);
@@ -276,7 +276,7 @@ std::int64_t join(const std::vector<std::string>& parts, const std::string& outp
                               frames, job.frame_count));
   }
   sink->finish();
-  return frames;
+  return {.frame_count = frames, .profile = {}, .aftermath = sink->aftermath()};
 }
 
 }  // namespace piblocks

@@ -201,7 +201,7 @@ void check_golden(const Golden& golden, SceneProblems& problems) {
     try {
       parse_instant(text);
     } catch (const UsageError& error) {
-      problems.add(kKey, "has '{}': {}", text, std::string(error.what()));
+      problems.add(kKey, "has '{}': {}", shortened(text), std::string(error.what()));
       return;
     }
   }

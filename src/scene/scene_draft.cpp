@@ -138,7 +138,7 @@ void SceneDraft::set(const std::string& origin, const std::string& key, const Va
 void SceneDraft::set_key(const std::string& origin, const std::string& key, const Values& values) {
   if (key == "digits") return set_mass_ratio(origin, parse_digits(values), std::nullopt);
   if (key == "mass-ratio") {
-    return set_mass_ratio(origin, std::nullopt, parse_rational(single(values)));
+    return set_mass_ratio(origin, std::nullopt, parse_rational(single(values), kMaxMassBits));
   }
   if (set_box(key, values)) {
     origins_[key] = origin;

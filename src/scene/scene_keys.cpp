@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/nearest_name.hpp"
+#include "core/text.hpp"
 #include "core/whole_number.hpp"
 #include "scene/body_keys.hpp"
 
@@ -55,7 +56,7 @@ std::vector<Value> parse_each(const Values& values, Value (*parse)(std::string_v
     try {
       parsed.push_back(parse(value));
     } catch (const UsageError& error) {
-      throw UsageError(fmt::format("'{}' {}", value, error.what()));
+      throw UsageError(fmt::format("'{}' {}", shortened(value), error.what()));
     }
   }
   return parsed;
@@ -128,6 +129,16 @@ constexpr SceneKey key(const char* name) {
           [](const Scene& scene) { return texts_of((scene.*....*Path)); }};
 }
 
+/// A mass, which may be a longer number than others.
+template <auto Member>
+constexpr SceneKey mass_key(const char* name) {
+  return {name,
+          [](Scene& scene, const Values& values) {
+            (scene.system.*Member).mass = parse_rational(single(values), kMaxMassBits);
+          },
+          [](const Scene& scene) { return texts_of((scene.system.*Member).mass); }};
+}
+
 void set_size(Scene& scene, const Values& values) {
   const FrameSize size = parse_size(values);
   scene.view.width_px = size.width_px;
@@ -170,11 +181,11 @@ Values base_of(const Scene& scene) { return {fmt::format("{}", scene.show.base)}
 constexpr auto kKeys = std::to_array<SceneKey>({
     SceneKey{"base", set_base, base_of},
     key<&Scene::system, &BlockSystem::wall_face>("wall.face"),
-    key<&Scene::system, &BlockSystem::blue, &Block::mass>("blue.mass"),
+    mass_key<&BlockSystem::blue>("blue.mass"),
     key<&Scene::system, &BlockSystem::blue, &Block::position>("blue.position"),
     key<&Scene::system, &BlockSystem::blue, &Block::velocity>("blue.velocity"),
     key<&Scene::system, &BlockSystem::blue, &Block::width>("blue.width"),
-    key<&Scene::system, &BlockSystem::red, &Block::mass>("red.mass"),
+    mass_key<&BlockSystem::red>("red.mass"),
     key<&Scene::system, &BlockSystem::red, &Block::position>("red.position"),
     key<&Scene::system, &BlockSystem::red, &Block::velocity>("red.velocity"),
     key<&Scene::system, &BlockSystem::red, &Block::width>("red.width"),
@@ -227,7 +238,8 @@ const std::string& single(const Values& values) {
 
 std::string joined(const Values& values) {
   if (values == Values{""}) return "''";
-  return values.size() == 1 ? values.front() : fmt::format("[{}]", fmt::join(values, ", "));
+  return shortened(values.size() == 1 ? values.front()
+                                      : fmt::format("[{}]", fmt::join(values, ", ")));
 }
 
 std::vector<std::pair<std::string, std::string>> describe(const Scene& scene) {

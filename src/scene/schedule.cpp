@@ -19,6 +19,12 @@ bool shows_end(const Scene& scene) { return !scene.time.to.is_time(); }
 Rational speed_for_duration(const Scene& scene, const std::vector<Move>& moves, Rational still_s) {
   const Rational& duration_s = *scene.pacing.duration_s;
   Integer frames = ceil(duration_s * scene.view.frame_rate);
+  if (scene.pacing.loop && frames < 2) {
+    throw UsageError(fmt::format(
+        "time.duration = {}: is shorter than two frames, of which a loop has one forward and one "
+        "back; make it longer",
+        to_text(duration_s)));
+  }
   if (scene.pacing.loop) frames = (frames + 1) / 2 + 1;  // see played_back()
   if (shows_end(scene)) frames -= 1;                     // one frame stands at the end
   Rational length = 0;                                   // seconds of video at speed 1

@@ -73,7 +73,7 @@ TEST_F(BundleTest, ThePosterIsTheLastFrameOrTheOneAskedFor) {
   output_of(frames);
   Names pictures = entries();
   std::erase_if(pictures, [](const std::string& name) { return !name.starts_with("all/"); });
-  EXPECT_TRUE(contents("talk/poster.png") == contents(pictures.back()));
+  output_of({"compare", "talk/poster.png", pictures.back()});
   output_of(kRender + Arguments{"--bundle", "talk", "--poster", "#7"});
   output_of({"still", "--size", "64x36", "--at", "#7", "-o", "7.png"});
   EXPECT_TRUE(contents("talk/poster.png") == contents("7.png"));
@@ -141,19 +141,19 @@ TEST_F(BundleTest, SnippetsNameTheFiles) {
 }
 
 TEST_F(BundleTest, LeavesOtherFilesAlone) {
-  std::filesystem::create_directory(folder_ / "talk");
+  output_of(kRender + Arguments{"--bundle", "talk"});
   write("talk/notes.txt", "mine");
   write("talk/alt.txt", "old");
   output_of(kRender + Arguments{"--bundle", "talk"});
   EXPECT_EQ(contents("talk/notes.txt"), "mine");
-  EXPECT_NE(contents("talk/alt.txt"), "old");
+  EXPECT_NE(contents("talk/alt.txt"), "old") << "of the earlier bundle";
   EXPECT_EQ(entries().size(), kFiles.size() + 1);
 }
 
 TEST_F(BundleTest, IsAllOrNothing) {
   std::filesystem::create_directories(folder_ / "talk/reveal.html");
   write("talk/alt.txt", "old");
-  const CommandResult result = piblocks(kRender + Arguments{"--bundle", "talk"});
+  const CommandResult result = piblocks(kRender + Arguments{"--overwrite", "--bundle", "talk"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err, "piblocks: output: cannot replace 'talk/reveal.html': Is a directory\n");
   EXPECT_EQ(entries(), (Names{"talk", "talk/alt.txt", "talk/reveal.html"}));

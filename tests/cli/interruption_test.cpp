@@ -32,7 +32,7 @@ TEST_P(InterruptionsTest, LeaveNothingBehind) {
   ASSERT_TRUE(wait_until([&] { return !folder_.is_empty(); }));
   command.send(GetParam().signal);
   const CommandResult result = command.wait();
-  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.exit_code, -GetParam().signal) << "a shell would go on with its loop";
   EXPECT_EQ(result.err, "piblocks: " + GetParam().arguments.front() + ": interrupted\n");
   EXPECT_EQ(entries(), (std::vector<std::string>{}));
 }
@@ -71,7 +71,7 @@ TEST_F(InterruptionTest, AnOldFileSurvives) {
   RunningCommand command(kLong + Arguments{"-o", "a.mp4"}, {.folder = folder_.path()});
   ASSERT_TRUE(wait_until([&] { return entries().size() == 2; }));
   command.send(SIGINT);
-  EXPECT_EQ(command.wait().exit_code, 1);
+  EXPECT_EQ(command.wait().exit_code, -SIGINT);
   EXPECT_EQ(contents("a.mp4"), "old");
   EXPECT_EQ(entries(), (std::vector<std::string>{"a.mp4"}));
 }
@@ -84,7 +84,7 @@ TEST_F(InterruptionTest, ASecondSignalEndsItAtOnce) {
   EXPECT_FALSE(wait_until([&] { return command.has_ended(); }, std::chrono::milliseconds(500)));
   command.send(SIGINT);
   EXPECT_TRUE(wait_until([&] { return command.has_ended(); }));
-  EXPECT_EQ(command.wait().exit_code, 1);
+  EXPECT_EQ(command.wait().exit_code, -SIGINT);
 }
 
 /// Nobody writes to the pipe that the program reads. It is asked only after it has come that far.
@@ -97,7 +97,7 @@ TEST_P(PipeTest, ThatNobodyWritesToCanBeLeft) {
   command.send(SIGINT);
   EXPECT_TRUE(wait_until([&] { return command.has_ended(); }, std::chrono::seconds(5)));
   const CommandResult result = command.wait();
-  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.exit_code, -SIGINT);
   EXPECT_EQ(result.err, "piblocks: interrupted\n");
   EXPECT_EQ(entries(), (std::vector<std::string>{"pipe"}));
 }
@@ -123,7 +123,7 @@ TEST_F(InterruptionTest, APipeThatStaysSilentCanBeLeft) {
     EXPECT_FALSE(wait_until([&] { return command.has_ended(); }, std::chrono::milliseconds(500)));
     command.send(SIGTERM);
     EXPECT_TRUE(wait_until([&] { return command.has_ended(); }, std::chrono::seconds(5)));
-    EXPECT_EQ(command.wait().exit_code, 1);
+    EXPECT_EQ(command.wait().exit_code, -SIGTERM);
     EXPECT_EQ(entries(), (std::vector<std::string>{"pipe"}));
     std::filesystem::remove(pipe);
   }
@@ -142,7 +142,7 @@ TEST_F(InterruptionTest, AComparisonThatWaitsCanBeLeft) {
     command.send(SIGINT);
     EXPECT_TRUE(wait_until([&] { return command.has_ended(); }, std::chrono::seconds(5)));
     const CommandResult result = command.wait();
-    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.exit_code, -SIGINT);
     EXPECT_EQ(result.err, "piblocks: interrupted\n");
     EXPECT_EQ(entries(), before);
   }
@@ -159,7 +159,7 @@ TEST_F(InterruptionTest, OtherSignalsChangeNothing) {
   command.send(SIGTERM);
   EXPECT_TRUE(wait_until([&] { return command.has_ended(); }, std::chrono::seconds(10)));
   const CommandResult result = command.wait();
-  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.exit_code, -SIGTERM);
   EXPECT_EQ(result.err, "piblocks: render: interrupted\n");
   EXPECT_EQ(entries(), (std::vector<std::string>{}));
 }
@@ -173,7 +173,7 @@ TEST_F(InterruptionTest, AnIgnoredSignalStaysIgnored) {
   command.send(SIGHUP);
   EXPECT_FALSE(wait_until([&] { return command.has_ended(); }, std::chrono::milliseconds(300)));
   command.send(SIGINT);
-  EXPECT_EQ(command.wait().exit_code, 1);
+  EXPECT_EQ(command.wait().exit_code, -SIGINT);
 }
 
 }  // namespace

@@ -68,6 +68,39 @@ TEST_F(OldFilesTest, OfALongerSequenceGoWithIt) {
                               "f/004.jpg", "f/099.png", "f/4.png", "f/x004.png"}));
 }
 
+/// Under names that an output makes; a name that is given whole is the user's to replace.
+TEST_F(OldFilesTest, OfOthersAreReplacedOnlyOnDemand) {
+  for (const char* part : {"1/2", "2/2"}) {
+    output_of(kSmall + Arguments{"--to", "0.3", "--part", part, "-o", "%d.png"});
+  }
+  fs::create_directory(folder_ / "talk");
+  for (const char* file : {"2.png", "4.png", "talk/alt.txt", "a.mp4.part-1-of-1"}) {
+    write(file, "mine");
+  }
+  const Names before = entries();
+  const Arguments join{"join", "%d.png.part-1-of-2", "%d.png.part-2-of-2", "-o", "%d.png"};
+  const std::vector<std::pair<Arguments, std::string>> commands = {
+      {kSmall + Arguments{"--to", "0.3", "-o", "%d.png"}, "2.png"},
+      {join, "2.png"},
+      {kSmall + Arguments{"--to", "0.3", "--bundle", "talk", "-o", "a.mp4"}, "talk/alt.txt"},
+      {kSmall + Arguments{"--part", "1/1", "-o", "a.mp4"}, "a.mp4.part-1-of-1"}};
+  for (const auto& [command, file] : commands) {
+    const CommandResult refused = piblocks(command);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find(file + "' is there"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("--overwrite"), std::string::npos) << refused.err;
+    EXPECT_EQ(contents(file), "mine");
+    EXPECT_EQ(entries(), before);
+  }
+  for (const auto& [command, file] : commands) {
+    EXPECT_EQ(piblocks(command + Arguments{"--overwrite"}).exit_code, 0);
+    EXPECT_NE(contents(file), "mine");
+    EXPECT_EQ(piblocks(command).exit_code, 0) << "it is piblocks's own now";
+  }
+  EXPECT_EQ(contents("4.png"), "mine");
+  EXPECT_EQ(piblocks(join).err, "%d.png: 3 frames from 2 parts; left 1 other file that follows\n");
+}
+
 TEST_F(OldFilesTest, OfALongerSequenceGoWithOneThatIsJoined) {
   render("%d.png", "1");
   for (const char* part : {"1/2", "2/2"}) {
@@ -105,7 +138,7 @@ TEST_F(OldFilesTest, OfASequenceBelongToOneRunAtATime) {
   render("f/other-%06d.png", "0.1");
   EXPECT_TRUE(is_png("f/other-000001.png"));
   first.send(SIGINT);
-  EXPECT_EQ(first.wait().exit_code, 1);
+  EXPECT_EQ(first.wait().exit_code, -SIGINT);
   render("f/%06d.png", "0.1");
   EXPECT_EQ(entries(), (Names{"f", "f/000001.png", "f/other-000001.png"}));
 }

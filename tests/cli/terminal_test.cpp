@@ -35,6 +35,45 @@ TEST_F(TerminalTest, TheBarTellsRateAndTimeLeft) {
   EXPECT_NE(result.err.find(" left"), std::string::npos) << result.err;
 }
 
+/// A line that wraps cannot be cleared.
+TEST_F(TerminalTest, TheBarIsNoWiderThanTheTerminal) {
+  const CommandResult result =
+      RunningCommand(kRenderForTerminal,
+                     {.folder = folder_.path(), .err_is_terminal = true, .columns = 20})
+          .wait();
+  const std::string cleared = "\r\x1b[K";
+  std::size_t bars = 0;
+  for (std::size_t at = result.err.find(cleared + '['); at != std::string::npos; ++bars) {
+    const std::size_t end = result.err.find(cleared, at + 1);
+    EXPECT_LE(end - at - cleared.size(), 19U);
+    at = result.err.find(cleared + '[', at + 1);
+  }
+  EXPECT_GE(bars, 1U);
+}
+
+TEST_F(TerminalTest, ThatIsDumbGetsNoEscapeSequences) {
+  const CommandResult result = RunningCommand(kRenderForTerminal, {.folder = folder_.path(),
+                                                                   .environment = {"TERM=dumb"},
+                                                                   .err_is_terminal = true})
+                                   .wait();
+  EXPECT_EQ(result.err.find('\x1b'), std::string::npos) << result.err;
+  EXPECT_TRUE(result.err.starts_with("null: 742 frames in ")) << result.err;
+}
+
+TEST_F(TerminalTest, ShowsHowFarALogHasComeIfItTakesAWhile) {
+  const auto said = [&](const char* rows) {
+    return RunningCommand(
+               {"log", "--digits", "8", "--limit", rows},
+               {.folder = folder_.path(), .out_file = "/dev/null", .err_is_terminal = true})
+        .wait()
+        .err;
+  };
+  EXPECT_EQ(said("1000"), "");
+  const std::string err = said("30e6");
+  EXPECT_NE(err.find(" rows/s  "), std::string::npos) << err;
+  EXPECT_TRUE(err.ends_with("\r\x1b[K")) << err;
+}
+
 TEST_F(TerminalTest, AnErrorDoesNotStandBesideTheBar) {
   std::filesystem::create_directory(folder_ / "1.png");
   const Arguments render{"render", "--size", "64x36", "--fps", "10", "--to", "1", "-o", "%d.png"};

@@ -106,7 +106,7 @@ expect_interruption() {
   wait_until test -s "$work/notes"
   kill -TERM "$runner" || failed "$1: ended too early: $(cat errors)"
   wait "$runner" || status=$?
-  [[ $status -eq 1 ]] || failed "$1: ended with $status"
+  [[ $status -eq 143 ]] || failed "$1: ended with $status"
   grep -qF interrupted errors || failed "$1: does not say so, but: $(cat errors)"
   wait_until_all_gone
   [[ -z $(ls -A "${out%/*}") ]] || failed "$1: left behind: $(ls -A "${out%/*}")"

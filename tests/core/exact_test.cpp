@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "core/two_sum.hpp"
 
@@ -39,10 +40,31 @@ TEST(ParseRational, RefusesWhatIsNoNumber) {
 
 TEST(ParseRational, RefusesToEatMemory) {
   for (const char* text : {"10^999999999", "1e999999999", "1e-999999999", "9^9999999999999999999",
-                           "1e1000000^4000000"}) {
+                           "1e1000000^4000000", "0.9^1000000", "1/3^1000000"}) {
+    EXPECT_THROW(parse_rational(text), UsageError) << text;
+    EXPECT_THROW(parse_rational(text, kMaxMassBits), UsageError) << text;
+  }
+  EXPECT_EQ(parse_rational("1^16384"), 1);
+}
+
+TEST(ParseRational, LimitsNumeratorAndDenominatorHoweverTheyAreWritten) {
+  const std::string digits(4931, '9');
+  EXPECT_EQ(parse_rational(digits).get_num().get_str(), digits);
+  EXPECT_EQ(parse_rational("2^16383"), power(2, 16383));
+  EXPECT_EQ(parse_rational("1/2^16383"), 1 / power(2, 16383));
+  EXPECT_NO_THROW(parse_rational("0.9^4932"));
+  for (const std::string& text :
+       {digits + "99", "0." + digits + "9", digits + ".5e-2", std::string("2^16384"),
+        std::string("2^-16384"), std::string("1/2^16384"), std::string("0.9^4933"),
+        std::string("0.9^4000/0.71^4000"), std::string("1e4933"), std::string("1e4000/1e-4000")}) {
     EXPECT_THROW(parse_rational(text), UsageError) << text;
   }
-  EXPECT_EQ(parse_rational("1^4000000"), 1);
+}
+
+TEST(ParseRational, TakesTheMassesOfAHundredThousandDigitsInAnyBase) {
+  for (const char* text : {"4^99999", "100^99999", "10^199998", "36^199998", "1/36^199998"}) {
+    EXPECT_NO_THROW(parse_rational(text, kMaxMassBits)) << text;
+  }
 }
 
 TEST(RationalFromDecimal, MeansTheShortestDecimal) {

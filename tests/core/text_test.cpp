@@ -121,5 +121,16 @@ TEST(Text, JsonStringsEscapeWhatWouldEndThem) {
   EXPECT_EQ(json_text("</script>"), R"("\u003c/script>")");
 }
 
+TEST(Shortened, KeepsTheBeginningOfWhatWouldFillTheScreen) {
+  EXPECT_EQ(shortened(""), "");
+  const std::string sixty(60, 'x');
+  EXPECT_EQ(shortened(sixty), sixty);
+  EXPECT_EQ(shortened(sixty + "y"), std::string(40, 'x') + "… (61 bytes)");
+  std::string greek;
+  for (int i = 0; i < 100; ++i) greek += "π";
+  EXPECT_EQ(shortened(greek), greek.substr(0, 80) + "… (200 bytes)");
+  EXPECT_EQ(shortened(std::string(61, '\xff')).substr(40), "… (61 bytes)");
+}
+
 }  // namespace
 }  // namespace piblocks

@@ -131,9 +131,12 @@ class FaultFixture : public testing::Test {
     return complete;
   }
 
-  /// Files of the same names with other contents.
+  /// Files of the same names with other contents, which begin alike: the program knows its own by
+  /// that.
   Files put_old_files(const Files& complete) const {
-    for (const auto& [name, contents] : complete) std::ofstream(out() / name) << "old " << name;
+    for (const auto& [name, contents] : complete) {
+      std::ofstream(out() / name, std::ios::binary) << contents.substr(0, 100) << "old " << name;
+    }
     return files();
   }
 

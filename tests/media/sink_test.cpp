@@ -7,9 +7,13 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <fstream>
+#include <map>
+#include <string>
 
 #include "media/output/output.hpp"
 #include "media/pixels/yuv.hpp"
+#include "media/png/png_mark.hpp"
 #include "media/write_frames.hpp"
 #include "support/decode_video.hpp"
 #include "support/ordinary_user.hpp"
@@ -243,30 +247,81 @@ TEST(PngSequence, IsNumberedFromOneAndHoldsTheFrames) {
   EXPECT_FALSE(fs::exists(folder / "f11.png"));
   for (int i = 0; i < 10; ++i) {
     const std::string name = (i < 9 ? "f0" : "f") + std::to_string(i + 1) + ".png";
-    const auto png = encode_png(paint(i).view());
+    const auto png = with_png_mark(encode_png(paint(i).view()), PngMark::sequence);
     EXPECT_EQ(file_contents(folder / name), std::string(png.begin(), png.end())) << name;
   }
 }
 
 TEST(PngSequence, ReplacesFilesOnlyWhenItIsComplete) {
   const TemporaryFolder folder;
-  std::ofstream(folder / "1.png") << "old";
+  write_frames(folder / "%d.png", kSmall, {}, 1, random_frames(kSmall));
+  const std::string old = file_contents(folder / "1.png");
   const auto output = set_up_output(folder / "%d.png", kSmall, {});
   const auto sink = output.open(1000);
   sink->append(encode_chunk(output, 0, 3, article_frames(kSmall)));
-  EXPECT_EQ(file_contents(folder / "1.png"), "old");
+  EXPECT_EQ(file_contents(folder / "1.png"), old);
   EXPECT_FALSE(fs::exists(folder / "2.png"));
   sink->finish();
-  EXPECT_NE(file_contents(folder / "1.png"), "old");
+  EXPECT_NE(file_contents(folder / "1.png"), old);
   EXPECT_TRUE(fs::exists(folder / "3.png"));
+}
+
+/// Files that a sequence did not make.
+std::map<std::string, std::string> files_of_others() {
+  const auto text = [](const Bytes& bytes) { return std::string(bytes.begin(), bytes.end()); };
+  const Bytes picture = encode_png(article_frames(kSmall)(0).view());
+  const Bytes frame = with_png_mark(picture, PngMark::sequence);
+  return {{"a photograph", "\xff\xd8\xff\xe0"},
+          {"a still", text(picture)},
+          {"a difference", text(with_png_mark(picture, PngMark::difference))},
+          {"the beginning of a frame", text(frame).substr(0, 60)},
+          {"nothing", ""}};
+}
+
+TEST(PngSequence, HarmsNoFileOfOthersUnlessTold) {
+  for (const auto& [what, bytes] : files_of_others()) {
+    SCOPED_TRACE(what);
+    const TemporaryFolder folder;
+    const auto render = [&](std::int64_t frames, bool overwrite) {
+      const auto output = set_up_output(folder / "%d.png", kSmall, {}, {}, overwrite);
+      const auto sink = output.open(frames);
+      sink->append(encode_chunk(output, 0, frames, article_frames(kSmall)));
+      sink->finish();
+      return sink->aftermath();
+    };
+    EXPECT_EQ(render(6, false), "");
+    std::ofstream(folder / "4.png", std::ios::binary) << bytes;
+    EXPECT_THROW(render(5, false), UsageError);
+    EXPECT_TRUE(fs::exists(folder / "6.png"));
+    EXPECT_EQ(render(2, false),
+              "removed 3 pictures of an earlier run, left 1 other file that follows");
+    EXPECT_EQ(file_contents(folder / "4.png"), bytes);
+    EXPECT_EQ(render(3, true), "left 1 other file that follows");
+    EXPECT_EQ(file_contents(folder / "4.png"), bytes);
+    EXPECT_EQ(render(4, true), "replaced 1 other file");
+    EXPECT_NE(file_contents(folder / "4.png"), bytes);
+    EXPECT_EQ(render(4, false), "");
+  }
+}
+
+TEST(PngSequence, HarmsNoFileThatCameMeanwhile) {
+  const TemporaryFolder folder;
+  const auto output = set_up_output(folder / "%d.png", kSmall, {});
+  const auto sink = output.open(1000);
+  sink->append(encode_chunk(output, 0, 3, article_frames(kSmall)));
+  std::ofstream(folder / "2.png") << "mine";
+  EXPECT_THROW(sink->finish(), UsageError);
+  EXPECT_EQ(file_contents(folder / "2.png"), "mine");
+  EXPECT_FALSE(fs::exists(folder / "1.png"));
 }
 
 TEST(PngSequence, ReplacesNothingIfOneNameIsTakenByAFolder) {
   const TemporaryFolder folder;
-  std::ofstream(folder / "1.png") << "old";
+  write_frames(folder / "%d.png", kSmall, {}, 1, random_frames(kSmall));
+  const std::string old = file_contents(folder / "1.png");
   fs::create_directory(folder / "2.png");
   EXPECT_THROW(write_frames(folder / "%d.png", kSmall, {}, 3, article_frames(kSmall)), IoError);
-  EXPECT_EQ(file_contents(folder / "1.png"), "old");
+  EXPECT_EQ(file_contents(folder / "1.png"), old);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 2);
 }
 

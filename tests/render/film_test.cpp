@@ -284,7 +284,7 @@ TEST_F(FilmTest, BytesDoNotDependOnJobsNorOnParts) {
       parts.push_back(shard_name(job.output, *job.shard));
     }
     const std::string joined = folder_ / ("joined-" + name);
-    EXPECT_EQ(join(parts, joined), 78);
+    EXPECT_EQ(join(parts, joined).frame_count, 78);
     EXPECT_EQ(file_contents(whole) == file_contents(joined), true) << name;
   }
 }

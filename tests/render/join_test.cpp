@@ -76,7 +76,7 @@ TEST_F(JoinTest, GivesTheBytesOfASingleRun) {
       job.jobs = count % 3 + 1;
       std::vector<std::string> parts = rendered_parts(count, job);
       std::ranges::rotate(parts, parts.begin() + count / 2);
-      EXPECT_EQ(join(parts, path("joined/" + name)), 120);
+      EXPECT_EQ(join(parts, path("joined/" + name)).frame_count, 120);
       EXPECT_EQ(files_in(path("joined")) == files_in(path("whole")), true) << name << ' ' << count;
       fs::remove_all(path("joined"));
     }
@@ -90,7 +90,7 @@ TEST_F(JoinTest, TakesMoreFilesThanMayBeOpen) {
   ::getrlimit(RLIMIT_NOFILE, &before);
   const rlimit few{20, before.rlim_max};
   ::setrlimit(RLIMIT_NOFILE, &few);
-  EXPECT_EQ(join(parts, path("b.y4m")), 120);
+  EXPECT_EQ(join(parts, path("b.y4m")).frame_count, 120);
   ::setrlimit(RLIMIT_NOFILE, &before);
 }
 

@@ -48,7 +48,7 @@ class RenderedFrames {
       render(job, [](const Progress&) {});
       names.push_back(shard_name(job.output, *job.shard));
     }
-    count_ = join(names, folder_ / "%d.png");
+    count_ = join(names, folder_ / "%d.png").frame_count;
   }
 
   std::int64_t count() const { return count_; }

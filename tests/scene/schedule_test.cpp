@@ -151,7 +151,6 @@ TEST(Schedule, LoopTakesTheDurationAsAWhole) {
     // Forth and back is an even number of frames, and no length is cut.
     EXPECT_EQ(frames("61/60"), 62) << to;
     EXPECT_EQ(frames("62/60"), 62) << to;
-    EXPECT_EQ(frames("0.001"), 2) << to;
   }
 }
 
@@ -420,6 +419,12 @@ TEST(Schedule, RefusesWhatCannotBe) {
   EXPECT_TRUE(problem({{"time.duration", "0.01"}})
                   .starts_with("time.duration = 1/100: is shorter than two frames; "));
   EXPECT_EQ(problem({{"time.duration", "0.01"}, {"time.to", "9"}}), "accepted");
+  for (const char* to : {"last", "9"}) {
+    EXPECT_TRUE(problem({{"time.duration", "1e-9"}, {"time.loop", "true"}, {"time.to", to}})
+                    .starts_with("time.duration = 1/1000000000: is shorter than two frames, "));
+    EXPECT_EQ(problem({{"time.duration", "2/60"}, {"time.loop", "true"}, {"time.to", to}}),
+              "accepted");
+  }
 }
 
 TEST(Pacing, TextsReadBackAsTheSame) {

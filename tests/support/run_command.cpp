@@ -33,9 +33,9 @@ Stream make_pipe() {
   return {ends[0], ends[1]};
 }
 
-Stream make_terminal() {
+Stream make_terminal(unsigned short columns) {
   Stream stream;
-  const winsize size{.ws_row = 24, .ws_col = 80, .ws_xpixel = 0, .ws_ypixel = 0};
+  const winsize size{.ws_row = 24, .ws_col = columns, .ws_xpixel = 0, .ws_ypixel = 0};
   check(::openpty(&stream.ours, &stream.theirs, nullptr, nullptr, &size) == 0, "openpty");
   check(::fcntl(stream.ours, F_SETFD, FD_CLOEXEC) == 0, "fcntl");
   check(::fcntl(stream.theirs, F_SETFD, FD_CLOEXEC) == 0, "fcntl");
@@ -109,8 +109,8 @@ void read_some(int& descriptor, std::string& text) {
 
 RunningCommand::RunningCommand(const std::vector<std::string>& arguments,
                                const CommandOptions& options) {
-  Stream out = options.out_is_terminal ? make_terminal() : make_pipe();
-  Stream err = options.err_is_terminal ? make_terminal() : make_pipe();
+  Stream out = options.out_is_terminal ? make_terminal(options.columns) : make_pipe();
+  Stream err = options.err_is_terminal ? make_terminal(options.columns) : make_pipe();
   out_ = out.ours;
   err_ = err.ours;
   pid_ = spawn(arguments, options, out.theirs, err.theirs);

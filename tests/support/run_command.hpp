@@ -22,6 +22,7 @@ struct CommandOptions {
   std::vector<int> closed = {};                  ///< descriptors that the program starts without
   bool out_is_terminal = false;                  ///< standard output is a terminal of its own
   bool err_is_terminal = false;                  ///< standard error is a terminal of its own
+  unsigned short columns = 80;                   ///< of that terminal
   std::string program = {};                      ///< a copy of the program to run instead
 };
 

@@ -18,11 +18,14 @@ constexpr const char* kFile = "libpiblocks_av.so";
 /// Where the module may be, best first.
 std::vector<std::string> candidates() {
   const std::filesystem::path folder = PIBLOCKS_MODULE_FOLDER;
-  // By the search path of the binary: the program's own, the build's, or a library user's.
+  // By the search path of the binary: a library user's, the Python package's, or a test's.
   std::vector<std::string> files = {kFile};
-  // For binaries without such a path, or moved. Never from the working folder: it is anybody's.
-  const std::filesystem::path binary = own_binary();
-  if (binary.is_absolute()) files.push_back(binary.parent_path() / ".." / folder / kFile);
+  // Never in the working folder: it is anybody's.
+  const std::filesystem::path home = own_binary().parent_path();
+  if (home.is_absolute()) {
+    files.push_back(home / ".." / folder / kFile);
+    if (is_build_folder(home)) files.push_back(home / "lib" / kFile);
+  }
   files.push_back(std::filesystem::path(PIBLOCKS_PREFIX) / folder / kFile);
   return files;
 }

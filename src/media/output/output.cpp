@@ -162,8 +162,9 @@ std::string no_preset(std::string_view encoder) {
 }
 
 Output set_up_output(const std::string& name, const VideoFormat& format,
-                     const EncoderSettings& settings, const std::optional<SoundFormat>& sound) {
-  const OutputRequest request = {name, format, settings, sound};
+                     const EncoderSettings& settings, const std::optional<SoundFormat>& sound,
+                     bool overwrite) {
+  const OutputRequest request = {name, format, settings, sound, overwrite};
   Problems problems;
   const OutputKind* const kind = find_kind(name);
   if (kind != nullptr) {

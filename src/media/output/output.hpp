@@ -112,6 +112,9 @@ class FrameSink {
   /// Completes the output and gives it its final name.
   /// @throws IoError, MediaError if that fails; the output is then removed.
   virtual void finish() = 0;
+  /// What finish() did to the files of an earlier output, such as "removed 12 pictures of an
+  /// earlier run"; empty if it did nothing.
+  virtual std::string aftermath() const { return {}; }
 };
 
 /// Checks that an output gets every frame once and in order.
@@ -148,10 +151,12 @@ struct Output {
 
 /// Sets up the output whose kind the name tells (the table in output.cpp), such as `*.mp4`, `*.png`
 /// with one integer field such as `%06d`, `-` (y4m on standard output) or `null`.
+/// @param overwrite  whether pictures may replace files that are no pictures of a sequence.
 /// @throws UsageError if the name has no known kind, the format or the settings do not suit the
 ///         kind, or there is no encoder.
 Output set_up_output(const std::string& name, const VideoFormat& format,
-                     const EncoderSettings& settings, const std::optional<SoundFormat>& sound = {});
+                     const EncoderSettings& settings, const std::optional<SoundFormat>& sound = {},
+                     bool overwrite = false);
 
 /// Whether an output of this name is sound without pictures: `*.wav`.
 bool is_sound_alone(const std::string& name);

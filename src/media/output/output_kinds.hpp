@@ -24,6 +24,7 @@ struct OutputRequest {
   VideoFormat format;
   EncoderSettings settings;
   std::optional<SoundFormat> sound = {};
+  bool overwrite = false;
 };
 
 /// Collects everything that is wrong, to report it at once.

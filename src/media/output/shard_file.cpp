@@ -16,6 +16,7 @@ namespace piblocks {
 namespace {
 
 constexpr std::string_view kMagic = "piblocks part 1";
+constexpr std::string_view kAnyMagic = kMagic.substr(0, 14);  // without its version
 constexpr std::uint8_t kChunkRecord = 'C';
 constexpr std::uint8_t kSoundRecord = 'S';
 constexpr std::uint8_t kEndRecord = 'E';
@@ -81,9 +82,24 @@ class ShardSink final : public FrameSink {
   OutputFile file_;
 };
 
+/// Whether there is a file of this name that is no part file, whatever its version.
+bool is_another_file(const std::string& path) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown)) return false;
+  std::string start(kAnyMagic.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(start.data(), std::ssize(start));
+  return start != kAnyMagic;
+}
+
 }  // namespace
 
-std::unique_ptr<FrameSink> open_shard(const std::string& path, const ShardHeader& header) {
+std::unique_ptr<FrameSink> open_shard(const std::string& path, const ShardHeader& header,
+                                      bool overwrite) {
+  if (!overwrite && is_another_file(path)) {
+    throw UsageError(fmt::format(
+        "part: '{}' is there, and no part file; use another name, or --overwrite to replace it",
+        path));
+  }
   for (const auto& [name, value] : header) {
     if (name.find_first_of(":\n") == std::string::npos && value.find('\n') == std::string::npos) {
       continue;

@@ -22,8 +22,11 @@ namespace piblocks {
 using ShardHeader = std::vector<std::pair<std::string, std::string>>;
 
 /// A sink that stores chunks as they are.
-/// @throws UsageError if the file cannot be opened, or the header cannot be written as lines.
-std::unique_ptr<FrameSink> open_shard(const std::string& path, const ShardHeader& header);
+/// @param overwrite  whether it may replace a file that is no part file.
+/// @throws UsageError if the file cannot be opened, or the header cannot be written as lines; if it
+///         would replace another kind of file.
+std::unique_ptr<FrameSink> open_shard(const std::string& path, const ShardHeader& header,
+                                      bool overwrite = false);
 
 /// Reads a part file, chunk by chunk. Takes no more memory than the file is long.
 class ShardReader {

@@ -13,6 +13,7 @@
 #include "media/output/output_kinds.hpp"
 #include "media/pixels/rgb24.hpp"
 #include "media/png/png_chunk.hpp"
+#include "media/png/png_mark.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;
@@ -139,35 +140,90 @@ class PngEncoder final : public PacketPerFrameEncoder {
   std::vector<Strip> strips_;
 };
 
+std::string files_text(std::int64_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// Numbered pictures in a folder that may hold others. It replaces and removes those of an earlier
+/// sequence; other files it replaces if it is told to, and never removes.
 class PngSequence final : public FrameSink {
  public:
-  explicit PngSequence(FramePattern pattern)
-      : pattern_(std::move(pattern)), files_(pattern_.folder(), pattern_.label()) {}
+  PngSequence(FramePattern pattern, std::int64_t frames, bool overwrite)
+      : pattern_(std::move(pattern)),
+        overwrite_(overwrite),
+        files_(pattern_.folder(), pattern_.label()) {
+    check_names(frames);
+  }
 
   void append(const EncodedChunk& chunk) override {
     std::int64_t number = next_number();
     counter_.take(chunk);
-    for (const Packet& packet : chunk) files_.add(pattern_.name(number++), packet.bytes);
+    for (const Packet& packet : chunk) {
+      files_.add(pattern_.name(number++), with_png_mark(packet.bytes, PngMark::sequence));
+    }
   }
   void finish() override {
+    check_names(counter_.frames());  // files may have come meanwhile
     // Pictures of an earlier, longer sequence would look like the end of this one.
-    std::error_code error;
-    for (std::int64_t number = next_number();; ++number) {
-      const std::string name = pattern_.name(number);
-      const fs::path path = fs::path(pattern_.folder()) / name;
-      if (!fs::is_regular_file(fs::symlink_status(path, error))) break;
-      files_.remove(name);
+    for (std::int64_t number = next_number(); is_file(path_of(number)); ++number) {
+      if (!has_png_mark(path_of(number), PngMark::sequence)) {
+        ++left_;
+        continue;
+      }
+      files_.remove(pattern_.name(number));
+      ++removed_;
     }
     files_.commit();
+  }
+  std::string aftermath() const override {
+    std::vector<std::string> done;
+    if (foreign_ > 0) done.push_back("replaced " + files_text(foreign_, "other file"));
+    if (removed_ > 0) {
+      done.push_back("removed " + files_text(removed_, "picture") + " of an earlier run");
+    }
+    if (left_ > 0) {
+      done.push_back("left " + files_text(left_, "other file") +
+                     (left_ == 1 ? " that follows" : " that follow"));
+    }
+    return fmt::format("{}", fmt::join(done, ", "));
   }
 
  private:
   /// From 1 on, as those of FFmpeg's image2 muxer.
   std::int64_t next_number() const { return 1 + counter_.frames(); }
+  fs::path path_of(std::int64_t number) const {
+    return fs::path(pattern_.folder()) / pattern_.name(number);
+  }
+  /// FileSet refuses anything else of this name.
+  static bool is_file(const fs::path& path) {
+    std::error_code unknown;
+    return fs::is_regular_file(fs::symlink_status(path, unknown));
+  }
+
+  /// @throws UsageError if so many pictures would replace files of others, unless told to.
+  void check_names(std::int64_t frames) {
+    foreign_ = 0;
+    fs::path first;
+    for (std::int64_t number = 1; number <= frames; ++number) {
+      const fs::path path = path_of(number);
+      if (!is_file(path) || has_png_mark(path, PngMark::sequence)) continue;
+      if (foreign_++ == 0) first = path;
+    }
+    if (foreign_ == 0 || overwrite_) return;
+    throw UsageError(fmt::format(
+        "output: '{}'{} there, and no picture of an earlier run; use another name, or --overwrite "
+        "to "
+        "replace what is there",
+        first.string(), foreign_ == 1 ? " is" : fmt::format(" and {} more are", foreign_ - 1)));
+  }
 
   FramePattern pattern_;
+  bool overwrite_;
   FileSet files_;
   FrameCounter counter_;
+  std::int64_t foreign_ = 0;  // files that are replaced and were no pictures of a sequence
+  std::int64_t removed_ = 0;  // pictures of an earlier sequence
+  std::int64_t left_ = 0;     // other files that have the next numbers
 };
 
 }  // namespace
@@ -217,8 +273,11 @@ Output png_output(const OutputRequest& request) {
       .frames_per_chunk = 16,  // few wait to be written, and workers end nearly together
       .signature = fmt::format("png by zlib {}", zlibVersion()),
       .make_encoder = [format = request.format] { return std::make_unique<PngEncoder>(format); },
-      .open = [pattern = FramePattern(request.name)](
-                  std::int64_t /*frames*/) { return std::make_unique<PngSequence>(pattern); }};
+      .open =
+          [pattern = FramePattern(request.name),
+           overwrite = request.overwrite](std::int64_t frames) {
+            return std::make_unique<PngSequence>(pattern, frames, overwrite);
+          }};
 }
 
 }  // namespace piblocks

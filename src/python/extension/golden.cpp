@@ -11,8 +11,8 @@
 
 #include "cli/golden_actions.hpp"
 #include "cli/script_facts.hpp"
-#include "cli/values.hpp"
 #include "core/output_file.hpp"
+#include "core/processors.hpp"
 #include "core/text.hpp"
 #include "golden/reports.hpp"
 #include "python/extension/interruptible.hpp"
@@ -87,7 +87,7 @@ bool write_report(const BoundScript& bound, const GoldenPlace& place, const std:
                               Unfinished::Kind::folder);
     const Unfinished actual(fs::temp_directory_path() / "piblocks-golden",
                             Unfinished::Kind::folder);
-    references.render_into(actual.path(), cli::processor_count(), stop);
+    references.render_into(actual.path(), processor_count(), stop);
     for (const std::string& file : references.files()) {
       const bool is_picture = has_ending(file, ".png") && references.has(file);
       if (!is_picture) {

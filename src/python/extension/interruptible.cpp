@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/threads.hpp"
 #include "python/extension/without_gil.hpp"
 
 namespace piblocks::python {
@@ -131,7 +132,7 @@ void run_interruptibly(const InterruptibleWork& work) {
   {
     WithoutGil gil;
     std::stop_source stop;
-    std::thread worker([&] {
+    const auto converse = [&] {
       std::exception_ptr failure;
       try {
         work(stop.get_token(), [&](const auto& function) { conversation.call(function); });
@@ -139,7 +140,8 @@ void run_interruptibly(const InterruptibleWork& work) {
         failure = std::current_exception();
       }
       conversation.end(failure);
-    });
+    };
+    std::thread worker = start_thread([&] { return std::thread(converse); });
     conversation.listen(gil, worker, stop);
     worker.join();
   }

@@ -72,6 +72,7 @@ py::tuple render_film(const BoundScript& bound, const std::string& output, const
       if (stop.stop_requested()) throw Interrupted("render: interrupted");
     };
     rendered = render(*job, report, stop);
+    if (!rendered.aftermath.empty()) rendered.notes.push_back(rendered.aftermath);
     for (std::string& note : cli::convention_notes(job->script)) {
       rendered.notes.push_back(std::move(note));
     }
@@ -129,11 +130,12 @@ void sheet_file(const BoundScript& bound, const std::string& output, const Optio
   });
 }
 
-std::int64_t join_files(const std::vector<std::string>& parts, const std::string& output) {
+std::int64_t join_files(const std::vector<std::string>& parts, const std::string& output,
+                        bool overwrite) {
   std::int64_t frames = 0;
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
     refuse_standard_output(output, "join");
-    frames = join(parts, output, stop);
+    frames = join(parts, output, stop, overwrite).frame_count;
   });
   return frames;
 }
@@ -149,7 +151,7 @@ void bind_render(py::module_& module) {
              "The same as the bytes of a file: png, svg or pdf.");
   module.def("sheet_file", &sheet_file, py::arg("script"), py::arg("output"), py::arg("options"),
              "Writes a sheet; options as 'piblocks sheet' has them.");
-  module.def("join", &join_files, py::arg("parts"), py::arg("output"),
+  module.def("join", &join_files, py::arg("parts"), py::arg("output"), py::arg("overwrite"),
              "Joins the parts of a rendering; returns the number of frames.");
 }
 

@@ -45,6 +45,7 @@ _OPTIONS = {
     "no-sound": "sound_on=False",
     "opaque": "view_background='opaque'",
     "output": "file",
+    "overwrite": "overwrite=True",
     "panels": "show_panels",
     "part": "part",
     "poster": "poster",

@@ -80,7 +80,7 @@ def render(
     flags = {
         option: flag(option[2:], value)
         for option, value in given.items()
-        if option in ("--smallest", "--profile")
+        if option in ("--smallest", "--profile", "--overwrite")
     }
     texts_given = options({**given, **flags})
     if bundle is not None:
@@ -117,13 +117,15 @@ def sheet(script: _piblocks.Script, output: Any, frames: Any, by: Any, at: Any) 
     _piblocks.sheet_file(script, path("file", output), given)
 
 
-def join(parts: Iterable[Union[str, os.PathLike[str]]], output: Union[str, os.PathLike[str]]) -> int:
+def join(parts: Iterable[Union[str, os.PathLike[str]]], output: Union[str, os.PathLike[str]],
+         *, overwrite: bool = False) -> int:
     """Joins the files of all parts of a rendering to the output that they were rendered for.
 
-    :param parts: the files, in any order.
+    :param parts: the files, in any order. :param overwrite: as ``Scene.render`` has it.
     :returns: the number of frames.
     :raises UsageError: if a part is missing, given twice, or of another rendering.
     """
     if isinstance(parts, (str, bytes, os.PathLike)) or not isinstance(parts, Iterable):
         raise TypeError(f"parts: must be a list of paths, not {type(parts).__name__}")
-    return _piblocks.join([path("parts", part) for part in parts], path("output", output))
+    return _piblocks.join([path("parts", part) for part in parts], path("output", output),
+                          flag("overwrite", overwrite))

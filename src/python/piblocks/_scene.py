@@ -363,6 +363,7 @@ class Scene:
         poster: Any = None,
         max_flashes: int | None = None,
         profile: bool = False,
+        overwrite: bool = False,
     ) -> Rendered:
         """Renders the film. The file appears when it is complete, or not at all.
 
@@ -377,6 +378,8 @@ class Scene:
         :param for_: size, rate and background that suit "powerpoint", "web", ...
         :param part: (2, 3) renders the second of three shares, for ``join``.
         :param bundle: a folder for the video, a poster, captions, and snippets for slides.
+        :param overwrite: lets pictures of a sequence, and files of a bundle or part, replace files
+            that no earlier run has made.
         :raises UsageError: DrawError, MediaError, IoError, SimulationError, KeyboardInterrupt
         """
         given = {
@@ -388,6 +391,7 @@ class Scene:
             "--smallest": smallest,
             "--max-flashes": max_flashes,
             "--profile": profile,
+            "--overwrite": overwrite,
         }
         return _render.render(self._script, file, progress, bundle, poster, part, given)
 
