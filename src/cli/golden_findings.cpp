@@ -104,8 +104,8 @@ const char* GoldenFindings::outcome() const {
   const Outcome found = worst();
   if (found == Outcome::equal || found == Outcome::unreadable) return name_of(found);
   constexpr auto kAdded = static_cast<std::size_t>(Outcome::added);
-  constexpr auto kDifferent = static_cast<std::size_t>(Outcome::different);
-  const bool differs = frames_.at(kDifferent) > 0 || pictures_.at(kDifferent) > 0;
+  constexpr auto kOther = static_cast<std::size_t>(Outcome::different);
+  const bool differs = frames_.at(kOther) > 0 || pictures_.at(kOther) > 0;
   const bool lacks_files_only = found == Outcome::added && frames_.at(kAdded) == 0 && !differs;
   return lacks_files_only ? "incomplete" : "different";
 }

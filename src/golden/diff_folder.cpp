@@ -6,6 +6,7 @@
 #include "golden/reports.hpp"
 #include "golden/shown_frames.hpp"
 #include "media/output/frame_pattern.hpp"
+#include "media/png/png_chunk.hpp"
 
 namespace piblocks {
 namespace {
