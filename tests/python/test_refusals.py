@@ -112,13 +112,13 @@ def test_the_table_was_read():
         ({"view_siez": None}, "scene: unknown key 'view_siez'; did you mean 'view_size'? "
                               "piblocks.keys() lists them"),
         ({"mass_ratio": -1}, "mass_ratio: red_mass = -1: must be greater than 0"),
-        ({"mass_ratio": "x"}, "mass_ratio = x: not a number"),
+        ({"mass_ratio": "x"}, "mass_ratio = x: not a number such as 16, 2.5, 1/3 or 1e6"),
         ({"time_hold_end": -1}, "time_hold_end = -1: must be at least 0"),
         ({"view": {"fps": 0.25, "shutter": 2}},
          "view_shutter = 2: must be from 0 (the instant alone) to 1 (all of the time to the next "
          "frame)"),
         ({"wall_face": 100},
-         "scene: blue_position = 2: blue reaches 197/2 into the wall, whose face is at 100"),
+         "scene: blue_position = 2: blue is left of the wall's face at 100; must be at least 201/2"),
         ({"time_from": 5, "time_to": 3}, "time_to = 3: must be after time_from = 5"),
     ],
 )
