@@ -29,7 +29,8 @@ std::vector<std::string> DiffPictures::old_pictures(const FileNames& may_be_old)
   for (const fs::path& path : entries_of(folder_, error)) {
     const std::string name = path.filename();
     const bool is_new = std::ranges::count(pictures_, name, &Picture::name) > 0;
-    if (!is_new && may_be_old(name) && has_png_mark(path, PngMark::difference)) names.push_back(name);
+    if (!is_new && may_be_old(name) && has_png_mark(path, PngMark::difference))
+      names.push_back(name);
   }
   return names;
 }
