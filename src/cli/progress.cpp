@@ -58,7 +58,7 @@ void print_methods(const std::vector<std::string>& methods) {
 
 }  // namespace
 
-ProgressReport::ProgressReport(std::string output, bool quiet, CountedWork work)
+ProgressReport::ProgressReport(std::string output, bool quiet, const CountedWork& work)
     : output_(std::move(output)), quiet_(quiet), work_(work), on_terminal_(is_on_terminal()) {}
 
 ProgressReport::~ProgressReport() {

@@ -19,7 +19,7 @@ struct CountedWork {
 
 class ProgressReport {
  public:
-  ProgressReport(std::string output, bool quiet, CountedWork work = {});
+  ProgressReport(std::string output, bool quiet, const CountedWork& work = {});
   ~ProgressReport();
   ProgressReport(const ProgressReport&) = delete;
   ProgressReport& operator=(const ProgressReport&) = delete;

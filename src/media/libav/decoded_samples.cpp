@@ -141,7 +141,10 @@ void read_levels(const AVFrame& frame, int component, int row, std::uint16_t* le
   const std::uint8_t* const bytes =
       frame.data[place.plane] + std::ptrdiff_t{row} * frame.linesize[place.plane] + place.offset;
   if (is_plain && place.depth == 8) {
-    for (int i = 0; i < count; ++i) levels[i] = bytes[std::ptrdiff_t{i} * place.step];
+    for (int i = 0; i < count; ++i) {
+      const std::uint8_t level = bytes[std::ptrdiff_t{i} * place.step];
+      levels[i] = level;
+    }
     return;
   }
   if (is_plain && place.step == 2) {

@@ -243,8 +243,8 @@ AnyImage read_png_samples(const fs::path& path) {
 }
 
 AnyImage read_png_samples(const fs::path& path, std::span<const std::uint8_t> bytes) {
-  // Reading does not write to the memory.
-  auto* const memory = const_cast<std::uint8_t*>(bytes.data());  // NOLINT(*-const-cast)
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): fmemopen() only reads in mode "r"
+  auto* const memory = const_cast<std::uint8_t*>(bytes.data());
   FilePtr file(::fmemopen(memory, bytes.size(), "rb"), std::fclose);
   if (!file) throw std::bad_alloc();
   PngFile png(path, std::move(file));
