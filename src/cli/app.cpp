@@ -95,7 +95,7 @@ std::string full_name(const CLI::App& command) {
 }
 
 Command Command::add_command(const std::string& name, const std::string& help) {
-  return Command(*program_, *app_->add_subcommand(name, help));
+  return {*program_, *app_->add_subcommand(name, help)};
 }
 
 void Command::add_flag(const std::string& name, const std::string& help) {

@@ -146,7 +146,7 @@ void note_failure(const std::string& what, GoldenFindings& findings, const std::
 void compare_all(const References& references, const fs::path& drawn, CheckPictures* pictures,
                  GoldenFindings& findings, const std::stop_token& stop) {
   std::vector<std::string> files = references.files();
-  std::ranges::rotate(files, files.begin() + 1);  // pictures say more than hashes
+  std::rotate(files.begin(), files.begin() + 1, files.end());  // pictures say more than hashes
   for (const std::string& file : files) {
     if (references.has(file)) {
       findings.compare(references.path(file), drawn / file,

@@ -50,10 +50,11 @@ std::optional<double> limit_of(const std::string& folder, bool is_version_2, con
 
 /// The path of the process's group in the hierarchy; nothing if the text has none.
 std::optional<std::string> group_in(std::string_view groups, bool is_version_2) {
+  constexpr std::size_t kNone = std::string_view::npos;
   for (const std::string_view line : split(groups, '\n')) {
     const std::size_t first = line.find(':');
-    const std::size_t second = first == line.npos ? line.npos : line.find(':', first + 1);
-    if (second == line.npos) continue;
+    const std::size_t second = first == kNone ? kNone : line.find(':', first + 1);
+    if (second == kNone) continue;
     const std::string_view controllers = line.substr(first + 1, second - first - 1);
     const bool is_it =
         is_version_2 ? line.starts_with("0:") && controllers.empty() : holds(controllers, "cpu");

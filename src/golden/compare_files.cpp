@@ -133,17 +133,8 @@ class FrameComparer {
       if (!a && !b) break;
       const bool has_a = a && (!b || *a <= *b);
       const bool has_b = b && (!a || *b <= *a);
-      // Reading is nearly all of the work.
       std::future<Fetched> reading;
-      if (has_a && has_b) {
-        try {
-          reading = std::async(std::launch::async, [&] {
-            const WaitingThread this_thread;
-            return fetch(reference);
-          });
-        } catch (const std::system_error&) {  // without a thread they are read in turn
-        }
-      }
+      if (has_a && has_b) reading = fetch_in_thread(reference);
       const Fetched found = has_b ? fetch(actual) : Fetched();
       const Fetched expected = reading.valid() ? reading.get()
                                : has_a         ? fetch(reference)
@@ -159,6 +150,17 @@ class FrameComparer {
   }
 
  private:
+  /// Reading is nearly all of the work. Nothing if no thread can be started.
+  std::future<Fetched> fetch_in_thread(FrameSide& side) {
+    try {
+      return std::async(std::launch::async, [this, &side] {
+        const WaitingThread this_thread;
+        return fetch(side);
+      });
+    } catch (const std::system_error&) {
+      return {};
+    }
+  }
   void check_stop() const {
     if (stop_.stop_requested()) throw Interrupted("compare: interrupted");
   }

@@ -50,7 +50,8 @@ class PictureSide final : public FrameSide {
 
 class VideoSide final : public FrameSide {
  public:
-  VideoSide(const std::string& path, std::stop_token stop) : path_(path), stop_(std::move(stop)) {}
+  VideoSide(std::string path, std::stop_token stop)
+      : path_(std::move(path)), stop_(std::move(stop)) {}
 
   std::optional<std::int64_t> next_step() const override {
     return is_over_ ? std::nullopt : std::optional(fetched_);

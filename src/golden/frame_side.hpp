@@ -33,7 +33,7 @@ class FrameSide {
 };
 
 struct PlacedPicture {
-  std::int64_t step;
+  std::int64_t step = 0;
   ListedPicture picture;
 };
 

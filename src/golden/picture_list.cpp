@@ -59,7 +59,7 @@ class FolderWalk {
  public:
   explicit FolderWalk(bool is_recursive) : is_recursive_(is_recursive) {}
 
-  std::vector<ListedPicture> pictures;
+  std::vector<ListedPicture> take() { return std::move(pictures_); }
 
   /// @param name  of the folder in the outermost one, whose own is empty
   void enter(const fs::path& folder, const std::string& name) {
@@ -90,16 +90,17 @@ class FolderWalk {
     if (type == fs::file_type::directory) {
       if (is_recursive_) enter(path, name);
     } else if (has_ending(name, ".png")) {
-      pictures.push_back({name, path});
+      pictures_.push_back({name, path});
     } else if (error && type != fs::file_type::not_found && is_recursive_) {
       add_problem(path, name, error.message());  // it may be a folder
     }
   }
   void add_problem(const fs::path& path, const std::string& name, const std::string& why) {
-    pictures.push_back({.name = name, .path = path, .problem = cannot_read(path, why)});
+    pictures_.push_back({.name = name, .path = path, .problem = cannot_read(path, why)});
   }
 
   bool is_recursive_;
+  std::vector<ListedPicture> pictures_;
   std::set<Id> around_;  // of the folder that is being listed
   std::size_t folders_ = 0;
 };
@@ -107,7 +108,7 @@ class FolderWalk {
 PictureList list_folder(const std::string& name, bool is_recursive) {
   FolderWalk walk(is_recursive);
   walk.enter(name, "");
-  PictureList list{.kind = PictureList::Kind::folder, .pictures = std::move(walk.pictures)};
+  PictureList list{.kind = PictureList::Kind::folder, .pictures = walk.take()};
   std::ranges::sort(list.pictures, comes_before, &ListedPicture::name);
   if (list.pictures.empty()) list.problem = fmt::format("there is no PNG file in '{}'", name);
   return list;

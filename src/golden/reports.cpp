@@ -129,7 +129,7 @@ class JunitReport final : public Report {
   explicit JunitReport(const std::string& path) : file_(path) {}
 
   void add(const FrameComparison& frame) override {
-    cases_ += fmt::format("    <testcase classname=\"frames\" name=\"{}\"", escaped(frame.name));
+    cases_ += fmt::format(R"(    <testcase classname="frames" name="{}")", escaped(frame.name));
     if (frame.is_accepted()) {
       cases_ += "/>\n";
       return;

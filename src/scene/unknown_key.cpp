@@ -38,7 +38,7 @@ std::string advice(const std::string& key) {
   std::vector<std::string> names = all_keys();
   std::vector<std::string> same = names;
   std::erase_if(same, [&](const std::string& name) { return last_part(name) != last_part(key); });
-  if (const std::string near = did_you_mean(key, same); !near.empty()) return near;
+  if (std::string near = did_you_mean(key, same); !near.empty()) return near;
   if (!same.empty()) return fmt::format("; did you mean '{}'?", fmt::join(same, "' or '"));
   names.insert(names.end(), kKeysOfParts.begin(), kKeysOfParts.end());
   return did_you_mean(key, names);

@@ -52,6 +52,7 @@ constexpr auto kSplits = std::to_array<Name<Split>>(
 
 std::vector<std::string> list_of(const auto& table) {
   std::vector<std::string> names;
+  names.reserve(table.size());
   for (const auto& name : table) names.emplace_back(name.text);
   return names;
 }

@@ -77,14 +77,14 @@ std::string crf_problem(const AVCodec& codec, double crf) {
 }
 
 std::string preset_problem(const AVCodec& codec, const std::string& preset) {
-  static const std::vector<std::string> kX264Presets = {
-      "ultrafast", "superfast", "veryfast", "faster",   "fast",
-      "medium",    "slow",      "slower",   "veryslow", "placebo"};
+  static const std::vector<std::string> presets = {"ultrafast", "superfast", "veryfast", "faster",
+                                                   "fast",      "medium",    "slow",     "slower",
+                                                   "veryslow",  "placebo"};
   if (!has_option(codec, "preset")) return no_preset(codec.name);
   // When it is opened, libx264 rejects an unknown preset without naming the reason.
-  if (codec.name != kX264 || std::ranges::count(kX264Presets, preset) > 0) return {};
+  if (codec.name != kX264 || std::ranges::count(presets, preset) > 0) return {};
   return fmt::format("video: encoder '{}' has no preset '{}'; use one of: {}{}", codec.name, preset,
-                     fmt::join(kX264Presets, ", "), did_you_mean(preset, kX264Presets));
+                     fmt::join(presets, ", "), did_you_mean(preset, presets));
 }
 
 /// A chunk is one group of pictures: only its first picture is a key frame, however much a picture

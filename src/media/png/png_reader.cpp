@@ -119,7 +119,7 @@ class PngFile {
     return png_get_color_type(structs_.png, structs_.info) == PNG_COLOR_TYPE_PALETTE;
   }
   /// Samples in the order of words 0xAARRGGBB on a little-endian machine.
-  void set_words() {
+  void set_words() const {
     if (is_flat_) png_set_scale_16(structs_.png);
     png_set_expand(structs_.png);  // greys of less than 8 bits, tRNS
     png_set_gray_to_rgb(structs_.png);
