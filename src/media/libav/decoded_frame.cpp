@@ -13,10 +13,6 @@ extern "C" {
 namespace piblocks {
 namespace {
 
-bool is_grey(const AVPixFmtDescriptor& format) {
-  return format.nb_components <= 2 && !has_flag(format, AV_PIX_FMT_FLAG_PAL);
-}
-
 bool is_chroma(const AVPixFmtDescriptor& format, int component) {
   return (component == 1 || component == 2) && !is_grey(format) &&
          !has_flag(format, AV_PIX_FMT_FLAG_RGB);
@@ -54,22 +50,50 @@ bool has_flag(const AVPixFmtDescriptor& format, std::uint64_t flag) {
   return (format.flags & flag) != 0;
 }
 
-bool is_full_range(const AVFrame& frame) {
-  if (frame.color_range != AVCOL_RANGE_UNSPECIFIED) return frame.color_range == AVCOL_RANGE_JPEG;
-  const AVPixFmtDescriptor& format = descriptor_of(frame);
-  return is_grey(format) || std::strncmp(format.name, "yuvj", 4) == 0;
+bool is_grey(const AVPixFmtDescriptor& format) {
+  return format.nb_components <= 2 && !has_flag(format, AV_PIX_FMT_FLAG_PAL);
 }
 
-int matrix_of(const AVFrame& frame) {
-  if (frame.colorspace != AVCOL_SPC_UNSPECIFIED) return frame.colorspace;
+bool is_xyz(const AVPixFmtDescriptor& format) { return std::strncmp(format.name, "xyz", 3) == 0; }
+
+bool is_full_range(const AVFrame& frame) {
+  const AVPixFmtDescriptor& format = descriptor_of(frame);
+  // The table of a palette is always RGB; fewer than 8 bits have no limited range.
+  if (has_flag(format, AV_PIX_FMT_FLAG_PAL) || greatest_depth(format) < 8) return true;
+  if (frame.color_range != AVCOL_RANGE_UNSPECIFIED) return frame.color_range == AVCOL_RANGE_JPEG;
+  return is_grey(format) || has_flag(format, AV_PIX_FMT_FLAG_RGB) ||
+         std::strncmp(format.name, "yuvj", 4) == 0;
+}
+
+AVColorSpace matrix_of(const AVFrame& frame) {
   constexpr int kHdLines = 720;
+  constexpr std::uint64_t kRgb = AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL;
+  const AVPixFmtDescriptor& format = descriptor_of(frame);
+  if (is_grey(format) || has_flag(format, kRgb)) return AVCOL_SPC_RGB;
+  if (frame.colorspace == AVCOL_SPC_BT470BG) return AVCOL_SPC_SMPTE170M;  // the same numbers
+  if (frame.colorspace != AVCOL_SPC_UNSPECIFIED) return frame.colorspace;
   return frame.height >= kHdLines ? AVCOL_SPC_BT709 : AVCOL_SPC_SMPTE170M;
 }
 
 bool is_rgb(const AVFrame& frame) {
   const AVPixFmtDescriptor& format = descriptor_of(frame);
-  return has_flag(format, AV_PIX_FMT_FLAG_RGB) || has_flag(format, AV_PIX_FMT_FLAG_PAL) ||
-         (is_grey(format) && is_full_range(frame));
+  return is_full_range(frame) && (is_grey(format) || has_flag(format, AV_PIX_FMT_FLAG_RGB) ||
+                                  has_flag(format, AV_PIX_FMT_FLAG_PAL));
+}
+
+Siting siting_of(const AVFrame& frame) {
+  const AVPixFmtDescriptor& format = descriptor_of(frame);
+  const AVChromaLocation place = frame.chroma_location;
+  const bool is_centred =
+      place == AVCHROMA_LOC_CENTER || place == AVCHROMA_LOC_TOP || place == AVCHROMA_LOC_BOTTOM;
+  const bool is_top = place == AVCHROMA_LOC_TOPLEFT || place == AVCHROMA_LOC_TOP;
+  const bool is_bottom = place == AVCHROMA_LOC_BOTTOMLEFT || place == AVCHROMA_LOC_BOTTOM;
+  const int last_column = (1 << format.log2_chroma_w) - 1;
+  const int last_row = (1 << format.log2_chroma_h) - 1;
+  return {.right = is_centred ? last_column : 0,
+          .down = is_top      ? 0
+                  : is_bottom ? 2 * last_row
+                              : last_row};
 }
 
 int greatest_depth(const AVPixFmtDescriptor& format) {
@@ -96,6 +120,10 @@ int samples_in_row(const AVFrame& frame, int component) {
   return AV_CEIL_RSHIFT(frame.width, x_shift_of(descriptor_of(frame), component));
 }
 
+int samples_in_column(const AVFrame& frame, int component) {
+  return AV_CEIL_RSHIFT(frame.height, y_shift_of(descriptor_of(frame), component));
+}
+
 void check_pixel_format(const AVFrame& frame, const std::string& path) {
   constexpr std::uint64_t kOther =
       AV_PIX_FMT_FLAG_HWACCEL | AV_PIX_FMT_FLAG_BAYER | AV_PIX_FMT_FLAG_FLOAT;
@@ -113,11 +141,17 @@ void check_pixel_format(const AVFrame& frame, const std::string& path) {
 std::string layout_of(const AVFrame& frame) {
   if (is_rgb(frame)) return std::string(kRgba);
   const AVPixFmtDescriptor& format = descriptor_of(frame);
-  return fmt::format("{} of {} bits{}, chroma {}x{}, {} range, {}",
-                     is_grey(format) ? "grey" : "yuv", greatest_depth(format),
-                     has_flag(format, AV_PIX_FMT_FLAG_ALPHA) ? " with alpha" : "",
-                     1 << format.log2_chroma_w, 1 << format.log2_chroma_h,
-                     is_full_range(frame) ? "full" : "limited", matrix_of(frame));
+  const char* const matrix = av_color_space_name(matrix_of(frame));
+  const Siting siting = siting_of(frame);
+  return fmt::format(
+      "{} of {} bits{}, chroma {}x{} at {}, {}, {} range, {}",
+      is_grey(format)                         ? "grey"
+      : has_flag(format, AV_PIX_FMT_FLAG_RGB) ? "rgb"
+      : is_xyz(format)                        ? "xyz"
+                                              : "yuv",
+      greatest_depth(format), has_flag(format, AV_PIX_FMT_FLAG_ALPHA) ? " with alpha" : "",
+      1 << format.log2_chroma_w, 1 << format.log2_chroma_h, siting.right, siting.down,
+      is_full_range(frame) ? "full" : "limited", matrix == nullptr ? "unknown" : matrix);
 }
 
 }  // namespace piblocks

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 
 #include "media/libav/av.hpp"
@@ -11,7 +10,6 @@
 
 extern "C" {
 #include <libavutil/pixdesc.h>
-#include <libswscale/swscale.h>
 }
 
 namespace piblocks {
@@ -28,12 +26,23 @@ const AVPixFmtDescriptor& descriptor_of(const AVFrame& frame);
 bool has_flag(const AVPixFmtDescriptor& format, std::uint64_t flag);
 int greatest_depth(const AVPixFmtDescriptor& format);
 
-/// If the file does not say, players assume limited range for YUV and full range for grey.
+/// If the file does not say, players assume limited range for YUV and full range for others.
 bool is_full_range(const AVFrame& frame);
-/// If the file does not say, players assume a matrix by the height.
-int matrix_of(const AVFrame& frame);
-/// Whether the samples are red, green and blue, or grey that stands for all three.
+/// If the file does not say, players assume a matrix by the height. AVCOL_SPC_RGB for grey too.
+AVColorSpace matrix_of(const AVFrame& frame);
+/// Whether the samples are red, green and blue of full range, or grey that stands for all three.
 bool is_rgb(const AVFrame& frame);
+bool is_grey(const AVPixFmtDescriptor& format);
+bool is_xyz(const AVPixFmtDescriptor& format);
+
+/// Where chroma samples lie among the pixels that share them.
+struct Siting {
+  /// From the first pixel to the middle of the sample, in half distances of pixels.
+  int right = 0;
+  int down = 0;
+};
+/// If the file does not say, players assume the left side.
+Siting siting_of(const AVFrame& frame);
 
 /// The channel behind red, green and blue, or Y, Cb and Cr.
 inline constexpr int kAlpha = 3;
@@ -43,16 +52,19 @@ int component_of(const AVPixFmtDescriptor& format, int channel);
 int x_shift_of(const AVPixFmtDescriptor& format, int component);
 int y_shift_of(const AVPixFmtDescriptor& format, int component);
 int samples_in_row(const AVFrame& frame, int component);
+int samples_in_column(const AVFrame& frame, int component);
 
-struct SwsDeleter {
-  void operator()(SwsContext* context) const noexcept { sws_freeContext(context); }
-};
-using SwsPtr = std::unique_ptr<SwsContext, SwsDeleter>;
+/// One row of a component's samples, as they are stored.
+/// @param row  of the component: two rows of 4:2:0 share one of chroma.
+/// @param levels  takes samples_in_row() of them.
+void read_levels(const AVFrame& frame, int component, int row, std::uint16_t* levels);
 
 AnyImage samples_of(const AVFrame& frame);
 
-/// @param sws  of the last picture, reused if it suits this one.
-/// @throws MediaError if libswscale does not know the pixel format.
-AnyImage rgb_of(const AVFrame& frame, SwsPtr& sws);
+/// The colours, of 8 bits if the samples have no more, else of 16. Chroma is interpolated linearly
+/// between the places where its samples lie; the rows of interlaced pictures count as those of
+/// others, as players without a deinterlacer show them.
+/// @throws MediaError if the matrix or the pixel format has no fixed way to RGB.
+AnyImage rgb_of(const AVFrame& frame, const std::string& path);
 
 }  // namespace piblocks

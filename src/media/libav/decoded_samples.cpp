@@ -1,6 +1,3 @@
-#include <fmt/format.h>
-#include <piblocks/error.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -88,22 +85,15 @@ void read_palette(const AVFrame& frame, std::vector<std::uint32_t>& words) {
   }
 }
 
-/// One row of a component, by libavutil's description of its bits, as levels up to `max_level`.
+/// One row of a component, as levels up to `max_level`.
 std::vector<std::uint16_t> levels_of(const AVFrame& frame, int component, int y, int max_level) {
   const AVPixFmtDescriptor& format = descriptor_of(frame);
-  std::array<const std::uint8_t*, 4> planes{};
-  std::copy_n(frame.data, planes.size(), planes.begin());
-  const int count = samples_in_row(frame, component);
-  std::vector<std::uint16_t> levels(static_cast<std::size_t>(count));
-  av_read_image_line2(levels.data(), planes.data(), frame.linesize, &format, 0,
-                      y >> y_shift_of(format, component), component, count, 0,
-                      sizeof(std::uint16_t));
+  std::vector<std::uint16_t> levels(std::size_t(samples_in_row(frame, component)));
+  read_levels(frame, component, y >> y_shift_of(format, component), levels.data());
   const int own_max = (1 << format.comp[component].depth) - 1;
-  const bool is_inverted = pixel_format_of(frame) == AV_PIX_FMT_MONOWHITE;
-  if (own_max == max_level && !is_inverted) return levels;
+  if (own_max == max_level) return levels;
   for (std::uint16_t& level : levels) {
-    const int own_level = is_inverted ? own_max - level : level;
-    level = std::uint16_t(scaled_level(own_level, own_max, max_level));
+    level = std::uint16_t(scaled_level(level, own_max, max_level));
   }
   return levels;
 }
@@ -140,29 +130,33 @@ Picture blank(const AVFrame& frame) {
           .words = decltype(Picture::words)(std::size_t(frame.width) * std::size_t(frame.height))};
 }
 
-template <typename Picture>
-Picture converted(const AVFrame& frame, AVPixelFormat to, SwsPtr& sws) {
-  constexpr int kFlags = SWS_BILINEAR | SWS_FULL_CHR_H_INT | SWS_ACCURATE_RND | SWS_BITEXACT;
-  sws.reset(sws_getCachedContext(sws.release(), frame.width, frame.height, pixel_format_of(frame),
-                                 frame.width, frame.height, to, kFlags, nullptr, nullptr, nullptr));
-  if (!sws) {
-    throw MediaError(fmt::format("video: cannot convert pictures of the pixel format {} to RGB",
-                                 descriptor_of(frame).name));
-  }
-  const int* const matrix = sws_getCoefficients(matrix_of(frame));
-  constexpr int kOne = 1 << 16;
-  sws_setColorspaceDetails(sws.get(), matrix, is_full_range(frame) ? 1 : 0, matrix, 1, 0, kOne,
-                           kOne);
-  auto picture = blank<Picture>(frame);
-  const std::array<std::uint8_t*, 1> data = {reinterpret_cast<std::uint8_t*>(picture.words.data())};
-  const std::array<int, 1> stride = {int(sizeof picture.words[0]) * frame.width};
-  check_av_read(
-      sws_scale(sws.get(), frame.data, frame.linesize, 0, frame.height, data.data(), stride.data()),
-      "convert", "picture");
-  return picture;
-}
-
 }  // namespace
+
+void read_levels(const AVFrame& frame, int component, int row, std::uint16_t* levels) {
+  const AVPixFmtDescriptor& format = descriptor_of(frame);
+  const AVComponentDescriptor& place = format.comp[component];
+  const int count = samples_in_row(frame, component);
+  const bool is_plain = place.shift == 0 && place.depth >= 8 &&
+                        !has_flag(format, AV_PIX_FMT_FLAG_BITSTREAM | AV_PIX_FMT_FLAG_BE);
+  const std::uint8_t* const bytes =
+      frame.data[place.plane] + std::ptrdiff_t{row} * frame.linesize[place.plane] + place.offset;
+  if (is_plain && place.depth == 8) {
+    for (int i = 0; i < count; ++i) levels[i] = bytes[std::ptrdiff_t{i} * place.step];
+    return;
+  }
+  if (is_plain && place.step == 2) {
+    const auto mask = std::uint16_t((1 << place.depth) - 1);
+    std::memcpy(levels, bytes, std::size_t(count) * sizeof *levels);
+    for (int i = 0; i < count; ++i) levels[i] &= mask;
+    return;
+  }
+  std::array<const std::uint8_t*, 4> planes{};
+  std::copy_n(frame.data, planes.size(), planes.begin());
+  av_read_image_line2(levels, planes.data(), frame.linesize, &format, 0, row, component, count, 0,
+                      sizeof *levels);
+  if (pixel_format_of(frame) != AV_PIX_FMT_MONOWHITE) return;
+  for (int i = 0; i < count; ++i) levels[i] ^= 1;
+}
 
 AnyImage samples_of(const AVFrame& frame) {
   const AVPixFmtDescriptor& format = descriptor_of(frame);
@@ -182,14 +176,6 @@ AnyImage samples_of(const AVFrame& frame) {
     read_bits(frame, 255, image.words);
   }
   return image;
-}
-
-AnyImage rgb_of(const AVFrame& frame, SwsPtr& sws) {
-  if (is_rgb(frame)) return samples_of(frame);
-  if (greatest_depth(descriptor_of(frame)) <= 8) {
-    return converted<Image>(frame, AV_PIX_FMT_BGRA, sws);
-  }
-  return converted<DeepImage>(frame, AV_PIX_FMT_BGRA64LE, sws);
 }
 
 }  // namespace piblocks

@@ -145,7 +145,7 @@ class VideoReader final : public FrameReader {
     return text;
   }
   AnyImage samples() override { return samples_of(*frame_); }
-  AnyImage rgb() override { return rgb_of(*frame_, sws_); }
+  AnyImage rgb() override { return rgb_of(*frame_, path_); }
   std::string name() const override { return fmt::format("frame {}", frames_ - 1); }
 
  private:
@@ -186,7 +186,6 @@ class VideoReader final : public FrameReader {
   AvCodecContextPtr decoder_;
   AvPacketPtr packet_;
   AvFramePtr frame_;
-  SwsPtr sws_;
   std::int64_t frames_ = 0;
 };
 
