@@ -173,6 +173,45 @@ TEST_F(PngReaderTest, RefusesWhatIsDamagedAnywhere) {
   }
 }
 
+// As libpng, browsers and image viewers do.
+TEST_F(PngReaderTest, TakesDamageThatPixelsDoNotDependOn) {
+  const auto broken = [](const std::string& type, const std::string& data) {
+    std::string chunk = png_chunk(type, data);
+    chunk.back() = static_cast<char>(chunk.back() ^ 1);
+    return chunk;
+  };
+  HandMadePng png{.width_px = 2, .levels = {1, 2, 3, 4, 5, 6}};
+  const auto words = std::get<Image>(samples_of(png)).words;
+  for (const char* const type : {"gAMA", "tEXt", "pHYs", "sRGB", "iCCP", "tIME", "eXIf", "abCd"}) {
+    png.chunks = broken(type, "some bytes of data");
+    EXPECT_EQ(std::get<Image>(samples_of(png)).words, words) << type;
+  }
+  png.chunks.clear();
+  const AnyImage with_tail = read_png_samples(saved(file_of(png) + "trailing data"));
+  EXPECT_EQ(std::get<Image>(with_tail).words, words);
+  for (const char* const type : {"tRNS", "acTL", "PLTE", "IDAT", "ABCD"}) {
+    png.chunks = broken(type, std::string("\0\1\0\2\0\3", 6));
+    EXPECT_THROW(samples_of(png), MediaError) << type;
+  }
+  png.chunks = png_chunk("tRNS", std::string("\0\1\0\2\0\3\0", 7));  // too long
+  EXPECT_THROW(samples_of(png), MediaError);
+}
+
+TEST_F(PngReaderTest, RefusesAColourThatIsNotInThePalette) {
+  for (const int bits : {1, 2, 4, 8}) {
+    HandMadePng png{.width_px = 3, .bits = bits, .colour = PngColour::palette};
+    const int count = bits == 8 ? 200 : (1 << bits) - 1;
+    png.chunks = png_chunk("PLTE", std::string(std::size_t(3 * count), 'x'));
+    for (const bool is_interlaced : {false, true}) {
+      png.is_interlaced = is_interlaced;
+      png.levels = {0, count - 1, count - 1};
+      EXPECT_NO_THROW(samples_of(png)) << bits;
+      png.levels = {0, count, 0};
+      EXPECT_THROW(samples_of(png), MediaError) << bits;
+    }
+  }
+}
+
 /// The leak checker sees whether libpng's objects go when the reader is not completed.
 TEST_F(PngReaderTest, RefusesWhatIsTooLarge) {
   const std::string header = big_endian(16385) + big_endian(1) + std::string("\x08\x02\0\0\0", 5);

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/own_binary.hpp"
+#include "media/png/png_reader.hpp"
 
 namespace piblocks {
 namespace {
@@ -61,6 +62,8 @@ const AvModule& av_module() {
 }
 
 std::unique_ptr<FrameReader> read_video(const std::string& path, const std::stop_token& stop) {
+  // libavformat takes an animated PNG that is cut off for a shorter one.
+  if (is_png_file(path) && is_animated_png(path)) return read_apng(path);
   return av_module().read_video(path, stop);
 }
 

@@ -46,7 +46,8 @@ const AvModule& av_module();
 
 // What follows loads the module, and throws as av_module().
 
-/// The first video stream of any file that libavformat reads.
+/// The first video stream of any file that libavformat reads; or an animated PNG, without the
+/// module.
 /// @param stop  breaks off a call that waits, such as for somebody to write to a pipe.
 /// @throws IoError, MediaError
 std::unique_ptr<FrameReader> read_video(const std::string& path, const std::stop_token& stop = {});

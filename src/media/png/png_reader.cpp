@@ -11,8 +11,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <new>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -49,7 +51,9 @@ struct PngStructs {
 /// in a step without local objects; members own everything.
 class PngFile {
  public:
-  explicit PngFile(fs::path path) : path_(std::move(path)), file_(open_file(path_)) {
+  explicit PngFile(const fs::path& path) : PngFile(path, open_file(path)) {}
+  /// @param path  for messages
+  PngFile(fs::path path, FilePtr file) : path_(std::move(path)), file_(std::move(file)) {
     structs_.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
     if (structs_.png != nullptr) structs_.info = png_create_info_struct(structs_.png);
     if (structs_.info == nullptr) throw std::bad_alloc();
@@ -71,6 +75,7 @@ class PngFile {
   DeepImage read_deep() { return read(DeepImage{.width_px = width(), .height_px = height()}); }
   Image read_flat() {
     is_flat_ = true;
+    if (is_palette()) return read_palette();
     return read(Image{.width_px = width(), .height_px = height()});
   }
 
@@ -82,7 +87,11 @@ class PngFile {
     std::strncpy(self.message_.data(), message, self.message_.size() - 1);
     png_longjmp(png, 1);
   }
-  static void on_warning(png_structp /*png*/, png_const_charp /*message*/) {}
+  /// libpng leaves out ancillary chunks that are damaged. Pixels depend on these two, though.
+  static void on_warning(png_structp png, png_const_charp message) {
+    const std::string_view text = message;
+    if (text.starts_with("tRNS") || text.starts_with("acTL")) on_error(png, message);
+  }
 
   int width() const { return int(png_get_image_width(structs_.png, structs_.info)); }
   int height() const { return int(png_get_image_height(structs_.png, structs_.info)); }
@@ -96,8 +105,7 @@ class PngFile {
   }
   void read_header() {
     png_init_io(structs_.png, file_.get());
-    // tRNS is no critical chunk, but pixels depend on it.
-    png_set_crc_action(structs_.png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
+    png_set_crc_action(structs_.png, PNG_CRC_ERROR_QUIT, PNG_CRC_WARN_DISCARD);
     png_set_keep_unknown_chunks(structs_.png, PNG_HANDLE_CHUNK_ALWAYS,
                                 reinterpret_cast<png_const_bytep>("acTL"), 1);
     png_read_info(structs_.png, structs_.info);
@@ -107,15 +115,25 @@ class PngFile {
     if (width() <= kMaxSide_px && height() <= kMaxSide_px && pixels <= kMaxFrame_px) return;
     fail(fmt::format("{}x{} is too large", width(), height()));
   }
+  bool is_palette() const {
+    return png_get_color_type(structs_.png, structs_.info) == PNG_COLOR_TYPE_PALETTE;
+  }
   /// Samples in the order of words 0xAARRGGBB on a little-endian machine.
-  void read_rows() {
+  void set_words() {
     if (is_flat_) png_set_scale_16(structs_.png);
-    png_set_expand(structs_.png);  // palettes, greys of less than 8 bits, tRNS
+    png_set_expand(structs_.png);  // greys of less than 8 bits, tRNS
     png_set_gray_to_rgb(structs_.png);
     constexpr png_uint_32 kOpaque = 0xffff;
     png_set_add_alpha(structs_.png, kOpaque, PNG_FILLER_AFTER);
     png_set_bgr(structs_.png);
     png_set_swap(structs_.png);
+  }
+  void read_rows() {
+    if (is_palette()) {
+      png_set_packing(structs_.png);  // a byte for each index
+    } else {
+      set_words();
+    }
     const int passes = png_set_interlace_handling(structs_.png);
     png_read_update_info(structs_.png, structs_.info);
     const png_uint_32 height = png_get_image_height(structs_.png, structs_.info);
@@ -141,6 +159,39 @@ class PngFile {
     run(&PngFile::read_rows);
     return picture;
   }
+  /// libpng does not check indices if it expands them.
+  Image read_palette() {
+    Image picture{width(), height(), {}};
+    std::vector<std::uint8_t> indices(std::size_t(width()) * std::size_t(height()));
+    rows_ = indices.data();
+    row_bytes_ = std::size_t(width());
+    run(&PngFile::read_rows);
+    const std::vector<std::uint32_t> colors = palette();
+    picture.words.reserve(indices.size());
+    for (const std::uint8_t index : indices) {
+      if (index >= colors.size()) {
+        fail(fmt::format("a pixel has colour {} of a palette of {}", index, colors.size()));
+      }
+      picture.words.push_back(colors[index]);
+    }
+    return picture;
+  }
+  /// As words 0xAARRGGBB.
+  std::vector<std::uint32_t> palette() const {
+    png_colorp colors = nullptr;
+    int count = 0;
+    png_bytep alphas = nullptr;
+    int alpha_count = 0;
+    png_get_PLTE(structs_.png, structs_.info, &colors, &count);
+    png_get_tRNS(structs_.png, structs_.info, &alphas, &alpha_count, nullptr);
+    std::vector<std::uint32_t> words;
+    for (int i = 0; i < count; ++i) {
+      const std::uint32_t alpha = i < alpha_count ? alphas[i] : 255;
+      words.push_back(alpha << 24 | std::uint32_t{colors[i].red} << 16 |
+                      std::uint32_t{colors[i].green} << 8 | colors[i].blue);
+    }
+    return words;
+  }
 
   fs::path path_;
   FilePtr file_;
@@ -151,6 +202,11 @@ class PngFile {
   std::size_t row_bytes_ = 0;
   bool is_flat_ = false;
 };
+
+AnyImage samples_of(PngFile& file) {
+  if (file.is_deep()) return file.read_deep();
+  return file.read_flat();
+}
 
 class PngReader final : public FrameReader {
  public:
@@ -183,8 +239,25 @@ AnyImage read_png_samples(const fs::path& path) {
         "png: cannot read '{}' as one picture: it is animated; compare it by itself, as a video",
         path.string()));
   }
-  if (file.is_deep()) return file.read_deep();
-  return file.read_flat();
+  return samples_of(file);
+}
+
+AnyImage read_png_samples(const fs::path& path, std::span<const std::uint8_t> bytes) {
+  // Reading does not write to the memory.
+  auto* const memory = const_cast<std::uint8_t*>(bytes.data());  // NOLINT(*-const-cast)
+  FilePtr file(::fmemopen(memory, bytes.size(), "rb"), std::fclose);
+  if (!file) throw std::bad_alloc();
+  PngFile png(path, std::move(file));
+  return samples_of(png);
+}
+
+bool is_png_file(const fs::path& path) {
+  std::error_code no_file;
+  if (!fs::is_regular_file(path, no_file)) return false;
+  std::array<png_byte, 8> start{};
+  std::ifstream file(path, std::ios::binary);
+  return file.read(reinterpret_cast<char*>(start.data()), start.size()) &&
+         png_sig_cmp(start.data(), 0, start.size()) == 0;
 }
 
 bool is_animated_png(const fs::path& path) { return PngFile(path).is_animated(); }

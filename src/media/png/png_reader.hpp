@@ -4,8 +4,10 @@
 
 #include <piblocks/image.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "media/pixels/frame_reader.hpp"
@@ -13,15 +15,27 @@
 namespace piblocks {
 
 /// Samples of 16 bits are rounded to 8.
-/// @throws IoError if the file cannot be read, MediaError if it is no PNG or above kMaxFrame_px.
+/// Damage in chunks that pixels do not depend on, and what follows the end, is ignored.
+/// @throws IoError if the file cannot be read, MediaError if it is no PNG, is damaged, or is above
+///         kMaxFrame_px.
 Image read_png(const std::filesystem::path& path);
 
 /// Keeps samples of 16 bits. @throws as read_png(), and MediaError if the file is animated.
 AnyImage read_png_samples(const std::filesystem::path& path);
 
-/// Whether the file is a PNG with more than one frame, all of which only read_video() reads.
-/// @throws as read_png().
+/// The same of a PNG file in memory, animated or not. @param path  for messages
+AnyImage read_png_samples(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+
+/// Whether this is a regular file that begins as a PNG does.
+bool is_png_file(const std::filesystem::path& path);
+
+/// Whether the file is a PNG with more than one frame. @throws as read_png().
 bool is_animated_png(const std::filesystem::path& path);
+
+/// The frames of an animated PNG, each as it is shown: a whole picture.
+/// Reading throws MediaError if a frame is damaged, or if there are fewer or more than announced.
+/// @throws as read_png().
+std::unique_ptr<FrameReader> read_apng(const std::filesystem::path& path);
 
 /// PNG files, one frame each, in this order.
 std::unique_ptr<FrameReader> read_png_files(std::vector<std::filesystem::path> paths);

@@ -1,0 +1,321 @@
+// Animated PNG (PNG specification, third edition, 11.3.2 and 13): libpng decodes the frames, each
+// of which becomes a PNG file in memory.
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+#include "media/png/png_chunk.hpp"
+#include "media/png/png_reader.hpp"
+
+namespace piblocks {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+
+std::uint32_t big_endian_at(ByteSpan bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (const std::uint8_t byte : bytes.subspan(at, 4)) value = value << 8 | byte;
+  return value;
+}
+
+[[noreturn]] void fail(const fs::path& path, std::string_view reason) {
+  throw MediaError(fmt::format("png: cannot read '{}': {}", path.string(), reason));
+}
+
+struct Chunk {
+  std::string type;
+  Bytes data;
+};
+
+/// The chunks that frames depend on, with their checksums checked.
+class ChunkReader {
+ public:
+  explicit ChunkReader(const fs::path& path) : path_(path), file_(path, std::ios::binary) {
+    std::error_code error;
+    left_ = fs::file_size(path, error);
+    std::string signature(kSignature.size(), '\0');
+    read(signature.data(), signature.size());
+    if (signature != kSignature) fail(path, "it is no PNG file");
+  }
+
+  /// Leaves out ancillary chunks that are damaged, but not those of the animation.
+  Chunk next() {
+    while (true) {
+      Bytes head(8);
+      read(head.data(), head.size());
+      const std::uint32_t length = big_endian_at(head, 0);
+      if (length > left_) cut_off();  // before it asks for memory
+      Bytes checked(length + std::size_t{4});
+      std::ranges::copy(std::span(head).subspan(4), checked.begin());
+      read(checked.data() + 4, length);
+      Bytes crc(4);
+      read(crc.data(), crc.size());
+      const std::string type(checked.begin(), checked.begin() + 4);
+      if (big_endian_at(crc, 0) == crc32_z(0, checked.data(), checked.size())) {
+        return {type, Bytes(checked.begin() + 4, checked.end())};
+      }
+      constexpr std::array<std::string_view, 4> kNeeded = {"tRNS", "acTL", "fcTL", "fdAT"};
+      const bool is_critical = (checked[0] & 0x20) == 0;
+      if (is_critical || std::ranges::find(kNeeded, type) != kNeeded.end()) {
+        fail(path_, type + ": CRC error");
+      }
+    }
+  }
+  [[noreturn]] void cut_off() const { fail(path_, "it is cut off before its last frame"); }
+
+ private:
+  template <typename Byte>
+  void read(Byte* bytes, std::size_t count) {
+    if (count > left_) cut_off();
+    left_ -= count;
+    if (!file_.read(reinterpret_cast<char*>(bytes), static_cast<std::streamsize>(count))) {
+      throw IoError(fmt::format("png: cannot read '{}'", path_.string()));
+    }
+  }
+
+  fs::path path_;
+  std::ifstream file_;
+  std::uintmax_t left_ = 0;
+};
+
+enum class Disposal { none, background, previous };
+
+/// fcTL: where a frame goes, and what becomes of it.
+struct FrameControl {
+  std::uint32_t width, height, x, y;
+  Disposal disposal;
+  bool is_blended;
+};
+
+/// The channels of a word, alpha last.
+template <typename Word>
+int shift_of(int channel) {
+  return channel * int(sizeof(Word)) * 2;
+}
+
+/// A colour over another one, neither multiplied by its alpha (PNG specification, 13.9).
+template <typename Word>
+Word over(Word front, Word back) {
+  constexpr std::uint64_t kMax = (std::uint64_t{1} << (sizeof(Word) * 2)) - 1;
+  const auto level = [](Word word, int channel) { return word >> shift_of<Word>(channel) & kMax; };
+  const std::uint64_t front_weight = level(front, 3) * kMax;
+  const std::uint64_t back_weight = (kMax - level(front, 3)) * level(back, 3);
+  const std::uint64_t sum = front_weight + back_weight;
+  if (sum == 0) return 0;
+  Word result = Word((2 * sum + kMax) / (2 * kMax)) << shift_of<Word>(3);
+  for (int channel = 0; channel < 3; ++channel) {
+    const std::uint64_t colour =
+        level(front, channel) * front_weight + level(back, channel) * back_weight;
+    result |= Word((2 * colour + sum) / (2 * sum)) << shift_of<Word>(channel);
+  }
+  return result;
+}
+
+/// What is shown, frame after frame.
+template <typename Picture>
+class Screen {
+ public:
+  Screen(int width_px, int height_px, Picture blank) : picture_(std::move(blank)) {
+    picture_.width_px = width_px;
+    picture_.height_px = height_px;
+    picture_.words.resize(std::size_t(width_px) * std::size_t(height_px));  // transparent black
+  }
+
+  const Picture& show(const FrameControl& control, const Picture& frame) {
+    dispose();
+    if (control.disposal == Disposal::previous) saved_ = picture_.words;
+    shown_ = control;
+    auto from = frame.words.begin();
+    for_each_row([&](auto row) {
+      for (auto& word : row) {
+        word = control.is_blended ? over(*from, word) : *from;
+        ++from;
+      }
+    });
+    return picture_;
+  }
+
+ private:
+  template <typename Use>
+  void for_each_row(const Use& use) {
+    for (std::uint32_t y = shown_->y; y < shown_->y + shown_->height; ++y) {
+      const std::size_t at = std::size_t{y} * std::size_t(picture_.width_px) + shown_->x;
+      use(std::span(picture_.words).subspan(at, shown_->width));
+    }
+  }
+  void dispose() {
+    if (!shown_ || shown_->disposal == Disposal::none) return;
+    if (shown_->disposal == Disposal::previous) {
+      picture_.words = saved_;
+    } else {
+      for_each_row([](auto row) { std::ranges::fill(row, 0); });
+    }
+  }
+
+  Picture picture_;
+  std::optional<FrameControl> shown_;
+  decltype(Picture::words) saved_;
+};
+
+class ApngReader final : public FrameReader {
+ public:
+  explicit ApngReader(const fs::path& path) : path_(path), chunks_(path) {
+    const Chunk header = chunks_.next();
+    constexpr std::size_t kIhdr_bytes = 13;
+    if (header.type != "IHDR" || header.data.size() != kIhdr_bytes) fail(path_, "no header");
+    header_ = header.data;
+    width_ = big_endian_at(header_, 0);
+    height_ = big_endian_at(header_, 4);
+    while (!control_) read_before_frames(chunks_.next());
+  }
+
+  bool next() override {
+    if (!control_) return false;
+    const FrameControl control = *control_;
+    show(control, read_frame());
+    ++frames_;
+    const bool is_last = !control_;
+    if (is_last ? frames_ != announced_ : frames_ == announced_) {
+      fail(path_, fmt::format("it announces {} frames and has {}", announced_,
+                              is_last ? std::to_string(frames_) : "more"));
+    }
+    return true;
+  }
+  std::string layout() const override { return std::string(kRgba); }
+  AnyImage samples() override {
+    return std::visit([](const auto* picture) { return AnyImage(*picture); }, shown_);
+  }
+  AnyImage rgb() override { return samples(); }
+  std::string name() const override { return fmt::format("frame {}", frames_ - 1); }
+
+ private:
+  void read_before_frames(const Chunk& chunk) {
+    if (chunk.type == "acTL") {
+      if (chunk.data.size() != 8) fail(path_, "acTL: invalid length");
+      announced_ = big_endian_at(chunk.data, 0);
+    } else if (chunk.type == "PLTE" || chunk.type == "tRNS") {
+      append_chunk(shared_, chunk.type, chunk.data);
+    } else if (chunk.type == "fcTL") {
+      take_control(chunk.data);
+    } else if (chunk.type == "IDAT") {
+      is_default_over_ = true;  // this picture is no frame
+    } else if (chunk.type == "fdAT" || chunk.type == "IEND") {
+      fail(path_, "it has no frames");
+    }
+  }
+  /// The frame of the last control, as a PNG file; then control_ is of the next one, if any.
+  Bytes read_frame() {
+    Bytes png;
+    append(png, kSignature);
+    Bytes header = header_;
+    Bytes size;
+    append_big_endian(size, control_->width, 4);
+    append_big_endian(size, control_->height, 4);
+    std::ranges::copy(size, header.begin());
+    append_chunk(png, "IHDR", header);
+    append(png, shared_);
+    control_.reset();
+    bool has_data = false;
+    while (!control_) {
+      const Chunk chunk = chunks_.next();
+      if (chunk.type == "IEND") break;
+      if (chunk.type == "fcTL") {
+        take_control(chunk.data);
+      } else if (chunk.type == "IDAT") {
+        if (is_default_over_) fail(path_, "IDAT: out of place");
+        append_chunk(png, "IDAT", chunk.data);
+        has_data = true;
+      } else if (chunk.type == "fdAT") {
+        check_sequence(chunk.data, 4);
+        append_chunk(png, "IDAT", ByteSpan(chunk.data).subspan(4));
+        has_data = is_default_over_ = true;
+      }
+    }
+    if (!has_data) fail(path_, fmt::format("frame {} has no picture", frames_));
+    is_default_over_ = true;
+    append_chunk(png, "IEND", {});
+    return png;
+  }
+  void take_control(ByteSpan data) {
+    constexpr std::size_t kControl_bytes = 26;
+    check_sequence(data, kControl_bytes);
+    if (data.size() != kControl_bytes) fail(path_, "fcTL: invalid length");
+    const FrameControl control{.width = big_endian_at(data, 4),
+                               .height = big_endian_at(data, 8),
+                               .x = big_endian_at(data, 12),
+                               .y = big_endian_at(data, 16),
+                               .disposal = Disposal(data[24]),
+                               .is_blended = data[25] == 1};
+    const bool is_first = next_sequence_ == 1;
+    const bool is_default = is_first && !is_default_over_;
+    const bool fits = control.width > 0 && control.height > 0 &&
+                      std::uint64_t{control.x} + control.width <= width_ &&
+                      std::uint64_t{control.y} + control.height <= height_ &&
+                      (!is_default || (control.width == width_ && control.height == height_));
+    if (!fits || data[24] > 2 || data[25] > 1) fail(path_, "fcTL: invalid values");
+    control_ = control;
+    // Nothing was there before the first frame.
+    if (is_first && control.disposal == Disposal::previous) {
+      control_->disposal = Disposal::background;
+    }
+  }
+  /// fcTL and fdAT chunks are numbered together.
+  void check_sequence(ByteSpan data, std::size_t least_bytes) {
+    if (data.size() < least_bytes || big_endian_at(data, 0) != next_sequence_++) {
+      fail(path_, "its frames are out of order");
+    }
+  }
+  static void append_chunk(Bytes& png, std::string_view type, ByteSpan data) {
+    const std::size_t chunk = begin_png_chunk(png, type);
+    append(png, data);
+    end_png_chunk(png, chunk);
+  }
+  void show(const FrameControl& control, const Bytes& png) {
+    const AnyImage frame = read_png_samples(path_, png);
+    if (const auto* const flat = std::get_if<Image>(&frame)) {
+      if (!flat_) flat_.emplace(int(width_), int(height_), Image{});
+      shown_ = &flat_->show(control, *flat);
+    } else {
+      constexpr int kMaxLevel = 65535;
+      if (!deep_) deep_.emplace(int(width_), int(height_), DeepImage{.max_level = kMaxLevel});
+      shown_ = &deep_->show(control, std::get<DeepImage>(frame));
+    }
+  }
+
+  fs::path path_;
+  ChunkReader chunks_;
+  Bytes header_;  // of the file
+  Bytes shared_;  // chunks that every frame needs
+  std::uint32_t width_ = 0;
+  std::uint32_t height_ = 0;
+  std::uint32_t announced_ = 0;
+  std::uint32_t frames_ = 0;  // that have been read
+  std::uint32_t next_sequence_ = 0;
+  bool is_default_over_ = false;         // IDAT can be no frame any more
+  std::optional<FrameControl> control_;  // of the next frame
+  // One of them, for all frames have the depth of the file.
+  std::optional<Screen<Image>> flat_;
+  std::optional<Screen<DeepImage>> deep_;
+  std::variant<const Image*, const DeepImage*> shown_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameReader> read_apng(const fs::path& path) {
+  if (!is_animated_png(path)) fail(path, "it is not animated");  // and checks its size
+  return std::make_unique<ApngReader>(path);
+}
+
+}  // namespace piblocks
