@@ -96,7 +96,7 @@ void add_render(Command& app) {
       "Examples:\n"
       "  piblocks render -o pi.mp4\n"
       "  piblocks render --digits 5 --speed 1/2 --size 1280x720 -o frames/%06d.png\n"
-      "  piblocks render scene.toml --to last+3 -o - | ffplay -");
+      "  piblocks render scene.toml --to last+3 -o - | ffplay -colorspace bt709 -");
   command.on_run([=] { run_render(command, scene); });
 }
 

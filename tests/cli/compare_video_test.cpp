@@ -70,7 +70,8 @@ TEST_F(CompareVideoTest, WhatIsCutOffIsNotAShorterOne) {
   render("a.y4m");
   render("a.webm");
   render("a.gif");
-  std::vector<std::string> names = {"a.y4m", "a.webm", "a.gif"};
+  render("a.apng");
+  std::vector<std::string> names = {"a.y4m", "a.webm", "a.gif", "a.apng"};
   if (ffmpeg(kTestPicture + "-c:v ffv1 a.mkv")) names.emplace_back("a.mkv");
   for (const std::string& name : names) {
     EXPECT_EQ(compare({name, name}).exit_code, 0) << name;
@@ -83,6 +84,28 @@ TEST_F(CompareVideoTest, WhatIsCutOffIsNotAShorterOne) {
       EXPECT_EQ(compare({cut, cut}).exit_code, 5) << name << " " << size;
     }
   }
+}
+
+// Its header has a tag of ours for the matrix, which FFmpeg has to be told.
+TEST_F(CompareVideoTest, OurY4mIsBt709) {
+  const Arguments options = {"render", "--size", "64x36", "--fps", "10", "--to", "1", "-o"};
+  const CommandResult rendered = piblocks(options + Arguments{"a.y4m"});
+  EXPECT_EQ(std::ranges::count_if(lines(rendered.err),
+                                  [](const std::string& line) {
+                                    return line.find("-colorspace bt709") != std::string::npos;
+                                  }),
+            1)
+      << rendered.err;
+  EXPECT_EQ(piblocks(options + Arguments{"b.y4m", "--quiet"}).err, "");
+  std::string other = contents("a.y4m");
+  other.replace(other.find("=BT709"), 6, "=OTHER");
+  write("c.y4m", other);
+  EXPECT_EQ(compare({"a.y4m", "b.y4m"}).exit_code, 0);
+  EXPECT_EQ(compare({"a.y4m", "c.y4m"}).exit_code, 1);
+  if (!ffmpeg("-colorspace bt709 -i a.y4m -c:v ffv1 told.mkv")) GTEST_SKIP() << "no ffmpeg here";
+  ASSERT_TRUE(ffmpeg("-i a.y4m -c:v ffv1 untold.mkv"));
+  EXPECT_EQ(compare({"a.y4m", "told.mkv"}).exit_code, 0);
+  EXPECT_EQ(compare({"a.y4m", "untold.mkv"}).exit_code, 1);
 }
 
 // Nobody knows how long a live stream is going to be.

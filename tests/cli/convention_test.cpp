@@ -19,7 +19,7 @@ constexpr const char* kWallFirst =
 
 const Arguments kCount{"count", "scene.toml"};
 const Arguments kRenderQuietly{"render", "scene.toml", "--size", "64x36", "--fps",
-                               "2",      "--to",       "2",      "-o",    "-"};
+                               "2",      "--to",       "2",      "-o",    "null"};
 
 class ConventionTest : public CliFixture {
  protected:
@@ -61,7 +61,7 @@ TEST_F(ConventionTest, IsNotedByEveryCommandThatShowsIt) {
 TEST_F(ConventionTest, IsNotedBesideARenderingUnlessItIsQuiet) {
   const auto said = lines(run(kRestingOnTheWall, kRenderQuietly).err);
   ASSERT_EQ(said.size(), 2u);
-  EXPECT_TRUE(said[0].starts_with("standard output: 4 frames in ")) << said[0];
+  EXPECT_TRUE(said[0].starts_with("null: 4 frames in ")) << said[0];
   EXPECT_EQ(said[1] + '\n', kBlocksFirst);
   EXPECT_EQ(run(kRestingOnTheWall, kRenderQuietly + Arguments{"--quiet"}).err, "");
 }

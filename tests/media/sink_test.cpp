@@ -277,7 +277,8 @@ TEST(Y4m, HasTheHeaderAndThePlanesOfEveryFrame) {
   const PaintFrame paint = random_frames(format);
   write_frames(folder / "out.y4m", format, {}, 6, paint);
 
-  std::string expected = "YUV4MPEG2 W20 H10 F30000:1001 Ip A1:1 C420mpeg2 XCOLORRANGE=LIMITED\n";
+  std::string expected =
+      "YUV4MPEG2 W20 H10 F30000:1001 Ip A1:1 C420mpeg2 XCOLORRANGE=LIMITED XCOLORMATRIX=BT709\n";
   for (int i = 0; i < 6; ++i) {
     std::vector<std::uint8_t> planes(300);
     convert_to_yuv420(paint(i).view(), {0, 0, 20, 10},

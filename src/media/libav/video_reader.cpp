@@ -26,6 +26,29 @@ namespace {
       fmt::format("video: cannot read '{}': it is cut off before its last frame", path));
 }
 
+bool is_y4m(const AVFormatContext& input) {
+  return std::string_view(input.iformat->name) == "yuv4mpegpipe";
+}
+
+/// libavformat skips the comment by which our y4m says what its colours are.
+void take_y4m_matrix(AVFormatContext& input) {
+  if (!is_y4m(input) || input.nb_streams == 0) return;
+  // Also in a pipe, of which libavformat has kept the first bytes.
+  const std::int64_t header_bytes = avio_tell(input.pb);
+  if (avio_seek(input.pb, 0, SEEK_SET) < 0) return;
+  std::string header(std::size_t(header_bytes), '\0');
+  avio_read(input.pb, reinterpret_cast<unsigned char*>(header.data()), int(header_bytes));
+  header = header.substr(0, header.find('\n')) + ' ';
+  if (header.find(fmt::format(" {} ", kY4mMatrixTag)) == std::string::npos) return;
+  input.streams[0]->codecpar->color_space = AVCOL_SPC_BT709;
+}
+
+AvInputPtr open_video(const std::string& path, const std::stop_token* stop) {
+  AvInputPtr input = open_av_input(path, stop);
+  take_y4m_matrix(*input);
+  return input;
+}
+
 /// Rejects a file whose index leads beyond its end.
 void check_index(AVFormatContext& input, AVStream& stream, const std::string& path) {
   const std::int64_t size = avio_size(input.pb);
@@ -104,7 +127,7 @@ class VideoReader final : public FrameReader {
   VideoReader(const std::string& path, std::stop_token stop)
       : path_(path),
         stop_(std::move(stop)),
-        input_(open_av_input(path, &stop_)),
+        input_(open_video(path, &stop_)),
         read_to_(avio_tell(input_->pb)),
         stream_(find_video(*input_, path)),
         decoder_(open_decoder(*input_->streams[stream_], path)),
@@ -174,8 +197,7 @@ class VideoReader final : public FrameReader {
   }
   /// YUV4MPEG2 has no index, and libavformat drops half a frame at the end.
   void check_end() const {
-    const bool is_y4m = std::string_view(input_->iformat->name) == "yuv4mpegpipe";
-    if (is_y4m && avio_tell(input_->pb) != read_to_) refuse_cut_file(path_);
+    if (is_y4m(*input_) && avio_tell(input_->pb) != read_to_) refuse_cut_file(path_);
   }
 
   std::string path_;

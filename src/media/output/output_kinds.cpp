@@ -30,11 +30,11 @@ class NullSink final : public FrameSink {
   void finish() override {}
 };
 
-/// 420mpeg2 is 4:2:0 with chroma sited left. No tag names the matrix; readers take BT.709 for HD.
+/// 420mpeg2 is 4:2:0 with chroma sited left. FFmpeg knows the tag of the range.
 std::string file_header(const VideoFormat& format) {
-  return fmt::format("YUV4MPEG2 W{} H{} F{}:{} Ip A1:1 C420mpeg2 XCOLORRANGE=LIMITED\n",
+  return fmt::format("YUV4MPEG2 W{} H{} F{}:{} Ip A1:1 C420mpeg2 XCOLORRANGE=LIMITED {}\n",
                      format.width_px, format.height_px, format.frame_rate.get_num().get_str(),
-                     format.frame_rate.get_den().get_str());
+                     format.frame_rate.get_den().get_str(), kY4mMatrixTag);
 }
 
 class Y4mEncoder final : public PacketPerFrameEncoder {
@@ -187,7 +187,11 @@ Output y4m_output(const OutputRequest& request) {
   problems.add(odd_size_problem(request.format, "y4m in 4:2:0"));
   problems.check();
   // A frame has 3 MB at 1080p: as few as possible wait to be written.
-  return stream_output<Y4mEncoder>(request, 1, "y4m");
+  Output output = stream_output<Y4mEncoder>(request, 1, "y4m");
+  output.notes = {
+      "y4m does not say that these colours are BT.709, and most programs take BT.601; tell ffmpeg "
+      "and ffplay by -colorspace bt709 before -i"};
+  return output;
 }
 
 Output wav_output(const OutputRequest& request) {
