@@ -36,10 +36,16 @@ View golden_view(View view, const Golden& golden) {
     return view;
   }
   constexpr int kLongerSide_px = 480;
-  const double scale = double(kLongerSide_px) / std::max(view.width_px, view.height_px);
-  if (scale >= 1) return view;
-  view.width_px = std::max(1, static_cast<int>(view.width_px * scale));
-  view.height_px = std::max(1, static_cast<int>(view.height_px * scale));
+  const int longer_px = std::max(view.width_px, view.height_px);
+  if (longer_px <= kLongerSide_px) return view;
+  // To the nearest pixel, and to an even number where the scene has one.
+  const auto scaled = [&](int side_px) {
+    const int step = side_px % 2 == 0 ? 2 : 1;
+    const int divisor = step * longer_px;
+    return std::max(step, (side_px * kLongerSide_px + divisor / 2) / divisor * step);
+  };
+  view.width_px = scaled(view.width_px);
+  view.height_px = scaled(view.height_px);
   return view;
 }
 

@@ -218,20 +218,45 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
   return rendered;
 }
 
-Rendered render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
-                const std::stop_token& stop) {
-  if (sound_of(job.script).on && !takes_sound(job.output)) {
-    RenderJob silent = job;
-    std::visit([](auto& script) { script.sound.on = false; }, silent.script);
-    Rendered rendered = render(silent, on_progress, stop);
-    rendered.notes.insert(
-        rendered.notes.begin(),
-        fmt::format("'{}' has no sound; that of the scene is left out", job.output));
-    return rendered;
-  }
+namespace {
+
+/// Changes what the output of the job has no place for. @returns what is said of it.
+std::vector<std::string> fit_to_output(RenderJob& job) {
+  std::vector<std::string> notes;
+  const auto fit = [&](auto& script) {
+    if (script.sound.on && !takes_sound(job.output)) {
+      script.sound.on = false;
+      notes.push_back(fmt::format("'{}' has no sound; that of the scene is left out", job.output));
+    }
+    const auto most = max_frame_rate_of(job.output);
+    if (most && script.view.frame_rate > *most) {
+      notes.push_back(
+          fmt::format("'{}' shows at most {} frames a second, not {}; it has {} of them",
+                      job.output, *most, script.view.frame_rate.get_str(), *most));
+      script.view.frame_rate = *most;
+    }
+  };
+  std::visit(fit, job.script);
+  return notes;
+}
+
+Rendered render_fitted(const RenderJob& job,
+                       const std::function<void(const Progress&)>& on_progress,
+                       const std::stop_token& stop) {
   if (job.bundle) return render_bundle(job, on_progress, stop);
   if (is_page(job.output)) return render_page(job, on_progress, stop);
   return render_film(job, on_progress, stop);
+}
+
+}  // namespace
+
+Rendered render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
+                const std::stop_token& stop) {
+  RenderJob fitted = job;
+  std::vector<std::string> notes = fit_to_output(fitted);
+  Rendered rendered = render_fitted(fitted, on_progress, stop);
+  rendered.notes.insert(rendered.notes.begin(), notes.begin(), notes.end());
+  return rendered;
 }
 
 std::string shard_name(const std::string& output, const Shard& shard) {

@@ -299,7 +299,6 @@ INSTANTIATE_TEST_SUITE_P(
                  "[view]\nbackground = 'glass'"},
         BadInput{render({"--transparent", "--opaque"}),
                  "--transparent and --opaque both set the background"},
-        BadInput{{"render", "-o", "a.gif"}, "frame rate 60 is too high"},
         BadInput{{"render", "-o", "a.apng", "--fps", "100000/3001", "--crf", "3"},
                  "no use for crf"},
         BadInput{{"render", "-o", "a.webm", "--size", "65x36"}, "WebM in 4:2:0 needs even sides"},

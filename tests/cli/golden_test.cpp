@@ -49,6 +49,22 @@ TEST_F(GoldenTest, KeepsHashesAndTheNamedPictures) {
   expect(golden("check"), 0, "scene: equal");
 }
 
+TEST_F(GoldenTest, FramesAreRoundedToEvenSides) {
+  for (const auto& [size, kept] : {std::pair("854x480", "480x270"),
+                                   {"480x854", "270x480"},
+                                   {"1366x768", "480x270"},
+                                   {"1001x751", "480x360"},
+                                   {"4096x2", "480x2"},
+                                   {"320x180", "320x180"}}) {
+    write("scene.toml", fmt::format("time.to = 0.1\nview.fps = 10\nview.size = '{}'\n", size));
+    fs::remove_all(folder_ / "refs");
+    expect(golden("record"), 0, "scene: recorded");
+    EXPECT_NE(contents("refs/scene.framehash").find(fmt::format("#dimensions 0: {}\n", kept)),
+              std::string::npos)
+        << size;
+  }
+}
+
 TEST_F(GoldenTest, KeepsOtherPicturesWhereTheCommandLineSaysSo) {
   expect(golden("record", {"--frames", "1,#2"}), 0, "scene: recorded");
   EXPECT_EQ(references(), (Names{"scene-1.png", "scene-collision-2.png", "scene.framehash"}));

@@ -43,6 +43,24 @@ TEST_F(RenderTest, WritesEveryKind) {
   EXPECT_NE(contents("a.framehash").find("#dimensions 0: 64x36"), std::string::npos);
 }
 
+TEST_F(RenderTest, AGifHasNoMoreFramesThanItCanShow) {
+  const auto gif_of = [&](const char* fps) {
+    const CommandResult result =
+        piblocks({"render", "--size", "64x36", "--to", "1", "--fps", fps, "-o", "a.gif"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result;
+  };
+  const CommandResult fifty = gif_of("50");
+  EXPECT_EQ(fifty.err.find("note"), std::string::npos) << fifty.err;
+  const std::string bytes = contents("a.gif");
+  for (const char* fps : {"60", "60000/1001", "120", "1000"}) {
+    SCOPED_TRACE(fps);
+    EXPECT_NE(gif_of(fps).err.find("piblocks: note: 'a.gif' shows at most 50 frames a second"),
+              std::string::npos);
+    EXPECT_TRUE(contents("a.gif") == bytes);
+  }
+}
+
 TEST_F(RenderTest, NamesPlayersThatPromiseLessThanTheVideoNeeds) {
   const auto errors_of = [&](const char* size, const char* fps, const Arguments& more) {
     const Arguments arguments{"render", "--size", size, "--fps", fps, "--to", "1/10"};

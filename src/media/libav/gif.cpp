@@ -14,8 +14,6 @@
 namespace piblocks {
 namespace {
 
-/// Delays are whole hundredths of a second, and viewers show less than two as ten.
-constexpr int kMaxFrameRate_gif = 50;
 constexpr int kMaxDelay_cs = 65535;
 constexpr std::size_t kMaxColors = 256;
 

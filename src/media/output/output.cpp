@@ -194,6 +194,11 @@ std::string no_sound_in(const std::string& name) {
                      names(kSound));
 }
 
+std::optional<int> max_frame_rate_of(const std::string& name) {
+  if (has_ending(name, ".gif")) return kMaxFrameRate_gif;
+  return std::nullopt;
+}
+
 void claim_output(OverwriteCheck& check, const std::string& what, const std::string& name) {
   if (name == "null") return;
   if (name == "-") return check.writes_standard_output();

@@ -166,6 +166,9 @@ bool takes_sound(const std::string& name);
 /// What is said of such a name if it is to have sound.
 std::string no_sound_in(const std::string& name);
 
+/// The most frames a second that an output of this name can show; nothing if it has no limit.
+std::optional<int> max_frame_rate_of(const std::string& name);
+
 /// Enters the files of an output into the check that no input is overwritten.
 /// @param what  the output's part in the command, for messages.
 void claim_output(OverwriteCheck& check, const std::string& what, const std::string& name);

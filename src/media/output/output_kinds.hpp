@@ -18,6 +18,9 @@
 
 namespace piblocks {
 
+/// Delays are whole hundredths of a second, and viewers show less than two as ten.
+inline constexpr int kMaxFrameRate_gif = 50;
+
 /// The arguments of set_up_output(), already known to be in range.
 struct OutputRequest {
   std::string name;
