@@ -123,6 +123,19 @@ TEST(Gif, OfTooManyColoursKeepsThoseOfFlatAreas) {
   }
 }
 
+/// What lights up is a few pixels among the many shades of edges.
+TEST(ColorTable, KeepsAFewPixelsOfAColourOfTheirOwn) {
+  constexpr std::uint32_t kAccent = 0xffd166;
+  ColorTable table;
+  table.count(kAccent);
+  for (std::uint32_t shade = 0; shade < 1000; ++shade) {
+    for (int pixels = 0; pixels < 50; ++pixels)
+      table.count(0x200000 + 0x0102 * (shade % 250) + shade / 250);
+  }
+  table.choose(255);
+  EXPECT_EQ(table.colors()[table.index_of(kAccent)], kAccent);
+}
+
 TEST(ColorTable, GivesEveryColourTheNearestThatIsKept) {
   Random random(256);
   SCOPED_TRACE(random.trace());

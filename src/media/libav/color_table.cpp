@@ -7,7 +7,7 @@ namespace piblocks {
 namespace {
 
 /// Squared distance of red, green and blue.
-int distance(std::uint32_t a, std::uint32_t b) {
+int distance_of(std::uint32_t a, std::uint32_t b) {
   int sum = 0;
   for (const int shift : {0, 8, 16}) {
     const int difference = int(a >> shift & 0xff) - int(b >> shift & 0xff);
@@ -33,22 +33,40 @@ std::int64_t& ColorTable::entry(std::uint32_t color) {
 }
 
 void ColorTable::choose(std::size_t room) {
-  std::vector<std::pair<std::int64_t, std::uint32_t>> found;
-  found.reserve(counts_.size());
-  for (const auto& [color, count] : counts_) found.emplace_back(-count, color);
-  std::ranges::sort(found);
-  found.resize(std::min(room, found.size()));
-  for (const auto& entry : found) colors_.push_back(entry.second);
-  std::ranges::sort(colors_);
-  for (auto& [color, place] : counts_) {
-    const auto at = std::ranges::lower_bound(colors_, color);
-    const bool is_kept = at != colors_.end() && *at == color;
-    const auto nearest =
-        is_kept ? at : std::ranges::min_element(colors_, {}, [wanted = color](std::uint32_t c) {
-          return distance(c, wanted);
-        });
-    place = nearest - colors_.begin();
+  std::vector<Candidate> candidates;
+  candidates.reserve(counts_.size());
+  for (const auto& [color, count] : counts_) candidates.push_back({color, count});
+  if (candidates.size() <= room) {
+    std::ranges::sort(candidates, {}, &Candidate::color);
+    for (Candidate& candidate : candidates) {
+      candidate.place = std::int64_t(colors_.size());
+      colors_.push_back(candidate.color);
+    }
+  } else {
+    choose_some(room, candidates);
   }
+  for (const Candidate& candidate : candidates) counts_[candidate.color] = candidate.place;
+}
+
+void ColorTable::choose_some(std::size_t room, std::vector<Candidate>& candidates) {
+  std::ranges::sort(candidates, {},
+                    [](const Candidate& c) { return std::pair(-c.count, c.color); });
+  for (std::size_t i = 0; i < room; ++i) {
+    // Of equally far ones the most frequent, which come first.
+    const auto next = i < room / 8 ? candidates.begin() + std::ptrdiff_t(i)
+                                   : std::ranges::max_element(candidates, {}, &Candidate::distance);
+    keep(next->color, candidates);
+  }
+}
+
+void ColorTable::keep(std::uint32_t color, std::vector<Candidate>& candidates) {
+  for (Candidate& candidate : candidates) {
+    const int distance = distance_of(candidate.color, color);
+    if (distance >= candidate.distance) continue;
+    candidate.distance = distance;
+    candidate.place = std::int64_t(colors_.size());
+  }
+  colors_.push_back(color);
 }
 
 }  // namespace piblocks

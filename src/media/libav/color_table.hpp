@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <unordered_map>
 #include <vector>
 
@@ -13,8 +14,10 @@ class ColorTable {
  public:
   void clear();
   void count(std::uint32_t color) { ++entry(color); }
-  /// Keeps all colours, or the most frequent if there are more than `room`: those of flat shapes
-  /// rather than of smoothed edges. The choice depends on the counts alone.
+  /// Keeps all colours. If there are more than `room`, the most frequent take an eighth of it:
+  /// those of flat shapes. Each other one is the farthest from all that are kept before it, so that
+  /// a few pixels of a colour of their own keep it, or one that looks like it. The choice depends
+  /// on the counts alone.
   void choose(std::size_t room);
 
   const std::vector<std::uint32_t>& colors() const noexcept { return colors_; }
@@ -22,6 +25,16 @@ class ColorTable {
   std::uint8_t index_of(std::uint32_t color) { return std::uint8_t(entry(color)); }
 
  private:
+  /// A colour that was counted, and the nearest that is kept.
+  struct Candidate {
+    std::uint32_t color;
+    std::int64_t count;
+    std::int64_t place = 0;  ///< in colors_
+    int distance = std::numeric_limits<int>::max();
+  };
+
+  void choose_some(std::size_t room, std::vector<Candidate>& candidates);
+  void keep(std::uint32_t color, std::vector<Candidate>& candidates);
   std::int64_t& entry(std::uint32_t color);
 
   std::unordered_map<std::uint32_t, std::int64_t> counts_;  // then places
