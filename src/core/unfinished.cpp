@@ -137,15 +137,19 @@ bool remove_abandoned(const fs::path& final_path, const fs::path& own,
   return is_shared;
 }
 
-/// @return a closed one, with errno set, if it cannot be made.
+/// @return a closed one, with errno set, if it cannot be made: EEXIST if another name may do.
 Descriptor make_empty(const std::string& path, Kind kind) {
   if (kind == Kind::file) {
     return Descriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   }
   if (::mkdir(path.c_str(), 0700) != 0) return {};
   Descriptor folder = open(path, kind);
-  if (!folder.is_open()) ::rmdir(path.c_str());
-  return folder;
+  if (folder.is_open()) return folder;
+  // Another process may have taken it for abandoned already, and removed it.
+  const int error = errno == ENOENT ? EEXIST : errno;
+  ::rmdir(path.c_str());
+  errno = error;
+  return {};
 }
 
 }  // namespace
