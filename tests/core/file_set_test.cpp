@@ -5,6 +5,8 @@
 #include <fstream>
 #include <map>
 #include <string_view>
+#include <thread>
+#include <vector>
 
 #include "core/output_file.hpp"
 #include "support/temporary_folder.hpp"
@@ -96,6 +98,20 @@ TEST_F(FileSetTest, HasNoRivalUnlessThatIsAllowed) {
 }
 
 /// The state in which SIGKILL leaves a set whose first file has its name.
+/// Each takes what others have just made, and not yet locked, for abandoned.
+TEST_F(FileSetTest, RivalsThatStartTogetherAllGetAFolder) {
+  std::vector<std::jthread> rivals;
+  for (int i = 0; i < 4; ++i) {
+    rivals.emplace_back([this] {
+      for (int turn = 0; turn < 300; ++turn) {
+        EXPECT_NO_THROW(FileSet(folder_.path(), "set", Unfinished::Sharing::shared));
+      }
+    });
+  }
+  rivals.clear();
+  EXPECT_EQ(files(), Files{});
+}
+
 TEST_F(FileSetTest, CompletesWhatAKilledProcessHadBegunToRename) {
   write("1", "new");
   write("3", "old");
