@@ -2,6 +2,7 @@
 #include <piblocks/script.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <optional>
 
@@ -9,6 +10,7 @@
 #include "cli/exit_code.hpp"
 #include "cli/golden_actions.hpp"
 #include "cli/options.hpp"
+#include "cli/progress.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/shipped_scenes.hpp"
 #include "cli/stop_on_signals.hpp"
@@ -78,7 +80,9 @@ std::optional<GoldenResult> attempt(const Act& act, const References& references
                                     const std::string& where, const std::stop_token& stop,
                                     int& code) {
   try {
-    return act(references, stop);
+    ProgressReport report(references.name(), false, {.delay = std::chrono::seconds(1)});
+    return act(
+        references, [&](const Progress& progress) { report.update(progress); }, stop);
   } catch (const UsageError& error) {
     for (const std::string& problem : error.problems()) say("piblocks: {}{}\n", where, problem);
     code = worse_exit_code(code, kWrongUsage);
@@ -112,9 +116,11 @@ void run_check(const Command& options) {
   TextOutput out("-");
   check_diff(options, all);
   const fs::path scratch = temporary_folder();
-  run_each(all, out, [&](const References& references, const std::stop_token& stop) {
-    return check_golden(references, scratch, options.text("--diff"), stop);
-  });
+  run_each(all, out,
+           [&](const References& references, const OnProgress& on_progress,
+               const std::stop_token& stop) {
+             return check_golden(references, scratch, options.text("--diff"), on_progress, stop);
+           });
 }
 
 void run_record(const Command& options) {

@@ -48,13 +48,14 @@ void note_fingerprint(const References& references, std::vector<std::string>& li
 /// Renders new references into a folder of `files`, which gives those of these names their names,
 /// or none. @returns the folder in which all of them wait.
 fs::path render_into(FileSet& files, const References& references,
-                     const std::vector<std::string>& names, const std::stop_token& stop) {
+                     const std::vector<std::string>& names, const OnProgress& on_progress,
+                     const std::stop_token& stop) {
   fs::path folder;
   // Hashes come last: where they are, all is.
   for (auto name = names.rbegin(); name != names.rend(); ++name) {
     folder = files.add(*name).parent_path();
   }
-  references.render_into(folder, processor_count(), stop);
+  references.render_into(folder, processor_count(), on_progress, stop);
   return folder;
 }
 
@@ -185,7 +186,8 @@ void claim_diff(OverwriteCheck& check, const std::vector<References>& all,
   }
 }
 
-GoldenResult record_golden(const References& references, const std::stop_token& stop) {
+GoldenResult record_golden(const References& references, const OnProgress& on_progress,
+                           const std::stop_token& stop) {
   const std::vector<std::string> missing = missing_files(references);
   const std::string& name = references.name();
   if (missing.empty()) {
@@ -195,7 +197,7 @@ GoldenResult record_golden(const References& references, const std::stop_token& 
                     "'piblocks golden approve' replaces them"}};
   }
   FileSet files(references.folder(), name + ".golden");
-  const fs::path drawn = render_into(files, references, missing, stop);
+  const fs::path drawn = render_into(files, references, missing, on_progress, stop);
   const GoldenFindings findings = compare_with(references, drawn, stop);
   std::vector<std::string> lines = findings.lines();
   if (findings.worst() != Outcome::equal) {
@@ -215,11 +217,12 @@ GoldenResult record_golden(const References& references, const std::stop_token& 
   return {"recorded", 0, std::move(lines)};
 }
 
-GoldenResult approve_golden(const References& references, const std::stop_token& stop) {
+GoldenResult approve_golden(const References& references, const OnProgress& on_progress,
+                            const std::stop_token& stop) {
   const std::string& name = references.name();
   const std::vector<std::string> missing = missing_files(references);
   FileSet files(references.folder(), name + ".golden");
-  const fs::path drawn = render_into(files, references, references.files(), stop);
+  const fs::path drawn = render_into(files, references, references.files(), on_progress, stop);
   GoldenFindings findings = compare_with(references, drawn, stop);
   const bool is_new = missing.size() == references.files().size();
   for (const std::string& file : missing) findings.add(Outcome::added, file, "new");
@@ -234,7 +237,8 @@ GoldenResult approve_golden(const References& references, const std::stop_token&
 }
 
 GoldenResult check_golden(const References& references, const fs::path& scratch,
-                          const std::optional<std::string>& diff, const std::stop_token& stop) {
+                          const std::optional<std::string>& diff, const OnProgress& on_progress,
+                          const std::stop_token& stop) {
   const std::string& name = references.name();
   GoldenFindings findings;
   std::optional<CheckPictures> pictures;
@@ -244,7 +248,7 @@ GoldenResult check_golden(const References& references, const fs::path& scratch,
     has_references = missing_files(references).size() < references.files().size();
     if (!has_references) return;
     const Unfinished drawn(scratch / "piblocks-golden", Unfinished::Kind::folder);
-    references.render_into(drawn.path(), processor_count(), stop);
+    references.render_into(drawn.path(), processor_count(), on_progress, stop);
     compare_all(references, drawn.path(), pictures ? &*pictures : nullptr, findings, stop);
   });
   if (!has_references) {

@@ -34,11 +34,13 @@ std::filesystem::path temporary_folder();
 /// Adds the references that the scene does not have, and replaces none. If some are there, they
 /// have to be what is drawn now.
 /// @throws UsageError if a picture is there, belongs to no references, and is something else.
-GoldenResult record_golden(const References& references, const std::stop_token& stop);
+GoldenResult record_golden(const References& references, const OnProgress& on_progress,
+                           const std::stop_token& stop);
 
 /// Replaces the references of a scene, and says what changes.
 /// @throws UsageError as record_golden()
-GoldenResult approve_golden(const References& references, const std::stop_token& stop);
+GoldenResult approve_golden(const References& references, const OnProgress& on_progress,
+                            const std::stop_token& stop);
 
 /// Compares the scene with its references, and says what differs.
 /// @param scratch  a folder for temporary files.
@@ -46,6 +48,7 @@ GoldenResult approve_golden(const References& references, const std::stop_token&
 ///                 expected, difference and actual of pictures that differ, and the actual picture
 ///                 of frames of which only the hash is kept.
 GoldenResult check_golden(const References& references, const std::filesystem::path& scratch,
-                          const std::optional<std::string>& diff, const std::stop_token& stop);
+                          const std::optional<std::string>& diff, const OnProgress& on_progress,
+                          const std::stop_token& stop);
 
 }  // namespace piblocks::cli

@@ -121,11 +121,11 @@ void References::draw(
   }
 }
 
-void References::render_into(const fs::path& folder, int jobs, const std::stop_token& stop) const {
+void References::render_into(const fs::path& folder, int jobs, const OnProgress& on_progress,
+                             const std::stop_token& stop) const {
   const std::vector<std::string> names = files();
   const fs::path hashes = folder / names.front();
-  render(
-      {script_, hashes, {}, jobs}, [](const Progress&) {}, stop);
+  render({script_, hashes, {}, jobs}, on_progress, stop);
   add_fingerprint(hashes);
   for (std::size_t i = 0; i < golden().frames.size(); ++i) {
     render_still(script_, parse_instant(golden().frames[i]), folder / names[i + 1], stop);

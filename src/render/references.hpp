@@ -4,6 +4,7 @@
 #pragma once
 
 #include <piblocks/compare.hpp>
+#include <piblocks/render.hpp>
 #include <piblocks/script.hpp>
 
 #include <cstdint>
@@ -14,6 +15,9 @@
 #include <vector>
 
 namespace piblocks {
+
+/// Called as render() calls it.
+using OnProgress = std::function<void(const Progress&)>;
 
 /// The references of one scene.
 class References {
@@ -40,7 +44,8 @@ class References {
             const std::function<void(std::int64_t frame, std::vector<std::uint8_t> png)>& use,
             const std::stop_token& stop) const;
   /// Renders all of them into another folder, which is to be empty.
-  void render_into(const std::filesystem::path& folder, int jobs,
+  /// @param on_progress  is told of frames whose hashes are known.
+  void render_into(const std::filesystem::path& folder, int jobs, const OnProgress& on_progress,
                    const std::stop_token& stop) const;
 
  private:

@@ -27,8 +27,8 @@ class ColorTable {
  private:
   /// A colour that was counted, and the nearest that is kept.
   struct Candidate {
-    std::uint32_t color;
-    std::int64_t count;
+    std::uint32_t color = 0;
+    std::int64_t count = 0;
     std::int64_t place = 0;  ///< in colors_
     int distance = std::numeric_limits<int>::max();
   };

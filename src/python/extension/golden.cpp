@@ -46,6 +46,8 @@ void check_outputs(const BoundScript& bound, const References& references) {
   check.check();
 }
 
+void ignore_progress(const Progress& /*progress*/) {}
+
 cli::GoldenResult act(const BoundScript& bound, const GoldenPlace& place, const std::string& action,
                       const std::optional<std::string>& diff) {
   cli::GoldenResult result;
@@ -56,12 +58,12 @@ cli::GoldenResult act(const BoundScript& bound, const GoldenPlace& place, const 
       bound.recipe.claim_inputs(check, references.script());
       cli::claim_diff(check, {references}, place.folder, diff);
       check.check();
-      result = cli::check_golden(references, cli::temporary_folder(), diff, stop);
+      result = cli::check_golden(references, cli::temporary_folder(), diff, ignore_progress, stop);
       return;
     }
     check_outputs(bound, references);
-    result = action == "record" ? cli::record_golden(references, stop)
-                                : cli::approve_golden(references, stop);
+    result = action == "record" ? cli::record_golden(references, ignore_progress, stop)
+                                : cli::approve_golden(references, ignore_progress, stop);
   });
   std::ranges::transform(result.lines, result.lines.begin(), printable);
   return result;
@@ -87,7 +89,7 @@ bool write_report(const BoundScript& bound, const GoldenPlace& place, const std:
                               Unfinished::Kind::folder);
     const Unfinished actual(fs::temp_directory_path() / "piblocks-golden",
                             Unfinished::Kind::folder);
-    references.render_into(actual.path(), processor_count(), stop);
+    references.render_into(actual.path(), processor_count(), ignore_progress, stop);
     for (const std::string& file : references.files()) {
       const bool is_picture = has_ending(file, ".png") && references.has(file);
       if (!is_picture) {
