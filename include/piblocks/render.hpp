@@ -87,11 +87,13 @@ struct Progress {
   std::int64_t frame_count = 0;
 };
 
+using OnProgress = std::function<void(const Progress&)>;
+
 /// Renders every frame of the film, or of a shard of it.
 /// @param on_progress  called by the calling thread: at the start, now and then, at the end.
 /// @param stop         asks to give up: Interrupted is thrown soon after.
 /// @throws UsageError, DrawError, MediaError, IoError, SimulationError, Interrupted
-Rendered render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
+Rendered render(const RenderJob& job, const OnProgress& on_progress,
                 const std::stop_token& stop = {});
 
 /// The file for a shard: "OUTPUT.part-2-of-3".
@@ -138,11 +140,14 @@ std::vector<Instant> spread_instants(const Scene& scene, int pictures,
 /// Renders these instants side by side on one page, the time below each: a `.pdf`, `.svg` or
 /// `.png` file of the shape of A4 in landscape, or PNG on standard output for "-". Times are left
 /// out where they would make the pictures less than half as wide.
-/// @param stop  asks to give up: Interrupted is thrown when the page is drawn.
+/// @param on_progress  called after each picture.
+/// @param stop         asks to give up: Interrupted is thrown after a picture, or when the page is
+///                     drawn.
 /// @throws SceneError if problems_of(scene) is not empty; UsageError, DrawError, MediaError,
 ///         IoError, SimulationError, Interrupted
 void render_sheet(const Scene& scene, const std::vector<Instant>& instants,
-                  const std::string& output, const std::stop_token& stop = {});
+                  const std::string& output, const OnProgress& on_progress = {},
+                  const std::stop_token& stop = {});
 
 /// The frames of a film as pixels, in any order. Only what differs from the frame painted before
 /// is painted; the pixels are those that render() encodes. Used by one thread at a time; different

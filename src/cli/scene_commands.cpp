@@ -5,12 +5,14 @@
 #include <piblocks/run.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/command.hpp"
 #include "cli/options.hpp"
+#include "cli/progress.hpp"
 #include "cli/scene_options.hpp"
 #include "cli/state_text.hpp"
 #include "cli/stop_on_signals.hpp"
@@ -94,7 +96,11 @@ void run_sheet(const Command& options, const SceneOptions& scene_options) {
   scene_options.check_output(scene);
   const std::vector<Instant> instants = sheet_instants(scene, options);
   const StopOnSignals signals;
-  render_sheet(scene, instants, output_of(options), signals.token());
+  ProgressReport report(output_of(options), false,
+                        {.unit = "pictures", .delay = std::chrono::seconds(1)});
+  render_sheet(
+      scene, instants, output_of(options),
+      [&](const Progress& progress) { report.update(progress); }, signals.token());
   note_convention(scene);
 }
 

@@ -135,8 +135,7 @@ std::vector<std::string> bundle_files(const RenderJob& job) {
   return {job.output, kPoster, kAltText, kCaptions, kLatexFile, kRevealFile};
 }
 
-Rendered render_bundle(const RenderJob& job,
-                       const std::function<void(const Progress&)>& on_progress,
+Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
                        const std::stop_token& stop) {
   check_bundle(job);
   if (!job.overwrite) check_names(*job.bundle);

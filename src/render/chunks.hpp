@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
@@ -70,14 +71,22 @@ class OrderedPool {
 
   /// The result of the next task in order; nothing after the last or when told to stop.
   /// Rethrows the first exception of any task.
-  std::optional<Result> take(const std::stop_token& stop) {
+  /// @param while_waiting  called ten times a second.
+  std::optional<Result> take(
+      const std::stop_token& stop, const std::function<void()>& while_waiting = [] {}) {
     if constexpr (!kHasThreads) return take_here(stop);
     std::unique_lock lock(mutex_);
     if (next_to_take_ == count_) return std::nullopt;
-    const bool ready = changed_.wait(
-        lock, stop, [this] { return failure_ != nullptr || results_.contains(next_to_take_); });
+    const auto is_ready = [this] {
+      return failure_ != nullptr || results_.contains(next_to_take_);
+    };
+    while (!changed_.wait_for(lock, stop, kCallInterval, is_ready)) {
+      if (stop.stop_requested()) return std::nullopt;
+      lock.unlock();
+      while_waiting();
+      lock.lock();
+    }
     if (failure_ != nullptr) std::rethrow_exception(failure_);
-    if (!ready) return std::nullopt;
     auto node = results_.extract(next_to_take_);
     ++next_to_take_;
     lock.unlock();
@@ -87,6 +96,8 @@ class OrderedPool {
   }
 
  private:
+  static constexpr std::chrono::milliseconds kCallInterval{100};
+
   std::optional<Result> take_here(const std::stop_token& stop) {
     if (next_to_take_ == count_ || stop.stop_requested()) return std::nullopt;
     return task_(next_to_take_++, stop);

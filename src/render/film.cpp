@@ -119,7 +119,8 @@ DrawList FilmRun::frame(const Schedule& schedule, std::int64_t number) const {
   return picture(schedule.at(video_time.video_s, open_s(scene_.view)), &video_time);
 }
 
-std::vector<DrawList> FilmRun::stills(std::span<const Rational> times) const {
+std::vector<DrawList> FilmRun::stills(std::span<const Rational> times,
+                                      const std::function<void()>& on_picture) const {
   const FrameNeeds& needs = composition_->needs();
   const bool depends_on_video =
       needs.hits || needs.video_s || scene_.view.shutter > 0 || has_slow_motion(scene_.pacing);
@@ -136,6 +137,7 @@ std::vector<DrawList> FilmRun::stills(std::span<const Rational> times) const {
     } else {
       pictures.push_back(picture(frame_time_alone(scene_, timeline(), time), nullptr));
     }
+    on_picture();
   }
   return pictures;
 }

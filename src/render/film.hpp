@@ -48,8 +48,12 @@ class FilmRun {
   /// without hits.
   /// @throws UsageError as make_schedule(), if slow motion, the shutter, hits or a diagram that
   ///         follows the video ask for a schedule.
-  std::vector<DrawList> stills(std::span<const Rational> times) const;
-  DrawList still(const Rational& time) const { return std::move(stills({&time, 1}).front()); }
+  /// @param on_picture  called after each.
+  std::vector<DrawList> stills(std::span<const Rational> times,
+                               const std::function<void()>& on_picture) const;
+  DrawList still(const Rational& time) const {
+    return std::move(stills({&time, 1}, [] {}).front());
+  }
 
  private:
   DrawList picture(const FrameTime& shown, const VideoTime* video_time) const;

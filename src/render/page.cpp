@@ -125,7 +125,7 @@ void write_page(const Scene& scene, const PageFacts& facts, const fs::path& vide
 
 bool is_page(const std::string& output) { return has_ending(output, ".html"); }
 
-Rendered render_page(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
+Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
                      const std::stop_token& stop) {
   check_page(job);
   const auto& scene = std::get<Scene>(job.script);

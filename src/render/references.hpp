@@ -9,15 +9,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 namespace piblocks {
-
-/// Called as render() calls it.
-using OnProgress = std::function<void(const Progress&)>;
 
 /// The references of one scene.
 class References {

@@ -3,6 +3,8 @@
 #include <piblocks/error.hpp>
 #include <piblocks/render.hpp>
 
+#include <atomic>
+
 #include "draw/canvas.hpp"
 #include "media/output/output.hpp"
 #include "media/output/shard_file.hpp"
@@ -47,9 +49,11 @@ struct EncodedWork {
 /// What one thread works with, chunk after chunk.
 class Worker {
  public:
-  Worker(const Plan& plan, bool profile)
+  /// @param frames_done  those of all workers.
+  Worker(const Plan& plan, bool profile, std::atomic<std::int64_t>& frames_done)
       : plan_(plan),
         profile_(profile),
+        frames_done_(frames_done),
         canvas_(plan.film.view().width_px, plan.film.view().height_px, plan.film.view().background),
         encoder_(plan.output.make_encoder()) {}
 
@@ -59,6 +63,7 @@ class Worker {
     for (auto frame = plan_.chunks.begin(chunk); frame < plan_.chunks.end(chunk); ++frame) {
       if (stop.stop_requested()) throw Interrupted("render: interrupted");
       add_frame(frame, clock);
+      frames_done_.fetch_add(1, std::memory_order_relaxed);
     }
     EncodedChunk encoded = encoder_->finish();
     return {std::move(encoded), encoder_->method(), clock.spent()};
@@ -78,6 +83,7 @@ class Worker {
 
   const Plan& plan_;
   bool profile_;
+  std::atomic<std::int64_t>& frames_done_;
   Canvas canvas_;
   std::unique_ptr<ChunkEncoder> encoder_;
 };
@@ -140,8 +146,8 @@ struct SoundWork {
 };
 
 /// The sound of a plan that has one.
-SoundWork sound_of(const Plan& plan, const std::function<void(const Progress&)>& on_progress,
-                   StepClock& clock, const std::stop_token& stop) {
+SoundWork sound_of(const Plan& plan, const OnProgress& on_progress, StepClock& clock,
+                   const std::stop_token& stop) {
   const auto report = [&](std::int64_t samples) {
     if (plan.output.has_frames || samples == plan.sound->size) return;
     const std::int64_t frames = plan.film.frame_count();
@@ -171,7 +177,7 @@ void add(StepSeconds& sum, const StepSeconds& spent) {
 
 }  // namespace
 
-Rendered render_film(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
+Rendered render_film(const RenderJob& job, const OnProgress& on_progress,
                      const std::stop_token& stop) {
   check_shard(job);
   const Plan plan(job);
@@ -180,18 +186,20 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
   }
   const ChunkRange range = range_of(job.shard, plan.chunks.count());
   const std::unique_ptr<FrameSink> sink = open_sink(job, plan);
-  const auto frames_until = [&](std::int64_t chunk) {
-    return plan.chunks.begin(chunk) - plan.chunks.begin(range.begin);
-  };
+  std::atomic<std::int64_t> frames_done = 0;
   const auto make_worker = [&] {
-    const auto worker = std::make_shared<Worker>(plan, job.profile);
+    const auto worker = std::make_shared<Worker>(plan, job.profile, frames_done);
     return [worker, &range](std::int64_t task, const std::stop_token& halt) {
       return worker->work(range.begin + task, halt);
     };
   };
 
-  Rendered rendered{plan.output.has_frames ? frames_until(range.end) : plan.film.frame_count(), {}};
-  on_progress({0, rendered.frame_count});
+  Rendered rendered{plan.output.has_frames
+                        ? plan.chunks.begin(range.end) - plan.chunks.begin(range.begin)
+                        : plan.film.frame_count(),
+                    {}};
+  const auto report = [&] { on_progress({frames_done.load(), rendered.frame_count}); };
+  report();
   StepClock clock(job.profile, Step::mux);
   SoundWork sound;
   if (plan.sound && (!job.shard || job.shard->number == 1)) {
@@ -199,11 +207,11 @@ Rendered render_film(const RenderJob& job, const std::function<void(const Progre
     sink->take_sound(*sound.packets);
   }
   OrderedPool<EncodedWork> pool(range.end - range.begin, job.jobs, make_worker);
-  for (std::int64_t chunk = range.begin; const auto work = pool.take(stop); ++chunk) {
+  while (const auto work = pool.take(stop, report)) {
     sink->append(work->chunk);
     if (job.profile) rendered.profile.chunk_methods.push_back(work->method);
     add(rendered.profile.steps, work->spent);
-    on_progress({frames_until(chunk + 1), rendered.frame_count});
+    report();
   }
   if (stop.stop_requested()) throw Interrupted("render: interrupted");
   clock.enter(Step::write);
@@ -240,8 +248,7 @@ std::vector<std::string> fit_to_output(RenderJob& job) {
   return notes;
 }
 
-Rendered render_fitted(const RenderJob& job,
-                       const std::function<void(const Progress&)>& on_progress,
+Rendered render_fitted(const RenderJob& job, const OnProgress& on_progress,
                        const std::stop_token& stop) {
   if (job.bundle) return render_bundle(job, on_progress, stop);
   if (is_page(job.output)) return render_page(job, on_progress, stop);
@@ -250,8 +257,7 @@ Rendered render_fitted(const RenderJob& job,
 
 }  // namespace
 
-Rendered render(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
-                const std::stop_token& stop) {
+Rendered render(const RenderJob& job, const OnProgress& on_progress, const std::stop_token& stop) {
   RenderJob fitted = job;
   std::vector<std::string> notes = fit_to_output(fitted);
   Rendered rendered = render_fitted(fitted, on_progress, stop);

@@ -20,7 +20,7 @@
 namespace piblocks {
 
 /// render() of a job that is neither a bundle nor a page.
-Rendered render_film(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
+Rendered render_film(const RenderJob& job, const OnProgress& on_progress,
                      const std::stop_token& stop);
 
 /// What the bytes of a rendering depend on: the header of all its shards, without their number.
@@ -29,8 +29,7 @@ ShardHeader describe(const RenderJob& job, const Output& output, std::int64_t fr
 /// Renders the job's video into the bundle's folder, with poster.png, captions.vtt, alt.txt,
 /// latex.tex and reveal.html beside it.
 /// @throws UsageError if the output is no MP4 by a plain name, or a part is asked for; as render()
-Rendered render_bundle(const RenderJob& job,
-                       const std::function<void(const Progress&)>& on_progress,
+Rendered render_bundle(const RenderJob& job, const OnProgress& on_progress,
                        const std::stop_token& stop);
 
 /// The names of all these files, in the bundle's folder.
@@ -42,7 +41,7 @@ bool is_page(const std::string& output);
 /// Renders the job's video as MP4, to the bytes that an output `*.mp4` would have, and the page
 /// that holds it.
 /// @throws UsageError if a part is asked for or nothing is behind the blocks; as render()
-Rendered render_page(const RenderJob& job, const std::function<void(const Progress&)>& on_progress,
+Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
                      const std::stop_token& stop);
 
 /// What render_still() draws: of a scene as FilmRun::stills(), of a storyboard as frame_at().
@@ -50,8 +49,10 @@ Rendered render_page(const RenderJob& job, const std::function<void(const Progre
 ///         SimulationError
 DrawList still_picture(const Script& script, const Instant& instant);
 
-/// Each picture is the still_picture() of its instant. Throws as that.
+/// Each picture is the still_picture() of its instant. Throws as that; Interrupted.
 std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
-                                             const std::vector<Instant>& instants);
+                                             const std::vector<Instant>& instants,
+                                             const OnProgress& on_progress = {},
+                                             const std::stop_token& stop = {});
 
 }  // namespace piblocks

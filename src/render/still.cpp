@@ -162,14 +162,21 @@ std::vector<Instant> spread_instants(const Scene& scene, int pictures, std::opti
 }
 
 std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
-                                             const std::vector<Instant>& instants) {
+                                             const std::vector<Instant>& instants,
+                                             const OnProgress& on_progress,
+                                             const std::stop_token& stop) {
   const FilmRun run = run_of(scene);
   std::vector<Rational> times;
   times.reserve(instants.size());
   for (const Instant& instant : instants) times.push_back(time_of(instant, run.timeline()));
   const std::vector<std::string> captions = sheet_captions(scene, instants, times);
   std::vector<CaptionedPicture> pictures;
-  std::vector<DrawList> stills = run.stills(times);
+  Progress progress{0, static_cast<std::int64_t>(times.size())};
+  std::vector<DrawList> stills = run.stills(times, [&] {
+    if (stop.stop_requested()) throw Interrupted("sheet: interrupted");
+    ++progress.frames_done;
+    if (on_progress) on_progress(progress);
+  });
   for (std::size_t i = 0; i < times.size(); ++i) {
     pictures.push_back({std::move(stills[i]), captions[i]});
   }
@@ -177,11 +184,12 @@ std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
 }
 
 void render_sheet(const Scene& scene, const std::vector<Instant>& instants,
-                  const std::string& output, const std::stop_token& stop) {
+                  const std::string& output, const OnProgress& on_progress,
+                  const std::stop_token& stop) {
   Draw* const draw = drawing_for(output, draw_page_png, "sheet", ".pdf, .png, .svg");
   check_count(instants.size());
   const bool is_png = draw == draw_page_png;
-  std::vector<CaptionedPicture> pictures = sheet_pictures(scene, instants);
+  std::vector<CaptionedPicture> pictures = sheet_pictures(scene, instants, on_progress, stop);
   write_picture(output, "sheet", stop, [&] {
     return draw(arrange(std::move(pictures), is_png ? kPageWidth_px : kPageWidth_pt,
                         is_png ? kPageHeight_px : kPageHeight_pt));

@@ -49,9 +49,10 @@ std::string advice(const std::string& key) {
 std::string about_unknown_key(const std::string& key) {
   const std::string table = first_part(key);
   if (std::ranges::count(kKeysOfParts, key) > 0) return "unknown key; it belongs into a [[part]]";
-  if (table == "body" || key == "wall.point" || key == "wall.normal") {
-    return fmt::format("unknown key; write [[{0}]], once for each {0}", table);
-  }
+  const bool is_of_walls = key == "wall.point" || key == "wall.normal";
+  const std::string list =
+      is_of_walls || !is_table(table) ? nearest_name(table, kListsOfTables) : "";
+  if (!list.empty()) return fmt::format("unknown key; write [[{0}]], once for each {0}", list);
   if (is_table(key)) return fmt::format("unknown key; a table is written [{}]", key);
   return "unknown key" + advice(key);
 }

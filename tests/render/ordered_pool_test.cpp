@@ -42,6 +42,18 @@ TEST(OrderedPool, BoundsWhatWaits) {
   }
 }
 
+TEST(OrderedPool, CallsWhileItWaits) {
+  std::atomic<int> calls = 0;
+  Pool pool(1, 1, [&] {
+    return [&](std::int64_t n, const std::stop_token& halt) {
+      while (calls < 3 && !halt.stop_requested()) std::this_thread::yield();
+      return n;
+    };
+  });
+  EXPECT_EQ(pool.take({}, [&] { ++calls; }), 0);
+  EXPECT_GE(calls, 3);
+}
+
 TEST(OrderedPool, RethrowsTheFirstFailureAndStops) {
   Pool pool(1000, 2, [] {
     return [](std::int64_t n, const std::stop_token&) -> std::int64_t {

@@ -156,6 +156,22 @@ TEST(SheetPictures, AreTheStillsOfTheirInstants) {
   }
 }
 
+TEST(SheetPictures, AreReportedOneByOneUntilStopped) {
+  const std::vector<Instant> instants(5, Rational(1));
+  std::vector<std::int64_t> done;
+  std::stop_source stop;
+  const OnProgress on_progress = [&](const Progress& progress) {
+    EXPECT_EQ(progress.frame_count, 5);
+    done.push_back(progress.frames_done);
+    if (done.size() == 8) stop.request_stop();
+  };
+  sheet_pictures(scene_of_digits(2), instants, on_progress, stop.get_token());
+  EXPECT_EQ(done, (std::vector<std::int64_t>{1, 2, 3, 4, 5}));
+  EXPECT_THROW(sheet_pictures(scene_of_digits(2), instants, on_progress, stop.get_token()),
+               Interrupted);
+  EXPECT_EQ(done.size(), 8);
+}
+
 TEST(SheetCaptions, AreAsTheInstantIsNamed) {
   EXPECT_EQ(captions_of(scene_of_digits(3), {Instant::turn(Rational(-3, 10)), Instant::turn(),
                                              Instant::turn(2), Rational(16, 5)}),

@@ -126,7 +126,7 @@ void sheet_file(const BoundScript& bound, const std::string& output, const Optio
     const Scene& scene = scene_of(bound, "sheet");
     refuse_standard_output(output, "sheet");
     check_still(bound, output);
-    render_sheet(scene, cli::sheet_instants(scene, BoundOptions(texts)), output, stop);
+    render_sheet(scene, cli::sheet_instants(scene, BoundOptions(texts)), output, {}, stop);
   });
 }
 
