@@ -64,7 +64,7 @@ name_parts() {
   done
 }
 
-# Whether the program has made this file as a part.
+# is_part FILE: whether the program has made this file as a part.
 is_part() {
   [[ $(head -c 14 -- "$1" | tr -d '\0') == "piblocks part " ]]
 }
@@ -77,7 +77,7 @@ choose_parts() {
   wanted=()
   for part in "${!part_files[@]}"; do
     [[ ! -e ${part_files[part]} ]] || is_part "${part_files[part]}" ||
-      fail "'${part_files[part]}' is there, and no part file; use another name, or move it away"
+      fail "'${part_files[part]}' is there, but not a part file; use another name, or move it away"
     $1 || rm -f -- "${part_files[part]}"
     [[ -e ${part_files[part]} ]] || wanted+=("$part")
   done

@@ -1,6 +1,6 @@
 // Comparison: two images, or two pictures, sequences or videos frame by frame.
 // In: images or file names, and what may differ. Out: how many pixels differ, by how much and
-// where; and of files, a row for every frame of either side, whatever was found about it.
+// where; for files, also a row for every frame of either side.
 #pragma once
 
 #include <piblocks/exact.hpp>
@@ -52,17 +52,16 @@ struct Difference {
   SamplePlace first = {};             ///< the first that differs, row by row, if one does
   PixelRect densest = {};             ///< where the window has the most pixels off, first such
   std::int64_t densest_off = 0;       ///< pixels that are off there
-  std::int64_t masked_pixels = 0;     ///< that differ inside a mask; not counted above
+  std::int64_t masked_pixels = 0;     ///< that differ inside a mask; the counts above omit them
   bool is_accepted = true;
 
   bool is_equal() const noexcept { return different_pixels == 0; }
 };
 
-/// Compares all four samples of every pixel outside of the masks. A mask may reach out of the
-/// image. Without a window in the tolerance, the densest 16x16 pixels are searched.
+/// Compares all four samples of every pixel outside of the masks. A mask may extend beyond the
+/// image. Without a window in the tolerance, `densest` is a window of 16x16 pixels.
 /// @throws UsageError if the images are not of one size, the tolerance is out of range, or the
-/// masks
-///         together cover the whole image.
+///         masks together cover the whole image.
 Difference compare(const ImageView& reference, const ImageView& actual,
                    const Tolerance& tolerance = {}, std::span<const PixelRect> masks = {});
 
@@ -85,15 +84,15 @@ inline constexpr std::size_t kMaxHashes = 2'000'000;
 /// The reference and the actual side may each be a PNG file, a folder of them, a numbered pattern
 /// such as frames/%06d.png, a video, or a file of frame hashes.
 ///
-/// Pictures are paired by name: those of two folders by their paths in these, those of a pattern
-/// by their numbers. Two files that are named themselves are a pair. With a video, pictures are
+/// Pictures are paired by name: those of two folders by their paths in the folders, those of a
+/// pattern by their numbers. Two single files are always a pair. Beside a video, pictures are
 /// paired by their order; those of a pattern by their numbers, counted from the first.
 struct ComparisonJob {
   std::string reference;
   std::string actual;
   Tolerance tolerance = {};
   std::vector<PixelRect> masks = {};  ///< not compared
-  bool is_recursive = true;           ///< whether the folders in a folder belong to it
+  bool is_recursive = true;           ///< whether subfolders are searched too
 };
 
 /// What is found about a frame, from the least severe to the most severe.
@@ -116,12 +115,12 @@ struct FrameComparison {
   std::int64_t number = 0;  ///< of the row, from 0
   std::string name;         ///< for people: of the reference's frame and, if other, of the actual
   Outcome outcome = Outcome::equal;
-  std::string problem;  ///< of what is a mismatch or unreadable: why
+  std::string problem;  ///< why the frame is a mismatch or unreadable; else empty
   bool is_yuv = false;  ///< whether the samples are Y, Cb and Cr
   /// Nothing where only hashes are known, and where there is nothing to compare.
   std::optional<Difference> difference;
   /// The pictures as they are shown, with alpha; empty functions where there is none. A picture
-  /// without pixels stands for one whose colours are not known.
+  /// whose colours are not known has no pixels.
   std::function<Image()> reference;
   std::function<Image()> actual;
   /// What pixel_deltas() returns for the samples that were compared; empty without a difference.
@@ -140,8 +139,8 @@ struct ComparisonResult {
   std::string problem;
 
   std::int64_t count(Outcome outcome) const { return rows[static_cast<std::size_t>(outcome)]; }
-  std::int64_t total() const;  ///< of rows
-  /// Of which both sides could be compared.
+  std::int64_t total() const;  ///< number of rows
+  /// Number of rows of which both frames could be compared.
   std::int64_t compared_frames() const {
     return count(Outcome::equal) + count(Outcome::accepted) + count(Outcome::different);
   }
@@ -150,8 +149,8 @@ struct ComparisonResult {
 };
 
 /// Compares what both have stored wherever their formats are equal, and else the RGB pictures they
-/// show. Goes on after whatever it finds; only what follows a frame that cannot be read in a video
-/// is not compared.
+/// show. No finding ends the comparison, except that a video is not compared beyond a frame that
+/// cannot be read.
 /// @param on_frame  called for every row, in the order of names, numbers or time.
 /// @throws UsageError if the job makes no sense, also if masks cover all of a picture or one lies
 ///         outside of all pictures; Interrupted

@@ -15,11 +15,11 @@ namespace piblocks {
 using Integer = mpz_class;   ///< a count or an index of collisions
 using Rational = mpq_class;  ///< a mass, length, velocity or time, in lowest terms
 
-/// Longest numerator or denominator of a number that is given, in bits: 4932 decimal digits. Times,
-/// lengths and velocities meet in sums and products, which are to take a moment.
+/// Longest numerator or denominator that a user may give, in bits: 4932 decimal digits. The limit
+/// keeps sums and products of times, lengths and velocities fast.
 inline constexpr std::int64_t kMaxRationalBits = 16'384;
-/// The same of a block's mass, which only counts collisions: 36^199998, the mass ratio of 100,000
-/// digits in base 36, has 1,033,987 bits.
+/// The same for a block's mass. Masses may be longer, because counts go further than positions:
+/// 36^199998, the mass ratio of 100,000 digits in base 36, has 1,033,975 bits.
 inline constexpr std::int64_t kMaxMassBits = 1'050'000;
 
 /// GMP takes a long, which is another type than std::int64_t on some systems.

@@ -52,8 +52,8 @@ struct RenderJob {
   std::optional<Bundle> bundle = {};
   /// Renders nothing if more flashes than this would be seen within a second (WCAG 2.3.1: 3), >= 1.
   std::optional<int> max_flashes = {};
-  /// Files whose names the output makes (pictures of a sequence, files of a bundle, a shard)
-  /// replace those of an earlier run. Whether they may replace other files too.
+  /// Whether files whose names piblocks makes (pictures of a sequence, files of a bundle, a shard)
+  /// may replace files that no earlier run has made.
   bool overwrite = false;
 };
 
@@ -102,8 +102,8 @@ std::string shard_name(const std::string& output, const Shard& shard);
 /// Joins the files of all shards, in any order, to the output that one rendering would have made,
 /// byte for byte.
 /// @param output  of the same kind as the shards were rendered for; none of their files.
-/// @param overwrite  as RenderJob's.
-/// @return frames and aftermath.
+/// @param overwrite  as RenderJob::overwrite.
+/// @return the number of frames, and the aftermath; nothing else.
 /// @throws UsageError if a part is missing, given twice or of another job; MediaError, IoError,
 ///         Interrupted
 Rendered join(const std::vector<std::string>& parts, const std::string& output,

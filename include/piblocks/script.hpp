@@ -113,8 +113,8 @@ class ScriptBuilder {
   void read_file(const std::string& path);
   /// The same with the text of a scene file. @param origin  named in messages instead of a path.
   void read_text(const std::string& origin, std::string_view text);
-  /// A key of the scene file that is not read, so that it has its default; called before reading.
-  /// Keys of the file's parts are read all the same.
+  /// Ignores a key of the scene file, so that it keeps its default. Call this before reading. The
+  /// same key in a [[part]] is read all the same.
   void leave_out(const std::string& key);
   /// Sets one key from text, as an option of the command line does. A storyboard takes keys of the
   /// whole film only, whether it is read before or after.

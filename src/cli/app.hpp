@@ -1,6 +1,6 @@
-// All commands with their options, and their help of at most 100 columns. CLI11 is the table of
-// them and writes the help. It sees no argument: its releases differ in what they make of some. In:
-// nothing. Out: a program whose options have no values yet; command_line.cpp reads these.
+// All commands with their options, and their help of at most 100 columns. CLI11 holds the table of
+// options and writes the help. It never sees the arguments: its releases read some differently.
+// In: nothing. Out: a program whose options have no values yet; command_line.cpp reads them.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -20,11 +20,11 @@ inline constexpr const char* kNoText = " ";
 struct Program {
   CLI::App app;
   std::map<const CLI::App*, std::function<void()>> runs;  ///< what each command does
-  std::set<const CLI::Option*> texts;  ///< options whose value may be empty, as of a title
+  std::set<const CLI::Option*> texts;  ///< options whose value may be empty, such as --title
   std::map<const CLI::Option*, std::vector<std::string>> values;  ///< of options that are given
 };
 
-/// Commands refer to the program.
+/// Makes all commands. They keep a pointer to the program.
 std::unique_ptr<Program> make_program();
 
 bool takes_value(const CLI::Option& option);

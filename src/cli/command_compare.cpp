@@ -73,7 +73,7 @@ ComparisonJob job_of(const Command& options) {
   return job;
 }
 
-/// The reports that were asked for. One that fails keeps none of the others from being written.
+/// The reports that were asked for. A report that fails does not stop the others.
 class Reports {
  public:
   explicit Reports(const Command& options) {
@@ -88,8 +88,8 @@ class Reports {
   void finish(const ComparisonJob& job, const ComparisonResult& result) {
     for (auto& report : reports_) attempt(report, [&] { report->finish(job, result); });
   }
-  /// @throws what the first that failed has thrown; but if the exit code is another one anyhow,
-  ///         a failed write is only printed.
+  /// @throws the error of the first report that failed. A failed write is only printed if the
+  ///         comparison already ends with a more severe exit code.
   void check(int exit_code) const {
     try {
       if (failure_) std::rethrow_exception(failure_);
@@ -115,8 +115,8 @@ class Reports {
   std::exception_ptr failure_;
 };
 
-/// Prints a line for every frame that is shown, and what all of it comes to. What cannot be read is
-/// an error, and goes to standard error.
+/// Prints a line for every frame that is shown, and a summary. What cannot be read is an error, and
+/// goes to standard error.
 class Printer {
  public:
   explicit Printer(bool quiet) : quiet_(quiet) {}
@@ -162,7 +162,7 @@ void check_reports(const Command& options, const ComparisonJob& job) {
   check.check();
 }
 
-/// Reports are written whatever is found, and before anything is printed that may fail.
+/// Writes the reports before it prints anything, since printing may fail.
 void run_compare(const Command& options) {
   const ComparisonJob job = job_of(options);
   check_reports(options, job);
@@ -181,7 +181,7 @@ void run_compare(const Command& options) {
   const int code = exit_code_of(result);
   reports.check(code);
   if (code != 0) {
-    // Only a side without a frame, or without partners for one, has a problem as a whole.
+    // Set only if a side has no frame, or if no picture has a partner.
     throw ExitError(code, result.problem.empty() ? "" : "compare: " + result.problem);
   }
 }

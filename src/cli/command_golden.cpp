@@ -72,9 +72,9 @@ void check_references(const Command& options, const std::vector<References>& all
   check.check();
 }
 
-/// Does something for one scene. What fails is said, and does not keep others from being done.
+/// Acts on the references of one scene. Prints a failure, so that the other scenes have their turn.
 /// @param where  begins each message.
-/// @param code   becomes the more severe one of itself and that of the failure.
+/// @param code   is raised to the exit code of the failure, if that is more severe.
 template <typename Act>
 std::optional<GoldenResult> attempt(const Act& act, const References& references,
                                     const std::string& where, const std::stop_token& stop,

@@ -55,7 +55,7 @@ UsageError without_command(const CLI::App& app, const std::string& unknown) {
                                 fmt::join(command_names(app), ", "), help_of(app)));
 }
 
-/// With "--" in place of a dash that an editor makes of it; empty if the word has none.
+/// The word with "--" instead of the dash into which editors turn it; empty if it begins with none.
 std::string with_two_dashes(std::string_view word) {
   for (const std::string_view dash : {"\u2013", "\u2014", "\u2212"}) {
     if (word.starts_with(dash)) return "--" + std::string(word.substr(dash.size()));
@@ -219,7 +219,7 @@ class ArgumentReader {
     return !is_given(option) || option.get_items_expected_max() > 1;
   }
 
-  /// Whether an argument can hardly be meant as a value, misspelt options included.
+  /// Whether an argument is an option, perhaps a misspelt one, rather than a value.
   bool is_option(const std::string& argument) const {
     return argument.starts_with("--") ||
            (argument.starts_with('-') && command_->get_option_no_throw(argument) != nullptr);
@@ -232,7 +232,7 @@ class ArgumentReader {
   std::string problem_;  ///< the first one
 };
 
-/// "piblocks help COMMAND" is "piblocks COMMAND --help", whatever else is said: it runs nothing.
+/// "piblocks help COMMAND" becomes "piblocks COMMAND --help". It runs nothing: options are dropped.
 std::vector<std::string> arguments_of(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   if (arguments.front() != "help") return arguments;

@@ -112,8 +112,8 @@ std::string format_name(const Command& options) {
   return *named;
 }
 
-/// How many rows have been written: a bar where it takes more than a second, unless the rows
-/// themselves are on the terminal.
+/// Shows how many rows have been written, if that takes more than a second and the rows themselves
+/// do not go to the terminal.
 class RowProgress {
  public:
   RowProgress(const std::string& output, const Rows& rows)

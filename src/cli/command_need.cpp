@@ -53,7 +53,7 @@ Integer count_with(const Rational& restitution, int digits, int base) {
   return count_collisions(system);
 }
 
-/// Places after the point that tell what is enough from what is not.
+/// Decimal places that tell a restitution that is enough from one that is not.
 int places_of(const LeastRestitution& need) {
   constexpr int kPlaces = 20;  // where any loss is too much
   const Rational loss = 1 - need.above;

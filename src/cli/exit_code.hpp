@@ -1,4 +1,4 @@
-// What a comparison comes to, for a shell: the one table of exit codes.
+// The exit codes of comparisons: the one table of them.
 // In: the result. Out: the exit code of the most severe thing that was found.
 #pragma once
 
@@ -23,10 +23,10 @@ inline int exit_code_of(const ComparisonResult& result) {
   return result.reference_frames == 0 ? kMissingReference : code;
 }
 
-/// That of the more severe finding, where several comparisons end with one code.
+/// The code of the more severe finding, for commands that make several comparisons.
 inline int worse_exit_code(int one, int other) {
-  constexpr std::array kBySeverity = {kUnreadable, kMismatch,         kDifferent,
-                                      kWrongUsage, kMissingReference, 0};
+  constexpr std::array kBySeverity = {kWrongUsage, kUnreadable,       kMismatch,
+                                      kDifferent,  kMissingReference, 0};
   return *std::ranges::find_if(kBySeverity, [&](int code) { return code == one || code == other; });
 }
 

@@ -21,7 +21,7 @@ namespace piblocks::cli {
 namespace fs = std::filesystem;
 namespace {
 
-/// Of frames that are known by their hashes. Other pictures begin with the scene's name and '-'.
+/// For frames of which only the hash is kept. Other pictures begin with the scene's name and '-'.
 constexpr const char* kFramePattern = "%06d.png";
 
 int exit_code_of(const GoldenFindings& findings) {
@@ -45,8 +45,8 @@ void note_fingerprint(const References& references, std::vector<std::string>& li
                               ours));
 }
 
-/// Renders new references into a folder of `files`, which gives those of these names their names,
-/// or none. @returns the folder in which all of them wait.
+/// Renders all references into the temporary folder of `files`, whose commit() moves those of
+/// `names` to their place, all or none. @returns the temporary folder.
 fs::path render_into(FileSet& files, const References& references,
                      const std::vector<std::string>& names, const OnProgress& on_progress,
                      const std::stop_token& stop) {
@@ -60,7 +60,7 @@ fs::path render_into(FileSet& files, const References& references,
 }
 
 /// Compares the references that are there. Without hashes, a picture may be anybody's file.
-/// @throws UsageError if it is not what is drawn
+/// @throws UsageError if such a picture is not what is drawn
 GoldenFindings compare_with(const References& references, const fs::path& drawn,
                             const std::stop_token& stop) {
   GoldenFindings findings;
@@ -126,7 +126,7 @@ class CheckPictures {
   DiffPictures pictures_;
 };
 
-/// Every problem is a line. @throws Interrupted
+/// Runs `work`, and adds every problem that it throws to the findings. @throws Interrupted
 template <typename Work>
 void note_failure(const std::string& what, GoldenFindings& findings, const std::string& name,
                   const std::stop_token& stop, const Work& work) {

@@ -19,7 +19,7 @@ struct GoldenResult {
   /// "no references". Of record: "recorded", "kept" if all were there, or "not recorded". Of
   /// approve: "recorded", "replaced" or "equal".
   std::string outcome;
-  int exit_code = 0;  ///< as those of 'piblocks compare'
+  int exit_code = 0;  ///< one of those of 'piblocks compare'
   std::vector<std::string> lines = {};
 };
 

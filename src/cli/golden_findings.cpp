@@ -33,7 +33,7 @@ std::string text_of(const Frames& frames) {
   return fmt::format("{} {} {}", named, is_one ? "is" : "are", name_of(frames.outcome));
 }
 
-/// Without the file's name, if a line about a picture begins with it.
+/// The row with the file's name, which the row of a picture has already.
 std::string line_of(const std::string& file, const FrameComparison& row) {
   return row.name == file ? row_text(row) : fmt::format("{}: {}", file, row_text(row));
 }

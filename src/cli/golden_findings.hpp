@@ -1,6 +1,6 @@
 // What is found about the references of one scene, for people.
 // In: the files of the references, compared one after the other. Out: lines, the most severe ones
-// first; what all of it comes to.
+// first; a summary.
 #pragma once
 
 #include <piblocks/compare.hpp>
@@ -47,7 +47,7 @@ class GoldenFindings {
   void show(Outcome outcome, std::string line);
 
   Counts frames_ = {};    // by outcome
-  Counts pictures_ = {};  // by outcome, and all that is no frame
+  Counts pictures_ = {};  // by outcome; of everything else, such as unreadable files
   std::vector<std::int64_t> changed_frames_;
   ShownFrames<std::string> shown_;
   std::int64_t left_ = 0;

@@ -25,7 +25,7 @@ class ProgressReport {
   ProgressReport& operator=(const ProgressReport&) = delete;
 
   void update(const Progress& progress);
-  /// Says what has been written. @param aftermath  as Rendered's
+  /// Prints what has been written. @param aftermath  as Rendered::aftermath
   void finish(const std::string& aftermath);
 
  private:
@@ -45,7 +45,7 @@ class ProgressReport {
   bool bar_visible_ = false;
 };
 
-/// What follows in a closing line; nothing if there is nothing.
+/// The aftermath as the end of a closing line; empty if there is none.
 inline std::string after_semicolon(const std::string& aftermath) {
   return aftermath.empty() ? aftermath : "; " + aftermath;
 }

@@ -20,7 +20,7 @@ constexpr std::chrono::milliseconds kBreakOffInterval{50};
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): signals are the process's too
 std::atomic<int> stop_signal = 0;  // 0 if none has come
 
-/// Calls only what a handler of a signal may call.
+/// Calls only async-signal-safe functions.
 [[noreturn]] void end_by(int signal) noexcept {
   struct sigaction action {};
   action.sa_handler = SIG_DFL;
@@ -68,7 +68,7 @@ sigset_t with_break_off(sigset_t signals) {
   return signals;
 }
 
-/// 0 if none is.
+/// One of these signals that is pending; 0 if none is.
 int pending_of(const sigset_t& signals) {
   sigset_t pending;
   sigpending(&pending);

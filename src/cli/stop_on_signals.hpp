@@ -21,7 +21,8 @@ void end_at_once_on_signals();
 /// Whether a signal has asked to stop.
 bool stop_was_requested() noexcept;
 
-/// Ends the process by the signal that has asked to stop, when all has been cleaned up and said.
+/// Ends the process by the signal that has asked to stop. Call it when everything has been cleaned
+/// up and printed.
 [[noreturn]] void end_by_signal() noexcept;
 
 /// Turns the signals into a request as long as it lives. Make one when all scenes have been read,

@@ -22,7 +22,7 @@ constexpr double kBitsPerDigit = 3.3219280948873626;  // log2(10)
                                std::floor(double(max_bits) / kBitsPerDigit)));
 }
 
-/// Of the longer one of numerator and denominator.
+/// The bits of the numerator or the denominator, whichever is longer.
 std::size_t bits_of(const Rational& value) {
   return std::max(mpz_sizeinbase(value.get_num_mpz_t(), 2),
                   mpz_sizeinbase(value.get_den_mpz_t(), 2));
@@ -33,7 +33,8 @@ void check_length(const Rational& value, std::int64_t max_bits) {
 }
 
 Rational power_within(std::int64_t max_bits, const Rational& base, unsigned long exponent) {
-  // It has at least so many bits, and at most twice as many unless the base is 0 or 1.
+  // A lower bound of the power's bits. The power has at most twice as many, unless the base is 0
+  // or 1, so that what passes is cheap to compute.
   if (double(bits_of(base) - 1) * double(exponent) >= double(max_bits)) fail_too_long(max_bits);
   Rational result;
   mpz_pow_ui(result.get_num_mpz_t(), base.get_num_mpz_t(), exponent);

@@ -36,7 +36,7 @@ std::optional<double> quotient(const std::optional<double>& quota,
   return *quota / *period;
 }
 
-/// Where a version keeps its limits: cpu.max has "QUOTA PERIOD", of version 1 each has a file.
+/// The limit of one group. Version 2 keeps "QUOTA PERIOD" in cpu.max, version 1 a file for each.
 std::optional<double> limit_of(const std::string& folder, bool is_version_2, const ReadText& read) {
   if (!is_version_2) {
     return quotient(positive(read(folder + "/cpu.cfs_quota_us").value_or("")),
@@ -64,7 +64,7 @@ std::optional<std::string> group_in(std::string_view groups, bool is_version_2) 
 }
 
 struct Mount {
-  std::string root;  // the group that is seen at the place
+  std::string root;  // the group that is mounted there
   std::string place;
 };
 
@@ -81,7 +81,7 @@ std::optional<Mount> mount_of(std::string_view mounts, bool is_version_2) {
   return std::nullopt;
 }
 
-/// The folders of the group and of those that it lies in, as far as they can be seen.
+/// The folders of the group and of the groups around it, as far as they are mounted.
 std::vector<std::string> folders_of(const std::string& group, const Mount& mount) {
   const std::string root = mount.root == "/" ? "" : mount.root;
   std::string below = group;

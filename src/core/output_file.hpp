@@ -61,7 +61,7 @@ class Unfinished {
   Descriptor lock_;
 };
 
-/// The lock (flock) of a folder that exists, as long as the object lives. On file systems without
+/// Holds the lock (flock) of an existing folder while the object lives. On a file system without
 /// locks nobody waits.
 class FolderLock {
  public:

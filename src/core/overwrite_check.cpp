@@ -45,7 +45,7 @@ std::optional<FilePlace> place_of(const fs::path& folder) {
   }
 }
 
-/// The folders that exist, from the nearest one to the root.
+/// This folder and those around it up to the root, as far as they exist.
 std::vector<FileId> folders_around(const fs::path& folder) {
   std::vector<FileId> ids;
   std::error_code unknown;
@@ -83,7 +83,7 @@ FileClaim folder_claim(const std::string& what, const fs::path& folder, FileName
   return claim;
 }
 
-/// Whether an output is in one of the folders in a folder that is read with all in it.
+/// Whether an output is in a folder that is read with its subfolders, or below it.
 bool is_below(const FileClaim& output, const FileClaim& input) {
   const bool is_inside =
       input.names_below && input.folder && input.folder->second.empty() &&

@@ -31,8 +31,8 @@ struct FileClaim {
   std::optional<FilePlace> folder = {};  ///< in which the file is, or whose names are claimed
   std::optional<std::string> name = {};  ///< of the file
   FileNames names = {};                  ///< in the folder; all if empty
-  FileNames names_below = {};            ///< in the folders in that folder; none if empty
-  std::vector<FileId> around = {};       ///< the folder, if it exists, and those that it is in
+  FileNames names_below = {};            ///< in its subfolders; none if empty
+  std::vector<FileId> around = {};       ///< the folder and those around it, as far as they exist
 };
 
 class OverwriteCheck {
@@ -43,9 +43,9 @@ class OverwriteCheck {
   /// written into the folder.
   void reads_folder(const std::string& what, const std::filesystem::path& folder,
                     FileNames names = {});
-  /// Reads the files of a folder, so that nothing may be written into it, and those of the folders
-  /// in it that have these names.
-  /// @param files  all that are read, wherever links lead to them
+  /// Reads a folder with its subfolders. Nothing may be written into the folder itself, and no file
+  /// of these names into a subfolder.
+  /// @param files  all that are read, including those behind links
   void reads_tree(const std::string& what, const std::filesystem::path& folder,
                   const std::vector<std::filesystem::path>& files, FileNames names);
 

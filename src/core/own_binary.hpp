@@ -11,8 +11,8 @@ namespace piblocks {
 /// The program or shared library that this code is part of; empty if the system does not say.
 std::filesystem::path own_binary();
 
-/// Whether CMake builds in this folder. Only then may what was built beside a binary be used: any
-/// other folder, such as one for downloads, may hold files of anybody's.
+/// Whether CMake builds in this folder. Only there may a binary load files from beside it: in any
+/// other folder, such as one for downloads, they may be anybody's.
 inline bool is_build_folder(const std::filesystem::path& folder) {
   std::error_code unknown;
   return std::filesystem::exists(folder / "CMakeCache.txt", unknown);

@@ -18,8 +18,9 @@ int processor_count();
 /// The text of a file; nothing if it cannot be read.
 using ReadText = std::function<std::optional<std::string>(const std::string& path)>;
 
-/// The processors whose time the control groups grant, such as 1.5: the least of the process's
-/// group and of those that it lies in, as far as they are mounted. Both versions of control groups.
+/// The processors whose time the control groups grant, such as 1.5: the smallest limit of the
+/// process's group and of the groups around it, as far as they are mounted. Reads both versions of
+/// control groups.
 /// @param groups  /proc/self/cgroup
 /// @param mounts  /proc/self/mountinfo
 /// @return nothing if there is no limit.

@@ -13,7 +13,7 @@
 namespace piblocks {
 namespace {
 
-/// Those that the scheduler may choose: after taskset and the like, and of the process's cpuset.
+/// The processors that the process's affinity mask (taskset) and its cpuset allow.
 int allowed_processors() {
   constexpr std::size_t kMost_words = std::size_t{1} << 12;  // for 65,536 processors
   for (std::size_t words = 1; words <= kMost_words; words *= 2) {

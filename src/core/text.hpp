@@ -29,11 +29,11 @@ inline std::size_t step_bytes(std::string_view text) {
 
 bool is_utf8(std::string_view text);
 
-/// Without blanks, tabs and line ends around it.
+/// The text without the blanks, tabs and line ends around it.
 std::string_view trimmed(std::string_view text);
 
-/// At most 60 characters, for a message that repeats what a user has written: of a longer text the
-/// beginning, and how long it is.
+/// For a message that repeats what a user has written: a text of more than 60 characters is cut to
+/// its beginning and its length.
 std::string shortened(std::string_view text);
 
 /// The words of a line, with one blank between them; empty if it has none.
@@ -49,7 +49,7 @@ constexpr bool has_ending(std::string_view name, std::string_view ending) {
   return std::ranges::equal(name.substr(name.size() - ending.size()), ending, is_same);
 }
 
-/// The text for a message: of words of more than 300 bytes, only the beginning and the end.
+/// For a message: leaves out the middle of every word of more than 300 bytes.
 std::string with_short_words(std::string_view text);
 
 /// The text in valid UTF-8, without characters that a terminal obeys, that change the direction of

@@ -15,14 +15,14 @@ inline constexpr bool kHasThreads = false;
 inline constexpr bool kHasThreads = true;
 #endif
 
-/// What `start` returns: a thread that it has started.
+/// Calls `start`, which starts a thread, and returns that thread.
 /// @throws IoError if the system has no thread left.
 template <typename Start>
 auto start_thread(const Start& start) {
   try {
     return start();
   } catch (const std::system_error& error) {
-    throw IoError("threads: cannot start one: " + error.code().message() +
+    throw IoError("threads: cannot start a thread: " + error.code().message() +
                   "; end other programs, or raise the limits of memory and processes (ulimit)");
   }
 }

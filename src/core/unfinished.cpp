@@ -137,7 +137,7 @@ bool remove_abandoned(const fs::path& final_path, const fs::path& own,
   return is_shared;
 }
 
-/// @return a closed one, with errno set, if it cannot be made: EEXIST if another name may do.
+/// @return a closed descriptor, with errno set, if that fails: EEXIST if another name may work.
 Descriptor make_empty(const std::string& path, Kind kind) {
   if (kind == Kind::file) {
     return Descriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));

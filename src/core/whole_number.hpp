@@ -9,7 +9,7 @@
 
 namespace piblocks {
 
-/// Whatever parse_rational() reads and is whole: 16, +16, 1e3, 2^10. Nothing for another text.
+/// A whole number that parse_rational() can read: 16, +16, 1e3, 2^10. Nothing for any other text.
 std::optional<Integer> whole_number(std::string_view text);
 
 /// @throws UsageError unless the text is a whole number >= low and, if there is a high, <= high.

@@ -54,8 +54,8 @@ bool is_masked(std::span<const PixelRect> masks, int x, int y) {
   });
 }
 
-/// Whether the masks together leave no pixel. Every row is covered by the same masks as the row at
-/// the last upper or lower edge of a mask before it.
+/// Whether the masks together cover the whole picture. It is enough to check the first row and the
+/// rows at the edges of masks: from edge to edge, all rows have the same masks.
 bool cover_all(std::span<const PixelRect> masks, int width_px, int height_px) {
   std::vector<PixelRect> from_left(masks.begin(), masks.end());
   std::ranges::sort(from_left, {}, &PixelRect::x_px);
@@ -77,7 +77,7 @@ bool cover_all(std::span<const PixelRect> masks, int width_px, int height_px) {
 }
 
 /// Calls take(deltas, x, y) for each pair of pixels that differ outside the masks, row by row.
-/// @returns the number of those that differ inside.
+/// @returns the number of pixels that differ inside the masks.
 /// @throws UsageError if the pictures are of different sizes or depths.
 template <typename Word, typename Take>
 std::int64_t for_each_difference(const Picture<Word>& reference, const Picture<Word>& actual,

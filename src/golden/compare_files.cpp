@@ -82,7 +82,7 @@ std::string mismatch_of(Size expected, Size found, const FrameReader& reference,
   return fmt::format("shown another way: {} instead of {}", shown(actual), shown(reference));
 }
 
-/// The masks, and which of them have met a picture.
+/// The masks, and which of them cover a part of a picture.
 class Masks {
  public:
   explicit Masks(const std::vector<PixelRect>& masks) : masks_(masks), has_met_(masks.size()) {}
@@ -94,7 +94,7 @@ class Masks {
       if (mask.x_px < size.width_px && mask.y_px < size.height_px) has_met_[i] = true;
     }
   }
-  /// @throws UsageError if one lies outside of all pictures that it has met.
+  /// @throws UsageError if one lies outside of every picture.
   void check() const {
     if (!has_picture_) return;
     for (std::size_t i = 0; i < masks_.size(); ++i) {
@@ -112,7 +112,7 @@ class Masks {
   bool has_picture_ = false;
 };
 
-/// Whether a step had a frame on a side, or why it cannot be read.
+/// What one side has at a step: a frame, a frame that cannot be read, or none.
 struct Fetched {
   bool is_there = false;
   std::string problem;
@@ -150,7 +150,8 @@ class FrameComparer {
   }
 
  private:
-  /// Reading is nearly all of the work. Nothing if no thread can be started.
+  /// Fetches in another thread, since reading is nearly all of the work.
+  /// @returns an invalid future if no thread can be started.
   std::future<Fetched> fetch_in_thread(FrameSide& side) {
     try {
       return std::async(std::launch::async, [this, &side] {
@@ -164,7 +165,7 @@ class FrameComparer {
   void check_stop() const {
     if (stop_.stop_requested()) throw Interrupted("compare: interrupted");
   }
-  /// A call that was broken off has failed for no reason of its own.
+  /// Once a stop has been requested, a failed call has been broken off: the frame has no problem.
   Fetched fetch(FrameSide& side) const {
     try {
       return {side.fetch(), {}};
@@ -256,8 +257,8 @@ class FrameComparer {
   Masks masks_;
 };
 
-/// Whether a name stands for a video, which an animated PNG file is too. What cannot be read is
-/// not: the reason is found when its picture is.
+/// Whether a name stands for a video; an animated PNG file is one. A PNG file that cannot be read
+/// counts as a picture: reading that reports the reason.
 bool is_video(const std::string& name) {
   std::error_code unknown;
   const fs::file_status status = fs::status(name, unknown);
@@ -271,7 +272,7 @@ bool is_video(const std::string& name) {
   }
 }
 
-/// The pictures of a list beside a video.
+/// The pictures of a list, at the steps of a video beside it.
 std::vector<PlacedPicture> placed_in_order(PictureList list) {
   std::vector<PlacedPicture> placed;
   const std::int64_t first = list.pictures.empty() ? 0 : list.pictures[0].number.value_or(0);
@@ -291,7 +292,7 @@ std::unique_ptr<FrameSide> open_side(const std::string& name, const ComparisonJo
   return picture_side(placed_in_order(std::move(list)));
 }
 
-/// Two lists of pictures, lined up by what they are called.
+/// Lines up two lists of pictures by name or number, and compares them.
 void compare_lists(const ComparisonJob& job, Rows& rows, FrameComparer& comparer) {
   const PictureList reference = list_pictures(job.reference, job.is_recursive);
   const PictureList actual = list_pictures(job.actual, job.is_recursive);

@@ -11,7 +11,7 @@ namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
-/// Nothing if the file is missing or cannot be read, which adds to the row.
+/// No lines if the file is missing. Nothing if it cannot be read; then the row says why.
 std::optional<FramehashFile> read(const std::string& path, Rows& rows, FrameComparison& row) {
   std::error_code unknown;
   if (fs::status(path, unknown).type() == fs::file_type::not_found) {
@@ -27,7 +27,7 @@ std::optional<FramehashFile> read(const std::string& path, Rows& rows, FrameComp
   }
 }
 
-/// A row if the headers differ. What is missing altogether has none.
+/// Adds a row if the headers differ. A file that is missing has none.
 void compare_headers(const FramehashFile& reference, const FramehashFile& actual, Rows& rows) {
   if (reference.header.empty() || actual.header.empty()) return;
   const auto differs = std::ranges::mismatch(reference.header, actual.header);

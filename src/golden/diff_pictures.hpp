@@ -1,5 +1,5 @@
 // Pictures of differences in a folder. Several comparisons may share it: the last one wins.
-// In: PNG files with their names. Out: these files, and no longer those of earlier comparisons.
+// In: PNG files with their names. Out: these files, instead of those of earlier comparisons.
 #pragma once
 
 #include <cstddef>
@@ -18,16 +18,16 @@ class DiffPictures {
  public:
   enum class Making { at_once, when_needed };
 
-  /// @param making  when the folder is made: a long comparison finds out at once that it cannot be;
-  ///                one that finds no difference does not need it.
+  /// @param making  when the folder is made: `at_once`, so that a long comparison does not fail at
+  ///                its end; or `when_needed`, so that one without differences leaves no folder.
   /// @throws UsageError if the folder cannot be made.
   DiffPictures(std::filesystem::path folder, Making making);
 
   /// @param png  a whole file, which gets a mark.
   void add(const std::string& name, ByteSpan png);
   std::size_t count() const noexcept { return pictures_.size(); }
-  /// Writes the pictures, and removes those of earlier comparisons, which carry the mark. Waits as
-  /// long as another comparison does so.
+  /// Writes the pictures, and removes those of earlier comparisons, which carry the mark. Waits
+  /// while another comparison does the same.
   /// @param may_be_old  names that an earlier comparison may have used.
   /// @throws UsageError if a picture would replace a file that no comparison has written; IoError
   void finish(const FileNames& may_be_old);

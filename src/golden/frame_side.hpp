@@ -24,11 +24,11 @@ class FrameSide {
   /// Goes to that step and reads its frame. False if there is none after all.
   /// @throws IoError, MediaError if it cannot be read.
   virtual bool fetch() = 0;
-  /// Of the frame that was fetched, also in vain.
+  /// The name of the last frame that was fetched, even if it could not be read.
   virtual std::string name() const = 0;
   /// Whether frames after one that cannot be read can be fetched.
   virtual bool goes_on_after_failure() const = 0;
-  /// Of a frame that was fetched: its samples, what they mean, and how players show them.
+  /// The frame that was fetched: its samples, what they mean, and how players show them.
   virtual FrameReader& frame() = 0;
 };
 

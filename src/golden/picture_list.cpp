@@ -61,7 +61,7 @@ class FolderWalk {
 
   std::vector<ListedPicture> take() { return std::move(pictures_); }
 
-  /// @param name  of the folder in the outermost one, whose own is empty
+  /// @param name  the folder's path in the outermost folder; empty for that one
   void enter(const fs::path& folder, const std::string& name) {
     struct stat status {};
     const Id id = ::stat(folder.c_str(), &status) == 0 ? Id(status.st_dev, status.st_ino) : Id();
@@ -101,7 +101,7 @@ class FolderWalk {
 
   bool is_recursive_;
   std::vector<ListedPicture> pictures_;
-  std::set<Id> around_;  // of the folder that is being listed
+  std::set<Id> around_;  // the folder that is being listed, and those around it
   std::size_t folders_ = 0;
 };
 
@@ -132,7 +132,7 @@ PictureList list_pattern(const std::string& name) {
   return list;
 }
 
-/// Where a picture stands in both lists.
+/// The sort key of a picture, by which two lists are merged.
 struct Place {
   std::optional<std::int64_t> number;
   std::string name;
@@ -146,7 +146,7 @@ struct Place {
 };
 
 /// @param pattern  of the other list, if it has one and this list has none. A name with other
-///                 leading zeros has its number too, unless a name without them is there.
+///                 leading zeros has its number too, unless another name has that number exactly.
 std::vector<Place> places_of(const PictureList& list, const FramePattern* pattern) {
   std::vector<Place> places;
   std::set<std::int64_t> taken;

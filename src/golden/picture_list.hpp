@@ -1,6 +1,6 @@
 // The pictures that a name on the command line stands for, found without reading one.
-// In: a PNG file, a folder, or a pattern such as frames/%06d.png. Out: their paths, and which of
-// one list belongs to which of another.
+// In: a PNG file, a folder, or a pattern such as frames/%06d.png. Out: the paths of the pictures;
+// the pairs of two such lists.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct ListedPicture {
   std::string name;                         ///< its path in the folder, or its file name
   std::filesystem::path path;               ///< to open it
   std::optional<std::int64_t> number = {};  ///< in a pattern
-  std::string problem = {};  ///< of a folder that stands here because it cannot be read: why
+  std::string problem = {};  ///< why a folder cannot be read, which then stands here; else empty
 };
 
 struct PictureList {
@@ -33,7 +33,7 @@ struct PictureList {
 /// Whether the name is a pattern for PNG files. A file may have a percent sign in its name.
 bool is_picture_pattern(const std::string& name);
 
-/// A folder or file that cannot be read is listed with the reason, or read in vain later.
+/// A folder that cannot be read is listed with the reason. Files are not opened.
 /// @param is_recursive  whether the folders in a folder are searched too
 /// @throws UsageError if a pattern is not valid.
 PictureList list_pictures(const std::string& name, bool is_recursive);
@@ -44,8 +44,8 @@ struct PicturePair {
   std::optional<std::size_t> actual;
 };
 
-/// Pairs two lists: by number if one is a pattern, else by name. What has no partner because the
-/// other list's folder cannot be read is left out: that folder is in the list.
+/// Pairs two lists: by number if one is a pattern, else by name. Leaves out a picture whose partner
+/// may be in a folder that cannot be read: the other list has that folder, with the reason.
 std::vector<PicturePair> paired(const PictureList& reference, const PictureList& actual);
 
 /// Enters the files that the name stands for as files that are read.

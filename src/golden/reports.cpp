@@ -44,8 +44,8 @@ std::string single_picture(const std::function<Image()>& picture_of, std::string
       image.width_px, image.height_px, kind, picture(image, kind));
 }
 
-/// The expected picture is left of the slider, the actual one right of it. What has no difference
-/// has two pictures, one, or none.
+/// The expected picture is left of the slider, the actual one right of it. Frames that were not
+/// compared have no slider: each picture that there is stands by itself.
 std::string pictures_of(const FrameComparison& frame) {
   if (!frame.difference) {
     return single_picture(frame.reference, "expected") + single_picture(frame.actual, "actual");
@@ -82,7 +82,7 @@ class HtmlReport final : public Report {
     const std::string line = fmt::format("<li class=\"{}\"><b>{}</b>: {}</li>\n",
                                          class_of(left->outcome), left->item.name, left->item.text);
     std::string& lines = left_lines_.at(static_cast<std::size_t>(left->outcome));
-    // What had been shown comes before all that had not.
+    // A frame that another one has displaced comes before those that were never shown.
     lines.insert(left->outcome == frame.outcome ? lines.size() : 0, line);
   }
 

@@ -17,10 +17,10 @@ namespace piblocks {
 /// (red) …", "missing", or why it cannot be read.
 std::string difference_text(const FrameComparison& frame);
 
-/// The same behind the frame's name, unless the text has it already.
+/// The frame's name and difference_text(); only the text if it has the name already.
 std::string row_text(const FrameComparison& frame);
 
-/// What a comparison comes to: "different: 3 of 12 frames differ, 1 missing".
+/// The summary of a comparison: "different: 3 of 12 frames differ, 1 missing".
 std::string summary_text(const ComparisonJob& job, const ComparisonResult& result);
 
 /// The reference in pale grey, on white where it is transparent, with red where pixels differ,
@@ -45,8 +45,7 @@ class Report {
 /// actual. finish() makes them appear, and removes those of earlier comparisons, which carry a
 /// mark.
 /// @throws UsageError if the folder cannot be made, or by finish() if a picture would replace a
-/// file
-///         that no comparison has written.
+///         file that no comparison has written.
 std::unique_ptr<Report> diff_folder(const std::string& folder);
 
 /// Enters the pictures of such a folder as files that are written.

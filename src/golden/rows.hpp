@@ -1,4 +1,4 @@
-// The rows of a comparison: they are counted here, whatever was compared.
+// The rows of a comparison, counted in one place for pictures, videos and hashes.
 // In: what was found about a frame. Out: the row with its number, and the counts of all.
 #pragma once
 
@@ -16,14 +16,15 @@ class Rows {
  public:
   explicit Rows(OnFrame on_frame) : on_frame_(std::move(on_frame)) {}
 
-  /// Counts the row, and hands it on. A row has a frame on the sides that it says.
+  /// Numbers the row, counts it, and hands it on.
+  /// @param has_reference, has_actual  on which sides it has a frame
   void take(FrameComparison row, bool has_reference, bool has_actual);
 
-  /// Notes why one side has no frame, or no partner for one. The first reason stays.
+  /// Notes why a side has no frame, or why no picture has a partner. The first reason stays.
   void set_problem(const std::string& problem) {
     if (result_.problem.empty()) result_.problem = problem;
   }
-  /// Makes sure that a side without a frame is never taken for equality.
+  /// The result. A comparison in which a side has no frame is never equal.
   ComparisonResult finish(const ComparisonJob& job);
 
  private:

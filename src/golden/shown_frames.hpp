@@ -23,10 +23,10 @@ class ShownFrames {
     Item item;
   };
 
-  /// Whether add() would keep an item.
+  /// Whether add() would keep an item of this outcome.
   bool takes(Outcome outcome) const { return count_ < kMaxShown || least() < rank(outcome); }
 
-  /// @returns the item that is not shown because of this one: itself, or a less severe one.
+  /// @returns the item for which there is no room: this one, or a less severe one.
   std::optional<Left> add(Outcome outcome, Item item) {
     if (!takes(outcome)) return Left{outcome, std::move(item)};
     std::optional<Left> left;

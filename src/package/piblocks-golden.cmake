@@ -2,11 +2,11 @@
 #
 # piblocks_add_golden_test(NAME <test> SCENE <scene.toml> DIRECTORY <folder> [FRAMES <instant>…])
 #
-# The test fails if a frame of the scene is not that of the references in the folder, or if one of
-# these is missing; pictures of what differs are then in <test>-differences/<name of the scene> of
-# the build folder. FRAMES names the instants of
-# which pictures are kept, instead of the scene's. The references are made, once and after a
-# change that is meant, by
+# The test fails if a frame of the scene differs from the references in the folder, or if a
+# reference is missing. Pictures of what differs are then in
+# <test>-differences/<name of the scene> of the build folder. FRAMES names the instants that are
+# kept as pictures, instead of the scene's. This command makes the references, once and after an
+# intended change:
 #   piblocks golden record|approve <scene.toml> --dir <folder> [--frames <instant>,…]
 function(piblocks_add_golden_test)
   cmake_parse_arguments(PARSE_ARGV 0 ARG "" "NAME;SCENE;DIRECTORY" "FRAMES")

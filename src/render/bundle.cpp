@@ -115,7 +115,8 @@ bool has_bundle(const fs::path& folder) {
   return found == expected;
 }
 
-/// The video has the user's name. @throws UsageError if the others would replace files of others.
+/// Checks all but the video, whose name the user has chosen.
+/// @throws UsageError if one of them would replace a file that is not from an earlier bundle.
 void check_names(const Bundle& bundle) {
   if (has_bundle(bundle.folder)) return;
   std::error_code unknown;
@@ -123,8 +124,8 @@ void check_names(const Bundle& bundle) {
     const fs::path path = fs::path(bundle.folder) / name;
     if (!fs::exists(path, unknown)) continue;
     throw UsageError(fmt::format(
-        "bundle: '{}' is there, and of no earlier bundle; use another folder, or --overwrite to "
-        "replace it",
+        "bundle: '{}' is there, but not from an earlier bundle; use another folder, or --overwrite "
+        "to replace it",
         path.string()));
   }
 }

@@ -44,10 +44,10 @@ class FilmRun {
   /// A frame by a schedule, which may be another run's. @param number  >= 0
   DrawList frame(const Schedule& schedule, std::int64_t number) const;
   /// A picture of each time: the first frame that shows the time. If no frame does, a frame that
-  /// begins where the video first passes it. If the video never passes it, as frame_time_alone(),
-  /// without hits.
+  /// begins where the video first passes it. If the video never passes it, the picture of
+  /// frame_time_alone(), without hits.
   /// @throws UsageError as make_schedule(), if slow motion, the shutter, hits or a diagram that
-  ///         follows the video ask for a schedule.
+  ///         follows the video need a schedule.
   /// @param on_picture  called after each.
   std::vector<DrawList> stills(std::span<const Rational> times,
                                const std::function<void()>& on_picture) const;

@@ -40,7 +40,7 @@ class References {
             const std::function<void(std::int64_t frame, std::vector<std::uint8_t> png)>& use,
             const std::stop_token& stop) const;
   /// Renders all of them into another folder, which is to be empty.
-  /// @param on_progress  is told of frames whose hashes are known.
+  /// @param on_progress  called as frames are drawn and hashed.
   void render_into(const std::filesystem::path& folder, int jobs, const OnProgress& on_progress,
                    const std::stop_token& stop) const;
 

@@ -228,7 +228,8 @@ Rendered render_film(const RenderJob& job, const OnProgress& on_progress,
 
 namespace {
 
-/// Changes what the output of the job has no place for. @returns what is said of it.
+/// Leaves out sound, and lowers a frame rate, that the job's output cannot have.
+/// @returns a note about each change.
 std::vector<std::string> fit_to_output(RenderJob& job) {
   std::vector<std::string> notes;
   const auto fit = [&](auto& script) {
@@ -239,7 +240,7 @@ std::vector<std::string> fit_to_output(RenderJob& job) {
     const auto most = max_frame_rate_of(job.output);
     if (most && script.view.frame_rate > *most) {
       notes.push_back(
-          fmt::format("'{}' shows at most {} frames a second, not {}; it has {} of them",
+          fmt::format("'{}' shows at most {} frames a second, not {}; it is rendered at {}",
                       job.output, *most, script.view.frame_rate.get_str(), *most));
       script.view.frame_rate = *most;
     }

@@ -44,12 +44,13 @@ bool is_page(const std::string& output);
 Rendered render_page(const RenderJob& job, const OnProgress& on_progress,
                      const std::stop_token& stop);
 
-/// What render_still() draws: of a scene as FilmRun::stills(), of a storyboard as frame_at().
+/// What render_still() draws: for a scene what FilmRun::stills() draws, for a storyboard the frame
+/// that frame_at() finds.
 /// @throws SceneError if problems_of() the script is not empty; UsageError, DrawError, MediaError,
 ///         SimulationError
 DrawList still_picture(const Script& script, const Instant& instant);
 
-/// Each picture is the still_picture() of its instant. Throws as that; Interrupted.
+/// Each picture is the still_picture() of its instant. @throws as still_picture(); Interrupted
 std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
                                              const std::vector<Instant>& instants,
                                              const OnProgress& on_progress = {},

@@ -152,7 +152,7 @@ void check_all_there(const std::vector<ShardFile>& parts) {
   if (!problems.empty()) throw UsageError(std::move(problems));
 }
 
-/// The signature of an output without the headers of its encoder, which are in hexadecimal digits.
+/// The signature of an output without its encoder's headers, which are hexadecimal digits.
 std::string in_words(std::string_view signature) {
   std::string words;
   while (!signature.empty()) {

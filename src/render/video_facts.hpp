@@ -73,14 +73,14 @@ class PageFacts {
 /// The scene's own title; without one, the masses and the count.
 std::string title_of(const Scene& scene, const VideoCount& count);
 
-/// Three sentences: who is there, how they move at first, what the counter says in the end. One
-/// more says which digits of pi it has counted, if it has.
+/// A few sentences: who is there, how they move at first, what the counter says in the end; in
+/// which base, if it is not ten; which digits of pi it has counted, if it has counted some.
 std::string describe_video(const Scene& scene, const VideoCount& count);
 
-/// A count that stands for a second or more is said as it is, and so is the most that any frame
-/// counts. Between them a caption begins with the first frame that counts 1 collision, 10, 100 and
-/// so on. It ends where the next one begins. Times are those of frames, rounded up to milliseconds.
-/// Before time 0 counts are negative, and captions say how many collisions are to go until then.
+/// Captions give a count exactly if it stands for a second or more, or if it is the highest of the
+/// film. Between such counts a caption begins with the first frame that counts 1 collision, 10, 100
+/// and so on. It ends where the next one begins. Times are those of frames, rounded up to
+/// milliseconds. Before time 0 counts are negative, and captions say how many collisions are to go.
 /// @throws UsageError as film_frames().
 std::string captions(const Scene& scene, const RunLog& run, const Schedule& schedule);
 

@@ -118,7 +118,7 @@ class CountWords {
     if (!pi.digits.empty()) ending_ += ", " + pi.digits;
   }
 
-  /// @param stands  whether the count stays for long; the next counts are not said one by one
+  /// @param stands  whether the count stays long enough to be given exactly
   std::string text(const Integer& count, bool stands) {
     if (count == 0) {
       return least_ < 0 ? "No collision between now and time 0" : "No collision yet";
@@ -141,7 +141,7 @@ class CountWords {
   Integer most_;
   bool is_endless_ = false;
   std::string ending_;
-  Integer said_ = 0;  ///< the last count that was said as it is
+  Integer said_ = 0;  ///< the last count that was given exactly
 };
 
 std::string time_text(std::int64_t frame, const Rational& frame_rate) {

@@ -14,7 +14,7 @@ namespace piblocks {
 /// base's square.
 std::optional<unsigned long> places_of_pi(const BlockSystem& system, int base);
 
-/// Pi in this base, as far as the digits of the count go: "3.14". Empty if these are others.
+/// Pi in this base, with as many digits as the count: "3.14". Empty if the count has other digits.
 /// @param total  all collisions of the run
 std::string counted_pi(const BlockSystem& system, const Integer& total, int base);
 

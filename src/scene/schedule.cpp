@@ -57,7 +57,7 @@ struct StretchList {
     stretches.push_back({end_s, time, speed, slowdown});
     end_s += length_s;
   }
-  /// From here on.
+  /// Time stands still from here on.
   void stand_still(const Rational& time, const Rational& slowdown) {
     stretches.push_back({end_s, time, 0, slowdown});
   }
@@ -118,7 +118,7 @@ Schedule make_schedule(const Scene& scene, const Timeline& log) {
     video.add(move.from, is_frozen ? Rational(0) : Rational(speed / move.slowdown), move.slowdown,
               is_frozen ? move.frozen_s : Rational((move.to - move.from) * move.slowdown / speed));
   }
-  // No picture shows more than the end, nor does a shutter that is open longer than the motion.
+  // No picture shows a time after the end, even if its shutter is open for longer.
   Integer frame_count = ceil(video.end_s * rate) + ceil(hold_end_s * rate);
   if (shows_end(scene)) frame_count += 1;
   video.stand_still(span.to, moves.back().slowdown);

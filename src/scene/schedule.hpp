@@ -88,9 +88,9 @@ class Schedule {
   Rational frame_rate_;
 };
 
-/// The picture stands at the end from then on: no frame shows a later time. If scene.time.to is a
-/// time, the video ends before it, unless the end is held. If it is named by a turn or a collision,
-/// one more frame shows it.
+/// No frame shows a time after scene.time.to: there the picture stands. If this end is a time, the
+/// video ends before it, unless the end is held. If a turn or a collision names it, one more frame
+/// shows it.
 /// @throws UsageError as span_of(); if the span is empty; if windows of slow motion overlap; if a
 ///         window or a freeze is outside of the span; if the duration leaves no time for the
 ///         motion.
@@ -108,8 +108,8 @@ inline bool has_slow_motion(const Pacing& pacing) {
 /// How long each frame is exposed, in seconds of video.
 inline Rational open_s(const View& view) { return view.shutter / view.frame_rate; }
 
-/// What a picture shows of a time that no video shows: time runs at scene.time.speed, and stops at
-/// the end of what the scene shows.
+/// What a picture shows if no video shows its time: time runs at scene.time.speed, and stops at the
+/// scene's end.
 FrameTime frame_time_alone(const Scene& scene, const Timeline& log, const Rational& time);
 
 }  // namespace piblocks

@@ -24,7 +24,7 @@ struct TomlTable {
   std::size_t line = 0;            ///< where it begins, from 1; 0 for the file itself
 };
 
-/// The text of a file that is open. @param name  named in messages
+/// The text of an open file. @param name  of the file, for messages
 /// @throws SceneError if it cannot be read or is longer than kMaxSceneFile_bytes.
 std::string read_toml_text(std::istream& file, const std::string& name);
 

@@ -16,7 +16,7 @@ namespace {
 const std::vector<std::string> kListsOfTables = {"body", "wall", "part"};
 const std::vector<std::string> kKeysOfParts = {"card", "seconds", "fade", "compare", "split"};
 
-/// Of a scene outside of its lists of tables.
+/// The keys of a scene outside of its lists of tables.
 std::vector<std::string> all_keys() {
   std::vector<std::string> names = {"digits", "mass-ratio", "restitution",
                                     "box.x",  "box.y",      "wall.mass"};
@@ -32,8 +32,7 @@ bool is_table(std::string_view name) {
       all_keys(), [&](const std::string& key) { return key.starts_with(std::string(name) + '.'); });
 }
 
-/// The key under its own name comes before one that differs in a few letters: 'theme' is
-/// 'view.theme'.
+/// Prefers a key in a table to one that differs in a few letters: 'theme' means 'view.theme'.
 std::string advice(const std::string& key) {
   std::vector<std::string> names = all_keys();
   std::vector<std::string> same = names;

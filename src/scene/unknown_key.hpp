@@ -11,7 +11,7 @@ namespace piblocks {
 /// "unknown key; did you mean 'view.size'?"
 std::string about_unknown_key(const std::string& key);
 
-/// The same of an entry, which may be a list of tables, such as [[bodi]]. Empty if a scene has it.
+/// The same for an entry, which may be a list of tables, such as [[bodi]]. Empty if the key exists.
 std::string about_unknown(const TomlEntry& entry);
 
 }  // namespace piblocks

@@ -28,7 +28,7 @@ std::vector<DrawItem> hatched(const Point& from, const Point& to, const DrawingC
     return Point{from.x + a * along.x + b * out.x, from.y + a * along.y + b * out.y};
   };
   for (double s = 0; s < length + width; s += kHatchStep * sizes.short_side) {
-    // The corners of a line's end are hidden by the face.
+    // The face hides the corners of the line's end.
     const double begin = std::max(half, s - length);
     const double end = std::min(width, s);
     if (end <= begin) continue;

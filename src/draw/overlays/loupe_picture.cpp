@@ -43,7 +43,7 @@ double LoupeInset::zoom(double gap) const {
   return window_ ? std::max(1.0, std::min(window_->zoom, room)) : zoom_.factor_for(room);
 }
 
-/// From behind red, or from above it: they would be in the way between the blocks.
+/// They begin behind red, or above it: between the blocks they would be in the way.
 void LoupeInset::add_lines(const FrameState& shown, std::vector<DrawItem>& items) const {
   const double seen = opacity(shown);
   if (seen <= 0) return;

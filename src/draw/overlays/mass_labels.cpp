@@ -68,13 +68,13 @@ MassTexts mass_texts(const Scene& scene, const Layout& layout, const Font& font)
 struct MassLabel {
   TextItem text;
   bool is_inside = true;  ///< on the block, else above it
-  Color beside;           ///< its colour where it is not on the block
+  Color beside;           ///< its colour when it is not on the block
 
   double half_px() const { return -text.origin.x; }
 };
 
-/// Where labels can be while their blocks are in sight. Half a figure would be another number, so
-/// that no label is cut.
+/// Where labels can be while their blocks are in sight. No label is cut: half a number would be
+/// another number.
 class LabelRoom {
  public:
   explicit LabelRoom(const DrawingContext& context)
@@ -104,8 +104,8 @@ class LabelRoom {
   }
 
  private:
-  /// The label of a block of which too little is seen: beside it, or above it if the other block is
-  /// there. @returns its middle
+  /// Moves the label of a block of which too little is seen beside the block, or above it if the
+  /// other block is in the way. @returns the middle of the label
   double leave(MassLabel& label, const Rectangle& block, const Rectangle& other) const {
     const double half = label.half_px();
     label.text.color = label.beside;
@@ -120,7 +120,7 @@ class LabelRoom {
                       std::max(left_ + half, right_ - half));
   }
 
-  // Between these labels are above and beside their blocks.
+  // Labels above or beside their blocks stay between these.
   double left_;
   double right_;
   double edge_;  ///< blocks are seen up to here

@@ -38,7 +38,7 @@ std::vector<DrawItem> wall_items(const WallPlace& place, const DrawingContext& c
   const auto& [face_px, top_px, bottom] = place;
   const Sizes& sizes = context.sizes;
   const double width = style::kWallWidth * sizes.short_side;
-  // The corners of a line's end are hidden by the face.
+  // The face hides the corners of the line's end.
   const double longest = std::max(width - sizes.wall_line / 2, width / 2);
   std::vector<DrawItem> items;
   const Stroke hatch{context.palette.muted, sizes.grid_line};

@@ -14,10 +14,10 @@ class ColorTable {
  public:
   void clear();
   void count(std::uint32_t color) { ++entry(color); }
-  /// Keeps all colours. If there are more than `room`, the most frequent take an eighth of it:
-  /// those of flat shapes. Each other one is the farthest from all that are kept before it, so that
-  /// a few pixels of a colour of their own keep it, or one that looks like it. The choice depends
-  /// on the counts alone.
+  /// Keeps all colours if there is room. Otherwise the most frequent ones, those of flat shapes,
+  /// take an eighth of the room. Each further one is the colour that is farthest from all that are
+  /// kept already, so that a colour of few pixels keeps its look. The choice depends on the counts
+  /// alone.
   void choose(std::size_t room);
 
   const std::vector<std::uint32_t>& colors() const noexcept { return colors_; }

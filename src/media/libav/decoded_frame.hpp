@@ -28,7 +28,7 @@ int greatest_depth(const AVPixFmtDescriptor& format);
 
 /// If the file does not say, players assume limited range for YUV and full range for others.
 bool is_full_range(const AVFrame& frame);
-/// If the file does not say, players assume a matrix by the height. AVCOL_SPC_RGB for grey too.
+/// If the file does not say, players choose a matrix by the height. AVCOL_SPC_RGB for grey too.
 AVColorSpace matrix_of(const AVFrame& frame);
 /// Whether the samples are red, green and blue of full range, or grey that stands for all three.
 bool is_rgb(const AVFrame& frame);
@@ -37,7 +37,7 @@ bool is_xyz(const AVPixFmtDescriptor& format);
 
 /// Where chroma samples lie among the pixels that share them.
 struct Siting {
-  /// From the first pixel to the middle of the sample, in half distances of pixels.
+  /// From the first pixel to the middle of the sample, in halves of a pixel.
   int right = 0;
   int down = 0;
 };
@@ -62,9 +62,9 @@ void read_levels(const AVFrame& frame, int component, int row, std::uint16_t* le
 AnyImage samples_of(const AVFrame& frame);
 
 /// The colours, of 8 bits if the samples have no more, else of 16. Chroma is interpolated linearly
-/// between the places where its samples lie; the rows of interlaced pictures count as those of
-/// others, as players without a deinterlacer show them.
-/// @throws MediaError if the matrix or the pixel format has no fixed way to RGB.
+/// between the places where its samples lie. The rows of interlaced pictures are taken as those of
+/// any other, as by players without a deinterlacer.
+/// @throws MediaError if no conversion to RGB is known for the matrix or the pixel format.
 AnyImage rgb_of(const AVFrame& frame, const std::string& path);
 
 }  // namespace piblocks

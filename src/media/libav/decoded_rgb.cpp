@@ -22,8 +22,8 @@ Matrix matrix_by_weights(double red, double blue) {
            {1, 2 * (1 - blue), 0}}};
 }
 
-/// The matrices of ITU-T H.273, table 4. Nothing for those that are no matrices of what is stored,
-/// or that depend on other tags.
+/// The matrices of ITU-T H.273, table 4. Nothing for conversions that are not linear in the stored
+/// samples, or that depend on other tags.
 std::optional<Matrix> matrix_to_rgb(const AVFrame& frame) {
   switch (matrix_of(frame)) {
     case AVCOL_SPC_BT709:
@@ -43,7 +43,7 @@ std::optional<Matrix> matrix_to_rgb(const AVFrame& frame) {
   }
 }
 
-/// A colour sample is the sum of the three stored samples, each less its zero, times its weight.
+/// A colour sample is a weighted sum of the three stored samples, each minus its zero.
 struct Conversion {
   std::array<int, 3> zeros;
   Matrix weights;
@@ -53,7 +53,7 @@ struct Conversion {
 constexpr int kInterpolatedBits = 6;
 constexpr int kInterpolated = 1 << kInterpolatedBits;
 
-/// The order of red, green and blue among the components, if these are no chroma.
+/// Which component is red, green and blue in a format without chroma.
 Matrix order_of_rgb(const AVPixFmtDescriptor& format) {
   if (is_grey(format)) return {{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}};
   if (has_flag(format, AV_PIX_FMT_FLAG_RGB)) return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -98,7 +98,7 @@ struct Neighbours {
 };
 
 /// @param shift  log2 of the pixels that share a sample, at most 2
-/// @param middle  of the sample, in half distances of pixels from the first of them
+/// @param middle  of the sample, in halves of a pixel from the first of them
 Neighbours neighbours_of(int pixel, int shift, int middle) {
   const int halves = 2 * pixel - middle;
   const int distance = 2 << shift;
@@ -159,7 +159,7 @@ class Upsampler {
   }
 
  private:
-  /// A row as it is stored, which stays while no row after the next one is asked for.
+  /// A row as it is stored, valid until another row of the same parity is asked for.
   const std::uint16_t* stored(int row) {
     auto& levels = levels_.at(std::size_t(row & 1));
     int& number = numbers_.at(std::size_t(row & 1));

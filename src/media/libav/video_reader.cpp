@@ -33,7 +33,7 @@ bool is_y4m(const AVFormatContext& input) {
 /// libavformat skips the comment by which our y4m says what its colours are.
 void take_y4m_matrix(AVFormatContext& input) {
   if (!is_y4m(input) || input.nb_streams == 0) return;
-  // Also in a pipe, of which libavformat has kept the first bytes.
+  // This works for a pipe too: libavformat has kept its first bytes.
   const std::int64_t header_bytes = avio_tell(input.pb);
   if (avio_seek(input.pb, 0, SEEK_SET) < 0) return;
   std::string header(std::size_t(header_bytes), '\0');
@@ -136,7 +136,7 @@ class VideoReader final : public FrameReader {
         frame_(own_av<AvFramePtr>(av_frame_alloc(), "frame")),
         is_cut_off_(index_leads_out(*input_, *input_->streams[stream_]) || is_cut_off(path_)) {}
 
-  /// Of a file that is cut off, gives out the frames before that place.
+  /// Of a file that is cut off, returns the frames before that place, and throws there.
   bool next() override {
     try {
       if (decode()) return true;
@@ -163,7 +163,6 @@ class VideoReader final : public FrameReader {
   }
   AnyImage samples() override { return samples_of(*frame_); }
   AnyImage rgb() override { return rgb_of(*frame_, path_); }
-  std::string name() const override { return fmt::format("frame {}", frames_ - 1); }
 
  private:
   bool decode() {

@@ -161,12 +161,12 @@ Output set_up_output(const std::string& name, const VideoFormat& format,
 /// Whether an output of this name is sound without pictures: `*.wav`.
 bool is_sound_alone(const std::string& name);
 
-/// False of a name that set_up_output() takes without sound only.
+/// Whether an output of this name can have sound.
 bool takes_sound(const std::string& name);
-/// What is said of such a name if it is to have sound.
+/// The message for a name that cannot.
 std::string no_sound_in(const std::string& name);
 
-/// The most frames a second that an output of this name can show; nothing if it has no limit.
+/// The highest frame rate that an output of this name can show; nothing if there is no limit.
 std::optional<int> max_frame_rate_of(const std::string& name);
 
 /// Enters the files of an output into the check that no input is overwritten.

@@ -30,7 +30,7 @@ class NullSink final : public FrameSink {
   void finish() override {}
 };
 
-/// 420mpeg2 is 4:2:0 with chroma sited left. FFmpeg knows the tag of the range.
+/// 420mpeg2 is 4:2:0 with chroma sited left. FFmpeg reads XCOLORRANGE.
 std::string file_header(const VideoFormat& format) {
   return fmt::format("YUV4MPEG2 W{} H{} F{}:{} Ip A1:1 C420mpeg2 XCOLORRANGE=LIMITED {}\n",
                      format.width_px, format.height_px, format.frame_rate.get_num().get_str(),

@@ -116,8 +116,8 @@ Output gif_output(const OutputRequest& request);
 Output apng_output(const OutputRequest& request);
 Output png_output(const OutputRequest& request);
 Output y4m_output(const OutputRequest& request);
-/// In the header of our y4m, where a comment begins with an X: there is no tag for the matrix.
-/// Other programs skip it.
+/// A comment (X…) in the header of our y4m files: y4m has no tag for the matrix. Other programs
+/// skip it.
 inline constexpr std::string_view kY4mMatrixTag = "XCOLORMATRIX=BT709";
 /// As FFmpeg's framehash muxer writes rawvideo rgb24 or, with alpha, rgba, less its #software line.
 Output framehash_output(const OutputRequest& request);

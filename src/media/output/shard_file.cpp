@@ -82,7 +82,7 @@ class ShardSink final : public FrameSink {
   OutputFile file_;
 };
 
-/// Whether there is a file of this name that is no part file, whatever its version.
+/// Whether a file of this name exists that is not a part file of any version.
 bool is_another_file(const std::string& path) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(path, unknown)) return false;
@@ -97,7 +97,7 @@ std::unique_ptr<FrameSink> open_shard(const std::string& path, const ShardHeader
                                       bool overwrite) {
   if (!overwrite && is_another_file(path)) {
     throw UsageError(fmt::format(
-        "part: '{}' is there, and no part file; use another name, or --overwrite to replace it",
+        "part: '{}' is there, but not a part file; use another name, or --overwrite to replace it",
         path));
   }
   for (const auto& [name, value] : header) {

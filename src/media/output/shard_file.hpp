@@ -23,8 +23,8 @@ using ShardHeader = std::vector<std::pair<std::string, std::string>>;
 
 /// A sink that stores chunks as they are.
 /// @param overwrite  whether it may replace a file that is no part file.
-/// @throws UsageError if the file cannot be opened, or the header cannot be written as lines; if it
-///         would replace another kind of file.
+/// @throws UsageError if the file cannot be opened, would replace another kind of file, or has a
+///         header that cannot be written as lines.
 std::unique_ptr<FrameSink> open_shard(const std::string& path, const ShardHeader& header,
                                       bool overwrite = false);
 

@@ -47,8 +47,6 @@ class FrameReader {
   virtual AnyImage samples() = 0;
   /// The frame's colours, at no less than the depth of the samples.
   virtual AnyImage rgb() = 0;
-  /// The frame's name in messages: the file's, or its number from 0.
-  virtual std::string name() const = 0;
 };
 
 }  // namespace piblocks

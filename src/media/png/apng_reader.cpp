@@ -50,7 +50,7 @@ class ChunkReader {
     if (signature != kSignature) fail(path, "it is no PNG file");
   }
 
-  /// Leaves out ancillary chunks that are damaged, but not those of the animation.
+  /// Skips damaged ancillary chunks. Rejects damage in those that frames depend on.
   Chunk next() {
     while (true) {
       Bytes head(8);
@@ -198,7 +198,6 @@ class ApngReader final : public FrameReader {
     return std::visit([](const auto* picture) { return AnyImage(*picture); }, shown_);
   }
   AnyImage rgb() override { return samples(); }
-  std::string name() const override { return fmt::format("frame {}", frames_ - 1); }
 
  private:
   void read_before_frames(const Chunk& chunk) {
@@ -215,7 +214,7 @@ class ApngReader final : public FrameReader {
       fail(path_, "it has no frames");
     }
   }
-  /// The frame of the last control, as a PNG file; then control_ is of the next one, if any.
+  /// The frame that control_ describes, as a PNG file. Sets control_ to that of the next one.
   Bytes read_frame() {
     Bytes png;
     append(png, kSignature);
@@ -305,7 +304,7 @@ class ApngReader final : public FrameReader {
   std::uint32_t next_sequence_ = 0;
   bool is_default_over_ = false;         // IDAT can be no frame any more
   std::optional<FrameControl> control_;  // of the next frame
-  // One of them, for all frames have the depth of the file.
+  // Only one of them is used: all frames have the depth of the file.
   std::optional<Screen<Image>> flat_;
   std::optional<Screen<DeepImage>> deep_;
   std::variant<const Image*, const DeepImage*> shown_;

@@ -24,8 +24,8 @@ void append_png_header(Bytes& png, int width_px, int height_px, bool has_alpha);
 /// The chunk that says that colours are sRGB.
 void append_png_srgb(Bytes& png);
 
-/// A picture as read_png_samples() returns it, as a PNG file: with alpha, by which the colours are
-/// not multiplied, unless all of it is opaque. @throws MediaError as encode_png()
+/// Encodes a picture as read_png_samples() returns it, with straight alpha; without alpha if all of
+/// it is opaque. @throws MediaError as encode_png()
 Bytes encode_png_samples(const Image& picture);
 
 /// Fast, and for runs of equal bytes, which filter Up leaves of flat shapes: chosen from the table

@@ -145,7 +145,7 @@ std::string files_text(std::int64_t count, std::string_view what) {
 }
 
 /// Numbered pictures in a folder that may hold others. It replaces and removes those of an earlier
-/// sequence; other files it replaces if it is told to, and never removes.
+/// sequence. It replaces other files only if it is told to, and never removes them.
 class PngSequence final : public FrameSink {
  public:
   PngSequence(FramePattern pattern, std::int64_t frames, bool overwrite)
@@ -194,13 +194,13 @@ class PngSequence final : public FrameSink {
   fs::path path_of(std::int64_t number) const {
     return fs::path(pattern_.folder()) / pattern_.name(number);
   }
-  /// FileSet refuses anything else of this name.
+  /// FileSet rejects anything else of this name.
   static bool is_file(const fs::path& path) {
     std::error_code unknown;
     return fs::is_regular_file(fs::symlink_status(path, unknown));
   }
 
-  /// @throws UsageError if so many pictures would replace files of others, unless told to.
+  /// @throws UsageError if so many pictures would replace other files, unless it is told to.
   void check_names(std::int64_t frames) {
     foreign_ = 0;
     fs::path first;
@@ -211,8 +211,7 @@ class PngSequence final : public FrameSink {
     }
     if (foreign_ == 0 || overwrite_) return;
     throw UsageError(fmt::format(
-        "output: '{}'{} there, and no picture of an earlier run; use another name, or --overwrite "
-        "to "
+        "output: '{}'{} there, but not from an earlier run; use another name, or --overwrite to "
         "replace what is there",
         first.string(), foreign_ == 1 ? " is" : fmt::format(" and {} more are", foreign_ - 1)));
   }

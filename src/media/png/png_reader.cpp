@@ -159,7 +159,7 @@ class PngFile {
     run(&PngFile::read_rows);
     return picture;
   }
-  /// libpng does not check indices if it expands them.
+  /// Expands the palette here, since libpng does not check indices when it does.
   Image read_palette() {
     Image picture{width(), height(), {}};
     std::vector<std::uint8_t> indices(std::size_t(width()) * std::size_t(height()));
@@ -220,7 +220,6 @@ class PngReader final : public FrameReader {
   std::string layout() const override { return std::string(kRgba); }
   AnyImage samples() override { return std::move(samples_); }
   AnyImage rgb() override { return std::move(samples_); }
-  std::string name() const override { return paths_[read_ - 1].filename(); }
 
  private:
   std::vector<fs::path> paths_;

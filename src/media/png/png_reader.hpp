@@ -15,7 +15,7 @@
 namespace piblocks {
 
 /// Samples of 16 bits are rounded to 8.
-/// Damage in chunks that pixels do not depend on, and what follows the end, is ignored.
+/// Ignores damage in chunks that no pixel depends on, and whatever follows the end.
 /// @throws IoError if the file cannot be read, MediaError if it is no PNG, is damaged, or is above
 ///         kMaxFrame_px.
 Image read_png(const std::filesystem::path& path);
@@ -33,7 +33,8 @@ bool is_png_file(const std::filesystem::path& path);
 bool is_animated_png(const std::filesystem::path& path);
 
 /// The frames of an animated PNG, each as it is shown: a whole picture.
-/// Reading throws MediaError if a frame is damaged, or if there are fewer or more than announced.
+/// Reading throws MediaError if a frame is damaged, or if there are fewer or more frames than the
+/// file announces.
 /// @throws as read_png().
 std::unique_ptr<FrameReader> read_apng(const std::filesystem::path& path);
 

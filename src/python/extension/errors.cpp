@@ -23,7 +23,7 @@ py::tuple texts_of(const UsageError& error) {
   return py::tuple(problems);
 }
 
-/// The package adds Python's own class of the error, such as FileNotFoundError.
+/// The package makes the error also one of Python's own classes, such as FileNotFoundError.
 void raise(const char* name, const py::tuple& problems) {
   const py::module_ errors = py::module_::import("piblocks._errors");
   const py::object error = errors.attr("made")(errors.attr(name), *problems);

@@ -69,7 +69,7 @@ cli::GoldenResult act(const BoundScript& bound, const GoldenPlace& place, const 
   return result;
 }
 
-/// Their paths.
+/// The paths of the references.
 std::vector<std::string> files_of(const BoundScript& bound, const GoldenPlace& place) {
   const References references = references_of(bound, place);
   std::vector<std::string> paths;

@@ -20,8 +20,8 @@
 
 namespace piblocks::python {
 
-/// How a keyword is called, the key of the scene file that it sets, and the texts of its value;
-/// without them the key has its default, whatever the file says.
+/// The name of a keyword, the key of the scene file that it sets, and the texts of its value;
+/// without texts the key has its default, whatever the file says.
 using KeyTexts = std::tuple<std::string, std::string, std::optional<std::vector<std::string>>>;
 
 /// Immutable, so that threads may share it.

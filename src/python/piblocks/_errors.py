@@ -1,4 +1,4 @@
-"""The exceptions of the package, in the words of Python: keywords, and the classes of errno."""
+"""The exceptions of the package, in the words of Python: keywords, and subclasses of OSError."""
 
 from __future__ import annotations
 
@@ -162,7 +162,7 @@ def of_system(kind: type[Error], problem: str, number: int, filename: Any) -> Er
 
 
 def made(kind: type[Error], *problems: str) -> Error:
-    """An exception of this class; as of_system() if that is the one problem."""
+    """An exception of this class; that of of_system() if its one problem comes from the system."""
     found = _CAUSE.fullmatch(problems[0]) if len(problems) == 1 else None
     number = _NUMBERS.get(found["reason"]) if found else None
     if found is None or number is None:

@@ -12,8 +12,8 @@ from ._values import bytes_of, instant, path
 
 @dataclass(frozen=True)
 class GoldenResult:
-    """What a golden command has found or done. It is true if all is as it should be, so that a test
-    may say ``assert scene.golden_check(...)``; ``str()`` says why it is not."""
+    """What a golden command has found or done. It is true on success, so that a test may say
+    ``assert scene.golden_check(...)``; ``str()`` says what was found."""
 
     ok: bool
     #: Of a check: "equal", "different", "incomplete" if some references are missing, "unreadable",

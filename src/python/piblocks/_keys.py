@@ -66,7 +66,7 @@ def _require_each_once(keywords: list[str], before: str = "") -> None:
 
 
 def key_texts(values: Mapping[str, Any]) -> list[KeyTexts]:
-    """Keyword, key and texts of every value, no texts for None.
+    """Keyword, key and texts of every value; None has no texts.
 
     Raises SceneError with all unknown keys, TypeError."""
     flat = list(_flat(values))
@@ -146,7 +146,7 @@ def parts_text(parts: list[Table]) -> bytes:
 
 
 def parts_shown(parts: Any) -> Any:
-    """What stands for the parts in a call."""
+    """The parts as repr() writes them."""
     if isinstance(parts, bytes):
         return shown(parts)
     if isinstance(parts, list):

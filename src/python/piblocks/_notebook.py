@@ -91,7 +91,7 @@ def _embedded_file(path: str) -> str:
 
 
 def file_html(path: str) -> str | None:
-    """What a notebook shows for a file: the film, or the size of a large one; None if nothing."""
+    """What a notebook shows for a file: the film, or the size of a large one; None if it cannot."""
     if not _is_shown(os.path.splitext(path)[1].lower()):
         return None
     try:
@@ -171,8 +171,8 @@ def _film_or_question(scene: Scene) -> str:
 
 
 def scene_html(scene: Scene) -> str:
-    """The film of a scene; of a large one its size, and how to go on. A scene that cannot be shown
-    says why."""
+    """The film of a scene, or the size of a large one and how to embed it. A scene that cannot be
+    shown says why."""
     try:
         return _film_or_question(scene)
     except Error as error:

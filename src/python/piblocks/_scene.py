@@ -44,7 +44,7 @@ def _merged(before: tuple[KeyTexts, ...], more: list[KeyTexts]) -> tuple[KeyText
 
 
 def _given(keys: list[KeyTexts]) -> tuple[KeyTexts, ...]:
-    """Without those that are None, which leaves them as they are."""
+    """The keys without those that are None, which keep what they have."""
     return tuple(one for one in keys if one[2] is not None)
 
 
@@ -415,10 +415,10 @@ class Scene:
     # Golden references
 
     def golden_record(self, name: str, dir: Path, *, frames: Any = None) -> GoldenResult:
-        """Keeps references that are missing: a hash of every frame, and some pictures.
+        """Writes the references that are missing: a hash of every frame, and some pictures.
 
-        It replaces none. If there are some that are not what is drawn now, it keeps nothing, and
-        the result is false.
+        It replaces none. If existing references differ from what is drawn now, it writes nothing,
+        and the result is false.
 
         :param name: the beginning of the files' names. :param frames: instants kept as pictures.
         """
@@ -434,7 +434,7 @@ class Scene:
         """Compares with references. The result is true if all is equal: ``assert
         scene.golden_check("turn", "golden")``.
 
-        :param diff: a folder, in which one of this name gets pictures of what differs.
+        :param diff: a folder; pictures of what differs go to its subfolder ``name``.
         """
         return _golden.act(self._script, "check", name, dir, frames, diff)
 

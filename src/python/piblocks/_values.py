@@ -53,7 +53,7 @@ def text_of_number(value: Any) -> str | None:
 
 
 def shown(text: bytes) -> Union[str, int, bool]:
-    """What stands for the text in a call: a number that reads as this text, or the text."""
+    """The value as repr() writes it: a bool or a number that reads as this text, or the text."""
     if text in (b"true", b"false"):
         return text == b"true"
     is_plain = text == b"0" or re.fullmatch(rb"-?[1-9][0-9]{0,17}", text) is not None

@@ -27,7 +27,7 @@ from ._scene import Scene
 _MARK = "piblocks_golden"
 _REMEDY = ("pytest --piblocks-golden-record keeps new references, --piblocks-golden-approve replaces "
            "them")
-_LONGEST_NAME = 150  # of a file's 255, which has an instant and an ending too
+_LONGEST_NAME = 150  # characters; a file name has 255, also for an instant and an ending
 #: The paths of references, and the test that has them.
 _CLAIMS: pytest.StashKey[Any] = pytest.StashKey()
 _ACTIONS = {"check": "--piblocks-golden", "record": "--piblocks-golden-record",
@@ -130,7 +130,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         if mark is not None and isinstance(item, pytest.Function):
             try:
                 folder, name = _place(item, mark)
-            except TypeError:  # it is told where the test runs
+            except TypeError:  # reported when the test runs
                 continue
             owner = first.setdefault(folder / str(name), item.nodeid)
             if owner != item.nodeid:
