@@ -156,8 +156,14 @@ void check_reports(const Command& options, const ComparisonJob& job) {
   claim_pictures(check, "the reference", job.reference, job.is_recursive);
   claim_pictures(check, "the actual pictures", job.actual, job.is_recursive);
   if (const auto name = options.text("--diff")) claim_diff_folder(check, *name);
-  if (const auto name = options.text("--report")) check.writes("--report", *name);
-  if (const auto name = options.text("--junit")) check.writes("--junit", *name);
+  for (const char* const option : {"--report", "--junit"}) {
+    const auto name = options.text(option);
+    if (name == "-") {
+      throw UsageError(fmt::format(
+          "{} -: standard output has the lines of the comparison; name a file", option));
+    }
+    if (name) check.writes(option, *name);
+  }
   if (!options.is_given("--quiet")) check.writes_standard_output();
   check.check();
 }

@@ -96,9 +96,9 @@ class ArgumentReader {
       } else if (!only_words_ && argument.size() > 1 && argument.front() == '-') {
         read_option(argument);
       } else if (const auto meant = with_two_dashes(argument); !only_words_ && !meant.empty()) {
-        add_problem(
-            fmt::format("unknown option '{}', which begins with another character than '-'{}",
-                        argument, did_you_mean(meant, option_names(*command_))));
+        add_problem(fmt::format(
+            "unknown option '{}', which begins with another character than '-'{}", argument,
+            did_you_mean(meant.substr(0, meant.find('=')), option_names(*command_))));
       } else {
         read_word(argument);
       }

@@ -22,7 +22,6 @@ namespace fs = std::filesystem;
 namespace {
 
 /// For frames of which only the hash is kept. Other pictures begin with the scene's name and '-'.
-constexpr const char* kFramePattern = "%06d.png";
 
 int exit_code_of(const GoldenFindings& findings) {
   return kExitCodes.at(static_cast<std::size_t>(findings.worst()));
@@ -99,7 +98,7 @@ class CheckPictures {
   void finish(const std::vector<std::int64_t>& changed, std::vector<std::string>& lines,
               const std::stop_token& stop) {
     const std::size_t kept = pictures_.count();
-    const FramePattern pattern(kFramePattern);
+    const FramePattern pattern(DiffPictures::kPattern);
     const std::vector<std::int64_t> frames = spread(changed, kMaxShown - kept);
     references_.draw(
         frames,
@@ -188,15 +187,15 @@ void claim_diff(OverwriteCheck& check, const std::vector<References>& all,
 
 GoldenResult record_golden(const References& references, const OnProgress& on_progress,
                            const std::stop_token& stop) {
-  const std::vector<std::string> missing = missing_files(references);
   const std::string& name = references.name();
-  if (missing.empty()) {
-    return {"kept",
-            0,
-            {name + ": has references; 'piblocks golden check' compares with them, "
-                    "'piblocks golden approve' replaces them"}};
-  }
+  const GoldenResult kept{"kept",
+                          0,
+                          {name + ": has references; 'piblocks golden check' compares with them, "
+                                  "'piblocks golden approve' replaces them"}};
+  if (missing_files(references).empty()) return kept;
   FileSet files(references.folder(), name + ".golden");
+  const std::vector<std::string> missing = missing_files(references);
+  if (missing.empty()) return kept;  // another run has just added them
   const fs::path drawn = render_into(files, references, missing, on_progress, stop);
   const GoldenFindings findings = compare_with(references, drawn, stop);
   std::vector<std::string> lines = findings.lines();
@@ -207,7 +206,8 @@ GoldenResult record_golden(const References& references, const OnProgress& on_pr
     return {"not recorded", exit_code_of(findings), std::move(lines)};
   }
   for (const std::string& file : references.files()) {
-    if (references.has(file)) fs::remove(drawn / file);
+    std::error_code is_absent;
+    if (std::ranges::count(missing, file) == 0) fs::remove(drawn / file, is_absent);
   }
   if (missing.size() < references.files().size()) {
     for (const std::string& file : missing) lines.push_back(file + ": recorded");

@@ -89,6 +89,7 @@ int main(int argc, char** argv) {
   } catch (const piblocks::ReaderGone&) {
     return 0;
   } catch (const piblocks::cli::ExitError& exit) {
+    if (piblocks::cli::stop_was_requested()) end_interrupted("interrupted");
     return *exit.what() == '\0' ? exit.code() : fail(exit, exit.code());
   } catch (const std::bad_alloc&) {
     return fail("out of memory", kFailed);

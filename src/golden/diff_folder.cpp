@@ -11,20 +11,26 @@
 namespace piblocks {
 namespace {
 
-constexpr const char* kPattern = "%06d.png";
+PixelRect place_of_largest(const std::vector<std::uint8_t>& deltas, const Image& image) {
+  const auto at = int(std::ranges::max_element(deltas) - deltas.begin());
+  return {at % image.width_px, at / image.width_px, 1, 1};
+}
 
 class DiffFolder final : public Report {
  public:
   explicit DiffFolder(const std::string& folder)
-      : pictures_(folder, DiffPictures::Making::at_once), pattern_(kPattern) {}
+      : pictures_(folder, DiffPictures::Making::at_once), pattern_(DiffPictures::kPattern) {}
 
   void add(const FrameComparison& frame) override {
     if (frame.is_accepted() || !frame.difference || !shown_.takes(frame.outcome)) return;
     const Image reference = frame.reference();
     const Image actual = frame.actual();
     if (reference.words.empty() || actual.words.empty()) return;
-    const Image strip =
-        difference_strip(reference, frame.deltas(), actual, frame.difference->densest);
+    const Difference& d = *frame.difference;
+    const std::vector<std::uint8_t> deltas = frame.deltas();
+    // Without a pixel off, the hard limit refuses the largest delta.
+    const PixelRect focus = d.off_pixels > 0 ? d.densest : place_of_largest(deltas, reference);
+    const Image strip = difference_strip(reference, deltas, actual, focus);
     shown_.add(frame.outcome, {pattern_.name(frame.number), encode_png_samples(strip)});
   }
   void finish(const ComparisonJob& /*job*/, const ComparisonResult& /*result*/) override {
@@ -47,7 +53,7 @@ std::unique_ptr<Report> diff_folder(const std::string& folder) {
 }
 
 void claim_diff_folder(OverwriteCheck& check, const std::string& folder) {
-  check.writes_some_of("--diff", folder, folder, names_of_pattern(kPattern));
+  check.writes_some_of("--diff", folder, folder, names_of_pattern(DiffPictures::kPattern));
 }
 
 }  // namespace piblocks

@@ -16,6 +16,9 @@ namespace piblocks {
 
 class DiffPictures {
  public:
+  /// Names of the pictures of frames, by number.
+  static constexpr const char* kPattern = "%06d.png";
+
   enum class Making { at_once, when_needed };
 
   /// @param making  when the folder is made: `at_once`, so that a long comparison does not fail at

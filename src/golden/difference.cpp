@@ -43,6 +43,7 @@ std::string differing_pixels(const FrameComparison& frame, const Difference& d) 
                                  d.first.y_px, channel_name(frame, d.first.channel));
   if (d.off_pixels != d.different_pixels) {
     text += fmt::format(", {} beyond the accepted delta", d.off_pixels);
+    if (d.off_pixels == 0 && !d.is_accepted) text += ", the largest beyond the hard limit";
   }
   if (d.off_pixels > 0) {
     text += fmt::format(", densest {}x{} window at x={} y={}: {}", d.densest.width_px,

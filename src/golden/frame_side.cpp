@@ -6,19 +6,13 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/input_file.hpp"
 #include "media/libav/av_module.hpp"
 #include "media/png/png_reader.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
-
-/// Opening a pipe would wait for a writer, perhaps for ever.
-void check_regular(const fs::path& path) {
-  std::error_code unknown;
-  if (!fs::is_other(fs::status(path, unknown))) return;
-  throw IoError(fmt::format("compare: cannot read '{}': it is no regular file", path.string()));
-}
 
 class PictureSide final : public FrameSide {
  public:
@@ -31,8 +25,8 @@ class PictureSide final : public FrameSide {
   bool fetch() override {
     const ListedPicture& picture = pictures_[fetched_++].picture;
     if (!picture.problem.empty()) throw IoError(picture.problem);
-    check_regular(picture.path);
-    reader_ = read_png_files({picture.path});
+    refuse_pipe(picture.path, "compare");
+    reader_ = read_png_frame(picture.path);
     return reader_->next();
   }
   std::string name() const override {

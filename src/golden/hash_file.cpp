@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/descriptor.hpp"
+#include "core/input_file.hpp"
 #include "core/text.hpp"
 
 namespace piblocks {
@@ -48,6 +49,7 @@ bool is_framehash(const std::string& name) {
 }
 
 FramehashFile read_framehash(const std::string& path) {
+  refuse_pipe(path, "framehash");
   std::ifstream file(path);
   if (!file) {
     throw IoError(fmt::format("framehash: cannot read '{}': {}", path, error_text(errno)));

@@ -4,7 +4,9 @@
 #include <piblocks/error.hpp>
 
 #include <array>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 
 #include "core/output_file.hpp"
 #include "core/text.hpp"
@@ -13,6 +15,7 @@
 #include "media/png/png_chunk.hpp"
 
 namespace piblocks {
+namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kHead = R"(<!DOCTYPE html>
@@ -52,7 +55,9 @@ std::string pictures_of(const FrameComparison& frame) {
   }
   const Image reference = frame.reference();
   const Image actual = frame.actual();
-  if (reference.words.empty() || actual.words.empty()) return {};
+  if (reference.words.empty() || actual.words.empty()) {
+    return "<p>There are no pictures: piblocks does not know what these colours look like.</p>\n";
+  }
   return fmt::format(
       "<div class=\"frame\" style=\"--shape: {} / {}\">"
       "<div class=\"sides\"><span>expected</span><span>actual</span></div>"
@@ -64,20 +69,34 @@ std::string pictures_of(const FrameComparison& frame) {
       picture(difference_picture(reference, frame.deltas()), "difference"));
 }
 
+/// What browsers open without trouble, and what fits into memory.
+constexpr std::size_t kMostPictures_bytes = 100'000'000;
+
 const char* class_of(Outcome outcome) {
   return outcome <= Outcome::accepted ? "accepted" : "refused";
 }
 
+/// A comparison that is broken off leaves no report, rather than that of an earlier one.
+void remove_old_report(const std::string& path) {
+  std::error_code error;
+  if (fs::is_regular_file(path, error)) fs::remove(fs::canonical(path, error), error);
+}
+
 class HtmlReport final : public Report {
  public:
-  explicit HtmlReport(const std::string& path) : file_(path) {}
+  explicit HtmlReport(const std::string& path) : file_(path) { remove_old_report(path); }
 
   void add(const FrameComparison& frame) override {
     if (frame.outcome == Outcome::equal) return;
     Section section{escaped(frame.name), escaped(difference_text(frame)), {}};
     if (shown_.takes(frame.outcome)) section.pictures = pictures_of(frame);
+    if (bytes_ + section.pictures.size() > kMostPictures_bytes) {
+      section.pictures = "<p>Its pictures would make this page too large; --diff has them.</p>\n";
+    }
+    bytes_ += section.pictures.size();
     const auto left = shown_.add(frame.outcome, std::move(section));
     if (!left) return;
+    bytes_ -= left->item.pictures.size();
     ++left_;
     const std::string line = fmt::format("<li class=\"{}\"><b>{}</b>: {}</li>\n",
                                          class_of(left->outcome), left->item.name, left->item.text);
@@ -122,11 +141,12 @@ class HtmlReport final : public Report {
   ShownFrames<Section> shown_;
   std::array<std::string, kOutcomes> left_lines_;  // of what is not shown
   std::int64_t left_ = 0;
+  std::size_t bytes_ = 0;  // of pictures
 };
 
 class JunitReport final : public Report {
  public:
-  explicit JunitReport(const std::string& path) : file_(path) {}
+  explicit JunitReport(const std::string& path) : file_(path) { remove_old_report(path); }
 
   void add(const FrameComparison& frame) override {
     cases_ += fmt::format(R"(    <testcase classname="frames" name="{}")", escaped(frame.name));

@@ -110,6 +110,8 @@ void write_texts(const RenderJob& job, const std::string& alt, std::string_view 
 /// Whether the folder has the bundle of an earlier run.
 bool has_bundle(const fs::path& folder) {
   const std::string_view expected = kLatex.substr(0, kLatex.find('{'));
+  std::error_code unknown;
+  if (!fs::is_regular_file(folder / kLatexFile, unknown)) return false;  // a pipe would block
   std::string found(expected.size(), '\0');
   std::ifstream(folder / kLatexFile, std::ios::binary).read(found.data(), std::ssize(found));
   return found == expected;

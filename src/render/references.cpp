@@ -95,7 +95,9 @@ bool References::has(const std::string& file) const {
     throw IoError(
         fmt::format("golden: cannot read '{}': {}", path(file).string(), error.message()));
   }
-  return fs::exists(status);
+  if (!fs::exists(status)) return false;
+  if (fs::is_regular_file(status)) return true;
+  throw IoError(fmt::format("golden: cannot read '{}': it is no file", path(file).string()));
 }
 
 std::string References::fingerprint() const {
@@ -111,6 +113,7 @@ void References::draw(
     const std::vector<std::int64_t>& frames,
     const std::function<void(std::int64_t frame, std::vector<std::uint8_t> png)>& use,
     const std::stop_token& stop) const {
+  if (frames.empty()) return;
   const Film film(script_);
   const View& view = view_of(script_);
   Canvas canvas(view.width_px, view.height_px, view.background);

@@ -198,7 +198,11 @@ Rendered render_film(const RenderJob& job, const OnProgress& on_progress,
                         ? plan.chunks.begin(range.end) - plan.chunks.begin(range.begin)
                         : plan.film.frame_count(),
                     {}};
-  const auto report = [&] { on_progress({frames_done.load(), rendered.frame_count}); };
+  std::int64_t reported = -1;
+  const auto report = [&] {
+    const std::int64_t done = frames_done;
+    if (std::exchange(reported, done) != done) on_progress({done, rendered.frame_count});
+  };
   report();
   StepClock clock(job.profile, Step::mux);
   SoundWork sound;

@@ -3,6 +3,7 @@
 #include <piblocks/script.hpp>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <sstream>
 #include <string_view>
@@ -181,6 +182,7 @@ struct ScriptBuilder::State {
   std::vector<std::pair<std::string, std::string>> set_keys;  // origin and key, by set()
 
   void read(const std::string& origin, TomlTable root);
+  bool leave_out(TomlEntry& entry) const;
   void add_problem(std::size_t line, const std::string& text) {
     problems.push_back(fmt::format("{}:{}: {}", path, line, text));
   }
@@ -195,11 +197,26 @@ void ScriptBuilder::read_text(const std::string& origin, std::string_view text) 
   state_->read(origin, parse_toml(origin, text));
 }
 
+/// Whether to leave out an entry of the file. Of one that sets two keys, the other one may be kept.
+bool ScriptBuilder::State::leave_out(TomlEntry& entry) const {
+  const auto is_out = [&](std::string_view key) { return std::ranges::count(left_out, key) > 0; };
+  constexpr std::array kMass = {"digits", "mass-ratio", "red.mass"};
+  if (std::ranges::count(kMass, entry.key) > 0) return std::ranges::any_of(kMass, is_out);
+  if (is_out(entry.key)) return true;
+  if (entry.key != "restitution")
+    return entry.key.ends_with(".restitution") && is_out("restitution");
+  const bool keeps_blocks = !is_out("blocks.restitution");
+  const bool keeps_wall = !is_out("wall.restitution");
+  if (keeps_blocks != keeps_wall)
+    entry.key = keeps_blocks ? "blocks.restitution" : "wall.restitution";
+  return !keeps_blocks && !keeps_wall;
+}
+
 void ScriptBuilder::State::read(const std::string& origin, TomlTable root) {
   path = origin;
   TomlTable common{{}, root.line};
   for (TomlEntry& entry : root.entries) {
-    if (std::ranges::count(left_out, entry.key) > 0) continue;
+    if (leave_out(entry)) continue;
     const bool is_part = entry.key == "part";
     if (is_part && !entry.tables.empty()) {
       parts = std::move(entry.tables);

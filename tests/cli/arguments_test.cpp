@@ -146,6 +146,8 @@ TEST_F(ArgumentsTest, WhatLooksLikeAnOptionOrAPathIsNotTakenForAFile) {
               "piblocks: unknown option '" + std::string(option) +
                   "', which begins with another character than '-'; did you mean '--digits'?\n");
   }
+  EXPECT_NE(refusal({"render", "\u2013outptu=a.mp4"}).find("did you mean '--output'?"),
+            std::string::npos);
   EXPECT_EQ(refusal({"render", "--output=~/a.mp4"}),
             "piblocks: --output: the shell has not replaced the ~ of '~/a.mp4'; write '--output "
             "~/a.mp4' without quotes, or './~/a.mp4' for a folder of this name\n");

@@ -1,6 +1,8 @@
 // compare: what it says, its exit codes, and what it leaves behind.
+#include <piblocks/encode.hpp>
 #include <sys/mount.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "cli/cli_fixture.hpp"
@@ -281,6 +283,26 @@ TEST_F(CompareTest, LeavesPicturesAPageAndAListOfTests) {
   EXPECT_NE(tests.find("tests=\"12\" failures=\"2\""), std::string::npos);
   EXPECT_NE(tests.find("name=\"0007.png\">\n      <failure type=\"different\" message=\""),
             std::string::npos);
+}
+
+/// One that is broken off must not leave the green page of an earlier one.
+TEST_F(CompareTest, RemovesReportsOfAnEarlierComparisonAtOnce) {
+  still("a.png", "1");
+  write("r.html", "green");
+  write("green.xml", "green");
+  fs::create_symlink("green.xml", folder_ / "r.xml");
+  const Arguments broken_off = {"a.png",   "a.png", "--report", "r.html",
+                                "--junit", "r.xml", "--mask",   "9999x9999+0+0"};
+  complaint(broken_off, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "r.html"));
+  EXPECT_FALSE(fs::exists(folder_ / "green.xml"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "r.xml"));
+  write("r.html", "mine");
+  for (const char* option : {"--report", "--junit"}) {
+    EXPECT_NE(complaint({"a.png", "a.png", option, "-"}, 2).find("name a file"), std::string::npos);
+  }
+  complaint({"a.png", "a.png", "--report", "r.html", "--max-delta", "x"}, 2);
+  EXPECT_EQ(contents("r.html"), "mine") << "nothing has begun";
 }
 
 TEST_F(CompareTest, ReplacesPicturesOfAnEarlierComparisonAndNoOthers) {

@@ -227,6 +227,19 @@ TEST_F(GoldenTest, ReplacesReferencesThatCannotBeRead) {
   expect(golden("check"), 0, "scene: equal");
 }
 
+TEST_F(GoldenTest, AFolderIsNoReference) {
+  golden("record");
+  fs::remove(folder_ / "refs/scene-last.png");
+  fs::create_directory(folder_ / "refs/scene-last.png");
+  for (const auto& [action, code] : {std::pair("check", 5), {"record", 1}, {"approve", 1}}) {
+    const CommandResult result = golden(action);
+    EXPECT_EQ(result.exit_code, code) << action;
+    EXPECT_NE((result.out + result.err).find("'refs/scene-last.png': it is no file"),
+              std::string::npos)
+        << result.out << result.err;
+  }
+}
+
 TEST_F(GoldenTest, ReplacesReferencesByApprovalOnly) {
   golden("record");
   make_red_heavier();

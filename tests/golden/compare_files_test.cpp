@@ -9,8 +9,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "golden/reports.hpp"
 #include "golden/shown_frames.hpp"
 #include "media/png/png_chunk.hpp"
+#include "media/png/png_reader.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace piblocks {
@@ -24,10 +26,12 @@ class CompareFilesTest : public testing::Test {
  protected:
   /// A picture of one colour. Missing folders are made.
   void picture(const std::string& name, std::uint32_t word = 0xff204060, int width_px = 4) const {
+    save(name, {width_px, 4, std::vector<std::uint32_t>(std::size_t(width_px) * 4, word)});
+  }
+  void save(const std::string& name, const Image& image) const {
     const fs::path path = folder_ / name;
     fs::create_directories(path.parent_path());
-    const Bytes bytes = encode_png_samples(
-        {width_px, 4, std::vector<std::uint32_t>(std::size_t(width_px) * 4, word)});
+    const Bytes bytes = encode_png_samples(image);
     std::ofstream(path, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
   }
@@ -152,6 +156,38 @@ TEST_F(CompareFilesTest, TheComparisonGoesOnAfterWhateverIsFound) {
             (Lines{"1.png not comparable", "2.png unreadable", "3.png different", "4.png equal",
                    "5.png unreadable", "6.png equal", "7.png unreadable", "8.png unreadable"}));
   EXPECT_NE(problems_.find("another size: 5x4 instead of 4x4"), std::string::npos) << problems_;
+  EXPECT_NE(problems_.find("it is no regular file"), std::string::npos) << problems_;
+  EXPECT_EQ(result_.worst(), Outcome::unreadable);
+}
+
+/// No pixel is off, but one is beyond the hard limit; the picture is wider than a strip.
+TEST_F(CompareFilesTest, TheHardLimitIsNamedAndItsPixelShown) {
+  Image image{9000, 2, std::vector<std::uint32_t>(18000, 0xff808080)};
+  save("a.png", image);
+  image.words[8000] = 0xff80808f;
+  save("b.png", image);
+  ComparisonJob limited = job("a.png", "b.png");
+  limited.tolerance = {.max_delta = 20, .hard_delta = 10};
+  const auto report = diff_folder(folder_ / "d");
+  std::string text;
+  const ComparisonResult result = compare_files(limited, [&](const FrameComparison& row) {
+    text = difference_text(row);
+    report->add(row);
+  });
+  report->finish(limited, result);
+  EXPECT_NE(text.find("0 beyond the accepted delta, the largest beyond the hard limit"),
+            std::string::npos)
+      << text;
+  const Image strip = read_png(folder_ / "d/000000.png");
+  EXPECT_TRUE(std::ranges::any_of(strip.words, [](std::uint32_t word) {
+    return (word >> 16 & 0xff) > (word >> 8 & 0xff) + 20;  // red
+  }));
+}
+
+/// Opening it would wait for a writer.
+TEST_F(CompareFilesTest, HashesAreNotReadFromAPipe) {
+  ASSERT_EQ(::mkfifo((folder_ / "a.framehash").c_str(), 0600), 0);
+  rows("a.framehash", "a.framehash");
   EXPECT_NE(problems_.find("it is no regular file"), std::string::npos) << problems_;
   EXPECT_EQ(result_.worst(), Outcome::unreadable);
 }

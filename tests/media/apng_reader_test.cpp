@@ -231,6 +231,30 @@ TEST_F(ApngReaderTest, FramesShareThePalette) {
                  "colour 3 of a palette of 3");
 }
 
+/// Only the data has to follow the first fcTL.
+TEST_F(ApngReaderTest, TakesHeaderChunksAroundTheFirstControl) {
+  const std::string palette =
+      png_chunk("PLTE", std::string("\xff\0\0\0\xff\0", 6)) + png_chunk("tRNS", "\x40");
+  HandMadePng picture{.width_px = 2, .height_px = 1, .bits = 8, .colour = PngColour::palette};
+  picture.levels = {0, 1};
+  MadeApng apng = apng_of({{.picture = picture}, {.picture = picture}}, false, palette);
+  const auto words_of = [&] {
+    std::vector<std::vector<std::uint32_t>> words;
+    for (const AnyImage& frame : frames_of(apng.file()))
+      words.push_back(std::get<Image>(frame).words);
+    return words;
+  };
+  const auto expected = words_of();
+  ASSERT_EQ(expected.size(), 2U);
+  EXPECT_EQ(expected[0], (std::vector<std::uint32_t>{0x40ff0000, 0xff00ff00}));
+  std::swap(apng.chunks[1], apng.chunks[2]);  // acTL, fcTL, PLTE and tRNS
+  EXPECT_EQ(words_of(), expected);
+  std::swap(apng.chunks[0], apng.chunks[1]);  // fcTL, acTL, PLTE and tRNS
+  EXPECT_EQ(words_of(), expected);
+  std::swap(apng.chunks[2], apng.chunks[3]);  // behind data they are too late
+  EXPECT_THROW(words_of(), MediaError);
+}
+
 TEST_F(ApngReaderTest, RefusesWhatIsCutOffOrDamagedAnywhere) {
   Random random(72);
   SCOPED_TRACE(random.trace());
@@ -262,7 +286,8 @@ TEST_F(ApngReaderTest, RefusesChunksThatAreMissingDoubledOrSwapped) {
       doubled.chunks.insert(doubled.chunks.begin() + std::ptrdiff_t(i), apng.chunks[i]);
       EXPECT_THROW(frames_of(doubled.file()), MediaError);
     }
-    if (i > 0 && apng.chunks[i - 1] != png_chunk("IDAT", "")) {
+    // acTL and the first fcTL may come in either order.
+    if (i > 1 && apng.chunks[i - 1] != png_chunk("IDAT", "")) {
       MadeApng swapped = apng;
       std::swap(swapped.chunks[i - 1], swapped.chunks[i]);
       EXPECT_THROW(frames_of(swapped.file()), MediaError);

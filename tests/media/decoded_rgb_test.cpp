@@ -141,10 +141,11 @@ std::array<double, 3> rgb_by(AVColorSpace matrix, const std::array<double, 3>& y
 }
 
 /// From 0 to 1, or for chroma from -1/2 to 1/2 (H.273, equations 26 to 34, backwards).
-double unit(double level, int depth, bool is_full, bool is_chroma) {
+/// @param chroma_range  of limited samples of 8 bits
+double unit(double level, int depth, bool is_full, bool is_chroma, double chroma_range = 224) {
   const double steps = std::ldexp(1, depth - 8);
   if (is_full) return (level - (is_chroma ? 128 * steps : 0)) / (256 * steps - 1);
-  return is_chroma ? (level / steps - 128) / 224 : (level / steps - 16) / 219;
+  return is_chroma ? (level / steps - 128) / chroma_range : (level / steps - 16) / 219;
 }
 
 /// Red, green, blue and alpha of a pixel, from 0 to 1.
@@ -167,7 +168,9 @@ std::array<double, 4> expected_at(const AVFrame& frame, const std::vector<Sample
   std::array<double, 3> yuv = {luma};
   for (std::size_t i = 1; i < 3; ++i) {
     const double level = planes[i].between((x - left) / width, (y - top) / height);
-    yuv.at(i) = unit(level, depth, is_full, is_chroma);
+    // YCgCo is of red, green and blue that are quantised already (equations 45 to 47).
+    const double range = frame.colorspace == AVCOL_SPC_YCGCO ? 219 : 224;
+    yuv.at(i) = unit(level, depth, is_full, is_chroma, range);
   }
   const bool is_rgb_format = (format.flags & AV_PIX_FMT_FLAG_RGB) != 0;
   const auto rgb = is_rgb_format ? yuv : rgb_by(frame.colorspace, yuv);

@@ -224,11 +224,49 @@ TEST_F(PngReaderTest, RefusesWhatIsTooLarge) {
 TEST_F(PngReaderTest, TellsAnAnimationFromAPicture) {
   HandMadePng png{.levels = {1, 2, 3}};
   EXPECT_FALSE(is_animated_png(saved(file_of(png))));
+  // Of one frame, if that is not the picture that other programs show.
   png.chunks = png_chunk("acTL", big_endian(1) + big_endian(0));
+  EXPECT_TRUE(is_animated_png(saved(file_of(png))));
+  png.chunks += png_chunk("fcTL", std::string(26, '\0'));
   EXPECT_FALSE(is_animated_png(saved(file_of(png))));
   png.chunks = png_chunk("acTL", big_endian(2) + big_endian(0));
   EXPECT_TRUE(is_animated_png(saved(file_of(png))));
   EXPECT_THROW(samples_of(png), MediaError);
+}
+
+/// Exif with one tag, Orientation.
+std::string exif(int orientation, bool is_big) {
+  const auto number = [&](unsigned value, int size) {
+    std::string bytes;
+    for (int i = 0; i < size; ++i)
+      bytes += static_cast<char>(value >> 8 * (is_big ? size - 1 - i : i));
+    return bytes;
+  };
+  return (is_big ? "MM" : "II") + number(42, 2) + number(8, 4) + number(1, 2) + number(0x112, 2) +
+         number(3, 2) + number(1, 4) + number(unsigned(orientation), 2) + number(0, 2) +
+         number(0, 4);
+}
+
+TEST_F(PngReaderTest, SaysHowPlayersTurnThePicture) {
+  const auto presentation_of = [&](const std::string& data) {
+    HandMadePng png{.levels = {1, 2, 3}};
+    png.chunks = png_chunk("eXIf", data);
+    const auto reader = read_png_frame(saved(file_of(png)));
+    EXPECT_TRUE(reader->next());
+    return reader->presentation();
+  };
+  for (const bool is_big : {true, false}) {
+    EXPECT_EQ(presentation_of(exif(1, is_big)), "");
+    EXPECT_EQ(presentation_of(exif(3, is_big)), "turned clockwise by 180 degrees");
+    EXPECT_EQ(presentation_of(exif(5, is_big)), "mirrored and turned clockwise by 90 degrees");
+    EXPECT_EQ(presentation_of(exif(6, is_big)), "turned clockwise by 90 degrees");
+    for (const int unknown : {0, 9, 65535}) EXPECT_EQ(presentation_of(exif(unknown, is_big)), "");
+    const std::string whole = exif(6, is_big);
+    for (std::size_t size = 4; size + 6 < whole.size(); ++size) {
+      EXPECT_EQ(presentation_of(whole.substr(0, size)), "") << size;
+    }
+  }
+  EXPECT_EQ(presentation_of("MM" + std::string("\0\x2a\xff\xff\xff\xff", 6)), "");
 }
 
 TEST(AnyImage, IsBroughtToADepthThatKeepsLevelsApart) {

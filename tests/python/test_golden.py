@@ -69,7 +69,9 @@ def test_a_life_of_references(program):
     assert f"{turn}64x36-0.png" not in pictures, "nothing differs there"
 
     assert "4 passed" in pytest_run("--piblocks-golden-approve", ratio=100).stdout
-    assert "4 passed" in pytest_run("--piblocks-golden", ratio=100).stdout
+    results = ("--piblocks-golden-results", "results")
+    assert "4 passed" in pytest_run("--piblocks-golden", *results, ratio=100).stdout
+    assert not os.path.exists(f"results/{turn}64x36.html"), "the page of an earlier failure"
     # The references are those of the command line.
     with open("named.toml", "w") as file:
         file.write('digits = 1\nview.size = "64x36"\nview.fps = 5\n')

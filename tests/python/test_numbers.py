@@ -1,6 +1,7 @@
 """Counts, logs and states: types, shapes, sizes."""
 
 import math
+import re
 import threading
 from dataclasses import astuple, fields
 from decimal import Decimal
@@ -133,8 +134,10 @@ def test_restitution_is_a_keyword(program):
 
 def test_infinitely_many_are_said_to_be(program):
     scene = Scene(2, restitution=0.5)
-    with pytest.raises(piblocks.UsageError, match="infinitely many collisions until the blocks"):
+    with pytest.raises(piblocks.UsageError, match="infinitely many collisions until the blocks") as caught:
         scene.count
+    advice = re.search(r"; (state\(\S+\)\.count) counts those until then$", str(caught.value))[1]
+    assert eval("scene." + advice) > 5
     assert scene.state("last").count == math.inf == scene.state(9).count
     assert scene.state("#7").count == 7 and type(scene.state("#7").count) is int
     states = scene.state([0, "#7", 9])

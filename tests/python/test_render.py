@@ -31,7 +31,7 @@ def test_progress_is_called_in_order_by_the_caller():
     rendered = SMALL.render("a.mp4", progress=lambda *now: calls.append((*now,
                             threading.current_thread())))
     done = [call[0] for call in calls]
-    assert done[0] == 0 and done[-1] == rendered.frames and done == sorted(done)
+    assert done[0] == 0 and done[-1] == rendered.frames and done == sorted(set(done))
     assert {call[1] for call in calls} == {rendered.frames}
     assert {call[2] for call in calls} == {threading.current_thread()}
 

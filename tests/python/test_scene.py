@@ -110,6 +110,15 @@ def test_none_resets_to_the_default():
         assert dict(plain._description())[b"view.theme"] == b"article"
         assert plain.replace(view_theme="print") == scene.replace(view_theme="print")
         assert dict(plain.replace(view_fps=7)._description())[b"view.theme"] == b"article"
+    # Also of what the file sets by another key.
+    lossy = Scene.from_toml_text("restitution = 0.5")
+    assert lossy.replace(blocks_restitution=None) == Scene(wall_restitution=0.5)
+    assert lossy.replace(blocks_restitution=None, wall_restitution=None) == ARTICLE
+    assert lossy.replace(restitution=None) == ARTICLE
+    assert Scene.from_toml_text("blocks.restitution = 0.5").replace(restitution=None) == ARTICLE
+    for mass in ("digits = 5", "mass-ratio = 7", "red.mass = 7"):
+        for key in ("digits", "mass_ratio", "red_mass"):
+            assert Scene.from_toml_text(mass).replace(**{key: None}) == ARTICLE
     story = Scene(part=PARTS, view_fps=10)
     assert story.replace(part=None) == Scene(view_fps=10)
     with pytest.raises(piblocks.SceneError, match="^part: these parts are those of a scene file"):

@@ -40,37 +40,6 @@ bool is_cut_matroska(std::istream& file, std::uint64_t file_bytes) {
   }
 }
 
-/// The colour table that follows if a byte of flags says so.
-void skip_colours(std::istream& file, int flags) {
-  constexpr int kHasTable = 0x80;
-  if ((flags & kHasTable) != 0) file.ignore(3 << ((flags & 7) + 1));
-}
-
-/// Whether the blocks of a GIF end without the trailer. The decoder deals with unknown blocks.
-bool is_cut_gif(std::istream& file) {
-  constexpr int kScreen_bytes = 10;  // up to the flags
-  constexpr int kImage_bytes = 8;    // likewise
-  file.ignore(kScreen_bytes);
-  const int flags = file.get();
-  file.ignore(2);
-  skip_colours(file, flags);
-  while (true) {
-    const int block = file.get();
-    if (!file) return true;
-    if (block == 0x21) {  // an extension
-      file.ignore(1);
-    } else if (block == 0x2c) {  // a picture
-      file.ignore(kImage_bytes);
-      skip_colours(file, file.get());
-      file.ignore(1);
-    } else {
-      return false;
-    }
-    // Sub-blocks, each after its size.
-    for (int bytes = file.get(); file && bytes > 0; bytes = file.get()) file.ignore(bytes);
-  }
-}
-
 }  // namespace
 
 bool is_cut_off(const std::string& path) {
@@ -81,7 +50,6 @@ bool is_cut_off(const std::string& path) {
   std::string start(4, '\0');
   if (no_file || !file.read(start.data(), static_cast<std::streamsize>(start.size()))) return false;
   file.seekg(0);
-  if (start == "GIF8") return is_cut_gif(file);
   return start == "\x1a\x45\xdf\xa3" && is_cut_matroska(file, bytes);
 }
 

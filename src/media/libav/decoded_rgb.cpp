@@ -79,7 +79,9 @@ Conversion conversion_of(const AVFrame& frame, int max_level, const std::string&
     const bool is_chroma = has_chroma && i > 0;
     const int one = 1 << std::max(0, depth - 8);
     const bool is_full = is_full_range(frame);
-    const int range = is_full ? (1 << depth) - 1 : (is_chroma ? 224 : 219) * one;
+    // Cg and Co are sums of quantised red, green and blue (H.273, equations 45 to 47).
+    const bool has_range_of_luma = !is_chroma || space == AVCOL_SPC_YCGCO;
+    const int range = is_full ? (1 << depth) - 1 : (has_range_of_luma ? 219 : 224) * one;
     const int scale = i == 0 ? 1 : kInterpolated;
     result.zeros[i] = scale * (is_chroma ? 1 << (depth - 1) : is_full ? 0 : 16 * one);
     for (auto& weights : result.weights) weights[i] *= double(max_level) / range / scale;

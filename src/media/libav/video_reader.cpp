@@ -1,3 +1,5 @@
+#include "media/libav/video_reader.hpp"
+
 #include <fmt/format.h>
 #include <piblocks/error.hpp>
 
@@ -43,12 +45,6 @@ void take_y4m_matrix(AVFormatContext& input) {
   input.streams[0]->codecpar->color_space = AVCOL_SPC_BT709;
 }
 
-AvInputPtr open_video(const std::string& path, const std::stop_token* stop) {
-  AvInputPtr input = open_av_input(path, stop);
-  take_y4m_matrix(*input);
-  return input;
-}
-
 /// Whether a file's index leads beyond its end.
 bool index_leads_out(AVFormatContext& input, AVStream& stream) {
   const std::int64_t size = avio_size(input.pb);
@@ -70,7 +66,16 @@ int find_video(AVFormatContext& input, const std::string& path) {
         return stream->codecpar->codec_type == AVMEDIA_TYPE_VIDEO &&
                (stream->disposition & AV_DISPOSITION_ATTACHED_PIC) == 0;
       });
-  if (count <= 1) return best;
+  if (count == 0) {
+    throw MediaError(fmt::format("video: cannot find a video in '{}': it has only a cover", path));
+  }
+  if (input.streams[best]->codecpar->codec_id == AV_CODEC_ID_TIFF) {
+    throw MediaError(fmt::format(
+        "video: cannot compare '{}': a TIFF may have more pages than are read here; convert it to "
+        "PNG",
+        path));
+  }
+  if (count == 1) return best;
   throw MediaError(
       fmt::format("video: cannot compare '{}': it has {} videos; take one out of it, such as by "
                   "ffmpeg -map 0:v:0 -c copy",
@@ -125,10 +130,10 @@ std::string turn_of(const std::int32_t* matrix) {
 
 class VideoReader final : public FrameReader {
  public:
-  VideoReader(const std::string& path, std::stop_token stop)
+  VideoReader(const std::string& path, std::unique_ptr<VideoInput> input)
       : path_(path),
-        stop_(std::move(stop)),
-        input_(open_video(path, &stop_)),
+        owner_(std::move(input)),
+        input_(owner_->file.get()),
         read_to_(avio_tell(input_->pb)),
         stream_(find_video(*input_, path)),
         decoder_(open_decoder(*input_->streams[stream_], path)),
@@ -154,7 +159,7 @@ class VideoReader final : public FrameReader {
     const std::uint8_t* const matrix = own != nullptr ? own->data : display_matrix_of(*stream);
     std::string text =
         matrix == nullptr ? "" : turn_of(reinterpret_cast<const std::int32_t*>(matrix));
-    const AVRational aspect = av_guess_sample_aspect_ratio(input_.get(), stream, frame_.get());
+    const AVRational aspect = av_guess_sample_aspect_ratio(input_, stream, frame_.get());
     if (aspect.num > 0 && aspect.num != aspect.den) {
       if (!text.empty()) text += ", ";
       text += fmt::format("with pixels of {}:{}", aspect.num, aspect.den);
@@ -183,11 +188,12 @@ class VideoReader final : public FrameReader {
   /// Gives one packet, or the end, to the decoder.
   void feed() {
     while (true) {
-      const int code = av_read_frame(input_.get(), packet_.get());
+      const int code = av_read_frame(input_, packet_.get());
       if (code == AVERROR_EOF) break;
       check_av_read(code, "read", path_);
       read_to_ = packet_->pos + packet_->size;
-      const bool is_video = packet_->stream_index == stream_;
+      // An empty packet has no picture; to a decoder it would be the end.
+      const bool is_video = packet_->stream_index == stream_ && packet_->size > 0;
       if (is_video) {
         if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) refuse_cut_file(path_);
         check_av_read(avcodec_send_packet(decoder_.get(), packet_.get()), "decode", path_);
@@ -209,8 +215,8 @@ class VideoReader final : public FrameReader {
   }
 
   std::string path_;
-  std::stop_token stop_;  // libavformat has its address
-  AvInputPtr input_;
+  std::unique_ptr<VideoInput> owner_;
+  AVFormatContext* input_;
   std::int64_t read_to_;  // where the last packet ended, or the header
   int stream_;
   AvCodecContextPtr decoder_;
@@ -224,7 +230,11 @@ class VideoReader final : public FrameReader {
 
 std::unique_ptr<FrameReader> decode_video_file(const std::string& path,
                                                const std::stop_token& stop) {
-  return std::make_unique<VideoReader>(path, stop);
+  auto input = std::make_unique<VideoInput>(path, stop);
+  if (std::string_view(input->file->iformat->name) == "gif")
+    return read_gif(path, std::move(input));
+  take_y4m_matrix(*input->file);
+  return std::make_unique<VideoReader>(path, std::move(input));
 }
 
 }  // namespace piblocks

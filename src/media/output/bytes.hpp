@@ -35,4 +35,11 @@ inline std::uint64_t from_little_endian(ByteSpan bytes) {
   return value;
 }
 
+/// The same, the lowest last.
+inline std::uint64_t from_big_endian(ByteSpan bytes) {
+  std::uint64_t value = 0;
+  for (const std::uint8_t byte : bytes) value = value << 8 | byte;
+  return value;
+}
+
 }  // namespace piblocks

@@ -15,6 +15,8 @@
 #include <utility>
 #include <variant>
 
+#include "media/pixels/animation.hpp"
+#include "media/png/exif.hpp"
 #include "media/png/png_chunk.hpp"
 #include "media/png/png_reader.hpp"
 
@@ -22,12 +24,8 @@ namespace piblocks {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
-
 std::uint32_t big_endian_at(ByteSpan bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (const std::uint8_t byte : bytes.subspan(at, 4)) value = value << 8 | byte;
-  return value;
+  return static_cast<std::uint32_t>(from_big_endian(bytes.subspan(at, 4)));
 }
 
 [[noreturn]] void fail(const fs::path& path, std::string_view reason) {
@@ -45,9 +43,9 @@ class ChunkReader {
   explicit ChunkReader(const fs::path& path) : path_(path), file_(path, std::ios::binary) {
     std::error_code error;
     left_ = fs::file_size(path, error);
-    std::string signature(kSignature.size(), '\0');
+    std::string signature(kPngSignature.size(), '\0');
     read(signature.data(), signature.size());
-    if (signature != kSignature) fail(path, "it is no PNG file");
+    if (signature != kPngSignature) fail(path, "it is no PNG file");
   }
 
   /// Skips damaged ancillary chunks. Rejects damage in those that frames depend on.
@@ -90,85 +88,6 @@ class ChunkReader {
   std::uintmax_t left_ = 0;
 };
 
-enum class Disposal { none, background, previous };
-
-/// fcTL: where a frame goes, and what becomes of it.
-struct FrameControl {
-  std::uint32_t width, height, x, y;
-  Disposal disposal;
-  bool is_blended;
-};
-
-/// The channels of a word, alpha last.
-template <typename Word>
-int shift_of(int channel) {
-  return channel * int(sizeof(Word)) * 2;
-}
-
-/// A colour over another one, neither multiplied by its alpha (PNG specification, 13.9).
-template <typename Word>
-Word over(Word front, Word back) {
-  constexpr std::uint64_t kMax = (std::uint64_t{1} << (sizeof(Word) * 2)) - 1;
-  const auto level = [](Word word, int channel) { return word >> shift_of<Word>(channel) & kMax; };
-  const std::uint64_t front_weight = level(front, 3) * kMax;
-  const std::uint64_t back_weight = (kMax - level(front, 3)) * level(back, 3);
-  const std::uint64_t sum = front_weight + back_weight;
-  if (sum == 0) return 0;
-  Word result = Word((2 * sum + kMax) / (2 * kMax)) << shift_of<Word>(3);
-  for (int channel = 0; channel < 3; ++channel) {
-    const std::uint64_t colour =
-        level(front, channel) * front_weight + level(back, channel) * back_weight;
-    result |= Word((2 * colour + sum) / (2 * sum)) << shift_of<Word>(channel);
-  }
-  return result;
-}
-
-/// What is shown, frame after frame.
-template <typename Picture>
-class Screen {
- public:
-  Screen(int width_px, int height_px, Picture blank) : picture_(std::move(blank)) {
-    picture_.width_px = width_px;
-    picture_.height_px = height_px;
-    picture_.words.resize(std::size_t(width_px) * std::size_t(height_px));  // transparent black
-  }
-
-  const Picture& show(const FrameControl& control, const Picture& frame) {
-    dispose();
-    if (control.disposal == Disposal::previous) saved_ = picture_.words;
-    shown_ = control;
-    auto from = frame.words.begin();
-    for_each_row([&](auto row) {
-      for (auto& word : row) {
-        word = control.is_blended ? over(*from, word) : *from;
-        ++from;
-      }
-    });
-    return picture_;
-  }
-
- private:
-  template <typename Use>
-  void for_each_row(const Use& use) {
-    for (std::uint32_t y = shown_->y; y < shown_->y + shown_->height; ++y) {
-      const std::size_t at = std::size_t{y} * std::size_t(picture_.width_px) + shown_->x;
-      use(std::span(picture_.words).subspan(at, shown_->width));
-    }
-  }
-  void dispose() {
-    if (!shown_ || shown_->disposal == Disposal::none) return;
-    if (shown_->disposal == Disposal::previous) {
-      picture_.words = saved_;
-    } else {
-      for_each_row([](auto row) { std::ranges::fill(row, 0); });
-    }
-  }
-
-  Picture picture_;
-  std::optional<FrameControl> shown_;
-  decltype(Picture::words) saved_;
-};
-
 class ApngReader final : public FrameReader {
  public:
   explicit ApngReader(const fs::path& path) : path_(path), chunks_(path) {
@@ -194,6 +113,7 @@ class ApngReader final : public FrameReader {
     return true;
   }
   std::string layout() const override { return std::string(kRgba); }
+  std::string presentation() const override { return presentation_; }
   AnyImage samples() override {
     return std::visit([](const auto* picture) { return AnyImage(*picture); }, shown_);
   }
@@ -206,6 +126,8 @@ class ApngReader final : public FrameReader {
       announced_ = big_endian_at(chunk.data, 0);
     } else if (chunk.type == "PLTE" || chunk.type == "tRNS") {
       append_chunk(shared_, chunk.type, chunk.data);
+    } else if (chunk.type == "eXIf") {
+      presentation_ = presentation_by_exif(chunk.data);
     } else if (chunk.type == "fcTL") {
       take_control(chunk.data);
     } else if (chunk.type == "IDAT") {
@@ -216,17 +138,12 @@ class ApngReader final : public FrameReader {
   }
   /// The frame that control_ describes, as a PNG file. Sets control_ to that of the next one.
   Bytes read_frame() {
-    Bytes png;
-    append(png, kSignature);
-    Bytes header = header_;
-    Bytes size;
-    append_big_endian(size, control_->width, 4);
-    append_big_endian(size, control_->height, 4);
-    std::ranges::copy(size, header.begin());
-    append_chunk(png, "IHDR", header);
-    append(png, shared_);
-    control_.reset();
-    bool has_data = false;
+    const FrameControl control = *std::exchange(control_, std::nullopt);
+    Bytes png;  // empty up to the first data
+    const auto add_data = [&](ByteSpan data) {
+      if (png.empty()) png = beginning_of(control);
+      append_chunk(png, "IDAT", data);
+    };
     while (!control_) {
       const Chunk chunk = chunks_.next();
       if (chunk.type == "IEND") break;
@@ -234,17 +151,30 @@ class ApngReader final : public FrameReader {
         take_control(chunk.data);
       } else if (chunk.type == "IDAT") {
         if (is_default_over_) fail(path_, "IDAT: out of place");
-        append_chunk(png, "IDAT", chunk.data);
-        has_data = true;
+        add_data(chunk.data);
       } else if (chunk.type == "fdAT") {
         check_sequence(chunk.data, 4);
-        append_chunk(png, "IDAT", ByteSpan(chunk.data).subspan(4));
-        has_data = is_default_over_ = true;
+        add_data(ByteSpan(chunk.data).subspan(4));
+        is_default_over_ = true;
+      } else if (frames_ == 0 && png.empty()) {
+        read_before_frames(chunk);  // these may follow the first fcTL
       }
     }
-    if (!has_data) fail(path_, fmt::format("frame {} has no picture", frames_));
+    if (png.empty()) fail(path_, fmt::format("frame {} has no picture", frames_));
     is_default_over_ = true;
     append_chunk(png, "IEND", {});
+    return png;
+  }
+  Bytes beginning_of(const FrameControl& control) const {
+    Bytes png;
+    append(png, kPngSignature);
+    Bytes size;
+    append_big_endian(size, control.width, 4);
+    append_big_endian(size, control.height, 4);
+    Bytes header = header_;
+    std::ranges::copy(size, header.begin());
+    append_chunk(png, "IHDR", header);
+    append(png, shared_);
     return png;
   }
   void take_control(ByteSpan data) {
@@ -297,6 +227,7 @@ class ApngReader final : public FrameReader {
   ChunkReader chunks_;
   Bytes header_;  // of the file
   Bytes shared_;  // chunks that every frame needs
+  std::string presentation_;
   std::uint32_t width_ = 0;
   std::uint32_t height_ = 0;
   std::uint32_t announced_ = 0;

@@ -20,7 +20,7 @@ void end_png_chunk(Bytes& png, std::size_t start) {
 }
 
 void append_png_header(Bytes& png, int width_px, int height_px, bool has_alpha) {
-  append(png, "\x89PNG\r\n\x1a\n");
+  append(png, kPngSignature);
   const std::size_t header = begin_png_chunk(png, "IHDR");
   append_big_endian(png, std::uint64_t(width_px), 4);
   append_big_endian(png, std::uint64_t(height_px), 4);

@@ -14,6 +14,9 @@
 
 namespace piblocks {
 
+/// How a PNG file begins.
+inline constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
+
 /// Begins a chunk. What is appended before end_png_chunk() is its data.
 /// @return where the chunk starts, for end_png_chunk().
 std::size_t begin_png_chunk(Bytes& png, std::string_view type);

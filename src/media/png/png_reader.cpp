@@ -13,12 +13,14 @@
 #include <cstring>
 #include <fstream>
 #include <new>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "core/descriptor.hpp"
+#include "media/png/exif.hpp"
 
 namespace piblocks {
 namespace fs = std::filesystem;
@@ -62,14 +64,25 @@ class PngFile {
   }
 
   bool is_deep() const { return png_get_bit_depth(structs_.png, structs_.info) == 16; }
+  /// Of one frame, it is animated if the picture that other programs show is another one.
   bool is_animated() const {
     png_unknown_chunkp chunks = nullptr;
     const int count = png_get_unknown_chunks(structs_.png, structs_.info, &chunks);
-    return std::any_of(chunks, chunks + count, [](const png_unknown_chunk& chunk) {
-      // The number of frames comes first.
-      return std::memcmp(chunk.name, "acTL", 4) == 0 && chunk.size >= 4 &&
-             png_get_uint_32(chunk.data) > 1;
-    });
+    std::uint32_t frames = 0;
+    bool begins_with_picture = false;
+    for (const png_unknown_chunk& chunk : std::span(chunks, std::size_t(count))) {
+      const std::string_view name = reinterpret_cast<const char*>(chunk.name);
+      if (name == "acTL" && chunk.size >= 4) frames = png_get_uint_32(chunk.data);
+      begins_with_picture = begins_with_picture || name == "fcTL";
+    }
+    return frames > (begins_with_picture ? 1 : 0);
+  }
+  /// FrameReader::presentation()
+  std::string presentation() const {
+    png_uint_32 bytes = 0;
+    png_bytep exif = nullptr;
+    if (png_get_eXIf_1(structs_.png, structs_.info, &bytes, &exif) == 0) return {};
+    return presentation_by_exif({exif, bytes});
   }
   // Call one of these, once.
   DeepImage read_deep() { return read(DeepImage{.width_px = width(), .height_px = height()}); }
@@ -106,8 +119,9 @@ class PngFile {
   void read_header() {
     png_init_io(structs_.png, file_.get());
     png_set_crc_action(structs_.png, PNG_CRC_ERROR_QUIT, PNG_CRC_WARN_DISCARD);
+    constexpr int kKept = 2;
     png_set_keep_unknown_chunks(structs_.png, PNG_HANDLE_CHUNK_ALWAYS,
-                                reinterpret_cast<png_const_bytep>("acTL"), 1);
+                                reinterpret_cast<png_const_bytep>("acTL\0fcTL"), kKept);
     png_read_info(structs_.png, structs_.info);
   }
   void check_size() const {
@@ -208,22 +222,35 @@ AnyImage samples_of(PngFile& file) {
   return file.read_flat();
 }
 
+void refuse_animation(const PngFile& file, const fs::path& path) {
+  if (!file.is_animated()) return;
+  throw MediaError(fmt::format(
+      "png: cannot read '{}' as one picture: it is animated; compare it by itself, as a video",
+      path.string()));
+}
+
+/// One frame.
 class PngReader final : public FrameReader {
  public:
-  explicit PngReader(std::vector<fs::path> paths) : paths_(std::move(paths)) {}
+  explicit PngReader(fs::path path) : path_(std::move(path)) {}
 
   bool next() override {
-    if (read_ == paths_.size()) return false;
-    samples_ = read_png_samples(paths_[read_++]);
+    if (std::exchange(is_read_, true)) return false;
+    PngFile file(path_);
+    refuse_animation(file, path_);
+    samples_ = samples_of(file);
+    presentation_ = file.presentation();  // the chunk may follow the pixels
     return true;
   }
   std::string layout() const override { return std::string(kRgba); }
+  std::string presentation() const override { return presentation_; }
   AnyImage samples() override { return std::move(samples_); }
   AnyImage rgb() override { return std::move(samples_); }
 
  private:
-  std::vector<fs::path> paths_;
-  std::size_t read_ = 0;
+  fs::path path_;
+  std::string presentation_;
+  bool is_read_ = false;
   AnyImage samples_;
 };
 
@@ -233,11 +260,7 @@ Image read_png(const fs::path& path) { return PngFile(path).read_flat(); }
 
 AnyImage read_png_samples(const fs::path& path) {
   PngFile file(path);
-  if (file.is_animated()) {
-    throw MediaError(fmt::format(
-        "png: cannot read '{}' as one picture: it is animated; compare it by itself, as a video",
-        path.string()));
-  }
+  refuse_animation(file, path);
   return samples_of(file);
 }
 
@@ -261,8 +284,8 @@ bool is_png_file(const fs::path& path) {
 
 bool is_animated_png(const fs::path& path) { return PngFile(path).is_animated(); }
 
-std::unique_ptr<FrameReader> read_png_files(std::vector<fs::path> paths) {
-  return std::make_unique<PngReader>(std::move(paths));
+std::unique_ptr<FrameReader> read_png_frame(fs::path path) {
+  return std::make_unique<PngReader>(std::move(path));
 }
 
 }  // namespace piblocks

@@ -38,7 +38,7 @@ bool is_animated_png(const std::filesystem::path& path);
 /// @throws as read_png().
 std::unique_ptr<FrameReader> read_apng(const std::filesystem::path& path);
 
-/// PNG files, one frame each, in this order.
-std::unique_ptr<FrameReader> read_png_files(std::vector<std::filesystem::path> paths);
+/// A PNG file as the only frame. Reading throws as read_png_samples().
+std::unique_ptr<FrameReader> read_png_frame(std::filesystem::path path);
 
 }  // namespace piblocks

@@ -85,10 +85,9 @@ bool write_report(const BoundScript& bound, const GoldenPlace& place, const std:
   bool has_pictures = false;
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
     const References references = references_of(bound, place);
-    const Unfinished expected(fs::temp_directory_path() / "piblocks-golden",
-                              Unfinished::Kind::folder);
-    const Unfinished actual(fs::temp_directory_path() / "piblocks-golden",
-                            Unfinished::Kind::folder);
+    const fs::path scratch = cli::temporary_folder() / "piblocks-golden";
+    const Unfinished expected(scratch, Unfinished::Kind::folder);
+    const Unfinished actual(scratch, Unfinished::Kind::folder);
     references.render_into(actual.path(), processor_count(), ignore_progress, stop);
     for (const std::string& file : references.files()) {
       const bool is_picture = has_ending(file, ".png") && references.has(file);

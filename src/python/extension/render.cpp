@@ -81,8 +81,8 @@ py::tuple render_film(const BoundScript& bound, const std::string& output, const
                         job->profile ? times_of(rendered.profile) : StepTimes());
 }
 
-void check_still(const BoundScript& bound, const std::string& output) {
-  refuse_standard_output(output, "still");
+void check_still(const BoundScript& bound, const std::string& output, const char* operation) {
+  refuse_standard_output(output, operation);
   OverwriteCheck check;
   bound.recipe.claim_inputs(check, bound.script);
   check.writes("--output", output);
@@ -96,7 +96,7 @@ Instant instant_of(const std::string& text) {
 void still_file(const BoundScript& bound, const std::string& at, const std::string& output) {
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
     const Instant instant = instant_of(at);
-    check_still(bound, output);
+    check_still(bound, output, "still");
     render_still(bound.script, instant, output, stop);
   });
 }
@@ -124,8 +124,7 @@ py::bytes still_bytes(const BoundScript& bound, const std::string& at, const std
 void sheet_file(const BoundScript& bound, const std::string& output, const Options& texts) {
   run_interruptibly([&](const std::stop_token& stop, const CallBack&) {
     const Scene& scene = scene_of(bound, "sheet");
-    refuse_standard_output(output, "sheet");
-    check_still(bound, output);
+    check_still(bound, output, "sheet");
     render_sheet(scene, cli::sheet_instants(scene, BoundOptions(texts)), output, {}, stop);
   });
 }

@@ -77,6 +77,8 @@ _IN_FILE = re.compile(r"(?!part:)[^:]*:\d+: ")
 
 def _as_keywords(message: str) -> str:
     """The message with keywords instead of options and of keys, unless it is about a file."""
+    message = re.sub(r"count those until (?:an earlier|a) time, as --to ([\d.e+-]+)",
+                     r"state(\1).count counts those until then", message)
     is_of_log = message.startswith(("log:", "--from", "--to", "--first"))
     options = {**_OPTIONS, **_OF_LOG} if is_of_log else _OPTIONS
     message = _OPTION.sub(lambda match: options.get(match[1], match[0]), message)

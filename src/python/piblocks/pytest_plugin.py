@@ -164,6 +164,8 @@ def _hold(item: pytest.Function, scene: Any, action: str, mark: pytest.Mark) -> 
         result = _golden.act(scene._script, "check", name, folder, frames, diff)
     item.add_report_section("call", "piblocks golden", str(result))
     if result:
+        if diff is not None:
+            (diff / f"{name}.html").unlink(missing_ok=True)  # of an earlier failure
         return
     lines = list(result.lines)
     if diff is not None and result.outcome == "different":

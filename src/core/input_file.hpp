@@ -1,0 +1,22 @@
+// Files that are read.
+#pragma once
+
+#include <fmt/format.h>
+#include <piblocks/error.hpp>
+
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+namespace piblocks {
+
+/// Opening a pipe would wait for a writer, perhaps for ever.
+/// @throws IoError if the path is there, but neither a file nor a folder.
+inline void refuse_pipe(const std::filesystem::path& path, std::string_view operation) {
+  std::error_code unknown;
+  if (!std::filesystem::is_other(std::filesystem::status(path, unknown))) return;
+  throw IoError(
+      fmt::format("{}: cannot read '{}': it is no regular file", operation, path.string()));
+}
+
+}  // namespace piblocks
