@@ -173,7 +173,7 @@ std::vector<CaptionedPicture> sheet_pictures(const Scene& scene,
   std::vector<CaptionedPicture> pictures;
   Progress progress{0, static_cast<std::int64_t>(times.size())};
   std::vector<DrawList> stills = run.stills(times, [&] {
-    if (stop.stop_requested()) throw Interrupted("sheet: interrupted");
+    if (stop.stop_requested()) throw Interrupted("interrupted");  // nothing has been opened
     ++progress.frames_done;
     if (on_progress) on_progress(progress);
   });
